@@ -1,0 +1,143 @@
+"""The one kind of message about a drawing: what, where, which rule, and what would help."""
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import NamedTuple
+
+from dqpaint.errors import DqpaintError
+
+
+class Span(NamedTuple):
+    """A stretch of the text: code points, counted from 0, the end not included."""
+
+    start: int
+    end: int
+
+
+class Severity(StrEnum):
+    """An error stops the drawing; a warning says what was assumed."""
+
+    ERROR = "error"
+    WARNING = "warning"
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """An edit that would mend the text: replace `span` by `text`."""
+
+    title: str
+    span: Span
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One message.
+
+    Attributes:
+        code: its name in the catalogue, such as `E218`; `W…` for warnings.
+        message: what is wrong, lower case, no full stop.
+        span: where; None for the file as a whole.
+        label: a few words at the caret, or nothing.
+        help: what would mend it, if possible text that can be pasted.
+        related: other places that matter, each with its own label.
+        fix: the same as `help`, for a program.
+    """
+
+    code: str
+    message: str
+    span: Span | None
+    label: str = ""
+    help: str = ""
+    related: tuple[tuple[Span, str], ...] = ()
+    fix: Fix | None = None
+
+    @property
+    def severity(self) -> Severity:
+        """Warnings are the codes that begin with W."""
+        return Severity.WARNING if self.code.startswith("W") else Severity.ERROR
+
+
+class Place(NamedTuple):
+    """A line and a column, counted from 1."""
+
+    line: int
+    column: int
+
+
+def place(text: str, offset: int) -> Place:
+    """Line and column of an offset."""
+    line_start = text.rfind("\n", 0, offset) + 1
+    return Place(text.count("\n", 0, offset) + 1, offset - line_start + 1)
+
+
+def render(diagnostic: Diagnostic, name: str, text: str) -> str:
+    """The message as a person reads it in a terminal, with the line it speaks of and a caret."""
+    head = f"{diagnostic.severity}[{diagnostic.code}]: {diagnostic.message}"
+    if diagnostic.span is None:
+        lines = [head, f" --> {name}"]
+        margin = " "
+    else:
+        at = place(text, diagnostic.span.start)
+        margin = " " * (len(str(at.line)) + 1)
+        lines = [head, f"{margin[:-1]}--> {name}:{at.line}:{at.column}"]
+        lines += _excerpt(diagnostic, text, at, margin)
+    for span, label in diagnostic.related:
+        there = place(text, span.start)
+        lines.append(f"{margin}= {label}: {name}:{there.line}:{there.column}")
+    if diagnostic.help:
+        lines.append(f"{margin}= help: {diagnostic.help}")
+    return "\n".join(lines)
+
+
+WIDEST_LINE = 160  # of the source, as it is shown; a longer one is cut round the caret
+
+
+def _excerpt(diagnostic: Diagnostic, text: str, at: Place, margin: str) -> list[str]:
+    assert diagnostic.span is not None
+    start = diagnostic.span.start - (at.column - 1)
+    end = text.find("\n", start)
+    source = text[start : end if end >= 0 else len(text)].rstrip("\r")
+    width = max(1, min(diagnostic.span.end - diagnostic.span.start, len(source) - at.column + 1))
+    column = at.column
+    if len(source) > WIDEST_LINE:
+        cut = max(0, column - WIDEST_LINE // 2)
+        source, column = source[cut : cut + WIDEST_LINE], column - cut
+        width = min(width, len(source) - column + 1)
+    source = "".join(c if c.isprintable() else " " for c in source)
+    caret = " " * (column - 1) + "^" * max(1, width)
+    label = f" {diagnostic.label}" if diagnostic.label else ""
+    return [f"{margin}|", f"{at.line} | {source}", f"{margin}| {caret}{label}"]
+
+
+@dataclass
+class ScriptError(DqpaintError):
+    """A drawing that cannot be drawn, with every reason that was found in one pass."""
+
+    name: str
+    text: str
+    diagnostics: tuple[Diagnostic, ...] = field(default_factory=tuple)
+
+    def __str__(self) -> str:
+        return "\n\n".join(render(d, self.name, self.text) for d in self.diagnostics)
+
+
+class Problem(Exception):  # noqa: N818  a message on its way to the list, not an error of ours
+    """A statement that cannot be understood: carries the message that says why."""
+
+    def __init__(self, diagnostic: Diagnostic) -> None:
+        super().__init__(diagnostic.message)
+        self.diagnostic = diagnostic
+
+
+def problem(
+    code: str,
+    message: str,
+    span: Span | None,
+    label: str = "",
+    help: str = "",  # noqa: A002  named as in the message
+    fix: Fix | None = None,
+    related: tuple[tuple[Span, str], ...] = (),
+) -> Problem:
+    """A message, ready to be raised."""
+    return Problem(Diagnostic(code, message, span, label, help, related, fix))

@@ -1,0 +1,239 @@
+"""Text -> lines of tokens. A line goes on while a bracket is open; comments are left out."""
+
+import math
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from dqpaint.language.diagnostics import Diagnostic, Fix, Span
+from dqpaint.language.units import UNITS
+from dqpaint.language.words import STATEMENTS
+
+
+class Token(NamedTuple):
+    """A word, number, text or sign, and where it stands."""
+
+    kind: str  # number, name, text, sign; `end` closes every line
+    text: str  # of a text: without its quotes
+    start: int
+    end: int
+
+    @property
+    def span(self) -> Span:
+        """Where it stands."""
+        return Span(self.start, self.end)
+
+
+class Line(NamedTuple):
+    """The tokens of one statement, and what was wrong with its characters."""
+
+    tokens: list[Token]
+    problems: list[Diagnostic]
+
+
+_NUMBER = r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_TOKEN = re.compile(
+    rf"""[^\S\n]*(?:
+      (?P<name>[A-Za-z_][A-Za-z0-9_]*|°)
+    | (?P<number>{_NUMBER})(?P<glued>[A-Za-z_°][\w°]*|\.[\d.]*)?
+    | (?P<sign>[(),+\-*/^=%])
+    | (?P<newline>\n)
+    | (?P<comment>\#[^\n]*)
+    | (?P<text>"[^"\n]*")
+    | (?P<bad>\S)
+    | \Z
+    )""",
+    re.VERBOSE | re.ASCII,
+)
+_FIRST_WORD = re.compile(r"[^\S\n]*([A-Za-z_]+)(?![A-Za-z0-9_]|[^\S\n]*[,)*/+^])", re.ASCII)
+
+# Signs that come with copying from elsewhere, and the plain one that is meant.
+_LOOKALIKES = {
+    "−": "-",
+    "–": "-",
+    "—": "-",
+    "×": "*",
+    "·": "*",
+    "⋅": "*",
+    "∗": "*",
+    "÷": "/",
+    "∕": "/",
+    "“": '"',
+    "”": '"',
+    "„": '"',
+    "«": '"',
+    "»": '"',
+    "'": '"',
+    "‘": '"',
+    "’": '"',
+    "，": ",",
+    "（": "(",
+    "）": ")",
+    "［": "(",
+    "[": "(",
+    "]": ")",
+    "{": "(",
+    "}": ")",
+    "º": "°",
+}
+_NAMES_OF_LETTERS = {"π": "pi", "µ": "m", "²": "^2", "³": "^3", "√": "sqrt(…)"}
+
+
+def lines(text: str) -> Iterator[Line]:
+    """The lines that hold anything, in order."""
+    tokens: list[Token] = []
+    problems: list[Diagnostic] = []
+    brackets: list[Token] = []
+    position, size = (1 if text.startswith("\ufeff") else 0), len(text)
+    match_at = _TOKEN.match
+    while position < size:
+        match = match_at(text, position)
+        if match is None:  # a blank that only Unicode calls one
+            position += 1
+            continue
+        kind = match.lastgroup
+        position = match.end()
+        if kind is None:
+            break
+        start = match.start(kind)
+        if kind == "name":
+            tokens.append(Token("name", text[start:position], start, position))
+        elif kind == "number":
+            tokens.append(Token("number", text[start:position], start, position))
+        elif kind == "sign":
+            token = Token("sign", text[start:position], start, position)
+            if token.text == "(":
+                brackets.append(token)
+            elif token.text == ")":
+                if not brackets:
+                    problems.append(_stray_bracket(token))
+                    continue
+                brackets.pop()
+            tokens.append(token)
+        elif kind == "glued":
+            number = Token("number", match["number"], *match.span("number"))
+            position = _glued(number, match["glued"], tokens, problems, text)
+        elif kind == "text":
+            tokens.append(Token("text", text[start + 1 : position - 1], start, position))
+        elif kind == "bad":
+            position = _bad(text, start, tokens, problems)
+        elif kind == "newline" and (not brackets or _begins_statement(text, position)):
+            if tokens or problems:
+                yield _close(tokens, problems, brackets, start)
+                tokens, problems = [], []
+            brackets.clear()
+    if tokens or problems:
+        yield _close(tokens, problems, brackets, size)
+
+
+def _close(
+    tokens: list[Token], problems: list[Diagnostic], brackets: list[Token], end: int
+) -> Line:
+    if brackets:
+        problems.append(
+            Diagnostic(
+                "E103",
+                "this '(' is never closed",
+                brackets[-1].span,
+                "opened here",
+                "add ')' before the end of the line",
+            )
+        )
+    end = tokens[-1].end if tokens else end
+    tokens.append(Token("end", "", end, end))
+    return Line(tokens, problems)
+
+
+def _begins_statement(text: str, position: int) -> bool:
+    """Whether a statement's word comes next: then an open bracket was forgotten, not continued."""
+    match = _FIRST_WORD.match(text, position)
+    return match is not None and match[1] in STATEMENTS
+
+
+def _stray_bracket(token: Token) -> Diagnostic:
+    return Diagnostic(
+        "E104",
+        "this ')' closes nothing",
+        token.span,
+        "",
+        "take it away, or add '(' before it",
+        fix=Fix("take the bracket away", token.span, ""),
+    )
+
+
+def _glued(
+    number: Token, letters: str, tokens: list[Token], problems: list[Diagnostic], text: str
+) -> int:
+    """A number with letters straight after it: they must be a unit. Returns where to go on."""
+    end = number.end + len(letters)
+    tokens.append(number)
+    if letters in UNITS:
+        tokens.append(Token("name", letters, number.end, end))
+        return end
+    span = Span(number.start, end)
+    if letters.startswith("."):
+        message, cure = f"'{text[span.start : end]}' is not a number", "write one decimal point"
+    elif letters in STATEMENTS or not re.fullmatch(r"[A-Za-z_]\w*", letters, re.ASCII):
+        message = f"'{letters}' straight after the number {number.text} is not a unit"
+        cure = f"put a blank between: {number.text} {letters}"
+    else:
+        message = f"'{letters}' straight after the number {number.text} is not a unit"
+        cure = f"units are {', '.join(UNITS)}; a product is written {number.text}*{letters}"
+    problems.append(Diagnostic("E102", message, span, "", cure))
+    return end
+
+
+def _bad(text: str, start: int, tokens: list[Token], problems: list[Diagnostic]) -> int:
+    """A character that is not ours: says so, and returns where to go on."""
+    character, end = text[start], start + 1
+    line_end = text.find("\n", start)
+    line_end = len(text) if line_end < 0 else line_end
+    if character == '"':
+        problems.append(
+            Diagnostic(
+                "E107",
+                "this text is never closed",
+                Span(start, end),
+                "opened here",
+                'add " before the end of the line',
+            )
+        )
+        tokens.append(Token("text", text[end:line_end].rstrip(), start, line_end))
+        return line_end
+    fix = None
+    shown = f"'{character}'" if character.isprintable() else f"U+{ord(character):04X}"
+    if character in _LOOKALIKES:
+        plain = _LOOKALIKES[character]
+        cure = f"write {plain}" if character in "[]{}'" else f"write the plain sign {plain}"
+        fix = Fix(cure, Span(start, end), plain)
+    elif character in _NAMES_OF_LETTERS:
+        cure = f"write {_NAMES_OF_LETTERS[character]}"
+    elif character == ";":
+        cure = "no ; is needed: one statement per line"
+        fix = Fix("take the ; away", Span(start, end), "")
+    elif character in "<>!&|?":
+        cure = ".traj has no conditions: use repeat, min/max, or write two files"
+    elif character == ":":
+        cure = "no : is needed: a block ends with a line 'end'"
+    elif character == "/" or text.startswith("//", start):
+        cure = "a comment begins with #"
+    elif character.isalpha():
+        cure = "names are made of the letters a to z, digits and _"
+        end = start + len(re.match(r"\w+", text[start:line_end])[0])  # type: ignore[index]
+        shown = f"'{character}'"
+    else:
+        cure = "a comment begins with #, a text stands in quotes"
+    problems.append(
+        Diagnostic(
+            "E101", f"unexpected character {shown}", Span(start, start + 1), "", cure, fix=fix
+        )
+    )
+    return end
+
+
+def number_value(text: str) -> float:
+    """The value of a number token; infinite if it is too large for a computer's number."""
+    try:
+        return float(text)
+    except (ValueError, OverflowError):  # pragma: no cover - the token's pattern rules it out
+        return math.inf

@@ -1,0 +1,210 @@
+"""What the language hands on: a drawing as plain data in SI units.
+
+Every point, direction and orientation stands in the drawing frame (x to the right of the picture,
+y up, z towards the viewer); `with` blocks are already worked in. Lengths are metres, angles
+radians, times seconds, colours linear RGB with 1 for full brightness. What the strokes mean as
+motion is said in `dqpaint.motion`.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from dqpaint.language.diagnostics import Diagnostic, Span
+from dqpaint.language.taylor import Taylor
+
+Vector = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+Colour = tuple[float, float, float]
+Formula = Callable[[Taylor], tuple[Taylor, Taylor, Taylor]]
+
+
+class Pose(NamedTuple):
+    """A place [m] and an orientation (unit quaternion, scalar first)."""
+
+    position: Vector
+    orientation: Quaternion
+
+
+IDENTITY = Pose((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
+
+
+# Where the point of light goes.
+
+
+@dataclass(frozen=True, slots=True)
+class Straight:
+    """A straight line; `by` [m] from start to end. Zero length is a turn on the spot."""
+
+    by: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """A turn of `angle` [rad] about the line through `centre` along the unit vector `axis`.
+
+    Evenly with the angle the point advances by `rise` [m] in all along the axis, and its distance
+    from the axis changes by `grow` [m] in all: circle, helix, flat spiral, cone.
+    """
+
+    centre: Vector
+    axis: Vector
+    angle: float
+    rise: float = 0.0
+    grow: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """A formula of one parameter, run from `lower` to `upper`."""
+
+    formula: Formula
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True, slots=True)
+class Screw:
+    """A rigid turn of `angle` [rad] about a line, and `advance` [m] along it; the tool goes along.
+
+    The line goes through `point` along the unit vector `axis`.
+    """
+
+    point: Vector
+    axis: Vector
+    angle: float
+    advance: float
+
+
+@dataclass(frozen=True, slots=True)
+class ScrewTo:
+    """The one screw that carries the start pose to the end pose, the short way round (ScLERP)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Still:
+    """Waiting at the start pose."""
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """A jump of the set point to the end pose, within one sample."""
+
+
+Path = Straight | Arc | Curve | Screw | ScrewTo | Still | Step
+
+
+# What the tool does meanwhile. `Screw` and `ScrewTo` say it themselves and carry `Follow`.
+
+
+@dataclass(frozen=True, slots=True)
+class Keep:
+    """The orientation stays as it is."""
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """The orientation goes evenly with the path, the short way, to the segment's end orientation."""
+
+
+@dataclass(frozen=True, slots=True)
+class Follow:
+    """The tool turns rigidly with an arc about its axis, with a curve's heading about `axis`."""
+
+    axis: Vector = (0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """The tool's z axis points at `point`; its y axis leans as far as it can towards `up`."""
+
+    point: Vector
+    up: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class LookLine:
+    """The tool's z axis points at the line through `point`, its x axis lies along `along`."""
+
+    point: Vector
+    along: Vector
+
+
+Tool = Keep | Turn | Follow | Look | LookLine
+
+
+# How long it takes.
+
+
+@dataclass(frozen=True, slots=True)
+class Lasting:
+    """`in T`: a time [s], rounded up to whole samples."""
+
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class Samples:
+    """`samples N`: exactly that many new samples."""
+
+    count: int
+
+
+@dataclass(frozen=True, slots=True)
+class Cruise:
+    """The speed [m/s] of the point, or [rad/s] where only the tool turns; never exceeded."""
+
+    speed: float
+    turnspeed: float
+
+
+Timing = Lasting | Samples | Cruise
+
+
+@dataclass(frozen=True, slots=True)
+class Law:
+    """A time law by name, with its boundary rates in SI units (m or rad; `angular` says which).
+
+    `rates` is empty (rest to rest), (v0, v1) for cubic, (v0, v1, a0, a1) for quintic.
+    """
+
+    name: str
+    rates: tuple[float, ...] = ()
+    angular: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Light:
+    """The colour at the first and at the last point of a stroke, and evenly between by length."""
+
+    first: Colour
+    last: Colour
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """One stroke or pause: what the point does, what the tool does, when, and in which light."""
+
+    path: Path
+    tool: Tool
+    law: Law
+    timing: Timing
+    light: Light | None  # None: dark
+    start: Pose
+    end: Pose
+    span: Span  # the words of the file that asked for it
+    line: int  # 1-based line of the file
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """A whole drawing."""
+
+    name: str  # as it is shown in messages: usually the path that was given
+    text: str
+    period: float  # [s]
+    robot: str | None  # the file's own `robot` line
+    placement: Pose | None  # the drawing frame in the robot's base frame; None: the robot's canvas
+    start: Pose
+    segments: tuple[Segment, ...]
+    notes: tuple[Diagnostic, ...]  # warnings; errors are raised

@@ -1,0 +1,319 @@
+"""The words of the language, as tables.
+
+The parser, its messages and its suggestions all read these tables, and so does whatever is made
+from them: the reference, completion, grammars for editors. A new word is a line here first.
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class PartWord:
+    """A word within a statement that takes a value, such as `to` or `speed`.
+
+    Attributes:
+        word: as it is written.
+        takes: the kind of value: a name from `kinds.KINDS`, or `tool` or `light`, which have a
+            little grammar of their own.
+        says: its meaning in a line.
+        example: the word with a value, fit to be pasted.
+    """
+
+    word: str
+    takes: str
+    says: str
+    example: str
+
+
+@dataclass(frozen=True, slots=True)
+class StatementWord:
+    """A word that begins a line.
+
+    Attributes:
+        word: as it is written.
+        says: its meaning in a line.
+        example: a whole line, fit to be pasted.
+        head: what stands between the word and its parts; empty for nothing.
+        parts: the parts it may have.
+        many: the parts that it may have several times.
+        block: whether it holds the lines up to an `end`.
+        moves: whether the tool moves, or time passes.
+    """
+
+    word: str
+    says: str
+    example: str
+    head: str = ""
+    parts: tuple[str, ...] = ()
+    many: tuple[str, ...] = ()
+    block: bool = False
+    moves: bool = False
+
+
+SETTINGS = ("speed", "turnspeed", "law", "tool", "light")
+TIMES = ("in", "samples")
+CLAUSES = (*TIMES, *SETTINGS)
+DARK_CLAUSES = tuple(word for word in CLAUSES if word != "light")
+
+PARTS = {
+    part.word: part
+    for part in (
+        PartWord("to", "place", "the point to go to", "to (10, 0) mm"),
+        PartWord("by", "shift", "how far to go from here", "by (10, 0) mm"),
+        PartWord("via", "place", "a point the arc goes through", "via (10, 10) mm"),
+        PartWord("at", "place", "where", "at (0, 0) mm"),
+        PartWord("centre", "place", "the centre of the arc", "centre (0, 0)"),
+        PartWord("center", "place", "the same as centre", "center (0, 0)"),
+        PartWord("axis", "direction", "what the arc turns about; z if not said", "axis z"),
+        PartWord("angle", "angle", "how far it turns, by the right-hand rule", "angle 360 deg"),
+        PartWord("rise", "length", "how far it advances along the axis in all", "rise 7 cm"),
+        PartWord("grow", "length", "how much the radius grows in all", "grow -3 cm"),
+        PartWord("about", "place", "a point of the axis", "about (0, 0, 0)"),
+        PartWord("along", "direction", "the direction of the axis", "along z"),
+        PartWord("pitch", "pitch", "the advance for each turn", "pitch 150 mm/turn"),
+        PartWord("rotate", "rotation", "the block, turned", "rotate 30 deg"),
+        PartWord("shift", "shift", "the block, moved", "shift (80, 0) mm"),
+        PartWord("scale", "number", "the block, larger or smaller", "scale 0.5"),
+        PartWord("turned", "rotation", "which way round", "turned rpy(0 deg, 0 deg, 90 deg)"),
+        PartWord("in", "time", "how long it takes", "in 2 s"),
+        PartWord("samples", "count", "how many samples it takes", "samples 300"),
+        PartWord("speed", "speed", "the speed the tool cruises at", "speed 40 mm/s"),
+        PartWord("turnspeed", "turnspeed", "the speed of a turn on the spot", "turnspeed 60 deg/s"),
+        PartWord("law", "law", "how the speed goes along a stroke", "law trapezoid"),
+        PartWord("tool", "tool", "what the tool does meanwhile", "tool look (0, 0, 0)"),
+        PartWord("light", "light", "the colour, or from one colour to another", "light red"),
+    )
+}
+
+STATEMENTS = {
+    statement.word: statement
+    for statement in (
+        StatementWord("traj", "the version of the language", "traj 1", head="version"),
+        StatementWord("robot", "the arm the drawing is for", "robot ur5e", head="robot"),
+        StatementWord("let", "a name for a value", "let r = 70 mm", head="let"),
+        StatementWord(
+            "place",
+            "the drawing frame in the robot's base frame",
+            "place at (500, 0, 300) mm",
+            parts=("at", "turned"),
+        ),
+        StatementWord(
+            "start",
+            "where the drawing begins",
+            "start at (0, 0, 0) tool rpy(0 deg, 0 deg, 0 deg)",
+            parts=("at", "tool"),
+        ),
+        StatementWord("period", "the time between two samples", "period 8 ms", head="value"),
+        *(
+            StatementWord(word, f"{PARTS[word].says}, from here on", PARTS[word].example, word)
+            for word in SETTINGS
+        ),
+        StatementWord("brush", "what shines", "brush point", head="brush"),
+        StatementWord(
+            "line",
+            "a straight stroke, or several",
+            "line to (10, 0) mm",
+            parts=("to", "by", *CLAUSES),
+            many=("to", "by"),
+            moves=True,
+        ),
+        StatementWord(
+            "move",
+            "a straight way in the dark",
+            "move to (10, 0) mm",
+            parts=("to", "by", *DARK_CLAUSES),
+            many=("to", "by"),
+            moves=True,
+        ),
+        StatementWord(
+            "arc",
+            "an arc, circle, helix or flat spiral",
+            "arc centre (0, 0) angle 360 deg",
+            parts=("via", "to", "centre", "center", "axis", "angle", "rise", "grow", *CLAUSES),
+            moves=True,
+        ),
+        StatementWord(
+            "screw",
+            "a screw motion of the whole tool",
+            "screw about (0, 0, 0) along z angle 90 deg pitch 50 mm/turn",
+            parts=("about", "along", "angle", "pitch", "to", *CLAUSES),
+            moves=True,
+        ),
+        StatementWord(
+            "curve",
+            "any formula",
+            "curve polar(40 mm, t) for t from 0 to 360 deg",
+            head="formula",
+            parts=CLAUSES,
+            moves=True,
+        ),
+        StatementWord(
+            "step",
+            "a jump of the set point",
+            "step to (50, 50, -20) mm",
+            parts=("to", "tool", "light"),
+            moves=True,
+        ),
+        StatementWord("hold", "a pause", "hold 1 s", head="value", parts=("light",), moves=True),
+        StatementWord(
+            "repeat", "its lines, several times", "repeat i from 1 to 5", head="repeat", block=True
+        ),
+        StatementWord(
+            "with",
+            "its lines, turned, moved, scaled or set differently",
+            "with rotate 30 deg shift (80, 0) mm",
+            parts=("rotate", "about", "shift", "scale", *SETTINGS),
+            many=("rotate", "about", "shift", "scale"),
+            block=True,
+        ),
+        StatementWord("end", "closes a block", "end"),
+    )
+}
+
+# Words of the whole language that this version does not know yet; True: they hold a block.
+NOT_YET = {
+    "text": False,
+    "path": False,
+    "svg": False,
+    "def": True,
+    "frame": False,
+    "include": False,
+    "strobe": False,
+    "even": False,
+    "stroke": True,
+    "blend": False,
+}
+
+# Statements of other languages: the word, the sentence, what to do.
+FOREIGN = {
+    "if": (".traj has no conditions", "use repeat, min/max, or write two files"),
+    "else": (".traj has no conditions", "use repeat, min/max, or write two files"),
+    "while": (".traj has no conditions", "use repeat, min/max, or write two files"),
+    "for": ("a loop is written with 'repeat'", "write: repeat i from 1 to 5"),
+}
+
+# Words that begin a block in languages people come from, so that their `end` is theirs.
+FOREIGN_BLOCKS = ("if", "while", "for")
+
+# What people write who mean one of our words: for statements, and for parts.
+STATEMENT_ALIASES = {
+    "wait": "hold",
+    "pause": "hold",
+    "sleep": "hold",
+    "dwell": "hold",
+    "delay": "hold",
+    "circle": "arc centre POINT angle 360 deg",
+    "helix": "arc centre POINT angle 3 turn rise LENGTH",
+    "spiral": "arc centre POINT angle 3 turn grow LENGTH",
+    "color": "light",
+    "colour": "light",
+    "led": "light",
+    "pen": "light",
+    "goto": "move to",
+    "go": "line to",
+    "lineto": "line to",
+    "moveto": "move to",
+    "travel": "move to",
+    "jump": "move to",
+    "draw": "line to",
+    "G0": "move to",
+    "G1": "line to",
+    "G2": "arc centre POINT angle -90 deg",
+    "G3": "arc centre POINT angle 90 deg",
+    "G4": "hold",
+    "LIN": "line to",
+    "PTP": "move to",
+    "CIRC": "arc via POINT to POINT",
+    "MoveL": "line to",
+    "MoveJ": "move to",
+    "MoveC": "arc via POINT to POINT",
+    "movel": "line to",
+    "movej": "move to",
+    "movec": "arc via POINT to POINT",
+    "velocity": "speed",
+    "rate": "period",
+    "dt": "period",
+    "set": "let",
+    "var": "let",
+    "const": "let",
+    "loop": "repeat",
+    "begin": "start",
+    "origin": "place",
+    "translate": "with shift POINT",
+    "shift": "with shift POINT",
+    "rotate": "with rotate ANGLE",
+    "scale": "with scale NUMBER",
+    "parametric": "curve",
+    "spline": "curve",
+    "jumpto": "step to",
+    "turn": "line by (0, 0) tool ORIENTATION",
+    "orient": "tool",
+}
+PART_ALIASES = {
+    "radius": "centre",
+    "origin": "centre",
+    "middle": "centre",
+    "through": "via",
+    "color": "light",
+    "colour": "light",
+    "time": "in",
+    "during": "in",
+    "for": "in",
+    "points": "samples",
+    "steps": "samples",
+    "velocity": "speed",
+    "height": "rise",
+    "lead": "pitch",
+    "turns": "angle",
+    "orientation": "tool",
+    "translate": "shift",
+    "move": "shift",
+    "turn": "rotate",
+    "direction": "along",
+    "from": "at",
+    "position": "at",
+}
+
+LITTLE_WORDS = ("from", "for", "on", "off", "keep", "follow", "look", "up", "point", "bar")
+LATER_WORDS = ("height", "width", "font", "unit")
+
+CONSTANTS = ("pi", "x", "y", "z")
+LAWS = {"constant": (0,), "trapezoid": (0,), "cubic": (0, 2), "quintic": (0, 4)}
+
+# How each function is called, for messages and completion.
+FUNCTIONS = {
+    "sin": "sin(ANGLE)",
+    "cos": "cos(ANGLE)",
+    "tan": "tan(ANGLE)",
+    "asin": "asin(NUMBER)",
+    "acos": "acos(NUMBER)",
+    "atan": "atan(NUMBER)",
+    "sqrt": "sqrt(VALUE)",
+    "abs": "abs(VALUE)",
+    "min": "min(VALUE, VALUE)",
+    "max": "max(VALUE, VALUE)",
+    "exp": "exp(NUMBER)",
+    "ln": "ln(NUMBER)",
+    "polar": "polar(RADIUS, ANGLE)",
+    "hsv": "hsv(HUE) or hsv(HUE, SATURATION, VALUE)",
+    "rpy": "rpy(ANGLE, ANGLE, ANGLE)",
+    "rot": "rot(AXIS, ANGLE)",
+    "quat": "quat(W, X, Y, Z)",
+}
+FUNCTION_ALIASES = {
+    "arcsin": "asin",
+    "arccos": "acos",
+    "arctan": "atan",
+    "log": "ln",
+    "rgb": "hsv",
+    "hsl": "hsv",
+    "rotate": "rot",
+    "euler": "rpy",
+    "quaternion": "quat",
+    "pow": "^",
+}
+
+# Never part of an expression: a value was forgotten if one of them is found there.
+RESERVED = frozenset(
+    (*STATEMENTS, *PARTS, *NOT_YET, *LITTLE_WORDS, *LATER_WORDS, "def", "if", "else", "while")
+)

@@ -1,0 +1,190 @@
+"""The camera: points of the base frame in, pixels and depths out; and how it frames a drawing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.light.arrays import Floats, kept
+
+NEAR = 1e-3
+"""A point closer than this to the plane of the pinhole is not seen [m]."""
+FILL = 0.72
+"""Share of the limiting dimension of the picture that a framed drawing takes."""
+LENS = 40.0 / 36.0
+"""Focal length over the long side of the sensor: a 40 mm lens on full frame, which neither flattens
+a drawing nor throws its near parts at the viewer."""
+SMALLEST = 0.04
+"""A drawing smaller than this is framed as though it had this size [m]."""
+SLENDEREST = 0.25
+"""So is one seen smaller than this share of its true size, as a line that runs at the viewer."""
+
+
+class View(NamedTuple):
+    """From where the canvas is seen; (0, 0) is square on.
+
+    Attributes:
+        azimuth: How far the viewer has walked to the right round the canvas' y [deg].
+        elevation: How far above the canvas' x-z plane, -90 to 90 [deg].
+    """
+
+    azimuth: float
+    elevation: float
+
+
+VIEWS = {
+    "front": View(0.0, 0.0),
+    "iso": View(45.0, float(np.degrees(np.arctan(np.sqrt(0.5))))),
+    "side": View(90.0, 0.0),
+    "top": View(0.0, 90.0),
+}
+
+
+def parse_view(text: str) -> View:
+    """The view called `text`: a name of `VIEWS`, or `AZ,EL` in degrees."""
+    name = text.strip()
+    if name in VIEWS:
+        return VIEWS[name]
+    try:
+        azimuth, elevation = (float(word) for word in name.split(","))
+        understood = bool(np.isfinite(azimuth))
+    except ValueError:
+        understood = False
+    if not understood:
+        raise UsageError(f"no view named '{name}'; known: {', '.join(VIEWS)}, AZ,EL in degrees")
+    if not -90.0 <= elevation <= 90.0:
+        raise UsageError(f"view elevation {elevation:g} deg must be from -90 to 90")
+    return View(azimuth, elevation)
+
+
+@dataclass(frozen=True, eq=False)
+class Camera:
+    """A pinhole that looks along -z of its own axes.
+
+    Attributes:
+        position: (3,) of the pinhole, base frame [m].
+        rotation: (3, 3) rows: the picture's right, its up, and back towards the viewer, as unit
+            vectors of the base frame.
+        focal: Distance from pinhole to picture [px].
+        centre: (2,) pixel that the axis of the lens meets, x right, y down [px].
+        width: Columns of the picture.
+        height: Rows of the picture.
+    """
+
+    position: Floats
+    rotation: Floats
+    focal: float
+    centre: Floats
+    width: int
+    height: int
+
+    def __post_init__(self) -> None:
+        for name, shape in (("position", (3,)), ("rotation", (3, 3)), ("centre", (2,))):
+            values = kept(f"camera {name}", getattr(self, name), shape)
+            object.__setattr__(self, name, values)
+        if not np.allclose(self.rotation @ self.rotation.T, np.eye(3), atol=1e-9):
+            raise ValueError("camera rotation has rows that are not orthonormal")
+        if np.linalg.det(self.rotation) < 0.0:
+            raise ValueError("camera rotation mirrors the world")
+        if not (np.isfinite(self.focal) and self.focal > 0.0):
+            raise ValueError(f"camera focal length {self.focal} px must be positive")
+        if self.width < 1 or self.height < 1:
+            raise UsageError(f"picture size {self.width}x{self.height} must be at least 1x1")
+
+    def project(self, points: ArrayLike) -> tuple[Floats, Floats]:
+        """Where points are seen.
+
+            [X Y Z] = rotation (p - position),  x = c_x + f X / -Z,  y = c_y - f Y / -Z
+
+        Args:
+            points: (N, 3) base frame [m].
+
+        Returns:
+            (N, 2) pixels, x right and y down, pixel centres at integers, and (N,) depths -Z in
+            front of the pinhole [m]. Where the depth is not above `NEAR`, the pixel is NaN.
+        """
+        seen = self.rotation @ (np.asarray(points, dtype=np.float64) - self.position).T
+        depth = -seen[2]
+        scale = self.focal / np.where(depth > NEAR, depth, np.nan)
+        pixels = np.stack([self.centre[0] + scale * seen[0], self.centre[1] - scale * seen[1]], 1)
+        return pixels, depth
+
+
+def frame(
+    points: ArrayLike, canvas_rotation: ArrayLike, view: View, size: tuple[int, int]
+) -> Camera:
+    """The camera that sees all `points` from `view`, in the middle and as large as `FILL` allows.
+
+    Args:
+        points: (N, 3) what the picture is of, base frame [m]: the lit points of what was asked,
+            so that the picture of what was achieved is taken from the same place.
+        canvas_rotation: (3, 3) columns: the canvas' x (right), y (up) and z (towards the viewer)
+            as unit vectors of the base frame.
+        view: From where, see `parse_view`.
+        size: Columns and rows of the picture.
+
+    Raises:
+        DqpaintError: If there is no point, or one is not finite.
+    """
+    cloud = kept("framed point", points, (None, 3))
+    if len(cloud) == 0:
+        raise DqpaintError("nothing is lit, so there is nothing to frame")
+    width, height = size
+    if width < 1 or height < 1:
+        raise UsageError(f"picture size {width}x{height} must be at least 1x1")
+    focal = LENS * max(width, height)
+    rotation = _look(view) @ kept("canvas rotation", canvas_rotation, (3, 3)).T
+
+    right, up, back = rotation @ cloud.T
+    slopes = FILL * 0.5 * np.array([width, height]) / focal  # half the field that is to be filled
+    nearest = float(back.max())
+    diameter = float(np.linalg.norm(np.ptp(cloud, axis=0)))
+    extent = max(SMALLEST, SLENDEREST * diameter)
+    distance = max(
+        _tightest(right, back, float(slopes[0])),
+        _tightest(up, back, float(slopes[1])),
+        nearest + 0.5 * extent / float(slopes.min()),
+    )
+    place = np.array([_middle(right, back, distance), _middle(up, back, distance), distance])
+    centre = 0.5 * np.array([width - 1.0, height - 1.0])
+    return Camera(place @ rotation, rotation, focal, centre, width, height)
+
+
+def _look(view: View) -> Floats:
+    """(3, 3) rows: the picture's right, up and back as unit vectors of the canvas."""
+    a, e = np.radians(view)
+    right = np.array([np.cos(a), 0.0, -np.sin(a)])  # level at any elevation, so the pole is no case
+    back = np.array([np.sin(a) * np.cos(e), np.sin(e), np.cos(a) * np.cos(e)])
+    return np.stack([right, np.cross(back, right), back])
+
+
+def _tightest(across: Floats, back: Floats, slope: float) -> float:
+    """How far back a pinhole must be at least to see all points within +-slope of its axis [m].
+
+    Point i is inside if |x_i - c| <= slope (d - z_i), which for all i is
+
+        c + slope d >= max(x + slope z),  -c + slope d >= max(-x + slope z);
+
+    the smallest d meets both with equality, so that the points touch both edges.
+    """
+    return float((across + slope * back).max() + (slope * back - across).max()) / (2.0 * slope)
+
+
+def _middle(across: Floats, back: Floats, distance: float) -> float:
+    """Where a pinhole at `distance` must be to see as far to one side as to the other [m].
+
+    The two equations of `_tightest` with d given and the slope unknown: Newton's method on a
+    convex function made of straight pieces, which ends after a few steps, on the root's own piece.
+    """
+    slope, touching = 0.0, (-1, -1)
+    while True:
+        high, low = int((across + slope * back).argmax()), int((across - slope * back).argmin())
+        if (high, low) == touching:
+            break
+        touching = (high, low)
+        slope = (across[high] - across[low]) / (2.0 * distance - back[high] - back[low])
+    return float(across[high] - slope * (distance - back[high]))

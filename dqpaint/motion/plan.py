@@ -1,0 +1,149 @@
+"""Program -> Motion: what the light is asked to do at every sample, in the robot's base frame."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.language.diagnostics import Diagnostic, ScriptError, Severity
+from dqpaint.language.program import Program
+from dqpaint.motion.lengths import flow_by_length, length_fraction
+from dqpaint.motion.shapes import Flow, pose_array
+from dqpaint.motion.timetable import Stroke, first_not_finite, timetable
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What was asked, one row a sample, in the base frame; the arrays are read-only.
+
+    At a corner the pose is one and the twist is the one of the stroke that begins there, so that
+    row k and its twist lead to row k + 1.
+
+    Attributes:
+        period: [s].
+        t: times (N,) [s], from 0.
+        pose: desired poses (N, 8), signs continuous.
+        twist: desired spatial twists (N, 6) [rad/s, m/s].
+        acceleration: their plain derivatives (N, 6) [rad/s^2, m/s^2].
+        light: mean linear RGB (N, 3) from t_k until t_k+1; the last row is dark.
+        line: the line of the file (N,) that asks for what follows row k.
+        stroke: the number of the segment (N,), from 0.
+        canvas: pose (8,) of the drawing frame in the base frame.
+        notes: warnings about the drawing.
+    """
+
+    period: float
+    t: Floats
+    pose: Floats
+    twist: Floats
+    acceleration: Floats
+    light: Floats
+    line: NDArray[np.int64]
+    stroke: NDArray[np.int64]
+    canvas: Floats
+    program: Program
+    length: float  # of the lit and dark path [m]
+    notes: tuple[Diagnostic, ...] = field(default=())
+
+    def __post_init__(self) -> None:
+        for array in vars(self).values():
+            if isinstance(array, np.ndarray):
+                array.setflags(write=False)
+
+    @property
+    def points(self) -> Floats:
+        """The asked places of the light (N, 3) [m]."""
+        return dq.translation(self.pose)
+
+    @property
+    def lit(self) -> NDArray[np.bool_]:
+        """Whether the light shines from t_k until t_k+1 (N,)."""
+        return np.asarray(self.light.any(axis=1))
+
+    @property
+    def box(self) -> Floats:
+        """The sides (3,) [m] of the box round the drawing, in its own frame."""
+        points = dq.translation(dq.mul(dq.conj(self.canvas), self.pose))
+        return np.asarray(np.ptp(points, axis=0))
+
+
+def plan(program: Program, canvas: Floats) -> Motion:
+    """The motion a program asks for.
+
+    Args:
+        program: from `dqpaint.language`.
+        canvas: pose (8,) of the robot's canvas in its base frame; a `place` line goes before it.
+
+    Raises:
+        ScriptError: a stroke without a timetable, or more samples than the budget.
+    """
+    strokes, findings = timetable(program)
+    flows = [_flow(stroke, program.period) for stroke in strokes]
+    for stroke, (flow, _) in zip(strokes, flows, strict=True):
+        fault = first_not_finite((flow.pose, flow.twist, flow.slope), stroke.segment)
+        if fault is not None:
+            findings.append(fault)
+    if any(f.severity is Severity.ERROR for f in findings):
+        raise ScriptError(program.name, program.text, tuple(findings))
+    if program.placement is not None:
+        canvas = pose_array(program.placement)
+    return _assemble(program, strokes, flows, canvas, tuple(findings))
+
+
+def _flow(stroke: Stroke, period: float) -> tuple[Flow, Floats]:
+    """The stroke at its count + 1 samples: poses and twists per second; the fraction of length."""
+    progress = stroke.progress(period)
+    if stroke.by_length:
+        flow, fraction = flow_by_length(stroke.shape, stroke.extent, progress.value), progress.value
+    else:
+        flow = stroke.shape.flow(progress.value)
+        light = stroke.segment.light
+        graded = light is not None and light.first != light.last
+        fraction = progress.value
+        if graded:
+            fraction = length_fraction(stroke.shape, stroke.extent, progress.value)
+    return flow.at_rates(progress.rate, progress.slope), fraction
+
+
+def _assemble(
+    program: Program,
+    strokes: list[Stroke],
+    flows: list[tuple[Flow, Floats]],
+    canvas: Floats,
+    findings: tuple[Diagnostic, ...],
+) -> Motion:
+    counts = np.array([stroke.count for stroke in strokes])
+    n = int(counts.sum()) + 1
+    pose, twist, acceleration = np.empty((n, 8)), np.empty((n, 6)), np.empty((n, 6))
+    light = np.zeros((n, 3))
+    first = 0
+    for stroke, (flow, fraction) in zip(strokes, flows, strict=True):
+        last = first + stroke.count
+        # the end row is written too, and again by the stroke that begins there
+        pose[first : last + 1] = flow.pose
+        twist[first : last + 1] = flow.twist
+        acceleration[first : last + 1] = flow.slope
+        colours = stroke.segment.light
+        if colours is not None:
+            middle = (0.5 * (fraction[1:] + fraction[:-1]))[:, None]
+            light[first:last] = (1 - middle) * colours.first + middle * np.array(colours.last)
+        first = last
+    lines = np.array([stroke.segment.line for stroke in strokes])
+    number = np.repeat(np.arange(len(strokes)), counts)
+    number = np.append(number, number[-1])
+    return Motion(
+        period=program.period,
+        t=np.arange(n, dtype=np.float64) * program.period,
+        pose=dq.continuous(dq.mul(canvas, pose)),
+        twist=dq.adjoint(canvas, twist),
+        acceleration=dq.adjoint(canvas, acceleration),
+        light=light,
+        line=lines[number],
+        stroke=number,
+        canvas=np.array(canvas),
+        program=program,
+        length=sum(stroke.extent.length for stroke in strokes),
+        notes=program.notes + findings,
+    )

@@ -1,0 +1,201 @@
+"""When each stroke runs: whole samples, the time law over them, and the budget.
+
+Durations are rounded up, so that every corner is itself a sample and no speed is exceeded.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from dqpaint.language.diagnostics import Diagnostic
+from dqpaint.language.program import Cruise, Lasting, Program, Samples, Segment, Step, Still
+from dqpaint.motion.laws import LAWS, Progress, Rates, cruise_time, scale_rates
+from dqpaint.motion.lengths import CUSP, Extent, measure
+from dqpaint.motion.shapes import Shape, shape
+
+MOST_SAMPLES = 2_000_000
+ROUNDING_WORTH_SAYING = 0.01
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """A segment with its shape, its extent and its number of new samples.
+
+    `by_length`: the law runs over the length of the path, not over the parameter of its formula.
+    """
+
+    segment: Segment
+    shape: Shape
+    extent: Extent
+    count: int
+    by_length: bool
+    end_rates: Rates  # fractions of the path per second, and per second squared
+
+    def progress(self, period: float) -> Progress:
+        """Fraction of the path at the count + 1 samples, with derivatives per second."""
+        tau = np.arange(self.count + 1) / self.count
+        time = self.count * period
+        law = LAWS[self.segment.law.name](tau, scale_rates(self.end_rates, time))
+        return Progress(law.value, law.rate / time, law.slope / time**2)
+
+
+class StrokeError(Exception):
+    """A stroke that has no timetable, as a diagnostic."""
+
+    def __init__(self, diagnostic: Diagnostic) -> None:
+        super().__init__(diagnostic.message)
+        self.diagnostic = diagnostic
+
+
+def timetable(program: Program) -> tuple[list[Stroke], list[Diagnostic]]:
+    """The strokes of a program, and what is wrong or worth saying about their times."""
+    strokes: list[Stroke] = []
+    findings: dict[tuple[str, int], Diagnostic] = {}
+    total = 1
+    for segment in program.segments:
+        try:
+            stroke, note = _stroke(segment, program.period)
+            total += stroke.count
+            if total > MOST_SAMPLES:
+                raise StrokeError(_too_many(segment, stroke.count))
+        except StrokeError as fault:
+            _keep(findings, fault.diagnostic)
+            if total > MOST_SAMPLES:
+                break
+            continue
+        strokes.append(stroke)
+        if note is not None:
+            _keep(findings, note)
+    return strokes, list(findings.values())
+
+
+def _keep(findings: dict[tuple[str, int], Diagnostic], new: Diagnostic) -> None:
+    """Each finding once for each place: the passes of a repeat say the same."""
+    assert new.span is not None
+    findings.setdefault((new.code, new.span.start), new)
+
+
+def _stroke(segment: Segment, period: float) -> tuple[Stroke, Diagnostic | None]:
+    form = shape(segment)
+    extent = measure(form)
+    if not math.isfinite(extent.length + extent.angle):
+        raise StrokeError(_not_finite(segment))
+    timing = segment.timing
+    rates = segment.law.rates
+    by_length = not extent.even and (
+        isinstance(timing, Cruise) or (any(rates) and not segment.law.angular)
+    )
+    if by_length and extent.slowest < CUSP:
+        raise StrokeError(_cusp(segment))
+    end_rates = _end_rates(segment, extent)
+    seconds = _seconds(segment, extent, end_rates, period)
+    # rounding noise of a sum is not another sample
+    wanted = seconds / period
+    if not wanted < 1e15:
+        raise StrokeError(_too_many(segment, math.inf))
+    count = (
+        timing.count
+        if isinstance(timing, Samples)
+        else max(1, math.ceil(wanted - 1e-9 * max(1, wanted)))
+    )
+    if isinstance(segment.path, Step):
+        count = 1
+    stroke = Stroke(segment, form, extent, count, by_length, end_rates)
+    return stroke, _rounding(segment, seconds, count * period)
+
+
+def _end_rates(segment: Segment, extent: Extent) -> Rates:
+    rates = segment.law.rates
+    if not any(rates):
+        return ()
+    size, kind = (extent.angle, "turn") if segment.law.angular else (extent.length, "length")
+    if size == 0 and isinstance(segment.path, Still | Step):
+        return ()
+    if size == 0:
+        raise StrokeError(_no_extent(segment, kind))
+    return tuple(rate / size for rate in rates)
+
+
+def _seconds(segment: Segment, extent: Extent, end_rates: Rates, period: float) -> float:
+    timing = segment.timing
+    if isinstance(timing, Samples):
+        return timing.count * period
+    if isinstance(timing, Lasting):
+        return timing.seconds
+    least = max(extent.length / timing.speed, extent.angle / timing.turnspeed)
+    if least == 0:
+        return period
+    seconds = cruise_time(segment.law.name, end_rates, least)
+    if seconds is None:
+        raise StrokeError(_fast_end(segment))
+    return seconds
+
+
+def first_not_finite(rows: Sequence[np.ndarray], segment: Segment) -> Diagnostic | None:
+    """The finding about a stroke whose formula leaves the numbers on the way, if it does."""
+    if all(np.isfinite(row).all() for row in rows):
+        return None
+    return _not_finite(segment)
+
+
+def _not_finite(segment: Segment) -> Diagnostic:
+    return Diagnostic(
+        "E306",
+        "this curve, or one of its derivatives, is not finite everywhere on the way",
+        segment.span,
+        help="keep the parameter away from where a root, a logarithm or a quotient breaks down",
+    )
+
+
+def _cusp(segment: Segment) -> Diagnostic:
+    return Diagnostic(
+        "E303",
+        "this curve comes to a point on its way, so it can't be run at one speed",
+        segment.span,
+        label="its formula stands still somewhere",
+        help="give it a time instead, for example: in 10 s",
+    )
+
+
+def _fast_end(segment: Segment) -> Diagnostic:
+    return Diagnostic(
+        "E304",
+        "the law starts or ends faster than the speed of this stroke",
+        segment.span,
+        help="lower the rates in the brackets, raise speed, or give a time: in 10 s",
+    )
+
+
+def _no_extent(segment: Segment, kind: str) -> Diagnostic:
+    unit = "deg/s" if kind == "turn" else "mm/s"
+    other = "mm/s" if kind == "turn" else "deg/s"
+    return Diagnostic(
+        "E305",
+        f"the law has rates in {unit}, but this stroke has no {kind}",
+        segment.span,
+        help=f"give the rates in {other}, or leave the brackets out",
+    )
+
+
+def _too_many(segment: Segment, count: float) -> Diagnostic:
+    alone = f"{count:,}" if isinstance(count, int) else "endlessly many"
+    return Diagnostic(
+        "E302",
+        f"more than {MOST_SAMPLES:,} samples in all",
+        segment.span,
+        label=f"this line alone has {alone}",
+        help="make the period longer or the path shorter or faster",
+    )
+
+
+def _rounding(segment: Segment, wanted: float, given: float) -> Diagnostic | None:
+    if abs(given - wanted) <= ROUNDING_WORTH_SAYING * wanted or isinstance(segment.path, Step):
+        return None
+    return Diagnostic(
+        "W410",
+        f"this takes {given:.4g} s, not {wanted:.4g} s: times are rounded up to whole periods",
+        segment.span,
+        help="a shorter period comes closer",
+    )

@@ -104,7 +104,7 @@ class Keep:
 
 @dataclass(frozen=True, slots=True)
 class Turn:
-    """The orientation goes evenly with the path, the short way, to the segment's end orientation."""
+    """The orientation goes evenly with the path, the short way, to the end orientation."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,7 +28,6 @@ class Extent:
         edges: of the panels of `f`, (M + 1,).
         lengths: from the start to each edge [m], (M + 1,).
         even: whether the point's speed over `f` is one number.
-        slowest: the least speed over f that was seen, as a part of the mean.
     """
 
     length: float
@@ -36,7 +35,6 @@ class Extent:
     edges: Floats
     lengths: Floats
     even: bool
-    slowest: float
 
 
 def measure(shape: Shape) -> Extent:
@@ -59,10 +57,27 @@ def _integrate(shape: Shape, panels: int) -> Extent:
     weights = np.tile(0.5 * WEIGHTS / panels, panels)
     parts = (speed * weights).reshape(panels, -1).sum(1)
     length = float(parts.sum())
-    slowest = float(speed.min() / length) if length > 0 else 1.0
     even = bool(np.ptp(speed) <= 1e-12 * length)
     lengths = np.concatenate([[0.0], np.cumsum(parts)])
-    return Extent(length, float(turning @ weights), edges, lengths, even, slowest)
+    return Extent(length, float(turning @ weights), edges, lengths, even)
+
+
+def has_cusp(shape: Shape, extent: Extent) -> bool:
+    """Whether the point comes to rest somewhere on its way, as at the tip of a cardioid.
+
+    Looks for the least speed ever closer: around the slowest of 17 places, eight times.
+    """
+    least, width = _slowest(shape, extent.edges)
+    for _ in range(8):
+        around = np.clip(np.linspace(least - width, least + width, 17), 0.0, 1.0)
+        least, width = _slowest(shape, around)
+    speed = shape.speeds(np.array([least]))[0][0]
+    return bool(speed < CUSP * extent.length)
+
+
+def _slowest(shape: Shape, f: Floats) -> tuple[float, float]:
+    """Where among f (N,) the point is slowest, and the distance to its neighbours."""
+    return float(f[np.argmin(shape.speeds(f)[0])]), float(np.diff(f).max())
 
 
 def _nodes(lower: Floats, upper: Floats) -> Floats:

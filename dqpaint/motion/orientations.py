@@ -53,6 +53,8 @@ def _heading(r0: Floats, axis: Floats, places: Places) -> Spin:
     def spin(_f: Floats, at: Floats) -> tuple[Floats, Floats, Floats]:
         x, y = at[1:] @ e1, at[1:] @ e2  # (3, N): of p', p'', p'''
         square = x[0] ** 2 + y[0] ** 2
+        if not np.isfinite(at[3]).all() or not (square > 0).all():
+            raise FloatingPointError("a heading, or one of its derivatives, is not finite")
         turning = x[0] * y[1] - y[0] * x[1]
         rate = turning / square
         spread = 2 * (x[0] * x[1] + y[0] * y[1])

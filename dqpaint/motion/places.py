@@ -26,7 +26,7 @@ def place_straight(path: Straight, start: Vector) -> Places:
 
 
 def place_arc(path: Arc, start: Vector) -> Places:
-    """A circle, helix, spiral or cone: p = c + f rise l + (r0 + f grow) (cos(f A) e1 + sin(f A) e2).
+    """Circle, helix, spiral, cone: p = c + f rise l + (r0 + f grow) (cos(f A) e1 + sin(f A) e2).
 
     c is the foot of the start on the axis, e1 points from there to the start, e2 = l x e1.
     """
@@ -54,14 +54,19 @@ def place_arc(path: Arc, start: Vector) -> Places:
 
 
 def place_curve(path: Curve) -> Places:
-    """The formula's own value and its exact derivatives, scaled from the parameter to f."""
+    """The formula's own value and its exact derivatives, scaled from the parameter to f.
+
+    The function raises FloatingPointError where place, velocity or acceleration is not finite.
+    """
     span = path.upper - path.lower
     scale = np.array([1.0, span, span**2, span**3])[:, None, None]
 
     def places(f: Floats) -> Floats:
-        with np.errstate(all="ignore"):  # what is not finite is looked for afterwards, with a place
+        with np.errstate(all="ignore"):
             point = path.formula(Taylor.variable(path.lower + f * span))
-        derivatives: Floats = np.stack([c.derivatives for c in point], axis=-1) * scale
+            derivatives: Floats = np.stack([c.derivatives for c in point], axis=-1) * scale
+        if not np.isfinite(derivatives[:3]).all():
+            raise FloatingPointError("a formula, or one of its derivatives, is not finite")
         return derivatives
 
     return places

@@ -11,7 +11,7 @@ from dqpaint.language.diagnostics import Diagnostic, ScriptError, Severity
 from dqpaint.language.program import Program
 from dqpaint.motion.lengths import flow_by_length, length_fraction
 from dqpaint.motion.shapes import Flow, pose_array
-from dqpaint.motion.timetable import Stroke, first_not_finite, timetable
+from dqpaint.motion.timetable import Stroke, not_finite, timetable
 
 
 @dataclass(frozen=True)
@@ -80,11 +80,12 @@ def plan(program: Program, canvas: Floats) -> Motion:
         ScriptError: a stroke without a timetable, or more samples than the budget.
     """
     strokes, findings = timetable(program)
-    flows = [_flow(stroke, program.period) for stroke in strokes]
-    for stroke, (flow, _) in zip(strokes, flows, strict=True):
-        fault = first_not_finite((flow.pose, flow.twist, flow.slope), stroke.segment)
-        if fault is not None:
-            findings.append(fault)
+    flows = []
+    for stroke in strokes:
+        try:
+            flows.append(flow_at(stroke, stroke.samples, program.period))
+        except FloatingPointError:
+            findings.append(not_finite(stroke.segment))
     if any(f.severity is Severity.ERROR for f in findings):
         raise ScriptError(program.name, program.text, tuple(findings))
     if program.placement is not None:
@@ -92,9 +93,13 @@ def plan(program: Program, canvas: Floats) -> Motion:
     return _assemble(program, strokes, flows, canvas, tuple(findings))
 
 
-def _flow(stroke: Stroke, period: float) -> tuple[Flow, Floats]:
-    """The stroke at its count + 1 samples: poses and twists per second; the fraction of length."""
-    progress = stroke.progress(period)
+def flow_at(stroke: Stroke, tau: Floats, period: float) -> tuple[Flow, Floats]:
+    """A stroke at fractions tau (N,) of its time: its flow per second, the fraction of its length.
+
+    In the drawing frame. The fraction of the length is exact where the light needs it: in a
+    gradient.
+    """
+    progress = stroke.progress(tau, period)
     if stroke.by_length:
         flow, fraction = flow_by_length(stroke.shape, stroke.extent, progress.value), progress.value
     else:

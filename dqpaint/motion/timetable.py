@@ -4,15 +4,15 @@ Durations are rounded up, so that every corner is itself a sample and no speed i
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from dqpaint.dq import Floats
 from dqpaint.language.diagnostics import Diagnostic
 from dqpaint.language.program import Cruise, Lasting, Program, Samples, Segment, Step, Still
 from dqpaint.motion.laws import LAWS, Progress, Rates, cruise_time, scale_rates
-from dqpaint.motion.lengths import CUSP, Extent, measure
+from dqpaint.motion.lengths import Extent, has_cusp, measure
 from dqpaint.motion.shapes import Shape, shape
 
 MOST_SAMPLES = 2_000_000
@@ -33,9 +33,13 @@ class Stroke:
     by_length: bool
     end_rates: Rates  # fractions of the path per second, and per second squared
 
-    def progress(self, period: float) -> Progress:
-        """Fraction of the path at the count + 1 samples, with derivatives per second."""
-        tau = np.arange(self.count + 1) / self.count
+    @property
+    def samples(self) -> Floats:
+        """The fractions of the stroke's time at its count + 1 samples."""
+        return np.arange(self.count + 1) / self.count
+
+    def progress(self, tau: Floats, period: float) -> Progress:
+        """Fraction of the path at fractions tau (N,) of the time, with derivatives per second."""
         time = self.count * period
         law = LAWS[self.segment.law.name](tau, scale_rates(self.end_rates, time))
         return Progress(law.value, law.rate / time, law.slope / time**2)
@@ -78,32 +82,33 @@ def _keep(findings: dict[tuple[str, int], Diagnostic], new: Diagnostic) -> None:
 
 
 def _stroke(segment: Segment, period: float) -> tuple[Stroke, Diagnostic | None]:
-    form = shape(segment)
-    extent = measure(form)
-    if not math.isfinite(extent.length + extent.angle):
-        raise StrokeError(_not_finite(segment))
+    try:
+        form = shape(segment)
+        extent = measure(form)
+    except FloatingPointError:
+        raise StrokeError(not_finite(segment)) from None
     timing = segment.timing
     rates = segment.law.rates
     by_length = not extent.even and (
         isinstance(timing, Cruise) or (any(rates) and not segment.law.angular)
     )
-    if by_length and extent.slowest < CUSP:
+    if by_length and has_cusp(form, extent):
         raise StrokeError(_cusp(segment))
     end_rates = _end_rates(segment, extent)
     seconds = _seconds(segment, extent, end_rates, period)
-    # rounding noise of a sum is not another sample
     wanted = seconds / period
     if not wanted < 1e15:
         raise StrokeError(_too_many(segment, math.inf))
-    count = (
-        timing.count
-        if isinstance(timing, Samples)
-        else max(1, math.ceil(wanted - 1e-9 * max(1, wanted)))
-    )
+    count = timing.count if isinstance(timing, Samples) else _whole(wanted)
     if isinstance(segment.path, Step):
         count = 1
     stroke = Stroke(segment, form, extent, count, by_length, end_rates)
     return stroke, _rounding(segment, seconds, count * period)
+
+
+def _whole(samples: float) -> int:
+    """The next whole number of samples, at least 1; the noise of a division is not another one."""
+    return max(1, math.ceil(samples - 1e-9 - 1e-12 * samples))
 
 
 def _end_rates(segment: Segment, extent: Extent) -> Rates:
@@ -133,14 +138,8 @@ def _seconds(segment: Segment, extent: Extent, end_rates: Rates, period: float) 
     return seconds
 
 
-def first_not_finite(rows: Sequence[np.ndarray], segment: Segment) -> Diagnostic | None:
-    """The finding about a stroke whose formula leaves the numbers on the way, if it does."""
-    if all(np.isfinite(row).all() for row in rows):
-        return None
-    return _not_finite(segment)
-
-
-def _not_finite(segment: Segment) -> Diagnostic:
+def not_finite(segment: Segment) -> Diagnostic:
+    """The finding about a stroke whose formula leaves the numbers on its way."""
     return Diagnostic(
         "E306",
         "this curve, or one of its derivatives, is not finite everywhere on the way",

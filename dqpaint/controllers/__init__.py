@@ -1,0 +1,18 @@
+"""Control laws, one a file, its equation on top: what is seen -> the commanded twist.
+
+A new law is a function in a new file of this folder under `@controller(name, source, gains)`; it is
+found by itself. It sees a `Seen` and its gains, arrays of any leading shape, and returns a spatial
+twist (..., 6); `dqpaint.robots.resolver` turns that into joint rates.
+"""
+
+import importlib
+import pkgutil
+
+from dqpaint.controllers.law import CONTROLLERS, Controller, Gains, Seen
+
+for _module in pkgutil.iter_modules(__path__):
+    importlib.import_module(f"{__name__}.{_module.name}")
+
+DEFAULT_CONTROLLER = "hinf"
+
+__all__ = ["CONTROLLERS", "DEFAULT_CONTROLLER", "Controller", "Gains", "Seen"]

@@ -1,0 +1,58 @@
+"""H-infinity set-point law in the dual-quaternion group, after Pereira."""
+
+import math
+
+import numpy as np
+from pydantic import Field
+
+from dqpaint import dq
+from dqpaint.controllers.law import Gain, Gains, Seen, controller
+from dqpaint.controllers.pose_errors import spatial_error
+from dqpaint.dq import Floats
+
+
+class GammaGains(Gains):
+    """How much of a disturbance may come through, apart for rotation and translation.
+
+    With equal gammas for the two disturbances of each part [3.31]: K_O = 2 / gamma_O and
+    K_T = sqrt(2) / gamma_T.
+    """
+
+    gamma_O: Gain = Field(0.05, description="s, bound on the rotation error; K_O = 2 / gamma_O")
+    gamma_T: Gain = Field(
+        0.0707, description="s, bound on the translation error; K_T = sqrt(2) / gamma_T"
+    )
+
+    @property
+    def K_O(self) -> float:  # noqa: N802  the paper's letters
+        """Rotation gain [1/s]; a small rotation error decays at K_O / 2."""
+        return 2.0 / self.gamma_O
+
+    @property
+    def K_T(self) -> float:  # noqa: N802
+        """Translation gain [1/s]; a translation error decays at K_T."""
+        return math.sqrt(2.0) / self.gamma_T
+
+    def shown(self) -> dict[str, float]:
+        """Gammas and the gains that follow from them."""
+        return {**super().shown(), "K_O": self.K_O, "K_T": self.K_T}
+
+
+def correction(x_e: Floats, gains: GammaGains) -> Floats:
+    """The twist [-K_O Im(r_e); -K_T p_e] (..., 6) for an error x_e = r_e + eps p_e r_e / 2."""
+    u = np.empty((*x_e.shape[:-1], 6))
+    u[..., :3] = -gains.K_O * x_e[..., 1:4]
+    u[..., 3:] = -gains.K_T * dq.translation(x_e)
+    return u
+
+
+@controller("hinf-set", source="Pereira 2016, HIR [3.30]", gains=GammaGains)
+def hinf_set(seen: Seen, gains: GammaGains) -> Floats:
+    """H-infinity for set points: a promised bound on what disturbances do; lags when moving.
+
+    q_dot = J_w^+ [-K_O Im(r_e); -K_T p_e], with x_e = x x_d*.
+
+    With a disturbance v = [v_w; v_t] added to the twist and no error to begin with,
+    ||1 - r_e||_2 <= (sqrt(2) / K_O) ||v_w||_2 and ||p_e||_2 <= (1 / K_T) ||v_t||_2 (L2 in time).
+    """
+    return correction(spatial_error(seen.pose, seen.pose_d), gains)

@@ -1,0 +1,21 @@
+"""Proportional law with feed-forward on the invariant error, after Pereira."""
+
+from dqpaint import dq
+from dqpaint.controllers.law import Seen, controller
+from dqpaint.controllers.p import RateGains
+from dqpaint.controllers.pose_errors import invariant_error, twist_of_invariant_rate
+from dqpaint.dq import Floats
+
+
+@controller("pff", source="Pereira 2016, K+FF [3.12]", gains=RateGains)
+def pff(seen: Seen, gains: RateGains) -> Floats:
+    """Proportional with feed-forward: the motion that is asked for is added, the lag goes.
+
+    q_dot = N^+ (k e - vec(x* x_d_dot)), with x_d_dot = 1/2 xi_d x_d.
+
+    As e_dot = -N q_dot - vec(x* x_d_dot), what is left is e_dot = -k e in the range of N.
+    """
+    pose_d = dq.nearest(seen.pose_d, seen.pose)
+    rate_d = 0.5 * dq.mul(dq.pure(seen.twist_d), pose_d)
+    wanted = gains.k * invariant_error(seen.pose, pose_d) - dq.mul(dq.conj(seen.pose), rate_d)
+    return twist_of_invariant_rate(seen.pose, pose_d, wanted)

@@ -1,0 +1,37 @@
+"""The errors of the papers between a measured and a desired pose, always the short way round.
+
+x and -x are one pose: the desired one is taken on the side of the measured one before an error is
+formed, or the arm might turn the long way. The sign is decided by the error itself, never by the
+scalar part of a pose, which changes along a smooth path.
+"""
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+
+
+def invariant_error(pose: Floats, pose_d: Floats) -> Floats:
+    """The error e = vec(1 - x* x_d) (..., 8), the same from whatever frame it is seen."""
+    return dq.IDENTITY - dq.mul(dq.conj(pose), dq.nearest(pose_d, pose))
+
+
+def spatial_error(pose: Floats, pose_d: Floats) -> Floats:
+    """x_e = x x_d* (..., 8), seen from the base."""
+    return dq.mul(pose, dq.conj(dq.nearest(pose_d, pose)))
+
+
+def twist_of_invariant_rate(pose: Floats, pose_d: Floats, rate: Floats) -> Floats:
+    """The twist u (..., 6) with vec(x_dot* x_d) = rate as nearly as can be.
+
+    x_dot* = -1/2 x* u gives M u = rate with M = -1/2 H+(x*) H-(x_d) E6, 8 x 6 of full column
+    rank, and u = M^+ rate. N = M J_w is the papers' 8 x n matrix, so N^+ = J_w^+ M^+.
+    """
+    x_d = dq.nearest(pose_d, pose)
+    M = -0.5 * (dq.hamilton_plus(dq.conj(pose)) @ dq.hamilton_minus(x_d))[..., :, _IMAGINARY]
+    transposed = M.swapaxes(-1, -2)
+    solved = np.linalg.solve(transposed @ M, transposed @ rate[..., None])
+    return np.asarray(solved[..., 0], dtype=np.float64)
+
+
+_IMAGINARY = np.array([1, 2, 3, 5, 6, 7])  # the columns that E6 keeps

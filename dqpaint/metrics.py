@@ -1,0 +1,122 @@
+"""Track -> numbers: the columns of the CSV and the figures of the summary.
+
+The measures are the ones of Pereira 2016, 5.2 (integrals over the run of the norms of error,
+command, effort, speed and acceleration) and of Chandra 2020 (root mean square and standard
+deviation of position and orientation error).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.controllers.pose_errors import invariant_error
+from dqpaint.dq import Floats
+from dqpaint.motion import Motion
+from dqpaint.robots.kinematics import Kinematics
+from dqpaint.tracking import Track
+
+Table = dict[str, Floats]  # columns (N,) by their header, unit in the name
+
+
+@dataclass(frozen=True)
+class Metrics:
+    """What came out of a run: columns (N,) and single figures, the unit in each name."""
+
+    table: Table
+    figures: dict[str, float]
+
+
+def measure(track: Track, kinematics: Kinematics) -> Metrics:
+    """Columns and figures of a run."""
+    table = {**asked_columns(track.motion), **_reached_columns(track, kinematics)}
+    return Metrics(table, _figures(table, track))
+
+
+def asked_columns(motion: Motion) -> Table:
+    """Time, source line, light, and the asked pose in the base frame."""
+    return {
+        "t_s": motion.t,
+        "line": motion.line.astype(np.float64),
+        "lit": motion.lit.astype(np.float64),
+        **_pose_columns("desired_", motion.points, motion.pose),
+    }
+
+
+def motion_columns(motion: Motion) -> Table:
+    """What was asked, with spatial twist and its derivative: the file of `--save motion`."""
+    twist = dict(zip(_TWIST, motion.twist.T, strict=True))
+    slope = dict(zip(_ACCELERATION, motion.acceleration.T, strict=True))
+    light = dict(zip(("light_r", "light_g", "light_b"), motion.light.T, strict=True))
+    return {**asked_columns(motion), **twist, **slope, **light}
+
+
+_TWIST = [
+    f"desired_{n}" for n in ("wx_rad_s", "wy_rad_s", "wz_rad_s", "vx_m_s", "vy_m_s", "vz_m_s")
+]
+_ACCELERATION = [
+    f"desired_{n}"
+    for n in (
+        *("wx_dot_rad_s2", "wy_dot_rad_s2", "wz_dot_rad_s2"),
+        *("vx_dot_m_s2", "vy_dot_m_s2", "vz_dot_m_s2"),
+    )
+]
+
+
+def _pose_columns(prefix: str, points: Floats, pose: Floats) -> Table:
+    places = dict(zip((f"{prefix}{c}_m" for c in "xyz"), points.T, strict=True))
+    turns = dict(zip((f"{prefix}q{c}" for c in "wxyz"), pose[:, :4].T, strict=True))
+    return {**places, **turns}
+
+
+def _reached_columns(track: Track, kinematics: Kinematics) -> Table:
+    motion = track.motion
+    points = track.points
+    turned = dq.log(dq.mul(track.pose, dq.conj(motion.pose)))[:, :3]
+    velocity = _rate(points, motion.period)
+    acceleration = _rate(velocity, motion.period)
+    moved = np.diff(track.posture, axis=0, append=track.posture[-1:])
+    joints = range(track.posture.shape[1])
+    return {
+        **_pose_columns("", points, track.pose),
+        "position_error_m": _norm(points - motion.points),
+        "orientation_error_rad": 2 * _norm(turned),
+        "invariant_error": _norm(invariant_error(track.pose, motion.pose)),
+        "speed_m_s": _norm(velocity),
+        "acceleration_m_s2": _norm(acceleration),
+        "effort_rad": _norm(moved),
+        "manipulability": kinematics.manipulability(track.posture),
+        **{f"q{j + 1}_rad": track.posture[:, j] for j in joints},
+        **{f"command{j + 1}_rad_s": track.command[:, j] for j in joints},
+    }
+
+
+def _rate(values: Floats, period: float) -> Floats:
+    """Forward differences (N, 3) per second of what was measured; the last row repeats."""
+    if len(values) < 2:
+        return np.zeros_like(values)
+    rates = np.diff(values, axis=0) / period
+    return np.concatenate([rates, rates[-1:]])
+
+
+def _norm(values: Floats) -> Floats:
+    return np.asarray(np.sqrt((values * values).sum(axis=-1)))
+
+
+def _figures(table: Table, track: Track) -> dict[str, float]:
+    period = track.motion.period
+    command = _norm(track.command)
+    position, orientation = table["position_error_m"], table["orientation_error_rad"]
+    figures = {
+        "error_integral": float(table["invariant_error"].sum() * period),
+        "command_integral_rad": float(command.sum() * period),
+        "effort_integral": float(table["effort_rad"].sum() * period),
+        "speed_integral_m": float(table["speed_m_s"].sum() * period),
+        "acceleration_integral": float(table["acceleration_m_s2"].sum() * period),
+    }
+    for name, values in (("position_error", position), ("orientation_error", orientation)):
+        unit = "m" if name.startswith("position") else "rad"
+        figures[f"{name}_rms_{unit}"] = float(np.sqrt((values**2).mean()))
+        figures[f"{name}_std_{unit}"] = float(values.std())
+        figures[f"{name}_max_{unit}"] = float(values.max())
+    return figures

@@ -1,0 +1,72 @@
+"""The only door to pinocchio: pose and Jacobian of an arm's tool in the conventions of `dq`.
+
+Pinocchio puts the linear part of a twist first; its WORLD frame is about the base origin. Here, and
+nowhere else, the halves change places.
+"""
+
+import numpy as np
+import pinocchio
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.errors import UsageError
+from dqpaint.robots.card import Card
+
+
+class Kinematics:
+    """Forward kinematics of a card's tool."""
+
+    def __init__(self, card: Card) -> None:
+        self.card = card
+        self.model = pinocchio.buildModelFromUrdf(str(card.urdf_path))
+        if not self.model.existFrame(card.link):
+            raise UsageError(f"robot '{card.name}' has no link named '{card.link}'")
+        if self.model.nv != card.joints or self.model.nq != card.joints:
+            raise UsageError(
+                f"robot '{card.name}' has {self.model.nv} joints that move, "
+                f"its card gives limits for {card.joints}"
+            )
+        self._data = self.model.createData()
+        frame = self.model.frames[self.model.getFrameId(card.link)]
+        self._joint = frame.parentJoint
+        tool = pinocchio.SE3(dq.matrix_from_pose(card.tool.pose))
+        self._tool = frame.placement * tool
+
+    def pose(self, posture: Floats) -> Floats:
+        """The tool's pose (8,) in the base frame at a posture (n,) [rad]; its sign is arbitrary."""
+        pinocchio.forwardKinematics(self.model, self._data, posture)
+        return self._read_pose()
+
+    def poses(self, postures: Floats) -> Floats:
+        """The tool's poses (N, 8) at postures (N, n), signs continuous along the rows."""
+        return dq.continuous(np.array([self.pose(q) for q in postures]))
+
+    def pose_and_jacobian(self, posture: Floats) -> tuple[Floats, Floats]:
+        """Pose (8,) and the Jacobian J_w (6, n), xi = J_w q_dot, at a posture (n,) [rad]."""
+        world = pinocchio.computeJointJacobians(self.model, self._data, posture)
+        J: Floats = np.empty((6, self.model.nv))
+        J[:3], J[3:] = world[3:], world[:3]
+        return self._read_pose(), J
+
+    def poses_and_jacobians(self, postures: Floats) -> tuple[Floats, Floats]:
+        """`pose_and_jacobian` of many postures (N, n): poses (N, 8), Jacobians (N, 6, n)."""
+        pairs = [self.pose_and_jacobian(q) for q in postures]
+        return np.array([x for x, _ in pairs]), np.array([J for _, J in pairs])
+
+    def manipulability(self, postures: Floats) -> Floats:
+        """Yoshikawa's sqrt(det(J J')) (N,) at the tool, rotations per rad and metres mixed."""
+        J = self.poses_and_jacobians(postures)[1]
+        # moving the reference point from the origin to the tool is a shear: same determinant
+        squared: Floats = np.linalg.det(J @ J.swapaxes(-1, -2))
+        return np.asarray(np.sqrt(np.maximum(squared, 0.0)))
+
+    def _read_pose(self) -> Floats:
+        placement = self._data.oMi[self._joint] * self._tool
+        x, y, z, qx, qy, qz, qw = pinocchio.SE3ToXYZQUATtuple(placement)
+        return np.array([
+            qw, qx, qy, qz,
+            0.5 * (-x * qx - y * qy - z * qz),
+            0.5 * (x * qw + y * qz - z * qy),
+            0.5 * (y * qw + z * qx - x * qz),
+            0.5 * (z * qw + x * qy - y * qx),
+        ])  # fmt: skip

@@ -1,0 +1,132 @@
+"""What an arm's limits do to a command, and how a run says so."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.dq import Floats
+from dqpaint.robots.card import Card
+
+AT_LIMIT = 1e-6  # relative: a motor this close to its largest torque is saturated
+
+
+@dataclass(frozen=True)
+class Clamp:
+    """A limit that held a joint back for a while.
+
+    Attributes:
+        kind: `position`, `speed` or `effort`.
+        joint: its number, from 1.
+        start: when it began [s].
+        seconds: for how long, gaps left out.
+        line: the line of the file that was being drawn when it began.
+        limit: in degrees, degrees per second, or newton metres.
+        wanted: the most that was asked for, in the same unit; the limit itself for `effort`.
+    """
+
+    kind: str
+    joint: int
+    start: float
+    seconds: float
+    line: int
+    limit: float
+    wanted: float
+
+    def __str__(self) -> str:
+        unit = {"position": "deg", "speed": "deg/s", "effort": "Nm"}[self.kind]
+        asked = "" if self.kind == "effort" else f" ({self.wanted:.4g} {unit} was asked for)"
+        return (
+            f"joint {self.joint} was held at its {self.kind} limit of {self.limit:.4g} {unit} "
+            f"for {self.seconds:.3g} s from {self.start:.3f} s on, line {self.line}{asked}"
+        )
+
+
+class Bounds:
+    """The largest and least joint rates an arm can be given, from a posture, for one period."""
+
+    def __init__(self, card: Card, period: float) -> None:
+        self._lower, self._upper, self._speed = card.lower, card.upper, card.speed
+        self._period = period
+
+    def clip(self, rates: Floats, posture: Floats) -> Floats:
+        """Rates (..., n) [rad/s] within the speed limits that end within the position limits.
+
+        A joint that is beyond a limit already may only come back.
+        """
+        low = np.maximum(
+            -self._speed, np.minimum((self._lower - posture) / self._period, self._speed)
+        )
+        high = np.minimum(
+            self._speed, np.maximum((self._upper - posture) / self._period, -self._speed)
+        )
+        return np.asarray(np.minimum(np.maximum(rates, low), high))
+
+
+def clamps(
+    card: Card,
+    t: Floats,
+    line: NDArray[np.int64],
+    posture: Floats,
+    wanted: Floats,
+    command: Floats,
+    effort: Floats,
+) -> tuple[Clamp, ...]:
+    """Every limit that held a joint during a run, one entry for each joint, kind and line.
+
+    Args:
+        card: with the limits.
+        t: (N,) [s].
+        line: (N,) of the file.
+        posture: measured (N, n) [rad].
+        wanted: rates (N, n) the law asked for [rad/s].
+        command: rates (N, n) the arm was given.
+        effort: motor torques (N, n) [Nm] at the end of the period before each row.
+    """
+    period = t[1] - t[0] if len(t) > 1 else 0.0
+    held = wanted != command
+    fast = held & (np.abs(command) >= card.speed * (1 - AT_LIMIT))
+    found: list[Clamp] = []
+    ahead = posture + period * wanted
+    limit = np.where(wanted > command, card.upper, card.lower)
+    saturated = np.zeros_like(held)
+    saturated[:-1] = np.abs(effort[1:]) >= card.effort * (1 - AT_LIMIT)  # of the step from row k
+    for kind, where, asked, most in (
+        ("position", held & ~fast, np.degrees(ahead), np.degrees(limit)),
+        ("speed", fast, np.degrees(wanted), np.degrees(np.broadcast_to(card.speed, held.shape))),
+        ("effort", saturated, np.abs(effort), np.broadcast_to(card.effort, held.shape)),
+    ):
+        for joint in range(where.shape[1]):
+            found += _by_line(
+                kind, joint, where[:, joint], asked[:, joint], most[:, joint], t, line
+            )
+    return tuple(sorted(found, key=lambda clamp: clamp.start))
+
+
+def _by_line(
+    kind: str,
+    joint: int,
+    where: NDArray[np.bool_],
+    asked: Floats,
+    most: Floats,
+    t: Floats,
+    line: NDArray[np.int64],
+) -> list[Clamp]:
+    out = []
+    rows = np.flatnonzero(where)
+    period = t[1] - t[0] if len(t) > 1 else 0.0
+    for number in np.unique(line[rows]):
+        here = rows[line[rows] == number]
+        worst = here[np.argmax(np.abs(asked[here]))]
+        out.append(
+            Clamp(
+                kind=kind,
+                joint=joint + 1,
+                start=float(t[here[0]]),
+                seconds=float(len(here) * period),
+                line=int(number),
+                limit=float(most[worst]),
+                wanted=float(abs(asked[worst]) if kind == "speed" else asked[worst]),
+            )
+        )
+    return out

@@ -1,0 +1,149 @@
+"""From poses to postures: where an arm can begin a drawing so that it can go on to the end.
+
+A redundant arm has many postures for the first pose. Each candidate follows the whole path on the
+kinematic arm; the one that stays farthest from its joint limits is chosen.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.resolver import PULL, resolve
+
+CANDIDATES = 48
+WAYPOINTS = 64
+EXACT = 1e-9  # [rad, m] of a pose that counts as reached
+EQUAL = np.radians(1.0)  # margins that differ by less count as equal
+STEP = 0.6  # [rad] a joint moves at the most in one iteration
+SEED = 1988
+
+
+@dataclass(frozen=True)
+class Start:
+    """Where to begin, and what the forecast along the path says.
+
+    Attributes:
+        posture: (n,) [rad].
+        margin: least distance to a joint limit along the path [rad]; negative beyond one.
+    """
+
+    posture: Floats
+    margin: float
+
+
+@dataclass(frozen=True)
+class Miss:
+    """A pose of the path for which no posture was found.
+
+    Attributes:
+        index: which of the asked poses.
+        shortfall: how far the closest posture stays from it [m].
+        turned: and by which angle [rad].
+    """
+
+    index: int
+    shortfall: float
+    turned: float
+
+
+def find_start(kinematics: Kinematics, poses: Floats, seconds: Floats) -> Start | Miss:
+    """The posture to begin with, for poses (N, 8) asked at times (N,) [s]."""
+    card = kinematics.card
+    rng = np.random.default_rng(SEED)
+    seeds = rng.uniform(card.lower, card.upper, (CANDIDATES - 1, card.joints))
+    postures, reached = _solve(kinematics, poses[0], np.vstack([card.home, seeds]), iterations=40)
+    reached &= _margins(kinematics, postures) >= 0
+    if not reached.any():
+        return _closest(kinematics, poses, 0)
+    return _follow(kinematics, poses, seconds, postures[reached])
+
+
+def waypoints(strokes: NDArray[np.int64]) -> NDArray[np.intp]:
+    """Rows that stand for a path: evenly spread ones, and every first and last of a stroke."""
+    n = len(strokes)
+    even = np.linspace(0, n - 1, min(n, WAYPOINTS)).astype(np.intp)
+    corners = np.flatnonzero(np.diff(strokes)) + 1
+    if len(corners) > WAYPOINTS:
+        corners = corners[np.linspace(0, len(corners) - 1, WAYPOINTS).astype(np.intp)]
+    return np.unique(np.concatenate([even, corners]))
+
+
+def _follow(kinematics: Kinematics, poses: Floats, seconds: Floats, starts: Floats) -> Start | Miss:
+    """The best of the starts (M, n) by its least margin over the path."""
+    postures, margin = starts.copy(), _margins(kinematics, starts)
+    alive = np.arange(len(starts))
+    before = seconds[0]
+    for index in range(1, len(poses)):
+        pull = 1.0 - np.exp(-PULL * (seconds[index] - before))
+        before = seconds[index]
+        moved, reached = _solve(
+            kinematics, poses[index], postures[alive], pull * (starts[alive] - postures[alive])
+        )
+        if not reached.any():
+            return _closest(kinematics, poses, index, postures[alive])
+        alive = alive[reached]
+        postures[alive] = moved[reached]
+        margin[alive] = np.minimum(margin[alive], _margins(kinematics, postures[alive]))
+    # an elbow limit is the same for all the postures of a redundant arm: of equals, the homeliest
+    good = alive[margin[alive] >= margin[alive].max() - EQUAL]
+    best = good[np.argmin(np.linalg.norm(starts[good] - kinematics.card.home, axis=1))]
+    return Start(starts[best], float(margin[best]))
+
+
+def _margins(kinematics: Kinematics, postures: Floats) -> Floats:
+    card = kinematics.card
+    return np.asarray(np.minimum(postures - card.lower, card.upper - postures).min(axis=-1))
+
+
+def _solve(
+    kinematics: Kinematics,
+    pose: Floats,
+    postures: Floats,
+    first_wish: Floats | None = None,
+    iterations: int = 20,
+) -> tuple[Floats, NDArray[np.bool_]]:
+    """Newton's method from many postures (M, n) to one pose (8,); which of them arrived (M,).
+
+    `first_wish` (M, n) [rad] is the null-space motion that the first step takes along.
+    """
+    q = postures.copy()
+    wish = np.zeros_like(q) if first_wish is None else first_wish
+    for _ in range(iterations):
+        x, J = kinematics.poses_and_jacobians(q)
+        error = _error(pose, x)
+        if wish is not first_wish and np.abs(error).max() < EXACT:
+            break
+        step = resolve(J, dq.translation(x), error, wish)
+        largest = np.abs(step).max(axis=1, keepdims=True)
+        q += step * np.minimum(1.0, STEP / np.maximum(largest, 1e-12))
+        wish = np.zeros_like(q)
+    error = _error(pose, kinematics.poses_and_jacobians(q)[0])
+    return q, np.asarray(np.abs(error).max(axis=1) < 1e3 * EXACT)
+
+
+def _error(pose: Floats, x: Floats) -> Floats:
+    """The displacement (M, 6) from poses x (M, 8) to one pose, to first order."""
+    return 2 * dq.log(dq.mul(pose, dq.conj(x)))
+
+
+def _closest(
+    kinematics: Kinematics, poses: Floats, index: int, postures: Floats | None = None
+) -> Miss:
+    """How far the arm stays from a pose that it does not reach, by descent inside its limits."""
+    card = kinematics.card
+    q = card.home[None] if postures is None else postures
+    best_far, best_turned = np.inf, 0.0
+    for _ in range(150):
+        x, J = kinematics.poses_and_jacobians(q)
+        far = np.linalg.norm(dq.translation(poses[index]) - dq.translation(x), axis=1)
+        turned = 2 * np.linalg.norm(dq.log(dq.mul(poses[index], dq.conj(x)))[:, :3], axis=1)
+        i = int(np.argmin(far + 0.3 * turned))
+        if far[i] + 0.3 * turned[i] < best_far + 0.3 * best_turned:
+            best_far, best_turned = float(far[i]), float(turned[i])
+        step = 0.2 * resolve(J, dq.translation(x), _error(poses[index], x), np.zeros_like(q))
+        q = np.clip(q + np.clip(step, -STEP, STEP), card.lower, card.upper)
+    return Miss(index, best_far, best_turned)

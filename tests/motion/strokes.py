@@ -1,0 +1,116 @@
+"""One segment of every kind, from a general start pose, for the tests of motion."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.language import taylor
+from dqpaint.language.diagnostics import Span
+from dqpaint.language.program import (
+    Arc,
+    Cruise,
+    Curve,
+    Follow,
+    Keep,
+    Lasting,
+    Law,
+    Light,
+    Look,
+    LookLine,
+    Pose,
+    Program,
+    Screw,
+    ScrewTo,
+    Segment,
+    Straight,
+    Turn,
+)
+from dqpaint.motion.orientations import orientation
+from dqpaint.motion.shapes import shape
+
+START = Pose((0.11, -0.07, 0.05), tuple(np.array([0.3, -0.5, 0.7, 0.4]) / math.sqrt(0.99)))
+TURNED = tuple(np.array([0.1, 0.6, -0.2, 0.5]) / math.sqrt(0.66))
+AXIS = tuple(np.array([1.0, -2.0, 2.0]) / 3)
+
+
+def formula(t):
+    """A crooked space curve through START at t = 0.2, using every function of the language."""
+    x = 0.1 * taylor.sin(3 * t) + 0.02 * taylor.exp(-1.0 * t) + 0.01 * taylor.absolute(t - 9)
+    y = 0.08 * taylor.cos(2 * t) * taylor.sqrt(t + 1.0) + 0.01 * taylor.tan(0.3 * t)
+    z = 0.05 * t * t + 0.02 * taylor.ln(t + 2) + 0.01 * taylor.atan(t) / (1 + t)
+    z = z + 0.01 * taylor.asin(0.3 * t) + 0.01 * taylor.acos(0.2 * t) + 0.01 * taylor.power(t, 3)
+    z = z + 0.01 * taylor.minimum(t, 5.0 - t) + 0.01 * taylor.maximum(t, -1.0)
+    z = z + 0.01 * taylor.power(t + 1.0, 0.5)
+    at = np.array([float(c) for c in _raw(0.2)])
+    return tuple(c + (p - a) for c, p, a in zip((x, y, z), START.position, at, strict=True))
+
+
+def _raw(t):
+    x = 0.1 * math.sin(3 * t) + 0.02 * math.exp(-t) + 0.01 * abs(t - 9)
+    y = 0.08 * math.cos(2 * t) * math.sqrt(t + 1) + 0.01 * math.tan(0.3 * t)
+    z = 0.05 * t * t + 0.02 * math.log(t + 2) + 0.01 * math.atan(t) / (1 + t)
+    z += 0.01 * math.asin(0.3 * t) + 0.01 * math.acos(0.2 * t) + 0.01 * t**3
+    z += 0.01 * min(t, 5 - t) + 0.01 * max(t, -1) + 0.01 * math.sqrt(t + 1)
+    return x, y, z
+
+
+PATHS = {
+    "line": Straight((0.12, 0.05, -0.09)),
+    "turn": Straight((0.0, 0.0, 0.0)),
+    "circle": Arc((0.05, 0.02, -0.03), AXIS, 2.1),
+    "helix": Arc((0.05, 0.02, -0.03), AXIS, -3.3, rise=0.07),
+    "spiral": Arc((0.05, 0.02, -0.03), AXIS, 5.0, rise=-0.02, grow=0.06),
+    "screw": Screw((0.4, 0.1, -0.2), AXIS, 1.7, 0.08),
+    "screw-to": ScrewTo(),
+    "curve": Curve(formula, 0.2, 1.4),
+}
+TOOLS = {
+    "keep": Keep(),
+    "turn": Turn(),
+    "follow": Follow((0.6, 0.0, 0.8)),
+    "look": Look((0.5, 0.9, -1.3), (0.0, 0.6, 0.8)),
+    "look-line": LookLine((0.9, -0.4, 0.8), AXIS),
+}
+LAWS = {
+    "constant": Law("constant"),
+    "trapezoid": Law("trapezoid"),
+    "cubic": Law("cubic"),
+    "cubic-rates": Law("cubic", (0.02, 0.04)),
+    "quintic": Law("quintic"),
+    "quintic-rates": Law("quintic", (0.02, 0.04, -0.01, 0.03)),
+}
+RIGID = {"screw", "screw-to"}
+KINDS = [
+    (path, tool)
+    for path in PATHS
+    for tool in TOOLS
+    if (path not in RIGID or tool == "follow") and (path != "turn" or tool == "turn")
+]
+
+
+def segment(path, tool, law="trapezoid", timing=None, start=START):
+    """The stroke of these kinds, with its end pose as the language would compute it."""
+    made = Segment(
+        path=PATHS[path],
+        tool=TOOLS[tool],
+        law=LAWS[law],
+        timing=timing or (Cruise(0.08, 0.9) if law in ("trapezoid", "cubic") else Lasting(2.504)),
+        light=Light((1.0, 0.2, 0.0), (0.0, 0.3, 1.0)),
+        start=start,
+        end=Pose((0.2, 0.1, -0.3), TURNED),
+        span=Span(0, 4),
+        line=1,
+    )
+    if tool in ("look", "look-line"):  # the start lies on the look, as the language makes sure
+        spin = orientation(made, places := shape(made).places)
+        r = spin(np.zeros(1), places(np.zeros(1)))[0][0]
+        made = replace(made, start=Pose(start.position, tuple(r)))
+    last = shape(made).flow(np.ones(1)).pose[0]
+    return replace(made, end=Pose(tuple(dq.translation(last)), tuple(last[:4])))
+
+
+def program(*segments, period=0.008, placement=None):
+    """A drawing of these strokes."""
+    return Program("test.traj", "line", period, None, placement, segments[0].start, segments, ())

@@ -1,0 +1,65 @@
+"""Twist and acceleration of every kind of stroke against differences of the pose, order 2."""
+
+import numpy as np
+import pytest
+
+from dqpaint import dq
+from dqpaint.motion.plan import flow_at
+from dqpaint.motion.timetable import timetable
+from tests.motion.strokes import KINDS, LAWS, program, segment
+
+BREAKPOINTS = np.array([0.0, 0.2, 0.8, 1.0])
+STEP = 0.002  # of the stroke's time; halved once
+
+
+def only_stroke(*args):
+    drawing = program(segment(*args))
+    strokes, findings = timetable(drawing)
+    assert not findings
+    return strokes[0]
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize(("path", "tool"), KINDS)
+def test_twist_and_acceleration_are_derivatives(rng, path, tool, law):
+    if path == "turn" and law.endswith("rates"):
+        pytest.skip("rates in m/s on a stroke without a length are an error, tested elsewhere")
+    stroke = only_stroke(path, tool, law)
+    time = stroke.count * 0.008
+    tau = rng.uniform(0, 1, 400)
+    tau = tau[np.abs(tau[:, None] - BREAKPOINTS).min(axis=1) > 2 * STEP][:60]
+    now = flow_at(stroke, tau, 0.008)[0]
+
+    def errors(h):
+        ahead, behind = (flow_at(stroke, tau + s * h, 0.008)[0] for s in (1, -1))
+        forward, backward = dq.nearest(ahead.pose, now.pose), dq.nearest(behind.pose, now.pose)
+        rate = (forward - backward) / (2 * h * time)
+        slope = (ahead.twist - behind.twist) / (2 * h * time)
+        pose_rate = 0.5 * dq.mul(dq.pure(now.twist), now.pose)
+        return np.abs(rate - pose_rate).max(), np.abs(slope - now.slope).max()
+
+    coarse, fine = errors(STEP), errors(STEP / 2)
+    for a, b, size in zip(coarse, fine, (now.twist, now.slope), strict=True):
+        scale = max(np.abs(size).max(), 1e-3)
+        # where the law and the path are low polynomials the differences are exact
+        exact = a < 1e-10 * scale
+        assert exact or 3.6 < a / b < 4.4, (a, b)
+        assert b < 0.01 * scale
+
+
+@pytest.mark.parametrize(("path", "tool"), KINDS)
+def test_strokes_begin_and_end_where_the_language_says(path, tool):
+    made = segment(path, tool)
+    stroke = only_stroke(path, tool)
+    flow = flow_at(stroke, np.array([0.0, 1.0]), 0.008)[0]
+    for pose, wanted in zip(flow.pose, (made.start, made.end), strict=True):
+        np.testing.assert_allclose(dq.translation(pose), wanted.position, atol=1e-14)
+        r = dq.nearest(pose, np.r_[wanted.orientation, 0, 0, 0, 0])[:4]
+        np.testing.assert_allclose(r, wanted.orientation, atol=1e-14)
+
+
+@pytest.mark.parametrize(("path", "tool"), KINDS)
+def test_poses_stay_unit(path, tool, rng):
+    pose = flow_at(only_stroke(path, tool), rng.uniform(0, 1, 50), 0.008)[0].pose
+    np.testing.assert_allclose((pose[:, :4] ** 2).sum(1), 1, atol=1e-13)
+    np.testing.assert_allclose((pose[:, :4] * pose[:, 4:]).sum(1), 0, atol=1e-13)

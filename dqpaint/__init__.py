@@ -1,0 +1,33 @@
+r"""Light paintings by a simulated robot arm.
+
+    text -parse-> Program -plan-> Motion -track-> Track -shine-> Light -expose-> Film -develop-> png
+                                     |               \-measure-> Metrics -> csv, json
+                                     \-shine-> the asked picture, without an arm
+
+`language` reads the text, `motion` says what is asked at every sample, `controllers` turn what is
+seen into a twist, `robots` know the arms, `plants` answer as an arm does, `tracking` closes the
+loop, `metrics` measure, `light` takes the picture, `paint` is the flow as one function, `cli` the
+command line. `dq` holds the algebra and its conventions, `outputs` the files. Data moves along this
+line and never back: `tests/test_house.py` holds the modules to it.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from dqpaint.api import draw, preview
+    from dqpaint.paint import Painting
+
+__all__ = ["Painting", "draw", "preview"]
+
+
+def __getattr__(name: str) -> Any:
+    """Import on first use: the command line must start without the simulator."""
+    if name in ("draw", "preview"):
+        from dqpaint import api
+
+        return getattr(api, name)
+    if name == "Painting":
+        from dqpaint.paint import Painting
+
+        return Painting
+    raise AttributeError(f"module 'dqpaint' has no attribute '{name}'")

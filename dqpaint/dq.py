@@ -44,6 +44,8 @@ def _structure() -> Floats:
 _T = _structure()
 _PLUS = np.ascontiguousarray(_T.transpose(0, 2, 1)).reshape(64, 8)  # @ a -> H+(a), flat
 _MINUS = np.ascontiguousarray(_T).reshape(64, 8)  # @ b -> H-(b), flat
+_PLACE = np.zeros((24, 8))  # t = x' _PLACE x, flat
+_PLACE.reshape(3, 8, 8)[:, 4:, :4] = 2.0 * _T[1:4, :4, :4] * C4
 
 
 def hamilton_plus(a: Floats) -> Floats:
@@ -235,6 +237,9 @@ def rotation(x: Floats) -> Floats:
 
 def translation(x: Floats) -> Floats:
     """The place t (..., 3) [m] of a pose: 2 d r*."""
+    if x.ndim == 1:
+        place: Floats = np.dot(np.dot(_PLACE, x).reshape(3, 8), x)
+        return place
     return 2.0 * quaternion_mul(x[..., 4:], x[..., :4] * C4)[..., 1:]
 
 

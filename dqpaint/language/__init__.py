@@ -1,0 +1,18 @@
+"""Text -> Program: a `.traj` file, understood, checked and written out as strokes.
+
+In goes the text of a file; out comes a `Program` (see `program`), or a `ScriptError` with every
+mistake that was found. The text passes through
+
+    lexer -> parser (statements, forms, expressions) -> syntax tree
+          -> expand (evaluate, reading, settings, blocks) -> strokes (arcs, curves, tools, timing)
+
+and `words` and `units` hold the tables all of them read. A new statement is a line in
+`words.STATEMENTS` and a function in `strokes`; a new function a line in `words.FUNCTIONS` and one
+in `functions.TABLE`.
+"""
+
+from dqpaint.language.compile import parse, read
+from dqpaint.language.diagnostics import Diagnostic, ScriptError, render
+from dqpaint.language.program import Program
+
+__all__ = ["Diagnostic", "Program", "ScriptError", "parse", "read", "render"]

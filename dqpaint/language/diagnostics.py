@@ -110,7 +110,7 @@ def _excerpt(diagnostic: Diagnostic, text: str, at: Place, margin: str) -> list[
     return [f"{margin}|", f"{at.line} | {source}", f"{margin}| {caret}{label}"]
 
 
-@dataclass
+@dataclass(eq=False)  # an exception stays hashable
 class ScriptError(DqpaintError):
     """A drawing that cannot be drawn, with every reason that was found in one pass."""
 
@@ -130,12 +130,16 @@ class Problem(Exception):  # noqa: N818  a message on its way to the list, not a
         self.diagnostic = diagnostic
 
 
+class PlaceProblem(Problem):
+    """The same, where it depends on where the tool is: not worth a word if that is not known."""
+
+
 def problem(
     code: str,
     message: str,
     span: Span | None,
     label: str = "",
-    help: str = "",  # noqa: A002  named as in the message
+    help: str = "",
     fix: Fix | None = None,
     related: tuple[tuple[Span, str], ...] = (),
 ) -> Problem:

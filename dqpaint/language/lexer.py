@@ -88,9 +88,7 @@ def lines(text: str) -> Iterator[Line]:
     match_at = _TOKEN.match
     while position < size:
         match = match_at(text, position)
-        if match is None:  # a blank that only Unicode calls one
-            position += 1
-            continue
+        assert match is not None  # the pattern has an answer to every character
         kind = match.lastgroup
         position = match.end()
         if kind is None:
@@ -186,6 +184,8 @@ def _glued(
 def _bad(text: str, start: int, tokens: list[Token], problems: list[Diagnostic]) -> int:
     """A character that is not ours: says so, and returns where to go on."""
     character, end = text[start], start + 1
+    if character.isspace():
+        return end  # a blank that only Unicode calls one: it comes with copying from elsewhere
     line_end = text.find("\n", start)
     line_end = len(text) if line_end < 0 else line_end
     if character == '"':

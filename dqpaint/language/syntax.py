@@ -129,6 +129,12 @@ class Part:
     span: Span  # of the word alone
     value: Expression | ToolWords | LightWords
 
+    @property
+    def expression(self) -> Expression:
+        """The value of a part that takes neither tool nor light."""
+        assert not isinstance(self.value, ToolWords | LightWords)
+        return self.value
+
 
 @dataclass(frozen=True, slots=True)
 class Statement:
@@ -159,3 +165,14 @@ class Statement:
             if part.word == word:
                 return part
         return None
+
+    def value(self, word: str) -> Expression | None:
+        """The value of the part of this name, one that takes a plain expression."""
+        part = self.part(word)
+        return part.expression if part is not None else None
+
+    def given(self, word: str) -> Expression:
+        """The value of a part that is there, as `forms` saw to."""
+        value = self.value(word)
+        assert value is not None, word
+        return value

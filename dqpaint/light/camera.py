@@ -86,7 +86,7 @@ class Camera:
         for name, shape in (("position", (3,)), ("rotation", (3, 3)), ("centre", (2,))):
             values = kept(f"camera {name}", getattr(self, name), shape)
             object.__setattr__(self, name, values)
-        if not np.allclose(self.rotation @ self.rotation.T, np.eye(3), atol=1e-9):
+        if not np.allclose(self.rotation @ self.rotation.T, np.eye(3), atol=1e-6):
             raise ValueError("camera rotation has rows that are not orthonormal")
         if np.linalg.det(self.rotation) < 0.0:
             raise ValueError("camera rotation mirrors the world")
@@ -107,11 +107,12 @@ class Camera:
             (N, 2) pixels, x right and y down, pixel centres at integers, and (N,) depths -Z in
             front of the pinhole [m]. Where the depth is not above `NEAR`, the pixel is NaN.
         """
-        seen = self.rotation @ (np.asarray(points, dtype=np.float64) - self.position).T
+        seen = self.rotation @ np.asarray(points, dtype=np.float64).T
+        seen -= (self.rotation @ self.position)[:, None]
         depth = -seen[2]
         scale = self.focal / np.where(depth > NEAR, depth, np.nan)
-        pixels = np.stack([self.centre[0] + scale * seen[0], self.centre[1] - scale * seen[1]], 1)
-        return pixels, depth
+        pixels = np.stack([self.centre[0] + scale * seen[0], self.centre[1] - scale * seen[1]])
+        return pixels.T, depth
 
 
 def frame(
@@ -142,7 +143,7 @@ def frame(
     right, up, back = rotation @ cloud.T
     slopes = FILL * 0.5 * np.array([width, height]) / focal  # half the field that is to be filled
     nearest = float(back.max())
-    diameter = float(np.linalg.norm(np.ptp(cloud, axis=0)))
+    diameter = float(np.linalg.norm([np.ptp(axis) for axis in (right, up, back)]))
     extent = max(SMALLEST, SLENDEREST * diameter)
     distance = max(
         _tightest(right, back, float(slopes[0])),
@@ -181,7 +182,7 @@ def _middle(across: Floats, back: Floats, distance: float) -> float:
     convex function made of straight pieces, which ends after a few steps, on the root's own piece.
     """
     slope, touching = 0.0, (-1, -1)
-    while True:
+    for _ in range(50):  # two or three do; points that tie to the last bit must not go on for ever
         high, low = int((across + slope * back).argmax()), int((across - slope * back).argmin())
         if (high, low) == touching:
             break

@@ -1,25 +1,45 @@
-"""The only door to pybullet. It prints a build line when imported: standard output is not its."""
+"""The only door to pybullet. It writes remarks of its own: standard output is not for them."""
 
+import ctypes
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 
-def _import_quietly() -> Any:
-    sys.stdout.flush()
-    kept = os.dup(1)
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Send what C code prints meanwhile to nowhere; it is buffered, so it is flushed first."""
+    c_library = ctypes.CDLL(None)
+    _flush(c_library)
+    kept = {stream: os.dup(stream) for stream in (1, 2)}
     nothing = os.open(os.devnull, os.O_WRONLY)
     try:
-        os.dup2(nothing, 1)
-        import pybullet
+        for stream in kept:
+            os.dup2(nothing, stream)
+        yield
+        _flush(c_library)
     finally:
-        os.dup2(kept, 1)
-        os.close(kept)
+        for stream, copy in kept.items():
+            os.dup2(copy, stream)
+            os.close(copy)
         os.close(nothing)
+
+
+def _flush(c_library: ctypes.CDLL) -> None:
+    sys.stdout.flush()
+    sys.stderr.flush()
+    c_library.fflush(None)
+
+
+def _import_pybullet() -> Any:
+    with quiet():
+        import pybullet
     return pybullet
 
 
-bullet: Any = _import_quietly()
+bullet: Any = _import_pybullet()
 
 
 def joint_indices(body: int, client: int) -> list[int]:

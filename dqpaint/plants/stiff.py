@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from dqpaint.dq import Floats
-from dqpaint.plants.bullet import bullet, joint_indices
+from dqpaint.plants.bullet import bullet, joint_indices, quiet
 from dqpaint.plants.plant import PLANTS
 from dqpaint.robots.card import Card
 
@@ -24,25 +24,27 @@ class Stiff:
 
     def __init__(self, card: Card, posture: Floats, period: float) -> None:
         self._steps = max(1, math.ceil(period / LONGEST_STEP - 1e-9))
-        self._client = bullet.connect(bullet.DIRECT)
+        self._effort_limits = card.effort.tolist()
+        with quiet():
+            self._client = bullet.connect(bullet.DIRECT)
+            self._body = self._build(card, period / self._steps)
+        self._joints = joint_indices(self._body, self._client)
+        for joint, angle in zip(self._joints, posture.tolist(), strict=True):
+            bullet.resetJointState(self._body, joint, angle, 0.0, self._client)
+        self._read()
+
+    def _build(self, card: Card, step: float) -> int:
         here = {"physicsClientId": self._client}
-        bullet.setPhysicsEngineParameter(
-            fixedTimeStep=period / self._steps,
-            constraintSolverType=bullet.CONSTRAINT_SOLVER_LCP_DANTZIG,
-            **here,
-        )
+        solver = bullet.CONSTRAINT_SOLVER_LCP_DANTZIG
+        bullet.setPhysicsEngineParameter(fixedTimeStep=step, constraintSolverType=solver, **here)
         bullet.setGravity(0, 0, GRAVITY, **here)
         flags = (
             bullet.URDF_USE_INERTIA_FROM_FILE
             | bullet.URDF_IGNORE_VISUAL_SHAPES
             | bullet.URDF_IGNORE_COLLISION_SHAPES
         )
-        self._body = bullet.loadURDF(str(card.urdf_path), useFixedBase=True, flags=flags, **here)
-        self._joints = joint_indices(self._body, self._client)
-        self._effort_limits = card.effort.tolist()
-        for joint, angle in zip(self._joints, posture.tolist(), strict=True):
-            bullet.resetJointState(self._body, joint, angle, 0.0, **here)
-        self._read()
+        body: int = bullet.loadURDF(str(card.urdf_path), useFixedBase=True, flags=flags, **here)
+        return body
 
     def run(self, rates: Floats) -> None:
         """One period at the commanded rates (n,) [rad/s], as far as the motors' torques go."""

@@ -14,8 +14,8 @@ from dqpaint.dq import Floats
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.resolver import PULL, resolve
 
-CANDIDATES = 48
-WAYPOINTS = 64
+CANDIDATES = 32
+WAYPOINTS = 40
 EXACT = 1e-9  # [rad, m] of a pose that counts as reached
 EQUAL = np.radians(1.0)  # margins that differ by less count as equal
 STEP = 0.6  # [rad] a joint moves at the most in one iteration

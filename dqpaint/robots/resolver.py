@@ -6,7 +6,6 @@ leading shape: one state of a run, or a thousand of a batch.
 
 import numpy as np
 
-from dqpaint import dq
 from dqpaint.dq import Floats
 
 LENGTH = 0.3  # [m] weighs metres against radians where singular values are compared
@@ -28,23 +27,33 @@ def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats) -> Flo
     the other directions stay exact (after Chiaverini, "Singularity-robust task-priority redundancy
     resolution", 1997).
     """
-    J = np.empty_like(jacobian)
-    J[..., :3, :] = jacobian[..., :3, :]
-    p = point[..., None, :]
-    columns = jacobian.swapaxes(-1, -2)
-    at_tool = columns[..., 3:] + dq.cross(columns[..., :3], p)
-    J[..., 3:, :] = at_tool.swapaxes(-1, -2) / LENGTH
-    u = np.empty_like(twist)
-    u[..., :3] = twist[..., :3]
-    u[..., 3:] = dq.point_velocity(twist, point) / LENGTH
+    shift = to_tool(point)
+    J = shift @ jacobian
+    u = (shift @ twist[..., None])[..., 0]
     transposed = J.swapaxes(-1, -2)
     squares, axes = np.linalg.eigh(J @ transposed)
-    inverse = damped_inverse(squares)
     left = u[..., None] - J @ wish[..., None]
-    rates: Floats = (transposed @ (axes @ (inverse[..., None] * (axes.swapaxes(-1, -2) @ left))))[
-        ..., 0
-    ]
-    return rates + wish
+    along = damped_inverse(squares)[..., None] * (axes.swapaxes(-1, -2) @ left)
+    rates: Floats = (transposed @ (axes @ along))[..., 0] + wish
+    return rates
+
+
+def to_tool(point: Floats) -> Floats:
+    """The matrix (..., 6, 6) from a spatial twist to [w; (v0 + w x p) / LENGTH] at a point p."""
+    shift = np.zeros((*point.shape[:-1], 6, 6))
+    shift[..., _DIAGONAL, _DIAGONAL] = _WEIGHTS
+    scaled = point / LENGTH
+    shift[..., 3, 1] = scaled[..., 2]
+    shift[..., 3, 2] = -scaled[..., 1]
+    shift[..., 4, 0] = -scaled[..., 2]
+    shift[..., 4, 2] = scaled[..., 0]
+    shift[..., 5, 0] = scaled[..., 1]
+    shift[..., 5, 1] = -scaled[..., 0]
+    return shift
+
+
+_DIAGONAL = np.arange(6)
+_WEIGHTS = np.array([1.0, 1.0, 1.0, 1 / LENGTH, 1 / LENGTH, 1 / LENGTH])
 
 
 def damped_inverse(squares: Floats) -> Floats:

@@ -1,0 +1,72 @@
+"""The same from Python: `dqpaint.draw("star.traj", controller="hinf")`."""
+
+from collections.abc import Callable, Mapping
+from os import PathLike
+
+from dqpaint.examples import find_drawing
+from dqpaint.language import read
+from dqpaint.motion import plan
+from dqpaint.paint import Painting, Stopwatch, paint
+from dqpaint.picture import Picture, take
+from dqpaint.robots.card import DEFAULT_ROBOT, read_card
+from dqpaint.settings import make_settings
+
+
+def draw(
+    drawing: str | PathLike[str],
+    *,
+    controller: str | None = None,
+    gains: Mapping[str, float] | None = None,
+    robot: str | None = None,
+    plant: str | None = None,
+    start: str | None = None,
+    size: tuple[int, int] | None = None,
+    view: str | None = None,
+    ev: float | None = None,
+    progress: Callable[[float], None] = lambda _done: None,
+) -> Painting:
+    """Paint a drawing with a simulated arm, as `dqpaint draw` does; nothing is written.
+
+    Args:
+        drawing: a .traj file, or the name of an example.
+        controller: the control law.
+        gains: of the law, in SI units; the others keep their defaults.
+        robot: the arm; else the file's robot line, else the iiwa.
+        plant: how the arm answers.
+        start: `first` (at the first pose) or `home`.
+        size: width and height of the picture [px].
+        view: front, iso, side, top, or "AZ,EL" in degrees.
+        ev: exposure in stops on top of the automatic one.
+        progress: called while the arm moves, with the part done, 0 to 1.
+
+    Raises:
+        DqpaintError: a fault in the drawing, the choices or the run.
+    """
+    width, height = size or (None, None)
+    settings = make_settings(
+        controller=controller, gains=dict(gains) if gains else None, robot=robot, plant=plant,
+        start=start, width=width, height=height, view=view, ev=ev,
+    )  # fmt: skip
+    clock = Stopwatch()
+    with clock("language"):
+        program = read(find_drawing(str(drawing)))
+    painting = paint(program, settings, progress)
+    painting.seconds.update(clock.seconds)
+    return painting
+
+
+def preview(
+    drawing: str | PathLike[str],
+    *,
+    robot: str | None = None,
+    size: tuple[int, int] | None = None,
+    view: str | None = None,
+    ev: float | None = None,
+) -> Picture:
+    """The asked picture of a drawing, without an arm; arguments as those of `draw`."""
+    width, height = size or (None, None)
+    settings = make_settings(robot=robot, width=width, height=height, view=view, ev=ev)
+    program = read(find_drawing(str(drawing)))
+    card = read_card(settings.robot or program.robot or DEFAULT_ROBOT)
+    motion = plan(program, card.canvas.pose)
+    return take(motion, motion.points, settings)

@@ -1,0 +1,123 @@
+"""What `check` says of a drawing, for people and for programs."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.examples import find_drawing
+from dqpaint.language import Diagnostic, ScriptError, read, render
+from dqpaint.language.diagnostics import Severity, Span, place
+from dqpaint.motion import Motion, plan
+from dqpaint.robots.card import DEFAULT_ROBOT, read_card
+
+
+@dataclass(frozen=True)
+class Checked:
+    """One drawing, read: what was found, and its figures where it can be drawn."""
+
+    file: str
+    source: str
+    findings: tuple[Diagnostic, ...]
+    motion: Motion | None
+    fault: str = ""  # of a file that could not even be read
+
+    @property
+    def errors(self) -> int:
+        """How many things stop this drawing."""
+        stopping = sum(d.severity is Severity.ERROR for d in self.findings)
+        return stopping + bool(self.fault)
+
+    @property
+    def text(self) -> str:
+        """As a person reads it."""
+        if self.fault:
+            return f"error: {self.fault}"
+        parts = [render(finding, self.file, self.source) for finding in self.findings]
+        if self.motion is not None:
+            parts.append(figures_line(self.motion, self.file))
+        return "\n\n".join(parts)
+
+
+def check(name: str, robot: str | None) -> Checked:
+    """Read one drawing and plan its motion; nothing is simulated.
+
+    Raises:
+        UsageError: no such robot.
+    """
+    try:
+        path = find_drawing(name)
+        program = read(path)
+        card = read_card(robot or program.robot or DEFAULT_ROBOT)
+        motion = plan(program, card.canvas.pose)
+    except ScriptError as problem:
+        return Checked(problem.name, problem.text, problem.diagnostics, None)
+    except UsageError:
+        raise
+    except DqpaintError as problem:
+        return Checked(name, "", (), None, str(problem))
+    return Checked(str(path), program.text, motion.notes, motion)
+
+
+def figures_line(motion: Motion, file: str) -> str:
+    """Length, time, steps and box, and where the drawing is seen to be."""
+    box = " x ".join(f"{side * 1e3:.0f}" for side in motion.box)
+    steps = len(motion.t) - 1
+    return (
+        f"{Path(file).name}: {motion.length * 1e3:.0f} mm, {motion.t[-1]:.2f} s, "
+        f"{steps} steps of {motion.period * 1e3:g} ms ({steps + 1} poses), box {box} mm"
+    )
+
+
+def as_json(results: Sequence[Checked]) -> dict[str, Any]:
+    """The findings of several drawings: 1-based, columns in code points, ends not included."""
+    findings = [(result, finding) for result in results for finding in result.findings]
+    warnings = sum(d.severity is Severity.WARNING for _, d in findings)
+    planned = [result.motion for result in results if result.motion is not None]
+    return {
+        "version": 1,
+        "tool": f"dqpaint {version('dqpaint')}",
+        "diagnostics": [_as_json(result, finding) for result, finding in findings]
+        + [_unread(result) for result in results if result.fault],
+        "summary": {
+            "errors": sum(result.errors for result in results),
+            "warnings": warnings,
+            "samples": sum(len(motion.t) for motion in planned),
+            "seconds": sum(float(motion.t[-1]) for motion in planned),
+        },
+    }
+
+
+def _as_json(result: Checked, finding: Diagnostic) -> dict[str, Any]:
+    fix = finding.fix
+    return {
+        "file": result.file,
+        "severity": finding.severity.value,
+        "code": finding.code,
+        "message": finding.message,
+        **_range(result.source, finding.span),
+        "label": finding.label,
+        "help": finding.help,
+        "related": [
+            {**_range(result.source, span), "label": label} for span, label in finding.related
+        ],
+        "fix": fix
+        and {
+            "title": fix.title,
+            "edits": [{**_range(result.source, fix.span), "text": fix.text}],
+        },
+    }
+
+
+def _unread(result: Checked) -> dict[str, Any]:
+    empty = Diagnostic("E001", result.fault, None)
+    return _as_json(result, empty)
+
+
+def _range(text: str, span: Span | None) -> dict[str, Any]:
+    if span is None:
+        return {"start": None, "end": None}
+    ends = (place(text, offset) for offset in span)
+    return dict(zip(("start", "end"), (at._asdict() for at in ends), strict=True))

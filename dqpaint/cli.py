@@ -1,0 +1,226 @@
+"""The command line: arguments in, calls, tables out. No arithmetic, and no early imports.
+
+`--help` and `check` start without the simulator, the kinematics and the image library: each
+command imports what it needs.
+"""
+
+import json
+import shutil
+import sys
+from typing import Annotated, Any
+
+import typer
+
+from dqpaint.errors import DqpaintError, UsageError
+
+app = typer.Typer(
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    no_args_is_help=True,
+    help="Light paintings by a simulated robot arm: a short text, a control law, a long exposure.",
+)
+
+Drawing = Annotated[str, typer.Argument(metavar="FILE", help="a .traj file, or an example's name")]
+Drawings = Annotated[list[str], typer.Argument(metavar="FILE...", help="drawings, or examples")]
+Law = Annotated[
+    str, typer.Option(metavar="NAME", help="control law; see: dqpaint list controllers")
+]
+Gain = Annotated[
+    list[str] | None,
+    typer.Option(metavar="NAME=VALUE", help="a gain of that law in SI units; repeatable"),
+]
+Robot = Annotated[
+    str | None, typer.Option(metavar="NAME", help="the arm [default: the file's, else iiwa]")
+]
+PlantName = Annotated[str, typer.Option(metavar="NAME", help="how the arm answers: stiff or ideal")]
+From = Annotated[str, typer.Option("--from", metavar="first|home", help="where the arm begins")]
+Size = Annotated[str, typer.Option(metavar="WxH", help="of the picture, in pixels")]
+View = Annotated[
+    str, typer.Option(metavar="VIEW", help="front, iso, side, top, or AZ,EL in degrees")
+]
+Ev = Annotated[float, typer.Option(help="exposure in stops, on top of the automatic one")]
+Out = Annotated[
+    str | None,
+    typer.Option(metavar="PATH", help="a folder, or the stem of the files [default: here]"),
+]
+Save = Annotated[str, typer.Option(metavar="LIST", help="of png, csv, json, motion")]
+AsJson = Annotated[bool, typer.Option("--json", help="for a program to read")]
+
+DRAW_EXAMPLES = """Examples:
+
+  dqpaint draw star
+
+  dqpaint draw trajectories/lag.traj --controller p --gain k=15 --out pictures/
+"""
+
+
+@app.command(epilog=DRAW_EXAMPLES)
+def draw(
+    file: Drawing,
+    controller: Law = "hinf",
+    gain: Gain = None,
+    robot: Robot = None,
+    plant: PlantName = "stiff",
+    start: From = "first",
+    size: Size = "1280x720",
+    view: View = "front",
+    ev: Ev = 0.0,
+    out: Out = None,
+    save: Save = "png,csv,json",
+) -> None:
+    """Paint a drawing with an arm: picture, per-step CSV and summary."""
+    from dqpaint.examples import find_drawing
+    from dqpaint.settings import make_settings, parse_gain, parse_size
+
+    width, height = parse_size(size)
+    gains = dict(parse_gain(text) for text in gain or [])
+    settings = make_settings(
+        controller=controller, gains=gains, robot=robot, plant=plant, start=start,
+        width=width, height=height, view=view, ev=ev,
+    )  # fmt: skip
+    path = find_drawing(file)
+    program = _read(str(path))
+
+    from dqpaint import outputs, report
+    from dqpaint.light.camera import parse_view
+    from dqpaint.paint import paint
+    from dqpaint.terminal import Progress
+
+    parse_view(view)
+    makers = {outputs.ending(name): outputs.OUTPUTS[name] for name in _names(save)}
+    stem = outputs.stem_for(out, f"{path.stem}-{controller}")
+    bar = Progress(path.name)
+    try:
+        painting = paint(program, settings, bar)
+    finally:
+        bar.close()
+    written = outputs.write(stem, {end: make(painting) for end, make in makers.items()})
+    _remark(*report.remarks(painting))
+    print(report.of_painting(painting, written))
+    _show(painting.image)
+
+
+@app.command(
+    epilog="Examples:\n\n  dqpaint preview star\n\n  dqpaint preview helix.traj --view iso"
+)
+def preview(
+    file: Drawing,
+    robot: Robot = None,
+    size: Size = "1280x720",
+    view: View = "front",
+    ev: Ev = 0.0,
+    out: Out = None,
+) -> None:
+    """Take the asked picture, without an arm, at once; with length, time and brightness."""
+    from dqpaint.examples import find_drawing
+    from dqpaint.settings import make_settings, parse_size
+
+    width, height = parse_size(size)
+    settings = make_settings(robot=robot, width=width, height=height, view=view, ev=ev)
+    path = find_drawing(file)
+    program = _read(str(path))
+
+    from dqpaint import outputs, report
+    from dqpaint.motion import plan
+    from dqpaint.picture import take
+    from dqpaint.robots.card import DEFAULT_ROBOT, read_card
+
+    stem = outputs.stem_for(out, f"{path.stem}-preview")
+    card = read_card(settings.robot or program.robot or DEFAULT_ROBOT)
+    motion = plan(program, card.canvas.pose)
+    picture = take(motion, motion.points, settings)
+    written = outputs.write(stem, {".png": outputs.encode_png(picture.image)})
+    _remark(*report.notes(motion))
+    print(report.of_preview(motion, picture, written))
+    _show(picture.image)
+
+
+@app.command(epilog="Examples:\n\n  dqpaint check star\n\n  dqpaint check drawings/*.traj --json")
+def check(
+    files: Drawings,
+    robot: Robot = None,
+    as_json: AsJson = False,
+) -> None:
+    """Read drawings: every error at its place, or length, time, steps and box."""
+    from dqpaint import checking
+
+    results = [checking.check(name, robot) for name in files]
+    if as_json:
+        print(json.dumps(checking.as_json(results), indent=2, ensure_ascii=False))
+    else:
+        print("\n\n".join(result.text for result in results))
+    if any(result.errors for result in results):
+        raise typer.Exit(1)
+
+
+@app.command(
+    "list", epilog="Examples:\n\n  dqpaint list controllers\n\n  dqpaint list robots --json"
+)
+def list_(
+    what: Annotated[str, typer.Argument(metavar="robots|controllers|plants|examples")],
+    as_json: AsJson = False,
+) -> None:
+    """Tell what there is to choose from."""
+    from dqpaint import listing
+
+    entries = listing.entries(what)
+    if as_json:
+        print(json.dumps(entries, indent=2, ensure_ascii=False))
+    else:
+        print(listing.text(entries))
+
+
+@app.command(epilog="Examples:\n\n  dqpaint gallery\n\n  dqpaint gallery --out /tmp/gallery")
+def gallery(
+    out: Annotated[str, typer.Option(metavar="FOLDER", help="where the pictures go")] = "gallery",
+) -> None:
+    """Make every picture of the gallery again."""
+    from dqpaint.gallery import make_gallery
+
+    for path in make_gallery(out):
+        print(path)
+
+
+def _read(path: str) -> Any:
+    from dqpaint.language import read
+
+    return read(path)
+
+
+def _names(text: str) -> list[str]:
+    """The words of a list with commas, each once."""
+    return list(dict.fromkeys(word.strip() for word in text.split(",") if word.strip()))
+
+
+def _remark(*texts: str) -> None:
+    for text in texts:
+        print(text, file=sys.stderr)
+
+
+def _show(image: Any) -> None:
+    from dqpaint.terminal import blocks, shows_pictures
+
+    if shows_pictures(sys.stdout):
+        print(blocks(image, shutil.get_terminal_size().columns))
+
+
+def main() -> None:
+    """Run the command line: exit code 0 done, 1 a fault, 2 wrong usage, 130 interrupted."""
+    try:
+        app()
+    except UsageError as problem:
+        print(f"usage: {problem}", file=sys.stderr)
+        sys.exit(2)
+    except DqpaintError as problem:
+        text = str(problem)
+        print(
+            text if text.startswith(("error[", "warning[")) else f"error: {text}", file=sys.stderr
+        )
+        sys.exit(1)
+    except KeyboardInterrupt:
+        print("interrupted; nothing was written", file=sys.stderr)
+        sys.exit(130)
+    except BrokenPipeError:  # the reader of our output has gone
+        sys.stderr.close()
+        sys.exit(1)

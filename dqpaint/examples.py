@@ -1,0 +1,36 @@
+"""The example drawings, which travel with the package and answer to their names."""
+
+from pathlib import Path
+
+from dqpaint.errors import DqpaintError
+
+
+def examples_folder() -> Path:
+    """Where the examples lie: beside the package in a source tree, inside it when installed."""
+    package = Path(__file__).parent
+    beside = package.parent / "trajectories"
+    return beside if (package.parent / "pyproject.toml").is_file() else package / "trajectories"
+
+
+def example_names() -> list[str]:
+    """The names of the example drawings."""
+    return sorted(path.stem for path in examples_folder().glob("*.traj"))
+
+
+def find_drawing(name: str) -> Path:
+    """The file for a path, or for an example's name with or without its ending.
+
+    Raises:
+        DqpaintError: neither a file nor an example.
+    """
+    path = Path(name)
+    if path.is_file():
+        return path
+    if path.is_dir():
+        raise DqpaintError(f"'{name}' is a folder, not a drawing")
+    example = examples_folder() / f"{name.removesuffix('.traj')}.traj"
+    if path.name == name and example.is_file():
+        return example
+    raise DqpaintError(
+        f"no file '{name}', and no example of that name; the examples: {', '.join(example_names())}"
+    )

@@ -1,0 +1,94 @@
+"""The geometry of arcs: the one through three points, and where one ends."""
+
+import math
+from collections.abc import Iterator
+
+from dqpaint.language import space
+from dqpaint.language.diagnostics import Span
+from dqpaint.language.pen import SAME_PLACE, here
+from dqpaint.language.program import Arc, Vector
+
+# Both are relative to the size of the arc, so that one of a millimetre is as good as one of a
+# metre. A flatter arc than this has its centre too far away to be found with enough digits.
+CLOSED = 1e-9
+FLAT = 1e-6
+RADIUS_ZERO = 1e-9
+
+_LINES = "start, via and end lie on one straight line; no circle goes through them"
+
+
+def through(start: Vector, via: Vector, end: Vector, via_span: Span, end_span: Span) -> Arc:
+    """The arc from `start` through `via` to `end`."""
+    a, b = space.minus(via, start), space.minus(end, start)
+    to_via, to_end = space.length(a), space.length(b)
+    if to_end <= CLOSED * to_via + SAME_PLACE:
+        raise here(
+            "E245",
+            "this arc ends where it starts, so 'via' does not say in which plane it lies",
+            end_span,
+            "same as the start point",
+            "for a full circle write: arc centre POINT angle 360 deg",
+        )
+    normal = space.cross(a, b)
+    to_last = space.length(space.minus(b, a))
+    smallest, *_, largest = sorted((to_via, to_end, to_last))
+    if smallest <= CLOSED * largest + SAME_PLACE or (
+        space.length(normal) <= FLAT * to_via * to_end
+        or space.length(normal) <= FLAT * to_via * to_last
+    ):
+        raise here("E246", _LINES, via_span, "", "use line to, or move the via point sideways")
+    # The circumcentre, seen from `start`.
+    weights = space.minus(space.times(to_via * to_via, b), space.times(to_end * to_end, a))
+    way = space.times(0.5 / space.dot(normal, normal), space.cross(weights, normal))
+    centre, axis = space.plus(start, way), space.unit(normal)
+    first, last = space.times(-1.0, way), space.minus(b, way)
+    sine = space.dot(axis, space.cross(first, last))
+    angle = math.atan2(sine, space.dot(first, last)) % (2.0 * math.pi)
+    return Arc(centre, axis, angle)
+
+
+def check(arc: Arc, start: Vector, centre_span: Span, grow_span: Span) -> None:
+    """Raises if the arc has no radius, or ends with less than none."""
+    way = space.minus(start, arc.centre)
+    radius = space.length(space.across(way, arc.axis))
+    if radius <= SAME_PLACE + RADIUS_ZERO * space.length(way):
+        message = "the centre of this arc is where the tool is now: the radius is 0"
+        if space.length(way) > SAME_PLACE:
+            message = "the tool is on the axis of this arc: the radius is 0"
+        raise here("E249", message, centre_span, "", "move to a point of the circle first")
+    if radius + arc.grow < -1e-9 * radius:
+        raise here(
+            "E250",
+            "the radius of this arc would become less than 0",
+            grow_span,
+            f"the radius is {1e3 * radius:.4g} mm at the start",
+            f"the least is: grow -{1e3 * radius:.4g} mm",
+        )
+
+
+def place_at(arc: Arc, start: Vector, share: float) -> Vector:
+    """The point at a share, 0 to 1, of an arc that begins at `start`."""
+    way = space.minus(start, arc.centre)
+    across = space.across(way, arc.axis)
+    foot = space.plus(arc.centre, space.minus(way, across))
+    radius = space.length(across)
+    if radius == 0.0:
+        return start
+    angle = arc.angle * share
+    u, v = across, space.cross(arc.axis, across)
+    stretch = (radius + arc.grow * share) / radius
+    round_ = space.plus(
+        space.times(stretch * math.cos(angle), u), space.times(stretch * math.sin(angle), v)
+    )
+    return space.plus(space.plus(foot, round_), space.times(arc.rise * share, arc.axis))
+
+
+def end_of(arc: Arc, start: Vector) -> Vector:
+    """Where an arc that begins at `start` ends."""
+    return place_at(arc, start, 1.0)
+
+
+def places(arc: Arc, start: Vector, pieces: int = 64) -> Iterator[Vector]:
+    """Points all along an arc."""
+    for i in range(pieces + 1):
+        yield place_at(arc, start, i / pieces)

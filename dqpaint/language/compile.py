@@ -1,0 +1,103 @@
+"""The whole way from a file or a text to a Program."""
+
+from contextlib import suppress
+from pathlib import Path
+
+from dqpaint.errors import DqpaintError
+from dqpaint.language.diagnostics import Diagnostic, ScriptError, Span
+from dqpaint.language.expand import Expander
+from dqpaint.language.findings import EnoughError, Findings
+from dqpaint.language.parser import parse_statements
+from dqpaint.language.program import Program
+
+MOST_BYTES = 2_000_000
+MOST_LINES = 100_000
+
+
+def read(path: str | Path) -> Program:
+    """The drawing in a file.
+
+    Raises:
+        DqpaintError: the file can't be read as text.
+        ScriptError: the text is not a drawing.
+    """
+    try:
+        with Path(path).open("rb") as file:
+            data = file.read(MOST_BYTES + 1)
+    except (OSError, ValueError) as fault:
+        reason = fault.strerror if isinstance(fault, OSError) else str(fault)
+        raise DqpaintError(f"can't read {path}: {(reason or str(fault)).lower()}") from None
+    return parse(_decoded(data, str(path)), str(path))
+
+
+def _decoded(data: bytes, name: str) -> str:
+    if len(data) > MOST_BYTES:
+        raise DqpaintError(f"{name} is larger than {MOST_BYTES // 1_000_000} MB")
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise DqpaintError(f"{name} is written in UTF-16; save it as UTF-8")
+    if b"\0" in data:
+        raise DqpaintError(f"{name} is not a text: byte {data.index(0) + 1} is 0")
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as fault:
+        byte = data[fault.start]
+        line = data.count(b"\n", 0, fault.start) + 1
+        raise DqpaintError(
+            f"{name} is not written in UTF-8: line {line}, byte {fault.start + 1} is "
+            f"0x{byte:02x}{_latin(byte)}; save it as UTF-8"
+        ) from None
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _latin(byte: int) -> str:
+    """What the byte would be in Latin-1, where files that are not UTF-8 mostly come from."""
+    letter = bytes([byte]).decode("latin-1")
+    return f" ('{letter}' in Latin-1)" if letter.isprintable() else ""
+
+
+def parse(text: str, name: str = "<text>") -> Program:
+    """The drawing in a text; `name` is what messages call it.
+
+    Raises:
+        ScriptError: with every mistake that was found, in the order of the text.
+    """
+    findings = Findings()
+    expander = Expander(name, text, findings)
+    fault: Exception | None = None
+    program: Program | None = None
+    try:
+        if _fits(text, findings):
+            program = expander.program(parse_statements(text, findings))
+    except EnoughError:
+        pass
+    except Exception as unexpected:
+        fault = unexpected
+        _add(findings, _internal(unexpected, expander.at))
+    if findings.errors or program is None:
+        raise ScriptError(name, text, findings.ordered()) from fault
+    return program
+
+
+def _fits(text: str, findings: Findings) -> bool:
+    if len(text) > MOST_BYTES:
+        message = f"this file is larger than {MOST_BYTES // 1_000_000} MB"
+        findings.add(Diagnostic("E305", message, None))
+    elif text.count("\n") > MOST_LINES:
+        findings.add(Diagnostic("E306", f"this file has more than {MOST_LINES:,} lines", None))
+    elif "\0" in text:
+        at = text.index("\0")
+        message = "this is not a text: there is a zero character in it"
+        findings.add(Diagnostic("E307", message, Span(at, at + 1)))
+    return not findings.errors
+
+
+def _internal(fault: Exception, at: Span | None) -> Diagnostic:
+    """Our own mistake, not the file's."""
+    kind = type(fault).__name__
+    message = f"internal error, please report ({kind}: {str(fault)[:200]})"
+    return Diagnostic("E999", message, at, "", "please send this file along with the message")
+
+
+def _add(findings: Findings, diagnostic: Diagnostic) -> None:
+    with suppress(EnoughError):
+        findings.add(diagnostic)

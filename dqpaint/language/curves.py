@@ -1,0 +1,159 @@
+"""Curves: a formula of the file becomes a function of a Taylor series, in the drawing frame."""
+
+import numpy as np
+
+from dqpaint.language import reading, space
+from dqpaint.language.diagnostics import Problem, ScriptError, Span, problem
+from dqpaint.language.evaluate import evaluate
+from dqpaint.language.pen import Pen, here
+from dqpaint.language.program import Curve, Formula, Vector
+from dqpaint.language.scope import Scope
+from dqpaint.language.space import Frame
+from dqpaint.language.syntax import Expression, Statement
+from dqpaint.language.taylor import Floats, Taylor
+from dqpaint.language.units import ANGLE, LENGTH, TIME, Dimension
+from dqpaint.language.values import Point, Quantity, Value, describe, is_zero
+
+GAP = 1e-9  # [m] within which a curve starts where the tool is
+PIECES = 64  # a curve is looked at in so many places before it is believed
+MOST_PIECES = 1 << 16  # of a curve whose heading changes fast
+UPRIGHT = 1e-6  # sine of the least angle between a heading and the axis it turns about
+
+
+def curve(statement: Statement, frame: Frame, scope: Scope, pen: Pen) -> tuple[Curve, list[Vector]]:
+    """A curve, and points all along it."""
+    node, lower_node, upper_node = statement.values
+    assert statement.name is not None
+    lower, upper, dimension = _ends(lower_node, upper_node, scope)
+    formula = _formula(node, statement.name.text, dimension, frame, scope, pen.file)
+    at = np.linspace(lower, upper, PIECES + 1)
+    try:
+        xyz = np.array([series.coefficients[0] for series in formula(Taylor.variable(at))])
+    except ScriptError as error:
+        raise Problem(error.diagnostics[0]) from None
+    x, y, z = xyz.tolist()
+    return Curve(formula, lower, upper), list(zip(x, y, z, strict=True))
+
+
+def _ends(
+    lower_node: Expression, upper_node: Expression, scope: Scope
+) -> tuple[float, float, Dimension]:
+    """Where the parameter begins and ends, and its dimension."""
+    lower, upper = evaluate(lower_node, scope), evaluate(upper_node, scope)
+    for value, node, word in ((lower, lower_node, "from"), (upper, upper_node, "to")):
+        if not isinstance(value, Quantity):
+            message = f"'{word}' needs a number, but this is {describe(value)}"
+            raise problem("E218", message, node.span)
+    assert isinstance(lower, Quantity)
+    assert isinstance(upper, Quantity)
+    dimension = upper.dimension if is_zero(lower) else lower.dimension
+    start = reading.quantity(lower, lower_node, scope, "from", dimension)
+    end = reading.quantity(upper, upper_node, scope, "to", dimension)
+    if start == end:
+        message = "this curve ends at the same value where it starts"
+        raise problem("E242", message, upper_node.span)
+    if not np.isfinite(end - start):
+        raise problem("E201", "this number is too large", upper_node.span)
+    return start, end, dimension
+
+
+def _formula(
+    node: Expression,
+    name: str,
+    dimension: Dimension,
+    frame: Frame,
+    scope: Scope,
+    file: tuple[str, str],
+) -> Formula:
+    known = scope.with_name(name, Quantity(0.0, dimension))
+    columns = tuple(frame.vector(axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), space.Z))
+
+    def formula(t: Taylor) -> tuple[Taylor, Taylor, Taylor]:
+        try:
+            # What is not finite is found and reported afterwards.
+            with np.errstate(all="ignore"):
+                point = _point(node, known.with_name(name, Quantity(t, dimension)))
+                x, y, z = (0.0 * t + number for number in point.xyz)
+                series = (_row(0, x, y, z), _row(1, x, y, z), _row(2, x, y, z))
+            _check_finite(series, t, name, dimension, node.span)
+        except Problem as mistake:
+            raise ScriptError(*file, (mistake.diagnostic,)) from None
+        return series
+
+    def _row(i: int, x: Taylor, y: Taylor, z: Taylor) -> Taylor:
+        a, b, c = columns[0][i], columns[1][i], columns[2][i]
+        return a * x + b * y + c * z + frame.shift[i]
+
+    return formula
+
+
+def _point(node: Expression, scope: Scope) -> Point:
+    value = evaluate(node, scope)
+    if isinstance(value, Point) and (value.dimension == LENGTH or is_zero(value)):
+        return value
+    raise _no_point(value, node, scope)
+
+
+def _no_point(value: Value, node: Expression, scope: Scope) -> Problem:
+    if isinstance(value, Point):
+        return reading.needs(node, value, scope, "curve", LENGTH)
+    message = f"'curve' needs a point, but this is {describe(value)}"
+    cure = "for example: curve (r*cos(t), r*sin(t)) for t from 0 to 360 deg"
+    return problem("E218", message, node.span, "", cure)
+
+
+def _check_finite(
+    series: tuple[Taylor, ...], t: Taylor, name: str, dimension: Dimension, span: Span
+) -> None:
+    finite = np.isfinite(np.array([one.coefficients for one in series])).all(axis=(0, 1))
+    if finite.all():
+        return
+    first = int(np.argmin(finite))
+    value = _shown(float(t.coefficients[0, first]), dimension)
+    values_only = np.isfinite([one.coefficients[0, first] for one in series]).all()
+    what = "speed" if values_only else "place"
+    cure = "choose the ends so that they leave this value out"
+    raise problem("E243", f"the curve has no {what} at {name} = {value}", span, "", cure)
+
+
+def _shown(value: float, dimension: Dimension) -> str:
+    if dimension == ANGLE:
+        return f"{np.degrees(value):.6g} deg"
+    if dimension == LENGTH:
+        return f"{1e3 * value:.6g} mm"
+    return f"{value:.6g}{' s' if dimension == TIME else ''}"
+
+
+def heading_change(curve: Curve, axis: Vector, span: Span) -> float:
+    """How far [rad] a curve's direction turns about a unit vector, from its start to its end."""
+    pieces = PIECES
+    while True:
+        turns = _turns(curve, axis, pieces, span)
+        if np.abs(turns).max() < 0.5 or pieces >= MOST_PIECES:
+            break
+        pieces *= 4
+    if np.abs(turns).max() > 0.5 * np.pi:
+        message = "the curve turns back at one point, where a tool that follows would have to jump"
+        raise here("E254", message, span, "", "draw two curves, or use: tool keep")
+    return float(turns.sum())
+
+
+def _turns(curve: Curve, axis: Vector, pieces: int, span: Span) -> Floats:
+    """The turn from each of many places on a curve to the next."""
+    at = np.linspace(curve.lower, curve.upper, pieces + 1)
+    try:
+        series = curve.formula(Taylor.variable(at))
+    except ScriptError as error:
+        raise Problem(error.diagnostics[0]) from None
+    way = np.sign(curve.upper - curve.lower)
+    tangent = way * np.array([one.coefficients[1] for one in series])  # (3, N)
+    normal = np.array(axis)
+    speed = np.linalg.norm(tangent, axis=0)
+    flat = tangent - normal[:, None] * (normal @ tangent)
+    if (np.linalg.norm(flat, axis=0) <= UPRIGHT * speed + 1e-12 * speed.max()).any():
+        message = "the curve stands still or goes along the axis, so it has no heading to follow"
+        raise here("E254", message, span, "", "use: tool keep, or tool look")
+    sine = normal @ np.cross(flat[:, :-1], flat[:, 1:], axis=0)
+    cosine = (flat[:, :-1] * flat[:, 1:]).sum(axis=0)
+    turns: Floats = np.arctan2(sine, cosine)
+    return turns

@@ -1,0 +1,256 @@
+"""Statements -> Program: names get values, blocks are written out, movements become segments."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from dqpaint.language import blocks, reading, strokes, tools
+from dqpaint.language.diagnostics import Diagnostic, PlaceProblem, Problem, Span, problem
+from dqpaint.language.evaluate import evaluate
+from dqpaint.language.findings import EnoughError, Findings
+from dqpaint.language.pen import Pen, where
+from dqpaint.language.program import Pose, Program
+from dqpaint.language.scope import BUILTINS, Scope, UnknownError
+from dqpaint.language.settings import PERIOD, changed
+from dqpaint.language.syntax import Expression, Statement
+from dqpaint.language.words import SETTINGS, STATEMENTS
+
+
+class Expander:
+    """Works through a file's statements in order."""
+
+    def __init__(self, name: str, text: str, findings: Findings) -> None:
+        self._name, self._text, self._findings = name, text, findings
+        self._pen = Pen(name, text, findings)
+        self._scope = Scope(text)
+        self._depth = 0  # of blocks
+        self._expanded = 0  # statements so far
+        self._failed = 0  # of them
+        self._once: dict[str, Span] = {}  # statements that may come once
+        self._period = PERIOD
+        self._robot: str | None = None
+        self._placement: Pose | None = None
+        self.at: Span | None = None  # the statement being worked on
+
+    def program(self, statements: tuple[Statement, ...]) -> Program:
+        """All of a file; what is wrong goes to the findings."""
+        self._run(statements)
+        if not self._pen.segments and not self._findings.errors:
+            self._findings.add(_nothing())
+        return Program(
+            self._name,
+            self._text,
+            self._period,
+            self._robot,
+            self._placement,
+            self._pen.start,
+            tuple(self._pen.segments),
+            self._findings.ordered(),
+        )
+
+    def _run(self, statements: tuple[Statement, ...]) -> None:
+        for statement in statements:
+            self._statement(statement)
+
+    def _statement(self, statement: Statement) -> None:
+        self.at = statement.span
+        self._expanded += 1
+        self._check_size(statement, self._expanded)
+        if statement.broken:
+            self._pass_over(statement)
+            return
+        try:
+            if statement.word in _HANDLERS:
+                _HANDLERS[statement.word](self, statement)
+            elif statement.word in SETTINGS:
+                pen = self._pen
+                pen.settings = changed(pen.settings, statement.parts[0], self._scope, pen.frame)
+            elif STATEMENTS[statement.word].moves:
+                strokes.draw(statement, self._pen, self._scope)
+        except Problem as mistake:
+            if not (isinstance(mistake, PlaceProblem) and self._pen.lost):
+                self._findings.add(mistake.diagnostic)
+            self._pass_over(statement)
+        except UnknownError:  # its cause was reported
+            self._pass_over(statement)
+
+    def _check_size(self, statement: Statement, size: int) -> None:
+        """Ends the work before it begins if the file is too much of it."""
+        if size > blocks.MOST_STATEMENTS:
+            self._findings.add(blocks.too_many_statements(statement, size))
+            raise EnoughError
+
+    def _pass_over(self, statement: Statement) -> None:
+        """Goes on after a mistake: nothing that follows from it is to be reported again."""
+        self._failed += 1
+        known = STATEMENTS.get(statement.word)
+        if known is None or known.moves or statement.word == "start":
+            self._pen.lost = True
+            self._pen.started = self._pen.oriented = True
+        if statement.word in ("robot", "place", "period", "start"):
+            self._once.setdefault(statement.word, statement.span)
+        name = statement.name
+        if name is not None and statement.word not in ("robot", "brush", "curve", "repeat", "def"):
+            self._scope.names.setdefault(name.text, None)
+        if statement.body and statement.word != "def":
+            outside = self._open_block()
+            if name is not None:
+                self._scope.names.setdefault(name.text, None)
+            lost, self._pen.lost = self._pen.lost, True
+            self._run(statement.body)
+            self._close_block(outside)
+            self._pen.lost = lost or self._pen.lost
+
+    # Names and blocks.
+
+    def _open_block(self) -> Scope:
+        outside, self._scope = self._scope, Scope(self._text)
+        self._scope.names = dict(outside.names)
+        self._scope.places = dict(outside.places)
+        self._depth += 1
+        return outside
+
+    def _close_block(self, outside: Scope) -> None:
+        self._scope = outside
+        self._depth -= 1
+
+    def _define(self, statement: Statement, value: Expression | None = None) -> None:
+        """Checks that a name is new, and gives it a value if there is one."""
+        name = statement.name
+        assert name is not None
+        if name.text in self._scope.places:
+            raise problem(
+                "E230",
+                f"'{name.text}' already has a value",
+                name.span,
+                f"(first: {where(self._text, self._scope.places[name.text])})",
+                "values never change; choose another name",
+            )
+        if value is not None:
+            self._scope.names[name.text] = evaluate(value, self._scope, BUILTINS)
+            self._scope.places[name.text] = name.span
+
+    def _let(self, statement: Statement) -> None:
+        self._define(statement, statement.values[0])
+
+    def _repeat(self, statement: Statement) -> None:
+        if statement.name is not None:
+            self._define(statement)
+        passes = blocks.passes(statement, self._scope)
+        size = blocks.size(statement, len(passes), self._scope)
+        self._check_size(statement, self._expanded + size)
+        for value in passes:
+            outside, failed = self._open_block(), self._failed
+            if statement.name is not None:
+                self._scope.names[statement.name.text] = value
+                self._scope.places[statement.name.text] = statement.name.span
+            self._run(statement.body)
+            self._close_block(outside)
+            if self._failed > failed:  # the other passes would only say the same again
+                self._pen.lost = True
+                break
+
+    def _with(self, statement: Statement) -> None:
+        pen = self._pen
+        frame, settings = pen.frame, pen.settings
+        inner = blocks.inner_frame(statement, frame, self._scope)
+        for part in statement.parts:
+            if part.word in SETTINGS:
+                pen.settings = changed(pen.settings, part, self._scope, inner)
+        pen.frame = inner
+        outside = self._open_block()
+        self._run(statement.body)
+        self._close_block(outside)
+        pen.frame = frame
+        pen.settings = replace(settings, shone=pen.settings.shone)
+
+    def _curve(self, statement: Statement) -> None:
+        self._define(statement)
+        strokes.draw(statement, self._pen, self._scope)
+
+    # Statements that come once, at the top.
+
+    def _first(self, statement: Statement, inside: bool = False) -> None:
+        """Checks that a statement comes once, outside blocks, before the first movement."""
+        word = statement.word
+        span = Span(statement.span.start, statement.span.start + len(word))
+        if self._depth and not inside:
+            message = f"'{word}' stands outside of all blocks"
+            raise problem("E123", message, span, "", "write it at the top of the file")
+        if word in self._once:
+            first = where(self._text, self._once[word])
+            message, label = f"'{word}' is given twice", f"second (first: {first})"
+            raise problem("E113", message, span, label, "keep one of them")
+        if self._pen.started:
+            message = f"'{word}' comes too late: the tool has moved already"
+            label = f"(first movement: {where(self._text, self._pen.moved)})"
+            if self._pen.lost and self._pen.moved == Span(0, 0):
+                label = ""
+            raise problem("E124", message, span, label, "write it before the first movement")
+        self._once[word] = statement.span
+
+    def _traj(self, statement: Statement) -> None:
+        self._first(statement)
+        if self._expanded > 1:
+            cure = "the version of the language comes before all other lines"
+            raise problem("E119", "'traj' is not the first statement", statement.span, "", cure)
+
+    def _robot_line(self, statement: Statement) -> None:
+        self._first(statement)
+        assert statement.name is not None
+        self._robot = statement.name.text
+
+    def _period_line(self, statement: Statement) -> None:
+        self._first(statement)
+        self._period = reading.positive(statement.values[0], self._scope, "period")
+
+    def _place(self, statement: Statement) -> None:
+        self._first(statement)
+        at, turned = statement.given("at"), statement.value("turned")
+        position = reading.place(at, self._scope, "at")
+        orientation = (1.0, 0.0, 0.0, 0.0)
+        if turned is not None:
+            orientation = reading.rotation(turned, self._scope, "turned")
+        self._placement = Pose(position, orientation)
+
+    def _start(self, statement: Statement) -> None:
+        self._first(statement, inside=True)
+        pen = self._pen
+        at, tool = statement.given("at"), statement.part("tool")
+        position = pen.frame.point(reading.place(at, self._scope, "at"))
+        orientation = None
+        if tool is not None:
+            mode = changed(pen.settings, tool, self._scope, pen.frame).tool
+            orientation = tools.told(mode, position, tool.value.span)
+            if orientation is None:
+                message = "'start' needs to know how the tool is held"
+                cure = "write: tool rpy(0 deg, 0 deg, 0 deg), or tool look (0, 0, 0)"
+                raise problem("E255", message, tool.value.span, "", cure)
+        pen.start_at(position, orientation)
+        pen.started, pen.moved = False, Span(0, 0)
+
+    def _nothing_to_do(self, statement: Statement) -> None:
+        """`brush point` is what there is."""
+
+
+_HANDLERS: dict[str, Callable[[Expander, Statement], None]] = {
+    "traj": Expander._traj,
+    "robot": Expander._robot_line,
+    "let": Expander._let,
+    "place": Expander._place,
+    "start": Expander._start,
+    "period": Expander._period_line,
+    "brush": Expander._nothing_to_do,
+    "curve": Expander._curve,
+    "repeat": Expander._repeat,
+    "with": Expander._with,
+}
+
+
+def _nothing() -> Diagnostic:
+    return Diagnostic(
+        "E140",
+        "this file draws nothing",
+        None,
+        "",
+        "a drawing can be as short as: line to (100, 0) mm",
+    )

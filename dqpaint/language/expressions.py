@@ -1,0 +1,153 @@
+"""Tokens -> expression: operators by binding power (Pratt), units tightest of all."""
+
+import math
+
+from dqpaint.language.cursor import Cursor, found, no_value
+from dqpaint.language.diagnostics import Problem, Span, problem
+from dqpaint.language.lexer import number_value
+from dqpaint.language.syntax import (
+    Bracket,
+    Call,
+    Chain,
+    Expression,
+    Literal,
+    Name,
+    Power,
+    Quoted,
+    Sign,
+)
+from dqpaint.language.units import UNITS
+from dqpaint.language.words import RESERVED
+
+DEEPEST = 64  # brackets and signs within each other
+_SUMS, _PRODUCTS = ("+", "-"), ("*", "/")
+
+
+def expression(cursor: Cursor, after: str) -> Expression:
+    """A value, as far as it goes; `after` is the word before it, for a message."""
+    first = _product(cursor, after)
+    token = cursor.token
+    if token.kind != "sign" or token.text not in _SUMS:
+        return first
+    rest: list[tuple[str, Expression]] = []
+    while token.kind == "sign" and token.text in _SUMS:
+        cursor.take()
+        rest.append((token.text, _product(cursor, token.text)))
+        token = cursor.token
+    return Chain(first, tuple(rest), cursor.span_from(first.span.start))
+
+
+def _product(cursor: Cursor, after: str) -> Expression:
+    first = _signed(cursor, after)
+    token = cursor.token
+    if token.kind != "sign" or token.text not in _PRODUCTS:
+        return first
+    rest: list[tuple[str, Expression]] = []
+    while token.kind == "sign" and token.text in _PRODUCTS:
+        cursor.take()
+        rest.append((token.text, _signed(cursor, token.text)))
+        token = cursor.token
+    return Chain(first, tuple(rest), cursor.span_from(first.span.start))
+
+
+def _signed(cursor: Cursor, after: str) -> Expression:
+    token = cursor.token
+    if token.kind == "sign" and token.text in _SUMS:
+        cursor.take()
+        _deeper(cursor, token.span)
+        value = _signed(cursor, token.text)
+        cursor.depth -= 1
+        return Sign(value, cursor.span_from(token.start)) if token.text == "-" else value
+    base = _value(cursor, after)
+    token = cursor.token
+    if token.kind != "sign" or token.text != "^":
+        return base
+    cursor.take()
+    _deeper(cursor, token.span)
+    exponent = _signed(cursor, "^")
+    cursor.depth -= 1
+    return Power(base, exponent, cursor.span_from(base.span.start))
+
+
+def _value(cursor: Cursor, after: str) -> Expression:
+    token = cursor.token
+    kind = token.kind
+    if kind == "number":
+        cursor.take()
+        value = number_value(token.text)
+        if math.isinf(value):
+            raise problem("E201", "this number is too large", token.span)
+        unit = cursor.token
+        if unit.kind == "name" and unit.text in UNITS:
+            cursor.take()
+            return Literal(value, unit.text, Span(token.start, unit.end))
+        return Literal(value, "", Span(token.start, token.end))
+    if kind == "sign" and token.text == "(":
+        values = _bracket(cursor)
+        unit = cursor.token
+        if unit.kind == "name" and unit.text in UNITS:
+            cursor.take()
+            return Bracket(values, unit.text, Span(token.start, unit.end))
+        return Bracket(values, "", Span(token.start, cursor.before.end))
+    if kind == "name" and token.text not in RESERVED:
+        cursor.take()
+        if not cursor.is_sign("("):
+            return _name(cursor, token.text, token.span)
+        values = _bracket(cursor, of=token.text)
+        return Call(token.text, values, cursor.span_from(token.start))
+    if kind == "text":
+        cursor.take()
+        return Quoted(token.text, token.span)
+    raise no_value(cursor, after)
+
+
+def _name(cursor: Cursor, name: str, span: Span) -> Expression:
+    unit = cursor.token
+    if unit.kind == "name" and unit.text in UNITS and name not in UNITS:
+        raise problem(
+            "E109",
+            f"a unit follows a number or a bracket, not the name '{name}'",
+            unit.span,
+            "",
+            f"write {name}*{unit.text} if '{name}' is a plain number, or take the unit away",
+        )
+    return Name(name, span)
+
+
+def _bracket(cursor: Cursor, of: str = "(") -> tuple[Expression, ...]:
+    """The values in brackets, with commas between."""
+    opening = cursor.take()
+    _deeper(cursor, opening.span)
+    values: list[Expression] = []
+    after = of if of == "(" else f"{of}("
+    while not (of != "(" and not values and cursor.is_sign(")")):
+        values.append(expression(cursor, after))
+        after = ","
+        if not cursor.is_sign(","):
+            break
+        cursor.take()
+    if not cursor.is_sign(")"):
+        raise _not_closed(cursor)
+    cursor.take()
+    cursor.depth -= 1
+    return tuple(values)
+
+
+def _not_closed(cursor: Cursor) -> Problem:
+    token = cursor.token
+    cure = "the numbers of a point stand in brackets, with commas between: (10, 20) mm"
+    if token.kind == "number" or token.kind == "name":
+        cure = "put a comma between the numbers of a point, a * between the factors of a product"
+    return problem("E109", f"expected ',' or ')' but found {found(token)}", token.span, "", cure)
+
+
+def _deeper(cursor: Cursor, span: Span) -> None:
+    cursor.depth += 1
+    if cursor.depth > DEEPEST:
+        raise problem(
+            "E106",
+            f"more than {DEEPEST} brackets or signs within each other",
+            span,
+            "",
+            "give a part of it a name: let a = …",
+        )

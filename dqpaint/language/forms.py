@@ -1,0 +1,182 @@
+"""Which parts go together in a statement: the two forms of an arc, of a screw, one time only."""
+
+from dqpaint.language.cursor import Cursor
+from dqpaint.language.diagnostics import Problem, Span, place, problem
+from dqpaint.language.lexer import Token
+from dqpaint.language.syntax import Part, Statement
+from dqpaint.language.words import STATEMENTS, TIMES
+
+_FORM_OF_CENTRE = ("axis", "angle", "rise", "grow")
+_FORM_OF_ABOUT = ("along", "angle", "pitch")
+
+
+def check(statement: Statement, text: str) -> None:
+    """Raises a `Problem` if parts are missing, doubled or contradict each other."""
+    _once(statement, text)
+    _one_time(statement.parts)
+    checks = {"arc": _arc, "screw": _screw, "with": _with}
+    if statement.word in checks:
+        checks[statement.word](statement)
+    elif statement.word in ("line", "move"):
+        if not statement.part("to") and not statement.part("by"):
+            raise _to_or_by(statement.word, _first_word(statement))
+    elif statement.word in ("step", "start", "place"):
+        _needs(statement, "to" if statement.word == "step" else "at")
+
+
+def _first_word(statement: Statement) -> Span:
+    return Span(statement.span.start, statement.span.start + len(statement.word))
+
+
+def _once(statement: Statement, text: str) -> None:
+    many = STATEMENTS[statement.word].many
+    seen: dict[str, Part] = {}
+    for part in statement.parts:
+        word = "centre" if part.word == "center" else part.word
+        if word in seen and word not in many:
+            line, column = place(text, seen[word].span.start)
+            raise problem(
+                "E113",
+                f"'{word}' is given twice",
+                part.span,
+                f"second (first: {line}:{column})",
+                "keep one of them",
+            )
+        seen[word] = part
+
+
+def _one_time(parts: tuple[Part, ...]) -> None:
+    times = [part for part in parts if part.word in TIMES]
+    speeds = [part for part in parts if part.word in ("speed", "turnspeed")]
+    if len(times) + bool(speeds) > 1:
+        given = sorted(times + speeds[:1], key=lambda part: part.span.start)
+        raise problem(
+            "E241",
+            "the time is given twice",
+            given[1].span,
+            "second",
+            "use one of: in TIME, samples N, speed V",
+        )
+
+
+def _to_or_by(word: str, span: Span) -> Problem:
+    return problem(
+        "E111",
+        f"'{word}' needs 'to' or 'by' before the point",
+        span,
+        "",
+        f"{word} to (…) goes to that point; {word} by (…) goes that far from here",
+    )
+
+
+def _needs(statement: Statement, part: str, cure: str = "") -> None:
+    if statement.part(part) is None:
+        cure = cure or f"for example: {STATEMENTS[statement.word].example}"
+        message = f"this '{statement.word}' has no '{part}'"
+        raise problem("E115", message, _first_word(statement), "", cure)
+
+
+def _arc(statement: Statement) -> None:
+    via = statement.part("via")
+    centre = statement.part("centre") or statement.part("center")
+    if via is not None:
+        for word in ("centre", "center", *_FORM_OF_CENTRE):
+            if part := statement.part(word):
+                message = f"'arc via' goes through two points; it takes no '{word}'"
+                cure = "write: arc via POINT to POINT, or: arc centre POINT angle ANGLE"
+                raise problem("E248", message, part.span, "", cure)
+        _needs(statement, "to", "an arc through three points ends at the last: via POINT to POINT")
+        return
+    if to := statement.part("to"):
+        if centre is None and not any(statement.part(word) for word in _FORM_OF_CENTRE):
+            cure = "write: arc via POINT to POINT, or: arc centre POINT angle ANGLE"
+            _needs(statement, "via", cure)
+        raise problem(
+            "E247",
+            "'arc centre' takes an angle, not an end point",
+            to.span,
+            "",
+            "centre and end point could contradict each other; write: angle 90 deg",
+        )
+    if centre is None:
+        _needs(statement, "centre", "write: arc centre POINT angle ANGLE")
+    _needs(statement, "angle", "add how far it turns: angle 360 deg")
+
+
+def _screw(statement: Statement) -> None:
+    to = statement.part("to")
+    if to is not None:
+        for word in ("about", *_FORM_OF_ABOUT):
+            if part := statement.part(word):
+                message = f"'screw to' finds its own axis; it takes no '{word}'"
+                cure = "write: screw to POINT tool ORIENTATION, or: screw about POINT along …"
+                raise problem("E248", message, part.span, "", cure)
+        return
+    for word in ("about", "along", "angle"):
+        _needs(statement, word)
+    if tool := statement.part("tool"):
+        message = "'screw about' moves the tool rigidly; it takes no 'tool'"
+        cure = "turn the tool before, or write: screw to POINT tool ORIENTATION"
+        raise problem("E248", message, tool.span, "", cure)
+
+
+def _with(statement: Statement) -> None:
+    if not statement.parts:
+        cure = f"for example: {STATEMENTS['with'].example}"
+        raise problem("E115", "this 'with' changes nothing", statement.span, "", cure)
+    before = ""
+    for part in statement.parts:
+        if part.word == "about" and before != "rotate":
+            cure = "write: with rotate 30 deg about (10, 0) mm"
+            raise problem("E248", "'about' says what 'rotate' turns about", part.span, "", cure)
+        before = part.word
+
+
+def misplaced(word: str, token: Token) -> Problem | None:
+    """A part that other statements have: a message of its own, or None."""
+    if token.text == "period":
+        message = "'period' stands on a line of its own, before the first movement"
+        return problem("E123", message, token.span, "", "for example: period 8 ms")
+    if word == "move" and token.text == "light":
+        message = "'move' is always dark, so it has no 'light'"
+        return problem("E110", message, token.span, "", "to shine on the way, use: line to …")
+    cure = {
+        ("hold", "tool"): "to turn on the spot, use: line by (0, 0) tool …",
+        ("hold", "in"): "write the time straight after it: hold 1 s",
+        ("hold", "samples"): "write the time straight after it: hold 1 s",
+        ("step", "in"): "a step takes one sample; to wait after it, use: hold 1 s",
+        ("step", "samples"): "a step takes one sample; to wait after it, use: hold 1 s",
+        ("step", "speed"): "a step takes one sample; to go there evenly, use: line to",
+        ("step", "law"): "a step takes one sample; to go there evenly, use: line to",
+        ("step", "by"): "a step says where to: step to (50, 0) mm",
+        ("start", "turned"): "write: start at (0, 0, 0) tool …",
+        ("place", "tool"): "write: place at (0, 0, 0) turned …",
+        ("screw", "rise"): "a screw advances by its pitch: pitch 50 mm/turn",
+        ("arc", "pitch"): "an arc advances by its rise in all: rise 50 mm",
+        ("arc", "by"): "an arc names its points: arc via POINT to POINT",
+        ("arc", "along"): "did you mean 'axis'?",
+        ("arc", "about"): "did you mean 'centre'?",
+        ("screw", "axis"): "did you mean 'along'?",
+        ("screw", "centre"): "did you mean 'about'?",
+        ("with", "turned"): "did you mean 'rotate'?",
+    }.get((word, token.text))
+    if cure is None:
+        return None
+    message = f"'{word}' has no part called '{token.text}'"
+    return problem("E110", message, token.span, "", cure)
+
+
+def unexpected(word: str, cursor: Cursor) -> Problem | None:
+    """Something that is no part at all: a message of its own, or None."""
+    token = cursor.token
+    is_value = token.kind == "number" or (token.kind == "sign" and token.text in "(-")
+    if word in ("line", "move") and is_value and cursor.before.text == word:
+        return _to_or_by(word, token.span)
+    if not is_value:
+        return None
+    needed = {"arc": "centre", "screw": "about", "step": "to", "start": "at", "place": "at"}
+    if word in needed and cursor.before.text == word:
+        message = f"'{word}' needs '{needed[word]}' before the point"
+        cure = f"for example: {STATEMENTS[word].example}"
+        return problem("E111", message, token.span, "", cure)
+    return None

@@ -1,0 +1,145 @@
+"""What to say about an expression that has no value."""
+
+from collections.abc import Iterable
+
+from dqpaint.language import functions
+from dqpaint.language.diagnostics import Fix, Problem, Span, problem
+from dqpaint.language.scope import BUILTINS, Scope
+from dqpaint.language.suggestions import closest, did_you_mean
+from dqpaint.language.syntax import Bracket, Call, Expression, Literal, Name, Sign
+from dqpaint.language.taylor import Taylor
+from dqpaint.language.units import FOREIGN_UNITS, PLAIN, UNITS, Dimension, plausible_unit
+from dqpaint.language.values import Point, Quantity, Value, describe, is_zero
+from dqpaint.language.words import CONSTANTS, FUNCTION_ALIASES, FUNCTIONS
+
+
+def unknown(node: Name, scope: Scope, words: Iterable[str] = ()) -> Problem:
+    """E205, or E206 for a function without brackets; `words` may stand there too."""
+    name = node.name
+    if name in FUNCTIONS:
+        return problem(
+            "E206", f"'{name}' is a function", node.span, "", f"write: {FUNCTIONS[name]}"
+        )
+    if name in FOREIGN_UNITS:
+        units = f"units are {', '.join(UNITS)}"
+        cure = f"did you mean '{FOREIGN_UNITS[name]}'? {units}"
+        return problem("E205", f"'{name}' is not known", node.span, "", cure)
+    meant = _abbreviation(name, scope) or closest(name, (*scope.names, *CONSTANTS, *words))
+    cure = did_you_mean(meant) or f"name it first: let {name} = …"
+    fix = Fix(f"write {meant}", node.span, meant) if meant else None
+    return problem("E205", f"'{name}' is not known", node.span, "", cure, fix)
+
+
+def _abbreviation(name: str, scope: Scope) -> str:
+    """`r` for `radius`: a name of the file that is the beginning of the unknown one."""
+    short = [known for known in scope.names if len(known) <= 3 and name.startswith(known)]
+    return max(short, key=len) if short else ""
+
+
+def too_many(node: Bracket, scope: Scope) -> Problem:
+    """E202."""
+    count, cure = len(node.values), "write decimals with a point, not a comma: 0.5"
+    first, second = node.values[0], node.values[1]
+    if isinstance(first, Literal) and isinstance(second, Literal) and count in (4, 6):
+        decimal = f"{scope.written(first)}.{scope.written(second)}"
+        if decimal.replace(".", "").isdigit():
+            cure = f"write decimals with a point, not a comma: {decimal}"
+    return problem("E202", f"a point has 2 or 3 numbers, this has {count}", node.span, "", cure)
+
+
+def mixed(node: Bracket, coordinates: list[Quantity], scope: Scope) -> Problem:
+    """E204: the caret goes to the number without a unit, else to the first that differs."""
+    plain = [i for i, q in enumerate(coordinates) if q.dimension == PLAIN and not is_zero(q)]
+    first = next(q.dimension for q in coordinates if not is_zero(q))
+    others = [i for i, q in enumerate(coordinates) if q.dimension != first and not is_zero(q)]
+    at = (plain or others)[0]
+    literals = [child for child in node.values if isinstance(child, Literal)]
+    units = {child.unit for child in literals if child.unit}
+    cure = "give each of them a unit of the same kind"
+    if len(literals) == len(node.values) and len(units) == 1:
+        numbers = ", ".join(f"{child.value:g}" for child in literals)
+        cure = f"one unit after the bracket is enough: ({numbers}) {units.pop()}"
+    elif plain:
+        cure = f"{scope.written(node.values[at])} needs a unit too"
+    return problem(
+        "E204",
+        "the numbers of one point must have the same unit",
+        node.values[at].span,
+        f"{scope.written(node.values[at])} is {describe(coordinates[at])}",
+        cure,
+    )
+
+
+def second_unit(node: Bracket, what: str) -> Problem:
+    """E210."""
+    message = f"'{node.unit}' can't follow here: the value in the brackets is {what}"
+    span = Span(node.span.end - len(node.unit), node.span.end)
+    return problem("E210", message, span, "", "give the unit once: to each number, or here")
+
+
+def unknown_function(node: Call, scope: Scope) -> Problem:
+    """E206."""
+    span = Span(node.span.start, node.span.start + len(node.name))
+    if node.name in scope.names or node.name in BUILTINS:
+        message = f"'{node.name}' is not a function"
+        cure = f"a product is written {node.name}*(…)"
+        return problem("E206", message, span, "", cure)
+    meant = closest(node.name, functions.TABLE, FUNCTION_ALIASES)
+    fix = Fix(f"write {meant}", span, meant) if meant in functions.TABLE else None
+    message = f"there is no function '{node.name}'"
+    return problem("E206", message, span, "", did_you_mean(meant), fix)
+
+
+def no_sum(
+    left: Value, right: Value, sign: str, first: Expression, child: Expression, scope: Scope
+) -> Problem:
+    """E208. The caret goes to the number without a unit, if one of the two has none."""
+    if sign == "+":
+        message = f"can't add {describe(left)} and {describe(right)}"
+    else:
+        message = f"can't subtract {describe(right)} from {describe(left)}"
+    at, lacking, other = child, right, left
+    if isinstance(left, Quantity | Point) and left.dimension == PLAIN:
+        at, lacking, other = first, left, right
+    cure = ""
+    alike = isinstance(lacking, Quantity | Point) and type(lacking) is type(other)
+    if alike and isinstance(lacking, Quantity | Point) and lacking.dimension == PLAIN:
+        assert isinstance(other, Quantity | Point)
+        cure = did_you_mean_unit(at, lacking, other.dimension, scope)
+    return problem("E208", message, at.span, describe(lacking), cure)
+
+
+def did_you_mean_unit(
+    node: Expression, value: Quantity | Point, dimension: Dimension, scope: Scope
+) -> str:
+    """`did you mean 5 mm?`, if a unit can simply be added to what stands there."""
+    written = with_unit(node, value, dimension, scope)
+    return f"did you mean {written}?" if written else ""
+
+
+def with_unit(
+    node: Expression, value: Quantity | Point, dimension: Dimension, scope: Scope, word: str = ""
+) -> str:
+    """A value without a unit as it would be written with the one that is most likely."""
+    numbers = (value.value,) if isinstance(value, Quantity) else value.xyz
+    sizes = [abs(number) for number in numbers if not isinstance(number, Taylor)]
+    unit = plausible_unit(max(sizes, default=1.0), dimension, word)
+    written = scope.written(node)
+    if not unit or len(written) > 60:
+        return ""
+    if isinstance(node, Literal | Bracket) or (
+        isinstance(node, Sign) and isinstance(node.value, Literal | Bracket)
+    ):
+        return f"{written} {unit}"
+    if isinstance(node, Name | Call):
+        return f"{written}*{unit}"
+    return f"({written}) {unit}"
+
+
+def no_product(left: Value, right: Value, verb: str, by: str, child: Expression) -> Problem:
+    """E209."""
+    message = f"can't {verb} {describe(left)} {by} {describe(right)}"
+    cure = ""
+    if isinstance(left, Point) and isinstance(right, Point):
+        cure = "a point can be multiplied by a number; for one of its parts, write that part"
+    return problem("E209", message, child.span, describe(right), cure)

@@ -1,0 +1,52 @@
+"""What may be a name, and what a word already means."""
+
+from dqpaint.language import colours
+from dqpaint.language.cursor import Cursor, found
+from dqpaint.language.diagnostics import Problem, problem
+from dqpaint.language.lexer import Token
+from dqpaint.language.syntax import Word
+from dqpaint.language.units import UNITS
+from dqpaint.language.words import CONSTANTS, FUNCTIONS, LAWS, RESERVED
+
+
+def meaning(word: str) -> str:
+    """What a word means in the language already: `the unit metre`; empty if it is free."""
+    if word in UNITS:
+        return f"the unit {UNITS[word][2]}"
+    if word in RESERVED:
+        return "a word of the language"
+    if word in FUNCTIONS:
+        return "a function"
+    if word in LAWS:
+        return "a time law"
+    if word in CONSTANTS:
+        return "a number" if word == "pi" else f"the direction of the {word} axis"
+    return "a colour" if word in colours.NAMES else ""
+
+
+def new_name(cursor: Cursor, after: str, example: str) -> Word:
+    """Reads a name that is about to get a meaning."""
+    token = cursor.token
+    if token.kind != "name" or token.text == "°":
+        raise problem(
+            "E109",
+            f"expected a name after '{after}' but found {found(token)}",
+            token.span if token.kind != "end" else cursor.before.span,
+            "",
+            f"for example: {example}",
+        )
+    if taken := meaning(token.text):
+        raise taken_name(token, taken)
+    cursor.take()
+    return Word(token.text, token.span)
+
+
+def taken_name(token: Token, taken: str) -> Problem:
+    """A word that has a meaning already: E114."""
+    return problem(
+        "E114",
+        f"'{token.text}' can't be used as a name",
+        token.span,
+        f"'{token.text}' is {taken}",
+        f"choose another name, for example '{token.text}1'",
+    )

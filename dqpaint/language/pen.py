@@ -1,0 +1,166 @@
+"""Where the tool is, and the strokes it has made so far."""
+
+import math
+from dataclasses import replace
+
+from dqpaint.language import space
+from dqpaint.language.diagnostics import Diagnostic, PlaceProblem, Span, place, problem
+from dqpaint.language.findings import EnoughError, Findings
+from dqpaint.language.program import (
+    IDENTITY,
+    Cruise,
+    Keep,
+    Light,
+    Look,
+    LookLine,
+    Path,
+    Pose,
+    Quaternion,
+    Segment,
+    Straight,
+    Timing,
+    Tool,
+    Turn,
+    Vector,
+)
+from dqpaint.language.settings import REST_TO_REST, Settings, Towards
+
+MOST_SEGMENTS = 50_000
+SAME_PLACE = 1e-12  # [m] below this two points are one
+SAME_TURN = 1e-12  # [rad] below this two orientations are one
+LOOKS_ALREADY = 1e-9  # [rad] what rounding may leave between a look and the stroke before
+
+
+class Pen:
+    """The state of the drawing: `settings` and `frame` are changed from outside."""
+
+    def __init__(self, name: str, text: str, findings: Findings) -> None:
+        self.file = name, text
+        self.text = text
+        self.findings = findings
+        self.settings = Settings()
+        self.frame = space.WORLD
+        self.pose = IDENTITY
+        self.start = IDENTITY
+        self.segments: list[Segment] = []
+        self.started = False  # something has moved, or said where the drawing starts
+        self.oriented = False  # the file has said how the tool is held at the start
+        self.moved = Span(0, 0)  # the first movement
+        self.lost = False  # after a mistake in a movement nobody knows where the tool is
+        self._lines = _LineCounter(text)
+
+    def begin(self, span: Span) -> None:
+        """A movement comes: the start is settled."""
+        if self.started:
+            return
+        self.started, self.moved = True, span
+        mode = self.settings.tool
+        if isinstance(mode, Towards) and not self.oriented:
+            self._adopt(mode.orientation)
+
+    def start_at(self, position: Vector, orientation: Quaternion | None) -> None:
+        """Says where the drawing starts, and perhaps how the tool is held."""
+        self.pose = self.start = Pose(position, orientation or self.pose.orientation)
+        self.oriented = self.oriented or orientation is not None
+
+    def _adopt(self, orientation: Quaternion) -> None:
+        self.pose = self.start = Pose(self.pose.position, orientation)
+        self.oriented = True
+
+    def draw(
+        self, path: Path, tool: Tool, timing: Timing, light: Light | None, end: Pose, span: Span
+    ) -> None:
+        """Adds a stroke from where the tool is to `end`."""
+        if len(self.segments) >= MOST_SEGMENTS:
+            self.findings.add(_too_many(span))
+            raise EnoughError
+        line, words = self._lines.line(span), first_line(self.text, span)
+        self.segments.append(
+            Segment(path, tool, self.settings.law, timing, light, self.pose, end, words, line)
+        )
+        self.pose = end
+        self.oriented = True
+
+    def warn(self, code: str, message: str, span: Span, label: str = "", cure: str = "") -> None:
+        """Says what is assumed, unless it only follows from a mistake."""
+        if not self.lost:
+            self.findings.add(Diagnostic(code, message, span, label, cure))
+
+    def travel(self, to: Vector, span: Span) -> None:
+        """A way in the dark that the file did not ask for."""
+        by = space.minus(to, self.pose.position)
+        speed = Cruise(self.settings.speed, self.settings.turnspeed)
+        end = Pose(to, self.pose.orientation)
+        self._assumed(Straight(by), Keep(), speed, end, span)
+
+    def look(self, mode: Look | LookLine, orientation: Quaternion, span: Span) -> None:
+        """Turns the tool to where a stroke needs it at its start, in the dark, if it is not."""
+        angle = space.turn_between(self.pose.orientation, orientation)
+        if angle <= LOOKS_ALREADY:
+            return
+        if not self.oriented or self.lost:
+            self._adopt(orientation)
+            return
+        what, how = ("point", "look") if isinstance(mode, Look) else ("line", "look line")
+        degrees = math.degrees(angle)
+        message = f"the tool turns by {degrees:.3g} deg before this, to look at the {what}"
+        cure = f"a light-off turn is added; to avoid it, write: start at (…) tool {how} …"
+        self.warn("W404", message, span, "", cure)
+        speed = Cruise(self.settings.speed, self.settings.turnspeed)
+        end = Pose(self.pose.position, orientation)
+        self._assumed(Straight(space.ZERO), Turn(), speed, end, span)
+
+    def _assumed(self, path: Path, tool: Tool, timing: Timing, end: Pose, span: Span) -> None:
+        """A stroke of our own, rest to rest whatever law the file's strokes have."""
+        settings = self.settings
+        self.settings = replace(settings, law=REST_TO_REST)
+        self.draw(path, tool, timing, None, end, span)
+        self.settings = settings
+
+
+def first_line(text: str, span: Span) -> Span:
+    """The part of a span that stands on its first line."""
+    newline = text.find("\n", span.start, span.end)
+    return span if newline < 0 else Span(span.start, newline)
+
+
+class _LineCounter:
+    """Line numbers of ever later places, without counting from the top each time."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self._known: dict[int, int] = {}
+        self._last = (0, 1)
+
+    def line(self, span: Span) -> int:
+        known = self._known.get(span.start)
+        if known is not None:
+            return known
+        offset, line = self._last
+        if span.start < offset:
+            offset, line = 0, 1
+        line += self._text.count("\n", offset, span.start)
+        self._last = (span.start, line)
+        self._known[span.start] = line
+        return line
+
+
+def _too_many(span: Span) -> Diagnostic:
+    return Diagnostic(
+        "E301",
+        f"more than {MOST_SEGMENTS:,} strokes in all",
+        span,
+        "",
+        "draw less, or draw a formula: curve … for t from … to …",
+    )
+
+
+def here(code: str, message: str, span: Span, label: str = "", cure: str = "") -> PlaceProblem:
+    """A mistake that depends on where the tool is."""
+    return PlaceProblem(problem(code, message, span, label, cure).diagnostic)
+
+
+def where(text: str, span: Span) -> str:
+    """`line:column`, for a label."""
+    line, column = place(text, span.start)
+    return f"{line}:{column}"

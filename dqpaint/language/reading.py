@@ -1,0 +1,228 @@
+"""The value of a part, of the kind the part needs: a length after `rise`, a point after `to`."""
+
+import math
+
+from dqpaint.language import colours, space
+from dqpaint.language.diagnostics import Fix, Problem, problem
+from dqpaint.language.evaluate import evaluate
+from dqpaint.language.mistakes import with_unit
+from dqpaint.language.program import Colour, Law, Quaternion, Vector
+from dqpaint.language.scope import Scope
+from dqpaint.language.suggestions import closest, did_you_mean
+from dqpaint.language.syntax import Expression
+from dqpaint.language.taylor import Taylor
+from dqpaint.language.units import (
+    ANGLE,
+    LENGTH,
+    PITCH,
+    PLAIN,
+    SPEED,
+    TEMPERATURE,
+    TIME,
+    TURNSPEED,
+    Dimension,
+    dimension_name,
+)
+from dqpaint.language.values import (
+    Orientation,
+    Point,
+    Quantity,
+    Text,
+    TimeLaw,
+    Tint,
+    Value,
+    describe,
+    is_zero,
+)
+from dqpaint.language.words import LAWS, PARTS, STATEMENTS
+
+# The dimension of each part that takes one number.
+_DIMENSIONS = {
+    "length": LENGTH,
+    "angle": ANGLE,
+    "rotation": ANGLE,
+    "time": TIME,
+    "speed": SPEED,
+    "turnspeed": TURNSPEED,
+    "pitch": PITCH,
+    "number": PLAIN,
+}
+_LARGEST_COUNT = 10**15  # of samples; far above what is ever allowed, far below what overflows
+
+
+def dimension_of(word: str) -> Dimension:
+    """The dimension of the number that a part takes."""
+    if word in ("period", "hold"):
+        return TIME
+    return _DIMENSIONS[PARTS[word].takes]
+
+
+def number(node: Expression, scope: Scope, word: str) -> float:
+    """The number after `word`, in SI units."""
+    return quantity(evaluate(node, scope), node, scope, word, dimension_of(word))
+
+
+def quantity(
+    value: Value, node: Expression, scope: Scope, word: str, dimension: Dimension
+) -> float:
+    """A number of this dimension; a plain 0 has any."""
+    if isinstance(value, Quantity) and (value.dimension == dimension or is_zero(value)):
+        assert not isinstance(value.value, Taylor)
+        return value.value
+    raise needs(node, value, scope, word, dimension)
+
+
+def positive(node: Expression, scope: Scope, word: str) -> float:
+    """The number after `word`, which must be more than nothing."""
+    size = number(node, scope, word)
+    if size > 0.0:
+        return size
+    kind = dimension_name(dimension_of(word))
+    label = "this is 0" if size == 0.0 else "this is less than 0"
+    message = f"'{word}' needs {kind} greater than 0"
+    raise problem("E220", message, node.span, label)
+
+
+def count(node: Expression, scope: Scope, word: str, least: int) -> int:
+    """A whole number after `word`."""
+    value = evaluate(node, scope)
+    size = quantity(value, node, scope, word, PLAIN)
+    if abs(size) > _LARGEST_COUNT:
+        raise problem("E201", "this number is too large", node.span)
+    if abs(size - round(size)) > 1e-9:
+        message = f"'{word}' needs a whole number, this is {size:g}"
+        raise problem("E221", message, node.span)
+    if round(size) < least:
+        message = f"'{word}' needs a whole number from {least} on, this is {round(size)}"
+        raise problem("E221", message, node.span)
+    return round(size)
+
+
+def place(node: Expression, scope: Scope, word: str) -> Vector:
+    """The point after `word`: its three lengths."""
+    value = evaluate(node, scope)
+    if isinstance(value, Point):
+        if value.dimension == LENGTH or is_zero(value):
+            return floats(value)
+        raise needs(node, value, scope, word, LENGTH)
+    message = f"'{word}' needs a point, but this is {describe(value)}"
+    cure = "a point has 2 or 3 numbers in brackets: (10, 20) mm"
+    if isinstance(value, Quantity) and value.dimension == LENGTH:
+        cure = f"a point has 2 or 3 numbers in brackets: ({scope.written(node)}, 0)"
+    raise problem("E218", message, node.span, "", cure)
+
+
+def direction(node: Expression, scope: Scope, word: str) -> Vector:
+    """The unit vector after `word`, from a point with or without a unit."""
+    value = evaluate(node, scope)
+    if not isinstance(value, Point) or value.dimension not in (PLAIN, LENGTH):
+        message = f"'{word}' needs a direction, but this is {describe(value)}"
+        cure = f"for example: {word} z, or {word} (0, 1, 1)"
+        raise problem("E218", message, node.span, "", cure)
+    if not any(floats(value)):
+        raise problem("E215", "a direction can't be (0, 0, 0)", node.span)
+    return space.unit(floats(value))
+
+
+def rotation(node: Expression, scope: Scope, word: str) -> Quaternion:
+    """An orientation, or an angle about z."""
+    value = evaluate(node, scope)
+    if isinstance(value, Orientation):
+        return value.quaternion
+    return space.turn_about(space.Z, quantity(value, node, scope, word, ANGLE))
+
+
+def orientation(node: Expression, scope: Scope, word: str) -> Quaternion:
+    """The orientation after `word`."""
+    value = evaluate(node, scope, ("keep", "follow", "look"))
+    if isinstance(value, Orientation):
+        return value.quaternion
+    message = f"'{word}' needs an orientation, but this is {describe(value)}"
+    cure = "for example: rpy(0 deg, 0 deg, 90 deg), rot(z, 90 deg), look (0, 0, 0)"
+    raise problem("E218", message, node.span, "", cure)
+
+
+def law(node: Expression, scope: Scope) -> Law:
+    """The time law after `law`."""
+    value = evaluate(node, scope, LAWS)
+    if isinstance(value, TimeLaw):
+        return Law(value.name, value.rates, value.angular)
+    message = f"'law' needs a time law, but this is {describe(value)}"
+    raise problem("E218", message, node.span, "", f"one of: {', '.join(LAWS)}")
+
+
+def colour(node: Expression, scope: Scope, after_to: bool = False) -> Colour:
+    """The colour after `light`: a colour, a text with one, or a temperature."""
+    value = evaluate(node, scope, colours.NAMES)
+    if isinstance(value, Tint):
+        return value.rgb
+    if isinstance(value, Text):
+        return _colour_of_text(node, value.text)
+    if isinstance(value, Quantity) and value.dimension == TEMPERATURE:
+        kelvin = float(value.value) if not isinstance(value.value, Taylor) else math.nan
+        if not colours.COLDEST <= kelvin <= colours.HOTTEST:
+            message = "a colour temperature goes from 1000 K to 15000 K"
+            raise problem("E217", message, node.span, f"this is {kelvin:g} K")
+        return colours.from_temperature(kelvin)
+    message = f"'light' needs a colour, but this is {describe(value)}"
+    cure = 'for example: light red, light hsv(30 deg), light "#ff8800", light 5600 K'
+    if after_to and isinstance(value, Point):
+        cure = "after a colour, 'to' says which colour comes next; write 'light' after the point"
+    raise problem("E218", message, node.span, "", cure)
+
+
+def _colour_of_text(node: Expression, text: str) -> Colour:
+    rgb = colours.from_hex(text[1:]) if text.startswith("#") else colours.NAMES.get(text.lower())
+    if rgb is not None:
+        return rgb
+    if text.startswith("#") or colours.from_hex(text) is not None:
+        message = f'"{text}" is not a colour'
+        raise problem(
+            "E216", message, node.span, "", 'a # and 3 or 6 digits from 0 to f: "#ff8800"'
+        )
+    meant = closest(text, colours.NAMES)
+    cure = did_you_mean(meant) or 'for example: red, hsv(30 deg), "#ff8800"'
+    raise problem("E216", f'there is no colour "{text}"', node.span, "", cure)
+
+
+def floats(value: Point) -> Vector:
+    """The numbers of a point outside a curve."""
+    x, y, z = value.xyz
+    assert not isinstance(x, Taylor)
+    assert not isinstance(y, Taylor)
+    assert not isinstance(z, Taylor)
+    return x, y, z
+
+
+def needs(node: Expression, value: Value, scope: Scope, word: str, dimension: Dimension) -> Problem:
+    """E218: a value of another kind than this part takes."""
+    needed = dimension_name(dimension)
+    if word in ("repeat", "samples", "scale"):
+        needed = "a plain number"
+    if isinstance(value, Quantity | Point) and value.dimension == PLAIN and dimension != PLAIN:
+        written = with_unit(node, value, dimension, scope, word)
+        message = f"'{word}' needs {needed}, but this has no unit"
+        cure = f"write {written}" if written else f"for example: {_example(word)}"
+        fix = Fix(cure, node.span, written) if written else None
+        return problem("E218", message, node.span, "no unit", cure, fix)
+    cure = f"for example: {_example(word)}" if _example(word) else ""
+    if isinstance(value, Quantity | Point):
+        kind = value.dimension
+        per_time = tuple(a - b for a, b in zip(kind, TIME, strict=True))
+        per_angle = tuple(a - b for a, b in zip(kind, ANGLE, strict=True))
+        if dimension == per_time and dimension in (SPEED, TURNSPEED):
+            cure = f"write {scope.written(node)}/s"
+        elif dimension == per_angle == PITCH:
+            cure = f"write {scope.written(node)}/turn"
+        elif kind == (1.0, 0.0, 1.0, 0.0) and dimension == LENGTH:
+            cure = "an angle becomes a plain number when it is divided by rad"
+    shown = describe(value)
+    if isinstance(value, Point) and word in ("to", "by") and value.dimension != PLAIN:
+        shown = dimension_name(value.dimension)
+    return problem("E218", f"'{word}' needs {needed}, but this is {shown}", node.span, "", cure)
+
+
+def _example(word: str) -> str:
+    if word in PARTS:
+        return PARTS[word].example
+    return STATEMENTS[word].example if word in STATEMENTS else ""

@@ -1,0 +1,100 @@
+"""How the tool is held: the orientation a mode asks for, and where it can't be had.
+
+The tool's z axis looks; see `program.Look` and `program.LookLine` for the other two.
+"""
+
+import math
+from collections.abc import Iterable
+
+from dqpaint.language import space
+from dqpaint.language.diagnostics import Span
+from dqpaint.language.pen import SAME_PLACE, SAME_TURN, Pen, here
+from dqpaint.language.program import (
+    Follow,
+    Keep,
+    Look,
+    LookLine,
+    Quaternion,
+    Tool,
+    Turn,
+    Vector,
+)
+from dqpaint.language.settings import ToolMode, Towards
+
+LEAST_LEAN = math.radians(1.0)  # between the direction of a look and `up`
+
+
+def orientation_at(mode: Look | LookLine, position: Vector, span: Span) -> Quaternion:
+    """The orientation of a tool at `position` that looks."""
+    if isinstance(mode, Look):
+        return _look(mode, position, span)
+    return _look_line(mode, position, span)
+
+
+def _look(mode: Look, position: Vector, span: Span) -> Quaternion:
+    way = space.minus(mode.point, position)
+    if space.length(way) <= SAME_PLACE:
+        cure = "look at a point the tool does not go through"
+        raise here("E251", "the tool can't look at the point where it is", span, "", cure)
+    z = space.unit(way)
+    lean = space.angle_between(z, mode.up)
+    if min(lean, math.pi - lean) < LEAST_LEAN:
+        message = "the tool looks along 'up' here, so nothing says how it is turned about that"
+        raise here("E252", message, span, "", "say another direction: tool look POINT up y")
+    x = space.unit(space.cross(mode.up, z))
+    return space.turn_of_axes(x, space.cross(z, x), z)
+
+
+def _look_line(mode: LookLine, position: Vector, span: Span) -> Quaternion:
+    x = mode.along
+    way = space.minus(mode.point, position)
+    across = space.across(way, x)
+    if space.length(across) <= SAME_PLACE + 1e-12 * space.length(way):
+        cure = "look at a line the tool does not go through"
+        raise here("E253", "the tool can't look at the line it is on", span, "", cure)
+    z = space.unit(across)
+    return space.turn_of_axes(x, space.cross(z, x), z)
+
+
+def told(mode: ToolMode, position: Vector, span: Span) -> Quaternion | None:
+    """The orientation at a place, if the mode alone says it."""
+    if isinstance(mode, Towards):
+        return mode.orientation
+    if isinstance(mode, Look | LookLine):
+        return orientation_at(mode, position, span)
+    return None
+
+
+def begin(pen: Pen, mode: ToolMode, span: Span) -> None:
+    """Before a stroke: a tool that looks has to look already."""
+    if isinstance(mode, Look | LookLine):
+        pen.look(mode, orientation_at(mode, pen.pose.position, span), span)
+
+
+def at_end(
+    pen: Pen, mode: ToolMode, position: Vector, span: Span, axis: Vector, turn: float
+) -> tuple[Tool, Quaternion]:
+    """What the tool does on a stroke to `position`, and its orientation there.
+
+    `axis` and `turn` [rad] are the turn of a tool that follows.
+    """
+    now = pen.pose.orientation
+    if isinstance(mode, Follow):
+        return Follow(axis), space.turn_product(space.turn_about(axis, turn), now)
+    if isinstance(mode, Look | LookLine):
+        return mode, orientation_at(mode, position, span)
+    return turning(now, mode.orientation if isinstance(mode, Towards) else now)
+
+
+def turning(now: Quaternion, end: Quaternion) -> tuple[Tool, Quaternion]:
+    """Turn, or Keep where there is nothing to turn."""
+    if end == now or space.turn_between(now, end) <= SAME_TURN:
+        return Keep(), now
+    return Turn(), end
+
+
+def check_way(mode: ToolMode, places: Iterable[Vector], span: Span) -> None:
+    """Raises if a tool that looks could not do so on the way."""
+    if isinstance(mode, Look | LookLine):
+        for position in places:
+            orientation_at(mode, position, span)

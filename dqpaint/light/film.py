@@ -1,0 +1,82 @@
+"""The film: it adds up light, in linear RGB, and can say where every bit of it went."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from dqpaint.light.arrays import Floats
+from dqpaint.light.brushes import Light
+from dqpaint.light.camera import Camera
+from dqpaint.light.trail import bins, trace
+
+PAD = 64
+"""Guard band round the picture [px]: light just outside still blooms into it, and what the
+spreading does at the film's border stays out of sight."""
+SPACING = 1.0
+"""Path from one deposit to the next [px]: close enough for the B-spline to leave no ripple."""
+SPLINE_VARIANCE = 0.25
+"""Variance of a deposit along each axis [px^2], whatever its place between pixels."""
+
+
+@dataclass(frozen=True, eq=False)
+class Film:
+    """What fell on the film, linear RGB, and what did not [lamp s].
+
+    Attributes:
+        planes: (3, H + 2 PAD, W + 2 PAD) energy in each pixel, with the guard band.
+        emitted: (3,) what the light gave off.
+        lost: (3,) what of it missed the film.
+    """
+
+    planes: Floats
+    emitted: Floats
+    lost: Floats
+
+    @property
+    def on_film(self) -> Floats:
+        """(3,) what is on the film, counted there: emitted = on_film + lost."""
+        return np.asarray(self.planes.sum(axis=(1, 2)))
+
+
+def expose(light: Light, camera: Camera) -> Film:
+    """A film of the camera's size, plus the guard band, that saw all of `light`.
+
+    A deposit is spread over 3x3 pixels by the quadratic B-spline. That is the smoothest weight of
+    its size, and unlike the bilinear one it has the same variance between pixels as on them, so
+    that a slanted line is not beaded.
+    """
+    height, width = camera.height + 2 * PAD, camera.width + 2 * PAD
+    planes = np.zeros((3, height, width))
+    lost = np.zeros(3)
+    for trail in trace(light, camera, margin=PAD - 1.0):  # a spline needs a pixel on either side
+        lost += trail.lost
+        for piece in bins(trail, SPACING):
+            _deposit(planes, piece.position + PAD, piece.energy)
+    film = Film(planes, light.energy.sum(axis=0), lost)
+    for array in (film.planes, film.emitted, film.lost):
+        array.setflags(write=False)
+    return film
+
+
+def _deposit(planes: Floats, position: Floats, energy: Floats) -> None:
+    """Add energy (3, B) at film positions (2, B) x, y to planes."""
+    width = planes.shape[2]
+    x, y = np.rint(position)
+    across, down = _spline(position[0] - x), _spline(position[1] - y)
+    pixel = (y * width + x).astype(np.int64)
+    around = np.array([[-1], [0], [1]])
+    index = (pixel + width * around[:, None] + around[None, :]).ravel()
+    weight = down[:, None] * across[None, :]
+    for plane, colour in zip(planes.reshape(3, -1), energy, strict=True):
+        # unlike a bincount it touches only the pixels that are lit, and it adds in order
+        np.add.at(plane, index, (weight * colour).ravel())
+
+
+def _spline(t: Floats) -> Floats:
+    """(3, B) weights of the pixels at -1, 0, 1 for a deposit at t, -1/2 <= t <= 1/2.
+
+    The quadratic B-spline; Unser, Splines: a perfect fit for signal processing, IEEE SPM 1999.
+    """
+    return np.stack([0.5 * (0.5 - t) ** 2, 0.75 - t * t, 0.5 * (0.5 + t) ** 2])

@@ -1,0 +1,182 @@
+"""Painting -> files: pictures, tables and summaries, written whole or not at all."""
+
+import hashlib
+import json
+import os
+import platform
+import tempfile
+from collections.abc import Callable
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.errors import OutputError
+from dqpaint.metrics import Table, motion_columns
+from dqpaint.paint import Painting
+from dqpaint.registry import Registry
+
+SCHEMA = "dqpaint-run-1"
+LIBRARIES = ("numpy", "opencv-python-headless", "pin", "pybullet")
+PNG_LEVEL = 3  # 9 takes forty times as long for 15 % less
+
+Output = Callable[[Painting], bytes]
+OUTPUTS: Registry[Output] = Registry("output")
+
+
+@OUTPUTS.add("png")
+def png(painting: Painting) -> bytes:
+    """The picture."""
+    return encode_png(painting.image)
+
+
+@OUTPUTS.add("csv")
+def csv(painting: Painting) -> bytes:
+    """One row a control step: what was asked, what was measured, the command then given."""
+    return encode_csv(painting.table)
+
+
+@OUTPUTS.add("json")
+def summary(painting: Painting) -> bytes:
+    """What was run and what came out, in figures."""
+    return (json.dumps(summarise(painting), indent=2, allow_nan=False) + "\n").encode()
+
+
+@OUTPUTS.add("motion")
+def motion(painting: Painting) -> bytes:
+    """What was asked, with twist and acceleration: a CSV."""
+    return encode_csv(motion_columns(painting.motion))
+
+
+DEFAULT_OUTPUTS = ("png", "csv", "json")
+
+
+def ending(name: str) -> str:
+    """How the file of an output ends, after the stem."""
+    return "-motion.csv" if name == "motion" else f".{name}"
+
+
+def encode_png(image: NDArray[np.uint8]) -> bytes:
+    """An sRGB image (H, W, 3) as a PNG file."""
+    done, data = cv2.imencode(".png", image[..., ::-1], [cv2.IMWRITE_PNG_COMPRESSION, PNG_LEVEL])
+    if not done:
+        raise OutputError("the picture could not be encoded as PNG")
+    return data.tobytes()
+
+
+def encode_csv(table: Table) -> bytes:
+    """Columns as a CSV file with 12 digits."""
+    row = ",".join(["%.12g"] * len(table)) + "\n"
+    rows = np.stack(list(table.values()), axis=1).tolist()
+    return (",".join(table) + "\n" + "".join([row % tuple(values) for values in rows])).encode()
+
+
+def summarise(painting: Painting) -> dict[str, Any]:
+    """The JSON summary: what was run, what came out."""
+    motion, film = painting.motion, painting.picture.film
+    program, settings = motion.program, painting.settings
+    return {
+        "schema": SCHEMA,
+        "file": program.name,
+        "sha256": hashlib.sha256(program.text.encode()).hexdigest(),
+        "versions": {
+            "dqpaint": version("dqpaint"),
+            "python": platform.python_version(),
+            **{name: version(name) for name in LIBRARIES},
+        },
+        "robot": painting.robot,
+        "plant": settings.plant,
+        "controller": settings.controller,
+        "gains": painting.gains,
+        "seed": None,  # nothing random takes part in a run without disturbances
+        "settings": settings.model_dump(),
+        "drawing": {
+            "samples": len(motion.t),
+            "period_s": motion.period,
+            "duration_s": float(motion.t[-1]),
+            "length_m": motion.length,
+            "box_m": motion.box.tolist(),
+        },
+        **painting.metrics.figures,
+        "limits": [vars(clamp) for clamp in painting.track.clamps],
+        "light": {
+            "unit": "lamp seconds, linear RGB",
+            "emitted": film.emitted.tolist(),
+            "on_film": film.on_film.tolist(),
+            "lost": film.lost.tolist(),
+            "occluded": None,  # the arm's own shadow is not traced in this version
+            "exposure": painting.picture.exposure,
+        },
+        "wall_s": {stage: round(seconds, 4) for stage, seconds in painting.seconds.items()},
+    }
+
+
+def stem_for(out: str | None, name: str) -> Path:
+    """The path of the files to write, without their endings.
+
+    Args:
+        out: a folder (that exists, or ends with a slash) or a stem; None is the current folder.
+        name: of the files, where `out` is a folder.
+
+    Raises:
+        OutputError: the folder does not exist or cannot be written.
+    """
+    target = Path(out or ".")
+    if out and (out.endswith(("/", os.sep)) or target.is_dir()):
+        folder, stem = target, target / name
+    elif out:
+        folder, stem = target.parent, target
+    else:
+        folder, stem = target, target / name
+    try:
+        if out and out.endswith(("/", os.sep)):
+            folder.mkdir(parents=True, exist_ok=True)
+        if not folder.is_dir():
+            raise OutputError(f"folder '{folder}' does not exist; a path that ends with / is made")
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as problem:
+        raise OutputError(f"folder '{folder}' cannot be written: {problem.strerror}") from None
+    return stem
+
+
+def write(stem: Path, contents: dict[str, bytes]) -> list[Path]:
+    """Write files beside each other: each is made whole beside its place, then all move in.
+
+    Args:
+        stem: path without endings.
+        contents: the bytes of each file by its ending.
+
+    Raises:
+        OutputError: a file could not be written; none of them was changed.
+    """
+    made: list[tuple[str, Path]] = []
+    try:
+        for end, data in contents.items():
+            handle, temporary = tempfile.mkstemp(
+                prefix=f".{stem.name}", suffix=".part", dir=stem.parent
+            )
+            made.append((temporary, stem.with_name(stem.name + end)))
+            with os.fdopen(handle, "wb") as file:
+                file.write(data)
+            os.chmod(temporary, 0o666 & ~_umask())
+        for _, path in made:
+            if path.is_dir():
+                raise OutputError(f"'{path}' cannot be written: it is a folder")
+        for temporary, path in made:
+            os.replace(temporary, path)
+    except OSError as problem:
+        raise OutputError(f"'{stem}' cannot be written: {problem.strerror}") from None
+    finally:
+        for temporary, _ in made:
+            Path(temporary).unlink(missing_ok=True)
+    return [path for _, path in made]
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

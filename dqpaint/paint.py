@@ -1,0 +1,121 @@
+"""The whole flow, from a drawing's text to its painting, to be read in a minute."""
+
+from collections.abc import Callable
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.controllers import CONTROLLERS
+from dqpaint.dq import Floats
+from dqpaint.language.program import Program
+from dqpaint.metrics import Metrics, Table, measure
+from dqpaint.motion import Motion, plan
+from dqpaint.out_of_reach import out_of_reach
+from dqpaint.picture import Picture, take
+from dqpaint.plants import PLANTS
+from dqpaint.robots.card import DEFAULT_ROBOT, read_card
+from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.reach import Miss, find_start, waypoints
+from dqpaint.settings import Settings
+from dqpaint.tracking import Track, track
+
+
+@dataclass(frozen=True)
+class Painting:
+    """A finished painting: what was asked, what the arm did, the picture and the numbers."""
+
+    settings: Settings
+    robot: str
+    gains: dict[str, float]  # all of the law's, and what follows from them
+    motion: Motion
+    track: Track
+    metrics: Metrics
+    picture: Picture
+    seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
+
+    @property
+    def image(self) -> NDArray[np.uint8]:
+        """The picture (H, W, 3), sRGB."""
+        return self.picture.image
+
+    @property
+    def film(self) -> Any:
+        """The linear film the picture was developed from."""
+        return self.picture.film
+
+    @property
+    def table(self) -> Table:
+        """The columns of the CSV, each (N,)."""
+        return self.metrics.table
+
+    def _repr_png_(self) -> bytes:
+        from dqpaint.outputs import png
+
+        return png(self)
+
+
+def paint(
+    program: Program, settings: Settings, progress: Callable[[float], None] = lambda _done: None
+) -> Painting:
+    """Paint a drawing with a simulated arm.
+
+    Args:
+        program: from `dqpaint.language`.
+        settings: everything besides the text.
+        progress: called while the arm moves, with the part done, 0 to 1.
+
+    Raises:
+        UsageError: an unknown robot, plant, controller, gain or view.
+        ScriptError: the drawing has no timetable or leaves the arm's reach.
+        DqpaintError: the run or the light came to nothing.
+    """
+    clock = Stopwatch()
+    controller = CONTROLLERS[settings.controller]
+    gains = controller.read_gains(settings.gains)
+    make_plant = PLANTS[settings.plant]
+    card = read_card(settings.robot or program.robot or DEFAULT_ROBOT)
+    with clock("motion"):
+        motion = plan(program, card.canvas.pose)
+    with clock("start"):
+        kinematics = Kinematics(card)
+        start = first_posture(motion, kinematics, settings)
+    with clock("arm"):
+        run = track(motion, kinematics, start, make_plant, controller, gains, progress)
+    with clock("metrics"):
+        metrics = measure(run, kinematics)
+    with clock("light"):
+        picture = take(motion, run.points, settings)
+    return Painting(
+        settings, card.name, gains.shown(), motion, run, metrics, picture, clock.seconds
+    )
+
+
+def first_posture(motion: Motion, kinematics: Kinematics, settings: Settings) -> Floats:
+    """Where the arm begins (n,) [rad]: at the first pose, or at home.
+
+    Raises:
+        ScriptError: the drawing leaves the arm's reach, wherever it begins.
+    """
+    rows = waypoints(motion.stroke)
+    found = find_start(kinematics, motion.pose[rows], motion.t[rows])
+    if isinstance(found, Miss):
+        raise out_of_reach(motion, kinematics, int(rows[found.index]), found)
+    return kinematics.card.home if settings.start == "home" else found.posture
+
+
+class Stopwatch:
+    """Wall time of named stages [s]."""
+
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+
+    @contextmanager
+    def __call__(self, stage: str):  # type: ignore[no-untyped-def]
+        """Time what happens inside."""
+        begin = perf_counter()
+        yield
+        self.seconds[stage] = perf_counter() - begin

@@ -1,0 +1,56 @@
+"""Points -> Picture: one way to the film, for what was asked and for what was reached."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.errors import DqpaintError
+from dqpaint.light.brushes import shine
+from dqpaint.light.camera import Camera, frame, parse_view
+from dqpaint.light.develop import develop
+from dqpaint.light.exposure import automatic_exposure
+from dqpaint.light.film import Film, expose
+from dqpaint.light.spread import point_spread, spread
+from dqpaint.motion import Motion
+from dqpaint.settings import Settings
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A developed picture and the film it came from.
+
+    Attributes:
+        image: (H, W, 3) 8-bit sRGB.
+        film: the light that fell on it, linear.
+        exposure: the factor that was applied to the film, `ev` not included.
+        camera: where it was taken from.
+    """
+
+    image: NDArray[np.uint8]
+    film: Film
+    exposure: float
+    camera: Camera
+
+
+def take(motion: Motion, points: Floats, settings: Settings) -> Picture:
+    """The long exposure of a light that goes through points (N, 3) in the colours of a motion.
+
+    Camera and exposure are chosen from what was asked, not from the points: so pictures of two
+    control laws can be laid over each other.
+    """
+    if not motion.lit.any():
+        raise DqpaintError(
+            f"{motion.program.name}: no light is on anywhere, so the picture would be black"
+        )
+    size = (settings.width, settings.height)
+    asked = shine(motion.points, motion.light, motion.period)
+    canvas = dq.matrix_from_quaternion(dq.rotation(motion.canvas))
+    camera = frame(asked.lit_points, canvas, parse_view(settings.view), size)
+    psf = point_spread(settings.height)
+    exposure = automatic_exposure(asked, camera, psf)
+    film = expose(shine(points, motion.light, motion.period), camera)
+    image = develop(spread(film, psf), exposure, settings.ev)
+    return Picture(image, film, exposure, camera)

@@ -1,0 +1,74 @@
+"""How a drawing is painted: everything besides its text, checked."""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from dqpaint.errors import UsageError
+
+LARGEST = 8192  # columns or rows of a picture
+SMALLEST = 16
+
+
+class Settings(BaseModel):
+    """The choices of one painting, as the command line's options name them."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    controller: str = "hinf"
+    gains: dict[str, float] = Field(default_factory=dict)
+    robot: str | None = None  # None: the file's own robot line, else the iiwa
+    plant: str = "stiff"
+    start: Literal["first", "home"] = "first"
+    width: Annotated[int, Field(ge=SMALLEST, le=LARGEST)] = 1280
+    height: Annotated[int, Field(ge=SMALLEST, le=LARGEST)] = 720
+    view: str = "front"
+    ev: Annotated[float, Field(ge=-20, le=20, allow_inf_nan=False)] = 0.0
+
+
+def make_settings(**choices: object) -> Settings:
+    """Settings with the given choices; None stands for the default.
+
+    Raises:
+        UsageError: an unknown choice or a value outside its range.
+    """
+    given = {name: value for name, value in choices.items() if value is not None}
+    try:
+        return Settings.model_validate(given)
+    except ValidationError as problem:
+        first = problem.errors()[0]
+        name = ".".join(str(part) for part in first["loc"])
+        if first["type"] == "extra_forbidden":
+            known = ", ".join(Settings.model_fields)
+            raise UsageError(f"no setting named '{name}'; known: {known}") from None
+        reason = first["msg"].removeprefix("Input ")
+        raise UsageError(f"{name} {first['input']!r} {reason}") from None
+
+
+def parse_size(text: str) -> tuple[int, int]:
+    """Width and height [px] from `1280x720`.
+
+    Raises:
+        UsageError: anything else.
+    """
+    width, _, height = text.partition("x")
+    if not (width.isdecimal() and height.isdecimal()):
+        raise UsageError(f"size '{text}' is not WIDTHxHEIGHT in pixels, for example 1280x720")
+    return int(width), int(height)
+
+
+def parse_gain(text: str) -> tuple[str, float]:
+    """A gain's name and value from `k=20`.
+
+    Raises:
+        UsageError: anything else.
+    """
+    name, sign, value = text.partition("=")
+    try:
+        if sign:
+            return name.strip(), float(value)
+    except ValueError:
+        pass
+    raise UsageError(
+        f"gain '{text}' is not NAME=VALUE with a plain number in SI units, for example k=20"
+    )

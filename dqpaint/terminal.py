@@ -1,0 +1,77 @@
+"""What a person sees in a terminal: a table of figures, a picture in blocks, progress."""
+
+import os
+import sys
+import time
+from collections.abc import Sequence
+from typing import TextIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+BAR = 30  # characters of the progress bar
+WIDEST = 72  # columns of a picture
+SHORTEST_WORTH_A_BAR = 0.5  # [s]
+
+
+def table(rows: Sequence[tuple[str, str]]) -> str:
+    """Names and values below each other."""
+    width = max(len(name) for name, _ in rows)
+    return "\n".join(f"  {name:<{width}}  {value}" for name, value in rows)
+
+
+def shows_pictures(stream: TextIO) -> bool:
+    """Whether a stream is a terminal that says it has full colour."""
+    return (
+        stream.isatty()
+        and "NO_COLOR" not in os.environ
+        and os.environ.get("COLORTERM", "") in ("truecolor", "24bit")
+    )
+
+
+def blocks(image: NDArray[np.uint8], columns: int) -> str:
+    """A picture (H, W, 3) as lines of half blocks, two pixels a character.
+
+    A cell shows the brightest pixel it covers: a thin line on black would be averaged away.
+    """
+    height, width = image.shape[:2]
+    columns = max(8, min(columns, WIDEST))
+    rows = 2 * max(1, round(columns * height / width / 2))
+    y = np.linspace(0, height, rows + 1).astype(int)
+    x = np.linspace(0, width, columns + 1).astype(int)
+    small = np.maximum.reduceat(np.maximum.reduceat(image, y[:-1], axis=0), x[:-1], axis=1)
+    lines = []
+    for upper, lower in zip(small[::2].tolist(), small[1::2].tolist(), strict=True):
+        cells = (
+            f"\x1b[38;2;{a[0]};{a[1]};{a[2]}m\x1b[48;2;{b[0]};{b[1]};{b[2]}m▀"
+            for a, b in zip(upper, lower, strict=True)
+        )
+        lines.append("".join(cells) + "\x1b[0m")
+    return "\n".join(lines)
+
+
+class Progress:
+    """A bar on standard error with the time left; silent where that is no terminal."""
+
+    def __init__(self, what: str) -> None:
+        self._what = what
+        self._shown = sys.stderr.isatty()
+        self._begin = time.monotonic()
+        self._drawn = False
+
+    def __call__(self, done: float) -> None:
+        """Show that the part `done`, 0 to 1, is behind us."""
+        passed = time.monotonic() - self._begin
+        if not self._shown or passed < SHORTEST_WORTH_A_BAR or done <= 0:
+            return
+        left = passed / done * (1 - done)
+        filled = "█" * round(BAR * done)
+        sys.stderr.write(f"\r{self._what} {filled:<{BAR}} {done:4.0%}  {left:.0f} s left ")
+        sys.stderr.flush()
+        self._drawn = True
+
+    def close(self) -> None:
+        """Wipe the bar."""
+        if self._drawn:
+            sys.stderr.write("\r\x1b[K")
+            sys.stderr.flush()

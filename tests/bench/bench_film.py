@@ -1,0 +1,86 @@
+"""How long light takes: python tests/bench/bench_film.py. Read the ratios, not the milliseconds."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+import cv2
+import numpy as np
+
+from dqpaint.light.brushes import Light, shine
+from dqpaint.light.camera import Camera, frame, parse_view
+from dqpaint.light.develop import develop
+from dqpaint.light.exposure import automatic_exposure
+from dqpaint.light.film import Film, expose
+from dqpaint.light.spread import point_spread, spread
+
+SECONDS = 24.0
+
+
+def spiral(samples: int) -> Light:
+    """Twelve turns in 24 s, 10 cm in radius."""
+    turn = np.linspace(0.0, 24.0 * np.pi, samples)
+    radius = 0.1 * turn / turn[-1]
+    points = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), 0.0 * turn])
+    return shine(points, np.tile([0.05, 0.4, 1.0], (samples, 1)), SECONDS / samples)
+
+
+def best(work: Callable[[], object], repeats: int = 5) -> float:
+    """Shortest of some runs [ms]."""
+    times = []
+    for _ in range(repeats):
+        begin = time.perf_counter()
+        work()
+        times.append(time.perf_counter() - begin)
+    return 1e3 * min(times)
+
+
+def seen(light: Light, size: tuple[int, int]) -> Camera:
+    return frame(light.lit_points, np.eye(3), parse_view("front"), size)
+
+
+def whole(light: Light, size: tuple[int, int]) -> None:
+    camera, psf = seen(light, size), point_spread(size[1])
+    image = spread(expose(light, camera), psf)
+    develop(image, automatic_exposure(light, camera, psf))
+
+
+def at_full_size(film: Film, height: int) -> None:
+    """The same spread without a pyramid."""
+    image = np.ascontiguousarray(film.planes.transpose(1, 2, 0), dtype=np.float32)
+    for width in point_spread(height).widths:
+        cv2.GaussianBlur(image, (0, 0), width)
+
+
+def main() -> None:
+    light = spiral(3000)
+    begin = time.perf_counter()
+    whole(light, (1280, 720))
+    print(
+        f"light to picture, 3000 samples, 1280x720, first: {1e3 * (time.perf_counter() - begin):.0f} ms"
+    )
+    print(
+        f"                                           later: {best(lambda: whole(light, (1280, 720))):.0f} ms"
+    )
+
+    size = (1920, 1080)
+    times = {}
+    for samples in (3_000, 100_000, 1_000_000):
+        light = spiral(samples)
+        camera = seen(light, size)
+        times[samples] = best(lambda light=light, camera=camera: expose(light, camera))
+        print(f"expose {samples:>9,} samples at 1080p: {times[samples]:6.1f} ms")
+    print(f"  333 times the samples cost {times[1_000_000] / times[3_000]:.1f} times as much")
+
+    film = expose(light, camera)
+    pyramid = best(lambda: spread(film, point_spread(1080)))
+    print(f"spread at 1080p: {pyramid:.1f} ms")
+    full = best(lambda: at_full_size(film, 1080), 1)
+    print(f"  GaussianBlur at full size {full:.0f} ms, {full / pyramid:.0f} times as much")
+    image = spread(film, point_spread(1080))
+    print(f"develop at 1080p: {best(lambda: develop(image, 10.0)):.1f} ms")
+
+
+if __name__ == "__main__":
+    main()

@@ -47,6 +47,8 @@ Out = Annotated[
 Save = Annotated[str, typer.Option(metavar="LIST", help="of png, csv, json, motion")]
 AsJson = Annotated[bool, typer.Option("--json", help="for a program to read")]
 
+INTERRUPTED = 130  # the exit code typer gives a Ctrl-C
+
 DRAW_EXAMPLES = """Examples:
 
   dqpaint draw star
@@ -89,6 +91,8 @@ def draw(
 
     parse_view(view)
     makers = {outputs.ending(name): outputs.OUTPUTS[name] for name in _names(save)}
+    if not makers:
+        raise UsageError(f"nothing to save in '{save}'; known: {', '.join(outputs.OUTPUTS)}")
     stem = outputs.stem_for(out, f"{path.stem}-{controller}")
     bar = Progress(path.name)
     try:
@@ -218,9 +222,10 @@ def main() -> None:
             text if text.startswith(("error[", "warning[")) else f"error: {text}", file=sys.stderr
         )
         sys.exit(1)
-    except KeyboardInterrupt:
-        print("interrupted; nothing was written", file=sys.stderr)
-        sys.exit(130)
+    except SystemExit as stop:
+        if stop.code == INTERRUPTED:
+            print("interrupted; nothing was written", file=sys.stderr)
+        raise
     except BrokenPipeError:  # the reader of our output has gone
         sys.stderr.close()
         sys.exit(1)

@@ -80,7 +80,7 @@ def summarise(painting: Painting) -> dict[str, Any]:
     program, settings = motion.program, painting.settings
     return {
         "schema": SCHEMA,
-        "file": program.name,
+        "file": Path(program.name).name,
         "sha256": hashlib.sha256(program.text.encode()).hexdigest(),
         "versions": {
             "dqpaint": version("dqpaint"),

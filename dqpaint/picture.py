@@ -46,9 +46,11 @@ def take(motion: Motion, points: Floats, settings: Settings) -> Picture:
             f"{motion.program.name}: no light is on anywhere, so the picture would be black"
         )
     size = (settings.width, settings.height)
-    asked = shine(motion.points, motion.light, motion.period)
-    canvas = dq.matrix_from_quaternion(dq.rotation(motion.canvas))
-    camera = frame(asked.lit_points, canvas, parse_view(settings.view), size)
+    steady = motion.light * ~motion.jump[:, None]  # a set point that jumps draws no line
+    asked = shine(motion.points, steady, motion.period)
+    front = dq.matrix_from_quaternion(motion.front)
+    shown = motion.points[motion.lit | np.roll(motion.lit, 1)]
+    camera = frame(shown, front, parse_view(settings.view), size)
     psf = point_spread(settings.height)
     exposure = automatic_exposure(asked, camera, psf)
     film = expose(shine(points, motion.light, motion.period), camera)

@@ -7,13 +7,13 @@ from dqpaint.language.scope import Scope, UnknownError
 from dqpaint.language.space import Frame
 from dqpaint.language.syntax import Part, Statement
 from dqpaint.language.units import PLAIN
-from dqpaint.language.values import Point, Quantity
+from dqpaint.language.values import Point
 
 MOST_PASSES = 10_000
 MOST_STATEMENTS = 1_000_000
 
 
-def passes(statement: Statement, scope: Scope) -> list[Quantity]:
+def passes(statement: Statement, scope: Scope) -> range:
     """The value of the loop's name in each pass."""
     nodes = statement.values
     if len(nodes) == 1:
@@ -32,7 +32,7 @@ def passes(statement: Statement, scope: Scope) -> list[Quantity]:
         message = f"more than {MOST_PASSES:,} passes of one 'repeat'"
         cure = "draw a formula instead: curve … for t from … to …"
         raise problem("E303", message, nodes[-1].span, f"this is {number:,}", cure)
-    return [Quantity(float(i), PLAIN) for i in range(lower, upper + 1)]
+    return range(lower, upper + 1)
 
 
 def size(statement: Statement, count: int, scope: Scope) -> int:
@@ -81,6 +81,8 @@ def inner_frame(statement: Statement, outer: Frame, scope: Scope) -> Frame:
             frame = frame.within(Frame(shift=reading.place(part.expression, scope, "shift")))
         elif part.word == "scale":
             frame = frame.within(Frame(scale=reading.positive(part.expression, scope, "scale")))
+    if not 1.0 / reading.LARGEST <= frame.scale <= reading.LARGEST:
+        raise problem("E201", "this scale is too extreme", statement.span)
     return frame
 
 

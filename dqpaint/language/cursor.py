@@ -57,7 +57,7 @@ def found(token: Token) -> str:
     if token.kind == "end":
         return "the end of the line"
     if token.kind == "number":
-        return f"the number {token.text}"
+        return f"the number {token.text.rstrip('.')}"
     if token.kind == "text":
         return f'the text "{token.text}"'
     return f"'{token.text}'"

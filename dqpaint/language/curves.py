@@ -9,7 +9,7 @@ from dqpaint.language.pen import Pen, here
 from dqpaint.language.program import Curve, Formula, Vector
 from dqpaint.language.scope import Scope
 from dqpaint.language.space import Frame
-from dqpaint.language.syntax import Expression, Statement
+from dqpaint.language.syntax import Expression, Statement, names_in
 from dqpaint.language.taylor import Floats, Taylor
 from dqpaint.language.units import ANGLE, LENGTH, TIME, Dimension
 from dqpaint.language.values import Point, Quantity, Value, describe, is_zero
@@ -17,6 +17,7 @@ from dqpaint.language.values import Point, Quantity, Value, describe, is_zero
 GAP = 1e-9  # [m] within which a curve starts where the tool is
 PIECES = 64  # a curve is looked at in so many places before it is believed
 MOST_PIECES = 1 << 16  # of a curve whose heading changes fast
+LARGEST = 1e30  # of its series: squares of it are still a computer's numbers
 UPRIGHT = 1e-6  # sine of the least angle between a heading and the axis it turns about
 
 
@@ -65,14 +66,16 @@ def _formula(
     scope: Scope,
     file: tuple[str, str],
 ) -> Formula:
-    known = scope.with_name(name, Quantity(0.0, dimension))
+    known = scope.only(names_in(node))
     columns = tuple(frame.vector(axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), space.Z))
 
     def formula(t: Taylor) -> tuple[Taylor, Taylor, Taylor]:
         try:
             # What is not finite is found and reported afterwards.
             with np.errstate(all="ignore"):
-                point = _point(node, known.with_name(name, Quantity(t, dimension)))
+                inner = known.only(known.names)
+                inner.names[name] = Quantity(t, dimension)
+                point = _point(node, inner)
                 x, y, z = (0.0 * t + number for number in point.xyz)
                 series = (_row(0, x, y, z), _row(1, x, y, z), _row(2, x, y, z))
             _check_finite(series, t, name, dimension, node.span)
@@ -105,12 +108,13 @@ def _no_point(value: Value, node: Expression, scope: Scope) -> Problem:
 def _check_finite(
     series: tuple[Taylor, ...], t: Taylor, name: str, dimension: Dimension, span: Span
 ) -> None:
-    finite = np.isfinite(np.array([one.coefficients for one in series])).all(axis=(0, 1))
+    coefficients = np.array([one.coefficients for one in series])
+    finite = (np.abs(coefficients) < LARGEST).all(axis=(0, 1))  # false for what is no number, too
     if finite.all():
         return
     first = int(np.argmin(finite))
     value = _shown(float(t.coefficients[0, first]), dimension)
-    values_only = np.isfinite([one.coefficients[0, first] for one in series]).all()
+    values_only = (np.abs(coefficients[:, 0, first]) < LARGEST).all()
     what = "speed" if values_only else "place"
     cure = "choose the ends so that they leave this value out"
     raise problem("E243", f"the curve has no {what} at {name} = {value}", span, "", cure)

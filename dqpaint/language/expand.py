@@ -12,6 +12,8 @@ from dqpaint.language.program import Pose, Program
 from dqpaint.language.scope import BUILTINS, Scope, UnknownError
 from dqpaint.language.settings import PERIOD, changed
 from dqpaint.language.syntax import Expression, Statement
+from dqpaint.language.units import PLAIN
+from dqpaint.language.values import Quantity
 from dqpaint.language.words import SETTINGS, STATEMENTS
 
 
@@ -102,16 +104,14 @@ class Expander:
 
     # Names and blocks.
 
-    def _open_block(self) -> Scope:
-        outside, self._scope = self._scope, Scope(self._text)
-        self._scope.names = dict(outside.names)
-        self._scope.places = dict(outside.places)
+    def _open_block(self) -> int:
+        """Begins a block; gives what `_close_block` needs to forget its names again."""
         self._depth += 1
-        return outside
+        return len(self._scope.names)
 
-    def _close_block(self, outside: Scope) -> None:
-        self._scope = outside
+    def _close_block(self, outside: int) -> None:
         self._depth -= 1
+        self._scope.forget_all_but(outside)
 
     def _define(self, statement: Statement, value: Expression | None = None) -> None:
         """Checks that a name is new, and gives it a value if there is one."""
@@ -138,10 +138,10 @@ class Expander:
         passes = blocks.passes(statement, self._scope)
         size = blocks.size(statement, len(passes), self._scope)
         self._check_size(statement, self._expanded + size)
-        for value in passes:
+        for value in passes if statement.body else ():
             outside, failed = self._open_block(), self._failed
             if statement.name is not None:
-                self._scope.names[statement.name.text] = value
+                self._scope.names[statement.name.text] = Quantity(float(value), PLAIN)
                 self._scope.places[statement.name.text] = statement.name.span
             self._run(statement.body)
             self._close_block(outside)

@@ -1,8 +1,13 @@
 """The messages of one run: each once, in the order of the text, and not too many."""
 
+from dataclasses import replace
+
 from dqpaint.language.diagnostics import Diagnostic, Severity, Span
 
 MOST = 20  # errors, and warnings; after so many a person reads no more
+
+
+LONGEST = 240  # of the texts of a message, in which a file's own words may be quoted
 
 
 class EnoughError(Exception):
@@ -19,6 +24,7 @@ class Findings:
 
     def add(self, diagnostic: Diagnostic) -> None:
         """Keeps a message; raises `EnoughError` when the list of errors is full."""
+        diagnostic = _readable(diagnostic)
         key = diagnostic.code, diagnostic.span
         if key in self._found:
             return
@@ -39,3 +45,17 @@ class Findings:
             found = found[:MOST]
         found.sort(key=lambda d: d.span.start if d.span is not None else 1 << 60)
         return tuple(found)
+
+
+def _readable(diagnostic: Diagnostic) -> Diagnostic:
+    """The message without the endless words that it may quote."""
+    texts = diagnostic.message, diagnostic.label, diagnostic.help
+    if max(map(len, texts)) <= LONGEST:
+        return diagnostic
+    message, label, cure = (_cut(text) for text in texts)
+    return replace(diagnostic, message=message, label=label, help=cure, fix=None)
+
+
+def _cut(text: str) -> str:
+    half = LONGEST // 2
+    return text if len(text) <= LONGEST else f"{text[:half]} … {text[-half:]}"

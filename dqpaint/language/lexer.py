@@ -47,6 +47,8 @@ _TOKEN = re.compile(
 )
 _FIRST_WORD = re.compile(r"[^\S\n]*([A-Za-z_]+)(?![A-Za-z0-9_]|[^\S\n]*[,)*/+^])", re.ASCII)
 
+_WORD = re.compile(r"\w+")
+
 # Signs that come with copying from elsewhere, and the plain one that is meant.
 _LOOKALIKES = {
     "−": "-",
@@ -186,9 +188,9 @@ def _bad(text: str, start: int, tokens: list[Token], problems: list[Diagnostic])
     character, end = text[start], start + 1
     if character.isspace():
         return end  # a blank that only Unicode calls one: it comes with copying from elsewhere
-    line_end = text.find("\n", start)
-    line_end = len(text) if line_end < 0 else line_end
     if character == '"':
+        line_end = text.find("\n", start)
+        line_end = len(text) if line_end < 0 else line_end
         problems.append(
             Diagnostic(
                 "E107",
@@ -200,6 +202,8 @@ def _bad(text: str, start: int, tokens: list[Token], problems: list[Diagnostic])
         )
         tokens.append(Token("text", text[end:line_end].rstrip(), start, line_end))
         return line_end
+    if problems:
+        return end  # one is enough for a line
     fix = None
     shown = f"'{character}'" if character.isprintable() else f"U+{ord(character):04X}"
     if character in _LOOKALIKES:
@@ -219,7 +223,8 @@ def _bad(text: str, start: int, tokens: list[Token], problems: list[Diagnostic])
         cure = "a comment begins with #"
     elif character.isalpha():
         cure = "names are made of the letters a to z, digits and _"
-        end = start + len(re.match(r"\w+", text[start:line_end])[0])  # type: ignore[index]
+        word = _WORD.match(text, start)
+        end = word.end() if word else end
         shown = f"'{character}'"
     else:
         cure = "a comment begins with #, a text stands in quotes"

@@ -26,6 +26,7 @@ from dqpaint.language.program import (
 from dqpaint.language.settings import REST_TO_REST, Settings, Towards
 
 MOST_SEGMENTS = 50_000
+FARTHEST = 1e9  # [m]
 SAME_PLACE = 1e-12  # [m] below this two points are one
 SAME_TURN = 1e-12  # [rad] below this two orientations are one
 LOOKS_ALREADY = 1e-9  # [rad] what rounding may leave between a look and the stroke before
@@ -74,6 +75,8 @@ class Pen:
         if len(self.segments) >= MOST_SEGMENTS:
             self.findings.add(_too_many(span))
             raise EnoughError
+        if max(map(abs, end.position)) > FARTHEST:
+            raise here("E201", "this ends too far away", span)
         line, words = self._lines.line(span), first_line(self.text, span)
         self.segments.append(
             Segment(path, tool, self.settings.law, timing, light, self.pose, end, words, line)

@@ -47,6 +47,9 @@ _DIMENSIONS = {
     "pitch": PITCH,
     "number": PLAIN,
 }
+# Of lengths [m], angles [rad] and times [s]: far above any drawing, and the fourth power of it,
+# scaled as much again, is still a computer's number.
+LARGEST = 1e9
 _LARGEST_COUNT = 10**15  # of samples; far above what is ever allowed, far below what overflows
 
 
@@ -68,6 +71,8 @@ def quantity(
     """A number of this dimension; a plain 0 has any."""
     if isinstance(value, Quantity) and (value.dimension == dimension or is_zero(value)):
         assert not isinstance(value.value, Taylor)
+        if dimension != PLAIN and abs(value.value) > LARGEST:
+            raise problem("E201", "this number is too large", node.span)
         return value.value
     raise needs(node, value, scope, word, dimension)
 
@@ -103,6 +108,8 @@ def place(node: Expression, scope: Scope, word: str) -> Vector:
     value = evaluate(node, scope)
     if isinstance(value, Point):
         if value.dimension == LENGTH or is_zero(value):
+            if max(map(abs, floats(value))) > LARGEST:
+                raise problem("E201", "this point is too far away", node.span)
             return floats(value)
         raise needs(node, value, scope, word, LENGTH)
     message = f"'{word}' needs a point, but this is {describe(value)}"

@@ -1,6 +1,7 @@
 """The names that have a value at one place of a file."""
 
 import math
+from collections.abc import Iterable
 
 from dqpaint.language import colours
 from dqpaint.language.diagnostics import Span
@@ -45,10 +46,16 @@ class Scope:
         """Whether a name means something here."""
         return name in self.names or name in BUILTINS
 
-    def with_name(self, name: str, value: Value) -> "Scope":
-        """A copy that knows one name more."""
+    def forget_all_but(self, count: int) -> None:
+        """Keeps only so many names, those that came first: a name never changes its place."""
+        while len(self.names) > count:
+            name, _ = self.names.popitem()
+            self.places.pop(name, None)
+
+    def only(self, names: Iterable[str]) -> "Scope":
+        """A copy that knows some of the names; it stays as it is when this one goes on."""
         inner = Scope(self.text)
-        inner.names = {**self.names, name: value}
+        inner.names = {name: self.names[name] for name in names if name in self.names}
         return inner
 
     def written(self, node: Expression) -> str:

@@ -79,6 +79,22 @@ class Power:
 Expression = Literal | Name | Quoted | Bracket | Call | Sign | Chain | Power
 
 
+def names_in(node: Expression) -> set[str]:
+    """The names an expression uses."""
+    match node:
+        case Name(name):
+            return {name}
+        case Bracket(values) | Call(_, values):
+            return set().union(*map(names_in, values))
+        case Sign(value):
+            return names_in(value)
+        case Chain(first, rest):
+            return names_in(first).union(*(names_in(value) for _, value in rest))
+        case Power(base, exponent):
+            return names_in(base) | names_in(exponent)
+    return set()
+
+
 # What stands after `tool` and `light`.
 
 

@@ -15,7 +15,8 @@ PAD = 64
 """Guard band round the picture [px]: light just outside still blooms into it, and what the
 spreading does at the film's border stays out of sight."""
 SPACING = 1.0
-"""Path from one deposit to the next [px]: close enough for the B-spline to leave no ripple."""
+"""Path from one deposit to the next [px]; along a diagonal it leaves a ripple of 1 % from pixel to
+pixel, which the spreading takes away."""
 SPLINE_VARIANCE = 0.25
 """Variance of a deposit along each axis [px^2], whatever its place between pixels."""
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.language.diagnostics import Diagnostic, ScriptError, Severity
-from dqpaint.language.program import Program
+from dqpaint.language.program import Program, Step
 from dqpaint.motion.lengths import flow_by_length, length_fraction
 from dqpaint.motion.shapes import Flow, pose_array
 from dqpaint.motion.timetable import Stroke, not_finite, timetable
@@ -31,6 +31,11 @@ class Motion:
         line: the line of the file (N,) that asks for what follows row k.
         stroke: the number of the segment (N,), from 0.
         canvas: pose (8,) of the drawing frame in the base frame.
+        front: orientation (4,) of the robot's own canvas: it is seen square on from the front,
+            wherever a `place` line puts the drawing.
+        jump: whether a `step` jumps from row k to k + 1 (N,).
+        program: what was planned.
+        length: of the path [m], dark parts included.
         notes: warnings about the drawing.
     """
 
@@ -43,8 +48,10 @@ class Motion:
     line: NDArray[np.int64]
     stroke: NDArray[np.int64]
     canvas: Floats
+    front: Floats
+    jump: NDArray[np.bool_]
     program: Program
-    length: float  # of the lit and dark path [m]
+    length: float
     notes: tuple[Diagnostic, ...] = field(default=())
 
     def __post_init__(self) -> None:
@@ -88,8 +95,6 @@ def plan(program: Program, canvas: Floats) -> Motion:
             findings.append(not_finite(stroke.segment))
     if any(f.severity is Severity.ERROR for f in findings):
         raise ScriptError(program.name, program.text, tuple(findings))
-    if program.placement is not None:
-        canvas = pose_array(program.placement)
     return _assemble(program, strokes, flows, canvas, tuple(findings))
 
 
@@ -119,6 +124,7 @@ def _assemble(
     canvas: Floats,
     findings: tuple[Diagnostic, ...],
 ) -> Motion:
+    placed = canvas if program.placement is None else pose_array(program.placement)
     counts = np.array([stroke.count for stroke in strokes])
     n = int(counts.sum()) + 1
     pose, twist, acceleration = np.empty((n, 8)), np.empty((n, 6)), np.empty((n, 6))
@@ -141,13 +147,15 @@ def _assemble(
     return Motion(
         period=program.period,
         t=np.arange(n, dtype=np.float64) * program.period,
-        pose=dq.continuous(dq.mul(canvas, pose)),
-        twist=dq.adjoint(canvas, twist),
-        acceleration=dq.adjoint(canvas, acceleration),
+        pose=dq.continuous(dq.mul(placed, pose)),
+        twist=dq.adjoint(placed, twist),
+        acceleration=dq.adjoint(placed, acceleration),
         light=light,
         line=lines[number],
         stroke=number,
-        canvas=np.array(canvas),
+        canvas=np.array(placed),
+        front=np.array(dq.rotation(canvas)),
+        jump=np.array([isinstance(stroke.segment.path, Step) for stroke in strokes])[number],
         program=program,
         length=sum(stroke.extent.length for stroke in strokes),
         notes=program.notes + findings,

@@ -190,7 +190,8 @@ def _too_many(segment: Segment, count: float) -> Diagnostic:
 
 
 def _rounding(segment: Segment, wanted: float, given: float) -> Diagnostic | None:
-    if abs(given - wanted) <= ROUNDING_WORTH_SAYING * wanted or isinstance(segment.path, Step):
+    asked = isinstance(segment.timing, Lasting) and not isinstance(segment.path, Step)
+    if not asked or given - wanted <= ROUNDING_WORTH_SAYING * wanted:
         return None
     return Diagnostic(
         "W410",

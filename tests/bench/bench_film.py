@@ -57,12 +57,9 @@ def main() -> None:
     light = spiral(3000)
     begin = time.perf_counter()
     whole(light, (1280, 720))
-    print(
-        f"light to picture, 3000 samples, 1280x720, first: {1e3 * (time.perf_counter() - begin):.0f} ms"
-    )
-    print(
-        f"                                           later: {best(lambda: whole(light, (1280, 720))):.0f} ms"
-    )
+    first = 1e3 * (time.perf_counter() - begin)
+    later = best(lambda: whole(light, (1280, 720)))
+    print(f"light to picture, 3000 samples, 1280x720: first {first:.0f} ms, later {later:.0f} ms")
 
     size = (1920, 1080)
     times = {}

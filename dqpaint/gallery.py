@@ -1,0 +1,63 @@
+"""The gallery: every example drawing, painted, with the command that paints it."""
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from dqpaint.api import draw
+from dqpaint.outputs import png, stem_for, summarise, write
+
+
+class Shot(NamedTuple):
+    """One picture: the example, what is said below it, and the choices besides the defaults."""
+
+    example: str
+    caption: str
+    choices: dict[str, Any]
+
+    @property
+    def name(self) -> str:
+        """Of the files."""
+        return f"{self.example}-{self.choices.get('controller', 'hinf')}"
+
+    @property
+    def command(self) -> str:
+        """What to type for the same picture."""
+        options = "".join(f" --{name} {value}" for name, value in self.choices.items())
+        return f"dqpaint draw {self.example}{options}"
+
+
+SHOTS = (
+    Shot("star", "Trapezoid speed: the arm rests at each corner, and the corner glows.", {}),
+    Shot(
+        "lag", "Without feed-forward corners are cut and small circles shrink,", {"controller": "p"}
+    ),
+    Shot("lag", "with it they do not. Same drawing, same camera, same exposure.", {}),
+    Shot("rose", "A formula with exact derivatives, six times in a ring.", {}),
+    Shot("spiral", "A helix is an arc that rises.", {"view": "iso"}),
+    Shot("square", "The same light on slower sides is brighter.", {}),
+    Shot("circle", "The thesis's circle in 3000 samples.", {}),
+    Shot("baxter-screw", "A screw of pitch zero about a line given in space.", {"view": "iso"}),
+    Shot("step", "A jump of the set point: the error decays, and slower is brighter.", {"ev": 5}),
+)
+
+
+def make_gallery(folder: str) -> Iterator[Path]:
+    """Paint every shot into a folder, with its summary and a page that shows them all."""
+    for shot in SHOTS:
+        painting = draw(shot.example, **shot.choices)
+        facts = summarise(painting)
+        del facts["wall_s"]  # the only part that differs from run to run
+        contents = {".png": png(painting), ".json": (json.dumps(facts, indent=2) + "\n").encode()}
+        yield from write(stem_for(f"{folder}/", shot.name), contents)
+    yield from write(stem_for(f"{folder}/", "README"), {".md": page().encode()})
+
+
+def page() -> str:
+    """The page of the gallery in Markdown."""
+    parts = ["# Gallery\n\nMade by `dqpaint gallery`, never by hand.\n"]
+    for shot in SHOTS:
+        text = f"{shot.caption}\n\n![{shot.caption}]({shot.name}.png)\n\n    {shot.command}\n"
+        parts.append(f"## {shot.name}\n\n{text}")
+    return "\n".join(parts)

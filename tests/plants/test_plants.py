@@ -1,0 +1,93 @@
+"""How arms answer: the ideal one exactly, the stiff one as rigid bodies under motors do."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from dqpaint.plants import PLANTS
+from dqpaint.robots.card import read_card
+
+CARD = read_card("iiwa")
+PERIOD = 0.008
+
+
+def run(name, rates, card=CARD, period=PERIOD):
+    plant = PLANTS[name](card, card.home, period)
+    postures, efforts = [plant.posture.copy()], [plant.effort.copy()]
+    for row in rates:
+        plant.run(row)
+        postures.append(plant.posture.copy())
+        efforts.append(plant.effort.copy())
+    plant.close()
+    return np.array(postures), np.array(efforts)
+
+
+def smooth_rates(n, size=0.4):
+    t = np.arange(n) * PERIOD
+    return size * np.sin(2 * t[:, None] + np.arange(7))
+
+
+@pytest.mark.parametrize("name", PLANTS)
+def test_every_plant_begins_at_rest_where_it_is_told_and_leaves_arguments_alone(name):
+    home, rates = CARD.home.copy(), smooth_rates(3)
+    kept = rates.copy()
+    postures, _ = run(name, rates)
+    np.testing.assert_allclose(postures[0], home, atol=1e-15)
+    np.testing.assert_array_equal(CARD.home, home)
+    np.testing.assert_array_equal(rates, kept)
+
+
+@pytest.mark.parametrize("name", PLANTS)
+def test_every_plant_follows_its_commands(name):
+    rates = smooth_rates(250)
+    postures, _ = run(name, rates)
+    asked = CARD.home + np.cumsum(np.vstack([np.zeros(7), rates]), axis=0) * PERIOD
+    assert np.abs(postures - asked).max() < (1e-12 if name == "ideal" else 2e-4)
+
+
+@pytest.mark.parametrize("name", PLANTS)
+def test_every_plant_repeats_itself_bit_for_bit(name):
+    first, second = (run(name, smooth_rates(100)) for _ in range(2))
+    np.testing.assert_array_equal(first[0], second[0])
+    np.testing.assert_array_equal(first[1], second[1])
+
+
+def test_the_stiff_arm_carries_its_weight():
+    """At rest the motors hold gravity: against pinocchio's own static torques."""
+    import pinocchio
+
+    postures, efforts = run("stiff", np.zeros((50, 7)))
+    model = pinocchio.buildModelFromUrdf(str(CARD.urdf_path))
+    gravity = pinocchio.computeGeneralizedGravity(model, model.createData(), postures[-1])
+    np.testing.assert_allclose(efforts[-1], gravity, atol=0.05)
+    assert np.abs(gravity).max() > 20
+
+
+def test_the_stiff_arm_s_motors_end_at_their_torque():
+    weak = CARD.model_copy(
+        update={"limits": CARD.limits.model_copy(update={"effort_Nm": (5.0,) * 7})}
+    )
+    postures, efforts = run("stiff", np.zeros((50, 7)), weak)
+    assert np.abs(efforts).max() == pytest.approx(5.0)
+    assert np.abs(postures[-1] - CARD.home).max() > 0.05  # it sinks
+
+
+@pytest.mark.parametrize("period", [0.02, 0.008, 0.0015, 0.0007])
+def test_physics_steps_divide_the_period(period):
+    rates = np.tile([0.3, -0.2, 0.1, 0.2, -0.3, 0.1, 0.2], (40, 1))
+    postures, _ = run("stiff", rates, period=period)
+    np.testing.assert_allclose(postures[-1] - postures[0], 40 * period * rates[0], atol=2e-4)
+
+
+@pytest.mark.slow
+def test_pybullet_keeps_quiet():
+    """It writes a build line when imported and a remark for each solver it is asked for."""
+    code = (
+        "from dqpaint.plants import PLANTS; from dqpaint.robots.card import read_card;"
+        "card = read_card('iiwa'); PLANTS['stiff'](card, card.home, 0.01).close()"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == ""
+    assert done.stderr == ""

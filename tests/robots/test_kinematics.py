@@ -1,0 +1,94 @@
+"""Every arm: pinocchio against PyBullet, Denavit-Hartenberg rows and finite differences."""
+
+import numpy as np
+import pytest
+
+from dqpaint import dq
+from dqpaint.plants.bullet import bullet, joint_indices, quiet
+from dqpaint.robots.card import card_names, read_card
+from dqpaint.robots.kinematics import Kinematics
+
+AGREES = 1e-9  # [m, rad] between pinocchio and PyBullet
+
+
+@pytest.fixture(params=card_names())
+def arm(request):
+    return Kinematics(read_card(request.param))
+
+
+def postures(arm, rng, n):
+    return rng.uniform(arm.card.lower, arm.card.upper, (n, arm.card.joints))
+
+
+@pytest.mark.slow
+def test_poses_agree_with_pybullet(arm, rng):
+    """By way of the link's centre of mass: PyBullet rounds its link frames to floats."""
+    with quiet():
+        client = bullet.connect(bullet.DIRECT)
+        flags = bullet.URDF_USE_INERTIA_FROM_FILE
+        body = bullet.loadURDF(str(arm.card.urdf_path), useFixedBase=True, flags=flags)
+    joints = joint_indices(body, client)
+    link = joints[-1]
+    tool = dq.matrix_from_pose(arm.card.tool.pose)
+    for q in postures(arm, rng, 50):
+        for joint, angle in zip(joints, q, strict=True):
+            bullet.resetJointState(body, joint, angle, 0.0, client)
+        state = bullet.getLinkState(body, link, 0, 1, client)
+        inertial = _matrix(*bullet.getDynamicsInfo(body, link, client)[3:5])
+        there = _matrix(*state[:2]) @ np.linalg.inv(inertial) @ tool
+        np.testing.assert_allclose(dq.matrix_from_pose(arm.pose(q)), there, atol=AGREES)
+    bullet.disconnect(client)
+
+
+def _matrix(place, quaternion):
+    x, y, z, w = quaternion
+    return dq.matrix_from_pose(dq.pose_from(place, [w, x, y, z]))
+
+
+IIWA_D = (0.36, 0, 0.42, 0, 0.4, 0, 0.081)
+IIWA_ALPHA = np.pi / 2 * np.array([-1, 1, 1, -1, -1, 1, 0])
+
+
+def test_iiwa_agrees_with_its_denavit_hartenberg_rows(rng):
+    arm = Kinematics(read_card("iiwa"))
+    for q in postures(arm, rng, 50):
+        T = np.eye(4)
+        for theta, d, alpha in zip(q, IIWA_D, IIWA_ALPHA, strict=True):
+            c, s, ca, sa = np.cos(theta), np.sin(theta), np.cos(alpha), np.sin(alpha)
+            T = T @ [[c, -s * ca, s * sa, 0], [s, c * ca, -c * sa, 0], [0, sa, ca, d], [0, 0, 0, 1]]
+        T = T @ dq.matrix_from_pose(arm.card.tool.pose)
+        np.testing.assert_allclose(dq.matrix_from_pose(arm.pose(q)), T, atol=1e-10)
+
+
+def test_jacobian_is_the_spatial_twist_of_the_tool(arm, rng):
+    """x_dot = xi x / 2 with xi = J q_dot, by central differences of order 2."""
+    for q in postures(arm, rng, 10):
+        rates = rng.normal(size=arm.card.joints)
+        x, J = arm.pose_and_jacobian(q)
+        errors = []
+        for h in (2e-3, 1e-3):
+            ahead = dq.nearest(arm.pose(q + h * rates), x)
+            behind = dq.nearest(arm.pose(q - h * rates), x)
+            rate = 0.5 * dq.mul(dq.pure(J @ rates), x)
+            errors.append(np.abs((ahead - behind) / (2 * h) - rate).max())
+        assert 3.8 < errors[0] / errors[1] < 4.2
+
+
+def test_both_ways_to_a_pose_agree(arm, rng):
+    q = postures(arm, rng, 20)
+    poses, J = arm.poses_and_jacobians(q)
+    assert J.shape == (20, 6, arm.card.joints)
+    np.testing.assert_allclose(poses, [arm.pose(x) for x in q], atol=1e-14)
+    smooth = arm.poses(np.linspace(q[0], q[1], 200))
+    assert ((smooth[1:, :4] * smooth[:-1, :4]).sum(1) > 0.9).all()
+
+
+def test_manipulability_is_that_of_the_tool_itself(arm, rng):
+    for q in postures(arm, rng, 10):
+        x, J = arm.pose_and_jacobian(q)
+        at_tool = J.copy()
+        at_tool[3:] += np.cross(J[:3].T, dq.translation(x)).T
+        singular = np.linalg.svd(at_tool, compute_uv=False)
+        assert arm.manipulability(q[None])[0] == pytest.approx(
+            np.prod(singular), rel=1e-8, abs=1e-12
+        )

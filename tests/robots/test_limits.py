@@ -1,0 +1,55 @@
+"""Limits: what they leave of a command, and how a run names them."""
+
+import numpy as np
+import pytest
+
+from dqpaint.robots.card import read_card
+from dqpaint.robots.limits import Bounds, clamps
+
+CARD = read_card("iiwa")
+
+
+def test_rates_are_cut_to_speed_and_to_what_ends_inside():
+    bounds = Bounds(CARD, 0.01)
+    q = np.zeros(7)
+    q[0] = CARD.upper[0] - 0.001
+    q[1] = CARD.lower[1] + 0.002
+    out = bounds.clip(np.array([1.0, -1.0, 9.0, -9.0, 0.5, 0.0, 0.0]), q)
+    np.testing.assert_allclose(
+        out, [0.1, -0.2, CARD.speed[2], -CARD.speed[3], 0.5, 0, 0], atol=1e-12
+    )
+
+
+def test_a_joint_beyond_its_limit_may_only_come_back():
+    q = np.zeros(7)
+    q[0] = CARD.upper[0] + 0.5
+    bounds = Bounds(CARD, 0.01)
+    assert bounds.clip(np.array([1.0, 0, 0, 0, 0, 0, 0]), q)[0] == pytest.approx(-CARD.speed[0])
+
+
+def test_each_kind_is_named_with_joint_time_line_and_amount():
+    n = 10
+    t, line = np.arange(n) * 0.01, np.array([3] * 5 + [4] * 5)
+    posture, effort = np.zeros((n, 7)), np.zeros((n, 7))
+    wanted, command = np.zeros((n, 7)), np.zeros((n, 7))
+    wanted[2:4, 3], command[2:4, 3] = -3.0, -CARD.speed[3]
+    posture[6, 1], wanted[6, 1], command[6, 1] = CARD.upper[1] - 0.01, 1.4, 1.0
+    effort[8, 5] = -CARD.effort[5]
+    speed, position, motor = clamps(CARD, t, line, posture, wanted, command, effort)
+    assert (speed.kind, speed.joint, speed.line) == ("speed", 4, 3)
+    assert speed.start == pytest.approx(0.02)
+    assert speed.seconds == pytest.approx(0.02)
+    assert speed.wanted == pytest.approx(np.degrees(3.0))
+    assert (position.kind, position.joint, position.line, position.limit) == (
+        "position",
+        2,
+        4,
+        pytest.approx(120),
+    )
+    assert position.wanted == pytest.approx(120 + np.degrees(0.004))
+    assert (motor.kind, motor.joint, motor.start) == ("effort", 6, pytest.approx(0.07))
+    assert str(speed) == (
+        "joint 4 was held at its speed limit of 75 deg/s for 0.02 s from 0.020 s on, line 3 "
+        "(171.9 deg/s was asked for)"
+    )
+    assert "effort limit of 40 Nm" in str(motor)

@@ -1,0 +1,231 @@
+"""The command line as a person meets it: in a process of its own."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from dqpaint.controllers import CONTROLLERS
+
+pytestmark = pytest.mark.slow
+LINE = "period 20 ms\nstart at (0, 0) mm\nline to (30, 10) mm in 400 ms\n"
+
+
+@pytest.fixture
+def dqpaint(tmp_path):
+    def call(*words, env=None, cwd=tmp_path):
+        return subprocess.run(
+            [sys.executable, "-m", "dqpaint", *words],
+            cwd=cwd, capture_output=True, text=True, timeout=120,
+            env={**os.environ, "PYTHONWARNINGS": "error", **(env or {})},
+        )  # fmt: skip
+
+    return call
+
+
+@pytest.fixture
+def line(tmp_path):
+    (tmp_path / "line.traj").write_text(LINE)
+    return "line.traj"
+
+
+def files(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_draw_leaves_three_files_and_a_table(dqpaint, line, tmp_path):
+    done = dqpaint("draw", line, "--size", "160x90")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert files(tmp_path) == ["line-hinf.csv", "line-hinf.json", "line-hinf.png", "line.traj"]
+    for word in (
+        "line.traj: 32 mm",
+        "iiwa, stiff",
+        "K_T = 20",
+        "rms",
+        "none reached",
+        "line-hinf.png",
+    ):
+        assert word in done.stdout
+
+
+def test_options_are_all_heard(dqpaint, line, tmp_path):
+    done = dqpaint(
+        "draw", line, "--controller", "p", "--gain", "k=5", "--plant", "ideal", "--from", "home",
+        "--size", "320x200", "--view", "20,30", "--ev", "1.5", "--out", "made/", "--save", "json,motion",
+        "--robot", "iiwa",
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert files(tmp_path / "made") == ["line-p-motion.csv", "line-p.json"]
+    facts = json.loads((tmp_path / "made/line-p.json").read_text())
+    assert facts["gains"] == {"k": 5}
+    assert facts["settings"] == {
+        "controller": "p", "gains": {"k": 5}, "robot": "iiwa", "plant": "ideal", "start": "home",
+        "width": 320, "height": 200, "view": "20,30", "ev": 1.5,
+    }  # fmt: skip
+
+
+def test_two_runs_leave_identical_pictures_and_tables(dqpaint, tmp_path):
+    for folder in ("one/", "two/"):
+        assert dqpaint("draw", "star", "--out", folder, "--size", "480x270").returncode == 0
+    for name in ("star-hinf.png", "star-hinf.csv"):
+        assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
+
+
+def test_preview_needs_no_arm(dqpaint, line, tmp_path):
+    done = dqpaint("preview", line, "--size", "160x90", "--view", "iso")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert files(tmp_path) == ["line-preview.png", "line.traj"]
+    assert "on film" in done.stdout
+
+
+def test_check_of_good_and_bad_files(dqpaint, line, tmp_path):
+    (tmp_path / "bad.traj").write_text("lin to (0, 0, 70) mm\nline to (0, 0, 70)\n")
+    done = dqpaint("check", line, "bad.traj", "star")
+    assert done.returncode == 1
+    assert (
+        "line.traj: 32 mm, 0.40 s, 20 steps of 20 ms (21 poses), box 30 x 10 x 0 mm" in done.stdout
+    )
+    assert "error[E120]: unknown statement 'lin'\n --> bad.traj:1:1" in done.stdout
+    assert "error[E218]" in done.stdout
+    assert done.stderr == ""
+    assert dqpaint("check", line).returncode == 0
+
+
+def test_check_for_programs(dqpaint, line, tmp_path):
+    (tmp_path / "bad.traj").write_text("lin to (0, 0, 70) mm\n")
+    done = dqpaint("check", "--json", line, "bad.traj", "none.traj")
+    facts = json.loads(done.stdout)
+    assert done.returncode == 1
+    assert facts["version"] == 1
+    assert facts["summary"]["errors"] == 2
+    assert facts["summary"]["samples"] == 21
+    first = facts["diagnostics"][0]
+    assert (first["code"], first["file"], first["severity"]) == ("E120", "bad.traj", "error")
+    assert (first["start"], first["end"]) == ({"line": 1, "column": 1}, {"line": 1, "column": 4})
+
+
+@pytest.mark.parametrize(("words", "code", "says"), [
+    (["draw", "nothing.traj"], 1, "no file 'nothing.traj', and no example of that name; the examples: baxter-screw"),
+    (["draw", "."], 1, "'.' is a folder"),
+    (["draw", "line.traj", "--controller", "pd"], 2, "no controller named 'pd'; known: "),
+    (["draw", "line.traj", "--gain", "k=1"], 2, "controller 'hinf' has no gain named 'k'; its gains: gamma_O"),
+    (["draw", "line.traj", "--gain", "gamma_T"], 2, "gain 'gamma_T' is not NAME=VALUE"),
+    (["draw", "line.traj", "--gain", "gamma_T=-1"], 2, "should be greater than 0"),
+    (["draw", "line.traj", "--gain", "gamma_T=5mm"], 2, "gain 'gamma_T=5mm' is not NAME=VALUE"),
+    (["draw", "line.traj", "--robot", "ur7"], 2, "no robot named 'ur7'; known: iiwa"),
+    (["draw", "line.traj", "--plant", "rubber"], 2, "no plant named 'rubber'; known: "),
+    (["draw", "line.traj", "--size", "big"], 2, "size 'big' is not WIDTHxHEIGHT"),
+    (["draw", "line.traj", "--size", "99999x10"], 2, "width"),
+    (["draw", "line.traj", "--view", "back"], 2, "no view named 'back'; known: front"),
+    (["draw", "line.traj", "--from", "bed"], 2, "start 'bed'"),
+    (["draw", "line.traj", "--ev", "nan"], 2, "ev"),
+    (["draw", "line.traj", "--save", "png,gif"], 2, "no output named 'gif'; known: png, csv, json, motion"),
+    (["draw", "line.traj", "--save", ","], 2, "nothing to save"),
+    (["draw", "line.traj", "--out", "no/such/x"], 1, "folder 'no/such' does not exist"),
+    (["draw", "line.traj", "--out", "/proc/"], 1, "cannot be written"),
+    (["draw", "line.traj", "--colour", "red"], 2, "No such option"),
+    (["list", "brushes"], 2, "no list named 'brushes'; known: robots"),
+    (["paint", "line.traj"], 2, "No such command"),
+    (["check"], 2, "Missing argument"),
+])  # fmt: skip
+def test_wrong_calls_are_answered_with_what_would_be_right(
+    dqpaint, line, tmp_path, words, code, says
+):
+    done = dqpaint(*words)
+    assert done.returncode == code, done.stderr
+    assert says in done.stderr
+    assert "Traceback" not in done.stderr
+    assert done.stdout == ""
+    assert files(tmp_path) == ["line.traj"]
+
+
+BAD = {
+    "word": (b"lin to (0, 0, 70) mm\n", "error[E120]: unknown statement 'lin'"),
+    "unit": (b"line to (0, 0, 70)\n", "error[E218]: 'to' needs a length, but this has no unit"),
+    "bracket": (b"line to (0, 0, 70 mm\n", "error[E103]: this '(' is never closed"),
+    "empty": (b"", "draws nothing"),
+    "binary": (bytes(range(256)) * 40, "error"),
+    "far": (b"line to (0, 0, 900) mm\n", "outside the reach of iiwa"),
+    "huge": (
+        b"hold 1 s\nline by (10, 0) mm samples 1000000000000\n",
+        "error[E302]: more than 2,000,000 samples",
+    ),
+    "dark": (b"light off\nline by (10, 0) mm\n", "no light is on anywhere"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_wrong_files_are_answered_with_the_place(dqpaint, tmp_path, name):
+    data, says = BAD[name]
+    (tmp_path / "bad.traj").write_bytes(data)
+    done = dqpaint("draw", "bad.traj")
+    assert done.returncode == 1, done.stderr
+    assert says in done.stderr
+    assert "bad.traj" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert files(tmp_path) == ["bad.traj"]
+
+
+def test_out_of_reach_says_where_by_how_much_and_what_helps(dqpaint, tmp_path):
+    (tmp_path / "far.traj").write_text("hold 1 s\nline to (0, 0, 900) mm\n")
+    done = dqpaint("draw", "far.traj")
+    assert "error[E310]: sample " in done.stderr
+    assert "--> far.traj:2:1" in done.stderr
+    assert "make it smaller: with scale 0." in done.stderr
+
+
+def test_limits_reached_are_told_and_the_picture_is_made(dqpaint, tmp_path):
+    (tmp_path / "fast.traj").write_text("hold 1 s\nline to (200, 0) mm speed 3 m/s\nhold 1 s\n")
+    done = dqpaint("draw", "fast.traj", "--plant", "ideal", "--size", "160x90")
+    assert done.returncode == 0
+    assert "was held at its speed limit of" in done.stderr
+    assert "line 2" in done.stderr
+    assert (tmp_path / "fast-hinf.png").exists()
+
+
+def test_lists(dqpaint):
+    assert all(name in dqpaint("list", "controllers").stdout for name in CONTROLLERS)
+    rows = json.loads(dqpaint("list", "controllers", "--json").stdout)
+    assert [row["name"] for row in rows] == list(CONTROLLERS)
+    assert "iiwa" in dqpaint("list", "robots").stdout
+    assert "stiff" in dqpaint("list", "plants").stdout
+    assert "star" in dqpaint("list", "examples").stdout
+
+
+@pytest.mark.parametrize("command", [[], ["draw"], ["preview"], ["check"], ["list"], ["gallery"]])
+def test_help_ends_with_two_examples(dqpaint, command):
+    done = dqpaint(*command, "--help")
+    assert done.returncode == 0
+    if command:
+        assert done.stdout.count(f"  dqpaint {command[0]}") == 2
+
+
+@pytest.mark.parametrize("words", [["--help"], ["draw", "--help"], ["check", "star"]])
+def test_help_and_check_start_without_the_heavy_libraries(dqpaint, words):
+    code = (
+        "import sys; from dqpaint import cli; sys.argv[0] = 'dqpaint'\n"
+        "try: cli.app()\nexcept SystemExit: pass\n"
+        "print('LOADED', [m for m in ('cv2', 'pinocchio', 'pybullet') if m in sys.modules])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, *words], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.splitlines()[-1] == "LOADED []"
+
+
+def test_ctrl_c_leaves_nothing_half_written(tmp_path):
+    (tmp_path / "long.traj").write_text("period 1 ms\nline to (100, 0) mm in 600 s\n")
+    process = subprocess.Popen(
+        [sys.executable, "-m", "dqpaint", "draw", "long.traj"],
+        cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    time.sleep(4)
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=20)
+    assert process.returncode == 130, err
+    assert (out, err) == ("", "interrupted; nothing was written\n")
+    assert files(tmp_path) == ["long.traj"]

@@ -1,0 +1,101 @@
+"""The house: modules in one written order, imports upstream only, each library behind its door."""
+
+import ast
+import sys
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).parent.parent / "dqpaint"
+
+# Data moves down this list and never up. A folder's modules may import each other.
+ORDER = [
+    "errors", "registry", "dq", "language", "motion", "robots", "plants", "controllers",
+    "tracking", "metrics", "settings", "light", "picture", "out_of_reach", "paint", "outputs",
+    "examples", "terminal", "report", "checking", "listing", "api", "gallery", "cli", "__main__",
+]  # fmt: skip
+
+DOORS = {
+    "pinocchio": ["robots/kinematics.py"],
+    "pybullet": ["plants/bullet.py"],
+    "cv2": ["light/spread.py", "light/develop.py", "outputs.py"],
+    "typer": ["cli.py"],
+    "pydantic": ["robots/card.py", "controllers", "settings.py"],
+}
+EVERYWHERE = {"numpy", "dqpaint", "typing_extensions"}
+LONGEST = 400  # lines of one file
+
+FILES = sorted(PACKAGE.rglob("*.py"))
+
+
+def imports(path):
+    """(module, whether it happens when the file is imported) for every import of a file."""
+    tree = ast.parse(path.read_text("utf-8"))
+    late = {
+        id(node) for f in ast.walk(tree) if isinstance(f, ast.FunctionDef) for node in ast.walk(f)
+    }
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from ((alias.name, id(node) not in late) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}: a relative import"
+            if node.module == "dqpaint":  # from dqpaint import dq
+                yield from ((f"dqpaint.{alias.name}", id(node) not in late) for alias in node.names)
+            else:
+                yield node.module, id(node) not in late
+
+
+def room(path):
+    parts = path.relative_to(PACKAGE).parts
+    return parts[0].removesuffix(".py")
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_imports_go_upstream_only(path):
+    if room(path) == "__init__":
+        return  # the public names are loaded on first use
+    here = ORDER.index(room(path))
+    for module, _ in imports(path):
+        if module.startswith("dqpaint."):
+            there = module.split(".")[1]
+            # a painting shows itself as PNG in a notebook: the one way back, when it is asked
+            if (room(path), there) == ("paint", "outputs"):
+                continue
+            assert ORDER.index(there) <= here, f"{path.name} imports {module}"
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_each_library_has_its_door(path):
+    name = str(path.relative_to(PACKAGE))
+    for module, _ in imports(path):
+        library = module.split(".")[0]
+        if library in sys.stdlib_module_names or library in EVERYWHERE:
+            continue
+        assert library in DOORS, f"{name} imports {library}, which has no door"
+        assert any(name.startswith(door) for door in DOORS[library]), f"{name} imports {library}"
+
+
+def test_the_order_names_every_room_and_no_other():
+    rooms = {room(path) for path in FILES} - {"__init__"}
+    assert rooms == set(ORDER)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_files_are_short_and_say_what_they_are(path):
+    text = path.read_text("utf-8")
+    assert len(text.splitlines()) <= LONGEST
+    assert ast.get_docstring(ast.parse(text)), "no docstring"
+
+
+def test_no_attic():
+    for path in FILES:
+        assert path.stem not in {"utils", "helpers", "common", "misc", "manager"}
+
+
+def test_public_names_are_real():
+    import dqpaint
+
+    for name in dqpaint.__all__:
+        assert callable(getattr(dqpaint, name))
+    with pytest.raises(AttributeError, match="no attribute 'paintings'"):
+        dqpaint.paintings  # noqa: B018

@@ -207,6 +207,8 @@ def adjoint(x: Floats, a: Floats) -> Floats:
 
 def nearest(x: Floats, to: Floats) -> Floats:
     """The one of x and -x (..., 8) on the side of `to`: the way between them is the short one."""
+    if x.ndim == to.ndim == 1:
+        return -x if np.dot(x[:4], to[:4]) < 0 else x
     dot = (x[..., :4] * to[..., :4]).sum(-1, keepdims=True)
     near: Floats = np.where(dot < 0, -x, x)
     return near

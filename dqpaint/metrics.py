@@ -13,7 +13,7 @@ from dqpaint import dq
 from dqpaint.controllers.pose_errors import invariant_error
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
-from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.kinematics import manipulability
 from dqpaint.tracking import Track
 
 Table = dict[str, Floats]  # columns (N,) by their header, unit in the name
@@ -27,9 +27,9 @@ class Metrics:
     figures: dict[str, float]
 
 
-def measure(track: Track, kinematics: Kinematics) -> Metrics:
+def measure(track: Track) -> Metrics:
     """Columns and figures of a run."""
-    table = {**asked_columns(track.motion), **_reached_columns(track, kinematics)}
+    table = {**asked_columns(track.motion), **_reached_columns(track)}
     return Metrics(table, _figures(table, track))
 
 
@@ -69,7 +69,7 @@ def _pose_columns(prefix: str, points: Floats, pose: Floats) -> Table:
     return {**places, **turns}
 
 
-def _reached_columns(track: Track, kinematics: Kinematics) -> Table:
+def _reached_columns(track: Track) -> Table:
     motion = track.motion
     points = track.points
     turned = dq.log(dq.mul(track.pose, dq.conj(motion.pose)))[:, :3]
@@ -85,7 +85,7 @@ def _reached_columns(track: Track, kinematics: Kinematics) -> Table:
         "speed_m_s": _norm(velocity),
         "acceleration_m_s2": _norm(acceleration),
         "effort_rad": _norm(moved),
-        "manipulability": kinematics.manipulability(track.posture),
+        "manipulability": manipulability(track.jacobian),
         **{f"q{j + 1}_rad": track.posture[:, j] for j in joints},
         **{f"command{j + 1}_rad_s": track.command[:, j] for j in joints},
     }

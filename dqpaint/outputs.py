@@ -21,7 +21,8 @@ from dqpaint.registry import Registry
 
 SCHEMA = "dqpaint-run-1"
 LIBRARIES = ("numpy", "opencv-python-headless", "pin", "pybullet")
-PNG_LEVEL = 3  # 9 takes forty times as long for 15 % less
+# run lengths suit black ground with dithered halos: smaller and faster than the default search
+PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
 
 Output = Callable[[Painting], bytes]
 OUTPUTS: Registry[Output] = Registry("output")
@@ -61,7 +62,7 @@ def ending(name: str) -> str:
 
 def encode_png(image: NDArray[np.uint8]) -> bytes:
     """An sRGB image (H, W, 3) as a PNG file."""
-    done, data = cv2.imencode(".png", image[..., ::-1], [cv2.IMWRITE_PNG_COMPRESSION, PNG_LEVEL])
+    done, data = cv2.imencode(".png", image[..., ::-1], PNG)
     if not done:
         raise OutputError("the picture could not be encoded as PNG")
     return data.tobytes()

@@ -86,7 +86,7 @@ def paint(
     with clock("arm"):
         run = track(motion, kinematics, start, make_plant, controller, gains, progress)
     with clock("metrics"):
-        metrics = measure(run, kinematics)
+        metrics = measure(run)
     with clock("light"):
         picture = take(motion, run.points, settings)
     return Painting(

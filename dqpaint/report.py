@@ -10,6 +10,7 @@ from dqpaint.paint import Painting
 from dqpaint.picture import Picture
 from dqpaint.terminal import table
 
+WHITE = 250  # of 255
 MOST_CLAMPS = 8  # that are named one by one
 
 
@@ -50,7 +51,8 @@ def light_line(picture: Picture) -> str:
     """What of the light fell on the film, and how bright the picture came out."""
     film = picture.film
     emitted = film.emitted.sum()
-    white = float((picture.image.min(axis=2) >= 250).mean())
+    red, green, blue = (picture.image[..., i] >= WHITE for i in range(3))
+    white = float((red & green & blue).mean())
     return (
         f"{film.on_film.sum() / emitted:.1%} on film, {film.lost.sum() / emitted:.1%} lost; "
         f"{white:.2%} of the picture is white"

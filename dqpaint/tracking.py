@@ -30,6 +30,7 @@ class Track:
         motion: what was asked.
         posture: measured joint angles (N, n) [rad].
         pose: measured tool poses (N, 8) in the base frame, each on the side of the asked one.
+        jacobian: J_w (N, 6, n) at the measured postures.
         command: joint rates (N, n) [rad/s] the arm was given.
         effort: motor torques (N, n) [Nm] at the end of the period before the row.
         clamps: limits that held a joint back.
@@ -38,12 +39,13 @@ class Track:
     motion: Motion
     posture: Floats
     pose: Floats
+    jacobian: Floats
     command: Floats
     effort: Floats
     clamps: tuple[Clamp, ...]
 
     def __post_init__(self) -> None:
-        for array in (self.posture, self.pose, self.command, self.effort):
+        for array in (self.posture, self.pose, self.jacobian, self.command, self.effort):
             array.setflags(write=False)
 
     @property
@@ -76,43 +78,33 @@ def track(
         DqpaintError: the simulation left the numbers.
     """
     card = kinematics.card
-    n = len(motion.t)
-    posture, effort = np.empty((n, card.joints)), np.zeros((n, card.joints))
-    wanted, command = np.empty((n, card.joints)), np.empty((n, card.joints))
-    pose = np.empty((n, 8))
+    n, joints = len(motion.t), card.joints
+    posture, effort = np.empty((n, joints)), np.zeros((n, joints))
+    wanted, command = np.empty((n, joints)), np.empty((n, joints))
+    pose, jacobian = np.empty((n, 8)), np.empty((n, 6, joints))
     bounds = Bounds(card, motion.period)
     plant = make_plant(card, start, motion.period)
+    asked = zip(motion.pose, motion.twist, motion.acceleration, motion.t.tolist(), strict=True)
     try:
-        for k in range(n):
+        for k, (pose_d, twist_d, acceleration_d, t) in enumerate(asked):
             q = plant.posture
-            posture[k], effort[k] = q, plant.effort
-            pose[k], J = kinematics.pose_and_jacobian(q)
-            twist = controller.law(_see(motion, k, pose[k], J, q), gains)
-            wanted[k] = resolve(J, dq.translation(pose[k]), twist, PULL * (start - q))
-            command[k] = bounds.clip(wanted[k], q)
+            x, J = kinematics.pose_and_jacobian(q)
+            seen = Seen(x, pose_d, twist_d, acceleration_d, J, q, t, motion.period)
+            twist = controller.law(seen, gains)
+            rates = resolve(J, dq.translation(x), twist, PULL * (start - q))
+            given = bounds.clip(rates, q)
+            posture[k], effort[k], pose[k], jacobian[k] = q, plant.effort, x, J
+            wanted[k], command[k] = rates, given
             if k % REPORT_EVERY == 0:
                 progress(k / n)
-                _stop_if_lost(q, wanted[k], float(motion.t[k]))
+                _stop_if_lost(q, rates, t)
             if k < n - 1:
-                plant.run(command[k])
+                plant.run(given)
     finally:
         plant.close()
     _stop_if_lost(posture, wanted, float(motion.t[-1]))
     held = clamps(card, motion.t, motion.line, posture, wanted, command, effort)
-    return Track(motion, posture, dq.nearest(pose, motion.pose), command, effort, held)
-
-
-def _see(motion: Motion, k: int, pose: Floats, jacobian: Floats, posture: Floats) -> Seen:
-    return Seen(
-        pose=pose,
-        pose_d=motion.pose[k],
-        twist_d=motion.twist[k],
-        acceleration_d=motion.acceleration[k],
-        jacobian=jacobian,
-        posture=posture,
-        time=k * motion.period,
-        period=motion.period,
-    )
+    return Track(motion, posture, dq.nearest(pose, motion.pose), jacobian, command, effort, held)
 
 
 def _stop_if_lost(posture: Floats, rates: Floats, time: float) -> None:

@@ -31,7 +31,7 @@ def run():
 
 @pytest.fixture(scope="module")
 def metrics(run):
-    return measure(run, ARM)
+    return measure(run)
 
 
 def test_columns_are_the_promised_ones(metrics):
@@ -105,5 +105,5 @@ def test_a_single_row_has_finite_columns():
     motion = plan(parse("period 10 ms\nhold 10 ms\n", "t"), CARD.canvas.pose)
     controller = CONTROLLERS["p"]
     result = track(motion, ARM, CARD.home, PLANTS["ideal"], controller, controller.read_gains({}))
-    for name, column in measure(result, ARM).table.items():
+    for name, column in measure(result).table.items():
         assert np.isfinite(column).all(), name

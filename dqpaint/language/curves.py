@@ -149,8 +149,7 @@ def _turns(curve: Curve, axis: Vector, pieces: int, span: Span) -> Floats:
         series = curve.formula(Taylor.variable(at))
     except ScriptError as error:
         raise Problem(error.diagnostics[0]) from None
-    way = np.sign(curve.upper - curve.lower)
-    tangent = way * np.array([one.coefficients[1] for one in series])  # (3, N)
+    tangent = np.array([one.coefficients[1] for one in series])  # (3, N); all may be backwards
     normal = np.array(axis)
     speed = np.linalg.norm(tangent, axis=0)
     flat = tangent - normal[:, None] * (normal @ tangent)

@@ -226,7 +226,6 @@ class Expander:
                 cure = "write: tool rpy(0 deg, 0 deg, 0 deg), or tool look (0, 0, 0)"
                 raise problem("E255", message, tool.value.span, "", cure)
         pen.start_at(position, orientation)
-        pen.started, pen.moved = False, Span(0, 0)
 
     def _nothing_to_do(self, statement: Statement) -> None:
         """`brush point` is what there is."""

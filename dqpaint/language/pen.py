@@ -44,7 +44,8 @@ class Pen:
         self.pose = IDENTITY
         self.start = IDENTITY
         self.segments: list[Segment] = []
-        self.started = False  # something has moved, or said where the drawing starts
+        self.placed = False  # the file has said where the drawing starts
+        self.started = False  # something has moved
         self.oriented = False  # the file has said how the tool is held at the start
         self.moved = Span(0, 0)  # the first movement
         self.lost = False  # after a mistake in a movement nobody knows where the tool is
@@ -61,6 +62,7 @@ class Pen:
 
     def start_at(self, position: Vector, orientation: Quaternion | None) -> None:
         """Says where the drawing starts, and perhaps how the tool is held."""
+        self.placed = True
         self.pose = self.start = Pose(position, orientation or self.pose.orientation)
         self.oriented = self.oriented or orientation is not None
 

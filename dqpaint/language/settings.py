@@ -43,7 +43,7 @@ class Settings:
         law: of every stroke.
         tool: what it does meanwhile.
         light: None is dark.
-        shone: the light that shone last: what `on` means.
+        shone: the light that was named last: what `on` means.
     """
 
     speed: float = 0.1
@@ -64,7 +64,8 @@ def changed(settings: Settings, part: Part, scope: Scope, frame: Frame) -> Setti
         return replace(settings, tool=tool_mode(value, scope, frame))
     if isinstance(value, LightWords):
         light = light_of(value, settings, scope)
-        return replace(settings, light=light, shone=light or settings.shone)
+        named = light is not None and value.first.word != "on"  # so that 40% stays 40%
+        return replace(settings, light=light, shone=light if named else settings.shone)
     if part.word == "law":
         return replace(settings, law=reading.law(value, scope))
     size = reading.positive(value, scope, part.word)

@@ -13,6 +13,15 @@ from dqpaint.errors import UsageError
 from dqpaint.robots.card import Card
 
 
+def manipulability(jacobian: Floats) -> Floats:
+    """Yoshikawa's sqrt(det(J J')) (...,) at the tool of Jacobians (..., 6, n), rad and m mixed.
+
+    Moving the reference point from the base origin to the tool is a shear: same determinant.
+    """
+    squared: Floats = np.linalg.det(jacobian @ jacobian.swapaxes(-1, -2))
+    return np.asarray(np.sqrt(np.maximum(squared, 0.0)))
+
+
 class Kinematics:
     """Forward kinematics of a card's tool."""
 
@@ -52,13 +61,6 @@ class Kinematics:
         """`pose_and_jacobian` of many postures (N, n): poses (N, 8), Jacobians (N, 6, n)."""
         pairs = [self.pose_and_jacobian(q) for q in postures]
         return np.array([x for x, _ in pairs]), np.array([J for _, J in pairs])
-
-    def manipulability(self, postures: Floats) -> Floats:
-        """Yoshikawa's sqrt(det(J J')) (N,) at the tool, rotations per rad and metres mixed."""
-        J = self.poses_and_jacobians(postures)[1]
-        # moving the reference point from the origin to the tool is a shear: same determinant
-        squared: Floats = np.linalg.det(J @ J.swapaxes(-1, -2))
-        return np.asarray(np.sqrt(np.maximum(squared, 0.0)))
 
     def _read_pose(self) -> Floats:
         placement = self._data.oMi[self._joint] * self._tool

@@ -14,9 +14,12 @@ from dqpaint.dq import Floats
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.resolver import PULL, resolve
 
-CANDIDATES = 32
+CANDIDATES = 24
 WAYPOINTS = 40
-EXACT = 1e-9  # [rad, m] of a pose that counts as reached
+EXACT = 1e-9  # [rad, m] from the pose where the arm begins
+ON_THE_WAY = 1e-4  # [rad, m] is close enough for a forecast of margins
+ARRIVED = 1e-3  # [rad, m]: farther off, a pose counts as missed
+ITERATIONS = 30
 EQUAL = np.radians(1.0)  # margins that differ by less count as equal
 STEP = 0.6  # [rad] a joint moves at the most in one iteration
 SEED = 1988
@@ -55,7 +58,8 @@ def find_start(kinematics: Kinematics, poses: Floats, seconds: Floats) -> Start 
     card = kinematics.card
     rng = np.random.default_rng(SEED)
     seeds = rng.uniform(card.lower, card.upper, (CANDIDATES - 1, card.joints))
-    postures, reached = _solve(kinematics, poses[0], np.vstack([card.home, seeds]), iterations=40)
+    seeds = np.vstack([card.home, seeds])
+    postures, reached = _solve(kinematics, poses[0], seeds, np.zeros_like(seeds), EXACT)
     reached &= _margins(kinematics, postures) >= 0
     if not reached.any():
         return _closest(kinematics, poses, 0)
@@ -80,9 +84,8 @@ def _follow(kinematics: Kinematics, poses: Floats, seconds: Floats, starts: Floa
     for index in range(1, len(poses)):
         pull = 1.0 - np.exp(-PULL * (seconds[index] - before))
         before = seconds[index]
-        moved, reached = _solve(
-            kinematics, poses[index], postures[alive], pull * (starts[alive] - postures[alive])
-        )
+        wish = pull * (starts[alive] - postures[alive])
+        moved, reached = _solve(kinematics, poses[index], postures[alive], wish, ON_THE_WAY)
         if not reached.any():
             return _closest(kinematics, poses, index, postures[alive])
         alive = alive[reached]
@@ -100,29 +103,24 @@ def _margins(kinematics: Kinematics, postures: Floats) -> Floats:
 
 
 def _solve(
-    kinematics: Kinematics,
-    pose: Floats,
-    postures: Floats,
-    first_wish: Floats | None = None,
-    iterations: int = 20,
+    kinematics: Kinematics, pose: Floats, postures: Floats, wish: Floats, close: float
 ) -> tuple[Floats, NDArray[np.bool_]]:
     """Newton's method from many postures (M, n) to one pose (8,); which of them arrived (M,).
 
-    `first_wish` (M, n) [rad] is the null-space motion that the first step takes along.
+    The first step takes the null-space motion `wish` (M, n) [rad] along; the last one ends when
+    all are as `close` [rad, m] as asked, or after `ITERATIONS`.
     """
     q = postures.copy()
-    wish = np.zeros_like(q) if first_wish is None else first_wish
-    for _ in range(iterations):
+    for iteration in range(ITERATIONS):
         x, J = kinematics.poses_and_jacobians(q)
         error = _error(pose, x)
-        if wish is not first_wish and np.abs(error).max() < EXACT:
+        largest = np.abs(error).max(axis=1)
+        if iteration and largest.max() < close:
             break
         step = resolve(J, dq.translation(x), error, wish)
-        largest = np.abs(step).max(axis=1, keepdims=True)
-        q += step * np.minimum(1.0, STEP / np.maximum(largest, 1e-12))
+        q += step * np.minimum(1.0, STEP / np.maximum(np.abs(step).max(axis=1), 1e-12))[:, None]
         wish = np.zeros_like(q)
-    error = _error(pose, kinematics.poses_and_jacobians(q)[0])
-    return q, np.asarray(np.abs(error).max(axis=1) < 1e3 * EXACT)
+    return q, np.asarray(largest < ARRIVED)
 
 
 def _error(pose: Floats, x: Floats) -> Floats:

@@ -6,6 +6,7 @@ leading shape: one state of a run, or a thousand of a batch.
 
 import numpy as np
 
+from dqpaint import dq
 from dqpaint.dq import Floats
 
 LENGTH = 0.3  # [m] weighs metres against radians where singular values are compared
@@ -29,31 +30,29 @@ def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats) -> Flo
     """
     shift = to_tool(point)
     J = shift @ jacobian
-    u = (shift @ twist[..., None])[..., 0]
-    transposed = J.swapaxes(-1, -2)
-    squares, axes = np.linalg.eigh(J @ transposed)
-    left = u[..., None] - J @ wish[..., None]
-    along = damped_inverse(squares)[..., None] * (axes.swapaxes(-1, -2) @ left)
-    rates: Floats = (transposed @ (axes @ along))[..., 0] + wish
+    squares, axes = np.linalg.eigh(J @ J.swapaxes(-1, -2))
+    left = np.matvec(shift, twist) - np.matvec(J, wish)
+    along = damped_inverse(squares) * np.vecmat(left, axes)
+    rates: Floats = np.vecmat(np.matvec(axes, along), J) + wish
     return rates
 
 
 def to_tool(point: Floats) -> Floats:
     """The matrix (..., 6, 6) from a spatial twist to [w; (v0 + w x p) / LENGTH] at a point p."""
-    shift = np.zeros((*point.shape[:-1], 6, 6))
-    shift[..., _DIAGONAL, _DIAGONAL] = _WEIGHTS
-    scaled = point / LENGTH
-    shift[..., 3, 1] = scaled[..., 2]
-    shift[..., 3, 2] = -scaled[..., 1]
-    shift[..., 4, 0] = -scaled[..., 2]
-    shift[..., 4, 2] = scaled[..., 0]
-    shift[..., 5, 0] = scaled[..., 1]
-    shift[..., 5, 1] = -scaled[..., 0]
-    return shift
+    return np.asarray(_AT_ORIGIN + np.dot(point, _PER_METRE).reshape(*point.shape[:-1], 6, 6))
 
 
-_DIAGONAL = np.arange(6)
-_WEIGHTS = np.array([1.0, 1.0, 1.0, 1 / LENGTH, 1 / LENGTH, 1 / LENGTH])
+def _per_metre() -> Floats:
+    """(3, 36): how the matrix of `to_tool` grows with the point, w x p as a function of w."""
+    grows = np.zeros((3, 6, 6))
+    for i in range(3):
+        for j in range(3):
+            grows[i, 3:, j] = dq.cross(np.eye(3)[j], np.eye(3)[i]) / LENGTH
+    return grows.reshape(3, 36)
+
+
+_AT_ORIGIN = np.diag([1.0, 1.0, 1.0, 1 / LENGTH, 1 / LENGTH, 1 / LENGTH])
+_PER_METRE = _per_metre()
 
 
 def damped_inverse(squares: Floats) -> Floats:
@@ -62,7 +61,9 @@ def damped_inverse(squares: Floats) -> Floats:
     l^2 = (t / 2)^2 (1 - (s / t)^2) below the threshold t and 0 above it: the joint rate for a unit
     twist never exceeds about 1 / t, and is continuous in s.
     """
-    squares = np.maximum(squares, 0.0)
     limit = THRESHOLD**2
+    if squares.min() >= limit:
+        return np.asarray(1.0 / squares)
+    squares = np.maximum(squares, 0.0)
     damping = 0.25 * np.maximum(limit - squares, 0.0)
     return np.asarray(1.0 / (squares + damping))

@@ -8,7 +8,7 @@ from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS, Seen
 from dqpaint.controllers.pose_errors import invariant_error, spatial_error
 from dqpaint.robots.card import read_card
-from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.kinematics import Kinematics, manipulability
 from dqpaint.robots.resolver import resolve
 from tests.conftest import random_poses, random_rotations
 
@@ -26,7 +26,7 @@ def states(rng, n, size=0.3):
     while len(out) < n:
         q = rng.uniform(ARM.card.lower, ARM.card.upper)
         x, J = ARM.pose_and_jacobian(q)
-        if ARM.manipulability(q[None])[0] < 0.03:
+        if manipulability(J) < 0.03:
             continue
         error = dq.exp(rng.uniform(-size, size, 6) / 2)
         x_d = dq.mul(error, x) * rng.choice([-1, 1])

@@ -1,0 +1,64 @@
+"""The whole process against a bare PyBullet program: `python tests/bench/bench_whole.py [ROUNDS]`.
+
+The floor imports the same libraries, loads the same arm the same way, gives as many motor commands
+and steps the same 24,000 times. Rounds are interleaved, as the clock of a shared machine swings.
+The target is a ratio of at most 1.8 for the 24 s spiral at 1280x720.
+"""
+
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+FLOOR = """
+import cv2, numpy, pinocchio, typer
+from pydantic import BaseModel
+import os, pybullet as p, pybullet_data
+client = p.connect(p.DIRECT)
+p.setPhysicsEngineParameter(fixedTimeStep=0.001, constraintSolverType=p.CONSTRAINT_SOLVER_LCP_DANTZIG)
+p.setGravity(0, 0, -9.81)
+flags = p.URDF_USE_INERTIA_FROM_FILE | p.URDF_IGNORE_VISUAL_SHAPES | p.URDF_IGNORE_COLLISION_SHAPES
+arm = p.loadURDF(
+    os.path.join(pybullet_data.getDataPath(), "kuka_iiwa/model.urdf"), useFixedBase=True, flags=flags
+)
+joints, forces, rates = list(range(7)), [300.0] * 7, [0.01] * 7
+for _ in range(3000):
+    p.setJointMotorControlArray(arm, joints, p.VELOCITY_CONTROL, targetVelocities=rates, forces=forces)
+    for _ in range(8):
+        p.stepSimulation()
+"""
+BARE_DEFAULTS = FLOOR.replace(", flags=flags", "").replace(
+    ", constraintSolverType=p.CONSTRAINT_SOLVER_LCP_DANTZIG", ""
+)
+
+
+def seconds(command, folder):
+    environment = {**os.environ, "PYTHONPYCACHEPREFIX": folder}
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)  # compiled files are kept, as for a user
+    begin = time.perf_counter()
+    subprocess.run(command, check=True, capture_output=True, cwd=folder, env=environment)
+    return time.perf_counter() - begin
+
+
+def main():
+    rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 9
+    with tempfile.TemporaryDirectory() as folder:
+        programs = {
+            "floor": [sys.executable, "-c", FLOOR],
+            "floor with PyBullet's defaults": [sys.executable, "-c", BARE_DEFAULTS],
+            "draw spiral": [sys.executable, "-m", "dqpaint", "draw", "spiral"],
+        }
+        times = {name: [] for name in programs}
+        for _ in range(rounds + 1):
+            for name, command in programs.items():
+                times[name].append(seconds(command, folder))
+    floor = statistics.median(times["floor"][1:])
+    for name, values in times.items():
+        middle = statistics.median(values[1:])  # the first round warms the caches
+        print(f"{name:32} {middle:.3f} s  {middle / floor:.2f} x floor")
+
+
+if __name__ == "__main__":
+    main()

@@ -86,8 +86,7 @@ class Expander:
         self._failed += 1
         known = STATEMENTS.get(statement.word)
         if known is None or known.moves or statement.word == "start":
-            self._pen.lost = True
-            self._pen.started = self._pen.oriented = True
+            self._pen.lost = self._pen.placed = self._pen.oriented = True
         if statement.word in ("robot", "place", "period", "start"):
             self._once.setdefault(statement.word, statement.span)
         name = statement.name
@@ -183,8 +182,6 @@ class Expander:
         if self._pen.started:
             message = f"'{word}' comes too late: the tool has moved already"
             label = f"(first movement: {where(self._text, self._pen.moved)})"
-            if self._pen.lost and self._pen.moved == Span(0, 0):
-                label = ""
             raise problem("E124", message, span, label, "write it before the first movement")
         self._once[word] = statement.span
 

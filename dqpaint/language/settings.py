@@ -64,8 +64,9 @@ def changed(settings: Settings, part: Part, scope: Scope, frame: Frame) -> Setti
         return replace(settings, tool=tool_mode(value, scope, frame))
     if isinstance(value, LightWords):
         light = light_of(value, settings, scope)
-        named = light is not None and value.first.word != "on"  # so that 40% stays 40%
-        return replace(settings, light=light, shone=light if named else settings.shone)
+        named = value.first.word != "on"  # `on 40%` is 40% of what was named, however often
+        shone = light if light is not None and named else settings.shone
+        return replace(settings, light=light, shone=shone)
     if part.word == "law":
         return replace(settings, law=reading.law(value, scope))
     size = reading.positive(value, scope, part.word)

@@ -17,21 +17,19 @@ import cv2, numpy, pinocchio, typer
 from pydantic import BaseModel
 import os, pybullet as p, pybullet_data
 client = p.connect(p.DIRECT)
-p.setPhysicsEngineParameter(fixedTimeStep=0.001, constraintSolverType=p.CONSTRAINT_SOLVER_LCP_DANTZIG)
+solver = p.CONSTRAINT_SOLVER_LCP_DANTZIG
+p.setPhysicsEngineParameter(fixedTimeStep=0.001, constraintSolverType=solver)
 p.setGravity(0, 0, -9.81)
 flags = p.URDF_USE_INERTIA_FROM_FILE | p.URDF_IGNORE_VISUAL_SHAPES | p.URDF_IGNORE_COLLISION_SHAPES
-arm = p.loadURDF(
-    os.path.join(pybullet_data.getDataPath(), "kuka_iiwa/model.urdf"), useFixedBase=True, flags=flags
-)
-joints, forces, rates = list(range(7)), [300.0] * 7, [0.01] * 7
+urdf = os.path.join(pybullet_data.getDataPath(), "kuka_iiwa/model.urdf")
+arm = p.loadURDF(urdf, useFixedBase=True, flags=flags)
+joints, how = list(range(7)), {"targetVelocities": [0.01] * 7, "forces": [300.0] * 7}
 for _ in range(3000):
-    p.setJointMotorControlArray(arm, joints, p.VELOCITY_CONTROL, targetVelocities=rates, forces=forces)
+    p.setJointMotorControlArray(arm, joints, p.VELOCITY_CONTROL, **how)
     for _ in range(8):
         p.stepSimulation()
 """
-BARE_DEFAULTS = FLOOR.replace(", flags=flags", "").replace(
-    ", constraintSolverType=p.CONSTRAINT_SOLVER_LCP_DANTZIG", ""
-)
+BARE_DEFAULTS = FLOOR.replace(", flags=flags", "").replace(", constraintSolverType=solver", "")
 
 
 def seconds(command, folder):

@@ -1,0 +1,185 @@
+"""The example files of the design, with numbers worked out by hand."""
+
+import math
+
+import numpy as np
+import pytest
+
+from dqpaint.language.program import (
+    Arc,
+    Cruise,
+    Curve,
+    Follow,
+    Keep,
+    Lasting,
+    Law,
+    Light,
+    Samples,
+    Screw,
+    Step,
+    Still,
+    Straight,
+    Turn,
+)
+from dqpaint.language.taylor import Taylor
+from tests.language.drawing import drawn, matrix, rotation
+
+STAR = """# star.traj - a five-pointed star, one colour per edge
+period 10 ms
+speed 60 mm/s
+let r = 80 mm
+
+move to polar(r, 90 deg)
+repeat i from 1 to 5
+  line to polar(r, 90 deg + i*144 deg) light hsv(i*72 deg)
+end
+"""
+
+
+def test_star() -> None:
+    program = drawn(STAR)
+    corners = [
+        (0.08 * math.cos(a), 0.08 * math.sin(a), 0.0) for a in np.radians(90 + 144 * np.arange(6))
+    ]
+    assert program.period == pytest.approx(0.01)
+    assert program.start.position == pytest.approx(corners[0], abs=1e-15)
+    assert len(program.segments) == 5
+    for segment, corner in zip(program.segments, corners[1:], strict=True):
+        assert segment.end.position == pytest.approx(corner, abs=1e-15)
+        assert isinstance(segment.path, Straight)
+        assert np.linalg.norm(segment.path.by) == pytest.approx(
+            2 * 0.08 * math.sin(math.radians(72))
+        )
+        assert segment.tool == Keep()
+        assert segment.timing == Cruise(pytest.approx(0.06), pytest.approx(math.pi / 3))
+        assert segment.law == Law("trapezoid")
+        assert segment.line == 8
+        assert program.text[slice(*segment.span)].startswith("line to polar(")
+        assert segment.light is not None
+        assert segment.light.first == segment.light.last
+    assert program.segments[-1].light == Light((1.0, 0.0, 0.0), (1.0, 0.0, 0.0))  # 360 deg is red
+    assert program.notes == ()
+
+
+def test_circle() -> None:
+    (segment,) = drawn(
+        "period 20 ms\nlet r = 7 cm\n\nstart at (0, r)\n"
+        "arc centre (0, 0) axis -z angle 360 deg samples 3000 law constant\n"
+    ).segments
+    assert segment.path == Arc((0, 0, 0), (0, 0, -1), pytest.approx(2 * math.pi))
+    assert segment.timing == Samples(3000)
+    assert segment.law == Law("constant")
+    assert segment.end.position == pytest.approx((0, 0.07, 0), abs=1e-16)
+    assert segment.line == 5
+
+
+def test_square() -> None:
+    program = drawn(
+        "period 25 ms\nlaw constant\nlet a = 10 cm\nstart at (-a/2, -a/2)\n"
+        "line by ( a,  0) samples 500\nline by ( 0,  a) samples 300\n"
+        "line by (-a,  0) samples 500\nline by ( 0, -a) samples 300\n"
+    )
+    assert [s.timing for s in program.segments] == [Samples(n) for n in (500, 300, 500, 300)]
+    ends = [(0.05, -0.05, 0), (0.05, 0.05, 0), (-0.05, 0.05, 0), (-0.05, -0.05, 0)]
+    for segment, end in zip(program.segments, ends, strict=True):
+        assert segment.end.position == pytest.approx(end, abs=1e-16)
+        assert segment.law == Law("constant")
+
+
+def test_spiral() -> None:
+    (segment,) = drawn(
+        "period 8 ms\nlet r = 7 cm\nstart at (0, r)\n"
+        "arc centre (0, 0) axis -z angle 3 turn rise 7 cm samples 3000 law constant\n"
+    ).segments
+    assert segment.path == Arc(
+        (0, 0, 0), (0, 0, -1), pytest.approx(6 * math.pi), pytest.approx(0.07)
+    )
+    assert segment.end.position == pytest.approx((0, 0.07, -0.07), abs=1e-15)
+
+
+def test_baxter_screw() -> None:
+    program = drawn(
+        "period 10 ms\nplace at (0, 0, 0)\nlet p = (700, 200, 400) mm\nlet d = (0, 0, 1)\n"
+        "start at p - (150, 0, 0) mm tool look line p along d\n"
+        "screw about p along d angle 90 deg in 10 s law cubic(0 deg/s, 0 deg/s)\nhold 2 s\n"
+    )
+    screw, hold = program.segments
+    assert program.placement is not None
+    assert program.placement.position == (0, 0, 0)
+    assert screw.path == Screw(
+        pytest.approx((0.7, 0.2, 0.4)), (0, 0, 1), pytest.approx(math.pi / 2), 0
+    )
+    assert isinstance(screw.tool, Follow)
+    assert screw.law == Law("cubic", (0, 0), angular=True)
+    assert screw.timing == Lasting(10)
+    # The tool's z points from the start at the line, its x lies along the line.
+    start = matrix(program.start.orientation)
+    assert start[:, 2] == pytest.approx([1, 0, 0], abs=1e-15)
+    assert start[:, 0] == pytest.approx([0, 0, 1], abs=1e-15)
+    assert screw.end.position == pytest.approx((0.7, 0.05, 0.4))
+    assert matrix(screw.end.orientation) == pytest.approx(
+        rotation((0, 0, 1), 90) @ start, abs=1e-15
+    )
+    assert hold.path == Still()
+    assert hold.timing == Lasting(2)
+    assert hold.start == hold.end == screw.end
+    assert hold.light == Light((1, 1, 1), (1, 1, 1))
+
+
+ROSE = """period 10 ms
+law constant
+let a = 30 mm
+
+repeat k from 0 to 5
+  with rotate k*60 deg shift (80 mm, 0) light hsv(k*60 deg)
+    move to (a, 0)
+    curve polar(a*cos(3*t), t) for t from 0 to 180 deg in 12 s
+  end
+end
+"""
+
+
+def test_rose() -> None:
+    program = drawn(ROSE)
+    curves = program.segments[::2]
+    moves = program.segments[1::2]
+    assert len(program.segments) == 11
+    assert program.start.position == pytest.approx((0.11, 0, 0))
+    assert program.notes == ()
+    assert all(move.light is None and isinstance(move.path, Straight) for move in moves)
+    for k, segment in enumerate(curves):
+        assert isinstance(segment.path, Curve)
+        assert (segment.path.lower, segment.path.upper) == (0, pytest.approx(math.pi))
+        assert segment.timing == Lasting(12)
+        t = np.linspace(0, math.pi, 7)
+        xyz = np.array([c.coefficients[0] for c in segment.path.formula(Taylor.variable(t))])
+        r = 0.03 * np.cos(3 * t)
+        petal = np.array([r * np.cos(t) + 0.08, r * np.sin(t), 0 * t])
+        assert xyz == pytest.approx(rotation((0, 0, 1), 60 * k) @ petal, abs=1e-15)
+        assert segment.end.position == pytest.approx(tuple(xyz[:, -1]), abs=1e-15)
+
+
+def test_step() -> None:
+    program = drawn(
+        "period 5 ms\nstart at (0, 0, 0) tool rpy(0, 0, 0)\nhold 1 s\n"
+        "step to (50, 50, -20) mm tool rpy(0, 0, 30 deg)\nhold 10 s\n"
+    )
+    before, step, after = program.segments
+    assert (before.path, step.path, after.path) == (Still(), Step(), Still())
+    assert step.tool == Turn()
+    assert step.timing == Samples(1)
+    assert step.end.position == pytest.approx((0.05, 0.05, -0.02))
+    assert matrix(step.end.orientation) == pytest.approx(rotation((0, 0, 1), 30), abs=1e-15)
+    assert after.start == step.end
+    assert step.light == after.light == Light((1, 1, 1), (1, 1, 1))  # the way there is painted
+
+
+def test_a_one_line_file() -> None:
+    program = drawn("line to (100, 0) mm")
+    (segment,) = program.segments
+    assert program.period == pytest.approx(0.008)
+    assert (program.robot, program.placement) == (None, None)
+    assert segment.timing == Cruise(pytest.approx(0.1), pytest.approx(math.pi / 3))
+    assert segment.law == Law("trapezoid")
+    assert segment.tool == Keep()
+    assert segment.light == Light((1, 1, 1), (1, 1, 1))

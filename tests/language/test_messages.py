@@ -1,0 +1,264 @@
+# ruff: noqa: E501  the table is a table
+"""Every message of the catalogue: its code, its words, where its caret stands, what it advises."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from dqpaint import language
+from dqpaint.language import ScriptError, parse, render
+from dqpaint.language.diagnostics import place
+
+# The text (~ ends a line), the code, line:column and the caret's text, message, label, help.
+CATALOGUE = r"""
+move to (1, 2) mm;|E101|1:18 ;|unexpected character ';'||no ; is needed: one statement per line
+let π = 3|E101|1:5 π|unexpected character 'π'||write pi
+line to (2r, 0)|E102|1:10 2r|'r' straight after the number 2 is not a unit||units are mm, cm, m, s, ms, deg, °, rad, turn, turns, Hz, K; a product is written 2*r
+period 10tool ms|E102|1:8 10tool|'tool' straight after the number 10 is not a unit||put a blank between: 10 tool
+let a = 1.2.3|E102|1:9 1.2.3|'1.2.3' is not a number||write one decimal point
+line to (1, 0) inch|E102|1:16 inch|'inch' is not a unit of this language||did you mean 'mm'? units are mm, cm, m, s, ms, deg, °, rad, turn, turns, Hz, K
+line to (0, 0, 70 mm|E103|1:9 (|this '(' is never closed|opened here|add ')' before the end of the line
+line to (0, 0, 70 mm~line by (1, 0) mm|E103|1:9 (|this '(' is never closed|opened here|add ')' before the end of the line
+line to (0, 0)) mm|E104|1:15 )|this ')' closes nothing||take it away, or add '(' before it
+arc via (1,2) mm to end|E105|1:21 end|expected a value after 'to' but found 'end'||'end' is a word of the language; it can't be used as a name
+speed = 40 mm/s|E105|1:7 =|expected a value after 'speed' but found '='||only 'let' has a '='; for example: speed 40 mm/s
+light "red|E107|1:7 "|this text is never closed|opened here|add " before the end of the line
+light #ff8800|E108|1:1 light|'light' needs a colour||a # starts a comment; put the colour in quotes: light "#ff8800"
+light 40%|E108|1:7 40|'light' needs a colour||the brightness follows the colour: light white 40%
+line to (1 2) mm|E109|1:12 2|expected ',' or ')' but found the number 2||put a comma between the numbers of a point, a * between the factors of a product
+let|E109|1:1 let|expected a name after 'let' but found the end of the line||for example: let r = 70 mm
+start at (9,0) mm~arc centre (0,0) angel 90 deg|E110|2:18 angel|'arc' has no part called 'angel'||did you mean 'angle'?
+move by (1,0) mm light red|E110|1:18 light|'move' is always dark, so it has no 'light'||to shine on the way, use: line to …
+hold 1 s tool keep|E110|1:10 tool|'hold' has no part called 'tool'||to turn on the spot, use: line by (0, 0) tool …
+line (10, 0) mm|E111|1:6 (|'line' needs 'to' or 'by' before the point||line to (…) goes to that point; line by (…) goes that far from here
+line to (1,2) mm 5|E112|1:18 5|expected the end of the line but found the number 5||
+line to (9,0) mm speed 4 mm/s speed 5 mm/s|E113|1:31 speed|'speed' is given twice|second (first: 1:18)|keep one of them
+period 3 ms~period 4 ms|E113|2:1 period|'period' is given twice|second (first: 1:1)|keep one of them
+let m = 5|E114|1:5 m|'m' can't be used as a name|'m' is the unit metre|choose another name, for example 'm1'
+let angle = 5|E114|1:5 angle|'angle' can't be used as a name|'angle' is a word of the language|choose another name, for example 'angle1'
+arc via (1,2) mm|E115|1:1 arc|this 'arc' has no 'to'||an arc through three points ends at the last: via POINT to POINT
+arc centre (1,2) mm|E115|1:1 arc|this 'arc' has no 'angle'||add how far it turns: angle 360 deg
+repeat i from 1 5~end|E116|1:17 5|expected 'to' but found the number 5||write: repeat i from 1 to 5
+traj 2|E118|1:6 2|this file is written in traj 2, which this dqpaint does not know||it knows: traj 1
+period 3 ms~traj 1|E119|2:1 traj 1|'traj' is not the first statement||the version of the language comes before all other lines
+r = 3 cm|E120|1:1 r|unknown statement 'r'||to name a value, write: let r = 3 cm
+lin to (0, 0, 70) mm|E120|1:1 lin|unknown statement 'lin'||did you mean 'line'?
+wait 2 s|E120|1:1 wait|unknown statement 'wait'||did you mean 'hold'?
+circle (0, 0)|E120|1:1 circle|unknown statement 'circle'||did you mean 'arc centre POINT angle 360 deg'?
+color red|E120|1:1 color|unknown statement 'color'||did you mean 'light'?
+G1 X10|E120|1:1 G1|unknown statement 'G1'||did you mean 'line to'?
+repaet 3~line by (1,0) mm~end|E120|1:1 repaet|unknown statement 'repaet'||did you mean 'repeat'?
+if x > 3~line by (1,0) mm~end|E121|1:1 if|.traj has no conditions||use repeat, min/max, or write two files
+text "Hello"|E122|1:1 text|'text' is not in this version of dqpaint yet||
+brush bar 120 mm along x|E122|1:7 bar|'brush bar' is not in this version of dqpaint yet||
+line by (1,0) mm light red even|E122|1:28 even|'even' is not in this version of dqpaint yet||
+def star(r)~line by (r, 0)~end|E122|1:1 def|'def' is not in this version of dqpaint yet||
+with rotate 3 deg~period 3 ms~end|E123|2:1 period|'period' stands outside of all blocks||write it at the top of the file
+line by (1,0) mm~place at (0, 0)|E124|2:1 place|'place' comes too late: the tool has moved already|(first movement: 1:1)|write it before the first movement
+repeat 3~line by (1,0) mm|E130|1:1 repeat|this 'repeat' has no 'end'|opened here|add a line 'end' after the last line of the block
+line by (1,0) mm~end|E131|2:1 end|'end' without a block to close||only repeat, with and def are closed with 'end'
+# nothing|E140||this file draws nothing||a drawing can be as short as: line to (100, 0) mm
+let a = 9^9^9|E201|1:9 9^9^9|this number is too large||
+let a = 1e300*1e300|E201|1:9 1e300*1e300|this number is too large||
+line to (0,5, 1,0) mm|E202|1:9 (0,5, 1,0) mm|a point has 2 or 3 numbers, this has 4||write decimals with a point, not a comma: 0.5
+let a = 1/0|E203|1:11 0|division by zero|this is 0|
+line to (1 mm, 20, 3)|E204|1:16 20|the numbers of one point must have the same unit|20 is a plain number|one unit after the bracket is enough: (1, 20, 3) mm
+let r = 3 mm~line to (radius, 0)|E205|2:10 radius|'radius' is not known||did you mean 'r'?
+line to (radius, 0)|E205|1:10 radius|'radius' is not known||name it first: let radius = …
+let a = sinn(3)|E206|1:9 sinn|there is no function 'sinn'||did you mean 'sin'?
+let a = rpy(1 deg, 2 deg)|E207|1:9 rpy(1 deg, 2 deg)|rpy takes 3 values, not 2||write: rpy(ANGLE, ANGLE, ANGLE)
+let r = 5 mm~let q = r + 5|E208|2:13 5|can't add a length and a plain number|a plain number|did you mean 5 mm?
+let q = 5 - 3 s|E208|1:9 5|can't subtract a time from a plain number|a plain number|did you mean 5 s?
+let q = 3 mm * red|E209|1:16 red|can't multiply a length by a colour|a colour|
+line to (1 mm, 2 mm) cm|E210|1:22 cm|'cm' can't follow here: the value in the brackets is already a length||give the unit once: to each number, or here
+let a = 2^3 mm|E211|1:11 3 mm|an exponent is a plain number, this is a length||a unit binds tightest; to give it to the power, write: (2^3) mm
+let a = sqrt(-1)|E212|1:14 -1|the square root of a negative number does not exist|this is -1|
+let a = sin(30)|E213|1:13 30|sin needs an angle, this is a plain number||say which: sin(30 deg) or sin(30 rad)
+start at (0, 0) tool quat(1, 1, 0, 0)|E214|1:22 quat(1, 1, 0, 0)|this quaternion has length 1.414; an orientation needs length 1||the order is quat(w, x, y, z)
+start at (0, 0) tool rot((0, 0, 0), 3 deg)|E215|1:26 (0, 0, 0)|a direction can't be (0, 0, 0)||
+light "#ff88"|E216|1:7 "#ff88"|"#ff88" is not a colour||a # and 3 or 6 digits from 0 to f: "#ff8800"
+light red 140%|E217|1:7 red 140%|the brightness goes from 0% to 100%||for a brighter picture expose it longer
+line to (0, 0, 70)|E218|1:9 (0, 0, 70)|'to' needs a length, but this has no unit|no unit|write (0, 0, 70) mm
+speed 40 mm|E218|1:7 40 mm|'speed' needs a speed, but this is a length||write 40 mm/s
+period 20|E218|1:8 20|'period' needs a time, but this has no unit|no unit|write 20 ms
+hold 20|E218|1:6 20|'hold' needs a time, but this has no unit|no unit|write 20 s
+line to 5 mm|E218|1:9 5 mm|'to' needs a point, but this is a length||a point has 2 or 3 numbers in brackets: (5 mm, 0)
+line to (1,2) mm light red to (3,4) mm|E218|1:31 (3,4) mm|'light' needs a colour, but this is a point||after a colour, 'to' says which colour comes next; write 'light' after the point
+hold 0 s|E220|1:6 0 s|'hold' needs a time greater than 0|this is 0|
+line by (1,0) mm samples 2.5|E221|1:26 2.5|'samples' needs a whole number, this is 2.5||
+repeat i from 5 to 1~end|E222|1:20 1|'repeat' counts up, but 1 is less than 5||write: repeat i from 1 to 5, and count down with -i
+let r = 1 mm~let r = 2 mm|E230|2:5 r|'r' already has a value|(first: 1:5)|values never change; choose another name
+curve polar(t*mm, t*rad) for t from 0 to 1 light hsv(t)|E205|1:54 t|'t' is not known||name it first: let t = …
+curve (hsv(t), 0) for t from 0 to 1 turn|E231|1:12 t|hsv can't change along a curve||for a tool that turns on the way, use: tool follow, or tool look
+line to (9,0) mm in 2 s samples 30|E241|1:25 samples|the time is given twice|second|use one of: in TIME, samples N, speed V
+curve (t, t) for t from 3 mm to 3 mm|E242|1:33 3 mm|this curve ends at the same value where it starts||
+curve (mm/t, 0) for t from 0 to 1|E243|1:7 (mm/t, 0)|the curve has no place at t = 0||choose the ends so that they leave this value out
+curve (sqrt(t)*mm, 0) for t from 0 to 1|E243|1:7 (sqrt(t)*mm, 0)|the curve has no speed at t = 0||choose the ends so that they leave this value out
+start at (9,0) mm~arc centre (0,0) angle 0|E244|2:24 0|an arc of 0 deg goes nowhere||for a full circle write: angle 360 deg
+start at (0,0)~arc via (80, 10) mm to (0, 0)|E245|2:24 (0, 0)|this arc ends where it starts, so 'via' does not say in which plane it lies|same as the start point|for a full circle write: arc centre POINT angle 360 deg
+arc via (1,1) mm to (2,2) mm|E246|1:9 (1,1) mm|start, via and end lie on one straight line; no circle goes through them||use line to, or move the via point sideways
+start at (1,0) mm~arc centre (0,0) to (0, 1) mm|E247|2:18 to|'arc centre' takes an angle, not an end point||centre and end point could contradict each other; write: angle 90 deg
+arc via (1,2) mm to (3,0) mm angle 3 deg|E248|1:30 angle|'arc via' goes through two points; it takes no 'angle'||write: arc via POINT to POINT, or: arc centre POINT angle ANGLE
+arc centre (0,0) angle 90 deg|E249|1:12 (0,0)|the centre of this arc is where the tool is now: the radius is 0||move to a point of the circle first
+start at (9,0) mm~arc centre (0,0) angle 90 deg grow -20 mm|E250|2:36 -20 mm|the radius of this arc would become less than 0|the radius is 9 mm at the start|the least is: grow -9 mm
+line by (1,0) mm tool look (0, 0)|E251|1:1 line by (1,0) mm tool look (0, 0)|the tool can't look at the point where it is||look at a point the tool does not go through
+line by (1,0) mm tool look (0, 0, 5) mm|E252|1:1 line by (1,0) mm tool look (0, 0, 5) mm|the tool looks along 'up' here, so nothing says how it is turned about that||say another direction: tool look POINT up y
+line by (1,0) mm tool look line (0,0) along x|E253|1:1 line by (1,0) mm tool look line (0,0) along x|the tool can't look at the line it is on||look at a line the tool does not go through
+curve (0, 0, t) for t from 0 to 1 mm tool follow|E254|1:7 (0, 0, t)|the curve stands still or goes along the axis, so it has no heading to follow||use: tool keep, or tool look
+screw to (1,2) mm|E255|1:10 (1,2) mm|'screw to' needs to know how the tool is held at the end||add: tool rpy(0 deg, 0 deg, 90 deg); to keep the tool as it is, use: line to
+line by (5,0) mm by (0,5) mm samples 1|E256|1:1 line by (5,0) mm by (0,5) mm samples 1|2 legs need at least 2 samples||write: samples 2
+repeat 10001~line by (1,0) mm~end|E303|1:8 10001|more than 10,000 passes of one 'repeat'|this is 10,001|draw a formula instead: curve … for t from … to …
+line by (0, 0)~line by (1,0) mm|W401|1:9 (0, 0)|this line has no length|already here|to wait, use: hold 1 s
+curve (42 mm, t) for t from 0 to 3 mm|W402|1:7 (42 mm, t)|the curve starts 42 mm away from where the tool is||a light-off move is added; write a move to choose its speed
+start at (0,0) tool rpy(0,0,0)~line by (1,0) mm tool look (0,0,-5) mm up y|W404|2:1 line by (1,0) mm tool look (0,0,-5) mm up y|the tool turns by 180 deg before this, to look at the point||a light-off turn is added; to avoid it, write: start at (…) tool look …
+move to (1,0) mm in 3 s~line by (1,0) mm|W405|1:18 in|the first 'move' only says where the drawing starts; 'in' does nothing||take it away
+"""
+
+ENTRIES = [line.split("|") for line in CATALOGUE.strip().split("\n")]
+LARGE = {  # texts too long for the table, the code, the beginning of the message
+    "let a = " + "(" * 70 + "1" + ")" * 70: ("E106", "more than 64 brackets or signs"),
+    "let a = " + "-" * 70 + "1": ("E106", "more than 64 brackets or signs"),
+    "with rotate 1 deg\n" * 33 + "end\n" * 33: ("E126", "more than 32 blocks"),
+    "repeat 9000\nline by (1,0) mm" + " by (-1,0) mm by (1,0) mm" * 4 + "\nend": (
+        "E301",
+        "more than 50,000 strokes in all",
+    ),
+    "repeat 9999\n" * 3 + "line by (1,0) mm\n" + "end\n" * 3: (
+        "E304",
+        "more than 1,000,000 statements in all",
+    ),
+    " " * 2_000_001: ("E305", "this file is larger than 2 MB"),
+    "\n" * 100_001: ("E306", "this file has more than 100,000 lines"),
+    "line by\0(1,0) mm": ("E307", "this is not a text"),
+}
+
+
+def found(text: str) -> tuple:
+    """The messages about a text, be it wrong or only odd."""
+    try:
+        return parse(text, "a.traj").notes
+    except ScriptError as error:
+        return error.diagnostics
+
+
+@pytest.mark.parametrize("entry", ENTRIES, ids=[f"{e[1]}-{e[0][:24]}" for e in ENTRIES])
+def test_catalogue(entry: list[str]) -> None:
+    source, code, caret, message, label, cure = entry
+    text = source.replace("~", "\n")
+    (diagnostic,) = (d for d in found(text) if d.code != "E140" or code == "E140")
+    assert (diagnostic.code, diagnostic.message) == (code, message)
+    assert (diagnostic.label, diagnostic.help) == (label, cure)
+    if not caret:
+        assert diagnostic.span is None
+        return
+    at, _, words = caret.partition(" ")
+    assert diagnostic.span is not None
+    line, column = place(text, diagnostic.span.start)
+    assert f"{line}:{column}" == at
+    assert text[slice(*diagnostic.span)] == words
+
+
+@pytest.mark.parametrize(("text", "expected"), LARGE.items(), ids=[v[0] for v in LARGE.values()])
+def test_large(text: str, expected: tuple[str, str]) -> None:
+    first = found(text)[0]
+    assert first.code == expected[0]
+    assert first.message.startswith(expected[1])
+
+
+def test_catalogue_is_complete() -> None:
+    folder = Path(language.__file__).parent
+    source = "".join(path.read_text("utf-8") for path in folder.glob("*.py"))
+    codes = set(re.findall(r'"([EW]\d{3})"', source))
+    shown = {entry[1] for entry in ENTRIES} | {code for code, _ in LARGE.values()}
+    assert codes - shown == {"E999"}
+
+
+def test_messages_are_of_the_house() -> None:
+    for entry in ENTRIES:
+        for words in entry[3:]:
+            assert not words.endswith(".")
+            assert not words[:1].isupper()
+
+
+def test_rendered() -> None:
+    text = "start at (0,0)\n\narc via (80, 10) mm to (0, 0)"
+    (diagnostic,) = found(text)
+    assert render(diagnostic, "bad3.traj", text) == "\n".join(
+        (
+            "error[E245]: this arc ends where it starts, so 'via' does not say in which plane"
+            " it lies",
+            " --> bad3.traj:3:24",
+            "  |",
+            "3 | arc via (80, 10) mm to (0, 0)",
+            "  |                        ^^^^^^ same as the start point",
+            "  = help: for a full circle write: arc centre POINT angle 360 deg",
+        )
+    )
+
+
+def test_one_pass_finds_all_without_cascades() -> None:
+    text = """let r = 3 §
+let q = r + 1 mm
+line to (q, 0)
+lin to (5, 0) mm
+arc centre (0, 0) angle 90 deg
+line by (0, 0) mm
+speed 40
+with rotat 3 deg
+  line to (5, 0)
+end
+arc via (5, 5) mm to
+repeat i from 1 5
+  line to (i*mm, 0)
+end
+hold 3 min
+move to (2, nix) mm
+curve (1 mm, t) for t from 0 to 3 mm
+line to (1, 1) mm extra
+"""
+    lines = [place(text, d.span.start)[0] for d in found(text)]
+    assert lines == [1, 4, 7, 8, 9, 11, 12, 15, 16, 18]
+
+
+def test_a_failed_start_is_no_movement() -> None:
+    text = "start (0,0)\nperiod 10\nplace at (0,0)\nmove to (1,0) mm\nline by (0,3) mm"
+    assert [d.code for d in found(text)] == ["E111", "E218"]
+
+
+def test_a_mistake_in_a_loop_is_told_once() -> None:
+    assert len(found("repeat i from 1 to 9\nline to (i, 0)\nend")) == 1
+    assert len(found("repeat 9\nline to (nix, 0)\nline by (2, 0)\nend")) == 2
+
+
+def test_at_most_twenty_errors() -> None:
+    assert len(found("lin\n" * 50)) == 20
+    assert len(found("line by (0,0)\n" * 50 + "line by (1,0) mm")) == 20
+
+
+def test_misspelt_blocks_take_their_end_along() -> None:
+    assert [d.code for d in found("repaet 3\nwhile x\nend\nend\nend\nline by (1,0) mm")] == [
+        "E120",
+        "E121",
+        "E131",
+    ]
+
+
+def test_fixes_mend() -> None:
+    for text in ("move to (1, 2) mm;", "lin to (0, 1) mm", "line to (0, 0, 70)", "light rde"):
+        (diagnostic,) = (d for d in found(text) if d.code != "E140")
+        fix = diagnostic.fix
+        assert fix is not None
+        mended = text[: fix.span.start] + fix.text + text[fix.span.end :]
+        assert all(d.code == "E140" for d in found(mended)), mended
+
+
+def test_internal_error_is_a_message(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(*_: object) -> None:
+        raise RecursionError("too deep")
+
+    monkeypatch.setattr("dqpaint.language.strokes.draw", broken)
+    (diagnostic,) = found("hold 1 s")
+    assert diagnostic.code == "E999"
+    assert diagnostic.message == "internal error, please report (RecursionError: too deep)"
+    assert diagnostic.span == (0, 8)

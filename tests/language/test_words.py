@@ -1,0 +1,86 @@
+"""The tables of the language agree with what is built on them, and their examples work."""
+
+import pytest
+
+from dqpaint.language import parse, strokes
+from dqpaint.language.functions import TABLE
+from dqpaint.language.names import meaning
+from dqpaint.language.suggestions import closest
+from dqpaint.language.words import (
+    FUNCTION_ALIASES,
+    FUNCTIONS,
+    LAWS,
+    NOT_YET,
+    PART_ALIASES,
+    PARTS,
+    STATEMENT_ALIASES,
+    STATEMENTS,
+)
+
+
+def test_functions() -> None:
+    assert set(TABLE) == set(FUNCTIONS) | set(LAWS)
+    assert all((TABLE[name][1] or 0) in LAWS[name] for name in LAWS)
+
+
+def test_movements_are_drawn() -> None:
+    assert {w for w, known in STATEMENTS.items() if known.moves} == set(strokes._DRAW)
+
+
+def test_parts_are_known() -> None:
+    for known in STATEMENTS.values():
+        assert set(known.parts) <= set(PARTS)
+        assert set(known.many) <= set(known.parts)
+
+
+@pytest.mark.parametrize("word", [w for w in STATEMENTS if w != "end"])
+def test_examples_of_statements(word: str) -> None:
+    known = STATEMENTS[word]
+    start = "" if word in ("traj", "robot", "place", "start", "period") else "start at (0, 9) mm\n"
+    end = "\nline by (1, 0) mm\nend" if known.block else ""
+    assert parse(f"{start}{known.example}{end}\nline by (3, 4) mm", word).segments
+
+
+@pytest.mark.parametrize(
+    ("word", "part"),
+    [(w, p) for w, known in STATEMENTS.items() for p in known.parts if known.moves],
+)
+def test_examples_of_parts(word: str, part: str) -> None:
+    base = {
+        "line": "line by (9, 9) mm",
+        "move": "move by (9, 9) mm",
+        "arc": "arc centre (0, 0) angle 1 turn",
+        "screw": "screw about (0, 0) along z angle 1 turn",
+        "curve": "curve polar(9 mm, t) for t from 0 to 1 turn",
+        "step": "step to (9, 9) mm",
+        "hold": "hold 1 s",
+    }[word]
+    if part == "via":
+        base = "arc to (-80, 0) mm"
+    elif word == "screw" and part in ("to", "tool"):
+        base = "screw to (10, 0) mm tool look (0, 0, 5) mm up y"
+    elif part == "to" and word == "arc":
+        base = "arc via (0, 15) mm"
+    elif part == "center":
+        base = "arc angle 1 turn"
+    example = "tool keep" if part == "tool" and word != "step" else PARTS[part].example
+    if part == "tool":
+        example = example.replace("look (0, 0, 0)", "look (0, 0, 90) mm up y")
+    line = base if f" {part} " in base else f"{base} {example}"
+    assert parse(f"start at (90, 0) mm\n{line}", word).segments
+
+
+def test_aliases_lead_to_words() -> None:
+    for alias, meant in STATEMENT_ALIASES.items():
+        assert alias not in STATEMENTS
+        assert meant.split()[0] in STATEMENTS
+        assert closest(alias, STATEMENTS, STATEMENT_ALIASES) == meant
+    assert set(PART_ALIASES.values()) <= set(PARTS)
+    assert set(FUNCTION_ALIASES.values()) <= {*FUNCTIONS, "^"}
+    assert not set(FUNCTION_ALIASES) & set(FUNCTIONS)
+
+
+def test_words_to_come_are_neither_statements_nor_free() -> None:
+    for word in NOT_YET:
+        assert word not in STATEMENTS
+        assert meaning(word) == "a word of the language"

@@ -1,0 +1,147 @@
+"""Documents cannot lie: README's commands, tables and links, the examples and the gallery."""
+
+import json
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+import dqpaint
+from dqpaint.examples import example_names, examples_folder, find_drawing
+from dqpaint.gallery import SHOTS, page
+from dqpaint.language import parse, read
+from dqpaint.language.words import STATEMENTS
+from dqpaint.motion import plan
+from dqpaint.outputs import summarise
+from dqpaint.robots.card import read_card
+from tests import generated
+
+ROOT = Path(__file__).parent.parent
+README = (ROOT / "README.md").read_text("utf-8")
+PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("gallery/*.md")])
+NUMERIC_NOISE = 2  # of 255: what another processor or build of a library may change in a pixel
+
+
+def blocks(kind):
+    return re.findall(rf"^```{kind}\n(.*?)^```$", README, re.DOTALL | re.MULTILINE)
+
+
+def test_generated_tables_are_current():
+    assert generated.renewed(README) == README, "python -m tests.generated"
+
+
+def test_the_column_table_knows_every_kind_of_column(tmp_path):
+    (tmp_path / "dot.traj").write_text("hold 50 ms\n")
+    columns = list(dqpaint.draw(tmp_path / "dot.traj", plant="ideal", size=(64, 36)).table)
+    described = set(generated.COLUMNS)
+    families = [
+        r"desired_[xyz]_m",
+        r"desired_q[wxyz]",
+        r"[xyz]_m",
+        r"q[wxyz]",
+        r"q\d_rad",
+        r"command\d_rad_s",
+    ]
+    for column in columns:
+        family = next((f for f in families if re.fullmatch(f, column)), re.escape(column))
+        assert any(re.fullmatch(family, name) for name in described), column
+
+
+@pytest.mark.parametrize("path", PAGES, ids=lambda p: p.name)
+def test_links_lead_somewhere(path):
+    for target in re.findall(r"\]\(([^)#\s]+)\)", path.read_text("utf-8")):
+        if not target.startswith("https://"):
+            assert (path.parent / target).exists(), target
+
+
+def test_the_readme_shows_the_star_as_it_is():
+    assert blocks("")[0] == (examples_folder() / "star.traj").read_text("utf-8")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("command", [
+    line.removeprefix("$ ") for block in blocks("console") for line in block.splitlines()
+])  # fmt: skip
+def test_readme_commands_run(command, tmp_path):
+    words = shlex.split(command)
+    assert words[0] == "dqpaint"
+    done = subprocess.run(
+        [sys.executable, "-m", *words], cwd=tmp_path, capture_output=True, text=True, timeout=120
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout
+
+
+@pytest.mark.slow
+def test_readme_python_runs():
+    scope = {}
+    exec(blocks("python")[0], scope)
+    assert scope["painting"].image.shape == (720, 1280, 3)
+
+
+def test_the_readme_shows_the_message_as_it_is():
+    from dqpaint.language import ScriptError
+
+    with pytest.raises(ScriptError) as caught:
+        parse("speed 40 mm/s\nline to (0, 0, 70)\n", "lines.traj")
+    assert str(caught.value) + "\n" in blocks("")
+
+
+def test_readme_lines_are_single_and_ci_runs_them():
+    lines = [block.strip() for block in blocks("sh")]
+    assert len(lines) == 2
+    assert all("\n" not in line and "-c constraints.txt" in line for line in lines)
+    script = (ROOT / ".ci/run").read_text("utf-8")
+    for text in re.findall(r"readme_line '(.*?)'", script):
+        assert sum(text in line for line in README.splitlines()) == 1, text
+
+
+@pytest.mark.parametrize("name", example_names())
+def test_every_example_is_planned_and_says_what_it_shows(name):
+    path = find_drawing(name)
+    text = path.read_text("utf-8")
+    assert text.startswith(f"# {name}.traj - ")
+    motion = plan(read(path), read_card("iiwa").canvas.pose)
+    assert not motion.notes
+    assert motion.lit.any()
+
+
+@pytest.mark.parametrize("word", STATEMENTS)
+def test_every_statement_s_example_is_one(word):
+    """The example lines of the words' own table, within what they need around them."""
+    example = STATEMENTS[word].example
+    before = {"end": "repeat 2\nline by (1, 0) mm\n", "arc": "move to (10, 0) mm\n"}
+    before["tool"] = "start at (5, 5, 5) mm\n"
+    after = "\nline by (1, 0) mm\n" if word != "end" else "\n"
+    if STATEMENTS[word].block:
+        after += "end\n"
+    parse(before.get(word, "") + example + after, "example.traj")
+
+
+def test_the_gallery_s_page_is_current():
+    assert (ROOT / "gallery/README.md").read_text("utf-8") == page()
+    assert {shot.example for shot in SHOTS} == set(example_names())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("shot", SHOTS, ids=lambda shot: shot.name)
+def test_the_gallery_is_what_its_commands_paint(shot):
+    painting = dqpaint.draw(shot.example, **shot.choices)
+    kept = cv2.imread(str(ROOT / f"gallery/{shot.name}.png"))[..., ::-1].astype(int)
+    assert np.abs(kept - painting.image).max() <= NUMERIC_NOISE, "dqpaint gallery"
+    facts = json.loads((ROOT / f"gallery/{shot.name}.json").read_text("utf-8"))
+    now = summarise(painting)
+    assert facts["sha256"] == now["sha256"]
+    assert facts["settings"] == now["settings"]
+    for name in ("error_integral", "position_error_rms_m", "speed_integral_m"):
+        assert facts[name] == pytest.approx(now[name], rel=1e-6)
+
+
+def test_the_repository_names_no_package_index():
+    for path in [*ROOT.glob("*.toml"), *ROOT.glob("*.txt"), ROOT / ".ci/run", ROOT / "README.md"]:
+        assert not re.search(r"index-url|find-links|/simple/", path.read_text("utf-8")), path

@@ -8,7 +8,7 @@ from dqpaint.language import read
 from dqpaint.motion import plan
 from dqpaint.paint import Painting, Stopwatch, paint
 from dqpaint.picture import Picture, take
-from dqpaint.robots.card import DEFAULT_ROBOT, read_card
+from dqpaint.robots.choose import card_for
 from dqpaint.settings import make_settings
 
 
@@ -67,6 +67,6 @@ def preview(
     width, height = size or (None, None)
     settings = make_settings(robot=robot, width=width, height=height, view=view, ev=ev)
     program = read(find_drawing(str(drawing)))
-    card = read_card(settings.robot or program.robot or DEFAULT_ROBOT)
+    card = card_for(program, settings.robot)
     motion = plan(program, card.canvas.pose)
     return take(motion, motion.points, settings)

@@ -11,7 +11,7 @@ from dqpaint.examples import find_drawing
 from dqpaint.language import Diagnostic, ScriptError, read, render
 from dqpaint.language.diagnostics import Severity, Span, place
 from dqpaint.motion import Motion, plan
-from dqpaint.robots.card import DEFAULT_ROBOT, read_card
+from dqpaint.robots.choose import card_for
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ def check(name: str, robot: str | None) -> Checked:
     try:
         path = find_drawing(name)
         program = read(path)
-        card = read_card(robot or program.robot or DEFAULT_ROBOT)
+        card = card_for(program, robot)
         motion = plan(program, card.canvas.pose)
     except ScriptError as problem:
         return Checked(problem.name, problem.text, problem.diagnostics, None)

@@ -129,10 +129,10 @@ def preview(
     from dqpaint import outputs, report
     from dqpaint.motion import plan
     from dqpaint.picture import take
-    from dqpaint.robots.card import DEFAULT_ROBOT, read_card
+    from dqpaint.robots.choose import card_for
 
     stem = outputs.stem_for(out, f"{path.stem}-preview")
-    card = read_card(settings.robot or program.robot or DEFAULT_ROBOT)
+    card = card_for(program, settings.robot)
     motion = plan(program, card.canvas.pose)
     picture = take(motion, motion.points, settings)
     written = outputs.write(stem, {".png": outputs.encode_png(picture.image)})

@@ -17,7 +17,7 @@ from dqpaint.motion import Motion, plan
 from dqpaint.out_of_reach import out_of_reach
 from dqpaint.picture import Picture, take
 from dqpaint.plants import PLANTS
-from dqpaint.robots.card import DEFAULT_ROBOT, read_card
+from dqpaint.robots.choose import card_for
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.reach import Miss, find_start, waypoints
 from dqpaint.settings import Settings
@@ -77,7 +77,7 @@ def paint(
     controller = CONTROLLERS[settings.controller]
     gains = controller.read_gains(settings.gains)
     make_plant = PLANTS[settings.plant]
-    card = read_card(settings.robot or program.robot or DEFAULT_ROBOT)
+    card = card_for(program, settings.robot)
     with clock("motion"):
         motion = plan(program, card.canvas.pose)
     with clock("start"):

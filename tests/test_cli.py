@@ -154,6 +154,7 @@ BAD = {
         b"hold 1 s\nline by (10, 0) mm samples 1000000000000\n",
         "error[E302]: more than 2,000,000 samples",
     ),
+    "robot": (b"robot ur7\nline by (10, 0) mm\n", "error[E311]: no robot named 'ur7'"),
     "dark": (b"light off\nline by (10, 0) mm\n", "no light is on anywhere"),
 }
 

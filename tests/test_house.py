@@ -1,6 +1,7 @@
 """The house: modules in one written order, imports upstream only, each library behind its door."""
 
 import ast
+import re
 import sys
 from pathlib import Path
 
@@ -85,6 +86,16 @@ def test_files_are_short_and_say_what_they_are(path):
     text = path.read_text("utf-8")
     assert len(text.splitlines()) <= LONGEST
     assert ast.get_docstring(ast.parse(text)), "no docstring"
+
+
+def test_a_code_means_one_thing():
+    """Each diagnostic code belongs to one room."""
+    rooms = {}
+    for path in FILES:
+        for code in re.findall(r'"([EW]\d{3})"', path.read_text("utf-8")):
+            rooms.setdefault(code, set()).add(room(path))
+    assert len(rooms) > 60
+    assert not {code: where for code, where in rooms.items() if len(where) > 1}
 
 
 def test_no_attic():

@@ -30,6 +30,7 @@ class Expander:
         self._once: dict[str, Span] = {}  # statements that may come once
         self._period = PERIOD
         self._robot: str | None = None
+        self._robot_span: Span | None = None
         self._placement: Pose | None = None
         self.at: Span | None = None  # the statement being worked on
 
@@ -43,6 +44,7 @@ class Expander:
             self._text,
             self._period,
             self._robot,
+            self._robot_span,
             self._placement,
             self._pen.start,
             tuple(self._pen.segments),
@@ -194,7 +196,7 @@ class Expander:
     def _robot_line(self, statement: Statement) -> None:
         self._first(statement)
         assert statement.name is not None
-        self._robot = statement.name.text
+        self._robot, self._robot_span = statement.name.text, statement.name.span
 
     def _period_line(self, statement: Statement) -> None:
         self._first(statement)

@@ -204,6 +204,7 @@ class Program:
     text: str
     period: float  # [s]
     robot: str | None  # the file's own `robot` line
+    robot_span: Span | None  # and the name in it
     placement: Pose | None  # the drawing frame in the robot's base frame; None: the robot's canvas
     start: Pose
     segments: tuple[Segment, ...]

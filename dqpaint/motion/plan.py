@@ -11,7 +11,7 @@ from dqpaint.language.diagnostics import Diagnostic, ScriptError, Severity
 from dqpaint.language.program import Program, Step
 from dqpaint.motion.lengths import flow_by_length, length_fraction
 from dqpaint.motion.shapes import Flow, pose_array
-from dqpaint.motion.timetable import Stroke, not_finite, timetable
+from dqpaint.motion.timetable import Stroke, StrokeError, stroke_errors, timetable
 
 
 @dataclass(frozen=True)
@@ -90,9 +90,10 @@ def plan(program: Program, canvas: Floats) -> Motion:
     flows = []
     for stroke in strokes:
         try:
-            flows.append(flow_at(stroke, stroke.samples, program.period))
-        except FloatingPointError:
-            findings.append(not_finite(stroke.segment))
+            with stroke_errors(stroke.segment):
+                flows.append(flow_at(stroke, stroke.samples, program.period))
+        except StrokeError as fault:
+            findings += fault.diagnostics
     if any(f.severity is Severity.ERROR for f in findings):
         raise ScriptError(program.name, program.text, tuple(findings))
     return _assemble(program, strokes, flows, canvas, tuple(findings))

@@ -4,12 +4,14 @@ Durations are rounded up, so that every corner is itself a sample and no speed i
 """
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
 
 from dqpaint.dq import Floats
-from dqpaint.language.diagnostics import Diagnostic
+from dqpaint.language.diagnostics import Diagnostic, ScriptError
 from dqpaint.language.program import Cruise, Lasting, Program, Samples, Segment, Step, Still
 from dqpaint.motion.laws import LAWS, Progress, Rates, cruise_time, scale_rates
 from dqpaint.motion.lengths import Extent, has_cusp, measure
@@ -46,11 +48,22 @@ class Stroke:
 
 
 class StrokeError(Exception):
-    """A stroke that has no timetable, as a diagnostic."""
+    """A stroke that has no timetable, as diagnostics."""
 
-    def __init__(self, diagnostic: Diagnostic) -> None:
-        super().__init__(diagnostic.message)
-        self.diagnostic = diagnostic
+    def __init__(self, *diagnostics: Diagnostic) -> None:
+        super().__init__(diagnostics[0].message)
+        self.diagnostics = diagnostics
+
+
+@contextmanager
+def stroke_errors(segment: Segment) -> Iterator[None]:
+    """Turn what a formula may raise on its way into a `StrokeError`."""
+    try:
+        yield
+    except FloatingPointError:
+        raise StrokeError(_not_finite(segment)) from None
+    except ScriptError as problem:  # the formula names the value of its parameter itself
+        raise StrokeError(*problem.diagnostics) from None
 
 
 def timetable(program: Program) -> tuple[list[Stroke], list[Diagnostic]]:
@@ -65,7 +78,8 @@ def timetable(program: Program) -> tuple[list[Stroke], list[Diagnostic]]:
             if total > MOST_SAMPLES:
                 raise StrokeError(_too_many(segment, stroke.count))
         except StrokeError as fault:
-            _keep(findings, fault.diagnostic)
+            for diagnostic in fault.diagnostics:
+                _keep(findings, diagnostic)
             if total > MOST_SAMPLES:
                 break
             continue
@@ -82,11 +96,9 @@ def _keep(findings: dict[tuple[str, int], Diagnostic], new: Diagnostic) -> None:
 
 
 def _stroke(segment: Segment, period: float) -> tuple[Stroke, Diagnostic | None]:
-    try:
+    with stroke_errors(segment):
         form = shape(segment)
         extent = measure(form)
-    except FloatingPointError:
-        raise StrokeError(not_finite(segment)) from None
     timing = segment.timing
     rates = segment.law.rates
     by_length = not extent.even and (
@@ -138,10 +150,9 @@ def _seconds(segment: Segment, extent: Extent, end_rates: Rates, period: float) 
     return seconds
 
 
-def not_finite(segment: Segment) -> Diagnostic:
-    """The finding about a stroke whose formula leaves the numbers on its way."""
+def _not_finite(segment: Segment) -> Diagnostic:
     return Diagnostic(
-        "E306",
+        "E324",
         "this curve, or one of its derivatives, is not finite everywhere on the way",
         segment.span,
         help="keep the parameter away from where a root, a logarithm or a quotient breaks down",
@@ -150,7 +161,7 @@ def not_finite(segment: Segment) -> Diagnostic:
 
 def _cusp(segment: Segment) -> Diagnostic:
     return Diagnostic(
-        "E303",
+        "E321",
         "this curve comes to a point on its way, so it can't be run at one speed",
         segment.span,
         label="its formula stands still somewhere",
@@ -160,7 +171,7 @@ def _cusp(segment: Segment) -> Diagnostic:
 
 def _fast_end(segment: Segment) -> Diagnostic:
     return Diagnostic(
-        "E304",
+        "E322",
         "the law starts or ends faster than the speed of this stroke",
         segment.span,
         help="lower the rates in the brackets, raise speed, or give a time: in 10 s",
@@ -171,7 +182,7 @@ def _no_extent(segment: Segment, kind: str) -> Diagnostic:
     unit = "deg/s" if kind == "turn" else "mm/s"
     other = "mm/s" if kind == "turn" else "deg/s"
     return Diagnostic(
-        "E305",
+        "E323",
         f"the law has rates in {unit}, but this stroke has no {kind}",
         segment.span,
         help=f"give the rates in {other}, or leave the brackets out",

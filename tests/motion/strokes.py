@@ -113,4 +113,6 @@ def segment(path, tool, law="trapezoid", timing=None, start=START):
 
 def program(*segments, period=0.008, placement=None):
     """A drawing of these strokes."""
-    return Program("test.traj", "line", period, None, placement, segments[0].start, segments, ())
+    return Program(
+        "test.traj", "line", period, None, None, placement, segments[0].start, segments, ()
+    )

@@ -198,7 +198,7 @@ def test_faults_of_strokes_are_all_reported():
     ]
     with pytest.raises(ScriptError) as caught:
         plan(program(*segments), CANVAS)
-    assert codes(caught) == ["E303", "E304", "E305", "E306"]
+    assert codes(caught) == ["E321", "E322", "E323", "E324"]
 
 
 def _sqrt(t):

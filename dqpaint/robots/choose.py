@@ -1,0 +1,22 @@
+"""Which arm a drawing is for."""
+
+from dqpaint.errors import UnknownNameError
+from dqpaint.language import Diagnostic, Program, ScriptError
+from dqpaint.robots.card import DEFAULT_ROBOT, Card, read_card
+
+
+def card_for(program: Program, robot: str | None) -> Card:
+    """The card of the arm that was asked for, else of the file's own, else of the default.
+
+    Raises:
+        UnknownNameError: no card has the name that was asked for.
+        ScriptError: no card has the name in the file.
+    """
+    if robot is not None or program.robot is None:
+        return read_card(robot or DEFAULT_ROBOT)
+    try:
+        return read_card(program.robot)
+    except UnknownNameError as problem:
+        message, _, known = str(problem).partition("; ")
+        unknown = Diagnostic("E311", message, program.robot_span, help=known)
+        raise ScriptError(program.name, program.text, (unknown,)) from None

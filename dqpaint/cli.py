@@ -135,7 +135,7 @@ def preview(
     card = card_for(program, settings.robot)
     motion = plan(program, card.canvas.pose)
     picture = take(motion, motion.points, settings)
-    written = outputs.write(stem, {".png": outputs.encode_png(picture.image)})
+    written = outputs.write(stem, {".png": picture.png})
     _remark(*report.notes(motion))
     print(report.of_preview(motion, picture, written))
     _show(picture.image)

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from dqpaint.api import draw
-from dqpaint.outputs import png, stem_for, summarise, write
+from dqpaint.outputs import stem_for, summarise, write
 
 
 class Shot(NamedTuple):
@@ -49,7 +49,10 @@ def make_gallery(folder: str) -> Iterator[Path]:
         painting = draw(shot.example, **shot.choices)
         facts = summarise(painting)
         del facts["wall_s"]  # the only part that differs from run to run
-        contents = {".png": png(painting), ".json": (json.dumps(facts, indent=2) + "\n").encode()}
+        contents = {
+            ".png": painting.picture.png,
+            ".json": (json.dumps(facts, indent=2) + "\n").encode(),
+        }
         yield from write(stem_for(f"{folder}/", shot.name), contents)
     yield from write(stem_for(f"{folder}/", "README"), {".md": page().encode()})
 

@@ -10,9 +10,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-import cv2
 import numpy as np
-from numpy.typing import NDArray
 
 from dqpaint.errors import OutputError
 from dqpaint.metrics import Table, motion_columns
@@ -21,8 +19,6 @@ from dqpaint.registry import Registry
 
 SCHEMA = "dqpaint-run-1"
 LIBRARIES = ("numpy", "opencv-python-headless", "pin", "pybullet")
-# run lengths suit black ground with dithered halos: smaller and faster than the default search
-PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
 
 Output = Callable[[Painting], bytes]
 OUTPUTS: Registry[Output] = Registry("output")
@@ -31,7 +27,7 @@ OUTPUTS: Registry[Output] = Registry("output")
 @OUTPUTS.add("png")
 def png(painting: Painting) -> bytes:
     """The picture."""
-    return encode_png(painting.image)
+    return painting.picture.png
 
 
 @OUTPUTS.add("csv")
@@ -58,14 +54,6 @@ DEFAULT_OUTPUTS = ("png", "csv", "json")
 def ending(name: str) -> str:
     """How the file of an output ends, after the stem."""
     return "-motion.csv" if name == "motion" else f".{name}"
-
-
-def encode_png(image: NDArray[np.uint8]) -> bytes:
-    """An sRGB image (H, W, 3) as a PNG file."""
-    done, data = cv2.imencode(".png", image[..., ::-1], PNG)
-    if not done:
-        raise OutputError("the picture could not be encoded as PNG")
-    return data.tobytes()
 
 
 def encode_csv(table: Table) -> bytes:

@@ -53,9 +53,7 @@ class Painting:
         return self.metrics.table
 
     def _repr_png_(self) -> bytes:
-        from dqpaint.outputs import png
-
-        return png(self)
+        return self.picture.png
 
 
 def paint(

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,6 +17,9 @@ from dqpaint.light.film import Film, expose
 from dqpaint.light.spread import point_spread, spread
 from dqpaint.motion import Motion
 from dqpaint.settings import Settings
+
+# run lengths suit black ground with dithered halos: smaller and faster than the default search
+PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
 
 
 @dataclass(frozen=True)
@@ -33,6 +37,17 @@ class Picture:
     film: Film
     exposure: float
     camera: Camera
+
+    @property
+    def png(self) -> bytes:
+        """The image as a PNG file."""
+        done, data = cv2.imencode(".png", self.image[..., ::-1], PNG)
+        if not done:
+            raise DqpaintError("the picture could not be encoded as PNG")
+        return data.tobytes()
+
+    def _repr_png_(self) -> bytes:
+        return self.png
 
 
 def take(motion: Motion, points: Floats, settings: Settings) -> Picture:

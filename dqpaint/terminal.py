@@ -36,8 +36,8 @@ def blocks(image: NDArray[np.uint8], columns: int) -> str:
     would fade away, by the brightest pixel its white core would hide its colour.
     """
     height, width = image.shape[:2]
-    columns = max(8, min(columns, WIDEST))
-    rows = 2 * max(1, round(columns * height / width / 2))
+    columns = max(1, min(columns, WIDEST, width))
+    rows = 2 * max(1, min(round(columns * height / width / 2), height // 2))
     y = np.linspace(0, height, rows + 1).astype(int)
     x = np.linspace(0, width, columns + 1).astype(int)
     fourth = np.square(np.square(image / 255.0))

@@ -33,10 +33,34 @@ def table(heads, rows):
 def statements():
     from dqpaint.language.words import STATEMENTS
 
-    return table(
-        ["statement", "what it says", "for example"],
-        [[f"`{s.word}`", s.says, f"`{s.example.splitlines()[0]}`"] for s in STATEMENTS.values()],
-    )
+    rows = [
+        [f"`{s.word}`", s.says, " ".join(s.parts), f"`{s.example}`"] for s in STATEMENTS.values()
+    ]
+    return table(["statement", "what it says", "its parts", "for example"], rows)
+
+
+def parts():
+    from dqpaint.language.words import PARTS
+
+    rows = [[f"`{p.word}`", p.says, f"`{p.example}`"] for p in PARTS.values()]
+    return table(["part", "what it says", "for example"], rows)
+
+
+def values():
+    from dqpaint.language.units import UNITS
+    from dqpaint.language.words import CONSTANTS, FUNCTIONS, LAWS
+
+    laws = [
+        name + "".join(f", {name}(…{n} rates)" for n in counts if n)
+        for name, counts in LAWS.items()
+    ]
+    kinds = {
+        "units": [f"`{u}`" for u in UNITS],
+        "constants": [f"`{c}`" for c in CONSTANTS],
+        "laws": [f"`{law}`" for law in laws],
+        "functions": [f"`{call}`" for call in FUNCTIONS.values()],
+    }
+    return table(["", ""], [[kind, " ".join(words)] for kind, words in kinds.items()])
 
 
 def controllers():
@@ -64,7 +88,7 @@ def columns():
     return table(["column", ""], [[f"`{name}`", about] for name, about in COLUMNS.items()])
 
 
-TABLES = [statements, controllers, robots, plants, columns]
+TABLES = [statements, parts, values, controllers, robots, plants, columns]
 
 
 def renewed(text):

@@ -135,7 +135,7 @@ def _robot(cursor: Cursor) -> Word:
     token = cursor.take()
     if token.kind not in ("name", "text") or not token.text.strip():
         message = f"expected the name of a robot but found {found(token)}"
-        raise problem("E109", message, token.span, "", "for example: robot ur5e")
+        raise problem("E109", message, token.span, "", "for example: robot iiwa")
     if token.kind == "name" and not cursor.at_end:
         message = f"expected the end of the line but found {found(cursor.token)}"
         cure = 'a name with other signs than letters, digits and _ stands in quotes: robot "…"'

@@ -89,7 +89,7 @@ STATEMENTS = {
     statement.word: statement
     for statement in (
         StatementWord("traj", "the version of the language", "traj 1", head="version"),
-        StatementWord("robot", "the arm the drawing is for", "robot ur5e", head="robot"),
+        StatementWord("robot", "the arm the drawing is for", "robot iiwa", head="robot"),
         StatementWord("let", "a name for a value", "let r = 70 mm", head="let"),
         StatementWord(
             "place",

@@ -50,10 +50,8 @@ def values():
     from dqpaint.language.units import UNITS
     from dqpaint.language.words import CONSTANTS, FUNCTIONS, LAWS
 
-    laws = [
-        name + "".join(f", {name}(…{n} rates)" for n in counts if n)
-        for name, counts in LAWS.items()
-    ]
+    ends = {0: "", 2: "(v0, v1)", 4: "(v0, v1, a0, a1)"}  # rates and accelerations at the ends
+    laws = [f"{name}{ends[count]}" for name, counts in LAWS.items() for count in counts]
     kinds = {
         "units": [f"`{u}`" for u in UNITS],
         "constants": [f"`{c}`" for c in CONSTANTS],

@@ -198,5 +198,5 @@ def test_temperatures(kelvin: float, x: float, y: float) -> None:
 
 def test_reserved_words_are_free_elsewhere() -> None:
     program = parse("robot iiwa\nlet end1 = 1 mm\nline by (end1, 0)", "a")
-    assert program.robot == "ur5e"
+    assert program.robot == "iiwa"
     assert parse('robot "my arm.urdf"\nline by (1, 0) mm', "a").robot == "my arm.urdf"

@@ -7,15 +7,37 @@ from dqpaint.language.diagnostics import Diagnostic, ScriptError
 from dqpaint.motion import Motion
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.reach import Miss, find_start
+from dqpaint.tracking import Track
 
+WORTH_A_LOOK = 1e-3  # [m]
+LOOKS = 9  # at a stroke, for its farthest point
 WORTH_SAYING = np.radians(0.5)
 SCALES = np.arange(0.95, 0.05, -0.05)
 
 
+def check_worst(track: Track, kinematics: Kinematics) -> None:
+    """Look again where a run strayed most: the forecast sees a drawing at some of its rows alone.
+
+    A pose that is out of reach keeps the arm at least as far away as its shortfall.
+
+    Raises:
+        ScriptError: no posture reaches the pose of that row.
+    """
+    motion = track.motion
+    stray = np.linalg.norm(track.points - motion.points, axis=1)
+    row = int(np.argmax(stray))
+    if stray[row] < WORTH_A_LOOK:
+        return
+    found = find_start(kinematics, motion.pose[row : row + 1], motion.t[row : row + 1])
+    if isinstance(found, Miss):
+        raise out_of_reach(motion, kinematics, row, found)
+
+
 def out_of_reach(motion: Motion, kinematics: Kinematics, row: int, miss: Miss) -> ScriptError:
-    """The error for a row of the motion that no posture reaches."""
+    """The error for a stroke of the motion, one of whose rows no posture reaches."""
     program = motion.program
     segment = program.segments[int(motion.stroke[row])]
+    row, miss = _farthest(motion, kinematics, row, miss)
     name = kinematics.card.name
     far, turned = miss.shortfall * 1e3, np.degrees(miss.turned)
     if far < 0.5 and miss.turned > WORTH_SAYING:
@@ -28,10 +50,20 @@ def out_of_reach(motion: Motion, kinematics: Kinematics, row: int, miss: Miss) -
         "E310",
         f"sample {row} ({motion.t[row]:.2f} s) {fault}",
         segment.span,
-        label="on the way of this stroke",
+        label="farthest point of this stroke",
         help=_advice(motion, kinematics, row),
     )
     return ScriptError(program.name, program.text, (problem,))
+
+
+def _farthest(motion: Motion, kinematics: Kinematics, row: int, miss: Miss) -> tuple[int, Miss]:
+    """Of some rows of the same stroke the one that is missed most."""
+    stroke = np.flatnonzero(motion.stroke == motion.stroke[row])
+    for other in np.linspace(stroke[0], stroke[-1], LOOKS).astype(int):
+        found = find_start(kinematics, motion.pose[other : other + 1], np.zeros(1))
+        if isinstance(found, Miss) and found.badness > miss.badness:
+            row, miss = int(other), found
+    return row, miss
 
 
 def _advice(motion: Motion, kinematics: Kinematics, row: int) -> str:

@@ -14,7 +14,7 @@ from dqpaint.dq import Floats
 from dqpaint.language.program import Program
 from dqpaint.metrics import Metrics, Table, measure
 from dqpaint.motion import Motion, plan
-from dqpaint.out_of_reach import out_of_reach
+from dqpaint.out_of_reach import check_worst, out_of_reach
 from dqpaint.picture import Picture, take
 from dqpaint.plants import PLANTS
 from dqpaint.robots.choose import card_for
@@ -83,6 +83,7 @@ def paint(
         start = first_posture(motion, kinematics, settings)
     with clock("arm"):
         run = track(motion, kinematics, start, make_plant, controller, gains, progress)
+    check_worst(run, kinematics)
     with clock("metrics"):
         metrics = measure(run)
     with clock("light"):

@@ -23,6 +23,7 @@ def of_painting(painting: Painting, written: Sequence[Path]) -> str:
         ("arm", f"{painting.robot}, {settings.plant}"),
         ("controller", f"{settings.controller}  {gains}"),
         ("position error", _spread(figures, "position_error", "m", 1e3, "mm")),
+        ("", f"largest at {_worst(painting)}"),
         ("orientation error", _spread(figures, "orientation_error", "rad", math.degrees(1), "deg")),
         ("commanded", f"{figures['command_integral_rad']:.3g} rad"),
         ("limits", f"{len(painting.track.clamps) or 'none'} reached"),
@@ -76,6 +77,12 @@ def remarks(painting: Painting) -> list[str]:
 def _spread(figures: dict[str, float], name: str, unit: str, scale: float, shown: str) -> str:
     rms, most = (figures[f"{name}_{kind}_{unit}"] * scale for kind in ("rms", "max"))
     return f"rms {rms:.3g} {shown}, largest {most:.3g} {shown}"
+
+
+def _worst(painting: Painting) -> str:
+    motion = painting.motion
+    row = int(painting.table["position_error_m"].argmax())
+    return f"{motion.t[row]:.3f} s, line {motion.line[row]}"
 
 
 def _files(written: Sequence[Path]) -> list[tuple[str, str]]:

@@ -20,6 +20,7 @@ EXACT = 1e-9  # [rad, m] from the pose where the arm begins
 ON_THE_WAY = 1e-4  # [rad, m] is close enough for a forecast of margins
 ARRIVED = 1e-3  # [rad, m]: farther off, a pose counts as missed
 ITERATIONS = 30
+TURN = 0.3  # [m] that count as much as a radian
 EQUAL = np.radians(1.0)  # margins that differ by less count as equal
 STEP = 0.6  # [rad] a joint moves at the most in one iteration
 SEED = 1988
@@ -51,6 +52,11 @@ class Miss:
     index: int
     shortfall: float
     turned: float
+
+    @property
+    def badness(self) -> float:
+        """Distance and turn as one length [m]."""
+        return self.shortfall + TURN * self.turned
 
 
 def find_start(kinematics: Kinematics, poses: Floats, seconds: Floats) -> Start | Miss:
@@ -134,14 +140,14 @@ def _closest(
     """How far the arm stays from a pose that it does not reach, by descent inside its limits."""
     card = kinematics.card
     q = card.home[None] if postures is None else postures
-    best_far, best_turned = np.inf, 0.0
+    best = Miss(index, np.inf, 0.0)
     for _ in range(150):
         x, J = kinematics.poses_and_jacobians(q)
         far = np.linalg.norm(dq.translation(poses[index]) - dq.translation(x), axis=1)
         turned = 2 * np.linalg.norm(dq.log(dq.mul(poses[index], dq.conj(x)))[:, :3], axis=1)
-        i = int(np.argmin(far + 0.3 * turned))
-        if far[i] + 0.3 * turned[i] < best_far + 0.3 * best_turned:
-            best_far, best_turned = float(far[i]), float(turned[i])
+        i = int(np.argmin(far + TURN * turned))
+        here = Miss(index, float(far[i]), float(turned[i]))
+        best = min(best, here, key=lambda miss: miss.badness)
         step = 0.2 * resolve(J, dq.translation(x), _error(poses[index], x), np.zeros_like(q))
         q = np.clip(q + np.clip(step, -STEP, STEP), card.lower, card.upper)
-    return Miss(index, best_far, best_turned)
+    return best

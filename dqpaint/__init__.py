@@ -11,23 +11,22 @@ command line. `dq` holds the algebra and its conventions, `outputs` the files. D
 line and never back: `tests/test_house.py` holds the modules to it.
 """
 
+import importlib
 from typing import TYPE_CHECKING, Any
 
+from dqpaint.errors import DqpaintError
+
 if TYPE_CHECKING:
-    from dqpaint.api import draw, preview
+    from dqpaint.api import draw, preview, save
     from dqpaint.paint import Painting
 
-__all__ = ["Painting", "draw", "preview"]
+__version__ = "0.1.0"
+
+__all__ = ["DqpaintError", "Painting", "draw", "preview", "save"]
 
 
 def __getattr__(name: str) -> Any:
     """Import on first use: the command line must start without the simulator."""
-    if name in ("draw", "preview"):
-        from dqpaint import api
-
-        return getattr(api, name)
-    if name == "Painting":
-        from dqpaint.paint import Painting
-
-        return Painting
+    if name in __all__:
+        return getattr(importlib.import_module("dqpaint.api"), name)
     raise AttributeError(f"module 'dqpaint' has no attribute '{name}'")

@@ -2,7 +2,10 @@
 
 from collections.abc import Callable, Mapping
 from os import PathLike
+from pathlib import Path
 
+from dqpaint import outputs
+from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.examples import find_drawing
 from dqpaint.language import read
 from dqpaint.motion import plan
@@ -10,6 +13,8 @@ from dqpaint.paint import Painting, Stopwatch, paint
 from dqpaint.picture import Picture, take
 from dqpaint.robots.choose import card_for
 from dqpaint.settings import make_settings
+
+__all__ = ["DqpaintError", "Painting", "draw", "preview", "save"]
 
 
 def draw(
@@ -42,7 +47,7 @@ def draw(
     Raises:
         DqpaintError: a fault in the drawing, the choices or the run.
     """
-    width, height = size or (None, None)
+    width, height = _width_and_height(size)
     settings = make_settings(
         controller=controller, gains=dict(gains) if gains else None, robot=robot, plant=plant,
         start=start, width=width, height=height, view=view, ev=ev,
@@ -55,6 +60,28 @@ def draw(
     return painting
 
 
+def save(
+    painting: Painting, out: str | PathLike[str] = ".", what: str = "png,csv,json"
+) -> list[Path]:
+    """Write the files of a painting, as `dqpaint draw` does.
+
+    Args:
+        painting: from `draw`.
+        out: a folder (that exists, or ends with a slash), or the stem of the files.
+        what: a list of png, csv, json, motion.
+
+    Returns:
+        The paths of the files.
+
+    Raises:
+        DqpaintError: the place cannot be written; nothing was changed.
+    """
+    name = f"{Path(painting.motion.program.name).stem}-{painting.settings.controller}"
+    makers = outputs.choose(what)
+    stem = outputs.stem_for(str(out), name)
+    return outputs.write(stem, {end: make(painting) for end, make in makers.items()})
+
+
 def preview(
     drawing: str | PathLike[str],
     *,
@@ -64,9 +91,17 @@ def preview(
     ev: float | None = None,
 ) -> Picture:
     """The asked picture of a drawing, without an arm; arguments as those of `draw`."""
-    width, height = size or (None, None)
+    width, height = _width_and_height(size)
     settings = make_settings(robot=robot, width=width, height=height, view=view, ev=ev)
     program = read(find_drawing(str(drawing)))
     card = card_for(program, settings.robot)
     motion = plan(program, card.canvas.pose)
     return take(motion, motion.points, settings)
+
+
+def _width_and_height(size: tuple[int, int] | None) -> tuple[int | None, int | None]:
+    if size is None:
+        return None, None
+    if isinstance(size, str) or len(size) != 2:
+        raise UsageError(f"size {size!r} is not (width, height) in pixels")
+    return size[0], size[1]

@@ -1,16 +1,18 @@
 """What `check` says of a drawing, for people and for programs."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from dqpaint import __version__
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.examples import find_drawing
 from dqpaint.language import Diagnostic, ScriptError, read, render
 from dqpaint.language.diagnostics import Severity, Span, place
 from dqpaint.motion import Motion, plan
+from dqpaint.robots.card import Card
 from dqpaint.robots.choose import card_for
 
 
@@ -23,6 +25,7 @@ class Checked:
     findings: tuple[Diagnostic, ...]
     motion: Motion | None
     fault: str = ""  # of a file that could not even be read
+    reach: str = ""  # what the arm says of it, where an arm was asked
 
     @property
     def errors(self) -> int:
@@ -37,12 +40,14 @@ class Checked:
             return f"error: {self.fault}"
         parts = [render(finding, self.file, self.source) for finding in self.findings]
         if self.motion is not None:
-            parts.append(figures_line(self.motion, self.file))
+            parts.append(figures_line(self.motion, self.file) + self.reach)
         return "\n\n".join(parts)
 
 
 def check(name: str, robot: str | None) -> Checked:
     """Read one drawing and plan its motion; nothing is simulated.
+
+    The reach is looked at where an arm is named, in the call or in the file.
 
     Raises:
         UsageError: no such robot.
@@ -52,13 +57,30 @@ def check(name: str, robot: str | None) -> Checked:
         program = read(path)
         card = card_for(program, robot)
         motion = plan(program, card.canvas.pose)
+        asked = robot is not None or program.robot is not None
+        reach = _reach(motion, card) if asked else ""
     except ScriptError as problem:
         return Checked(problem.name, problem.text, problem.diagnostics, None)
     except UsageError:
         raise
     except DqpaintError as problem:
         return Checked(name, "", (), None, str(problem))
-    return Checked(str(path), program.text, motion.notes, motion)
+    return Checked(str(path), program.text, motion.notes, motion, reach=reach)
+
+
+def _reach(motion: Motion, card: Card) -> str:
+    """Whether an arm reaches all of a drawing; only this brings in the kinematics.
+
+    Raises:
+        ScriptError: it does not.
+    """
+    from dqpaint.out_of_reach import begin
+    from dqpaint.robots.kinematics import Kinematics
+
+    margin = math.degrees(begin(motion, Kinematics(card)).margin)
+    if margin < 0:
+        return f"; {card.name} reaches it, but a joint has to go {-margin:.0f} deg beyond its limit"
+    return f"; {card.name} reaches it, every joint {margin:.0f} deg or more from its limits"
 
 
 def figures_line(motion: Motion, file: str) -> str:
@@ -78,7 +100,8 @@ def as_json(results: Sequence[Checked]) -> dict[str, Any]:
     planned = [result.motion for result in results if result.motion is not None]
     return {
         "version": 1,
-        "tool": f"dqpaint {version('dqpaint')}",
+        "tool": f"dqpaint {__version__}",
+        "files": [_file(result) for result in results if result.motion is not None],
         "diagnostics": [_as_json(result, finding) for result, finding in findings]
         + [_unread(result) for result in results if result.fault],
         "summary": {
@@ -108,6 +131,18 @@ def _as_json(result: Checked, finding: Diagnostic) -> dict[str, Any]:
             "title": fix.title,
             "edits": [{**_range(result.source, fix.span), "text": fix.text}],
         },
+    }
+
+
+def _file(result: Checked) -> dict[str, Any]:
+    motion = result.motion
+    assert motion is not None
+    return {
+        "file": result.file,
+        "samples": len(motion.t),
+        "seconds": float(motion.t[-1]),
+        "length_m": motion.length,
+        "box_m": motion.box.tolist(),
     }
 
 

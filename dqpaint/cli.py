@@ -6,12 +6,14 @@ command imports what it needs.
 
 import gc
 import json
+import os
 import shutil
 import sys
 from typing import Annotated, Any
 
 import typer
 
+from dqpaint import __version__
 from dqpaint.errors import DqpaintError, UsageError
 
 app = typer.Typer(
@@ -19,7 +21,7 @@ app = typer.Typer(
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     no_args_is_help=True,
-    help="Light paintings by a simulated robot arm: a short text, a control law, a long exposure.",
+    context_settings={"help_option_names": ["-h", "--help"]},
 )
 
 Drawing = Annotated[str, typer.Argument(metavar="FILE", help="a .traj file, or an example's name")]
@@ -38,7 +40,10 @@ PlantName = Annotated[str, typer.Option(metavar="NAME", help="how the arm answer
 From = Annotated[str, typer.Option("--from", metavar="first|home", help="where the arm begins")]
 Size = Annotated[str, typer.Option(metavar="WxH", help="of the picture, in pixels")]
 View = Annotated[
-    str, typer.Option(metavar="VIEW", help="front, iso, side, top, or AZ,EL in degrees")
+    str,
+    typer.Option(
+        metavar="VIEW", help="front, iso, side, top, or AZ,EL: degrees to its right and above"
+    ),
 ]
 Ev = Annotated[float, typer.Option(help="exposure in stops, on top of the automatic one")]
 Out = Annotated[
@@ -48,6 +53,7 @@ Out = Annotated[
 Save = Annotated[str, typer.Option(metavar="LIST", help="of png, csv, json, motion")]
 AsJson = Annotated[bool, typer.Option("--json", help="for a program to read")]
 
+DEBUG = "DQPAINT_DEBUG"  # an environment variable: internal errors show where they are
 INTERRUPTED = 130  # the exit code typer gives a Ctrl-C
 
 DRAW_EXAMPLES = """Examples:
@@ -56,6 +62,21 @@ DRAW_EXAMPLES = """Examples:
 
   dqpaint draw trajectories/lag.traj --controller p --gain k=15 --out pictures/
 """
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        print(f"dqpaint {__version__}")
+        raise typer.Exit()
+
+
+@app.callback()
+def common(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="print it and end")
+    ] = False,
+) -> None:
+    """Light paintings by a simulated robot arm: a short text, a control law, a long exposure."""
 
 
 @app.command(epilog=DRAW_EXAMPLES)
@@ -91,9 +112,7 @@ def draw(
     from dqpaint.terminal import Progress
 
     parse_view(view)
-    makers = {outputs.ending(name): outputs.OUTPUTS[name] for name in _names(save)}
-    if not makers:
-        raise UsageError(f"nothing to save in '{save}'; known: {', '.join(outputs.OUTPUTS)}")
+    makers = outputs.choose(save)
     stem = outputs.stem_for(out, f"{path.stem}-{controller}")
     bar = Progress(path.name)
     try:
@@ -147,14 +166,17 @@ def check(
     robot: Robot = None,
     as_json: AsJson = False,
 ) -> None:
-    """Read drawings: every error at its place, or length, time, steps and box."""
+    """Read drawings: every error at its place, or length, time, steps and box.
+
+    With --robot, or a robot line in the file, also whether the arm reaches all of it.
+    """
     from dqpaint import checking
 
     results = [checking.check(name, robot) for name in files]
     if as_json:
         print(json.dumps(checking.as_json(results), indent=2, ensure_ascii=False))
     else:
-        print("\n\n".join(result.text for result in results))
+        print("\n".join(result.text for result in results))
     if any(result.errors for result in results):
         raise typer.Exit(1)
 
@@ -163,17 +185,20 @@ def check(
     "list", epilog="Examples:\n\n  dqpaint list controllers\n\n  dqpaint list robots --json"
 )
 def list_(
-    what: Annotated[str, typer.Argument(metavar="robots|controllers|plants|examples")],
+    what: Annotated[
+        str, typer.Argument(metavar="[robots|controllers|plants|examples]", help="all, if not said")
+    ] = "all",
     as_json: AsJson = False,
 ) -> None:
     """Tell what there is to choose from."""
     from dqpaint import listing
 
-    entries = listing.entries(what)
+    lists = listing.lists(what)
     if as_json:
-        print(json.dumps(entries, indent=2, ensure_ascii=False))
+        found = lists if what == "all" else lists[what]
+        print(json.dumps(found, indent=2, ensure_ascii=False))
     else:
-        print(listing.text(entries))
+        print(listing.text(lists))
 
 
 @app.command(epilog="Examples:\n\n  dqpaint gallery\n\n  dqpaint gallery --out /tmp/gallery")
@@ -191,11 +216,6 @@ def _read(path: str) -> Any:
     from dqpaint.language import read
 
     return read(path)
-
-
-def _names(text: str) -> list[str]:
-    """The words of a list with commas, each once."""
-    return list(dict.fromkeys(word.strip() for word in text.split(",") if word.strip()))
 
 
 def _remark(*texts: str) -> None:
@@ -230,4 +250,11 @@ def main() -> None:
         raise
     except BrokenPipeError:  # the reader of our output has gone
         sys.stderr.close()
+        sys.exit(1)
+    except Exception as fault:
+        if os.environ.get(DEBUG):
+            raise
+        print(
+            f"internal error, please report it: {fault!r}; {DEBUG}=1 shows where", file=sys.stderr
+        )
         sys.exit(1)

@@ -31,6 +31,8 @@ def find_drawing(name: str) -> Path:
     example = examples_folder() / f"{name.removesuffix('.traj')}.traj"
     if path.name == name and example.is_file():
         return example
+    if path.with_name(f"{path.name}.traj").is_file():
+        raise DqpaintError(f"no file '{name}'; did you mean '{name}.traj'?")
     raise DqpaintError(
         f"no file '{name}', and no example of that name; the examples: {', '.join(example_names())}"
     )

@@ -1,6 +1,6 @@
 """What there is to choose from, read off the registries."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 from dqpaint.errors import UnknownNameError
@@ -18,19 +18,32 @@ def _robots() -> list[dict[str, Any]]:
 
 
 def _controllers() -> list[dict[str, Any]]:
-    from dqpaint.controllers import CONTROLLERS
+    from dqpaint.controllers import CONTROLLERS, DEFAULT_CONTROLLER
 
     return [
-        {"name": c.name, "about": c.summary, "source": c.source, "gains": c.list_gains()}
+        {
+            "name": c.name,
+            "about": c.summary,
+            "default": c.name == DEFAULT_CONTROLLER,
+            "source": c.source,
+            "gains": [
+                {"name": name, "default": f.default, "about": f.description}
+                for name, f in c.gains.model_fields.items()
+            ],
+        }
         for c in CONTROLLERS.values()
     ]
 
 
 def _plants() -> list[dict[str, Any]]:
-    from dqpaint.plants import PLANTS
+    from dqpaint.plants import DEFAULT_PLANT, PLANTS
 
     return [
-        {"name": name, "about": (plant.__doc__ or "").splitlines()[0]}
+        {
+            "name": name,
+            "about": (plant.__doc__ or "").splitlines()[0],
+            "default": name == DEFAULT_PLANT,
+        }
         for name, plant in PLANTS.items()
     ]
 
@@ -53,22 +66,35 @@ LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {
 }
 
 
-def entries(what: str) -> list[dict[str, Any]]:
-    """The entries of one list.
+def lists(what: str) -> dict[str, list[dict[str, Any]]]:
+    """The entries of one list by its name, or of `all`.
 
     Raises:
         UnknownNameError: no such list.
     """
+    if what == "all":
+        return {name: make() for name, make in LISTS.items()}
     if what not in LISTS:
         raise UnknownNameError("list", what, list(LISTS))
-    return LISTS[what]()
+    return {what: LISTS[what]()}
 
 
-def text(rows: Sequence[dict[str, Any]]) -> str:
+def text(found: dict[str, list[dict[str, Any]]]) -> str:
     """Entries as a person reads them: a line each, what belongs to it below."""
-    lines: list[tuple[str, str]] = []
-    for row in rows:
-        lines.append((row["name"], row["about"]))
-        if "gains" in row:
-            lines += [("", f"gains: {row['gains']}"), ("", f"from:  {row['source']}")]
-    return table(lines)
+    parts = []
+    for name, rows in found.items():
+        lines: list[tuple[str, str]] = []
+        for row in rows:
+            usual = " (default)" if row.get("default") else ""
+            lines.append((row["name"] + usual, row["about"]))
+            lines += [("", f"  {gain_line(gain)}") for gain in row.get("gains", [])]
+            if "gains" in row:
+                lines.append(("", f"  from {row['source']}"))
+        heading = [f"{name}:"] if len(found) > 1 else []
+        parts.append("\n".join([*heading, table(lines)]))
+    return "\n\n".join(parts)
+
+
+def gain_line(gain: dict[str, Any]) -> str:
+    """One gain in words."""
+    return f"{gain['name']} = {gain['default']:g}  {gain['about']}"

@@ -19,7 +19,7 @@ from dqpaint.tracking import Track
 Table = dict[str, Floats]  # columns (N,) by their header, unit in the name
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Metrics:
     """What came out of a run: columns (N,) and single figures, the unit in each name."""
 

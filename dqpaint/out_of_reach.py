@@ -1,4 +1,4 @@
-"""What is said of a drawing that leaves the arm's reach: where, by how much, what would help."""
+"""Where the arm begins a drawing; what is said of one that leaves its reach."""
 
 import numpy as np
 
@@ -6,13 +6,26 @@ from dqpaint import dq
 from dqpaint.language.diagnostics import Diagnostic, ScriptError
 from dqpaint.motion import Motion
 from dqpaint.robots.kinematics import Kinematics
-from dqpaint.robots.reach import Miss, find_start
+from dqpaint.robots.reach import Miss, Start, find_start, waypoints
 from dqpaint.tracking import Track
 
 WORTH_A_LOOK = 1e-3  # [m]
 LOOKS = 9  # at a stroke, for its farthest point
 WORTH_SAYING = np.radians(0.5)
 SCALES = np.arange(0.95, 0.05, -0.05)
+
+
+def begin(motion: Motion, kinematics: Kinematics) -> Start:
+    """The posture that leaves the most margin over the whole drawing.
+
+    Raises:
+        ScriptError: the drawing leaves the arm's reach, wherever it begins.
+    """
+    rows = waypoints(motion.stroke)
+    found = find_start(kinematics, motion.pose[rows], motion.t[rows])
+    if isinstance(found, Miss):
+        raise out_of_reach(motion, kinematics, int(rows[found.index]), found)
+    return found
 
 
 def check_worst(track: Track, kinematics: Kinematics) -> None:

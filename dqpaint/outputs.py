@@ -12,10 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from dqpaint.errors import OutputError
+from dqpaint import __version__
+from dqpaint.errors import OutputError, UsageError
 from dqpaint.metrics import Table, motion_columns
 from dqpaint.paint import Painting
 from dqpaint.registry import Registry
+from dqpaint.robots.limits import UNITS
 
 SCHEMA = "dqpaint-run-1"
 LIBRARIES = ("numpy", "opencv-python-headless", "pin", "pybullet")
@@ -48,7 +50,19 @@ def motion(painting: Painting) -> bytes:
     return encode_csv(motion_columns(painting.motion))
 
 
-DEFAULT_OUTPUTS = ("png", "csv", "json")
+SUFFIXES = {".png", ".csv", ".json"}
+
+
+def choose(what: str) -> dict[str, Output]:
+    """The outputs of a list with commas, by the endings of their files.
+
+    Raises:
+        UsageError: an unknown output, or none at all.
+    """
+    names = [name.strip() for name in what.split(",") if name.strip()]
+    if not names:
+        raise UsageError(f"nothing to save in '{what}'; known: {', '.join(OUTPUTS)}")
+    return {ending(name): OUTPUTS[name] for name in names}
 
 
 def ending(name: str) -> str:
@@ -72,7 +86,7 @@ def summarise(painting: Painting) -> dict[str, Any]:
         "file": Path(program.name).name,
         "sha256": hashlib.sha256(program.text.encode()).hexdigest(),
         "versions": {
-            "dqpaint": version("dqpaint"),
+            "dqpaint": __version__,
             "python": platform.python_version(),
             **{name: version(name) for name in LIBRARIES},
         },
@@ -90,7 +104,7 @@ def summarise(painting: Painting) -> dict[str, Any]:
             "box_m": motion.box.tolist(),
         },
         **painting.metrics.figures,
-        "limits": [vars(clamp) for clamp in painting.track.clamps],
+        "limits": [{**vars(clamp), "unit": UNITS[clamp.kind]} for clamp in painting.limits],
         "light": {
             "unit": "lamp seconds, linear RGB",
             "emitted": film.emitted.tolist(),
@@ -113,6 +127,8 @@ def stem_for(out: str | None, name: str) -> Path:
     Raises:
         OutputError: the folder does not exist or cannot be written.
     """
+    if out and Path(out).suffix in SUFFIXES and not Path(out).is_dir():
+        out = out[: -len(Path(out).suffix)]  # `--out star.png` names the picture, and its stem
     target = Path(out or ".")
     if out and (out.endswith(("/", os.sep)) or target.is_dir()):
         folder, stem = target, target / name

@@ -10,21 +10,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.controllers import CONTROLLERS
-from dqpaint.dq import Floats
 from dqpaint.language.program import Program
 from dqpaint.metrics import Metrics, Table, measure
 from dqpaint.motion import Motion, plan
-from dqpaint.out_of_reach import check_worst, out_of_reach
+from dqpaint.out_of_reach import begin, check_worst
 from dqpaint.picture import Picture, take
 from dqpaint.plants import PLANTS
 from dqpaint.robots.choose import card_for
 from dqpaint.robots.kinematics import Kinematics
-from dqpaint.robots.reach import Miss, find_start, waypoints
+from dqpaint.robots.limits import Clamp
 from dqpaint.settings import Settings
 from dqpaint.tracking import Track, track
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Painting:
     """A finished painting: what was asked, what the arm did, the picture and the numbers."""
 
@@ -51,6 +50,18 @@ class Painting:
     def table(self) -> Table:
         """The columns of the CSV, each (N,)."""
         return self.metrics.table
+
+    @property
+    def limits(self) -> tuple[Clamp, ...]:
+        """Every limit of the arm that held a joint back."""
+        return self.track.clamps
+
+    def __repr__(self) -> str:
+        name, rms = self.motion.program.name, self.metrics.figures["position_error_rms_m"]
+        return (
+            f"<Painting of {name} by {self.settings.controller} on {self.robot}: "
+            f"{self.motion.t[-1]:.2f} s, rms {rms * 1e3:.3g} mm>"
+        )
 
     def _repr_png_(self) -> bytes:
         return self.picture.png
@@ -80,7 +91,8 @@ def paint(
         motion = plan(program, card.canvas.pose)
     with clock("start"):
         kinematics = Kinematics(card)
-        start = first_posture(motion, kinematics, settings)
+        best = begin(motion, kinematics).posture
+        start = card.home if settings.start == "home" else best
     with clock("arm"):
         run = track(motion, kinematics, start, make_plant, controller, gains, progress)
     check_worst(run, kinematics)
@@ -91,19 +103,6 @@ def paint(
     return Painting(
         settings, card.name, gains.shown(), motion, run, metrics, picture, clock.seconds
     )
-
-
-def first_posture(motion: Motion, kinematics: Kinematics, settings: Settings) -> Floats:
-    """Where the arm begins (n,) [rad]: at the first pose, or at home.
-
-    Raises:
-        ScriptError: the drawing leaves the arm's reach, wherever it begins.
-    """
-    rows = waypoints(motion.stroke)
-    found = find_start(kinematics, motion.pose[rows], motion.t[rows])
-    if isinstance(found, Miss):
-        raise out_of_reach(motion, kinematics, int(rows[found.index]), found)
-    return kinematics.card.home if settings.start == "home" else found.posture
 
 
 class Stopwatch:

@@ -18,6 +18,8 @@ from dqpaint.light.spread import point_spread, spread
 from dqpaint.motion import Motion
 from dqpaint.settings import Settings
 
+SETTLING = 0.25  # [s] in which a jump of the set point counts as drawn
+
 # run lengths suit black ground with dithered halos: smaller and faster than the default search
 PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
 
@@ -61,8 +63,7 @@ def take(motion: Motion, points: Floats, settings: Settings) -> Picture:
             f"{motion.program.name}: no light is on anywhere, so the picture would be black"
         )
     size = (settings.width, settings.height)
-    steady = motion.light * ~motion.jump[:, None]  # a set point that jumps draws no line
-    asked = shine(motion.points, steady, motion.period)
+    asked = shine(motion.points, _metered(motion), motion.period)
     front = dq.matrix_from_quaternion(motion.front)
     shown = motion.points[motion.lit | np.roll(motion.lit, 1)]
     camera = frame(shown, front, parse_view(settings.view), size)
@@ -71,3 +72,21 @@ def take(motion: Motion, points: Floats, settings: Settings) -> Picture:
     film = expose(shine(points, motion.light, motion.period), camera)
     image = develop(spread(film, psf), exposure, settings.ev)
     return Picture(image, film, exposure, camera)
+
+
+def _metered(motion: Motion) -> Floats:
+    """The colours (N, 3) the exposure is chosen from.
+
+    A set point that jumps leaves no line, but the arm that follows it does: the jump counts as a
+    line drawn in `SETTLING`. Beside it a light that waits, asked to be a dot, does not count.
+    """
+    if not motion.jump.any():
+        return motion.light
+    weight = np.where(motion.jump, SETTLING / motion.period, ~_still(motion))
+    return np.asarray(motion.light * weight[:, None])
+
+
+def _still(motion: Motion) -> NDArray[np.bool_]:
+    """Where the asked place does not change until the next row (N,)."""
+    moved = np.abs(np.diff(motion.points, axis=0)).max(axis=1, initial=0.0) > 0
+    return np.append(~moved, True)

@@ -8,10 +8,13 @@ from dqpaint.language import render
 from dqpaint.motion import Motion
 from dqpaint.paint import Painting
 from dqpaint.picture import Picture
+from dqpaint.robots.limits import Clamp
 from dqpaint.terminal import table
 
 WHITE = 250  # of 255
-MOST_CLAMPS = 8  # that are named one by one
+MOST_NAMED = 3  # limits in the table; all of them are in the warnings
+WORTH_A_WARNING = 0.01  # of the light
+NOTHING = 1e-9  # [mm, deg] is shown as 0
 
 
 def of_painting(painting: Painting, written: Sequence[Path]) -> str:
@@ -25,8 +28,8 @@ def of_painting(painting: Painting, written: Sequence[Path]) -> str:
         ("position error", _spread(figures, "position_error", "m", 1e3, "mm")),
         ("", f"largest at {_worst(painting)}"),
         ("orientation error", _spread(figures, "orientation_error", "rad", math.degrees(1), "deg")),
-        ("commanded", f"{figures['command_integral_rad']:.3g} rad"),
-        ("limits", f"{len(painting.track.clamps) or 'none'} reached"),
+        ("commanded", f"{figures['command_integral_rad']:.3g} rad in all joints together"),
+        ("limits", _limits_line(painting)),
         ("light", light_line(painting.picture)),
         *_files(written),
     ]
@@ -67,15 +70,44 @@ def notes(motion: Motion) -> list[str]:
 
 def remarks(painting: Painting) -> list[str]:
     """Warnings about a drawing and its run."""
-    held = painting.track.clamps
-    texts = [f"warning: {clamp}" for clamp in held[:MOST_CLAMPS]]
-    if len(held) > MOST_CLAMPS:
-        texts.append(f"warning: {len(held) - MOST_CLAMPS} more limits are listed in the summary")
-    return notes(painting.motion) + texts
+    texts = notes(painting.motion)
+    for (kind, line), held in _grouped(painting).items():
+        joints = "".join(f"\n    {clamp}" for clamp in held)
+        texts.append(f"warning: line {line} runs into {kind} limits:{joints}{CURES[kind]}")
+    film = painting.picture.film
+    if film.lost.sum() > WORTH_A_WARNING * film.emitted.sum():
+        share = film.lost.sum() / film.emitted.sum()
+        texts.append(f"warning: {share:.0%} of the light fell outside the picture")
+    return texts
+
+
+CURES = {
+    "position": "\n  = help: turn the tool less, or move the drawing with place",
+    "speed": "\n  = help: draw it slower (speed, in, samples), or lower the gains",
+    "torque": "\n  = help: a lower speed, a smoother law or lower gains need less torque",
+}
+
+
+def _grouped(painting: Painting) -> dict[tuple[str, int], list[Clamp]]:
+    """The limits that were reached, by kind and line, in the order of time."""
+    groups: dict[tuple[str, int], list[Clamp]] = {}
+    for clamp in painting.limits:
+        groups.setdefault((clamp.kind, clamp.line), []).append(clamp)
+    return groups
+
+
+def _limits_line(painting: Painting) -> str:
+    groups = _grouped(painting)
+    if not groups:
+        return "none reached"
+    parts = (f"{kind} (line {line})" for kind, line in list(groups)[:MOST_NAMED])
+    more = f" and {len(groups) - MOST_NAMED} more" if len(groups) > MOST_NAMED else ""
+    return f"{', '.join(parts)}{more} reached: there the arm could not follow"
 
 
 def _spread(figures: dict[str, float], name: str, unit: str, scale: float, shown: str) -> str:
     rms, most = (figures[f"{name}_{kind}_{unit}"] * scale for kind in ("rms", "max"))
+    rms, most = (0.0 if value < NOTHING else value for value in (rms, most))
     return f"rms {rms:.3g} {shown}, largest {most:.3g} {shown}"
 
 

@@ -9,7 +9,9 @@ import time
 
 import pytest
 
+import dqpaint as package
 from dqpaint.controllers import CONTROLLERS
+from dqpaint.listing import LISTS
 
 pytestmark = pytest.mark.slow
 LINE = "period 20 ms\nstart at (0, 0) mm\nline to (30, 10) mm in 400 ms\n"
@@ -73,6 +75,27 @@ def test_two_runs_leave_identical_pictures_and_tables(dqpaint, tmp_path):
         assert dqpaint("draw", "star", "--out", folder, "--size", "480x270").returncode == 0
     for name in ("star-hinf.png", "star-hinf.csv"):
         assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
+
+
+def test_a_file_s_name_as_out_is_its_stem(dqpaint, line, tmp_path):
+    assert dqpaint("draw", line, "--size", "64x36", "--out", "a.png").returncode == 0
+    assert files(tmp_path) == ["a.csv", "a.json", "a.png", "line.traj"]
+
+
+def test_a_forgotten_ending_is_guessed(dqpaint, line):
+    assert "no file 'line'; did you mean 'line.traj'?" in dqpaint("draw", "line").stderr
+
+
+def test_version(dqpaint):
+    assert dqpaint("--version").stdout == f"dqpaint {package.__version__}\n"
+
+
+def test_check_with_a_robot_looks_at_the_reach(dqpaint, line, tmp_path):
+    assert "iiwa reaches it, every joint" in dqpaint("check", line, "--robot", "iiwa").stdout
+    (tmp_path / "far.traj").write_text("robot iiwa\nline to (2, 0) m\n")
+    done = dqpaint("check", "far.traj", "--json")
+    assert done.returncode == 1
+    assert json.loads(done.stdout)["diagnostics"][0]["code"] == "E310"
 
 
 def test_preview_needs_no_arm(dqpaint, line, tmp_path):
@@ -183,8 +206,8 @@ def test_limits_reached_are_told_and_the_picture_is_made(dqpaint, tmp_path):
     (tmp_path / "fast.traj").write_text("hold 1 s\nline to (200, 0) mm speed 3 m/s\nhold 1 s\n")
     done = dqpaint("draw", "fast.traj", "--plant", "ideal", "--size", "160x90")
     assert done.returncode == 0
-    assert "was held at its speed limit of" in done.stderr
-    assert "line 2" in done.stderr
+    assert "warning: line 2 runs into speed limits:\n    joint " in done.stderr
+    assert "speed (line 2)" in done.stdout
     assert (tmp_path / "fast-hinf.png").exists()
 
 
@@ -192,6 +215,9 @@ def test_lists(dqpaint):
     assert all(name in dqpaint("list", "controllers").stdout for name in CONTROLLERS)
     rows = json.loads(dqpaint("list", "controllers", "--json").stdout)
     assert [row["name"] for row in rows] == list(CONTROLLERS)
+    assert rows[0]["gains"][0]["default"] > 0
+    assert set(json.loads(dqpaint("list", "--json").stdout)) == set(LISTS)
+    assert all(f"{name}:" in dqpaint("list").stdout for name in LISTS)
     assert "iiwa" in dqpaint("list", "robots").stdout
     assert "stiff" in dqpaint("list", "plants").stdout
     assert "star" in dqpaint("list", "examples").stdout
@@ -223,10 +249,14 @@ def test_ctrl_c_leaves_nothing_half_written(tmp_path):
     process = subprocess.Popen(
         [sys.executable, "-m", "dqpaint", "draw", "long.traj"],
         cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # a parent may ignore it
     )  # fmt: skip
-    time.sleep(4)
-    process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=20)
+    try:
+        time.sleep(4)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=20)
+    finally:
+        process.kill()
     assert process.returncode == 130, err
     assert (out, err) == ("", "interrupted; nothing was written\n")
     assert files(tmp_path) == ["long.traj"]

@@ -17,8 +17,10 @@ from dqpaint.gallery import SHOTS, page
 from dqpaint.language import parse, read
 from dqpaint.language.words import STATEMENTS
 from dqpaint.motion import plan
+from dqpaint.out_of_reach import begin
 from dqpaint.outputs import summarise
 from dqpaint.robots.card import read_card
+from dqpaint.robots.kinematics import Kinematics
 from tests import generated
 
 ROOT = Path(__file__).parent.parent
@@ -113,14 +115,15 @@ def test_every_example_is_planned_and_says_what_it_shows(name):
 
 @pytest.mark.parametrize("word", STATEMENTS)
 def test_every_statement_s_example_is_one(word):
-    """The example lines of the words' own table, within what they need around them."""
+    """The example lines of the words' own table, pasted, and drawn within the arm's reach."""
     example = STATEMENTS[word].example
-    before = {"end": "repeat 2\nline by (1, 0) mm\n", "arc": "move to (10, 0) mm\n"}
-    before["tool"] = "start at (5, 5, 5) mm\n"
+    before = {"end": "repeat 2\nline by (1, 0) mm\n"}
     after = "\nline by (1, 0) mm\n" if word != "end" else "\n"
     if STATEMENTS[word].block:
         after += "end\n"
-    parse(before.get(word, "") + example + after, "example.traj")
+    program = parse(before.get(word, "") + example + after, "example.traj")
+    motion = plan(program, read_card("iiwa").canvas.pose)
+    begin(motion, Kinematics(read_card("iiwa")))
 
 
 def test_the_gallery_s_page_is_current():

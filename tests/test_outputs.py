@@ -13,6 +13,7 @@ import pytest
 import dqpaint
 from dqpaint import outputs
 from dqpaint.errors import OutputError
+from dqpaint.robots.card import read_card
 
 TEXT = (
     "period 20 ms\nstart at (0, 0) mm\nline to (30, 10) mm\nline by (0, -20) mm light red to blue\n"
@@ -104,3 +105,22 @@ def test_places_for_files(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("")
     with pytest.raises(OutputError, match="cannot be written"):
         outputs.stem_for("file/", "star-p")
+
+
+def test_limits_are_written_in_si_with_their_unit(tmp_path):
+    (tmp_path / "fast.traj").write_text("line to (200, 0) mm speed 3 m/s\nhold 1 s\n")
+    fast = dqpaint.draw(tmp_path / "fast.traj", plant="ideal", size=(64, 36))
+    limit = next(limit for limit in outputs.summarise(fast)["limits"] if limit["kind"] == "speed")
+    assert limit["unit"] == "rad/s"
+    speeds = read_card("iiwa").speed
+    assert limit["wanted"] > limit["limit"] == pytest.approx(speeds[limit["joint"] - 1])
+    assert len(fast.limits) == len(outputs.summarise(fast)["limits"])
+
+
+def test_saving_from_python(painting, tmp_path):
+    written = dqpaint.save(painting, f"{tmp_path}/made/", "png,json")
+    assert [path.name for path in written] == ["corner-hinf.png", "corner-hinf.json"]
+    assert repr(painting).startswith("<Painting of ")
+    assert len(repr(painting)) < 200
+    with pytest.raises(dqpaint.DqpaintError, match="size '3x3' is not"):
+        dqpaint.draw("star", size="3x3")

@@ -9,7 +9,7 @@ from dqpaint.dq import Floats
 
 @controller("hinf", source="Pereira 2016, HIRT [3.33]", gains=GammaGains)
 def hinf(seen: Seen, gains: GammaGains) -> Floats:
-    """H-infinity with feed-forward: follows a moving drawing, disturbances bounded as promised.
+    """H-infinity with feed-forward: bounds what disturbances do, does not lag.
 
     q_dot = J_w^+ ([-K_O Im(r_e); -K_T p_e] + Ad(x_e) xi_d), with x_e = x x_d*.
 

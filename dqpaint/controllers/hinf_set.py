@@ -48,7 +48,7 @@ def correction(x_e: Floats, gains: GammaGains) -> Floats:
 
 @controller("hinf-set", source="Pereira 2016, HIR [3.30]", gains=GammaGains)
 def hinf_set(seen: Seen, gains: GammaGains) -> Floats:
-    """H-infinity for set points: a promised bound on what disturbances do; lags when moving.
+    """H-infinity for set points: bounds what disturbances do; lags when moving.
 
     q_dot = J_w^+ [-K_O Im(r_e); -K_T p_e], with x_e = x x_d*.
 

@@ -15,7 +15,7 @@ class RateGains(Gains):
 
 @controller("p", source="Pereira 2016, K [3.8]", gains=RateGains)
 def p(seen: Seen, gains: RateGains) -> Floats:
-    """Proportional: lags behind a moving drawing by speed / k.
+    """Proportional: lags behind a moving light by speed / k.
 
     q_dot = N^+ k e, with e = vec(1 - x* x_d) and N q_dot = vec(x_dot* x_d).
 

@@ -9,7 +9,7 @@ from dqpaint.dq import Floats
 
 @controller("pff", source="Pereira 2016, K+FF [3.12]", gains=RateGains)
 def pff(seen: Seen, gains: RateGains) -> Floats:
-    """Proportional with feed-forward: the motion that is asked for is added, the lag goes.
+    """Proportional with feed-forward: does not lag.
 
     q_dot = N^+ (k e - vec(x* x_d_dot)), with x_d_dot = 1/2 xi_d x_d.
 

@@ -15,7 +15,7 @@ from dqpaint.language.program import (
     Quaternion,
 )
 from dqpaint.language.scope import Scope
-from dqpaint.language.space import Frame, Z
+from dqpaint.language.space import Frame, Y
 from dqpaint.language.syntax import LightWords, Part, Shade, ToolWords
 
 
@@ -84,7 +84,7 @@ def tool_mode(words: ToolWords, scope: Scope, frame: Frame) -> ToolMode:
         case "follow":
             return Follow()
         case "look":
-            up = reading.direction(values[1], scope, "up") if len(values) > 1 else Z
+            up = reading.direction(values[1], scope, "up") if len(values) > 1 else Y
             point = reading.place(values[0], scope, "look")
             return Look(frame.point(point), frame.direction(up))
         case "look line":

@@ -9,6 +9,7 @@ from typing import NamedTuple
 from dqpaint.language.program import Pose, Quaternion, Vector
 
 ZERO: Vector = (0.0, 0.0, 0.0)
+Y: Vector = (0.0, 1.0, 0.0)
 Z: Vector = (0.0, 0.0, 1.0)
 UNTURNED: Quaternion = (1.0, 0.0, 0.0, 0.0)
 

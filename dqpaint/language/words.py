@@ -80,7 +80,7 @@ PARTS = {
         PartWord("speed", "speed", "the speed the tool cruises at", "speed 40 mm/s"),
         PartWord("turnspeed", "turnspeed", "the speed of a turn on the spot", "turnspeed 60 deg/s"),
         PartWord("law", "law", "how the speed goes along a stroke", "law trapezoid"),
-        PartWord("tool", "tool", "what the tool does meanwhile", "tool look (0, 0, 0)"),
+        PartWord("tool", "tool", "what the tool does meanwhile", "tool look (0, 0, 300) mm"),
         PartWord("light", "light", "the colour, or from one colour to another", "light red"),
     )
 }
@@ -94,7 +94,7 @@ STATEMENTS = {
         StatementWord(
             "place",
             "the drawing frame in the robot's base frame",
-            "place at (500, 0, 300) mm",
+            "place at (600, 0, 500) mm",
             parts=("at", "turned"),
         ),
         StatementWord(
@@ -128,7 +128,7 @@ STATEMENTS = {
         StatementWord(
             "arc",
             "an arc, circle, helix or flat spiral",
-            "arc centre (0, 0) angle 360 deg",
+            "arc centre (30, 0) mm angle 360 deg",
             parts=("via", "to", "centre", "center", "axis", "angle", "rise", "grow", *CLAUSES),
             moves=True,
         ),

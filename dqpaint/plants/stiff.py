@@ -10,6 +10,7 @@ from dqpaint.plants.plant import PLANTS
 from dqpaint.robots.card import Card
 
 LONGEST_STEP = 1e-3  # [s] of physics
+STOP = 0.02  # [rad] of the mechanical stop beyond a joint's limit: commands end at the limit
 GRAVITY = -9.81  # [m/s^2]
 
 
@@ -29,7 +30,16 @@ class Stiff:
             self._client = bullet.connect(bullet.DIRECT)
             self._body = self._build(card, period / self._steps)
         self._joints = joint_indices(self._body, self._client)
-        for joint, angle in zip(self._joints, posture.tolist(), strict=True):
+        for joint, angle, lower, upper in zip(
+            self._joints, posture.tolist(), card.lower.tolist(), card.upper.tolist(), strict=True
+        ):
+            bullet.changeDynamics(
+                self._body,
+                joint,
+                jointLowerLimit=lower - STOP,
+                jointUpperLimit=upper + STOP,
+                physicsClientId=self._client,
+            )
             bullet.resetJointState(self._body, joint, angle, 0.0, self._client)
         self._read()
 

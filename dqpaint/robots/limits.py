@@ -1,5 +1,6 @@
 """What an arm's limits do to a command, and how a run says so."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,18 +12,21 @@ from dqpaint.robots.card import Card
 AT_LIMIT = 1e-6  # relative: a motor this close to its largest torque is saturated
 
 
+UNITS = {"position": "rad", "speed": "rad/s", "torque": "Nm"}
+
+
 @dataclass(frozen=True)
 class Clamp:
     """A limit that held a joint back for a while.
 
     Attributes:
-        kind: `position`, `speed` or `effort`.
+        kind: `position`, `speed` or `torque`.
         joint: its number, from 1.
         start: when it began [s].
         seconds: for how long, gaps left out.
-        line: the line of the file that was being drawn when it began.
-        limit: in degrees, degrees per second, or newton metres.
-        wanted: the most that was asked for, in the same unit; the limit itself for `effort`.
+        line: the line of the file that was being drawn.
+        limit: [rad], [rad/s] or [Nm].
+        wanted: the most that was asked for, in the same unit; the limit itself for `torque`.
     """
 
     kind: str
@@ -34,11 +38,12 @@ class Clamp:
     wanted: float
 
     def __str__(self) -> str:
-        unit = {"position": "deg", "speed": "deg/s", "effort": "Nm"}[self.kind]
-        asked = "" if self.kind == "effort" else f" ({self.wanted:.4g} {unit} was asked for)"
+        scale, unit = (1.0, "Nm") if self.kind == "torque" else (math.degrees(1), "deg")
+        unit += "/s" if self.kind == "speed" else ""
+        asked = f", {self.wanted * scale:.4g} asked for" if self.kind != "torque" else ""
         return (
-            f"joint {self.joint} was held at its {self.kind} limit of {self.limit:.4g} {unit} "
-            f"for {self.seconds:.3g} s from {self.start:.3f} s on, line {self.line}{asked}"
+            f"joint {self.joint} for {self.seconds:.3g} s from {self.start:.3f} s on "
+            f"({self.limit * scale:.4g} {unit}{asked})"
         )
 
 
@@ -92,9 +97,9 @@ def clamps(
     saturated = np.zeros_like(held)
     saturated[:-1] = np.abs(effort[1:]) >= card.effort * (1 - AT_LIMIT)  # of the step from row k
     for kind, where, asked, most in (
-        ("position", held & ~fast, np.degrees(ahead), np.degrees(limit)),
-        ("speed", fast, np.degrees(wanted), np.degrees(np.broadcast_to(card.speed, held.shape))),
-        ("effort", saturated, np.abs(effort), np.broadcast_to(card.effort, held.shape)),
+        ("position", held & ~fast, ahead, limit),
+        ("speed", fast, np.abs(wanted), np.broadcast_to(card.speed, held.shape)),
+        ("torque", saturated, np.abs(effort), np.broadcast_to(card.effort, held.shape)),
     ):
         for joint in range(where.shape[1]):
             found += _by_line(
@@ -126,7 +131,7 @@ def _by_line(
                 seconds=float(len(here) * period),
                 line=int(number),
                 limit=float(most[worst]),
-                wanted=float(abs(asked[worst]) if kind == "speed" else asked[worst]),
+                wanted=float(asked[worst]),
             )
         )
     return out

@@ -15,6 +15,7 @@ from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.resolver import PULL, resolve
 
 CANDIDATES = 24
+MORE_CANDIDATES = 160
 WAYPOINTS = 40
 EXACT = 1e-9  # [rad, m] from the pose where the arm begins
 ON_THE_WAY = 1e-4  # [rad, m] is close enough for a forecast of margins
@@ -60,12 +61,29 @@ class Miss:
 
 
 def find_start(kinematics: Kinematics, poses: Floats, seconds: Floats) -> Start | Miss:
-    """The posture to begin with, for poses (N, 8) asked at times (N,) [s]."""
+    """The posture to begin with, for poses (N, 8) asked at times (N,) [s].
+
+    A second, larger crowd of candidates is tried where the first one does not reach, or would
+    end beyond a joint limit.
+    """
+    found = _find_start(kinematics, poses, seconds, CANDIDATES)
+    if isinstance(found, Start) and found.margin >= 0:
+        return found
+    again = _find_start(kinematics, poses, seconds, MORE_CANDIDATES)
+    if isinstance(again, Miss) and isinstance(found, Miss):
+        return max(found, again, key=lambda miss: miss.index)
+    return again if isinstance(again, Start) else found
+
+
+def _find_start(
+    kinematics: Kinematics, poses: Floats, seconds: Floats, candidates: int
+) -> Start | Miss:
     card = kinematics.card
     rng = np.random.default_rng(SEED)
-    seeds = rng.uniform(card.lower, card.upper, (CANDIDATES - 1, card.joints))
+    seeds = rng.uniform(card.lower, card.upper, (candidates - 1, card.joints))
     seeds = np.vstack([card.home, seeds])
-    postures, reached = _solve(kinematics, poses[0], seeds, np.zeros_like(seeds), EXACT)
+    wish = np.zeros_like(seeds)
+    postures, reached = _solve(kinematics, poses[0], seeds, wish, EXACT, (card.lower, card.upper))
     reached &= _margins(kinematics, postures) >= 0
     if not reached.any():
         return _closest(kinematics, poses, 0)
@@ -109,12 +127,18 @@ def _margins(kinematics: Kinematics, postures: Floats) -> Floats:
 
 
 def _solve(
-    kinematics: Kinematics, pose: Floats, postures: Floats, wish: Floats, close: float
+    kinematics: Kinematics,
+    pose: Floats,
+    postures: Floats,
+    wish: Floats,
+    close: float,
+    within: tuple[Floats, Floats] | None = None,
 ) -> tuple[Floats, NDArray[np.bool_]]:
     """Newton's method from many postures (M, n) to one pose (8,); which of them arrived (M,).
 
     The first step takes the null-space motion `wish` (M, n) [rad] along; the last one ends when
-    all are as `close` [rad, m] as asked, or after `ITERATIONS`.
+    all are as `close` [rad, m] as asked, or after `ITERATIONS`. `within` are joint limits that no
+    step may leave.
     """
     q = postures.copy()
     for iteration in range(ITERATIONS):
@@ -125,6 +149,8 @@ def _solve(
             break
         step = resolve(J, dq.translation(x), error, wish)
         q += step * np.minimum(1.0, STEP / np.maximum(np.abs(step).max(axis=1), 1e-12))[:, None]
+        if within is not None:
+            q = np.clip(q, *within)
         wish = np.zeros_like(q)
     return q, np.asarray(largest < ARRIVED)
 

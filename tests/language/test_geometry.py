@@ -122,7 +122,7 @@ def test_a_frame_takes_looks_along() -> None:
     assert line.along == pytest.approx(tuple(r[:, 0]))
     default = only(f"{begin}line by (1, 0) mm tool look (10, 20, 9) mm\nend").tool
     assert isinstance(default, Look)
-    assert default.up == pytest.approx(tuple(r[:, 2]))
+    assert default.up == pytest.approx(tuple(r[:, 1]))
 
 
 # Arcs.

@@ -64,8 +64,6 @@ def test_examples_of_parts(word: str, part: str) -> None:
     elif part == "center":
         base = "arc angle 1 turn"
     example = "tool keep" if part == "tool" and word != "step" else PARTS[part].example
-    if part == "tool":
-        example = example.replace("look (0, 0, 0)", "look (0, 0, 90) mm up y")
     line = base if f" {part} " in base else f"{base} {example}"
     assert parse(f"start at (90, 0) mm\n{line}", word).segments
 

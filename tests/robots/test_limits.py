@@ -39,17 +39,11 @@ def test_each_kind_is_named_with_joint_time_line_and_amount():
     assert (speed.kind, speed.joint, speed.line) == ("speed", 4, 3)
     assert speed.start == pytest.approx(0.02)
     assert speed.seconds == pytest.approx(0.02)
-    assert speed.wanted == pytest.approx(np.degrees(3.0))
-    assert (position.kind, position.joint, position.line, position.limit) == (
-        "position",
-        2,
-        4,
-        pytest.approx(120),
-    )
-    assert position.wanted == pytest.approx(120 + np.degrees(0.004))
-    assert (motor.kind, motor.joint, motor.start) == ("effort", 6, pytest.approx(0.07))
-    assert str(speed) == (
-        "joint 4 was held at its speed limit of 75 deg/s for 0.02 s from 0.020 s on, line 3 "
-        "(171.9 deg/s was asked for)"
-    )
-    assert "effort limit of 40 Nm" in str(motor)
+    assert speed.wanted == pytest.approx(3.0)
+    assert (position.kind, position.joint, position.line) == ("position", 2, 4)
+    assert position.limit == pytest.approx(np.radians(120))
+    assert position.wanted == pytest.approx(np.radians(120) + 0.004)
+    assert (motor.kind, motor.joint, motor.start) == ("torque", 6, pytest.approx(0.07))
+    assert str(speed) == "joint 4 for 0.02 s from 0.020 s on (75 deg/s, 171.9 asked for)"
+    assert str(position).startswith("joint 2 for 0.01 s from 0.060 s on (120 deg, 120.2 asked for)")
+    assert str(motor) == "joint 6 for 0.01 s from 0.070 s on (40 Nm)"

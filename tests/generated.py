@@ -9,10 +9,10 @@ COLUMNS = {
     "t_s": "time",
     "line": "the line of the drawing that asks for what follows",
     "lit": "1 while the light shines until the next row",
-    "desired_x_m": "asked place",
-    "desired_qw": "asked orientation, scalar first",
-    "x_m": "measured place",
-    "qw": "measured orientation",
+    "desired_x_m, desired_y_m, desired_z_m": "asked place",
+    "desired_qw, desired_qx, desired_qy, desired_qz": "asked orientation, scalar first",
+    "x_m, y_m, z_m": "measured place",
+    "qw, qx, qy, qz": "measured orientation",
     "position_error_m": "distance from the asked place",
     "orientation_error_rad": "angle from the asked orientation",
     "invariant_error": "norm of 1 - x* x_d",
@@ -20,8 +20,8 @@ COLUMNS = {
     "acceleration_m_s2": "of the light",
     "effort_rad": "how far the joints move until the next row",
     "manipulability": "square root of det(J J')",
-    "q1_rad": "joint angles",
-    "command1_rad_s": "joint rates the arm is given",
+    "q1_rad ...": "joint angles",
+    "command1_rad_s ...": "joint rates the arm is given",
 }
 
 

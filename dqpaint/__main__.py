@@ -1,6 +1,20 @@
-"""`python -m dqpaint` is the command `dqpaint`."""
+"""The command `dqpaint`, also as `python -m dqpaint`."""
 
-from dqpaint.cli import main
+import sys
+
+INTERRUPTED = 130
+
+
+def main() -> None:
+    """Run the command line: exit code 0 done, 1 a fault, 2 wrong usage, 130 interrupted."""
+    try:
+        from dqpaint.cli import run  # takes a moment, in which a Ctrl-C may come
+
+        run()
+    except KeyboardInterrupt:
+        print("interrupted; nothing was written", file=sys.stderr)
+        sys.exit(INTERRUPTED)
+
 
 if __name__ == "__main__":
     main()

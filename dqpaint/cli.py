@@ -9,7 +9,7 @@ import json
 import os
 import shutil
 import sys
-from typing import Annotated, Any
+from typing import Annotated, Any, NoReturn
 
 import typer
 
@@ -54,7 +54,7 @@ Save = Annotated[str, typer.Option(metavar="LIST", help="of png, csv, json, moti
 AsJson = Annotated[bool, typer.Option("--json", help="for a program to read")]
 
 DEBUG = "DQPAINT_DEBUG"  # an environment variable: internal errors show where they are
-INTERRUPTED = 130  # the exit code typer gives a Ctrl-C
+INTERRUPTED = 130
 
 DRAW_EXAMPLES = """Examples:
 
@@ -95,10 +95,10 @@ def draw(
 ) -> None:
     """Paint a drawing with an arm: picture, per-step CSV and summary."""
     from dqpaint.examples import find_drawing
-    from dqpaint.settings import make_settings, parse_gain, parse_size
+    from dqpaint.settings import make_settings, parse_gains, parse_size
 
     width, height = parse_size(size)
-    gains = dict(parse_gain(text) for text in gain or [])
+    gains = parse_gains(gain or [])
     settings = make_settings(
         controller=controller, gains=gains, robot=robot, plant=plant, start=start,
         width=width, height=height, view=view, ev=ev,
@@ -174,7 +174,7 @@ def check(
 
     results = [checking.check(name, robot) for name in files]
     if as_json:
-        print(json.dumps(checking.as_json(results), indent=2, ensure_ascii=False))
+        print(json.dumps(checking.as_json(results), indent=2))
     else:
         print("\n".join(result.text for result in results))
     if any(result.errors for result in results):
@@ -196,7 +196,7 @@ def list_(
     lists = listing.lists(what)
     if as_json:
         found = lists if what == "all" else lists[what]
-        print(json.dumps(found, indent=2, ensure_ascii=False))
+        print(json.dumps(found, indent=2))
     else:
         print(listing.text(lists))
 
@@ -230,31 +230,43 @@ def _show(image: Any) -> None:
         print(blocks(image, shutil.get_terminal_size().columns))
 
 
-def main() -> None:
-    """Run the command line: exit code 0 done, 1 a fault, 2 wrong usage, 130 interrupted."""
+def run() -> None:
+    """Answer the arguments of this process; leaves by SystemExit or KeyboardInterrupt."""
     gc.disable()  # one short run makes no rubbish worth looking for; start-up is 20 ms faster
+    _secure_streams()
     try:
         app()
+        sys.stdout.flush()
     except UsageError as problem:
-        print(f"usage: {problem}", file=sys.stderr)
-        sys.exit(2)
+        _end(f"usage: {problem}", 2)
     except DqpaintError as problem:
         text = str(problem)
-        print(
-            text if text.startswith(("error[", "warning[")) else f"error: {text}", file=sys.stderr
-        )
-        sys.exit(1)
+        _end(text if text.startswith(("error[", "warning[")) else f"error: {text}", 1)
     except SystemExit as stop:
-        if stop.code == INTERRUPTED:
-            print("interrupted; nothing was written", file=sys.stderr)
+        if stop.code == INTERRUPTED:  # typer has met a Ctrl-C
+            raise KeyboardInterrupt from None
         raise
-    except BrokenPipeError:  # the reader of our output has gone
-        sys.stderr.close()
+    except OSError as problem:  # of a stream: files have their own errors
+        sys.stdout = open(os.devnull, "w")  # noqa: SIM115  nothing more can be said there
+        if not isinstance(problem, BrokenPipeError):
+            _end(f"error: standard output cannot be written: {problem.strerror}", 1)
         sys.exit(1)
     except Exception as fault:
         if os.environ.get(DEBUG):
             raise
-        print(
-            f"internal error, please report it: {fault!r}; {DEBUG}=1 shows where", file=sys.stderr
-        )
-        sys.exit(1)
+        _end(f"internal error, please report it: {fault!r}; {DEBUG}=1 shows where", 1)
+
+
+def _secure_streams() -> None:
+    """Streams that are closed become deaf; what an encoding lacks is written as its number."""
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:
+            setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115  for as long as we run
+        else:
+            stream.reconfigure(errors="backslashreplace")
+
+
+def _end(text: str, code: int) -> NoReturn:
+    print(text, file=sys.stderr)
+    sys.exit(code)

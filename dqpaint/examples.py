@@ -24,15 +24,19 @@ def find_drawing(name: str) -> Path:
         DqpaintError: neither a file nor an example.
     """
     path = Path(name)
-    if path.is_file():
-        return path
-    if path.is_dir():
-        raise DqpaintError(f"'{name}' is a folder, not a drawing")
     example = examples_folder() / f"{name.removesuffix('.traj')}.traj"
-    if path.name == name and example.is_file():
-        return example
-    if path.with_name(f"{path.name}.traj").is_file():
-        raise DqpaintError(f"no file '{name}'; did you mean '{name}.traj'?")
-    raise DqpaintError(
-        f"no file '{name}', and no example of that name; the examples: {', '.join(example_names())}"
-    )
+    try:
+        if name and path.exists() and not path.is_dir():
+            return path
+        if path.name == name and example.is_file():
+            return example
+        if name and path.is_dir():
+            raise DqpaintError(f"'{name}' is a folder, not a drawing")
+        guess = path.with_name(f"{path.name}.traj") if path.name else path
+        if guess.is_file():
+            raise DqpaintError(f"no file '{name}'; did you mean '{guess}'?")
+    except (OSError, ValueError) as problem:
+        reason = problem.strerror if isinstance(problem, OSError) else str(problem)
+        raise DqpaintError(f"no file '{name[:60]}...': {(reason or '').lower()}") from None
+    known = ", ".join(example_names())
+    raise DqpaintError(f"no file '{name}', and no example of that name; the examples: {known}")

@@ -53,8 +53,8 @@ def make_gallery(folder: str) -> Iterator[Path]:
             ".png": painting.picture.png,
             ".json": (json.dumps(facts, indent=2) + "\n").encode(),
         }
-        yield from write(stem_for(f"{folder}/", shot.name), contents)
-    yield from write(stem_for(f"{folder}/", "README"), {".md": page().encode()})
+        yield from write(stem_for(f"{folder or '.'}/", shot.name), contents)
+    yield from write(stem_for(f"{folder or '.'}/", "README"), {".md": page().encode()})
 
 
 def page() -> str:

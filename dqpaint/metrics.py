@@ -73,8 +73,8 @@ def _reached_columns(track: Track) -> Table:
     motion = track.motion
     points = track.points
     turned = dq.log(dq.mul(track.pose, dq.conj(motion.pose)))[:, :3]
-    velocity = _rate(points, motion.period)
-    acceleration = _rate(velocity, motion.period)
+    velocity = _velocity(points, motion.period)
+    acceleration = _acceleration(points, motion.period)
     moved = np.diff(track.posture, axis=0, append=track.posture[-1:])
     joints = range(track.posture.shape[1])
     return {
@@ -91,12 +91,20 @@ def _reached_columns(track: Track) -> Table:
     }
 
 
-def _rate(values: Floats, period: float) -> Floats:
-    """Forward differences (N, 3) per second of what was measured; the last row repeats."""
-    if len(values) < 2:
-        return np.zeros_like(values)
-    rates = np.diff(values, axis=0) / period
+def _velocity(points: Floats, period: float) -> Floats:
+    """Forward differences (N, 3) [m/s] of what was measured; the last row repeats."""
+    if len(points) < 2:
+        return np.zeros_like(points)
+    rates = np.diff(points, axis=0) / period
     return np.concatenate([rates, rates[-1:]])
+
+
+def _acceleration(points: Floats, period: float) -> Floats:
+    """Second differences (N, 3) [m/s^2] about each row; the first and last row repeat."""
+    if len(points) < 3:
+        return np.zeros_like(points)
+    inside = np.diff(points, n=2, axis=0) / period**2
+    return np.concatenate([inside[:1], inside, inside[-1:]])
 
 
 def _norm(values: Floats) -> Floats:
@@ -105,17 +113,21 @@ def _norm(values: Floats) -> Floats:
 
 def _figures(table: Table, track: Track) -> dict[str, float]:
     period = track.motion.period
-    command = _norm(track.command)
-    position, orientation = table["position_error_m"], table["orientation_error_rad"]
+
+    def integral(values: Floats) -> float:
+        """Over the N - 1 steps of the run; the last row's command is not carried out."""
+        return float(values[:-1].sum() * period)
+
     figures = {
-        "error_integral": float(table["invariant_error"].sum() * period),
-        "command_integral_rad": float(command.sum() * period),
-        "effort_integral": float(table["effort_rad"].sum() * period),
-        "speed_integral_m": float(table["speed_m_s"].sum() * period),
-        "acceleration_integral": float(table["acceleration_m_s2"].sum() * period),
+        "error_integral": integral(table["invariant_error"]),
+        "command_integral_rad": integral(_norm(track.command)),
+        "effort_integral": integral(table["effort_rad"]),
+        "speed_integral_m": integral(table["speed_m_s"]),
+        "acceleration_integral": integral(table["acceleration_m_s2"]),
     }
-    for name, values in (("position_error", position), ("orientation_error", orientation)):
-        unit = "m" if name.startswith("position") else "rad"
+    errors = ("position_error", "m"), ("orientation_error", "rad")
+    for name, unit in errors:
+        values = table[f"{name}_{unit}"]
         figures[f"{name}_rms_{unit}"] = float(np.sqrt((values**2).mean()))
         figures[f"{name}_std_{unit}"] = float(values.std())
         figures[f"{name}_max_{unit}"] = float(values.max())

@@ -50,6 +50,7 @@ def motion(painting: Painting) -> bytes:
     return encode_csv(motion_columns(painting.motion))
 
 
+CHUNK = 8192  # rows of a table that are written at once
 SUFFIXES = {".png", ".csv", ".json"}
 
 
@@ -73,8 +74,12 @@ def ending(name: str) -> str:
 def encode_csv(table: Table) -> bytes:
     """Columns as a CSV file with 12 digits."""
     row = ",".join(["%.12g"] * len(table)) + "\n"
-    rows = np.stack(list(table.values()), axis=1).tolist()
-    return (",".join(table) + "\n" + "".join([row % tuple(values) for values in rows])).encode()
+    parts = [",".join(table) + "\n"]
+    columns = list(table.values())
+    for first in range(0, len(columns[0]), CHUNK):  # text of its own size, not lists of numbers
+        rows = np.stack([column[first : first + CHUNK] for column in columns], axis=1).tolist()
+        parts.append("".join([row % tuple(values) for values in rows]))
+    return "".join(parts).encode()
 
 
 def summarise(painting: Painting) -> dict[str, Any]:
@@ -127,25 +132,31 @@ def stem_for(out: str | None, name: str) -> Path:
     Raises:
         OutputError: the folder does not exist or cannot be written.
     """
-    if out and Path(out).suffix in SUFFIXES and not Path(out).is_dir():
-        out = out[: -len(Path(out).suffix)]  # `--out star.png` names the picture, and its stem
-    target = Path(out or ".")
-    if out and (out.endswith(("/", os.sep)) or target.is_dir()):
-        folder, stem = target, target / name
-    elif out:
-        folder, stem = target.parent, target
-    else:
-        folder, stem = target, target / name
     try:
-        if out and out.endswith(("/", os.sep)):
-            folder.mkdir(parents=True, exist_ok=True)
-        if not folder.is_dir():
-            raise OutputError(f"folder '{folder}' does not exist; a path that ends with / is made")
+        stem, folder = _stem_and_folder(out, name)
         with tempfile.TemporaryFile(dir=folder):
-            pass
-    except OSError as problem:
-        raise OutputError(f"folder '{folder}' cannot be written: {problem.strerror}") from None
-    return stem
+            return stem
+    except (OSError, ValueError) as problem:
+        reason = problem.strerror if isinstance(problem, OSError) else str(problem)
+        raise OutputError(f"'{(out or '.')[:60]}' cannot be written: {reason}") from None
+
+
+def _stem_and_folder(out: str | None, name: str) -> tuple[Path, Path]:
+    if not out:
+        return Path(name), Path()
+    target = Path(out)
+    if out.endswith(("/", os.sep)):
+        target.mkdir(parents=True, exist_ok=True)
+    if target.is_dir():
+        return target / name, target
+    if target.suffix in SUFFIXES:  # `--out star.png` names the picture, and its stem
+        target = target.with_suffix("")
+    if target.parent.exists() and not target.parent.is_dir():
+        raise OutputError(f"'{target.parent}' is a file, not a folder")
+    if not target.parent.is_dir():
+        made = "a path that ends with / is made"
+        raise OutputError(f"folder '{target.parent}' does not exist; {made}")
+    return target, target.parent
 
 
 def write(stem: Path, contents: dict[str, bytes]) -> list[Path]:
@@ -162,7 +173,7 @@ def write(stem: Path, contents: dict[str, bytes]) -> list[Path]:
     try:
         for end, data in contents.items():
             handle, temporary = tempfile.mkstemp(
-                prefix=f".{stem.name}", suffix=".part", dir=stem.parent
+                prefix=".dqpaint-", suffix=".part", dir=stem.parent
             )
             made.append((temporary, stem.with_name(stem.name + end)))
             with os.fdopen(handle, "wb") as file:

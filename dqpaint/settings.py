@@ -1,5 +1,7 @@
 """How a drawing is painted: everything besides its text, checked."""
 
+import re
+from collections.abc import Sequence
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
@@ -51,18 +53,28 @@ def parse_size(text: str) -> tuple[int, int]:
     Raises:
         UsageError: anything else.
     """
-    width, _, height = text.partition("x")
-    if not (width.isdecimal() and height.isdecimal()):
-        raise UsageError(f"size '{text}' is not WIDTHxHEIGHT in pixels, for example 1280x720")
-    return int(width), int(height)
+    found = re.fullmatch(r"(\d{1,6})x(\d{1,6})", text)
+    if found is None:
+        raise UsageError(f"size '{text[:40]}' is not WIDTHxHEIGHT in pixels, for example 1280x720")
+    return int(found[1]), int(found[2])
 
 
-def parse_gain(text: str) -> tuple[str, float]:
-    """A gain's name and value from `k=20`.
+def parse_gains(texts: Sequence[str]) -> dict[str, float]:
+    """Gains by their names from texts like `k=20`.
 
     Raises:
-        UsageError: anything else.
+        UsageError: anything else, or a gain given twice.
     """
+    gains: dict[str, float] = {}
+    for text in texts:
+        name, value = _parse_gain(text)
+        if name in gains:
+            raise UsageError(f"gain '{name}' is given twice")
+        gains[name] = value
+    return gains
+
+
+def _parse_gain(text: str) -> tuple[str, float]:
     name, sign, value = text.partition("=")
     try:
         if sign:

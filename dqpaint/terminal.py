@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 BAR = 30  # characters of the progress bar
 WIDEST = 72  # columns of a picture
+TALLEST = 40  # and its rows
 SHORTEST_WORTH_A_BAR = 0.5  # [s]
 
 
@@ -36,7 +37,7 @@ def blocks(image: NDArray[np.uint8], columns: int) -> str:
     would fade away, by the brightest pixel its white core would hide its colour.
     """
     height, width = image.shape[:2]
-    columns = max(1, min(columns, WIDEST, width))
+    columns = max(1, min(columns, WIDEST, width, round(2 * TALLEST * width / height)))
     rows = 2 * max(1, min(round(columns * height / width / 2), height // 2))
     y = np.linspace(0, height, rows + 1).astype(int)
     x = np.linspace(0, width, columns + 1).astype(int)

@@ -29,10 +29,10 @@ class Track:
     Attributes:
         motion: what was asked.
         posture: measured joint angles (N, n) [rad].
-        pose: measured tool poses (N, 8) in the base frame, each on the side of the asked one.
+        pose: measured tool poses (N, 8) in the base frame, signs continuous.
         jacobian: J_w (N, 6, n) at the measured postures.
         command: joint rates (N, n) [rad/s] the arm was given.
-        effort: motor torques (N, n) [Nm] at the end of the period before the row.
+        effort: motor torques (N, n) [Nm], the largest seen in the period before the row.
         clamps: limits that held a joint back.
     """
 
@@ -93,23 +93,25 @@ def track(
             twist = controller.law(seen, gains)
             rates = resolve(J, dq.translation(x), twist, PULL * (start - q))
             given = bounds.clip(rates, q)
+            if not np.isfinite(given).all():
+                raise _lost(t)
             posture[k], effort[k], pose[k], jacobian[k] = q, plant.effort, x, J
             wanted[k], command[k] = rates, given
             if k % REPORT_EVERY == 0:
                 progress(k / n)
-                _stop_if_lost(q, rates, t)
             if k < n - 1:
                 plant.run(given)
     finally:
         plant.close()
-    _stop_if_lost(posture, wanted, float(motion.t[-1]))
+    if not np.isfinite(posture).all():
+        raise _lost(float(motion.t[-1]))
     held = clamps(card, motion.t, motion.line, posture, wanted, command, effort)
-    return Track(motion, posture, dq.nearest(pose, motion.pose), jacobian, command, effort, held)
+    pose[0] = dq.nearest(pose[0], motion.pose[0])
+    return Track(motion, posture, dq.continuous(pose), jacobian, command, effort, held)
 
 
-def _stop_if_lost(posture: Floats, rates: Floats, time: float) -> None:
-    if not (np.isfinite(posture).all() and np.isfinite(rates).all()):
-        raise DqpaintError(
-            f"the run left the numbers before {time:.3f} s: the loop is unstable; "
-            "lower the gains or shorten the period"
-        )
+def _lost(time: float) -> DqpaintError:
+    return DqpaintError(
+        f"the run left the numbers before {time:.3f} s: the loop is unstable; "
+        "lower the gains or shorten the period"
+    )

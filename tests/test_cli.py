@@ -137,8 +137,16 @@ def test_check_for_programs(dqpaint, line, tmp_path):
     (["draw", "line.traj", "--controller", "pd"], 2, "no controller named 'pd'; known: "),
     (["draw", "line.traj", "--gain", "k=1"], 2, "'hinf' has no gain named 'k'; its gains: gamma_O"),
     (["draw", "line.traj", "--gain", "gamma_T"], 2, "gain 'gamma_T' is not NAME=VALUE"),
-    (["draw", "line.traj", "--gain", "gamma_T=-1"], 2, "should be greater than 0"),
+    (["draw", "line.traj", "--gain", "gamma_T=-1"], 2, "a gain is a number from 1e-09 to 1e+09"),
     (["draw", "line.traj", "--gain", "gamma_T=5mm"], 2, "gain 'gamma_T=5mm' is not NAME=VALUE"),
+    (["draw", "line.traj", "--gain", "gamma_T=1e-306"], 2, "a gain is a number from"),
+    (["draw", "line.traj", "--gain", "gamma_T=1", "--gain", "gamma_T=2"], 2, "is given twice"),
+    (["draw", "line.traj", "--robot", ""], 2, "no robot named ''; known: iiwa"),
+    (["draw", "a" * 5000], 1, "file name too long"),
+    (["draw", "line.traj", "--out", "a" * 5000], 1, "cannot be written: File name too long"),
+    (["draw", "line.traj", "--out", "line.traj/x"], 1, "'line.traj' is a file, not a folder"),
+    (["draw", "line.traj", "--size", "9" * 5000 + "x10"], 2, "is not WIDTHxHEIGHT"),
+    (["draw", ""], 1, "no file ''"),
     (["draw", "line.traj", "--robot", "ur7"], 2, "no robot named 'ur7'; known: iiwa"),
     (["draw", "line.traj", "--plant", "rubber"], 2, "no plant named 'rubber'; known: "),
     (["draw", "line.traj", "--size", "big"], 2, "size 'big' is not WIDTHxHEIGHT"),
@@ -242,6 +250,41 @@ def test_help_and_check_start_without_the_heavy_libraries(dqpaint, words):
         [sys.executable, "-c", code, *words], capture_output=True, text=True, check=True
     )
     assert done.stdout.splitlines()[-1] == "LOADED []"
+
+
+def test_streams_that_cannot_say_everything(dqpaint, tmp_path):
+    (tmp_path / "ümlaut.traj").write_text("light ümlaut\n", "utf-8")
+    narrow = {"PYTHONIOENCODING": "ascii"}
+    done = dqpaint("check", "ümlaut.traj", env=narrow)
+    assert done.returncode == 1
+    assert "error[E101]: unexpected character '\\xfc'" in done.stdout
+    assert json.loads(dqpaint("check", "ümlaut.traj", "--json", env=narrow).stdout)
+
+
+@pytest.mark.parametrize(("redirect", "code"), [(">&-", 0), ("2>&-", 0), (">/dev/full", 1)])
+def test_streams_that_are_closed_or_full(line, tmp_path, redirect, code):
+    command = f"'{sys.executable}' -m dqpaint draw line.traj --size 64x36 {redirect}"
+    done = subprocess.run(["sh", "-c", command], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == code
+    assert "Traceback" not in done.stderr
+    if code:
+        assert "error: standard output cannot be written" in done.stderr
+    assert (tmp_path / "line-hinf.png").exists()
+
+
+@pytest.mark.parametrize("moment", [0.02, 0.08, 0.15, 0.3])
+def test_ctrl_c_while_starting(tmp_path, moment):
+    process = subprocess.Popen(
+        [sys.executable, "-m", "dqpaint", "draw", "star"],
+        cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )  # fmt: skip
+    time.sleep(moment)
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=30)
+    assert files(tmp_path) == []
+    if process.returncode != -signal.SIGINT:  # python itself was still starting
+        assert (process.returncode, err) == (130, "interrupted; nothing was written\n")
 
 
 def test_ctrl_c_leaves_nothing_half_written(tmp_path):

@@ -78,10 +78,16 @@ def test_figures_are_integrals_and_spreads_of_the_columns(run, metrics):
     assert figures["position_error_std_m"] == pytest.approx(e.std())
     assert figures["position_error_max_m"] == e.max()
     assert figures["command_integral_rad"] == pytest.approx(
-        0.01 * np.linalg.norm(run.command, axis=1).sum()
+        0.01 * np.linalg.norm(run.command[:-1], axis=1).sum()
     )
-    assert figures["error_integral"] == pytest.approx(0.01 * table["invariant_error"].sum())
-    assert figures["speed_integral_m"] == pytest.approx(0.01 * table["speed_m_s"].sum())
+    assert figures["error_integral"] == pytest.approx(0.01 * table["invariant_error"][:-1].sum())
+    path = np.linalg.norm(np.diff(run.points, axis=0), axis=1).sum()
+    assert figures["speed_integral_m"] == pytest.approx(path, rel=1e-12)  # the way that was gone
+    second = run.points[2:] - 2 * run.points[1:-1] + run.points[:-2]
+    np.testing.assert_allclose(
+        table["acceleration_m_s2"][1:-1], np.linalg.norm(second, axis=1) / 0.01**2, atol=1e-9
+    )
+    assert table["acceleration_m_s2"][-1] == table["acceleration_m_s2"][-2]
 
 
 def test_light_and_lines_follow_the_text(metrics):

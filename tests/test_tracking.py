@@ -155,6 +155,23 @@ def test_two_runs_are_the_same_bit_for_bit(plant):
     np.testing.assert_array_equal(first.command, second.command)
 
 
+@pytest.mark.parametrize("law", CONTROLLERS)
+def test_signs_of_measured_poses_never_jump(law):
+    """Set points that turn by 170 degrees twice: the asked side changes, the measured does not."""
+    there = "step to (0, 0) mm tool rot(z, 80 deg)\nhold 0.3 s\n"
+    back = "step to (0, 0) mm tool rot(z, -90 deg)\nhold 1 s\n"
+    result = run(asked(f"period 8 ms\n{there}{back}"), law, start=CARD.home)
+    assert ((result.pose[1:, :4] * result.pose[:-1, :4]).sum(1) > 0.9).all()
+    assert result.pose[0, :4] @ result.motion.pose[0, :4] > 0
+
+
+def test_a_motor_that_saturates_only_while_it_starts_is_named():
+    """A line begun at full speed: the first milliseconds of a period ask most of the motors."""
+    motion = asked("law constant\nspeed 500 mm/s\nline to (100, 0) mm\nline to (0, 0) mm\n")
+    held = {clamp.joint for clamp in run(motion, plant="stiff").clamps if clamp.kind == "torque"}
+    assert {1, 3} <= held
+
+
 def test_progress_is_told():
     told = []
     motion = asked(CIRCLE)

@@ -10,7 +10,8 @@ from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 from dqpaint.registry import Registry
 
-Gain = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+LEAST, MOST = 1e-9, 1e9  # beyond these a gain is a slip, and its reciprocal soon no number
+Gain = Annotated[float, Field(ge=LEAST, le=MOST, allow_inf_nan=False)]
 
 
 class Gains(BaseModel):
@@ -78,9 +79,8 @@ class Controller(Generic[G]):
             if first["type"] == "extra_forbidden":
                 text = f"controller '{self.name}' has no gain named '{name}'"
             else:
-                reason = first["msg"].removeprefix("Input should be ")
                 value = f"gain '{name}' of controller '{self.name}' is {first['input']}"
-                text = f"{value}: it should be {reason}"
+                text = f"{value}; a gain is a number from {LEAST:g} to {MOST:g}"
             raise UsageError(f"{text}; its gains: {self.list_gains()}") from None
 
     def list_gains(self) -> str:

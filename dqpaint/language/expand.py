@@ -16,6 +16,9 @@ from dqpaint.language.units import PLAIN
 from dqpaint.language.values import Quantity
 from dqpaint.language.words import SETTINGS, STATEMENTS
 
+SHORTEST_PERIOD = 1e-5  # [s]
+LONGEST_PERIOD = 10.0
+
 
 class Expander:
     """Works through a file's statements in order."""
@@ -201,6 +204,10 @@ class Expander:
     def _period_line(self, statement: Statement) -> None:
         self._first(statement)
         self._period = reading.positive(statement.values[0], self._scope, "period")
+        if not SHORTEST_PERIOD <= self._period <= LONGEST_PERIOD:
+            message = f"a period is from {SHORTEST_PERIOD * 1e3:g} ms to {LONGEST_PERIOD:g} s"
+            cure = "an arm is controlled every few milliseconds: period 8 ms"
+            raise problem("E257", message, statement.values[0].span, "", cure)
 
     def _place(self, statement: Statement) -> None:
         self._first(statement)

@@ -194,8 +194,13 @@ def _law(given: Arguments) -> Value:
     )
     speed, acceleration = (TURNSPEED, TURN_ACCELERATION) if angular else (SPEED, ACCELERATION)
     rates = [given.constant(i, speed if i < 2 else acceleration) for i in range(len(values))]
+    for rate, node in zip(rates, given.nodes, strict=True):
+        if abs(rate) > LARGEST_RATE:
+            raise problem("E201", "this number is too large", node.span)
     return TimeLaw(given.function, tuple(rates), angular)
 
+
+LARGEST_RATE = 1e9  # of a law, in SI units
 
 _Function = Callable[[Arguments], Value]
 

@@ -8,12 +8,13 @@ Newton's method; the derivatives of the way back are exact.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
 from dqpaint.motion.shapes import Flow, Loose, Shape
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
-MOST_PANELS = 4096
+MOST_PANELS = 1024
 EXACT = 1e-13  # relative, of a length
 CUSP = 1e-6  # of the mean speed: a curve that is slower somewhere has a point there
 
@@ -86,21 +87,32 @@ def _nodes(lower: Floats, upper: Floats) -> Floats:
 
 
 def parameter_at(shape: Shape, extent: Extent, distance: Floats) -> Floats:
-    """The parameter f (N,) at distances (N,) in [0, length] along the path."""
+    """The parameter f (N,) at distances (N,) along the path; beyond its ends it goes on."""
+    before, beyond = distance < 0, distance > extent.length
     f = np.interp(distance, extent.lengths, extent.edges)
-    panel = np.clip(
-        np.searchsorted(extent.lengths, distance, side="right") - 1, 0, len(extent.edges) - 2
-    )
+    panel = _panel(distance, extent.lengths)
     start = extent.edges[panel]
-    for _ in range(12):
-        at = _nodes(start, f)
-        speed = shape.speeds(at.ravel())[0].reshape(at.shape)
-        so_far = extent.lengths[panel] + (speed @ WEIGHTS) * 0.5 * (f - start)
+    lower, upper = np.where(before, -np.inf, 0.0), np.where(beyond, np.inf, 1.0)
+    for _ in range(20):
+        so_far = extent.lengths[panel] + _length(shape, start, f)
         step = (so_far - distance) / shape.speeds(f)[0]
-        f = np.clip(f - step, 0.0, 1.0)
+        f = np.clip(f - step, lower, upper)
         if np.abs(step).max(initial=0.0) < 1e-14:
             break
     return f
+
+
+def _panel(values: Floats, edges: Floats) -> NDArray[np.intp]:
+    """Which panel (N,) each value lies in; the outer ones for what lies beyond."""
+    inside = np.searchsorted(edges, values, side="right") - 1
+    return np.clip(inside, 0, len(edges) - 2)
+
+
+def _length(shape: Shape, start: Floats, end: Floats) -> Floats:
+    """The length (N,) from parameters to parameters within a panel or close to one."""
+    at = _nodes(start, end)
+    speed = shape.speeds(at.ravel())[0].reshape(at.shape)
+    return np.asarray((speed @ WEIGHTS) * 0.5 * (end - start))
 
 
 def flow_by_length(shape: Shape, extent: Extent, fraction: Floats) -> Flow:
@@ -123,9 +135,6 @@ def length_fraction(shape: Shape, extent: Extent, f: Floats) -> Floats:
     """The fraction of the length (N,) that lies before the parameters f (N,)."""
     if extent.even or extent.length == 0:
         return f
-    panel = np.clip(np.searchsorted(extent.edges, f, side="right") - 1, 0, len(extent.edges) - 2)
-    start = extent.edges[panel]
-    at = _nodes(start, f)
-    speed = shape.speeds(at.ravel())[0].reshape(at.shape)
-    so_far = extent.lengths[panel] + (speed @ WEIGHTS) * 0.5 * (f - start)
+    panel = _panel(f, extent.edges)
+    so_far = extent.lengths[panel] + _length(shape, extent.edges[panel], f)
     return np.asarray(so_far / extent.length)

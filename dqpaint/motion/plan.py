@@ -92,11 +92,18 @@ def plan(program: Program, canvas: Floats) -> Motion:
         try:
             with stroke_errors(stroke.segment):
                 flows.append(flow_at(stroke, stroke.samples, program.period))
+                check_finite(flows[-1][0])
         except StrokeError as fault:
             findings += fault.diagnostics
     if any(f.severity is Severity.ERROR for f in findings):
         raise ScriptError(program.name, program.text, tuple(findings))
     return _assemble(program, strokes, flows, canvas, tuple(findings))
+
+
+def check_finite(flow: Flow) -> None:
+    """Raise FloatingPointError where a stroke leaves the numbers."""
+    if not all(np.isfinite(part).all() for part in (flow.pose, flow.twist, flow.slope)):
+        raise FloatingPointError("a stroke is not finite")
 
 
 def flow_at(stroke: Stroke, tau: Floats, period: float) -> tuple[Flow, Floats]:
@@ -139,7 +146,8 @@ def _assemble(
         acceleration[first : last + 1] = flow.slope
         colours = stroke.segment.light
         if colours is not None:
-            middle = (0.5 * (fraction[1:] + fraction[:-1]))[:, None]
+            # a law may run beyond the ends of a stroke; its colours do not
+            middle = np.clip(0.5 * (fraction[1:] + fraction[:-1]), 0.0, 1.0)[:, None]
             light[first:last] = (1 - middle) * colours.first + middle * np.array(colours.last)
         first = last
     lines = np.array([stroke.segment.line for stroke in strokes])

@@ -18,6 +18,8 @@ from dqpaint.motion.lengths import Extent, has_cusp, measure
 from dqpaint.motion.shapes import Shape, shape
 
 MOST_SAMPLES = 2_000_000
+MOST_SECONDS = 86_400.0  # of a drawing
+ENDLESS = 1e15  # samples
 ROUNDING_WORTH_SAYING = 0.01
 
 
@@ -77,10 +79,12 @@ def timetable(program: Program) -> tuple[list[Stroke], list[Diagnostic]]:
             total += stroke.count
             if total > MOST_SAMPLES:
                 raise StrokeError(_too_many(segment, stroke.count))
+            if total * program.period > MOST_SECONDS:
+                raise StrokeError(_too_long(segment, stroke.count * program.period))
         except StrokeError as fault:
             for diagnostic in fault.diagnostics:
                 _keep(findings, diagnostic)
-            if total > MOST_SAMPLES:
+            if total > MOST_SAMPLES or total * program.period > MOST_SECONDS:
                 break
             continue
         strokes.append(stroke)
@@ -109,7 +113,7 @@ def _stroke(segment: Segment, period: float) -> tuple[Stroke, Diagnostic | None]
     end_rates = _end_rates(segment, extent)
     seconds = _seconds(segment, extent, end_rates, period)
     wanted = seconds / period
-    if not wanted < 1e15:
+    if not wanted < ENDLESS:
         raise StrokeError(_too_many(segment, math.inf))
     count = timing.count if isinstance(timing, Samples) else _whole(wanted)
     if isinstance(segment.path, Step):
@@ -144,6 +148,8 @@ def _seconds(segment: Segment, extent: Extent, end_rates: Rates, period: float) 
     least = max(extent.length / timing.speed, extent.angle / timing.turnspeed)
     if least == 0:
         return period
+    if not least < ENDLESS * period:
+        raise StrokeError(_too_many(segment, math.inf))
     seconds = cruise_time(segment.law.name, end_rates, least)
     if seconds is None:
         raise StrokeError(_fast_end(segment))
@@ -153,9 +159,9 @@ def _seconds(segment: Segment, extent: Extent, end_rates: Rates, period: float) 
 def _not_finite(segment: Segment) -> Diagnostic:
     return Diagnostic(
         "E324",
-        "this curve, or one of its derivatives, is not finite everywhere on the way",
+        "this stroke, or one of its derivatives, is not finite everywhere on the way",
         segment.span,
-        help="keep the parameter away from where a root, a logarithm or a quotient breaks down",
+        help="keep a formula away from where it breaks down, and rates and times within reason",
     )
 
 
@@ -197,6 +203,16 @@ def _too_many(segment: Segment, count: float) -> Diagnostic:
         segment.span,
         label=f"this line alone has {alone}",
         help="make the period longer or the path shorter or faster",
+    )
+
+
+def _too_long(segment: Segment, seconds: float) -> Diagnostic:
+    return Diagnostic(
+        "E325",
+        f"the drawing takes more than {MOST_SECONDS / 3600:.0f} hours",
+        segment.span,
+        label=f"this line alone takes {seconds:,.0f} s",
+        help="draw it faster, or shorten the pauses",
     )
 
 

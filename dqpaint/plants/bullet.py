@@ -13,7 +13,7 @@ def quiet() -> Iterator[None]:
     """Send what C code prints meanwhile to nowhere; it is buffered, so it is flushed first."""
     c_library = ctypes.CDLL(None)
     _flush(c_library)
-    kept = {stream: os.dup(stream) for stream in (1, 2)}
+    kept = {stream: os.dup(stream) for stream in (1, 2) if _is_open(stream)}
     nothing = os.open(os.devnull, os.O_WRONLY)
     try:
         for stream in kept:
@@ -27,9 +27,18 @@ def quiet() -> Iterator[None]:
         os.close(nothing)
 
 
+def _is_open(stream: int) -> bool:
+    try:
+        os.fstat(stream)
+    except OSError:
+        return False
+    return True
+
+
 def _flush(c_library: ctypes.CDLL) -> None:
-    sys.stdout.flush()
-    sys.stderr.flush()
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:
+            stream.flush()
     c_library.fflush(None)
 
 

@@ -12,7 +12,7 @@ class Plant(Protocol):
 
     Attributes:
         posture: measured joint angles (n,) [rad].
-        effort: motor torques (n,) [Nm] at the end of the last period; zeros without motors.
+        effort: motor torques (n,) [Nm], the largest seen in the last period; zeros without motors.
     """
 
     posture: Floats

@@ -41,7 +41,7 @@ class Stiff:
                 physicsClientId=self._client,
             )
             bullet.resetJointState(self._body, joint, angle, 0.0, self._client)
-        self._read()
+        self.posture, self.effort = self._state()
 
     def _build(self, card: Card, step: float) -> int:
         here = {"physicsClientId": self._client}
@@ -66,15 +66,19 @@ class Stiff:
             forces=self._effort_limits,
             physicsClientId=self._client,
         )
-        for _ in range(self._steps):
+        # what a new command asks of the motors is most in the first step
+        bullet.stepSimulation(self._client)
+        first = self._state()[1]
+        for _ in range(self._steps - 1):
             bullet.stepSimulation(self._client)
-        self._read()
+        self.posture, last = self._state()
+        self.effort = np.where(np.abs(first) > np.abs(last), first, last)
 
     def close(self) -> None:
         """End the simulation."""
         bullet.disconnect(self._client)
 
-    def _read(self) -> None:
+    def _state(self) -> tuple[Floats, Floats]:
+        """Joint angles [rad] and motor torques [Nm] (n,)."""
         states = bullet.getJointStates(self._body, self._joints, self._client)
-        self.posture = np.array([state[0] for state in states])
-        self.effort = np.array([state[3] for state in states])
+        return np.array([state[0] for state in states]), np.array([state[3] for state in states])

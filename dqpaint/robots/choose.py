@@ -13,7 +13,7 @@ def card_for(program: Program, robot: str | None) -> Card:
         ScriptError: no card has the name in the file.
     """
     if robot is not None or program.robot is None:
-        return read_card(robot or DEFAULT_ROBOT)
+        return read_card(DEFAULT_ROBOT if robot is None else robot)
     try:
         return read_card(program.robot)
     except UnknownNameError as problem:

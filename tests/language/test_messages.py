@@ -107,6 +107,8 @@ line by (1,0) mm tool look (0, 5) mm|E252|1:1 line by (1,0) mm tool look (0, 5) 
 line by (1,0) mm tool look line (0,0) along x|E253|1:1 line by (1,0) mm tool look line (0,0) along x|the tool can't look at the line it is on||look at a line the tool does not go through
 curve (0, 0, t) for t from 0 to 1 mm tool follow|E254|1:7 (0, 0, t)|the curve stands still or goes along the axis, so it has no heading to follow||use: tool keep, or tool look
 screw to (1,2) mm|E255|1:10 (1,2) mm|'screw to' needs to know how the tool is held at the end||add: tool rpy(0 deg, 0 deg, 90 deg); to keep the tool as it is, use: line to
+period 20 s|E257|1:8 20 s|a period is from 0.01 ms to 10 s||an arm is controlled every few milliseconds: period 8 ms
+law cubic(1e300 mm/s, 0 mm/s)|E201|1:11 1e300 mm/s|this number is too large||
 line by (5,0) mm by (0,5) mm samples 1|E256|1:1 line by (5,0) mm by (0,5) mm samples 1|2 legs need at least 2 samples||write: samples 2
 repeat 10001~line by (1,0) mm~end|E303|1:8 10001|more than 10,000 passes of one 'repeat'|this is 10,001|draw a formula instead: curve … for t from … to …
 line by (0, 0)~line by (1,0) mm|W401|1:9 (0, 0)|this line has no length|already here|to wait, use: hold 1 s

@@ -1,9 +1,12 @@
 """Twist and acceleration of every kind of stroke against differences of the pose, order 2."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from dqpaint import dq
+from dqpaint.language.program import Lasting, Law
 from dqpaint.motion.plan import flow_at
 from dqpaint.motion.timetable import timetable
 from tests.motion.strokes import KINDS, LAWS, program, segment
@@ -45,6 +48,22 @@ def test_twist_and_acceleration_are_derivatives(rng, path, tool, law):
         exact = a < 1e-10 * scale
         assert exact or 3.6 < a / b < 4.4, (a, b)
         assert b < 0.01 * scale
+
+
+@pytest.mark.parametrize(
+    ("path", "tool"), [("spiral", "keep"), ("curve", "keep"), ("line", "turn")]
+)
+def test_a_law_that_runs_beyond_the_ends_takes_the_pose_along(path, tool):
+    """Rates that begin backwards: place and twist agree there too."""
+    back = replace(segment(path, tool), law=Law("cubic", (-0.02, 0.03)), timing=Lasting(2.504))
+    strokes, findings = timetable(program(back))
+    assert not findings
+    tau, h = np.linspace(0.02, 0.3, 15), 1e-4
+    time = strokes[0].count * 0.008
+    now, ahead, behind = (flow_at(strokes[0], tau + d, 0.008)[0] for d in (0, h, -h))
+    rate = (dq.nearest(ahead.pose, now.pose) - dq.nearest(behind.pose, now.pose)) / (2 * h * time)
+    np.testing.assert_allclose(rate, 0.5 * dq.mul(dq.pure(now.twist), now.pose), atol=1e-6)
+    assert (strokes[0].progress(tau, 0.008).value < 0).any()
 
 
 @pytest.mark.parametrize(("path", "tool"), KINDS)

@@ -103,6 +103,27 @@ def test_light_is_the_mean_of_each_step_and_a_gradient_runs_over_length():
     np.testing.assert_array_equal(motion.lit, [True] * 4 + [False] * 4)
 
 
+def test_a_gradient_stays_between_its_colours_where_the_law_overshoots():
+    over = stroke(Straight((0.1, 0, 0)), timing=Samples(100), light=Light((1, 0, 0), (0, 0, 0)))
+    over = replace(over, law=Law("cubic", (-0.5, -0.5)))
+    light = plan(program(over), dq.IDENTITY).light
+    assert light.min() == 0
+    assert light.max() == 1
+
+
+def test_a_drawing_of_days_and_one_beyond_the_numbers_are_refused():
+    with pytest.raises(ScriptError) as caught:
+        plan(program(stroke(Still(), timing=Samples(10_000)), period=10.0), CANVAS)
+    assert codes(caught) == ["E325"]
+    with pytest.raises(ScriptError) as caught:
+        plan(program(stroke(Straight((0.1, 0, 0)), timing=Cruise(1e-200, 1.0))), CANVAS)
+    assert codes(caught) == ["E302"]
+    wild = replace(stroke(Straight((0.1, 0, 0)), timing=Samples(10)), law=Law("cubic", (1e308, 0)))
+    with np.errstate(all="ignore"), pytest.raises(ScriptError) as caught:
+        plan(program(wild), CANVAS)
+    assert codes(caught) == ["E324"]
+
+
 def test_a_gradient_on_a_curve_of_uneven_speed_still_runs_over_length():
     parabola = Curve(lambda t: (0.1 * t * t, 0.0 * t, 0.0 * t), 0.2, 1.0)
     made = stroke(parabola, timing=Samples(100), light=Light((1, 0, 0), (0, 0, 0)))

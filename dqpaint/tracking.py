@@ -93,17 +93,17 @@ def track(
             twist = controller.law(seen, gains)
             rates = resolve(J, dq.translation(x), twist, PULL * (start - q))
             given = bounds.clip(rates, q)
-            if not np.isfinite(given).all():
-                raise _lost(t)
             posture[k], effort[k], pose[k], jacobian[k] = q, plant.effort, x, J
             wanted[k], command[k] = rates, given
             if k % REPORT_EVERY == 0:
                 progress(k / n)
             if k < n - 1:
                 plant.run(given)
+    except np.linalg.LinAlgError:  # a posture that is no number any more has no singular values
+        raise _lost(t) from None
     finally:
         plant.close()
-    if not np.isfinite(posture).all():
+    if not (np.isfinite(posture).all() and np.isfinite(command).all()):
         raise _lost(float(motion.t[-1]))
     held = clamps(card, motion.t, motion.line, posture, wanted, command, effort)
     pose[0] = dq.nearest(pose[0], motion.pose[0])

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from dqpaint import __version__
@@ -11,7 +10,7 @@ from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.examples import find_drawing
 from dqpaint.language import Diagnostic, ScriptError, read, render
 from dqpaint.language.diagnostics import Severity, Span, place
-from dqpaint.motion import Motion, plan
+from dqpaint.motion import Motion, plan, summary_line
 from dqpaint.robots.card import Card
 from dqpaint.robots.choose import card_for
 
@@ -40,7 +39,7 @@ class Checked:
             return f"error: {self.fault}"
         parts = [render(finding, self.file, self.source) for finding in self.findings]
         if self.motion is not None:
-            parts.append(figures_line(self.motion, self.file) + self.reach)
+            parts.append(summary_line(self.motion) + self.reach)
         return "\n\n".join(parts)
 
 
@@ -81,16 +80,6 @@ def _reach(motion: Motion, card: Card) -> str:
     if margin < 0:
         return f"; {card.name} reaches it, but a joint has to go {-margin:.0f} deg beyond its limit"
     return f"; {card.name} reaches it, every joint {margin:.0f} deg or more from its limits"
-
-
-def figures_line(motion: Motion, file: str) -> str:
-    """Length, time, steps and box, and where the drawing is seen to be."""
-    box = " x ".join(f"{side * 1e3:.0f}" for side in motion.box)
-    steps = len(motion.t) - 1
-    return (
-        f"{Path(file).name}: {motion.length * 1e3:.0f} mm, {motion.t[-1]:.2f} s, "
-        f"{steps} steps of {motion.period * 1e3:g} ms ({steps + 1} poses), box {box} mm"
-    )
 
 
 def as_json(results: Sequence[Checked]) -> dict[str, Any]:

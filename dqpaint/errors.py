@@ -16,9 +16,5 @@ class UnknownNameError(UsageError):
         super().__init__(f"no {kind} named '{name}'; known: {', '.join(known)}")
 
 
-class OutOfReachError(DqpaintError):
-    """The arm has no posture for what is asked."""
-
-
 class OutputError(DqpaintError):
     """A place that cannot be written."""

@@ -18,7 +18,8 @@ def _robots() -> list[dict[str, Any]]:
 
 
 def _controllers() -> list[dict[str, Any]]:
-    from dqpaint.controllers import CONTROLLERS, DEFAULT_CONTROLLER
+    from dqpaint.controllers import CONTROLLERS
+    from dqpaint.settings import DEFAULT_CONTROLLER
 
     return [
         {
@@ -36,7 +37,8 @@ def _controllers() -> list[dict[str, Any]]:
 
 
 def _plants() -> list[dict[str, Any]]:
-    from dqpaint.plants import DEFAULT_PLANT, PLANTS
+    from dqpaint.plants import PLANTS
+    from dqpaint.settings import DEFAULT_PLANT
 
     return [
         {

@@ -13,7 +13,6 @@ from dqpaint import dq
 from dqpaint.controllers.pose_errors import invariant_error
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
-from dqpaint.robots.kinematics import manipulability
 from dqpaint.tracking import Track
 
 Table = dict[str, Floats]  # columns (N,) by their header, unit in the name
@@ -21,7 +20,7 @@ Table = dict[str, Floats]  # columns (N,) by their header, unit in the name
 
 @dataclass(frozen=True, repr=False)
 class Metrics:
-    """What came out of a run: columns (N,) and single figures, the unit in each name."""
+    """What came out of a run: columns (N,) and single figures."""
 
     table: Table
     figures: dict[str, float]
@@ -85,7 +84,7 @@ def _reached_columns(track: Track) -> Table:
         "speed_m_s": _norm(velocity),
         "acceleration_m_s2": _norm(acceleration),
         "effort_rad": _norm(moved),
-        "manipulability": manipulability(track.jacobian),
+        "manipulability": track.manipulability,
         **{f"q{j + 1}_rad": track.posture[:, j] for j in joints},
         **{f"command{j + 1}_rad_s": track.command[:, j] for j in joints},
     }

@@ -1,6 +1,7 @@
 """Where the arm begins a drawing; what is said of one that leaves its reach."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dqpaint import dq
 from dqpaint.language.diagnostics import Diagnostic, ScriptError
@@ -80,12 +81,18 @@ def _farthest(motion: Motion, kinematics: Kinematics, row: int, miss: Miss) -> t
 
 
 def _advice(motion: Motion, kinematics: Kinematics, row: int) -> str:
-    """A scale about the drawing's origin at which the same point is reached, if there is one."""
-    local = dq.mul(dq.conj(motion.canvas), motion.pose[row])
-    for scale in SCALES:
-        smaller = dq.pose_from(scale * dq.translation(local), dq.rotation(local))
-        pose = dq.mul(motion.canvas, smaller)
-        if not isinstance(find_start(kinematics, pose[None], np.zeros(1)), Miss):
+    """A scale about the drawing's origin at which the arm reaches all of it, if there is one."""
+    rows = waypoints(motion.stroke)
+    local = dq.mul(dq.conj(motion.canvas), motion.pose)
+    places, turns = dq.translation(local), dq.rotation(local)
+
+    def reached(scale: float, these: NDArray[np.intp]) -> bool:
+        poses = dq.mul(motion.canvas, dq.pose_from(scale * places[these], turns[these]))
+        return isinstance(find_start(kinematics, poses, motion.t[these]), Start)
+
+    worst = np.array([row])
+    for scale in SCALES:  # the worst point first: it is soon answered
+        if reached(scale, worst) and reached(scale, np.unique(np.append(rows, row))):
             return (
                 f"shift the drawing with place, or make it smaller: with scale {scale:.2g} ... end"
             )

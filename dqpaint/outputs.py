@@ -167,7 +167,7 @@ def write(stem: Path, contents: dict[str, bytes]) -> list[Path]:
         contents: the bytes of each file by its ending.
 
     Raises:
-        OutputError: a file could not be written; none of them was changed.
+        OutputError: a file could not be written; every file there is whole, the old or the new one.
     """
     made: list[tuple[str, Path]] = []
     try:

@@ -1,16 +1,17 @@
 """The whole flow, from a drawing's text to its painting, to be read in a minute."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import perf_counter
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.language.program import Program
+from dqpaint.light.camera import parse_view
+from dqpaint.light.film import Film
 from dqpaint.metrics import Metrics, Table, measure
 from dqpaint.motion import Motion, plan
 from dqpaint.out_of_reach import begin, check_worst
@@ -42,7 +43,7 @@ class Painting:
         return self.picture.image
 
     @property
-    def film(self) -> Any:
+    def film(self) -> Film:
         """The linear film the picture was developed from."""
         return self.picture.film
 
@@ -83,6 +84,7 @@ def paint(
         DqpaintError: the run or the light came to nothing.
     """
     clock = Stopwatch()
+    parse_view(settings.view)  # a slip there is told before anything is simulated
     controller = CONTROLLERS[settings.controller]
     gains = controller.read_gains(settings.gains)
     make_plant = PLANTS[settings.plant]
@@ -112,7 +114,7 @@ class Stopwatch:
         self.seconds: dict[str, float] = {}
 
     @contextmanager
-    def __call__(self, stage: str):  # type: ignore[no-untyped-def]
+    def __call__(self, stage: str) -> Iterator[None]:
         """Time what happens inside."""
         begin = perf_counter()
         yield

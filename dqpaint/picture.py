@@ -65,7 +65,7 @@ def take(motion: Motion, points: Floats, settings: Settings) -> Picture:
     size = (settings.width, settings.height)
     asked = shine(motion.points, _metered(motion), motion.period)
     front = dq.matrix_from_quaternion(motion.front)
-    shown = motion.points[motion.lit | np.roll(motion.lit, 1)]
+    shown = shine(motion.points, motion.light, motion.period).lit_points
     camera = frame(shown, front, parse_view(settings.view), size)
     psf = point_spread(settings.height)
     exposure = automatic_exposure(asked, camera, psf)

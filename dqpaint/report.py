@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from dqpaint.language import render
-from dqpaint.motion import Motion
+from dqpaint.motion import Motion, summary_line
 from dqpaint.paint import Painting
 from dqpaint.picture import Picture
 from dqpaint.robots.limits import Clamp
@@ -22,7 +22,7 @@ def of_painting(painting: Painting, written: Sequence[Path]) -> str:
     figures, settings = painting.metrics.figures, painting.settings
     gains = ", ".join(f"{name} = {value:.4g}" for name, value in painting.gains.items())
     rows = [
-        ("drawing", drawing_line(painting.motion)),
+        ("drawing", summary_line(painting.motion)),
         ("arm", f"{painting.robot}, {settings.plant}"),
         ("controller", f"{settings.controller}  {gains}"),
         ("position error", _spread(figures, "position_error", "m", 1e3, "mm")),
@@ -38,17 +38,8 @@ def of_painting(painting: Painting, written: Sequence[Path]) -> str:
 
 def of_preview(motion: Motion, picture: Picture, written: Sequence[Path]) -> str:
     """The table that follows `preview`."""
-    rows = [("drawing", drawing_line(motion)), ("light", light_line(picture)), *_files(written)]
+    rows = [("drawing", summary_line(motion)), ("light", light_line(picture)), *_files(written)]
     return table(rows)
-
-
-def drawing_line(motion: Motion) -> str:
-    """Length, time, steps and box of a drawing."""
-    box = " x ".join(f"{side * 1e3:.0f}" for side in motion.box)
-    return (
-        f"{Path(motion.program.name).name}: {motion.length * 1e3:.0f} mm in {motion.t[-1]:.2f} s, "
-        f"{len(motion.t) - 1} steps of {motion.period * 1e3:g} ms, box {box} mm"
-    )
 
 
 def light_line(picture: Picture) -> str:

@@ -8,6 +8,8 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from dqpaint.errors import UsageError
 
+DEFAULT_CONTROLLER = "hinf"
+DEFAULT_PLANT = "stiff"
 LARGEST = 8192  # columns or rows of a picture
 SMALLEST = 16
 
@@ -17,10 +19,10 @@ class Settings(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    controller: str = "hinf"
+    controller: str = DEFAULT_CONTROLLER
     gains: dict[str, float] = Field(default_factory=dict)
     robot: str | None = None  # None: the file's own robot line, else the iiwa
-    plant: str = "stiff"
+    plant: str = DEFAULT_PLANT
     start: Literal["first", "home"] = "first"
     width: Annotated[int, Field(ge=SMALLEST, le=LARGEST)] = 1280
     height: Annotated[int, Field(ge=SMALLEST, le=LARGEST)] = 720

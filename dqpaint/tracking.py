@@ -12,11 +12,12 @@ from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.motion import Motion
 from dqpaint.plants.plant import PlantMaker
-from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.kinematics import Kinematics, manipulability
 from dqpaint.robots.limits import Bounds, Clamp, clamps
 from dqpaint.robots.resolver import PULL, resolve
 
 REPORT_EVERY = 50  # rows
+BLOCK = 512  # rows whose Jacobians are kept
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class Track:
         motion: what was asked.
         posture: measured joint angles (N, n) [rad].
         pose: measured tool poses (N, 8) in the base frame, signs continuous.
-        jacobian: J_w (N, 6, n) at the measured postures.
+        manipulability: sqrt(det(J J')) (N,) at the measured postures.
         command: joint rates (N, n) [rad/s] the arm was given.
         effort: motor torques (N, n) [Nm], the largest seen in the period before the row.
         clamps: limits that held a joint back.
@@ -39,13 +40,13 @@ class Track:
     motion: Motion
     posture: Floats
     pose: Floats
-    jacobian: Floats
+    manipulability: Floats
     command: Floats
     effort: Floats
     clamps: tuple[Clamp, ...]
 
     def __post_init__(self) -> None:
-        for array in (self.posture, self.pose, self.jacobian, self.command, self.effort):
+        for array in (self.posture, self.pose, self.manipulability, self.command, self.effort):
             array.setflags(write=False)
 
     @property
@@ -81,7 +82,8 @@ def track(
     n, joints = len(motion.t), card.joints
     posture, effort = np.empty((n, joints)), np.zeros((n, joints))
     wanted, command = np.empty((n, joints)), np.empty((n, joints))
-    pose, jacobian = np.empty((n, 8)), np.empty((n, 6, joints))
+    pose, measures = np.empty((n, 8)), np.empty(n)
+    jacobian = np.empty((BLOCK, 6, joints))
     bounds = Bounds(card, motion.period)
     plant = make_plant(card, start, motion.period)
     asked = zip(motion.pose, motion.twist, motion.acceleration, motion.t.tolist(), strict=True)
@@ -93,10 +95,13 @@ def track(
             twist = controller.law(seen, gains)
             rates = resolve(J, dq.translation(x), twist, PULL * (start - q))
             given = bounds.clip(rates, q)
-            posture[k], effort[k], pose[k], jacobian[k] = q, plant.effort, x, J
+            posture[k], effort[k], pose[k], jacobian[k % BLOCK] = q, plant.effort, x, J
             wanted[k], command[k] = rates, given
             if k % REPORT_EVERY == 0:
                 progress(k / n)
+            if k % BLOCK == BLOCK - 1 or k == n - 1:  # many at once cost less than one by one
+                first = k - k % BLOCK
+                measures[first : k + 1] = manipulability(jacobian[: k + 1 - first])
             if k < n - 1:
                 plant.run(given)
     except np.linalg.LinAlgError:  # a posture that is no number any more has no singular values
@@ -107,7 +112,7 @@ def track(
         raise _lost(float(motion.t[-1]))
     held = clamps(card, motion.t, motion.line, posture, wanted, command, effort)
     pose[0] = dq.nearest(pose[0], motion.pose[0])
-    return Track(motion, posture, dq.continuous(pose), jacobian, command, effort, held)
+    return Track(motion, posture, dq.continuous(pose), measures, command, effort, held)
 
 
 def _lost(time: float) -> DqpaintError:

@@ -194,6 +194,10 @@ def test_nearest_takes_the_short_way_and_continuous_never_jumps(rng):
     y = random_poses(rng, 100)
     dots = (dq.nearest(x, y)[:, :4] * y[:, :4]).sum(1)
     assert (dots >= 0).all()
+    far = x.copy()
+    far[:, 4:] *= -100.0  # the side is that of the rotations, whatever the dual parts are
+    assert ((dq.nearest(far, y)[:, :4] * y[:, :4]).sum(1) >= 0).all()
+    assert all(dq.nearest(a, b)[:4] @ b[:4] >= 0 for a, b in zip(far, y, strict=True))
     path = dq.sclerp(x[0], y[0], np.linspace(0, 1, 50))
     torn = path * rng.choice([-1, 1], 50)[:, None]
     whole = dq.continuous(torn)

@@ -10,7 +10,7 @@ from dqpaint.metrics import measure, motion_columns
 from dqpaint.motion import plan
 from dqpaint.plants import PLANTS
 from dqpaint.robots.card import read_card
-from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.kinematics import Kinematics, manipulability
 from dqpaint.tracking import track
 
 CARD = read_card("iiwa")
@@ -55,9 +55,9 @@ def test_error_columns_by_homogeneous_matrices(run, metrics):
     trace = np.trace(T[:, :3, :3] @ T_d[:, :3, :3].swapaxes(1, 2), axis1=1, axis2=2)
     angle = np.arccos(np.clip((trace - 1) / 2, -1, 1))
     np.testing.assert_allclose(metrics.table["orientation_error_rad"], angle, atol=1e-7)
-    # |1 - x* x_d|^2 = |1 - r* r_d|^2 + |d|^2, and |1 - r_e| = 2 sin(angle / 4)
-    primary = 2 * np.sin(angle / 4)
-    assert (metrics.table["invariant_error"] >= primary - 1e-9).all()
+    # |1 - x* x_d|^2 = |1 - r* r_d|^2 + |d|^2: 2 sin(angle / 4), and half the distance
+    wanted = np.sqrt((2 * np.sin(angle / 4)) ** 2 + (gap / 2) ** 2)
+    np.testing.assert_allclose(metrics.table["invariant_error"], wanted, atol=1e-7)
 
 
 def test_rates_are_those_of_what_was_measured(run, metrics):
@@ -87,7 +87,18 @@ def test_figures_are_integrals_and_spreads_of_the_columns(run, metrics):
     np.testing.assert_allclose(
         table["acceleration_m_s2"][1:-1], np.linalg.norm(second, axis=1) / 0.01**2, atol=1e-9
     )
+    assert figures["acceleration_integral"] == pytest.approx(
+        0.01 * table["acceleration_m_s2"][:-1].sum()
+    )
+    turned = table["orientation_error_rad"]
+    assert figures["orientation_error_rms_rad"] == pytest.approx(np.sqrt((turned**2).mean()))
     assert table["acceleration_m_s2"][-1] == table["acceleration_m_s2"][-2]
+
+
+def test_manipulability_is_that_of_the_measured_posture(run, metrics):
+    for k in (0, 57, 120):
+        J = ARM.pose_and_jacobian(run.posture[k])[1]
+        assert metrics.table["manipulability"][k] == pytest.approx(manipulability(J), rel=1e-10)
 
 
 def test_light_and_lines_follow_the_text(metrics):

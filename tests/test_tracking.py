@@ -127,6 +127,7 @@ def test_a_position_limit_that_holds_a_joint_is_named_and_kept():
     assert result.posture[:, 6].max() == pytest.approx(CARD.upper[6], abs=1e-6)
 
 
+@pytest.mark.slow
 def test_an_effort_limit_that_holds_a_joint_is_named():
     weak = CARD.limits.model_copy(update={"effort_Nm": (320, 30, 176, 176, 110, 40, 40)})
     motion = asked("period 8 ms\nhold 0.2 s\n")
@@ -147,7 +148,7 @@ def test_rows_say_what_was_measured_before_the_command_given():
     assert ((result.pose[:, :4] * motion.pose[:, :4]).sum(1) > 0).all()
 
 
-@pytest.mark.parametrize("plant", PLANTS)
+@pytest.mark.parametrize("plant", ["ideal", pytest.param("stiff", marks=pytest.mark.slow)])
 def test_two_runs_are_the_same_bit_for_bit(plant):
     motion = asked("star")
     first, second = (run(motion, plant=plant) for _ in range(2))
@@ -165,6 +166,7 @@ def test_signs_of_measured_poses_never_jump(law):
     assert result.pose[0, :4] @ result.motion.pose[0, :4] > 0
 
 
+@pytest.mark.slow
 def test_a_motor_that_saturates_only_while_it_starts_is_named():
     """A line begun at full speed: the first milliseconds of a period ask most of the motors."""
     motion = asked("law constant\nspeed 500 mm/s\nline to (100, 0) mm\nline to (0, 0) mm\n")
@@ -187,6 +189,6 @@ def test_a_law_that_leaves_the_numbers_is_an_error():
     from dataclasses import replace
 
     broken = replace(CONTROLLERS["hinf"], law=lambda _seen, _gains: np.full(6, np.inf))
-    motion = asked(CIRCLE)
-    with np.errstate(all="ignore"), pytest.raises(DqpaintError, match="left the numbers"):
-        track(motion, ARM, CARD.home, PLANTS["ideal"], broken, broken.read_gains({}))
+    for text in (CIRCLE, "period 8 ms\nhold 80 ms\n", "period 8 ms\nhold 8 ms\n"):
+        with np.errstate(all="ignore"), pytest.raises(DqpaintError, match="left the numbers"):
+            track(asked(text), ARM, CARD.home, PLANTS["ideal"], broken, broken.read_gains({}))

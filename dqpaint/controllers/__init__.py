@@ -13,6 +13,4 @@ from dqpaint.controllers.law import CONTROLLERS, Controller, Gains, Seen
 for _module in pkgutil.iter_modules(__path__):
     importlib.import_module(f"{__name__}.{_module.name}")
 
-DEFAULT_CONTROLLER = "hinf"
-
-__all__ = ["CONTROLLERS", "DEFAULT_CONTROLLER", "Controller", "Gains", "Seen"]
+__all__ = ["CONTROLLERS", "Controller", "Gains", "Seen"]

@@ -130,7 +130,7 @@ class _Parser:
                 "'end' without a block to close",
                 line.tokens[0].span,
                 "",
-                "only repeat, with and def are closed with 'end'",
+                "only repeat and with are closed with 'end'",
             )
         self._close()
         if line.tokens[1].kind != "end" and not line.problems:

@@ -13,7 +13,7 @@ class PartWord:
 
     Attributes:
         word: as it is written.
-        takes: the kind of value: a name from `kinds.KINDS`, or `tool` or `light`, which have a
+        takes: the kind of value: a dimension or a kind of value, or `tool` or `light`, which have a
             little grammar of their own.
         says: its meaning in a line.
         example: the word with a value, fit to be pasted.

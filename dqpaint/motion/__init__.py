@@ -2,9 +2,10 @@
 
 `shapes` says what each stroke is (one screw, or place and orientation apart), `laws` how it
 runs in time, `lengths` and `timetable` how long it takes, `plan` puts the samples together. A new
-time law is a function in `laws` under `@LAWS.add`, and its name in the language's words.
+time law is a function in `laws` under `@LAWS.add` with its `PEAK`, and its name in the language.
 """
 
 from dqpaint.motion.plan import Motion, plan
+from dqpaint.motion.summary import summary_line
 
-__all__ = ["Motion", "plan"]
+__all__ = ["Motion", "plan", "summary_line"]

@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.language.diagnostics import Diagnostic, ScriptError, Severity
+from dqpaint.language.diagnostics import Diagnostic, ScriptError
+from dqpaint.language.findings import EnoughError, Findings
 from dqpaint.language.program import Program, Step
 from dqpaint.motion.lengths import flow_by_length, length_fraction
 from dqpaint.motion.shapes import Flow, pose_array
@@ -86,18 +87,24 @@ def plan(program: Program, canvas: Floats) -> Motion:
     Raises:
         ScriptError: a stroke without a timetable, or more samples than the budget.
     """
-    strokes, findings = timetable(program)
-    flows = []
-    for stroke in strokes:
-        try:
-            with stroke_errors(stroke.segment):
-                flows.append(flow_at(stroke, stroke.samples, program.period))
-                check_finite(flows[-1][0])
-        except StrokeError as fault:
-            findings += fault.diagnostics
-    if any(f.severity is Severity.ERROR for f in findings):
-        raise ScriptError(program.name, program.text, tuple(findings))
-    return _assemble(program, strokes, flows, canvas, tuple(findings))
+    findings = Findings()
+    strokes: list[Stroke] = []
+    flows: list[tuple[Flow, Floats]] = []
+    try:
+        strokes = timetable(program, findings)
+        for stroke in strokes:
+            try:
+                with stroke_errors(stroke.segment):
+                    flows.append(flow_at(stroke, stroke.samples, program.period))
+                    check_finite(flows[-1][0])
+            except StrokeError as fault:
+                for diagnostic in fault.diagnostics:
+                    findings.add(diagnostic)
+    except EnoughError:
+        pass
+    if findings.errors:
+        raise ScriptError(program.name, program.text, findings.ordered())
+    return _assemble(program, strokes, flows, canvas, findings.ordered())
 
 
 def check_finite(flow: Flow) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 
 from dqpaint.dq import Floats
 from dqpaint.language.diagnostics import Diagnostic, ScriptError
+from dqpaint.language.findings import Findings
 from dqpaint.language.program import Cruise, Lasting, Program, Samples, Segment, Step, Still
 from dqpaint.motion.laws import LAWS, Progress, Rates, cruise_time, scale_rates
 from dqpaint.motion.lengths import Extent, has_cusp, measure
@@ -68,10 +69,13 @@ def stroke_errors(segment: Segment) -> Iterator[None]:
         raise StrokeError(*problem.diagnostics) from None
 
 
-def timetable(program: Program) -> tuple[list[Stroke], list[Diagnostic]]:
-    """The strokes of a program, and what is wrong or worth saying about their times."""
+def timetable(program: Program, findings: Findings) -> list[Stroke]:
+    """The strokes of a program; what is wrong or worth saying about their times is added.
+
+    Raises:
+        EnoughError: the list of errors is full.
+    """
     strokes: list[Stroke] = []
-    findings: dict[tuple[str, int], Diagnostic] = {}
     total = 1
     for segment in program.segments:
         try:
@@ -83,20 +87,14 @@ def timetable(program: Program) -> tuple[list[Stroke], list[Diagnostic]]:
                 raise StrokeError(_too_long(segment, stroke.count * program.period))
         except StrokeError as fault:
             for diagnostic in fault.diagnostics:
-                _keep(findings, diagnostic)
+                findings.add(diagnostic)
             if total > MOST_SAMPLES or total * program.period > MOST_SECONDS:
                 break
             continue
         strokes.append(stroke)
         if note is not None:
-            _keep(findings, note)
-    return strokes, list(findings.values())
-
-
-def _keep(findings: dict[tuple[str, int], Diagnostic], new: Diagnostic) -> None:
-    """Each finding once for each place: the passes of a repeat say the same."""
-    assert new.span is not None
-    findings.setdefault((new.code, new.span.start), new)
+            findings.add(note)
+    return strokes
 
 
 def _stroke(segment: Segment, period: float) -> tuple[Stroke, Diagnostic | None]:
@@ -178,7 +176,7 @@ def _cusp(segment: Segment) -> Diagnostic:
 def _fast_end(segment: Segment) -> Diagnostic:
     return Diagnostic(
         "E322",
-        "the law starts or ends faster than the speed of this stroke",
+        "the rates of the law carry this stroke beyond its speed",
         segment.span,
         help="lower the rates in the brackets, raise speed, or give a time: in 10 s",
     )

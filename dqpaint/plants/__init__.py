@@ -12,6 +12,4 @@ from dqpaint.plants.plant import PLANTS, Plant
 for _module in pkgutil.iter_modules(__path__):
     importlib.import_module(f"{__name__}.{_module.name}")
 
-DEFAULT_PLANT = "stiff"
-
-__all__ = ["DEFAULT_PLANT", "PLANTS", "Plant"]
+__all__ = ["PLANTS", "Plant"]

@@ -1,6 +1,7 @@
 """The stiff arm: PyBullet's rigid bodies under velocity motors."""
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -41,7 +42,8 @@ class Stiff:
                 physicsClientId=self._client,
             )
             bullet.resetJointState(self._body, joint, angle, 0.0, self._client)
-        self.posture, self.effort = self._state()
+        self.posture = posture.copy()
+        self.effort = np.zeros(card.joints)
 
     def _build(self, card: Card, step: float) -> int:
         here = {"physicsClientId": self._client}
@@ -68,17 +70,17 @@ class Stiff:
         )
         # what a new command asks of the motors is most in the first step
         bullet.stepSimulation(self._client)
-        first = self._state()[1]
+        first = self._states()
         for _ in range(self._steps - 1):
             bullet.stepSimulation(self._client)
-        self.posture, last = self._state()
-        self.effort = np.where(np.abs(first) > np.abs(last), first, last)
+        last = self._states()
+        self.posture = np.array([state[0] for state in last])
+        self.effort = np.array([max(a[3], b[3], key=abs) for a, b in zip(first, last, strict=True)])
 
     def close(self) -> None:
         """End the simulation."""
         bullet.disconnect(self._client)
 
-    def _state(self) -> tuple[Floats, Floats]:
-        """Joint angles [rad] and motor torques [Nm] (n,)."""
-        states = bullet.getJointStates(self._body, self._joints, self._client)
-        return np.array([state[0] for state in states]), np.array([state[3] for state in states])
+    def _states(self) -> Any:
+        """Of each joint: angle [rad], rate, forces, motor torque [Nm]."""
+        return bullet.getJointStates(self._body, self._joints, self._client)

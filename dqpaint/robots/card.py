@@ -2,7 +2,7 @@
 
 import importlib.util
 import tomllib
-from functools import cache, cached_property
+from functools import cache
 from importlib import resources
 from pathlib import Path
 from typing import Annotated, Self
@@ -84,8 +84,6 @@ class Limits(_Part):
 
 class Card(_Part):
     """One arm: chain, tool, canvas, home posture, limits, and where the numbers come from."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, ignored_types=(cached_property,))
 
     name: str
     title: str

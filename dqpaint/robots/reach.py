@@ -14,13 +14,14 @@ from dqpaint.dq import Floats
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.resolver import PULL, resolve
 
-CANDIDATES = 24
+CANDIDATES = 16
 MORE_CANDIDATES = 160
-WAYPOINTS = 40
+WAYPOINTS = 32
 EXACT = 1e-9  # [rad, m] from the pose where the arm begins
 ON_THE_WAY = 1e-4  # [rad, m] is close enough for a forecast of margins
 ARRIVED = 1e-3  # [rad, m]: farther off, a pose counts as missed
 ITERATIONS = 30
+DESCENT, GENTLE = 150, 0.2  # steps, and their part of a full one, towards a pose out of reach
 TURN = 0.3  # [m] that count as much as a radian
 EQUAL = np.radians(1.0)  # margins that differ by less count as equal
 STEP = 0.6  # [rad] a joint moves at the most in one iteration
@@ -152,11 +153,11 @@ def _solve(
         if within is not None:
             q = np.clip(q, *within)
         wish = np.zeros_like(q)
-    return q, np.asarray(largest < ARRIVED)
+    return q, np.asarray(largest < (ARRIVED if within is None else close))
 
 
 def _error(pose: Floats, x: Floats) -> Floats:
-    """The displacement (M, 6) from poses x (M, 8) to one pose, to first order."""
+    """The displacement (M, 6) from poses x (M, 8) to one pose."""
     return 2 * dq.log(dq.mul(pose, dq.conj(x)))
 
 
@@ -167,13 +168,13 @@ def _closest(
     card = kinematics.card
     q = card.home[None] if postures is None else postures
     best = Miss(index, np.inf, 0.0)
-    for _ in range(150):
+    for _ in range(DESCENT):
         x, J = kinematics.poses_and_jacobians(q)
         far = np.linalg.norm(dq.translation(poses[index]) - dq.translation(x), axis=1)
         turned = 2 * np.linalg.norm(dq.log(dq.mul(poses[index], dq.conj(x)))[:, :3], axis=1)
         i = int(np.argmin(far + TURN * turned))
         here = Miss(index, float(far[i]), float(turned[i]))
         best = min(best, here, key=lambda miss: miss.badness)
-        step = 0.2 * resolve(J, dq.translation(x), _error(poses[index], x), np.zeros_like(q))
+        step = GENTLE * resolve(J, dq.translation(x), _error(poses[index], x), np.zeros_like(q))
         q = np.clip(q + np.clip(step, -STEP, STEP), card.lower, card.upper)
     return best

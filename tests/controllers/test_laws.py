@@ -131,6 +131,17 @@ def test_feed_forward_leaves_no_lag_on_a_moving_pose(rng, name):
     assert np.abs(dq.log(off[-1])).max() < 1e-9
 
 
+def test_the_feed_forward_of_hinf_is_the_asked_twist_carried_to_the_error(rng):
+    """hinf - hinf-set = Ad(x_e) xi_d, by the 6 x 6 matrix of a homogeneous one."""
+    for seen in states(rng, 30, size=2.0):
+        T = dq.matrix_from_pose(seen.pose) @ np.linalg.inv(dq.matrix_from_pose(seen.pose_d))
+        R, p = T[:3, :3], T[:3, 3]
+        cross = np.array([[0, -p[2], p[1]], [p[2], 0, -p[0]], [-p[1], p[0], 0]])
+        wanted = np.r_[R @ seen.twist_d[:3], R @ seen.twist_d[3:] + cross @ R @ seen.twist_d[:3]]
+        added = law("hinf")(seen) - law("hinf-set")(seen)
+        np.testing.assert_allclose(added, wanted, atol=1e-11)
+
+
 def test_hinf_error_obeys_its_own_differential_equation(rng):
     """d(2 (1 - eta))/dt = -K_O |Im r_e|^2 and d|p_e|^2/dt = -2 K_T |p_e|^2, from large errors."""
     x, x_d = random_poses(rng, 2)

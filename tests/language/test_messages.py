@@ -57,7 +57,7 @@ def star(r)~line by (r, 0)~end|E122|1:1 def|'def' is not in this version of dqpa
 with rotate 3 deg~period 3 ms~end|E123|2:1 period|'period' stands outside of all blocks||write it at the top of the file
 line by (1,0) mm~place at (0, 0)|E124|2:1 place|'place' comes too late: the tool has moved already|(first movement: 1:1)|write it before the first movement
 repeat 3~line by (1,0) mm|E130|1:1 repeat|this 'repeat' has no 'end'|opened here|add a line 'end' after the last line of the block
-line by (1,0) mm~end|E131|2:1 end|'end' without a block to close||only repeat, with and def are closed with 'end'
+line by (1,0) mm~end|E131|2:1 end|'end' without a block to close||only repeat and with are closed with 'end'
 # nothing|E140||this file draws nothing||a drawing can be as short as: line to (100, 0) mm
 let a = 9^9^9|E201|1:9 9^9^9|this number is too large||
 let a = 1e300*1e300|E201|1:9 1e300*1e300|this number is too large||

@@ -36,7 +36,8 @@ def test_boundary_rates_are_kept(name):
 
 @pytest.mark.parametrize(("name", "rates"), [
     ("constant", ()), ("trapezoid", ()), ("cubic", ()), ("quintic", ()),
-    ("cubic", (0.2, 0.0)), ("cubic", (0.9, 0.9)), ("quintic", (0.1, 0.3, 0.05, -0.1)),
+    ("cubic", (0.2, 0.0)), ("cubic", (0.9, 0.9)), ("cubic", (-0.9, -0.9)), ("cubic", (-0.5, 0.1)),
+    ("quintic", (0.1, 0.3, 0.05, -0.1)),
 ])  # fmt: skip
 def test_cruising_never_exceeds_the_speed_and_wastes_no_time(name, rates):
     least = 1.7  # path over speed: the speed is 1 / 1.7 of the path a second
@@ -45,6 +46,11 @@ def test_cruising_never_exceeds_the_speed_and_wastes_no_time(name, rates):
     rate = np.abs(LAWS[name](TAU, scale_rates(end_rates, time)).rate).max() / time
     assert rate <= 1 / least * (1 + 1e-6)
     assert rate >= 1 / least * (1 - 1e-6)
+
+
+@pytest.mark.parametrize("rates", [(-3.0, 0.5), (0.5, -3.0)])
+def test_the_peak_of_a_law_that_runs_backwards_is_its_fastest_either_way(rates):
+    assert peak_rate("cubic", rates) == pytest.approx(np.abs(LAWS["cubic"](TAU, rates).rate).max())
 
 
 def test_an_end_faster_than_the_speed_has_no_time():

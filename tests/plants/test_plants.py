@@ -6,9 +6,10 @@ import sys
 import numpy as np
 import pytest
 
-from dqpaint.plants import PLANTS
+from dqpaint.plants import PLANTS, stiff
 from dqpaint.robots.card import read_card
 
+pytestmark = pytest.mark.slow
 CARD = read_card("iiwa")
 PERIOD = 0.008
 
@@ -79,6 +80,15 @@ def test_physics_steps_divide_the_period(period):
     rates = np.tile([0.3, -0.2, 0.1, 0.2, -0.3, 0.1, 0.2], (40, 1))
     postures, _ = run("stiff", rates, period=period)
     np.testing.assert_allclose(postures[-1] - postures[0], 40 * period * rates[0], atol=2e-4)
+
+
+@pytest.mark.parametrize(("period", "steps"), [(0.008, 8), (0.0015, 2), (0.0007, 1), (0.003, 3)])
+def test_physics_steps_are_at_most_a_millisecond(period, steps, monkeypatch):
+    done = []
+    step = stiff.bullet.stepSimulation
+    monkeypatch.setattr(stiff.bullet, "stepSimulation", lambda client: done.append(step(client)))
+    run("stiff", np.zeros((1, 7)), period=period)
+    assert len(done) == steps
 
 
 @pytest.mark.slow

@@ -6,7 +6,7 @@ import pytest
 from dqpaint import dq
 from dqpaint.robots.card import read_card
 from dqpaint.robots.kinematics import Kinematics
-from dqpaint.robots.resolver import LENGTH, THRESHOLD, resolve, to_tool
+from dqpaint.robots.resolver import LENGTH, THRESHOLD, damped_inverse, resolve, to_tool
 
 
 @pytest.fixture(scope="module")
@@ -71,6 +71,14 @@ def test_rates_stay_bounded_into_a_singularity_and_change_smoothly(arm):
     assert size.max() <= 0.1 / LENGTH / THRESHOLD * 1.3  # 1/s of the largest damped gain
     assert np.abs(np.diff(size)).max() < 0.2 * size.max()
     assert size[-1] < 0.2 * size.max()
+
+
+def test_damping_is_what_it_says():
+    t = THRESHOLD
+    squares = np.array([0.0, (0.5 * t) ** 2, t**2, (2 * t) ** 2])
+    damped = [4 / t**2, 1 / (0.25 * t**2 + 0.25 * 0.75 * t**2), 1 / t**2, 0.25 / t**2]
+    np.testing.assert_allclose(damped_inverse(squares), damped, rtol=1e-12)
+    np.testing.assert_allclose(damped_inverse(squares[2:]), damped[2:], rtol=1e-12)
 
 
 def test_directions_that_are_healthy_stay_exact_at_a_singularity(arm):

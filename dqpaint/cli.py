@@ -201,7 +201,7 @@ def list_(
         print(listing.text(lists))
 
 
-@app.command(epilog="Examples:\n\n  dqpaint gallery\n\n  dqpaint gallery --out /tmp/gallery")
+@app.command(epilog="Examples:\n\n  dqpaint gallery\n\n  dqpaint gallery --out pictures")
 def gallery(
     out: Annotated[str, typer.Option(metavar="FOLDER", help="where the pictures go")] = "gallery",
 ) -> None:

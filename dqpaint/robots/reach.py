@@ -18,8 +18,7 @@ CANDIDATES = 16
 MORE_CANDIDATES = 160
 WAYPOINTS = 32
 EXACT = 1e-9  # [rad, m] from the pose where the arm begins
-ON_THE_WAY = 1e-4  # [rad, m] is close enough for a forecast of margins
-ARRIVED = 1e-3  # [rad, m]: farther off, a pose counts as missed
+ON_THE_WAY = 1e-3  # [rad, m] is close enough for a forecast; farther off, a pose is missed
 ITERATIONS = 30
 DESCENT, GENTLE = 150, 0.2  # steps, and their part of a full one, towards a pose out of reach
 TURN = 0.3  # [m] that count as much as a radian
@@ -153,7 +152,7 @@ def _solve(
         if within is not None:
             q = np.clip(q, *within)
         wish = np.zeros_like(q)
-    return q, np.asarray(largest < (ARRIVED if within is None else close))
+    return q, np.asarray(largest < close)
 
 
 def _error(pose: Floats, x: Floats) -> Floats:

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from dqpaint.language import colours, space, taylor
 from dqpaint.language.diagnostics import Problem, Span, problem
-from dqpaint.language.syntax import Expression
+from dqpaint.language.syntax import Expression, Literal
 from dqpaint.language.taylor import Taylor
 from dqpaint.language.taylor import Value as Scalar
 from dqpaint.language.units import (
@@ -77,7 +77,9 @@ class Arguments:
         cure = f"write: {FUNCTIONS.get(self.function, self.function)}"
         plain = isinstance(value, Quantity) and value.dimension == PLAIN
         if plain and len(self.nodes) == 1 and dimension == ANGLE:
-            cure = f"say which: {self.function}({written} deg) or {self.function}({written} rad)"
+            join = " " if isinstance(self.nodes[i], Literal) else "*"  # a unit stands at a number
+            ways = (f"{self.function}({written}{join}{unit})" for unit in ("deg", "rad"))
+            cure = f"say which: {' or '.join(ways)}"
         elif plain and isinstance(value, Quantity) and not isinstance(value.value, Taylor):
             unit = plausible_unit(value.value, dimension)
             cure = f"did you mean {written} {unit}?" if unit else cure

@@ -5,12 +5,12 @@ from collections.abc import Iterable
 from dqpaint.language import functions
 from dqpaint.language.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.scope import BUILTINS, Scope
-from dqpaint.language.suggestions import closest, did_you_mean
+from dqpaint.language.suggestions import closest, did_you_mean, listed
 from dqpaint.language.syntax import Bracket, Call, Expression, Literal, Name, Sign
 from dqpaint.language.taylor import Taylor
 from dqpaint.language.units import FOREIGN_UNITS, PLAIN, UNITS, Dimension, plausible_unit
 from dqpaint.language.values import Point, Quantity, Value, describe, is_zero
-from dqpaint.language.words import CONSTANTS, FUNCTION_ALIASES, FUNCTIONS
+from dqpaint.language.words import CONSTANTS, FUNCTION_ALIASES, FUNCTIONS, LAW_ALIASES, LAWS
 
 
 def unknown(node: Name, scope: Scope, words: Iterable[str] = ()) -> Problem:
@@ -24,8 +24,13 @@ def unknown(node: Name, scope: Scope, words: Iterable[str] = ()) -> Problem:
         units = f"units are {', '.join(UNITS)}"
         cure = f"did you mean '{FOREIGN_UNITS[name]}'? {units}"
         return problem("E205", f"'{name}' is not known", node.span, "", cure)
-    meant = _abbreviation(name, scope) or closest(name, (*scope.names, *CONSTANTS, *words))
+    words = list(words)
+    aliases = LAW_ALIASES if set(LAWS) <= set(words) else {}
+    known = (*scope.names, *CONSTANTS, *words)
+    meant = _abbreviation(name, scope) or closest(name, known, aliases)
     cure = did_you_mean(meant) or f"name it first: let {name} = …"
+    if aliases and not meant:
+        cure = f"the laws are: {listed(LAWS)}"
     fix = Fix(f"write {meant}", node.span, meant) if meant else None
     return problem("E205", f"'{name}' is not known", node.span, "", cure, fix)
 
@@ -83,6 +88,12 @@ def unknown_function(node: Call, scope: Scope) -> Problem:
     if node.name in scope.names or node.name in BUILTINS:
         message = f"'{node.name}' is not a function"
         cure = f"a product is written {node.name}*(…)"
+        return problem("E206", message, span, "", cure)
+    if node.name in ("rgb", "RGB", "rgba"):
+        message, cure = (
+            f"there is no function '{node.name}'",
+            'write the colour in quotes: "#ff8800"',
+        )
         return problem("E206", message, span, "", cure)
     meant = closest(node.name, functions.TABLE, FUNCTION_ALIASES)
     fix = Fix(f"write {meant}", span, meant) if meant in functions.TABLE else None

@@ -259,6 +259,9 @@ def _no_colour(cursor: Cursor) -> Problem:
     return problem("E108", "'light' needs a colour", span, "", cure)
 
 
+ROUND = ("radius", "r", "diameter")  # what people give an arc besides its centre
+
+
 def _unknown_part(cursor: Cursor, word: str) -> Problem:
     token, known = cursor.token, STATEMENTS[word]
     if token.text in NOT_YET:
@@ -269,9 +272,15 @@ def _unknown_part(cursor: Cursor, word: str) -> Problem:
     special = forms.misplaced(word, token)
     if special is not None:
         return special
+    if word == "arc" and token.text in ROUND:
+        cure = "the radius is the distance from here to the centre: first move to the circle"
+        message = f"'arc' has no part called '{token.text}'"
+        return problem("E110", message, token.span, "", cure)
     meant = closest(token.text, known.parts, PART_ALIASES)
     if meant not in known.parts:
         meant = closest(token.text, known.parts)
+    if not meant and after_number:
+        meant = closest(token.text, UNITS)
     cure = did_you_mean(meant) or f"its parts are: {listed(known.parts)}"
     fix = Fix(f"write {meant}", token.span, meant) if meant else None
     message = f"'{word}' has no part called '{token.text}'"
@@ -293,6 +302,8 @@ def _left_over(cursor: Cursor, word: str) -> Problem:
         return special
     if token.kind == "sign" and token.text == "=":
         cure = "only 'let' has a '='"
+    elif token.kind == "sign" and token.text == ",":
+        cure = "a point stands in brackets: (50, 0) mm; parts of a line need no commas"
     elif token.kind == "sign" and token.text == "%":
         cure = "only the brightness of a light is written in %"
     elif token.kind == "name" and token.text in STATEMENTS:

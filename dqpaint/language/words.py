@@ -250,7 +250,6 @@ STATEMENT_ALIASES = {
     "orient": "tool",
 }
 PART_ALIASES = {
-    "radius": "centre",
     "origin": "centre",
     "middle": "centre",
     "through": "via",
@@ -300,12 +299,19 @@ FUNCTIONS = {
     "rot": "rot(AXIS, ANGLE)",
     "quat": "quat(W, X, Y, Z)",
 }
+LAW_ALIASES = {
+    "linear": "constant",
+    "uniform": "constant",
+    "trapezoidal": "trapezoid",
+    "ramp": "trapezoid",
+    "smooth": "quintic",
+    "ease": "cubic",
+}
 FUNCTION_ALIASES = {
     "arcsin": "asin",
     "arccos": "acos",
     "arctan": "atan",
     "log": "ln",
-    "rgb": "hsv",
     "hsl": "hsv",
     "rotate": "rot",
     "euler": "rpy",

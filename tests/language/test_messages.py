@@ -107,6 +107,12 @@ line by (1,0) mm tool look (0, 5) mm|E252|1:1 line by (1,0) mm tool look (0, 5) 
 line by (1,0) mm tool look line (0,0) along x|E253|1:1 line by (1,0) mm tool look line (0,0) along x|the tool can't look at the line it is on||look at a line the tool does not go through
 curve (0, 0, t) for t from 0 to 1 mm tool follow|E254|1:7 (0, 0, t)|the curve stands still or goes along the axis, so it has no heading to follow||use: tool keep, or tool look
 screw to (1,2) mm|E255|1:10 (1,2) mm|'screw to' needs to know how the tool is held at the end||add: tool rpy(0 deg, 0 deg, 90 deg); to keep the tool as it is, use: line to
+law linear|E205|1:5 linear|'linear' is not known||did you mean 'constant'?
+law fancy|E205|1:5 fancy|'fancy' is not known||the laws are: constant, trapezoid, cubic, quintic
+light rgb(255,0,0)|E206|1:7 rgb|there is no function 'rgb'||write the colour in quotes: "#ff8800"
+curve (10 mm*sin(t), 0) for t from 0 to 1|E213|1:18 t|sin needs an angle, this is a plain number||say which: sin(t*deg) or sin(t*rad)
+line to 50 mm, 0 mm|E112|1:14 ,|expected the end of the line but found ','||a point stands in brackets: (50, 0) mm; parts of a line need no commas
+arc center (0,0) radius 20 mm angle 1 turn|E110|1:18 radius|'arc' has no part called 'radius'||the radius is the distance from here to the centre: first move to the circle
 period 20 s|E257|1:8 20 s|a period is from 0.01 ms to 10 s||an arm is controlled every few milliseconds: period 8 ms
 law cubic(1e300 mm/s, 0 mm/s)|E201|1:11 1e300 mm/s|this number is too large||
 line by (5,0) mm by (0,5) mm samples 1|E256|1:1 line by (5,0) mm by (0,5) mm samples 1|2 legs need at least 2 samples||write: samples 2

@@ -25,10 +25,19 @@ __version__ = "0.1.0"
 __all__ = ["DqpaintError", "Painting", "draw", "preview", "save"]
 
 
+_ROOMS = {
+    "Painting": "dqpaint.paint",
+    "draw": "dqpaint.api",
+    "preview": "dqpaint.api",
+    "save": "dqpaint.api",
+}
+
+
 def __getattr__(name: str) -> Any:
     """Import on first use: the command line must start without the simulator."""
-    if name in __all__:
-        return getattr(importlib.import_module("dqpaint.api"), name)
+    room = _ROOMS.get(name)
+    if room is not None:
+        return getattr(importlib.import_module(room), name)
     raise AttributeError(f"module 'dqpaint' has no attribute '{name}'")
 
 

@@ -1,20 +1,23 @@
 """The same from Python: `dqpaint.draw("star.traj", controller="hinf")`."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING
 
 from dqpaint import outputs
-from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.errors import UsageError
 from dqpaint.examples import find_drawing
 from dqpaint.language import read
 from dqpaint.motion import plan
-from dqpaint.paint import Painting, Stopwatch, paint
-from dqpaint.picture import Picture, take
 from dqpaint.robots.choose import card_for
 from dqpaint.settings import make_settings
 
-__all__ = ["DqpaintError", "Painting", "draw", "preview", "save"]
+if TYPE_CHECKING:
+    from dqpaint.paint import Painting
+    from dqpaint.picture import Picture
 
 
 def draw(
@@ -29,7 +32,7 @@ def draw(
     view: str | None = None,
     ev: float | None = None,
     progress: Callable[[float], None] = lambda _done: None,
-) -> Painting:
+) -> "Painting":
     """Paint a drawing with a simulated arm, as `dqpaint draw` does; nothing is written.
 
     Args:
@@ -52,16 +55,18 @@ def draw(
         controller=controller, gains=dict(gains) if gains else None, robot=robot, plant=plant,
         start=start, width=width, height=height, view=view, ev=ev,
     )  # fmt: skip
-    clock = Stopwatch()
-    with clock("language"):
-        program = read(find_drawing(str(drawing)))
+    begin = perf_counter()
+    program = read(find_drawing(str(drawing)))
+    seconds = perf_counter() - begin
+
+    from dqpaint.paint import paint  # a fault in the text is told before the simulator is loaded
+
     painting = paint(program, settings, progress)
-    painting.seconds.update(clock.seconds)
-    return painting
+    return replace(painting, seconds={"language": seconds, **painting.seconds})
 
 
 def save(
-    painting: Painting, out: str | PathLike[str] = ".", what: str = "png,csv,json"
+    painting: "Painting", out: str | PathLike[str] = ".", what: str = "png,csv,json"
 ) -> list[Path]:
     """Write the files of a painting, as `dqpaint draw` does.
 
@@ -89,11 +94,14 @@ def preview(
     size: tuple[int, int] | None = None,
     view: str | None = None,
     ev: float | None = None,
-) -> Picture:
+) -> "Picture":
     """The asked picture of a drawing, without an arm; arguments as those of `draw`."""
     width, height = _width_and_height(size)
     settings = make_settings(robot=robot, width=width, height=height, view=view, ev=ev)
     program = read(find_drawing(str(drawing)))
+
+    from dqpaint.picture import take
+
     card = card_for(program, settings.robot)
     motion = plan(program, card.canvas.pose)
     return take(motion, motion.points, settings)

@@ -94,35 +94,24 @@ def draw(
     save: Save = "png,csv,json",
 ) -> None:
     """Paint a drawing with an arm: picture, per-step CSV and summary."""
+    from dqpaint import api, outputs
     from dqpaint.examples import find_drawing
-    from dqpaint.settings import make_settings, parse_gains, parse_size
-
-    width, height = parse_size(size)
-    gains = parse_gains(gain or [])
-    settings = make_settings(
-        controller=controller, gains=gains, robot=robot, plant=plant, start=start,
-        width=width, height=height, view=view, ev=ev,
-    )  # fmt: skip
-    path = find_drawing(file)
-    program = _read(str(path))
-
-    from dqpaint import outputs, report
-    from dqpaint.light.camera import parse_view
-    from dqpaint.paint import paint
+    from dqpaint.settings import parse_gains, parse_size
     from dqpaint.terminal import Progress
 
-    parse_view(view)
     makers = outputs.choose(save)
+    path = find_drawing(file)
     stem = outputs.stem_for(out, f"{path.stem}-{controller}")
-    bar = Progress(path.name)
-    try:
-        painting = paint(program, settings, bar)
-    finally:
-        bar.close()
+    with Progress(path.name) as progress:
+        painting = api.draw(
+            path, controller=controller, gains=parse_gains(gain or []), robot=robot, plant=plant,
+            start=start, size=parse_size(size), view=view, ev=ev, progress=progress,
+        )  # fmt: skip
     written = outputs.write(stem, {end: make(painting) for end, make in makers.items()})
-    _remark(*report.remarks(painting))
-    print(report.of_painting(painting, written))
-    _show(painting.image)
+
+    from dqpaint import report
+
+    _finish(report.remarks(painting), report.of_painting(painting, written), painting.image)
 
 
 @app.command(
@@ -137,27 +126,18 @@ def preview(
     out: Out = None,
 ) -> None:
     """Take the asked picture, without an arm, at once; with length, time and brightness."""
+    from dqpaint import api, outputs
     from dqpaint.examples import find_drawing
-    from dqpaint.settings import make_settings, parse_size
+    from dqpaint.settings import parse_size
 
-    width, height = parse_size(size)
-    settings = make_settings(robot=robot, width=width, height=height, view=view, ev=ev)
     path = find_drawing(file)
-    program = _read(str(path))
-
-    from dqpaint import outputs, report
-    from dqpaint.motion import plan
-    from dqpaint.picture import take
-    from dqpaint.robots.choose import card_for
-
     stem = outputs.stem_for(out, f"{path.stem}-preview")
-    card = card_for(program, settings.robot)
-    motion = plan(program, card.canvas.pose)
-    picture = take(motion, motion.points, settings)
+    picture = api.preview(path, robot=robot, size=parse_size(size), view=view, ev=ev)
     written = outputs.write(stem, {".png": picture.png})
-    _remark(*report.notes(motion))
-    print(report.of_preview(motion, picture, written))
-    _show(picture.image)
+
+    from dqpaint import report
+
+    _finish(report.notes(picture.motion), report.of_preview(picture, written), picture.image)
 
 
 @app.command(epilog="Examples:\n\n  dqpaint check star\n\n  dqpaint check drawings/*.traj --json")
@@ -212,20 +192,13 @@ def gallery(
         print(path)
 
 
-def _read(path: str) -> Any:
-    from dqpaint.language import read
-
-    return read(path)
-
-
-def _remark(*texts: str) -> None:
-    for text in texts:
-        print(text, file=sys.stderr)
-
-
-def _show(image: Any) -> None:
+def _finish(remarks: list[str], table: str, image: Any) -> None:
+    """Say what there is to say, and show the picture to who can see it."""
     from dqpaint.terminal import blocks, shows_pictures
 
+    for text in remarks:
+        print(text, file=sys.stderr)
+    print(table)
     if shows_pictures(sys.stdout):
         print(blocks(image, shutil.get_terminal_size().columns))
 

@@ -8,45 +8,49 @@ import tempfile
 from collections.abc import Callable
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from dqpaint import __version__
 from dqpaint.errors import OutputError, UsageError
-from dqpaint.metrics import Table, motion_columns
-from dqpaint.paint import Painting
 from dqpaint.registry import Registry
 from dqpaint.robots.limits import UNITS
+
+if TYPE_CHECKING:
+    from dqpaint.metrics import Table  # they bring in the simulator, and types need none
+    from dqpaint.paint import Painting
 
 SCHEMA = "dqpaint-run-1"
 LIBRARIES = ("numpy", "opencv-python-headless", "pin", "pybullet")
 
-Output = Callable[[Painting], bytes]
+Output = Callable[["Painting"], bytes]
 OUTPUTS: Registry[Output] = Registry("output")
 
 
 @OUTPUTS.add("png")
-def png(painting: Painting) -> bytes:
+def png(painting: "Painting") -> bytes:
     """The picture."""
     return painting.picture.png
 
 
 @OUTPUTS.add("csv")
-def csv(painting: Painting) -> bytes:
+def csv(painting: "Painting") -> bytes:
     """One row a control step: what was asked, what was measured, the command then given."""
     return encode_csv(painting.table)
 
 
 @OUTPUTS.add("json")
-def summary(painting: Painting) -> bytes:
+def summary(painting: "Painting") -> bytes:
     """What was run and what came out, in figures."""
     return (json.dumps(summarise(painting), indent=2, allow_nan=False) + "\n").encode()
 
 
 @OUTPUTS.add("motion")
-def motion(painting: Painting) -> bytes:
+def motion(painting: "Painting") -> bytes:
     """What was asked, with twist and acceleration: a CSV."""
+    from dqpaint.metrics import motion_columns
+
     return encode_csv(motion_columns(painting.motion))
 
 
@@ -71,7 +75,7 @@ def ending(name: str) -> str:
     return "-motion.csv" if name == "motion" else f".{name}"
 
 
-def encode_csv(table: Table) -> bytes:
+def encode_csv(table: "Table") -> bytes:
     """Columns as a CSV file with 12 digits."""
     row = ",".join(["%.12g"] * len(table)) + "\n"
     parts = [",".join(table) + "\n"]
@@ -82,7 +86,7 @@ def encode_csv(table: Table) -> bytes:
     return "".join(parts).encode()
 
 
-def summarise(painting: Painting) -> dict[str, Any]:
+def summarise(painting: "Painting") -> dict[str, Any]:
     """The JSON summary: what was run, what came out."""
     motion, film = painting.motion, painting.picture.film
     program, settings = motion.program, painting.settings

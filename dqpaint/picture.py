@@ -24,7 +24,7 @@ SETTLING = 0.25  # [s] in which a jump of the set point counts as drawn
 PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False, eq=False)
 class Picture:
     """A developed picture and the film it came from.
 
@@ -33,12 +33,14 @@ class Picture:
         film: the light that fell on it, linear.
         exposure: the factor that was applied to the film, `ev` not included.
         camera: where it was taken from.
+        motion: what was asked.
     """
 
     image: NDArray[np.uint8]
     film: Film
     exposure: float
     camera: Camera
+    motion: Motion
 
     @property
     def png(self) -> bytes:
@@ -71,7 +73,7 @@ def take(motion: Motion, points: Floats, settings: Settings) -> Picture:
     exposure = automatic_exposure(asked, camera, psf)
     film = expose(shine(points, motion.light, motion.period), camera)
     image = develop(spread(film, psf), exposure, settings.ev)
-    return Picture(image, film, exposure, camera)
+    return Picture(image, film, exposure, camera, motion)
 
 
 def _metered(motion: Motion) -> Floats:

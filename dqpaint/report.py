@@ -36,9 +36,13 @@ def of_painting(painting: Painting, written: Sequence[Path]) -> str:
     return table(rows)
 
 
-def of_preview(motion: Motion, picture: Picture, written: Sequence[Path]) -> str:
+def of_preview(picture: Picture, written: Sequence[Path]) -> str:
     """The table that follows `preview`."""
-    rows = [("drawing", summary_line(motion)), ("light", light_line(picture)), *_files(written)]
+    rows = [
+        ("drawing", summary_line(picture.motion)),
+        ("light", light_line(picture)),
+        *_files(written),
+    ]
     return table(rows)
 
 

@@ -4,7 +4,7 @@ import os
 import sys
 import time
 from collections.abc import Sequence
-from typing import TextIO
+from typing import Self, TextIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,7 +75,10 @@ class Progress:
         sys.stderr.flush()
         self._drawn = True
 
-    def close(self) -> None:
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
         """Wipe the bar."""
         if self._drawn:
             sys.stderr.write("\r\x1b[K")

@@ -64,7 +64,7 @@ def test_progress_tells_a_terminal_the_time_left_and_wipes_itself(monkeypatch):
     bar(0.25)
     assert "star.traj" in stream.getvalue()
     assert "25%  9 s left" in stream.getvalue()
-    bar.close()
+    bar.__exit__()
     assert stream.getvalue().endswith("\r\x1b[K")
 
 
@@ -73,5 +73,5 @@ def test_progress_is_silent_elsewhere(monkeypatch):
     bar = terminal.Progress("star.traj")
     bar._begin -= 10
     bar(0.5)
-    bar.close()
+    bar.__exit__()
     assert stream.getvalue() == ""

@@ -4,7 +4,6 @@
 command imports what it needs.
 """
 
-import gc
 import json
 import os
 import shutil
@@ -205,11 +204,19 @@ def _finish(remarks: list[str], table: str, image: Any) -> None:
 
 def run() -> None:
     """Answer the arguments of this process; leaves by SystemExit or KeyboardInterrupt."""
-    gc.disable()  # one short run makes no rubbish worth looking for; start-up is 20 ms faster
     _secure_streams()
     try:
+        _answer()
+    except OSError as problem:  # of a stream: files have their own errors
+        sys.stdout = open(os.devnull, "w")  # noqa: SIM115  nothing more can be said there
+        if not isinstance(problem, BrokenPipeError):
+            _end(f"error: standard output cannot be written: {problem.strerror}", 1)
+        sys.exit(1)
+
+
+def _answer() -> None:
+    try:
         app()
-        sys.stdout.flush()
     except UsageError as problem:
         _end(f"usage: {problem}", 2)
     except DqpaintError as problem:
@@ -218,12 +225,10 @@ def run() -> None:
     except SystemExit as stop:
         if stop.code == INTERRUPTED:  # typer has met a Ctrl-C
             raise KeyboardInterrupt from None
+        sys.stdout.flush()
         raise
-    except OSError as problem:  # of a stream: files have their own errors
-        sys.stdout = open(os.devnull, "w")  # noqa: SIM115  nothing more can be said there
-        if not isinstance(problem, BrokenPipeError):
-            _end(f"error: standard output cannot be written: {problem.strerror}", 1)
-        sys.exit(1)
+    except OSError:
+        raise
     except Exception as fault:
         if os.environ.get(DEBUG):
             raise

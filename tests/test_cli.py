@@ -278,12 +278,20 @@ def test_streams_that_cannot_say_everything(dqpaint, tmp_path):
 @pytest.mark.parametrize(("redirect", "code"), [(">&-", 0), ("2>&-", 0), (">/dev/full", 1)])
 def test_streams_that_are_closed_or_full(line, tmp_path, redirect, code):
     command = f"'{sys.executable}' -m dqpaint draw line.traj --size 64x36 {redirect}"
-    done = subprocess.run(["sh", "-c", command], cwd=tmp_path, capture_output=True, text=True)
+    for unbuffered in ("", "1"):
+        done = subprocess.run(
+            ["sh", "-c", command], cwd=tmp_path, capture_output=True, text=True,
+            env={**os.environ, "PYTHONUNBUFFERED": unbuffered},
+        )  # fmt: skip
+        check_streams(done, code)
+    assert (tmp_path / "line-hinf.png").exists()
+
+
+def check_streams(done, code):
     assert done.returncode == code
     assert "Traceback" not in done.stderr
     if code:
         assert "error: standard output cannot be written" in done.stderr
-    assert (tmp_path / "line-hinf.png").exists()
 
 
 def test_ctrl_c_while_libraries_are_imported(monkeypatch, capsys):

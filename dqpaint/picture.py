@@ -80,15 +80,7 @@ def _metered(motion: Motion) -> Floats:
     """The colours (N, 3) the exposure is chosen from.
 
     A set point that jumps leaves no line, but the arm that follows it does: the jump counts as a
-    line drawn in `SETTLING`. Beside it a light that waits, asked to be a dot, does not count.
+    line drawn in `SETTLING`.
     """
-    if not motion.jump.any():
-        return motion.light
-    weight = np.where(motion.jump, SETTLING / motion.period, ~_still(motion))
+    weight = np.where(motion.jump, SETTLING / motion.period, 1.0)
     return np.asarray(motion.light * weight[:, None])
-
-
-def _still(motion: Motion) -> NDArray[np.bool_]:
-    """Where the asked place does not change until the next row (N,)."""
-    moved = np.abs(np.diff(motion.points, axis=0)).max(axis=1, initial=0.0) > 0
-    return np.append(~moved, True)

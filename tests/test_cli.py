@@ -44,6 +44,7 @@ def test_draw_leaves_three_files_and_a_table(dqpaint, line, tmp_path):
     done = dqpaint("draw", line, "--size", "160x90")
     assert (done.returncode, done.stderr) == (0, "")
     assert files(tmp_path) == ["line-hinf.csv", "line-hinf.json", "line-hinf.png", "line.traj"]
+    assert "rms 0 mm" not in done.stdout
     for word in (
         "line.traj: 32 mm",
         "iiwa, stiff",

@@ -140,4 +140,4 @@ def test_the_gallery_is_what_its_commands_paint(shot):
 
 def test_the_repository_names_no_package_index():
     for path in [*ROOT.glob("*.toml"), *ROOT.glob("*.txt"), ROOT / ".ci/run", ROOT / "README.md"]:
-        assert not re.search(r"index-url|find-links|/simple/", path.read_text("utf-8")), path
+        assert not re.search(r"index.url|find.links|/simple/", path.read_text("utf-8")), path

@@ -17,7 +17,8 @@ from dqpaint.robots.resolver import PULL, resolve
 CANDIDATES = 16
 MORE_CANDIDATES = 160
 WAYPOINTS = 32
-EXACT = 1e-9  # [rad, m] from the pose where the arm begins
+EXACT = 1e-9  # [rad, m] from the pose where the arm begins, if it can be had
+GOOD = 1e-5  # [rad, m] is good enough to begin there: the law takes up the rest
 ON_THE_WAY = 1e-3  # [rad, m] is close enough for a forecast; farther off, a pose is missed
 ITERATIONS = 16
 DESCENT, GENTLE = 150, 0.2  # steps, and their part of a full one, towards a pose out of reach
@@ -85,9 +86,13 @@ def _find_start(
     wish = np.zeros_like(seeds)
     postures, reached = _solve(kinematics, poses[0], seeds, wish, EXACT, (card.lower, card.upper))
     reached &= _margins(kinematics, postures) >= 0
-    if not reached.any():
-        return _closest(kinematics, poses, 0)
-    return _follow(kinematics, poses, seconds, postures[reached])
+    if reached.any():
+        return _follow(kinematics, poses, seconds, postures[reached])
+    # close to a limit Newton's steps are cut short; a patient descent may still arrive
+    miss, posture = _closest(kinematics, poses, 0, postures)
+    if miss.badness < GOOD:
+        return _follow(kinematics, poses, seconds, posture[None])
+    return miss
 
 
 def waypoints(strokes: NDArray[np.int64]) -> NDArray[np.intp]:
@@ -111,7 +116,7 @@ def _follow(kinematics: Kinematics, poses: Floats, seconds: Floats, starts: Floa
         wish = pull * (starts[alive] - postures[alive])
         moved, reached = _solve(kinematics, poses[index], postures[alive], wish, ON_THE_WAY)
         if not reached.any():
-            return _closest(kinematics, poses, index, postures[alive])
+            return _closest(kinematics, poses, index, postures[alive])[0]
         alive = alive[reached]
         postures[alive] = moved[reached]
         margin[alive] = np.minimum(margin[alive], _margins(kinematics, postures[alive]))
@@ -152,7 +157,7 @@ def _solve(
         if within is not None:
             q = np.clip(q, *within)
         wish = np.zeros_like(q)
-    return q, np.asarray(largest < close)
+    return q, np.asarray(largest < (close if within is None else GOOD))
 
 
 def _error(pose: Floats, x: Floats) -> Floats:
@@ -161,19 +166,26 @@ def _error(pose: Floats, x: Floats) -> Floats:
 
 
 def _closest(
-    kinematics: Kinematics, poses: Floats, index: int, postures: Floats | None = None
-) -> Miss:
-    """How far the arm stays from a pose that it does not reach, by descent inside its limits."""
+    kinematics: Kinematics, poses: Floats, index: int, postures: Floats
+) -> tuple[Miss, Floats]:
+    """How close the arm comes to one of the poses, by descent inside its limits, and how.
+
+    From the best few of some postures (M, n).
+    """
     card = kinematics.card
-    q = card.home[None] if postures is None else postures
-    best = Miss(index, np.inf, 0.0)
+    pose = poses[index]
+    errors = np.abs(_error(pose, kinematics.poses_and_jacobians(postures)[0])).max(axis=1)
+    q = np.clip(postures[np.argsort(errors)[:CANDIDATES]], card.lower, card.upper)
+    best, posture = Miss(index, np.inf, 0.0), q[0]
     for _ in range(DESCENT):
         x, J = kinematics.poses_and_jacobians(q)
-        far = np.linalg.norm(dq.translation(poses[index]) - dq.translation(x), axis=1)
-        turned = 2 * np.linalg.norm(dq.log(dq.mul(poses[index], dq.conj(x)))[:, :3], axis=1)
+        error = _error(pose, x)
+        far = np.linalg.norm(dq.translation(pose) - dq.translation(x), axis=1)
+        turned = np.linalg.norm(error[:, :3], axis=1)
         i = int(np.argmin(far + TURN * turned))
         here = Miss(index, float(far[i]), float(turned[i]))
-        best = min(best, here, key=lambda miss: miss.badness)
-        step = GENTLE * resolve(J, dq.translation(x), _error(poses[index], x), np.zeros_like(q))
+        if here.badness < best.badness:
+            best, posture = here, q[i]
+        step = GENTLE * resolve(J, dq.translation(x), error, np.zeros_like(q))
         q = np.clip(q + np.clip(step, -STEP, STEP), card.lower, card.upper)
-    return best
+    return best, posture

@@ -26,7 +26,7 @@ def test_the_start_solves_the_first_pose_inside_the_limits(arm):
     found = find_start(arm, poses, np.arange(3.0))
     assert isinstance(found, Start)
     reached = dq.matrix_from_pose(arm.pose(found.posture))
-    np.testing.assert_allclose(reached, dq.matrix_from_pose(poses[0]), atol=1e-6)
+    np.testing.assert_allclose(reached, dq.matrix_from_pose(poses[0]), atol=1e-8)
     assert ((arm.card.lower < found.posture) & (found.posture < arm.card.upper)).all()
 
 
@@ -68,3 +68,13 @@ def test_waypoints_hold_ends_and_corners():
     assert {500, 503} <= set(rows.tolist())
     assert len(waypoints(np.arange(5000))) <= 90
     assert waypoints(np.array([0])).tolist() == [0]
+
+
+def test_every_pose_of_a_posture_inside_the_limits_is_found(arm, rng):
+    """Uniform over all postures, those close to limits and singularities among them."""
+    for q in rng.uniform(arm.card.lower, arm.card.upper, (150, 7)):
+        found = find_start(arm, arm.pose(q)[None], np.zeros(1))
+        assert isinstance(found, Start)
+        assert found.margin >= 0
+        there = dq.matrix_from_pose(arm.pose(found.posture))
+        np.testing.assert_allclose(there, dq.matrix_from_pose(arm.pose(q)), atol=3e-5)

@@ -59,12 +59,11 @@ class Bounds:
 
         A joint that is beyond a limit already may only come back.
         """
-        low = np.maximum(
-            -self._speed, np.minimum((self._lower - posture) / self._period, self._speed)
-        )
+        low = np.maximum(-self._speed, (self._lower - posture) / self._period)
         high = np.minimum(
             self._speed, np.maximum((self._upper - posture) / self._period, -self._speed)
         )
+        # `high` comes last: where `low` asks a joint to come back faster than it can, speed wins
         return np.asarray(np.minimum(np.maximum(rates, low), high))
 
 
@@ -86,7 +85,7 @@ def clamps(
         posture: measured (N, n) [rad].
         wanted: rates (N, n) the law asked for [rad/s].
         command: rates (N, n) the arm was given.
-        effort: motor torques (N, n) [Nm] at the end of the period before each row.
+        effort: motor torques (N, n) [Nm], the largest seen in the period before each row.
     """
     period = t[1] - t[0] if len(t) > 1 else 0.0
     held = wanted != command
@@ -96,10 +95,11 @@ def clamps(
     limit = np.where(wanted > command, card.upper, card.lower)
     saturated = np.zeros_like(held)
     saturated[:-1] = np.abs(effort[1:]) >= card.effort * (1 - AT_LIMIT)  # of the step from row k
+    torque = np.broadcast_to(card.effort, held.shape)
     for kind, where, asked, most in (
         ("position", held & ~fast, ahead, limit),
         ("speed", fast, np.abs(wanted), np.broadcast_to(card.speed, held.shape)),
-        ("torque", saturated, np.abs(effort), np.broadcast_to(card.effort, held.shape)),
+        ("torque", saturated, torque, torque),
     ):
         for joint in range(where.shape[1]):
             found += _by_line(

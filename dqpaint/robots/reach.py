@@ -84,8 +84,9 @@ def _find_start(
     seeds = rng.uniform(card.lower, card.upper, (candidates - 1, card.joints))
     seeds = np.vstack([card.home, seeds])
     wish = np.zeros_like(seeds)
-    postures, reached = _solve(kinematics, poses[0], seeds, wish, EXACT, (card.lower, card.upper))
-    reached &= _margins(kinematics, postures) >= 0
+    inside = (card.lower, card.upper)
+    postures, errors = _solve(kinematics, poses[0], seeds, wish, EXACT, inside)
+    reached = (errors < GOOD) & (_margins(kinematics, postures) >= 0)
     if reached.any():
         return _follow(kinematics, poses, seconds, postures[reached])
     # close to a limit Newton's steps are cut short; a patient descent may still arrive
@@ -114,7 +115,8 @@ def _follow(kinematics: Kinematics, poses: Floats, seconds: Floats, starts: Floa
         pull = 1.0 - np.exp(-PULL * (seconds[index] - before))
         before = seconds[index]
         wish = pull * (starts[alive] - postures[alive])
-        moved, reached = _solve(kinematics, poses[index], postures[alive], wish, ON_THE_WAY)
+        moved, errors = _solve(kinematics, poses[index], postures[alive], wish, ON_THE_WAY)
+        reached = errors < ON_THE_WAY
         if not reached.any():
             return _closest(kinematics, poses, index, postures[alive])[0]
         alive = alive[reached]
@@ -138,8 +140,8 @@ def _solve(
     wish: Floats,
     close: float,
     within: tuple[Floats, Floats] | None = None,
-) -> tuple[Floats, NDArray[np.bool_]]:
-    """Newton's method from many postures (M, n) to one pose (8,); which of them arrived (M,).
+) -> tuple[Floats, Floats]:
+    """Newton's method from many postures (M, n) to one pose (8,); how far off each ended (M,).
 
     The first step takes the null-space motion `wish` (M, n) [rad] along; the last one ends when
     all are as `close` [rad, m] as asked, or after `ITERATIONS`. `within` are joint limits that no
@@ -157,7 +159,7 @@ def _solve(
         if within is not None:
             q = np.clip(q, *within)
         wish = np.zeros_like(q)
-    return q, np.asarray(largest < (close if within is None else GOOD))
+    return q, largest
 
 
 def _error(pose: Floats, x: Floats) -> Floats:

@@ -27,6 +27,13 @@ def test_a_joint_beyond_its_limit_may_only_come_back():
     assert bounds.clip(np.array([1.0, 0, 0, 0, 0, 0, 0]), q)[0] == pytest.approx(-CARD.speed[0])
 
 
+def test_a_joint_far_beyond_its_limit_comes_back_at_its_speed():
+    bounds = Bounds(CARD, 0.01)
+    for side, edge in ((1, CARD.upper), (-1, CARD.lower)):
+        out = bounds.clip(side * np.ones(7), edge + side * 0.5)
+        np.testing.assert_allclose(out, -side * CARD.speed)
+
+
 def test_each_kind_is_named_with_joint_time_line_and_amount():
     n = 10
     t, line = np.arange(n) * 0.01, np.array([3] * 5 + [4] * 5)
@@ -46,4 +53,5 @@ def test_each_kind_is_named_with_joint_time_line_and_amount():
     assert (motor.kind, motor.joint, motor.start) == ("torque", 6, pytest.approx(0.07))
     assert str(speed) == "joint 4 for 0.02 s from 0.020 s on (75 deg/s, 171.9 asked for)"
     assert str(position).startswith("joint 2 for 0.01 s from 0.060 s on (120 deg, 120.2 asked for)")
+    assert motor.wanted == motor.limit == 40
     assert str(motor) == "joint 6 for 0.01 s from 0.070 s on (40 Nm)"

@@ -175,10 +175,43 @@ class Law:
 
 @dataclass(frozen=True, slots=True)
 class Light:
-    """The colour at the first and at the last point of a stroke, and evenly between by length."""
+    """The colour at the first and at the last point of a stroke, and evenly between by length.
+
+    `even` dims the light where the tool is slow, so that the line is equally bright all along.
+    """
 
     first: Colour
     last: Colour
+    even: bool = False
+
+
+# What shines. Brushes stand in the tool frame.
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """A single lamp at the tool's origin; `size` [m] across, 0 for a point."""
+
+    size: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Bar:
+    """A bar of lamps, `length` [m] long, centred on the tool, along a unit vector."""
+
+    length: float
+    along: Vector = (1.0, 0.0, 0.0)
+
+
+Brush = Point | Bar
+
+
+@dataclass(frozen=True, slots=True)
+class Strobe:
+    """The light flashes: on for the part `duty` (0 to 1) of each period of the run's clock."""
+
+    frequency: float  # [Hz]
+    duty: float = 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -194,6 +227,8 @@ class Segment:
     end: Pose
     span: Span  # the words of the file that asked for it
     line: int  # 1-based line of the file
+    brush: Brush = Point()
+    strobe: Strobe | None = None  # None: it burns steadily
 
 
 @dataclass(frozen=True, slots=True)

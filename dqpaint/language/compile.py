@@ -9,11 +9,10 @@ from dqpaint.errors import DqpaintError
 from dqpaint.language.diagnostics import Diagnostic, ScriptError, Span
 from dqpaint.language.expand import Expander
 from dqpaint.language.findings import EnoughError, Findings
-from dqpaint.language.parser import parse_statements
+from dqpaint.language.includes import MOST_LINES, Loader
 from dqpaint.language.program import Program
 
 MOST_BYTES = 2_000_000
-MOST_LINES = 100_000
 
 
 def read(path: str | Path) -> Program:
@@ -23,13 +22,17 @@ def read(path: str | Path) -> Program:
         DqpaintError: the file can't be read as text.
         ScriptError: the text is not a drawing.
     """
+    return parse(_text_of(Path(path)), str(path), Path(path))
+
+
+def _text_of(path: Path) -> str:
     try:
-        with Path(path).open("rb") as file:
+        with path.open("rb") as file:
             data = file.read(MOST_BYTES + 1)
     except (OSError, ValueError) as fault:
         reason = fault.strerror if isinstance(fault, OSError) else str(fault)
         raise DqpaintError(f"can't read {path}: {(reason or str(fault)).lower()}") from None
-    return parse(_decoded(data, str(path)), str(path))
+    return _decoded(data, str(path))
 
 
 def _decoded(data: bytes, name: str) -> str:
@@ -57,27 +60,32 @@ def _latin(byte: int) -> str:
     return f" ('{letter}' in Latin-1)" if letter.isprintable() else ""
 
 
-def parse(text: str, name: str = "<text>") -> Program:
+def parse(text: str, name: str = "<text>", path: Path | None = None) -> Program:
     """The drawing in a text; `name` is what messages call it.
+
+    Where the text is a file, `path` says which, so that it can include others.
 
     Raises:
         ScriptError: with every mistake that was found, in the order of the text.
     """
     findings = Findings()
-    expander = Expander(name, text, findings)
+    loader = Loader(text, path, _text_of, findings)
+    expander: Expander | None = None
     fault: Exception | None = None
     program: Program | None = None
     try:
         if _fits(text, findings):
             with _collector_at_rest():
-                program = expander.program(parse_statements(text, findings))
+                statements = loader.statements()
+                expander = Expander(name, loader.source, findings)
+                program = expander.program(statements)
     except EnoughError:
         pass
     except Exception as unexpected:
         fault = unexpected
-        _add(findings, _internal(unexpected, expander.at))
+        _add(findings, _internal(unexpected, expander.at if expander else None))
     if findings.errors or program is None:
-        raise ScriptError(name, text, findings.ordered()) from fault
+        raise ScriptError(name, loader.source, findings.ordered()) from fault
     return program
 
 

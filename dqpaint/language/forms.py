@@ -7,6 +7,7 @@ from dqpaint.language.syntax import Part, Statement
 from dqpaint.language.words import STATEMENTS, TIMES
 
 _FORM_OF_CENTRE = ("axis", "angle", "rise", "grow")
+_FORM_OF_RADIUS = ("radius", "left", "right", "long")
 _FORM_OF_ABOUT = ("along", "angle", "pitch")
 
 
@@ -14,7 +15,7 @@ def check(statement: Statement, text: str) -> None:
     """Raises a `Problem` if parts are missing, doubled or contradict each other."""
     _once(statement, text)
     _one_time(statement.parts)
-    checks = {"arc": _arc, "screw": _screw, "with": _with}
+    checks = {"arc": _arc, "screw": _screw, "with": _with, "frame": _frame}
     if statement.word in checks:
         checks[statement.word](statement)
     elif statement.word in ("line", "move"):
@@ -80,13 +81,21 @@ def _arc(statement: Statement) -> None:
     via = statement.part("via")
     centre = statement.part("centre") or statement.part("center")
     if via is not None:
-        for word in ("centre", "center", *_FORM_OF_CENTRE):
+        for word in ("centre", "center", *_FORM_OF_CENTRE, *_FORM_OF_RADIUS):
             if part := statement.part(word):
                 message = f"'arc via' goes through two points; it takes no '{word}'"
                 cure = "write: arc via POINT to POINT, or: arc centre POINT angle ANGLE"
                 raise problem("E248", message, part.span, "", cure)
         _needs(statement, "to", "an arc through three points ends at the last: via POINT to POINT")
         return
+    if statement.part("radius") is not None:
+        _radius(statement)
+        return
+    for word in ("left", "right", "long"):
+        if part := statement.part(word):
+            message = f"'{word}' belongs to an arc with a radius"
+            cure = "write: arc radius 20 mm to (10, 0) mm left"
+            raise problem("E248", message, part.span, "", cure)
     if to := statement.part("to"):
         if centre is None and not any(statement.part(word) for word in _FORM_OF_CENTRE):
             cure = "write: arc via POINT to POINT, or: arc centre POINT angle ANGLE"
@@ -101,6 +110,28 @@ def _arc(statement: Statement) -> None:
     if centre is None:
         _needs(statement, "centre", "write: arc centre POINT angle ANGLE")
     _needs(statement, "angle", "add how far it turns: angle 360 deg")
+
+
+def _radius(statement: Statement) -> None:
+    for word in ("centre", "center", "angle", "rise", "grow"):
+        if part := statement.part(word):
+            message = f"'arc radius' goes from here to a point; it takes no '{word}'"
+            cure = "with a centre, the radius is the distance from here to it"
+            raise problem("E248", message, part.span, "", cure)
+    _needs(statement, "to", "add where it ends: arc radius 20 mm to (10, 0) mm left")
+    left, right = statement.part("left"), statement.part("right")
+    if left and right:
+        span = max(left.span, right.span)
+        raise problem("E248", "an arc turns left or right, not both", span, "", "keep one of them")
+    if not left and not right:
+        message = "this 'arc' does not say which way it turns"
+        cure = "add left (against the clock) or right"
+        raise problem("E115", message, _first_word(statement), "", cure)
+
+
+def _frame(statement: Statement) -> None:
+    if not statement.parts:
+        _needs(statement, "at")
 
 
 def _screw(statement: Statement) -> None:

@@ -81,12 +81,12 @@ _LOOKALIKES = {
 _NAMES_OF_LETTERS = {"π": "pi", "µ": "m", "²": "^2", "³": "^3", "√": "sqrt(…)"}
 
 
-def lines(text: str) -> Iterator[Line]:
-    """The lines that hold anything, in order."""
+def lines(text: str, begin: int = 0) -> Iterator[Line]:
+    """The lines from an offset on that hold anything, in order."""
     tokens: list[Token] = []
     problems: list[Diagnostic] = []
     brackets: list[Token] = []
-    position, size = (1 if text.startswith("\ufeff") else 0), len(text)
+    position, size = begin + text.startswith("\ufeff", begin), len(text)
     match_at = _TOKEN.match
     while position < size:
         match = match_at(text, position)

@@ -9,7 +9,7 @@ from dqpaint.language.suggestions import closest, did_you_mean, listed
 from dqpaint.language.syntax import Bracket, Call, Expression, Literal, Name, Sign
 from dqpaint.language.taylor import Taylor
 from dqpaint.language.units import FOREIGN_UNITS, PLAIN, UNITS, Dimension, plausible_unit
-from dqpaint.language.values import Point, Quantity, Value, describe, is_zero
+from dqpaint.language.values import Drawing, Function, Point, Quantity, Value, describe, is_zero
 from dqpaint.language.words import CONSTANTS, FUNCTION_ALIASES, FUNCTIONS, LAW_ALIASES, LAWS
 
 
@@ -39,6 +39,23 @@ def _abbreviation(name: str, scope: Scope) -> str:
     """`r` for `radius`: a name of the file that is the beginning of the unknown one."""
     short = [known for known in scope.names if len(known) <= 3 and name.startswith(known)]
     return max(short, key=len) if short else ""
+
+
+def no_value_of(node: Name, value: Function | Drawing) -> Problem:
+    """E206: the name of a function or of a `def`, alone."""
+    if isinstance(value, Function):
+        cure = f"write: {value.name}({', '.join(value.params)})"
+        return problem("E206", f"'{node.name}' is a function", node.span, "", cure)
+    return problem("E206", f"'{node.name}' is drawn, it has no value", node.span)
+
+
+def wrong_count(function: Function, node: Call) -> Problem:
+    """E207."""
+    count = len(function.params)
+    noun = "value" if count == 1 else "values"
+    message = f"{function.name} takes {count or 'no'} {noun}, not {len(node.values)}"
+    cure = f"write: {function.name}({', '.join(function.params)})"
+    return problem("E207", message, node.span, "", cure)
 
 
 def too_many(node: Bracket, scope: Scope) -> Problem:
@@ -85,6 +102,9 @@ def second_unit(node: Bracket, what: str) -> Problem:
 def unknown_function(node: Call, scope: Scope) -> Problem:
     """E206."""
     span = Span(node.span.start, node.span.start + len(node.name))
+    if isinstance(scope.names.get(node.name), Drawing):
+        message = f"'{node.name}' is drawn, it has no value"
+        return problem("E206", message, span, "", "a call of it is a line of its own")
     if node.name in scope.names or node.name in BUILTINS:
         message = f"'{node.name}' is not a function"
         cure = f"a product is written {node.name}*(…)"
@@ -95,8 +115,10 @@ def unknown_function(node: Call, scope: Scope) -> Problem:
             'write the colour in quotes: "#ff8800"',
         )
         return problem("E206", message, span, "", cure)
-    meant = closest(node.name, functions.TABLE, FUNCTION_ALIASES)
-    fix = Fix(f"write {meant}", span, meant) if meant in functions.TABLE else None
+    own = [name for name, value in scope.names.items() if isinstance(value, Function)]
+    known = (*own, *functions.TABLE)
+    meant = closest(node.name, known, FUNCTION_ALIASES)
+    fix = Fix(f"write {meant}", span, meant) if meant in known else None
     message = f"there is no function '{node.name}'"
     return problem("E206", message, span, "", did_you_mean(meant), fix)
 

@@ -35,9 +35,12 @@ class _Block:
         self.body: list[Statement] = []
 
 
-def parse_statements(text: str, findings: Findings) -> tuple[Statement, ...]:
-    """The statements of a file; what is wrong with it goes to `findings`."""
-    return _Parser(text, findings).file()
+def parse_statements(text: str, findings: Findings, begin: int = 0) -> tuple[Statement, ...]:
+    """The statements of a file, which begins at an offset and ends with the text.
+
+    What is wrong with it goes to `findings`.
+    """
+    return _Parser(text, findings).file(begin)
 
 
 class _Parser:
@@ -48,11 +51,13 @@ class _Parser:
         self._open: list[_Block] = []
         self._outer: list[list[Statement]] = []  # the bodies round it
         self._spare_ends = 0  # more than our blocks need: those of misspelt ones
+        self._defined: frozenset[str] | None = None  # what may be called; None: anything
 
-    def file(self) -> tuple[Statement, ...]:
+    def file(self, begin: int) -> tuple[Statement, ...]:
         """Reads all lines."""
-        found_lines = list(lines(self._text))
+        found_lines = list(lines(self._text, begin))
         self._spare_ends = _spare_ends(found_lines)
+        self._defined = None if begin else _defined(found_lines)
         for line in found_lines:
             try:
                 self._line(line)
@@ -71,7 +76,7 @@ class _Parser:
             self._findings.add(line.problems[0])
             return
         word = first.text
-        if first.kind != "name" or word not in STATEMENTS:
+        if (first.kind != "name" or word not in STATEMENTS) and not self._may_be_call(line):
             self._unknown(line)
             return
         if line.problems:
@@ -80,7 +85,7 @@ class _Parser:
             self._end(line)
             return
         statement = self._statement(line)
-        if STATEMENTS[word].block:
+        if word in _BLOCKS:
             self._begin(statement, known=True)
         else:
             self._body.append(statement)
@@ -89,8 +94,9 @@ class _Parser:
         """One line; a mistake in it is reported, and the statement marked as broken."""
         cursor = Cursor(line.tokens, self._text)
         needless = all(self._text[p.span.start] in _NEEDLESS for p in line.problems if p.span)
+        read = statements.statement if line.tokens[0].text in STATEMENTS else statements.call
         try:
-            statement = statements.statement(cursor)
+            statement = read(cursor)
         except Problem as mistake:
             if not line.problems:  # else it follows from the one that was reported
                 self._findings.add(mistake.diagnostic)
@@ -120,6 +126,7 @@ class _Parser:
                 header.parts,
                 tuple(body),
                 header.broken,
+                header.params,
             )
         )
 
@@ -130,7 +137,7 @@ class _Parser:
                 "'end' without a block to close",
                 line.tokens[0].span,
                 "",
-                "only repeat and with are closed with 'end'",
+                f"only {', '.join(_BLOCKS[:-1])} and {_BLOCKS[-1]} are closed with 'end'",
             )
         self._close()
         if line.tokens[1].kind != "end" and not line.problems:
@@ -141,6 +148,15 @@ class _Parser:
             )
 
     # What is no statement of ours.
+
+    def _may_be_call(self, line: Line) -> bool:
+        """Whether a line is `star(…)`, where there may be a `def star`."""
+        name, bracket = line.tokens[0], line.tokens[1]
+        if name.kind != "name" or bracket.kind != "sign" or bracket.text != "(":
+            return False
+        if self._defined is not None:
+            return name.text in self._defined
+        return not meaning(name.text) and name.text not in STATEMENT_ALIASES
 
     def _unknown(self, line: Line) -> None:
         mistake, opens = self._unknown_statement(line.tokens)
@@ -167,14 +183,12 @@ class _Parser:
         if word in FOREIGN:
             message, cure = FOREIGN[word]
             return Diagnostic("E121", message, first.span, "", cure), word in FOREIGN_BLOCKS
-        message = f"unknown statement '{word}'"
         if word in PARTS:
+            message = f"unknown statement '{word}'"
             cure = f"'{word}' belongs to a statement and stands on its line: {_user_of(word)}"
             return Diagnostic("E120", message, first.span, "", cure), False
-        meant = closest(word, STATEMENTS, STATEMENT_ALIASES)
-        fix = Fix(f"write {meant}", first.span, meant) if meant in STATEMENTS else None
-        cure = did_you_mean(meant)
-        return Diagnostic("E120", message, first.span, "", cure, fix=fix), meant in _BLOCKS
+        mistake, meant = unknown_statement(first.text, first.span, self._defined or ())
+        return mistake, meant in _BLOCKS
 
     def _definition(self, tokens: list[Token]) -> Diagnostic:
         """`r = 3 cm`: another language's way to name a value."""
@@ -191,11 +205,31 @@ class _Parser:
         )
 
 
+def unknown_statement(word: str, span: Span, calls: Iterable[str] = ()) -> tuple[Diagnostic, str]:
+    """E120, and the word that may be meant; `calls` can be called."""
+    meant = closest(word, (*STATEMENTS, *calls), STATEMENT_ALIASES)
+    fix = Fix(f"write {meant}", span, meant) if meant in STATEMENTS or meant in calls else None
+    message = f"unknown statement '{word}'"
+    return Diagnostic("E120", message, span, "", did_you_mean(meant), fix=fix), meant
+
+
 def _is_definition(tokens: list[Token]) -> bool:
     """Whether a line is `r = …`, as other languages name a value."""
     if tokens[0].text in STATEMENTS or len(tokens) < 2:
         return False
     return tokens[1].kind == "sign" and tokens[1].text == "="
+
+
+def _defined(found_lines: Iterable[Line]) -> frozenset[str] | None:
+    """The names behind `def` and `let` in a file; None if more may come from another file."""
+    names = set()
+    for line in found_lines:
+        word, name = line.tokens[0].text, line.tokens[min(1, len(line.tokens) - 1)]
+        if word == "include":
+            return None
+        if word in ("def", "let", "frame") and name.kind == "name":
+            names.add(name.text)
+    return frozenset(names)
 
 
 def _spare_ends(found_lines: Iterable[Line]) -> int:
@@ -224,7 +258,7 @@ def _broken(tokens: list[Token]) -> Statement:
         word = ""
     if _is_definition(tokens):
         name = Word(tokens[0].text, tokens[0].span)
-    elif word in ("let", "repeat", "def") and len(tokens) > 2 and tokens[1].kind == "name":
+    elif word in ("let", "repeat", "def", "frame") and len(tokens) > 2 and tokens[1].kind == "name":
         name = Word(tokens[1].text, tokens[1].span)
     return Statement(word, span, name, broken=True)
 

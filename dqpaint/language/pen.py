@@ -16,7 +16,10 @@ from dqpaint.language.program import (
     Path,
     Pose,
     Quaternion,
+    Run,
     Segment,
+    Step,
+    Still,
     Straight,
     Timing,
     Tool,
@@ -24,6 +27,8 @@ from dqpaint.language.program import (
     Vector,
 )
 from dqpaint.language.settings import REST_TO_REST, Settings, Towards
+from dqpaint.language.syntax import Part
+from dqpaint.language.words import PACE, PARTS
 
 MOST_SEGMENTS = 50_000
 FARTHEST = 1e9  # [m]
@@ -44,6 +49,9 @@ class Pen:
         self.pose = IDENTITY
         self.start = IDENTITY
         self.segments: list[Segment] = []
+        self.corners: list[float] = []  # within what distance [m] the end of each is rounded
+        self.run: Run | None = None  # of the `stroke` that is being drawn
+        self._runs = 0
         self.placed = False  # the file has said where the drawing starts
         self.started = False  # something has moved
         self.oriented = False  # the file has said how the tool is held at the start
@@ -80,11 +88,41 @@ class Pen:
         if max(map(abs, end.position)) > FARTHEST:
             raise here("E201", "this ends too far away", span)
         line, words = self._lines.line(span), first_line(self.text, span)
+        settings, run = self.settings, self.run
+        if run is not None:
+            self._check_goes_on(path, span)
+            timing = run.timing
+        law = run.law if run is not None else settings.law
         self.segments.append(
-            Segment(path, tool, self.settings.law, timing, light, self.pose, end, words, line)
+            Segment(
+                *(path, tool, law, timing, light, self.pose, end, words, line),
+                *(settings.brush, settings.strobe, run),
+            )
         )
+        self.corners.append(settings.blend)
         self.pose = end
         self.oriented = True
+
+    # Strokes of several lines.
+
+    def begin_run(self, timing: Timing, light: Light | None) -> None:
+        """The segments that follow share a time law, and `light` if it is a gradient."""
+        self._runs += 1
+        self.run = Run(self._runs, self.settings.law, timing, light)
+
+    def check_pace(self, part: Part) -> None:
+        """Raises if a line within a `stroke` has a time of its own."""
+        if self.run is not None and part.word in PACE:
+            message = f"'{part.word}' belongs to the whole stroke"
+            cure = f"write it on its first line: stroke {PARTS[part.word].example}"
+            raise problem("E281", message, part.span, "", cure)
+
+    def _check_goes_on(self, path: Path, span: Span) -> None:
+        """Raises if the point stands still within a `stroke`."""
+        if isinstance(path, Still | Step) or path == Straight(space.ZERO):
+            what = {Still: "a pause", Step: "a jump"}.get(type(path), "a turn on the spot")
+            message = f"{what} can't be part of a stroke, which does not stop"
+            raise problem("E282", message, span, "", "end the stroke before it")
 
     def warn(self, code: str, message: str, span: Span, label: str = "", cure: str = "") -> None:
         """Says what is assumed, unless it only follows from a mistake."""
@@ -117,10 +155,14 @@ class Pen:
 
     def _assumed(self, path: Path, tool: Tool, timing: Timing, end: Pose, span: Span) -> None:
         """A stroke of our own, rest to rest whatever law the file's strokes have."""
-        settings = self.settings
-        self.settings = replace(settings, law=REST_TO_REST)
+        settings, run = self.settings, self.run
+        if run is not None and self.segments and self.segments[-1].run is run:
+            message = "the tool would have to stop within this stroke"
+            cure = "let this line begin where the one before it ends, and the tool look there"
+            raise here("E283", message, span, "", cure)
+        self.settings, self.run = replace(settings, law=REST_TO_REST, blend=0.0), None
         self.draw(path, tool, timing, None, end, span)
-        self.settings = settings
+        self.settings, self.run = settings, run
 
 
 def first_line(text: str, span: Span) -> Span:

@@ -215,6 +215,20 @@ class Strobe:
 
 
 @dataclass(frozen=True, slots=True)
+class Run:
+    """One time law over several segments in a row, which all carry it: no stop between them.
+
+    Law and timing are those of the whole. A segment whose light is `light` has its part of that
+    gradient, which goes over the whole length.
+    """
+
+    number: int  # which of the drawing's runs
+    law: Law
+    timing: Timing
+    light: Light | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Segment:
     """One stroke or pause: what the point does, what the tool does, when, and in which light."""
 
@@ -229,6 +243,7 @@ class Segment:
     line: int  # 1-based line of the file
     brush: Brush = Point()
     strobe: Strobe | None = None  # None: it burns steadily
+    run: Run | None = None  # None: it has law and timing for itself
 
 
 @dataclass(frozen=True, slots=True)

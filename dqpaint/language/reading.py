@@ -8,11 +8,13 @@ from dqpaint.language.evaluate import evaluate
 from dqpaint.language.mistakes import with_unit
 from dqpaint.language.program import Colour, Law, Quaternion, Vector
 from dqpaint.language.scope import Scope
+from dqpaint.language.space import Frame
 from dqpaint.language.suggestions import closest, did_you_mean
 from dqpaint.language.syntax import Expression
 from dqpaint.language.taylor import Taylor
 from dqpaint.language.units import (
     ANGLE,
+    FREQUENCY,
     LENGTH,
     PITCH,
     PLAIN,
@@ -25,6 +27,7 @@ from dqpaint.language.units import (
 )
 from dqpaint.language.values import (
     Orientation,
+    Placement,
     Point,
     Quantity,
     Text,
@@ -47,6 +50,14 @@ _DIMENSIONS = {
     "pitch": PITCH,
     "number": PLAIN,
 }
+_OTHERS = {
+    "period": TIME,
+    "hold": TIME,
+    "strobe": FREQUENCY,
+    "blend": LENGTH,
+    "brush point": LENGTH,
+    "brush bar": LENGTH,
+}
 # Of lengths [m], angles [rad] and times [s]: far above any drawing, and the fourth power of it,
 # scaled as much again, is still a computer's number.
 LARGEST = 1e9
@@ -55,8 +66,8 @@ _LARGEST_COUNT = 10**15  # of samples; far above what is ever allowed, far below
 
 def dimension_of(word: str) -> Dimension:
     """The dimension of the number that a part takes."""
-    if word in ("period", "hold"):
-        return TIME
+    if word in _OTHERS:
+        return _OTHERS[word]
     return _DIMENSIONS[PARTS[word].takes]
 
 
@@ -129,6 +140,17 @@ def direction(node: Expression, scope: Scope, word: str) -> Vector:
     if not any(floats(value)):
         raise problem("E215", "a direction can't be (0, 0, 0)", node.span)
     return space.unit(floats(value))
+
+
+def frame(node: Expression, scope: Scope) -> Frame:
+    """The frame that a name stands for."""
+    frames = [name for name, value in scope.names.items() if isinstance(value, Placement)]
+    value = evaluate(node, scope, frames)
+    if isinstance(value, Placement):
+        return value.frame
+    message = f"'frame' needs a frame, but this is {describe(value)}"
+    cure = "name one first: frame leaf at (30, 0) mm turned 45 deg"
+    raise problem("E218", message, node.span, "", cure)
 
 
 def rotation(node: Expression, scope: Scope, word: str) -> Quaternion:
@@ -230,6 +252,7 @@ def needs(node: Expression, value: Value, scope: Scope, word: str, dimension: Di
 
 
 def _example(word: str) -> str:
+    word = word.partition(" ")[0]
     if word in PARTS:
         return PARTS[word].example
     return STATEMENTS[word].example if word in STATEMENTS else ""

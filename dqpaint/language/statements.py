@@ -1,50 +1,55 @@
 """One line of tokens -> one statement, as the tables of `words` say it is made."""
 
-import re
+from typing import NamedTuple
 
-from dqpaint.language import forms
+from dqpaint.language import clauses, forms
 from dqpaint.language.cursor import Cursor, example_of, found, no_value
 from dqpaint.language.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.expressions import expression
 from dqpaint.language.lexer import Token, number_value
 from dqpaint.language.names import new_name
 from dqpaint.language.suggestions import closest, did_you_mean, listed
-from dqpaint.language.syntax import (
-    Expression,
-    LightWords,
-    Part,
-    Shade,
-    Statement,
-    ToolWords,
-    Word,
-)
+from dqpaint.language.syntax import Call, Expression, Name, Part, Quoted, Statement, Word
 from dqpaint.language.units import FOREIGN_UNITS, UNITS
 from dqpaint.language.words import NOT_YET, PART_ALIASES, PARTS, SETTINGS, STATEMENTS
 
 VERSION = 1  # of the language, for `traj 1`
 
-# A colour that has become a comment for want of quotes.
-_COMMENTED_COLOUR = re.compile(r"[^\S\n]*(#[0-9a-fA-F]{3,8})\b")
 
-_Head = tuple[Word | None, tuple[Expression, ...]]
+class _Head(NamedTuple):
+    """What stands between the first word of a line and its parts."""
+
+    name: Word | None = None
+    values: tuple[Expression, ...] = ()
+    params: tuple[Word, ...] | None = None
 
 
 def statement(cursor: Cursor) -> Statement:
     """Reads a line whose first word is a statement's; raises a `Problem` at its first mistake."""
     first = cursor.take()
     known = STATEMENTS[first.text]
-    name: Word | None = None
-    values: tuple[Expression, ...] = ()
+    head = _Head()
     if first.text in SETTINGS:  # a setting's line is the clause alone
         parts = [_part(cursor, first.text, first.span)]
     else:
-        name, values = _head(cursor, first.text, known.head)
+        head = _head(cursor, first.text, known.head)
         parts = _parts(cursor, first.text)
     if not cursor.at_end:
         raise _left_over(cursor, first.text)
-    whole = Statement(first.text, cursor.span_from(first.start), name, values, tuple(parts))
+    span = cursor.span_from(first.start)
+    whole = Statement(first.text, span, head.name, head.values, tuple(parts), params=head.params)
     forms.check(whole, cursor.text)
     return whole
+
+
+def call(cursor: Cursor) -> Statement:
+    """Reads a line that calls a `def`: `star(20 mm)`."""
+    name = cursor.token
+    given = expression(cursor, name.text)
+    assert isinstance(given, Call)
+    if not cursor.at_end:
+        raise _left_over(cursor, name.text)
+    return Statement("call", given.span, Word(name.text, name.span), given.values)
 
 
 # What stands between the first word and the parts.
@@ -53,9 +58,9 @@ def statement(cursor: Cursor) -> Statement:
 def _head(cursor: Cursor, word: str, head: str) -> _Head:
     match head:
         case "":
-            return None, ()
+            return _Head()
         case "value":
-            return None, (_expression(cursor, word),)
+            return _Head(values=(_expression(cursor, word),))
         case "let":
             return _let(cursor)
         case "formula":
@@ -63,13 +68,17 @@ def _head(cursor: Cursor, word: str, head: str) -> _Head:
         case "repeat":
             return _repeat(cursor)
         case "robot":
-            return _robot(cursor), ()
-        case "brush":
-            return _brush(cursor), ()
+            return _Head(_robot(cursor))
+        case "include":
+            return _include(cursor)
+        case "def":
+            return _def(cursor)
+        case "frame":
+            return _Head(new_name(cursor, "frame", example_of("frame")))
         case _:
             assert head == "version", head
             _version(cursor)
-            return None, ()
+            return _Head()
 
 
 def _expression(cursor: Cursor, after: str) -> Expression:
@@ -81,17 +90,12 @@ def _expression(cursor: Cursor, after: str) -> Expression:
 
 def _let(cursor: Cursor) -> _Head:
     name = new_name(cursor, "let", example_of("let"))
-    if cursor.is_sign("("):
-        raise problem(
-            "E122",
-            "functions of your own are not in this version of dqpaint yet",
-            cursor.token.span,
-        )
+    params = _params(cursor, "let") if cursor.is_sign("(") else None
     if not cursor.is_sign("="):
         message = f"expected '=' but found {found(cursor.token)}"
         raise problem("E109", message, cursor.token.span, "", f"write: let {name.text} = …")
     cursor.take()
-    return name, (_expression(cursor, "="),)
+    return _Head(name, (_expression(cursor, "="),), params)
 
 
 def _formula(cursor: Cursor) -> _Head:
@@ -102,7 +106,7 @@ def _formula(cursor: Cursor) -> _Head:
     _expect(cursor, "from", example)
     lower = _expression(cursor, "from")
     _expect(cursor, "to", example)
-    return name, (formula, lower, _expression(cursor, "to"))
+    return _Head(name, (formula, lower, _expression(cursor, "to")))
 
 
 def _repeat(cursor: Cursor) -> _Head:
@@ -112,7 +116,7 @@ def _repeat(cursor: Cursor) -> _Head:
         if cursor.is_word("from"):
             message = "expected a name before 'from'"
             raise problem("E109", message, count.span, "", "for example: repeat i from 1 to 5")
-        return None, (count,)
+        return _Head(values=(count,))
     name = new_name(cursor, "repeat", example_of("repeat"))
     cursor.take()
     lower = _expression(cursor, "from")
@@ -120,7 +124,7 @@ def _repeat(cursor: Cursor) -> _Head:
     upper = cursor.token.text if cursor.token.kind == "number" else "5"
     example = f"repeat {name.text} from {written} to {upper}"
     _expect(cursor, "to", example)
-    return name, (lower, _expression(cursor, "to"))
+    return _Head(name, (lower, _expression(cursor, "to")))
 
 
 def _expect(cursor: Cursor, word: str, example: str) -> None:
@@ -143,14 +147,38 @@ def _robot(cursor: Cursor) -> Word:
     return Word(token.text, token.span)
 
 
-def _brush(cursor: Cursor) -> Word:
+def _include(cursor: Cursor) -> _Head:
     token = cursor.take()
-    if token.text == "bar":
-        raise problem("E122", "'brush bar' is not in this version of dqpaint yet", token.span)
-    if token.kind != "name" or token.text != "point":
-        message = f"expected a kind of brush but found {found(token)}"
-        raise problem("E109", message, token.span, "", "write: brush point")
-    return Word(token.text, token.span)
+    if token.kind != "text" or not token.text.strip():
+        message = f"expected the name of a file but found {found(token)}"
+        raise problem("E109", message, token.span, "", f"write: {example_of('include')}")
+    return _Head(values=(Quoted(token.text, token.span),))
+
+
+def _def(cursor: Cursor) -> _Head:
+    name = new_name(cursor, "def", example_of("def"))
+    return _Head(name, params=_params(cursor, "def") if cursor.is_sign("(") else ())
+
+
+def _params(cursor: Cursor, after: str) -> tuple[Word, ...]:
+    """The names in brackets behind the name of a function or a `def`."""
+    cursor.take()
+    params: list[Word] = []
+    while not (cursor.is_sign(")") and not params):
+        name = new_name(cursor, "(" if not params else ",", example_of(after))
+        if name.text in {param.text for param in params}:
+            message = f"'{name.text}' comes twice in these brackets"
+            raise problem("E230", message, name.span, "second", "choose another name")
+        params.append(name)
+        if not cursor.is_sign(","):
+            break
+        cursor.take()
+    if not cursor.is_sign(")"):
+        message = f"expected ',' or ')' but found {found(cursor.token)}"
+        cure = "in these brackets stand names alone; values follow where it is called"
+        raise problem("E109", message, cursor.token.span, "", cure)
+    cursor.take()
+    return tuple(params)
 
 
 def _version(cursor: Cursor) -> None:
@@ -182,84 +210,14 @@ def _parts(cursor: Cursor, word: str) -> list[Part]:
 
 def _part(cursor: Cursor, word: str, span: Span) -> Part:
     takes = PARTS[word].takes
-    if takes == "tool":
-        return Part(word, span, _tool(cursor))
-    if takes == "light":
-        return Part(word, span, _light(cursor))
+    if takes in clauses.READERS:
+        return Part(word, span, clauses.READERS[takes](cursor))
+    if takes == "flag":
+        return Part(word, span, Name(word, span))
     return Part(word, span, _expression(cursor, word))
 
 
-def _tool(cursor: Cursor) -> ToolWords:
-    start = cursor.token.start
-    values: tuple[Expression, ...] = ()
-    if cursor.is_word("keep") or cursor.is_word("follow"):
-        mode = cursor.take().text
-    elif cursor.is_word("look"):
-        cursor.take()
-        if cursor.is_word("line"):
-            cursor.take()
-            mode = "look line"
-            point = _expression(cursor, "look line")
-            _expect(cursor, "along", "tool look line POINT along DIRECTION")
-            values = (point, _expression(cursor, "along"))
-        else:
-            mode = "look"
-            values = (_expression(cursor, "look"),)
-            if cursor.is_word("up"):
-                cursor.take()
-                values = (*values, _expression(cursor, "up"))
-    else:
-        mode = "turn"
-        values = (_expression(cursor, "tool"),)
-    return ToolWords(mode, values, cursor.span_from(start))
-
-
-def _light(cursor: Cursor) -> LightWords:
-    start = cursor.token.start
-    first = _shade(cursor)
-    last = None
-    if cursor.is_word("to"):
-        cursor.take()
-        last = _shade(cursor, "light … to")
-    return LightWords(first, last, cursor.span_from(start))
-
-
-def _shade(cursor: Cursor, after: str = "light") -> Shade:
-    start, word, value = cursor.token.start, "", None
-    percent = cursor.peek().kind == "sign" and cursor.peek().text == "%"
-    if cursor.is_word("on") or cursor.is_word("off"):
-        word = cursor.take().text
-    elif cursor.at_end or (cursor.token.kind == "number" and percent):
-        raise _no_colour(cursor)
-    else:
-        value = expression(cursor, after)
-    brightness = 1.0
-    if cursor.token.kind == "number":
-        brightness = number_value(cursor.take().text) / 100.0
-        if not cursor.is_sign("%"):
-            message = f"expected '%' after the brightness but found {found(cursor.token)}"
-            raise problem("E109", message, cursor.before.span, "", "for example: light red 40%")
-        cursor.take()
-        if brightness > 1.0:
-            span = Span(start, cursor.before.end)
-            message = "the brightness goes from 0% to 100%"
-            raise problem("E217", message, span, "", "for a brighter picture expose it longer")
-    return Shade(word, value, brightness, cursor.span_from(start))
-
-
-def _no_colour(cursor: Cursor) -> Problem:
-    """E108. A comment swallowed `#ff8800`, or the brightness stands without its colour."""
-    cure = 'for example: light red, light hsv(30 deg), light "#ff8800", light off'
-    span = cursor.before.span
-    if cursor.token.kind == "number":
-        cure = f"the brightness follows the colour: light white {cursor.token.text}%"
-        span = cursor.token.span
-    elif comment := _COMMENTED_COLOUR.match(cursor.text, span.end):
-        cure = f'a # starts a comment; put the colour in quotes: light "{comment[1]}"'
-    return problem("E108", "'light' needs a colour", span, "", cure)
-
-
-ROUND = ("radius", "r", "diameter")  # what people give an arc besides its centre
+ROUND = ("r", "diameter")  # what people give an arc besides its centre
 
 
 def _unknown_part(cursor: Cursor, word: str) -> Problem:

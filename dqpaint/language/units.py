@@ -111,6 +111,7 @@ def plausible_unit(value: float, dimension: Dimension, word: str = "") -> str:
         SPEED: "mm/s" if size >= 1 or size == 0 else "m/s",
         TURNSPEED: "deg/s" if size >= 7 or float(value).is_integer() else "rad/s",
         PITCH: "mm/turn",
+        FREQUENCY: "Hz",
         ACCELERATION: "mm/s/s",
         TURN_ACCELERATION: "deg/s/s",
         TEMPERATURE: "K",

@@ -74,7 +74,7 @@ def of_radius(
     height = space.dot(chord, axis)
     if abs(height) > CLOSED * size + SAME_PLACE:
         raise here(
-            "E262",
+            "E290",
             f"the end lies {1e3 * abs(height):.4g} mm outside of the plane of this arc",
             end_span,
             "",
@@ -83,11 +83,11 @@ def of_radius(
     square = radius * radius - 0.25 * size * size
     if square < -CLOSED * radius * radius:
         raise here(
-            "E263",
+            "E291",
             f"no circle of radius {1e3 * radius:.4g} mm goes through both points",
             radius_span,
             f"they are {1e3 * size:.4g} mm apart",
-            f"the least is: radius {1e3 * 0.5 * size:.6g} mm",
+            f"the least is: radius {math.ceil(5e5 * size - 1e-6) / 1e3:g} mm",
         )
     left = space.unit(space.cross(axis, chord))
     side = math.sqrt(max(0.0, square)) * (-1.0 if long else 1.0)

@@ -99,7 +99,7 @@ class Pen:
                 *(settings.brush, settings.strobe, run),
             )
         )
-        self.corners.append(settings.blend)
+        self.corners.append(settings.blend * self.frame.scale)
         self.pose = end
         self.oriented = True
 

@@ -10,7 +10,10 @@ from dqpaint.dq import Floats
 from dqpaint.language.diagnostics import Diagnostic, ScriptError
 from dqpaint.language.findings import EnoughError, Findings
 from dqpaint.language.program import Program, Step
+from dqpaint.motion.corners import jumps, slow
+from dqpaint.motion.glow import ends_over_middle, glow
 from dqpaint.motion.lengths import flow_by_length, length_fraction
+from dqpaint.motion.runs import part_at
 from dqpaint.motion.shapes import Flow, pose_array
 from dqpaint.motion.timetable import Stroke, StrokeError, stroke_errors, timetable
 
@@ -37,6 +40,7 @@ class Motion:
         jump: whether a `step` jumps from row k to k + 1 (N,).
         program: what was planned.
         length: of the path [m], dark parts included.
+        unevenness: how much brighter strokes are near their ends than in the middle.
         notes: warnings about the drawing.
     """
 
@@ -53,6 +57,7 @@ class Motion:
     jump: NDArray[np.bool_]
     program: Program
     length: float
+    unevenness: float = 1.0
     notes: tuple[Diagnostic, ...] = field(default=())
 
     def __post_init__(self) -> None:
@@ -104,6 +109,11 @@ def plan(program: Program, canvas: Floats) -> Motion:
         pass
     if findings.errors:
         raise ScriptError(program.name, program.text, findings.ordered())
+    for note in (
+        *jumps(strokes, [flow for flow, _ in flows], program.period),
+        *slow(strokes, program.period),
+    ):
+        findings.add(note)
     return _assemble(program, strokes, flows, canvas, findings.ordered())
 
 
@@ -117,7 +127,7 @@ def flow_at(stroke: Stroke, tau: Floats, period: float) -> tuple[Flow, Floats]:
     """A stroke at fractions tau (N,) of its time: its flow per second, the fraction of its length.
 
     In the drawing frame. The fraction of the length is exact where the light needs it: in a
-    gradient.
+    gradient, and where it is even.
     """
     progress = stroke.progress(tau, period)
     if stroke.by_length:
@@ -125,9 +135,9 @@ def flow_at(stroke: Stroke, tau: Floats, period: float) -> tuple[Flow, Floats]:
     else:
         flow = stroke.shape.flow(progress.value)
         light = stroke.segment.light
-        graded = light is not None and light.first != light.last
+        matters = light is not None and (light.first != light.last or light.even)
         fraction = progress.value
-        if graded:
+        if matters:
             fraction = length_fraction(stroke.shape, stroke.extent, progress.value)
     return flow.at_rates(progress.rate, progress.slope), fraction
 
@@ -143,23 +153,22 @@ def _assemble(
     counts = np.array([stroke.count for stroke in strokes])
     n = int(counts.sum()) + 1
     pose, twist, acceleration = np.empty((n, 8)), np.empty((n, 6)), np.empty((n, 6))
-    light = np.zeros((n, 3))
-    first = 0
+    light, number = np.zeros((n, 3)), np.zeros(n, dtype=np.int64)
+    first = segments = 0
     for stroke, (flow, fraction) in zip(strokes, flows, strict=True):
         last = first + stroke.count
         # the end row is written too, and again by the stroke that begins there
         pose[first : last + 1] = flow.pose
         twist[first : last + 1] = flow.twist
         acceleration[first : last + 1] = flow.slope
-        colours = stroke.segment.light
-        if colours is not None:
-            # a law may run beyond the ends of a stroke; its colours do not
-            middle = np.clip(0.5 * (fraction[1:] + fraction[:-1]), 0.0, 1.0)[:, None]
-            light[first:last] = (1 - middle) * colours.first + middle * np.array(colours.last)
-        first = last
-    lines = np.array([stroke.segment.line for stroke in strokes])
-    number = np.repeat(np.arange(len(strokes)), counts)
-    number = np.append(number, number[-1])
+        light[first:last] = glow(stroke, flow, fraction, program.period)
+        number[first : last + 1] = segments
+        if len(stroke.segments) > 1:
+            number[first : last + 1] += part_at(stroke.edges, fraction)
+        first, segments = last, segments + len(stroke.segments)
+    number[-1] = segments - 1
+    lines = np.array([segment.line for segment in program.segments])
+    steps = np.array([isinstance(segment.path, Step) for segment in program.segments])
     return Motion(
         period=program.period,
         t=np.arange(n, dtype=np.float64) * program.period,
@@ -171,8 +180,9 @@ def _assemble(
         stroke=number,
         canvas=np.array(placed),
         front=np.array(dq.rotation(canvas)),
-        jump=np.array([isinstance(stroke.segment.path, Step) for stroke in strokes])[number],
+        jump=steps[number],
         program=program,
         length=sum(stroke.extent.length for stroke in strokes),
+        unevenness=max(ends_over_middle(stroke, program.period) for stroke in strokes),
         notes=program.notes + findings,
     )

@@ -133,7 +133,8 @@ def _brush(cursor: Cursor) -> BrushWords:
     else:
         message = f"expected a kind of brush but found {found(token)}"
         cure = f"write: brush point, or {_EXAMPLE}"
-        raise problem("E109", message, token.span, "", cure)
+        span = token.span if token.kind != "end" else cursor.before.span
+        raise problem("E109", message, span, "", cure)
     return BrushWords(token.text, size, along, cursor.span_from(token.start))
 
 
@@ -151,7 +152,7 @@ def _strobe(cursor: Cursor) -> StrobeWords:
         return StrobeWords(None, 1.0, cursor.take().span)
     frequency, duty = _value(cursor, "strobe"), 0.5
     if cursor.token.kind == "number":
-        duty = _percent(cursor, "how much of the time it shines", PARTS["strobe"].example)
+        duty = _percent(cursor, "the part of the time", PARTS["strobe"].example)
     if not 0.0 < duty <= 1.0:
         message = "a strobe shines for more than 0% and at most 100% of the time"
         cure = "to turn the light off, write: light off" if duty == 0.0 else ""

@@ -11,11 +11,13 @@ from dqpaint.language.diagnostics import (
     Problem,
     Span,
     called_here,
+    file_at,
+    place,
     problem,
 )
 from dqpaint.language.evaluate import evaluate
 from dqpaint.language.findings import EnoughError, Findings
-from dqpaint.language.pen import Pen, where
+from dqpaint.language.pen import Pen
 from dqpaint.language.program import Pose, Program, Segment
 from dqpaint.language.scope import BUILTINS, Scope, UnknownError
 from dqpaint.language.settings import PERIOD, changed
@@ -162,7 +164,7 @@ class Expander:
                 "E230",
                 f"'{name.text}' already has a value",
                 name.span,
-                f"(first: {where(self._text, self._scope.places[name.text])})",
+                f"(first: {self._where(self._scope.places[name.text], name.span)})",
                 "values never change; choose another name",
             )
         if value is not None:
@@ -260,6 +262,13 @@ class Expander:
         self._define(statement)
         strokes.draw(statement, self._pen, self._scope)
 
+    def _where(self, span: Span, seen_from: Span) -> str:
+        """`line:column`, and the file if it is another one."""
+        line, column = place(self._text, span.start)
+        begin, file = file_at(self._text, span.start, self._name)
+        here = file_at(self._text, seen_from.start, self._name)[0]
+        return f"{line}:{column}" if begin == here else f"{file}:{line}:{column}"
+
     # Statements that come once, at the top.
 
     def _first(self, statement: Statement, inside: bool = False) -> None:
@@ -270,12 +279,12 @@ class Expander:
             message = f"'{word}' stands outside of all blocks"
             raise problem("E123", message, span, "", "write it at the top of the file")
         if word in self._once:
-            first = where(self._text, self._once[word])
+            first = self._where(self._once[word], span)
             message, label = f"'{word}' is given twice", f"second (first: {first})"
             raise problem("E113", message, span, label, "keep one of them")
         if self._pen.started:
             message = f"'{word}' comes too late: the tool has moved already"
-            label = f"(first movement: {where(self._text, self._pen.moved)})"
+            label = f"(first movement: {self._where(self._pen.moved, span)})"
             raise problem("E124", message, span, label, "write it before the first movement")
         self._once[word] = statement.span
 

@@ -113,7 +113,12 @@ def _arc(statement: Statement) -> None:
 
 
 def _radius(statement: Statement) -> None:
-    for word in ("centre", "center", "angle", "rise", "grow"):
+    if statement.part("centre") or statement.part("center"):
+        part = statement.part("radius")
+        assert part is not None
+        cure = "the radius is the distance from here to the centre: first move to the circle"
+        raise problem("E248", "'arc centre' takes no 'radius'", part.span, "", cure)
+    for word in ("angle", "rise", "grow"):
         if part := statement.part(word):
             message = f"'arc radius' goes from here to a point; it takes no '{word}'"
             cure = "with a centre, the radius is the distance from here to it"

@@ -46,7 +46,10 @@ def no_value_of(node: Name, value: Function | Drawing) -> Problem:
     if isinstance(value, Function):
         cure = f"write: {value.name}({', '.join(value.params)})"
         return problem("E206", f"'{node.name}' is a function", node.span, "", cure)
-    return problem("E206", f"'{node.name}' is drawn, it has no value", node.span)
+    return problem("E206", f"'{node.name}' is drawn, it has no value", node.span, "", _CALLED)
+
+
+_CALLED = "a call of it is a line of its own"
 
 
 def wrong_count(function: Function, node: Call) -> Problem:
@@ -104,7 +107,7 @@ def unknown_function(node: Call, scope: Scope) -> Problem:
     span = Span(node.span.start, node.span.start + len(node.name))
     if isinstance(scope.names.get(node.name), Drawing):
         message = f"'{node.name}' is drawn, it has no value"
-        return problem("E206", message, span, "", "a call of it is a line of its own")
+        return problem("E206", message, span, "", _CALLED)
     if node.name in scope.names or node.name in BUILTINS:
         message = f"'{node.name}' is not a function"
         cure = f"a product is written {node.name}*(…)"

@@ -79,6 +79,8 @@ class _Parser:
         if (first.kind != "name" or word not in STATEMENTS) and not self._may_be_call(line):
             self._unknown(line)
             return
+        if word == "include" and line.tokens[1].kind != "text":
+            raise _not_quoted(line.tokens, self._text)
         if line.problems:
             self._findings.add(line.problems[0])
         if word == "end":
@@ -261,6 +263,15 @@ def _broken(tokens: list[Token]) -> Statement:
     elif word in ("let", "repeat", "def", "frame") and len(tokens) > 2 and tokens[1].kind == "name":
         name = Word(tokens[1].text, tokens[1].span)
     return Statement(word, span, name, broken=True)
+
+
+def _not_quoted(tokens: list[Token], text: str) -> Problem:
+    span = Span(tokens[1].start, tokens[-1].end)
+    if span.start == span.end:
+        message = "expected the name of a file but found the end of the line"
+        return problem("E109", message, tokens[0].span, "", 'for example: include "f.traj"')
+    message, cure = "the name of a file stands in quotes", f'include "{text[slice(*span)]}"'
+    return problem("E109", message, span, "", f"write: {cure}")
 
 
 def _no_end(header: Statement) -> Diagnostic:

@@ -4,7 +4,7 @@ import math
 from dataclasses import replace
 
 from dqpaint.language import space
-from dqpaint.language.diagnostics import Diagnostic, PlaceProblem, Span, place, problem
+from dqpaint.language.diagnostics import Diagnostic, PlaceProblem, Span, file_at, problem
 from dqpaint.language.findings import EnoughError, Findings
 from dqpaint.language.program import (
     IDENTITY,
@@ -105,6 +105,13 @@ class Pen:
 
     # Strokes of several lines.
 
+    def check_no_stop(self, span: Span) -> None:
+        """Raises if a way or a turn of our own would come into the middle of a `stroke`."""
+        if self.run is not None and self.segments and self.segments[-1].run is self.run:
+            message = "the tool would have to stop within this stroke"
+            cure = "let this line begin where the one before it ends, and the tool look there"
+            raise here("E283", message, span, "", cure)
+
     def begin_run(self, timing: Timing, light: Light | None) -> None:
         """The segments that follow share a time law, and `light` if it is a gradient."""
         self._runs += 1
@@ -144,6 +151,7 @@ class Pen:
         if not self.oriented or self.lost:
             self._adopt(orientation)
             return
+        self.check_no_stop(span)
         what, how = ("point", "look") if isinstance(mode, Look) else ("line", "look line")
         degrees = math.degrees(angle)
         message = f"the tool turns by {degrees:.3g} deg before this, to look at the {what}"
@@ -156,10 +164,6 @@ class Pen:
     def _assumed(self, path: Path, tool: Tool, timing: Timing, end: Pose, span: Span) -> None:
         """A stroke of our own, rest to rest whatever law the file's strokes have."""
         settings, run = self.settings, self.run
-        if run is not None and self.segments and self.segments[-1].run is run:
-            message = "the tool would have to stop within this stroke"
-            cure = "let this line begin where the one before it ends, and the tool look there"
-            raise here("E283", message, span, "", cure)
         self.settings, self.run = replace(settings, law=REST_TO_REST, blend=0.0), None
         self.draw(path, tool, timing, None, end, span)
         self.settings, self.run = settings, run
@@ -184,8 +188,9 @@ class _LineCounter:
         if known is not None:
             return known
         offset, line = self._last
-        if span.start < offset:
-            offset, line = 0, 1
+        begin, _ = file_at(self._text, span.start, "")
+        if not begin <= offset <= span.start:
+            offset, line = begin, 1
         line += self._text.count("\n", offset, span.start)
         self._last = (span.start, line)
         self._known[span.start] = line
@@ -205,9 +210,3 @@ def _too_many(span: Span) -> Diagnostic:
 def here(code: str, message: str, span: Span, label: str = "", cure: str = "") -> PlaceProblem:
     """A mistake that depends on where the tool is."""
     return PlaceProblem(problem(code, message, span, label, cure).diagnostic)
-
-
-def where(text: str, span: Span) -> str:
-    """`line:column`, for a label."""
-    line, column = place(text, span.start)
-    return f"{line}:{column}"

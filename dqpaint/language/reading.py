@@ -10,7 +10,7 @@ from dqpaint.language.program import Colour, Law, Quaternion, Vector
 from dqpaint.language.scope import Scope
 from dqpaint.language.space import Frame
 from dqpaint.language.suggestions import closest, did_you_mean
-from dqpaint.language.syntax import Expression
+from dqpaint.language.syntax import Expression, Name
 from dqpaint.language.taylor import Taylor
 from dqpaint.language.units import (
     ANGLE,
@@ -144,8 +144,12 @@ def direction(node: Expression, scope: Scope, word: str) -> Vector:
 
 def frame(node: Expression, scope: Scope) -> Frame:
     """The frame that a name stands for."""
-    frames = [name for name, value in scope.names.items() if isinstance(value, Placement)]
-    value = evaluate(node, scope, frames)
+    if isinstance(node, Name) and not scope.knows(node.name):
+        frames = [name for name, value in scope.names.items() if isinstance(value, Placement)]
+        cure = did_you_mean(closest(node.name, frames))
+        cure = cure or f"name it first: frame {node.name} at (30, 0) mm"
+        raise problem("E205", f"'{node.name}' is not known", node.span, "", cure)
+    value = evaluate(node, scope)
     if isinstance(value, Placement):
         return value.frame
     message = f"'frame' needs a frame, but this is {describe(value)}"

@@ -148,9 +148,9 @@ def _robot(cursor: Cursor) -> Word:
 
 
 def _include(cursor: Cursor) -> _Head:
-    token = cursor.take()
-    if token.kind != "text" or not token.text.strip():
-        message = f"expected the name of a file but found {found(token)}"
+    token = cursor.take()  # a text, as the parser saw to
+    if not token.text.strip():
+        message = "this text has no name of a file in it"
         raise problem("E109", message, token.span, "", f"write: {example_of('include')}")
     return _Head(values=(Quoted(token.text, token.span),))
 
@@ -163,9 +163,10 @@ def _def(cursor: Cursor) -> _Head:
 def _params(cursor: Cursor, after: str) -> tuple[Word, ...]:
     """The names in brackets behind the name of a function or a `def`."""
     cursor.take()
+    example = "let f(x) = 2*x" if after == "let" else example_of(after)
     params: list[Word] = []
     while not (cursor.is_sign(")") and not params):
-        name = new_name(cursor, "(" if not params else ",", example_of(after))
+        name = new_name(cursor, "(" if not params else ",", example, handed=True)
         if name.text in {param.text for param in params}:
             message = f"'{name.text}' comes twice in these brackets"
             raise problem("E230", message, name.span, "second", "choose another name")

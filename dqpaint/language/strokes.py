@@ -184,6 +184,7 @@ def _curve(statement: Statement, pen: Pen, scope: Scope) -> None:
     if pen.lost:
         pen.pose, pen.lost = Pose(start, pen.pose.orientation), False
     elif gap > curves.GAP:
+        pen.check_no_stop(statement.span)
         message = f"the curve starts {_millimetres(gap)} away from where the tool is"
         cure = "a light-off move is added; write a move to choose its speed"
         pen.warn("W402", message, span, "", cure)

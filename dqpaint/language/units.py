@@ -75,7 +75,7 @@ NAMES = {
     ACCELERATION: "an acceleration",
     TURN_ACCELERATION: "a turning acceleration",
     PITCH: "a length per angle",
-    FREQUENCY: "a number per time",
+    FREQUENCY: "a frequency",
     (2.0, 0.0, 0.0, 0.0): "an area",
     (1.0, 0.0, 1.0, 0.0): "a length times an angle",
 }

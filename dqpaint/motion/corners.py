@@ -1,4 +1,4 @@
-"""Where the velocity jumps, and where a stroke does not come to its speed: warnings with numbers."""
+"""Warnings with numbers: where the velocity jumps, where a stroke does not reach its speed."""
 
 from collections.abc import Iterator
 from itertools import pairwise
@@ -9,7 +9,7 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.language.diagnostics import Diagnostic, Span
-from dqpaint.language.program import Cruise, Segment
+from dqpaint.language.program import Arc, Cruise, Segment, Straight
 from dqpaint.motion.laws import peak_rate, scale_rates
 from dqpaint.motion.runs import Joined, end_velocities
 from dqpaint.motion.shapes import Flow
@@ -24,6 +24,7 @@ class _Corner(NamedTuple):
     jump: float  # [m/s]
     span: Span
     within: bool  # a `stroke`
+    round: bool  # it can be rounded
 
 
 def jumps(strokes: list[Stroke], flows: list[Flow], period: float) -> Iterator[Diagnostic]:
@@ -39,18 +40,23 @@ def _between(strokes: list[Stroke], flows: list[Flow]) -> Iterator[_Corner]:
     for (before, after), (flow, next_flow) in zip(pairwise(strokes), pairwise(flows), strict=True):
         if before.extent.length and after.extent.length:
             velocities = _velocity(flow, -1), _velocity(next_flow, 0)
-            yield from _corner(*velocities, after.segments[0].span, within=False)
+            pair = before.segments[-1], after.segments[0]
+            yield from _corner(*velocities, pair, within=False)
 
 
 def _velocity(flow: Flow, row: int) -> Floats:
     return dq.point_velocity(flow.twist[row], dq.translation(flow.pose[row]))
 
 
-def _corner(before: Floats, after: Floats, span: Span, within: bool) -> Iterator[_Corner]:
+def _corner(
+    before: Floats, after: Floats, segments: tuple[Segment, Segment], within: bool
+) -> Iterator[_Corner]:
     jump = float(np.linalg.norm(after - before))
     speed = max(float(np.linalg.norm(before)), float(np.linalg.norm(after)))
     if jump > max(LEAST_JUMP, LEAST_PART * speed):
-        yield _Corner(jump, span, within)
+        lifted = (segments[0].light is None) != (segments[1].light is None)
+        round_ = not lifted and all(isinstance(s.path, Straight | Arc) for s in segments)
+        yield _Corner(jump, segments[1].span, within, round_)
 
 
 def _within(strokes: list[Stroke], period: float) -> Iterator[_Corner]:
@@ -61,17 +67,17 @@ def _within(strokes: list[Stroke], period: float) -> Iterator[_Corner]:
             progress = stroke.progress(tau, period)
             rates = np.interp(stroke.edges[1:-1], progress.value, np.abs(progress.rate))
             for i, rate in enumerate(rates):
-                span = stroke.segments[i + 1].span
-                yield from _corner(rate * end[i], rate * begin[i + 1], span, within=True)
+                pair = stroke.segments[i], stroke.segments[i + 1]
+                yield from _corner(rate * end[i], rate * begin[i + 1], pair, within=True)
 
 
 def _jump(corner: _Corner, count: int) -> Diagnostic:
     others = f", the largest of {count} such corners" if count > 1 else ""
-    cure = "use law trapezoid to stop at corners, or blend 5 mm to round them"
-    if corner.within:
-        cure = "round the corner with blend 5 mm, or end the stroke before it"
+    ways = ["end the stroke before it" if corner.within else "use law trapezoid to stop at corners"]
+    if corner.round:
+        ways.append("round the corner: blend 5 mm" if corner.within else "round them: blend 5 mm")
     message = f"the velocity jumps by {1e3 * corner.jump:.3g} mm/s here{others}"
-    return Diagnostic("W403", message, corner.span, "corner where this begins", cure)
+    return Diagnostic("W403", message, corner.span, "corner where this begins", ", or ".join(ways))
 
 
 def slow(strokes: list[Stroke], period: float) -> Iterator[Diagnostic]:

@@ -1,5 +1,7 @@
 """The tables of the language agree with what is built on them, and their examples work."""
 
+from pathlib import Path
+
 import pytest
 
 from dqpaint.language import parse, strokes
@@ -34,11 +36,13 @@ def test_parts_are_known() -> None:
 
 
 @pytest.mark.parametrize("word", [w for w in STATEMENTS if w != "end"])
-def test_examples_of_statements(word: str) -> None:
+def test_examples_of_statements(word: str, tmp_path: Path) -> None:
     known = STATEMENTS[word]
+    (tmp_path / "f.traj").write_text("line by (5, 0) mm\n")
     start = "" if word in ("traj", "robot", "place", "start", "period") else "start at (0, 9) mm\n"
     end = "\nline by (1, 0) mm\nend" if known.block else ""
-    assert parse(f"{start}{known.example}{end}\nline by (3, 4) mm", word).segments
+    text = f"{start}{known.example}{end}\nline by (3, 4) mm"
+    assert parse(text, word, tmp_path / "a.traj").segments
 
 
 @pytest.mark.parametrize(
@@ -63,6 +67,14 @@ def test_examples_of_parts(word: str, part: str) -> None:
         base = "arc via (0, 15) mm"
     elif part == "center":
         base = "arc angle 1 turn"
+    elif part in ("radius", "left", "right"):
+        base = (
+            "arc to (70, 0) mm"
+            + " left" * (part == "radius")
+            + " radius 20 mm" * (part != "radius")
+        )
+    elif part == "long":
+        base = "arc radius 20 mm to (70, 0) mm right"
     example = "tool keep" if part == "tool" and word != "step" else PARTS[part].example
     line = base if f" {part} " in base else f"{base} {example}"
     assert parse(f"start at (90, 0) mm\n{line}", word).segments

@@ -42,7 +42,6 @@ class Checked:
             parts.append(summary_line(self.motion) + self.reach + self._hint)
         return "\n\n".join(parts)
 
-
     @property
     def _hint(self) -> str:
         """Of beads at the ends of strokes, which a light painter sees first."""

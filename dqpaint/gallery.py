@@ -39,6 +39,7 @@ SHOTS = (
     Shot("square", "Two sides in 500 samples, two in 300: faster is darker.", {"ev": -3}),
     Shot("circle", "The thesis's circle in 3000 samples.", {}),
     Shot("baxter-screw", "A screw of pitch zero about a line given in space.", {"view": "iso"}),
+    Shot("ribbon", "A bar of light on a screw motion sweeps a helicoid.", {"view": "iso"}),
     Shot("step", "A jump of the set point: the error decays, and slower is brighter.", {}),
 )
 

@@ -27,8 +27,9 @@ class Joined:
         """Pose, twist per unit of f and its derivative; at a joint, of the part that begins."""
         part = part_at(self.edges, f)
         pose, twist, slope = np.empty((len(f), 8)), np.empty((len(f), 6)), np.empty((len(f), 6))
-        for i in np.unique(part):
-            rows = part == i
+        order = np.argsort(part, kind="stable")
+        numbers, begins = np.unique(part[order], return_index=True)
+        for i, rows in zip(numbers, np.split(order, begins[1:]), strict=True):
             flow = self.part_flow(
                 i, (f[rows] - self.edges[i]) / (self.edges[i + 1] - self.edges[i])
             )

@@ -31,6 +31,8 @@ class Line(NamedTuple):
     problems: list[Diagnostic]
 
 
+MOST_TOKENS = 100_000  # of one line
+
 _NUMBER = r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _TOKEN = re.compile(
     rf"""[^\S\n]*(?:
@@ -89,6 +91,12 @@ def lines(text: str, begin: int = 0) -> Iterator[Line]:
     position, size = begin + text.startswith("\ufeff", begin), len(text)
     match_at = _TOKEN.match
     while position < size:
+        if len(tokens) > MOST_TOKENS:
+            yield _too_long(tokens)
+            tokens, problems = [], []
+            brackets.clear()
+            position = text.find("\n", position) % (size + 1)
+            continue
         match = match_at(text, position)
         assert match is not None  # the pattern has an answer to every character
         kind = match.lastgroup
@@ -124,6 +132,13 @@ def lines(text: str, begin: int = 0) -> Iterator[Line]:
             brackets.clear()
     if tokens or problems:
         yield _close(tokens, problems, brackets, size)
+
+
+def _too_long(tokens: list[Token]) -> Line:
+    message = f"this line has more than {MOST_TOKENS:,} words, numbers and signs"
+    mistake = Diagnostic("E314", message, tokens[0].span, "begins here", "make several lines of it")
+    last = tokens[-1].end
+    return Line([*tokens[:2], Token("end", "", last, last)], [mistake])
 
 
 def _close(

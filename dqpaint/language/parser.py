@@ -1,5 +1,6 @@
 """Text -> statements: lines and blocks. Every line is read, whatever was wrong in those before."""
 
+import re
 from collections.abc import Iterable
 
 from dqpaint.language import statements
@@ -21,6 +22,7 @@ from dqpaint.language.words import (
 
 DEEPEST = 32  # blocks within each other
 _BLOCKS = tuple(word for word, known in STATEMENTS.items() if known.block)
+_FIRST_WORDS = re.compile(r"^[^\S\n]*([a-z]+)\b[^\S\n]*([A-Za-z_]\w*)?", re.ASCII | re.MULTILINE)
 _NEEDLESS = ";:"  # signs of other languages that change nothing
 
 
@@ -55,10 +57,10 @@ class _Parser:
 
     def file(self, begin: int) -> tuple[Statement, ...]:
         """Reads all lines."""
-        found_lines = list(lines(self._text, begin))
-        self._spare_ends = _spare_ends(found_lines)
-        self._defined = None if begin else _defined(found_lines)
-        for line in found_lines:
+        first_words = list(_FIRST_WORDS.findall(self._text, begin))
+        self._spare_ends = _spare_ends(first_words)
+        self._defined = None if begin else _defined(first_words)
+        for line in lines(self._text, begin):
             try:
                 self._line(line)
             except Problem as mistake:
@@ -222,25 +224,20 @@ def _is_definition(tokens: list[Token]) -> bool:
     return tokens[1].kind == "sign" and tokens[1].text == "="
 
 
-def _defined(found_lines: Iterable[Line]) -> frozenset[str] | None:
+def _defined(first_words: Iterable[tuple[str, str]]) -> frozenset[str] | None:
     """The names behind `def` and `let` in a file; None if more may come from another file."""
     names = set()
-    for line in found_lines:
-        word, name = line.tokens[0].text, line.tokens[min(1, len(line.tokens) - 1)]
+    for word, name in first_words:
         if word == "include":
             return None
-        if word in ("def", "let", "frame") and name.kind == "name":
-            names.add(name.text)
+        if word in ("def", "let", "frame"):
+            names.add(name)
     return frozenset(names)
 
 
-def _spare_ends(found_lines: Iterable[Line]) -> int:
+def _spare_ends(first_words: Iterable[tuple[str, str]]) -> int:
     """How many `end` lines there are more than lines that begin one of our blocks."""
-    spare = 0
-    for line in found_lines:
-        word = line.tokens[0].text
-        spare += (word == "end") - (word in _BLOCKS)
-    return spare
+    return sum((word == "end") - (word in _BLOCKS) for word, _ in first_words)
 
 
 def _user_of(part: str) -> str:

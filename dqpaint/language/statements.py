@@ -164,13 +164,13 @@ def _params(cursor: Cursor, after: str) -> tuple[Word, ...]:
     """The names in brackets behind the name of a function or a `def`."""
     cursor.take()
     example = "let f(x) = 2*x" if after == "let" else example_of(after)
-    params: list[Word] = []
+    params: dict[str, Word] = {}
     while not (cursor.is_sign(")") and not params):
         name = new_name(cursor, "(" if not params else ",", example, handed=True)
-        if name.text in {param.text for param in params}:
+        if name.text in params:
             message = f"'{name.text}' comes twice in these brackets"
             raise problem("E230", message, name.span, "second", "choose another name")
-        params.append(name)
+        params[name.text] = name
         if not cursor.is_sign(","):
             break
         cursor.take()
@@ -179,7 +179,7 @@ def _params(cursor: Cursor, after: str) -> tuple[Word, ...]:
         cure = "in these brackets stand names alone; values follow where it is called"
         raise problem("E109", message, cursor.token.span, "", cure)
     cursor.take()
-    return tuple(params)
+    return tuple(params.values())
 
 
 def _version(cursor: Cursor) -> None:

@@ -202,6 +202,7 @@ LARGE = {  # texts too long for the table, the code, the beginning of the messag
     " " * 2_000_001: ("E305", "this file is larger than 2 MB"),
     "\n" * 100_001: ("E306", "this file has more than 100,000 lines"),
     "line by\0(1,0) mm": ("E307", "this is not a text"),
+    "let a = 1" + "+1" * 60_000: ("E314", "this line has more than 100,000 words"),
     "def d0\nhold 1 s\nend\n"
     + "".join(f"def d{i}\nd{i - 1}()\nend\n" for i in range(1, 80))
     + "d79()": ("E127", "more than 64 blocks, calls and files within each other"),

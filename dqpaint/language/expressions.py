@@ -83,7 +83,7 @@ def _value(cursor: Cursor, after: str) -> Expression:
             return Literal(value, unit.text, Span(token.start, unit.end))
         return Literal(value, "", Span(token.start, token.end))
     if kind == "sign" and token.text == "(":
-        values = _bracket(cursor)
+        values = bracket(cursor)
         unit = cursor.token
         if unit.kind == "name" and unit.text in UNITS:
             cursor.take()
@@ -93,7 +93,7 @@ def _value(cursor: Cursor, after: str) -> Expression:
         cursor.take()
         if not cursor.is_sign("("):
             return _name(cursor, token.text, token.span)
-        values = _bracket(cursor, of=token.text)
+        values = bracket(cursor, of=token.text)
         return Call(token.text, values, cursor.span_from(token.start))
     if kind == "text":
         cursor.take()
@@ -114,8 +114,8 @@ def _name(cursor: Cursor, name: str, span: Span) -> Expression:
     return Name(name, span)
 
 
-def _bracket(cursor: Cursor, of: str = "(") -> tuple[Expression, ...]:
-    """The values in brackets, with commas between."""
+def bracket(cursor: Cursor, of: str = "(") -> tuple[Expression, ...]:
+    """The values in brackets, with commas between; `of` is the function's name before them."""
     opening = cursor.take()
     _deeper(cursor, opening.span)
     values: list[Expression] = []

@@ -29,7 +29,7 @@ BUILTINS: dict[str, Value] = {
 }
 
 
-MOST_STEPS = 2_000_000  # of all calls of a file's functions, a step for each part of a formula
+MOST_STEPS = 1_000_000  # of all calls of a file's functions, a step for each part of a formula
 MOST_CURVE_STEPS = 10_000  # of those in one formula of a curve, which works on whole series
 DEEPEST_CALLS = 100  # parts of formulas within each other
 

@@ -5,11 +5,11 @@ from typing import NamedTuple
 from dqpaint.language import clauses, forms
 from dqpaint.language.cursor import Cursor, example_of, found, no_value
 from dqpaint.language.diagnostics import Fix, Problem, Span, problem
-from dqpaint.language.expressions import expression
+from dqpaint.language.expressions import bracket, expression
 from dqpaint.language.lexer import Token, number_value
 from dqpaint.language.names import new_name
 from dqpaint.language.suggestions import closest, did_you_mean, listed
-from dqpaint.language.syntax import Call, Expression, Name, Part, Quoted, Statement, Word
+from dqpaint.language.syntax import Expression, Name, Part, Quoted, Statement, Word
 from dqpaint.language.units import FOREIGN_UNITS, UNITS
 from dqpaint.language.words import NOT_YET, PART_ALIASES, PARTS, SETTINGS, STATEMENTS
 
@@ -44,12 +44,11 @@ def statement(cursor: Cursor) -> Statement:
 
 def call(cursor: Cursor) -> Statement:
     """Reads a line that calls a `def`: `star(20 mm)`."""
-    name = cursor.token
-    given = expression(cursor, name.text)
-    assert isinstance(given, Call)
+    name = cursor.take()
+    values = bracket(cursor, of=name.text)
     if not cursor.at_end:
         raise _left_over(cursor, name.text)
-    return Statement("call", given.span, Word(name.text, name.span), given.values)
+    return Statement("call", cursor.span_from(name.start), Word(name.text, name.span), values)
 
 
 # What stands between the first word and the parts.

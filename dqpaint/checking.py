@@ -130,7 +130,12 @@ def _as_json(result: Checked, finding: Diagnostic) -> dict[str, Any]:
         "label": finding.label,
         "help": finding.help,
         "related": [
-            {**_range(result.source, span), "label": label} for span, label in finding.related
+            {
+                "file": file_at(result.source, span.start, result.file)[1],
+                **_range(result.source, span),
+                "label": label,
+            }
+            for span, label in finding.related
         ],
         "fix": fix
         and {

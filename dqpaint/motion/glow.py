@@ -68,7 +68,7 @@ def _means(edges: Floats, first: Floats, last: Floats, at: Floats) -> Floats:
         before = np.concatenate([np.zeros((1, 3)), np.cumsum(width * 0.5 * (first + last), axis=0)])
         parts = part_at(edges, at)
         u = (at - edges[parts])[:, None] / width[parts]
-        gathered = width[parts] * u * (first + 0.0)[parts]
+        gathered = width[parts] * u * first[parts]
         gathered += width[parts] * 0.5 * u**2 * (last - first)[parts]
         total = before[parts] + gathered
         step = np.diff(at)[:, None]

@@ -74,6 +74,11 @@ def test_a_corner_is_left_and_reached_at_the_distance_and_touched(corner, tool):
         mine = shape(part).flow(np.linspace(0, 1, 7)).pose
         theirs = shape(whole).flow(share).pose
         np.testing.assert_allclose(dq.nearest(mine, theirs), theirs, atol=1e-9)
+    # the bend is about as long as an arc of a circle between the same two directions
+    points, directions, _ = ends(bend)
+    turn = np.arccos(np.clip(directions[0] @ directions[1], -1, 1))
+    chord = np.linalg.norm(points[1] - points[0])
+    assert integral(bend) == pytest.approx(0.5 * chord * turn / np.sin(0.5 * turn), rel=0.03)
     # nothing of the bend is farther from the corner than its two ends
     corner_at = np.array(sharp[0].end.position)
     way = dq.translation(shape(bend).flow(np.linspace(0, 1, 99)).pose)

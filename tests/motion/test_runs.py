@@ -134,6 +134,13 @@ def test_samples_speed_and_time_hold_for_all_of_it():
     assert set(motion.stroke[corner:]) == {1}
 
 
+def test_at_a_joint_the_twist_is_of_what_begins():
+    text = "stroke samples 2 law constant\nline by (10, 0) mm\nline by (0, 10) mm\nend"
+    motion = plan(parse(text, "a"), dq.IDENTITY)
+    np.testing.assert_allclose(motion.twist[:, 3:], [[1.25, 0, 0], [0, 1.25, 0], [0, 1.25, 0]])
+    np.testing.assert_array_equal(motion.stroke, [0, 1, 1])
+
+
 def test_the_tool_nowhere_turns_faster_than_it_may():
     text = f"{START}stroke speed 200 mm/s turnspeed 30 deg/s\n{LOOSE}end"
     motion = plan(parse(text, "a"), dq.IDENTITY)

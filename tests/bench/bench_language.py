@@ -1,7 +1,7 @@
 """10,000 canonical lines against Python's own compiler: `python tests/bench/bench_language.py`.
 
-Both read as many lines of the same numbers; rounds are interleaved, as the clock of a shared machine
-swings. The target for the language is less than a second on two cores.
+Both read as many lines of the same numbers; rounds are interleaved, as the clock of a shared
+machine swings. The target for the language is less than a second on two cores.
 """
 
 import statistics

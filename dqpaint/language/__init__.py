@@ -3,8 +3,9 @@
 In goes the text of a file; out comes a `Program` (see `program`), or a `ScriptError` with every
 mistake that was found. The text passes through
 
-    lexer -> parser (statements, forms, expressions) -> syntax tree
-          -> expand (evaluate, reading, settings, blocks) -> strokes (arcs, curves, tools, timing)
+    lexer -> parser (statements, clauses, forms, expressions) -> syntax tree -> includes
+          -> expand (evaluate, reading, settings, blocks, definitions)
+          -> strokes (arcs, curves, tools, timing) -> blends
 
 and `words` and `units` hold the tables all of them read. A new statement is a line in
 `words.STATEMENTS` and a function in `strokes`; a new function a line in `words.FUNCTIONS` and one

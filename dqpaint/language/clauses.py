@@ -17,7 +17,7 @@ from dqpaint.language.syntax import (
     ToolWords,
     Words,
 )
-from dqpaint.language.words import PARTS
+from dqpaint.language.words import PARTS, RESERVED
 
 # A colour that has become a comment for want of quotes.
 _COMMENTED_COLOUR = re.compile(r"[^\S\n]*(#[0-9a-fA-F]{3,8})\b")
@@ -143,7 +143,7 @@ _EXAMPLE = PARTS["brush"].example
 
 def _ends_here(cursor: Cursor) -> bool:
     """Whether the line ends, or another part begins."""
-    return cursor.at_end or (cursor.token.kind == "name" and cursor.token.text in PARTS)
+    return cursor.at_end or (cursor.token.kind == "name" and cursor.token.text in RESERVED)
 
 
 def _strobe(cursor: Cursor) -> StrobeWords:

@@ -39,8 +39,8 @@ BEYOND = {
 def grammar() -> Lark:
     text = (Path(__file__).parent / "traj.lark").read_text("utf-8")
     text = re.sub(r'"([a-z]+)"', r"/\1(?![A-Za-z0-9_])/", text)
-    units = "|".join(sorted(UNITS, key=len, reverse=True))
-    unit = rf"(?:{units})(?![A-Za-z0-9_])"
+    units = "|".join(sorted(UNITS.keys() - {"°"}, key=len, reverse=True))
+    unit = rf"(?:°|(?:{units})(?![A-Za-z0-9_]))"
     not_free = "|".join(sorted({*RESERVED, *UNITS} - {"°"}, key=len, reverse=True))
     number = r"(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
     text += rf"""

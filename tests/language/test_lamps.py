@@ -26,6 +26,13 @@ def test_brushes_as_setting_as_clause_and_in_a_block(words, brush):
     assert last(f"{line}\nhold 1 s {words}").brush == brush
 
 
+def test_words_of_arcs_may_be_names():
+    text = "let radius = 3 mm\nlet left = 9 mm\nbrush bar radius\n"
+    segment = only(f"{text}arc radius radius to (left/2, 0) left")
+    assert segment.brush == Bar(pytest.approx(0.003))
+    assert segment.end.position == pytest.approx((0.0045, 0, 0))
+
+
 @pytest.mark.parametrize(("words", "strobe"), [
     ("strobe 10 Hz", Strobe(10.0, 0.5)),
     ("strobe 10 Hz 30%", Strobe(10.0, pytest.approx(0.3))),

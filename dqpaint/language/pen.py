@@ -91,12 +91,19 @@ class Pen:
         if not self.lost:
             self.findings.add(Diagnostic(code, message, span, label, cure))
 
-    def travel(self, to: Vector, span: Span) -> None:
-        """A way in the dark that the file did not ask for."""
+    def travel(
+        self,
+        to: Vector,
+        span: Span,
+        tool: Tool | None = None,
+        orientation: Quaternion | None = None,
+        timing: Timing | None = None,
+    ) -> None:
+        """A way in the dark that the file did not ask for; the tool keeps, if nothing is said."""
         by = space.minus(to, self.pose.position)
-        speed = Cruise(self.settings.speed, self.settings.turnspeed)
-        end = Pose(to, self.pose.orientation)
-        self._assumed(Straight(by), Keep(), speed, end, span)
+        timing = timing or Cruise(self.settings.speed, self.settings.turnspeed)
+        end = Pose(to, orientation or self.pose.orientation)
+        self._assumed(Straight(by), tool or Keep(), timing, end, span)
 
     def look(self, mode: Look | LookLine, orientation: Quaternion, span: Span) -> None:
         """Turns the tool to where a stroke needs it at its start, in the dark, if it is not."""

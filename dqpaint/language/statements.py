@@ -2,7 +2,7 @@
 
 import re
 
-from dqpaint.language import forms
+from dqpaint.language import fits, forms
 from dqpaint.language.cursor import Cursor, example_of, found, no_value
 from dqpaint.language.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.expressions import expression
@@ -66,6 +66,8 @@ def _head(cursor: Cursor, word: str, head: str) -> _Head:
             return _robot(cursor), ()
         case "brush":
             return _brush(cursor), ()
+        case "texts":
+            return None, fits.texts(cursor, word)
         case _:
             assert head == "version", head
             _version(cursor)
@@ -186,6 +188,8 @@ def _part(cursor: Cursor, word: str, span: Span) -> Part:
         return Part(word, span, _tool(cursor))
     if takes == "light":
         return Part(word, span, _light(cursor))
+    if takes in fits.READERS:
+        return Part(word, span, fits.READERS[takes](cursor))
     return Part(word, span, _expression(cursor, word))
 
 

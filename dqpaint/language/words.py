@@ -82,6 +82,12 @@ PARTS = {
         PartWord("law", "law", "how the speed goes along a stroke", "law trapezoid"),
         PartWord("tool", "tool", "what the tool does meanwhile", "tool look (0, 0, 300) mm"),
         PartWord("light", "light", "the colour, or from one colour to another", "light red"),
+        PartWord("font", "font", "which letters; see: dqpaint list fonts", 'font "scripts"'),
+        PartWord("height", "length", "how high: a capital letter, a whole drawing", "height 30 mm"),
+        PartWord("width", "length", "how wide: the longest line, a whole drawing", "width 90 mm"),
+        PartWord("align", "alignment", "which end of each line stands at `at`", "align centre"),
+        PartWord("unit", "unit", "of the numbers in a file", "unit mm"),
+        PartWord("smooth", "flag", "bends from point to point, but for sharp corners", "smooth"),
     )
 }
 
@@ -154,6 +160,30 @@ STATEMENTS = {
             parts=("to", "tool", "light"),
             moves=True,
         ),
+        StatementWord(
+            "text",
+            "lettering; a second text is a second line",
+            'text "Ada" height 30 mm',
+            head="texts",
+            parts=("font", "height", "width", "at", "align", *CLAUSES),
+            moves=True,
+        ),
+        StatementWord(
+            "path",
+            "a line through the points in a file, or in a file for each axis",
+            'path "orbit.csv" unit mm',
+            head="texts",
+            parts=("unit", "height", "width", "at", "smooth", *CLAUSES),
+            moves=True,
+        ),
+        StatementWord(
+            "svg",
+            "the lines of an SVG drawing, in its own colours",
+            'svg "logo.svg" height 80 mm',
+            head="texts",
+            parts=("height", "width", "at", *CLAUSES),
+            moves=True,
+        ),
         StatementWord("hold", "a pause", "hold 1 s", head="value", parts=("light",), moves=True),
         StatementWord(
             "repeat", "its lines, several times", "repeat i from 1 to 5", head="repeat", block=True
@@ -172,9 +202,6 @@ STATEMENTS = {
 
 # Words of the whole language that this version does not know yet; True: they hold a block.
 NOT_YET = {
-    "text": False,
-    "path": False,
-    "svg": False,
     "def": True,
     "frame": False,
     "include": False,
@@ -245,6 +272,11 @@ STATEMENT_ALIASES = {
     "scale": "with scale NUMBER",
     "parametric": "curve",
     "spline": "curve",
+    "write": "text",
+    "label": "text",
+    "csv": "path",
+    "points": "path",
+    "import": "svg",
     "jumpto": "step to",
     "turn": "line by (0, 0) tool ORIENTATION",
     "orient": "tool",
@@ -274,7 +306,6 @@ PART_ALIASES = {
 }
 
 LITTLE_WORDS = ("from", "for", "on", "off", "keep", "follow", "look", "up", "point", "bar")
-LATER_WORDS = ("height", "width", "font", "unit")
 
 CONSTANTS = ("pi", "x", "y", "z")
 LAWS = {"constant": (0,), "trapezoid": (0,), "cubic": (0, 2), "quintic": (0, 4)}
@@ -320,6 +351,4 @@ FUNCTION_ALIASES = {
 }
 
 # Never part of an expression: a value was forgotten if one of them is found there.
-RESERVED = frozenset(
-    (*STATEMENTS, *PARTS, *NOT_YET, *LITTLE_WORDS, *LATER_WORDS, "def", "if", "else", "while")
-)
+RESERVED = frozenset((*STATEMENTS, *PARTS, *NOT_YET, *LITTLE_WORDS, "def", "if", "else", "while"))

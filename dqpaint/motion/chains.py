@@ -13,17 +13,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
+from dqpaint.language.chains import NODES, WEIGHTS, Indices, derivatives
 from dqpaint.language.program import Chain
 from dqpaint.motion.places import Places
 
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
 EXACT = 1e-14  # of the length of the chain: what halving a panel may change
 MOST_HALVINGS = 30
 AT_ONCE = 10_000  # panels, for the sake of memory
 AT_REST = 1e-6  # of a piece's mean speed: there its formula stands still
 NEXT_TO = 1e-4  # of the way to the middle of a piece: where a direction is taken instead
-
-Indices = NDArray[np.intp]
 
 
 def place_chain(path: Chain) -> Places:
@@ -73,28 +71,6 @@ def _by_length(path: Chain, piece: Indices, g: Floats, mean_speed: Floats) -> Fl
     still = rest[:, None]
     second, third = np.where(still, 0.0, second), np.where(still, 0.0, third)
     return np.stack([p[0], first, second, third])
-
-
-def derivatives(path: Chain, piece: Indices, g: Floats) -> Floats:
-    """Places (4, N, 3) and derivatives over g, of pieces (N,) at their own parameters (N,)."""
-    c0, c1, c2, c3 = path.cubic[piece].transpose(1, 0, 2)
-    h = g[:, None]
-    out = np.stack([
-        c0 + h * (c1 + h * (c2 + h * c3)),
-        c1 + h * (2.0 * c2 + 3.0 * h * c3),
-        2.0 * c2 + 6.0 * h * c3,
-        6.0 * c3,
-    ])  # fmt: skip
-    if path.ellipse.any():
-        u, v = path.ellipse[piece].transpose(1, 0, 2)
-        start, turn = path.angles[piece].T[:, :, None]
-        c, s = np.cos(start + h * turn), np.sin(start + h * turn)
-        outward, along = c * u + s * v, c * v - s * u
-        out[0] += outward
-        out[1] += turn * along
-        out[2] -= turn**2 * outward
-        out[3] -= turn**3 * along
-    return out
 
 
 @dataclass(frozen=True)

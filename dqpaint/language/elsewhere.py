@@ -12,7 +12,7 @@ from dqpaint.language import chains, colours, drawings, letters, reading, space,
 from dqpaint.language.curves import GAP
 from dqpaint.language.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.pen import SAME_PLACE, Pen, here
-from dqpaint.language.program import Chain, Colour, Follow, Keep, Light, Pose, Timing, Vector
+from dqpaint.language.program import Chain, Colour, Follow, Keep, Light, Look, LookLine, Pose, Timing, Vector
 from dqpaint.language.scope import Scope
 from dqpaint.language.settings import Towards
 from dqpaint.language.suggestions import closest, did_you_mean
@@ -21,7 +21,7 @@ from dqpaint.language.taylor import Floats
 from dqpaint.language.timing import shared, timing
 from dqpaint.language.units import UNITS
 
-LOOKED_AT = 16  # places of each piece where a tool that looks is looked at
+LOOKED_AT = 20_000  # places of a stroke, where a tool that looks is looked at
 
 
 class Trace(NamedTuple):
@@ -206,7 +206,8 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
     for number, trace in enumerate(traces):
         _travel(pen, starts[number], span, times[2 * number - 1] if number else None)
         tools.begin(pen, mode, span)
-        tools.check_way(mode, _places(trace.chain), span)
+        if isinstance(mode, Look | LookLine):
+            tools.check_way(mode, _places(trace.chain), span)
         tool, orientation = tools.at_end(pen, mode, stops[number], span, space.Z, 0.0)
         end = Pose(stops[number], orientation)
         pen.draw(trace.chain, tool, times[2 * number], glows[number], end, span)
@@ -264,6 +265,6 @@ def _travel(pen: Pen, to: Vector, span: Span, time: Timing | None) -> None:
 def _places(chain: Chain) -> list[Vector]:
     """Places all along a chain."""
     count = len(chain.cubic)
-    g = np.tile(np.linspace(0.0, 1.0, LOOKED_AT), count)
-    at = chains.derivatives(chain, np.repeat(np.arange(count), LOOKED_AT), g)[0]
+    whole = np.linspace(0.0, count, min(16 * count, LOOKED_AT), endpoint=False)
+    at = chains.derivatives(chain, whole.astype(np.intp), whole % 1.0)[0]
     return [(x, y, z) for x, y, z in at.tolist()]

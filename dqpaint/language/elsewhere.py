@@ -12,10 +12,21 @@ from dqpaint.language import chains, colours, drawings, letters, reading, space,
 from dqpaint.language.curves import GAP
 from dqpaint.language.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.pen import SAME_PLACE, Pen, here
-from dqpaint.language.program import Chain, Colour, Follow, Keep, Light, Look, LookLine, Pose, Timing, Vector
+from dqpaint.language.program import (
+    Chain,
+    Colour,
+    Follow,
+    Keep,
+    Light,
+    Look,
+    LookLine,
+    Pose,
+    Timing,
+    Vector,
+)
 from dqpaint.language.scope import Scope
 from dqpaint.language.settings import Towards
-from dqpaint.language.suggestions import closest, did_you_mean
+from dqpaint.language.suggestions import closest
 from dqpaint.language.syntax import Name, Quoted, Statement
 from dqpaint.language.taylor import Floats
 from dqpaint.language.timing import shared, timing

@@ -111,7 +111,7 @@ def _line(line: str, font: Font) -> tuple[list[Floats], float, float]:
     blank = [0.0, 0.0]  # before the first letter, after the last
     for letter in line:
         glyph = font.glyph(letter)
-        inked += [points + (pen, 0.0) for points in glyph.strokes]
+        inked += [points + np.array([pen, 0.0]) for points in glyph.strokes]
         blank[bool(inked)] = 0.0 if glyph.strokes else blank[bool(inked)] + glyph.width
         pen += glyph.width
     if not inked:
@@ -149,7 +149,7 @@ def _corners(points: Floats, sharpest: float) -> NDArray[np.bool_]:
     longer = np.minimum(before, after)
     turn = chains.turns(points)
     longer = np.append(longer, longer[0])
-    return (turn > sharpest) | ((turn > SHARP) & (longer > SHORT))
+    return np.asarray((turn > sharpest) | ((turn > SHARP) & (longer > SHORT)))
 
 
 # What a font lacks.

@@ -27,7 +27,7 @@ def read(nodes: list[Quoted], pen: Pen) -> Floats:
         count = points.shape[1]
         if count not in (2, 3):
             columns = f"{count} column{'s' if count > 1 else ''}"
-            cure = "a point has 2 or 3; an axis to a file is written: path \"x.txt\" \"y.txt\""
+            cure = 'a point has 2 or 3; an axis to a file is written: path "x.txt" "y.txt"'
             message = f"{nodes[0].text} has {columns}"
             raise problem("E285", message, nodes[0].span, "", cure)
         return _with_z(points)
@@ -106,28 +106,27 @@ def _is_heading(line: str) -> bool:
     return not any(map(_is_number, _numbers(line, *_style(line))))
 
 
-def _fault(
-    node: Quoted, lines: list[tuple[int, str]], parted: str | None, comma: bool
-) -> Problem:
+def _fault(node: Quoted, lines: list[tuple[int, str]], parted: str | None, comma: bool) -> Problem:
     """E284: the first line that is not as it should be."""
-    wanted = len(_numbers(lines[0][1], parted, comma))
-    for number, line in lines:
-        fields = _numbers(line, parted, comma)
-        if len(fields) != wanted:
-            what = f"has {len(fields)} numbers, the first has {wanted}"
-            break
-        bad = [field.strip() for field in fields if not _is_number(field)]
-        if bad:
-            what = f"has '{bad[0][:40]}' where a number should be" if bad[0] else "lacks a number"
-            break
-        if not all(abs(float(field)) < FARTHEST for field in fields):
-            what = "has a number that is not finite, or far too large"
-            break
-    else:  # pragma: no cover - the reader was stricter than we are
-        number, what = lines[0][0], "can't be read"
-    message = f"{node.text}, line {number}: this row {what}"
-    cure = "a row is 2 or 3 numbers, with a point as decimal sign or semicolons between"
+    rows = [(number, _numbers(line, parted, comma)) for number, line in lines]
+    wanted = len(rows[0][1])
+    faults = ((number, _wrong(fields, wanted)) for number, fields in rows)
+    line, what = next((f for f in faults if f[1]), (rows[0][0], "can't be read"))
+    message = f"{node.text}, line {line}: this row {what}"
+    cure = "a row is 2 or 3 numbers; a comma as decimal sign needs semicolons between the columns"
     return problem("E284", message, node.span, "", cure)
+
+
+def _wrong(fields: list[str], wanted: int) -> str:
+    """What is wrong with a row; empty if nothing is."""
+    bad = [field.strip() for field in fields if not _is_number(field)]
+    if bad:
+        return f"has '{bad[0][:40]}' where a number should be" if bad[0] else "lacks a number"
+    if len(fields) != wanted:
+        return f"has {len(fields)} numbers, the first has {wanted}"
+    if not all(abs(float(field)) < FARTHEST for field in fields):
+        return "has a number that is not finite, or far too large"
+    return ""
 
 
 def _too_many(node: Quoted) -> Problem:

@@ -117,7 +117,7 @@ def _measure(path: Chain) -> _Panels:
     order = np.lexsort((lower, piece))
     piece, lower, upper, size = piece[order], lower[order], upper[order], size[order]
     edges = np.concatenate([[0.0], np.cumsum(size)])
-    return _Panels(piece, lower, upper, edges, np.bincount(piece, weights=size))
+    return _Panels(piece, lower, upper, edges, np.bincount(piece, weights=size).astype(np.float64))
 
 
 def _lengths(path: Chain, piece: Indices, lower: Floats, upper: Floats) -> Floats:

@@ -17,6 +17,7 @@ from dqpaint.language.taylor import Floats
 Line = tuple[Chain, Colour | None]
 
 TOUCHING = 1e-5  # of the size of the drawing
+SAME = 1e-12  # [m]
 MOST_TURNED = 2_000  # lines, up to which stretches are turned round
 ROUNDS = 20
 
@@ -32,7 +33,7 @@ def in_order(lines: list[Line]) -> list[Line]:
 def _merged(lines: list[Line]) -> list[Line]:
     """Lines whose ends touch become one."""
     ends = np.array([chains.ends(chain) for chain, _ in lines])  # (N, 2, 3)
-    tolerance = TOUCHING * float(np.ptp(ends.reshape(-1, 3), axis=0).max() or 1.0)
+    tolerance = max(TOUCHING * float(np.ptp(ends.reshape(-1, 3), axis=0).max()), SAME)
     ends_at: dict[tuple[object, ...], list[tuple[int, int]]] = defaultdict(list)
     for number, knots in enumerate(_knots(ends, tolerance)):
         if knots[0] != knots[1]:  # a closed line has no ends

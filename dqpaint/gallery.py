@@ -41,6 +41,7 @@ SHOTS = (
     Shot("baxter-screw", "A screw of pitch zero about a line given in space.", {"view": "iso"}),
     Shot("signature", "Lettering runs through its vertices: no beads on the line.", {}),
     Shot("logo", "An SVG drawing, its arcs still arcs.", {}),
+    Shot("orbit", "541 points of a CSV file, smoothly.", {}),
     Shot("step", "A jump of the set point: the error decays, and slower is brighter.", {}),
 )
 

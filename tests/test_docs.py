@@ -114,7 +114,8 @@ def test_every_statement_s_example_is_one(word):
     after = "\nline by (1, 0) mm\n" if word != "end" else "\n"
     if STATEMENTS[word].block:
         after += "end\n"
-    program = parse(before.get(word, "") + example + after, "example.traj")
+    here = str(examples_folder() / "example.traj")
+    program = parse(before.get(word, "") + example + after, here)
     motion = plan(program, read_card("iiwa").canvas.pose)
     begin(motion, Kinematics(read_card("iiwa")))
 

@@ -2,7 +2,7 @@
 
 from pathlib import Path, PurePosixPath
 
-from dqpaint.language.diagnostics import Problem, Span, problem
+from dqpaint.language.diagnostics import Problem, problem
 from dqpaint.language.pen import Pen
 from dqpaint.language.syntax import Quoted
 
@@ -41,19 +41,19 @@ def contents(node: Quoted, pen: Pen, most_bytes: int) -> bytes:
         with path.open("rb") as file:
             data = file.read(most_bytes + 1)
     except (OSError, ValueError) as fault:
-        raise _unread(node.span, path, fault) from None
+        raise _unread(node, path, fault) from None
     if len(data) > most_bytes:
         raise too_large(node, f"larger than {most_bytes // 1_000_000} MB")
     return data
 
 
-def _unread(span: Span, path: Path, fault: Exception) -> Problem:
+def _unread(node: Quoted, path: Path, fault: Exception) -> Problem:
     reason = (fault.strerror if isinstance(fault, OSError) else None) or str(fault)
     cure = ""
     if isinstance(fault, FileNotFoundError):
         there = sorted(p.name for p in path.parent.glob(f"*{path.suffix}"))[:6]
         cure = f"there are: {', '.join(there)}" if there and path.suffix else ""
-    return problem("E282", f"can't read {path}: {reason.lower()}", span, "", cure)
+    return problem("E282", f"can't read {node.text}: {reason.lower()}", node.span, "", cure)
 
 
 def too_large(node: Quoted, how: str, cure: str = "") -> Problem:

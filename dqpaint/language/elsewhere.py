@@ -159,7 +159,7 @@ def _scale(statement: Statement, pen: Pen, scope: Scope, size: tuple[float, floa
         if extent > 0.0:
             scales.append(wanted / extent)
         elif not statement.value("height" if word == "width" else "width"):
-            message = f"this has no {word}, so it can't be made {scope.written(node)} of it"
+            message = f"its {word} is 0, so it can't be scaled to {scope.written(node)}"
             other = "height" if word == "width" else "width"
             raise problem("E263", message, node.span, "", f"say its {other} instead")
     return min(scales, default=1.0)

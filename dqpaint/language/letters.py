@@ -99,13 +99,13 @@ def lay_out(lines: list[str], font: Font, align: str) -> Lettering:
     for number, line in enumerate(lines):
         placed, left, right = _line(line, font)
         edge = {"left": left, "right": right, "centre": 0.5 * (left + right)}[align]
-        down = number * LINE_PITCH * font.cap
-        strokes += [_stroke(points - (edge, down), font.sharpest) for points in placed]
+        shift = np.array([-edge, -number * LINE_PITCH * font.cap, 0.0])
+        strokes += [chains.mapped(stroke, np.eye(3), shift) for stroke in placed]
         longest = max(longest, right - left)
     return Lettering(strokes, longest)
 
 
-def _line(line: str, font: Font) -> tuple[list[Floats], float, float]:
+def _line(line: str, font: Font) -> tuple[list[Chain], float, float]:
     """The strokes of a line, and where its ink begins and ends; blanks round it count as ink."""
     pen, inked = 0.0, []
     blank = [0.0, 0.0]  # before the first letter, after the last
@@ -116,8 +116,10 @@ def _line(line: str, font: Font) -> tuple[list[Floats], float, float]:
         pen += glyph.width
     if not inked:
         return [], 0.0, 0.0
-    xs = np.concatenate(inked)[:, 0]
-    return _continued(inked), float(xs.min()) - blank[0], float(xs.max()) + blank[1]
+    strokes = [_stroke(points, font.sharpest) for points in _continued(inked)]
+    least, most = zip(*(chains.box(stroke) for stroke in strokes), strict=True)
+    left, right = float(np.min(least, axis=0)[0]), float(np.max(most, axis=0)[0])
+    return strokes, left - blank[0], right + blank[1]
 
 
 def _continued(strokes: list[Floats]) -> list[Floats]:

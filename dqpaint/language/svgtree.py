@@ -24,6 +24,8 @@ _LINK = ("href", "{http://www.w3.org/1999/xlink}href")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _DISPLAY = re.compile(r"(?:^|;)\s*display\s*:\s*none\s*(?:;|$|!)")
 
+_LESS = "draw a part of it, or make it simpler"
+
 Element = ElementTree.Element
 
 
@@ -79,7 +81,7 @@ def _tree(data: bytes) -> Element:
         if depth > DEEPEST:
             raise SvgError(f"more than {DEEPEST} elements within each other")
         if count > MOST_ELEMENTS:
-            raise SvgError(f"more than {MOST_ELEMENTS:,} elements")
+            raise SvgError(f"more than {MOST_ELEMENTS:,} elements", _LESS)
         builder.start(tag(name), {tag(key): value for key, value in attributes.items()})
 
     def end(name: str) -> None:
@@ -122,9 +124,9 @@ class _Count:
         """Raises if it is too much."""
         elements, numbers, _ = self._of(self._root, 1)
         if elements > MOST_ELEMENTS:
-            raise SvgError(f"with every 'use' it has {_shown(elements)} elements")
+            raise SvgError(f"with every 'use' it has {_shown(elements)} elements", _LESS)
         if numbers > MOST_NUMBERS:
-            raise SvgError(f"with every 'use' its paths have {_shown(numbers)} numbers")
+            raise SvgError(f"with every 'use' its paths have {_shown(numbers)} numbers", _LESS)
 
     def _of(self, element: Element, depth: int) -> tuple[int, int, int]:
         """Elements, numbers of paths, and depth of an element with all below it."""

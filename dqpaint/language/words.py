@@ -171,7 +171,7 @@ STATEMENTS = {
         StatementWord(
             "path",
             "a line through the points in a file, or in a file for each axis",
-            'path "orbit.csv" unit mm',
+            'path "orbit.csv" unit cm',
             head="texts",
             parts=("unit", "height", "width", "at", "smooth", *CLAUSES),
             moves=True,

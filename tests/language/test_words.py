@@ -2,6 +2,7 @@
 
 import pytest
 
+from dqpaint.examples import examples_folder
 from dqpaint.language import parse, strokes
 from dqpaint.language.functions import TABLE
 from dqpaint.language.names import meaning
@@ -16,6 +17,8 @@ from dqpaint.language.words import (
     STATEMENT_ALIASES,
     STATEMENTS,
 )
+
+HERE = str(examples_folder() / "test.traj")  # whose files the examples name
 
 
 def test_functions() -> None:
@@ -38,7 +41,7 @@ def test_examples_of_statements(word: str) -> None:
     known = STATEMENTS[word]
     start = "" if word in ("traj", "robot", "place", "start", "period") else "start at (0, 9) mm\n"
     end = "\nline by (1, 0) mm\nend" if known.block else ""
-    assert parse(f"{start}{known.example}{end}\nline by (3, 4) mm", word).segments
+    assert parse(f"{start}{known.example}{end}\nline by (3, 4) mm", HERE).segments
 
 
 @pytest.mark.parametrize(
@@ -54,6 +57,9 @@ def test_examples_of_parts(word: str, part: str) -> None:
         "curve": "curve polar(9 mm, t) for t from 0 to 1 turn",
         "step": "step to (9, 9) mm",
         "hold": "hold 1 s",
+        "text": 'text "A" "B"' + (" height 9 mm" if part != "width" else ""),
+        "path": 'path "orbit.csv"' + (" unit mm" if part not in ("height", "width") else ""),
+        "svg": 'svg "logo.svg"',
     }[word]
     if part == "via":
         base = "arc to (-80, 0) mm"
@@ -65,7 +71,7 @@ def test_examples_of_parts(word: str, part: str) -> None:
         base = "arc angle 1 turn"
     example = "tool keep" if part == "tool" and word != "step" else PARTS[part].example
     line = base if f" {part} " in base else f"{base} {example}"
-    assert parse(f"start at (90, 0) mm\n{line}", word).segments
+    assert parse(f"start at (90, 0) mm\n{line}", HERE).segments
 
 
 def test_aliases_lead_to_words() -> None:

@@ -24,8 +24,9 @@ LINE_PITCH = 1.6  # from a baseline to the next, in heights of a capital
 LONGEST = 1000  # letters of one text
 
 # What is round although it is written with few points: a point is a corner if the pen turns there
-# by more than the font says, or between two lines longer than SHORT, in font units, by SHARP.
-SHARP, SHORT = np.radians(30.0), 5.0
+# by more than the font says; by SHARP between two lines longer than SHORT, in font units; or by
+# twice as much beside a line longer than LONG.
+SHARP, SHORT, LONG = np.radians(30.0), 5.0, 8.0
 STIFF = 2.2  # a stem stays straight where a bow so many times shorter begins
 
 # Signs that are drawn as their plain ones.
@@ -147,11 +148,12 @@ def _stroke(points: Floats, sharpest: float) -> Chain:
 def _corners(points: Floats, sharpest: float) -> NDArray[np.bool_]:
     """Which points of a polyline are meant as corners."""
     size = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    before, after = np.roll(size, 1), size
-    longer = np.minimum(before, after)
+    shorter = np.minimum(np.roll(size, 1), size)
+    longer = np.maximum(np.roll(size, 1), size)
+    shorter, longer = (np.append(side, side[0]) for side in (shorter, longer))
     turn = chains.turns(points)
-    longer = np.append(longer, longer[0])
-    return np.asarray((turn > sharpest) | ((turn > SHARP) & (longer > SHORT)))
+    corner = (turn > SHARP) & (shorter > SHORT) | (turn > 2.0 * SHARP) & (longer > LONG)
+    return np.asarray(corner | (turn > sharpest))
 
 
 # What a font lacks.

@@ -133,7 +133,7 @@ def test_bows_are_round_and_stems_are_straight() -> None:
 
 @pytest.mark.parametrize("name", FONTS)
 def test_bows_stay_near_their_points(name: str) -> None:
-    """What is rounded leaves the font's own polyline by less than 0.8 units in 21."""
+    """What is rounded leaves the font's own polyline by less than a unit in 21."""
     font = letters.read_font(name)
     for glyph in font.glyphs.values():
         for points in glyph.strokes:
@@ -145,7 +145,7 @@ def test_bows_stay_near_their_points(name: str) -> None:
             a = chain.cubic[of, 0]
             b = a + chain.cubic[of, 1:].sum(axis=1) - a
             share = ((at - a) * b).sum(1) / (b * b).sum(1)
-            assert np.linalg.norm(at - a - share[:, None] * b, axis=1).max() < 0.8
+            assert np.linalg.norm(at - a - share[:, None] * b, axis=1).max() < 1.0
 
 
 def test_time_is_shared_by_length() -> None:

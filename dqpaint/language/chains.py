@@ -140,17 +140,11 @@ def turns(points: Floats) -> Floats:
 
 def joined(chains: Sequence[Chain]) -> Chain:
     """One chain of several that follow each other; a start is moved to the end before it."""
-    cubic = np.concatenate([chain.cubic for chain in chains])
-    whole = Chain(
-        cubic,
-        np.concatenate([chain.ellipse for chain in chains]),
-        np.concatenate([chain.angles for chain in chains]),
-    )
-    heads = np.cumsum([len(chain.cubic) for chain in chains])[:-1]
-    if len(heads):
-        gap = _at(whole, heads - 1, 1.0) - _at(whole, heads, 0.0)
-        cubic[heads, 0] += gap
-        cubic[heads, 1] -= gap
+    whole, first, last = _together(chains)
+    heads = first[1:]
+    gap = _at(whole, last[:-1], 1.0) - _at(whole, heads, 0.0)
+    whole.cubic[heads, 0] += gap
+    whole.cubic[heads, 1] -= gap
     return whole
 
 
@@ -178,14 +172,41 @@ def _at(chain: Chain, piece: Indices, g: float) -> Floats:
 
 def ends(chain: Chain) -> tuple[Vector, Vector]:
     """The first and the last point."""
-    first = _at(chain, np.array([0]), 0.0)[0].tolist()
-    last = _at(chain, np.array([len(chain.cubic) - 1]), 1.0)[0].tolist()
+    first, last = all_ends([chain])[0].tolist()
     return (first[0], first[1], first[2]), (last[0], last[1], last[2])
+
+
+def all_ends(chains: Sequence[Chain]) -> Floats:
+    """The first and the last points (N, 2, 3) of many chains."""
+    whole, first, last = _together(chains)
+    return np.stack([_at(whole, first, 0.0), _at(whole, last, 1.0)], axis=1)
+
+
+def directions(chains: Sequence[Chain]) -> Floats:
+    """Unit vectors (N, 2, 3) into each chain from its start and from its end."""
+    whole, *pieces = _together(chains)
+    ways = [
+        sign * derivatives(whole, piece, np.full(len(piece), g))[1]
+        for piece, g, sign in zip(pieces, (1e-3, 1.0 - 1e-3), (1.0, -1.0), strict=True)
+    ]
+    out = np.stack(ways, axis=1)
+    norm = np.linalg.norm(out, axis=2, keepdims=True)
+    return np.asarray(out / np.where(norm > 0.0, norm, 1.0))
+
+
+def _together(chains: Sequence[Chain]) -> tuple[Chain, Indices, Indices]:
+    """All pieces of many chains, and which are the first and the last of each."""
+    whole = Chain(
+        np.concatenate([chain.cubic for chain in chains]),
+        np.concatenate([chain.ellipse for chain in chains]),
+        np.concatenate([chain.angles for chain in chains]),
+    )
+    stop = np.cumsum([len(chain.cubic) for chain in chains])
+    return whole, np.concatenate([[0], stop[:-1]]), stop - 1
 
 
 def length(chain: Chain) -> float:
     """The length of a chain, good enough to share out time and colour by it."""
-    count = len(chain.cubic)
     size = np.linalg.norm(chain.cubic[:, 1], axis=1)
     bent = chain.cubic[:, 2:].any(axis=(1, 2)) | chain.ellipse.any(axis=(1, 2))
     (some,) = np.nonzero(bent)
@@ -193,7 +214,6 @@ def length(chain: Chain) -> float:
         g = np.tile(0.5 + 0.5 * NODES, len(part))
         speed = np.linalg.norm(derivatives(chain, np.repeat(part, 10), g)[1], axis=1)
         size[part] = 0.5 * speed.reshape(-1, 10) @ WEIGHTS
-    assert count == len(size)
     return float(size.sum())
 
 

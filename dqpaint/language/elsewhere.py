@@ -205,7 +205,8 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
         message = f"the tool can't follow a '{statement.word}': it would jump at every corner"
         part = statement.part("tool")
         raise here("E254", message, part.value.span if part else span, "", "use: tool keep")
-    starts, stops = zip(*(chains.ends(trace.chain) for trace in traces), strict=True)
+    ends = chains.all_ends([trace.chain for trace in traces]).tolist()
+    starts, stops = ([_vector(pair[side]) for pair in ends] for side in (0, 1))
     _begin(pen, starts[0], span)
     lengths = [chains.length(trace.chain) for trace in traces]
     ways = [
@@ -271,6 +272,11 @@ def _travel(pen: Pen, to: Vector, span: Span, time: Timing | None) -> None:
         tool, orientation = tools.at_end(pen, mode, to, span, space.Z, 0.0)
     if far or not isinstance(tool, Keep):
         pen.travel(to, span, tool, orientation, time)
+
+
+def _vector(numbers: list[float]) -> Vector:
+    x, y, z = numbers
+    return x, y, z
 
 
 def _places(chain: Chain) -> list[Vector]:

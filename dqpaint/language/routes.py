@@ -5,7 +5,9 @@ followed by the one whose nearer end is nearest, and stretches of the way are tu
 that shortens it (2-opt).
 """
 
+import math
 from collections import defaultdict
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +22,7 @@ TOUCHING = 1e-5  # of the size of the drawing
 SAME = 1e-12  # [m]
 MOST_TURNED = 2_000  # lines, up to which stretches are turned round
 ROUNDS = 20
+RINGS = 6  # of cells that are searched before all lines are
 
 
 def in_order(lines: list[Line]) -> list[Line]:
@@ -32,14 +35,14 @@ def in_order(lines: list[Line]) -> list[Line]:
 
 def _merged(lines: list[Line]) -> list[Line]:
     """Lines whose ends touch become one."""
-    ends = np.array([chains.ends(chain) for chain, _ in lines])  # (N, 2, 3)
+    ends = chains.all_ends([chain for chain, _ in lines])
     tolerance = max(TOUCHING * float(np.ptp(ends.reshape(-1, 3), axis=0).max()), SAME)
     ends_at: dict[tuple[object, ...], list[tuple[int, int]]] = defaultdict(list)
     for number, knots in enumerate(_knots(ends, tolerance)):
         if knots[0] != knots[1]:  # a closed line has no ends
             for side in (0, 1):
                 ends_at[(lines[number][1], knots[side])].append((number, side))
-    directions = np.array([_directions(chain) for chain, _ in lines])
+    directions = chains.directions([chain for chain, _ in lines])
     partner: dict[tuple[int, int], tuple[int, int]] = {}
     for meeting in ends_at.values():
         for one, other in _pairs(meeting, directions):
@@ -62,13 +65,6 @@ def _knots(ends: Floats, tolerance: float) -> list[tuple[int, int]]:
             cells[cell[0], cell[1]].append(number)
         knots.append(same)
     return list(zip(knots[::2], knots[1::2], strict=True))
-
-
-def _directions(chain: Chain) -> list[Floats]:
-    """Unit vectors into the line at its start and at its end."""
-    at = np.array([0, len(chain.cubic) - 1]), np.array([1e-3, 1.0 - 1e-3])
-    ways = chains.derivatives(chain, *at)[1] * [[1.0], [-1.0]]
-    return [way / (np.linalg.norm(way) or 1.0) for way in ways]
 
 
 def _pairs(
@@ -120,7 +116,7 @@ def _strung(lines: list[Line], partner: dict[tuple[int, int], tuple[int, int]]) 
 
 
 def _routed(lines: list[Line]) -> list[Line]:
-    ends = np.array([chains.ends(chain) for chain, _ in lines])
+    ends = chains.all_ends([chain for chain, _ in lines])
     order, flipped = _nearest(ends)
     if len(lines) <= MOST_TURNED:
         order, flipped = _turned(ends, order, flipped)
@@ -149,21 +145,63 @@ def _dark(ends: Floats, order: NDArray[np.int64], flipped: NDArray[np.bool_]) ->
 
 def _nearest(ends: Floats) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
     """Each line followed by the nearest that is left, turned round if its end is nearer."""
-    left = np.arange(1, len(ends))
-    order, flipped, at = [0], [False], ends[0, 1]
-    points = ends[1:]
-    alive = np.ones(len(left), dtype=bool)
-    for count in range(len(left), 0, -1):
-        if 2 * count < len(left):
-            left, points, alive = left[alive], points[alive], np.ones(count, dtype=bool)
-        way = points - at
-        far = np.where(alive[:, None], np.einsum("nij,nij->ni", way, way), np.inf)
-        near, side = divmod(int(np.argmin(far)), 2)
-        alive[near] = False
-        order.append(int(left[near]))
+    left = _Left(ends)
+    order, flipped = [0], [False]
+    left.take(0)
+    while len(order) < len(ends):
+        line, side = left.nearest(ends[order[-1], 0 if flipped[-1] else 1])
+        left.take(line)
+        order.append(line)
         flipped.append(side == 1)
-        at = points[near, 1 - side]
     return np.array(order), np.array(flipped)
+
+
+class _Left:
+    """The ends of the lines that are left, in square cells with about one line each."""
+
+    def __init__(self, ends: Floats) -> None:
+        self._ends = ends
+        self._least = ends.reshape(-1, 3).min(axis=0)
+        size = np.ptp(ends.reshape(-1, 3)[:, :2], axis=0)
+        self._cell = max(float(size.max()) / math.sqrt(len(ends)), SAME)
+        self._alive = np.ones(len(ends), dtype=bool)
+        self._cells: dict[tuple[int, int], set[tuple[int, int]]] = defaultdict(set)
+        self._at = [[self._cell_of(end) for end in pair] for pair in ends[:, :, :2].tolist()]
+        for line, pair in enumerate(self._at):
+            for side, cell in enumerate(pair):
+                self._cells[cell].add((line, side))
+
+    def _cell_of(self, point: Sequence[float]) -> tuple[int, int]:
+        x, y = ((point[i] - float(self._least[i])) / self._cell for i in (0, 1))
+        return int(x), int(y)
+
+    def take(self, line: int) -> None:
+        """Takes a line away."""
+        self._alive[line] = False
+        for side, cell in enumerate(self._at[line]):
+            self._cells[cell].discard((line, side))
+
+    def nearest(self, point: Floats) -> tuple[int, int]:
+        """The line and which of its ends; looks ring by ring, and then at all."""
+        x, y = self._cell_of(point.tolist())
+        best, found = math.inf, (-1, -1)
+        for ring in range(RINGS):
+            for line, side in self._ring(x, y, ring):
+                far = math.dist(self._ends[line, side].tolist(), point.tolist())
+                if far < best:
+                    best, found = far, (line, side)
+            if best <= ring * self._cell:
+                return found
+        (some,) = np.nonzero(self._alive)
+        far_all = np.linalg.norm(self._ends[some] - point, axis=2)
+        near, side = divmod(int(np.argmin(far_all)), 2)
+        return int(some[near]), side
+
+    def _ring(self, x: int, y: int, ring: int) -> Iterator[tuple[int, int]]:
+        for i in range(-ring, ring + 1):
+            step = 1 if abs(i) == ring else 2 * ring
+            for j in range(-ring, ring + 1, step or 1):
+                yield from self._cells.get((x + i, y + j), ())
 
 
 def _turned(

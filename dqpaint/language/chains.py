@@ -205,28 +205,29 @@ def _together(chains: Sequence[Chain]) -> tuple[Chain, Indices, Indices]:
     return whole, np.concatenate([[0], stop[:-1]]), stop - 1
 
 
-def length(chain: Chain) -> float:
-    """The length of a chain, good enough to share out time and colour by it."""
-    size = np.linalg.norm(chain.cubic[:, 1], axis=1)
-    bent = chain.cubic[:, 2:].any(axis=(1, 2)) | chain.ellipse.any(axis=(1, 2))
+def lengths(chains: Sequence[Chain]) -> list[float]:
+    """The lengths of chains, good enough to share out time and colour by them."""
+    whole, first, _ = _together(chains)
+    size = np.linalg.norm(whole.cubic[:, 1], axis=1)
+    bent = whole.cubic[:, 2:].any(axis=(1, 2)) | whole.ellipse.any(axis=(1, 2))
     (some,) = np.nonzero(bent)
     for part in np.split(some, range(10_000, len(some), 10_000)):
         g = np.tile(0.5 + 0.5 * NODES, len(part))
-        speed = np.linalg.norm(derivatives(chain, np.repeat(part, 10), g)[1], axis=1)
+        speed = np.linalg.norm(derivatives(whole, np.repeat(part, 10), g)[1], axis=1)
         size[part] = 0.5 * speed.reshape(-1, 10) @ WEIGHTS
-    return float(size.sum())
+    return list(np.add.reduceat(size, first).tolist())
 
 
-def box(chain: Chain) -> tuple[Floats, Floats]:
+def box(chains: Sequence[Chain]) -> tuple[Floats, Floats]:
     """The least and the greatest coordinates (3,), exact where a curve bulges out as well."""
-    count = len(chain.cubic)
-    every = np.arange(count)
-    found = [_at(chain, every, 0.0), _at(chain, every, 1.0)]
+    whole = _together(chains)[0]
+    every = np.arange(len(whole.cubic))
+    found = [_at(whole, every, 0.0), _at(whole, every, 1.0)]
     for axis in range(3):
-        for piece, g in (_still_cubic(chain, axis), _still_arc(chain, axis)):
+        for piece, g in (_still_cubic(whole, axis), _still_arc(whole, axis)):
             inside = (g > 0.0) & (g < 1.0)
             if inside.any():
-                found.append(derivatives(chain, piece[inside], g[inside])[0])
+                found.append(derivatives(whole, piece[inside], g[inside])[0])
     points = np.concatenate(found)
     return points.min(axis=0), points.max(axis=0)
 

@@ -169,9 +169,7 @@ def _fitted(
     statement: Statement, pen: Pen, scope: Scope, loose: list[Chain]
 ) -> tuple[float, Floats]:
     """The scale of a drawing, and minus the middle of its box."""
-    boxes = [chains.box(chain) for chain in loose]
-    least = np.min([box[0] for box in boxes], axis=0)
-    most = np.max([box[1] for box in boxes], axis=0)
+    least, most = chains.box(loose)
     width, height, _ = (most - least).tolist()
     return _scale(statement, pen, scope, (width, height)), -0.5 * (least + most)
 
@@ -208,7 +206,7 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
     ends = chains.all_ends([trace.chain for trace in traces]).tolist()
     starts, stops = ([_vector(pair[side]) for pair in ends] for side in (0, 1))
     _begin(pen, starts[0], span)
-    lengths = [chains.length(trace.chain) for trace in traces]
+    lengths = chains.lengths([trace.chain for trace in traces])
     ways = [
         space.length(space.minus(b, a))
         for a, b in zip(stops, (*starts[1:], stops[-1]), strict=True)

@@ -118,8 +118,7 @@ def _line(line: str, font: Font) -> tuple[list[Chain], float, float]:
     if not inked:
         return [], 0.0, 0.0
     strokes = [_stroke(points, font.sharpest) for points in _continued(inked)]
-    least, most = zip(*(chains.box(stroke) for stroke in strokes), strict=True)
-    left, right = float(np.min(least, axis=0)[0]), float(np.max(most, axis=0)[0])
+    left, right = (float(corner[0]) for corner in chains.box(strokes))
     return strokes, left - blank[0], right + blank[1]
 
 

@@ -15,6 +15,7 @@ from xml.parsers import expat
 MOST_BYTES = 10_000_000
 MOST_ELEMENTS = 100_000  # as they are written, and as they come by `use`
 MOST_NUMBERS = 1_000_000  # of paths and polygons, as they come by `use`
+MOST_SHAPES = 25_000  # each of them a stroke, and a way to it
 DEEPEST = 200  # elements and uses within each other
 
 _HIDDEN = ("clipPath", "mask", "pattern", "marker", "symbol")  # shown only by reference, if at all
@@ -26,7 +27,10 @@ _DISPLAY = re.compile(r"(?:^|;)\s*display\s*:\s*none\s*(?:;|$|!)")
 
 _LESS = "draw a part of it, or make it simpler"
 
+_SHAPES = ("path", "line", "polyline", "polygon", "rect", "circle", "ellipse")
+
 Element = ElementTree.Element
+Counts = tuple[int, int, int, int]  # elements, shapes, numbers, depth
 
 
 class SvgError(Exception):
@@ -117,19 +121,21 @@ class _Count:
     def __init__(self, root: Element) -> None:
         self._root = root
         self._by_id = {e.attrib["id"]: e for e in root.iter() if "id" in e.attrib}
-        self._known: dict[Element, tuple[int, int, int]] = {}
+        self._known: dict[Element, Counts] = {}
         self._open: set[Element] = set()
 
     def check(self) -> None:
         """Raises if it is too much."""
-        elements, numbers, _ = self._of(self._root, 1)
+        elements, shapes, numbers, _ = self._of(self._root, 1)
         if elements > MOST_ELEMENTS:
             raise SvgError(f"with every 'use' it has {_shown(elements)} elements", _LESS)
+        if shapes > MOST_SHAPES:
+            raise SvgError(f"it has {shapes:,} shapes, more than {MOST_SHAPES:,}", _LESS)
         if numbers > MOST_NUMBERS:
             raise SvgError(f"with every 'use' its paths have {_shown(numbers)} numbers", _LESS)
 
-    def _of(self, element: Element, depth: int) -> tuple[int, int, int]:
-        """Elements, numbers of paths, and depth of an element with all below it."""
+    def _of(self, element: Element, depth: int) -> Counts:
+        """Of an element with all below it."""
         known = self._known.get(element)
         if known is None:
             if element in self._open:
@@ -141,21 +147,23 @@ class _Count:
             known = self._counted(element, depth)
             self._open.discard(element)
             self._known[element] = known
-        if depth + known[2] > DEEPEST + 1:
+        if depth + known[3] > DEEPEST + 1:
             raise SvgError(f"more than {DEEPEST} elements within each other by 'use'")
         return known
 
-    def _counted(self, element: Element, depth: int) -> tuple[int, int, int]:
+    def _counted(self, element: Element, depth: int) -> Counts:
         below = list(element)
         if _name(element) == "use":
             links = [element.attrib[key] for key in _LINK if key in element.attrib]
             below += [self._by_id[k[1:]] for k in links[:1] if k[1:] in self._by_id]
         paths = element.attrib.get("d", ""), element.attrib.get("points", "")
-        elements, numbers, deepest = 1, sum(len(_NUMBER.findall(p)) for p in paths), 0
+        elements, shapes, deepest = 1, int(_name(element) in _SHAPES), 0
+        numbers = sum(len(_NUMBER.findall(path)) for path in paths)
         for other in below:
-            more, many, deep = self._of(other, depth + 1)
-            elements, numbers, deepest = elements + more, numbers + many, max(deepest, deep)
-        return elements, numbers, deepest + 1
+            *more, deep = self._of(other, depth + 1)
+            elements, shapes, numbers = elements + more[0], shapes + more[1], numbers + more[2]
+            deepest = max(deepest, deep)
+        return elements, shapes, numbers, deepest + 1
 
 
 def _shown(count: int) -> str:

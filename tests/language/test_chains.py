@@ -72,7 +72,7 @@ def test_box_against_many_places() -> None:
     made = [mixed(), chains.bezier(CONTROL[:3])]
     made += [chains.arc(CONTROL[0], *HALF, a, t) for a in (0.1, 2, -3) for t in (0.5, 2, -4, 6.28)]
     for chain in made:
-        least, most = chains.box(chain)
+        least, most = chains.box([chain])
         places = at(chain, 20_001)
         np.testing.assert_allclose(least, places.min(axis=0), atol=1e-7)
         np.testing.assert_allclose(most, places.max(axis=0), atol=1e-7)
@@ -81,7 +81,7 @@ def test_box_against_many_places() -> None:
 def test_length() -> None:
     for chain in (mixed(), chains.straight(CONTROL)):
         steps = np.linalg.norm(np.diff(at(chain, 20_001), axis=0), axis=1).sum()
-        assert chains.length(chain) == pytest.approx(steps, rel=1e-4)
+        assert chains.lengths([chain]) == pytest.approx([steps], rel=1e-4)
 
 
 # Smooth lines.

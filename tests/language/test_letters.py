@@ -19,8 +19,7 @@ def strokes(program: Program) -> list[Segment]:
 
 def box(program: Program) -> np.ndarray:
     """Least and greatest coordinates (2, 3) of all that shines [mm]."""
-    boxes = [chains.box(s.path) for s in strokes(program)]
-    return np.array([np.min([b[0] for b in boxes], 0), np.max([b[1] for b in boxes], 0)]) / MM
+    return np.array(chains.box([s.path for s in strokes(program)])) / MM
 
 
 def inked(line: str) -> np.ndarray:

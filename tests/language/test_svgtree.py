@@ -34,13 +34,19 @@ def test_nested_uses() -> None:
 
 def test_uses_are_counted_exactly() -> None:
     """A file with as many instances as allowed passes, with one more it does not."""
-    # svg, path, uses: each use counts itself and its path
+    # svg, g, uses: each use counts itself and its g
     uses = (MOST_ELEMENTS - 2) // 2
-    text = f'{OPEN}<path id="p" d="M0 0"/>{{}}<use href="#p"/></svg>'
+    text = f'{OPEN}<g id="p"/>{{}}<use href="#p"/></svg>'
     assert guard(text.format('<use href="#p"/>' * (uses - 1)).encode()).xml
     assert refused(text.format('<use href="#p"/>' * uses)).startswith(
         "with every 'use' it has 100,"
     )
+
+
+def test_shapes_are_counted_with_uses() -> None:
+    uses = '<use href="#p"/>' * 25_000
+    message = refused(f'{OPEN}<circle id="p"/>{uses}</svg>')
+    assert message == "it has 25,001 shapes, more than 25,000"
 
 
 def test_numbers_are_counted_with_uses() -> None:

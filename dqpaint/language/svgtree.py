@@ -23,6 +23,7 @@ _NO_LINES = ("text", "image", "foreignObject", "flowRoot", "script", "video", "a
 _SAID = ("text", "image", "foreignObject", "flowRoot")  # of these a person misses the loss
 _LINK = ("href", "{http://www.w3.org/1999/xlink}href")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+_LENGTH = re.compile(rf"({_NUMBER.pattern})\s*([a-zA-Z]*)")
 _DISPLAY = re.compile(r"(?:^|;)\s*display\s*:\s*none\s*(?:;|$|!)")
 
 _LESS = "draw a part of it, or make it simpler"
@@ -60,6 +61,7 @@ def guard(data: bytes) -> Guarded:
         raise SvgError(f"this is no SVG: it begins with <{_name(root)[:40]}>")
     _Count(root).check()
     out = Guarded(b"")
+    _size(root)
     _clean(root, out.left_out)
     out.xml = ElementTree.tostring(root, encoding="utf-8")
     return out
@@ -187,6 +189,22 @@ def _clean(parent: Element, left_out: Counter[str]) -> None:
     if _name(parent) == "switch":
         del kept[1:]
     parent[:] = kept
+
+
+def _size(root: Element) -> None:
+    """A width or a height that is not said follows from the view box, as browsers have it."""
+    said = {key: root.attrib[key] for key in ("width", "height") if key in root.attrib}
+    said = {key: value for key, value in said.items() if "%" not in value}
+    box = [float(number) for number in _NUMBER.findall(root.attrib.get("viewBox", ""))]
+    if len(box) != 4 or not all(0.0 < side < 1e9 for side in box[2:]) or len(said) == 2:
+        return
+    for key, side, other in (("width", box[2], box[3]), ("height", box[3], box[2])):
+        if key in said:
+            continue
+        root.attrib[key] = repr(side)
+        for value in said.values():  # the other one, with its unit
+            if match := _LENGTH.fullmatch(value.strip()):
+                root.attrib[key] = f"{float(match[1]) * side / other!r}{match[2]}"
 
 
 def _is_hidden(element: Element) -> bool:

@@ -12,10 +12,10 @@ def path_of(node: Quoted, pen: Pen) -> Path:
     folder = Path(pen.file[0]).parent
     written = PurePosixPath(node.text)
     if not node.text.strip() or "\0" in node.text:
-        raise problem("E281", "a file has a name", node.span, "", 'for example: "points.csv"')
+        raise problem("E292", "a file has a name", node.span, "", 'for example: "points.csv"')
     if written.is_absolute() or "\\" in node.text or node.text[1:2] == ":":
         message = "a file is named from the folder of the drawing, with / between"
-        raise problem("E281", message, node.span, "", f'for example: "{_last(node.text)}"')
+        raise problem("E292", message, node.span, "", f'for example: "{_last(node.text)}"')
     path = folder.joinpath(written)
     try:
         inside = path.resolve().is_relative_to(folder.resolve())
@@ -24,7 +24,7 @@ def path_of(node: Quoted, pen: Pen) -> Path:
     if not inside or ".." in written.parts:
         message = "this file is outside of the drawing's folder"
         cure = "only files beside the drawing or below can be read; copy it there"
-        raise problem("E281", message, node.span, "", cure)
+        raise problem("E292", message, node.span, "", cure)
     return path
 
 
@@ -53,9 +53,9 @@ def _unread(node: Quoted, path: Path, fault: Exception) -> Problem:
     if isinstance(fault, FileNotFoundError):
         there = sorted(p.name for p in path.parent.glob(f"*{path.suffix}"))[:6]
         cure = f"there are: {', '.join(there)}" if there and path.suffix else ""
-    return problem("E282", f"can't read {node.text}: {reason.lower()}", node.span, "", cure)
+    return problem("E293", f"can't read {node.text}: {reason.lower()}", node.span, "", cure)
 
 
 def too_large(node: Quoted, how: str, cure: str = "") -> Problem:
-    """E283."""
-    return problem("E283", f"{node.text} is {how}", node.span, "", cure)
+    """E294."""
+    return problem("E294", f"{node.text} is {how}", node.span, "", cure)

@@ -42,7 +42,7 @@ def read(node: Quoted, pen: Pen) -> list[Line]:
             raise SvgError("there are no lines in it", _said(guarded))
     except SvgError as fault:
         message = f"can't draw {node.text}: {fault.message}"
-        raise problem("E287", message, node.span, "", fault.cure) from None
+        raise problem("E298", message, node.span, "", fault.cure) from None
     except ImportError:
         raise _no_library(node) from None
     if guarded.left_out:
@@ -59,7 +59,7 @@ def _said(guarded: Guarded) -> str:
 
 def _no_library(node: Quoted) -> Problem:
     message = "reading SVG needs the package svgelements, which is not installed"
-    return problem("E286", message, node.span, "", 'pip install "dqpaint[svg]"')
+    return problem("E297", message, node.span, "", 'pip install "dqpaint[svg]"')
 
 
 def _lines(guarded: Guarded) -> Iterator[tuple[Chain, Colour | None]]:

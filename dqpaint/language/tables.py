@@ -29,17 +29,17 @@ def read(nodes: list[Quoted], pen: Pen) -> Floats:
             columns = f"{count} column{'s' if count > 1 else ''}"
             cure = 'a point has 2 or 3; an axis to a file is written: path "x.txt" "y.txt"'
             message = f"{nodes[0].text} has {columns}"
-            raise problem("E285", message, nodes[0].span, "", cure)
+            raise problem("E296", message, nodes[0].span, "", cure)
         return _with_z(points)
     axes = [_table(node, pen) for node in nodes]
     for node, axis in zip(nodes, axes, strict=True):
         if axis.shape[1] != 1:
             message = f"{node.text} has {axis.shape[1]} columns"
             cure = "of several files each is one axis: one value a line"
-            raise problem("E285", message, node.span, "", cure)
+            raise problem("E296", message, node.span, "", cure)
         if len(axis) != len(axes[0]):
             message = f"{node.text} has {len(axis):,} values, {nodes[0].text} has {len(axes[0]):,}"
-            raise problem("E285", message, node.span, "", "each file needs a value for each point")
+            raise problem("E296", message, node.span, "", "each file needs a value for each point")
     return _with_z(np.concatenate(axes, axis=1))
 
 
@@ -54,13 +54,13 @@ def _table(node: Quoted, pen: Pen) -> Floats:
         raise _too_many(node)
     if data.startswith((b"\xff\xfe", b"\xfe\xff")) or b"\0" in data:
         cure = "save it as plain text in UTF-8"
-        raise problem("E284", f"{node.text} is not a plain text", node.span, "", cure)
+        raise problem("E295", f"{node.text} is not a plain text", node.span, "", cure)
     text = data.decode("utf-8-sig", errors="replace").replace("\r\n", "\n").replace("\r", "\n")
     lines = list(_lines(text))
     if lines and _is_heading(lines[0][1]):
         del lines[0]
     if not lines:
-        raise problem("E284", f"there are no numbers in {node.text}", node.span)
+        raise problem("E295", f"there are no numbers in {node.text}", node.span)
     if len(lines) > MOST_ROWS:
         raise _too_many(node)
     parted, comma = _style(lines[0][1])
@@ -107,14 +107,14 @@ def _is_heading(line: str) -> bool:
 
 
 def _fault(node: Quoted, lines: list[tuple[int, str]], parted: str | None, comma: bool) -> Problem:
-    """E284: the first line that is not as it should be."""
+    """E295: the first line that is not as it should be."""
     rows = [(number, _numbers(line, parted, comma)) for number, line in lines]
     wanted = len(rows[0][1])
     faults = ((number, _wrong(fields, wanted)) for number, fields in rows)
     line, what = next((f for f in faults if f[1]), (rows[0][0], "can't be read"))
     message = f"{node.text}, line {line}: this row {what}"
     cure = "a row is 2 or 3 numbers; a comma as decimal sign needs semicolons between the columns"
-    return problem("E284", message, node.span, "", cure)
+    return problem("E295", message, node.span, "", cure)
 
 
 def _wrong(fields: list[str], wanted: int) -> str:

@@ -53,6 +53,7 @@ class StatementWord:
 SETTINGS = ("speed", "turnspeed", "law", "tool", "light")
 TIMES = ("in", "samples")
 CLAUSES = (*TIMES, *SETTINGS)
+OWN_CORNERS = tuple(word for word in CLAUSES if word != "blend")  # of what comes from elsewhere
 DARK_CLAUSES = tuple(word for word in CLAUSES if word != "light")
 
 PARTS = {
@@ -165,7 +166,7 @@ STATEMENTS = {
             "lettering; a second text is a second line",
             'text "Ada" height 30 mm',
             head="texts",
-            parts=("font", "height", "width", "at", "align", *CLAUSES),
+            parts=("font", "height", "width", "at", "align", *OWN_CORNERS),
             moves=True,
         ),
         StatementWord(
@@ -173,7 +174,7 @@ STATEMENTS = {
             "a line through the points in a file, or in a file for each axis",
             'path "orbit.csv" unit cm',
             head="texts",
-            parts=("unit", "height", "width", "at", "smooth", *CLAUSES),
+            parts=("unit", "height", "width", "at", "smooth", *OWN_CORNERS),
             moves=True,
         ),
         StatementWord(
@@ -181,7 +182,7 @@ STATEMENTS = {
             "the lines of an SVG drawing, in its own colours",
             'svg "logo.svg" height 80 mm',
             head="texts",
-            parts=("height", "width", "at", *CLAUSES),
+            parts=("height", "width", "at", *OWN_CORNERS),
             moves=True,
         ),
         StatementWord("hold", "a pause", "hold 1 s", head="value", parts=("light",), moves=True),
@@ -273,10 +274,7 @@ STATEMENT_ALIASES = {
     "parametric": "curve",
     "spline": "curve",
     "write": "text",
-    "label": "text",
     "csv": "path",
-    "points": "path",
-    "import": "svg",
     "jumpto": "step to",
     "turn": "line by (0, 0) tool ORIENTATION",
     "orient": "tool",

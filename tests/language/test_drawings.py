@@ -272,7 +272,7 @@ def fault(folder: Path, body: str) -> str:
     with pytest.raises(ScriptError) as caught:
         made(folder, body)
     (diagnostic,) = caught.value.diagnostics
-    assert diagnostic.code == "E287"
+    assert diagnostic.code == "E298"
     return diagnostic.message
 
 
@@ -296,14 +296,14 @@ def test_the_file_that_hangs_the_library(tmp_path: Path) -> None:
 )
 def test_numbers_that_are_none(tmp_path: Path, body: str) -> None:
     """Refused, or passed over as SVG passes over what it can't read; never drawn."""
-    codes = {"E287"}
+    codes = {"E298"}
     try:
         program = made(tmp_path, body)
     except ScriptError as error:
         codes = {d.code for d in error.diagnostics}
     else:
         assert not strokes(program)
-    assert codes == {"E287"}
+    assert codes == {"E298"}
 
 
 def test_without_the_library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -311,7 +311,7 @@ def test_without_the_library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     with pytest.raises(ScriptError) as caught:
         made(tmp_path, '<line x2="9" stroke="red"/>')
     (diagnostic,) = caught.value.diagnostics
-    assert diagnostic.code == "E286"
+    assert diagnostic.code == "E297"
     assert diagnostic.help == 'pip install "dqpaint[svg]"'
     assert caught.value.text[slice(*(diagnostic.span or (0, 0)))] == '"a.svg"'
 
@@ -358,4 +358,4 @@ def test_whatever_is_in_a_drawing(tmp_path: Path, body: str, root: dict[str, str
         codes = {d.code for d in error.diagnostics}
     else:
         assert all(np.isfinite(s.end.position).all() for s in program.segments)
-    assert not codes - {"E287", "E263", "E201"}
+    assert not codes - {"E298", "E263", "E201"}

@@ -154,11 +154,11 @@ def test_only_files_beside_or_below(tmp_path: Path) -> None:
     ):
         with pytest.raises(ScriptError) as caught:
             made(below, f'path "{name}" unit mm')
-        assert caught.value.diagnostics[0].code == "E281"
+        assert caught.value.diagnostics[0].code == "E292"
     for name in ("round.csv", "data", "none.csv", "x" * 300 + ".csv"):
         with pytest.raises(ScriptError) as caught:
             made(below, f'path "{name}" unit mm')
-        assert caught.value.diagnostics[0].code in ("E281", "E282")
+        assert caught.value.diagnostics[0].code in ("E292", "E293")
 
 
 @pytest.mark.slow
@@ -173,14 +173,14 @@ def test_ten_million_rows_are_refused_at_once(tmp_path: Path) -> None:
         command, capture_output=True, text=True, check=True
     ).stdout.splitlines()
     assert time.perf_counter() - begin < 2
-    assert told == "E283 p.csv is too long: more than 1,000,000 rows"
+    assert told == "E294 p.csv is too long: more than 1,000,000 rows"
     assert int(size) < 300
 
 
 def test_too_many_bytes(tmp_path: Path) -> None:
     with (tmp_path / "p.csv").open("wb") as file:
         file.truncate(100_000_001)  # takes no room
-    with pytest.raises(ScriptError, match=r"E283.*p.csv is larger than 100 MB"):
+    with pytest.raises(ScriptError, match=r"E294.*p.csv is larger than 100 MB"):
         made(tmp_path, 'path "p.csv" unit mm')
 
 

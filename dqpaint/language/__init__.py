@@ -5,6 +5,7 @@ mistake that was found. The text passes through
 
     lexer -> parser (statements, forms, expressions) -> syntax tree
           -> expand (evaluate, reading, settings, blocks) -> strokes (arcs, curves, tools, timing)
+                                                          -> elsewhere (letters, tables, drawings)
 
 and `words` and `units` hold the tables all of them read. A new statement is a line in
 `words.STATEMENTS` and a function in `strokes`; a new function a line in `words.FUNCTIONS` and one

@@ -68,8 +68,6 @@ def _by_length(path: Chain, piece: Indices, g: Floats, mean_speed: Floats) -> Fl
     g3 = -p22_13 * g1**5 + 4.0 * p12**2 * g1**7
     first, second = p[1] * g1, p[2] * g1**2 + p[1] * g2
     third = p[3] * g1**3 + 3.0 * p[2] * g1 * g2 + p[1] * g3
-    still = rest[:, None]
-    second, third = np.where(still, 0.0, second), np.where(still, 0.0, third)
     return np.stack([p[0], first, second, third])
 
 
@@ -158,7 +156,7 @@ def _parameter(path: Chain, panels: _Panels, distance: Floats) -> tuple[Indices,
         safe = (new >= lower[bent]) & (new <= upper[bent])
         new = np.where(safe, new, 0.5 * (lower[bent] + upper[bent]))
         g[bent] = new
-        bent = bent[np.abs(new - now) > 1e-14]
+        bent = bent[np.abs(new - now) > 1e-12]  # the next step would be its square
     return piece, g
 
 

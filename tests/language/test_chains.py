@@ -1,5 +1,7 @@
 """Chains: what they are made of, turned round, mapped, measured."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -101,6 +103,16 @@ def test_points_of_a_circle_make_a_circle(turn: float, count: int) -> None:
     step = turn / (count - 1)
     # a cubic comes this close to an arc: its error goes with the sixth power of the angle
     assert np.abs(np.linalg.norm(places, axis=1) - 1).max() < 4e-4 * (step / 1.57) ** 6 + 1e-12
+
+
+def test_uneven_points_of_a_circle_make_a_circle() -> None:
+    """At each point the direction is that of the circle, whatever the distances."""
+    a = np.cumsum([0.0, 0.3, 0.6, 0.2, 0.5, 0.7])
+    chain = chains.smooth(np.stack([np.cos(a), np.sin(a), 0 * a], axis=1))
+    way = chains.derivatives(chain, np.arange(5), np.zeros(5))[1][1:]
+    way /= np.linalg.norm(way, axis=1)[:, None]
+    tangent = np.stack([-np.sin(a), np.cos(a), 0 * a], axis=1)[1:5]
+    assert (way * tangent).sum(1).min() > math.cos(0.02)
 
 
 def test_a_smooth_line_goes_through_its_points_without_corners(

@@ -93,6 +93,26 @@ def test_a_good_order_is_kept() -> None:
     assert [corners(c) for c, _ in routes.in_order(lines)] == [corners(c) for c, _ in lines]
 
 
+def test_the_nearest_is_the_nearest(rng: np.random.Generator) -> None:
+    """The search by cells, against looking at all."""
+    for count in (2, 7, 400):
+        ends = np.array([chains.ends(chain) for chain, _ in scattered(rng, count)])
+        order, flipped = routes._nearest(ends)
+        left = set(range(1, count))
+        for before, line, back, was in zip(order, order[1:], flipped[1:], flipped, strict=False):
+            at = ends[before, 0 if was else 1]
+            far = {k: np.linalg.norm(ends[k] - at, axis=1) for k in left}
+            assert far[line][int(back)] == min(d.min() for d in far.values())
+            left.remove(line)
+
+
+def test_the_file_s_order_stays_where_it_is_better(monkeypatch: pytest.MonkeyPatch) -> None:
+    """At 0, -1, 0.9, 10 the nearest comes too early."""
+    monkeypatch.setattr(routes, "MOST_TURNED", 0)
+    lines = [(line((x, 0), (x, 1e-3)), None) for x in (0, -1, 0.9, 10)]
+    assert [c.cubic[0, 0, 0] for c, _ in routes.in_order(lines)] == [0, -1, 0.9, 10]
+
+
 def test_turning_stretches_round_helps(rng: np.random.Generator) -> None:
     lines = scattered(rng, 300)
     ends = np.array([chains.ends(chain) for chain, _ in lines])

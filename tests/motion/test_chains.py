@@ -38,7 +38,7 @@ def test_one_speed_from_end_to_end(rng):
     places = place_chain(mixed())
     speed = np.linalg.norm(places(np.linspace(0, 1, 3001))[1], axis=1)
     np.testing.assert_allclose(speed, speed[0], rtol=1e-13)
-    fine = places(np.linspace(0, 1, 200_001))[0]
+    fine = places(np.linspace(0, 1, 50_001))[0]
     assert np.linalg.norm(np.diff(fine, axis=0), axis=1).sum() == pytest.approx(speed[0], rel=1e-5)
 
 
@@ -65,6 +65,17 @@ def test_places_are_on_the_curves(rng):
 
 def parts(chain):
     return chain.cubic, chain.ellipse, chain.angles
+
+
+def test_derivatives_are_derivatives():
+    """Up to the third, which no tool of a chain needs, but the shape promises."""
+    places, h = place_chain(chains.bezier(BEZIER)), 1e-5
+    f = np.linspace(0.05, 0.95, 19)
+    now, ahead, behind = (places(f + d) for d in (0, h, -h))
+    for order in range(3):
+        slope = (ahead[order] - behind[order]) / (2 * h)
+        size = np.abs(now[order + 1]).max()
+        np.testing.assert_allclose(slope, now[order + 1], atol=1e-5 * size)
 
 
 def test_a_circle_is_a_circle():
@@ -101,6 +112,8 @@ def test_where_a_formula_stands_still_the_point_does_not(control):
     places = place_chain(chains.bezier(control))
     p = places(np.concatenate([np.linspace(0, 1, 1001), [1e-9, 1 - 1e-9]]))
     assert np.isfinite(p).all()
+    stands = np.linalg.norm(np.diff(control, axis=0)[[0, -1]], axis=1) == 0
+    assert not p[2:, [0, 1000]][:, stands].any()  # no curvature is made up there
     speed = np.linalg.norm(p[1], axis=1)
     np.testing.assert_allclose(speed, speed[0], rtol=1e-12)
     t = np.linspace(0, 1, 400_001)[:, None]

@@ -30,6 +30,9 @@ step to (1,1) mm
 hold 3 s light on to "#f80"
 arc centre (0,0) mm angle -30 deg rise 3 mm grow 1 mm law quintic(0,0,1 mm/s/s,0)
 screw about (0,0) along x+y angle 1 turn pitch 3 mm/turn
+text "Ada, 3" "Love" font "scripts" width 30 mm at (1,2) mm align centre light red to blue
+path "pyproject.toml" "none.csv" unit mm smooth at (1,1) mm samples 50
+svg "none.svg" height 3 mm width 2 cm tool look (0,0,300) mm up y
 curve polar(1 mm*exp(t/rad/5), t) for t from 0 to 2 turns tool follow speed 30 mm/s
 """
 PIECES = "0 1 -1 1e300 1e-300 9^9^9 (0,0) (0,0,0)mm red pi a ü % 40% # ( ) , ^ / * - = 180deg t"

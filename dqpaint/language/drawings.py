@@ -7,6 +7,7 @@ and Bezier curves Bezier curves, whatever transforms they stand under.
 import io
 import math
 from collections.abc import Iterator
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -32,14 +33,18 @@ class Line(NamedTuple):
     colour: Colour | None
 
 
+class Drawing(NamedTuple):
+    """The lines of a file, in an order with short ways, and what was left out of it."""
+
+    lines: list[Line]
+    guarded: Guarded
+
+
 def read(node: Quoted, pen: Pen) -> list[Line]:
     """The lines of a drawing, in an order with short ways between them."""
     data = contents(node, pen, MOST_BYTES)
     try:
-        guarded = guard(data)
-        lines = list(_lines(guarded))
-        if not lines:
-            raise SvgError("there are no lines in it", _said(guarded))
+        lines, guarded = _read(data)
     except SvgError as fault:
         message = f"can't draw {node.text}: {fault.message}"
         raise problem("E298", message, node.span, "", fault.cure) from None
@@ -48,7 +53,17 @@ def read(node: Quoted, pen: Pen) -> list[Line]:
     if guarded.left_out:
         what = ", ".join(f"{n} {name}" for name, n in sorted(guarded.left_out.items()))
         pen.warn("W420", f"left out of {node.text}: {what}", node.span, "", _said(guarded))
-    return [Line(chain, colour) for chain, colour in routes.in_order(lines)]
+    return lines
+
+
+@lru_cache(maxsize=4)  # as in a `repeat`
+def _read(data: bytes) -> Drawing:
+    guarded = guard(data)
+    lines = list(_lines(guarded))
+    if not lines:
+        raise SvgError("there are no lines in it", _said(guarded))
+    ordered = [Line(chain, colour) for chain, colour in routes.in_order(lines)]
+    return Drawing(ordered, Guarded(b"", guarded.left_out))
 
 
 def _said(guarded: Guarded) -> str:

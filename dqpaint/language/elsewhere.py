@@ -8,9 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dqpaint.language import chains, colours, drawings, letters, reading, space, tables, tools
+from dqpaint.language import chains, colours, letters, reading, space, tools
 from dqpaint.language.curves import GAP
-from dqpaint.language.diagnostics import Fix, Problem, Span, problem
+from dqpaint.language.diagnostics import Diagnostic, Fix, Problem, Span, problem
+from dqpaint.language.findings import EnoughError
 from dqpaint.language.pen import SAME_PLACE, Pen, here
 from dqpaint.language.program import (
     Chain,
@@ -32,6 +33,7 @@ from dqpaint.language.taylor import Floats
 from dqpaint.language.timing import shared, timing
 from dqpaint.language.units import UNITS
 
+MOST_PIECES = 2_000_000  # lines, curves and arcs, of all statements
 LOOKED_AT = 20_000  # places of a stroke, where a tool that looks is looked at
 
 
@@ -48,7 +50,7 @@ class Trace(NamedTuple):
 def text(statement: Statement, pen: Pen, scope: Scope) -> None:
     """`text`: each given text is a line; `height` is that of a capital."""
     nodes = [node for node in statement.values if isinstance(node, Quoted)]
-    lines = [node.text for node in nodes]
+    lines = tuple(node.text for node in nodes)
     font = _font(statement)
     if sum(map(len, lines)) > letters.LONGEST:
         message = f"a text has at most {letters.LONGEST:,} letters"
@@ -57,7 +59,7 @@ def text(statement: Statement, pen: Pen, scope: Scope) -> None:
     for number, place in letters.missing(lines, font):
         raise _no_letter(nodes[number], place, font)
     align = statement.value("align")
-    made = letters.lay_out(lines, font, align.name if isinstance(align, Name) else "left")
+    made = letters.lay_out(lines, font.name, align.name if isinstance(align, Name) else "left")
     if not made.strokes:
         cure = "to wait, use: hold 1 s"
         raise problem("E262", "this text has no letters", nodes[0].span, "", cure)
@@ -73,6 +75,8 @@ def text(statement: Statement, pen: Pen, scope: Scope) -> None:
 def path(statement: Statement, pen: Pen, scope: Scope) -> None:
     """`path`: a line through the points of a file, at its own place or fitted."""
     nodes = [node for node in statement.values if isinstance(node, Quoted)]
+    from dqpaint.language import tables  # few drawings need it, and all would wait for it
+
     points = tables.read(nodes, pen)
     new = np.concatenate([[True], np.any(np.diff(points, axis=0) != 0.0, axis=1)])
     points = points[new]
@@ -103,6 +107,8 @@ def svg(statement: Statement, pen: Pen, scope: Scope) -> None:
     """`svg`: a drawing's lines in its own colours, its middle at `at`."""
     (node,) = statement.values
     assert isinstance(node, Quoted)
+    from dqpaint.language import drawings  # as above
+
     drawing = drawings.read(node, pen)
     loose = [chain for chain, _ in drawing]
     scale, origin = _fitted(statement, pen, scope, loose)
@@ -203,6 +209,10 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
         message = f"the tool can't follow a '{statement.word}': it would jump at every corner"
         part = statement.part("tool")
         raise here("E254", message, part.value.span if part else span, "", "use: tool keep")
+    pen.pieces += sum(len(trace.chain.cubic) for trace in traces)
+    if pen.pieces > MOST_PIECES:
+        pen.findings.add(_too_many(span))
+        raise EnoughError
     ends = chains.all_ends([trace.chain for trace in traces]).tolist()
     starts, stops = ([_vector(pair[side]) for pair in ends] for side in (0, 1))
     _begin(pen, starts[0], span)
@@ -221,6 +231,11 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
         tool, orientation = tools.at_end(pen, mode, stops[number], span, space.Z, 0.0)
         end = Pose(stops[number], orientation)
         pen.draw(trace.chain, tool, times[2 * number], glows[number], end, span)
+
+
+def _too_many(span: Span) -> Diagnostic:
+    message = f"more than {MOST_PIECES:,} pieces of lines from elsewhere in all"
+    return Diagnostic("E299", message, span, "", "draw it less often, or with fewer points")
 
 
 def _begin(pen: Pen, start: Vector, span: Span) -> None:

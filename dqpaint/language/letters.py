@@ -7,7 +7,7 @@ U.S. National Bureau of Standards; `fonts/README.md` says where they come from.
 import json
 import unicodedata
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -93,8 +93,10 @@ class Lettering(NamedTuple):
     width: float
 
 
-def lay_out(lines: list[str], font: Font, align: str) -> Lettering:
+@lru_cache(maxsize=64)  # as in a `repeat`
+def lay_out(lines: tuple[str, ...], name: str, align: str) -> Lettering:
     """Sets lines under each other; the ink of each begins, ends or is centred at x = 0."""
+    font = read_font(name)
     strokes: list[Chain] = []
     longest = 0.0
     for number, line in enumerate(lines):
@@ -158,7 +160,7 @@ def _corners(points: Floats, sharpest: float) -> NDArray[np.bool_]:
 # What a font lacks.
 
 
-def missing(lines: list[str], font: Font) -> Iterator[tuple[int, int]]:
+def missing(lines: tuple[str, ...], font: Font) -> Iterator[tuple[int, int]]:
     """Line and place of each letter that a font does not have."""
     for number, line in enumerate(lines):
         for place, letter in enumerate(line):

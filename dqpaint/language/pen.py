@@ -44,6 +44,7 @@ class Pen:
         self.pose = IDENTITY
         self.start = IDENTITY
         self.segments: list[Segment] = []
+        self.pieces = 0  # of chains
         self.placed = False  # the file has said where the drawing starts
         self.started = False  # something has moved
         self.oriented = False  # the file has said how the tool is held at the start

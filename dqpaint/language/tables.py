@@ -6,11 +6,12 @@ heading; empty lines and what follows a # are passed over.
 """
 
 from collections.abc import Iterator
+from functools import lru_cache
 
 import numpy as np
 
 from dqpaint.language.beside import contents, too_large
-from dqpaint.language.diagnostics import Problem, problem
+from dqpaint.language.diagnostics import Problem, Span, problem
 from dqpaint.language.pen import Pen
 from dqpaint.language.syntax import Quoted
 from dqpaint.language.taylor import Floats
@@ -49,7 +50,12 @@ def _with_z(points: Floats) -> Floats:
 
 def _table(node: Quoted, pen: Pen) -> Floats:
     """The numbers (N, columns) of one file."""
-    data = contents(node, pen, MOST_BYTES)
+    return _numbers_in(node.text, contents(node, pen, MOST_BYTES), node.span)
+
+
+@lru_cache(maxsize=4)  # as in a `repeat`
+def _numbers_in(name: str, data: bytes, span: Span) -> Floats:
+    node = Quoted(name, span)  # where messages about it point
     if data.count(b"\n") > MOST_ROWS + 10_000:
         raise _too_many(node)
     if data.startswith((b"\xff\xfe", b"\xfe\xff")) or b"\0" in data:

@@ -184,6 +184,18 @@ def test_too_many_bytes(tmp_path: Path) -> None:
         made(tmp_path, 'path "p.csv" unit mm')
 
 
+def test_in_a_repeat_the_pieces_are_counted(tmp_path: Path) -> None:
+    rows = "".join(f"{i % 7},{i % 11}\n" for i in range(3000))
+    line = 'start at (0, 0)\nrepeat {}\npath "p.csv" unit mm speed 1 m/s\nend'
+    begin = time.perf_counter()
+    assert (
+        len(made(tmp_path, line.format(20), p_csv=rows).segments) == 39
+    )  # 19 ways back to the start
+    with pytest.raises(ScriptError, match=r"E299.*more than 2,000,000 pieces"):
+        made(tmp_path, line.format(9999))
+    assert time.perf_counter() - begin < 4
+
+
 SCRAPS = st.sampled_from(
     [
         *("0123456789.,;\t\n -e#x_\0é\ufeff" + '"'),

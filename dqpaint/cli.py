@@ -165,7 +165,10 @@ def check(
 )
 def list_(
     what: Annotated[
-        str, typer.Argument(metavar="[robots|controllers|plants|examples]", help="all, if not said")
+        str,
+        typer.Argument(
+            metavar="[robots|controllers|plants|fonts|examples]", help="all, if not said"
+        ),
     ] = "all",
     as_json: AsJson = False,
 ) -> None:

@@ -39,6 +39,9 @@ SHOTS = (
     Shot("square", "Two sides in 500 samples, two in 300: faster is darker.", {"ev": -3}),
     Shot("circle", "The thesis's circle in 3000 samples.", {}),
     Shot("baxter-screw", "A screw of pitch zero about a line given in space.", {"view": "iso"}),
+    Shot("signature", "Lettering runs through its vertices: no beads on the line.", {}),
+    Shot("logo", "An SVG drawing, its arcs still arcs.", {}),
+    Shot("orbit", "541 points of a CSV file, smoothly.", {}),
     Shot("ribbon", "A bar of light on a screw motion sweeps a helicoid.", {"view": "iso"}),
     Shot("step", "A jump of the set point: the error decays, and slower is brighter.", {}),
 )

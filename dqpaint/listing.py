@@ -50,6 +50,15 @@ def _plants() -> list[dict[str, Any]]:
     ]
 
 
+def _fonts() -> list[dict[str, Any]]:
+    from dqpaint.language import letters
+
+    return [
+        {"name": name, "about": letters.read_font(name).about, "default": name == letters.PLAINEST}
+        for name in letters.font_names()
+    ]
+
+
 def _examples() -> list[dict[str, Any]]:
     from dqpaint.examples import example_names, examples_folder
 
@@ -64,6 +73,7 @@ LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {
     "robots": _robots,
     "controllers": _controllers,
     "plants": _plants,
+    "fonts": _fonts,
     "examples": _examples,
 }
 

@@ -3,6 +3,7 @@
 import json
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -115,8 +116,11 @@ def test_every_statement_s_example_is_one(word, tmp_path):
     if STATEMENTS[word].block:
         after += "end\nline by (1, 0) mm\n"
     (tmp_path / "f.traj").write_text("line by (5, 0) mm\n")
+    for name in ("orbit.csv", "logo.svg"):
+        shutil.copy(examples_folder() / name, tmp_path)
     text = before.get(word, "") + example + after
-    program = parse(text, "example.traj", tmp_path / "example.traj")
+    here = tmp_path / "example.traj"
+    program = parse(text, str(here), here)
     motion = plan(program, read_card("iiwa").canvas.pose)
     begin(motion, Kinematics(read_card("iiwa")))
 

@@ -20,6 +20,7 @@ DOORS = {
     "pinocchio": ["robots/kinematics.py"],
     "pybullet": ["plants/bullet.py"],
     "cv2": ["light/spread.py", "light/develop.py", "picture.py"],
+    "svgelements": ["language/drawings.py"],
     "typer": ["cli.py"],
     "pydantic": ["robots/card.py", "controllers", "settings.py"],
 }

@@ -5,7 +5,8 @@ mistake that was found. The text passes through
 
     lexer -> parser (statements, clauses, forms, expressions) -> syntax tree -> includes
           -> expand (evaluate, reading, settings, blocks, definitions)
-          -> strokes (arcs, curves, tools, timing) -> blends
+          -> strokes (arcs, curves, tools, timing, and for what comes from elsewhere
+             letters, tables, drawings) -> blends
 
 and `words` and `units` hold the tables all of them read. A new statement is a line in
 `words.STATEMENTS` and a function in `strokes`; a new function a line in `words.FUNCTIONS` and one

@@ -63,7 +63,7 @@ def _latin(byte: int) -> str:
 def parse(text: str, name: str = "<text>", path: Path | None = None) -> Program:
     """The drawing in a text; `name` is what messages call it.
 
-    Where the text is a file, `path` says which, so that it can include others.
+    Where the text is a file, `path` says which, so that it can include and read others.
 
     Raises:
         ScriptError: with every mistake that was found, in the order of the text.
@@ -77,7 +77,7 @@ def parse(text: str, name: str = "<text>", path: Path | None = None) -> Program:
         if _fits(text, findings):
             with _collector_at_rest():
                 statements = loader.statements()
-                expander = Expander(name, loader.source, findings)
+                expander = Expander(name, loader.source, findings, path)
                 program = expander.program(statements)
     except EnoughError:
         pass

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 from dqpaint.language import blends, blocks, reading, strokes, tools
 from dqpaint.language.definitions import called, drawing_of, frame_of, function_of, handed
@@ -36,9 +37,9 @@ DEEPEST = 64  # blocks, calls and files within each other
 class Expander:
     """Works through a file's statements in order."""
 
-    def __init__(self, name: str, text: str, findings: Findings) -> None:
+    def __init__(self, name: str, text: str, findings: Findings, path: Path | None = None) -> None:
         self._name, self._text, self._findings = name, text, findings
-        self._pen = Pen(name, text, findings)
+        self._pen = Pen(name, text, findings, path)
         self._scope = Scope(text)
         self._depth = 0  # of blocks, calls and files
         self._including = 0  # of them: files

@@ -21,6 +21,8 @@ def check(statement: Statement, text: str) -> None:
     elif statement.word in ("line", "move"):
         if not statement.part("to") and not statement.part("by"):
             raise _to_or_by(statement.word, _first_word(statement))
+    elif statement.word in ("text", "path", "svg"):
+        _from_elsewhere(statement)
     elif statement.word in ("step", "start", "place"):
         _needs(statement, "to" if statement.word == "step" else "at")
 
@@ -166,6 +168,24 @@ def _with(statement: Statement) -> None:
             cure = "write: with rotate 30 deg about (10, 0) mm"
             raise problem("E248", "'about' says what 'rotate' turns about", part.span, "", cure)
         before = part.word
+
+
+def _from_elsewhere(statement: Statement) -> None:
+    """A size for what has none of its own; one file for a drawing, at most three for a path."""
+    word, fitted = statement.word, statement.part("height") or statement.part("width")
+    unit = statement.part("unit")
+    if word == "text" and not fitted:
+        _needs(statement, "height", "say how high its capitals are: height 30 mm")
+    if word == "path" and not fitted and not unit:
+        _needs(statement, "unit", "numbers in a file have no unit; write: unit mm, or height 80 mm")
+    if fitted and unit:
+        message = f"'unit' and '{fitted.word}' both say how large it is"
+        raise problem("E248", message, unit.span, "", "keep one of them")
+    most = {"svg": 1, "path": 3}.get(word)
+    if most and len(statement.values) > most:
+        cure = "one drawing to a line" if most == 1 else "one file, or one for each of x, y and z"
+        message = f"'{word}' takes {'one file' if most == 1 else 'at most 3 files'}"
+        raise problem("E248", message, statement.values[most].span, "", cure)
 
 
 def misplaced(word: str, token: Token) -> Problem | None:

@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
 from dqpaint.errors import DqpaintError
+from dqpaint.language.beside import below, is_relative
 from dqpaint.language.diagnostics import Problem, Source, problem
 from dqpaint.language.findings import Findings
 from dqpaint.language.parser import parse_statements
@@ -88,26 +89,15 @@ class Loader:
     def _allowed(self, node: Quoted, folder: Path) -> Path:
         """The path of a file that may be read: beside or below the main one, links followed."""
         assert self._root is not None
-        written = PurePosixPath(node.text)
-        if written.is_absolute() or "\\" in node.text or ":" in node.text or "\0" in node.text:
+        if not is_relative(node.text):
             message = "a file to include is named from the folder of this one"
-            cure = f'for example: include "{written.name or "colours.traj"}"'
+            cure = f'for example: include "{PurePosixPath(node.text).name or "colours.traj"}"'
             raise problem("E271", message, node.span, "", cure)
-        parts: list[str] = list(folder.relative_to(self._root).parts)
-        for part in written.parts:
-            if part != "..":
-                parts.append(part)
-            elif parts:
-                parts.pop()
-            else:
-                raise _outside(node)
-        path = self._root.joinpath(*parts)
-        try:
-            inside = path.resolve().is_relative_to(self._root.resolve())
-        except (OSError, RuntimeError):  # links that go in a circle
-            inside = False
-        if not inside:
-            raise _outside(node)
+        path = below(self._root, folder, node.text)
+        if path is None:
+            message = "this file is outside of the main file's folder"
+            cure = "only files beside or below the main file can be included"
+            raise problem("E271", message, node.span, "", cure)
         return path
 
     def _load(self, node: Quoted, path: Path, name: str, resolved: Path) -> None:
@@ -131,9 +121,3 @@ class Loader:
         self._loaded[resolved] = self._with_files(read, path.parent)
         self._chain.pop()
         self._names.pop()
-
-
-def _outside(node: Quoted) -> Problem:
-    message = "this file is outside of the main file's folder"
-    cure = "only files beside or below the main file can be included"
-    return problem("E271", message, node.span, "", cure)

@@ -236,6 +236,8 @@ def _bad(text: str, start: int, tokens: list[Token], problems: list[Diagnostic])
         cure = "no : is needed: a block ends with a line 'end'"
     elif character == "/" or text.startswith("//", start):
         cure = "a comment begins with #"
+    elif character == ".":
+        cure = 'the name of a file stands in quotes: "points.csv"'
     elif character.isalpha():
         cure = "names are made of the letters a to z, digits and _"
         word = _WORD.match(text, start)

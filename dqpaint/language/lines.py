@@ -23,8 +23,8 @@ from dqpaint.language.timing import shared, timing
 
 
 def sets_start(statement: Statement, pen: Pen) -> bool:
-    """Whether a `move` is the first thing that says where the tool is."""
-    return statement.word == "move" and not (pen.started or pen.placed)
+    """Whether a movement that names its own first point is the first to say where the tool is."""
+    return statement.word in ("move", "text", "path", "svg") and not (pen.started or pen.placed)
 
 
 def _stops(statement: Statement, pen: Pen, scope: Scope) -> list[tuple[Vector, Span]]:

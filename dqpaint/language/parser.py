@@ -14,7 +14,6 @@ from dqpaint.language.syntax import Statement, Word
 from dqpaint.language.words import (
     FOREIGN,
     FOREIGN_BLOCKS,
-    NOT_YET,
     PARTS,
     STATEMENT_ALIASES,
     STATEMENTS,
@@ -181,9 +180,6 @@ class _Parser:
             return Diagnostic("E120", message, first.span, "", cure), False
         if _is_definition(tokens):
             return self._definition(tokens), False
-        if word in NOT_YET:
-            message = f"'{word}' is not in this version of dqpaint yet"
-            return Diagnostic("E122", message, first.span), NOT_YET[word]
         if word in FOREIGN:
             message, cure = FOREIGN[word]
             return Diagnostic("E121", message, first.span, "", cure), word in FOREIGN_BLOCKS

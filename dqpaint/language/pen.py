@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path as FilePath
 
 from dqpaint.language import space
 from dqpaint.language.diagnostics import Diagnostic, PlaceProblem, Span, file_at, problem
@@ -40,8 +41,11 @@ LOOKS_ALREADY = 1e-9  # [rad] what rounding may leave between a look and the str
 class Pen:
     """The state of the drawing: `settings` and `frame` are changed from outside."""
 
-    def __init__(self, name: str, text: str, findings: Findings) -> None:
+    def __init__(
+        self, name: str, text: str, findings: Findings, path: FilePath | None = None
+    ) -> None:
         self.file = name, text
+        self.path = path  # of the main file, if the text is one
         self.text = text
         self.findings = findings
         self.settings = Settings()
@@ -52,6 +56,7 @@ class Pen:
         self.corners: list[float] = []  # within what distance [m] the end of each is rounded
         self.run: Run | None = None  # of the `stroke` that is being drawn
         self._runs = 0
+        self.pieces = 0  # of chains
         self.placed = False  # the file has said where the drawing starts
         self.started = False  # something has moved
         self.oriented = False  # the file has said how the tool is held at the start
@@ -136,12 +141,19 @@ class Pen:
         if not self.lost:
             self.findings.add(Diagnostic(code, message, span, label, cure))
 
-    def travel(self, to: Vector, span: Span) -> None:
-        """A way in the dark that the file did not ask for."""
+    def travel(
+        self,
+        to: Vector,
+        span: Span,
+        tool: Tool | None = None,
+        orientation: Quaternion | None = None,
+        timing: Timing | None = None,
+    ) -> None:
+        """A way in the dark that the file did not ask for; the tool keeps, if nothing is said."""
         by = space.minus(to, self.pose.position)
-        speed = Cruise(self.settings.speed, self.settings.turnspeed)
-        end = Pose(to, self.pose.orientation)
-        self._assumed(Straight(by), Keep(), speed, end, span)
+        timing = timing or Cruise(self.settings.speed, self.settings.turnspeed)
+        end = Pose(to, orientation or self.pose.orientation)
+        self._assumed(Straight(by), tool or Keep(), timing, end, span)
 
     def look(self, mode: Look | LookLine, orientation: Quaternion, span: Span) -> None:
         """Turns the tool to where a stroke needs it at its start, in the dark, if it is not."""

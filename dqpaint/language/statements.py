@@ -2,16 +2,16 @@
 
 from typing import NamedTuple
 
-from dqpaint.language import clauses, forms
+from dqpaint.language import clauses, fits, forms
 from dqpaint.language.cursor import Cursor, example_of, found, no_value
 from dqpaint.language.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.expressions import bracket, expression
 from dqpaint.language.lexer import Token, number_value
 from dqpaint.language.names import new_name
 from dqpaint.language.suggestions import closest, did_you_mean, listed
-from dqpaint.language.syntax import Expression, Name, Part, Quoted, Statement, Word
+from dqpaint.language.syntax import Expression, Part, Quoted, Statement, Word
 from dqpaint.language.units import FOREIGN_UNITS, UNITS
-from dqpaint.language.words import NOT_YET, PART_ALIASES, PARTS, SETTINGS, STATEMENTS
+from dqpaint.language.words import PART_ALIASES, PARTS, SETTINGS, STATEMENTS
 
 VERSION = 1  # of the language, for `traj 1`
 
@@ -74,6 +74,8 @@ def _head(cursor: Cursor, word: str, head: str) -> _Head:
             return _def(cursor)
         case "frame":
             return _Head(new_name(cursor, "frame", example_of("frame")))
+        case "texts":
+            return _Head(values=fits.texts(cursor, word))
         case _:
             assert head == "version", head
             _version(cursor)
@@ -212,8 +214,8 @@ def _part(cursor: Cursor, word: str, span: Span) -> Part:
     takes = PARTS[word].takes
     if takes in clauses.READERS:
         return Part(word, span, clauses.READERS[takes](cursor))
-    if takes == "flag":
-        return Part(word, span, Name(word, span))
+    if takes in fits.READERS:
+        return Part(word, span, fits.READERS[takes](cursor))
     return Part(word, span, _expression(cursor, word))
 
 
@@ -222,8 +224,6 @@ ROUND = ("r", "diameter")  # what people give an arc besides its centre
 
 def _unknown_part(cursor: Cursor, word: str) -> Problem:
     token, known = cursor.token, STATEMENTS[word]
-    if token.text in NOT_YET:
-        return problem("E122", f"'{token.text}' is not in this version of dqpaint yet", token.span)
     after_number = cursor.before.kind == "number" or cursor.before.text == ")"
     if token.text in FOREIGN_UNITS and after_number:
         return _foreign_unit(token)

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from dqpaint.language import arcs, curves, lines, reading, space, tools
+from dqpaint.language import arcs, curves, elsewhere, lines, reading, space, tools
 from dqpaint.language.diagnostics import problem
 from dqpaint.language.pen import SAME_PLACE, SAME_TURN, Pen
 from dqpaint.language.program import (
@@ -247,4 +247,7 @@ _DRAW = {
     "curve": _curve,
     "step": _step,
     "hold": _hold,
+    "text": elsewhere.text,
+    "path": elsewhere.path,
+    "svg": elsewhere.svg,
 }

@@ -55,6 +55,7 @@ SETTINGS = ("speed", "turnspeed", "law", "tool", "blend", *LAMP)
 TIMES = ("in", "samples")
 PACE = (*TIMES, "speed", "turnspeed", "law")  # what a `stroke` says for all of its lines
 CLAUSES = (*TIMES, *SETTINGS)
+OWN_CORNERS = tuple(word for word in CLAUSES if word != "blend")  # of what comes from elsewhere
 DARK_CLAUSES = tuple(word for word in CLAUSES if word not in LAMP)
 
 PARTS = {
@@ -90,6 +91,12 @@ PARTS = {
         PartWord("tool", "tool", "what the tool does meanwhile", "tool look (0, 0, 300) mm"),
         PartWord("blend", "blend", "corners rounded within this distance", "blend 5 mm"),
         PartWord("light", "light", "the colour, or from one colour to another", "light red"),
+        PartWord("font", "font", "which letters; see: dqpaint list fonts", 'font "scripts"'),
+        PartWord("height", "length", "how high: a capital letter, a whole drawing", "height 30 mm"),
+        PartWord("width", "length", "how wide: the longest line, a whole drawing", "width 90 mm"),
+        PartWord("align", "alignment", "which end of each line stands at `at`", "align centre"),
+        PartWord("unit", "unit", "of the numbers in a file", "unit mm"),
+        PartWord("smooth", "flag", "bends from point to point, but for sharp corners", "smooth"),
         PartWord("brush", "brush", "what shines: a point, or a bar", "brush bar 120 mm along x"),
         PartWord(
             "strobe", "strobe", "the light flashes, for a part of the time", "strobe 10 Hz 30%"
@@ -177,6 +184,30 @@ STATEMENTS = {
             parts=("to", "tool", *LAMP),
             moves=True,
         ),
+        StatementWord(
+            "text",
+            "lettering; a second text is a second line",
+            'text "Ada" height 30 mm',
+            head="texts",
+            parts=("font", "height", "width", "at", "align", *OWN_CORNERS),
+            moves=True,
+        ),
+        StatementWord(
+            "path",
+            "a line through the points in a file, or in a file for each axis",
+            'path "orbit.csv" unit cm',
+            head="texts",
+            parts=("unit", "height", "width", "at", "smooth", *OWN_CORNERS),
+            moves=True,
+        ),
+        StatementWord(
+            "svg",
+            "the lines of an SVG drawing, in its own colours",
+            'svg "logo.svg" height 80 mm',
+            head="texts",
+            parts=("height", "width", "at", *OWN_CORNERS),
+            moves=True,
+        ),
         StatementWord("hold", "a pause", "hold 1 s", head="value", parts=LAMP, moves=True),
         StatementWord(
             "repeat", "its lines, several times", "repeat i from 1 to 5", head="repeat", block=True
@@ -205,13 +236,6 @@ STATEMENTS = {
         ),
         StatementWord("end", "closes a block", "end"),
     )
-}
-
-# Words of the whole language that this version does not know yet; True: they hold a block.
-NOT_YET = {
-    "text": False,
-    "path": False,
-    "svg": False,
 }
 
 # Statements of other languages: the word, the sentence, what to do.
@@ -283,6 +307,8 @@ STATEMENT_ALIASES = {
     "scale": "with scale NUMBER",
     "parametric": "curve",
     "spline": "curve",
+    "write": "text",
+    "csv": "path",
     "jumpto": "step to",
     "turn": "line by (0, 0) tool ORIENTATION",
     "orient": "tool",
@@ -319,7 +345,6 @@ PART_ALIASES = {
 LITTLE_WORDS = (
     *("from", "for", "on", "off", "even", "keep", "follow", "look", "up", "point", "bar"),
 )
-LATER_WORDS = ("height", "width", "font", "unit")
 
 CONSTANTS = ("pi", "x", "y", "z")
 LAWS = {"constant": (0,), "trapezoid": (0,), "cubic": (0, 2), "quintic": (0, 4)}
@@ -367,6 +392,4 @@ FUNCTION_ALIASES = {
 # Never part of an expression: a value was forgotten if one of them is found there.
 # But these say something in an `arc` alone, and `let radius = …` is what people write.
 FREE = ("radius", "left", "right", "long")
-RESERVED = frozenset(
-    (*STATEMENTS, *PARTS, *NOT_YET, *LITTLE_WORDS, *LATER_WORDS, "if", "else", "while")
-).difference(FREE)
+RESERVED = frozenset((*STATEMENTS, *PARTS, *LITTLE_WORDS, "if", "else", "while")).difference(FREE)

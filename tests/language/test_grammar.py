@@ -47,6 +47,7 @@ def grammar() -> Lark:
 NAME: /(?!(?:{not_free})(?![A-Za-z0-9_]))[A-Za-z_][A-Za-z0-9_]*/
 ANY: /[A-Za-z_][A-Za-z0-9_]*/
 UNIT: /{unit}/
+LENGTH: /(mm|cm|m)(?![A-Za-z0-9_])/
 NUMBER: /{number}(?:(?={unit})|(?![\w.°]))/
 TEXT: /"[^"\n]*"/
 FILLED: /"[^"\n]*[^"\s][^"\n]*"/

@@ -6,6 +6,7 @@ import re
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -16,6 +17,7 @@ from dqpaint.language.words import FUNCTIONS, LAWS, LITTLE_WORDS, PARTS, STATEME
 from tests.language.test_examples import ROSE, STAR
 
 FOLDER = Path(__file__).parents[2] / "trajectories"
+HERE = FOLDER / "fuzz.traj"
 
 MIXED = """start at (0,0,0) mm tool look (5,5,50) mm up y
 light red 40% to off
@@ -33,6 +35,9 @@ step to (1,1) mm
 hold 3 s light on to "#f80"
 arc centre (0,0) mm angle -30 deg rise 3 mm grow 1 mm law quintic(0,0,1 mm/s/s,0)
 screw about (0,0) along x+y angle 1 turn pitch 3 mm/turn
+text "Ada, 3" "Love" font "scripts" width 30 mm at (1,2) mm align centre light red to blue
+path "orbit.csv" height 30 mm smooth at (1,1) mm samples 500
+svg "logo.svg" height 3 mm width 2 cm tool look (0,0,300) mm up y
 curve polar(1 mm*exp(t/rad/5), t) for t from 0 to 2 turns tool follow speed 30 mm/s
 """
 WHOLE = """let f(x, k) = k*x^2*mm
@@ -74,7 +79,7 @@ TOKEN = re.compile(r"\s+|\w+|.")
 def check(text: str) -> None:
     """Compiles a text; whatever comes out must be sound."""
     try:
-        program = parse(text, "fuzz.traj")
+        program = parse(text, "fuzz.traj", HERE)
     except ScriptError as error:
         told(error)
     else:
@@ -94,6 +99,8 @@ def told(error: ScriptError) -> None:
 def finite(thing: object) -> None:
     if isinstance(thing, float):
         assert math.isfinite(thing)
+    elif isinstance(thing, np.ndarray):
+        assert np.isfinite(thing).all()
     elif isinstance(thing, tuple):
         for part in thing:
             finite(part)
@@ -115,7 +122,7 @@ def test_mutants() -> None:
     texts = [STAR, ROSE, MIXED, WHOLE, WHOLE, *FILES]
     for text in texts:
         check(text)
-        assert parse(text, "whole.traj").segments
+        assert parse(text, "whole.traj", HERE).segments
     begin = time.perf_counter()
     while time.perf_counter() - begin < 3.0:
         words = TOKEN.findall(chance.choice(texts))

@@ -112,6 +112,7 @@ def _as_json(result: Checked, finding: Diagnostic) -> dict[str, Any]:
         **_range(result.source, finding.span),
         "label": finding.label,
         "help": finding.help,
+        "explain": f"dqpaint explain {finding.code}",
         "related": [
             {**_range(result.source, span), "label": label} for span, label in finding.related
         ],

@@ -23,16 +23,29 @@ def read(path: str | Path) -> Program:
         DqpaintError: the file can't be read as text.
         ScriptError: the text is not a drawing.
     """
+    return parse(decoded(load(path), str(path)), str(path))
+
+
+def load(path: str | Path) -> bytes:
+    """The bytes of a file, one more than allowed at most.
+
+    Raises:
+        DqpaintError: the file can't be read.
+    """
     try:
         with Path(path).open("rb") as file:
-            data = file.read(MOST_BYTES + 1)
+            return file.read(MOST_BYTES + 1)
     except (OSError, ValueError) as fault:
         reason = fault.strerror if isinstance(fault, OSError) else str(fault)
         raise DqpaintError(f"can't read {path}: {(reason or str(fault)).lower()}") from None
-    return parse(_decoded(data, str(path)), str(path))
 
 
-def _decoded(data: bytes, name: str) -> str:
+def decoded(data: bytes, name: str) -> str:
+    """The text of a file, its lines ended by a newline alone.
+
+    Raises:
+        DqpaintError: it is not a text in UTF-8, or too large.
+    """
     if len(data) > MOST_BYTES:
         raise DqpaintError(f"{name} is larger than {MOST_BYTES // 1_000_000} MB")
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):

@@ -172,7 +172,7 @@ class _Parser:
             cure = f"'{word}' belongs to a statement and stands on its line: {_user_of(word)}"
             return Diagnostic("E120", message, first.span, "", cure), False
         meant = closest(word, STATEMENTS, STATEMENT_ALIASES)
-        fix = Fix(f"write {meant}", first.span, meant) if meant in STATEMENTS else None
+        fix = Fix(f"write {meant}", first.span, meant) if _fits(meant, tokens) else None
         cure = did_you_mean(meant)
         return Diagnostic("E120", message, first.span, "", cure, fix=fix), meant in _BLOCKS
 
@@ -189,6 +189,12 @@ class _Parser:
         return Diagnostic(
             "E120", f"unknown statement '{first.text}'", first.span, "", cure, fix=fix
         )
+
+
+def _fits(meant: str, tokens: list[Token]) -> bool:
+    """Whether what was meant can stand in the place of a line's first word as it is."""
+    word, _, rest = meant.partition(" ")
+    return word in STATEMENTS and (not rest or (rest == "to" and tokens[1].text in ("(", "polar")))
 
 
 def _is_definition(tokens: list[Token]) -> bool:

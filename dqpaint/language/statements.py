@@ -18,7 +18,7 @@ from dqpaint.language.syntax import (
     ToolWords,
     Word,
 )
-from dqpaint.language.units import FOREIGN_UNITS, UNITS
+from dqpaint.language.units import FOREIGN_UNITS, SAME_UNITS, UNITS
 from dqpaint.language.words import NOT_YET, PART_ALIASES, PARTS, SETTINGS, STATEMENTS
 
 VERSION = 1  # of the language, for `traj 1`
@@ -127,7 +127,10 @@ def _expect(cursor: Cursor, word: str, example: str) -> None:
     if not cursor.is_word(word):
         span = cursor.token.span if not cursor.at_end else cursor.before.span
         message = f"expected '{word}' but found {found(cursor.token)}"
-        raise problem("E116", message, span, "", f"write: {example}")
+        at = cursor.token.start if not cursor.at_end else cursor.before.end
+        opens = cursor.token.kind == "number" or cursor.is_sign("(")
+        fix = Fix(f"write {word}", Span(at, at), f"{word} ") if opens else None
+        raise problem("E116", message, span, "", f"write: {example}", fix)
     cursor.take()
 
 
@@ -250,13 +253,14 @@ def _shade(cursor: Cursor, after: str = "light") -> Shade:
 def _no_colour(cursor: Cursor) -> Problem:
     """E108. A comment swallowed `#ff8800`, or the brightness stands without its colour."""
     cure = 'for example: light red, light hsv(30 deg), light "#ff8800", light off'
-    span = cursor.before.span
+    span, fix = cursor.before.span, None
     if cursor.token.kind == "number":
         cure = f"the brightness follows the colour: light white {cursor.token.text}%"
         span = cursor.token.span
     elif comment := _COMMENTED_COLOUR.match(cursor.text, span.end):
         cure = f'a # starts a comment; put the colour in quotes: light "{comment[1]}"'
-    return problem("E108", "'light' needs a colour", span, "", cure)
+        fix = Fix("put the colour in quotes", Span(*comment.span(1)), f'"{comment[1]}"')
+    return problem("E108", "'light' needs a colour", span, "", cure, fix)
 
 
 ROUND = ("radius", "r", "diameter")  # what people give an arc besides its centre
@@ -290,7 +294,9 @@ def _unknown_part(cursor: Cursor, word: str) -> Problem:
 def _foreign_unit(token: Token) -> Problem:
     unit = FOREIGN_UNITS[token.text]
     cure = f"did you mean '{unit}'? units are {', '.join(UNITS)}"
-    return problem("E102", f"'{token.text}' is not a unit of this language", token.span, "", cure)
+    fix = Fix(f"write {unit}", token.span, unit) if token.text in SAME_UNITS else None
+    message = f"'{token.text}' is not a unit of this language"
+    return problem("E102", message, token.span, "", cure, fix)
 
 
 def _left_over(cursor: Cursor, word: str) -> Problem:

@@ -5,6 +5,9 @@ Places are code points in dqpaint and UTF-16 units (or what the editor asked for
 """
 
 import gc
+import os
+import sys
+from contextlib import redirect_stdout
 from pathlib import Path
 from urllib.parse import unquote, urlparse
 
@@ -214,6 +217,12 @@ def _fixes(server: _Server, uri: str, asked: lsp.Range) -> list[lsp.CodeAction]:
 
 
 def serve() -> None:
-    """Answer until the editor says goodbye."""
+    """Answer until the editor says goodbye.
+
+    The server closes the pipes it is given, so it gets its own; what anything prints meanwhile goes
+    to standard error and not between its answers.
+    """
     gc.enable()  # a long life, unlike a command's
-    make_server().start_io()
+    server = make_server()
+    with redirect_stdout(sys.stderr):
+        server.start_io(open(os.dup(0), "rb"), open(os.dup(1), "wb"))  # noqa: SIM115

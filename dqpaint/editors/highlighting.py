@@ -19,6 +19,7 @@ _KINDS = {
     "constant": Name.Constant,
     "colour": Name.Builtin,
     "unit": Keyword.Type,
+    "statement": Keyword.Declaration,  # within a line: `look line`
 }
 _END = r"(?![A-Za-z0-9_])"
 
@@ -39,7 +40,7 @@ class TrajLexer(RegexLexer):
                 rf"^([^\S\n]*)({alternatives(words('statement'))}){_END}",
                 bygroups(Text.Whitespace, Keyword),
             ),
-            (r"\s+", Text.Whitespace),
+            (r"\n|[^\S\n]+", Text.Whitespace),
             (COMMENT, Comment.Single),
             (TEXT, String.Double),
             (

@@ -10,9 +10,9 @@ NUMBER = r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 TEXT = r'"[^"\n]*"?'
 COMMENT = r"#.*"
 
-# The kinds of words and how editors call them, in the order in which they are tried.
+# The kinds of words and how editors call them, in the order in which they are tried; a statement's
+# word within a line is one like `look line`.
 _SCOPES = {
-    "statement": "keyword.control",
     "part": "keyword.other",
     "word": "keyword.other",
     "function": "support.function",
@@ -20,7 +20,9 @@ _SCOPES = {
     "constant": "constant.language",
     "colour": "support.constant.colour",
     "unit": "keyword.other.unit",
+    "statement": "keyword.other",
 }
+_STATEMENT = "keyword.control.traj"
 
 
 def grammar() -> dict[str, Any]:
@@ -37,18 +39,17 @@ def grammar() -> dict[str, Any]:
             {
                 "match": rf"({NUMBER})\s*({unit})?(?![A-Za-z0-9_])",
                 "captures": {
-                    "1": {"name": f"constant.numeric.{SCOPE.split('.')[1]}"},
-                    "2": {"name": f"keyword.other.unit.{SCOPE.split('.')[1]}"},
+                    "1": {"name": "constant.numeric.traj"},
+                    "2": {"name": "keyword.other.unit.traj"},
                 },
             },
             {
                 "match": rf"^\s*({alternatives(words('statement'))})(?![A-Za-z0-9_])",
-                "captures": {"1": {"name": f"{_SCOPES['statement']}.traj"}},
+                "captures": {"1": {"name": _STATEMENT}},
             },
             *(
                 _pattern(scope, rf"(?<![A-Za-z0-9_])({alternatives(words(kind))})(?![A-Za-z0-9_])")
                 for kind, scope in _SCOPES.items()
-                if kind != "statement"
             ),
             _pattern("keyword.operator", r"[-+*/^=%]"),
         ],

@@ -90,7 +90,9 @@ def shaken(text, chance):
     out, inside = [], 0
     for piece in PIECE.findall(text):
         if piece.isspace() and "\n" in piece:
-            blanks = "".join(chance.choice(["\n", "\n", "\n \t\n", "\n# shaken  \n"]) for _ in range(2))
+            blanks = "".join(
+                chance.choice(["\n", "\n", "\n \t\n", "\n# shaken  \n"]) for _ in range(2)
+            )
             piece = blanks + " " * chance.randint(0, 5)
         elif piece.isspace():
             piece = chance.choice([" ", "\t", "   ", "\u00a0 "])

@@ -126,7 +126,8 @@ def _each(value: Any) -> list[Any]:
     if isinstance(value, str | Real):
         return [value]
     values = list(value)
-    return [value] if all(isinstance(one, Real) for one in values) else values
+    within = Real | str if isinstance(value, tuple) else Real  # ("2*r", 0) is a point
+    return [value] if all(isinstance(one, within) for one in values) else values
 
 
 def _written(value: Any, takes: str) -> str:
@@ -146,6 +147,8 @@ def _written(value: Any, takes: str) -> str:
     if takes in ("rotation", "tool") and len(values) == 4:
         return f"quat({', '.join(map(_number, values))})"
     if takes in ("place", "shift", "direction") and len(values) in (2, 3):
+        if any(isinstance(one, str) for one in values):
+            return f"({', '.join(_written(one, takes) for one in values)})"
         return _with_unit(f"({', '.join(map(_number, values))})", takes)
     raise Unwritable(f"{value!r} is not what is needed here; write it as text of the language")
 

@@ -28,7 +28,7 @@ TEXTS = {name: find_drawing(name).read_text("utf-8") for name in example_names()
 
 
 def scoped(line):
-    """(text, scope) of a line, as an editor colours it: the leftmost pattern, the first of them."""
+    """(text, scope) of a line as an editor colours it: the first match from the left."""
     patterns = textmate.grammar()["patterns"]
     at, found = 0, []
     while at < len(line):
@@ -72,6 +72,7 @@ def test_pygments_sees_the_tokens_that_the_parser_sees(name):
     theirs = list(TrajLexer().get_tokens(text))
     assert "".join(value for _, value in theirs) == text
     assert not [value for kind, value in theirs if kind is Error]
+    assert [v for kind, v in theirs if kind is Keyword] == [n.tokens[0].text for n in lines(text)]
     shown = [(kind, value) for kind, value in theirs if value.strip() and kind not in Comment]
     assert [value for _, value in shown] == [value for _, value in ours]
     for (kind, value), (our_kind, _) in zip(shown, ours, strict=True):

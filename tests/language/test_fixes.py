@@ -1,3 +1,4 @@
+# ruff: noqa: E501  the table is a table
 """Edits that mend: applied, the message is gone, and what was meant is what is drawn."""
 
 import pytest

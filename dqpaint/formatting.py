@@ -5,8 +5,8 @@ from pathlib import Path
 
 from dqpaint.errors import DqpaintError
 from dqpaint.files import rewrite
-from dqpaint.language.compile import decoded, load
 from dqpaint.language.layout import formatted
+from dqpaint.language.source import decoded, load
 
 STDIN = "-"
 

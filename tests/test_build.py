@@ -164,7 +164,7 @@ def test_errors_of_motion_and_reach_say_it_too():
     (lambda d: d.line(too=(1, 0)), "line: no part named 'too'; its parts are: to, by, in"),
     (lambda d: d.line(to=(1, 2, 3, 4)), r"line: \(1, 2, 3, 4\) is not what is needed here"),
     (lambda d: d.line(to=(math.nan, 0)), "nan is not a finite number"),
-    (lambda d: d.line(to=("1;2", 0)), "'1;2' is not one piece of a line"),
+    (lambda d: d.line(to=("1 # 2", 0)), "'1 # 2' is not one piece of a line"),
     (lambda d: d.line(to=(None, 0)), "0 alone|None has no text in the language"),
     (lambda d: d.line((1, 0)), "it takes no value without a name, such as to="),
     (lambda d: d.hold(math.inf), "hold: inf is not a finite number"),

@@ -10,12 +10,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from dqpaint.language.colours import Colour as Colour
 from dqpaint.language.diagnostics import Diagnostic, Span
 from dqpaint.language.taylor import Taylor
 
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
-Colour = tuple[float, float, float]
 Formula = Callable[[Taylor], tuple[Taylor, Taylor, Taylor]]
 
 

@@ -32,8 +32,8 @@ def scoped(line):
     patterns = textmate.grammar()["patterns"]
     at, found = 0, []
     while at < len(line):
-        hits = [(match.start(), i, match) for i, pattern in enumerate(patterns)
-                if (match := re.compile(pattern["match"]).search(line, at)) and match[0]]  # fmt: skip
+        matches = (re.compile(pattern["match"]).search(line, at) for pattern in patterns)
+        hits = [(match.start(), i, match) for i, match in enumerate(matches) if match and match[0]]
         if not hits:
             break
         _, i, match = min(hits, key=lambda hit: hit[:2])

@@ -39,8 +39,8 @@ def rewrite(path: Path, data: bytes) -> None:
             os.replace(staged, place)
         finally:
             staged.unlink(missing_ok=True)
-    except OSError as problem:
-        raise OutputError(f"'{path}' cannot be written: {problem.strerror}") from None
+    except (OSError, ValueError) as problem:
+        raise _refused(path, problem) from None
 
 
 def write_new(path: Path, data: bytes) -> None:
@@ -58,8 +58,12 @@ def write_new(path: Path, data: bytes) -> None:
     except FileExistsError:
         raise OutputError(f"'{path}' is there already; nothing was changed") from None
     except (OSError, ValueError) as problem:
-        reason = problem.strerror if isinstance(problem, OSError) else str(problem)
-        raise OutputError(f"'{str(path)[:60]}' cannot be written: {reason}") from None
+        raise _refused(path, problem) from None
+
+
+def _refused(path: Path, problem: OSError | ValueError) -> OutputError:
+    reason = problem.strerror if isinstance(problem, OSError) else str(problem)
+    return OutputError(f"'{str(path)[:60]}' cannot be written: {reason}")
 
 
 def _umask() -> int:

@@ -78,6 +78,32 @@ def test_written_and_read_again_it_is_the_same_to_the_last_bit():
     assert sum(leg.timing.seconds for leg in legs) == pytest.approx(np.pi, rel=1e-12)
 
 
+def test_numbers_are_si_units():
+    d = Drawing(period=0.004, turnspeed=math.radians(50))
+    d.start(at=(0.01, 0.02))
+    d.screw(about=(0, 0), along=(0, 0, 1), angle=math.radians(70), pitch=0.03 / math.tau, in_=2)
+    d.arc(centre=(0, 0), angle=-1, rise=0.01, grow=0.005, speed=0.05)
+    with d.block(rotate=0.5, scale=0.5):
+        d.line(to=(0.03, 0), tool="rpy(0, 0, 1 rad)", samples=300)
+    d.line(by=(0, 0), tool="rpy(0, 0, 2 rad)")
+    d.hold(0.25)
+    text = """period 4 ms
+turnspeed 50 deg/s
+start at (10, 20) mm
+screw about (0, 0) along z angle 70 deg pitch 30 mm/turn in 2000 ms
+arc centre (0, 0) angle -1 rad rise 1 cm grow 5 mm speed 5 cm/s
+with rotate 0.5 rad scale 0.5
+line to (30, 0) mm tool rpy(0, 0, 1 rad) samples 300
+end
+line by (0, 0) tool rpy(0, 0, 2 rad)
+hold 250 ms
+"""
+    built, written = motion(d.program()), motion(parse(text))
+    assert built.t == pytest.approx(written.t, abs=1e-9)
+    assert built.pose == pytest.approx(written.pose, abs=1e-12)
+    assert built.acceleration == pytest.approx(written.acceleration, abs=1e-9)
+
+
 def test_numbers_are_written_so_that_they_come_back(rng):
     for value in [*rng.normal(size=50) * 10.0 ** rng.integers(-12, 3, 50), 0.0, -0.0, 1.0, 1e-300]:
         d = Drawing()

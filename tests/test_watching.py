@@ -56,13 +56,12 @@ def test_a_save_shows_it_again(files):
         shown.append(drawing.read_text())
         return parse(shown[-1])
 
-    def half():
-        drawing.write_text("hold 2")
+    pieces = ["hold", "hold 2", "hold 2 s"]
 
-    def whole():
-        drawing.write_text("hold 2 s")
+    def write():
+        drawing.write_text(pieces.pop(0))
 
-    watched(drawing, show, idle, idle, half, whole, idle, idle, idle)
+    watched(drawing, show, idle, idle, write, write, write, idle, idle, idle)
     assert shown == ["hold 1 s", "hold 2 s"]  # what was half written was not shown
 
 

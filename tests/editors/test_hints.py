@@ -31,7 +31,7 @@ def test_meanings(text, word, kind):
 
 
 @pytest.mark.parametrize(
-    "text", ["# li|ne", 'light "re|d"', "line to (1|, 0)", "let ra|dius = 3", "|"]
+    "text", ["# li|ne", 'light "re|d"', "line to (1|, 0)", "let my_s|ize = 3", "|"]
 )
 def test_no_meaning(text):
     assert hints.meaning_at(*cursor(text)) is None

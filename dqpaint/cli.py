@@ -9,16 +9,13 @@ import os
 import shutil
 import sys
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+from typing import Annotated, Any, NoReturn
 
 import typer
 
 from dqpaint import __version__, cli_language
 from dqpaint.cli_language import tell
 from dqpaint.errors import DqpaintError, UsageError
-
-if TYPE_CHECKING:
-    from dqpaint.language import Program
 
 app = typer.Typer(
     add_completion=False,
@@ -139,14 +136,13 @@ def preview(
     stem = outputs.stem_for(out, f"{path.stem}-preview")
     pixels = parse_size(size)
 
-    def show() -> "Program":
+    def show() -> None:
         picture = api.preview(path, robot=robot, size=pixels, view=view, ev=ev)
         written = outputs.write(stem, {".png": picture.png})
 
         from dqpaint import report
 
         _finish(report.notes(picture.motion), report.of_preview(picture, written), picture.image)
-        return picture.motion.program
 
     if not watch:
         show()

@@ -8,42 +8,61 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import NoReturn
 
+from dqpaint.cli_language import tell
 from dqpaint.errors import DqpaintError
-from dqpaint.language import Program
+from dqpaint.language.lexer import lines
+from dqpaint.language.source import decoded, load
 
 INTERVAL = 0.1  # [s] between two looks
 SETTLED = 0.03  # [s] without a change: the editor has written all of it
+MOST_FILES = 100
 
 Signature = tuple[int, int, int] | None
 _CLEAR = "\x1b[2J\x1b[3J\x1b[H"
 
 
 def watch(
-    path: Path, show: Callable[[], Program], wait: Callable[[float], None] = time.sleep
+    path: Path, show: Callable[[], None], wait: Callable[[float], None] = time.sleep
 ) -> NoReturn:
     """Show a drawing now and whenever one of its files is saved; ends by Ctrl-C alone.
 
     Args:
         path: of the drawing.
-        show: shows it and returns it; what it raises is shown in its place, and waited on.
+        show: shows it; what it raises is shown in its place, and waited on.
         wait: how to let time pass.
     """
     gc.enable()  # a long life, unlike a command's
-    files = {path}
     while True:
-        before = _signatures(files)
+        before = _signatures(files_of(path))
         _clear()
         try:
-            program = show()
-            files = {path, *map(Path, program.files)}
-            before = {**_signatures(files), **before}
+            show()
         except DqpaintError as problem:
-            text = str(problem)
-            print(text if text.startswith("error[") else f"error: {text}", file=sys.stderr)
+            tell(problem)
         print(f"watching {path}; Ctrl-C ends", file=sys.stderr)
         for stream in (sys.stdout, sys.stderr):
             stream.flush()
         _until_saved(path, before, wait)
+
+
+def files_of(path: Path) -> set[Path]:
+    """A drawing's file and what it names in quotes, there or not yet; the drawing may be wrong."""
+    found, unread = {path}, [path]
+    while unread and len(found) < MOST_FILES:
+        file = unread.pop()
+        named = {folder / name for name in _texts(file) for folder in (file.parent, path.parent)}
+        unread += [other for other in named - found if other.suffix == path.suffix]
+        found |= named
+    return found
+
+
+def _texts(path: Path) -> list[str]:
+    """What stands in quotes in a drawing."""
+    try:
+        text = decoded(load(path), str(path))
+    except DqpaintError:
+        return []
+    return [token.text for line in lines(text) for token in line.tokens if token.kind == "text"]
 
 
 def _until_saved(path: Path, before: dict[Path, Signature], wait: Callable[[float], None]) -> None:

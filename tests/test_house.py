@@ -15,7 +15,7 @@ ORDER = [
     "motion", "robots", "plants", "controllers",
     "tracking", "metrics", "settings", "light", "picture", "out_of_reach", "paint", "outputs",
     "examples", "terminal", "report", "checking", "editors", "listing", "starter", "api",
-    "watching", "gallery", "cli_language", "cli", "__main__",
+    "gallery", "cli_language", "watching", "cli", "__main__",
 ]  # fmt: skip
 
 DOORS = {

@@ -7,13 +7,12 @@ import subprocess
 import sys
 import time
 from contextlib import suppress
-from dataclasses import replace
 
 import pytest
 
 from dqpaint.errors import DqpaintError
 from dqpaint.language import parse
-from dqpaint.watching import watch
+from dqpaint.watching import files_of, watch
 
 LINE = "period 20 ms\nline to (30, {}) mm in 400 ms\n"
 
@@ -54,7 +53,6 @@ def test_a_save_shows_it_again(files):
 
     def show():
         shown.append(drawing.read_text())
-        return parse(shown[-1])
 
     pieces = ["hold", "hold 2", "hold 2 s"]
 
@@ -67,14 +65,15 @@ def test_a_save_shows_it_again(files):
 
 def test_files_that_were_read_along_are_watched_too(files):
     drawing, included = files
+    drawing.write_text('include "b.traj"\nlin "none.csv" "" "/" "%s"\n' % ("x" * 300))
+    (drawing.parent / "points.csv").write_text("1,2\n")
+    included.write_text('path "points.csv"\ninclude "a.traj"\n')
+    assert {"a.traj", "b.traj", "points.csv"} <= {path.name for path in files_of(drawing)}
     shown = []
-
-    def show():
-        shown.append(1)
-        return replace(parse("hold 1 s"), files=(str(included),))
-
-    watched(drawing, show, idle, lambda: included.write_text("hold 33 s"), idle, idle, idle)
-    assert len(shown) == 2
+    later = drawing.parent / "none.csv"
+    watched(drawing, lambda: shown.append(1), idle, lambda: included.write_text("hold 33 s"),
+            idle, idle, lambda: later.write_text("1"), idle, idle, idle)  # fmt: skip
+    assert len(shown) == 3
 
 
 def test_an_editor_may_move_the_file_away_for_a_moment(files):
@@ -83,7 +82,6 @@ def test_an_editor_may_move_the_file_away_for_a_moment(files):
 
     def show():
         shown.append(drawing.read_text())
-        return parse(shown[-1])
 
     def back():
         os.replace(other, drawing)
@@ -100,7 +98,6 @@ def test_a_save_while_it_is_drawn_is_not_missed(files):
         shown.append(1)
         if len(shown) == 1:
             drawing.write_text("hold 44 s")
-        return parse("hold 1 s")
 
     watched(drawing, show, idle, idle, idle)
     assert len(shown) == 2
@@ -113,7 +110,7 @@ def test_errors_are_shown_and_waited_on(files, capsys):
         text = drawing.read_text()
         if "no light" in text:
             raise DqpaintError("no light is on anywhere")
-        return parse(text, "a.traj")
+        parse(text, "a.traj")
 
     watched(drawing, show, lambda: drawing.write_text("lin"), idle,
             lambda: drawing.write_text("no light"), idle, lambda: drawing.write_text("hold 1 s"),

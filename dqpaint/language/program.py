@@ -244,4 +244,3 @@ class Program:
     start: Pose
     segments: tuple[Segment, ...]
     notes: tuple[Diagnostic, ...]  # warnings; errors are raised
-    files: tuple[str, ...] = ()  # what was read besides the drawing's own file

@@ -117,8 +117,9 @@ def test_any_blanks_come_to_the_same_and_stay(name):
 
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_the_motion_is_the_same_to_the_last_bit(name):
-    asked = plan(parse(EXAMPLES[name]), CANVAS)
-    made = plan(parse(formatted(shaken(EXAMPLES[name], random.Random(7)))), CANVAS)
+    path = str(find_drawing(name))
+    asked = plan(parse(EXAMPLES[name], path), CANVAS)
+    made = plan(parse(formatted(shaken(EXAMPLES[name], random.Random(7))), path), CANVAS)
     for kind in ("t", "pose", "twist", "acceleration", "light", "stroke"):
         assert np.array_equal(getattr(asked, kind), getattr(made, kind)), kind
 

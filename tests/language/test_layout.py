@@ -14,7 +14,7 @@ from dqpaint.language.lexer import lines
 from dqpaint.language.words import PARTS, STATEMENTS
 from dqpaint.motion import plan
 from dqpaint.robots.card import read_card
-from tests.language.test_robust import MIXED
+from tests.language.test_robust import MIXED, SCRAPS
 
 CANVAS = read_card("iiwa").canvas.pose
 EXAMPLES = {name: Path(find_drawing(name)).read_text("utf-8") for name in example_names()}
@@ -152,6 +152,25 @@ def test_a_text_that_does_not_parse_is_refused():
         formatted("lin to (1, 2) mm\nline to (1, 2 mm\n", "a.traj")
     assert [d.code for d in caught.value.diagnostics] == ["E120", "E103"]
     formatted("line to (nix, 2)")  # its meaning is not asked
+
+
+def test_mutants_are_laid_out_or_refused():
+    chance, laid = random.Random(1976), 0
+    texts = [PIECE.findall(text) for text in TEXTS.values()]
+    for _ in range(1500):
+        pieces = list(chance.choice(texts))
+        for _ in range(chance.randint(1, 3)):
+            i = chance.randrange(len(pieces))
+            pieces[i : i + 1] = [chance.choice([*"()+-*/^,=%°#\n", chance.choice(SCRAPS), ""])]
+        text = "".join(pieces)
+        try:
+            made = formatted(text)
+        except ScriptError:
+            continue
+        laid += 1
+        assert formatted(made) == made, text
+        assert comments(made) == comments(text), text
+    assert laid > 60  # `formatted` itself has compared the tokens
 
 
 def test_nothing_stays_nothing():

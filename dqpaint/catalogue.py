@@ -6,10 +6,11 @@ codes that are in use.
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from dqpaint.errors import UsageError
 
@@ -29,6 +30,7 @@ class Explanation:
         right: a whole drawing that says what was meant, without any message.
         stage: what finds it: reading the `text`, planning the `motion`, trying an `arm`, or
             something `other`, where no text can show it.
+        files: what lies beside the drawings, by name.
     """
 
     code: str
@@ -37,6 +39,7 @@ class Explanation:
     wrong: str = ""
     right: str = ""
     stage: str = "text"
+    files: Mapping[str, str] = field(default_factory=dict)
 
 
 @cache
@@ -44,10 +47,14 @@ def explanations() -> Mapping[str, Explanation]:
     """All messages by their codes, in order."""
     table = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
     found = {
-        code: Explanation(code, **{key: text.strip() for key, text in row.items()})
+        code: Explanation(code, **{key: _stripped(value) for key, value in row.items()})
         for code, row in table.items()
     }
     return dict(sorted(found.items()))
+
+
+def _stripped(value: Any) -> Any:
+    return value.strip() if isinstance(value, str) else value
 
 
 def explanation(code: str) -> Explanation:
@@ -70,6 +77,8 @@ def told(found: Explanation) -> str:
     parts = [f"{found.code}: {found.title}", found.says]
     if found.wrong:
         parts += ["wrong:", _indented(found.wrong), "right:", _indented(found.right)]
+    for name, text in found.files.items():
+        parts += [f"and {name} beside it:", _indented(text)]
     return "\n\n".join(parts)
 
 

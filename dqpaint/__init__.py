@@ -18,14 +18,16 @@ from dqpaint.errors import DqpaintError
 
 if TYPE_CHECKING:
     from dqpaint.api import draw, preview, save
+    from dqpaint.build import Drawing
     from dqpaint.paint import Painting
 
 __version__ = "0.1.0"
 
-__all__ = ["DqpaintError", "Painting", "draw", "preview", "save"]
+__all__ = ["DqpaintError", "Drawing", "Painting", "draw", "preview", "save"]
 
 
 _ROOMS = {
+    "Drawing": "dqpaint.build",
     "Painting": "dqpaint.paint",
     "draw": "dqpaint.api",
     "preview": "dqpaint.api",

@@ -1,6 +1,7 @@
 """The same from Python: `dqpaint.draw("star.traj", controller="hinf")`."""
 
 from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -8,9 +9,10 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from dqpaint import outputs
+from dqpaint.build import Drawing
 from dqpaint.errors import UsageError
 from dqpaint.examples import find_drawing
-from dqpaint.language import read
+from dqpaint.language import Program, read
 from dqpaint.motion import plan
 from dqpaint.robots.choose import card_for
 from dqpaint.settings import make_settings
@@ -21,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def draw(
-    drawing: str | PathLike[str],
+    drawing: str | PathLike[str] | Drawing,
     *,
     controller: str | None = None,
     gains: Mapping[str, float] | None = None,
@@ -36,7 +38,7 @@ def draw(
     """Paint a drawing with a simulated arm, as `dqpaint draw` does; nothing is written.
 
     Args:
-        drawing: a .traj file, or the name of an example.
+        drawing: a .traj file, the name of an example, or a `dqpaint.build.Drawing`.
         controller: the control law.
         gains: of the law, in SI units; the others keep their defaults.
         robot: the arm; else the file's robot line, else the iiwa.
@@ -56,12 +58,13 @@ def draw(
         start=start, width=width, height=height, view=view, ev=ev,
     )  # fmt: skip
     begin = perf_counter()
-    program = read(find_drawing(str(drawing)))
+    program = _program(drawing)
     seconds = perf_counter() - begin
 
     from dqpaint.paint import paint  # a fault in the text is told before the simulator is loaded
 
-    painting = paint(program, settings, progress)
+    with _places(drawing):
+        painting = paint(program, settings, progress)
     return replace(painting, seconds={"language": seconds, **painting.seconds})
 
 
@@ -88,7 +91,7 @@ def save(
 
 
 def preview(
-    drawing: str | PathLike[str],
+    drawing: str | PathLike[str] | Drawing,
     *,
     robot: str | None = None,
     size: tuple[int, int] | None = None,
@@ -98,13 +101,25 @@ def preview(
     """The asked picture of a drawing, without an arm; arguments as those of `draw`."""
     width, height = _width_and_height(size)
     settings = make_settings(robot=robot, width=width, height=height, view=view, ev=ev)
-    program = read(find_drawing(str(drawing)))
+    program = _program(drawing)
 
     from dqpaint.picture import take
 
-    card = card_for(program, settings.robot)
-    motion = plan(program, card.canvas.pose)
-    return take(motion, motion.points, settings)
+    with _places(drawing):
+        card = card_for(program, settings.robot)
+        motion = plan(program, card.canvas.pose)
+        return take(motion, motion.points, settings)
+
+
+def _program(drawing: str | PathLike[str] | Drawing) -> Program:
+    if isinstance(drawing, Drawing):
+        return drawing.program()
+    return read(find_drawing(str(drawing)))
+
+
+def _places(drawing: str | PathLike[str] | Drawing) -> AbstractContextManager[None]:
+    """What is wrong with a drawing made by calls is told with the call."""
+    return drawing.places() if isinstance(drawing, Drawing) else nullcontext()
 
 
 def _width_and_height(size: tuple[int, int] | None) -> tuple[int | None, int | None]:

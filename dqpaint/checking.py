@@ -129,6 +129,7 @@ def _as_json(result: Checked, finding: Diagnostic) -> dict[str, Any]:
         **_range(result.source, finding.span),
         "label": finding.label,
         "help": finding.help,
+        "explain": f"dqpaint explain {finding.code}",
         "related": [
             {
                 "file": file_at(result.source, span.start, result.file)[1],

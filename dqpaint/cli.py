@@ -8,11 +8,13 @@ import json
 import os
 import shutil
 import sys
+from collections.abc import Sequence
 from typing import Annotated, Any, NoReturn
 
 import typer
 
-from dqpaint import __version__
+from dqpaint import __version__, cli_language
+from dqpaint.cli_language import tell
 from dqpaint.errors import DqpaintError, UsageError
 
 app = typer.Typer(
@@ -114,7 +116,7 @@ def draw(
 
 
 @app.command(
-    epilog="Examples:\n\n  dqpaint preview star\n\n  dqpaint preview helix.traj --view iso"
+    epilog="Examples:\n\n  dqpaint preview star\n\n  dqpaint preview helix.traj --view iso --watch"
 )
 def preview(
     file: Drawing,
@@ -123,6 +125,7 @@ def preview(
     view: View = "front",
     ev: Ev = 0.0,
     out: Out = None,
+    watch: Annotated[bool, typer.Option("--watch", help="again at each save, till Ctrl-C")] = False,
 ) -> None:
     """Take the asked picture, without an arm, at once; with length, time and brightness."""
     from dqpaint import api, outputs
@@ -131,12 +134,22 @@ def preview(
 
     path = find_drawing(file)
     stem = outputs.stem_for(out, f"{path.stem}-preview")
-    picture = api.preview(path, robot=robot, size=parse_size(size), view=view, ev=ev)
-    written = outputs.write(stem, {".png": picture.png})
+    pixels = parse_size(size)
 
-    from dqpaint import report
+    def show() -> None:
+        picture = api.preview(path, robot=robot, size=pixels, view=view, ev=ev)
+        written = outputs.write(stem, {".png": picture.png})
 
-    _finish(report.notes(picture.motion), report.of_preview(picture, written), picture.image)
+        from dqpaint import report
+
+        _finish(report.notes(picture.motion), report.of_preview(picture, written), picture.image)
+
+    if not watch:
+        show()
+        return
+    from dqpaint import watching
+
+    watching.watch(path, show)
 
 
 @app.command(epilog="Examples:\n\n  dqpaint check star\n\n  dqpaint check drawings/*.traj --json")
@@ -156,6 +169,7 @@ def check(
         print(json.dumps(checking.as_json(results), indent=2))
     else:
         print("\n".join(result.text for result in results))
+        _point_at([finding.code for result in results for finding in result.findings], sys.stdout)
     if any(result.errors for result in results):
         raise typer.Exit(1)
 
@@ -165,10 +179,7 @@ def check(
 )
 def list_(
     what: Annotated[
-        str,
-        typer.Argument(
-            metavar="[robots|controllers|plants|fonts|examples]", help="all, if not said"
-        ),
+        str, typer.Argument(metavar="[robots|controllers|...]", help="which list; all, if not said")
     ] = "all",
     as_json: AsJson = False,
 ) -> None:
@@ -194,6 +205,9 @@ def gallery(
         print(path)
 
 
+cli_language.add_to(app)
+
+
 def _finish(remarks: list[str], table: str, image: Any) -> None:
     """Say what there is to say, and show the picture to who can see it."""
     from dqpaint.terminal import blocks, shows_pictures
@@ -203,6 +217,12 @@ def _finish(remarks: list[str], table: str, image: Any) -> None:
     print(table)
     if shows_pictures(sys.stdout):
         print(blocks(image, shutil.get_terminal_size().columns))
+
+
+def _point_at(codes: Sequence[str], stream: Any) -> None:
+    """Say to a person who has met an error where its rule is explained."""
+    if codes and stream.isatty():
+        print(f"\ndqpaint explain {codes[0]} tells more", file=sys.stderr)
 
 
 def run() -> None:
@@ -223,8 +243,9 @@ def _answer() -> None:
     except UsageError as problem:
         _end(f"usage: {problem}", 2)
     except DqpaintError as problem:
-        text = str(problem)
-        _end(text if text.startswith(("error[", "warning[")) else f"error: {text}", 1)
+        tell(problem)
+        _point_at([d.code for d in getattr(problem, "diagnostics", ())], sys.stderr)
+        sys.exit(1)
     except SystemExit as stop:
         if stop.code == INTERRUPTED:  # typer has met a Ctrl-C
             raise KeyboardInterrupt from None

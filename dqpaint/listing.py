@@ -69,12 +69,30 @@ def _examples() -> list[dict[str, Any]]:
     return [{"name": name, "about": about(name)} for name in example_names()]
 
 
+def _statements() -> list[dict[str, Any]]:
+    from dqpaint.language.words import STATEMENTS
+
+    return [
+        {"name": s.word, "about": s.says, "example": s.example, "parts": list(s.parts)}
+        for s in STATEMENTS.values()
+    ]
+
+
+def _functions() -> list[dict[str, Any]]:
+    from dqpaint.editors.vocabulary import vocabulary
+
+    kinds = ("function", "law", "constant", "unit")
+    return [{"name": e.example, "about": e.says} for e in vocabulary() if e.kind in kinds]
+
+
 LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {
     "robots": _robots,
     "controllers": _controllers,
     "plants": _plants,
     "fonts": _fonts,
     "examples": _examples,
+    "statements": _statements,
+    "functions": _functions,
 }
 
 
@@ -100,6 +118,10 @@ def text(found: dict[str, list[dict[str, Any]]]) -> str:
             usual = " (default)" if row.get("default") else ""
             lines.append((row["name"] + usual, row["about"]))
             lines += [("", f"  {gain_line(gain)}") for gain in row.get("gains", [])]
+            if "example" in row:
+                lines.append(("", f"  {row['example']}"))
+            if row.get("parts"):
+                lines.append(("", f"  parts: {' '.join(row['parts'])}"))
             if "gains" in row:
                 lines.append(("", f"  from {row['source']}"))
         heading = [f"{name}:"] if len(found) > 1 else []

@@ -14,6 +14,7 @@ import numpy as np
 
 from dqpaint import __version__
 from dqpaint.errors import OutputError, UsageError
+from dqpaint.files import stage
 from dqpaint.registry import Registry
 from dqpaint.robots.limits import UNITS
 
@@ -173,16 +174,11 @@ def write(stem: Path, contents: dict[str, bytes]) -> list[Path]:
     Raises:
         OutputError: a file could not be written; every file there is whole, the old or the new one.
     """
-    made: list[tuple[str, Path]] = []
+    made: list[tuple[Path, Path]] = []
     try:
         for end, data in contents.items():
-            handle, temporary = tempfile.mkstemp(
-                prefix=".dqpaint-", suffix=".part", dir=stem.parent
-            )
-            made.append((temporary, stem.with_name(stem.name + end)))
-            with os.fdopen(handle, "wb") as file:
-                file.write(data)
-            os.chmod(temporary, 0o666 & ~_umask())
+            path = stem.with_name(stem.name + end)
+            made.append((stage(path, data), path))
         for _, path in made:
             if path.is_dir():
                 raise OutputError(f"'{path}' cannot be written: it is a folder")
@@ -192,11 +188,5 @@ def write(stem: Path, contents: dict[str, bytes]) -> list[Path]:
         raise OutputError(f"'{stem}' cannot be written: {problem.strerror}") from None
     finally:
         for temporary, _ in made:
-            Path(temporary).unlink(missing_ok=True)
+            temporary.unlink(missing_ok=True)
     return [path for _, path in made]
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -1,9 +1,9 @@
-"""The README's generated tables: `python -m tests.generated` writes them, test_docs compares."""
+"""The pages' generated tables: `python -m tests.generated` writes them, test_docs compares."""
 
 from pathlib import Path
 
 END = "<!-- end -->"
-README = Path(__file__).parent.parent / "README.md"
+ROOT = Path(__file__).parent.parent
 
 COLUMNS = {
     "t_s": "time",
@@ -86,11 +86,22 @@ def columns():
     return table(["column", ""], [[f"`{name}`", about] for name, about in COLUMNS.items()])
 
 
-TABLES = [statements, parts, values, controllers, robots, plants, columns]
+def messages():
+    from dqpaint.catalogue import explanations
+
+    rows = [[f"`{e.code}`", e.title] for e in explanations().values()]
+    return table(["code", "what it is about"], rows)
 
 
-def renewed(text):
-    for make in TABLES:
+PAGES = {
+    ROOT / "README.md": [controllers, robots, plants, columns],
+    ROOT / "trajectories/README.md": [messages, statements, parts, values],
+}
+
+
+def renewed(page):
+    text = page.read_text("utf-8")
+    for make in PAGES[page]:
         mark = f"<!-- {make.__name__} -->"
         before, found, rest = text.partition(mark)
         assert found, mark
@@ -100,4 +111,5 @@ def renewed(text):
 
 
 if __name__ == "__main__":
-    README.write_text(renewed(README.read_text("utf-8")), "utf-8")
+    for page in PAGES:
+        page.write_text(renewed(page), "utf-8")

@@ -11,9 +11,11 @@ PACKAGE = Path(__file__).parent.parent / "dqpaint"
 
 # Data moves down this list and never up. A folder's modules may import each other.
 ORDER = [
-    "errors", "registry", "dq", "language", "motion", "robots", "plants", "controllers",
+    "errors", "files", "registry", "dq", "language", "build", "formatting", "catalogue",
+    "motion", "robots", "plants", "controllers",
     "tracking", "metrics", "settings", "light", "picture", "out_of_reach", "paint", "outputs",
-    "examples", "terminal", "report", "checking", "listing", "api", "gallery", "cli", "__main__",
+    "examples", "terminal", "report", "checking", "editors", "listing", "starter", "api",
+    "gallery", "cli_language", "watching", "cli", "__main__",
 ]  # fmt: skip
 
 DOORS = {
@@ -21,7 +23,10 @@ DOORS = {
     "pybullet": ["plants/bullet.py"],
     "cv2": ["light/spread.py", "light/develop.py", "picture.py"],
     "svgelements": ["language/drawings.py"],
-    "typer": ["cli.py"],
+    "typer": ["cli.py", "cli_language.py"],
+    "pygments": ["editors/highlighting.py"],
+    "pygls": ["editors/server.py"],
+    "lsprotocol": ["editors/server.py"],
     "pydantic": ["robots/card.py", "controllers", "settings.py"],
 }
 EVERYWHERE = {"numpy", "dqpaint", "typing_extensions"}

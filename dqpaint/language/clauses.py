@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable
 
 from dqpaint.language.cursor import Cursor, found, no_value
-from dqpaint.language.diagnostics import Problem, Span, problem
+from dqpaint.language.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.expressions import expression
 from dqpaint.language.lexer import number_value
 from dqpaint.language.syntax import (
@@ -108,13 +108,14 @@ def _shade(cursor: Cursor, after: str = "light") -> Shade:
 def _no_colour(cursor: Cursor) -> Problem:
     """E108. A comment swallowed `#ff8800`, or the brightness stands without its colour."""
     cure = 'for example: light red, light hsv(30 deg), light "#ff8800", light off'
-    span = cursor.before.span
+    span, fix = cursor.before.span, None
     if cursor.token.kind == "number":
         cure = f"the brightness follows the colour: light white {cursor.token.text}%"
         span = cursor.token.span
     elif comment := _COMMENTED_COLOUR.match(cursor.text, span.end):
         cure = f'a # starts a comment; put the colour in quotes: light "{comment[1]}"'
-    return problem("E108", "'light' needs a colour", span, "", cure)
+        fix = Fix("put the colour in quotes", Span(*comment.span(1)), f'"{comment[1]}"')
+    return problem("E108", "'light' needs a colour", span, "", cure, fix)
 
 
 def _brush(cursor: Cursor) -> BrushWords:

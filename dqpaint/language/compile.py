@@ -5,14 +5,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from dqpaint.errors import DqpaintError
 from dqpaint.language.diagnostics import Diagnostic, ScriptError, Span
 from dqpaint.language.expand import Expander
 from dqpaint.language.findings import EnoughError, Findings
 from dqpaint.language.includes import MOST_LINES, Loader
 from dqpaint.language.program import Program
-
-MOST_BYTES = 2_000_000
+from dqpaint.language.source import MOST_BYTES, decoded, load
 
 
 def read(path: str | Path) -> Program:
@@ -26,38 +24,7 @@ def read(path: str | Path) -> Program:
 
 
 def _text_of(path: Path) -> str:
-    try:
-        with path.open("rb") as file:
-            data = file.read(MOST_BYTES + 1)
-    except (OSError, ValueError) as fault:
-        reason = fault.strerror if isinstance(fault, OSError) else str(fault)
-        raise DqpaintError(f"can't read {path}: {(reason or str(fault)).lower()}") from None
-    return _decoded(data, str(path))
-
-
-def _decoded(data: bytes, name: str) -> str:
-    if len(data) > MOST_BYTES:
-        raise DqpaintError(f"{name} is larger than {MOST_BYTES // 1_000_000} MB")
-    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise DqpaintError(f"{name} is written in UTF-16; save it as UTF-8")
-    if b"\0" in data:
-        raise DqpaintError(f"{name} is not a text: byte {data.index(0) + 1} is 0")
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError as fault:
-        byte = data[fault.start]
-        line = data.count(b"\n", 0, fault.start) + 1
-        raise DqpaintError(
-            f"{name} is not written in UTF-8: line {line}, byte {fault.start + 1} is "
-            f"0x{byte:02x}{_latin(byte)}; save it as UTF-8"
-        ) from None
-    return text.replace("\r\n", "\n").replace("\r", "\n")
-
-
-def _latin(byte: int) -> str:
-    """What the byte would be in Latin-1, where files that are not UTF-8 mostly come from."""
-    letter = bytes([byte]).decode("latin-1")
-    return f" ('{letter}' in Latin-1)" if letter.isprintable() else ""
+    return decoded(load(path), str(path))
 
 
 def parse(text: str, name: str = "<text>", path: Path | None = None) -> Program:

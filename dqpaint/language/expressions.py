@@ -3,7 +3,7 @@
 import math
 
 from dqpaint.language.cursor import Cursor, found, no_value
-from dqpaint.language.diagnostics import Problem, Span, problem
+from dqpaint.language.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.lexer import number_value
 from dqpaint.language.syntax import (
     Bracket,
@@ -136,9 +136,14 @@ def bracket(cursor: Cursor, of: str = "(") -> tuple[Expression, ...]:
 def _not_closed(cursor: Cursor) -> Problem:
     token = cursor.token
     cure = "the numbers of a point stand in brackets, with commas between: (10, 20) mm"
+    fix = None
     if token.kind == "number" or token.kind == "name":
         cure = "put a comma between the numbers of a point, a * between the factors of a product"
-    return problem("E109", f"expected ',' or ')' but found {found(token)}", token.span, "", cure)
+    if token.kind == cursor.before.kind == "number":
+        end = cursor.before.end
+        fix = Fix("put a comma between", Span(end, end), ",")
+    message = f"expected ',' or ')' but found {found(token)}"
+    return problem("E109", message, token.span, "", cure, fix)
 
 
 def _deeper(cursor: Cursor, span: Span) -> None:

@@ -1,12 +1,15 @@
 """Which parts go together in a statement: the two forms of an arc, of a screw, one time only."""
 
+import re
+
 from dqpaint.language.cursor import Cursor
-from dqpaint.language.diagnostics import Problem, Span, place, problem
+from dqpaint.language.diagnostics import Fix, Problem, Span, place, problem
 from dqpaint.language.lexer import Token
 from dqpaint.language.syntax import Part, Statement
 from dqpaint.language.words import STATEMENTS, TIMES
 
 _FORM_OF_CENTRE = ("axis", "angle", "rise", "grow")
+_QUESTION = re.compile(r"did you mean '(\w+)'\?")
 _FORM_OF_RADIUS = ("radius", "left", "right", "long")
 _FORM_OF_ABOUT = ("along", "angle", "pitch")
 
@@ -219,7 +222,9 @@ def misplaced(word: str, token: Token) -> Problem | None:
     if cure is None:
         return None
     message = f"'{word}' has no part called '{token.text}'"
-    return problem("E110", message, token.span, "", cure)
+    meant = _QUESTION.fullmatch(cure)
+    fix = Fix(f"write {meant[1]}", token.span, meant[1]) if meant else None
+    return problem("E110", message, token.span, "", cure, fix)
 
 
 def unexpected(word: str, cursor: Cursor) -> Problem | None:

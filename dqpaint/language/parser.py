@@ -187,7 +187,9 @@ class _Parser:
             message = f"unknown statement '{word}'"
             cure = f"'{word}' belongs to a statement and stands on its line: {_user_of(word)}"
             return Diagnostic("E120", message, first.span, "", cure), False
-        mistake, meant = unknown_statement(first.text, first.span, self._defined or ())
+        mistake, meant = unknown_statement(
+            first.text, first.span, self._defined or (), tokens[1].text
+        )
         return mistake, meant in _BLOCKS
 
     def _definition(self, tokens: list[Token]) -> Diagnostic:
@@ -205,10 +207,14 @@ class _Parser:
         )
 
 
-def unknown_statement(word: str, span: Span, calls: Iterable[str] = ()) -> tuple[Diagnostic, str]:
-    """E120, and the word that may be meant; `calls` can be called."""
+def unknown_statement(
+    word: str, span: Span, calls: Iterable[str] = (), after: str = ""
+) -> tuple[Diagnostic, str]:
+    """E120, and the word that may be meant; `calls` can be called, `after` is what follows."""
     meant = closest(word, (*STATEMENTS, *calls), STATEMENT_ALIASES)
-    fix = Fix(f"write {meant}", span, meant) if meant in STATEMENTS or meant in calls else None
+    fits = meant in STATEMENTS or meant in calls
+    fits = fits or (meant.endswith(" to") and after in ("(", "polar"))
+    fix = Fix(f"write {meant}", span, meant) if fits else None
     message = f"unknown statement '{word}'"
     return Diagnostic("E120", message, span, "", did_you_mean(meant), fix=fix), meant
 

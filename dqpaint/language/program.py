@@ -12,12 +12,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from dqpaint.language.colours import Colour as Colour
 from dqpaint.language.diagnostics import Diagnostic, Span
 from dqpaint.language.taylor import Floats, Taylor
 
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
-Colour = tuple[float, float, float]
 Formula = Callable[[Taylor], tuple[Taylor, Taylor, Taylor]]
 
 

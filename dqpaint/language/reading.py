@@ -10,7 +10,7 @@ from dqpaint.language.program import Colour, Law, Quaternion, Vector
 from dqpaint.language.scope import Scope
 from dqpaint.language.space import Frame
 from dqpaint.language.suggestions import closest, did_you_mean
-from dqpaint.language.syntax import Expression, Name
+from dqpaint.language.syntax import Call, Expression, Literal, Name
 from dqpaint.language.taylor import Taylor
 from dqpaint.language.units import (
     ANGLE,
@@ -215,7 +215,8 @@ def _colour_of_text(node: Expression, text: str) -> Colour:
         )
     meant = closest(text, colours.NAMES)
     cure = did_you_mean(meant) or 'for example: red, hsv(30 deg), "#ff8800"'
-    raise problem("E216", f'there is no colour "{text}"', node.span, "", cure)
+    fix = Fix(f"write {meant}", node.span, f'"{meant}"') if meant else None
+    raise problem("E216", f'there is no colour "{text}"', node.span, "", cure, fix)
 
 
 def floats(value: Point) -> Vector:
@@ -238,21 +239,27 @@ def needs(node: Expression, value: Value, scope: Scope, word: str, dimension: Di
         cure = f"write {written}" if written else f"for example: {_example(word)}"
         fix = Fix(cure, node.span, written) if written else None
         return problem("E218", message, node.span, "no unit", cure, fix)
-    cure = f"for example: {_example(word)}" if _example(word) else ""
+    cure, fix = (f"for example: {_example(word)}" if _example(word) else ""), None
     if isinstance(value, Quantity | Point):
         kind = value.dimension
         per_time = tuple(a - b for a, b in zip(kind, TIME, strict=True))
         per_angle = tuple(a - b for a, b in zip(kind, ANGLE, strict=True))
+        per = ""
         if dimension == per_time and dimension in (SPEED, TURNSPEED):
-            cure = f"write {scope.written(node)}/s"
+            per = "/s"
         elif dimension == per_angle == PITCH:
-            cure = f"write {scope.written(node)}/turn"
+            per = "/turn"
         elif kind == (1.0, 0.0, 1.0, 0.0) and dimension == LENGTH:
             cure = "an angle becomes a plain number when it is divided by rad"
+        if per:
+            cure = f"write {scope.written(node)}{per}"
+            if isinstance(node, Literal | Name | Call):
+                fix = Fix(cure, node.span, f"{scope.written(node)}{per}")
     shown = describe(value)
     if isinstance(value, Point) and word in ("to", "by") and value.dimension != PLAIN:
         shown = dimension_name(value.dimension)
-    return problem("E218", f"'{word}' needs {needed}, but this is {shown}", node.span, "", cure)
+    message = f"'{word}' needs {needed}, but this is {shown}"
+    return problem("E218", message, node.span, "", cure, fix)
 
 
 def _example(word: str) -> str:

@@ -10,7 +10,7 @@ from dqpaint.language.lexer import Token, number_value
 from dqpaint.language.names import new_name
 from dqpaint.language.suggestions import closest, did_you_mean, listed
 from dqpaint.language.syntax import Expression, Part, Quoted, Statement, Word
-from dqpaint.language.units import FOREIGN_UNITS, UNITS
+from dqpaint.language.units import FOREIGN_UNITS, SAME_UNITS, UNITS
 from dqpaint.language.words import PART_ALIASES, PARTS, SETTINGS, STATEMENTS
 
 VERSION = 1  # of the language, for `traj 1`
@@ -132,7 +132,10 @@ def _expect(cursor: Cursor, word: str, example: str) -> None:
     if not cursor.is_word(word):
         span = cursor.token.span if not cursor.at_end else cursor.before.span
         message = f"expected '{word}' but found {found(cursor.token)}"
-        raise problem("E116", message, span, "", f"write: {example}")
+        at = cursor.token.start if not cursor.at_end else cursor.before.end
+        opens = cursor.token.kind == "number" or cursor.is_sign("(")
+        fix = Fix(f"write {word}", Span(at, at), f"{word} ") if opens else None
+        raise problem("E116", message, span, "", f"write: {example}", fix)
     cursor.take()
 
 
@@ -248,7 +251,9 @@ def _unknown_part(cursor: Cursor, word: str) -> Problem:
 def _foreign_unit(token: Token) -> Problem:
     unit = FOREIGN_UNITS[token.text]
     cure = f"did you mean '{unit}'? units are {', '.join(UNITS)}"
-    return problem("E102", f"'{token.text}' is not a unit of this language", token.span, "", cure)
+    fix = Fix(f"write {unit}", token.span, unit) if token.text in SAME_UNITS else None
+    message = f"'{token.text}' is not a unit of this language"
+    return problem("E102", message, token.span, "", cure, fix)
 
 
 def _left_over(cursor: Cursor, word: str) -> Problem:

@@ -64,6 +64,13 @@ FOREIGN_UNITS = {
     "k": "K",
 }
 
+# Those of them that are the same by another name, so that no number changes.
+SAME_UNITS = {
+    word: unit
+    for word, unit in FOREIGN_UNITS.items()
+    if word not in ("min", "us", "km", "inch", "px", "pt")
+}
+
 NAMES = {
     PLAIN: "a plain number",
     LENGTH: "a length",

@@ -24,7 +24,7 @@ def draw(
     drawing: str | PathLike[str],
     *,
     controller: str | None = None,
-    gains: Mapping[str, float] | None = None,
+    gains: Mapping[str, float | tuple[float, ...] | str] | None = None,
     robot: str | None = None,
     plant: str | None = None,
     start: str | None = None,
@@ -38,7 +38,8 @@ def draw(
     Args:
         drawing: a .traj file, or the name of an example.
         controller: the control law.
-        gains: of the law, in SI units; the others keep their defaults.
+        gains: of the law, in SI units; the others keep their defaults. A text such as
+            "5..20@10%" changes on the way.
         robot: the arm; else the file's robot line, else the iiwa.
         plant: how the arm answers.
         start: `first` (at the first pose) or `home`.

@@ -30,12 +30,20 @@ Law = Annotated[
 ]
 Gain = Annotated[
     list[str] | None,
-    typer.Option(metavar="NAME=VALUE", help="a gain of that law in SI units; repeatable"),
+    typer.Option(
+        metavar="NAME=VALUE",
+        help="a gain of that law in SI units; repeatable; 5..20@10% is a ramp in the first 10 %",
+    ),
 ]
 Robot = Annotated[
     str | None, typer.Option(metavar="NAME", help="the arm [default: the file's, else iiwa]")
 ]
-PlantName = Annotated[str, typer.Option(metavar="NAME", help="how the arm answers: stiff or ideal")]
+PlantName = Annotated[
+    str | None,
+    typer.Option(
+        metavar="NAME", help="how the arm answers [default: stiff, or torque for its laws]"
+    ),
+]
 From = Annotated[str, typer.Option("--from", metavar="first|home", help="where the arm begins")]
 Size = Annotated[str, typer.Option(metavar="WxH", help="of the picture, in pixels")]
 View = Annotated[
@@ -84,7 +92,7 @@ def draw(
     controller: Law = "hinf",
     gain: Gain = None,
     robot: Robot = None,
-    plant: PlantName = "stiff",
+    plant: PlantName = None,
     start: From = "first",
     size: Size = "1280x720",
     view: View = "front",

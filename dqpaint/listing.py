@@ -38,13 +38,14 @@ def _controllers() -> list[dict[str, Any]]:
 
 def _plants() -> list[dict[str, Any]]:
     from dqpaint.plants import PLANTS
-    from dqpaint.settings import DEFAULT_PLANT
+    from dqpaint.plants.plant import DEFAULT_PLANTS
 
     return [
         {
             "name": name,
             "about": (plant.__doc__ or "").splitlines()[0],
-            "default": name == DEFAULT_PLANT,
+            "default": name == DEFAULT_PLANTS["rates"],
+            "takes": plant.takes,
         }
         for name, plant in PLANTS.items()
     ]

@@ -100,7 +100,7 @@ def summarise(painting: "Painting") -> dict[str, Any]:
             **{name: version(name) for name in LIBRARIES},
         },
         "robot": painting.robot,
-        "plant": settings.plant,
+        "plant": painting.plant,
         "controller": settings.controller,
         "gains": painting.gains,
         "seed": None,  # nothing random takes part in a run without disturbances

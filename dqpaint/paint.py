@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +17,7 @@ from dqpaint.metrics import Metrics, Table, measure
 from dqpaint.motion import Motion, plan
 from dqpaint.out_of_reach import begin, check_worst
 from dqpaint.picture import Picture, take
-from dqpaint.plants import PLANTS
+from dqpaint.plants import PLANTS, choose_plant
 from dqpaint.robots.choose import card_for
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Clamp
@@ -30,7 +31,8 @@ class Painting:
 
     settings: Settings
     robot: str
-    gains: dict[str, float]  # all of the law's, and what follows from them
+    plant: str
+    gains: dict[str, Any]  # all of the law's, and what follows from them
     motion: Motion
     track: Track
     metrics: Metrics
@@ -87,7 +89,7 @@ def paint(
     parse_view(settings.view)  # a slip there is told before anything is simulated
     controller = CONTROLLERS[settings.controller]
     gains = controller.read_gains(settings.gains)
-    make_plant = PLANTS[settings.plant]
+    plant = choose_plant(settings.plant, "torque" if controller.drives_torque else "rates")
     card = card_for(program, settings.robot)
     with clock("motion"):
         motion = plan(program, card.canvas.pose)
@@ -96,14 +98,14 @@ def paint(
         best = begin(motion, kinematics).posture
         start = card.home if settings.start == "home" else best
     with clock("arm"):
-        run = track(motion, kinematics, start, make_plant, controller, gains, progress)
+        run = track(motion, kinematics, start, PLANTS[plant], controller, gains, progress)
     check_worst(run, kinematics)
     with clock("metrics"):
         metrics = measure(run)
     with clock("light"):
         picture = take(motion, run.points, settings)
     return Painting(
-        settings, card.name, gains.shown(), motion, run, metrics, picture, clock.seconds
+        settings, card.name, plant, gains.shown(), motion, run, metrics, picture, clock.seconds
     )
 
 

@@ -20,20 +20,32 @@ NOTHING = 1e-9  # [mm, deg] is shown as 0
 def of_painting(painting: Painting, written: Sequence[Path]) -> str:
     """The table that follows `draw`."""
     figures, settings = painting.metrics.figures, painting.settings
-    gains = ", ".join(f"{name} = {value:.4g}" for name, value in painting.gains.items())
+    gains = ", ".join(f"{name} = {_gain(value)}" for name, value in painting.gains.items())
     rows = [
         ("drawing", summary_line(painting.motion)),
-        ("arm", f"{painting.robot}, {settings.plant}"),
+        ("arm", f"{painting.robot}, {painting.plant}"),
         ("controller", f"{settings.controller}  {gains}"),
         ("position error", _spread(figures, "position_error", "m", 1e3, "mm")),
         ("", f"largest at {_worst(painting)}"),
         ("orientation error", _spread(figures, "orientation_error", "rad", math.degrees(1), "deg")),
-        ("commanded", f"{figures['command_integral_rad']:.3g} rad in all joints together"),
+        ("commanded", _commanded(figures)),
         ("limits", _limits_line(painting)),
         ("light", light_line(painting.picture)),
         *_files(written),
     ]
     return table(rows)
+
+
+def _commanded(figures: dict[str, float]) -> str:
+    if "torque_integral_Nm_s" in figures:
+        return f"{figures['torque_integral_Nm_s']:.3g} Nm s in all joints together"
+    return f"{figures['command_integral_rad']:.3g} rad in all joints together"
+
+
+def _gain(value: float | tuple[float, ...] | str) -> str:
+    if isinstance(value, tuple):
+        return f"({', '.join(f'{part:.4g}' for part in value)})"
+    return value if isinstance(value, str) else f"{value:.4g}"
 
 
 def of_preview(picture: Picture, written: Sequence[Path]) -> str:

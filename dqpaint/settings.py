@@ -9,7 +9,6 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from dqpaint.errors import UsageError
 
 DEFAULT_CONTROLLER = "hinf"
-DEFAULT_PLANT = "stiff"
 LARGEST = 8192  # columns or rows of a picture
 SMALLEST = 16
 
@@ -20,9 +19,9 @@ class Settings(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     controller: str = DEFAULT_CONTROLLER
-    gains: dict[str, float] = Field(default_factory=dict)
+    gains: dict[str, float | tuple[float, ...] | str] = Field(default_factory=dict)
     robot: str | None = None  # None: the file's own robot line, else the iiwa
-    plant: str = DEFAULT_PLANT
+    plant: str | None = None  # None: the usual one for what the law commands
     start: Literal["first", "home"] = "first"
     width: Annotated[int, Field(ge=SMALLEST, le=LARGEST)] = 1280
     height: Annotated[int, Field(ge=SMALLEST, le=LARGEST)] = 720
@@ -61,28 +60,23 @@ def parse_size(text: str) -> tuple[int, int]:
     return int(found[1]), int(found[2])
 
 
-def parse_gains(texts: Sequence[str]) -> dict[str, float]:
-    """Gains by their names from texts like `k=20`.
+def parse_gains(texts: Sequence[str]) -> dict[str, float | str]:
+    """Gains by their names from texts like `k=20`; other forms than a number the law reads.
 
     Raises:
         UsageError: anything else, or a gain given twice.
     """
-    gains: dict[str, float] = {}
+    gains: dict[str, float | str] = {}
     for text in texts:
-        name, value = _parse_gain(text)
+        name, sign, value = (part.strip() for part in text.partition("="))
+        if not (name and sign and value):
+            raise UsageError(
+                f"gain '{text}' is not NAME=VALUE, for example k=20, or k=5..20@10% for a ramp"
+            )
         if name in gains:
             raise UsageError(f"gain '{name}' is given twice")
-        gains[name] = value
+        try:
+            gains[name] = float(value)
+        except ValueError:
+            gains[name] = value
     return gains
-
-
-def _parse_gain(text: str) -> tuple[str, float]:
-    name, sign, value = text.partition("=")
-    try:
-        if sign:
-            return name.strip(), float(value)
-    except ValueError:
-        pass
-    raise UsageError(
-        f"gain '{text}' is not NAME=VALUE with a plain number in SI units, for example k=20"
-    )

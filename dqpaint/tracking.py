@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.controllers import Controller, Gains, Seen
+from dqpaint.controllers import Controller, Schedule, Seen
 from dqpaint.dq import Floats
+from dqpaint.driving import make_drive
 from dqpaint.errors import DqpaintError
 from dqpaint.motion import Motion
 from dqpaint.plants.plant import PlantMaker
 from dqpaint.robots.kinematics import Kinematics, manipulability
-from dqpaint.robots.limits import Bounds, Clamp, clamps
-from dqpaint.robots.resolver import PULL, resolve
+from dqpaint.robots.limits import Clamp, clamps
 
 REPORT_EVERY = 50  # rows
 BLOCK = 512  # rows whose Jacobians are kept
@@ -32,7 +32,8 @@ class Track:
         posture: measured joint angles (N, n) [rad].
         pose: measured tool poses (N, 8) in the base frame, signs continuous.
         manipulability: sqrt(det(J J')) (N,) at the measured postures.
-        command: joint rates (N, n) [rad/s] the arm was given.
+        command: what the arm was given (N, n): joint rates [rad/s], or torques [Nm].
+        torques: whether the commands are torques.
         effort: motor torques (N, n) [Nm], the largest seen in the period before the row.
         clamps: limits that held a joint back.
     """
@@ -42,6 +43,7 @@ class Track:
     pose: Floats
     manipulability: Floats
     command: Floats
+    torques: bool
     effort: Floats
     clamps: tuple[Clamp, ...]
 
@@ -61,7 +63,7 @@ def track(
     start: Floats,
     make_plant: PlantMaker,
     controller: Controller[Any],
-    gains: Gains,
+    gains: Schedule[Any],
     progress: Callable[[float], None] = lambda _done: None,
 ) -> Track:
     """Drive the arm along a motion.
@@ -72,7 +74,7 @@ def track(
         start: posture (n,) [rad] to begin from, at rest.
         make_plant: how the arm answers.
         controller: the law.
-        gains: of the law.
+        gains: of the law, over the drawing.
         progress: called now and then with the part done, 0 to 1.
 
     Raises:
@@ -84,19 +86,25 @@ def track(
     wanted, command = np.empty((n, joints)), np.empty((n, joints))
     pose, measures = np.empty((n, 8)), np.empty(n)
     jacobian = np.empty((BLOCK, 6, joints))
-    bounds = Bounds(card, motion.period)
+    parts = motion.t / motion.t[-1] if len(motion.t) > 1 else motion.t
+    ahead = controller.prepare(motion, gains) if controller.prepare else np.zeros((n, 0))
+    drive = make_drive(controller, kinematics, start, motion.period)
     plant = make_plant(card, start, motion.period)
-    asked = zip(motion.pose, motion.twist, motion.acceleration, motion.t.tolist(), strict=True)
+    asked = zip(
+        motion.pose, motion.twist, motion.acceleration, motion.t.tolist(), ahead,
+        gains.over(parts), strict=True,
+    )  # fmt: skip
     try:
-        for k, (pose_d, twist_d, acceleration_d, t) in enumerate(asked):
+        for k, (pose_d, twist_d, acceleration_d, t, known, now) in enumerate(asked):
             q = plant.posture
             x, J = kinematics.pose_and_jacobian(q)
-            seen = Seen(x, pose_d, twist_d, acceleration_d, J, q, t, motion.period)
-            twist = controller.law(seen, gains)
-            rates = resolve(J, dq.translation(x), twist, PULL * (start - q))
-            given = bounds.clip(rates, q)
+            seen = Seen(
+                x, pose_d, twist_d, acceleration_d, J, q, t, motion.period, plant.rates, known
+            )
+            asked_for = drive.ask(seen, now)
+            given = drive.within(asked_for, q)
             posture[k], effort[k], pose[k], jacobian[k % BLOCK] = q, plant.effort, x, J
-            wanted[k], command[k] = rates, given
+            wanted[k], command[k] = asked_for, given
             if k % REPORT_EVERY == 0:
                 progress(k / n)
             if k % BLOCK == BLOCK - 1 or k == n - 1:  # many at once cost less than one by one
@@ -110,9 +118,10 @@ def track(
         plant.close()
     if not (np.isfinite(posture).all() and np.isfinite(command).all()):
         raise _lost(float(motion.t[-1]))
-    held = clamps(card, motion.t, motion.line, posture, wanted, command, effort)
+    torques = controller.drives_torque
+    held = clamps(card, motion.t, motion.line, posture, wanted, command, effort, torques)
     pose[0] = dq.nearest(pose[0], motion.pose[0])
-    return Track(motion, posture, dq.continuous(pose), measures, command, effort, held)
+    return Track(motion, posture, dq.continuous(pose), measures, command, torques, effort, held)
 
 
 def _lost(time: float) -> DqpaintError:

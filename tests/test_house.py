@@ -12,12 +12,13 @@ PACKAGE = Path(__file__).parent.parent / "dqpaint"
 # Data moves down this list and never up. A folder's modules may import each other.
 ORDER = [
     "errors", "registry", "dq", "language", "motion", "robots", "plants", "controllers",
-    "tracking", "metrics", "settings", "light", "picture", "out_of_reach", "paint", "outputs",
-    "examples", "terminal", "report", "checking", "listing", "api", "gallery", "cli", "__main__",
+    "driving", "tracking", "metrics", "settings", "light", "picture", "out_of_reach", "paint",
+    "outputs", "examples", "terminal", "report", "checking", "listing", "api", "gallery", "cli",
+    "__main__",
 ]  # fmt: skip
 
 DOORS = {
-    "pinocchio": ["robots/kinematics.py"],
+    "pinocchio": ["robots/kinematics.py", "robots/dynamics.py"],
     "pybullet": ["plants/bullet.py"],
     "cv2": ["light/spread.py", "light/develop.py", "picture.py"],
     "typer": ["cli.py"],

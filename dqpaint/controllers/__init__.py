@@ -8,9 +8,11 @@ twist (..., 6); `dqpaint.robots.resolver` turns that into joint rates.
 import importlib
 import pkgutil
 
-from dqpaint.controllers.law import CONTROLLERS, Controller, Gains, Seen
+from dqpaint.controllers.gains import Gains
+from dqpaint.controllers.law import CONTROLLERS, Controller, Seen
+from dqpaint.controllers.schedule import Schedule
 
 for _module in pkgutil.iter_modules(__path__):
     importlib.import_module(f"{__name__}.{_module.name}")
 
-__all__ = ["CONTROLLERS", "Controller", "Gains", "Seen"]
+__all__ = ["CONTROLLERS", "Controller", "Gains", "Schedule", "Seen"]

@@ -6,7 +6,8 @@ import numpy as np
 from pydantic import Field
 
 from dqpaint import dq
-from dqpaint.controllers.law import Gain, Gains, Seen, controller
+from dqpaint.controllers.gains import Gain, Gains, Value
+from dqpaint.controllers.law import Seen, controller
 from dqpaint.controllers.pose_errors import spatial_error
 from dqpaint.dq import Floats
 
@@ -33,7 +34,7 @@ class GammaGains(Gains):
         """Translation gain [1/s]; a translation error decays at K_T."""
         return math.sqrt(2.0) / self.gamma_T
 
-    def shown(self) -> dict[str, float]:
+    def shown(self) -> dict[str, Value]:
         """Gammas and the gains that follow from them."""
         return {**super().shown(), "K_O": self.K_O, "K_T": self.K_T}
 

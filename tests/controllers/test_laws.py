@@ -17,7 +17,7 @@ ARM = Kinematics(read_card("iiwa"))
 
 def law(name, **gains):
     chosen = CONTROLLERS[name]
-    return lambda seen: chosen.law(seen, chosen.read_gains(gains))
+    return lambda seen: chosen.law(seen, chosen.read_gains(gains).first)
 
 
 def states(rng, n, size=0.3):
@@ -158,7 +158,7 @@ def test_hinf_error_obeys_its_own_differential_equation(rng):
 
 
 def test_gammas_give_the_gains_of_the_thesis():
-    gains = CONTROLLERS["hinf"].read_gains({})
+    gains = CONTROLLERS["hinf"].read_gains({}).first
     assert pytest.approx(40) == gains.K_O
     assert pytest.approx(20, rel=1e-3) == gains.K_T
     # equal pairs: sqrt(2) sqrt(g^-2 + g^-2) and sqrt(g^-2 + g^-2)

@@ -5,7 +5,7 @@ from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from dqpaint import outputs
 from dqpaint.errors import UsageError
@@ -23,10 +23,12 @@ if TYPE_CHECKING:
 def draw(
     drawing: str | PathLike[str],
     *,
-    controller: str | None = None,
+    controller: str | Callable[..., Any] | None = None,
     gains: Mapping[str, float | tuple[float, ...] | str] | None = None,
     robot: str | None = None,
     plant: str | None = None,
+    disturb: Mapping[str, Mapping[str, float | str]] | None = None,
+    seed: int | None = None,
     start: str | None = None,
     size: tuple[int, int] | None = None,
     view: str | None = None,
@@ -37,11 +39,13 @@ def draw(
 
     Args:
         drawing: a .traj file, or the name of an example.
-        controller: the control law.
+        controller: the control law: a name, a file `mylaw.py[:NAME]`, or a function of one's own.
         gains: of the law, in SI units; the others keep their defaults. A text such as
             "5..20@10%" changes on the way.
         robot: the arm; else the file's robot line, else the iiwa.
         plant: how the arm answers.
+        disturb: values of disturbances by their names, as in {"twist": {"x": 0.01}}.
+        seed: of everything random.
         start: `first` (at the first pose) or `home`.
         size: width and height of the picture [px].
         view: front, iso, side, top, or "AZ,EL" in degrees.
@@ -52,17 +56,23 @@ def draw(
         DqpaintError: a fault in the drawing, the choices or the run.
     """
     width, height = _width_and_height(size)
+    own = controller if callable(controller) else None
+    name = getattr(own, "__name__", "own") if own else controller
     settings = make_settings(
-        controller=controller, gains=dict(gains) if gains else None, robot=robot, plant=plant,
+        controller=name, gains=dict(gains) if gains else None, robot=robot, plant=plant,
+        disturb={name: dict(values) for name, values in (disturb or {}).items()}, seed=seed,
         start=start, width=width, height=height, view=view, ev=ev,
     )  # fmt: skip
     begin = perf_counter()
     program = read(find_drawing(str(drawing)))
     seconds = perf_counter() - begin
 
-    from dqpaint.paint import paint  # a fault in the text is told before the simulator is loaded
+    # a fault in the text is told before the simulator is loaded
+    from dqpaint.controllers.own import make_controller
+    from dqpaint.paint import paint
 
-    painting = paint(program, settings, progress)
+    law = make_controller(own, str(name)) if own else None
+    painting = paint(program, settings, progress, law)
     return replace(painting, seconds={"language": seconds, **painting.seconds})
 
 
@@ -82,7 +92,7 @@ def save(
     Raises:
         DqpaintError: the place cannot be written; nothing was changed.
     """
-    name = f"{Path(painting.motion.program.name).stem}-{painting.settings.controller}"
+    name = f"{Path(painting.motion.program.name).stem}-{painting.controller.name}"
     makers = outputs.choose(what)
     stem = outputs.stem_for(str(out), name)
     return outputs.write(stem, {end: make(painting) for end, make in makers.items()})

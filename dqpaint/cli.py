@@ -26,7 +26,11 @@ app = typer.Typer(
 Drawing = Annotated[str, typer.Argument(metavar="FILE", help="a .traj file, or an example's name")]
 Drawings = Annotated[list[str], typer.Argument(metavar="FILE...", help="drawings, or examples")]
 Law = Annotated[
-    str, typer.Option(metavar="NAME", help="control law; see: dqpaint list controllers")
+    str,
+    typer.Option(
+        metavar="NAME|FILE.py[:NAME]",
+        help="control law: see dqpaint list controllers; or a function of your own",
+    ),
 ]
 Gain = Annotated[
     list[str] | None,
@@ -44,6 +48,14 @@ PlantName = Annotated[
         metavar="NAME", help="how the arm answers [default: stiff, or torque for its laws]"
     ),
 ]
+Disturb = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="NAME=VALUE,...",
+        help="a disturbance, repeatable, such as twist=sine,x=0.02,frequency=2",
+    ),
+]
+Seed = Annotated[int, typer.Option(help="of everything random")]
 From = Annotated[str, typer.Option("--from", metavar="first|home", help="where the arm begins")]
 Size = Annotated[str, typer.Option(metavar="WxH", help="of the picture, in pixels")]
 View = Annotated[
@@ -93,6 +105,8 @@ def draw(
     gain: Gain = None,
     robot: Robot = None,
     plant: PlantName = None,
+    disturb: Disturb = None,
+    seed: Seed = 0,
     start: From = "first",
     size: Size = "1280x720",
     view: View = "front",
@@ -102,17 +116,19 @@ def draw(
 ) -> None:
     """Paint a drawing with an arm: picture, per-step CSV and summary."""
     from dqpaint import api, outputs
+    from dqpaint.controllers.own import short_name
     from dqpaint.examples import find_drawing
-    from dqpaint.settings import parse_gains, parse_size
+    from dqpaint.settings import parse_disturbances, parse_gains, parse_size
     from dqpaint.terminal import Progress
 
     makers = outputs.choose(save)
     path = find_drawing(file)
-    stem = outputs.stem_for(out, f"{path.stem}-{controller}")
+    stem = outputs.stem_for(out, f"{path.stem}-{short_name(controller)}")
     with Progress(path.name) as progress:
         painting = api.draw(
             path, controller=controller, gains=parse_gains(gain or []), robot=robot, plant=plant,
-            start=start, size=parse_size(size), view=view, ev=ev, progress=progress,
+            disturb=parse_disturbances(disturb or []), seed=seed, start=start,
+            size=parse_size(size), view=view, ev=ev, progress=progress,
         )  # fmt: skip
     written = outputs.write(stem, {end: make(painting) for end, make in makers.items()})
 
@@ -173,7 +189,10 @@ def check(
 )
 def list_(
     what: Annotated[
-        str, typer.Argument(metavar="[robots|controllers|plants|examples]", help="all, if not said")
+        str,
+        typer.Argument(
+            metavar="[robots|controllers|plants|disturbances|examples]", help="all, if not said"
+        ),
     ] = "all",
     as_json: AsJson = False,
 ) -> None:

@@ -51,6 +51,22 @@ def _plants() -> list[dict[str, Any]]:
     ]
 
 
+def _disturbances() -> list[dict[str, Any]]:
+    from dqpaint.disturbances import DISTURBANCES
+
+    return [
+        {
+            "name": name,
+            "about": (model.__doc__ or "").splitlines()[0],
+            "values": [
+                {"name": field, "default": f.default, "about": f.description}
+                for field, f in model.model_fields.items()
+            ],
+        }
+        for name, model in DISTURBANCES.items()
+    ]
+
+
 def _examples() -> list[dict[str, Any]]:
     from dqpaint.examples import example_names, examples_folder
 
@@ -65,6 +81,7 @@ LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {
     "robots": _robots,
     "controllers": _controllers,
     "plants": _plants,
+    "disturbances": _disturbances,
     "examples": _examples,
 }
 
@@ -90,7 +107,8 @@ def text(found: dict[str, list[dict[str, Any]]]) -> str:
         for row in rows:
             usual = " (default)" if row.get("default") else ""
             lines.append((row["name"] + usual, row["about"]))
-            lines += [("", f"  {gain_line(gain)}") for gain in row.get("gains", [])]
+            numbers = [*row.get("gains", []), *row.get("values", [])]
+            lines += [("", f"  {value_line(number)}") for number in numbers]
             if "gains" in row:
                 lines.append(("", f"  from {row['source']}"))
         heading = [f"{name}:"] if len(found) > 1 else []
@@ -98,6 +116,10 @@ def text(found: dict[str, list[dict[str, Any]]]) -> str:
     return "\n\n".join(parts)
 
 
-def gain_line(gain: dict[str, Any]) -> str:
-    """One gain in words."""
-    return f"{gain['name']} = {gain['default']:g}  {gain['about']}"
+def value_line(value: dict[str, Any]) -> str:
+    """A gain, or a value of a disturbance, in words."""
+    usual = value["default"]
+    if usual is None:
+        return f"{value['name']}  {value['about']}"
+    shown = f"{usual:g}" if isinstance(usual, float) else usual
+    return f"{value['name']} = {shown}  {value['about']}"

@@ -20,6 +20,7 @@ from dqpaint.robots.limits import UNITS
 if TYPE_CHECKING:
     from dqpaint.metrics import Table  # they bring in the simulator, and types need none
     from dqpaint.paint import Painting
+    from dqpaint.set_points import Response
 
 SCHEMA = "dqpaint-run-1"
 LIBRARIES = ("numpy", "opencv-python-headless", "pin", "pybullet")
@@ -101,9 +102,11 @@ def summarise(painting: "Painting") -> dict[str, Any]:
         },
         "robot": painting.robot,
         "plant": painting.plant,
-        "controller": settings.controller,
+        "controller": painting.controller.name,
+        "law": _law(painting),
         "gains": painting.gains,
-        "seed": None,  # nothing random takes part in a run without disturbances
+        "disturbances": settings.disturb,
+        "seed": settings.seed,
         "settings": settings.model_dump(),
         "drawing": {
             "samples": len(motion.t),
@@ -113,6 +116,19 @@ def summarise(painting: "Painting") -> dict[str, Any]:
             "box_m": motion.box.tolist(),
         },
         **painting.metrics.figures,
+        "attenuation": {
+            part: {"ratio_s": one.ratio, "bound_s": one.bound, "kept": one.kept}
+            for part, one in painting.attenuation.items()
+        },
+        "set_points": [
+            {
+                "time_s": jump.time,
+                "line": jump.line,
+                "translation": _response(jump.translation, "m"),
+                "rotation": _response(jump.rotation, "rad"),
+            }
+            for jump in painting.set_points
+        ],
         "limits": [{**vars(clamp), "unit": UNITS[clamp.kind]} for clamp in painting.limits],
         "light": {
             "unit": "lamp seconds, linear RGB",
@@ -123,6 +139,25 @@ def summarise(painting: "Painting") -> dict[str, Any]:
             "exposure": painting.picture.exposure,
         },
         "wall_s": {stage: round(seconds, 4) for stage, seconds in painting.seconds.items()},
+    }
+
+
+def _response(part: "Response", unit: str) -> dict[str, float | None]:
+    return {
+        f"size_{unit}": part.size,
+        "settling_s": part.settling,
+        "overshoot": part.overshoot,
+        f"steady_error_{unit}": part.steady,
+    }
+
+
+def _law(painting: "Painting") -> dict[str, str | None]:
+    """Where a law comes from: a paper, or a file and its hash."""
+    law = painting.controller
+    return {
+        "source": Path(law.source).name if hasattr(law.law, "sha256") else law.source,
+        "sha256": getattr(law.law, "sha256", None),
+        "commands": law.commands,
     }
 
 

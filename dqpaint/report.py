@@ -19,21 +19,57 @@ NOTHING = 1e-9  # [mm, deg] is shown as 0
 
 def of_painting(painting: Painting, written: Sequence[Path]) -> str:
     """The table that follows `draw`."""
-    figures, settings = painting.metrics.figures, painting.settings
+    figures = painting.metrics.figures
     gains = ", ".join(f"{name} = {_gain(value)}" for name, value in painting.gains.items())
     rows = [
         ("drawing", summary_line(painting.motion)),
         ("arm", f"{painting.robot}, {painting.plant}"),
-        ("controller", f"{settings.controller}  {gains}"),
+        ("controller", f"{painting.controller.name}  {gains}"),
         ("position error", _spread(figures, "position_error", "m", 1e3, "mm")),
         ("", f"largest at {_worst(painting)}"),
         ("orientation error", _spread(figures, "orientation_error", "rad", math.degrees(1), "deg")),
         ("commanded", _commanded(figures)),
+        *_came_through(painting),
+        *_steps(painting),
         ("limits", _limits_line(painting)),
         ("light", light_line(painting.picture)),
         *_files(written),
     ]
     return table(rows)
+
+
+def _came_through(painting: Painting) -> list[tuple[str, str]]:
+    """An unmodelled twist beside the promise of the gains."""
+    rows: list[tuple[str, str]] = []
+    for part, one in painting.attenuation.items():
+        said = f"{part} {one.ratio:.3g} s"
+        if one.bound is not None:
+            kept = "kept" if one.kept else f"broken, {one.ratio / one.bound:.3g} times as much"
+            if not one.kept and painting.limits:
+                kept += "; limits held joints meanwhile"
+            said += f", promised at most {one.bound:.3g} s: {kept}"
+        rows.append(("" if rows else "disturbance", said))
+    return rows
+
+
+def _steps(painting: Painting) -> list[tuple[str, str]]:
+    """How each jump of the set point was taken."""
+    rows: list[tuple[str, str]] = []
+    for jump in painting.set_points[:MOST_NAMED]:
+        parts = ((jump.translation, 1e3, "mm"), (jump.rotation, math.degrees(1), "deg"))
+        for part, scale, unit in parts:
+            if not part.size:
+                continue
+            settled = (
+                "never settles" if part.settling is None else f"settles in {part.settling:.3g} s"
+            )
+            steady = 0.0 if part.steady * scale < NOTHING else part.steady * scale
+            rows.append((
+                "" if rows else "set points",
+                f"line {jump.line}: {part.size * scale:.3g} {unit}, {settled}, overshoot "
+                f"{part.overshoot:.1%}, steady error {steady:.2g} {unit}",
+            ))  # fmt: skip
+    return rows
 
 
 def _commanded(figures: dict[str, float]) -> str:

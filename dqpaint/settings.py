@@ -22,6 +22,8 @@ class Settings(BaseModel):
     gains: dict[str, float | tuple[float, ...] | str] = Field(default_factory=dict)
     robot: str | None = None  # None: the file's own robot line, else the iiwa
     plant: str | None = None  # None: the usual one for what the law commands
+    disturb: dict[str, dict[str, float | str]] = Field(default_factory=dict)
+    seed: Annotated[int, Field(ge=0, le=2**63 - 1)] = 0
     start: Literal["first", "home"] = "first"
     width: Annotated[int, Field(ge=SMALLEST, le=LARGEST)] = 1280
     height: Annotated[int, Field(ge=SMALLEST, le=LARGEST)] = 720
@@ -75,8 +77,41 @@ def parse_gains(texts: Sequence[str]) -> dict[str, float | str]:
             )
         if name in gains:
             raise UsageError(f"gain '{name}' is given twice")
-        try:
-            gains[name] = float(value)
-        except ValueError:
-            gains[name] = value
+        gains[name] = _number_or_text(value)
     return gains
+
+
+def parse_disturbances(texts: Sequence[str]) -> dict[str, dict[str, float | str]]:
+    """Disturbances by their names from texts like `twist=sine,x=0.02` or `twist:form=sine,x=0.02`.
+
+    A value without a name has the name "".
+
+    Raises:
+        UsageError: anything else, or a disturbance or value given twice.
+    """
+    found: dict[str, dict[str, float | str]] = {}
+    for text in texts:
+        parts = re.fullmatch(r"\s*([\w-]+)\s*[:=](.+)", text)
+        if parts is None:
+            raise UsageError(
+                f"disturbance '{text}' is not NAME=VALUE, for example twist=sine,x=0.02,frequency=2"
+            )
+        name = parts[1]
+        if name in found:
+            raise UsageError(f"disturbance '{name}' is given twice")
+        found[name] = {}
+        for item in parts[2].split(","):
+            key, sign, value = (part.strip() for part in item.rpartition("="))
+            if not value or (sign and not key) or key in found[name]:
+                raise UsageError(
+                    f"disturbance '{text}': '{item.strip()}' is not KEY=VALUE, each once"
+                )
+            found[name][key] = _number_or_text(value)
+    return found
+
+
+def _number_or_text(value: str) -> float | str:
+    try:
+        return float(value)
+    except ValueError:
+        return value

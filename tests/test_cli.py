@@ -1,5 +1,6 @@
 """The command line as a person meets it: in a process of its own."""
 
+import hashlib
 import json
 import os
 import signal
@@ -58,7 +59,8 @@ def test_draw_leaves_three_files_and_a_table(dqpaint, line, tmp_path):
 
 def test_options_are_all_heard(dqpaint, line, tmp_path):
     done = dqpaint(
-        "draw", line, "--controller", "p", "--gain", "k=5", "--plant", "ideal", "--from", "home",
+        "draw", line, "--controller", "p", "--gain", "k=5", "--seed", "7",
+        "--disturb", "twist=noise,x=0.01,wz=-0.1,frequency=2", "--plant", "ideal", "--from", "home",
         "--size", "320x200", "--view", "20,30", "--ev", "1.5", "--out", "made/", "--robot", "iiwa",
         "--save", "json,motion",
     )  # fmt: skip
@@ -68,8 +70,62 @@ def test_options_are_all_heard(dqpaint, line, tmp_path):
     assert facts["gains"] == {"k": 5}
     assert facts["settings"] == {
         "controller": "p", "gains": {"k": 5}, "robot": "iiwa", "plant": "ideal", "start": "home",
+        "disturb": {"twist": {"": "noise", "x": 0.01, "wz": -0.1, "frequency": 2}}, "seed": 7,
         "width": 320, "height": 200, "view": "20,30", "ev": 1.5,
     }  # fmt: skip
+
+
+def test_gains_that_change_are_written_as_they_were_given(dqpaint, line, tmp_path):
+    done = dqpaint("draw", line, "--size", "64x36", "--gain", "gamma_T=0.2..0.1@50%")
+    assert "gamma_T = 0.2..0.1@50%" in done.stdout, done.stderr
+    assert (
+        json.loads((tmp_path / "line-hinf.json").read_text())["gains"]["K_T"] == "7.07107..14.1421"
+    )
+
+
+def test_a_law_of_one_s_own(dqpaint, line, tmp_path):
+    mine = (
+        "from dqpaint.controllers import commands\n\n"
+        "@commands('torque')\ndef still(seen, d=5.0):\n    return seen.bias - d * seen.rates\n\n"
+        "def still_too(seen):\n    return 0 * seen.twist_d\n\ndef wrong(seen):\n    return k\n"
+    )
+    (tmp_path / "mine.py").write_text(mine)
+    chosen = ("draw", line, "--size", "64x36", "--controller")
+    done = dqpaint(*chosen, "mine.py:still", "--gain", "d=7")
+    assert done.returncode == 0, done.stderr
+    assert "iiwa, torque" in done.stdout
+    facts = json.loads((tmp_path / "line-still.json").read_text())
+    assert facts["law"]["commands"] == "torque"
+    assert facts["law"]["source"] == "mine.py"
+    assert facts["law"]["sha256"] == hashlib.sha256(mine.encode()).hexdigest()
+    assert facts["torque_integral_Nm_s"] > 1
+    head = (tmp_path / "line-still.csv").read_text().splitlines()[0]
+    assert head.endswith("q7_rad,torque1_Nm,torque2_Nm,torque3_Nm,torque4_Nm,torque5_Nm,"
+                         "torque6_Nm,torque7_Nm")  # fmt: skip
+    left = files(tmp_path)
+    for words, code, says in (
+        (
+            ("mine.py",),
+            2,
+            "usage: mine.py has 3 functions; choose one: mine.py:NAME; its functions",
+        ),
+        (
+            ("mine.py:wrong",),
+            1,
+            "error: mine.py:11: NameError: name 'k' is not defined\n   |\n11 |",
+        ),
+        (
+            ("mine.py:still", "--plant", "stiff"),
+            2,
+            "'stiff' takes joint rates, but this controller",
+        ),
+        (("none.py",), 1, "controller 'none.py' cannot be read: No such file or directory"),
+    ):
+        done = dqpaint(*chosen, *words)
+        assert done.returncode == code
+        assert says in done.stderr
+        assert "Traceback" not in done.stderr
+    assert files(tmp_path) == left
 
 
 def test_two_runs_leave_identical_pictures_and_tables(dqpaint, tmp_path):
@@ -152,9 +208,15 @@ def test_check_for_programs(dqpaint, line, tmp_path):
     (["draw", "line.traj", "--gain", "k=1"], 2, "'hinf' has no gain named 'k'; its gains: gamma_O"),
     (["draw", "line.traj", "--gain", "gamma_T"], 2, "gain 'gamma_T' is not NAME=VALUE"),
     (["draw", "line.traj", "--gain", "gamma_T=-1"], 2, "a gain is a number from 1e-09 to 1e+09"),
-    (["draw", "line.traj", "--gain", "gamma_T=5mm"], 2, "gain 'gamma_T=5mm' is not NAME=VALUE"),
+    (["draw", "line.traj", "--gain", "gamma_T=5mm"], 2, "controller 'hinf' is '5mm'; write a"),
     (["draw", "line.traj", "--gain", "gamma_T=1e-306"], 2, "a gain is a number from"),
     (["draw", "line.traj", "--gain", "gamma_T=1", "--gain", "gamma_T=2"], 2, "is given twice"),
+    (["draw", "line.traj", "--disturb", "twist"], 2, "'twist' is not NAME=VALUE, for example twi"),
+    (["draw", "line.traj", "--disturb", "wind=3"], 2, "no disturbance named 'wind'; known: twist"),
+    (["draw", "line.traj", "--disturb", "twist=sine"], 2, "it moves nothing; give for example x="),
+    (["draw", "line.traj", "--disturb", "twist:x=1,x=2"], 2, "'x=2' is not KEY=VALUE, each once"),
+    (["draw", "line.traj", "--disturb", "twist:x=1,,y=2"], 2, "'' is not KEY=VALUE, each once"),
+    (["draw", "line.traj", "--seed", "-1"], 2, "seed -1 should be greater than or equal to 0"),
     (["draw", "line.traj", "--robot", ""], 2, "no robot named ''; known: iiwa"),
     (["draw", "a" * 5000], 1, "file name too long"),
     (["draw", "line.traj", "--out", "a" * 5000], 1, "cannot be written: File name too long"),

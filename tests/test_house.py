@@ -11,10 +11,10 @@ PACKAGE = Path(__file__).parent.parent / "dqpaint"
 
 # Data moves down this list and never up. A folder's modules may import each other.
 ORDER = [
-    "errors", "registry", "dq", "language", "motion", "robots", "plants", "controllers",
-    "driving", "tracking", "metrics", "settings", "light", "picture", "out_of_reach", "paint",
-    "outputs", "examples", "terminal", "report", "checking", "listing", "api", "gallery", "cli",
-    "__main__",
+    "errors", "registry", "dq", "language", "motion", "robots", "plants", "disturbances",
+    "controllers", "driving", "tracking", "metrics", "attenuation", "set_points", "settings",
+    "light", "picture", "out_of_reach", "paint", "outputs", "examples", "terminal", "report",
+    "checking", "listing", "api", "gallery", "cli", "__main__",
 ]  # fmt: skip
 
 DOORS = {
@@ -22,7 +22,7 @@ DOORS = {
     "pybullet": ["plants/bullet.py"],
     "cv2": ["light/spread.py", "light/develop.py", "picture.py"],
     "typer": ["cli.py"],
-    "pydantic": ["robots/card.py", "controllers", "settings.py"],
+    "pydantic": ["robots/card.py", "disturbances", "controllers", "settings.py"],
 }
 EVERYWHERE = {"numpy", "dqpaint", "typing_extensions"}
 LONGEST = 400  # lines of one file

@@ -10,9 +10,11 @@ import pkgutil
 
 from dqpaint.controllers.gains import Gains
 from dqpaint.controllers.law import CONTROLLERS, Controller, Seen
+from dqpaint.controllers.own import commands, find_controller
 from dqpaint.controllers.schedule import Schedule
 
+# a law that is found by itself registers when its file is imported
 for _module in pkgutil.iter_modules(__path__):
     importlib.import_module(f"{__name__}.{_module.name}")
 
-__all__ = ["CONTROLLERS", "Controller", "Gains", "Schedule", "Seen"]
+__all__ = ["CONTROLLERS", "Controller", "Gains", "Schedule", "Seen", "commands", "find_controller"]

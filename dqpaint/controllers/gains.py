@@ -19,6 +19,13 @@ class Gains(BaseModel):
         values = {name: getattr(self, name) for name in type(self).model_fields}
         return {name: value for name, value in values.items() if value is not None}
 
+    def promise(self) -> tuple[float, float] | None:
+        """What the law promises of disturbances, where it does: bounds [s] on what comes through.
+
+        Of ||1 - r_e||_2 / ||v_w||_2 and of ||p_e||_2 / ||v_t||_2, for an unmodelled twist v.
+        """
+        return None
+
 
 G = TypeVar("G", bound=Gains)
 

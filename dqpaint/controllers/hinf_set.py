@@ -38,6 +38,10 @@ class GammaGains(Gains):
         """Gammas and the gains that follow from them."""
         return {**super().shown(), "K_O": self.K_O, "K_T": self.K_T}
 
+    def promise(self) -> tuple[float, float]:
+        """sqrt(2) / K_O and 1 / K_T [s]."""
+        return math.sqrt(2.0) / self.K_O, 1.0 / self.K_T
+
 
 def correction(x_e: Floats, gains: GammaGains) -> Floats:
     """The twist [-K_O Im(r_e); -K_T p_e] (..., 6) for an error x_e = r_e + eps p_e r_e / 2."""

@@ -16,7 +16,7 @@ from typing import Any, Generic, NamedTuple
 import numpy as np
 from pydantic import ValidationError
 
-from dqpaint.controllers.gains import LEAST, MOST, G, Value, list_gains
+from dqpaint.controllers.gains import G, Value, list_gains
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 
@@ -59,6 +59,15 @@ class Schedule(Generic[G]):
             model.model_construct(**{**fixed, **dict(zip(columns, row, strict=True))})
             for row in zip(*columns.values(), strict=True)
         ]
+
+    def promise(self) -> tuple[float, float] | None:
+        """What the gains promise of disturbances all along: the weakest on the way."""
+        ends = [
+            self.first.promise(),
+            *(self.at(k.part).promise() for ks in self.knots.values() for k in ks),
+        ]
+        bounds = [end for end in ends if end is not None]
+        return (max(b[0] for b in bounds), max(b[1] for b in bounds)) if bounds else None
 
     def shown(self) -> dict[str, Any]:
         """The gains as a summary shows them: one that changes as it was written."""
@@ -135,13 +144,12 @@ def _checked(model: type[G], values: Mapping[str, Value], whose: str) -> G:
 
 def _range(model: type[G], name: Any) -> str:
     """What a gain may be, read off its model."""
-    low = [m.ge for m in _limits(model, name) if hasattr(m, "ge")]
-    high = [m.le for m in _limits(model, name) if hasattr(m, "le")]
-    return f"a gain is a number from {low[0] if low else LEAST:g} to {high[0] if high else MOST:g}"
-
-
-def _limits(model: type[G], name: Any) -> list[Any]:
-    return list(model.model_fields[name].metadata)
+    limits = model.model_fields[str(name)].metadata
+    low = next((limit.ge for limit in limits if hasattr(limit, "ge")), None)
+    high = next((limit.le for limit in limits if hasattr(limit, "le")), None)
+    if low is None or high is None:
+        return "a gain is a finite number"
+    return f"a gain is a number from {low:g} to {high:g}"
 
 
 def _read(name: str, text: str, whose: str) -> tuple[Knot, ...]:

@@ -6,7 +6,10 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from dqpaint.api import draw
+from dqpaint.controllers.own import short_name
 from dqpaint.outputs import stem_for, summarise, write
+from dqpaint.settings import DEFAULT_CONTROLLER
+from dqpaint.studies import promise
 
 
 class Shot(NamedTuple):
@@ -19,7 +22,7 @@ class Shot(NamedTuple):
     @property
     def name(self) -> str:
         """Of the files."""
-        return f"{self.example}-{self.choices.get('controller', 'hinf')}"
+        return f"{self.example}-{short_name(self.choices.get('controller', DEFAULT_CONTROLLER))}"
 
     @property
     def command(self) -> str:
@@ -39,12 +42,18 @@ SHOTS = (
     Shot("square", "Two sides in 500 samples, two in 300: faster is darker.", {"ev": -3}),
     Shot("circle", "The thesis's circle in 3000 samples.", {}),
     Shot("baxter-screw", "A screw of pitch zero about a line given in space.", {"view": "iso"}),
+    Shot(
+        "unwinding",
+        "x and -x are one pose. A law that forgets it turns away where their signs part,",
+        {"controller": "unwinding.py"},
+    ),
+    Shot("unwinding", "one that heeds it draws on.", {}),
     Shot("step", "A jump of the set point: the error decays, and slower is brighter.", {}),
 )
 
 
 def make_gallery(folder: str) -> Iterator[Path]:
-    """Paint every shot into a folder, with its summary and a page that shows them all."""
+    """Paint every shot into a folder, with its summary, and pages that show them all."""
     for shot in SHOTS:
         painting = draw(shot.example, **shot.choices)
         facts = summarise(painting)
@@ -55,6 +64,9 @@ def make_gallery(folder: str) -> Iterator[Path]:
         }
         yield from write(stem_for(f"{folder or '.'}/", shot.name), contents)
     yield from write(stem_for(f"{folder or '.'}/", "README"), {".md": page().encode()})
+    found = promise.curves()
+    contents = {".png": promise.picture(found), ".md": promise.page(found).encode()}
+    yield from write(stem_for(f"{folder or '.'}/", "promise"), contents)
 
 
 def page() -> str:
@@ -63,4 +75,5 @@ def page() -> str:
     for shot in SHOTS:
         text = f"{shot.caption}\n\n![{shot.caption}]({shot.name}.png)\n\n    {shot.command}\n"
         parts.append(f"## {shot.name}\n\n{text}")
+    parts.append("[The H-infinity promise over frequency](promise.md)\n")
     return "\n".join(parts)

@@ -79,6 +79,10 @@ def test_readme_python_runs(tmp_path, monkeypatch):
     assert scope["painting"].image.shape == (720, 1280, 3)
 
 
+def test_the_readme_shows_the_law_as_it_is():
+    assert blocks("python")[1] == (examples_folder() / "mylaw.py").read_text("utf-8")
+
+
 def test_the_readme_shows_the_message_as_it_is():
     from dqpaint.language import ScriptError
 

@@ -11,15 +11,16 @@ PACKAGE = Path(__file__).parent.parent / "dqpaint"
 
 # Data moves down this list and never up. A folder's modules may import each other.
 ORDER = [
-    "errors", "registry", "dq", "language", "motion", "robots", "plants", "disturbances",
-    "controllers", "driving", "tracking", "metrics", "attenuation", "set_points", "settings",
-    "light", "picture", "out_of_reach", "paint", "outputs", "examples", "terminal", "report",
-    "checking", "listing", "api", "gallery", "cli", "__main__",
+    "errors", "registry", "examples", "dq", "language", "motion", "robots", "plants",
+    "disturbances", "controllers", "driving", "tracking", "metrics", "attenuation",
+    "set_points", "settings", "light", "picture", "out_of_reach", "paint", "outputs", "terminal",
+    "report", "checking", "listing", "api", "charts", "studies", "gallery", "cli", "__main__",
 ]  # fmt: skip
 
 DOORS = {
     "pinocchio": ["robots/kinematics.py", "robots/dynamics.py"],
     "pybullet": ["plants/bullet.py"],
+    "matplotlib": ["charts.py"],
     "cv2": ["light/spread.py", "light/develop.py", "picture.py"],
     "typer": ["cli.py"],
     "pydantic": ["robots/card.py", "disturbances", "controllers", "settings.py"],

@@ -27,6 +27,7 @@ from dqpaint.controllers.gains import Gains
 from dqpaint.controllers.law import CONTROLLERS, Commands, Controller, Seen
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.examples import examples_folder
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -76,7 +77,7 @@ def find_controller(spec: str) -> Controller[Any]:
     parts = _split(spec)
     if parts is None:
         return CONTROLLERS[spec]
-    path, name = parts
+    path, name = _found(parts[0]), parts[1]
     laws = _functions(path)
     if name is None:
         name = path.stem if path.stem in laws else next(iter(laws), None) if len(laws) == 1 else ""
@@ -156,6 +157,12 @@ def _split(spec: str) -> tuple[Path, str | None] | None:
     if sign and head.endswith(".py"):
         return Path(head), name or None
     return (Path(spec), None) if spec.endswith(".py") else None
+
+
+def _found(path: Path) -> Path:
+    """A file, else the example of that name."""
+    example = examples_folder() / path.name
+    return example if not path.exists() and str(path) == path.name and example.exists() else path
 
 
 def _functions(path: Path) -> dict[str, FunctionType]:

@@ -7,6 +7,7 @@ link goes from its joint along its axis, over the common normal, and along the n
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -16,7 +17,8 @@ from dqpaint.robots.screws import Screws
 
 PARALLEL = 0.02  # sine of an angle between axes below which they count as parallel
 SHORTEST = 1e-6  # [m] of a rod
-HUB = 1.3  # a joint's hub, half as long as the link is thick, times this
+HUB = 1.08  # a joint's hub is thicker than its link by this factor
+HUB_HALF = 0.6  # and reaches this part of the link's radius to either side, and its round ends
 
 
 @dataclass(frozen=True)
@@ -83,13 +85,11 @@ def build_links(screws: Screws, masses: Sequence[float], radii: Sequence[float])
     links = []
     for i, (place, path) in enumerate(zip(places, paths, strict=True)):
         solids = [
-            Capsule(a, b, radii[i])
-            for a, b in zip(path[:-1], path[1:], strict=True)
-            if np.linalg.norm(b - a) > SHORTEST
+            Capsule(a, b, radii[i]) for a, b in pairwise(path) if np.linalg.norm(b - a) > SHORTEST
         ]
         if i > 0:
-            half = HUB * radii[i] * screws.axes[i - 1, :3]
-            solids.append(Capsule(place - half, place + half, radii[i], hub=True))
+            half = HUB_HALF * radii[i] * screws.axes[i - 1, :3]
+            solids.append(Capsule(place - half, place + half, HUB * radii[i], hub=True))
         elif not solids:  # the first axis goes through the origin
             solids.append(Capsule(place, place, radii[i]))
         links.append(_weigh(place, solids, masses[i - 1] if i else masses[0]))

@@ -14,6 +14,7 @@ from dqpaint.dq import Floats
 from dqpaint.robots.bodies import Capsule, Link, build_links
 from dqpaint.robots.card import FLANGE, Card
 
+WEIGHTLESS = 1e-12  # [kg m^2]: PyBullet takes a link of nothing at all to weigh 1 kg
 COLOURS = {"shell": "0.86 0.87 0.88 1", "hub": "0.16 0.42 0.62 1"}
 
 
@@ -39,7 +40,8 @@ def write_urdf(card: Card) -> str:
             for values in (card.lower, card.upper, card.speed, card.effort)
         )
         Xml.SubElement(joint, "limit", lower=lower, upper=upper, velocity=speed, effort=effort)
-    Xml.SubElement(robot, "link", name=FLANGE)
+    flange = Xml.SubElement(robot, "link", name=FLANGE)
+    _inertial(flange, np.zeros(3), 0.0, WEIGHTLESS * np.eye(3))
     T = dq.matrix_from_pose(screws.home)
     joint = _joint(robot, FLANGE, "fixed", names[-1], FLANGE)
     _origin(joint, T[:3, 3] - links[-1].place, T[:3, :3])
@@ -56,14 +58,19 @@ def _joint(robot: Xml.Element, name: str, kind: str, parent: str, child: str) ->
 
 def _link(robot: Xml.Element, name: str, link: Link) -> None:
     element = Xml.SubElement(robot, "link", name=name)
-    inertial = Xml.SubElement(element, "inertial")
-    _origin(inertial, link.centre - link.place)
-    Xml.SubElement(inertial, "mass", value=repr(float(link.mass)))
-    pairs = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
-    moments = {name: repr(float(link.inertia[at])) for name, at in pairs.items()}
-    Xml.SubElement(inertial, "inertia", moments)
+    _inertial(element, link.centre - link.place, link.mass, link.inertia)
     for solid in link.solids:
         _capsule(element, solid, link.place)
+
+
+def _inertial(link: Xml.Element, centre: Floats, mass: float, inertia: Floats) -> None:
+    element = Xml.SubElement(link, "inertial")
+    _origin(element, centre)
+    Xml.SubElement(element, "mass", value=repr(float(mass)))
+    moments = {f"i{'xyz'[i]}{'xyz'[j]}": inertia[i, j] for i in range(3) for j in range(i, 3)}
+    Xml.SubElement(
+        element, "inertia", {name: repr(float(value)) for name, value in moments.items()}
+    )
 
 
 def _capsule(link: Xml.Element, solid: Capsule, place: Floats) -> None:

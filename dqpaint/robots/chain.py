@@ -89,7 +89,9 @@ class Axes(Part):
         """For arithmetic; the directions become unit vectors."""
         directions = np.array(self.directions)
         unit = directions / np.linalg.norm(directions, axis=1, keepdims=True)
-        return Screws(dq.twist_from_screw(unit, self.points_m, np.zeros(len(unit))), self.flange.pose)
+        return Screws(
+            dq.twist_from_screw(unit, self.points_m, np.zeros(len(unit))), self.flange.pose
+        )
 
     @model_validator(mode="after")
     def _a_direction_a_point(self) -> Self:

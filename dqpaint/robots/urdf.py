@@ -18,12 +18,11 @@ import numpy as np
 
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.robots.built import write_urdf
+from dqpaint.robots.built import WEIGHTLESS, write_urdf
 from dqpaint.robots.card import Card
 
 BALL = 0.05  # [m], radius of the ball that stands for a shape nobody gave
 LIGHTEST = 0.1  # [kg], of a link that moves and has no mass
-WEIGHTLESS = 1e-12  # [kg m^2]: PyBullet takes a link of nothing at all to weigh 1 kg
 TURNING = ("revolute", "continuous")
 
 
@@ -299,7 +298,10 @@ class Tree:
 
 
 def possible(moments: Floats) -> bool:
-    """Whether an inertia (3, 3) can be a body's: its moments are positive, none above the others."""
+    """Whether an inertia (3, 3) can be a body's.
+
+    Its principal moments are positive, and none exceeds the sum of the others.
+    """
     small, middle, large = np.linalg.eigvalsh(moments)
     return bool(small > 0 and small + middle >= large * (1 - 1e-9))
 
@@ -312,9 +314,13 @@ def _parse(path: Path) -> Xml.Element:
     except Xml.ParseError as problem:
         raise DqpaintError(f"{path.name} is no URDF: {problem}") from None
     if robot.tag != "robot":
-        raise DqpaintError(f"{path.name} is no URDF: it begins with <{robot.tag}>, not with <robot>")
+        raise DqpaintError(
+            f"{path.name} is no URDF: it begins with <{robot.tag}>, not with <robot>"
+        )
     if any("xacro" in child.tag for child in robot):
-        raise DqpaintError(f"{path.name} is a xacro file: run xacro on it first, and give the result")
+        raise DqpaintError(
+            f"{path.name} is a xacro file: run xacro on it first, and give the result"
+        )
     return robot
 
 

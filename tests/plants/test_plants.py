@@ -8,6 +8,7 @@ import pytest
 
 from dqpaint.plants import PLANTS, stiff
 from dqpaint.robots.card import read_card
+from dqpaint.robots.kinematics import Kinematics
 
 pytestmark = pytest.mark.slow
 CARD = read_card("iiwa")
@@ -60,7 +61,7 @@ def test_the_stiff_arm_carries_its_weight():
     import pinocchio
 
     postures, efforts = run("stiff", np.zeros((50, 7)))
-    model = pinocchio.buildModelFromUrdf(str(CARD.urdf_path))
+    model = Kinematics(CARD).model
     gravity = pinocchio.computeGeneralizedGravity(model, model.createData(), postures[-1])
     np.testing.assert_allclose(efforts[-1], gravity, atol=0.05)
     assert np.abs(gravity).max() > 20

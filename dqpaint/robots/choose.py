@@ -5,6 +5,15 @@ from dqpaint.language import Diagnostic, Program, ScriptError
 from dqpaint.robots.card import DEFAULT_ROBOT, Card, read_card
 
 
+def find_card(robot: str) -> Card:
+    """The card of an arm by its name.
+
+    Raises:
+        UnknownNameError: no card has that name.
+    """
+    return read_card(robot)
+
+
 def card_for(program: Program, robot: str | None) -> Card:
     """The card of the arm that was asked for, else of the file's own, else of the default.
 
@@ -13,9 +22,9 @@ def card_for(program: Program, robot: str | None) -> Card:
         ScriptError: no card has the name in the file.
     """
     if robot is not None or program.robot is None:
-        return read_card(DEFAULT_ROBOT if robot is None else robot)
+        return find_card(DEFAULT_ROBOT if robot is None else robot)
     try:
-        return read_card(program.robot)
+        return find_card(program.robot)
     except UnknownNameError as problem:
         message, _, known = str(problem).partition("; ")
         unknown = Diagnostic("E311", message, program.robot_span, help=known)

@@ -33,7 +33,11 @@ Gain = Annotated[
     typer.Option(metavar="NAME=VALUE", help="a gain of that law in SI units; repeatable"),
 ]
 Robot = Annotated[
-    str | None, typer.Option(metavar="NAME", help="the arm [default: the file's, else iiwa]")
+    str | None,
+    typer.Option(
+        metavar="NAME|FILE",
+        help="the arm, or its .urdf or .toml [default: the drawing's, else iiwa]",
+    ),
 ]
 PlantName = Annotated[str, typer.Option(metavar="NAME", help="how the arm answers: stiff or ideal")]
 From = Annotated[str, typer.Option("--from", metavar="first|home", help="where the arm begins")]
@@ -190,7 +194,7 @@ POSE_EXAMPLES = """Examples:
 
 @app.command(epilog=POSE_EXAMPLES)
 def pose(
-    robot: Annotated[str, typer.Argument(metavar="ROBOT", help="see: dqpaint list robots")],
+    robot: Annotated[str, typer.Argument(metavar="ROBOT", help="its name, or its .urdf or .toml")],
     deg: Annotated[
         str | None, typer.Option(metavar="A,B,...", help="the joints in degrees [default: home]")
     ] = None,

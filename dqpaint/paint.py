@@ -36,6 +36,7 @@ class Painting:
     metrics: Metrics
     picture: Picture
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
+    notes: tuple[str, ...] = ()  # what was assumed of the arm
 
     @property
     def image(self) -> NDArray[np.uint8]:
@@ -103,8 +104,9 @@ def paint(
     with clock("light"):
         picture = take(motion, run.points, settings)
     return Painting(
-        settings, card.name, gains.shown(), motion, run, metrics, picture, clock.seconds
-    )
+        settings, card.name, gains.shown(), motion, run, metrics, picture, clock.seconds,
+        kinematics.notes,
+    )  # fmt: skip
 
 
 class Stopwatch:

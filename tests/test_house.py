@@ -13,7 +13,8 @@ PACKAGE = Path(__file__).parent.parent / "dqpaint"
 ORDER = [
     "errors", "registry", "dq", "language", "motion", "robots", "plants", "controllers",
     "tracking", "metrics", "settings", "light", "picture", "out_of_reach", "paint", "outputs",
-    "examples", "terminal", "report", "posing", "checking", "listing", "api", "gallery", "cli", "__main__",
+    "examples", "terminal", "report", "posing", "checking", "listing", "api", "gallery", "cli",
+    "__main__",
 ]  # fmt: skip
 
 DOORS = {

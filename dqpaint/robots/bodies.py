@@ -19,6 +19,8 @@ PARALLEL = 0.02  # sine of an angle between axes below which they count as paral
 SHORTEST = 1e-6  # [m] of a rod
 HUB = 1.08  # a joint's hub is thicker than its link by this factor
 HUB_HALF = 0.6  # and reaches this part of the link's radius to either side, and its round ends
+SLENDER = (0.07, 0.035)  # a guessed arm's radii at base and flange, as parts of its length
+DENSITY = 900.0  # [kg/m^3] of a guessed arm: aluminium, motors and air
 
 
 @dataclass(frozen=True)
@@ -94,6 +96,17 @@ def build_links(screws: Screws, masses: Sequence[float], radii: Sequence[float])
             solids.append(Capsule(place, place, radii[i]))
         links.append(_weigh(place, solids, masses[i - 1] if i else masses[0]))
     return links
+
+
+def default_body(screws: Screws) -> dict[str, list[float]]:
+    """Masses and radii, as a card has them, of an arm of which nothing but its axes is known."""
+    places, paths = _paths(screws)
+    lengths = [sum(float(np.linalg.norm(b - a)) for a, b in pairwise(path)) for path in paths]
+    reach = max(sum(lengths), SHORTEST)
+    radii = (reach * np.linspace(*SLENDER, len(places))).tolist()
+    weightless = build_links(screws, [1.0] * (len(places) - 1), radii)
+    masses = [DENSITY * sum(s.volume for s in link.solids) for link in weightless[1:]]
+    return {"mass_kg": masses, "radius_m": radii}
 
 
 def _weigh(place: Floats, solids: list[Capsule], mass: float) -> Link:

@@ -17,6 +17,7 @@ from dqpaint.robots.parts import Finite, Mount, Part, Positive, Three
 from dqpaint.robots.screws import Screws
 
 DEFAULT_ROBOT = "iiwa"
+LEAST = 6  # joints: a pose has as many freedoms
 FLANGE = "flange"  # the last link of the arms we build ourselves
 
 
@@ -80,6 +81,7 @@ class Card(Part):
     tool: Mount
     canvas: Canvas
     limits: Limits
+    notes: tuple[str, ...] = ()  # what was assumed where a file says nothing, a sentence each
 
     @property
     def joints(self) -> int:
@@ -154,6 +156,11 @@ class Card(Part):
 
     @model_validator(mode="after")
     def _home_is_allowed(self) -> Self:
+        if self.joints < LEAST:
+            count = "1 joint" if self.joints == 1 else f"{self.joints} joints"
+            raise ValueError(
+                f"{count} cannot hold a place and an orientation: at least {LEAST} are needed"
+            )
         if len(self.limits.lower_deg) != self.joints:
             raise ValueError("home_deg needs one number for each joint of the limits")
         if not ((self.lower <= self.home) & (self.home <= self.upper)).all():

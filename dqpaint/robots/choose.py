@@ -3,15 +3,17 @@
 from dqpaint.errors import UnknownNameError
 from dqpaint.language import Diagnostic, Program, ScriptError
 from dqpaint.robots.card import DEFAULT_ROBOT, Card, read_card
+from dqpaint.robots.files import is_file, read_file
 
 
 def find_card(robot: str) -> Card:
-    """The card of an arm by its name.
+    """The card of an arm by its name, or by a file of one's own.
 
     Raises:
         UnknownNameError: no card has that name.
+        DqpaintError: the file is not there, or no arm.
     """
-    return read_card(robot)
+    return read_file(robot) if is_file(robot) else read_card(robot)
 
 
 def card_for(program: Program, robot: str | None) -> Card:

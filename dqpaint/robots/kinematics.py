@@ -9,7 +9,7 @@ import pinocchio
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.errors import UsageError
+from dqpaint.errors import DqpaintError
 from dqpaint.robots.card import Card
 from dqpaint.robots.screws import Screws
 from dqpaint.robots.urdf import prepare
@@ -35,13 +35,12 @@ class Kinematics:
 
     def __init__(self, card: Card) -> None:
         self.card = card
-        text, self.notes = prepare(card)
-        self.model = pinocchio.buildModelFromXML(text)
-        if self.model.nv != card.joints or self.model.nq != card.joints:
-            raise UsageError(
-                f"robot '{card.name}' has {self.model.nv} joints that move, "
-                f"its card gives limits for {card.joints}"
-            )
+        text, notes = prepare(card)
+        self.notes = (*card.notes, *notes)
+        try:
+            self.model = pinocchio.buildModelFromXML(text)
+        except ValueError as problem:
+            raise DqpaintError(f"pinocchio cannot read {card.name}: {problem}") from None
         self._data = self.model.createData()
         frame = self.model.frames[self.model.getFrameId(card.link, pinocchio.FrameType.BODY)]
         self._joint = frame.parentJoint

@@ -9,7 +9,6 @@ import os
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 from xml.etree import ElementTree as Xml
@@ -17,13 +16,13 @@ from xml.etree import ElementTree as Xml
 import numpy as np
 
 from dqpaint.dq import Floats
-from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.errors import UsageError
 from dqpaint.robots.built import WEIGHTLESS, write_urdf
 from dqpaint.robots.card import Card
+from dqpaint.robots.tree import Joint, Tree, numbers
 
 BALL = 0.05  # [m], radius of the ball that stands for a shape nobody gave
 LIGHTEST = 0.1  # [kg], of a link that moves and has no mass
-TURNING = ("revolute", "continuous")
 
 
 class Prepared(NamedTuple):
@@ -43,7 +42,17 @@ def prepare(card: Card) -> Prepared:
     if card.urdf is None:
         return Prepared(write_urdf(card), ())
     tree = Tree(card.urdf.path)
-    return tree.prepare(card)
+    arm = tree.arm(card.link)
+    if len(arm) != card.joints:
+        raise UsageError(
+            f"robot '{card.name}' has {len(arm)} joints that move, "
+            f"its card gives limits for {card.joints}"
+        )
+    _still(tree, arm, card)
+    if card.urdf.products_negated:
+        _negate_products(tree)
+    notes = [*_weigh(tree), *_find_meshes(tree)]
+    return Prepared(Xml.tostring(tree.robot, encoding="unicode"), tuple(notes))
 
 
 @contextmanager
@@ -61,240 +70,136 @@ def urdf_file(card: Card) -> Iterator[str]:
         os.unlink(path)
 
 
-@dataclass(frozen=True)
-class Joint:
-    """A joint of a description: what it joins, and its element."""
-
-    name: str
-    kind: str
-    parent: str
-    child: str
-    element: Xml.Element
-
-    def limit(self, what: str) -> float | None:
-        """`lower`, `upper` [rad], `velocity` [rad/s] or `effort` [Nm]; None where not said."""
-        limit = self.element.find("limit")
-        value = None if limit is None else limit.get(what)
-        try:
-            number = float(value) if value is not None else None
-        except ValueError:
-            number = math.nan
-        if number is not None and not math.isfinite(number):
-            raise DqpaintError(f"joint '{self.name}': {what} '{value}' is not a number")
-        return number
+def _still(tree: Tree, arm: list[Joint], card: Card) -> None:
+    """Fix every joint that is not of the arm; those that are turn within the card's limits."""
+    for joint in tree.joints.values():
+        mimic = joint.element.find("mimic")
+        if mimic is not None:
+            joint.element.remove(mimic)
+        if joint not in arm:
+            joint.element.set("type", "fixed")
+    limits = {
+        "lower": card.lower, "upper": card.upper, "velocity": card.speed, "effort": card.effort
+    }  # fmt: skip
+    for i, joint in enumerate(arm):
+        joint.element.set("type", "revolute")
+        _make_unit(joint.element.find("axis"))
+        element = joint.element.find("limit")
+        if element is None:
+            element = Xml.SubElement(joint.element, "limit")
+        for name, values in limits.items():
+            element.set(name, repr(float(values[i])))
 
 
-class Tree:
-    """The links and joints of a URDF file, found to be one tree.
+def _make_unit(axis: Xml.Element | None) -> None:
+    """One length for every axis: the libraries differ on others."""
+    if axis is not None and axis.get("xyz") is not None:
+        values = numbers(axis.get("xyz", ""))
+        length = float(np.linalg.norm(values))
+        if abs(length - 1) > 1e-12:
+            axis.set("xyz", " ".join(repr(float(x)) for x in values / length))
 
-    Attributes:
-        path: of the file.
-        links: their elements, by name.
-        joints: by the name of the link each one carries.
-        root: the link nothing carries.
-    """
 
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self._robot = _parse(path)
-        self.links: dict[str, Xml.Element] = {}
-        for element in self._robot.findall("link"):
-            name = element.get("name", "")
-            if not name or name in self.links:
-                raise self._fault(f"two links named '{name}'" if name else "a link has no name")
-            self.links[name] = element
-        self.joints: dict[str, Joint] = {}
-        for element in self._robot.findall("joint"):
-            joint = self._joint(element)
-            if joint.child in self.joints:
-                other = self.joints[joint.child].name
-                raise self._fault(
-                    f"joints '{other}' and '{joint.name}' both carry link '{joint.child}': "
-                    "a loop of links is no arm"
-                )
-            self.joints[joint.child] = joint
-        self.root = self._find_root()
+def _negate_products(tree: Tree) -> None:
+    for inertia in tree.robot.iter("inertia"):
+        for name in ("ixy", "ixz", "iyz"):
+            value = inertia.get(name, "0")
+            inertia.set(name, value[1:] if value.startswith("-") else f"-{value}")
 
-    @property
-    def tips(self) -> list[str]:
-        """The links that carry no other."""
-        parents = {joint.parent for joint in self.joints.values()}
-        return [name for name in self.links if name not in parents]
 
-    def chain(self, link: str) -> list[Joint]:
-        """The joints from the root to a link."""
-        found: list[Joint] = []
-        while link in self.joints:
-            found.append(self.joints[link])
-            link = found[-1].parent
-        return found[::-1]
-
-    def prepare(self, card: Card) -> Prepared:
-        """The description of an arm that ends at the card's link."""
-        if card.link not in self.links:
-            raise UsageError(
-                f"robot '{card.name}' has no link named '{card.link}'; known: {_some(self.links)}"
-            )
-        arm = self.chain(card.link)
-        self._still(arm, card)
-        if card.urdf is not None and card.urdf.products_negated:
-            self._negate_products()
-        notes = [*self._weigh(), *self._find_meshes()]
-        return Prepared(Xml.tostring(self._robot, encoding="unicode"), tuple(notes))
-
-    def _still(self, arm: list[Joint], card: Card) -> None:
-        """Fix every joint that is not of the arm; those that are turn within the card's limits."""
-        number = 0
-        for joint in self.joints.values():
-            mimic = joint.element.find("mimic")
-            if mimic is not None:
-                joint.element.remove(mimic)
-            if joint not in arm:
-                joint.element.set("type", "fixed")
-        for joint in arm:
-            if joint.kind == "fixed":
-                continue
-            if joint.kind not in TURNING:
-                raise self._fault(
-                    f"joint '{joint.name}' is {joint.kind}, and lies between the base and "
-                    f"'{card.link}': only joints that turn are known"
-                )
-            if number < card.joints:
-                limit = joint.element.find("limit")
-                if limit is None:
-                    limit = Xml.SubElement(joint.element, "limit")
-                limit.set("lower", repr(float(card.lower[number])))
-                limit.set("upper", repr(float(card.upper[number])))
-                limit.set("velocity", repr(float(card.speed[number])))
-                limit.set("effort", repr(float(card.effort[number])))
-            joint.element.set("type", "revolute")
-            number += 1
-
-    def _negate_products(self) -> None:
-        for inertia in self._robot.iter("inertia"):
-            for name in ("ixy", "ixz", "iyz"):
-                value = inertia.get(name, "0")
-                inertia.set(name, value[1:] if value.startswith("-") else f"-{value}")
-
-    def _weigh(self) -> Iterator[str]:
-        """Give every link a mass, and say which ones of it are guesses."""
-        for body in self._bodies():
-            weights = {name: self._mass(name) for name in body}
-            moving = self.root not in body
-            for name in body:
-                element = self.links[name]
-                if element.find("inertial") is None:
-                    _set_inertial(element, 0.0, WEIGHTLESS)
-                elif moving and weights[name] > 0:
-                    yield from self._judge(name, weights[name])
-            if moving and sum(weights.values()) == 0:
-                ball = 0.4 * LIGHTEST * BALL**2
-                _set_inertial(self.links[body[0]], LIGHTEST, ball)
-                yield (
-                    f"link '{body[0]}' moves and has no mass: "
-                    f"{LIGHTEST} kg in a ball of {BALL * 1e3:.0f} mm is assumed"
-                )
-
-    def _judge(self, name: str, mass: float) -> Iterator[str]:
-        """Whether a link's inertia can be that of a body; nothing at all is replaced."""
-        moments = _moments(self.links[name])
-        if not np.isfinite(moments).all():
-            raise self._fault(f"the inertia of link '{name}' is not six numbers")
-        if not moments.any():
-            _set_inertial(self.links[name], mass, 0.4 * mass * BALL**2, keep_origin=True)
+def _weigh(tree: Tree) -> Iterator[str]:
+    """Give every link a mass, and say which ones of it are guesses."""
+    for body in _bodies(tree):
+        weights = {name: _mass(tree, name) for name in body}
+        moving = tree.root not in body
+        for name in body:
+            element = tree.links[name]
+            if element.find("inertial") is None:
+                _set_inertial(element, 0.0, WEIGHTLESS)
+            elif moving and weights[name] > 0:
+                yield from _judge(tree, name, weights[name])
+        if moving and sum(weights.values()) == 0:
+            ball = 0.4 * LIGHTEST * BALL**2
+            _set_inertial(tree.links[body[0]], LIGHTEST, ball)
             yield (
-                f"link '{name}' has a mass and no inertia: "
-                f"that of a ball of {BALL * 1e3:.0f} mm is assumed"
+                f"link '{body[0]}' moves and has no mass: "
+                f"{LIGHTEST} kg in a ball of {BALL * 1e3:.0f} mm is assumed"
             )
-        elif not possible(moments):
-            yield f"the inertia of link '{name}' is not that of any body: its motion may look odd"
 
-    def _bodies(self) -> list[list[str]]:
-        """The links that move as one, the first of each being the one its joint carries."""
-        heads: dict[str, str] = {}
 
-        def head(name: str) -> str:
-            joint = self.joints.get(name)
-            if joint is None or joint.element.get("type") != "fixed":
-                return name
-            return head(joint.parent)
+def _judge(tree: Tree, name: str, mass: float) -> Iterator[str]:
+    """Whether a link's inertia can be that of a body; nothing at all is replaced."""
+    moments = _moments(tree.links[name])
+    if not np.isfinite(moments).all():
+        raise tree.fault(f"the inertia of link '{name}' is not six numbers")
+    if not moments.any():
+        _set_inertial(tree.links[name], mass, 0.4 * mass * BALL**2, keep_origin=True)
+        yield (
+            f"link '{name}' has a mass and no inertia: "
+            f"that of a ball of {BALL * 1e3:.0f} mm is assumed"
+        )
+    elif not possible(moments):
+        yield f"the inertia of link '{name}' is not that of any body: its motion may look odd"
 
-        for name in self.links:
-            heads[name] = head(name)
-        bodies: dict[str, list[str]] = {name: [name] for name in heads.values()}
-        for name, first in heads.items():
-            if name != first:
-                bodies[first].append(name)
-        return list(bodies.values())
 
-    def _mass(self, name: str) -> float:
-        """Of a link [kg]; 0 where the file does not say."""
-        element = self.links[name].find("inertial/mass")
-        text = "0" if element is None else element.get("value", "")
-        try:
-            mass = float(text)
-        except ValueError:
-            mass = math.nan
-        if not (math.isfinite(mass) and mass >= 0):
-            raise self._fault(f"the mass of link '{name}' is '{text}', not a number of kg")
-        return mass
+def _bodies(tree: Tree) -> list[list[str]]:
+    """The links that move as one, the first of each being the one its joint carries."""
+    heads: dict[str, str] = {}
 
-    def _find_meshes(self) -> Iterator[str]:
-        """Give each mesh its full path; say which are not there."""
-        missing = []
-        for mesh in self._robot.iter("mesh"):
-            name = mesh.get("filename", "")
-            found = self._find(name.removeprefix("package://").removeprefix("file://"))
-            if found is None:
-                missing.append(name)
-            else:
-                mesh.set("filename", str(found))
-        if missing:
-            more = f" and {len(set(missing)) - 1} more" if len(set(missing)) > 1 else ""
-            yield f"mesh '{missing[0]}'{more} is not there: the arm's shape cannot be shown"
+    def head(name: str) -> str:
+        joint = tree.joints.get(name)
+        if joint is None or joint.element.get("type") != "fixed":
+            return name
+        return head(joint.parent)
 
-    def _find(self, name: str) -> Path | None:
-        path = Path(name)
-        if path.is_absolute():
-            return path if path.is_file() else None
-        inner = Path(*path.parts[1:])  # without the name of a ROS package
-        for folder in self.path.resolve().parents:
-            for candidate in (folder / path, folder / inner):
-                if candidate.is_file():
-                    return candidate
-        return None
+    for name in tree.links:
+        heads[name] = head(name)
+    bodies: dict[str, list[str]] = {name: [name] for name in heads.values()}
+    for name, first in heads.items():
+        if name != first:
+            bodies[first].append(name)
+    return list(bodies.values())
 
-    def _joint(self, element: Xml.Element) -> Joint:
-        name, kind = element.get("name", ""), element.get("type", "")
-        ends = []
-        for end in ("parent", "child"):
-            link = element.find(end)
-            named = "" if link is None else link.get("link", "")
-            if named not in self.links:
-                what = f"names the {end} '{named}', which is no link" if named else f"has no {end}"
-                raise self._fault(f"joint '{name}' {what}")
-            ends.append(named)
-        return Joint(name, kind, ends[0], ends[1], element)
 
-    def _find_root(self) -> str:
-        """The one link that no joint carries, from which all others are reached."""
-        roots = [name for name in self.links if name not in self.joints]
-        if len(roots) > 1:
-            raise self._fault(f"links {_some(roots)} are not joined to each other")
-        for start in self.links:
-            seen = {start}
-            link = start
-            while link in self.joints:
-                link = self.joints[link].parent
-                if link in seen:
-                    raise self._fault(f"link '{link}' carries itself: a loop of links is no arm")
-                seen.add(link)
-        if not roots:
-            raise self._fault("it has no links")
-        return roots[0]
+def _mass(tree: Tree, name: str) -> float:
+    """Of a link [kg]; 0 where the file does not say."""
+    element = tree.links[name].find("inertial/mass")
+    text = "0" if element is None else element.get("value", "")
+    try:
+        mass = float(text)
+    except ValueError:
+        mass = math.nan
+    if not (math.isfinite(mass) and mass >= 0):
+        raise tree.fault(f"the mass of link '{name}' is '{text}', not a number of kg")
+    return mass
 
-    def _fault(self, text: str) -> DqpaintError:
-        return DqpaintError(f"{self.path.name}: {text}")
+
+def _find_meshes(tree: Tree) -> Iterator[str]:
+    """Give each mesh its full path; say which are not there."""
+    missing = []
+    for mesh in tree.robot.iter("mesh"):
+        name = mesh.get("filename", "")
+        found = _find(tree, name.removeprefix("package://").removeprefix("file://"))
+        if found is None:
+            missing.append(name)
+        else:
+            mesh.set("filename", str(found))
+    if missing:
+        others = len(set(missing)) - 1
+        them = f" and {others} more are" if others else " is"
+        yield f"mesh '{missing[0]}'{them} not there: the arm's shape cannot be shown"
+
+
+def _find(tree: Tree, name: str) -> Path | None:
+    path = Path(name)
+    if path.is_absolute():
+        return path if path.is_file() else None
+    inner = Path(*path.parts[1:])  # without the name of a ROS package
+    for folder in tree.path.resolve().parents:
+        for candidate in (folder / path, folder / inner):
+            if candidate.is_file():
+                return candidate
+    return None
 
 
 def possible(moments: Floats) -> bool:
@@ -304,24 +209,6 @@ def possible(moments: Floats) -> bool:
     """
     small, middle, large = np.linalg.eigvalsh(moments)
     return bool(small > 0 and small + middle >= large * (1 - 1e-9))
-
-
-def _parse(path: Path) -> Xml.Element:
-    try:
-        robot = Xml.fromstring(path.read_bytes())
-    except OSError as problem:
-        raise UsageError(f"{path} cannot be read: {problem.strerror}") from None
-    except Xml.ParseError as problem:
-        raise DqpaintError(f"{path.name} is no URDF: {problem}") from None
-    if robot.tag != "robot":
-        raise DqpaintError(
-            f"{path.name} is no URDF: it begins with <{robot.tag}>, not with <robot>"
-        )
-    if any("xacro" in child.tag for child in robot):
-        raise DqpaintError(
-            f"{path.name} is a xacro file: run xacro on it first, and give the result"
-        )
-    return robot
 
 
 def _moments(link: Xml.Element) -> Floats:
@@ -349,10 +236,3 @@ def _set_inertial(link: Xml.Element, mass: float, moment: float, keep_origin: bo
     diagonal = dict.fromkeys(("ixx", "iyy", "izz"), repr(moment))
     Xml.SubElement(new, "inertia", {**diagonal, **dict.fromkeys(("ixy", "ixz", "iyz"), "0")})
     link.append(new)
-
-
-def _some(names: object) -> str:
-    """A list of names, cut where it gets long."""
-    listed = list(names)  # type: ignore[call-overload]
-    more = f" and {len(listed) - 12} more" if len(listed) > 12 else ""
-    return ", ".join(listed[:12]) + more

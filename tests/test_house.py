@@ -25,6 +25,7 @@ DOORS = {
     "pydantic": [
         "robots/card.py",
         "robots/chain.py",
+        "robots/files.py",
         "robots/parts.py",
         "controllers",
         "settings.py",

@@ -150,9 +150,9 @@ def _told(problem: ValidationError, path: Path, *above: str) -> DqpaintError:
     name = "".join(f"[{s + 1}]" if isinstance(s, int) else f".{s}" for s in steps).lstrip(".")
     reason = str(first["msg"]).removeprefix("Value error, ").removeprefix("Input ")
     if first["type"] == "missing":
-        fields = _fields(steps)
-        rest = f": it holds {', '.join(fields)}, one number a joint" if name == "limits" else ""
-        reason = f"is missing{rest}"
+        reason = "is missing"
+        if name == "limits":
+            reason += f": it holds {', '.join(_fields(steps))}, one number a joint"
     elif first["type"] == "extra_forbidden":
         reason = f"is not known; known: {', '.join(_fields(steps[:-1]))}"
     return DqpaintError(f"{path.name}: {name} {reason}".replace(":  ", ": "))

@@ -1,4 +1,4 @@
-"""The links and joints of a URDF file, found to be one tree, and to hold numbers where it should."""
+"""The links and joints of a URDF file, found to be one tree, with numbers where they belong."""
 
 import math
 from collections.abc import Iterable
@@ -126,7 +126,8 @@ class Tree:
         if text is None:
             return
         values = numbers(text)
-        if len(values) != 3 or (part == "axis" and not values.any()):
+        idle = part == "axis" and not values.any() and joint.get("type") != "fixed"
+        if len(values) != 3 or idle:
             raise self.fault(
                 f"joint '{joint.get('name')}': {part} {attribute}=\"{text}\" is not three numbers"
                 + (", not all zero" if part == "axis" else "")
@@ -165,7 +166,7 @@ def _parse(path: Path) -> Xml.Element:
         raise DqpaintError(
             f"{path.name} is no URDF: it begins with <{robot.tag}>, not with <robot>"
         )
-    if any("xacro" in child.tag for child in robot):
+    if any("xacro" in child.tag for child in robot.iter()):
         raise DqpaintError(
             f"{path.name} is a xacro file: run xacro on it first, and give the result"
         )

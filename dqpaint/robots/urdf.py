@@ -128,7 +128,7 @@ def _weigh(tree: Tree) -> Iterator[str]:
 
 
 def _judge(tree: Tree, name: str, mass: float) -> Iterator[str]:
-    """Whether a link's inertia can be that of a body; nothing at all is replaced."""
+    """Whether a link's inertia can be that of a body; if not, PyBullet would invent one."""
     moments = _moments(tree.links[name])
     if not np.isfinite(moments).all():
         raise tree.fault(f"the inertia of link '{name}' is not six numbers")
@@ -139,7 +139,12 @@ def _judge(tree: Tree, name: str, mass: float) -> Iterator[str]:
             f"that of a ball of {BALL * 1e3:.0f} mm is assumed"
         )
     elif not possible(moments):
-        yield f"the inertia of link '{name}' is not that of any body: its motion may look odd"
+        moment = float(np.abs(np.trace(moments))) / 3
+        _set_inertial(tree.links[name], mass, moment, keep_origin=True)
+        yield (
+            f"the inertia of link '{name}' is not that of any body: "
+            "that of a ball with the same sum of moments is assumed"
+        )
 
 
 def _bodies(tree: Tree) -> list[list[str]]:
@@ -175,19 +180,24 @@ def _mass(tree: Tree, name: str) -> float:
 
 
 def _find_meshes(tree: Tree) -> Iterator[str]:
-    """Give each mesh its full path; say which are not there."""
+    """Give each mesh its full path; leave out, and name, those that are not there."""
     missing = []
-    for mesh in tree.robot.iter("mesh"):
-        name = mesh.get("filename", "")
-        found = _find(tree, name.removeprefix("package://").removeprefix("file://"))
-        if found is None:
-            missing.append(name)
-        else:
-            mesh.set("filename", str(found))
+    for link in tree.links.values():
+        for shape in [*link.findall("visual"), *link.findall("collision")]:
+            mesh = shape.find("geometry/mesh")
+            if mesh is None:
+                continue
+            name = mesh.get("filename", "")
+            found = _find(tree, name.removeprefix("package://").removeprefix("file://"))
+            if found is None:
+                missing.append(name)
+                link.remove(shape)
+            else:
+                mesh.set("filename", str(found))
     if missing:
         others = len(set(missing)) - 1
         them = f" and {others} more are" if others else " is"
-        yield f"mesh '{missing[0]}'{them} not there: the arm's shape cannot be shown"
+        yield f"mesh '{missing[0]}'{them} not there: the arm is drawn without"
 
 
 def _find(tree: Tree, name: str) -> Path | None:

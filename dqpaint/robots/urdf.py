@@ -51,6 +51,10 @@ def prepare(card: Card) -> Prepared:
     _still(tree, arm, card)
     if card.urdf.products_negated:
         _negate_products(tree)
+    if card.urdf.frictionless:
+        for joint in tree.joints.values():
+            for dynamics in joint.element.findall("dynamics"):
+                joint.element.remove(dynamics)
     notes = [*_weigh(tree), *_find_meshes(tree)]
     return Prepared(Xml.tostring(tree.robot, encoding="unicode"), tuple(notes))
 

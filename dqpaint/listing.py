@@ -8,11 +8,18 @@ from dqpaint.terminal import table
 
 
 def _robots() -> list[dict[str, Any]]:
-    from dqpaint.robots.card import card_names, read_card
+    from dqpaint.robots.card import DEFAULT_ROBOT, card_names, read_card
 
     cards = [read_card(name) for name in card_names()]
     return [
-        {"name": c.name, "about": f"{c.title}, {c.joints} joints", "source": c.source}
+        {
+            "name": c.name,
+            "about": f"{c.title}, {c.joints} joints"
+            + (f" (not installed: {c.missing})" if c.missing else ""),
+            "missing": c.missing,
+            "default": c.name == DEFAULT_ROBOT,
+            "source": c.source,
+        }
         for c in cards
     ]
 

@@ -100,4 +100,5 @@ def text(found: dict[str, list[dict[str, Any]]]) -> str:
 
 def gain_line(gain: dict[str, Any]) -> str:
     """One gain in words."""
-    return f"{gain['name']} = {gain['default']:g}  {gain['about']}"
+    usual = "" if gain["default"] is None else f" = {gain['default']:g}"
+    return f"{gain['name']}{usual}  {gain['about']}"

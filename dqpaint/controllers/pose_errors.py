@@ -16,6 +16,11 @@ def invariant_error(pose: Floats, pose_d: Floats) -> Floats:
     return dq.IDENTITY - dq.mul(dq.conj(pose), dq.nearest(pose_d, pose))
 
 
+def difference_error(pose: Floats, pose_d: Floats) -> Floats:
+    """The error e = vec(x_d - x) (..., 8), the plain difference of the eight numbers."""
+    return np.asarray(dq.nearest(pose_d, pose) - pose)
+
+
 def spatial_error(pose: Floats, pose_d: Floats) -> Floats:
     """x_e = x x_d* (..., 8), seen from the base."""
     return dq.mul(pose, dq.conj(dq.nearest(pose_d, pose)))
@@ -29,6 +34,24 @@ def twist_of_invariant_rate(pose: Floats, pose_d: Floats, rate: Floats) -> Float
     """
     x_d = dq.nearest(pose_d, pose)
     M = -0.5 * (dq.hamilton_plus(dq.conj(pose)) @ dq.hamilton_minus(x_d))[..., :, _IMAGINARY]
+    return _least_squares(M, rate)
+
+
+def twist_of_pose_rate(pose: Floats, rate: Floats) -> Floats:
+    """The twist u (..., 6) with vec(x_dot) = rate as nearly as can be: M^+ rate, see `pose_map`."""
+    return _least_squares(pose_map(pose), rate)
+
+
+def pose_map(pose: Floats) -> Floats:
+    """M = 1/2 H-(x) E6 (..., 8, 6), with vec(x_dot) = M xi.
+
+    J8 = M J_w is the papers' 8 x n Jacobian, so J8^+ = J_w^+ M^+ and J8' = J_w' M'.
+    """
+    return np.asarray(0.5 * dq.hamilton_minus(pose)[..., :, _IMAGINARY])
+
+
+def _least_squares(M: Floats, rate: Floats) -> Floats:
+    """M^+ rate (..., 6) for matrices (..., 8, 6) of full column rank."""
     transposed = M.swapaxes(-1, -2)
     solved = np.linalg.solve(transposed @ M, transposed @ rate[..., None])
     return np.asarray(solved[..., 0], dtype=np.float64)

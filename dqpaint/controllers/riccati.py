@@ -1,0 +1,145 @@
+"""The Riccati equations of the LQR laws, solved backwards by a method that cannot blow up.
+
+P_dot = -P A - A'P + P W P - Q and g_dot = -A'g + P W g - P c, with W = R^-1, belong to a linear
+flow of the error e and its costate p = P e + g:
+
+    [e; p]_dot = [[A, -W], [-Q, -A']] [e; p] + [c; 0]
+
+Over one control interval the flow is the exponential of a 4th-order Magnus exponent, from its two
+Gauss points. Written as what leaves the interval by what enters it, e at its start and p at its
+end (Redheffer's scattering form), it stays bounded however stiff the equation is:
+
+    e1 = E e0 - G p1 + d,    p0 = E' p1 + H e0 + f,    G and H symmetric, not negative
+
+so P0 = H + E' P1 (I + G P1)^-1 E. An explicit step of P itself diverges once h |W P| > 2.8.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from dqpaint.dq import Floats
+
+GAUSS = np.array([0.5 - np.sqrt(3) / 6, 0.5 + np.sqrt(3) / 6])  # of an interval
+SMALL = 0.5  # norm of an exponent whose exponential is a short series
+
+
+class Scattering(NamedTuple):
+    """What leaves intervals by what enters them, see above; (n, m, m) and (n, m)."""
+
+    E: Floats
+    G: Floats
+    H: Floats
+    d: Floats
+    f: Floats
+
+
+def scattering(A: Floats, W: Floats, Q: Floats, c: Floats, h: float) -> Scattering:
+    """Of n intervals at once.
+
+    Args:
+        A: (2, n, m, m) at the two Gauss points of each interval [1/s].
+        W: the diagonal of R^-1 (2, n, m).
+        Q: the diagonal (2, n, m).
+        c: (2, n, m).
+        h: the length of an interval [s].
+    """
+    m = A.shape[-1]
+    scale = np.sqrt(Q.max() / W.max())  # p in units that make W and Q alike
+    K = np.zeros((*A.shape[:2], 2 * m + 1, 2 * m + 1))
+    i = np.arange(m)
+    K[..., :m, :m] = A
+    K[..., i, m + i] = -W * scale
+    K[..., m + i, i] = -Q / scale
+    K[..., m : 2 * m, m : 2 * m] = -A.swapaxes(-1, -2)
+    K[..., :m, -1] = c
+    exponent = 0.5 * h * (K[0] + K[1])
+    exponent += np.sqrt(3) / 12 * h**2 * (K[1] @ K[0] - K[0] @ K[1])
+    norm = np.abs(exponent).sum(-1).max()
+    halvings = max(0, int(np.ceil(np.log2(max(norm, 1e-300) / SMALL))))
+    piece = _scattered(_exponential(exponent / 2.0**halvings), m)
+    for _ in range(halvings):
+        piece = _doubled(piece)
+    return Scattering(piece.E, piece.G / scale, piece.H * scale, piece.d, piece.f * scale)
+
+
+def _exponential(K: Floats) -> Floats:
+    """exp(K) (n, k, k) by its series of degree 8, for norms up to `SMALL`."""
+    eye = np.eye(K.shape[-1])
+    K2 = K @ K
+    K3, K4 = K2 @ K, K2 @ K2
+    upper = eye / 24 + K / 120 + K2 / 720 + K3 / 5040 + K4 / 40320
+    return np.asarray(eye + K + K2 / 2 + K3 / 6 + K4 @ upper)
+
+
+def _scattered(flow: Floats, m: int) -> Scattering:
+    """The scattering form of flows (n, 2m+1, 2m+1) of [e; p; 1]."""
+    lower = flow[:, m : 2 * m]
+    known = np.concatenate(
+        [np.broadcast_to(np.eye(m), lower[..., :m].shape), -lower[..., :m], -lower[..., -1:]], -1
+    )
+    solved = np.linalg.solve(lower[..., m : 2 * m], known)
+    F, H, f = solved[..., :m], solved[..., m : 2 * m], solved[..., -1]
+    to_error = flow[:, :m, m : 2 * m]
+    d = flow[:, :m, -1] + np.matvec(to_error, f)
+    return Scattering(F.swapaxes(-1, -2), -to_error @ F, H, d, f)
+
+
+def _doubled(one: Scattering) -> Scattering:
+    """Two equal intervals, one after the other, as one (Anderson 1978's doubling)."""
+    E, G, H, d, f = one
+    back = E.swapaxes(-1, -2)
+    m = E.shape[-1]
+    rest = (d - np.matvec(G, f))[..., None]
+    solved = np.linalg.solve(np.eye(m) + G @ H, np.concatenate([E, G @ back, rest], -1))
+    on, through, drift = solved[..., :m], solved[..., m : 2 * m], solved[..., -1]
+    return Scattering(
+        E @ on,
+        G + E @ through,
+        H + back @ H @ on,
+        d + np.matvec(E, drift),
+        f + np.matvec(back, f + np.matvec(H, drift)),
+    )
+
+
+def sweep(intervals: Scattering, P: Floats, g: Floats) -> tuple[Floats, Floats]:
+    """P (n, m, m) and g (n, m) at the starts of n intervals, from those at the end of the last."""
+    n, m = intervals.d.shape
+    Ps, gs = np.empty((n, m, m)), np.empty((n, m))
+    eye = np.eye(m)
+    for k in range(n - 1, -1, -1):
+        E, G, H, d, f = (part[k] for part in intervals)
+        entering = np.empty((m, m + 1))
+        entering[:, :m], entering[:, m] = E, d - np.dot(G, g)
+        leaving = np.dot(P, np.linalg.solve(eye + np.dot(G, P), entering))
+        leaving[:, m] += g
+        before = np.dot(E.T, leaving)
+        P = H + 0.5 * (before[:, :m] + before[:, :m].T)
+        g = f + before[:, m]
+        Ps[k], gs[k] = P, g
+    return Ps, gs
+
+
+def sweep_elements(W: Floats, Q: Floats, P: Floats, h: float) -> Floats:
+    """P (n + 1, m) of P_dot = W P^2 - Q, each element by itself, backwards from P (m,) at the end.
+
+    Args:
+        W: the diagonal of R^-1 (2, n, m) at the two Gauss points of each interval.
+        Q: the diagonal (2, n, m).
+        P: at the end (m,).
+        h: the length of an interval [s].
+
+    The exponent is [[a, -w], [-q, -a]], with a from the Magnus commutator; its exponential is a
+    matter of tanh, which never overflows.
+    """
+    w, q = 0.5 * h * W.sum(0), 0.5 * h * Q.sum(0)
+    a = np.sqrt(3) / 12 * h**2 * (W[1] * Q[0] - W[0] * Q[1])
+    root = np.sqrt(a**2 + w * q)
+    T = np.tanh(root) / root
+    Ps = np.empty((len(w) + 1, *w.shape[1:]))
+    Ps[-1] = P
+    gain, over, under = T * q, 1.0 + T * a, 1.0 - T * a
+    slope = T * w
+    for k in range(len(w) - 1, -1, -1):
+        Ps[k] = P = (gain[k] + over[k] * P) / (under[k] + slope[k] * P)
+    return Ps

@@ -45,14 +45,14 @@ def scattering(A: Floats, W: Floats, Q: Floats, c: Floats, h: float) -> Scatteri
         h: the length of an interval [s].
     """
     m = A.shape[-1]
-    scale = np.sqrt(Q.max() / W.max())  # p in units that make W and Q alike
+    root = (Q.sum(0) / W.sum(0)) ** 0.25  # e in units of 1 / root, p of root: W and Q are alike
     K = np.zeros((*A.shape[:2], 2 * m + 1, 2 * m + 1))
     i = np.arange(m)
-    K[..., :m, :m] = A
-    K[..., i, m + i] = -W * scale
-    K[..., m + i, i] = -Q / scale
-    K[..., m : 2 * m, m : 2 * m] = -A.swapaxes(-1, -2)
-    K[..., :m, -1] = c
+    K[..., :m, :m] = root[..., :, None] * A / root[..., None, :]
+    K[..., m : 2 * m, m : 2 * m] = -K[..., :m, :m].swapaxes(-1, -2)
+    K[..., i, m + i] = -W * root**2
+    K[..., m + i, i] = -Q / root**2
+    K[..., :m, -1] = root * c
     exponent = 0.5 * h * (K[0] + K[1])
     exponent += np.sqrt(3) / 12 * h**2 * (K[1] @ K[0] - K[0] @ K[1])
     norm = np.abs(exponent).sum(-1).max()
@@ -60,7 +60,9 @@ def scattering(A: Floats, W: Floats, Q: Floats, c: Floats, h: float) -> Scatteri
     piece = _scattered(_exponential(exponent / 2.0**halvings), m)
     for _ in range(halvings):
         piece = _doubled(piece)
-    return Scattering(piece.E, piece.G / scale, piece.H * scale, piece.d, piece.f * scale)
+    E, G, H, d, f = piece
+    left, right = root[..., :, None], root[..., None, :]
+    return Scattering(E / left * right, G / (left * right), H * left * right, d / root, f * root)
 
 
 def _exponential(K: Floats) -> Floats:

@@ -51,8 +51,6 @@ def accel_decoupled(seen: Seen, gains: ApartSpringGains) -> Floats:
         + gains.KPp * (p_d - p)
     )
     w_dot = (
-        seen.acceleration_d[..., :3]
-        + gains.KVo * (xi_d[..., :3] - w)
-        - gains.KPo * r_home[..., 1:]
+        seen.acceleration_d[..., :3] + gains.KVo * (xi_d[..., :3] - w) - gains.KPo * r_home[..., 1:]
     )
     return np.asarray(dq.acceleration_from_point(w, w_dot, p_dot, p_ddot, p))

@@ -18,9 +18,7 @@ class TransposeGains(Gains):
     )
 
 
-@controller(
-    "pham-t", source="Pham 2010, transpose [29]", gains=TransposeGains, commands="rates"
-)
+@controller("pham-t", source="Pham 2010, transpose [29]", gains=TransposeGains, commands="rates")
 def pham_t(seen: Seen, gains: TransposeGains) -> Floats:
     """Transposed Jacobian: needs no inverse and fears no singularity; slow in its weak modes.
 

@@ -11,7 +11,9 @@ end (Redheffer's scattering form), it stays bounded however stiff the equation i
 
     e1 = E e0 - G p1 + d,    p0 = E' p1 + H e0 + f,    G and H symmetric, not negative
 
-so P0 = H + E' P1 (I + G P1)^-1 E. An explicit step of P itself diverges once h |W P| > 2.8.
+so P0 = H + E' P1 (I + G P1)^-1 E. An explicit step of P itself diverges once h |W P| > 2.8. Where
+the rate sqrt(q / r) is beyond pi / h, the commutator of the exponent is left out: it might make Q or
+W negative, and a mean of positive ones is positive.
 """
 
 from typing import NamedTuple
@@ -22,6 +24,7 @@ from dqpaint.dq import Floats
 
 GAUSS = np.array([0.5 - np.sqrt(3) / 6, 0.5 + np.sqrt(3) / 6])  # of an interval
 SMALL = 0.5  # norm of an exponent whose exponential is a short series
+CONVERGENT = np.pi  # norm of an exponent beyond which Magnus' series means nothing
 
 
 class Scattering(NamedTuple):
@@ -54,7 +57,9 @@ def scattering(A: Floats, W: Floats, Q: Floats, c: Floats, h: float) -> Scatteri
     K[..., m + i, i] = -Q / root**2
     K[..., :m, -1] = root * c
     exponent = 0.5 * h * (K[0] + K[1])
-    exponent += np.sqrt(3) / 12 * h**2 * (K[1] @ K[0] - K[0] @ K[1])
+    tame = np.abs(exponent).sum(-1).max(-1) < CONVERGENT
+    size = np.where(tame, np.sqrt(3) / 12 * h**2, 0.0)[:, None, None]
+    exponent += size * (K[1] @ K[0] - K[0] @ K[1])
     norm = np.abs(exponent).sum(-1).max()
     halvings = max(0, int(np.ceil(np.log2(max(norm, 1e-300) / SMALL))))
     piece = _scattered(_exponential(exponent / 2.0**halvings), m)
@@ -107,19 +112,18 @@ def _doubled(one: Scattering) -> Scattering:
 def sweep(intervals: Scattering, P: Floats, g: Floats) -> tuple[Floats, Floats]:
     """P (n, m, m) and g (n, m) at the starts of n intervals, from those at the end of the last."""
     n, m = intervals.d.shape
-    Ps, gs = np.empty((n, m, m)), np.empty((n, m))
-    eye = np.eye(m)
+    enters = np.concatenate([intervals.E, intervals.d[..., None]], axis=-1)
+    prices = np.concatenate([intervals.H, intervals.f[..., None]], axis=-1)
+    back, G, eye = intervals.E.swapaxes(-1, -2), intervals.G, np.eye(m)
+    after = np.column_stack([P, g])
     for k in range(n - 1, -1, -1):
-        E, G, H, d, f = (part[k] for part in intervals)
-        entering = np.empty((m, m + 1))
-        entering[:, :m], entering[:, m] = E, d - np.dot(G, g)
-        leaving = np.dot(P, np.linalg.solve(eye + np.dot(G, P), entering))
-        leaving[:, m] += g
-        before = np.dot(E.T, leaving)
-        P = H + 0.5 * (before[:, :m] + before[:, :m].T)
-        g = f + before[:, m]
-        Ps[k], gs[k] = P, g
-    return Ps, gs
+        passed, error = np.dot(G[k], after), enters[k]
+        error[:, m] -= passed[:, m]
+        costate = np.dot(after[:, :m], np.linalg.solve(eye + passed[:, :m], error))
+        costate[:, m] += after[:, m]
+        after = prices[k]
+        after += np.dot(back[k], costate)  # in place: row k of what is returned
+    return prices[..., :m], prices[..., m]
 
 
 def sweep_elements(W: Floats, Q: Floats, P: Floats, h: float) -> Floats:

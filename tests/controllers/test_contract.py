@@ -34,9 +34,7 @@ def test_signs_of_poses_do_not_matter(name, rng):
 @LAWS
 def test_a_batch_is_the_same_as_one_by_one(name, rng):
     said = law(name)
-    rows = [
-        seen_by(ARM, rng.uniform(-1, 1, 7), x, rng, name=name) for x in random_poses(rng, 6)
-    ]
+    rows = [seen_by(ARM, rng.uniform(-1, 1, 7), x, rng, name=name) for x in random_poses(rng, 6)]
     rows = [row._replace(ahead=row.ahead * (1 + 0.1 * i)) for i, row in enumerate(rows)]
     alone = np.array([said(row) for row in rows])
     many = [f for f in Seen._fields if getattr(rows[0], f) is not None and f not in SINGLE]
@@ -129,7 +127,8 @@ EVERY_GAIN = [(name, gain) for name, c in CONTROLLERS.items() for gain in c.gain
 
 @pytest.mark.parametrize(("name", "gain"), EVERY_GAIN)
 @pytest.mark.parametrize(
-    "value", [-1.0, float("nan"), float("inf"), "20deg", "20Hz", "20 mm", "fast", "-3..5@10%", "2.."]
+    "value",
+    [-1.0, float("nan"), float("inf"), "20deg", "20Hz", "20 mm", "fast", "-3..5@10%", "2.."],
 )
 def test_bad_gains_are_refused_with_the_law_s_own_list(name, gain, value):
     chosen = CONTROLLERS[name]

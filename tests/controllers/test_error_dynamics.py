@@ -85,8 +85,10 @@ def test_the_transpose_decays_mode_by_mode_at_k_times_its_singular_value_squared
         return said(seen_by(ARM, posture, -goal))
 
     def along(posture):
-        return left[:, mode] @ difference_error(ARM.pose(posture), goal) * np.sign(
-            ARM.pose(posture)[:4] @ goal[:4]
+        return (
+            left[:, mode]
+            @ difference_error(ARM.pose(posture), goal)
+            * np.sign(ARM.pose(posture)[:4] @ goal[:4])
         )
 
     before = along(q)

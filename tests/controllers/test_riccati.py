@@ -132,7 +132,9 @@ def test_twists_within_intervals_are_those_of_the_strokes(text):
 
 def test_it_does_not_matter_where_the_blocks_end():
     """A drawing of more than one block, against the same equations in one go."""
-    text = f"period 1 ms\nline to (40, 9) mm samples {2 * BLOCK + 5} law quintic tool rot(x, 30 deg)\n"
+    text = (
+        f"period 1 ms\nline to (40, 9) mm samples {2 * BLOCK + 5} law quintic tool rot(x, 30 deg)\n"
+    )
     motion = asked(text)
     P, g = solved(motion)
     P_fine, g_fine = tiny_steps(motion, {}, steps=1)

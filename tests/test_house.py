@@ -19,6 +19,7 @@ ORDER = [
 
 DOORS = {
     "pinocchio": ["robots/kinematics.py", "robots/dynamics.py"],
+    "eigenpy": ["robots/inverse.py"],
     "pybullet": ["plants/bullet.py"],
     "cv2": ["light/spread.py", "light/develop.py", "picture.py"],
     "typer": ["cli.py"],

@@ -9,6 +9,7 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
+from dqpaint.robots.inverse import inverse
 
 
 def invariant_error(pose: Floats, pose_d: Floats) -> Floats:
@@ -32,9 +33,8 @@ def twist_of_invariant_rate(pose: Floats, pose_d: Floats, rate: Floats) -> Float
     x_dot* = -1/2 x* u gives M u = rate with M = -1/2 H+(x*) H-(x_d) E6, 8 x 6 of full column
     rank, and u = M^+ rate. N = M J_w is the papers' 8 x n matrix, so N^+ = J_w^+ M^+.
     """
-    x_d = dq.nearest(pose_d, pose)
-    M = -0.5 * (dq.hamilton_plus(dq.conj(pose)) @ dq.hamilton_minus(x_d))[..., :, _IMAGINARY]
-    return _least_squares(M, rate)
+    back: Floats = np.dot(pose, _BACK).reshape(*pose.shape[:-1], 8, 8)
+    return _least_squares(back @ pose_map(dq.nearest(pose_d, pose)), rate)
 
 
 def twist_of_pose_rate(pose: Floats, rate: Floats) -> Floats:
@@ -47,14 +47,16 @@ def pose_map(pose: Floats) -> Floats:
 
     J8 = M J_w is the papers' 8 x n Jacobian, so J8^+ = J_w^+ M^+ and J8' = J_w' M'.
     """
-    return np.asarray(0.5 * dq.hamilton_minus(pose)[..., :, _IMAGINARY])
+    M: Floats = np.dot(pose, _POSE_MAP).reshape(*pose.shape[:-1], 8, 6)
+    return M
 
 
 def _least_squares(M: Floats, rate: Floats) -> Floats:
     """M^+ rate (..., 6) for matrices (..., 8, 6) of full column rank."""
     transposed = M.swapaxes(-1, -2)
-    solved = np.linalg.solve(transposed @ M, transposed @ rate[..., None])
-    return np.asarray(solved[..., 0], dtype=np.float64)
+    return np.asarray(np.matvec(inverse(transposed @ M), np.vecmat(rate, M)))
 
 
-_IMAGINARY = np.array([1, 2, 3, 5, 6, 7])  # the columns that E6 keeps
+_BACK = -dq.hamilton_plus(np.diag(dq.C8)).reshape(8, 64)  # x -> -H+(x*), which is linear in x
+_IMAGINARY = [1, 2, 3, 5, 6, 7]  # the columns that E6 keeps
+_POSE_MAP = 0.5 * dq.hamilton_minus(np.eye(8))[..., _IMAGINARY].reshape(8, 48)

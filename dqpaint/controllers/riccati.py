@@ -12,8 +12,8 @@ end (Redheffer's scattering form), it stays bounded however stiff the equation i
     e1 = E e0 - G p1 + d,    p0 = E' p1 + H e0 + f,    G and H symmetric, not negative
 
 so P0 = H + E' P1 (I + G P1)^-1 E. An explicit step of P itself diverges once h |W P| > 2.8. Where
-the rate sqrt(q / r) is beyond pi / h, the commutator of the exponent is left out: it might make Q or
-W negative, and a mean of positive ones is positive.
+the rate sqrt(q / r) is beyond pi / h, the exponent's commutator is left out: it might make Q or W
+negative, and a mean of positive ones is positive.
 """
 
 from typing import NamedTuple

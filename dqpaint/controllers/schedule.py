@@ -114,9 +114,7 @@ def read_schedule(model: type[G], given: Mapping[str, GainText], whose: str) -> 
     for name, value in given.items():
         if name not in model.model_fields:
             raise UsageError(f"{whose} has no gain named '{name}'; its gains: {list_gains(model)}")
-        points = (Knot(0.0, value),)
-        if isinstance(value, str):
-            points = _read(name, value, whose, model)
+        points = _read(name, value, whose, model) if isinstance(value, str) else (Knot(0.0, value),)
         fixed[name] = points[0].value
         if len(points) > 1:
             knots[name], texts[name] = points, str(value)

@@ -107,7 +107,7 @@ def sine_and_place(T):
     ({"gamma_O": 0.1, "gamma_T": 0.05}, 2 / 0.1, np.sqrt(2) / 0.05),
     ({"K_O": 5.3, "K_T": 3.8}, 5.3, 3.8), ({"K_O": 5.3, "gamma_T": 0.372}, 5.3, np.sqrt(2) / 0.372),
 ])  # fmt: skip
-def test_hinf_set_is_its_equation(rng, gains, k_O, k_T):  # noqa: N803
+def test_hinf_set_is_its_equation(rng, gains, k_O, k_T):
     for seen in states(rng, 50, size=1.0):
         sine, place = sine_and_place(error_matrix(seen))
         u = law("hinf-set", **gains)(seen)

@@ -54,6 +54,13 @@ def exact_body_rates(motion, tau):
     return dq.pure(y)
 
 
+def slope(A, y, q, r, z):
+    e, p = z[:8], z[8:]
+    out = np.concatenate([A @ e - p / r[:, None], -q[:, None] * e - A.T @ p])
+    out[:8, 8] -= y
+    return out
+
+
 def tiny_steps(motion, gains, steps=12):
     """P and g by RK4 in tiny steps on nine solutions [e; p] of the linear flow: P = Y X^-1."""
     schedule = CONTROLLERS["lqr8"].read_gains(gains)
@@ -69,21 +76,14 @@ def tiny_steps(motion, gains, steps=12):
             np.broadcast_to(schedule.column(n, parts).reshape(len(parts), -1), (len(parts), 8))
             for n in "qr"
         )
-        As = dq.hamilton_minus(ys[k])
-
-        def slope(i, z):
-            e, p = z[:8], z[8:]
-            out = np.concatenate([As[i] @ e - p / r[i][:, None], -q[i][:, None] * e - As[i].T @ p])
-            out[:8, 8] -= ys[k][i]
-            return out
-
         z = np.zeros((16, 9))  # the first eight without c, the last one with it
         z[:8, :8], z[8:, :8], z[8:, 8] = np.eye(8), P, g
+        at = list(zip(dq.hamilton_minus(ys[k]), ys[k], q, r, strict=True))
         for i in range(2 * steps, 0, -2):
-            a = slope(i, z)
-            b = slope(i - 1, z + h / 2 * a)
-            c = slope(i - 1, z + h / 2 * b)
-            z = z + h / 6 * (a + 2 * b + 2 * c + slope(i - 2, z + h * c))
+            a = slope(*at[i], z)
+            b = slope(*at[i - 1], z + h / 2 * a)
+            c = slope(*at[i - 1], z + h / 2 * b)
+            z = z + h / 6 * (a + 2 * b + 2 * c + slope(*at[i - 2], z + h * c))
         P = np.linalg.solve(z[:8, :8].T, z[8:, :8].T).T
         P, g = (P + P.T) / 2, z[8:, 8] - P @ z[:8, 8]
         Ps[k], gs[k] = P, g
@@ -225,16 +225,16 @@ def costs(motion, P, g, q, r, s, starts, moving):
     A = dq.hamilton_minus(y) if moving else np.zeros((len(y), m, m))
     c = -y if moving else np.zeros((len(y), m))
 
-    def slope(k, e):
+    def rate(k, e):
         u = -(np.matvec(P[:, k], e) + g[:, k]) / r
         return e @ A[k].T + u + c[k], 0.5 * (q * e**2 + r * u**2).sum(-1)
 
     e, total = np.broadcast_to(starts, (len(P), m)).copy(), np.zeros(len(P))
     for k in range(0, len(y) - 2, 2):
-        a, ca = slope(k, e)
-        b, cb = slope(k + 1, e + h / 2 * a)
-        d, cd = slope(k + 1, e + h / 2 * b)
-        f, cf = slope(k + 2, e + h * d)
+        a, ca = rate(k, e)
+        b, cb = rate(k + 1, e + h / 2 * a)
+        d, cd = rate(k + 1, e + h / 2 * b)
+        f, cf = rate(k + 2, e + h * d)
         e = e + h / 6 * (a + 2 * b + 2 * d + f)
         total += h / 6 * (ca + 2 * cb + 2 * cd + cf)
     return total + 0.5 * (s * e**2).sum(-1)
@@ -309,7 +309,7 @@ def test_diagonals_have_the_law_s_own_length(name, size):
     assert given.q == (2.0,) * size
     with pytest.raises(UsageError, match=f"has 3 numbers; it is one number or {size}; its gains: "):
         chosen.read_gains({"q": "1,2,3"})
-    with pytest.raises(UsageError, match="'r' of controller .* is 0; a weight is from 1e-09"):
+    with pytest.raises(UsageError, match=r"'r' of controller .* is 0; a weight is from 1e-09"):
         chosen.read_gains({"r": (0.0,) * size})
-    with pytest.raises(UsageError, match="'s' of controller .* is -1; a weight is from 0 to"):
+    with pytest.raises(UsageError, match=r"'s' of controller .* is -1; a weight is from 0 to"):
         chosen.read_gains({"s": -1})

@@ -1,4 +1,4 @@
-"""Gains over a drawing, and that the thesis's own ones can be written."""
+"""Gains over a drawing, and that those of the thesis can be written."""
 
 import numpy as np
 import pytest

@@ -34,16 +34,16 @@ SHOTS = (
         "lag", "Without feed-forward corners are cut and small circles shrink,", {"controller": "p"}
     ),
     Shot("lag", "with it they do not. Same drawing, same camera, same exposure.", {}),
-    Shot("rose", "A formula with exact derivatives, six times in a ring.", {}),
-    Shot("spiral", "A helix is an arc that rises.", {"view": "iso"}),
-    Shot("square", "Two sides in 500 samples, two in 300: faster is darker.", {"ev": -3}),
-    Shot("circle", "The thesis's circle in 3000 samples.", {}),
-    Shot("baxter-screw", "A screw of pitch zero about a line given in space.", {"view": "iso"}),
     Shot(
         "quarter-turn",
         "A quarter turn under torques, within two micrometres.",
         {"controller": "accel", "view": "iso"},
     ),
+    Shot("rose", "A formula with exact derivatives, six times in a ring.", {}),
+    Shot("spiral", "A helix is an arc that rises.", {"view": "iso"}),
+    Shot("square", "Two sides in 500 samples, two in 300: faster is darker.", {"ev": -3}),
+    Shot("circle", "The thesis's circle in 3000 samples.", {}),
+    Shot("baxter-screw", "A screw of pitch zero about a line given in space.", {"view": "iso"}),
     Shot("step", "A jump of the set point: the error decays, and slower is brighter.", {}),
 )
 

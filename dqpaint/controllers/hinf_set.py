@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from dqpaint import dq
-from dqpaint.controllers.gains import Gain, Gains, Value
+from dqpaint.controllers.gains import LEAST, MOST, Gain, Gains, Value
 from dqpaint.controllers.law import Seen, controller
 from dqpaint.controllers.pose_errors import spatial_error
 from dqpaint.dq import Floats
@@ -25,8 +25,8 @@ class GammaGains(Gains):
     gamma_T: Gain = Field(
         0.0707, description="s, bound on the translation error; K_T = sqrt(2) / gamma_T"
     )
-    K_O: Gain | None = Field(None, description="1/s, in place of gamma_O")
-    K_T: Gain | None = Field(None, description="1/s, in place of gamma_T")
+    K_O: float | None = Field(None, ge=LEAST, le=MOST, description="1/s, in place of gamma_O")
+    K_T: float | None = Field(None, ge=LEAST, le=MOST, description="1/s, in place of gamma_T")
 
     @model_validator(mode="after")
     def _one_of_each(self) -> Self:

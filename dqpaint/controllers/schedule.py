@@ -145,10 +145,6 @@ def _checked(model: type[G], values: Mapping[str, Value], whose: str) -> G:
         raise UsageError(f"{text}; its gains: {list_gains(model)}") from None
 
 
-def _said(value: Value) -> str:
-    return ",".join(f"{part:.6g}" for part in value) if isinstance(value, tuple) else f"{value:.6g}"
-
-
 def _range(model: type[G], name: Any) -> str:
     """What a gain may be, read off its model."""
     low = [m.ge for m in _limits(model, name) if hasattr(m, "ge")]
@@ -197,3 +193,8 @@ def _widened(value: Value, size: int) -> tuple[float, ...]:
     if len(wide) != size:
         raise ValueError
     return wide
+
+
+def _said(value: Value) -> str:
+    """A gain as it is written."""
+    return ",".join(f"{part:.6g}" for part in value) if isinstance(value, tuple) else f"{value:.6g}"

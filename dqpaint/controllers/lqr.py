@@ -13,6 +13,8 @@ from dqpaint.controllers.weights import Weights, within
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
 
+BLOCK = 4096  # intervals that are worked out at once
+
 
 class SixWeights(Weights):
     """Weights of [Im r_e; 1/2 p_e]: three numbers of rotation, three of translation."""
@@ -23,8 +25,13 @@ class SixWeights(Weights):
 def prepare(motion: Motion, gains: Schedule[SixWeights]) -> Floats:
     """The diagonal of P (N, 6) [s] at every row: with diagonal weights P stays diagonal."""
     rows = len(motion.t)
-    inverse, q = within(gains, 0, rows - 1, rows)
-    return sweep_elements(inverse, q, gains.at(1.0).end(), motion.period)
+    ahead = np.empty((rows, 6))
+    ahead[-1] = gains.at(1.0).end()
+    for last in range(rows - 1, 0, -BLOCK):
+        first = max(0, last - BLOCK)
+        inverse, q = within(gains, first, last, rows)
+        ahead[first : last + 1] = sweep_elements(inverse, q, ahead[last], motion.period)
+    return ahead
 
 
 @controller("lqr", source="Pereira 2016, LQR in DQ [3.60]", gains=SixWeights, prepare=prepare)

@@ -179,6 +179,13 @@ def test_lqr_by_its_closed_form(s):
     np.testing.assert_allclose(P, sigma * (s + sigma * T) / (sigma + s * T), rtol=1e-11)
 
 
+def test_lqr_over_more_than_one_block():
+    motion, chosen = asked("period 1 ms\nline to (40, 9) mm in 9 s\n"), CONTROLLERS["lqr"]
+    P = chosen.prepare(motion, chosen.read_gains({"q": 0.01, "r": 0.04, "s": 0.0}))
+    T = np.tanh(0.5 * (motion.t[-1] - motion.t)[:, None])
+    np.testing.assert_allclose(P, 0.02 * T * np.ones(6), rtol=1e-10)
+
+
 def test_lqr_with_scheduled_weights_by_tiny_steps():
     motion, chosen = asked(SMOOTH), CONTROLLERS["lqr"]
     schedule = chosen.read_gains({"q": "2..9", "r": "0.01..0.05@60%", "s": 0.1})

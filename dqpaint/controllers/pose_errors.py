@@ -53,8 +53,7 @@ def pose_map(pose: Floats) -> Floats:
 
 def _least_squares(M: Floats, rate: Floats) -> Floats:
     """M^+ rate (..., 6) for matrices (..., 8, 6) of full column rank."""
-    transposed = M.swapaxes(-1, -2)
-    return np.asarray(np.matvec(inverse(transposed @ M), np.vecmat(rate, M)))
+    return np.asarray(np.matvec(inverse(M.mT @ M), np.vecmat(rate, M)))
 
 
 _BACK = -dq.hamilton_plus(np.diag(dq.C8)).reshape(8, 64)  # x -> -H+(x*), which is linear in x

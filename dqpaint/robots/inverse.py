@@ -4,12 +4,13 @@ A run inverts two 6 x 6 matrices a control step. Half of the step would go into 
 its arguments; Eigen's Cholesky takes a fifth of numpy's time. For batches numpy's own is as good.
 """
 
-import eigenpy
 import numpy as np
+from eigenpy import LLT, ComputationInfo
 
 from dqpaint.dq import Floats
 
 _EYE = np.eye(6)
+_SUCCESS = ComputationInfo.Success
 
 
 def inverse(squares: Floats) -> Floats:
@@ -20,7 +21,7 @@ def inverse(squares: Floats) -> Floats:
     """
     if squares.ndim > 2:
         return np.asarray(np.linalg.inv(squares))
-    factor = eigenpy.LLT(squares)
-    if factor.info() != eigenpy.ComputationInfo.Success:
+    factor = LLT(squares)
+    if factor.info() != _SUCCESS:
         raise np.linalg.LinAlgError("not positive definite")
     return np.asarray(factor.solve(_EYE))

@@ -31,7 +31,7 @@ def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats) -> Flo
     """
     shift = to_tool(point)
     J = shift @ jacobian
-    square = J @ J.swapaxes(-1, -2)
+    square = J @ J.mT
     left = np.matvec(shift, twist) - np.matvec(J, wish)
     plain = plain_inverse(square)
     if plain is None:

@@ -11,9 +11,10 @@ end (Redheffer's scattering form), it stays bounded however stiff the equation i
 
     e1 = E e0 - G p1 + d,    p0 = E' p1 + H e0 + f,    G and H symmetric, not negative
 
-so P0 = H + E' P1 (I + G P1)^-1 E. An explicit step of P itself diverges once h |W P| > 2.8. Where
-the rate sqrt(q / r) is beyond pi / h, the exponent's commutator is left out: it might make Q or W
-negative, and a mean of positive ones is positive.
+so P0 = H + E' P1 (I + G P1)^-1 E. An explicit step of P itself diverges once h |W P| > 2.8. At the
+usual 20 1/s and 8 ms P and g are exact to 1e-6; at the thesis's best gain, 164 1/s, g is to 1e-4.
+Where the rate sqrt(q / r) is beyond pi / h, the exponent's commutator is left out: it might make Q
+or W negative, and a mean of positive ones is positive.
 """
 
 from typing import NamedTuple

@@ -109,6 +109,21 @@ def test_the_solution_is_that_of_tiny_steps(gains):
     assert np.abs(across).max() > 1e-4  # the light moves: P is not diagonal
 
 
+@pytest.mark.parametrize("gains", [
+    {"q": 270.0, "r": 0.01}, {**UNEVEN, "r": "1,2,3,4,1,2,3,4".replace(",", "e-4,") + "e-4"},
+])  # fmt: skip
+def test_quick_laws_are_halved_and_doubled(gains):
+    """The thesis's best gain, 164 1/s, and uneven ones: too much for one series a period.
+
+    The rate times the period is above 1: its fourth order is coarser there.
+    """
+    motion = asked(SMOOTH)
+    P, g = solved(motion, **gains)
+    P_fine, g_fine = tiny_steps(motion, gains, steps=20)
+    assert apart(P, P_fine) < 3 * ACCURACY
+    assert apart(g, g_fine) < 150 * ACCURACY
+
+
 def test_corners_and_jumps_are_not_smoothed_over():
     """Each interval has its own stroke's twist, up to the row where the next one begins."""
     motion = asked(CORNERS)

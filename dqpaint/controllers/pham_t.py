@@ -10,7 +10,11 @@ from dqpaint.dq import Floats
 
 
 class TransposeGains(Gains):
-    """One gain; the rates that follow from it depend on the arm and its posture."""
+    """One gain; the rates that follow from it depend on the arm and its posture.
+
+    On the iiwa s^2 is at most 1.45 in any posture: 60 is stable up to a period of 20 ms, with room,
+    and does not even overshoot at 8 ms. The weakest mode before the canvas then has 0.5 1/s.
+    """
 
     k: Gain = Field(
         60.0,

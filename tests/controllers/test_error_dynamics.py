@@ -100,6 +100,16 @@ def test_the_transpose_decays_mode_by_mode_at_k_times_its_singular_value_squared
     assert np.log(before / along(q)) / seconds == pytest.approx(rate, rel=RATE_TOLERANCE)
 
 
+def test_the_transpose_s_usual_gain_is_stable_up_to_20_ms(rng):
+    """k s^2 T < 2 for the fastest mode in any posture of the iiwa, and not much slower than that."""
+    k = CONTROLLERS["pham-t"].read_gains({}).first.k
+    fastest = 0.0
+    for q in rng.uniform(ARM.card.lower, ARM.card.upper, (3000, 7)):
+        x, J = ARM.pose_and_jacobian(q)
+        fastest = max(fastest, k * np.linalg.norm(pose_map(x) @ J, 2) ** 2)
+    assert 1.0 < fastest * 0.02 < 1.9
+
+
 def test_the_transpose_never_lets_the_error_grow(rng):
     """d|e|^2/dt = -2 k |J8' e|^2 from any error, by differences along its own joint rates."""
     h = 1e-5

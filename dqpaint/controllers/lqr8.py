@@ -13,7 +13,7 @@ from dqpaint.controllers.weights import Weights, within
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
 
-BLOCK = 256  # intervals that are worked out at once
+BLOCK = 128  # intervals that are worked out at once
 UPPER = np.triu_indices(8)
 PLACES = np.zeros((8, 8), dtype=np.int64)  # of the elements of P among the 36 that are kept
 PLACES[UPPER] = np.arange(36)

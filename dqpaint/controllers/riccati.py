@@ -22,6 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dqpaint.dq import Floats
+from dqpaint.robots.inverse import solve
 
 GAUSS = np.array([0.5 - np.sqrt(3) / 6, 0.5 + np.sqrt(3) / 6])  # of an interval
 SMALL = 0.5  # norm of an exponent whose exponential is a short series
@@ -112,18 +113,17 @@ def _doubled(one: Scattering) -> Scattering:
 
 def sweep(intervals: Scattering, P: Floats, g: Floats) -> tuple[Floats, Floats]:
     """P (n, m, m) and g (n, m) at the starts of n intervals, from those at the end of the last."""
-    n, m = intervals.d.shape
-    enters = np.concatenate([intervals.E, intervals.d[..., None]], axis=-1)
+    m = intervals.d.shape[-1]
+    slack = np.linalg.inv(intervals.G)  # (I + G P)^-1 = (G^-1 + P)^-1 G^-1, and that is symmetric
+    enters = slack @ np.concatenate([intervals.E, intervals.d[..., None]], axis=-1)
     prices = np.concatenate([intervals.H, intervals.f[..., None]], axis=-1)
-    back, G, eye = intervals.E.swapaxes(-1, -2), intervals.G, np.eye(m)
     after = np.column_stack([P, g])
-    for k in range(n - 1, -1, -1):
-        passed, error = np.dot(G[k], after), enters[k]
-        error[:, m] -= passed[:, m]
-        costate = np.dot(after[:, :m], np.linalg.solve(eye + passed[:, :m], error))
+    for k in range(len(slack) - 1, -1, -1):
+        enters[k, :, m] -= after[:, m]
+        costate = np.dot(after[:, :m], solve(slack[k] + after[:, :m], enters[k]))
         costate[:, m] += after[:, m]
         after = prices[k]
-        after += np.dot(back[k], costate)  # in place: row k of what is returned
+        after += np.dot(intervals.E[k].T, costate)  # in place: row k of what is returned
     return prices[..., :m], prices[..., m]
 
 

@@ -101,7 +101,7 @@ def test_the_transpose_decays_mode_by_mode_at_k_times_its_singular_value_squared
 
 
 def test_the_transpose_s_usual_gain_is_stable_up_to_20_ms(rng):
-    """k s^2 T < 2 for the fastest mode in any posture of the iiwa, and not much slower than that."""
+    """k s^2 T < 2 for the fastest mode in any posture of the iiwa, and not far from it."""
     k = CONTROLLERS["pham-t"].read_gains({}).first.k
     fastest = 0.0
     for q in rng.uniform(ARM.card.lower, ARM.card.upper, (3000, 7)):

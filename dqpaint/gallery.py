@@ -37,6 +37,11 @@ SHOTS = (
         "lag", "Without feed-forward corners are cut and small circles shrink,", {"controller": "p"}
     ),
     Shot("lag", "with it they do not. Same drawing, same camera, same exposure.", {}),
+    Shot(
+        "quarter-turn",
+        "A quarter turn under torques, within two micrometres.",
+        {"controller": "accel", "view": "iso"},
+    ),
     Shot("rose", "A formula with exact derivatives, six times in a ring.", {}),
     Shot("spiral", "A helix is an arc that rises.", {"view": "iso"}),
     Shot("square", "Two sides in 500 samples, two in 300: faster is darker.", {"ev": -3}),

@@ -47,6 +47,7 @@ ORDER = [
 
 DOORS = {
     "pinocchio": ["robots/kinematics.py", "robots/dynamics.py"],
+    "eigenpy": ["robots/inverse.py"],
     "pybullet": ["plants/bullet.py"],
     "matplotlib": ["charts.py"],
     "cv2": ["light/spread.py", "light/develop.py", "picture.py"],

@@ -50,6 +50,26 @@ def _plants() -> list[dict[str, Any]]:
     ]
 
 
+def _brushes() -> list[dict[str, Any]]:
+    from dqpaint.light.brushes import BRUSHES, choices_of
+
+    return [
+        {"name": name, "about": (kind.__doc__ or "").splitlines()[0], "choices": choices_of(kind)}
+        for name, kind in BRUSHES.items()
+    ]
+
+
+def _looks() -> list[dict[str, Any]]:
+    from dqpaint.light.looks import LOOKS
+    from dqpaint.settings import Settings
+
+    usual = Settings.model_fields["look"].default
+    return [
+        {"name": name, "about": (look.__doc__ or "").splitlines()[0], "default": name == usual}
+        for name, look in LOOKS.items()
+    ]
+
+
 def _examples() -> list[dict[str, Any]]:
     from dqpaint.examples import example_names, examples_folder
 
@@ -64,6 +84,8 @@ LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {
     "robots": _robots,
     "controllers": _controllers,
     "plants": _plants,
+    "brushes": _brushes,
+    "looks": _looks,
     "examples": _examples,
 }
 
@@ -89,6 +111,7 @@ def text(found: dict[str, list[dict[str, Any]]]) -> str:
         for row in rows:
             usual = " (default)" if row.get("default") else ""
             lines.append((row["name"] + usual, row["about"]))
+            lines += [("", f"  {choice}") for choice in row.get("choices", [])]
             lines += [("", f"  {gain_line(gain)}") for gain in row.get("gains", [])]
             if "gains" in row:
                 lines.append(("", f"  from {row['source']}"))

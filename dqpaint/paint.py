@@ -10,23 +10,23 @@ from numpy.typing import NDArray
 
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.language.program import Program
-from dqpaint.light.camera import parse_view
 from dqpaint.light.film import Film
 from dqpaint.metrics import Metrics, Table, measure
 from dqpaint.motion import Motion, plan
 from dqpaint.out_of_reach import begin, check_worst
-from dqpaint.picture import Picture, take
+from dqpaint.picture import Picture, photograph
 from dqpaint.plants import PLANTS
 from dqpaint.robots.choose import card_for
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Clamp
+from dqpaint.scene import Scene, arrange, check_choices
 from dqpaint.settings import Settings
 from dqpaint.tracking import Track, track
 
 
 @dataclass(frozen=True, repr=False)
 class Painting:
-    """A finished painting: what was asked, what the arm did, the picture and the numbers."""
+    """A finished painting: what was asked, what the arm did, the pictures and the numbers."""
 
     settings: Settings
     robot: str
@@ -34,8 +34,14 @@ class Painting:
     motion: Motion
     track: Track
     metrics: Metrics
-    picture: Picture
+    scene: Scene
+    pictures: tuple[Picture, ...]  # one a view
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
+
+    @property
+    def picture(self) -> Picture:
+        """The picture of the first view."""
+        return self.pictures[0]
 
     @property
     def image(self) -> NDArray[np.uint8]:
@@ -84,7 +90,7 @@ def paint(
         DqpaintError: the run or the light came to nothing.
     """
     clock = Stopwatch()
-    parse_view(settings.view)  # a slip there is told before anything is simulated
+    check_choices(settings)  # a slip there is told before anything is simulated
     controller = CONTROLLERS[settings.controller]
     gains = controller.read_gains(settings.gains)
     make_plant = PLANTS[settings.plant]
@@ -101,9 +107,10 @@ def paint(
     with clock("metrics"):
         metrics = measure(run)
     with clock("light"):
-        picture = take(motion, run.points, settings)
+        scene = arrange(motion, run.pose, settings, metrics.table)
+        pictures = tuple(photograph(scene, settings))
     return Painting(
-        settings, card.name, gains.shown(), motion, run, metrics, picture, clock.seconds
+        settings, card.name, gains.shown(), motion, run, metrics, scene, pictures, clock.seconds
     )
 
 

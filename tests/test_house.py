@@ -12,16 +12,17 @@ PACKAGE = Path(__file__).parent.parent / "dqpaint"
 # Data moves down this list and never up. A folder's modules may import each other.
 ORDER = [
     "errors", "registry", "dq", "language", "motion", "robots", "plants", "controllers",
-    "tracking", "metrics", "settings", "light", "picture", "out_of_reach", "paint", "outputs",
+    "tracking", "metrics", "settings", "light", "telling", "scene", "picture", "sketch",
+    "out_of_reach", "paint", "negative", "video", "outputs",
     "examples", "terminal", "report", "checking", "listing", "api", "gallery", "cli", "__main__",
 ]  # fmt: skip
 
 DOORS = {
     "pinocchio": ["robots/kinematics.py"],
     "pybullet": ["plants/bullet.py"],
-    "cv2": ["light/spread.py", "light/develop.py", "picture.py"],
+    "cv2": ["light", "picture.py", "negative.py", "video.py"],
     "typer": ["cli.py"],
-    "pydantic": ["robots/card.py", "controllers", "settings.py"],
+    "pydantic": ["robots/card.py", "controllers", "settings.py", "light/brushes.py", "negative.py"],
 }
 EVERYWHERE = {"numpy", "dqpaint", "typing_extensions"}
 LONGEST = 400  # lines of one file

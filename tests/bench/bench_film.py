@@ -8,11 +8,11 @@ from collections.abc import Callable
 import cv2
 import numpy as np
 
-from dqpaint.light.brushes import Light, shine
 from dqpaint.light.camera import Camera, frame, parse_view
 from dqpaint.light.develop import develop
 from dqpaint.light.exposure import automatic_exposure
 from dqpaint.light.film import Film, expose
+from dqpaint.light.light import Light, shine
 from dqpaint.light.spread import point_spread, spread
 
 SECONDS = 24.0

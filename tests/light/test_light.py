@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from dqpaint.errors import DqpaintError
-from dqpaint.light.brushes import Light, shine
+from dqpaint.light.light import Light, shine
 
 
 def test_a_step_emits_its_colour_for_a_period():

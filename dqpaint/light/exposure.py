@@ -17,7 +17,7 @@ from dqpaint.light.trail import bins, trace
 CORE = 12.0
 """What the core of the median stroke is exposed to; 1 saturates the sensor. Photographers' usual
 settings give 10 to 20 for a small LED."""
-SURFACE = 1.6
+SURFACE = 0.9
 """What a surface swept by a bar is exposed to: as bright as a line it would be all white."""
 WIDE = 8.0
 """A stroke this many line widths wide is a surface; between the two it is some of both."""

@@ -76,14 +76,14 @@ def cells(sheet: Sheet, camera: Camera, margin: float) -> Iterator[Cells]:
         [np.zeros((len(sheet.tints), 1, 3)), np.cumsum(sheet.tints, axis=1)], axis=1
     )
     whole = sheet.energy * sums[sheet.row, -1]
-    lit = sheet.energy.any(axis=1)
-    seen = (depth > NEAR).all(axis=1)
+    lit = sheet.energy.max(axis=1) > 0.0
+    seen = depth.min(axis=1) > NEAR
     low = np.full(2, -margin)
     high = np.array([camera.width - 1.0, camera.height - 1.0]) + margin
     with np.errstate(invalid="ignore"):  # a pixel behind the pinhole is not a number
         least = np.fmin(pixels[:-1], pixels[1:]).min(axis=1)
         most = np.fmax(pixels[:-1], pixels[1:]).max(axis=1)
-        inside = ((most >= low) & (least <= high)).all(axis=1)
+        inside = (most >= low).all(axis=1) & (least <= high).all(axis=1)
     some = np.asarray(lit & seen[:-1] & seen[1:] & inside)
     lost = whole[lit & ~some].sum(axis=0)
     yield Cells(np.empty((2, 0)), np.empty((3, 0)), lost)

@@ -20,7 +20,7 @@ from dqpaint.light.sheet import Sheet
 from dqpaint.light.trail import BATCH
 
 ALL = slice(None)
-CHORD = 0.1
+CHORD = 0.15
 """A chord may be this far from the smooth way [px]."""
 
 

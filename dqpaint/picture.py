@@ -25,7 +25,7 @@ from dqpaint.settings import Settings
 
 # run lengths suit black ground with dithered halos: smaller and faster than the default search
 PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
-FAINT = 0.5  # what the lines of the asked drawing under the reached one are exposed to
+FAINT = 0.25  # what the lines of the asked drawing under the reached one are exposed to
 KEPT = 1  # pictures of one painting whose films are kept; of the others only the sums are
 
 
@@ -118,17 +118,38 @@ def _exposure(
     return given, f"automatic, {advice(shown, camera, distance_to(camera, scene.shown_points))}"
 
 
-def linear(scene: Scene, film: Film, exposure: float, camera: Camera, settings: Settings) -> Image:
-    """(H, W, 3) linear light on the sensor, before it is developed."""
-    psf = point_spread(settings.height)
-    image = spread(film, psf)
+def linear(
+    scene: Scene,
+    film: Film,
+    exposure: float,
+    camera: Camera,
+    settings: Settings,
+    under: Image | None = None,
+) -> Image:
+    """(H, W, 3) linear light on the sensor, before it is developed.
+
+    Args:
+        scene: What is photographed.
+        film: What fell on the film.
+        exposure: Of the picture.
+        camera: Where it was taken from.
+        settings: Of the picture.
+        under: From `beneath`, where it is already there.
+    """
+    image = spread(film, point_spread(settings.height))
     if scene.under:
-        ridge = automatic_exposure(scene.under, camera, psf) / CORE
-        beneath = spread(expose(scene.under, camera), psf)
-        image += beneath * np.float32(FAINT * ridge / (exposure * 2.0**settings.ev))
+        image += beneath(scene, exposure, camera, settings) if under is None else under
     if settings.starburst:
         image = with_starburst(image, settings.starburst)
     return image
+
+
+def beneath(scene: Scene, exposure: float, camera: Camera, settings: Settings) -> Image:
+    """(H, W, 3) the faint lines of the asked drawing, on the same scale as the film's light."""
+    psf = point_spread(settings.height)
+    ridge = automatic_exposure(scene.under, camera, psf) / CORE
+    faint = np.float32(FAINT * ridge / (exposure * 2.0**settings.ev))
+    return spread(expose(scene.under, camera), psf) * faint
 
 
 def finish(scene: Scene, image: Image, exposure: float, settings: Settings) -> NDArray[np.uint8]:

@@ -103,44 +103,47 @@ def limits(values: Floats, from_zero: bool) -> tuple[float, float]:
     return math.floor(low / unit) * unit, math.ceil(high / unit + 1e-9) * unit
 
 
-WINDOW = (
-    0.5  # [s] in which the nearest asked place is looked for: a law that lags is behind by less
-)
-MOST_ROWS = 250  # of a window
+LONGEST_DELAY = 0.5  # [s] that is taken out
+MOST_ROWS = 500  # and so many rows
 
 
 def magnified(motion: Motion, pose: Floats, times: float) -> Floats:
-    """Poses (N, 8) whose deviation from the asked path is so many times as large.
+    """Poses (N, 8) whose deviation from what was asked is so many times as large.
 
-    It is the deviation from the nearest place of the path, not from where the light should be at
-    that time: a law that only lags draws the right path.
+    One delay, the same all along, is taken out before: a light that only comes late draws the right
+    path, and magnified it does, too.
+
+    Raises:
+        DqpaintError: The poses leave the numbers.
     """
-    points, asked = dq.translation(pose), motion.points
-    nearest = _nearest(points, asked, max(1, min(MOST_ROWS, round(WINDOW / motion.period))))
-    moved = nearest + times * (points - nearest)
-    turn = dq.mul(dq.conj(motion.pose), pose)
-    angular = dq.exp(times * dq.log(turn) * np.array([1.0, 1, 1, 0, 0, 0]))
-    rotation = dq.quaternion_mul(dq.rotation(motion.pose), dq.rotation(angular))
+    rows = common_delay(motion, dq.translation(pose))
+    at = np.maximum(np.arange(len(pose)) - rows, 0.0)
+    before = np.minimum(at.astype(np.int64), max(len(pose) - 2, 0))
+    after = np.minimum(before + 1, len(pose) - 1)
+    asked = dq.sclerp(motion.pose[before], motion.pose[after], at - before)
+    moved = dq.translation(asked) + times * (dq.translation(pose) - dq.translation(asked))
+    turn = dq.log(dq.mul(dq.conj(asked), pose))
+    turn[:, 3:] = 0.0
+    rotation = dq.quaternion_mul(dq.rotation(asked), dq.rotation(dq.exp(times * turn)))
     if not np.isfinite(moved).all():
-        raise DqpaintError(f"a deviation magnified {times:g} times left the numbers")
+        raise DqpaintError(f"deviations magnified {times:g} times leave the numbers")
     return dq.continuous(dq.pose_from(moved, rotation))
 
 
-def _nearest(points: Floats, asked: Floats, window: int) -> Floats:
-    """(N, 3) for each place the nearest of the asked path's steps within so many rows."""
-    way = np.diff(asked, axis=0)
-    square = np.maximum((way * way).sum(axis=1), 1e-30)
-    best = asked.copy()
-    least = ((points - asked) ** 2).sum(axis=1)
-    for offset in range(-window, window):
-        rows = np.arange(max(0, -offset), min(len(points), len(way) - offset))
-        if len(rows) == 0:
-            continue
-        step = rows + offset
-        part = ((points[rows] - asked[step]) * way[step]).sum(axis=1) / square[step]
-        place = asked[step] + np.clip(part, 0.0, 1.0)[:, None] * way[step]
-        distance = ((points[rows] - place) ** 2).sum(axis=1)
-        nearer = distance < least[rows]
-        least[rows[nearer]] = distance[nearer]
-        best[rows[nearer]] = place[nearer]
-    return best
+def common_delay(motion: Motion, points: Floats) -> float:
+    """By how many rows the places (N, 3) are most nearly what was asked, while it is lit.
+
+    The least mean square over whole rows, then the vertex of the parabola through its neighbours.
+    """
+    asked, lit = motion.points, np.flatnonzero(motion.lit)
+    most = int(min(MOST_ROWS, LONGEST_DELAY / motion.period, len(points) - 1))
+    cost = [
+        float(((points[lit] - asked[np.maximum(lit - rows, 0)]) ** 2).sum(axis=1).mean())
+        for rows in range(most + 1)
+    ]
+    best = int(np.argmin(cost))
+    if not 0 < best < most:
+        return float(best)
+    left, least, right = cost[best - 1 : best + 2]
+    bend = left - 2.0 * least + right
+    return best + (0.5 * (left - right) / bend if bend > 0.0 else 0.0)

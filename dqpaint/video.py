@@ -1,7 +1,10 @@
 """The film of an exposure: the painting as it grows, frame by frame."""
 
+import os
+import sys
 import tempfile
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import cv2
@@ -11,7 +14,7 @@ from numpy.typing import NDArray
 from dqpaint.errors import DqpaintError
 from dqpaint.light.film import Exposing
 from dqpaint.light.settings import parse_exposure
-from dqpaint.picture import Picture, finish, linear
+from dqpaint.picture import Picture, beneath, finish, linear
 from dqpaint.scene import Scene
 from dqpaint.settings import Settings
 
@@ -34,13 +37,15 @@ def frames(
     """
     exposing = Exposing(picture.camera)
     falloff = parse_exposure(settings.exposure or "auto") is not None
+    camera, exposure = picture.camera, picture.exposure
+    under = beneath(scene, exposure, camera, settings) if scene.under else None
     for i in range(count - 1):
         for sweep in scene.light:
             steps = len(sweep.colours)
             part = slice(steps * i // count, steps * (i + 1) // count)
             for piece in sweep.towards(picture.camera, falloff, part):
                 exposing.add(piece)
-        image = linear(scene, exposing.film(), picture.exposure, picture.camera, settings)
+        image = linear(scene, exposing.film(), exposure, camera, settings, under)
         progress((i + 1) / count)
         yield finish(scene, image, picture.exposure, settings)
     yield picture.image
@@ -63,7 +68,8 @@ def webm(scene: Scene, picture: Picture, settings: Settings, progress: Told) -> 
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "video.webm"
         fourcc = cv2.VideoWriter.fourcc(*"VP90")
-        writer = cv2.VideoWriter(str(path), fourcc, float(RATE), (width, height))
+        with _hushed():
+            writer = cv2.VideoWriter(str(path), fourcc, float(RATE), (width, height))
         if not writer.isOpened():
             raise DqpaintError("this build of OpenCV has no VP9 encoder for --save video")
         try:
@@ -76,6 +82,27 @@ def webm(scene: Scene, picture: Picture, settings: Settings, progress: Told) -> 
         finally:
             writer.release()
         return path.read_bytes()
+
+
+@contextmanager
+def _hushed() -> Iterator[None]:
+    """Nothing on standard error: OpenCV's encoder warns there of the tag that WebM itself asks for.
+
+    It writes past Python's streams.
+    """
+    sys.stderr.flush()
+    try:
+        kept = os.dup(2)
+    except OSError:  # it is closed, so there is nothing to hush
+        yield
+        return
+    with open(os.devnull, "wb") as nowhere:
+        os.dup2(nowhere.fileno(), 2)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
 
 
 def webp(scene: Scene, picture: Picture, settings: Settings, progress: Told) -> bytes:

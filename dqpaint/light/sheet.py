@@ -17,8 +17,10 @@ from dqpaint.light.camera import NEAR, Camera
 
 CELLS = 1 << 18
 """How many cells of a grid are worked on at once. It is fixed, as the order of sums is."""
-FINEST = 4096
-"""Cells along a line, or along a step, at most: more are wider than a pixel, but miss nothing."""
+FINEST = 8192
+"""Cells along a line, or along a step, at most: beyond that they are wider than a pixel."""
+MOST = 1 << 20
+"""Cells of one step at most: of a line that leaps right before the lens."""
 SPACING = 1.0
 """Side of a cell [px]."""
 
@@ -93,7 +95,7 @@ def cells(sheet: Sheet, camera: Camera, margin: float) -> Iterator[Cells]:
     moved = _length(pixels[index + 1] - pixels[index]).max(axis=1)
     long = _length(pixels[:, 1] - pixels[:, 0])
     along = _count(np.maximum(long[index], long[index + 1]))
-    steps = _count(moved)
+    steps = np.minimum(_count(moved), np.maximum(MOST // along, 1))
     # one row a part of a step: it is worked on as a whole
     of = np.repeat(index, steps)
     nth = np.arange(len(of)) - np.repeat(np.cumsum(steps) - steps, steps)

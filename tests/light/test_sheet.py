@@ -44,7 +44,7 @@ def test_irradiance_is_one_over_the_jacobian(view):
     du = (pixels(u + h, t) - pixels(u - h, t)) / (2 * h)
     dt = (pixels(u, t + k) - pixels(u, t - k)) / (2 * k) * (fine - 1)
     jacobian = np.abs(du[:, 0] * dt[:, 1] - du[:, 1] * dt[:, 0])
-    flat = jacobian > 0.6 * np.linalg.norm(du, axis=1) * np.linalg.norm(dt, axis=1)
+    flat = jacobian > 0.7 * np.linalg.norm(du, axis=1) * np.linalg.norm(dt, axis=1)
 
     net_u, net_t = (a.ravel() for a in np.meshgrid(np.linspace(0, 1, 60), np.arange(0, fine, 80)))
     net, at = pixels(net_u, net_t), pixels(u, t)

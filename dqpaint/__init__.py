@@ -17,16 +17,17 @@ from typing import TYPE_CHECKING, Any
 from dqpaint.errors import DqpaintError
 
 if TYPE_CHECKING:
-    from dqpaint.api import draw, preview, save
+    from dqpaint.api import develop, draw, preview, save
     from dqpaint.paint import Painting
 
 __version__ = "0.1.0"
 
-__all__ = ["DqpaintError", "Painting", "draw", "preview", "save"]
+__all__ = ["DqpaintError", "Painting", "develop", "draw", "preview", "save"]
 
 
 _ROOMS = {
     "Painting": "dqpaint.paint",
+    "develop": "dqpaint.api",
     "draw": "dqpaint.api",
     "preview": "dqpaint.api",
     "save": "dqpaint.api",

@@ -162,6 +162,7 @@ def develop(
     """
     from dqpaint import negative
     from dqpaint.picture import photograph
+    from dqpaint.scene import check_choices
 
     scene, before = negative.read(str(film))
     width, height = _width_and_height(size)
@@ -171,6 +172,7 @@ def develop(
     }  # fmt: skip
     given = {name: value for name, value in choices.items() if value is not None}
     settings = make_settings(**{**before.model_dump(), **given})
+    check_choices(settings)
     return list(photograph(scene, settings))
 
 

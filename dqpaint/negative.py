@@ -73,7 +73,7 @@ def read(path: str) -> tuple[Scene, Settings]:
     if place.suffix in (".tiff", ".hdr"):  # the pictures that lie beside it
         place = place.with_suffix(".npz")
     try:
-        with np.load(place, allow_pickle=False) as arrays:
+        with np.load(io.BytesIO(place.read_bytes()), allow_pickle=False) as arrays:
             about = json.loads(str(arrays["about"]))
             if about["schema"] != SCHEMA:
                 raise ValueError(about["schema"])

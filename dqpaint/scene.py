@@ -10,7 +10,7 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.errors import DqpaintError
+from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.language.program import Brush as BrushWords
 from dqpaint.light.brushes import brush_of, read_brush
 from dqpaint.light.emitters import Emitters
@@ -18,6 +18,7 @@ from dqpaint.light.exposure import CORE
 from dqpaint.light.legend import RIDGE, Legend
 from dqpaint.light.looks import LOOKS
 from dqpaint.light.settings import parse_exposure
+from dqpaint.light.starburst import BLADES
 from dqpaint.light.sweep import Sweep
 from dqpaint.light.views import parse_views
 from dqpaint.metrics import Table
@@ -68,6 +69,9 @@ def check_choices(settings: Settings) -> None:
     """Raise a UsageError for a slip in what concerns light, before anything is simulated."""
     parse_views(settings.view)
     LOOKS[settings.look]
+    if settings.starburst and not BLADES[0] <= settings.starburst <= BLADES[1]:
+        bounds = f"{BLADES[0]} to {BLADES[1]} blades; 0 is a round one"
+        raise UsageError(f"starburst {settings.starburst}: an aperture has {bounds}")
     if settings.brush is not None:
         read_brush(settings.brush).emitters()
     if settings.exposure is not None:

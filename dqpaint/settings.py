@@ -32,7 +32,7 @@ class Settings(BaseModel):
     pwm: Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)] = 0.0  # [Hz]; 0: even light
     exposure: str | None = None  # None: automatic
     look: str = "film"
-    starburst: Annotated[int, Field(ge=0, le=24)] = 0  # blades of the aperture; 0: a round one
+    starburst: Annotated[int, Field(ge=0)] = 0  # blades of the aperture; 0: a round one
     noise: Annotated[int, Field(ge=0)] | None = None  # its seed; None: there is none
     colour_by: str | None = None
     overlay: bool = False

@@ -132,7 +132,8 @@ def test_a_kept_film_is_developed_without_an_arm(dqpaint, line, tmp_path):
     )
     assert (done.returncode, done.stderr) == (0, "")
     assert files(tmp_path) == [
-        "line-hinf-film.npz", "line-hinf-film.tiff", "line-hinf.webm", "line-hinf.webp", "line.traj",
+        "line-hinf-film.npz", "line-hinf-film.tiff", "line-hinf.webm", "line-hinf.webp",
+        "line.traj",
     ]  # fmt: skip
     done = dqpaint("develop", "line-hinf-film.npz", "--view", "front,20,30", "--look", "agx")
     assert (done.returncode, done.stderr) == (0, "")

@@ -97,17 +97,19 @@ def arrange(motion: Motion, pose: Floats, settings: Settings, table: Table | Non
             f"{motion.program.name}: no light is on anywhere, so the picture would be black"
         )
     colours, legend, dimmer = motion.light, None, 1.0
+    metered = colours
     if settings.colour_by is not None:
         columns = asked_table(motion) if table is None else table
         colours, legend = colours_of(motion, columns, settings.colour_by)
         dimmer = RIDGE / CORE
+        metered = np.where(motion.lit[:, None], np.ones(3), 0.0)  # as bright as the legend's strip
     even = settings.colour_by is not None
     shown = pose if settings.magnify == 1.0 else magnified(motion, pose, settings.magnify)
     under = _thin(_sweeps(motion, motion.pose, np.where(motion.lit[:, None], UNDER, 0.0), settings))
     return Scene(
         motion.program.name,
         _sweeps(motion, shown, colours, settings, even),
-        _sweeps(motion, motion.pose, _metered(motion, colours), settings, even),
+        _sweeps(motion, motion.pose, _metered(motion, metered), settings, even),
         under if settings.overlay else (),
         dq.matrix_from_quaternion(motion.front),
         legend,

@@ -71,6 +71,10 @@ def test_a_plain_rectangle_is_even_to_a_part_in_a_thousand():
     energy = np.concatenate([p.energy for p in parts], axis=1)
     np.testing.assert_allclose(energy.sum(axis=1), [6, 3, 0], rtol=1e-12)
 
+    where = np.concatenate([p.position for p in parts], axis=1)
+    centroid = (where * energy[0]).sum(axis=1) / energy[0].sum()
+    np.testing.assert_allclose(centroid, [(50.3 + 350.9) / 2, (40.2 + 240.7) / 2], atol=1e-6)
+
     class Once:
         def towards(self, _camera, falloff=False):
             yield sheet

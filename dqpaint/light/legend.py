@@ -16,7 +16,7 @@ MARGIN, WIDTH, THICK, TEXT, GAP = 28, 220, 8, 15, 9
 """Of the legend [px at that size]."""
 LEAST_TEXT = 9
 """No text is smaller [px]."""
-RIDGE = 1.1
+RIDGE = 0.8
 """The strip is as bright as the lines: what a stroke of such a picture is exposed to."""
 INK = (208, 208, 212)
 MOST_NAMED = 8

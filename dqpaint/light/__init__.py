@@ -8,9 +8,9 @@ until the last:
                   points -frame-> Camera ~^                ~^               ^~ automatic_exposure
                                                                     image -LOOKS-> picture
 
-`brushes` name what a tool carries. A `Sweep` cuts time where a lamp switches and where a chord would
-show, and knows by `Steps.time` when each bit was emitted; `Sweep._sent` is the one place that says
-which share of it goes to the camera.
+`brushes` name what a tool carries. A `Sweep` cuts time where a lamp switches and where a chord
+would show, and knows by `Steps.time` when each bit was emitted; `Sweep._sent` is the one place that
+says which share of it goes to the camera.
 
 Nothing here knows of robots: the light may come from what was asked or from what an arm achieved.
 """

@@ -27,6 +27,7 @@ from dqpaint.settings import Settings
 from dqpaint.telling import TELLINGS, asked_table, colours_of, magnified
 
 SETTLING = 0.25  # [s] in which a jump of the set point counts as drawn
+MOST_FLASHES = 2_000_000
 FLOOR = 0.02  # of the usual speed: light that tells shows what stands still, too
 UNDER = (0.62, 0.8, 1.0)  # the colour of the asked drawing under the reached one
 
@@ -134,6 +135,12 @@ def _sweeps(
     segments = motion.program.segments
     rates = [(s.strobe.frequency, s.strobe.duty) if s.strobe else (0.0, 1.0) for s in segments]
     strobe = np.array(rates)[motion.stroke[:-1]] if any(s.strobe for s in segments) else None
+    fastest = max(settings.pwm, max(rate for rate, _ in rates))
+    if fastest * motion.t[-1] > MOST_FLASHES:
+        raise DqpaintError(
+            f"{motion.program.name}: {fastest:g} Hz for {motion.t[-1]:.0f} s are more than "
+            f"{MOST_FLASHES:,} flashes; so fast they are not seen: leave them out"
+        )
     found = []
     for emitters, used in _brushes(motion, settings):
         shone = colours[:-1] if used is None else colours[:-1] * used[:, None]

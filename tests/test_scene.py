@@ -73,6 +73,14 @@ def test_a_strobe_of_the_drawing_flashes_by_the_run_s_clock():
     assert film.emitted[0] == pytest.approx(motion.light[:, 0].sum() * motion.period, rel=1e-12)
 
 
+@pytest.mark.parametrize("endless", [{"pwm": 1e5}, {}])
+def test_more_flashes_than_anyone_would_wait_for_are_refused(endless):
+    strobed = {} if endless else {"strobe": Strobe(1e9, 0.5)}
+    motion = motion_of({}, strobed, text=TEXT + "hold 60 s\n")
+    with pytest.raises(DqpaintError, match=r"Hz for 6. s are more than 2,000,000 flashes"):
+        arrange(motion, motion.pose, make_settings(**endless, **SMALL))
+
+
 def test_a_bar_is_in_the_picture_with_its_ends():
     settings = make_settings(brush="bar:length=300mm,along=y", **SMALL)
     picture = take(motion_of(), motion_of().pose, settings)

@@ -9,6 +9,7 @@ from dqpaint.motion import Motion, summary_line
 from dqpaint.paint import Painting
 from dqpaint.picture import Picture
 from dqpaint.robots.limits import Clamp
+from dqpaint.sketch import Preview
 from dqpaint.terminal import table
 
 WHITE = 250  # of 255
@@ -33,7 +34,7 @@ def of_painting(painting: Painting, written: Sequence[Path]) -> str:
         *_came_through(painting),
         *_steps(painting),
         ("limits", _limits_line(painting)),
-        ("light", light_line(painting.picture)),
+        *_pictures(painting.pictures),
         *_files(written),
     ]
     return table(rows)
@@ -85,14 +86,20 @@ def _gain(value: float | tuple[float, ...] | str) -> str:
     return value if isinstance(value, str) else f"{value:.4g}"
 
 
-def of_preview(picture: Picture, written: Sequence[Path]) -> str:
+def of_preview(preview: Preview, written: Sequence[Path]) -> str:
     """The table that follows `preview`."""
-    rows = [
-        ("drawing", summary_line(picture.motion)),
-        ("light", light_line(picture)),
-        *_files(written),
-    ]
-    return table(rows)
+    rows = [("drawing", summary_line(preview.motion)), *_pictures(preview.pictures)]
+    return table([*rows, *_files(written)])
+
+
+def of_developed(pictures: Sequence[Picture], written: Sequence[Path]) -> str:
+    """The table that follows `develop`."""
+    return table([*_pictures(pictures), *_files(written)])
+
+
+def _pictures(pictures: Sequence[Picture]) -> list[tuple[str, str]]:
+    """What the light and the exposure of the first picture are; the others are of the same run."""
+    return [("light", light_line(pictures[0])), ("exposure", pictures[0].told)]
 
 
 def light_line(picture: Picture) -> str:

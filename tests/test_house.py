@@ -28,9 +28,14 @@ ORDER = [
     "set_points",
     "settings",
     "light",
+    "telling",
+    "scene",
     "picture",
+    "sketch",
     "out_of_reach",
     "paint",
+    "negative",
+    "video",
     "outputs",
     "terminal",
     "report",
@@ -42,6 +47,7 @@ ORDER = [
     "studies",
     "gallery",
     "cli",
+    "answering",
     "__main__",
 ]
 
@@ -50,7 +56,7 @@ DOORS = {
     "eigenpy": ["robots/inverse.py"],
     "pybullet": ["plants/bullet.py"],
     "matplotlib": ["charts.py"],
-    "cv2": ["light/spread.py", "light/develop.py", "picture.py"],
+    "cv2": ["light", "picture.py", "negative.py", "video.py"],
     "typer": ["cli.py"],
     "pydantic": [
         "robots/card.py",
@@ -60,6 +66,8 @@ DOORS = {
         "disturbances",
         "controllers",
         "settings.py",
+        "light/brushes.py",
+        "negative.py",
     ],
 }
 EVERYWHERE = {"numpy", "dqpaint", "typing_extensions"}

@@ -2,7 +2,7 @@
 
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Annotated, Any
 
 import typer
@@ -22,6 +22,12 @@ def tell(problem: DqpaintError) -> None:
     """Say what is wrong, on standard error."""
     text = str(problem)
     print(text if text.startswith(("error[", "warning[")) else f"error: {text}", file=sys.stderr)
+
+
+def point_at(codes: Sequence[str], stream: Any) -> None:
+    """Say to a person who has met an error where its rule is explained."""
+    if codes and stream.isatty():
+        print(f"\ndqpaint explain {codes[0]} tells more", file=sys.stderr)
 
 
 def _command(**options: Any) -> Callable[[Callable[..., None]], Callable[..., None]]:

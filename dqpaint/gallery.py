@@ -1,12 +1,16 @@
 """The gallery: every example drawing, painted, with the command that paints it."""
 
 import json
+import shlex
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from dqpaint.api import draw
+from dqpaint.controllers.own import short_name
 from dqpaint.outputs import stem_for, summarise, write
+from dqpaint.settings import DEFAULT_CONTROLLER
+from dqpaint.studies import promise
 
 
 class Shot(NamedTuple):
@@ -15,18 +19,30 @@ class Shot(NamedTuple):
     example: str
     caption: str
     choices: dict[str, Any]
+    shows: str = ""  # in the files' name, where one example is shown twice
 
     @property
     def name(self) -> str:
         """Of the files."""
-        return f"{self.example}-{self.choices.get('controller', 'hinf')}"
+        law = short_name(self.choices.get("controller", DEFAULT_CONTROLLER))
+        return f"{self.example}-{law}{self.shows}"
 
     @property
     def command(self) -> str:
         """What to type for the same picture."""
-        options = "".join(f" --{name} {value}" for name, value in self.choices.items())
+        options = "".join(_option(name, value) for name, value in self.choices.items())
         return f"dqpaint draw {self.example}{options}"
 
+
+def _option(name: str, value: object) -> str:
+    word = f" --{name.replace('_', '-')}"
+    return word if value is True else f"{word} {shlex.quote(str(value))}"
+
+
+HELICOID = (
+    "bar:length=300mm,leds=64,colours=orange/magenta/blueviolet/cyan/blueviolet/magenta/orange"
+)
+TOLD = {"controller": "p", "colour_by": "position-error", "overlay": True}
 
 SHOTS = (
     Shot("star", "Trapezoid speed: the arm rests at each corner, and the corner glows.", {}),
@@ -34,6 +50,12 @@ SHOTS = (
         "lag", "Without feed-forward corners are cut and small circles shrink,", {"controller": "p"}
     ),
     Shot("lag", "with it they do not. Same drawing, same camera, same exposure.", {}),
+    Shot("lag", "The same by its error, over what was asked, which is grey.", TOLD, "-error"),
+    Shot(
+        "quarter-turn",
+        "A quarter turn under torques, within two micrometres.",
+        {"controller": "accel", "view": "iso"},
+    ),
     Shot("rose", "A formula with exact derivatives, six times in a ring.", {}),
     Shot("spiral", "A helix is an arc that rises.", {"view": "iso"}),
     Shot("square", "Two sides in 500 samples, two in 300: faster is darker.", {"ev": -3}),
@@ -43,12 +65,28 @@ SHOTS = (
     Shot("logo", "An SVG drawing, its arcs still arcs.", {}),
     Shot("orbit", "541 points of a CSV file, smoothly.", {}),
     Shot("ribbon", "A bar of light on a screw motion sweeps a helicoid.", {"view": "iso"}),
+    Shot(
+        "unwinding",
+        "x and -x are one pose. A law that forgets it turns away where their signs part,",
+        {"controller": "unwinding.py"},
+    ),
+    Shot("unwinding", "one that heeds it draws on.", {}),
+    Shot(
+        "helicoid",
+        "A bar of LEDs across the axis of one screw: orientation is seen.",
+        {"brush": HELICOID, "view": "20,12"},
+    ),
+    Shot(
+        "pixelstick",
+        "An image, column by column, along the way of a bar.",
+        {"brush": "pixelstick:length=140mm,along=y", "view": "35,-25"},
+    ),
     Shot("step", "A jump of the set point: the error decays, and slower is brighter.", {}),
 )
 
 
 def make_gallery(folder: str) -> Iterator[Path]:
-    """Paint every shot into a folder, with its summary and a page that shows them all."""
+    """Paint every shot into a folder, with its summary, and pages that show them all."""
     for shot in SHOTS:
         painting = draw(shot.example, **shot.choices)
         facts = summarise(painting)
@@ -59,6 +97,9 @@ def make_gallery(folder: str) -> Iterator[Path]:
         }
         yield from write(stem_for(f"{folder or '.'}/", shot.name), contents)
     yield from write(stem_for(f"{folder or '.'}/", "README"), {".md": page().encode()})
+    found = promise.curves()
+    contents = {".png": promise.picture(found), ".md": promise.page(found).encode()}
+    yield from write(stem_for(f"{folder or '.'}/", "promise"), contents)
 
 
 def page() -> str:
@@ -67,4 +108,5 @@ def page() -> str:
     for shot in SHOTS:
         text = f"{shot.caption}\n\n![{shot.caption}]({shot.name}.png)\n\n    {shot.command}\n"
         parts.append(f"## {shot.name}\n\n{text}")
+    parts.append("[The H-infinity promise over frequency](promise.md)\n")
     return "\n".join(parts)

@@ -8,11 +8,18 @@ from dqpaint.terminal import table
 
 
 def _robots() -> list[dict[str, Any]]:
-    from dqpaint.robots.card import card_names, read_card
+    from dqpaint.robots.card import DEFAULT_ROBOT, card_names, read_card
 
     cards = [read_card(name) for name in card_names()]
     return [
-        {"name": c.name, "about": f"{c.title}, {c.joints} joints", "source": c.source}
+        {
+            "name": c.name,
+            "about": f"{c.title}, {c.joints} joints"
+            + (f" (not installed: {c.missing})" if c.missing else ""),
+            "missing": c.missing,
+            "default": c.name == DEFAULT_ROBOT,
+            "source": c.source,
+        }
         for c in cards
     ]
 
@@ -38,13 +45,14 @@ def _controllers() -> list[dict[str, Any]]:
 
 def _plants() -> list[dict[str, Any]]:
     from dqpaint.plants import PLANTS
-    from dqpaint.settings import DEFAULT_PLANT
+    from dqpaint.plants.plant import DEFAULT_PLANTS
 
     return [
         {
             "name": name,
             "about": (plant.__doc__ or "").splitlines()[0],
-            "default": name == DEFAULT_PLANT,
+            "default": name == DEFAULT_PLANTS["rates"],
+            "takes": plant.takes,
         }
         for name, plant in PLANTS.items()
     ]
@@ -56,6 +64,42 @@ def _fonts() -> list[dict[str, Any]]:
     return [
         {"name": name, "about": letters.read_font(name).about, "default": name == letters.PLAINEST}
         for name in letters.font_names()
+    ]
+
+
+def _disturbances() -> list[dict[str, Any]]:
+    from dqpaint.disturbances import DISTURBANCES
+
+    return [
+        {
+            "name": name,
+            "about": (model.__doc__ or "").splitlines()[0],
+            "values": [
+                {"name": field, "default": f.default, "about": f.description}
+                for field, f in model.model_fields.items()
+            ],
+        }
+        for name, model in DISTURBANCES.items()
+    ]
+
+
+def _brushes() -> list[dict[str, Any]]:
+    from dqpaint.light.brushes import BRUSHES, choices_of
+
+    return [
+        {"name": name, "about": (kind.__doc__ or "").splitlines()[0], "choices": choices_of(kind)}
+        for name, kind in BRUSHES.items()
+    ]
+
+
+def _looks() -> list[dict[str, Any]]:
+    from dqpaint.light.looks import LOOKS
+    from dqpaint.settings import Settings
+
+    usual = Settings.model_fields["look"].default
+    return [
+        {"name": name, "about": (look.__doc__ or "").splitlines()[0], "default": name == usual}
+        for name, look in LOOKS.items()
     ]
 
 
@@ -89,6 +133,9 @@ LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {
     "robots": _robots,
     "controllers": _controllers,
     "plants": _plants,
+    "disturbances": _disturbances,
+    "brushes": _brushes,
+    "looks": _looks,
     "fonts": _fonts,
     "examples": _examples,
     "statements": _statements,
@@ -117,7 +164,9 @@ def text(found: dict[str, list[dict[str, Any]]]) -> str:
         for row in rows:
             usual = " (default)" if row.get("default") else ""
             lines.append((row["name"] + usual, row["about"]))
-            lines += [("", f"  {gain_line(gain)}") for gain in row.get("gains", [])]
+            lines += [("", f"  {choice}") for choice in row.get("choices", [])]
+            numbers = [*row.get("gains", []), *row.get("values", [])]
+            lines += [("", f"  {value_line(number)}") for number in numbers]
             if "example" in row:
                 lines.append(("", f"  {row['example']}"))
             if row.get("parts"):
@@ -129,6 +178,10 @@ def text(found: dict[str, list[dict[str, Any]]]) -> str:
     return "\n\n".join(parts)
 
 
-def gain_line(gain: dict[str, Any]) -> str:
-    """One gain in words."""
-    return f"{gain['name']} = {gain['default']:g}  {gain['about']}"
+def value_line(value: dict[str, Any]) -> str:
+    """A gain, or a value of a disturbance, in words."""
+    usual = value["default"]
+    if usual is None:
+        return f"{value['name']}  {value['about']}"
+    shown = f"{usual:g}" if isinstance(usual, float) else usual
+    return f"{value['name']} = {shown}  {value['about']}"

@@ -86,8 +86,12 @@ def _reached_columns(track: Track) -> Table:
         "effort_rad": _norm(moved),
         "manipulability": track.manipulability,
         **{f"q{j + 1}_rad": track.posture[:, j] for j in joints},
-        **{f"command{j + 1}_rad_s": track.command[:, j] for j in joints},
+        **{_command_column(track, j + 1): track.command[:, j] for j in joints},
     }
+
+
+def _command_column(track: Track, joint: int) -> str:
+    return f"torque{joint}_Nm" if track.torques else f"command{joint}_rad_s"
 
 
 def _velocity(points: Floats, period: float) -> Floats:
@@ -119,7 +123,9 @@ def _figures(table: Table, track: Track) -> dict[str, float]:
 
     figures = {
         "error_integral": integral(table["invariant_error"]),
-        "command_integral_rad": integral(_norm(track.command)),
+        "torque_integral_Nm_s" if track.torques else "command_integral_rad": integral(
+            _norm(track.command)
+        ),
         "effort_integral": integral(table["effort_rad"]),
         "speed_integral_m": integral(table["speed_m_s"]),
         "acceleration_integral": integral(table["acceleration_m_s2"]),

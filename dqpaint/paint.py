@@ -4,38 +4,53 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.controllers import CONTROLLERS
+from dqpaint.attenuation import Attenuation, attenuation
+from dqpaint.controllers import Controller, find_controller
+from dqpaint.disturbances import make_disturbances
 from dqpaint.language.program import Program
-from dqpaint.light.camera import parse_view
 from dqpaint.light.film import Film
 from dqpaint.metrics import Metrics, Table, measure
 from dqpaint.motion import Motion, plan
 from dqpaint.out_of_reach import begin, check_worst
-from dqpaint.picture import Picture, take
-from dqpaint.plants import PLANTS
+from dqpaint.picture import Picture, photograph
+from dqpaint.plants import PLANTS, choose_plant
 from dqpaint.robots.choose import card_for
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Clamp
+from dqpaint.scene import Scene, arrange, check_choices
+from dqpaint.set_points import SetPoint, set_points
 from dqpaint.settings import Settings
 from dqpaint.tracking import Track, track
 
 
 @dataclass(frozen=True, repr=False)
 class Painting:
-    """A finished painting: what was asked, what the arm did, the picture and the numbers."""
+    """A finished painting: what was asked, what the arm did, the pictures and the numbers."""
 
     settings: Settings
+    controller: Controller[Any]
     robot: str
-    gains: dict[str, float]  # all of the law's, and what follows from them
+    plant: str
+    gains: dict[str, Any]  # all of the law's, and what follows from them
     motion: Motion
     track: Track
     metrics: Metrics
-    picture: Picture
+    attenuation: dict[str, Attenuation]  # of an unmodelled twist, in rotation and translation
+    set_points: tuple[SetPoint, ...]
+    scene: Scene
+    pictures: tuple[Picture, ...]  # one a view
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
+    notes: tuple[str, ...] = ()  # what was assumed of the arm
+
+    @property
+    def picture(self) -> Picture:
+        """The picture of the first view."""
+        return self.pictures[0]
 
     @property
     def image(self) -> NDArray[np.uint8]:
@@ -60,7 +75,7 @@ class Painting:
     def __repr__(self) -> str:
         name, rms = self.motion.program.name, self.metrics.figures["position_error_rms_m"]
         return (
-            f"<Painting of {name} by {self.settings.controller} on {self.robot}: "
+            f"<Painting of {name} by {self.controller.name} on {self.robot}: "
             f"{self.motion.t[-1]:.2f} s, rms {rms * 1e3:.3g} mm>"
         )
 
@@ -69,7 +84,10 @@ class Painting:
 
 
 def paint(
-    program: Program, settings: Settings, progress: Callable[[float], None] = lambda _done: None
+    program: Program,
+    settings: Settings,
+    progress: Callable[[float], None] = lambda _done: None,
+    controller: Controller[Any] | None = None,
 ) -> Painting:
     """Paint a drawing with a simulated arm.
 
@@ -77,6 +95,7 @@ def paint(
         program: from `dqpaint.language`.
         settings: everything besides the text.
         progress: called while the arm moves, with the part done, 0 to 1.
+        controller: a law of one's own, instead of the one the settings name.
 
     Raises:
         UsageError: an unknown robot, plant, controller, gain or view.
@@ -84,10 +103,11 @@ def paint(
         DqpaintError: the run or the light came to nothing.
     """
     clock = Stopwatch()
-    parse_view(settings.view)  # a slip there is told before anything is simulated
-    controller = CONTROLLERS[settings.controller]
+    check_choices(settings)  # a slip there is told before anything is simulated
+    controller = controller or find_controller(settings.controller)
     gains = controller.read_gains(settings.gains)
-    make_plant = PLANTS[settings.plant]
+    plant = choose_plant(settings.plant, "torque" if controller.drives_torque else "rates")
+    disturbances = make_disturbances(settings.disturb)
     card = card_for(program, settings.robot)
     with clock("motion"):
         motion = plan(program, card.canvas.pose)
@@ -96,15 +116,22 @@ def paint(
         best = begin(motion, kinematics).posture
         start = card.home if settings.start == "home" else best
     with clock("arm"):
-        run = track(motion, kinematics, start, make_plant, controller, gains, progress)
+        run = track(
+            motion, kinematics, start, PLANTS[plant], controller, gains, progress,
+            disturbances, settings.seed,
+        )  # fmt: skip
     check_worst(run, kinematics)
     with clock("metrics"):
         metrics = measure(run)
+        came_through = attenuation(run, gains.promise())
+        steps = set_points(run)
     with clock("light"):
-        picture = take(motion, run.points, settings)
+        scene = arrange(motion, run.pose, settings, metrics.table)
+        pictures = tuple(photograph(scene, settings))
     return Painting(
-        settings, card.name, gains.shown(), motion, run, metrics, picture, clock.seconds
-    )
+        settings, controller, card.name, plant, gains.shown(), motion, run, metrics, came_through,
+        steps, scene, pictures, clock.seconds, kinematics.notes,
+    )  # fmt: skip
 
 
 class Stopwatch:

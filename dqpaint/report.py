@@ -9,41 +9,97 @@ from dqpaint.motion import Motion, summary_line
 from dqpaint.paint import Painting
 from dqpaint.picture import Picture
 from dqpaint.robots.limits import Clamp
+from dqpaint.sketch import Preview
 from dqpaint.terminal import table
 
 WHITE = 250  # of 255
 MOST_NAMED = 3  # limits in the table; all of them are in the warnings
+LONGEST_TORQUE_PERIOD = 5e-3  # [s], the 200 Hz of Chandra 2020
 WORTH_A_WARNING = 0.01  # of the light
 NOTHING = 1e-9  # [mm, deg] is shown as 0
 
 
 def of_painting(painting: Painting, written: Sequence[Path]) -> str:
     """The table that follows `draw`."""
-    figures, settings = painting.metrics.figures, painting.settings
-    gains = ", ".join(f"{name} = {value:.4g}" for name, value in painting.gains.items())
+    figures = painting.metrics.figures
+    gains = ", ".join(f"{name} = {_gain(value)}" for name, value in painting.gains.items())
     rows = [
         ("drawing", summary_line(painting.motion)),
-        ("arm", f"{painting.robot}, {settings.plant}"),
-        ("controller", f"{settings.controller}  {gains}"),
+        ("arm", f"{painting.robot}, {painting.plant}"),
+        ("controller", f"{painting.controller.name}  {gains}"),
         ("position error", _spread(figures, "position_error", "m", 1e3, "mm")),
         ("", f"largest at {_worst(painting)}"),
         ("orientation error", _spread(figures, "orientation_error", "rad", math.degrees(1), "deg")),
-        ("commanded", f"{figures['command_integral_rad']:.3g} rad in all joints together"),
+        ("commanded", _commanded(figures)),
+        *_came_through(painting),
+        *_steps(painting),
         ("limits", _limits_line(painting)),
-        ("light", light_line(painting.picture)),
+        *_pictures(painting.pictures),
         *_files(written),
     ]
     return table(rows)
 
 
-def of_preview(picture: Picture, written: Sequence[Path]) -> str:
+def _came_through(painting: Painting) -> list[tuple[str, str]]:
+    """An unmodelled twist beside the promise of the gains."""
+    rows: list[tuple[str, str]] = []
+    for part, one in painting.attenuation.items():
+        said = f"{part} {one.ratio:.3g} s"
+        if one.bound is not None:
+            kept = "kept" if one.kept else f"broken, {one.ratio / one.bound:.3g} times as much"
+            if not one.kept and painting.limits:
+                kept += "; limits held joints meanwhile"
+            said += f", promised at most {one.bound:.3g} s: {kept}"
+        rows.append(("" if rows else "disturbance", said))
+    return rows
+
+
+def _steps(painting: Painting) -> list[tuple[str, str]]:
+    """How each jump of the set point was taken."""
+    rows: list[tuple[str, str]] = []
+    for jump in painting.set_points[:MOST_NAMED]:
+        parts = ((jump.translation, 1e3, "mm"), (jump.rotation, math.degrees(1), "deg"))
+        for part, scale, unit in parts:
+            if not part.size:
+                continue
+            settled = (
+                "never settles" if part.settling is None else f"settles in {part.settling:.3g} s"
+            )
+            steady = 0.0 if part.steady * scale < NOTHING else part.steady * scale
+            rows.append((
+                "" if rows else "set points",
+                f"line {jump.line}: {part.size * scale:.3g} {unit}, {settled}, overshoot "
+                f"{part.overshoot:.1%}, steady error {steady:.2g} {unit}",
+            ))  # fmt: skip
+    return rows
+
+
+def _commanded(figures: dict[str, float]) -> str:
+    if "torque_integral_Nm_s" in figures:
+        return f"{figures['torque_integral_Nm_s']:.3g} Nm s in all joints together"
+    return f"{figures['command_integral_rad']:.3g} rad in all joints together"
+
+
+def _gain(value: float | tuple[float, ...] | str) -> str:
+    if isinstance(value, tuple):
+        return f"({', '.join(f'{part:.4g}' for part in value)})"
+    return value if isinstance(value, str) else f"{value:.4g}"
+
+
+def of_preview(preview: Preview, written: Sequence[Path]) -> str:
     """The table that follows `preview`."""
-    rows = [
-        ("drawing", summary_line(picture.motion)),
-        ("light", light_line(picture)),
-        *_files(written),
-    ]
-    return table(rows)
+    rows = [("drawing", summary_line(preview.motion)), *_pictures(preview.pictures)]
+    return table([*rows, *_files(written)])
+
+
+def of_developed(pictures: Sequence[Picture], written: Sequence[Path]) -> str:
+    """The table that follows `develop`."""
+    return table([*_pictures(pictures), *_files(written)])
+
+
+def _pictures(pictures: Sequence[Picture]) -> list[tuple[str, str]]:
+    """What the light and the exposure of the first picture are; the others are of the same run."""
+    return [("light", light_line(pictures[0])), ("exposure", pictures[0].told)]
 
 
 def light_line(picture: Picture) -> str:
@@ -65,10 +121,18 @@ def notes(motion: Motion) -> list[str]:
 
 def remarks(painting: Painting) -> list[str]:
     """Warnings about a drawing and its run."""
-    texts = notes(painting.motion)
+    texts = [f"note: {note}" for note in painting.notes]
+    texts += notes(painting.motion)
     for (kind, line), held in _grouped(painting).items():
         joints = "".join(f"\n    {clamp}" for clamp in held)
         texts.append(f"warning: line {line} runs into {kind} limits:{joints}{CURES[kind]}")
+    period = painting.motion.period
+    if painting.track.torques and period > LONGEST_TORQUE_PERIOD * (1 + 1e-9):
+        texts.append(
+            f"warning: torques are held for {period * 1e3:g} ms; laws that command them are made "
+            f"for {LONGEST_TORQUE_PERIOD * 1e3:g} ms (200 Hz) or less"
+            "\n  = help: write period 5 ms in the drawing"
+        )
     film = painting.picture.film
     if film.lost.sum() > WORTH_A_WARNING * film.emitted.sum():
         share = film.lost.sum() / film.emitted.sum()

@@ -9,7 +9,6 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from dqpaint.errors import UsageError
 
 DEFAULT_CONTROLLER = "hinf"
-DEFAULT_PLANT = "stiff"
 LARGEST = 8192  # columns or rows of a picture
 SMALLEST = 16
 
@@ -20,14 +19,25 @@ class Settings(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     controller: str = DEFAULT_CONTROLLER
-    gains: dict[str, float] = Field(default_factory=dict)
+    gains: dict[str, float | tuple[float, ...] | str] = Field(default_factory=dict)
     robot: str | None = None  # None: the file's own robot line, else the iiwa
-    plant: str = DEFAULT_PLANT
+    plant: str | None = None  # None: the usual one for what the law commands
+    disturb: dict[str, dict[str, float | str]] = Field(default_factory=dict)
+    seed: Annotated[int, Field(ge=0, le=2**63 - 1)] = 0
     start: Literal["first", "home"] = "first"
     width: Annotated[int, Field(ge=SMALLEST, le=LARGEST)] = 1280
     height: Annotated[int, Field(ge=SMALLEST, le=LARGEST)] = 720
     view: str = "front"
     ev: Annotated[float, Field(ge=-20, le=20, allow_inf_nan=False)] = 0.0
+    brush: str | None = None  # None: the file's own
+    pwm: Annotated[float, Field(ge=0, le=1e5, allow_inf_nan=False)] = 0.0  # [Hz]; 0: even light
+    exposure: str | None = None  # None: automatic
+    look: str = "film"
+    starburst: Annotated[int, Field(ge=0)] = 0  # blades of the aperture; 0: a round one
+    noise: Annotated[int, Field(ge=0)] | None = None  # its seed; None: there is none
+    colour_by: str | None = None
+    overlay: bool = False
+    magnify: Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)] = 1.0
 
 
 def make_settings(**choices: object) -> Settings:
@@ -61,28 +71,56 @@ def parse_size(text: str) -> tuple[int, int]:
     return int(found[1]), int(found[2])
 
 
-def parse_gains(texts: Sequence[str]) -> dict[str, float]:
-    """Gains by their names from texts like `k=20`.
+def parse_gains(texts: Sequence[str]) -> dict[str, float | str]:
+    """Gains by their names from texts like `k=20`; other forms than a number the law reads.
 
     Raises:
         UsageError: anything else, or a gain given twice.
     """
-    gains: dict[str, float] = {}
+    gains: dict[str, float | str] = {}
     for text in texts:
-        name, value = _parse_gain(text)
+        name, sign, value = (part.strip() for part in text.partition("="))
+        if not (name and sign and value):
+            raise UsageError(
+                f"gain '{text}' is not NAME=VALUE, for example k=20, or k=5..20@10% for a ramp"
+            )
         if name in gains:
             raise UsageError(f"gain '{name}' is given twice")
-        gains[name] = value
+        gains[name] = _number_or_text(value)
     return gains
 
 
-def _parse_gain(text: str) -> tuple[str, float]:
-    name, sign, value = text.partition("=")
+def parse_disturbances(texts: Sequence[str]) -> dict[str, dict[str, float | str]]:
+    """Disturbances by their names from texts like `twist=sine,x=0.02` or `twist:form=sine,x=0.02`.
+
+    A value without a name has the name "".
+
+    Raises:
+        UsageError: anything else, or a disturbance or value given twice.
+    """
+    found: dict[str, dict[str, float | str]] = {}
+    for text in texts:
+        parts = re.fullmatch(r"\s*([\w-]+)\s*[:=](.+)", text)
+        if parts is None:
+            raise UsageError(
+                f"disturbance '{text}' is not NAME=VALUE, for example twist=sine,x=0.02,frequency=2"
+            )
+        name = parts[1]
+        if name in found:
+            raise UsageError(f"disturbance '{name}' is given twice")
+        found[name] = {}
+        for item in parts[2].split(","):
+            key, sign, value = (part.strip() for part in item.rpartition("="))
+            if not value or (sign and not key) or key in found[name]:
+                raise UsageError(
+                    f"disturbance '{text}': '{item.strip()}' is not KEY=VALUE, each once"
+                )
+            found[name][key] = _number_or_text(value)
+    return found
+
+
+def _number_or_text(value: str) -> float | str:
     try:
-        if sign:
-            return name.strip(), float(value)
+        return float(value)
     except ValueError:
-        pass
-    raise UsageError(
-        f"gain '{text}' is not NAME=VALUE with a plain number in SI units, for example k=20"
-    )
+        return value

@@ -1,20 +1,25 @@
 """Motion x robot x plant x law -> Track: what the arm did."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
+from zlib import crc32
 
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.controllers import Controller, Gains, Seen
+from dqpaint.controllers import Controller, Schedule, Seen
+from dqpaint.disturbances import Disturbance
 from dqpaint.dq import Floats
+from dqpaint.driving import make_drive
 from dqpaint.errors import DqpaintError
 from dqpaint.motion import Motion
 from dqpaint.plants.plant import PlantMaker
+from dqpaint.robots.card import Card
 from dqpaint.robots.kinematics import Kinematics, manipulability
-from dqpaint.robots.limits import Bounds, Clamp, clamps
-from dqpaint.robots.resolver import PULL, resolve
+from dqpaint.robots.limits import Clamp, clamps
+from dqpaint.robots.resolver import resolve
 
 REPORT_EVERY = 50  # rows
 BLOCK = 512  # rows whose Jacobians are kept
@@ -32,9 +37,12 @@ class Track:
         posture: measured joint angles (N, n) [rad].
         pose: measured tool poses (N, 8) in the base frame, signs continuous.
         manipulability: sqrt(det(J J')) (N,) at the measured postures.
-        command: joint rates (N, n) [rad/s] the arm was given.
+        command: what the arm was given (N, n): joint rates [rad/s], or torques [Nm].
+        torques: whether the commands are torques.
         effort: motor torques (N, n) [Nm], the largest seen in the period before the row.
         clamps: limits that held a joint back.
+        disturbance: spatial twist (N, 6) [rad/s, m/s] that came on top of the arm's own from t_k to
+            t_k+1, unknown to the law; the last row is zero.
     """
 
     motion: Motion
@@ -42,11 +50,20 @@ class Track:
     pose: Floats
     manipulability: Floats
     command: Floats
+    torques: bool
     effort: Floats
     clamps: tuple[Clamp, ...]
+    disturbance: Floats
 
     def __post_init__(self) -> None:
-        for array in (self.posture, self.pose, self.manipulability, self.command, self.effort):
+        for array in (
+            self.posture,
+            self.pose,
+            self.manipulability,
+            self.command,
+            self.effort,
+            self.disturbance,
+        ):
             array.setflags(write=False)
 
     @property
@@ -61,8 +78,10 @@ def track(
     start: Floats,
     make_plant: PlantMaker,
     controller: Controller[Any],
-    gains: Gains,
+    gains: Schedule[Any],
     progress: Callable[[float], None] = lambda _done: None,
+    disturbances: Mapping[str, Disturbance] = MappingProxyType({}),
+    seed: int = 0,
 ) -> Track:
     """Drive the arm along a motion.
 
@@ -72,47 +91,100 @@ def track(
         start: posture (n,) [rad] to begin from, at rest.
         make_plant: how the arm answers.
         controller: the law.
-        gains: of the law.
+        gains: of the law, over the drawing.
         progress: called now and then with the part done, 0 to 1.
+        disturbances: by their names.
+        seed: of everything random.
 
     Raises:
-        DqpaintError: the simulation left the numbers.
+        UsageError: a disturbance that does not go with the period.
+        DqpaintError: the simulation left the numbers, or a law of one's own has a fault.
     """
-    card = kinematics.card
-    n, joints = len(motion.t), card.joints
-    posture, effort = np.empty((n, joints)), np.zeros((n, joints))
-    wanted, command = np.empty((n, joints)), np.empty((n, joints))
-    pose, measures = np.empty((n, 8)), np.empty(n)
-    jacobian = np.empty((BLOCK, 6, joints))
-    bounds = Bounds(card, motion.period)
-    plant = make_plant(card, start, motion.period)
-    asked = zip(motion.pose, motion.twist, motion.acceleration, motion.t.tolist(), strict=True)
+    n = len(motion.t)
+    log = _Log(n, kinematics.card.joints)
+    ahead = controller.prepare(motion, gains) if controller.prepare else np.zeros((n, 0))
+    drive = make_drive(controller, kinematics, start, motion.period)
+    carried = _carried(motion, disturbances, seed)
+    parts = motion.t / motion.t[-1] if n > 1 else motion.t
+    plant = make_plant(kinematics.card, start, motion.period)
+    asked = zip(
+        motion.pose, motion.twist, motion.acceleration, motion.t.tolist(), ahead,
+        gains.over(parts), strict=True,
+    )  # fmt: skip
     try:
-        for k, (pose_d, twist_d, acceleration_d, t) in enumerate(asked):
+        for k, (pose_d, twist_d, acceleration_d, t, known, now) in enumerate(asked):
             q = plant.posture
             x, J = kinematics.pose_and_jacobian(q)
-            seen = Seen(x, pose_d, twist_d, acceleration_d, J, q, t, motion.period)
-            twist = controller.law(seen, gains)
-            rates = resolve(J, dq.translation(x), twist, PULL * (start - q))
-            given = bounds.clip(rates, q)
-            posture[k], effort[k], pose[k], jacobian[k % BLOCK] = q, plant.effort, x, J
-            wanted[k], command[k] = rates, given
+            seen = Seen(
+                x, pose_d, twist_d, acceleration_d, J, q, t, motion.period, plant.rates, known
+            )
+            wanted = drive.ask(seen, now)
+            given = drive.within(wanted, q)
+            log.keep(k, q, x, J, plant.effort, wanted, given)
             if k % REPORT_EVERY == 0:
                 progress(k / n)
-            if k % BLOCK == BLOCK - 1 or k == n - 1:  # many at once cost less than one by one
-                first = k - k % BLOCK
-                measures[first : k + 1] = manipulability(jacobian[: k + 1 - first])
             if k < n - 1:
-                plant.run(given)
+                plant.run(given, log.drift(k, carried))
     except np.linalg.LinAlgError:  # a posture that is no number any more has no singular values
         raise _lost(t) from None
     finally:
         plant.close()
-    if not (np.isfinite(posture).all() and np.isfinite(command).all()):
+    if not (np.isfinite(log.posture).all() and np.isfinite(log.command).all()):
         raise _lost(float(motion.t[-1]))
-    held = clamps(card, motion.t, motion.line, posture, wanted, command, effort)
-    pose[0] = dq.nearest(pose[0], motion.pose[0])
-    return Track(motion, posture, dq.continuous(pose), measures, command, effort, held)
+    return _finished(log, motion, kinematics.card, controller.drives_torque)
+
+
+class _Log:
+    """What a run leaves, row by row."""
+
+    def __init__(self, n: int, joints: int) -> None:
+        self.posture, self.effort = np.empty((n, joints)), np.zeros((n, joints))
+        self.wanted, self.command = np.empty((n, joints)), np.empty((n, joints))
+        self.pose, self.manipulability = np.empty((n, 8)), np.empty(n)
+        self.disturbance = np.zeros((n, 6))
+        self._jacobian = np.empty((BLOCK, 6, joints))
+
+    def keep(
+        self, k: int, q: Floats, x: Floats, J: Floats, effort: Floats, wanted: Floats, given: Floats
+    ) -> None:
+        """Note row k; manipulabilities are worked out a block at a time, which costs less."""
+        self.posture[k], self.effort[k], self.pose[k] = q, effort, x
+        self.wanted[k], self.command[k], self._jacobian[k % BLOCK] = wanted, given, J
+        if k % BLOCK == BLOCK - 1 or k == len(self.pose) - 1:
+            first = k - k % BLOCK
+            self.manipulability[first : k + 1] = manipulability(self._jacobian[: k + 1 - first])
+
+    def drift(self, k: int, carried: Floats | None) -> Floats | None:
+        """The joint rates (n,) of an unmodelled velocity (N, 6) of the tool at row k."""
+        if carried is None:
+            return None
+        point, J = dq.translation(self.pose[k]), self._jacobian[k % BLOCK]
+        self.disturbance[k] = dq.twist_from_point(carried[k, :3], carried[k, 3:], point)
+        return resolve(J, point, self.disturbance[k], np.zeros(J.shape[-1]))
+
+
+def _carried(motion: Motion, disturbances: Mapping[str, Disturbance], seed: int) -> Floats | None:
+    """The unmodelled velocity (N, 6) of the tool; each disturbance has its own random numbers."""
+    if not disturbances:
+        return None
+    return np.asarray(
+        sum(
+            one.twist(motion.t, motion.period, np.random.default_rng([seed, crc32(name.encode())]))
+            for name, one in disturbances.items()
+        )
+    )
+
+
+def _finished(log: _Log, motion: Motion, card: Card, torques: bool) -> Track:
+    held = clamps(
+        card, motion.t, motion.line, log.posture, log.wanted, log.command, log.effort, torques
+    )
+    log.pose[0] = dq.nearest(log.pose[0], motion.pose[0])
+    pose = dq.continuous(log.pose)
+    return Track(
+        motion, log.posture, pose, log.manipulability, log.command, torques, log.effort, held,
+        log.disturbance,
+    )  # fmt: skip
 
 
 def _lost(time: float) -> DqpaintError:

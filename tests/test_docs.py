@@ -39,6 +39,13 @@ def test_generated_tables_are_current(page):
     assert generated.renewed(page) == page.read_text("utf-8"), "python -m tests.generated"
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("page", generated.SLOW_TABLES, ids=lambda p: p.parent.name)
+def test_generated_measurements_are_current(page):
+    renewed = generated.renewed(page, generated.SLOW_TABLES)
+    assert renewed == page.read_text("utf-8"), "python -m tests.generated"
+
+
 def test_the_column_table_knows_every_kind_of_column(tmp_path):
     (tmp_path / "dot.traj").write_text("hold 50 ms\n")
     columns = list(dqpaint.draw(tmp_path / "dot.traj", plant="ideal", size=(64, 36)).table)
@@ -79,6 +86,10 @@ def test_readme_python_runs(tmp_path, monkeypatch):
     exec(blocks("python")[0], scope)
     assert (tmp_path / "pictures/star-hinf.png").is_file()
     assert scope["painting"].image.shape == (720, 1280, 3)
+
+
+def test_the_readme_shows_the_law_as_it_is():
+    assert blocks("python")[1] == (examples_folder() / "mylaw.py").read_text("utf-8")
 
 
 def test_the_readme_shows_the_message_as_it_is():

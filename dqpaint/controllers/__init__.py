@@ -1,16 +1,21 @@
-"""Control laws, one a file, its equation on top: what is seen -> the commanded twist.
+"""Control laws, one a file, its equation on top: what is seen -> what is commanded.
 
 A new law is a function in a new file of this folder under `@controller(name, source, gains)`; it is
 found by itself. It sees a `Seen` and its gains, arrays of any leading shape, and returns a spatial
-twist (..., 6); `dqpaint.robots.resolver` turns that into joint rates.
+twist (..., 6), which `dqpaint.driving` turns into joint rates; or, where it says so, joint rates,
+an acceleration or torques. A law that wants to know the whole drawing beforehand brings `prepare`.
 """
 
 import importlib
 import pkgutil
 
-from dqpaint.controllers.law import CONTROLLERS, Controller, Gains, Seen
+from dqpaint.controllers.gains import Gains
+from dqpaint.controllers.law import CONTROLLERS, Controller, Seen
+from dqpaint.controllers.own import commands, find_controller
+from dqpaint.controllers.schedule import Schedule
 
+# a law that is found by itself registers when its file is imported
 for _module in pkgutil.iter_modules(__path__):
     importlib.import_module(f"{__name__}.{_module.name}")
 
-__all__ = ["CONTROLLERS", "Controller", "Gains", "Seen"]
+__all__ = ["CONTROLLERS", "Controller", "Gains", "Schedule", "Seen", "commands", "find_controller"]

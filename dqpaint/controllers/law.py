@@ -1,30 +1,19 @@
 """What a control law is: a function of what it sees, and its gains."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, Generic, NamedTuple, TypeVar, cast
+from typing import Any, Generic, Literal, NamedTuple
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+import numpy as np
 
+from dqpaint.controllers.gains import G, list_gains
+from dqpaint.controllers.schedule import GainText, Schedule, read_schedule
 from dqpaint.dq import Floats
-from dqpaint.errors import UsageError
+from dqpaint.motion import Motion
 from dqpaint.registry import Registry
 
-LEAST, MOST = 1e-9, 1e9  # beyond these a gain is a slip, and its reciprocal soon no number
-Gain = Annotated[float, Field(ge=LEAST, le=MOST, allow_inf_nan=False)]
-
-
-class Gains(BaseModel):
-    """The gains of one law, in SI units; each field's description says the unit."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-    def shown(self) -> dict[str, float]:
-        """The gains as a summary shows them: the ones given, then those that follow from them."""
-        return {name: getattr(self, name) for name in type(self).model_fields}
-
-
-G = TypeVar("G", bound=Gains)
+Commands = Literal["twist", "rates", "acceleration", "torque"]
+NOTHING: Floats = np.zeros(0)
 
 
 class Seen(NamedTuple):
@@ -39,6 +28,10 @@ class Seen(NamedTuple):
         posture: measured joint angles (..., n) [rad].
         time: since the drawing began [s].
         period: of the control [s].
+        rates: measured joint rates (..., n) [rad/s].
+        ahead: what the law's own `prepare` worked out for this row; empty without one.
+        inertia: H(q) (..., n, n) [kg m^2], for laws that command torques; empty for others.
+        bias: C(q, q_dot) q_dot + G(q) and the joints' friction (..., n) [Nm], likewise.
     """
 
     pose: Floats
@@ -49,56 +42,80 @@ class Seen(NamedTuple):
     posture: Floats
     time: float
     period: float
+    rates: Floats = NOTHING
+    ahead: Floats = NOTHING
+    inertia: Floats = NOTHING
+    bias: Floats = NOTHING
+
+    @property
+    def twist(self) -> Floats:
+        """Measured spatial twist J_w q_dot (..., 6) [rad/s, m/s]."""
+        return np.asarray(np.matvec(self.jacobian, self.rates))
+
+
+Law = Callable[[Seen, G], Floats]
+Prepare = Callable[[Motion, Schedule[G]], Floats]
 
 
 @dataclass(frozen=True)
 class Controller(Generic[G]):
-    """A named law: what it sees and its gains to a commanded spatial twist (..., 6)."""
+    """A named law.
+
+    Attributes:
+        name: as it is chosen.
+        source: the paper and its equation.
+        gains: the model of its gains.
+        law: what is seen and gains -> what is commanded, arrays of any leading shape.
+        commands: what the law's answer is: a spatial `twist` (..., 6), joint `rates` (..., n), a
+            spatial `acceleration` (..., 6) or joint `torque` (..., n).
+        prepare: looks over the whole motion and all gains before the drawing starts; row k of what
+            it returns is `seen.ahead` at row k.
+    """
 
     name: str
     source: str
     gains: type[G]
-    law: Callable[[Seen, G], Floats]
+    law: Law[G]
+    commands: Commands = "twist"
+    prepare: Prepare[G] | None = None
 
     @property
     def summary(self) -> str:
         """The first sentence of the law's own docstring."""
         return (self.law.__doc__ or "").strip().splitlines()[0].rstrip(".")
 
-    def read_gains(self, given: dict[str, float]) -> G:
-        """The gains with the given ones replaced.
+    @property
+    def drives_torque(self) -> bool:
+        """Whether it needs an arm that is told torques."""
+        return self.commands in ("acceleration", "torque")
+
+    def read_gains(self, given: Mapping[str, GainText]) -> Schedule[G]:
+        """The gains with the given ones replaced, over the drawing.
 
         Raises:
-            UsageError: an unknown name or a value outside its range; lists the law's own.
+            UsageError: an unknown name, no value, or one outside its range; lists the law's own.
         """
-        try:
-            return self.gains(**cast(dict[str, Any], given))
-        except ValidationError as problem:
-            first = problem.errors()[0]
-            name = str(first["loc"][0])
-            if first["type"] == "extra_forbidden":
-                text = f"controller '{self.name}' has no gain named '{name}'"
-            else:
-                value = f"gain '{name}' of controller '{self.name}' is {first['input']}"
-                text = f"{value}; a gain is a number from {LEAST:g} to {MOST:g}"
-            raise UsageError(f"{text}; its gains: {self.list_gains()}") from None
+        return read_schedule(self.gains, given, f"controller '{self.name}'")
 
     def list_gains(self) -> str:
         """Name, default and unit of every gain, in words."""
-        fields = self.gains.model_fields.items()
-        return ", ".join(f"{name} = {f.default:g} ({f.description})" for name, f in fields)
+        return list_gains(self.gains)
 
 
 CONTROLLERS: Registry[Controller[Any]] = Registry("controller")
 
 
 def controller(
-    name: str, source: str, gains: type[G]
-) -> Callable[[Callable[[Seen, G], Floats]], Callable[[Seen, G], Floats]]:
-    """A decorator that registers the law below it."""
+    name: str,
+    source: str,
+    gains: type[G],
+    commands: Commands = "twist",
+    prepare: Prepare[G] | None = None,
+) -> Callable[[Law[G]], Law[G]]:
+    """A decorator that registers the law below it; arguments as in `Controller`."""
 
-    def record(law: Callable[[Seen, G], Floats]) -> Callable[[Seen, G], Floats]:
-        CONTROLLERS.add(name)(Controller(name, source, gains, law))
+    def record(law: Law[G]) -> Law[G]:
+        CONTROLLERS.add(name)(Controller(name, source, gains, law, commands, prepare))
         return law
 
     return record

@@ -2,7 +2,8 @@
 
 from pydantic import Field
 
-from dqpaint.controllers.law import Gain, Gains, Seen, controller
+from dqpaint.controllers.gains import Gain, Gains
+from dqpaint.controllers.law import Seen, controller
 from dqpaint.controllers.pose_errors import invariant_error, twist_of_invariant_rate
 from dqpaint.dq import Floats
 

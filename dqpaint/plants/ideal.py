@@ -1,9 +1,11 @@
 """The ideal arm: joints do exactly what they are told."""
 
+from typing import ClassVar
+
 import numpy as np
 
 from dqpaint.dq import Floats
-from dqpaint.plants.plant import PLANTS
+from dqpaint.plants.plant import PLANTS, Takes
 from dqpaint.robots.card import Card
 
 
@@ -11,14 +13,18 @@ from dqpaint.robots.card import Card
 class Ideal:
     """Kinematic: q(k+1) = q(k) + T q_dot, no masses and no motors."""
 
+    takes: ClassVar[Takes] = "rates"
+
     def __init__(self, card: Card, posture: Floats, period: float) -> None:
         self.posture = posture.copy()
+        self.rates = np.zeros(card.joints)
         self.effort = np.zeros(card.joints)
         self._period = period
 
-    def run(self, rates: Floats) -> None:
-        """One period at the commanded rates (n,) [rad/s]."""
-        self.posture = self.posture + self._period * rates
+    def run(self, command: Floats, drift: Floats | None = None) -> None:
+        """One period at joint rates (n,) [rad/s]."""
+        self.rates = command if drift is None else command + drift
+        self.posture = self.posture + self._period * self.rates
 
     def close(self) -> None:
         """Nothing to give back."""

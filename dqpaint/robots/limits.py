@@ -26,7 +26,8 @@ class Clamp:
         seconds: for how long, gaps left out.
         line: the line of the file that was being drawn.
         limit: [rad], [rad/s] or [Nm].
-        wanted: the most that was asked for, in the same unit; the limit itself for `torque`.
+        wanted: the most that was asked for, in the same unit; the limit itself where a motor
+            that is told rates saturates, as it asks for no number.
     """
 
     kind: str
@@ -40,7 +41,7 @@ class Clamp:
     def __str__(self) -> str:
         scale, unit = (1.0, "Nm") if self.kind == "torque" else (math.degrees(1), "deg")
         unit += "/s" if self.kind == "speed" else ""
-        asked = f", {self.wanted * scale:.4g} asked for" if self.kind != "torque" else ""
+        asked = f", {self.wanted * scale:.4g} asked for" if self.wanted != self.limit else ""
         return (
             f"joint {self.joint} for {self.seconds:.3g} s from {self.start:.3f} s on "
             f"({self.limit * scale:.4g} {unit}{asked})"
@@ -75,6 +76,7 @@ def clamps(
     wanted: Floats,
     command: Floats,
     effort: Floats,
+    torques: bool,
 ) -> tuple[Clamp, ...]:
     """Every limit that held a joint during a run, one entry for each joint, kind and line.
 
@@ -83,29 +85,54 @@ def clamps(
         t: (N,) [s].
         line: (N,) of the file.
         posture: measured (N, n) [rad].
-        wanted: rates (N, n) the law asked for [rad/s].
-        command: rates (N, n) the arm was given.
+        wanted: what the law asked for (N, n), rates [rad/s] or torques [Nm].
+        command: what the arm was given (N, n).
         effort: motor torques (N, n) [Nm], the largest seen in the period before each row.
+        torques: whether the commands are torques.
     """
-    period = t[1] - t[0] if len(t) > 1 else 0.0
-    held = wanted != command
-    fast = held & (np.abs(command) >= card.speed * (1 - AT_LIMIT))
     found: list[Clamp] = []
-    ahead = posture + period * wanted
-    limit = np.where(wanted > command, card.upper, card.lower)
-    saturated = np.zeros_like(held)
-    saturated[:-1] = np.abs(effort[1:]) >= card.effort * (1 - AT_LIMIT)  # of the step from row k
-    torque = np.broadcast_to(card.effort, held.shape)
     for kind, where, asked, most in (
-        ("position", held & ~fast, ahead, limit),
-        ("speed", fast, np.abs(wanted), np.broadcast_to(card.speed, held.shape)),
-        ("torque", saturated, torque, torque),
+        _torque_clamps(card, posture, wanted, command)
+        if torques
+        else _rate_clamps(card, t, posture, wanted, command, effort)
     ):
         for joint in range(where.shape[1]):
             found += _by_line(
                 kind, joint, where[:, joint], asked[:, joint], most[:, joint], t, line
             )
     return tuple(sorted(found, key=lambda clamp: clamp.start))
+
+
+Held = tuple[str, NDArray[np.bool_], Floats, Floats]  # kind; where, what was asked, limit (N, n)
+
+
+def _rate_clamps(
+    card: Card, t: Floats, posture: Floats, wanted: Floats, command: Floats, effort: Floats
+) -> list[Held]:
+    period = t[1] - t[0] if len(t) > 1 else 0.0
+    held = wanted != command
+    fast = held & (np.abs(command) >= card.speed * (1 - AT_LIMIT))
+    ahead = posture + period * wanted
+    limit = np.where(wanted > command, card.upper, card.lower)
+    saturated = np.zeros_like(held)
+    saturated[:-1] = np.abs(effort[1:]) >= card.effort * (1 - AT_LIMIT)  # of the step from row k
+    torque = np.broadcast_to(card.effort, held.shape)
+    return [
+        ("position", held & ~fast, ahead, limit),
+        ("speed", fast, np.abs(wanted), np.broadcast_to(card.speed, held.shape)),
+        ("torque", saturated, torque, torque),
+    ]
+
+
+def _torque_clamps(card: Card, posture: Floats, wanted: Floats, command: Floats) -> list[Held]:
+    """An arm that is told torques meets its position limits as stops; nothing limits its speed."""
+    limit = np.where(posture > card.upper, card.upper, card.lower)
+    beyond = (posture > card.upper) | (posture < card.lower)
+    most = np.broadcast_to(card.effort, wanted.shape)
+    return [
+        ("position", beyond, posture, limit),
+        ("torque", wanted != command, np.abs(wanted), most),
+    ]
 
 
 def _by_line(

@@ -6,19 +6,25 @@ import sys
 import numpy as np
 import pytest
 
-from dqpaint.plants import PLANTS, stiff
+from dqpaint.errors import UnknownNameError, UsageError
+from dqpaint.plants import PLANTS, choose_plant, stiff
+from dqpaint.plants.rigid import GRAVITY, LONGEST_STEP
 from dqpaint.robots.card import read_card
+from dqpaint.robots.kinematics import Kinematics
 
 pytestmark = pytest.mark.slow
 CARD = read_card("iiwa")
 PERIOD = 0.008
 
 
-def run(name, rates, card=CARD, period=PERIOD):
+TAKES_RATES = pytest.mark.parametrize("name", [n for n, p in PLANTS.items() if p.takes == "rates"])
+
+
+def run(name, rates, card=CARD, period=PERIOD, drift=None):
     plant = PLANTS[name](card, card.home, period)
     postures, efforts = [plant.posture.copy()], [plant.effort.copy()]
     for row in rates:
-        plant.run(row)
+        plant.run(row, drift)
         postures.append(plant.posture.copy())
         efforts.append(plant.effort.copy())
     plant.close()
@@ -40,7 +46,7 @@ def test_every_plant_begins_at_rest_where_it_is_told_and_leaves_arguments_alone(
     np.testing.assert_array_equal(rates, kept)
 
 
-@pytest.mark.parametrize("name", PLANTS)
+@TAKES_RATES
 def test_every_plant_follows_its_commands(name):
     rates = smooth_rates(250)
     postures, _ = run(name, rates)
@@ -55,12 +61,76 @@ def test_every_plant_repeats_itself_bit_for_bit(name):
     np.testing.assert_array_equal(first[1], second[1])
 
 
+@pytest.mark.parametrize("name", PLANTS)
+def test_a_drift_carries_every_plant_along(name):
+    """Beside the same run without it; the torque-driven arm holds still under its own weight."""
+    drift = np.array([0.1, -0.05, 0.08, 0.04, -0.1, 0.06, -0.03])
+    commands = smooth_rates(60) if PLANTS[name].takes == "rates" else np.zeros((3, 7))
+    alone, carried = run(name, commands)[0], run(name, commands, drift=drift)[0]
+    moved = len(commands) * PERIOD * drift
+    np.testing.assert_allclose((carried - alone)[-1], moved, atol=0.02 * np.abs(moved).max())
+
+
+@pytest.mark.parametrize("name", PLANTS)
+def test_every_plant_measures_its_rates(name):
+    plant = PLANTS[name](CARD, CARD.home, 1e-3)
+    commands = smooth_rates(30) if PLANTS[name].takes == "rates" else 20 * smooth_rates(30)
+    for row in commands:
+        before = plant.posture
+        plant.run(row)
+    plant.close()
+    np.testing.assert_allclose(plant.rates, (plant.posture - before) / 1e-3, atol=1e-9)
+
+
+def test_a_plant_is_chosen_to_suit_the_commands():
+    assert (choose_plant(None, "rates"), choose_plant(None, "torque")) == ("stiff", "torque")
+    assert choose_plant("ideal", "rates") == "ideal"
+    with pytest.raises(UsageError, match=r"'stiff' takes joint rates, but .* for it: torque"):
+        choose_plant("stiff", "torque")
+    with pytest.raises(UsageError, match=r"'torque' takes torques, .* for it: ideal, stiff"):
+        choose_plant("torque", "rates")
+    with pytest.raises(UnknownNameError):
+        choose_plant("rubber", "rates")
+
+
+def test_the_torque_driven_arm_obeys_pinocchio_s_forward_dynamics(rng):
+    """From random states, a step of 1 ms: q_ddot to 1e-9 of its size, semi-implicit Euler."""
+    import pinocchio
+
+    model = Kinematics(CARD).model
+    data = model.createData()
+    assert model.damping.all()  # the file's friction takes part
+    assert (model.gravity.linear == [0, 0, GRAVITY]).all()
+    for _ in range(20):
+        q = rng.uniform(0.8 * CARD.lower, 0.8 * CARD.upper)
+        v, tau = rng.normal(size=7), rng.normal(size=7) * CARD.effort / 4
+        plant = PLANTS["torque"](CARD, q, LONGEST_STEP)
+        for joint, angle, rate in zip(plant.joints, q.tolist(), v.tolist(), strict=True):
+            stiff.bullet.resetJointState(plant.body, joint, angle, rate, plant.client)
+        plant.run(tau)
+        plant.close()
+        bend = pinocchio.aba(model, data, q, v, tau - model.damping * v)
+        found = (plant.rates - v) / LONGEST_STEP
+        np.testing.assert_allclose(found, bend, rtol=1e-9, atol=1e-9 * np.abs(bend).max())
+        np.testing.assert_allclose(plant.posture, q + LONGEST_STEP * plant.rates, atol=1e-14)
+        assert (plant.effort == tau).all()
+
+
+def test_torques_are_held_over_the_whole_period():
+    """Every physics step clears them: eight steps of 1 ms are eight periods of 1 ms."""
+    tau = np.array([10.0, -60, 5, 20, -3, 2, 1])
+    whole = run("torque", [tau], period=0.008)[0][-1]
+    parts = run("torque", [tau] * 8, period=0.001)[0][-1]
+    np.testing.assert_allclose(whole, parts, atol=1e-13)
+    assert np.abs(whole - CARD.home).max() > 1e-3
+
+
 def test_the_stiff_arm_carries_its_weight():
     """At rest the motors hold gravity: against pinocchio's own static torques."""
     import pinocchio
 
     postures, efforts = run("stiff", np.zeros((50, 7)))
-    model = pinocchio.buildModelFromUrdf(str(CARD.urdf_path))
+    model = Kinematics(CARD).model
     gravity = pinocchio.computeGeneralizedGravity(model, model.createData(), postures[-1])
     np.testing.assert_allclose(efforts[-1], gravity, atol=0.05)
     assert np.abs(gravity).max() > 20

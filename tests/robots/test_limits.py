@@ -42,7 +42,7 @@ def test_each_kind_is_named_with_joint_time_line_and_amount():
     wanted[2:4, 3], command[2:4, 3] = [-2.0, -3.0], -CARD.speed[3]  # the worst is told
     posture[6, 1], wanted[6, 1], command[6, 1] = CARD.upper[1] - 0.01, 1.4, 1.0
     effort[8, 5] = -CARD.effort[5]
-    speed, position, motor = clamps(CARD, t, line, posture, wanted, command, effort)
+    speed, position, motor = clamps(CARD, t, line, posture, wanted, command, effort, False)
     assert (speed.kind, speed.joint, speed.line) == ("speed", 4, 3)
     assert speed.start == pytest.approx(0.02)
     assert speed.seconds == pytest.approx(0.02)

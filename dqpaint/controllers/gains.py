@@ -1,0 +1,39 @@
+"""The gains of a law: a checked model with units, the same for every law."""
+
+from typing import Annotated, TypeVar
+
+from pydantic import BaseModel, ConfigDict, Field
+
+LEAST, MOST = 1e-9, 1e9  # beyond these a gain is a slip, and its reciprocal soon no number
+Gain = Annotated[float, Field(ge=LEAST, le=MOST, allow_inf_nan=False)]
+Value = float | tuple[float, ...]
+
+
+class Gains(BaseModel):
+    """The gains of one law, in SI units; each field's description says the unit."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    def shown(self) -> dict[str, Value]:
+        """The gains as a summary shows them: the ones given, then those that follow from them."""
+        values = {name: getattr(self, name) for name in type(self).model_fields}
+        return {name: value for name, value in values.items() if value is not None}
+
+    def promise(self) -> tuple[float, float] | None:
+        """What the law promises of disturbances, where it does: bounds [s] on what comes through.
+
+        Of ||1 - r_e||_2 / ||v_w||_2 and of ||p_e||_2 / ||v_t||_2, for an unmodelled twist v.
+        """
+        return None
+
+
+G = TypeVar("G", bound=Gains)
+
+
+def list_gains(model: type[Gains]) -> str:
+    """Name, default and unit of every gain, in words."""
+    fields = model.model_fields.items()
+    return ", ".join(
+        f"{name}{'' if f.default is None else f' = {f.default:g}'} ({f.description})"
+        for name, f in fields
+    )

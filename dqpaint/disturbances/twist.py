@@ -1,0 +1,69 @@
+"""A twist nobody commanded, added to the arm's own: what the H-infinity laws make a promise about.
+
+Pereira 2016, 3.3: x_dot = 1/2 (xi + v) x with v = [v_w; v_t] of bounded energy.
+"""
+
+import math
+from typing import Annotated, Literal, Self
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance
+from dqpaint.dq import Floats
+from dqpaint.errors import UsageError
+
+WAVES = 64  # of different frequencies in a noise
+Number = Annotated[float, Field(allow_inf_nan=False)]
+
+
+@DISTURBANCES.add("twist")
+class UnmodelledTwist(Disturbance):
+    """The tool is carried along: constant, a sine, or band-limited noise."""
+
+    form: Literal["constant", "sine", "noise"] = Field(
+        "constant", description="constant, sine or noise"
+    )
+    x: Number = Field(0.0, description="m/s along the base's x; a sine's amplitude, a noise's rms")
+    y: Number = Field(0.0, description="m/s along y")
+    z: Number = Field(0.0, description="m/s along z")
+    wx: Number = Field(0.0, description="rad/s about x, likewise")
+    wy: Number = Field(0.0, description="rad/s about y")
+    wz: Number = Field(0.0, description="rad/s about z")
+    frequency: Annotated[float, Field(gt=0, allow_inf_nan=False)] = Field(
+        1.0, description="Hz of a sine; the upper edge of a noise's band"
+    )
+
+    @property
+    def size(self) -> Floats:
+        """Angular first [rad/s], then linear [m/s] (6,)."""
+        return np.array([self.wx, self.wy, self.wz, self.x, self.y, self.z])
+
+    @model_validator(mode="after")
+    def _is_something(self) -> Self:
+        if not self.size.any():
+            raise ValueError("it moves nothing; give for example x=0.01, in m/s")
+        return self
+
+    def twist(self, t: Floats, period: float, rng: np.random.Generator) -> Floats:
+        """The velocity (N, 6) of the tool, angular first; of a noise each axis is its own."""
+        if self.form == "constant":
+            return np.tile(self.size, (len(t), 1))
+        if self.frequency > 0.5 / period:
+            raise UsageError(
+                f"disturbance 'twist': frequency {self.frequency:g} Hz is above {0.5 / period:g} "
+                f"Hz, half the rate of a period of {period * 1e3:g} ms"
+            )
+        if self.form == "sine":
+            return np.sin(2 * np.pi * self.frequency * t)[:, None] * self.size
+        return _noise(t, self.frequency, rng) * self.size
+
+
+def _noise(t: Floats, edge: float, rng: np.random.Generator) -> Floats:
+    """Six signals (N, 6) of unit rms without any part above `edge` [Hz]: waves of random phase."""
+    frequencies = edge * (np.arange(WAVES) + 0.5) / WAVES
+    phases = rng.uniform(0, 2 * np.pi, (WAVES, 6))
+    out = np.zeros((len(t), 6))
+    for frequency, phase in zip(frequencies, phases, strict=True):
+        out += np.cos(2 * np.pi * frequency * t[:, None] + phase)
+    return out * math.sqrt(2 / WAVES)

@@ -1,0 +1,101 @@
+"""What a law says -> what a plant is told, within the arm's limits."""
+
+from typing import Any, Protocol
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.controllers import Controller, Seen
+from dqpaint.dq import Floats
+from dqpaint.robots.dynamics import Dynamics, drift_acceleration
+from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.limits import Bounds
+from dqpaint.robots.resolver import PULL, resolve
+
+
+class Drive(Protocol):
+    """Turns what a law sees into a command."""
+
+    def ask(self, seen: Seen, gains: Any) -> Floats:
+        """What the law wants: joint rates (n,) [rad/s] or torques (n,) [Nm]."""
+
+    def within(self, wanted: Floats, posture: Floats) -> Floats:
+        """What of it the limits allow in a posture (n,) [rad]."""
+
+
+def make_drive(
+    controller: Controller[Any], kinematics: Kinematics, start: Floats, period: float
+) -> Drive:
+    """The drive a law needs.
+
+    Args:
+        controller: the law.
+        kinematics: of the arm.
+        start: posture (n,) [rad] a redundant arm is drawn back to.
+        period: of the control [s].
+    """
+    if controller.drives_torque:
+        return TorqueDrive(controller, kinematics, start, period)
+    return RateDrive(controller, kinematics, start, period)
+
+
+class RateDrive:
+    """For laws that command a twist or joint rates.
+
+    q_dot = J^+ u + (I - J^+ J) z with z towards the start posture; joint rates pass as they are.
+    """
+
+    def __init__(
+        self, controller: Controller[Any], kinematics: Kinematics, start: Floats, period: float
+    ) -> None:
+        self._law = controller.law
+        self._resolved = controller.commands == "twist"
+        self._start = start
+        self._bounds = Bounds(kinematics.card, period)
+
+    def ask(self, seen: Seen, gains: Any) -> Floats:
+        """Joint rates (n,) [rad/s]."""
+        said: Floats = self._law(seen, gains)
+        if not self._resolved:
+            return said
+        wish = PULL * (self._start - seen.posture)
+        return resolve(seen.jacobian, dq.translation(seen.pose), said, wish)
+
+    def within(self, wanted: Floats, posture: Floats) -> Floats:
+        """Within the speed limits, and ending within the position limits."""
+        return self._bounds.clip(wanted, posture)
+
+
+class TorqueDrive:
+    """For laws that command a spatial acceleration or joint torques.
+
+    An acceleration a becomes tau = H q_ddot + C q_dot + G + friction with
+    q_ddot = J^+ (a - J_dot q_dot) + (I - J^+ J) z (Chandra 2020 [35]). In the null space
+    z = PULL^2 (start - q) - 2 PULL q_dot: damped critically, or a redundant arm would drift.
+    """
+
+    def __init__(
+        self, controller: Controller[Any], kinematics: Kinematics, start: Floats, period: float
+    ) -> None:
+        self._law = controller.law
+        self._resolved = controller.commands == "acceleration"
+        self._period = period
+        self._start = start
+        self._dynamics = Dynamics(kinematics)
+        self._effort = kinematics.card.effort
+
+    def ask(self, seen: Seen, gains: Any) -> Floats:
+        """Joint torques (n,) [Nm]."""
+        q, rates = seen.posture, seen.rates
+        if not self._resolved:
+            inertia, bias = self._dynamics.inertia_and_bias(q, rates)
+            torque: Floats = self._law(seen._replace(inertia=inertia, bias=bias), gains)
+            return torque
+        wanted = self._law(seen, gains) - drift_acceleration(seen.jacobian, rates)
+        wish = PULL**2 * (self._start - q) - 2 * PULL * rates
+        bend = resolve(seen.jacobian, dq.translation(seen.pose), wanted, wish)
+        return self._dynamics.torque(q, rates, bend, self._period)
+
+    def within(self, wanted: Floats, posture: Floats) -> Floats:
+        """Within the motors' torques."""
+        return np.asarray(np.clip(wanted, -self._effort, self._effort))

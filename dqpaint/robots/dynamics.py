@@ -1,0 +1,45 @@
+"""Forces and accelerations of an arm, by pinocchio: H q_ddot + C q_dot + G + friction = tau."""
+
+import numpy as np
+import pinocchio
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.robots.kinematics import Kinematics
+
+
+def drift_acceleration(jacobian: Floats, rates: Floats) -> Floats:
+    """J_w_dot q_dot (..., 6): how the tool's twist changes at constant joint rates.
+
+    Column i of J_w_dot is xi_i x s_i, with xi_i the twist of link i and s_i the i-th column of J_w
+    (Chandra 2020 [38]). J_w (..., 6, n) spatial, rates (..., n) [rad/s].
+    """
+    moved = (jacobian * rates[..., None, :]).swapaxes(-1, -2)  # what each joint adds
+    carried = np.cumsum(moved, axis=-2)
+    return np.asarray(dq.spatial_cross(carried, moved).sum(axis=-2))
+
+
+class Dynamics:
+    """Inverse dynamics of a card's arm: the file's inertias, and its joints' viscous friction."""
+
+    def __init__(self, kinematics: Kinematics) -> None:
+        self._model = kinematics.model
+        self._data = self._model.createData()
+        self._friction: Floats = np.array(self._model.damping)
+
+    def torque(
+        self, posture: Floats, rates: Floats, acceleration: Floats, period: float = 0.0
+    ) -> Floats:
+        """The torques (n,) [Nm] for joint accelerations (n,) [rad/s^2], held for a period [s].
+
+        Friction is that of the middle of the period: a light joint's takes effect within
+        milliseconds, and with that of its beginning such a joint gains a third of what it should.
+        """
+        needed = pinocchio.rnea(self._model, self._data, posture, rates, acceleration)
+        return np.asarray(needed + self._friction * (rates + 0.5 * period * acceleration))
+
+    def inertia_and_bias(self, posture: Floats, rates: Floats) -> tuple[Floats, Floats]:
+        """H (n, n) [kg m^2], and C q_dot + G + friction (n,) [Nm]."""
+        upper = np.triu(pinocchio.crba(self._model, self._data, posture))
+        bias = pinocchio.nle(self._model, self._data, posture, rates) + self._friction * rates
+        return upper + np.triu(upper, 1).T, np.array(bias)

@@ -1,0 +1,192 @@
+"""Laws of one's own: found in a file or handed over, their gains, and how their faults are told."""
+
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import pytest
+
+from dqpaint import dq
+from dqpaint.controllers import CONTROLLERS, Seen, commands, find_controller
+from dqpaint.controllers.own import make_controller, short_name
+from dqpaint.errors import DqpaintError, UsageError
+from tests.conftest import random_poses
+
+EXAMPLE = Path(__file__).parents[2] / "trajectories" / "mylaw.py"
+
+
+def seen_at(rng, joints=7):
+    x, x_d = random_poses(rng, 2)
+    twist, slope = rng.normal(size=(2, 6))
+    J, q = rng.normal(size=(6, joints)), rng.normal(size=joints)
+    return Seen(x, x_d, twist, slope, J, q, 0.25, 0.005, rng.normal(size=joints))
+
+
+def written(tmp_path, text, name="mine.py"):
+    path = tmp_path / name
+    path.write_text(text, "utf-8")
+    return str(path)
+
+
+def test_the_example_is_the_law_its_text_says(rng):
+    """Along the screw from x to x_d, by homogeneous matrices and pinocchio's logarithm."""
+    import pinocchio
+
+    law = find_controller(str(EXAMPLE))
+    assert (law.name, law.commands) == ("mylaw", "twist")
+    assert law.summary.startswith("Goes along the one screw")
+    seen = seen_at(rng)
+    T = dq.matrix_from_pose(seen.pose_d) @ np.linalg.inv(dq.matrix_from_pose(seen.pose))
+    v = pinocchio.log6(pinocchio.SE3(T)).vector
+    wanted = seen.twist_d + 3.0 * np.r_[v[3:], v[:3]]
+    u = law.law(seen, law.read_gains({"k": 3.0}).first)
+    np.testing.assert_allclose(u, wanted, atol=1e-9)
+
+
+def test_a_law_is_ten_lines():
+    lines = EXAMPLE.read_text("utf-8").splitlines()
+    assert len([line for line in lines if line.strip()]) <= 10
+
+
+def test_functions_are_found_by_name_or_as_the_only_one(tmp_path):
+    spec = written(
+        tmp_path,
+        "import math\nfrom dqpaint.dq import mul\n\n"
+        "def one(seen): return seen.twist_d\n\ndef two(seen, k=2): return k * seen.twist_d\n\n"
+        "def _hidden(seen): pass\n",
+    )
+    assert find_controller(f"{spec}:two").name == "two"
+    with pytest.raises(UsageError, match=r"mine.py has 2 functions; choose one: mine.py:NAME; "):
+        find_controller(spec)
+    with pytest.raises(UsageError, match=r"no function named 'three'; its functions: one, two; a"):
+        find_controller(f"{spec}:three")
+    alone = written(tmp_path, "def whatever(seen): return seen.twist_d\n", "alone.py")
+    assert find_controller(alone).name == "alone"
+    same = written(tmp_path, "def a(seen): pass\n\ndef same(seen): pass\n", "same.py")
+    assert find_controller(same).law._function.__name__ == "same"
+    with pytest.raises(UsageError, match="has 0 functions"):
+        find_controller(written(tmp_path, "x = 3\n", "none.py"))
+    assert find_controller("hinf") is CONTROLLERS["hinf"]
+    assert [short_name(n) for n in ("hinf", "a/b.py", "a/b.py:c")] == ["hinf", "b", "c"]
+
+
+def test_parameters_are_gains_with_units(rng):
+    def law(seen, k: Annotated[float, "1/s, how fast"] = 2, offset=-1.0):
+        return k * seen.twist_d + offset
+
+    chosen = make_controller(law, "law")
+    assert chosen.list_gains() == "k = 2 (1/s, how fast), offset = -1 (no unit said)"
+    seen = seen_at(rng)
+    gains = chosen.read_gains({"k": "0..4@50%"})
+    np.testing.assert_allclose(chosen.law(seen, gains.at(0.25)), 2 * seen.twist_d - 1)
+    with pytest.raises(UsageError, match=r"no gain named 'K'; its gains: k = 2 \(1/s"):
+        chosen.read_gains({"K": 1.0})
+    with pytest.raises(UsageError, match=r"gain 'k' of controller 'law' is nan; .* finite num"):
+        chosen.read_gains({"k": float("nan")})
+
+
+@pytest.mark.parametrize("law", [lambda seen, k: 0, lambda seen, *k: 0, lambda seen, k=True: 0,
+                                 lambda seen, k="a": 0, lambda seen, **k: 0])  # fmt: skip
+def test_other_parameters_are_refused(law):
+    with pytest.raises(UsageError, match="parameter 'k' has no number; a law is a function of"):
+        make_controller(law, "law")
+
+
+def test_a_law_of_nothing_is_refused():
+    with pytest.raises(UsageError, match="takes nothing"):
+        make_controller(lambda: 0, "law")
+
+
+def test_a_law_says_what_it_commands(rng):
+    @commands("rates")
+    def rates(seen):
+        return -seen.posture
+
+    @commands("torque")
+    def torque(seen):
+        return seen.bias
+
+    chosen = make_controller(rates, "rates")
+    assert (chosen.commands, chosen.drives_torque) == ("rates", False)
+    assert make_controller(torque, "torque").drives_torque
+    seen = seen_at(rng, joints=5)
+    gains = chosen.read_gains({}).first
+    np.testing.assert_array_equal(chosen.law(seen, gains), -seen.posture)
+    with pytest.raises(ValueError, match="can't command 'force'; known: twist, rates, acc"):
+        commands("force")
+
+
+FAULTS = [
+    ("def f(seen):\n    return helper(seen)\n\ndef _x(): pass\n",
+     "mine.py:2: NameError: name 'helper' is not defined\n  |\n2 |     return helper(seen)"),
+    ("def _deep(x):\n    return 1 / 0\n\ndef f(seen):\n    return _deep(seen)\n",
+     "mine.py:2: ZeroDivisionError: division by zero\n  |\n2 |     return 1 / 0"),
+    ("import numpy as np\ndef f(seen):\n    return np.linalg.inv(np.zeros((2, 3)))\n",
+     "mine.py:3: LinAlgError"),
+    ("def f(seen):\n    seen.posture[0] = 1\n", "mine.py:2: ValueError: assignment destination"),
+    ("def f(seen): return None\n",
+     "mine.py:1: a law that commands a twist returns 6 numbers, this one returned nothing"),
+    ("def f(seen): return [1, 2]\n", r"returned an array of shape (2,)"),
+    ("def f(seen): return 'left'\n", "returned a str"),
+    ("def f(seen): return [[1], [2, 3]]\n", "returned an array of shape (2,)"),
+    ("def f(seen): return [float('inf')] * 6\n", "at 0.250 s the law returned [inf"),
+    ("def f(seen): raise SystemExit(3)\n", "mine.py:1: SystemExit: 3"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "said"), FAULTS)
+def test_faults_of_a_law_are_told_with_its_own_line(tmp_path, rng, text, said):
+    law = find_controller(written(tmp_path, text))
+    with pytest.raises(DqpaintError) as caught:
+        law.law(seen_at(rng), law.read_gains({}).first)
+    assert said in str(caught.value)
+    assert "dqpaint/" not in str(caught.value)
+
+
+@pytest.mark.parametrize(("text", "said"), [
+    ("def f(:\n", "mine.py:1: SyntaxError: "), ("x = 1 / 0\n", "mine.py:1: ZeroDivisionError"),
+    ("import nothing_of_this_name\n", "mine.py:1: ModuleNotFoundError"),
+    ("exit(3)\n", "mine.py:1: SystemExit: 3"), ("\x00", "null bytes"),
+])  # fmt: skip
+def test_faults_of_a_file_are_told(tmp_path, text, said):
+    with pytest.raises(DqpaintError, match=said.replace("(", r"\(")):
+        find_controller(written(tmp_path, text))
+
+
+def test_files_that_cannot_be_read(tmp_path):
+    with pytest.raises(DqpaintError, match="cannot be read: No such file"):
+        find_controller(str(tmp_path / "none.py"))
+    (tmp_path / "latin.py").write_bytes(b"# M\xfcller\n")
+    with pytest.raises(DqpaintError, match="not a text in UTF-8"):
+        find_controller(str(tmp_path / "latin.py"))
+
+
+def test_neighbours_and_classes_of_a_file_can_be_used(tmp_path, rng):
+    written(tmp_path, "FACTOR = 3.0\n", "neighbour_of_mine.py")
+    spec = written(
+        tmp_path,
+        "from dataclasses import dataclass\nfrom neighbour_of_mine import FACTOR\n\n"
+        "@dataclass\nclass State:\n    k: float\n\n"
+        "def f(seen):\n    return State(FACTOR).k * seen.twist_d\n",
+    )
+    law, seen = find_controller(spec), seen_at(rng)
+    np.testing.assert_allclose(law.law(seen, law.read_gains({}).first), 3 * seen.twist_d)
+
+
+@pytest.mark.slow
+def test_a_function_can_be_handed_over_from_python(tmp_path):
+    import dqpaint
+
+    def straight(seen, k=10.0):
+        """Straight to the point."""
+        return seen.twist_d + 2 * k * dq.log(dq.mul(seen.pose_d, dq.conj(seen.pose)))
+
+    drawing = tmp_path / "line.traj"
+    drawing.write_text("line to (30, 0) mm in 0.5 s\n")
+    painting = dqpaint.draw(drawing, controller=straight, gains={"k": 15.0}, size=(64, 36))
+    assert painting.controller.name == "straight"
+    assert painting.gains == {"k": 15.0}
+    assert painting.metrics.figures["position_error_rms_m"] < 1e-3
+    assert [path.name for path in dqpaint.save(painting, tmp_path)] == [
+        "line-straight.png", "line-straight.csv", "line-straight.json",
+    ]  # fmt: skip

@@ -1,0 +1,76 @@
+"""Gains that change over a drawing: how they are written, read, checked and shown."""
+
+import numpy as np
+import pytest
+from pydantic import Field
+
+from dqpaint.controllers import CONTROLLERS
+from dqpaint.controllers.gains import Gain, Gains
+from dqpaint.controllers.schedule import read_schedule
+from dqpaint.errors import UsageError
+
+
+class Two(Gains):
+    k: Gain = Field(20.0, description="1/s")
+    q: Gain | tuple[Gain, ...] = Field(1.0, description="a diagonal")
+
+
+def read(**given):
+    return read_schedule(Two, given, "controller 'two'")
+
+
+@pytest.mark.parametrize(("text", "at"), [
+    ("2.8..5.3@10%", {0.0: 2.8, 0.05: 4.05, 0.1: 5.3, 0.5: 5.3, 1.0: 5.3}),
+    ("5..20", {0.0: 5, 0.5: 12.5, 1.0: 20}),
+    ("220..220@30%..270@30%", {0.0: 220, 0.29999: 220, 0.3: 270, 1.0: 270}),
+    ("1@20%..2@40%..1@100%", {0.0: 1, 0.2: 1, 0.3: 1.5, 0.4: 2, 0.7: 1.5, 1.0: 1}),
+    ("20", {0.0: 20, 1.0: 20}), ("1e1..2e1@50%", {0.25: 15}), ("3..7@0%", {0.0: 7, 0.5: 7}),
+    ("3..3@100%..7@100%", {0.99: 3, 1.0: 7}),
+])  # fmt: skip
+def test_values_over_the_drawing(text, at):
+    gains = read(k=text)
+    for part, value in at.items():
+        assert gains.at(part).k == pytest.approx(value, abs=1e-9)
+    assert [g.k for g in gains.over(np.array(list(at)))] == pytest.approx(list(at.values()))
+
+
+def test_diagonals_change_element_by_element():
+    gains = read(q="1,2,3..3@50%")
+    assert gains.at(0.0).q == (1, 2, 3)
+    assert gains.at(0.25).q == (2, 2.5, 3)
+    assert gains.at(1.0).q == (3, 3, 3)
+    assert read(q=(1.0, 2.0)).at(0.5).q == (1.0, 2.0)
+    assert read(q="1,2").at(0.5).q == (1.0, 2.0)
+
+
+def test_two_gains_change_apart():
+    gains = read(k="10..20", q="1..3@50%")
+    assert (gains.at(0.25).k, gains.at(0.25).q) == (12.5, 2.0)
+
+
+@pytest.mark.parametrize("text", [
+    "", "x", "5..", "..5", "5..x@10%", "5..20@10", "5..20@110%", "5..20@-1%", "5@10%",
+    "1..2@50%..3@20%", "1..2..3", "1,2..1,2,3@50%", "5..20@", "5..20@@10%", "1,,2",
+])  # fmt: skip
+def test_what_is_no_schedule_is_told_with_the_form(text):
+    with pytest.raises(UsageError, match=r"gain 'q' of controller 'two' is '.*'; write a number"):
+        read(q=text)
+
+
+@pytest.mark.parametrize("text", ["5..0@10%", "5..-3", "5..nan", "0..5", "5..1e12@20%"])
+def test_every_value_on_the_way_is_checked(text):
+    with pytest.raises(UsageError, match="a gain is a number from 1e-09 to 1e\\+09; its gains: k"):
+        read(k=text)
+
+
+def test_what_is_shown_is_what_was_written():
+    assert read(k="5..20@10%").shown() == {"k": "5..20@10%", "q": 1.0}
+    shown = CONTROLLERS["hinf"].read_gains({"gamma_O": "0.5..0.25@10%"}).shown()
+    assert shown["gamma_O"] == "0.5..0.25@10%"
+    assert shown["K_O"] == "4..8"  # follows
+    assert shown["gamma_T"] == 0.0707
+
+
+def test_constant_gains_are_one_object():
+    rows = read(k=3.0).over(np.linspace(0, 1, 5))
+    assert all(row is rows[0] for row in rows)

@@ -17,6 +17,7 @@ from dqpaint.language.diagnostics import Diagnostic
 from dqpaint.language.findings import Findings
 from dqpaint.language.program import (
     Arc,
+    Chain,
     Colour,
     Cruise,
     Curve,
@@ -107,7 +108,12 @@ def _pieces(
 
 
 def _joint(a: Segment, b: Segment, size: float, findings: Findings) -> _Joint:
-    """Whether and how a corner is rounded: not where the pen is lifted, nor at a pause."""
+    """Whether and how a corner is rounded: not where the pen is lifted, nor at a pause.
+
+    What comes from elsewhere begins and ends where it says.
+    """
+    if isinstance(a.path, Chain) or isinstance(b.path, Chain):
+        return _NO_JOINT
     lifted = (a.light is None) != (b.light is None)
     if not size or lifted or a.run != b.run or _rests(a) or _rests(b):
         return _NO_JOINT

@@ -97,7 +97,7 @@ def path(statement: Statement, pen: Pen, scope: Scope) -> None:
     trace = Trace(_drawn(chain, pen, scale, shift))
     start = chains.ends(trace.chain)[0]
     gap = space.length(space.minus(start, pen.pose.position))
-    if pen.started and gap > GAP:
+    if pen.started and gap > GAP and not statement.part("at"):
         message = f"the path starts {1e3 * gap:.3g} mm away from where the tool is"
         cure = "a light-off move is added; write a move to choose its speed"
         pen.warn("W402", message, nodes[0].span, "", cure)

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterable
+from dataclasses import replace
 
 from dqpaint.language import statements
 from dqpaint.language.cursor import Cursor, found
@@ -187,9 +188,12 @@ class _Parser:
             message = f"unknown statement '{word}'"
             cure = f"'{word}' belongs to a statement and stands on its line: {_user_of(word)}"
             return Diagnostic("E120", message, first.span, "", cure), False
-        mistake, meant = unknown_statement(
-            first.text, first.span, self._defined or (), tokens[1].text
-        )
+        calls = self._defined or ()
+        mistake, meant = unknown_statement(first.text, first.span, calls, tokens[1].text)
+        if (not mistake.help and tokens[1].kind == "end") or word in calls:
+            mistake = replace(
+                mistake, help=f"to draw what a 'def' names, write: {word}()", fix=None
+            )
         return mistake, meant in _BLOCKS
 
     def _definition(self, tokens: list[Token]) -> Diagnostic:

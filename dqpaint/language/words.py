@@ -390,6 +390,6 @@ FUNCTION_ALIASES = {
 }
 
 # Never part of an expression: a value was forgotten if one of them is found there.
-# But these say something in an `arc` alone, and `let radius = …` is what people write.
-FREE = ("radius", "left", "right", "long")
+# But these say something in a few statements alone, and `let radius = …` is what people write.
+FREE = ("radius", "left", "right", "long", "height", "width", "unit")
 RESERVED = frozenset((*STATEMENTS, *PARTS, *LITTLE_WORDS, "if", "else", "while")).difference(FREE)

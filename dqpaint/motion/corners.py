@@ -9,7 +9,7 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.language.diagnostics import Diagnostic, Span
-from dqpaint.language.program import Arc, Cruise, Segment, Straight
+from dqpaint.language.program import Arc, Chain, Cruise, Segment, Straight
 from dqpaint.motion.laws import peak_rate, scale_rates
 from dqpaint.motion.runs import Joined, end_velocities
 from dqpaint.motion.shapes import Flow
@@ -93,6 +93,8 @@ def slow(strokes: list[Stroke], period: float) -> Iterator[Diagnostic]:
                 rounded = stroke.count * period - stroke.wanted > 0.5 * (
                     time - peak * stroke.extent.length / segment.timing.speed
                 )
+                if rounded and isinstance(segment.path, Chain):
+                    continue  # the dot of an i can't help it
                 found.append((reached / segment.timing.speed, reached, segment, rounded))
     if found:
         _, reached, segment, rounded = min(found, key=lambda one: one[0])

@@ -63,8 +63,8 @@ class Editor:
             if message.get("method") == "textDocument/publishDiagnostics":
                 return message["params"]["diagnostics"]
 
-    def open(self, text):
-        item = {"uri": URI, "languageId": "traj", "version": 1, "text": text}
+    def open(self, text, uri=URI):
+        item = {"uri": uri, "languageId": "traj", "version": 1, "text": text}
         self.tell("textDocument/didOpen", textDocument=item)
         return self.messages()
 
@@ -205,3 +205,17 @@ def test_layout_is_that_of_fmt(editor):
     editor.change("lin to", 2)
     assert editor.ask("textDocument/formatting", textDocument={"uri": URI},
                       options={"tabSize": 2, "insertSpaces": True}) == []  # fmt: skip
+
+
+def test_what_another_file_says_wrong_is_told_with_its_place(editor, tmp_path):
+    (tmp_path / "b.traj").write_text("\nlet a = 1 mm\nline by (50, 0)\n")
+    (found,) = editor.open('include "b.traj"\nlet r = 2 mm\n', (tmp_path / "a.traj").as_uri())
+    assert found["code"] == "E218"
+    assert span(found["range"]) == ((0, 0), (0, 0))
+    assert found["message"].startswith(f"{tmp_path / 'b.traj'}:3:9: ")
+    (found,) = editor.open(
+        'let a = 2 mm\ninclude "b.traj"\n'.replace("b.traj", "c.traj"),
+        (tmp_path / "d.traj").as_uri(),
+    )
+    assert found["code"] == "E272"
+    assert span(found["range"]) == ((1, 8), (1, 16))

@@ -277,11 +277,11 @@ def fault(folder: Path, body: str) -> str:
 
 
 def test_the_file_that_hangs_the_library(tmp_path: Path) -> None:
-    begin = time.perf_counter()
+    begin = time.process_time()
     (tmp_path / "b.svg").write_text(nested_uses(30))
     with pytest.raises(ScriptError, match="with every 'use' it has about"):
         parse('svg "b.svg"', "a.traj", tmp_path / "a.traj")
-    assert time.perf_counter() - begin < 1
+    assert time.process_time() - begin < 1
 
 
 @pytest.mark.parametrize(

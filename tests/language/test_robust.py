@@ -248,9 +248,9 @@ def test_any_text(text: str) -> None:
     ids=lambda text: text[:16],
 )
 def test_large_files_end_soon(text: str) -> None:
-    begin = time.perf_counter()
+    begin = time.process_time()
     check(text)
-    assert time.perf_counter() - begin < 3.0
+    assert time.process_time() - begin < 3.0
 
 
 def test_ten_thousand_lines() -> None:

@@ -10,10 +10,10 @@ OPEN = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1
 
 
 def refused(text: str) -> str:
-    begin = time.perf_counter()
+    begin = time.process_time()
     with pytest.raises(SvgError) as caught:
         guard(text.encode())
-    assert time.perf_counter() - begin < 2
+    assert time.process_time() - begin < 2
     return caught.value.message
 
 

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from dqpaint.language import Program, ScriptError, chains, parse
 from dqpaint.language.program import Chain, Cruise, Lasting, Samples, Straight
+from tests.language.clock import children_time
 
 CHECK = """
 import sys
@@ -169,12 +170,12 @@ def test_ten_million_rows_are_refused_at_once(tmp_path: Path) -> None:
         for _ in range(10):
             file.write("1.5,2.5\n2.5,3.5\n" * 500_000)
     (tmp_path / "a.traj").write_text('path "p.csv" unit mm\n')
-    begin = time.perf_counter()
+    begin = children_time()
     command = [sys.executable, "-c", CHECK, str(tmp_path / "a.traj")]
     told, size = subprocess.run(
         command, capture_output=True, text=True, check=True
     ).stdout.splitlines()
-    assert time.perf_counter() - begin < 2
+    assert children_time() - begin < 2
     assert told == "E294 p.csv is too long: more than 1,000,000 rows"
     assert int(size) < 300
 
@@ -189,13 +190,13 @@ def test_too_many_bytes(tmp_path: Path) -> None:
 def test_in_a_repeat_the_pieces_are_counted(tmp_path: Path) -> None:
     rows = "".join(f"{i % 7},{i % 11}\n" for i in range(3000))
     line = 'start at (0, 0)\nrepeat {}\npath "p.csv" unit mm speed 1 m/s\nend'
-    begin = time.perf_counter()
+    begin = time.process_time()
     assert (
         len(made(tmp_path, line.format(20), p_csv=rows).segments) == 39
     )  # 19 ways back to the start
     with pytest.raises(ScriptError, match=r"E299.*more than 2,000,000 pieces"):
         made(tmp_path, line.format(9999))
-    assert time.perf_counter() - begin < 4
+    assert time.process_time() - begin < 4
 
 
 SCRAPS = st.sampled_from(

@@ -40,7 +40,11 @@ Gain = Annotated[
     ),
 ]
 Robot = Annotated[
-    str | None, typer.Option(metavar="NAME", help="the arm [default: the file's, else iiwa]")
+    str | None,
+    typer.Option(
+        metavar="NAME|FILE",
+        help="the arm, or its .urdf or .toml [default: the drawing's, else iiwa]",
+    ),
 ]
 PlantName = Annotated[
     str | None,
@@ -205,6 +209,38 @@ def list_(
         print(json.dumps(found, indent=2))
     else:
         print(listing.text(lists))
+
+
+POSE_EXAMPLES = """Examples:
+
+  dqpaint pose iiwa --deg=0,26,0,-93,0,-29,90
+
+  dqpaint pose viper850 --deg=20,-110,190,25,45,20 --flange --json
+"""
+
+
+@app.command(epilog=POSE_EXAMPLES)
+def pose(
+    robot: Annotated[str, typer.Argument(metavar="ROBOT", help="its name, or its .urdf or .toml")],
+    deg: Annotated[
+        str | None, typer.Option(metavar="A,B,...", help="the joints in degrees [default: home]")
+    ] = None,
+    rad: Annotated[
+        str | None, typer.Option(metavar="A,B,...", help="the joints in radians")
+    ] = None,
+    flange: Annotated[bool, typer.Option("--flange", help="the bare last link, no tool")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Tell where an arm's tool is: dual quaternion, matrix, screw, Jacobian, manipulability."""
+    from dqpaint import posing
+    from dqpaint.robots.choose import find_card
+
+    card = find_card(robot)
+    posed = posing.pose_arm(card, posing.read_posture(card, deg, rad), flange)
+    for kind, sentences in (("note", posed.notes), ("warning", posed.beyond)):
+        for sentence in sentences:
+            print(f"{kind}: {sentence}", file=sys.stderr)
+    print(json.dumps(posing.as_json(posed), indent=2) if as_json else posing.text(posed))
 
 
 @app.command(epilog="Examples:\n\n  dqpaint gallery\n\n  dqpaint gallery --out pictures")

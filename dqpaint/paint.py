@@ -44,6 +44,7 @@ class Painting:
     set_points: tuple[SetPoint, ...]
     picture: Picture
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
+    notes: tuple[str, ...] = ()  # what was assumed of the arm
 
     @property
     def image(self) -> NDArray[np.uint8]:
@@ -122,7 +123,7 @@ def paint(
         picture = take(motion, run.points, settings)
     return Painting(
         settings, controller, card.name, plant, gains.shown(), motion, run, metrics, came_through,
-        steps, picture, clock.seconds,
+        steps, picture, clock.seconds, kinematics.notes,
     )  # fmt: skip
 
 

@@ -113,7 +113,8 @@ def notes(motion: Motion) -> list[str]:
 
 def remarks(painting: Painting) -> list[str]:
     """Warnings about a drawing and its run."""
-    texts = notes(painting.motion)
+    texts = [f"note: {note}" for note in painting.notes]
+    texts += notes(painting.motion)
     for (kind, line), held in _grouped(painting).items():
         joints = "".join(f"\n    {clamp}" for clamp in held)
         texts.append(f"warning: line {line} runs into {kind} limits:{joints}{CURES[kind]}")

@@ -72,8 +72,8 @@ def robots():
     from dqpaint.robots.card import card_names, read_card
 
     cards = [read_card(name) for name in card_names()]
-    rows = [[f"`{c.name}`", c.title, str(c.joints), c.package] for c in cards]
-    return table(["robot", "", "joints", "from the package"], rows)
+    rows = [[f"`{c.name}`", c.title, str(c.joints), c.origin] for c in cards]
+    return table(["robot", "", "joints", "from"], rows)
 
 
 def plants():

@@ -14,7 +14,8 @@ ORDER = [
     "errors", "registry", "examples", "dq", "language", "motion", "robots", "plants",
     "disturbances", "controllers", "driving", "tracking", "metrics", "attenuation",
     "set_points", "settings", "light", "picture", "out_of_reach", "paint", "outputs", "terminal",
-    "report", "checking", "listing", "api", "charts", "studies", "gallery", "cli", "__main__",
+    "report", "posing", "checking", "listing", "api", "charts", "studies", "gallery", "cli",
+    "__main__",
 ]  # fmt: skip
 
 DOORS = {
@@ -23,7 +24,15 @@ DOORS = {
     "matplotlib": ["charts.py"],
     "cv2": ["light/spread.py", "light/develop.py", "picture.py"],
     "typer": ["cli.py"],
-    "pydantic": ["robots/card.py", "disturbances", "controllers", "settings.py"],
+    "pydantic": [
+        "robots/card.py",
+        "robots/chain.py",
+        "robots/files.py",
+        "robots/parts.py",
+        "disturbances",
+        "controllers",
+        "settings.py",
+    ],
 }
 EVERYWHERE = {"numpy", "dqpaint", "typing_extensions"}
 LONGEST = 400  # lines of one file

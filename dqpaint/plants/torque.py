@@ -10,6 +10,8 @@ from dqpaint.plants.plant import PLANTS, Takes
 from dqpaint.plants.rigid import RigidArm
 from dqpaint.robots.card import Card
 
+UNBOUND = 1e9  # [rad/s]
+
 
 @PLANTS.add("torque")
 class Torque(RigidArm):
@@ -26,6 +28,8 @@ class Torque(RigidArm):
         here = {"physicsClientId": self.client}
         for link in range(-1, bullet.getNumJoints(self.body, **here)):
             bullet.changeDynamics(self.body, link, linearDamping=0, angularDamping=0, **here)
+        for joint in self.joints:  # PyBullet would end every rate at 100 rad/s
+            bullet.changeDynamics(self.body, joint, maxJointVelocity=UNBOUND, **here)
         idle = [0.0] * len(self.joints)
         bullet.setJointMotorControlArray(
             self.body, self.joints, bullet.VELOCITY_CONTROL, forces=idle, **here

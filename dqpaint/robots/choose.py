@@ -3,6 +3,17 @@
 from dqpaint.errors import UnknownNameError
 from dqpaint.language import Diagnostic, Program, ScriptError
 from dqpaint.robots.card import DEFAULT_ROBOT, Card, read_card
+from dqpaint.robots.files import is_file, read_file
+
+
+def find_card(robot: str) -> Card:
+    """The card of an arm by its name, or by a file of one's own.
+
+    Raises:
+        UnknownNameError: no card has that name.
+        DqpaintError: the file is not there, or no arm.
+    """
+    return read_file(robot) if is_file(robot) else read_card(robot)
 
 
 def card_for(program: Program, robot: str | None) -> Card:
@@ -13,9 +24,9 @@ def card_for(program: Program, robot: str | None) -> Card:
         ScriptError: no card has the name in the file.
     """
     if robot is not None or program.robot is None:
-        return read_card(DEFAULT_ROBOT if robot is None else robot)
+        return find_card(DEFAULT_ROBOT if robot is None else robot)
     try:
-        return read_card(program.robot)
+        return find_card(program.robot)
     except UnknownNameError as problem:
         message, _, known = str(problem).partition("; ")
         unknown = Diagnostic("E311", message, program.robot_span, help=known)

@@ -49,7 +49,9 @@ Robot = Annotated[
 PlantName = Annotated[
     str | None,
     typer.Option(
-        metavar="NAME", help="how the arm answers [default: stiff, or torque for its laws]"
+        metavar="NAME[:KEY=VALUE,...]",
+        help="how the arm answers, such as compliant:frequency=60 [default: stiff, or torque for "
+        "its laws]",
     ),
 ]
 Disturb = Annotated[
@@ -60,6 +62,20 @@ Disturb = Annotated[
     ),
 ]
 Seed = Annotated[int, typer.Option(help="of everything random")]
+Null = Annotated[
+    str,
+    typer.Option(
+        metavar="NAME[,gain=VALUE]",
+        help="what a redundant arm does with its freedom: see dqpaint list null",
+    ),
+]
+OnLimit = Annotated[
+    str,
+    typer.Option(
+        metavar="clip|slow|stop",
+        help="where a joint would pass a limit: hold it back, slow the drawing down, or end",
+    ),
+]
 From = Annotated[str, typer.Option("--from", metavar="first|home", help="where the arm begins")]
 Size = Annotated[str, typer.Option(metavar="WxH", help="of the picture, in pixels")]
 View = Annotated[
@@ -112,6 +128,8 @@ def draw(
     disturb: Disturb = None,
     seed: Seed = 0,
     start: From = "first",
+    null: Null = "start",
+    on_limit: OnLimit = "clip",
     size: Size = "1280x720",
     view: View = "front",
     ev: Ev = 0.0,
@@ -131,8 +149,8 @@ def draw(
     with Progress(path.name) as progress:
         painting = api.draw(
             path, controller=controller, gains=parse_gains(gain or []), robot=robot, plant=plant,
-            disturb=parse_disturbances(disturb or []), seed=seed, start=start,
-            size=parse_size(size), view=view, ev=ev, progress=progress,
+            disturb=parse_disturbances(disturb or []), seed=seed, start=start, null=null,
+            on_limit=on_limit, size=parse_size(size), view=view, ev=ev, progress=progress,
         )  # fmt: skip
     written = outputs.write(stem, {end: make(painting) for end, make in makers.items()})
 
@@ -195,7 +213,8 @@ def list_(
     what: Annotated[
         str,
         typer.Argument(
-            metavar="[robots|controllers|plants|disturbances|examples]", help="all, if not said"
+            metavar="[robots|controllers|plants|disturbances|null|examples]",
+            help="all, if not said",
         ),
     ] = "all",
     as_json: AsJson = False,

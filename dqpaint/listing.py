@@ -8,11 +8,18 @@ from dqpaint.terminal import table
 
 
 def _robots() -> list[dict[str, Any]]:
-    from dqpaint.robots.card import card_names, read_card
+    from dqpaint.robots.card import DEFAULT_ROBOT, card_names, read_card
 
     cards = [read_card(name) for name in card_names()]
     return [
-        {"name": c.name, "about": f"{c.title}, {c.joints} joints", "source": c.source}
+        {
+            "name": c.name,
+            "about": f"{c.title}, {c.joints} joints"
+            + (f" (not installed: {c.missing})" if c.missing else ""),
+            "missing": c.missing,
+            "default": c.name == DEFAULT_ROBOT,
+            "source": c.source,
+        }
         for c in cards
     ]
 
@@ -46,6 +53,7 @@ def _plants() -> list[dict[str, Any]]:
             "about": (plant.__doc__ or "").splitlines()[0],
             "default": name == DEFAULT_PLANTS["rates"],
             "takes": plant.takes,
+            "values": _values(plant.options) if plant.options else [],
         }
         for name, plant in PLANTS.items()
     ]
@@ -58,12 +66,32 @@ def _disturbances() -> list[dict[str, Any]]:
         {
             "name": name,
             "about": (model.__doc__ or "").splitlines()[0],
-            "values": [
-                {"name": field, "default": f.default, "about": f.description}
-                for field, f in model.model_fields.items()
-            ],
+            "values": _values(model),
         }
         for name, model in DISTURBANCES.items()
+    ]
+
+
+def _values(model: Any) -> list[dict[str, Any]]:
+    return [
+        {"name": name, "default": f.default, "about": f.description}
+        for name, f in model.model_fields.items()
+    ]
+
+
+def _null() -> list[dict[str, Any]]:
+    from dqpaint.nullspace import DEFAULT_NULL, OBJECTIVES
+
+    return [
+        {
+            "name": name,
+            "about": (objective.__doc__ or "").splitlines()[0],
+            "default": name == DEFAULT_NULL,
+            "values": [{"name": "gain", "default": objective.usual, "about": objective.unit}]
+            if objective.usual
+            else [],
+        }
+        for name, objective in OBJECTIVES.items()
     ]
 
 
@@ -82,6 +110,7 @@ LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {
     "controllers": _controllers,
     "plants": _plants,
     "disturbances": _disturbances,
+    "null": _null,
     "examples": _examples,
 }
 

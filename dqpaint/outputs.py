@@ -14,6 +14,7 @@ import numpy as np
 
 from dqpaint import __version__
 from dqpaint.errors import OutputError, UsageError
+from dqpaint.nullspace import read_null
 from dqpaint.registry import Registry
 from dqpaint.robots.limits import UNITS
 
@@ -102,10 +103,12 @@ def summarise(painting: "Painting") -> dict[str, Any]:
         },
         "robot": painting.robot,
         "plant": painting.plant,
+        "plant_values": painting.plant_values,
         "controller": painting.controller.name,
         "law": _law(painting),
         "gains": painting.gains,
-        "disturbances": settings.disturb,
+        "disturbances": {name: one.model_dump() for name, one in painting.disturbances.items()},
+        "null_space": dict(zip(("objective", "gain"), read_null(settings.null), strict=True)),
         "seed": settings.seed,
         "settings": settings.model_dump(),
         "drawing": {

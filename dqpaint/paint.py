@@ -11,15 +11,16 @@ from numpy.typing import NDArray
 
 from dqpaint.attenuation import Attenuation, attenuation
 from dqpaint.controllers import Controller, find_controller
-from dqpaint.disturbances import make_disturbances
+from dqpaint.disturbances import Disturbance, make_disturbances
 from dqpaint.language.program import Program
 from dqpaint.light.camera import parse_view
 from dqpaint.light.film import Film
 from dqpaint.metrics import Metrics, Table, measure
 from dqpaint.motion import Motion, plan
+from dqpaint.nullspace import read_null
 from dqpaint.out_of_reach import begin, check_worst
 from dqpaint.picture import Picture, take
-from dqpaint.plants import PLANTS, choose_plant
+from dqpaint.plants import choose_plant
 from dqpaint.robots.choose import card_for
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Clamp
@@ -36,6 +37,8 @@ class Painting:
     controller: Controller[Any]
     robot: str
     plant: str
+    plant_values: dict[str, Any]  # with what follows from them for this arm
+    disturbances: dict[str, Disturbance]
     gains: dict[str, Any]  # all of the law's, and what follows from them
     motion: Motion
     track: Track
@@ -102,6 +105,9 @@ def paint(
     gains = controller.read_gains(settings.gains)
     plant = choose_plant(settings.plant, "torque" if controller.drives_torque else "rates")
     disturbances = make_disturbances(settings.disturb)
+    for name, one in disturbances.items():
+        plant.need(one.needs, name)
+    read_null(settings.null)
     card = card_for(program, settings.robot)
     with clock("motion"):
         motion = plan(program, card.canvas.pose)
@@ -111,8 +117,8 @@ def paint(
         start = card.home if settings.start == "home" else best
     with clock("arm"):
         run = track(
-            motion, kinematics, start, PLANTS[plant], controller, gains, progress,
-            disturbances, settings.seed,
+            motion, kinematics, start, plant, controller, gains, progress,
+            disturbances, settings.seed, settings.null, settings.on_limit == "stop",
         )  # fmt: skip
     check_worst(run, kinematics)
     with clock("metrics"):
@@ -122,8 +128,9 @@ def paint(
     with clock("light"):
         picture = take(motion, run.points, settings)
     return Painting(
-        settings, controller, card.name, plant, gains.shown(), motion, run, metrics, came_through,
-        steps, picture, clock.seconds, kinematics.notes,
+        settings, controller, card.name, plant.name, plant.shown(card), disturbances,
+        gains.shown(), motion, run, metrics, came_through, steps, picture, clock.seconds,
+        kinematics.notes,
     )  # fmt: skip
 
 

@@ -14,6 +14,7 @@ import dqpaint as package
 from dqpaint import __main__ as entry
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.listing import LISTS
+from tests.robots.arm_files import arm_urdf
 
 pytestmark = pytest.mark.slow
 LINE = "period 20 ms\nstart at (0, 0) mm\nline to (30, 10) mm in 400 ms\n"
@@ -212,18 +213,18 @@ def test_check_for_programs(dqpaint, line, tmp_path):
     (["draw", "line.traj", "--gain", "gamma_T=1e-306"], 2, "a gain is a number from"),
     (["draw", "line.traj", "--gain", "gamma_T=1", "--gain", "gamma_T=2"], 2, "is given twice"),
     (["draw", "line.traj", "--disturb", "twist"], 2, "'twist' is not NAME=VALUE, for example twi"),
-    (["draw", "line.traj", "--disturb", "wind=3"], 2, "no disturbance named 'wind'; known: twist"),
+    (["draw", "line.traj", "--disturb", "wind=3"], 2, "no disturbance named 'wind'; known: base"),
     (["draw", "line.traj", "--disturb", "twist=sine"], 2, "it moves nothing; give for example x="),
     (["draw", "line.traj", "--disturb", "twist:x=1,x=2"], 2, "'x=2' is not KEY=VALUE, each once"),
     (["draw", "line.traj", "--disturb", "twist:x=1,,y=2"], 2, "'' is not KEY=VALUE, each once"),
     (["draw", "line.traj", "--seed", "-1"], 2, "seed -1 should be greater than or equal to 0"),
-    (["draw", "line.traj", "--robot", ""], 2, "no robot named ''; known: iiwa"),
+    (["draw", "line.traj", "--robot", ""], 2, "no robot named ''; known: baxter-left"),
     (["draw", "a" * 5000], 1, "file name too long"),
     (["draw", "line.traj", "--out", "a" * 5000], 1, "cannot be written: File name too long"),
     (["draw", "line.traj", "--out", "line.traj/x"], 1, "'line.traj' is a file, not a folder"),
     (["draw", "line.traj", "--size", "9" * 5000 + "x10"], 2, "is not WIDTHxHEIGHT"),
     (["draw", ""], 1, "no file ''"),
-    (["draw", "line.traj", "--robot", "ur7"], 2, "no robot named 'ur7'; known: iiwa"),
+    (["draw", "line.traj", "--robot", "ur7"], 2, "no robot named 'ur7'; known: baxter-left"),
     (["draw", "line.traj", "--plant", "rubber"], 2, "no plant named 'rubber'; known: "),
     (["draw", "line.traj", "--size", "big"], 2, "size 'big' is not WIDTHxHEIGHT"),
     (["draw", "line.traj", "--size", "99999x10"], 2, "width"),
@@ -384,3 +385,39 @@ def test_ctrl_c_leaves_nothing_half_written(tmp_path):
     assert process.returncode == 130, err
     assert (out, err) == ("", "interrupted\n")
     assert files(tmp_path) == ["long.traj"]
+
+
+def test_pose_tells_numbers_and_warnings_apart(dqpaint):
+    done = dqpaint("pose", "viper850", "--deg=20,-110,190,25,45,20", "--flange", "--json")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert json.loads(done.stdout)["pose"][0] == pytest.approx(0.3530, abs=5e-5)
+    done = dqpaint("pose", "iiwa", "--deg", "-180,0,0,0,0,0,0")
+    assert done.returncode == 0
+    assert done.stderr == "warning: joint 1 at -180 deg is beyond its limits, -170 to 170 deg\n"
+    assert "manipulability" in done.stdout
+
+
+@pytest.mark.parametrize(("words", "message"), [
+    (["iiwa", "--deg=1,2"], "usage: iiwa has 7 joints, but --deg gives 2 angles"),
+    (["iiwb"], "usage: no robot named 'iiwb'; known: baxter-left, "),
+    (["mine.urdf"], "usage: mine.urdf cannot be read: No such file or directory"),
+])  # fmt: skip
+def test_pose_refuses_what_is_no_posture(dqpaint, words, message):
+    done = dqpaint("pose", *words)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(message)
+
+
+def test_an_arm_of_one_s_own_draws_and_says_what_was_assumed(dqpaint, line, tmp_path):
+    (tmp_path / "arm.urdf").write_text(arm_urdf())
+    done = dqpaint("draw", line, "--robot", "arm.urdf:l6", "--size", "160x90")
+    assert done.returncode == 0
+    assert [text.partition(":")[0] for text in done.stderr.splitlines()] == ["note"] * 3
+    assert "arm, stiff" in done.stdout
+    done = dqpaint("check", line, "--robot", "arm.urdf:l6")
+    assert done.returncode == 0
+    assert "arm reaches it" in done.stdout
+    (tmp_path / "arm.urdf").write_text(arm_urdf()[:300])
+    done = dqpaint("draw", line, "--robot", "arm.urdf:l6")
+    assert done.returncode == 1
+    assert done.stderr.startswith("error: arm.urdf is no URDF: ")

@@ -11,8 +11,9 @@ PACKAGE = Path(__file__).parent.parent / "dqpaint"
 
 # Data moves down this list and never up. A folder's modules may import each other.
 ORDER = [
-    "errors", "registry", "examples", "dq", "language", "motion", "robots", "plants",
-    "disturbances", "controllers", "driving", "tracking", "metrics", "attenuation",
+    "errors", "registry", "choices", "examples", "dq", "language", "motion", "robots", "plants",
+    "disturbances", "controllers", "nullspace", "driving", "sensing",
+    "stopping", "tracking", "metrics", "attenuation",
     "set_points", "settings", "light", "picture", "out_of_reach", "paint", "outputs", "terminal",
     "report", "posing", "checking", "listing", "api", "charts", "studies", "gallery", "cli",
     "__main__",
@@ -29,7 +30,11 @@ DOORS = {
         "robots/chain.py",
         "robots/files.py",
         "robots/parts.py",
+        "choices.py",
         "disturbances",
+        "nullspace.py",
+        "plants/compliant.py",
+        "plants/plant.py",
         "controllers",
         "settings.py",
     ],

@@ -126,6 +126,13 @@ class Card(Part):
         return self.screws.chain if self.screws is not None else None
 
     @property
+    def missing(self) -> str:
+        """What to type before this arm can be used; empty where nothing is missing."""
+        if self.urdf is None or self.urdf.find() is not None:
+            return ""
+        return self.urdf.cure
+
+    @property
     def origin(self) -> str:
         """Where the arm's description comes from, in a few words."""
         if self.urdf is None:
@@ -166,6 +173,11 @@ class Card(Part):
         if not ((self.lower <= self.home) & (self.home <= self.upper)).all():
             raise ValueError("home_deg must lie inside the limits")
         return self
+
+
+def installed_names() -> list[str]:
+    """The names of the robots whose files are there."""
+    return [name for name in card_names() if not read_card(name).missing]
 
 
 def card_names() -> list[str]:

@@ -1,6 +1,7 @@
 """The three ways a card says what its chain of joints is: a URDF file, rows, or screw axes."""
 
 import importlib.util
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
@@ -12,6 +13,8 @@ from dqpaint.errors import UsageError
 from dqpaint.robots.denavit_hartenberg import DenavitHartenberg
 from dqpaint.robots.parts import Finite, Mount, Part, Positive, Three
 from dqpaint.robots.screws import Screws
+
+EXTRAS = {"example-robot-data": "robots"}  # packages that come with an extra of ours
 
 
 class UrdfFile(Part):
@@ -36,17 +39,35 @@ class UrdfFile(Part):
         Raises:
             UsageError: the package is not installed, or lacks the file.
         """
+        found = self.find()
+        if found is None:
+            raise UsageError(
+                f"this robot needs {Path(self.file).name} of the package '{self.package}', "
+                f"which is not installed; {self.cure}"
+            )
+        return found
+
+    @property
+    def cure(self) -> str:
+        """What to type for a package that is missing."""
+        package = f"'dqpaint[{EXTRAS[self.package]}]'" if self.package in EXTRAS else self.package
+        return f"pip install {package}"
+
+    def find(self) -> Path | None:
+        """Where the file is; None where its package is not installed."""
         if not self.package:
             return Path(self.file)
-        spec = importlib.util.find_spec(self.package)  # importing it could pull in the simulator
-        places = list(spec.submodule_search_locations or ()) if spec else []
-        for place in places:
-            path = Path(place) / self.file
-            if path.is_file():
-                return path
-        raise UsageError(
-            f"this robot needs {self.file} of the package '{self.package}', which is not installed"
-        )
+        places = []
+        if self.package.isidentifier():
+            spec = importlib.util.find_spec(self.package)  # to import it may start the simulator
+            places = list(spec.submodule_search_locations or ()) if spec else []
+        else:  # a distribution of data alone, with no module of its own
+            from importlib.metadata import PackageNotFoundError, distribution  # 20 ms
+
+            with suppress(PackageNotFoundError):
+                places = [str(distribution(self.package).locate_file(""))]
+        paths = (Path(place) / self.file for place in places)
+        return next((path for path in paths if path.is_file()), None)
 
 
 class Row(Part):

@@ -6,7 +6,7 @@ import pytest
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS, Seen
 from dqpaint.errors import UnknownNameError, UsageError
-from dqpaint.robots.card import card_names, read_card
+from dqpaint.robots.card import installed_names, read_card
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.resolver import resolve
 from tests.conftest import random_poses
@@ -48,7 +48,7 @@ def test_a_batch_is_the_same_as_one_by_one(name, rng):
 
 
 @LAWS
-@pytest.mark.parametrize("robot", card_names())
+@pytest.mark.parametrize("robot", installed_names())
 def test_commands_are_finite_everywhere(name, robot, rng):
     arm = Kinematics(read_card(robot))
     special = [np.zeros(arm.card.joints), arm.card.home, arm.card.lower, arm.card.upper]
@@ -64,7 +64,7 @@ def test_commands_are_finite_everywhere(name, robot, rng):
 
 
 @LAWS
-@pytest.mark.parametrize("robot", card_names())
+@pytest.mark.parametrize("robot", installed_names())
 def test_every_law_converges_on_a_set_point(name, robot, rng):
     arm = Kinematics(read_card(robot))
     goal = arm.pose(arm.card.home)

@@ -8,7 +8,8 @@ import pytest
 
 from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.plants import PLANTS, choose_plant, stiff
-from dqpaint.plants.rigid import GRAVITY, LONGEST_STEP
+from dqpaint.plants.rigid import LONGEST_STEP
+from dqpaint.plants.world import GRAVITY
 from dqpaint.robots.card import card_names, read_card
 from dqpaint.robots.kinematics import Kinematics
 

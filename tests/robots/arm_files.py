@@ -31,7 +31,7 @@ def arm_urdf(count=6):
         joints.append(
             f'<joint name="j{i}" type="revolute"><parent link="{parent}"/><child link="l{i}"/>'
             f'<origin xyz="{xyz}" rpy="0 0 0"/><axis xyz="{AXES[i - 1]}"/>'
-            f'<limit lower="-2.5" upper="2.{i}" velocity="2" effort="90"/></joint>'
+            f'<limit lower="-2.5" upper="2.{i}" velocity="2" effort="400"/></joint>'
         )
     text = ARM.format(links="\n  ".join(links), joints="\n  ".join(joints))
     return text.replace('"l6"', f'"l{count}"')

@@ -1,17 +1,20 @@
 """Robot cards: every one is usable, and what is wrong with one is said."""
 
+import importlib.metadata
+
 import numpy as np
 import pytest
 from pydantic import ValidationError
 
 from dqpaint import dq
 from dqpaint.errors import UnknownNameError, UsageError
-from dqpaint.robots.card import Canvas, Card, Mount, card_names, read_card
+from dqpaint.listing import lists
+from dqpaint.robots.card import Canvas, Card, Mount, card_names, installed_names, read_card
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.reach import Start, find_start
 
 
-@pytest.mark.parametrize("name", card_names())
+@pytest.mark.parametrize("name", installed_names())
 def test_every_arm_reaches_a_hand_around_its_canvas(name):
     arm = Kinematics(read_card(name))
     corners = np.array(
@@ -31,7 +34,7 @@ def test_every_card_says_where_it_comes_from(name):
     assert card.joints == len(card.effort) == len(card.speed)
 
 
-@pytest.mark.parametrize("name", card_names())
+@pytest.mark.parametrize("name", installed_names())
 def test_home_is_before_the_canvas(name):
     arm = Kinematics(read_card(name))
     gap = dq.translation(arm.pose(arm.card.home)) - dq.translation(arm.card.canvas.pose)
@@ -43,11 +46,31 @@ def test_an_unknown_robot_lists_the_known_ones():
         read_card("ur7")
 
 
+def test_an_arm_of_an_extra_is_listed_and_says_how_to_get_it(monkeypatch):
+    """As on a machine without the extra."""
+
+    def nothing(name):
+        raise importlib.metadata.PackageNotFoundError(name)
+
+    monkeypatch.setattr("importlib.metadata.distribution", nothing)
+    ur5 = read_card("ur5")
+    assert ur5.missing == "pip install 'dqpaint[robots]'"
+    assert "ur5" in card_names()
+    assert "ur5" not in installed_names()
+    assert "iiwa" in installed_names()
+    with pytest.raises(
+        UsageError, match=r"which is not installed; pip install 'dqpaint\[robots\]'"
+    ):
+        Kinematics(ur5)
+    rows = {row["name"]: row for row in lists("robots")["robots"]}
+    assert rows["ur5"]["missing"] == "pip install 'dqpaint[robots]'"
+    assert "not installed: pip install" in rows["ur5"]["about"]
+    assert rows["lwr4"]["missing"] == ""
+
+
 def test_a_missing_package_is_named():
     file = read_card("iiwa").urdf.model_copy(update={"package": "no_such_package"})
-    with pytest.raises(
-        UsageError, match=r"needs kuka_iiwa/model[.]urdf of the package 'no_such_package'"
-    ):
+    with pytest.raises(UsageError, match=r"needs model[.]urdf of the package 'no_such_package'"):
         file.path  # noqa: B018
 
 

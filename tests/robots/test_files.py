@@ -128,7 +128,7 @@ def test_a_urdf_brings_its_limits(write):
     np.testing.assert_allclose(card.lower, -2.5)
     np.testing.assert_allclose(card.upper, [2.1, 2.2, 2.3, 2.4, 2.5, 2.6])
     np.testing.assert_allclose(card.speed, 2)
-    np.testing.assert_allclose(card.effort, 90)
+    np.testing.assert_allclose(card.effort, 400)
     assert Kinematics(card).model.nv == 6
     assert len(card.notes) == 3  # tool, canvas, home
 
@@ -138,7 +138,7 @@ def test_a_card_may_lean_on_a_urdf_beside_it(write):
     text = '[urdf]\nfile = "arm.urdf"\nlink = "l6"\n[tool]\nat_m = [0, 0, 0.1]\n' + CANVAS
     card = read_file(write("mine.toml", text))
     assert card.tool.at_m == (0, 0, 0.1)
-    np.testing.assert_allclose(card.effort, 90)
+    np.testing.assert_allclose(card.effort, 400)
     assert len(card.notes) == 1  # home
 
 
@@ -218,9 +218,9 @@ def test_a_name_is_not_a_file():
     ('<child link="l3"/>', '<child link="l2"/>', "l6", "'j2' and 'j3' both carry link 'l2'"),
     ('<link name="l2">', '<link name="l1">', "l6", "two links named 'l1'"),
     ('<link name="tip"/>', '<link name="tip"/><link name="alone"/>', "l6", "are not joined to"),
-    ('velocity="2" effort="90"', 'velocity="0" effort="90"', "l6",
+    ('velocity="2" effort="400"', 'velocity="0" effort="400"', "l6",
      "joint 'j1' cannot move with its velocity of 0: .* above 0, in rad/s"),
-    ('velocity="2" effort="90"', 'velocity="2"', "l6", "joint 'j1' has no effort limit above 0"),
+    ('velocity="2" effort="400"', 'velocity="2"', "l6", "joint 'j1' has no effort limit above 0"),
     ('lower="-2.5" upper="2.1"', 'lower="0" upper="0"', "l6", "lower below upper"),
     ('upper="2.1"', 'upper="far"', "l6", "joint 'j1': upper 'far' is not a number"),
     ('xyz="0 0 0.3"', 'xyz="0 0"', "l6", "joint 'j1': origin xyz=\"0 0\" is not three numbers"),

@@ -5,13 +5,13 @@ import pinocchio
 import pytest
 
 from dqpaint import dq
-from dqpaint.robots.card import card_names, read_card
+from dqpaint.robots.card import installed_names, read_card
 from dqpaint.robots.jacobians import jacobian8, jacobian8_rate, jacobian_rate
 from dqpaint.robots.kinematics import Kinematics
 from tests.robots.chains import CARDS
 
 
-@pytest.fixture(params=card_names())
+@pytest.fixture(params=installed_names())
 def arm(request):
     return Kinematics(read_card(request.param))
 

@@ -6,14 +6,14 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.plants.bullet import bullet, joint_indices, quiet
-from dqpaint.robots.card import card_names, read_card
+from dqpaint.robots.card import installed_names, read_card
 from dqpaint.robots.kinematics import Kinematics, manipulability
 from dqpaint.robots.urdf import possible, urdf_file
 
 AGREES = 1e-9  # [m, rad] between pinocchio and PyBullet
 
 
-@pytest.fixture(params=card_names())
+@pytest.fixture(params=installed_names())
 def arm(request):
     return Kinematics(read_card(request.param))
 
@@ -76,7 +76,7 @@ def test_dynamics_agree_with_pybullet(arm, rng):
 
 def test_what_moves_can_be_made_of_matter(arm):
     """Each body weighs something; its moments are positive, none above the sum of the others."""
-    assert arm.notes == ()
+    assert len(arm.notes) == arm.card.name.startswith("baxter")  # a gripper without inertia
     for inertia in list(arm.model.inertias)[1:]:
         assert inertia.mass > 0
         assert possible(inertia.inertia)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
-from dqpaint.robots.card import card_names, read_card
+from dqpaint.robots.card import installed_names, read_card
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.parts import Mount
 from dqpaint.robots.screws import Screws
@@ -35,7 +35,7 @@ def test_three_ways_to_a_pose_and_a_jacobian_agree(name, rng):
         np.testing.assert_allclose(way.jacobian(q), J, atol=AGREES)
 
 
-@pytest.mark.parametrize("name", card_names())
+@pytest.mark.parametrize("name", installed_names())
 def test_every_arm_is_its_screw_axes(name, rng):
     """The axes at q = 0, read off the door to pinocchio, say the whole arm with its tool."""
     arm = Kinematics(read_card(name))

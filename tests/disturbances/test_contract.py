@@ -1,6 +1,7 @@
 """What every disturbance promises: it changes the run, repeats, vanishes, and is reported."""
 
 import json
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -152,11 +153,11 @@ def test_noise_has_its_rms_and_steps_their_size():
 
 
 def test_speeds_are_told_as_the_readings_say():
-    """On the ideal arm the true rate is the last difference, so the read one is that of readings."""
+    """On the ideal arm the true rate is the last difference: the read one is that of readings."""
     told = []
     spy = Controller("spy", "none", RateGains, lambda seen, _g: told.append(seen) or np.zeros(6))
     run({"noise": {"rms": 1e-4}}, "ideal", law=spy)
-    for before, now in zip(told[1:], told[2:], strict=False):
+    for before, now in pairwise(told[1:]):
         slope = (now.posture - before.posture) / MOTION.period
         np.testing.assert_allclose(now.rates, slope, atol=1e-9)
 
@@ -203,7 +204,7 @@ def test_wrong_lengths_are_of_their_size_and_the_law_s_alone(rng):
 def test_a_believed_arm_s_jacobian_goes_with_its_poses(rng):
     q, h = rng.uniform(-1, 1, 7), 1e-6
     wrong = ARM.changed(lengths=rng.normal(size=(8, 3)) * 0.02)
-    x, J = wrong.pose_and_jacobian(q)
+    _, J = wrong.pose_and_jacobian(q)
     for joint in range(7):
         step = h * np.eye(7)[joint]
         slope = 2 * dq.log(dq.mul(wrong.pose(q + step), dq.conj(wrong.pose(q - step)))) / (2 * h)

@@ -52,7 +52,8 @@ def test_every_plant_follows_its_commands(name):
     rates = smooth_rates(250)
     postures, _ = run(name, rates)
     asked = CARD.home + np.cumsum(np.vstack([np.zeros(7), rates]), axis=0) * PERIOD
-    assert np.abs(postures - asked).max() < (1e-12 if name == "ideal" else 2e-4)
+    within = {"ideal": 1e-12, "stiff": 2e-4, "compliant": 0.1}[name]  # springs give way
+    assert np.abs(postures - asked).max() < within
 
 
 @pytest.mark.parametrize("name", PLANTS)
@@ -80,15 +81,19 @@ def test_every_plant_measures_its_rates(name):
         before = plant.posture
         plant.run(row)
     plant.close()
-    np.testing.assert_allclose(plant.rates, (plant.posture - before) / 1e-3, atol=1e-9)
+    within = 0.01 if name == "compliant" else 1e-9  # its physics steps are shorter than 1 ms
+    np.testing.assert_allclose(plant.rates, (plant.posture - before) / 1e-3, atol=within)
 
 
 def test_a_plant_is_chosen_to_suit_the_commands():
-    assert (choose_plant(None, "rates"), choose_plant(None, "torque")) == ("stiff", "torque")
-    assert choose_plant("ideal", "rates") == "ideal"
+    assert choose_plant(None, "rates").make is PLANTS["stiff"]
+    assert choose_plant(None, "torque").make is PLANTS["torque"]
+    assert choose_plant("ideal", "rates").make is PLANTS["ideal"]
     with pytest.raises(UsageError, match=r"'stiff' takes joint rates, but .* for it: torque"):
         choose_plant("stiff", "torque")
-    with pytest.raises(UsageError, match=r"'torque' takes torques, .* for it: ideal, stiff"):
+    with pytest.raises(
+        UsageError, match=r"'torque' takes torques, .* for it: compliant, ideal, stiff"
+    ):
         choose_plant("torque", "rates")
     with pytest.raises(UnknownNameError):
         choose_plant("rubber", "rates")

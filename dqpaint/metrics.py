@@ -88,6 +88,7 @@ def _reached_columns(track: Track) -> Table:
         **{f"q{j + 1}_rad": track.posture[:, j] for j in joints},
         **{_command_column(track, j + 1): track.command[:, j] for j in joints},
         **_told_columns(track),
+        **({} if motion.clock is motion.t else {"drawing_time_s": motion.clock}),
     }
 
 

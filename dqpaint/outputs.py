@@ -118,6 +118,7 @@ def summarise(painting: "Painting") -> dict[str, Any]:
             "length_m": motion.length,
             "box_m": motion.box.tolist(),
         },
+        "pace": _pace(painting),
         **painting.metrics.figures,
         "attenuation": {
             part: {"ratio_s": one.ratio, "bound_s": one.bound, "kept": one.kept}
@@ -162,6 +163,14 @@ def _law(painting: "Painting") -> dict[str, str | None]:
         "sha256": getattr(law.law, "sha256", None),
         "commands": law.commands,
     }
+
+
+def _pace(painting: "Painting") -> dict[str, Any] | None:
+    """How the drawing was slowed down; None where its clock ran as asked, come what may."""
+    slowed = painting.slowed
+    if slowed is None:
+        return None
+    return {"longer_s": slowed.longer, "slowest": slowed.slowest, "lines": list(slowed.lines)}
 
 
 def stem_for(out: str | None, name: str) -> Path:

@@ -26,6 +26,7 @@ from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Clamp
 from dqpaint.set_points import SetPoint, set_points
 from dqpaint.settings import Settings
+from dqpaint.slowing import Slowed, slow_down
 from dqpaint.tracking import Track, track
 
 
@@ -46,6 +47,7 @@ class Painting:
     attenuation: dict[str, Attenuation]  # of an unmodelled twist, in rotation and translation
     set_points: tuple[SetPoint, ...]
     picture: Picture
+    slowed: Slowed | None = None  # where the drawing's clock may slow down
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
     notes: tuple[str, ...] = ()  # what was assumed of the arm
 
@@ -115,6 +117,10 @@ def paint(
         kinematics = Kinematics(card)
         best = begin(motion, kinematics).posture
         start = card.home if settings.start == "home" else best
+        slowed = None
+        if settings.on_limit == "slow":
+            slowed = slow_down(motion, kinematics, start, settings.null, controller.drives_torque)
+            motion = slowed.motion
     with clock("arm"):
         run = track(
             motion, kinematics, start, plant, controller, gains, progress,
@@ -129,8 +135,8 @@ def paint(
         picture = take(motion, run.points, settings)
     return Painting(
         settings, controller, card.name, plant.name, plant.shown(card), disturbances,
-        gains.shown(), motion, run, metrics, came_through, steps, picture, clock.seconds,
-        kinematics.notes,
+        gains.shown(), motion, run, metrics, came_through, steps, picture, slowed,
+        clock.seconds, kinematics.notes,
     )  # fmt: skip
 
 

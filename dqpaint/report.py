@@ -31,6 +31,7 @@ def of_painting(painting: Painting, written: Sequence[Path]) -> str:
         ("commanded", _commanded(figures)),
         *_came_through(painting),
         *_steps(painting),
+        *_pace(painting),
         ("limits", _limits_line(painting)),
         ("light", light_line(painting.picture)),
         *_files(written),
@@ -50,6 +51,20 @@ def _came_through(painting: Painting) -> list[tuple[str, str]]:
             said += f", promised at most {one.bound:.3g} s: {kept}"
         rows.append(("" if rows else "disturbance", said))
     return rows
+
+
+def _pace(painting: Painting) -> list[tuple[str, str]]:
+    """How much longer it takes, where a drawing may be slowed down."""
+    slowed = painting.slowed
+    if slowed is None:
+        return []
+    if not slowed.lines:
+        return [("pace", "as asked: no joint needs more time")]
+    where = ", ".join(str(line) for line in slowed.lines[:MOST_NAMED])
+    more = f" and {len(slowed.lines) - MOST_NAMED} more" if len(slowed.lines) > MOST_NAMED else ""
+    lines = "lines" if len(slowed.lines) > 1 else "line"
+    said = f"{slowed.longer:.3g} s longer, down to {slowed.slowest:.2g} of the asked speed"
+    return [("pace", f"{said} ({lines} {where}{more})")]
 
 
 def _steps(painting: Painting) -> list[tuple[str, str]]:

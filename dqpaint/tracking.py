@@ -121,7 +121,7 @@ def track(
     drive = make_drive(controller, senses.believed, wish, motion.period)
     carried = _carried(motion, disturbances, seed)
     late = Late(delay(disturbances), drive.hold(start))
-    parts = motion.t / motion.t[-1] if n > 1 else motion.t
+    parts = motion.clock / motion.clock[-1] if n > 1 else motion.clock
     plant = make_plant(card, start, motion.period, senses.world)
     asked = zip(
         motion.pose, motion.twist, motion.acceleration, motion.t.tolist(), ahead,

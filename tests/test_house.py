@@ -13,7 +13,7 @@ PACKAGE = Path(__file__).parent.parent / "dqpaint"
 ORDER = [
     "errors", "registry", "choices", "examples", "dq", "language", "motion", "robots", "plants",
     "disturbances", "controllers", "nullspace", "driving", "sensing",
-    "stopping", "tracking", "metrics", "attenuation",
+    "stopping", "slowing", "tracking", "metrics", "attenuation",
     "set_points", "settings", "light", "picture", "out_of_reach", "paint", "outputs", "terminal",
     "report", "posing", "checking", "listing", "api", "charts", "studies", "gallery", "cli",
     "__main__",

@@ -1,11 +1,12 @@
 """`--on-limit slow`: the drawing's clock slows where a joint could not keep up.
 
 The kinematic arm goes along the drawing first. What its joints would need is split into the part
-that shrinks with the clock, a = J^+ xi_d, and the pull of the null space b, which does not:
-q_dot = a s_dot + b. For laws that command torques the motors' share is looked at as well, the
-weight of the arm being the part that does not shrink.
+that shrinks with the clock, a = J^+ xi_d, and the part that does not, the pull of the null space
+and what brings the arm back to the path: q_dot = a s_dot + b. For laws that command torques the
+motors' share is looked at as well, the weight of the arm being the part that does not shrink.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,11 +21,12 @@ from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.resolver import resolve
 
 SHARE = 0.9  # of a limit is planned with; the rest is for what a law adds
-LEAST = 0.3  # of that at least is taken for the drawing, whatever the null space takes
+LEAST = 0.3  # of that at least is taken for the drawing, whatever the rest takes
 SLOWEST = 50.0  # times
 PASSES = 6
 ENOUGH = 1e-3
-CLOSE = 0.2  # of its distance from the path the arm comes back in a period
+RATE = 20.0  # [1/s] at which the arm comes back to the path, as every law does by itself
+SETTLED = 1e-3  # [rad, m] from the path: it has arrived there, and what it needs now counts
 
 
 @dataclass(frozen=True)
@@ -49,7 +51,8 @@ def slow_down(
 ) -> Slowed:
     """The motion at a pace an arm can keep, as far as slowness helps.
 
-    Position limits are not helped by it, nor is what a law adds to get back to the path.
+    Position limits are not helped by it, nor is the way to the path where an arm begins off it, or
+    after a jump.
 
     Args:
         motion: what is asked.
@@ -59,9 +62,10 @@ def slow_down(
         torques: whether the motors' torques count.
     """
     slowness = np.ones(len(motion.t))
-    for _ in range(PASSES):
-        needed = np.clip(_needed(motion, kinematics, start, null, torques, slowness), 1, SLOWEST)
-        if (needed <= slowness * (1 + ENOUGH)).all():
+    for turn in range(PASSES):
+        needed = _needed(motion, kinematics, start, null, torques, slowness, turn > 0)
+        needed = np.clip(needed, 1, SLOWEST)
+        if turn and (needed <= slowness * (1 + ENOUGH)).all():
             break
         slowness = np.maximum(slowness, smooth(needed, motion.period))
     if (slowness == 1).all():
@@ -79,8 +83,13 @@ def _needed(
     null: str,
     torques: bool,
     slowness: Floats,
+    returning: bool,
 ) -> Floats:
-    """The slowness (N,) each row needs by itself, when the clock is as slow as given."""
+    """The slowness (N,) each row needs by itself, when the clock is as slow as given.
+
+    What brings the arm back to the path is counted only if it is `returning`: at full speed it
+    would be too much.
+    """
     card, period = kinematics.card, motion.period
     wish, zero = make_wish(null, card, start), np.zeros(card.joints)
     speed = SHARE * card.speed
@@ -88,21 +97,28 @@ def _needed(
     growth = np.gradient(slowness, period) if len(slowness) > 1 else np.zeros(1)
     needed = np.empty(len(motion.t))
     q = start
-    rows = zip(motion.pose, motion.twist, motion.acceleration, slowness, growth, strict=True)
-    for k, (pose, twist, slope, slow, grow) in enumerate(rows):
+    settled = False
+    rows = zip(
+        motion.pose, motion.twist, motion.acceleration, motion.jump, slowness, growth, strict=True
+    )
+    for k, (pose, twist, slope, jump, slow, grow) in enumerate(rows):
         x, J = kinematics.pose_and_jacobian(q)
         point = dq.translation(x)
+        error = 2 * dq.log(dq.mul(dq.nearest(pose, x), dq.conj(x)))
+        settled = (settled or float(np.abs(error).max()) < SETTLED) and not jump
+        back = resolve(J, point, error, zero)
         along = resolve(J, point, twist, zero)
         pull = resolve(J, point, np.zeros(6), wish(q, J, point))
         room = np.maximum(speed - np.abs(pull), LEAST * speed)
         needed[k] = (np.abs(along) / room).max()
+        if settled and returning:
+            needed[k] = max(needed[k], (np.abs(along + slow * (pull + RATE * back)) / speed).max())
         if motors is not None:
             acceleration = slope / slow**2 - twist * (grow / slow**3)
             rates = along / slow + pull
             needed[k] = max(needed[k], slow * motors.excess(q, rates, J, point, acceleration))
-        error = 2 * dq.log(dq.mul(dq.nearest(pose, x), dq.conj(x)))
-        back = CLOSE * resolve(J, point, error, zero)
-        q = np.clip(q + back + period * (along + slow * pull), card.lower, card.upper)
+        close = 1 - math.exp(-RATE * period * slow)
+        q = np.clip(q + period * (along + slow * pull) + close * back, card.lower, card.upper)
     return needed
 
 

@@ -25,12 +25,14 @@ class UrdfFile(Part):
     Attributes:
         products_negated: the file has its products of inertia as CAD programs print them, with the
             other sign than URDF's.
+        frictionless: the file's joint damping and friction are left out.
     """
 
     package: str = ""
     file: str
     link: str
     products_negated: bool = False
+    frictionless: bool = False
 
     @property
     def path(self) -> Path:

@@ -3,17 +3,20 @@
 from dqpaint.errors import UnknownNameError
 from dqpaint.language import Diagnostic, Program, ScriptError
 from dqpaint.robots.card import DEFAULT_ROBOT, Card, read_card
-from dqpaint.robots.files import is_file, read_file
 
 
 def find_card(robot: str) -> Card:
-    """The card of an arm by its name, or by a file of one's own.
+    """The card of an arm by its name, or by a file: *.toml, *.urdf, or *.urdf:LINK.
 
     Raises:
         UnknownNameError: no card has that name.
         DqpaintError: the file is not there, or no arm.
     """
-    return read_file(robot) if is_file(robot) else read_card(robot)
+    if robot.endswith((".toml", ".urdf")) or ".urdf:" in robot:
+        from dqpaint.robots.files import read_file  # brings what reads a URDF
+
+        return read_file(robot)
+    return read_card(robot)
 
 
 def card_for(program: Program, robot: str | None) -> Card:

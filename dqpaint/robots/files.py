@@ -23,11 +23,6 @@ ANYWHERE = Canvas(at_m=(0, 0, 0), right=(0, 1, 0), up=(0, 0, 1))  # until a bett
 ROUND = 360.0  # [deg] to either side, of a joint without ends
 
 
-def is_file(robot: str) -> bool:
-    """Whether a robot is named by a file: *.toml, *.urdf, or *.urdf:LINK."""
-    return robot.endswith((".toml", ".urdf")) or ".urdf:" in robot
-
-
 def read_file(robot: str) -> Card:
     """The card of an arm described by a file.
 

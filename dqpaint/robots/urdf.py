@@ -19,7 +19,7 @@ from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 from dqpaint.robots.built import WEIGHTLESS, write_urdf
 from dqpaint.robots.card import Card
-from dqpaint.robots.tree import Joint, Tree, numbers
+from dqpaint.robots.tree import Joint, Tree
 
 BALL = 0.05  # [m], radius of the ball that stands for a shape nobody gave
 LIGHTEST = 0.1  # [kg], of a link that moves and has no mass
@@ -51,6 +51,10 @@ def prepare(card: Card) -> Prepared:
     _still(tree, arm, card)
     if card.urdf.products_negated:
         _negate_products(tree)
+    if card.urdf.frictionless:
+        for joint in tree.joints.values():
+            for dynamics in joint.element.findall("dynamics"):
+                joint.element.remove(dynamics)
     notes = [*_weigh(tree), *_find_meshes(tree)]
     return Prepared(Xml.tostring(tree.robot, encoding="unicode"), tuple(notes))
 
@@ -87,21 +91,11 @@ def _still(tree: Tree, arm: list[Joint], card: Card) -> None:
     }  # fmt: skip
     for i, joint in enumerate(arm):
         joint.element.set("type", "revolute")
-        _make_unit(joint.element.find("axis"))
         element = joint.element.find("limit")
         if element is None:
             element = Xml.SubElement(joint.element, "limit")
         for name, values in limits.items():
             element.set(name, repr(float(values[i])))
-
-
-def _make_unit(axis: Xml.Element | None) -> None:
-    """One length for every axis: the libraries differ on others."""
-    if axis is not None and axis.get("xyz") is not None:
-        values = numbers(axis.get("xyz", ""))
-        length = float(np.linalg.norm(values))
-        if abs(length - 1) > 1e-12:
-            axis.set("xyz", " ".join(repr(float(x)) for x in values / length))
 
 
 def _negate_products(tree: Tree) -> None:

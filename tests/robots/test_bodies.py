@@ -77,6 +77,19 @@ def test_a_long_offset_is_shared_by_its_two_links():
     np.testing.assert_allclose(links[1].place, [0, 0, 0.155], atol=1e-12)
 
 
+def test_parallel_axes_are_joined_where_the_arm_arrives():
+    """The second axis is reached half a metre aside of its point nearest to the origin."""
+    directions, points = (
+        [[0, 0, 1], [0, 1, 0], [0, 1, 0]],
+        [[0, 0.5, 0], [0, 0, 0.3], [0.4, 0, 0.3]],
+    )
+    axes = dq.twist_from_screw(directions, points, np.zeros(3))
+    arm = Screws(axes, dq.pose_from([0.5, 0.5, 0.3], [1, 0, 0, 0]))
+    links = build_links(arm, [1] * 3, [0.05] * 4)
+    np.testing.assert_allclose(links[2].place, [0, 0.5, 0.3], atol=1e-12)
+    np.testing.assert_allclose(links[3].place, [0.4, 0.5, 0.3], atol=1e-12)
+
+
 def test_parallel_axes_are_joined_straight_across():
     axes = dq.twist_from_screw([[0, 1, 0]] * 2, [[0, 0.7, 0.1], [0.4, -3, 0.1]], np.zeros(2))
     arm = Screws(axes, dq.pose_from([0.5, 0, 0.1], [1, 0, 0, 0]))

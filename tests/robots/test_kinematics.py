@@ -12,6 +12,8 @@ from dqpaint.robots.urdf import possible, urdf_file
 
 AGREES = 1e-9  # [m, rad] between pinocchio and PyBullet
 
+PHYSICS_STEP = 1e-3  # [s]
+
 
 @pytest.fixture(params=installed_names())
 def arm(request):
@@ -77,6 +79,8 @@ def test_dynamics_agree_with_pybullet(arm, rng):
 def test_what_moves_can_be_made_of_matter(arm):
     """Each body weighs something; its moments are positive, none above the sum of the others."""
     assert len(arm.notes) == arm.card.name.startswith("baxter")  # a gripper without inertia
+    weights = np.diag(pinocchio.crba(arm.model, arm.model.createData(), arm.card.home))
+    assert (np.array(arm.model.damping) * PHYSICS_STEP < weights).all()  # else a step overshoots
     for inertia in list(arm.model.inertias)[1:]:
         assert inertia.mass > 0
         assert possible(inertia.inertia)

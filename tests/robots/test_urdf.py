@@ -78,6 +78,17 @@ def test_long_axes_turn_by_the_same_angle(read):
     np.testing.assert_allclose(straight.pose(q), long.pose(q), atol=1e-15)
 
 
+def test_a_guessed_inertia_leaves_the_mass_where_it_is(read):
+    without = arm_urdf().replace(
+        'ixx="0.02" ixy="0.001" ixz="0" iyy="0.03" iyz="0" izz="0.025"',
+        'ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"',
+    )
+    inertia = Kinematics(read(without)).model.inertias[1]
+    assert inertia.mass == 6
+    np.testing.assert_allclose(inertia.lever, [0.05, 0, 0.02])
+    np.testing.assert_allclose(inertia.inertia, 0.4 * 6 * 0.05**2 * np.eye(3), atol=1e-15)
+
+
 def test_a_mimicking_finger_stands_still(read):
     mimic = arm_urdf().replace(
         'velocity="1" effort="1"/></joint>', 'velocity="1" effort="1"/><mimic joint="j1"/></joint>'

@@ -1,7 +1,5 @@
 """Series elastic joints against closed forms: swing, sag, and where a loop becomes unstable."""
 
-from xml.etree import ElementTree as Xml
-
 import numpy as np
 import pytest
 
@@ -10,11 +8,9 @@ from dqpaint.errors import UsageError
 from dqpaint.plants import PLANTS, choose_plant
 from dqpaint.plants.compliant import CompliantOptions
 from dqpaint.plants.world import Payload, World
-from dqpaint.robots.card import Card, read_card
-from dqpaint.robots.chain import UrdfFile
+from dqpaint.robots.card import read_card
 from dqpaint.robots.dynamics import Dynamics
 from dqpaint.robots.kinematics import Kinematics
-from dqpaint.robots.urdf import prepare
 
 pytestmark = pytest.mark.slow
 PERIOD = 0.008
@@ -26,32 +22,6 @@ SIDEWAYS = World(base=dq.pose_from((0, 0, 0), [np.cos(0.4), np.sin(0.4), 0, 0]))
 
 def options(**given):
     return CompliantOptions.model_validate(given)
-
-
-@pytest.fixture
-def one_joint(tmp_path):
-    """A card of the iiwa with all joints but one held at zero."""
-
-    def make(joint, friction=0.0):
-        robot = Xml.fromstring(prepare(IIWA).text)
-        moving = [j for j in robot.iter("joint") if j.get("type") == "revolute"]
-        for number, element in enumerate(moving):
-            if number != joint:
-                element.set("type", "fixed")
-            else:
-                element.find("dynamics").set("damping", repr(friction))
-        path = tmp_path / "one.urdf"
-        path.write_text(Xml.tostring(robot, encoding="unicode"))
-        limits = IIWA.limits.model_construct(
-            lower_deg=(-170.0,), upper_deg=(170.0,), speed_deg_s=(500.0,), effort_Nm=(1e5,)
-        )
-        return Card.model_construct(
-            name="one", title="", source="", licence="", home_deg=(0.0,), tool=IIWA.tool,
-            urdf=UrdfFile(file=str(path), link=IIWA.link), canvas=IIWA.canvas, limits=limits,
-            denavit_hartenberg=None, screws=None, body=None, notes=(),
-        )  # fmt: skip
-
-    return make
 
 
 def discrete(inertia, k, d, friction, grounded, period):

@@ -36,15 +36,16 @@ class Senses:
     """
 
     def __init__(
-        self, kinematics: Kinematics, rows: int, period: float, given: Disturbances, seed: int
+        self, kinematics: Kinematics, t: Floats, period: float, given: Disturbances, seed: int
     ) -> None:
         self.world, self.believed, self._true = UNDISTURBED, kinematics, kinematics
         self._period = period
         self._encoders = []
         for name, one in given.items():
+            one.check(t)
             self.world = one.world(self.world)
             self.believed = one.belief(self.believed, chance(seed, name))
-            encoder = one.encoder(rows, kinematics.card.joints, chance(seed, name))
+            encoder = one.encoder(len(t), kinematics.card.joints, chance(seed, name))
             if encoder is not None:
                 self._encoders.append(encoder)
         self._error = np.zeros(kinematics.card.joints)

@@ -114,7 +114,7 @@ def track(
         DqpaintError: the simulation left the numbers, or a law of one's own has a fault.
     """
     n, card = len(motion.t), kinematics.card
-    senses = Senses(kinematics, n, motion.period, disturbances, seed)
+    senses = Senses(kinematics, motion.t, motion.period, disturbances, seed)
     log = _Log(n, card.joints)
     ahead = controller.prepare(motion, gains) if controller.prepare else np.zeros((n, 0))
     wish = make_wish(null, card, start)

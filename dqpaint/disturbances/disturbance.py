@@ -41,6 +41,13 @@ class Disturbance(BaseModel):
         """
         return np.zeros((len(t), 6))
 
+    def check(self, t: Floats) -> None:
+        """See that it can show in a run at times (N,) [s].
+
+        Raises:
+            UsageError: it cannot.
+        """
+
     def encoder(self, rows: int, joints: int, rng: np.random.Generator) -> Encoder | None:
         """What is measured: (row, true joint angles (n,)) -> read ones (n,) [rad]; None is true."""
         return None

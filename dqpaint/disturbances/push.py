@@ -6,6 +6,8 @@ from typing import Annotated, ClassVar
 from pydantic import Field
 
 from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance
+from dqpaint.dq import Floats
+from dqpaint.errors import UsageError
 from dqpaint.plants.plant import Trait
 from dqpaint.plants.world import Push, World
 
@@ -27,6 +29,14 @@ class ForceForAWhile(Disturbance):
     )
     start: Time = Field(1.0, description="s, when it begins")
     seconds: Time = Field(0.1, description="s, how long it lasts")
+
+    def check(self, t: Floats) -> None:
+        """It begins before the end."""
+        if self.start >= t[-1]:
+            raise UsageError(
+                f"disturbance 'push': it starts at {self.start:g} s, when the drawing is over "
+                f"({t[-1]:.4g} s)"
+            )
 
     def world(self, world: World) -> World:
         """With the push, if it is any."""

@@ -6,6 +6,7 @@ from xml.etree import ElementTree as Xml
 import numpy as np
 
 from dqpaint import dq
+from dqpaint.errors import UsageError
 from dqpaint.plants.bullet import bullet
 from dqpaint.plants.world import Payload, Push, World
 from dqpaint.robots.card import Card
@@ -31,6 +32,20 @@ def loaded(text: str, card: Card, payloads: tuple[Payload, ...]) -> str:
         Xml.SubElement(joint, "child", link=f"payload {number}")
         Xml.SubElement(joint, "origin", xyz=" ".join(map(repr, card.tool.at_m)), rpy="0 0 0")
     return Xml.tostring(robot, encoding="unicode")
+
+
+def check_pushes(world: World, card: Card) -> None:
+    """See that what is pushed is there.
+
+    Raises:
+        UsageError: a link the arm does not have.
+    """
+    for push in world.pushes:
+        if push.link > card.joints:
+            raise UsageError(
+                f"disturbance 'push': link {push.link}, but {card.name} has {card.joints} links "
+                "that move; 0 is the tool"
+            )
 
 
 class Pushing:

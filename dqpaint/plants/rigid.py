@@ -9,7 +9,7 @@ import numpy as np
 
 from dqpaint.dq import Floats
 from dqpaint.plants.bullet import bullet, joint_indices, quiet
-from dqpaint.plants.load import Pushing, loaded
+from dqpaint.plants.load import Pushing, check_pushes, loaded
 from dqpaint.plants.plant import Options, Trait
 from dqpaint.plants.world import UNDISTURBED, World
 from dqpaint.robots.card import Card
@@ -41,6 +41,9 @@ class RigidArm:
         step: the length of one [s].
         advance: makes one of them.
         posture: as `Plant` says, likewise `rates` and `effort`.
+
+    Raises:
+        UsageError: a push on a link the arm does not have.
     """
 
     traits: ClassVar[frozenset[Trait]] = frozenset({"masses"})
@@ -54,6 +57,7 @@ class RigidArm:
         world: World = UNDISTURBED,
         longest: float = LONGEST_STEP,
     ) -> None:
+        check_pushes(world, card)
         self.card = card
         self.steps = max(1, math.ceil(period / longest - 1e-9))
         self.step = period / self.steps  # [s]

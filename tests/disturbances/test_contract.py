@@ -139,6 +139,15 @@ def test_bad_values_are_refused(name, values, said):
         make_disturbances({name: values})
 
 
+@pytest.mark.parametrize(("values", "said"), [
+    ({"x": 5.0, "link": 8, "start": 0.1}, "link 8, but iiwa has 7 links that move; 0 is the tool"),
+    ({"x": 5.0, "start": 3.0}, r"it starts at 3 s, when the drawing is over \(0.8 s\)"),
+])  # fmt: skip
+def test_a_push_that_meets_nothing_is_refused(values, said):
+    with pytest.raises(UsageError, match=said):
+        run({"push": values}, "stiff")
+
+
 # What each of them does, against what it should.
 
 

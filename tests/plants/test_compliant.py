@@ -5,7 +5,7 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.errors import UsageError
-from dqpaint.plants import PLANTS, choose_plant
+from dqpaint.plants import PLANTS, choose_plant, compliant
 from dqpaint.plants.compliant import CompliantOptions
 from dqpaint.plants.world import Payload, World
 from dqpaint.robots.card import read_card
@@ -90,6 +90,29 @@ def test_commands_wind_the_spring_as_they_should(damper, one_joint, rng):
     np.testing.assert_allclose(found[:, 1], wanted[:, 1], atol=0.01 * np.abs(wanted[:, 1]).max())
     np.testing.assert_allclose(found[:, 2], wanted[:, 2], atol=0.02 * np.abs(wanted[:, 2]).max())
     assert np.abs(torques).max() > 1
+
+
+def test_half_the_step_leaves_a_quarter_of_the_error(one_joint, rng, monkeypatch):
+    """Of second order in the physics step, jumps of the command included."""
+    card = one_joint(0)
+    inertia = Dynamics(Kinematics(card)).inertia(card.home)[0, 0]
+    w, z = 40.0, 0.7
+    Phi, Gamma = discrete(inertia, w**2 * inertia, 2 * z * w * inertia, 0.0, False, PERIOD)
+    rates = rng.normal(size=40)
+    errors = []
+    for fine in (0.03, 0.01):
+        monkeypatch.setattr(compliant, "FINE", fine)
+        plant = PLANTS["compliant"](
+            card, card.home, PERIOD, options=options(frequency=w, damping=z, gravity=0)
+        )
+        state, apart = np.zeros(3), []
+        for rate in rates:
+            plant.run(np.array([rate]))
+            state = Phi @ state + Gamma * rate
+            apart.append([plant.posture[0] - state[1], (plant.rates[0] - state[2]) / w])
+        plant.close()
+        errors.append(np.abs(apart).max(axis=0) * plant.step**-2)
+    np.testing.assert_allclose(errors[0], errors[1], rtol=0.15)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.7])

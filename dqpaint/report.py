@@ -25,6 +25,7 @@ def of_painting(painting: Painting, written: Sequence[Path]) -> str:
         ("drawing", summary_line(painting.motion)),
         ("arm", f"{painting.robot}, {painting.plant}"),
         ("controller", f"{painting.controller.name}  {gains}"),
+        *_disturbed(painting),
         ("position error", _spread(figures, "position_error", "m", 1e3, "mm")),
         ("", f"largest at {_worst(painting)}"),
         ("orientation error", _spread(figures, "orientation_error", "rad", math.degrees(1), "deg")),
@@ -39,6 +40,16 @@ def of_painting(painting: Painting, written: Sequence[Path]) -> str:
     return table(rows)
 
 
+def _disturbed(painting: Painting) -> list[tuple[str, str]]:
+    """What no law knew of, each with the values that were given."""
+    rows: list[tuple[str, str]] = []
+    for name, one in painting.disturbances.items():
+        given = one.model_dump(exclude_defaults=True)
+        values = ", ".join(f"{key} = {_gain(value)}" for key, value in given.items())
+        rows.append(("" if rows else "disturbed by", f"{name}  {values or 'nothing'}"))
+    return rows
+
+
 def _came_through(painting: Painting) -> list[tuple[str, str]]:
     """An unmodelled twist beside the promise of the gains."""
     rows: list[tuple[str, str]] = []
@@ -48,6 +59,8 @@ def _came_through(painting: Painting) -> list[tuple[str, str]]:
             kept = "kept" if one.kept else f"broken, {one.ratio / one.bound:.3g} times as much"
             if not one.kept and painting.limits:
                 kept += "; limits held joints meanwhile"
+            if not one.kept and len(painting.disturbances) > 1:
+                kept += "; other disturbances took part"
             said += f", promised at most {one.bound:.3g} s: {kept}"
         rows.append(("" if rows else "disturbance", said))
     return rows

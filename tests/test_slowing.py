@@ -133,6 +133,7 @@ def test_one_across_a_joint_limit(draw):
         draw(BEYOND, "stop", start="home")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", ["clip", "slow", "stop"])
 def test_one_out_of_reach_is_refused_whatever_is_asked(draw, how):
     """Ten per cent beyond: 0.7 m in front of the shoulder, and sideways to 110 % of the reach."""

@@ -16,6 +16,7 @@ from dqpaint.language import parse
 from dqpaint.motion import plan
 from dqpaint.plants import choose_plant
 from dqpaint.plants.plant import PLANTS
+from dqpaint.report import of_painting
 from dqpaint.robots.card import read_card
 from dqpaint.robots.dynamics import Dynamics
 from dqpaint.robots.kinematics import Kinematics
@@ -113,6 +114,7 @@ def test_it_is_told_in_the_summary(name, tmp_path):
     told = json.loads(outputs.summary(painting))
     assert SIZES[name].items() <= told["disturbances"][name].items()
     assert told["seed"] == 3
+    assert f"disturbed by       {name}  " in of_painting(painting, [])
 
 
 @EVERY

@@ -68,3 +68,17 @@ def test_sag_shows_where_encoders_sit_at_the_motors(arm):
     assert abs(sags[0] - sags[1]) < 0.2
     assert sags[3] > 4
     assert sags[2] == pytest.approx(sags[3] / 0.3, rel=0.3)
+
+
+def test_a_motor_that_saturates_is_counted():
+    card = read_card("iiwa")
+    weak = card.limits.model_copy(update={"effort_Nm": (320, 30, 176, 176, 110, 40, 40)})
+    kinematics = Kinematics(card.model_copy(update={"limits": weak}))
+    motion = plan(parse("period 8 ms\nhold 0.2 s\n", "t.traj"), card.canvas.pose)
+    law = CONTROLLERS["pff"]
+    run = track(
+        motion, kinematics, card.home, choose_plant("compliant", "rates"), law, law.read_gains({})
+    )
+    held = [clamp for clamp in run.clamps if clamp.kind == "torque"]
+    assert [(clamp.joint, clamp.line, clamp.limit) for clamp in held] == [(2, 2, 30.0)]
+    assert np.abs(run.effort[:, 1]).max() <= 30 * (1 + 1e-9)

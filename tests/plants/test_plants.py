@@ -9,7 +9,7 @@ import pytest
 from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.plants import PLANTS, choose_plant, stiff
 from dqpaint.plants.rigid import LONGEST_STEP
-from dqpaint.plants.world import GRAVITY
+from dqpaint.plants.world import GRAVITY, Payload, World
 from dqpaint.robots.card import card_names, read_card
 from dqpaint.robots.kinematics import Kinematics
 
@@ -125,6 +125,28 @@ def test_the_torque_driven_arm_obeys_pinocchio_s_forward_dynamics(robot, rng):
         np.testing.assert_allclose(found, bend, rtol=1e-9, atol=1e-9 * np.abs(bend).max())
         np.testing.assert_allclose(plant.posture, q + step * plant.rates, atol=1e-14)
         assert (plant.effort == tau).all()
+
+
+def test_a_payload_moves_as_pinocchio_says(rng):
+    """A large ball fixed where the light sits: from a random state, one physics step."""
+    import pinocchio
+
+    mass, radius = 1.5, 0.2
+    arm = Kinematics(CARD)
+    model = pinocchio.Model(arm.model)
+    ball = pinocchio.Inertia(mass, np.zeros(3), 0.4 * mass * radius**2 * np.eye(3))
+    at = model.frames[model.getFrameId(CARD.link, pinocchio.FrameType.BODY)].placement
+    lamp = pinocchio.SE3(np.eye(3), np.array(CARD.tool.at_m))
+    model.appendBodyToJoint(7, ball, at * lamp)
+    q, v, tau = rng.uniform(-1, 1, 7), rng.normal(size=7), rng.normal(size=7)
+    plant = PLANTS["torque"](CARD, q, LONGEST_STEP, World(payloads=(Payload(mass, radius),)))
+    for joint, angle, rate in zip(plant.joints, q.tolist(), v.tolist(), strict=True):
+        stiff.bullet.resetJointState(plant.body, joint, angle, rate, plant.client)
+    plant.run(tau)
+    plant.close()
+    bend = pinocchio.aba(model, model.createData(), q, v, tau - model.damping * v)
+    found = (plant.rates - v) / LONGEST_STEP
+    np.testing.assert_allclose(found, bend, rtol=1e-9, atol=1e-9 * np.abs(bend).max())
 
 
 def test_much_friction_on_a_light_link_takes_shorter_steps(one_joint):

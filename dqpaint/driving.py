@@ -39,7 +39,7 @@ def make_drive(
         period: of the control [s].
     """
     if controller.drives_torque:
-        return TorqueDrive(controller, kinematics, wish)
+        return TorqueDrive(controller, kinematics, wish, period)
     return RateDrive(controller, kinematics, wish, period)
 
 
@@ -84,9 +84,12 @@ class TorqueDrive:
     PULL (start - q).
     """
 
-    def __init__(self, controller: Controller[Any], kinematics: Kinematics, wish: Wish) -> None:
+    def __init__(
+        self, controller: Controller[Any], kinematics: Kinematics, wish: Wish, period: float
+    ) -> None:
         self._law = controller.law
         self._resolved = controller.commands == "acceleration"
+        self._period = period
         self._wish = wish
         self._dynamics = Dynamics(kinematics)
         self._effort = kinematics.card.effort
@@ -102,7 +105,7 @@ class TorqueDrive:
         point = dq.translation(seen.pose)
         wish = PULL * self._wish(q, seen.jacobian, point) - 2 * PULL * rates
         bend = resolve(seen.jacobian, point, wanted, wish)
-        return self._dynamics.torque(q, rates, bend)
+        return self._dynamics.torque(q, rates, bend, self._period)
 
     def hold(self, posture: Floats) -> Floats:
         """What the arm weighs (n,) [Nm], by the law's model."""

@@ -95,6 +95,26 @@ def _null() -> list[dict[str, Any]]:
     ]
 
 
+def _brushes() -> list[dict[str, Any]]:
+    from dqpaint.light.brushes import BRUSHES, choices_of
+
+    return [
+        {"name": name, "about": (kind.__doc__ or "").splitlines()[0], "choices": choices_of(kind)}
+        for name, kind in BRUSHES.items()
+    ]
+
+
+def _looks() -> list[dict[str, Any]]:
+    from dqpaint.light.looks import LOOKS
+    from dqpaint.settings import Settings
+
+    usual = Settings.model_fields["look"].default
+    return [
+        {"name": name, "about": (look.__doc__ or "").splitlines()[0], "default": name == usual}
+        for name, look in LOOKS.items()
+    ]
+
+
 def _examples() -> list[dict[str, Any]]:
     from dqpaint.examples import example_names, examples_folder
 
@@ -111,6 +131,8 @@ LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {
     "plants": _plants,
     "disturbances": _disturbances,
     "null": _null,
+    "brushes": _brushes,
+    "looks": _looks,
     "examples": _examples,
 }
 
@@ -136,6 +158,7 @@ def text(found: dict[str, list[dict[str, Any]]]) -> str:
         for row in rows:
             usual = " (default)" if row.get("default") else ""
             lines.append((row["name"] + usual, row["about"]))
+            lines += [("", f"  {choice}") for choice in row.get("choices", [])]
             numbers = [*row.get("gains", []), *row.get("values", [])]
             lines += [("", f"  {value_line(number)}") for number in numbers]
             if "gains" in row:

@@ -13,17 +13,17 @@ from dqpaint.attenuation import Attenuation, attenuation
 from dqpaint.controllers import Controller, find_controller
 from dqpaint.disturbances import Disturbance, make_disturbances
 from dqpaint.language.program import Program
-from dqpaint.light.camera import parse_view
 from dqpaint.light.film import Film
 from dqpaint.metrics import Metrics, Table, measure
 from dqpaint.motion import Motion, plan
 from dqpaint.nullspace import read_null
 from dqpaint.out_of_reach import begin, check_worst
-from dqpaint.picture import Picture, take
+from dqpaint.picture import Picture, photograph
 from dqpaint.plants import choose_plant
 from dqpaint.robots.choose import card_for
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Clamp
+from dqpaint.scene import Scene, arrange, check_choices
 from dqpaint.set_points import SetPoint, set_points
 from dqpaint.settings import Settings
 from dqpaint.slowing import Slowed, slow_down
@@ -32,7 +32,7 @@ from dqpaint.tracking import Track, track
 
 @dataclass(frozen=True, repr=False)
 class Painting:
-    """A finished painting: what was asked, what the arm did, the picture and the numbers."""
+    """A finished painting: what was asked, what the arm did, the pictures and the numbers."""
 
     settings: Settings
     controller: Controller[Any]
@@ -46,10 +46,16 @@ class Painting:
     metrics: Metrics
     attenuation: dict[str, Attenuation]  # of an unmodelled twist, in rotation and translation
     set_points: tuple[SetPoint, ...]
-    picture: Picture
+    scene: Scene
+    pictures: tuple[Picture, ...]  # one a view
     slowed: Slowed | None = None  # where the drawing's clock may slow down
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
     notes: tuple[str, ...] = ()  # what was assumed of the arm
+
+    @property
+    def picture(self) -> Picture:
+        """The picture of the first view."""
+        return self.pictures[0]
 
     @property
     def image(self) -> NDArray[np.uint8]:
@@ -102,7 +108,7 @@ def paint(
         DqpaintError: the run or the light came to nothing.
     """
     clock = Stopwatch()
-    parse_view(settings.view)  # a slip there is told before anything is simulated
+    check_choices(settings)  # a slip there is told before anything is simulated
     controller = controller or find_controller(settings.controller)
     gains = controller.read_gains(settings.gains)
     plant = choose_plant(settings.plant, "torque" if controller.drives_torque else "rates")
@@ -132,10 +138,11 @@ def paint(
         came_through = attenuation(run, gains.promise())
         steps = set_points(run)
     with clock("light"):
-        picture = take(motion, run.points, settings)
+        scene = arrange(motion, run.pose, settings, metrics.table)
+        pictures = tuple(photograph(scene, settings))
     return Painting(
         settings, controller, card.name, plant.name, plant.shown(card), disturbances,
-        gains.shown(), motion, run, metrics, came_through, steps, picture, slowed,
+        gains.shown(), motion, run, metrics, came_through, steps, scene, pictures, slowed,
         clock.seconds, kinematics.notes,
     )  # fmt: skip
 

@@ -9,10 +9,12 @@ from dqpaint.motion import Motion, summary_line
 from dqpaint.paint import Painting
 from dqpaint.picture import Picture
 from dqpaint.robots.limits import Clamp
+from dqpaint.sketch import Preview
 from dqpaint.terminal import table
 
 WHITE = 250  # of 255
 MOST_NAMED = 3  # limits in the table; all of them are in the warnings
+LONGEST_TORQUE_PERIOD = 5e-3  # [s], the 200 Hz of Chandra 2020
 WORTH_A_WARNING = 0.01  # of the light
 NOTHING = 1e-9  # [mm, deg] is shown as 0
 
@@ -34,7 +36,7 @@ def of_painting(painting: Painting, written: Sequence[Path]) -> str:
         *_steps(painting),
         *_pace(painting),
         ("limits", _limits_line(painting)),
-        ("light", light_line(painting.picture)),
+        *_pictures(painting.pictures),
         *_files(written),
     ]
     return table(rows)
@@ -112,14 +114,20 @@ def _gain(value: float | tuple[float, ...] | str) -> str:
     return value if isinstance(value, str) else f"{value:.4g}"
 
 
-def of_preview(picture: Picture, written: Sequence[Path]) -> str:
+def of_preview(preview: Preview, written: Sequence[Path]) -> str:
     """The table that follows `preview`."""
-    rows = [
-        ("drawing", summary_line(picture.motion)),
-        ("light", light_line(picture)),
-        *_files(written),
-    ]
-    return table(rows)
+    rows = [("drawing", summary_line(preview.motion)), *_pictures(preview.pictures)]
+    return table([*rows, *_files(written)])
+
+
+def of_developed(pictures: Sequence[Picture], written: Sequence[Path]) -> str:
+    """The table that follows `develop`."""
+    return table([*_pictures(pictures), *_files(written)])
+
+
+def _pictures(pictures: Sequence[Picture]) -> list[tuple[str, str]]:
+    """What the light and the exposure of the first picture are; the others are of the same run."""
+    return [("light", light_line(pictures[0])), ("exposure", pictures[0].told)]
 
 
 def light_line(picture: Picture) -> str:
@@ -146,6 +154,13 @@ def remarks(painting: Painting) -> list[str]:
     for (kind, line), held in _grouped(painting).items():
         joints = "".join(f"\n    {clamp}" for clamp in held)
         texts.append(f"warning: line {line} runs into {kind} limits:{joints}{CURES[kind]}")
+    period = painting.motion.period
+    if painting.track.torques and period > LONGEST_TORQUE_PERIOD * (1 + 1e-9):
+        texts.append(
+            f"warning: torques are held for {period * 1e3:g} ms; laws that command them are made "
+            f"for {LONGEST_TORQUE_PERIOD * 1e3:g} ms (200 Hz) or less"
+            "\n  = help: write period 5 ms in the drawing"
+        )
     film = painting.picture.film
     if film.lost.sum() > WORTH_A_WARNING * film.emitted.sum():
         share = film.lost.sum() / film.emitted.sum()

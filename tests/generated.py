@@ -139,11 +139,34 @@ def _values(model):
     return ", ".join(f"`{name}` ({field.description})" for name, field in fields)
 
 
+def brushes():
+    from dqpaint.light.brushes import BRUSHES
+
+    rows = [
+        [
+            f"`{name}`",
+            kind.__doc__.splitlines()[0],
+            " ".join(f"`{key}`" for key in kind.model_fields),
+        ]
+        for name, kind in BRUSHES.items()
+    ]
+    return table(["brush", "", "its choices"], rows)
+
+
+def looks():
+    from dqpaint.light.looks import LOOKS
+
+    return table(["look", ""], [[f"`{n}`", k.__doc__.splitlines()[0]] for n, k in LOOKS.items()])
+
+
 def columns():
     return table(["column", ""], [[f"`{name}`", about] for name, about in COLUMNS.items()])
 
 
-TABLES = [statements, parts, values, controllers, robots, plants, disturbances, null, columns]
+TABLES = [
+    statements, parts, values, controllers, robots, plants, disturbances, null, brushes, looks,
+    columns,
+]  # fmt: skip
 SLOW_TABLES = [stars]
 
 

@@ -33,9 +33,14 @@ ORDER = [
     "set_points",
     "settings",
     "light",
+    "telling",
+    "scene",
     "picture",
+    "sketch",
     "out_of_reach",
     "paint",
+    "negative",
+    "video",
     "outputs",
     "terminal",
     "report",
@@ -47,14 +52,16 @@ ORDER = [
     "studies",
     "gallery",
     "cli",
+    "answering",
     "__main__",
 ]
 
 DOORS = {
     "pinocchio": ["robots/kinematics.py", "robots/dynamics.py"],
+    "eigenpy": ["robots/inverse.py"],
     "pybullet": ["plants/bullet.py"],
     "matplotlib": ["charts.py"],
-    "cv2": ["light/spread.py", "light/develop.py", "picture.py"],
+    "cv2": ["light", "picture.py", "negative.py", "video.py"],
     "typer": ["cli.py"],
     "pydantic": [
         "robots/card.py",
@@ -68,6 +75,8 @@ DOORS = {
         "plants/plant.py",
         "controllers",
         "settings.py",
+        "light/brushes.py",
+        "negative.py",
     ],
 }
 EVERYWHERE = {"numpy", "dqpaint", "typing_extensions"}

@@ -13,8 +13,11 @@ from dqpaint.motion import plan
 from dqpaint.out_of_reach import begin
 from dqpaint.report import of_painting
 from dqpaint.robots.card import read_card
+from dqpaint.robots.dynamics import Dynamics
 from dqpaint.robots.kinematics import Kinematics
-from dqpaint.slowing import SHARE, slow_down
+from dqpaint.robots.resolver import resolve
+from dqpaint.slowing import SHARE, _Motors, slow_down
+from dqpaint.stopping import meets_limit
 
 FAST = """period 8 ms
 start at (-100, 0) mm
@@ -194,6 +197,32 @@ def test_a_law_of_torques_is_slowed_for_its_motors_too():
     assert (np.abs(slow.effort) < arm.card.effort).all()
     rates = slow_down(motion, arm, start, "start", False)  # their speeds alone need less
     assert rates.longer < slowed.longer
+
+
+def test_a_joint_driven_past_its_end_by_torques_meets_its_limit():
+    """Nothing clips its command there: the stop is what holds it."""
+    card, zero = read_card("iiwa"), np.zeros(7)
+    row = (zero, zero, zero)  # wanted, commanded, effort
+    assert not meets_limit(card, card.upper - 1e-6, *row, torques=True)
+    assert meets_limit(card, card.upper + 1e-6, *row, torques=True)
+    assert meets_limit(card, card.lower - 1e-6, *row, torques=True)
+    assert not meets_limit(card, card.upper + 1e-6, *row, torques=False)
+
+
+def test_a_motor_s_share_is_worked_out_as_it_is():
+    """From rest, a motion m times too strong for a motor needs sqrt(m) times as long."""
+    arm = Kinematics(read_card("iiwa"))
+    motors, dynamics = _Motors(arm), Dynamics(arm)
+    q = arm.card.home + 0.1
+    x, J = arm.pose_and_jacobian(q)
+    slope = np.array([5.0, -3, 2, 40, 30, -20])
+    bend = resolve(J, dq.translation(x), slope, np.zeros(7))
+    weight = dynamics.weight(q)
+    moving = np.abs(dynamics.torque(q, np.zeros(7), bend) - weight)
+    wanted = np.sqrt((moving / (SHARE * arm.card.effort - np.abs(weight))).max())
+    found = motors.excess(q, np.zeros(7), J, dq.translation(x), slope)
+    assert found == pytest.approx(wanted, rel=1e-9)
+    assert abs(wanted - 1) > 0.1
 
 
 def test_unknown_words_are_refused(draw):

@@ -128,3 +128,9 @@ def test_a_stroke_takes_whole_periods(count, slow):
         mean = count / ticks.count
         assert ticks.rate.mean() == pytest.approx(mean, rel=0.5)
         assert (ticks.rate <= 1 / slow + 1e-12).all()
+
+
+def test_a_jump_is_never_slowed():
+    motion = slowed(np.full(len(ASKED.t), 4.0))
+    assert motion.jump.sum() == 1
+    assert (motion.stroke == 3).sum() == (ASKED.stroke == 3).sum() == 1

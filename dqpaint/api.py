@@ -31,6 +31,8 @@ def draw(
     disturb: Mapping[str, Mapping[str, float | str]] | None = None,
     seed: int | None = None,
     start: str | None = None,
+    null: str | None = None,
+    on_limit: str | None = None,
     size: tuple[int, int] | None = None,
     view: str | None = None,
     ev: float | None = None,
@@ -53,10 +55,13 @@ def draw(
         gains: of the law, in SI units; the others keep their defaults. A text such as
             "5..20@10%" changes on the way.
         robot: the arm; else the file's robot line, else the iiwa.
-        plant: how the arm answers.
+        plant: how the arm answers, with values as in "compliant:frequency=60".
         disturb: values of disturbances by their names, as in {"twist": {"x": 0.01}}.
         seed: of everything random.
         start: `first` (at the first pose) or `home`.
+        null: what a redundant arm does with its freedom: start, home, limits, manipulability or
+            none, with a gain as in "limits,gain=3".
+        on_limit: `clip` a joint that would pass a limit, `slow` the drawing, or `stop`.
         size: width and height of the picture [px].
         view: front, iso, side, top, or "AZ,EL" in degrees; stereo, orbit; several with commas.
         ev: exposure in stops on top of the automatic one.
@@ -80,9 +85,9 @@ def draw(
     settings = make_settings(
         controller=name, gains=dict(gains) if gains else None, robot=robot, plant=plant,
         disturb={name: dict(values) for name, values in (disturb or {}).items()}, seed=seed,
-        start=start, width=width, height=height, view=view, ev=ev, brush=brush, pwm=pwm,
-        exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
-        overlay=overlay, magnify=magnify,
+        start=start, null=null, on_limit=on_limit, width=width, height=height, view=view, ev=ev,
+        brush=brush, pwm=pwm, exposure=exposure, look=look, starburst=starburst, noise=noise,
+        colour_by=colour_by, overlay=overlay, magnify=magnify,
     )  # fmt: skip
     begin = perf_counter()
     program = _program(drawing)

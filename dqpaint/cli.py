@@ -48,7 +48,9 @@ Robot = Annotated[
 PlantName = Annotated[
     str | None,
     typer.Option(
-        metavar="NAME", help="how the arm answers [default: stiff, or torque for its laws]"
+        metavar="NAME[:KEY=VALUE,...]",
+        help="how the arm answers, such as compliant:frequency=60 [default: stiff, or torque for "
+        "its laws]",
     ),
 ]
 Disturb = Annotated[
@@ -59,6 +61,20 @@ Disturb = Annotated[
     ),
 ]
 Seed = Annotated[int, typer.Option(help="of everything random")]
+Null = Annotated[
+    str,
+    typer.Option(
+        metavar="NAME[,gain=VALUE]",
+        help="what a redundant arm does with its freedom: see dqpaint list null",
+    ),
+]
+OnLimit = Annotated[
+    str,
+    typer.Option(
+        metavar="clip|slow|stop",
+        help="where a joint would pass a limit: hold it back, slow the drawing down, or end",
+    ),
+]
 From = Annotated[str, typer.Option("--from", metavar="first|home", help="where the arm begins")]
 Size = Annotated[str, typer.Option(metavar="WxH", help="of the picture, in pixels")]
 View = Annotated[
@@ -139,6 +155,8 @@ def draw(
     disturb: Disturb = None,
     seed: Seed = 0,
     start: From = "first",
+    null: Null = "start",
+    on_limit: OnLimit = "clip",
     size: Size = "1280x720",
     view: View = "front",
     ev: Ev = 0.0,
@@ -167,10 +185,10 @@ def draw(
     with Progress(path.name) as progress:
         painting = api.draw(
             path, controller=controller, gains=parse_gains(gain or []), robot=robot, plant=plant,
-            disturb=parse_disturbances(disturb or []), seed=seed, start=start,
-            size=parse_size(size), view=view, ev=ev, brush=brush, pwm=pwm, exposure=exposure,
-            look=look, starburst=starburst, noise=noise, colour_by=colour_by, overlay=overlay,
-            magnify=magnify, progress=progress,
+            disturb=parse_disturbances(disturb or []), seed=seed, start=start, null=null,
+            on_limit=on_limit, size=parse_size(size), view=view, ev=ev, brush=brush, pwm=pwm,
+            exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
+            overlay=overlay, magnify=magnify, progress=progress,
         )  # fmt: skip
     with Progress("movie") as progress:
         written = outputs.write(stem, outputs.make(names, painting, progress))

@@ -53,6 +53,7 @@ def _plants() -> list[dict[str, Any]]:
             "about": (plant.__doc__ or "").splitlines()[0],
             "default": name == DEFAULT_PLANTS["rates"],
             "takes": plant.takes,
+            "values": _values(plant.options) if plant.options else [],
         }
         for name, plant in PLANTS.items()
     ]
@@ -74,12 +75,32 @@ def _disturbances() -> list[dict[str, Any]]:
         {
             "name": name,
             "about": (model.__doc__ or "").splitlines()[0],
-            "values": [
-                {"name": field, "default": f.default, "about": f.description}
-                for field, f in model.model_fields.items()
-            ],
+            "values": _values(model),
         }
         for name, model in DISTURBANCES.items()
+    ]
+
+
+def _values(model: Any) -> list[dict[str, Any]]:
+    return [
+        {"name": name, "default": f.default, "about": f.description}
+        for name, f in model.model_fields.items()
+    ]
+
+
+def _null() -> list[dict[str, Any]]:
+    from dqpaint.nullspace import DEFAULT_NULL, OBJECTIVES
+
+    return [
+        {
+            "name": name,
+            "about": (objective.__doc__ or "").splitlines()[0],
+            "default": name == DEFAULT_NULL,
+            "values": [{"name": "gain", "default": objective.usual, "about": objective.unit}]
+            if objective.usual
+            else [],
+        }
+        for name, objective in OBJECTIVES.items()
     ]
 
 
@@ -134,6 +155,7 @@ LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {
     "controllers": _controllers,
     "plants": _plants,
     "disturbances": _disturbances,
+    "null": _null,
     "brushes": _brushes,
     "looks": _looks,
     "fonts": _fonts,

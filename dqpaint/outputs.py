@@ -15,6 +15,7 @@ import numpy as np
 from dqpaint import __version__
 from dqpaint.errors import OutputError, UnknownNameError, UsageError
 from dqpaint.files import stage
+from dqpaint.nullspace import read_null
 from dqpaint.registry import Registry
 from dqpaint.robots.limits import UNITS
 
@@ -172,10 +173,12 @@ def summarise(painting: "Painting") -> dict[str, Any]:
         },
         "robot": painting.robot,
         "plant": painting.plant,
+        "plant_values": painting.plant_values,
         "controller": painting.controller.name,
         "law": _law(painting),
         "gains": painting.gains,
-        "disturbances": settings.disturb,
+        "disturbances": {name: one.model_dump() for name, one in painting.disturbances.items()},
+        "null_space": dict(zip(("objective", "gain"), read_null(settings.null), strict=True)),
         "seed": settings.seed,
         "settings": settings.model_dump(),
         "drawing": {
@@ -185,6 +188,7 @@ def summarise(painting: "Painting") -> dict[str, Any]:
             "length_m": motion.length,
             "box_m": motion.box.tolist(),
         },
+        "pace": _pace(painting),
         **painting.metrics.figures,
         "attenuation": {
             part: {"ratio_s": one.ratio, "bound_s": one.bound, "kept": one.kept}
@@ -229,6 +233,14 @@ def _law(painting: "Painting") -> dict[str, str | None]:
         "sha256": getattr(law.law, "sha256", None),
         "commands": law.commands,
     }
+
+
+def _pace(painting: "Painting") -> dict[str, Any] | None:
+    """How the drawing was slowed down; None where its clock ran as asked, come what may."""
+    slowed = painting.slowed
+    if slowed is None:
+        return None
+    return {"longer_s": slowed.longer, "slowest": slowed.slowest, "lines": list(slowed.lines)}
 
 
 def stem_for(out: str | None, name: str) -> Path:

@@ -27,17 +27,29 @@ def of_painting(painting: Painting, written: Sequence[Path]) -> str:
         ("drawing", summary_line(painting.motion)),
         ("arm", f"{painting.robot}, {painting.plant}"),
         ("controller", f"{painting.controller.name}  {gains}"),
+        *_disturbed(painting),
         ("position error", _spread(figures, "position_error", "m", 1e3, "mm")),
         ("", f"largest at {_worst(painting)}"),
         ("orientation error", _spread(figures, "orientation_error", "rad", math.degrees(1), "deg")),
         ("commanded", _commanded(figures)),
         *_came_through(painting),
         *_steps(painting),
+        *_pace(painting),
         ("limits", _limits_line(painting)),
         *_pictures(painting.pictures),
         *_files(written),
     ]
     return table(rows)
+
+
+def _disturbed(painting: Painting) -> list[tuple[str, str]]:
+    """What no law knew of, each with the values that were given."""
+    rows: list[tuple[str, str]] = []
+    for name, one in painting.disturbances.items():
+        given = one.model_dump(exclude_defaults=True)
+        values = ", ".join(f"{key} = {_gain(value)}" for key, value in given.items())
+        rows.append(("" if rows else "disturbed by", f"{name}  {values or 'nothing'}"))
+    return rows
 
 
 def _came_through(painting: Painting) -> list[tuple[str, str]]:
@@ -49,9 +61,25 @@ def _came_through(painting: Painting) -> list[tuple[str, str]]:
             kept = "kept" if one.kept else f"broken, {one.ratio / one.bound:.3g} times as much"
             if not one.kept and painting.limits:
                 kept += "; limits held joints meanwhile"
+            if not one.kept and len(painting.disturbances) > 1:
+                kept += "; other disturbances took part"
             said += f", promised at most {one.bound:.3g} s: {kept}"
         rows.append(("" if rows else "disturbance", said))
     return rows
+
+
+def _pace(painting: Painting) -> list[tuple[str, str]]:
+    """How much longer it takes, where a drawing may be slowed down."""
+    slowed = painting.slowed
+    if slowed is None:
+        return []
+    if not slowed.lines:
+        return [("pace", "as asked: no joint needs more time")]
+    where = ", ".join(str(line) for line in slowed.lines[:MOST_NAMED])
+    more = f" and {len(slowed.lines) - MOST_NAMED} more" if len(slowed.lines) > MOST_NAMED else ""
+    lines = "lines" if len(slowed.lines) > 1 else "line"
+    said = f"{slowed.longer:.3g} s longer, down to {slowed.slowest:.2g} of the asked speed"
+    return [("pace", f"{said} ({lines} {where}{more})")]
 
 
 def _steps(painting: Painting) -> list[tuple[str, str]]:

@@ -62,6 +62,7 @@ def test_draw_leaves_three_files_and_a_table(dqpaint, line, tmp_path):
 CHOSEN = {
     "controller": "p", "gains": {"k": 5}, "robot": "iiwa", "plant": "ideal", "start": "home",
     "disturb": {"twist": {"": "noise", "x": 0.01, "wz": -0.1, "frequency": 2}}, "seed": 7,
+    "null": "limits,gain=3", "on_limit": "slow",
     "width": 320, "height": 200, "view": "20,30", "ev": 1.5,
 }  # fmt: skip
 
@@ -71,7 +72,7 @@ def test_options_are_all_heard(dqpaint, line, tmp_path):
         "draw", line, "--controller", "p", "--gain", "k=5", "--seed", "7",
         "--disturb", "twist=noise,x=0.01,wz=-0.1,frequency=2", "--plant", "ideal", "--from", "home",
         "--size", "320x200", "--view", "20,30", "--ev", "1.5", "--out", "made/", "--robot", "iiwa",
-        "--save", "json,motion",
+        "--save", "json,motion", "--null", "limits,gain=3", "--on-limit", "slow",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert files(tmp_path / "made") == ["line-p-motion.csv", "line-p.json"]
@@ -255,7 +256,11 @@ def test_check_for_programs(dqpaint, line, tmp_path):
     (["draw", "line.traj", "--gain", "gamma_T=1e-306"], 2, "a gain is a number from"),
     (["draw", "line.traj", "--gain", "gamma_T=1", "--gain", "gamma_T=2"], 2, "is given twice"),
     (["draw", "line.traj", "--disturb", "twist"], 2, "'twist' is not NAME=VALUE, for example twi"),
-    (["draw", "line.traj", "--disturb", "wind=3"], 2, "no disturbance named 'wind'; known: twist"),
+    (["draw", "line.traj", "--plant", "compliant:k=3"], 2, "has no value named 'k'; its values"),
+    (["draw", "line.traj", "--null", "elbow"], 2, "no null-space objective named 'elbow'; known"),
+    (["draw", "line.traj", "--on-limit", "wait"], 2, "on_limit 'wait' should be 'clip', 'slow' or"),
+    (["draw", "line.traj", "--disturb", "gravity=0.1"], 2, "changes nothing on plant 'stiff'"),
+    (["draw", "line.traj", "--disturb", "wind=3"], 2, "no disturbance named 'wind'; known: base"),
     (["draw", "line.traj", "--disturb", "twist=sine"], 2, "it moves nothing; give for example x="),
     (["draw", "line.traj", "--disturb", "twist:x=1,x=2"], 2, "'x=2' is not KEY=VALUE, each once"),
     (["draw", "line.traj", "--disturb", "twist:x=1,,y=2"], 2, "'' is not KEY=VALUE, each once"),

@@ -17,13 +17,13 @@ def glow(stroke: Stroke, flow: Flow, fraction: Floats, period: float) -> Floats:
     """Mean linear RGB (N, 3) between the rows of a stroke.
 
     Args:
-        stroke: of N steps.
-        flow: its N + 1 rows, per second.
+        stroke: which.
+        flow: its N + 1 rows, per second; more than it has steps where the clock was slowed.
         fraction: of the length before each row (N + 1,).
         period: [s].
     """
     if all(segment.light is None for segment in stroke.segments):
-        return np.zeros((stroke.count, 3))
+        return np.zeros((len(fraction) - 1, 3))
     first, last = _colours(stroke)
     # a law may run beyond the ends of a stroke; its colours do not
     inside = np.clip(fraction, 0.0, 1.0)
@@ -86,7 +86,7 @@ def _share_of_peak(stroke: Stroke, flow: Flow, fraction: Floats, period: float) 
     length = stroke.extent.length
     if length == 0.0:
         if isinstance(segment.path, Still | Step) or not isinstance(segment.brush, Bar):
-            return np.zeros(stroke.count)
+            return np.zeros(len(fraction) - 1)
         length = 1.0
     way = np.abs(np.diff(fraction)) * length / period
     time = stroke.count * period

@@ -59,6 +59,8 @@ def _came_through(painting: Painting) -> list[tuple[str, str]]:
         said = f"{part} {one.ratio:.3g} s"
         if one.bound is not None:
             kept = "kept" if one.kept else f"broken, {one.ratio / one.bound:.3g} times as much"
+            if not one.kept and one.bound < painting.motion.period:
+                kept += ", as the gain is above 1 a period"
             if not one.kept and painting.limits:
                 kept += "; limits held joints meanwhile"
             if not one.kept and len(painting.disturbances) > 1:

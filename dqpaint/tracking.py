@@ -220,6 +220,7 @@ def _carried(motion: Motion, disturbances: Mapping[str, Disturbance], seed: int)
 
 
 def _finished(log: _Log, motion: Motion, card: Card, torques: bool) -> Track:
+    log.wanted[-1] = log.command[-1]  # the last command is never carried out
     held = log.clamps(slice(None), card, motion, torques)
     for poses in (log.pose, log.believed):
         poses[0] = dq.nearest(poses[0], motion.pose[0])

@@ -116,9 +116,13 @@ class Camera:
 
 
 def frame(
-    points: ArrayLike, canvas_rotation: ArrayLike, view: View, size: tuple[int, int]
+    points: ArrayLike,
+    canvas_rotation: ArrayLike,
+    view: View,
+    size: tuple[int, int],
+    fill: float = FILL,
 ) -> Camera:
-    """The camera that sees all `points` from `view`, in the middle and as large as `FILL` allows.
+    """The camera that sees all `points` from `view`, in the middle and as large as `fill` allows.
 
     Args:
         points: (N, 3) what the picture is of, base frame [m]: the lit points of what was asked,
@@ -127,6 +131,7 @@ def frame(
             as unit vectors of the base frame.
         view: From where, see `parse_view`.
         size: Columns and rows of the picture.
+        fill: Share of the limiting dimension that they take.
 
     Raises:
         DqpaintError: If there is no point, or one is not finite.
@@ -141,7 +146,7 @@ def frame(
     rotation = _look(view) @ kept("canvas rotation", canvas_rotation, (3, 3)).T
 
     right, up, back = rotation @ cloud.T
-    slopes = FILL * 0.5 * np.array([width, height]) / focal  # half the field that is to be filled
+    slopes = fill * 0.5 * np.array([width, height]) / focal  # half the field that is to be filled
     nearest = float(back.max())
     diameter = float(np.linalg.norm([np.ptp(axis) for axis in (right, up, back)]))
     extent = max(SMALLEST, SLENDEREST * diameter)

@@ -1,0 +1,115 @@
+"""The shapes of an arm, in a world of their own that has no physics."""
+
+from dataclasses import dataclass
+from os import PathLike
+from types import TracebackType
+from typing import Any, Self
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.errors import UsageError
+from dqpaint.plants.bullet import bullet, joint_indices, quiet
+
+WHITE = [1.0, 1.0, 1.0, 1.0]
+
+
+@dataclass(frozen=True)
+class Shape:
+    """One visual shape of a link, as the file describes it.
+
+    Attributes:
+        link: its number; -1 is the base.
+        kind: of PyBullet's geometries.
+        size: (3,) of a mesh its scale, else its dimensions [m].
+        mesh: the file it was read from, if any.
+        frame: pose (8,) in the frame of its link.
+        colour: (3,) as the file has it.
+    """
+
+    link: int
+    kind: int
+    size: tuple[float, float, float]
+    mesh: str
+    frame: Floats
+    colour: tuple[float, float, float]
+
+
+class Arm:
+    """An arm that stands still where it is told to.
+
+    Args:
+        urdf: its description.
+
+    Raises:
+        UsageError: the file or one of its meshes cannot be read.
+    """
+
+    def __init__(self, urdf: str | PathLike[str]) -> None:
+        flags = bullet.URDF_IGNORE_COLLISION_SHAPES
+        with quiet():
+            self.client: int = bullet.connect(bullet.DIRECT)
+            here = {"physicsClientId": self.client}
+            try:
+                self.body: int = bullet.loadURDF(str(urdf), useFixedBase=True, flags=flags, **here)
+            except bullet.error:
+                bullet.disconnect(self.client)
+                raise UsageError(f"the shapes of {urdf} cannot be loaded") from None
+        self.joints = joint_indices(self.body, self.client)
+        self.links = list(range(bullet.getNumJoints(self.body, **here)))
+        self.shapes = [_shape(data) for data in bullet.getVisualShapeData(self.body, **here)]
+        # the file gives the base by its link frame, the simulator by its centre of mass
+        mass = bullet.getDynamicsInfo(self.body, -1, **here)
+        self._centre = dq.conj(_pose(mass[3], mass[4]))
+
+    def stand(self, posture: Floats) -> None:
+        """Take a posture (n,) [rad]."""
+        for joint, angle in zip(self.joints, posture.tolist(), strict=True):
+            bullet.resetJointState(self.body, joint, angle, 0.0, self.client)
+
+    def frames(self) -> Floats:
+        """The poses (L + 1, 8) of the base and of each link, base frame."""
+        here = {"physicsClientId": self.client}
+        base = dq.mul(
+            _pose(*bullet.getBasePositionAndOrientation(self.body, **here)), self._centre
+        )
+        if not self.links:
+            return base[None]
+        states = bullet.getLinkStates(self.body, self.links, computeForwardKinematics=1, **here)
+        rows = np.array([(*state[4], *state[5]) for state in states])
+        links = dq.pose_from(rows[:, :3], rows[:, [6, 3, 4, 5]])
+        return np.concatenate([base[None], links])
+
+    def whiten(self) -> None:
+        """Paint every shape white, so that a picture of it tells how it is lit and nothing else."""
+        for shape in self.shapes:
+            bullet.changeVisualShape(
+                self.body, shape.link, rgbaColor=WHITE, textureUniqueId=-1,
+                physicsClientId=self.client,
+            )  # fmt: skip
+
+    def close(self) -> None:
+        """Give the world back."""
+        bullet.disconnect(self.client)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, fault: BaseException | None, at: TracebackType | None
+    ) -> None:
+        """Close it."""
+        self.close()
+
+
+def _shape(data: Any) -> Shape:
+    _, link, kind, size, mesh, place, turn, colour = data[:8]
+    return Shape(link, kind, size, mesh.decode(), _pose(place, turn), colour[:3])
+
+
+def _pose(place: Any, turn: Any) -> Floats:
+    """A dual quaternion (8,) from PyBullet's position and (x, y, z, w)."""
+    x, y, z, w = turn
+    q = np.array([w, x, y, z])
+    return dq.pose_from(place, q / np.linalg.norm(q))

@@ -33,6 +33,8 @@ def draw(
     size: tuple[int, int] | None = None,
     view: str | None = None,
     ev: float | None = None,
+    ghost: bool | None = None,
+    occlusion: bool | None = None,
     progress: Callable[[float], None] = lambda _done: None,
 ) -> "Painting":
     """Paint a drawing with a simulated arm, as `dqpaint draw` does; nothing is written.
@@ -50,6 +52,8 @@ def draw(
         size: width and height of the picture [px].
         view: front, iso, side, top, or "AZ,EL" in degrees.
         ev: exposure in stops on top of the automatic one.
+        ghost: whether the arm is in the picture, as it stood at the end.
+        occlusion: whether the arm's body hides light from the camera.
         progress: called while the arm moves, with the part done, 0 to 1.
 
     Raises:
@@ -61,7 +65,8 @@ def draw(
     settings = make_settings(
         controller=name, gains=dict(gains) if gains else None, robot=robot, plant=plant,
         disturb={name: dict(values) for name, values in (disturb or {}).items()}, seed=seed,
-        start=start, width=width, height=height, view=view, ev=ev,
+        start=start, width=width, height=height, view=view, ev=ev, ghost=ghost,
+        occlusion=occlusion,
     )  # fmt: skip
     begin = perf_counter()
     program = read(find_drawing(str(drawing)))
@@ -105,10 +110,14 @@ def preview(
     size: tuple[int, int] | None = None,
     view: str | None = None,
     ev: float | None = None,
+    ghost: bool | None = None,
 ) -> "Picture":
-    """The asked picture of a drawing, without an arm; arguments as those of `draw`."""
+    """The asked picture of a drawing, without an arm; arguments as those of `draw`.
+
+    With `ghost` the camera leaves room for the arm, as that of `draw` does.
+    """
     width, height = _width_and_height(size)
-    settings = make_settings(robot=robot, width=width, height=height, view=view, ev=ev)
+    settings = make_settings(robot=robot, width=width, height=height, view=view, ev=ev, ghost=ghost)
     program = read(find_drawing(str(drawing)))
 
     from dqpaint.picture import take

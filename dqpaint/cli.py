@@ -65,6 +65,8 @@ View = Annotated[
     ),
 ]
 Ev = Annotated[float, typer.Option(help="exposure in stops, on top of the automatic one")]
+Ghost = Annotated[bool, typer.Option(help="the arm in the picture, and room for it")]
+Occlusion = Annotated[bool, typer.Option(help="the arm's body hides light from the camera")]
 Out = Annotated[
     str | None,
     typer.Option(metavar="PATH", help="a folder, or the stem of the files [default: here]"),
@@ -111,6 +113,8 @@ def draw(
     size: Size = "1280x720",
     view: View = "front",
     ev: Ev = 0.0,
+    ghost: Ghost = True,
+    occlusion: Occlusion = True,
     out: Out = None,
     save: Save = "png,csv,json",
 ) -> None:
@@ -128,7 +132,8 @@ def draw(
         painting = api.draw(
             path, controller=controller, gains=parse_gains(gain or []), robot=robot, plant=plant,
             disturb=parse_disturbances(disturb or []), seed=seed, start=start,
-            size=parse_size(size), view=view, ev=ev, progress=progress,
+            size=parse_size(size), view=view, ev=ev, ghost=ghost, occlusion=occlusion,
+            progress=progress,
         )  # fmt: skip
     written = outputs.write(stem, {end: make(painting) for end, make in makers.items()})
 
@@ -146,6 +151,7 @@ def preview(
     size: Size = "1280x720",
     view: View = "front",
     ev: Ev = 0.0,
+    ghost: Ghost = True,
     out: Out = None,
 ) -> None:
     """Take the asked picture, without an arm, at once; with length, time and brightness."""
@@ -155,7 +161,7 @@ def preview(
 
     path = find_drawing(file)
     stem = outputs.stem_for(out, f"{path.stem}-preview")
-    picture = api.preview(path, robot=robot, size=parse_size(size), view=view, ev=ev)
+    picture = api.preview(path, robot=robot, size=parse_size(size), view=view, ev=ev, ghost=ghost)
     written = outputs.write(stem, {".png": picture.png})
 
     from dqpaint import report

@@ -90,7 +90,7 @@ def encode_csv(table: "Table") -> bytes:
 def summarise(painting: "Painting") -> dict[str, Any]:
     """The JSON summary: what was run, what came out."""
     motion, film = painting.motion, painting.picture.film
-    program, settings = motion.program, painting.settings
+    program, settings, hidden = motion.program, painting.settings, painting.picture.hidden
     return {
         "schema": SCHEMA,
         "file": Path(program.name).name,
@@ -132,10 +132,10 @@ def summarise(painting: "Painting") -> dict[str, Any]:
         "limits": [{**vars(clamp), "unit": UNITS[clamp.kind]} for clamp in painting.limits],
         "light": {
             "unit": "lamp seconds, linear RGB",
-            "emitted": film.emitted.tolist(),
+            "emitted": painting.picture.emitted.tolist(),
             "on_film": film.on_film.tolist(),
             "lost": film.lost.tolist(),
-            "occluded": None,  # the arm's own shadow is not traced in this version
+            "occluded": None if hidden is None else hidden.energy.tolist(),  # None: not traced
             "exposure": painting.picture.exposure,
         },
         "wall_s": {stage: round(seconds, 4) for stage, seconds in painting.seconds.items()},

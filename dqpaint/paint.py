@@ -25,6 +25,7 @@ from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Clamp
 from dqpaint.set_points import SetPoint, set_points
 from dqpaint.settings import Settings
+from dqpaint.stage.staging import Staging
 from dqpaint.tracking import Track, track
 
 
@@ -44,6 +45,7 @@ class Painting:
     set_points: tuple[SetPoint, ...]
     picture: Picture
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
+    missing: tuple[str, ...] = ()  # what of the arm could not be shown
 
     @property
     def image(self) -> NDArray[np.uint8]:
@@ -118,11 +120,12 @@ def paint(
         metrics = measure(run)
         came_through = attenuation(run, gains.promise())
         steps = set_points(run)
-    with clock("light"):
-        picture = take(motion, run.points, settings)
+    with clock("light"), Staging(card.urdf_path, run.posture) as staging:
+        picture = take(motion, run.points, settings, staging)
+        missing = tuple(staging.remarks) if settings.ghost or settings.occlusion else ()
     return Painting(
         settings, controller, card.name, plant, gains.shown(), motion, run, metrics, came_through,
-        steps, picture, clock.seconds,
+        steps, picture, clock.seconds, missing,
     )  # fmt: skip
 
 

@@ -9,15 +9,17 @@ from numpy.typing import NDArray
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
-from dqpaint.light.brushes import shine
-from dqpaint.light.camera import Camera, frame, parse_view
+from dqpaint.light.brushes import Light, shine
+from dqpaint.light.camera import FILL, Camera, frame, parse_view
 from dqpaint.light.develop import develop
 from dqpaint.light.exposure import automatic_exposure
 from dqpaint.light.film import Film, expose
 from dqpaint.light.spread import point_spread, spread
 from dqpaint.motion import Motion
 from dqpaint.settings import Settings
+from dqpaint.stage.staging import Hidden, Staging, account
 
+BESIDE_ARM = 0.45  # of the limiting dimension a drawing takes that leaves room for the arm
 SETTLING = 0.25  # [s] in which a jump of the set point counts as drawn
 
 # run lengths suit black ground with dithered halos: smaller and faster than the default search
@@ -34,6 +36,7 @@ class Picture:
         exposure: the factor that was applied to the film, `ev` not included.
         camera: where it was taken from.
         motion: what was asked.
+        hidden: what the arm's own body kept from the film; None if that was not traced.
     """
 
     image: NDArray[np.uint8]
@@ -41,6 +44,12 @@ class Picture:
     exposure: float
     camera: Camera
     motion: Motion
+    hidden: Hidden | None = None
+
+    @property
+    def emitted(self) -> Floats:
+        """(3,) what the light gave off: on the film, lost and hidden, linear RGB [lamp s]."""
+        return self.film.emitted + (0.0 if self.hidden is None else self.hidden.energy)
 
     @property
     def png(self) -> bytes:
@@ -54,11 +63,19 @@ class Picture:
         return self.png
 
 
-def take(motion: Motion, points: Floats, settings: Settings) -> Picture:
+def take(
+    motion: Motion, points: Floats, settings: Settings, staging: Staging | None = None
+) -> Picture:
     """The long exposure of a light that goes through points (N, 3) in the colours of a motion.
 
     Camera and exposure are chosen from what was asked, not from the points: so pictures of two
     control laws can be laid over each other.
+
+    Args:
+        motion: what was asked.
+        points: where the light was.
+        settings: size, view, exposure, and whether the arm is seen and hides light.
+        staging: the arm; None is a picture without one.
     """
     if not motion.lit.any():
         raise DqpaintError(
@@ -68,12 +85,28 @@ def take(motion: Motion, points: Floats, settings: Settings) -> Picture:
     asked = shine(motion.points, _metered(motion), motion.period)
     front = dq.matrix_from_quaternion(motion.front)
     shown = shine(motion.points, motion.light, motion.period).lit_points
-    camera = frame(shown, front, parse_view(settings.view), size)
+    fill = BESIDE_ARM if settings.ghost else FILL
+    camera = frame(shown, front, parse_view(settings.view), size, fill)
     psf = point_spread(settings.height)
     exposure = automatic_exposure(asked, camera, psf)
-    film = expose(shine(points, motion.light, motion.period), camera)
-    image = develop(spread(film, psf), exposure, settings.ev)
-    return Picture(image, film, exposure, camera, motion)
+    light, hidden = shine(points, motion.light, motion.period), None
+    lights = [(light.points, light.energy)]
+    if staging is not None and settings.occlusion:
+        light, hidden = _unhidden(light, camera, staging, motion)
+    film = expose(light, camera)
+    image = spread(film, psf)
+    if staging is not None and settings.ghost:
+        image += staging.photograph(camera, lights, exposure)
+    return Picture(develop(image, exposure, settings.ev), film, exposure, camera, motion, hidden)
+
+
+def _unhidden(
+    light: Light, camera: Camera, staging: Staging, motion: Motion
+) -> tuple[Light, Hidden]:
+    """What of a light the arm's own body lets through, and the rest."""
+    seen = staging.visible(light.points, light.energy, camera)[:, None]
+    hidden = light.energy * (1.0 - seen)
+    return Light(light.points, light.energy * seen), account(hidden, light.energy, motion.line[:-1])
 
 
 def _metered(motion: Motion) -> Floats:

@@ -96,13 +96,14 @@ def of_preview(picture: Picture, written: Sequence[Path]) -> str:
 
 def light_line(picture: Picture) -> str:
     """What of the light fell on the film, and how bright the picture came out."""
-    film = picture.film
-    emitted = film.emitted.sum()
+    film, hidden = picture.film, picture.hidden
+    emitted = picture.emitted.sum()
     red, green, blue = (picture.image[..., i] >= WHITE for i in range(3))
     white = float((red & green & blue).mean())
+    behind = f", {hidden.energy.sum() / emitted:.1%} hidden by the arm" if hidden else ""
     return (
-        f"{film.on_film.sum() / emitted:.1%} on film, {film.lost.sum() / emitted:.1%} lost; "
-        f"{white:.2%} of the picture is white"
+        f"{film.on_film.sum() / emitted:.1%} on film, {film.lost.sum() / emitted:.1%} lost"
+        f"{behind}; {white:.2%} of the picture is white"
     )
 
 
@@ -117,11 +118,28 @@ def remarks(painting: Painting) -> list[str]:
     for (kind, line), held in _grouped(painting).items():
         joints = "".join(f"\n    {clamp}" for clamp in held)
         texts.append(f"warning: line {line} runs into {kind} limits:{joints}{CURES[kind]}")
-    film = painting.picture.film
-    if film.lost.sum() > WORTH_A_WARNING * film.emitted.sum():
-        share = film.lost.sum() / film.emitted.sum()
+    picture = painting.picture
+    share = picture.film.lost.sum() / picture.emitted.sum()
+    if share > WORTH_A_WARNING:
         texts.append(f"warning: {share:.0%} of the light fell outside the picture")
-    return texts
+    return [*texts, *_hidden(picture), *painting.missing]
+
+
+def _hidden(picture: Picture) -> list[str]:
+    """A warning where much of the light was behind the arm."""
+    if picture.hidden is None:
+        return []
+    share = picture.hidden.energy.sum() / picture.emitted.sum()
+    if share <= WORTH_A_WARNING:
+        return []
+    lines = picture.hidden.lines
+    named = ", ".join(f"{line} ({part:.0%})" for line, part in lines[:MOST_NAMED])
+    more = f" and {len(lines) - MOST_NAMED} more" if len(lines) > MOST_NAMED else ""
+    word = "lines" if len(lines) > 1 else "line"
+    return [
+        f"warning: the arm stood before {share:.0%} of its light: {word} {named}{more}"
+        "\n  = help: look from another side (--view), or let it shine through (--no-occlusion)"
+    ]
 
 
 CURES = {

@@ -29,6 +29,8 @@ class Settings(BaseModel):
     height: Annotated[int, Field(ge=SMALLEST, le=LARGEST)] = 720
     view: str = "front"
     ev: Annotated[float, Field(ge=-20, le=20, allow_inf_nan=False)] = 0.0
+    ghost: bool = True  # the arm is in the picture
+    occlusion: bool = True  # its body hides light from the camera
 
 
 def make_settings(**choices: object) -> Settings:

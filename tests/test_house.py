@@ -13,15 +13,21 @@ PACKAGE = Path(__file__).parent.parent / "dqpaint"
 ORDER = [
     "errors", "registry", "examples", "dq", "language", "motion", "robots", "plants",
     "disturbances", "controllers", "driving", "tracking", "metrics", "attenuation",
-    "set_points", "settings", "light", "picture", "out_of_reach", "paint", "outputs", "terminal",
-    "report", "checking", "listing", "api", "charts", "studies", "gallery", "cli", "__main__",
+    "set_points", "settings", "light", "stage", "picture", "out_of_reach", "paint", "outputs",
+    "terminal", "report", "checking", "listing", "api", "charts", "studies", "gallery", "cli", "__main__",
 ]  # fmt: skip
 
 DOORS = {
     "pinocchio": ["robots/kinematics.py", "robots/dynamics.py"],
     "pybullet": ["plants/bullet.py"],
     "matplotlib": ["charts.py"],
-    "cv2": ["light/spread.py", "light/develop.py", "picture.py"],
+    "cv2": [
+        "light/spread.py",
+        "light/develop.py",
+        "stage/floor.py",
+        "stage/ghost.py",
+        "picture.py",
+    ],
     "typer": ["cli.py"],
     "pydantic": ["robots/card.py", "disturbances", "controllers", "settings.py"],
 }

@@ -1,5 +1,7 @@
 """The shapes of an arm, in a world of their own that has no physics."""
 
+import tempfile
+import xml.etree.ElementTree as Xml
 from dataclasses import dataclass
 from os import PathLike
 from types import TracebackType
@@ -9,7 +11,6 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.errors import UsageError
 from dqpaint.plants.bullet import bullet, joint_indices, quiet
 
 WHITE = [1.0, 1.0, 1.0, 1.0]
@@ -39,29 +40,40 @@ class Shape:
 class Arm:
     """An arm that stands still where it is told to.
 
+    Where a mesh is not there, or of a kind that cannot be read, all meshes are left out.
+
     Args:
         urdf: its description.
 
-    Raises:
-        UsageError: the file or one of its meshes cannot be read.
+    Attributes:
+        whole: whether all shapes of the file are there.
     """
 
     def __init__(self, urdf: str | PathLike[str]) -> None:
-        flags = bullet.URDF_IGNORE_COLLISION_SHAPES
         with quiet():
             self.client: int = bullet.connect(bullet.DIRECT)
             here = {"physicsClientId": self.client}
-            try:
-                self.body: int = bullet.loadURDF(str(urdf), useFixedBase=True, flags=flags, **here)
-            except bullet.error:
-                bullet.disconnect(self.client)
-                raise UsageError(f"the shapes of {urdf} cannot be loaded") from None
+            self.body = self._load(urdf)
+            self.shapes = [_shape(data) for data in bullet.getVisualShapeData(self.body, **here)]
         self.joints = joint_indices(self.body, self.client)
         self.links = list(range(bullet.getNumJoints(self.body, **here)))
-        self.shapes = [_shape(data) for data in bullet.getVisualShapeData(self.body, **here)]
         # the file gives the base by its link frame, the simulator by its centre of mass
         mass = bullet.getDynamicsInfo(self.body, -1, **here)
         self._centre = dq.conj(_pose(mass[3], mass[4]))
+
+    def _load(self, urdf: str | PathLike[str]) -> int:
+        how: dict[str, Any] = {"useFixedBase": True, "physicsClientId": self.client}
+        how["flags"] = bullet.URDF_IGNORE_COLLISION_SHAPES
+        self.whole = True
+        try:
+            body: int = bullet.loadURDF(str(urdf), **how)
+        except bullet.error:  # one mesh that is missing is enough for that
+            self.whole = False
+            with tempfile.NamedTemporaryFile("wb", suffix=".urdf") as bare:
+                bare.write(_without_meshes(urdf))
+                bare.flush()
+                body = bullet.loadURDF(bare.name, **how)
+        return body
 
     def stand(self, posture: Floats) -> None:
         """Take a posture (n,) [rad]."""
@@ -71,9 +83,7 @@ class Arm:
     def frames(self) -> Floats:
         """The poses (L + 1, 8) of the base and of each link, base frame."""
         here = {"physicsClientId": self.client}
-        base = dq.mul(
-            _pose(*bullet.getBasePositionAndOrientation(self.body, **here)), self._centre
-        )
+        base = dq.mul(_pose(*bullet.getBasePositionAndOrientation(self.body, **here)), self._centre)
         if not self.links:
             return base[None]
         states = bullet.getLinkStates(self.body, self.links, computeForwardKinematics=1, **here)
@@ -97,10 +107,24 @@ class Arm:
         return self
 
     def __exit__(
-        self, kind: type[BaseException] | None, fault: BaseException | None, at: TracebackType | None
+        self,
+        kind: type[BaseException] | None,
+        fault: BaseException | None,
+        at: TracebackType | None,
     ) -> None:
         """Close it."""
         self.close()
+
+
+def _without_meshes(urdf: str | PathLike[str]) -> bytes:
+    """A description without the shapes that come from other files."""
+    tree = Xml.parse(urdf).getroot()
+    for link in tree.iter("link"):
+        for shape in [*link.findall("visual"), *link.findall("collision")]:
+            if shape.find("geometry/mesh") is not None:
+                link.remove(shape)
+    text: bytes = Xml.tostring(tree)
+    return text
 
 
 def _shape(data: Any) -> Shape:

@@ -16,10 +16,10 @@ COARSE = 4
 HAZE = 0.012
 """Blur of what is mirrored, as a share of the picture's height."""
 UPRIGHT = 3.0
-"""It is that much wider upright, as in wet streets.""" 
+"""It is that much wider upright, as in wet streets."""
 FARTHEST = 12.0
 """Of the floor that is seen [m]."""
-UP = np.float32([0.0, 0.0, 1.0])
+UP = np.array([0.0, 0.0, 1.0], np.float32)
 
 
 def light_of_floor(

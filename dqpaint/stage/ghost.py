@@ -20,7 +20,7 @@ from dqpaint.light.camera import Camera
 from dqpaint.stage.arm import Arm
 from dqpaint.stage.floor import light_of_floor
 from dqpaint.stage.lamps import Lamps, gather
-from dqpaint.stage.shading import Points, by_lamp, by_lamps, fresnel, seen_from
+from dqpaint.stage.shading import by_lamp, by_lamps, fresnel, seen_from
 from dqpaint.stage.surfaces import Numbers, Surfaces, measure
 
 KEY = 0.18
@@ -96,8 +96,8 @@ def photograph(arm: Arm, camera: Camera, light: Glow, exposure: float) -> Image:
         box = surfaces.box
         part = shown[box.top : box.bottom, box.left : box.right]
         part[surfaces.seen] = _lit(arm, surfaces, camera, light)
-    shown = cv2.GaussianBlur(shown, (0, 0), SOFT)
-    return np.asarray(shown * np.float32(1.0 / exposure), np.float32)
+    soft = cv2.GaussianBlur(shown, (0, 0), SOFT)
+    return np.asarray(soft * np.float32(1.0 / exposure), np.float32)
 
 
 def _lit(arm: Arm, surfaces: Surfaces, camera: Camera, light: Glow) -> Numbers:
@@ -111,7 +111,7 @@ def _lit(arm: Arm, surfaces: Surfaces, camera: Camera, light: Glow) -> Numbers:
         dull, glossy = by_lamp(points, way, RIM_GLOSS)
         shown += np.float32(RIM) * colour * (body * dull + np.float32(RIM_GLINT) * coat * glossy)
     dull, glossy = by_lamp(points, camera.rotation.T @ FROM_ABOVE, GLOSS)
-    flash = np.float32(FLASH) * np.float32(FLASH_COLOUR)
+    flash = np.float32(FLASH) * np.array(FLASH_COLOUR, np.float32)
     shown += flash * (dull + np.float32(FLASH_GLINT) * coat * glossy)
     return np.asarray(shown, np.float32)
 
@@ -135,6 +135,6 @@ def _albedo(arm: Arm) -> Numbers:
     found = np.full((len(arm.links) + 1, 3), 0.5, np.float32)
     for shape in arm.shapes:
         linear = np.asarray(shape.colour, np.float32) ** 2.2
-        grey = linear @ np.float32([0.2126, 0.7152, 0.0722])
+        grey = linear @ np.array([0.2126, 0.7152, 0.0722], np.float32)
         found[shape.link + 1] = linear + np.float32(FADED) * (grey - linear)
     return found * np.float32(DARK)

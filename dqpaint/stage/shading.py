@@ -41,7 +41,7 @@ class Points:
     @cached_property
     def mirrored(self) -> Numbers:
         """(P, 3) the way to the eye, mirrored about the normal."""
-        return 2.0 * self.facing[:, None] * self.normal - self.toward
+        return np.asarray(2.0 * self.facing[:, None] * self.normal - self.toward, np.float32)
 
 
 def seen_from(eye: Floats, place: Numbers, normal: Numbers) -> Points:
@@ -107,7 +107,9 @@ def by_lamp(points: Points, way: Floats, sharpness: int) -> tuple[Numbers, Numbe
         sharpness: m.
     """
     x, y, z = (way / np.linalg.norm(way)).astype(np.float32)
-    cosines = (v[:, :1] * x + v[:, 1:2] * y + v[:, 2:] * z for v in (points.normal, points.mirrored))
+    cosines = (
+        v[:, :1] * x + v[:, 1:2] * y + v[:, 2:] * z for v in (points.normal, points.mirrored)
+    )
     dull, lobe = (np.maximum(cosine, 0.0) for cosine in cosines)
     return dull, lobe**sharpness
 

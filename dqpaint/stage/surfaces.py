@@ -166,7 +166,10 @@ def _look(arm: Arm, camera: Camera, box: Box, scale: float, light: Sequence[floa
     width = max(1, round((box.right - box.left) * scale))
     height = max(1, round((box.bottom - box.top) * scale))
     lens = projection_matrix(camera, box)
-    lens[:2, 2] += 1.0 / width, 1.0 / height  # this renderer looks along a pixel's lower left corner
+    lens[:2, 2] += (
+        1.0 / width,
+        1.0 / height,
+    )  # this renderer looks along a pixel's lower left corner
     found: Any = bullet.getCameraImage(
         width,
         height,

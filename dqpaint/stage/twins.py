@@ -25,22 +25,29 @@ class Twins:
 
     Args:
         arm: whose visual shapes they copy.
+
+    Attributes:
+        unread: the shapes that have no twin, as their files cannot be read.
     """
 
     def __init__(self, arm: Arm) -> None:
         self._arm = arm
         with quiet():
             self._client: int = bullet.connect(bullet.DIRECT)
-            solid = [shape for shape in arm.shapes if _is_solid(shape)]
-            self._bodies = [self._build(shape) for shape in solid]
-        self._links = [shape.link + 1 for shape in solid]
-        self._frames = np.array([shape.frame for shape in solid]).reshape(-1, 8)
+            built = [(shape, self._build(shape)) for shape in arm.shapes]
+        solid = [(shape, body) for shape, body in built if body is not None]
+        self.unread = [shape for shape, body in built if body is None]
+        self._bodies = [body for _, body in solid]
+        self._links = [shape.link + 1 for shape, _ in solid]
+        self._frames = np.array([shape.frame for shape, _ in solid]).reshape(-1, 8)
 
-    def _build(self, shape: Shape) -> int:
-        made = bullet.createCollisionShape(
-            shape.kind, **_dimensions(shape), physicsClientId=self._client
-        )
-        body: int = bullet.createMultiBody(0, made, physicsClientId=self._client)
+    def _build(self, shape: Shape) -> int | None:
+        here = {"physicsClientId": self._client}
+        try:
+            made = bullet.createCollisionShape(shape.kind, **_dimensions(shape), **here)
+        except bullet.error:
+            return None
+        body: int = bullet.createMultiBody(0, made, **here)
         return body
 
     def stand(self, posture: Floats) -> None:
@@ -75,17 +82,13 @@ class Twins:
         return self
 
     def __exit__(
-        self, kind: type[BaseException] | None, fault: BaseException | None, at: TracebackType | None
+        self,
+        kind: type[BaseException] | None,
+        fault: BaseException | None,
+        at: TracebackType | None,
     ) -> None:
         """Close it."""
         self.close()
-
-
-def _is_solid(shape: Shape) -> bool:
-    return shape.kind in (
-        bullet.GEOM_MESH, bullet.GEOM_BOX, bullet.GEOM_SPHERE, bullet.GEOM_CYLINDER,
-        bullet.GEOM_CAPSULE,
-    )  # fmt: skip
 
 
 def _dimensions(shape: Shape) -> dict[str, Any]:

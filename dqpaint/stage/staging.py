@@ -1,0 +1,135 @@
+"""An arm on the stage of one painting: what it hides, and how it looks at the end."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.dq import Floats
+from dqpaint.light.arrays import Image
+from dqpaint.light.camera import Camera
+from dqpaint.stage.arm import Arm
+from dqpaint.stage.ghost import glow, photograph
+from dqpaint.stage.shadow import visible
+from dqpaint.stage.twins import Twins
+
+
+@dataclass(frozen=True, eq=False)
+class Hidden:
+    """Light that the arm's own body kept from the camera.
+
+    Attributes:
+        energy: (3,) of it, linear RGB [lamp s].
+        lines: (line, share of all light) of the source lines it comes from, the most first.
+    """
+
+    energy: Floats
+    lines: tuple[tuple[int, float], ...]
+
+
+def account(hidden: Floats, emitted: Floats, line: NDArray[np.int64]) -> Hidden:
+    """What was hidden, by the source lines it comes from.
+
+    Args:
+        hidden: (M, 3) of each step, linear RGB [lamp s].
+        emitted: (M, 3) of each step, hidden or not.
+        line: (M,) of the source.
+    """
+    lines, which = np.unique(line, return_inverse=True)
+    share = np.bincount(which, hidden.sum(axis=1), len(lines)) / max(float(emitted.sum()), 1e-300)
+    order = np.argsort(-share, kind="stable")
+    found = tuple((int(lines[i]), float(share[i])) for i in order if share[i] > 0.0)
+    return Hidden(hidden.sum(axis=0), found)
+
+
+class Staging:
+    """An arm with the postures of a run. Its shapes are loaded when they are first needed.
+
+    Args:
+        urdf: its description.
+        posture: (N, n) at each instant [rad].
+    """
+
+    def __init__(self, urdf: str | PathLike[str], posture: Floats) -> None:
+        self._urdf = urdf
+        self._posture = posture
+        self._open: list[Arm | Twins] = []
+
+    @cached_property
+    def arm(self) -> Arm:
+        """The arm, white."""
+        arm = Arm(self._urdf)
+        self._open.append(arm)
+        arm.whiten()
+        return arm
+
+    @cached_property
+    def twins(self) -> Twins:
+        """What rays hit."""
+        twins = Twins(self.arm)
+        self._open.append(twins)
+        return twins
+
+    @property
+    def remarks(self) -> list[str]:
+        """What of the arm cannot be shown, a sentence each."""
+        if not self.arm.whole:
+            return ["warning: a mesh of the arm cannot be read, so its shape is not in the picture"]
+        if not self.arm.shapes:
+            return ["warning: the arm's file gives it no shape, so it is not in the picture"]
+        names = sorted({Path(shape.mesh).name for shape in self.twins.unread})
+        return [f"warning: the shape {name} cannot be read: it hides no light" for name in names]
+
+    def visible(self, points: Floats, energy: Floats, camera: Camera) -> Floats:
+        """(N-1,) the share of each step's light that reaches the camera, 0 to 1.
+
+        Args:
+            points: (N, 3) of a lamp [m].
+            energy: (N-1, 3) of the steps between.
+            camera: who is looking.
+        """
+        middle = 0.5 * (points[1:] + points[:-1])
+        posture = 0.5 * (self._posture[1:] + self._posture[:-1])
+        share = visible(
+            self.twins, posture, middle[:, None, :], camera.position, np.asarray(energy.any(axis=1))
+        )
+        return np.asarray(share[:, 0])
+
+    def photograph(
+        self,
+        camera: Camera,
+        lights: Sequence[tuple[Floats, Floats]],
+        exposure: float,
+        row: int = -1,
+    ) -> Image:
+        """(H, W, 3) linear light of arm and floor, to be added before the picture is developed.
+
+        Args:
+            camera: that of the picture.
+            lights: of each lamp its points (N, 3) [m] and the energy (N-1, 3) between them.
+            exposure: of the picture: factor from its own unit [lamp s / px^2] to saturation.
+            row: the instant whose posture is shown.
+        """
+        self.arm.stand(self._posture[row])
+        return photograph(self.arm, camera, glow(lights), exposure)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        fault: BaseException | None,
+        at: TracebackType | None,
+    ) -> None:
+        """Give back what was loaded."""
+        for one in self._open:
+            one.close()

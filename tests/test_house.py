@@ -14,7 +14,8 @@ ORDER = [
     "errors", "registry", "examples", "dq", "language", "motion", "robots", "plants",
     "disturbances", "controllers", "driving", "tracking", "metrics", "attenuation",
     "set_points", "settings", "light", "stage", "picture", "out_of_reach", "paint", "outputs",
-    "terminal", "report", "checking", "listing", "api", "charts", "studies", "gallery", "cli", "__main__",
+    "terminal", "report", "checking", "listing", "api", "charts", "studies", "gallery", "cli",
+    "__main__",
 ]  # fmt: skip
 
 DOORS = {

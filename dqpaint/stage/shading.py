@@ -36,7 +36,7 @@ class Points:
     @cached_property
     def facing(self) -> Numbers:
         """(P,) cosine between normal and eye, 0 to 1."""
-        return np.clip((self.normal * self.toward).sum(axis=1), 0.0, 1.0)
+        return np.asarray(np.clip((self.normal * self.toward).sum(axis=1), 0.0, 1.0), np.float32)
 
     @cached_property
     def mirrored(self) -> Numbers:

@@ -77,19 +77,25 @@ class Arm:
 
     def stand(self, posture: Floats) -> None:
         """Take a posture (n,) [rad]."""
-        for joint, angle in zip(self.joints, posture.tolist(), strict=True):
-            bullet.resetJointState(self.body, joint, angle, 0.0, self.client)
+        angles = [(angle,) for angle in posture.tolist()]
+        bullet.resetJointStatesMultiDof(self.body, self.joints, angles, physicsClientId=self.client)
 
-    def frames(self) -> Floats:
-        """The poses (L + 1, 8) of the base and of each link, base frame."""
+    def frames(self, postures: Floats) -> Floats:
+        """The poses (M, L + 1, 8) of the base and of each link at postures (M, n), base frame."""
         here = {"physicsClientId": self.client}
-        base = dq.mul(_pose(*bullet.getBasePositionAndOrientation(self.body, **here)), self._centre)
-        if not self.links:
-            return base[None]
-        states = bullet.getLinkStates(self.body, self.links, computeForwardKinematics=1, **here)
-        rows = np.array([(*state[4], *state[5]) for state in states])
-        links = dq.pose_from(rows[:, :3], rows[:, [6, 3, 4, 5]])
-        return np.concatenate([base[None], links])
+        place, turn = bullet.getBasePositionAndOrientation(self.body, **here)
+        rows = np.empty((len(postures), len(self.links) + 1, 7))
+        rows[:, 0] = *place, *turn
+        for row, posture in zip(rows, postures, strict=True):
+            self.stand(posture)
+            if self.links:
+                states = bullet.getLinkStates(
+                    self.body, self.links, computeForwardKinematics=1, **here
+                )
+                row[1:] = [(*state[4], *state[5]) for state in states]
+        poses = dq.pose_from(rows[..., :3], rows[..., [6, 3, 4, 5]])  # PyBullet has w last
+        poses[:, 0] = dq.mul(poses[:, 0], self._centre)
+        return poses
 
     def whiten(self) -> None:
         """Paint every shape white, so that a picture of it tells how it is lit and nothing else."""

@@ -7,8 +7,6 @@ moment is known to a sample. Between equal answers nothing is asked: what is thi
 between two instants can be missed.
 """
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,8 +19,6 @@ TURN = np.radians(1.0)
 """Farthest that the joints turn meanwhile, all together [rad]."""
 CLEARANCE = 0.01
 """A ray begins so far from its lamp: what holds the lamp does not hide it [m]."""
-
-Places = Callable[[NDArray[np.int64]], Floats]
 
 
 def visible(
@@ -44,9 +40,9 @@ def visible(
     tried = np.zeros(len(lit), dtype=bool)
 
     def ask(rows: NDArray[np.int64]) -> None:
-        for row in rows:
-            twins.stand(postures[row])
-            seen[row] = ~twins.blocked(*_rays(places[row], eye))
+        start, end = _rays(places[rows], eye)
+        for i in twins.stands(postures[rows]):
+            seen[rows[i]] = ~twins.blocked(start[i], end[i])
         tried[rows] = True
 
     ask(_instants(postures, places, rows))
@@ -76,9 +72,9 @@ def _instants(postures: Floats, places: Floats, rows: NDArray[np.int64]) -> NDAr
 
 
 def _rays(places: Floats, eye: Floats) -> tuple[Floats, Floats]:
-    """From places (K, 3), a little way off, to the eye."""
+    """From places (..., K, 3), a little way off, to the eye."""
     way = eye - places
-    length = np.sqrt((way * way).sum(axis=1, keepdims=True))
+    length = np.sqrt((way * way).sum(axis=-1, keepdims=True))
     start = places + way * (CLEARANCE / np.maximum(length, CLEARANCE))
     return start, np.broadcast_to(eye, places.shape)
 

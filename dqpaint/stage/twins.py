@@ -1,5 +1,6 @@
 """Twins of an arm's shapes that rays can hit, in a world of their own."""
 
+from collections.abc import Iterator
 from types import TracebackType
 from typing import Any, Self
 
@@ -52,13 +53,18 @@ class Twins:
 
     def stand(self, posture: Floats) -> None:
         """Take a posture (n,) [rad], the arm along with it."""
-        self._arm.stand(posture)
-        poses = dq.mul(self._arm.frames()[self._links], self._frames)
+        for _ in self.stands(posture[None]):
+            pass
+
+    def stands(self, postures: Floats) -> Iterator[int]:
+        """Take postures (M, n) [rad], one after the other; says which it is in."""
+        poses = dq.mul(self._arm.frames(postures)[:, self._links], self._frames)
+        places = dq.translation(poses).tolist()
         turns = np.roll(dq.rotation(poses), -1, axis=-1).tolist()  # PyBullet has w last
-        for body, place, turn in zip(
-            self._bodies, dq.translation(poses).tolist(), turns, strict=True
-        ):
-            bullet.resetBasePositionAndOrientation(body, place, turn, self._client)
+        for row, at in enumerate(zip(places, turns, strict=True)):
+            for body, place, turn in zip(self._bodies, *at, strict=True):
+                bullet.resetBasePositionAndOrientation(body, place, turn, self._client)
+            yield row
 
     def blocked(self, start: Floats, end: Floats) -> NDArray[np.bool_]:
         """Which (R,) of the straight ways from start (R, 3) to end (R, 3) meet the arm."""

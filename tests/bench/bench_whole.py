@@ -47,7 +47,7 @@ def main():
         programs = {
             "bare": [sys.executable, "-c", BARE],
             "bare, tuned": [sys.executable, "-c", TUNED],
-            "draw spiral": [sys.executable, "-m", "dqpaint", "draw", "spiral"],
+            "draw spiral": [sys.executable, "-m", "dqpaint", "draw", "spiral", "--no-ghost"],
         }
         times = {name: [] for name in programs}
         for _ in range(rounds + 1):

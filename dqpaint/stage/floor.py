@@ -8,7 +8,7 @@ from dqpaint.light.camera import Camera
 from dqpaint.stage.lamps import Lamps
 from dqpaint.stage.shading import by_lamps, fresnel, seen_from
 
-ALBEDO = 0.10
+ALBEDO = 0.4
 POLISH = 1.0
 """Of what a mirror of lacquer would show."""
 COARSE = 4

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
 from dqpaint.light.arrays import Image
@@ -23,12 +24,12 @@ from dqpaint.stage.lamps import Lamps, gather
 from dqpaint.stage.shading import by_lamp, by_lamps, fresnel, seen_from
 from dqpaint.stage.surfaces import Numbers, Surfaces, measure
 
-KEY = 0.18
+KEY = 0.6
 """What all of a painting's light makes of a white surface at its own distance; 1 saturates."""
 ROOM = 0.15
 """That distance, on top of how far the light is spread: about a flange and a lamp's stub [m]."""
-DARK = 0.35
-"""How much of its colour's brightness the body keeps."""
+BLACK, DARK = 0.04, 0.30
+"""Albedo of a black body, and how much of its colour's brightness another has on top."""
 FADED = 0.7
 """Share of the colour in a file that goes grey."""
 GLOSS = 64
@@ -42,8 +43,10 @@ BEHIND = (0.8, 0.3, -0.75)
 """Whence the right lamp behind the arm comes; the left one is its mirror image."""
 APART = 8
 """How much the rims' colours are those of the painting's outermost light."""
-SOFT = 0.9
-"""Blur that makes outlines smooth, less than the lens does to a line [px]."""
+SOFT = 0.8
+"""Blur of the arm, less than the lens does to a line [px]."""
+REACH = (5, 5)
+"""Pixels around an outline that lend it their colour."""
 PATH = 4096
 """Points that stand for the painting in the floor's mirror."""
 
@@ -95,7 +98,9 @@ def photograph(arm: Arm, camera: Camera, light: Glow, exposure: float) -> Image:
     if surfaces is not None:
         box = surfaces.box
         part = shown[box.top : box.bottom, box.left : box.right]
-        part[surfaces.seen] = _lit(arm, surfaces, camera, light)
+        cover = surfaces.cover[..., None]
+        part *= 1.0 - cover
+        part += cover * _spread(_lit(arm, surfaces, camera, light), surfaces.sure)
     soft = cv2.GaussianBlur(shown, (0, 0), SOFT)
     return np.asarray(soft * np.float32(1.0 / exposure), np.float32)
 
@@ -114,6 +119,17 @@ def _lit(arm: Arm, surfaces: Surfaces, camera: Camera, light: Glow) -> Numbers:
     flash = np.float32(FLASH) * np.array(FLASH_COLOUR, np.float32)
     shown += flash * (dull + np.float32(FLASH_GLINT) * coat * glossy)
     return np.asarray(shown, np.float32)
+
+
+def _spread(colours: Numbers, sure: NDArray[np.bool_]) -> Image:
+    """(h, w, 3) of colours (P, 3) where they are sure, and between and beside them their mean."""
+    image = np.zeros((*sure.shape, 3), np.float32)
+    image[sure] = colours
+    weight = cv2.blur(sure.astype(np.float32), REACH, borderType=cv2.BORDER_CONSTANT)
+    around = np.asarray(cv2.blur(image, REACH, borderType=cv2.BORDER_CONSTANT), np.float32)
+    around /= np.maximum(weight, np.float32(1e-6))[..., None]
+    around[sure] = colours
+    return around
 
 
 def _rims(lamps: Lamps, camera: Camera) -> tuple[Numbers, Numbers]:
@@ -137,4 +153,4 @@ def _albedo(arm: Arm) -> Numbers:
         linear = np.asarray(shape.colour, np.float32) ** 2.2
         grey = linear @ np.array([0.2126, 0.7152, 0.0722], np.float32)
         found[shape.link + 1] = linear + np.float32(FADED) * (grey - linear)
-    return found * np.float32(DARK)
+    return np.float32(BLACK) + np.float32(DARK) * found

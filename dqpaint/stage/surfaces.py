@@ -27,6 +27,9 @@ MARGIN = 2
 SOFT, HARD = float(np.cos(np.radians(14.0))), float(np.cos(np.radians(28.0)))
 """Cosines of the angles between smooth and flat normals from which an edge begins to count as one,
 and counts in full."""
+SHIFTS = ((-0.125, -0.375), (0.125, 0.375), (0.375, -0.125), (-0.375, 0.125))
+"""Where in a pixel each of the four looks goes, right and down of its middle: a rotated square, so
+that outlines come out smooth at no cost [px]."""
 LINK_BITS = 24
 """The segmentation has the body's number below and the link's, plus one, above these bits."""
 
@@ -48,7 +51,8 @@ class Surfaces:
 
     Attributes:
         box: the part of the picture that was looked at.
-        seen: (h, w) which pixels show the arm; P of them are True, in rows.
+        cover: (h, w) share of each pixel that the arm covers, in quarters.
+        sure: (h, w) which pixels show one link all over; P of them are True, in rows.
         depth: (P,) along the camera's axis [m].
         place: (P, 3) base frame [m].
         normal: (P, 3) unit, towards the outside.
@@ -56,7 +60,8 @@ class Surfaces:
     """
 
     box: Box
-    seen: NDArray[np.bool_]
+    cover: Numbers
+    sure: NDArray[np.bool_]
     depth: Numbers
     place: Numbers
     normal: Numbers
@@ -74,24 +79,33 @@ def measure(arm: Arm, camera: Camera) -> Surfaces | None:
     if box is None:
         return None
     right, up, _ = camera.rotation
-    sides = [_look(arm, camera, box, 1.0, tuple(to)) for to in (right, -right, up, -up)]
-    seen = sides[0].segment >= 0
-    if not seen.any():
+    lights = (right, -right, up, -up)
+    sides = [
+        _look(arm, camera, box, 1.0, tuple(light), shift)
+        for light, shift in zip(lights, SHIFTS, strict=True)
+    ]
+    link = sides[0].segment
+    hits = np.stack([side.segment >= 0 for side in sides])
+    sure = np.asarray(hits.all(axis=0))
+    for side in sides[1:]:
+        sure &= side.segment == link
+    if not sure.any():
         return None
-    bright = [side.white[..., 0][seen].astype(np.float32) / np.float32(255.0) for side in sides]
+    bright = [side.white[..., 0][sure].astype(np.float32) / np.float32(255.0) for side in sides]
     across, above = bright[0] - bright[1], bright[2] - bright[3]
     lean = np.sqrt(np.maximum(across**2 + above**2, 1.0))
     across, above = across / lean, above / lean
     smooth = np.stack([across, above, np.sqrt(np.maximum(1.0 - across**2 - above**2, 0.0))], axis=1)
-    depth = _depth(sides[0].depth)
-    normal = _creased(smooth, _flat(camera, box, depth)[seen])
+    depth = _depth(np.mean([side.depth for side in sides], axis=0, dtype=np.float32))
+    normal = _creased(smooth, _flat(camera, box, depth)[sure])
     return Surfaces(
         box,
-        seen,
-        depth[seen],
-        _places(camera, box, seen, depth[seen]),
+        hits.mean(axis=0, dtype=np.float32),
+        sure,
+        depth[sure],
+        _places(camera, box, sure, depth[sure]),
         _turned(normal, camera.rotation.astype(np.float32)),
-        (sides[0].segment[seen].astype(np.int64) >> LINK_BITS) - 1,
+        (link[sure].astype(np.int64) >> LINK_BITS) - 1,
     )
 
 
@@ -161,8 +175,15 @@ class _Side(NamedTuple):
     segment: NDArray[np.int32]
 
 
-def _look(arm: Arm, camera: Camera, box: Box, scale: float, light: Sequence[float]) -> _Side:
-    """A part of the picture, lit from one direction."""
+def _look(
+    arm: Arm,
+    camera: Camera,
+    box: Box,
+    scale: float,
+    light: Sequence[float],
+    shift: tuple[float, float] = (0.0, 0.0),
+) -> _Side:
+    """A part of the picture, lit from one direction, by rays beside the middles of pixels."""
     width = max(1, round((box.right - box.left) * scale))
     height = max(1, round((box.bottom - box.top) * scale))
     lens = projection_matrix(camera, box)

@@ -8,7 +8,8 @@ from dqpaint.light.camera import Camera
 from dqpaint.stage.lamps import Lamps
 from dqpaint.stage.shading import by_lamps, fresnel, seen_from
 
-ALBEDO = 0.4
+ALBEDO = 0.55
+"""Of its dull light. A real dark floor has a tenth of it; but one wants to see where the arm is."""
 POLISH = 1.0
 """Of what a mirror of lacquer would show."""
 COARSE = 4

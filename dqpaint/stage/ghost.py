@@ -38,15 +38,18 @@ FLASH, FLASH_COLOUR = 0.012, (1.0, 0.95, 0.88)
 FROM_ABOVE = (-0.4, 0.8, 0.6)
 """Whence the flash comes: right, up, back towards the viewer."""
 FLASH_GLINT = 40.0
-RIM, RIM_GLINT, RIM_GLOSS = 0.30, 4.0, 4
+RIM, RIM_GLINT, RIM_GLOSS = 0.33, 4.0, 4
 BEHIND = (0.8, 0.3, -0.75)
 """Whence the right lamp behind the arm comes; the left one is its mirror image."""
 APART = 8
 """How much the rims' colours are those of the painting's outermost light."""
-SOFT = 0.8
+SOFT = 0.7
 """Blur of the arm, less than the lens does to a line [px]."""
 REACH = (5, 5)
 """Pixels around an outline that lend it their colour."""
+PALE = 0.28
+"""Least luminance of a rim's colour."""
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 PATH = 4096
 """Points that stand for the painting in the floor's mirror."""
 
@@ -142,8 +145,16 @@ def _rims(lamps: Lamps, camera: Camera) -> tuple[Numbers, Numbers]:
     for sign in (1.0, -1.0):
         weight = (0.5 + 0.5 * sign * side / reach) ** APART
         colour = (weight[:, None] * lamps.energy).sum(axis=0)
-        found.append(np.asarray(colour / colour.max(), np.float32))
+        found.append(_clear(colour / colour.max()))
     return found[0], found[1]
+
+
+def _clear(colour: Floats) -> Numbers:
+    """A colour (3,) that draws an outline: a deep blue gets some white, and more strength."""
+    luminance = float(LUMINANCE @ colour)
+    white = max(0.0, PALE - luminance) / (1.0 - luminance + 1e-9)
+    pale = colour + white * (1.0 - colour)
+    return np.asarray(pale * np.sqrt(0.5 / max(luminance, PALE)), np.float32)
 
 
 def _albedo(arm: Arm) -> Numbers:
@@ -151,6 +162,6 @@ def _albedo(arm: Arm) -> Numbers:
     found = np.full((len(arm.links) + 1, 3), 0.5, np.float32)
     for shape in arm.shapes:
         linear = np.asarray(shape.colour, np.float32) ** 2.2
-        grey = linear @ np.array([0.2126, 0.7152, 0.0722], np.float32)
+        grey = linear @ LUMINANCE.astype(np.float32)
         found[shape.link + 1] = linear + np.float32(FADED) * (grey - linear)
     return np.float32(BLACK) + np.float32(DARK) * found

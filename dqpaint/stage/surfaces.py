@@ -187,10 +187,8 @@ def _look(
     width = max(1, round((box.right - box.left) * scale))
     height = max(1, round((box.bottom - box.top) * scale))
     lens = projection_matrix(camera, box)
-    lens[:2, 2] += (
-        1.0 / width,
-        1.0 / height,
-    )  # this renderer looks along a pixel's lower left corner
+    # this renderer looks along a pixel's lower left corner
+    lens[:2, 2] += (1.0 + 2.0 * shift[0]) / width, (1.0 - 2.0 * shift[1]) / height
     found: Any = bullet.getCameraImage(
         width,
         height,

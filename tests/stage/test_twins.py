@@ -1,0 +1,79 @@
+"""Rays against the twins of plain shapes, whose answers are known in closed form."""
+
+import numpy as np
+import pytest
+
+from dqpaint import dq
+from dqpaint.stage.arm import Arm
+from dqpaint.stage.twins import Twins
+from tests.stage.arms import BALL, BOX, urdf
+
+pytestmark = pytest.mark.slow
+EDGE = 0.003  # [m] nearer to an outline the answer may be either
+
+
+def through_ball(start, end, centre, radius):
+    """How far (R,) inside the ball the nearest point of each way is [m]."""
+    way = end - start
+    t = np.clip(((centre - start) * way).sum(1) / (way * way).sum(1), 0, 1)
+    return radius - np.linalg.norm(start + t[:, None] * way - centre, axis=1)
+
+
+def through_box(start, end, half):
+    """Whether each way meets the box of half sides about the origin: slabs."""
+    way = end - start
+    a, b = (-half - start) / way, (half - start) / way
+    enter, leave = np.minimum(a, b).max(axis=1), np.maximum(a, b).min(axis=1)
+    return (enter <= leave) & (leave >= 0) & (enter <= 1)
+
+
+def many_rays(rng, n, around):
+    return around + rng.normal(size=(n, 3)), around + 0.1 * rng.normal(size=(n, 3))
+
+
+def test_a_ball_on_a_link_blocks_what_goes_through_it(rng, tmp_path):
+    with Arm(urdf(tmp_path, base="", first="", second=BALL)) as arm, Twins(arm) as twins:
+        for posture in rng.uniform(-1, 1, (4, 2)):
+            twins.stand(posture)
+            centre = dq.translation(dq.mul(arm.frames(posture[None])[0, 2], arm.shapes[0].frame))
+            start, end = many_rays(rng, 2000, centre)
+            deep = through_ball(start, end, centre, 0.06)
+            clear = np.abs(deep) > EDGE
+            clear &= np.linalg.norm(end - centre, axis=1) > 0.06  # none ends inside
+            hit = twins.blocked(start, end)
+            assert clear.sum() > 500
+            assert 0.05 < hit[clear].mean() < 0.95
+            np.testing.assert_array_equal(hit[clear], deep[clear] > 0)
+
+
+def test_a_base_whose_weight_is_elsewhere_blocks_where_it_is_drawn(rng, tmp_path):
+    with Arm(urdf(tmp_path, base=BOX, first="", second="")) as arm, Twins(arm) as twins:
+        twins.stand(np.zeros(2))
+        turn = np.array([np.cos(0.2), 0, 0, np.sin(0.2)])
+        start, near = many_rays(rng, 4000, [0, 0, 0.1])
+        end = 3 * near - 2 * start  # well outside
+        own = [dq.rotate(turn * [1, -1, -1, -1], p - [0, 0, 0.1]) for p in (start, end)]
+        half = np.array([0.1, 0.05, 0.15])
+        sure = through_box(*own, half + EDGE) == through_box(*own, half - EDGE)
+        outside = (np.abs(own[0]) > half + EDGE).any(axis=1)
+        hit = twins.blocked(start, end)
+        assert 0.005 < hit[sure & outside].mean() < 0.9
+        np.testing.assert_array_equal(hit[sure & outside], through_box(*own, half)[sure & outside])
+
+
+def test_more_rays_than_one_call_takes_and_as_many_answers(rng, tmp_path):
+    with Arm(urdf(tmp_path)) as arm, Twins(arm) as twins:
+        twins.stand(np.array([0.3, -0.2]))
+        start, end = many_rays(rng, 33_000, [0, 0, 0.3])
+        whole = twins.blocked(start, end)
+        parts = [twins.blocked(start[i : i + 400], end[i : i + 400]) for i in range(0, 33_000, 400)]
+        assert 0.05 < whole.mean() < 0.95
+        np.testing.assert_array_equal(whole, np.concatenate(parts))  # one thread or more
+
+
+def test_a_file_that_is_no_mesh_has_no_twin(tmp_path):
+    (tmp_path / "junk.stl").write_text("junk")
+    mesh = '<visual><geometry><mesh filename="junk.stl"/></geometry></visual>'
+    with Arm(urdf(tmp_path, second=mesh)) as arm, Twins(arm) as twins:
+        assert [shape.link for shape in twins.unread] == [1]
+        twins.stand(np.zeros(2))

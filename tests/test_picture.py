@@ -6,8 +6,9 @@ import pytest
 from dqpaint import dq
 from dqpaint.errors import DqpaintError
 from dqpaint.language import parse
+from dqpaint.light.camera import FILL
 from dqpaint.motion import plan
-from dqpaint.picture import SETTLING, take
+from dqpaint.picture import BESIDE_ARM, SETTLING, take
 from dqpaint.robots.card import read_card
 from dqpaint.settings import make_settings
 
@@ -57,6 +58,62 @@ def test_light_is_counted_in_full():
     np.testing.assert_allclose(
         film.on_film + film.lost, motion.light.sum(0) * motion.period, rtol=1e-9
     )
+
+
+class Screen:
+    """A stage on which the arm hides what is right of the middle, and looks like a grey wall."""
+
+    def visible(self, points, energy, camera):
+        middle = 0.5 * (points[1:] + points[:-1])
+        return (camera.project(middle)[0][:, 0] < camera.centre[0]).astype(float)
+
+    def photograph(self, camera, lights, exposure):
+        self.lights = lights
+        return np.full((camera.height, camera.width, 3), 0.1 / exposure, np.float32)
+
+
+HALF = "hold 0.3 s\nline by (40, 0) mm light red 50%\nline by (40, 0) mm light lime\n"
+
+
+def test_what_the_arm_hides_is_counted_line_by_line():
+    motion = asked(HALF)
+    picture = take(motion, motion.points, SETTINGS, Screen())
+    emitted = motion.light[:-1].sum(0) * motion.period
+    together = picture.film.on_film + picture.film.lost + picture.hidden.energy
+    np.testing.assert_allclose(together, emitted, rtol=1e-9)
+    np.testing.assert_allclose(picture.emitted, emitted, rtol=1e-9)
+    (line, share), *rest = picture.hidden.lines
+    assert line == 3
+    assert sum(part for _, part in rest) < 0.02
+    assert share == pytest.approx(picture.hidden.energy.sum() / emitted.sum(), abs=0.02)
+    assert 0.2 < share < 0.9
+
+
+def test_without_occlusion_nothing_is_hidden_and_that_is_said():
+    motion = asked(HALF)
+    plain = make_settings(width=320, height=180, occlusion=False)
+    picture = take(motion, motion.points, plain, Screen())
+    assert picture.hidden is None
+    np.testing.assert_allclose(picture.film.on_film + picture.film.lost, picture.emitted, rtol=1e-9)
+
+
+def test_the_arm_is_lit_by_all_light_and_leaves_the_film_alone():
+    motion, screen = asked(HALF), Screen()
+    with_arm = take(motion, motion.points, SETTINGS, screen)
+    bare = take(motion, motion.points, SETTINGS)
+    np.testing.assert_allclose(sum(e.sum(0) for _, e in screen.lights), bare.emitted, rtol=1e-12)
+    assert with_arm.film.on_film[0] == pytest.approx(bare.film.on_film[0], rel=1e-9)
+    assert with_arm.image.min() > 20
+    assert bare.image.min() < 5
+
+
+def test_the_camera_leaves_room_for_the_arm_whether_or_not_it_is_there():
+    motion = asked(HALF)
+    near = make_settings(width=320, height=180, ghost=False)
+    far_away, close = (take(motion, motion.points, s).camera for s in (SETTINGS, near))
+    wide, narrow = (np.ptp(c.project(motion.points)[0][:, 0]) / 319 for c in (far_away, close))
+    assert wide == pytest.approx(BESIDE_ARM, rel=0.02)
+    assert narrow == pytest.approx(FILL, rel=0.02)
 
 
 def test_a_picture_without_light_is_refused():

@@ -4,7 +4,10 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
+from dqpaint.light.camera import View, frame
+from dqpaint.robots.card import read_card
 from dqpaint.stage.arm import Arm
+from dqpaint.stage.surfaces import measure
 from dqpaint.stage.twins import Twins
 from tests.stage.arms import BALL, BOX, urdf
 
@@ -59,6 +62,31 @@ def test_a_base_whose_weight_is_elsewhere_blocks_where_it_is_drawn(rng, tmp_path
         hit = twins.blocked(start, end)
         assert 0.005 < hit[sure & outside].mean() < 0.9
         np.testing.assert_array_equal(hit[sure & outside], through_box(*own, half)[sure & outside])
+
+
+def test_rays_and_the_depth_buffer_agree(rng):
+    """Of 4,000 places round the arm those hide from rays that lie deeper than what is drawn."""
+    card = read_card("iiwa")
+    wrong = total = 0
+    with Arm(card.urdf_path) as arm, Twins(arm) as twins:
+        arm.whiten()
+        for view in (View(30, 15), View(-70, 40)):
+            place = rng.uniform([-0.4, -0.4, 0], [0.8, 0.4, 1.2], (2000, 3))
+            camera = frame(place, np.eye(3)[[1, 2, 0]].T, view, (640, 360), 0.9)
+            twins.stand(card.home + 0.3 * rng.normal(size=7))
+            found = measure(arm, camera)
+            pixels, depth = camera.project(place)
+            x, y = np.rint(pixels).astype(int).T - np.array([[found.box.left], [found.box.top]])
+            height, width = found.sure.shape
+            inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)
+            drawn = np.full(found.sure.shape, np.inf)
+            drawn[found.sure] = found.depth
+            hidden = np.zeros(len(place), bool)
+            hidden[inside] = drawn[y[inside], x[inside]] < depth[inside]
+            hit = twins.blocked(place, np.broadcast_to(camera.position, place.shape))
+            wrong, total = wrong + (hit != hidden).sum(), total + len(place)
+            assert 0.05 < hit.mean() < 0.95
+    assert wrong < 0.006 * total  # outlines
 
 
 def test_more_rays_than_one_call_takes_and_as_many_answers(rng, tmp_path):

@@ -1,0 +1,87 @@
+"""A whole run with its arm on the stage: what is hidden, shown, said and written."""
+
+import json
+
+import numpy as np
+import pytest
+
+import dqpaint
+from dqpaint import outputs, report
+from dqpaint.stage.staging import Staging, account
+
+SMALL = {"size": (160, 90), "controller": "p"}
+TEXT = "speed 200 mm/s\nlight white\nline to (60, 0) mm\nlight off\nmove to (0, 0) mm\n"
+
+
+def test_hidden_light_is_accounted_to_its_lines():
+    hidden = np.array([[1.0, 0, 0], [0, 2, 0], [0, 0, 0], [3, 0, 0]])
+    found = account(hidden, np.full((4, 3), 2.0), np.array([7, 3, 5, 7]))
+    np.testing.assert_array_equal(found.energy, [4, 2, 0])
+    assert found.lines == ((7, 4 / 24), (3, 2 / 24))
+
+
+def test_no_light_hides_nothing():
+    found = account(np.zeros((2, 3)), np.zeros((2, 3)), np.array([1, 2]))
+    assert found.lines == ()
+
+
+def test_nothing_is_loaded_before_it_is_needed(tmp_path):
+    with Staging(tmp_path / "nothing.urdf", np.zeros((3, 2))) as staging:
+        assert staging is not None
+
+
+@pytest.fixture(scope="module")
+def drawing(tmp_path_factory):
+    path = tmp_path_factory.mktemp("stage") / "line.traj"
+    path.write_text(TEXT)
+    return path
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("view", ["front", "180,5", "150,10"])
+def test_energy_is_on_the_film_lost_or_hidden(view, drawing):
+    painting = dqpaint.draw(drawing, view=view, **SMALL)
+    light = json.loads(outputs.summary(painting))["light"]
+    emitted = painting.motion.light[:-1].sum(0) * painting.motion.period
+    np.testing.assert_allclose(light["emitted"], emitted, rtol=1e-9)
+    parts = [light["on_film"], light["lost"], light["occluded"]]
+    np.testing.assert_allclose(np.sum(parts, axis=0), emitted, rtol=1e-9)
+    assert (np.sum(light["occluded"]) > 0) == (view != "front")
+
+
+@pytest.mark.slow
+def test_an_arm_before_its_light_is_a_warning_with_lines_and_help(drawing):
+    painting = dqpaint.draw(drawing, view="180,5", **SMALL)
+    (said,) = [text for text in report.remarks(painting) if "arm stood" in text]
+    assert said.startswith("warning: the arm stood before 100% of its light: line 3 (100%)")
+    assert "--no-occlusion" in said
+    assert "100.0% hidden by the arm" in report.light_line(painting.picture)
+
+
+@pytest.mark.slow
+def test_untraced_light_is_said_to_be_untraced(drawing):
+    painting = dqpaint.draw(drawing, view="180,5", occlusion=False, ghost=False, **SMALL)
+    assert json.loads(outputs.summary(painting))["light"]["occluded"] is None
+    assert "hidden" not in report.light_line(painting.picture)
+    assert not any("arm stood" in text for text in report.remarks(painting))
+
+
+@pytest.mark.slow
+def test_the_arm_is_seen_in_the_picture_alone_and_the_same_each_time(drawing):
+    one, two = (dqpaint.draw(drawing, **SMALL) for _ in range(2))
+    bare = dqpaint.draw(drawing, ghost=False, **SMALL)
+    np.testing.assert_array_equal(one.image, two.image)
+    np.testing.assert_allclose(one.film.on_film, bare.film.on_film, rtol=1e-9)
+    assert (one.image.max(axis=2) > 12).mean() > 2 * (bare.image.max(axis=2) > 12).mean()
+
+
+@pytest.mark.slow
+def test_meshes_that_are_not_there_are_a_remark(tmp_path):
+    mesh = '<visual><geometry><mesh filename="nothere.stl"/></geometry></visual>'
+    from tests.stage.arms import urdf
+
+    for parts, said in ((("", "", mesh), "cannot be read"), (("", "", ""), "no shape")):
+        with Staging(urdf(tmp_path, *parts), np.zeros((3, 2))) as staging:
+            (remark,) = staging.remarks
+            assert remark.startswith("warning: ")
+            assert said in remark

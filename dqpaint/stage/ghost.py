@@ -28,7 +28,7 @@ KEY = 0.6
 """What all of a painting's light makes of a white surface at its own distance; 1 saturates."""
 ROOM = 0.15
 """That distance, on top of how far the light is spread: about a flange and a lamp's stub [m]."""
-BLACK, DARK = 0.04, 0.30
+BLACK, DARK = 0.04, 0.22
 """Albedo of a black body, and how much of its colour's brightness another has on top."""
 FADED = 0.7
 """Share of the colour in a file that goes grey."""

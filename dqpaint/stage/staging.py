@@ -85,6 +85,8 @@ class Staging:
             return ["warning: a mesh of the arm cannot be read, so its shape is not in the picture"]
         if not self.arm.shapes:
             return ["warning: the arm's file gives it no shape, so it is not in the picture"]
+        if not any(isinstance(one, Twins) for one in self._open):  # rays were not asked
+            return []
         names = sorted({Path(shape.mesh).name for shape in self.twins.unread})
         return [f"warning: the shape {name} cannot be read: it hides no light" for name in names]
 

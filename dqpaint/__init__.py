@@ -6,9 +6,9 @@ r"""Light paintings by a simulated robot arm.
 
 `language` reads the text, `motion` says what is asked at every sample, `controllers` turn what is
 seen into a twist, `robots` know the arms, `plants` answer as an arm does, `tracking` closes the
-loop, `metrics` measure, `light` takes the picture, `stage` puts the arm into it, `paint` is the flow
-as one function, `cli` the command line. `dq` holds the algebra and its conventions, `outputs` the
-files. Data moves along this line and never back: `tests/test_house.py` holds the modules to it.
+loop, `metrics` measure, `light` takes the picture, `stage` puts the arm into it, `paint` is the
+flow as one function, `cli` the command line. `dq` holds the algebra and its conventions, `outputs`
+the files. Data moves along this line and never back: `tests/test_house.py` holds the modules to it.
 """
 
 import importlib

@@ -57,9 +57,6 @@ class Arm:
             self.shapes = [_shape(data) for data in bullet.getVisualShapeData(self.body, **here)]
         self.joints = joint_indices(self.body, self.client)
         self.links = list(range(bullet.getNumJoints(self.body, **here)))
-        # the file gives the base by its link frame, the simulator by its centre of mass
-        mass = bullet.getDynamicsInfo(self.body, -1, **here)
-        self._centre = dq.conj(_pose(mass[3], mass[4]))
 
     def _load(self, urdf: str | PathLike[str]) -> int:
         how: dict[str, Any] = {"useFixedBase": True, "physicsClientId": self.client}
@@ -83,9 +80,8 @@ class Arm:
     def frames(self, postures: Floats) -> Floats:
         """The poses (M, L + 1, 8) of the base and of each link at postures (M, n), base frame."""
         here = {"physicsClientId": self.client}
-        place, turn = bullet.getBasePositionAndOrientation(self.body, **here)
         rows = np.empty((len(postures), len(self.links) + 1, 7))
-        rows[:, 0] = *place, *turn
+        rows[:, 0] = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0
         for row, posture in zip(rows, postures, strict=True):
             self.stand(posture)
             if self.links:
@@ -93,9 +89,7 @@ class Arm:
                     self.body, self.links, computeForwardKinematics=1, **here
                 )
                 row[1:] = [(*state[4], *state[5]) for state in states]
-        poses = dq.pose_from(rows[..., :3], rows[..., [6, 3, 4, 5]])  # PyBullet has w last
-        poses[:, 0] = dq.mul(poses[:, 0], self._centre)
-        return poses
+        return dq.pose_from(rows[..., :3], rows[..., [6, 3, 4, 5]])  # PyBullet has w last
 
     def whiten(self) -> None:
         """Paint every shape white, so that a picture of it tells how it is lit and nothing else."""

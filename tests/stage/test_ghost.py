@@ -1,5 +1,7 @@
 """The picture of an arm: it adds light, always the same, where the arm is."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -8,7 +10,7 @@ from dqpaint.stage import ghost
 from dqpaint.stage.arm import Arm
 from dqpaint.stage.ghost import glow, photograph
 from dqpaint.stage.surfaces import measure
-from tests.stage.arms import urdf
+from tests.stage.arms import BALL, urdf
 
 slow = pytest.mark.slow
 
@@ -63,6 +65,23 @@ def test_the_arm_adds_light_where_it_is_and_the_same_every_time(tmp_path):
     assert np.isfinite(image).all()
     assert image.min() >= 0.0
     assert image[cover == 1].mean() > 10 * np.median(image[cover == 0])
+
+
+@slow
+def test_each_side_of_the_arm_has_the_colour_of_its_side(tmp_path):
+    points, energy = ring()
+    energy = np.where(points[:-1, :1] > 0, [1.0, 0.1, 0.0], [0.0, 0.1, 1.0]) * energy[:, :1]
+    camera = seen()
+    with Arm(urdf(tmp_path, "", "", BALL)) as arm:
+        arm.whiten()
+        arm.stand(np.array([-0.3, 0.0]))
+        found = measure(arm, camera)
+        light = glow([(points, energy)])
+        colours = ghost._lit(arm, found, camera, replace(light, gain=0.0))
+    side = found.normal @ camera.rotation[0]
+    right, left = (colours[side * sign > 0.7].mean(axis=0) for sign in (1, -1))
+    assert right[0] > 1.5 * right[2]
+    assert left[2] > 1.5 * left[0]
 
 
 @slow

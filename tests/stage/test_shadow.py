@@ -73,6 +73,18 @@ def test_dark_instants_are_not_asked_and_no_run_speaks_for_another():
     assert visible(wall, np.zeros((n, 1)), places, EYE, np.zeros(n, bool)).all()
 
 
+def test_both_ends_of_a_lit_run_are_asked():
+    n = 1000
+    places, lit = on_a_line(n, 0.02), np.zeros(n, bool)  # shorter than the steps that are tried
+    lit[200:300] = lit[900:] = True
+    edge = 0.5 * (places[249, 0, 0] + places[250, 0, 0])
+    after = 0.5 * places[600, 0, 0]
+    share = visible(Wall(edge / 2, after), np.zeros((n, 1)), places, EYE, lit)[:, 0]
+    assert (share[:250] == 1.0).all()
+    assert (share[250:300] == 0.0).all()
+    assert (share[900:] == 1.0).all()
+
+
 def test_a_ray_begins_off_its_lamp():
     near = Wall(-1, 1)
     near.blocked = lambda start, end: start[:, 2] < 0.5 * shadow.CLEARANCE  # the lamp's own socket

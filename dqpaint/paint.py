@@ -120,7 +120,7 @@ def paint(
         metrics = measure(run)
         came_through = attenuation(run, gains.promise())
         steps = set_points(run)
-    with clock("light"), Staging(card.urdf_path, run.posture) as staging:
+    with clock("light"), Staging(card.urdf_path, run.posture, motion.period) as staging:
         picture = take(motion, run.points, settings, staging)
         missing = tuple(staging.remarks) if settings.ghost or settings.occlusion else ()
     return Painting(

@@ -104,7 +104,10 @@ def _unhidden(
     light: Light, camera: Camera, staging: Staging, motion: Motion
 ) -> tuple[Light, Hidden]:
     """What of a light the arm's own body lets through, and the rest."""
-    seen = staging.visible(light.points, light.energy, camera)[:, None]
+    time = np.asarray((0.5 + np.arange(len(light.energy))) * motion.period)
+    lit = np.asarray(light.energy.any(axis=1))
+    middle = 0.5 * (light.points[1:] + light.points[:-1])
+    seen = staging.visible(time, middle[:, None], lit, camera.position)
     hidden = light.energy * (1.0 - seen)
     return Light(light.points, light.energy * seen), account(hidden, light.energy, motion.line[:-1])
 

@@ -63,9 +63,10 @@ def test_light_is_counted_in_full():
 class Screen:
     """A stage on which the arm hides what is right of the middle, and looks like a grey wall."""
 
-    def visible(self, points, energy, camera):
-        middle = 0.5 * (points[1:] + points[:-1])
-        return (camera.project(middle)[0][:, 0] < camera.centre[0]).astype(float)
+    def visible(self, time, places, lit, eye):
+        self.time, self.lit = time, lit
+        right = places[..., 1]  # of the iiwa's canvas, seen from its front
+        return (right < eye[1]).astype(float)
 
     def photograph(self, camera, lights, exposure):
         self.lights = lights
@@ -87,6 +88,13 @@ def test_what_the_arm_hides_is_counted_line_by_line():
     assert sum(part for _, part in rest) < 0.02
     assert share == pytest.approx(picture.hidden.energy.sum() / emitted.sum(), abs=0.02)
     assert 0.2 < share < 0.9
+
+
+def test_each_step_is_traced_at_its_middle():
+    motion, screen = asked(HALF), Screen()
+    take(motion, motion.points, SETTINGS, screen)
+    np.testing.assert_allclose(screen.time, motion.t[:-1] + 0.5 * motion.period)
+    np.testing.assert_array_equal(screen.lit, motion.light[:-1].any(axis=1))
 
 
 def test_without_occlusion_nothing_is_hidden_and_that_is_said():

@@ -38,7 +38,7 @@ FLASH, FLASH_COLOUR = 0.012, (1.0, 0.95, 0.88)
 FROM_ABOVE = (-0.4, 0.8, 0.6)
 """Whence the flash comes: right, up, back towards the viewer."""
 FLASH_GLINT = 40.0
-RIM, RIM_GLINT, RIM_GLOSS = 0.33, 4.0, 4
+RIM, RIM_DULL, RIM_GLINT, RIM_GLOSS = 0.33, 0.6, 4.0, 4
 BEHIND = (0.8, 0.3, -0.75)
 """Whence the right lamp behind the arm comes; the left one is its mirror image."""
 APART = 8
@@ -117,7 +117,8 @@ def _lit(arm: Arm, surfaces: Surfaces, camera: Camera, light: Glow) -> Numbers:
     sides = np.stack([camera.rotation.T @ np.multiply(BEHIND, (sign, 1, 1)) for sign in (1, -1)])
     for way, colour in zip(sides, _rims(light.lamps, camera), strict=True):
         dull, glossy = by_lamp(points, way, RIM_GLOSS)
-        shown += np.float32(RIM) * colour * (body * dull + np.float32(RIM_GLINT) * coat * glossy)
+        edge = np.float32(RIM_DULL) * body * dull + np.float32(RIM_GLINT) * coat * glossy
+        shown += np.float32(RIM) * colour * edge
     dull, glossy = by_lamp(points, camera.rotation.T @ FROM_ABOVE, GLOSS)
     flash = np.float32(FLASH) * np.array(FLASH_COLOUR, np.float32)
     shown += flash * (dull + np.float32(FLASH_GLINT) * coat * glossy)

@@ -55,12 +55,14 @@ class Staging:
 
     Args:
         urdf: its description.
-        posture: (N, n) at each instant [rad].
+        posture: (N, n) at instants a period apart, from time 0 on [rad].
+        period: [s].
     """
 
-    def __init__(self, urdf: str | PathLike[str], posture: Floats) -> None:
+    def __init__(self, urdf: str | PathLike[str], posture: Floats, period: float) -> None:
         self._urdf = urdf
         self._posture = posture
+        self._period = period
         self._open: list[Arm | Twins] = []
 
     @cached_property
@@ -90,20 +92,18 @@ class Staging:
         names = sorted({Path(shape.mesh).name for shape in self.twins.unread})
         return [f"warning: the shape {name} cannot be read: it hides no light" for name in names]
 
-    def visible(self, points: Floats, energy: Floats, camera: Camera) -> Floats:
-        """(N-1,) the share of each step's light that reaches the camera, 0 to 1.
+    def visible(self, time: Floats, places: Floats, lit: NDArray[np.bool_], eye: Floats) -> Floats:
+        """The share (M, K) of the light of K lamps that reaches the eye, 0 to 1.
 
         Args:
-            points: (N, 3) of a lamp [m].
-            energy: (N-1, 3) of the steps between.
-            camera: who is looking.
+            time: (M,) of the run's clock, in order [s].
+            places: (M, K, 3) of the lamps then, base frame [m].
+            lit: (M,) whether any of them burns.
+            eye: (3,) of the camera [m].
         """
-        middle = 0.5 * (points[1:] + points[:-1])
-        posture = 0.5 * (self._posture[1:] + self._posture[:-1])
-        share = visible(
-            self.twins, posture, middle[:, None, :], camera.position, np.asarray(energy.any(axis=1))
-        )
-        return np.asarray(share[:, 0])
+        clock = np.arange(len(self._posture)) * self._period
+        posture = np.stack([np.interp(time, clock, joint) for joint in self._posture.T], axis=1)
+        return visible(self.twins, posture, places, eye, lit)
 
     def photograph(
         self,

@@ -7,6 +7,8 @@ import statistics
 import sys
 import time
 
+import numpy as np
+
 import dqpaint
 from dqpaint.robots.card import read_card
 from dqpaint.stage.staging import Staging
@@ -19,15 +21,19 @@ def main():
     for example, view in (("star", "front"), ("star", "-30,12"), ("spiral", "iso")):
         painting = dqpaint.draw(example, view=view, size=SIZE, ghost=False)
         picture, track = painting.picture, painting.track
-        energy = painting.motion.light[:-1] * painting.motion.period
+        period, points = painting.motion.period, track.points
+        energy = painting.motion.light[:-1] * period
+        time_of, lit = (0.5 + np.arange(len(energy))) * period, energy.any(axis=1)
+        places = 0.5 * (points[1:] + points[:-1])[:, None]
+        urdf = read_card(painting.robot).urdf_path
         times = {"ghost": [], "occlusion": []}
         for _ in range(rounds):
             begin = time.perf_counter()
-            with Staging(read_card(painting.robot).urdf_path, track.posture) as staging:
-                staging.photograph(picture.camera, [(track.points, energy)], picture.exposure)
+            with Staging(urdf, track.posture, period) as staging:
+                staging.photograph(picture.camera, [(points, energy)], picture.exposure)
             middle = time.perf_counter()
-            with Staging(read_card(painting.robot).urdf_path, track.posture) as staging:
-                staging.visible(track.points, energy, picture.camera)
+            with Staging(urdf, track.posture, period) as staging:
+                staging.visible(time_of, places, lit, picture.camera.position)
             times["ghost"].append(middle - begin)
             times["occlusion"].append(time.perf_counter() - middle)
         for name, values in times.items():

@@ -7,7 +7,6 @@ import pytest
 
 import dqpaint
 from dqpaint import outputs, report
-from dqpaint.light.camera import Camera
 from dqpaint.stage.staging import Staging, account
 from tests.stage.arms import urdf
 from tests.stage.test_shadow import EYE, Wall
@@ -29,20 +28,20 @@ def test_no_light_hides_nothing():
 
 
 def test_nothing_is_loaded_before_it_is_needed(tmp_path):
-    with Staging(tmp_path / "nothing.urdf", np.zeros((3, 2))) as staging:
+    with Staging(tmp_path / "nothing.urdf", np.zeros((3, 2)), 0.01) as staging:
         assert staging is not None
 
 
-def test_a_step_is_judged_at_its_middle_with_the_posture_between():
+def test_the_posture_is_that_of_the_time():
     """A wall from x = 1/2 on hides lamps from x = 1 on; the posture moves it along."""
-    points = np.zeros((5, 3))
-    points[:, 0] = [0.0, 0.9, 1.3, 2.0, 3.0]  # middles: 0.45, 1.1, 1.65, 2.5
-    camera = Camera(EYE, np.eye(3), 100.0, [8, 8], 17, 17)
+    time = np.array([0.05, 0.15, 0.25, 0.35])
+    places = np.zeros((4, 1, 3))
+    places[:, 0, 0] = [0.45, 1.1, 1.65, 2.5]
     for posture, expected in (([0] * 5, [1, 0, 0, 0]), ([0, 0, 0.2, 0.6, 0.6], [1, 1, 1, 0])):
-        staging = Staging("", np.array(posture, float)[:, None])
+        staging = Staging("", np.array(posture, float)[:, None], 0.1)
         staging.__dict__["twins"] = Wall(0.5, 9)
-        share = staging.visible(points, np.ones((4, 3)), camera)
-        np.testing.assert_array_equal(share, expected)
+        share = staging.visible(time, places, np.ones(4, bool), EYE)
+        np.testing.assert_array_equal(share[:, 0], expected)
 
 
 @pytest.fixture(scope="module")
@@ -94,7 +93,7 @@ def test_the_arm_is_seen_in_the_picture_alone_and_the_same_each_time(drawing):
 def test_meshes_that_are_not_there_are_a_remark(tmp_path):
     mesh = '<visual><geometry><mesh filename="nothere.stl"/></geometry></visual>'
     for parts, said in ((("", "", mesh), "cannot be read"), (("", "", ""), "no shape")):
-        with Staging(urdf(tmp_path, *parts), np.zeros((3, 2))) as staging:
+        with Staging(urdf(tmp_path, *parts), np.zeros((3, 2)), 0.01) as staging:
             (remark,) = staging.remarks
             assert remark.startswith("warning: ")
             assert said in remark

@@ -91,7 +91,7 @@ def take(
     exposure = automatic_exposure(asked, camera, psf)
     light, hidden = shine(points, motion.light, motion.period), None
     lights = [(light.points, light.energy)]
-    if staging is not None and settings.occlusion:
+    if staging is not None and settings.occlusion and staging.solid:
         light, hidden = _unhidden(light, camera, staging, motion)
     film = expose(light, camera)
     image = spread(film, psf)

@@ -63,6 +63,8 @@ def test_light_is_counted_in_full():
 class Screen:
     """A stage on which the arm hides what is right of the middle, and looks like a grey wall."""
 
+    solid = True
+
     def visible(self, time, places, lit, eye):
         self.time, self.lit = time, lit
         right = places[..., 1]  # of the iiwa's canvas, seen from its front
@@ -102,6 +104,9 @@ def test_without_occlusion_nothing_is_hidden_and_that_is_said():
     plain = make_settings(width=320, height=180, occlusion=False)
     picture = take(motion, motion.points, plain, Screen())
     assert picture.hidden is None
+    screen = Screen()
+    screen.solid = False  # what cannot be traced in full is not counted at all
+    assert take(motion, motion.points, SETTINGS, screen).hidden is None
     np.testing.assert_allclose(picture.film.on_film + picture.film.lost, picture.emitted, rtol=1e-9)
 
 

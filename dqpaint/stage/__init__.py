@@ -4,7 +4,8 @@ In come plain arrays: postures of the arm, where lamps were and what they emitte
 light to add to a picture before it is developed, and shares of light that the arm's own body let
 through to the camera. Nothing here is loaded unless one of the two is asked for.
 
-    Arm -photograph-> Surfaces ~lamps~> light on the arm
-                                  ~lamps~> light on the floor   --> Ghost (H, W, 3)
-    Arm -Twins-> rays --> share of light that reaches the camera
+    Arm -measure-> Surfaces -photograph-> linear light of arm and floor, lit by Lamps
+    Arm -> Twins -visible-> the share of each lamp's light that reaches the camera
+
+`staging` is the door: one arm with the postures of one run.
 """

@@ -81,16 +81,20 @@ class Staging:
         return twins
 
     @property
+    def solid(self) -> bool:
+        """Whether every shape of the arm can be asked what it hides, and there is one."""
+        return self.arm.whole and bool(self.arm.shapes) and not self.twins.unread
+
+    @property
     def remarks(self) -> list[str]:
         """What of the arm cannot be shown, a sentence each."""
+        untraced = "and what it hides is not traced"
         if not self.arm.whole:
-            return ["warning: a mesh of the arm cannot be read, so its shape is not in the picture"]
+            return [f"warning: a mesh of the arm cannot be read: it is shown without, {untraced}"]
         if not self.arm.shapes:
-            return ["warning: the arm's file gives it no shape, so it is not in the picture"]
-        if not any(isinstance(one, Twins) for one in self._open):  # rays were not asked
-            return []
+            return [f"warning: the arm's file gives it no shape: it cannot be shown, {untraced}"]
         names = sorted({Path(shape.mesh).name for shape in self.twins.unread})
-        return [f"warning: the shape {name} cannot be read: it hides no light" for name in names]
+        return [f"warning: {name} cannot be read: it is not shown, {untraced}" for name in names]
 
     def visible(self, time: Floats, places: Floats, lit: NDArray[np.bool_], eye: Floats) -> Floats:
         """The share (M, K) of the light of K lamps that reaches the eye, 0 to 1.

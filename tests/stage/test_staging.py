@@ -92,8 +92,14 @@ def test_the_arm_is_seen_in_the_picture_alone_and_the_same_each_time(drawing):
 @pytest.mark.slow
 def test_meshes_that_are_not_there_are_a_remark(tmp_path):
     mesh = '<visual><geometry><mesh filename="nothere.stl"/></geometry></visual>'
-    for parts, said in ((("", "", mesh), "cannot be read"), (("", "", ""), "no shape")):
-        with Staging(urdf(tmp_path, *parts), np.zeros((3, 2)), 0.01) as staging:
+    (tmp_path / "junk.stl").write_text("junk")
+    junk = mesh.replace("nothere", "junk")
+    for second, said in ((mesh, "a mesh of the arm"), (junk, "junk.stl"), ("", "no shape")):
+        with Staging(urdf(tmp_path, "", "", second), np.zeros((3, 2)), 0.01) as staging:
             (remark,) = staging.remarks
             assert remark.startswith("warning: ")
             assert said in remark
+            assert not staging.solid
+    with Staging(urdf(tmp_path), np.zeros((3, 2)), 0.01) as staging:
+        assert staging.remarks == []
+        assert staging.solid

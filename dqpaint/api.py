@@ -11,13 +11,12 @@ from dqpaint import outputs
 from dqpaint.errors import UsageError
 from dqpaint.examples import find_drawing
 from dqpaint.language import read
-from dqpaint.motion import plan
-from dqpaint.robots.choose import card_for
 from dqpaint.settings import make_settings
 
 if TYPE_CHECKING:
     from dqpaint.paint import Painting
     from dqpaint.picture import Picture
+    from dqpaint.sketch import Preview
 
 
 def draw(
@@ -33,7 +32,16 @@ def draw(
     size: tuple[int, int] | None = None,
     view: str | None = None,
     ev: float | None = None,
-    ghost: bool | None = None,
+    brush: str | None = None,
+    pwm: float | None = None,
+    exposure: str | None = None,
+    look: str | None = None,
+    starburst: int | None = None,
+    noise: int | None = None,
+    colour_by: str | None = None,
+    overlay: bool = False,
+    magnify: float | None = None,
+    ghost: bool = False,
     occlusion: bool | None = None,
     progress: Callable[[float], None] = lambda _done: None,
 ) -> "Painting":
@@ -50,10 +58,19 @@ def draw(
         seed: of everything random.
         start: `first` (at the first pose) or `home`.
         size: width and height of the picture [px].
-        view: front, iso, side, top, or "AZ,EL" in degrees.
+        view: front, iso, side, top, or "AZ,EL" in degrees; stereo, orbit; several with commas.
         ev: exposure in stops on top of the automatic one.
+        brush: what shines, such as "bar:length=300mm"; else the file's own.
+        pwm: frequency at which the lamps are dimmed [Hz]; else they are dimmed evenly.
+        exposure: a camera's settings, such as "f/8,iso100,35mm,0.1cd"; else automatic.
+        look: how the film is developed.
+        starburst: blades of the aperture, for rays round what stands out.
+        noise: seed of the sensor's noise; else there is none.
+        colour_by: a figure of the run that the colours tell.
+        overlay: whether the asked drawing lies beneath the reached one.
+        magnify: how many times as large deviations from the asked path are drawn.
         ghost: whether the arm is in the picture, as it stood at the end.
-        occlusion: whether the arm's body hides light from the camera.
+        occlusion: whether the arm's body hides light from the camera; else as `ghost`.
         progress: called while the arm moves, with the part done, 0 to 1.
 
     Raises:
@@ -65,8 +82,9 @@ def draw(
     settings = make_settings(
         controller=name, gains=dict(gains) if gains else None, robot=robot, plant=plant,
         disturb={name: dict(values) for name, values in (disturb or {}).items()}, seed=seed,
-        start=start, width=width, height=height, view=view, ev=ev, ghost=ghost,
-        occlusion=occlusion,
+        start=start, width=width, height=height, view=view, ev=ev, brush=brush, pwm=pwm,
+        exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
+        overlay=overlay, magnify=magnify, ghost=ghost, occlusion=occlusion,
     )  # fmt: skip
     begin = perf_counter()
     program = read(find_drawing(str(drawing)))
@@ -89,7 +107,7 @@ def save(
     Args:
         painting: from `draw`.
         out: a folder (that exists, or ends with a slash), or the stem of the files.
-        what: a list of png, csv, json, motion.
+        what: a list of png, csv, json, motion, film, hdr, video, webp.
 
     Returns:
         The paths of the files.
@@ -98,9 +116,9 @@ def save(
         DqpaintError: the place cannot be written; nothing was changed.
     """
     name = f"{Path(painting.motion.program.name).stem}-{painting.controller.name}"
-    makers = outputs.choose(what)
+    names = outputs.choose(what)
     stem = outputs.stem_for(str(out), name)
-    return outputs.write(stem, {end: make(painting) for end, make in makers.items()})
+    return outputs.write(stem, outputs.make(names, painting))
 
 
 def preview(
@@ -110,21 +128,72 @@ def preview(
     size: tuple[int, int] | None = None,
     view: str | None = None,
     ev: float | None = None,
-    ghost: bool | None = None,
-) -> "Picture":
-    """The asked picture of a drawing, without an arm; arguments as those of `draw`.
+    brush: str | None = None,
+    pwm: float | None = None,
+    exposure: str | None = None,
+    look: str | None = None,
+    starburst: int | None = None,
+    noise: int | None = None,
+    colour_by: str | None = None,
+    ghost: bool = False,
+) -> "Preview":
+    """The asked pictures of a drawing, without an arm; arguments as those of `draw`.
 
     With `ghost` the camera leaves room for the arm, as that of `draw` does.
     """
     width, height = _width_and_height(size)
-    settings = make_settings(robot=robot, width=width, height=height, view=view, ev=ev, ghost=ghost)
+    settings = make_settings(
+        robot=robot, width=width, height=height, view=view, ev=ev, brush=brush, pwm=pwm,
+        exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
+        ghost=ghost,
+    )  # fmt: skip
     program = read(find_drawing(str(drawing)))
 
-    from dqpaint.picture import take
+    from dqpaint.sketch import sketch
 
-    card = card_for(program, settings.robot)
-    motion = plan(program, card.canvas.pose)
-    return take(motion, motion.points, settings)
+    return sketch(program, settings)
+
+
+def develop(
+    film: str | PathLike[str],
+    *,
+    size: tuple[int, int] | None = None,
+    view: str | None = None,
+    ev: float | None = None,
+    exposure: str | None = None,
+    look: str | None = None,
+    starburst: int | None = None,
+    noise: int | None = None,
+) -> "list[Picture]":
+    """Other pictures of a painting that was saved with `film`, without simulating it.
+
+    Args:
+        film: the file; arguments as those of `draw`, and what is not said is as it was.
+        size: width and height of the picture [px].
+        view: from where; several with commas.
+        ev: exposure in stops on top of the automatic one.
+        exposure: a camera's settings, or "auto".
+        look: how the film is developed.
+        starburst: blades of the aperture; 0 for a round one.
+        noise: seed of the sensor's noise.
+
+    Raises:
+        DqpaintError: no film, or a choice that is none.
+    """
+    from dqpaint import negative
+    from dqpaint.picture import photograph
+    from dqpaint.scene import check_choices
+
+    scene, before = negative.read(str(film))
+    width, height = _width_and_height(size)
+    choices = {
+        "width": width, "height": height, "view": view, "ev": ev, "exposure": exposure,
+        "look": look, "starburst": starburst, "noise": noise,
+    }  # fmt: skip
+    given = {name: value for name, value in choices.items() if value is not None}
+    settings = make_settings(**{**before.model_dump(), **given})
+    check_choices(settings)
+    return list(photograph(scene, settings))
 
 
 def _width_and_height(size: tuple[int, int] | None) -> tuple[int | None, int | None]:

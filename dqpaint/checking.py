@@ -76,10 +76,15 @@ def _reach(motion: Motion, card: Card) -> str:
     from dqpaint.out_of_reach import begin
     from dqpaint.robots.kinematics import Kinematics
 
-    margin = math.degrees(begin(motion, Kinematics(card)).margin)
-    if margin < 0:
-        return f"; {card.name} reaches it, but a joint has to go {-margin:.0f} deg beyond its limit"
-    return f"; {card.name} reaches it, every joint {margin:.0f} deg or more from its limits"
+    arm = Kinematics(card)
+    notes = "".join(f"\nnote: {note}" for note in arm.notes)
+    margin = math.degrees(begin(motion, arm).margin)
+    said = (
+        f"but a joint has to go {-margin:.0f} deg beyond its limit"
+        if margin < 0
+        else f"every joint {margin:.0f} deg or more from its limits"
+    )
+    return f"; {card.name} reaches it, {said}{notes}"
 
 
 def as_json(results: Sequence[Checked]) -> dict[str, Any]:

@@ -5,15 +5,13 @@ command imports what it needs.
 """
 
 import json
-import os
 import shutil
 import sys
-from typing import Annotated, Any, NoReturn
+from typing import Annotated, Any
 
 import typer
 
 from dqpaint import __version__
-from dqpaint.errors import DqpaintError, UsageError
 
 app = typer.Typer(
     add_completion=False,
@@ -40,7 +38,11 @@ Gain = Annotated[
     ),
 ]
 Robot = Annotated[
-    str | None, typer.Option(metavar="NAME", help="the arm [default: the file's, else iiwa]")
+    str | None,
+    typer.Option(
+        metavar="NAME|FILE",
+        help="the arm, or its .urdf or .toml [default: the drawing's, else iiwa]",
+    ),
 ]
 PlantName = Annotated[
     str | None,
@@ -61,21 +63,52 @@ Size = Annotated[str, typer.Option(metavar="WxH", help="of the picture, in pixel
 View = Annotated[
     str,
     typer.Option(
-        metavar="VIEW", help="front, iso, side, top, or AZ,EL: degrees to its right and above"
+        metavar="VIEW",
+        help="front, iso, side, top, or AZ,EL: degrees to its right and above; stereo[:VIEW], "
+        "orbit[:N[:EL]]; several with commas",
     ),
 ]
 Ev = Annotated[float, typer.Option(help="exposure in stops, on top of the automatic one")]
-Ghost = Annotated[bool, typer.Option(help="the arm in the picture, and room for it")]
-Occlusion = Annotated[bool, typer.Option(help="the arm's body hides light from the camera")]
+Brush = Annotated[
+    str | None,
+    typer.Option(metavar="NAME[:KEY=VALUE,...]", help="what shines; see: dqpaint list brushes"),
+]
+Pwm = Annotated[float, typer.Option(metavar="HZ", help="dim the lamps by pulses; 0: evenly")]
+Exposure = Annotated[
+    str | None,
+    typer.Option(
+        metavar="SETTINGS",
+        help="a camera's, in any order: f/8,iso100,35mm,nd3,0.1cd,2.2m [default: automatic]",
+    ),
+]
+Look = Annotated[
+    str, typer.Option(metavar="NAME", help="how it is developed; see: dqpaint list looks")
+]
+Starburst = Annotated[int, typer.Option(metavar="BLADES", help="of an aperture that draws rays")]
+Noise = Annotated[int | None, typer.Option(metavar="SEED", help="of the sensor's noise")]
+ColourBy = Annotated[
+    str | None,
+    typer.Option(
+        metavar="FIGURE",
+        help="that the colours tell: position-error, orientation-error, speed, manipulability, "
+        "line",
+    ),
+]
+Overlay = Annotated[bool, typer.Option("--overlay", help="the asked drawing beneath")]
+Magnify = Annotated[float, typer.Option(metavar="N", help="deviations, N times as large")]
+Ghost = Annotated[bool, typer.Option("--ghost", help="the arm in the picture, and room for it")]
+Occlusion = Annotated[
+    bool | None,
+    typer.Option(help="the arm's body hides light from the camera [default: as --ghost]"),
+]
 Out = Annotated[
     str | None,
     typer.Option(metavar="PATH", help="a folder, or the stem of the files [default: here]"),
 ]
-Save = Annotated[str, typer.Option(metavar="LIST", help="of png, csv, json, motion")]
+Save = Annotated[
+    str, typer.Option(metavar="LIST", help="of png, csv, json, motion, film, hdr, video, webp")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="for a program to read")]
-
-DEBUG = "DQPAINT_DEBUG"  # an environment variable: internal errors show where they are
-INTERRUPTED = 130
 
 DRAW_EXAMPLES = """Examples:
 
@@ -113,8 +146,17 @@ def draw(
     size: Size = "1280x720",
     view: View = "front",
     ev: Ev = 0.0,
-    ghost: Ghost = True,
-    occlusion: Occlusion = True,
+    brush: Brush = None,
+    pwm: Pwm = 0.0,
+    exposure: Exposure = None,
+    look: Look = "film",
+    starburst: Starburst = 0,
+    noise: Noise = None,
+    colour_by: ColourBy = None,
+    overlay: Overlay = False,
+    magnify: Magnify = 1.0,
+    ghost: Ghost = False,
+    occlusion: Occlusion = None,
     out: Out = None,
     save: Save = "png,csv,json",
 ) -> None:
@@ -125,17 +167,19 @@ def draw(
     from dqpaint.settings import parse_disturbances, parse_gains, parse_size
     from dqpaint.terminal import Progress
 
-    makers = outputs.choose(save)
+    names = outputs.choose(save)
     path = find_drawing(file)
     stem = outputs.stem_for(out, f"{path.stem}-{short_name(controller)}")
     with Progress(path.name) as progress:
         painting = api.draw(
             path, controller=controller, gains=parse_gains(gain or []), robot=robot, plant=plant,
             disturb=parse_disturbances(disturb or []), seed=seed, start=start,
-            size=parse_size(size), view=view, ev=ev, ghost=ghost, occlusion=occlusion,
-            progress=progress,
+            size=parse_size(size), view=view, ev=ev, brush=brush, pwm=pwm, exposure=exposure,
+            look=look, starburst=starburst, noise=noise, colour_by=colour_by, overlay=overlay,
+            magnify=magnify, ghost=ghost, occlusion=occlusion, progress=progress,
         )  # fmt: skip
-    written = outputs.write(stem, {end: make(painting) for end, make in makers.items()})
+    with Progress("movie") as progress:
+        written = outputs.write(stem, outputs.make(names, painting, progress))
 
     from dqpaint import report
 
@@ -151,7 +195,14 @@ def preview(
     size: Size = "1280x720",
     view: View = "front",
     ev: Ev = 0.0,
-    ghost: Ghost = True,
+    brush: Brush = None,
+    pwm: Pwm = 0.0,
+    exposure: Exposure = None,
+    look: Look = "film",
+    starburst: Starburst = 0,
+    noise: Noise = None,
+    colour_by: ColourBy = None,
+    ghost: Ghost = False,
     out: Out = None,
 ) -> None:
     """Take the asked picture, without an arm, at once; with length, time and brightness."""
@@ -161,12 +212,54 @@ def preview(
 
     path = find_drawing(file)
     stem = outputs.stem_for(out, f"{path.stem}-preview")
-    picture = api.preview(path, robot=robot, size=parse_size(size), view=view, ev=ev, ghost=ghost)
-    written = outputs.write(stem, {".png": picture.png})
+    preview = api.preview(
+        path, robot=robot, size=parse_size(size), view=view, ev=ev, brush=brush, pwm=pwm,
+        exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
+        ghost=ghost,
+    )  # fmt: skip
+    written = outputs.write_pictures(stem, preview.pictures)
 
     from dqpaint import report
 
-    _finish(report.notes(picture.motion), report.of_preview(picture, written), picture.image)
+    _finish(report.notes(preview.motion), report.of_preview(preview, written), preview.image)
+
+
+@app.command(
+    epilog="Examples:\n\n  dqpaint develop star-hinf-film.npz --look aces --ev 1\n\n"
+    "  dqpaint develop star-hinf-film.npz --view iso,orbit:8 --size 640x360 --out round/"
+)
+def develop(
+    film: Annotated[str, typer.Argument(metavar="FILM", help="from: dqpaint draw --save film")],
+    size: Annotated[str | None, typer.Option(metavar="WxH", help="of the picture")] = None,
+    view: Annotated[str | None, typer.Option(metavar="VIEW", help="as for draw")] = None,
+    ev: Annotated[float | None, typer.Option(help="exposure in stops")] = None,
+    exposure: Annotated[
+        str | None, typer.Option(metavar="SETTINGS", help="as for draw, or auto")
+    ] = None,
+    look: Annotated[
+        str | None, typer.Option(metavar="NAME", help="see: dqpaint list looks")
+    ] = None,
+    starburst: Annotated[int | None, typer.Option(metavar="BLADES", help="0: none")] = None,
+    noise: Noise = None,
+    out: Out = None,
+) -> None:
+    """Take other pictures of a finished painting, at once; what is not said is as it was."""
+    from pathlib import Path
+
+    from dqpaint import api, outputs
+    from dqpaint.settings import parse_size
+
+    name = Path(film).stem.removesuffix("-film")
+    stem = outputs.stem_for(out, f"{name}-developed")
+    pictures = api.develop(
+        film, size=parse_size(size) if size else None, view=view, ev=ev, exposure=exposure,
+        look=look, starburst=starburst, noise=noise,
+    )  # fmt: skip
+    written = outputs.write_pictures(stem, pictures)
+
+    from dqpaint import report
+
+    _finish([], report.of_developed(pictures, written), pictures[0].image)
 
 
 @app.command(epilog="Examples:\n\n  dqpaint check star\n\n  dqpaint check drawings/*.traj --json")
@@ -197,7 +290,8 @@ def list_(
     what: Annotated[
         str,
         typer.Argument(
-            metavar="[robots|controllers|plants|disturbances|examples]", help="all, if not said"
+            metavar="[robots|controllers|plants|disturbances|brushes|looks|examples]",
+            help="all, if not said",
         ),
     ] = "all",
     as_json: AsJson = False,
@@ -211,6 +305,38 @@ def list_(
         print(json.dumps(found, indent=2))
     else:
         print(listing.text(lists))
+
+
+POSE_EXAMPLES = """Examples:
+
+  dqpaint pose iiwa --deg=0,26,0,-93,0,-29,90
+
+  dqpaint pose viper850 --deg=20,-110,190,25,45,20 --flange --json
+"""
+
+
+@app.command(epilog=POSE_EXAMPLES)
+def pose(
+    robot: Annotated[str, typer.Argument(metavar="ROBOT", help="its name, or its .urdf or .toml")],
+    deg: Annotated[
+        str | None, typer.Option(metavar="A,B,...", help="the joints in degrees [default: home]")
+    ] = None,
+    rad: Annotated[
+        str | None, typer.Option(metavar="A,B,...", help="the joints in radians")
+    ] = None,
+    flange: Annotated[bool, typer.Option("--flange", help="the bare last link, no tool")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Tell where an arm's tool is: dual quaternion, matrix, screw, Jacobian, manipulability."""
+    from dqpaint import posing
+    from dqpaint.robots.choose import find_card
+
+    card = find_card(robot)
+    posed = posing.pose_arm(card, posing.read_posture(card, deg, rad), flange)
+    for kind, sentences in (("note", posed.notes), ("warning", posed.beyond)):
+        for sentence in sentences:
+            print(f"{kind}: {sentence}", file=sys.stderr)
+    print(json.dumps(posing.as_json(posed), indent=2) if as_json else posing.text(posed))
 
 
 @app.command(epilog="Examples:\n\n  dqpaint gallery\n\n  dqpaint gallery --out pictures")
@@ -233,51 +359,3 @@ def _finish(remarks: list[str], table: str, image: Any) -> None:
     print(table)
     if shows_pictures(sys.stdout):
         print(blocks(image, shutil.get_terminal_size().columns))
-
-
-def run() -> None:
-    """Answer the arguments of this process; leaves by SystemExit or KeyboardInterrupt."""
-    _secure_streams()
-    try:
-        _answer()
-    except OSError as problem:  # of a stream: files have their own errors
-        sys.stdout = open(os.devnull, "w")  # noqa: SIM115  nothing more can be said there
-        if not isinstance(problem, BrokenPipeError):
-            _end(f"error: standard output cannot be written: {problem.strerror}", 1)
-        sys.exit(1)
-
-
-def _answer() -> None:
-    try:
-        app()
-    except UsageError as problem:
-        _end(f"usage: {problem}", 2)
-    except DqpaintError as problem:
-        text = str(problem)
-        _end(text if text.startswith(("error[", "warning[")) else f"error: {text}", 1)
-    except SystemExit as stop:
-        if stop.code == INTERRUPTED:  # typer has met a Ctrl-C
-            raise KeyboardInterrupt from None
-        sys.stdout.flush()
-        raise
-    except OSError:
-        raise
-    except Exception as fault:
-        if os.environ.get(DEBUG):
-            raise
-        _end(f"internal error, please report it: {fault!r}; {DEBUG}=1 shows where", 1)
-
-
-def _secure_streams() -> None:
-    """Streams that are closed become deaf; what an encoding lacks is written as its number."""
-    for name in ("stdout", "stderr"):
-        stream = getattr(sys, name)
-        if stream is None:
-            setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115  for as long as we run
-        else:
-            stream.reconfigure(errors="backslashreplace")
-
-
-def _end(text: str, code: int) -> NoReturn:
-    print(text, file=sys.stderr)
-    sys.exit(code)

@@ -35,7 +35,7 @@ def make_drive(
         period: of the control [s].
     """
     if controller.drives_torque:
-        return TorqueDrive(controller, kinematics, start)
+        return TorqueDrive(controller, kinematics, start, period)
     return RateDrive(controller, kinematics, start, period)
 
 
@@ -74,9 +74,12 @@ class TorqueDrive:
     z = PULL^2 (start - q) - 2 PULL q_dot: damped critically, or a redundant arm would drift.
     """
 
-    def __init__(self, controller: Controller[Any], kinematics: Kinematics, start: Floats) -> None:
+    def __init__(
+        self, controller: Controller[Any], kinematics: Kinematics, start: Floats, period: float
+    ) -> None:
         self._law = controller.law
         self._resolved = controller.commands == "acceleration"
+        self._period = period
         self._start = start
         self._dynamics = Dynamics(kinematics)
         self._effort = kinematics.card.effort
@@ -91,7 +94,7 @@ class TorqueDrive:
         wanted = self._law(seen, gains) - drift_acceleration(seen.jacobian, rates)
         wish = PULL**2 * (self._start - q) - 2 * PULL * rates
         bend = resolve(seen.jacobian, dq.translation(seen.pose), wanted, wish)
-        return self._dynamics.torque(q, rates, bend)
+        return self._dynamics.torque(q, rates, bend, self._period)
 
     def within(self, wanted: Floats, posture: Floats) -> Floats:
         """Within the motors' torques."""

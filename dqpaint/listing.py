@@ -8,11 +8,18 @@ from dqpaint.terminal import table
 
 
 def _robots() -> list[dict[str, Any]]:
-    from dqpaint.robots.card import card_names, read_card
+    from dqpaint.robots.card import DEFAULT_ROBOT, card_names, read_card
 
     cards = [read_card(name) for name in card_names()]
     return [
-        {"name": c.name, "about": f"{c.title}, {c.joints} joints", "source": c.source}
+        {
+            "name": c.name,
+            "about": f"{c.title}, {c.joints} joints"
+            + (f" (not installed: {c.missing})" if c.missing else ""),
+            "missing": c.missing,
+            "default": c.name == DEFAULT_ROBOT,
+            "source": c.source,
+        }
         for c in cards
     ]
 
@@ -67,6 +74,26 @@ def _disturbances() -> list[dict[str, Any]]:
     ]
 
 
+def _brushes() -> list[dict[str, Any]]:
+    from dqpaint.light.brushes import BRUSHES, choices_of
+
+    return [
+        {"name": name, "about": (kind.__doc__ or "").splitlines()[0], "choices": choices_of(kind)}
+        for name, kind in BRUSHES.items()
+    ]
+
+
+def _looks() -> list[dict[str, Any]]:
+    from dqpaint.light.looks import LOOKS
+    from dqpaint.settings import Settings
+
+    usual = Settings.model_fields["look"].default
+    return [
+        {"name": name, "about": (look.__doc__ or "").splitlines()[0], "default": name == usual}
+        for name, look in LOOKS.items()
+    ]
+
+
 def _examples() -> list[dict[str, Any]]:
     from dqpaint.examples import example_names, examples_folder
 
@@ -82,6 +109,8 @@ LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {
     "controllers": _controllers,
     "plants": _plants,
     "disturbances": _disturbances,
+    "brushes": _brushes,
+    "looks": _looks,
     "examples": _examples,
 }
 
@@ -107,6 +136,7 @@ def text(found: dict[str, list[dict[str, Any]]]) -> str:
         for row in rows:
             usual = " (default)" if row.get("default") else ""
             lines.append((row["name"] + usual, row["about"]))
+            lines += [("", f"  {choice}") for choice in row.get("choices", [])]
             numbers = [*row.get("gains", []), *row.get("values", [])]
             lines += [("", f"  {value_line(number)}") for number in numbers]
             if "gains" in row:

@@ -13,25 +13,25 @@ from dqpaint.attenuation import Attenuation, attenuation
 from dqpaint.controllers import Controller, find_controller
 from dqpaint.disturbances import make_disturbances
 from dqpaint.language.program import Program
-from dqpaint.light.camera import parse_view
 from dqpaint.light.film import Film
 from dqpaint.metrics import Metrics, Table, measure
 from dqpaint.motion import Motion, plan
 from dqpaint.out_of_reach import begin, check_worst
-from dqpaint.picture import Picture, take
+from dqpaint.picture import Picture, photograph
 from dqpaint.plants import PLANTS, choose_plant
 from dqpaint.robots.choose import card_for
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Clamp
+from dqpaint.scene import Scene, arrange, check_choices
 from dqpaint.set_points import SetPoint, set_points
 from dqpaint.settings import Settings
-from dqpaint.stage.staging import Staging
+from dqpaint.stage.staging import on_stage
 from dqpaint.tracking import Track, track
 
 
 @dataclass(frozen=True, repr=False)
 class Painting:
-    """A finished painting: what was asked, what the arm did, the picture and the numbers."""
+    """A finished painting: what was asked, what the arm did, the pictures and the numbers."""
 
     settings: Settings
     controller: Controller[Any]
@@ -43,9 +43,15 @@ class Painting:
     metrics: Metrics
     attenuation: dict[str, Attenuation]  # of an unmodelled twist, in rotation and translation
     set_points: tuple[SetPoint, ...]
-    picture: Picture
+    scene: Scene
+    pictures: tuple[Picture, ...]  # one a view
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
-    missing: tuple[str, ...] = ()  # what of the arm could not be shown
+    notes: tuple[str, ...] = ()  # what was assumed of the arm
+
+    @property
+    def picture(self) -> Picture:
+        """The picture of the first view."""
+        return self.pictures[0]
 
     @property
     def image(self) -> NDArray[np.uint8]:
@@ -98,7 +104,7 @@ def paint(
         DqpaintError: the run or the light came to nothing.
     """
     clock = Stopwatch()
-    parse_view(settings.view)  # a slip there is told before anything is simulated
+    check_choices(settings)  # a slip there is told before anything is simulated
     controller = controller or find_controller(settings.controller)
     gains = controller.read_gains(settings.gains)
     plant = choose_plant(settings.plant, "torque" if controller.drives_torque else "rates")
@@ -120,12 +126,13 @@ def paint(
         metrics = measure(run)
         came_through = attenuation(run, gains.promise())
         steps = set_points(run)
-    with clock("light"), Staging(card.urdf_path, run.posture, motion.period) as staging:
-        picture = take(motion, run.points, settings, staging)
-        missing = tuple(staging.remarks) if settings.ghost or settings.occlusion else ()
+    stage = on_stage(settings, card, run.posture, motion.period, motion.line)
+    with clock("light"), stage as staging:
+        scene = arrange(motion, run.pose, settings, metrics.table)
+        pictures = tuple(photograph(scene, settings, staging))
     return Painting(
         settings, controller, card.name, plant, gains.shown(), motion, run, metrics, came_through,
-        steps, picture, clock.seconds, missing,
+        steps, scene, pictures, clock.seconds, kinematics.notes,
     )  # fmt: skip
 
 

@@ -9,10 +9,12 @@ from dqpaint.motion import Motion, summary_line
 from dqpaint.paint import Painting
 from dqpaint.picture import Picture
 from dqpaint.robots.limits import Clamp
+from dqpaint.sketch import Preview
 from dqpaint.terminal import table
 
 WHITE = 250  # of 255
 MOST_NAMED = 3  # limits in the table; all of them are in the warnings
+LONGEST_TORQUE_PERIOD = 5e-3  # [s], the 200 Hz of Chandra 2020
 WORTH_A_WARNING = 0.01  # of the light
 NOTHING = 1e-9  # [mm, deg] is shown as 0
 
@@ -32,7 +34,7 @@ def of_painting(painting: Painting, written: Sequence[Path]) -> str:
         *_came_through(painting),
         *_steps(painting),
         ("limits", _limits_line(painting)),
-        ("light", light_line(painting.picture)),
+        *_pictures(painting.pictures),
         *_files(written),
     ]
     return table(rows)
@@ -84,14 +86,20 @@ def _gain(value: float | tuple[float, ...] | str) -> str:
     return value if isinstance(value, str) else f"{value:.4g}"
 
 
-def of_preview(picture: Picture, written: Sequence[Path]) -> str:
+def of_preview(preview: Preview, written: Sequence[Path]) -> str:
     """The table that follows `preview`."""
-    rows = [
-        ("drawing", summary_line(picture.motion)),
-        ("light", light_line(picture)),
-        *_files(written),
-    ]
-    return table(rows)
+    rows = [("drawing", summary_line(preview.motion)), *_pictures(preview.pictures)]
+    return table([*rows, *_files(written)])
+
+
+def of_developed(pictures: Sequence[Picture], written: Sequence[Path]) -> str:
+    """The table that follows `develop`."""
+    return table([*_pictures(pictures), *_files(written)])
+
+
+def _pictures(pictures: Sequence[Picture]) -> list[tuple[str, str]]:
+    """What the light and the exposure of the first picture are; the others are of the same run."""
+    return [("light", light_line(pictures[0])), ("exposure", pictures[0].told)]
 
 
 def light_line(picture: Picture) -> str:
@@ -114,18 +122,34 @@ def notes(motion: Motion) -> list[str]:
 
 def remarks(painting: Painting) -> list[str]:
     """Warnings about a drawing and its run."""
-    texts = notes(painting.motion)
+    texts = [f"note: {note}" for note in painting.notes]
+    texts += notes(painting.motion)
     for (kind, line), held in _grouped(painting).items():
         joints = "".join(f"\n    {clamp}" for clamp in held)
         texts.append(f"warning: line {line} runs into {kind} limits:{joints}{CURES[kind]}")
+    period = painting.motion.period
+    if painting.track.torques and period > LONGEST_TORQUE_PERIOD * (1 + 1e-9):
+        texts.append(
+            f"warning: torques are held for {period * 1e3:g} ms; laws that command them are made "
+            f"for {LONGEST_TORQUE_PERIOD * 1e3:g} ms (200 Hz) or less"
+            "\n  = help: write period 5 ms in the drawing"
+        )
     picture = painting.picture
     share = picture.film.lost.sum() / picture.emitted.sum()
     if share > WORTH_A_WARNING:
         texts.append(f"warning: {share:.0%} of the light fell outside the picture")
-    return [*texts, *_hidden(picture), *painting.missing]
+    return [*texts, *of_arm(painting.pictures)]
 
 
-def _hidden(picture: Picture) -> list[str]:
+def of_arm(pictures: Sequence[Picture]) -> list[str]:
+    """Warnings about what the arm hides, and what of it could not be shown or traced."""
+    texts: list[str] = []
+    for picture in pictures:
+        texts += _hidden(picture, f" in {picture.name}" if len(pictures) > 1 else "")
+    return [*texts, *dict.fromkeys(remark for one in pictures for remark in one.remarks)]
+
+
+def _hidden(picture: Picture, where: str) -> list[str]:
     """A warning where much of the light was behind the arm."""
     if picture.hidden is None:
         return []
@@ -137,7 +161,7 @@ def _hidden(picture: Picture) -> list[str]:
     more = f" and {len(lines) - MOST_NAMED} more" if len(lines) > MOST_NAMED else ""
     word = "lines" if len(lines) > 1 else "line"
     return [
-        f"warning: the arm stood before {share:.0%} of its light: {word} {named}{more}"
+        f"warning: the arm stood before {share:.0%} of its light{where}: {word} {named}{more}"
         "\n  = help: look from another side (--view), or let it shine through (--no-occlusion)"
     ]
 

@@ -29,8 +29,27 @@ class Settings(BaseModel):
     height: Annotated[int, Field(ge=SMALLEST, le=LARGEST)] = 720
     view: str = "front"
     ev: Annotated[float, Field(ge=-20, le=20, allow_inf_nan=False)] = 0.0
-    ghost: bool = True  # the arm is in the picture
-    occlusion: bool = True  # its body hides light from the camera
+    brush: str | None = None  # None: the file's own
+    pwm: Annotated[float, Field(ge=0, le=1e5, allow_inf_nan=False)] = 0.0  # [Hz]; 0: even light
+    exposure: str | None = None  # None: automatic
+    look: str = "film"
+    starburst: Annotated[int, Field(ge=0)] = 0  # blades of the aperture; 0: a round one
+    noise: Annotated[int, Field(ge=0)] | None = None  # its seed; None: there is none
+    colour_by: str | None = None
+    overlay: bool = False
+    magnify: Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)] = 1.0
+    ghost: bool = False  # the arm is in the picture
+    occlusion: bool | None = None  # its body hides light from the camera; None: as ghost
+
+    @property
+    def traced(self) -> bool:
+        """Whether what the arm hides is traced."""
+        return self.ghost if self.occlusion is None else self.occlusion
+
+    @property
+    def staged(self) -> bool:
+        """Whether the arm's shapes are needed at all."""
+        return self.ghost or self.traced
 
 
 def make_settings(**choices: object) -> Settings:

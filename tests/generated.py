@@ -1,6 +1,11 @@
 """The README's generated tables: `python -m tests.generated` writes them, test_docs compares."""
 
+from math import ceil, floor
 from pathlib import Path
+
+import numpy as np
+
+from dqpaint.robots.chain import EXTRAS
 
 END = "<!-- end -->"
 README = Path(__file__).parent.parent / "README.md"
@@ -72,8 +77,31 @@ def robots():
     from dqpaint.robots.card import card_names, read_card
 
     cards = [read_card(name) for name in card_names()]
-    rows = [[f"`{c.name}`", c.title, str(c.joints), c.package] for c in cards]
-    return table(["robot", "", "joints", "from the package"], rows)
+    rows = [[f"`{c.name}`", c.title, str(c.joints), c.origin] for c in cards]
+    return table(["robot", "", "joints", "from"], rows)
+
+
+def stars():
+    """The star by every arm that needs no extra, bounds rounded away from the good side."""
+    import dqpaint
+    from dqpaint.robots.card import card_names, read_card
+
+    rows = []
+    for card in map(read_card, card_names()):
+        if card.urdf is not None and card.urdf.package in EXTRAS:
+            continue
+        errors = []
+        for plant in ("ideal", "stiff"):
+            run = dqpaint.draw("star", robot=card.name, plant=plant, size=(64, 36))
+            assert not run.limits
+            errors.append(ceil(run.table["position_error_m"].max() * 1e5) / 100)
+        joints = run.track.posture
+        margin = np.degrees(np.minimum(joints - card.lower, card.upper - joints).min())
+        least = floor(100 * run.track.manipulability.min()) / 100
+        rows.append([f"`{card.name}`", *(f"{e:.2f} mm" for e in errors), f"{floor(margin)} deg",
+                     f"{least:.2f}"])  # fmt: skip
+    heads = ["star by", "`ideal`, error below", "`stiff`", "joints off limits by", "manipulability"]
+    return table(heads, rows)
 
 
 def plants():
@@ -82,15 +110,36 @@ def plants():
     return table(["plant", ""], [[f"`{n}`", p.__doc__.splitlines()[0]] for n, p in PLANTS.items()])
 
 
+def brushes():
+    from dqpaint.light.brushes import BRUSHES
+
+    rows = [
+        [
+            f"`{name}`",
+            kind.__doc__.splitlines()[0],
+            " ".join(f"`{key}`" for key in kind.model_fields),
+        ]
+        for name, kind in BRUSHES.items()
+    ]
+    return table(["brush", "", "its choices"], rows)
+
+
+def looks():
+    from dqpaint.light.looks import LOOKS
+
+    return table(["look", ""], [[f"`{n}`", k.__doc__.splitlines()[0]] for n, k in LOOKS.items()])
+
+
 def columns():
     return table(["column", ""], [[f"`{name}`", about] for name, about in COLUMNS.items()])
 
 
-TABLES = [statements, parts, values, controllers, robots, plants, columns]
+TABLES = [statements, parts, values, controllers, robots, plants, brushes, looks, columns]
+SLOW_TABLES = [stars]
 
 
-def renewed(text):
-    for make in TABLES:
+def renewed(text, tables=(*TABLES, *SLOW_TABLES)):
+    for make in tables:
         mark = f"<!-- {make.__name__} -->"
         before, found, rest = text.partition(mark)
         assert found, mark

@@ -14,6 +14,8 @@ import dqpaint as package
 from dqpaint import __main__ as entry
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.listing import LISTS
+from dqpaint.settings import Settings
+from tests.robots.arm_files import arm_urdf
 
 pytestmark = pytest.mark.slow
 LINE = "period 20 ms\nstart at (0, 0) mm\nline to (30, 10) mm in 400 ms\n"
@@ -57,23 +59,26 @@ def test_draw_leaves_three_files_and_a_table(dqpaint, line, tmp_path):
         assert word in done.stdout
 
 
+CHOSEN = {
+    "controller": "p", "gains": {"k": 5}, "robot": "iiwa", "plant": "ideal", "start": "home",
+    "disturb": {"twist": {"": "noise", "x": 0.01, "wz": -0.1, "frequency": 2}}, "seed": 7,
+    "width": 320, "height": 200, "view": "20,30", "ev": 1.5,
+}  # fmt: skip
+
+
 def test_options_are_all_heard(dqpaint, line, tmp_path):
     done = dqpaint(
         "draw", line, "--controller", "p", "--gain", "k=5", "--seed", "7",
         "--disturb", "twist=noise,x=0.01,wz=-0.1,frequency=2", "--plant", "ideal", "--from", "home",
         "--size", "320x200", "--view", "20,30", "--ev", "1.5", "--out", "made/", "--robot", "iiwa",
-        "--save", "json,motion", "--no-ghost", "--no-occlusion",
+        "--save", "json,motion",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert files(tmp_path / "made") == ["line-p-motion.csv", "line-p.json"]
     facts = json.loads((tmp_path / "made/line-p.json").read_text())
     assert facts["gains"] == {"k": 5}
-    assert facts["settings"] == {
-        "controller": "p", "gains": {"k": 5}, "robot": "iiwa", "plant": "ideal", "start": "home",
-        "disturb": {"twist": {"": "noise", "x": 0.01, "wz": -0.1, "frequency": 2}}, "seed": 7,
-        "width": 320, "height": 200, "view": "20,30", "ev": 1.5, "ghost": False,
-        "occlusion": False,
-    }  # fmt: skip
+    assert {name: facts["settings"][name] for name in CHOSEN} == CHOSEN
+    assert set(facts["settings"]) == set(Settings.model_fields)
 
 
 def test_gains_that_change_are_written_as_they_were_given(dqpaint, line, tmp_path):
@@ -176,6 +181,43 @@ def test_preview_needs_no_arm(dqpaint, line, tmp_path):
     assert "on film" in done.stdout
 
 
+def test_a_kept_film_is_developed_without_an_arm(dqpaint, line, tmp_path):
+    done = dqpaint(
+        "draw",
+        line,
+        "--size",
+        "160x90",
+        "--save",
+        "film,video,webp",
+        "--brush",
+        "ribbon:length=5mm",
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert files(tmp_path) == [
+        "line-hinf-film.npz", "line-hinf-film.tiff", "line-hinf.webm", "line-hinf.webp",
+        "line.traj",
+    ]  # fmt: skip
+    done = dqpaint("develop", "line-hinf-film.npz", "--view", "front,20,30", "--look", "agx")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "exposure  automatic, as f/8, ISO 100, 40 mm at " in done.stdout
+    names = ["line-hinf-developed-az20-el30.png", "line-hinf-developed-front.png"]
+    assert [name for name in files(tmp_path) if "developed" in name] == names
+
+
+def test_light_that_tells_from_the_command_line(dqpaint, line, tmp_path):
+    done = dqpaint(
+        "draw", line, "--size", "640x360", "--save", "png,json", "--colour-by", "position-error",
+        "--overlay", "--magnify", "20", "--exposure", "auto", "--noise", "1", "--starburst", "6",
+        "--pwm", "400", "--look", "clip", "--brush", "fibre",
+    )  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, "")
+    settings = json.loads((tmp_path / "line-hinf.json").read_text())["settings"]
+    for name, value in {"colour_by": "position-error", "overlay": True, "magnify": 20.0,
+                        "noise": 1, "starburst": 6, "pwm": 400.0, "look": "clip",
+                        "brush": "fibre", "exposure": "auto"}.items():  # fmt: skip
+        assert settings[name] == value
+
+
 def test_check_of_good_and_bad_files(dqpaint, line, tmp_path):
     (tmp_path / "bad.traj").write_text("lin to (0, 0, 70) mm\nline to (0, 0, 70)\n")
     done = dqpaint("check", line, "bad.traj", "star")
@@ -218,13 +260,13 @@ def test_check_for_programs(dqpaint, line, tmp_path):
     (["draw", "line.traj", "--disturb", "twist:x=1,x=2"], 2, "'x=2' is not KEY=VALUE, each once"),
     (["draw", "line.traj", "--disturb", "twist:x=1,,y=2"], 2, "'' is not KEY=VALUE, each once"),
     (["draw", "line.traj", "--seed", "-1"], 2, "seed -1 should be greater than or equal to 0"),
-    (["draw", "line.traj", "--robot", ""], 2, "no robot named ''; known: iiwa"),
+    (["draw", "line.traj", "--robot", ""], 2, "no robot named ''; known: baxter-left"),
     (["draw", "a" * 5000], 1, "file name too long"),
     (["draw", "line.traj", "--out", "a" * 5000], 1, "cannot be written: File name too long"),
     (["draw", "line.traj", "--out", "line.traj/x"], 1, "'line.traj' is a file, not a folder"),
     (["draw", "line.traj", "--size", "9" * 5000 + "x10"], 2, "is not WIDTHxHEIGHT"),
     (["draw", ""], 1, "no file ''"),
-    (["draw", "line.traj", "--robot", "ur7"], 2, "no robot named 'ur7'; known: iiwa"),
+    (["draw", "line.traj", "--robot", "ur7"], 2, "no robot named 'ur7'; known: baxter-left"),
     (["draw", "line.traj", "--plant", "rubber"], 2, "no plant named 'rubber'; known: "),
     (["draw", "line.traj", "--size", "big"], 2, "size 'big' is not WIDTHxHEIGHT"),
     (["draw", "line.traj", "--size", "99999x10"], 2, "width"),
@@ -236,7 +278,19 @@ def test_check_for_programs(dqpaint, line, tmp_path):
     (["draw", "line.traj", "--out", "no/such/x"], 1, "folder 'no/such' does not exist"),
     (["draw", "line.traj", "--out", "/proc/"], 1, "cannot be written"),
     (["draw", "line.traj", "--colour", "red"], 2, "No such option"),
-    (["list", "brushes"], 2, "no list named 'brushes'; known: robots"),
+    (["list", "lamps"], 2, "no list named 'lamps'; known: robots"),
+    (["draw", "line.traj", "--brush", "broom"], 2, "no brush named 'broom'; known: point, ball"),
+    (["draw", "line.traj", "--brush", "bar:length=3"], 2, "'3' is not a length with a unit"),
+    (["draw", "line.traj", "--exposure", "f8"], 2, "'f8' is no part of one; its parts: f/8"),
+    (["draw", "line.traj", "--look", "x"], 2, "no look named 'x'; known: film, aces, agx, clip"),
+    (["draw", "line.traj", "--view", "iso,iso"], 2, "iso is given twice"),
+    (["draw", "line.traj", "--starburst", "2"], 2, "an aperture has 3 to 24 blades"),
+    (["draw", "line.traj", "--colour-by", "mood"], 2, "no colour-by named 'mood'; known: position"),
+    (["draw", "line.traj", "--magnify", "0"], 2, "magnify"),
+    (["draw", "line.traj", "--pwm", "-3"], 2, "pwm"),
+    (["preview", "line.traj", "--colour-by", "manipulability"], 2, "needs an arm: use draw"),
+    (["develop", "line.traj"], 1, "'line.traj' is not a film of dqpaint; draw with --save film"),
+    (["develop", "none.npz"], 1, "film 'none.npz' cannot be read: No such file"),
     (["paint", "line.traj"], 2, "No such command"),
     (["check"], 2, "Missing argument"),
 ])  # fmt: skip
@@ -309,7 +363,9 @@ def test_lists(dqpaint):
     assert "star" in dqpaint("list", "examples").stdout
 
 
-@pytest.mark.parametrize("command", [[], ["draw"], ["preview"], ["check"], ["list"], ["gallery"]])
+@pytest.mark.parametrize(
+    "command", [[], ["draw"], ["preview"], ["develop"], ["check"], ["list"], ["gallery"]]
+)
 def test_help_ends_with_two_examples(dqpaint, command):
     done = dqpaint(*command, "--help")
     assert done.returncode == 0
@@ -362,7 +418,7 @@ def test_ctrl_c_while_libraries_are_imported(monkeypatch, capsys):
     def interrupted():
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("dqpaint.cli.run", interrupted)
+    monkeypatch.setattr("dqpaint.answering.run", interrupted)
     with pytest.raises(SystemExit) as stopped:
         entry.main()
     assert stopped.value.code == 130
@@ -385,3 +441,39 @@ def test_ctrl_c_leaves_nothing_half_written(tmp_path):
     assert process.returncode == 130, err
     assert (out, err) == ("", "interrupted\n")
     assert files(tmp_path) == ["long.traj"]
+
+
+def test_pose_tells_numbers_and_warnings_apart(dqpaint):
+    done = dqpaint("pose", "viper850", "--deg=20,-110,190,25,45,20", "--flange", "--json")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert json.loads(done.stdout)["pose"][0] == pytest.approx(0.3530, abs=5e-5)
+    done = dqpaint("pose", "iiwa", "--deg", "-180,0,0,0,0,0,0")
+    assert done.returncode == 0
+    assert done.stderr == "warning: joint 1 at -180 deg is beyond its limits, -170 to 170 deg\n"
+    assert "manipulability" in done.stdout
+
+
+@pytest.mark.parametrize(("words", "message"), [
+    (["iiwa", "--deg=1,2"], "usage: iiwa has 7 joints, but --deg gives 2 angles"),
+    (["iiwb"], "usage: no robot named 'iiwb'; known: baxter-left, "),
+    (["mine.urdf"], "usage: mine.urdf cannot be read: No such file or directory"),
+])  # fmt: skip
+def test_pose_refuses_what_is_no_posture(dqpaint, words, message):
+    done = dqpaint("pose", *words)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(message)
+
+
+def test_an_arm_of_one_s_own_draws_and_says_what_was_assumed(dqpaint, line, tmp_path):
+    (tmp_path / "arm.urdf").write_text(arm_urdf())
+    done = dqpaint("draw", line, "--robot", "arm.urdf:l6", "--size", "160x90")
+    assert done.returncode == 0
+    assert [text.partition(":")[0] for text in done.stderr.splitlines()] == ["note"] * 3
+    assert "arm, stiff" in done.stdout
+    done = dqpaint("check", line, "--robot", "arm.urdf:l6")
+    assert done.returncode == 0
+    assert "arm reaches it" in done.stdout
+    (tmp_path / "arm.urdf").write_text(arm_urdf()[:300])
+    done = dqpaint("draw", line, "--robot", "arm.urdf:l6")
+    assert done.returncode == 1
+    assert done.stderr.startswith("error: arm.urdf is no URDF: ")

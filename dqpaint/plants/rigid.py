@@ -8,6 +8,7 @@ import numpy as np
 from dqpaint.dq import Floats
 from dqpaint.plants.bullet import bullet, joint_indices, quiet
 from dqpaint.robots.card import Card
+from dqpaint.robots.urdf import urdf_file
 
 LONGEST_STEP = 1e-3  # [s] of physics
 STOP = 0.02  # [rad] of the mechanical stop beyond a joint's limit: commands end at the limit
@@ -58,7 +59,8 @@ class RigidArm:
             | bullet.URDF_IGNORE_VISUAL_SHAPES
             | bullet.URDF_IGNORE_COLLISION_SHAPES
         )
-        body: int = bullet.loadURDF(str(card.urdf_path), useFixedBase=True, flags=flags, **here)
+        with urdf_file(card) as path:
+            body: int = bullet.loadURDF(path, useFixedBase=True, flags=flags, **here)
         return body
 
     def measure(self) -> Any:

@@ -1,47 +1,27 @@
 """A robot card: one arm as data, read from a TOML file and checked."""
 
-import importlib.util
 import tomllib
 from functools import cache
 from importlib import resources
 from pathlib import Path
-from typing import Annotated, Self
+from typing import Self
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import model_validator
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.errors import UnknownNameError, UsageError
-
-Finite = Annotated[float, Field(allow_inf_nan=False)]
-Three = tuple[Finite, Finite, Finite]
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+from dqpaint.errors import UnknownNameError
+from dqpaint.robots.chain import Axes, Body, Rows, UrdfFile
+from dqpaint.robots.parts import Finite, Mount, Part, Positive, Three
+from dqpaint.robots.screws import Screws
 
 DEFAULT_ROBOT = "iiwa"
+LEAST = 6  # joints: a pose has as many freedoms
+FLANGE = "flange"  # the last link of the arms we build ourselves
 
 
-class _Part(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class Mount(_Part):
-    """A frame on a link: place [m] and fixed-axis roll, pitch, yaw [deg]."""
-
-    at_m: Three
-    rpy_deg: Three = (0.0, 0.0, 0.0)
-
-    @property
-    def pose(self) -> Floats:
-        """As a dual quaternion (8,)."""
-        roll, pitch, yaw = np.radians(self.rpy_deg) / 2
-        x = np.array([np.cos(roll), np.sin(roll), 0, 0])
-        y = np.array([np.cos(pitch), 0, np.sin(pitch), 0])
-        z = np.array([np.cos(yaw), 0, 0, np.sin(yaw)])
-        return dq.pose_from(self.at_m, dq.quaternion_mul(dq.quaternion_mul(z, y), x))
-
-
-class Canvas(_Part):
+class Canvas(Part):
     """The drawing's frame in the base frame: origin [m], and where its x and y axes point."""
 
     at_m: Three
@@ -64,7 +44,7 @@ class Canvas(_Part):
         return self
 
 
-class Limits(_Part):
+class Limits(Part):
     """What the joints can do: one number a joint."""
 
     lower_deg: tuple[Finite, ...]
@@ -82,20 +62,26 @@ class Limits(_Part):
         return self
 
 
-class Card(_Part):
-    """One arm: chain, tool, canvas, home posture, limits, and where the numbers come from."""
+class Card(Part):
+    """One arm: chain, tool, canvas, home posture, limits, and where the numbers come from.
+
+    The chain is said in one of three ways: `urdf`, `denavit_hartenberg` or `screws`. An arm of the
+    last two is built from them, with the masses and radii of `body`.
+    """
 
     name: str
     title: str
     source: str
     licence: str
-    package: str
-    urdf: str
-    link: str
+    urdf: UrdfFile | None = None
+    denavit_hartenberg: Rows | None = None
+    screws: Axes | None = None
+    body: Body | None = None
     home_deg: tuple[Finite, ...]
     tool: Mount
     canvas: Canvas
     limits: Limits
+    notes: tuple[str, ...] = ()  # what was assumed where a file says nothing, a sentence each
 
     @property
     def joints(self) -> int:
@@ -128,30 +114,70 @@ class Card(_Part):
         return np.array(self.limits.effort_Nm)
 
     @property
-    def urdf_path(self) -> Path:
-        """The URDF file, inside the package that brings it.
+    def link(self) -> str:
+        """The link that carries the tool."""
+        return self.urdf.link if self.urdf else FLANGE
 
-        Raises:
-            UsageError: the package is not installed, or lacks the file.
-        """
-        spec = importlib.util.find_spec(self.package)  # importing it could pull in the simulator
-        places = list(spec.submodule_search_locations or ()) if spec else []
-        for place in places:
-            path = Path(place) / self.urdf
-            if path.is_file():
-                return path
-        raise UsageError(
-            f"robot '{self.name}' needs {self.urdf} of the package '{self.package}', "
-            "which is not installed"
-        )
+    @property
+    def axes(self) -> Screws | None:
+        """The chain as screw axes, of a card that has rows or axes."""
+        if self.denavit_hartenberg is not None:
+            return self.denavit_hartenberg.chain.screws()
+        return self.screws.chain if self.screws is not None else None
+
+    @property
+    def missing(self) -> str:
+        """What to type before this arm can be used; empty where nothing is missing."""
+        if self.urdf is None or self.urdf.find() is not None:
+            return ""
+        return self.urdf.cure
+
+    @property
+    def origin(self) -> str:
+        """Where the arm's description comes from, in a few words."""
+        if self.urdf is None:
+            rows = "Denavit-Hartenberg rows" if self.denavit_hartenberg else "screw axes"
+            return f"built from its {rows}"
+        return self.urdf.package or self.urdf.file
+
+    @model_validator(mode="after")
+    def _one_chain_of_one_length(self) -> Self:
+        chains = [self.urdf, self.denavit_hartenberg, self.screws]
+        if sum(chain is not None for chain in chains) != 1:
+            raise ValueError(
+                "an arm needs one of the tables [urdf], [denavit_hartenberg] and [screws]"
+            )
+        if self.urdf is not None:
+            if self.body is not None:
+                raise ValueError("the table [body] is for rows and axes: a URDF has its own masses")
+            return self
+        if self.body is None:
+            raise ValueError("an arm of rows or axes needs the table [body]")
+        assert self.axes is not None
+        count = len(self.axes.axes)
+        if count != self.joints:
+            raise ValueError(f"home_deg needs one number for each of the {count} joints")
+        if (len(self.body.mass_kg), len(self.body.radius_m)) != (count, count + 1):
+            raise ValueError("mass_kg needs one number for each joint, radius_m one more")
+        return self
 
     @model_validator(mode="after")
     def _home_is_allowed(self) -> Self:
+        if self.joints < LEAST:
+            count = "1 joint" if self.joints == 1 else f"{self.joints} joints"
+            raise ValueError(
+                f"{count} cannot hold a place and an orientation: at least {LEAST} are needed"
+            )
         if len(self.limits.lower_deg) != self.joints:
             raise ValueError("home_deg needs one number for each joint of the limits")
         if not ((self.lower <= self.home) & (self.home <= self.upper)).all():
             raise ValueError("home_deg must lie inside the limits")
         return self
+
+
+def installed_names() -> list[str]:
+    """The names of the robots whose files are there."""
+    return [name for name in card_names() if not read_card(name).missing]
 
 
 def card_names() -> list[str]:

@@ -5,6 +5,20 @@ from dqpaint.language import Diagnostic, Program, ScriptError
 from dqpaint.robots.card import DEFAULT_ROBOT, Card, read_card
 
 
+def find_card(robot: str) -> Card:
+    """The card of an arm by its name, or by a file: *.toml, *.urdf, or *.urdf:LINK.
+
+    Raises:
+        UnknownNameError: no card has that name.
+        DqpaintError: the file is not there, or no arm.
+    """
+    if robot.endswith((".toml", ".urdf")) or ".urdf:" in robot:
+        from dqpaint.robots.files import read_file  # brings what reads a URDF
+
+        return read_file(robot)
+    return read_card(robot)
+
+
 def card_for(program: Program, robot: str | None) -> Card:
     """The card of the arm that was asked for, else of the file's own, else of the default.
 
@@ -13,9 +27,9 @@ def card_for(program: Program, robot: str | None) -> Card:
         ScriptError: no card has the name in the file.
     """
     if robot is not None or program.robot is None:
-        return read_card(DEFAULT_ROBOT if robot is None else robot)
+        return find_card(DEFAULT_ROBOT if robot is None else robot)
     try:
-        return read_card(program.robot)
+        return find_card(program.robot)
     except UnknownNameError as problem:
         message, _, known = str(problem).partition("; ")
         unknown = Diagnostic("E311", message, program.robot_span, help=known)

@@ -27,10 +27,16 @@ class Dynamics:
         self._data = self._model.createData()
         self._friction: Floats = np.array(self._model.damping)
 
-    def torque(self, posture: Floats, rates: Floats, acceleration: Floats) -> Floats:
-        """The torques (n,) [Nm] for joint accelerations (n,) [rad/s^2]."""
+    def torque(
+        self, posture: Floats, rates: Floats, acceleration: Floats, period: float = 0.0
+    ) -> Floats:
+        """The torques (n,) [Nm] for joint accelerations (n,) [rad/s^2], held for a period [s].
+
+        Friction is that of the middle of the period: a light joint's takes effect within
+        milliseconds, and with that of its beginning such a joint gains a third of what it should.
+        """
         needed = pinocchio.rnea(self._model, self._data, posture, rates, acceleration)
-        return np.asarray(needed + self._friction * rates)
+        return np.asarray(needed + self._friction * (rates + 0.5 * period * acceleration))
 
     def inertia_and_bias(self, posture: Floats, rates: Floats) -> tuple[Floats, Floats]:
         """H (n, n) [kg m^2], and C q_dot + G + friction (n,) [Nm]."""

@@ -9,8 +9,10 @@ import pinocchio
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.errors import UsageError
+from dqpaint.errors import DqpaintError
 from dqpaint.robots.card import Card
+from dqpaint.robots.screws import Screws
+from dqpaint.robots.urdf import prepare
 
 
 def manipulability(jacobian: Floats) -> Floats:
@@ -23,20 +25,24 @@ def manipulability(jacobian: Floats) -> Floats:
 
 
 class Kinematics:
-    """Forward kinematics of a card's tool."""
+    """Forward kinematics of a card's tool.
+
+    Attributes:
+        card: of the arm.
+        model: pinocchio's, of the joints that move.
+        notes: what had to be assumed where the arm's description says nothing.
+    """
 
     def __init__(self, card: Card) -> None:
         self.card = card
-        self.model = pinocchio.buildModelFromUrdf(str(card.urdf_path))
-        if not self.model.existFrame(card.link):
-            raise UsageError(f"robot '{card.name}' has no link named '{card.link}'")
-        if self.model.nv != card.joints or self.model.nq != card.joints:
-            raise UsageError(
-                f"robot '{card.name}' has {self.model.nv} joints that move, "
-                f"its card gives limits for {card.joints}"
-            )
+        prepared = prepare(card)
+        self.notes = (*card.notes, *prepared.notes)
+        try:
+            self.model = pinocchio.buildModelFromXML(prepared.text)
+        except ValueError as problem:
+            raise DqpaintError(f"pinocchio cannot read {card.name}: {problem}") from None
         self._data = self.model.createData()
-        frame = self.model.frames[self.model.getFrameId(card.link)]
+        frame = self.model.frames[self.model.getFrameId(card.link, pinocchio.FrameType.BODY)]
         self._joint = frame.parentJoint
         tool = pinocchio.SE3(dq.matrix_from_pose(card.tool.pose))
         self._tool = frame.placement * tool
@@ -61,6 +67,11 @@ class Kinematics:
         """`pose_and_jacobian` of many postures (N, n): poses (N, 8), Jacobians (N, 6, n)."""
         pairs = [self.pose_and_jacobian(q) for q in postures]
         return np.array([x for x, _ in pairs]), np.array([J for _, J in pairs])
+
+    def screws(self) -> Screws:
+        """The arm as its screw axes, up to the tool."""
+        home, axes = self.pose_and_jacobian(np.zeros(self.card.joints))
+        return Screws(axes.T, home)
 
     def _read_pose(self) -> Floats:
         placement = self._data.oMi[self._joint] * self._tool

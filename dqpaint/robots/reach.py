@@ -85,7 +85,7 @@ def _find_start(
     seeds = np.vstack([card.home, seeds])
     wish = np.zeros_like(seeds)
     inside = (card.lower, card.upper)
-    postures, errors = _solve(kinematics, poses[0], seeds, wish, EXACT, inside)
+    postures, errors = solve(kinematics, poses[0], seeds, wish, EXACT, inside)
     reached = (errors < GOOD) & (_margins(kinematics, postures) >= 0)
     if reached.any():
         return _follow(kinematics, poses, seconds, postures[reached])
@@ -115,7 +115,7 @@ def _follow(kinematics: Kinematics, poses: Floats, seconds: Floats, starts: Floa
         pull = 1.0 - np.exp(-PULL * (seconds[index] - before))
         before = seconds[index]
         wish = pull * (starts[alive] - postures[alive])
-        moved, errors = _solve(kinematics, poses[index], postures[alive], wish, ON_THE_WAY)
+        moved, errors = solve(kinematics, poses[index], postures[alive], wish, ON_THE_WAY)
         reached = errors < ON_THE_WAY
         if not reached.any():
             return _closest(kinematics, poses, index, postures[alive])[0]
@@ -133,7 +133,7 @@ def _margins(kinematics: Kinematics, postures: Floats) -> Floats:
     return np.asarray(np.minimum(postures - card.lower, card.upper - postures).min(axis=-1))
 
 
-def _solve(
+def solve(
     kinematics: Kinematics,
     pose: Floats,
     postures: Floats,
@@ -141,7 +141,9 @@ def _solve(
     close: float,
     within: tuple[Floats, Floats] | None = None,
 ) -> tuple[Floats, Floats]:
-    """Newton's method from many postures (M, n) to one pose (8,); how far off each ended (M,).
+    """Newton's method from many postures (M, n) to one pose (8,), or to one each (M, 8).
+
+    Returns the postures, and how far off each ended (M,).
 
     The first step takes the null-space motion `wish` (M, n) [rad] along; the last one ends when
     all are as `close` [rad, m] as asked, or after `ITERATIONS`. `within` are joint limits that no

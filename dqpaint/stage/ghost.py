@@ -85,7 +85,9 @@ def glow(lights: Sequence[tuple[Floats, Floats]]) -> Glow:
     return Glow(lamps, gather(lights, PATH), KEY * np.pi * (spread + ROOM**2) / total)
 
 
-def photograph(arm: Arm, camera: Camera, light: Glow, exposure: float) -> Image:
+def photograph(
+    arm: Arm, camera: Camera, light: Glow, exposure: float, falloff: bool = False
+) -> Image:
     """(H, W, 3) linear light of arm and floor, to be added to the picture before it is developed.
 
     Args:
@@ -93,8 +95,9 @@ def photograph(arm: Arm, camera: Camera, light: Glow, exposure: float) -> Image:
         camera: that of the picture.
         light: what was painted.
         exposure: of the picture: factor from its own unit [lamp s / px^2] to saturation.
+        falloff: whether that unit is divided by the distance squared [lamp s / (m px)^2].
     """
-    shown = light_of_floor(camera, light.lamps, light.path, light.gain, exposure)
+    shown = light_of_floor(camera, light.lamps, light.path, light.gain, exposure, falloff)
     if shown is None:
         shown = np.zeros((camera.height, camera.width, 3), np.float32)
     surfaces = measure(arm, camera)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
@@ -16,6 +17,9 @@ from numpy.typing import NDArray
 from dqpaint.dq import Floats
 from dqpaint.light.arrays import Image
 from dqpaint.light.camera import Camera
+from dqpaint.robots.card import Card
+from dqpaint.robots.urdf import prepare, urdf_file
+from dqpaint.settings import Settings
 from dqpaint.stage.arm import Arm
 from dqpaint.stage.ghost import glow, photograph
 from dqpaint.stage.shadow import visible
@@ -57,11 +61,25 @@ class Staging:
         urdf: its description.
         posture: (N, n) at instants a period apart, from time 0 on [rad].
         period: [s].
+        line: (N,) of the source at these instants; None: they are not known.
+        whole: whether the description has all shapes that its arm should have.
+
+    Attributes:
+        line: as given; 0 stands for what is not known.
     """
 
-    def __init__(self, urdf: str | PathLike[str], posture: Floats, period: float) -> None:
+    def __init__(
+        self,
+        urdf: str | PathLike[str],
+        posture: Floats,
+        period: float,
+        line: NDArray[np.int64] | None = None,
+        whole: bool = True,
+    ) -> None:
         self._urdf = urdf
+        self._whole = whole
         self._posture = posture
+        self.line = np.zeros(len(posture), np.int64) if line is None else line
         self._period = period
         self._open: list[Arm | Twins] = []
 
@@ -83,13 +101,17 @@ class Staging:
     @property
     def solid(self) -> bool:
         """Whether every shape of the arm can be asked what it hides, and there is one."""
-        return self.arm.whole and bool(self.arm.shapes) and not self.twins.unread
+        return self._complete and bool(self.arm.shapes) and not self.twins.unread
+
+    @property
+    def _complete(self) -> bool:
+        return self._whole and self.arm.whole
 
     @property
     def remarks(self) -> list[str]:
         """What of the arm cannot be shown, a sentence each."""
         untraced = "and what it hides is not traced"
-        if not self.arm.whole:
+        if not self._complete:
             return [f"warning: a mesh of the arm cannot be read: it is shown without, {untraced}"]
         if not self.arm.shapes:
             return [f"warning: the arm's file gives it no shape: it cannot be shown, {untraced}"]
@@ -114,6 +136,7 @@ class Staging:
         camera: Camera,
         lights: Sequence[tuple[Floats, Floats]],
         exposure: float,
+        falloff: bool = False,
         row: int = -1,
     ) -> Image:
         """(H, W, 3) linear light of arm and floor, to be added before the picture is developed.
@@ -122,10 +145,11 @@ class Staging:
             camera: that of the picture.
             lights: of each lamp its points (N, 3) [m] and the energy (N-1, 3) between them.
             exposure: of the picture: factor from its own unit [lamp s / px^2] to saturation.
+            falloff: whether that unit is divided by the distance squared [lamp s / (m px)^2].
             row: the instant whose posture is shown.
         """
         self.arm.stand(self._posture[row])
-        return photograph(self.arm, camera, glow(lights), exposure)
+        return photograph(self.arm, camera, glow(lights), exposure, falloff)
 
     def __enter__(self) -> Self:
         return self
@@ -139,3 +163,22 @@ class Staging:
         """Give back what was loaded."""
         for one in self._open:
             one.close()
+
+
+@contextmanager
+def on_stage(
+    settings: Settings, card: Card, posture: Floats, period: float, line: NDArray[np.int64]
+) -> Iterator[Staging | None]:
+    """The arm of a card with the postures (N, n) of a run, if the settings have a use for it.
+
+    Other arguments are those of `Staging`.
+
+    Raises:
+        DqpaintError: the arm's description is not there, or cannot be read.
+    """
+    if not settings.staged:
+        yield None
+        return
+    whole = prepare(card).whole
+    with urdf_file(card) as path, Staging(path, posture, period, line, whole) as staging:
+        yield staging

@@ -10,6 +10,7 @@ from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.plants import PLANTS, choose_plant, stiff
 from dqpaint.plants.rigid import GRAVITY, LONGEST_STEP
 from dqpaint.robots.card import read_card
+from dqpaint.robots.kinematics import Kinematics
 
 pytestmark = pytest.mark.slow
 CARD = read_card("iiwa")
@@ -96,7 +97,7 @@ def test_the_torque_driven_arm_obeys_pinocchio_s_forward_dynamics(rng):
     """From random states, a step of 1 ms: q_ddot to 1e-9 of its size, semi-implicit Euler."""
     import pinocchio
 
-    model = pinocchio.buildModelFromUrdf(str(CARD.urdf_path))
+    model = Kinematics(CARD).model
     data = model.createData()
     assert model.damping.all()  # the file's friction takes part
     assert (model.gravity.linear == [0, 0, GRAVITY]).all()
@@ -129,7 +130,7 @@ def test_the_stiff_arm_carries_its_weight():
     import pinocchio
 
     postures, efforts = run("stiff", np.zeros((50, 7)))
-    model = pinocchio.buildModelFromUrdf(str(CARD.urdf_path))
+    model = Kinematics(CARD).model
     gravity = pinocchio.computeGeneralizedGravity(model, model.createData(), postures[-1])
     np.testing.assert_allclose(efforts[-1], gravity, atol=0.05)
     assert np.abs(gravity).max() > 20

@@ -1,17 +1,21 @@
-"""Every arm: pinocchio against PyBullet, Denavit-Hartenberg rows and finite differences."""
+"""Every arm: pinocchio against PyBullet and finite differences."""
 
 import numpy as np
+import pinocchio
 import pytest
 
 from dqpaint import dq
 from dqpaint.plants.bullet import bullet, joint_indices, quiet
-from dqpaint.robots.card import card_names, read_card
+from dqpaint.robots.card import installed_names, read_card
 from dqpaint.robots.kinematics import Kinematics, manipulability
+from dqpaint.robots.urdf import possible, urdf_file
 
 AGREES = 1e-9  # [m, rad] between pinocchio and PyBullet
 
+PHYSICS_STEP = 1e-3  # [s]
 
-@pytest.fixture(params=card_names())
+
+@pytest.fixture(params=installed_names())
 def arm(request):
     return Kinematics(read_card(request.param))
 
@@ -26,9 +30,14 @@ def test_poses_agree_with_pybullet(arm, rng):
     with quiet():
         client = bullet.connect(bullet.DIRECT)
         flags = bullet.URDF_USE_INERTIA_FROM_FILE
-        body = bullet.loadURDF(str(arm.card.urdf_path), useFixedBase=True, flags=flags)
+        with urdf_file(arm.card) as path:
+            body = bullet.loadURDF(path, useFixedBase=True, flags=flags)
     joints = joint_indices(body, client)
-    link = joints[-1]
+    names = [
+        bullet.getJointInfo(body, i, client)[12].decode()
+        for i in range(bullet.getNumJoints(body, client))
+    ]
+    link = names.index(arm.card.link)
     tool = dq.matrix_from_pose(arm.card.tool.pose)
     for q in postures(arm, rng, 50):
         for joint, angle in zip(joints, q, strict=True):
@@ -40,24 +49,46 @@ def test_poses_agree_with_pybullet(arm, rng):
     bullet.disconnect(client)
 
 
+@pytest.mark.slow
+def test_dynamics_agree_with_pybullet(arm, rng):
+    """The mass matrix, and the torques of inverse dynamics with gravity, at random states."""
+    flags = bullet.URDF_USE_INERTIA_FROM_FILE
+    with quiet(), urdf_file(arm.card) as path:
+        client = bullet.connect(bullet.DIRECT)
+        body = bullet.loadURDF(path, useFixedBase=True, flags=flags, physicsClientId=client)
+    bullet.setGravity(0, 0, -9.81, client)
+    joints = joint_indices(body, client)
+    model, data = arm.model, arm.model.createData()
+    for q in postures(arm, rng, 30):
+        rates, accelerations = rng.normal(size=(2, arm.card.joints))
+        for joint, angle, rate in zip(joints, q, rates, strict=True):
+            bullet.resetJointState(body, joint, angle, rate, client)
+        mass = np.array(bullet.calculateMassMatrix(body, q.tolist(), physicsClientId=client))
+        ours = pinocchio.crba(model, data, q)
+        ours = np.triu(ours) + np.triu(ours, 1).T
+        np.testing.assert_allclose(mass, ours, atol=AGREES)
+        torques = bullet.calculateInverseDynamics(
+            body, q.tolist(), rates.tolist(), accelerations.tolist(), physicsClientId=client
+        )
+        np.testing.assert_allclose(
+            torques, pinocchio.rnea(model, data, q, rates, accelerations), atol=AGREES
+        )
+    bullet.disconnect(client)
+
+
+def test_what_moves_can_be_made_of_matter(arm):
+    """Each body weighs something; its moments are positive, none above the sum of the others."""
+    assert len(arm.notes) == arm.card.name.startswith("baxter")  # a gripper without inertia
+    weights = np.diag(pinocchio.crba(arm.model, arm.model.createData(), arm.card.home))
+    assert (np.array(arm.model.damping) * PHYSICS_STEP < weights).all()  # else a step overshoots
+    for inertia in list(arm.model.inertias)[1:]:
+        assert inertia.mass > 0
+        assert possible(inertia.inertia)
+
+
 def _matrix(place, quaternion):
     x, y, z, w = quaternion
     return dq.matrix_from_pose(dq.pose_from(place, [w, x, y, z]))
-
-
-IIWA_D = (0.36, 0, 0.42, 0, 0.4, 0, 0.081)
-IIWA_ALPHA = np.pi / 2 * np.array([-1, 1, 1, -1, -1, 1, 0])
-
-
-def test_iiwa_agrees_with_its_denavit_hartenberg_rows(rng):
-    arm = Kinematics(read_card("iiwa"))
-    for q in postures(arm, rng, 50):
-        T = np.eye(4)
-        for theta, d, alpha in zip(q, IIWA_D, IIWA_ALPHA, strict=True):
-            c, s, ca, sa = np.cos(theta), np.sin(theta), np.cos(alpha), np.sin(alpha)
-            T = T @ [[c, -s * ca, s * sa, 0], [s, c * ca, -c * sa, 0], [0, sa, ca, d], [0, 0, 0, 1]]
-        T = T @ dq.matrix_from_pose(arm.card.tool.pose)
-        np.testing.assert_allclose(dq.matrix_from_pose(arm.pose(q)), T, atol=1e-10)
 
 
 def test_jacobian_is_the_spatial_twist_of_the_tool(arm, rng):

@@ -1,0 +1,35 @@
+"""What cards are made of: checked numbers, and a place on a link."""
+
+from typing import Annotated
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+Three = tuple[Finite, Finite, Finite]
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+
+
+class Part(BaseModel):
+    """One table of a card: nothing else stands in it, and it does not change."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Mount(Part):
+    """A frame on a link: place [m] and fixed-axis roll, pitch, yaw [deg]."""
+
+    at_m: Three = (0.0, 0.0, 0.0)
+    rpy_deg: Three = (0.0, 0.0, 0.0)
+
+    @property
+    def pose(self) -> Floats:
+        """As a dual quaternion (8,)."""
+        roll, pitch, yaw = np.radians(self.rpy_deg) / 2
+        x = np.array([np.cos(roll), np.sin(roll), 0, 0])
+        y = np.array([np.cos(pitch), 0, np.sin(pitch), 0])
+        z = np.array([np.cos(yaw), 0, 0, np.sin(yaw)])
+        return dq.pose_from(self.at_m, dq.quaternion_mul(dq.quaternion_mul(z, y), x))

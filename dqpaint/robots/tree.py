@@ -1,0 +1,189 @@
+"""The links and joints of a URDF file, found to be one tree, with numbers where they belong."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree as Xml
+
+import numpy as np
+
+from dqpaint.dq import Floats
+from dqpaint.errors import DqpaintError, UsageError
+
+MOST_NAMED = 12  # names in a message
+TURNING = ("revolute", "continuous")
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A joint of a description: what it joins, and its element."""
+
+    name: str
+    kind: str
+    parent: str
+    child: str
+    element: Xml.Element
+
+    def limit(self, what: str) -> float | None:
+        """`lower`, `upper` [rad], `velocity` [rad/s] or `effort` [Nm]; None where not said."""
+        limit = self.element.find("limit")
+        value = None if limit is None else limit.get(what)
+        try:
+            number = float(value) if value is not None else None
+        except ValueError:
+            number = math.nan
+        if number is not None and not math.isfinite(number):
+            raise DqpaintError(f"joint '{self.name}': {what} '{value}' is not a number")
+        return number
+
+
+class Tree:
+    """The links and joints of a URDF file, found to be one tree.
+
+    Attributes:
+        path: of the file.
+        robot: the root element.
+        links: their elements, by name.
+        joints: by the name of the link each one carries.
+        root: the link nothing carries.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.robot = _parse(path)
+        self.links: dict[str, Xml.Element] = {}
+        for element in self.robot.findall("link"):
+            name = element.get("name", "")
+            if not name or name in self.links:
+                raise self.fault(f"two links named '{name}'" if name else "a link has no name")
+            self.links[name] = element
+        self.joints: dict[str, Joint] = {}
+        for element in self.robot.findall("joint"):
+            joint = self._joint(element)
+            if joint.child in self.joints:
+                other = self.joints[joint.child].name
+                raise self.fault(
+                    f"joints '{other}' and '{joint.name}' both carry link '{joint.child}': "
+                    "a loop of links is no arm"
+                )
+            self.joints[joint.child] = joint
+        self.root = self._find_root()
+
+    @property
+    def tips(self) -> list[str]:
+        """The links that carry no other."""
+        parents = {joint.parent for joint in self.joints.values()}
+        return [name for name in self.links if name not in parents]
+
+    def chain(self, link: str) -> list[Joint]:
+        """The joints from the root to a link."""
+        found: list[Joint] = []
+        while link in self.joints:
+            found.append(self.joints[link])
+            link = found[-1].parent
+        return found[::-1]
+
+    def arm(self, link: str) -> list[Joint]:
+        """The joints that move a link, all of which turn.
+
+        Raises:
+            UsageError: there is no such link.
+            DqpaintError: one of the joints slides, or floats.
+        """
+        if link not in self.links:
+            raise UsageError(
+                f"{self.path.name} has no link named '{link}'; known: {some(self.links)}"
+            )
+        joints = [joint for joint in self.chain(link) if joint.kind != "fixed"]
+        for joint in joints:
+            if joint.kind not in TURNING:
+                raise self.fault(
+                    f"joint '{joint.name}' is {joint.kind}, and lies between the base and "
+                    f"'{link}': only joints that turn are known"
+                )
+        return joints
+
+    def _joint(self, element: Xml.Element) -> Joint:
+        name, kind = element.get("name", ""), element.get("type", "")
+        ends = []
+        for end in ("parent", "child"):
+            link = element.find(end)
+            named = "" if link is None else link.get("link", "")
+            if named not in self.links:
+                what = f"names the {end} '{named}', which is no link" if named else f"has no {end}"
+                raise self.fault(f"joint '{name}' {what}")
+            ends.append(named)
+        for part, names in (("origin", ("xyz", "rpy")), ("axis", ("xyz",))):
+            for attribute in names:
+                self._three(element, part, attribute)
+        return Joint(name, kind, ends[0], ends[1], element)
+
+    def _three(self, joint: Xml.Element, part: str, attribute: str) -> None:
+        """Look that a part of a joint, where there is one, holds three numbers."""
+        element = joint.find(part)
+        text = None if element is None else element.get(attribute)
+        if text is None:
+            return
+        values = numbers(text)
+        idle = part == "axis" and not values.any() and joint.get("type") != "fixed"
+        if len(values) != 3 or idle:
+            raise self.fault(
+                f"joint '{joint.get('name')}': {part} {attribute}=\"{text}\" is not three numbers"
+                + (", not all zero" if part == "axis" else "")
+            )
+
+    def _find_root(self) -> str:
+        """The one link that no joint carries, from which all others are reached."""
+        roots = [name for name in self.links if name not in self.joints]
+        if len(roots) > 1:
+            raise self.fault(f"links {some(roots)} are not joined to each other")
+        for start in self.links:
+            seen = {start}
+            link = start
+            while link in self.joints:
+                link = self.joints[link].parent
+                if link in seen:
+                    raise self.fault(f"link '{link}' carries itself: a loop of links is no arm")
+                seen.add(link)
+        if not roots:
+            raise self.fault("it has no links")
+        return roots[0]
+
+    def fault(self, text: str) -> DqpaintError:
+        """An error about this file."""
+        return DqpaintError(f"{self.path.name}: {text}")
+
+
+def _parse(path: Path) -> Xml.Element:
+    try:
+        robot = Xml.fromstring(path.read_bytes())
+    except OSError as problem:
+        raise UsageError(f"{path} cannot be read: {problem.strerror}") from None
+    except Xml.ParseError as problem:
+        raise DqpaintError(f"{path.name} is no URDF: {problem}") from None
+    if robot.tag != "robot":
+        raise DqpaintError(
+            f"{path.name} is no URDF: it begins with <{robot.tag}>, not with <robot>"
+        )
+    if any("xacro" in child.tag for child in robot.iter()):
+        raise DqpaintError(
+            f"{path.name} is a xacro file: run xacro on it first, and give the result"
+        )
+    return robot
+
+
+def numbers(text: str) -> Floats:
+    """The numbers of a text, separated by spaces; none where one of its words is not a number."""
+    try:
+        values = np.array([float(word) for word in text.split()])
+    except ValueError:
+        return np.zeros(0)
+    return values if np.isfinite(values).all() else np.zeros(0)
+
+
+def some(names: Iterable[str]) -> str:
+    """A list of names, cut where it gets long."""
+    listed = list(names)
+    more = f" and {len(listed) - MOST_NAMED} more" if len(listed) > MOST_NAMED else ""
+    return ", ".join(listed[:MOST_NAMED]) + more

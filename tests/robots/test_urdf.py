@@ -1,0 +1,143 @@
+"""What is settled in a description before the libraries read it, and what is said of it."""
+
+import numpy as np
+import pinocchio
+import pytest
+
+from dqpaint import dq
+from dqpaint.plants import PLANTS
+from dqpaint.plants.bullet import bullet, joint_indices, quiet
+from dqpaint.robots.card import read_card
+from dqpaint.robots.files import read_file
+from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.urdf import possible, prepare, urdf_file
+from tests.robots.arm_files import arm_urdf
+
+INERTIAL = (
+    '<inertial><origin xyz="0.05 0 0.02"/><mass value="4"/>'
+    '<inertia ixx="0.02" ixy="0.001" ixz="0" iyy="0.03" iyz="0" izz="0.025"/></inertial>'
+)
+
+
+@pytest.fixture
+def read(tmp_path):
+    def make(text, link="tip"):
+        (tmp_path / "arm.urdf").write_text(text)
+        return read_file(f"{tmp_path / 'arm.urdf'}:{link}")
+
+    return make
+
+
+def masses_of(card):
+    """PyBullet's and pinocchio's joint-space inertia at one posture."""
+    with quiet(), urdf_file(card) as path:
+        client = bullet.connect(bullet.DIRECT)
+        flags = bullet.URDF_USE_INERTIA_FROM_FILE
+        body = bullet.loadURDF(path, useFixedBase=True, flags=flags, physicsClientId=client)
+    q = [0.1, -0.2, 0.3, 0.4, -0.5, 0.6]
+    assert len(joint_indices(body, client)) == 6
+    theirs = np.array(bullet.calculateMassMatrix(body, q, physicsClientId=client))
+    bullet.disconnect(client)
+    model = Kinematics(card).model
+    ours = pinocchio.crba(model, model.createData(), np.array(q))
+    return theirs, np.triu(ours) + np.triu(ours, 1).T
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("old", "new", "notes"), [
+    ("<link", "<link", []),
+    (INERTIAL, "", ["link 'l3' moves and has no mass: 0.1 kg in a ball of 50 mm is assumed"]),
+    (INERTIAL, INERTIAL.replace('value="4"', 'value="0"'),
+     ["link 'l3' moves and has no mass: 0.1 kg in a ball of 50 mm is assumed"]),
+    ('ixx="0.02" ixy="0.001" ixz="0" iyy="0.03" iyz="0" izz="0.025"',
+     'ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"',
+     ["link 'l1' has a mass and no inertia: that of a ball of 50 mm is assumed"]),
+    ('ixx="0.02" ixy="0.001"', 'ixx="0.2" ixy="0.001"',
+     ["the inertia of link 'l1' is not that of any body: "
+      "that of a ball with the same sum of moments is assumed"]),
+    ('<axis xyz="0 1 0"/>', '<axis xyz="0 2 0"/>', []),
+    ('<link name="base"/>',
+     '<link name="base"><visual><geometry><mesh filename="package://a/b.stl"/></geometry></visual></link>',
+     ["mesh 'package://a/b.stl' is not there: the arm is drawn without"]),
+])  # fmt: skip
+def test_what_is_assumed_is_said_and_the_same_for_both_libraries(read, old, new, notes):
+    """The tip has no <inertial>, the finger slides: neither becomes a kilogram or a joint."""
+    text = arm_urdf()
+    assert old in text
+    card = read(text.replace(old, new, 1))
+    assert list(prepare(card).notes) == notes
+    theirs, ours = masses_of(card)
+    np.testing.assert_allclose(theirs, ours, atol=1e-12)
+
+
+def test_long_axes_turn_by_the_same_angle(read):
+    straight, long = (
+        Kinematics(read(arm_urdf().replace('"0 1 0"', axis))) for axis in ('"0 1 0"', '"0 2 0"')
+    )
+    q = np.array([0.1, -0.2, 0.3, 0.4, -0.5, 0.6])
+    np.testing.assert_allclose(straight.pose(q), long.pose(q), atol=1e-15)
+
+
+def test_a_guessed_inertia_leaves_the_mass_where_it_is(read):
+    without = arm_urdf().replace(
+        'ixx="0.02" ixy="0.001" ixz="0" iyy="0.03" iyz="0" izz="0.025"',
+        'ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"',
+    )
+    inertia = Kinematics(read(without)).model.inertias[1]
+    assert inertia.mass == 6
+    np.testing.assert_allclose(inertia.lever, [0.05, 0, 0.02])
+    np.testing.assert_allclose(inertia.inertia, 0.4 * 6 * 0.05**2 * np.eye(3), atol=1e-15)
+
+
+def test_a_mimicking_finger_stands_still(read):
+    mimic = arm_urdf().replace(
+        'velocity="1" effort="1"/></joint>', 'velocity="1" effort="1"/><mimic joint="j1"/></joint>'
+    )
+    card = read(mimic)
+    assert "mimic" not in prepare(card).text
+    assert Kinematics(card).model.nv == 6
+
+
+def test_a_mesh_is_found_from_where_the_file_is(read, tmp_path):
+    (tmp_path / "meshes").mkdir()
+    (tmp_path / "meshes/a.stl").write_text("solid a\nendsolid a\n")
+    for name in ("package://pack/meshes/a.stl", "meshes/a.stl", f"{tmp_path}/meshes/a.stl"):
+        shape = f'<visual><geometry><mesh filename="{name}"/></geometry></visual>'
+        card = read(arm_urdf().replace('<link name="base"/>', f'<link name="base">{shape}</link>'))
+        assert prepare(card).notes == ()
+        assert f'filename="{tmp_path.resolve()}/meshes/a.stl"' in prepare(card).text
+
+
+def test_products_with_the_other_sign_make_bodies_of_the_xarm_s_links():
+    card = read_card("xarm6")
+    assert prepare(card).notes == ()
+    raw = card.model_copy(update={
+        "urdf": card.urdf.model_copy(update={"products_negated": False})
+    })  # fmt: skip
+    assert [note.split("'")[1] for note in prepare(raw).notes] == ["link2", "link3"]
+
+
+@pytest.mark.parametrize(("moments", "fine"), [
+    ([1, 1, 1], True), ([1, 2, 3], True), ([1, 2, 3.01], False), ([0, 1, 1], False),
+    ([-1, 1, 1], False),
+])  # fmt: skip
+def test_a_body_obeys_the_triangle(moments, fine, rng):
+    q = rng.normal(size=4)
+    R = dq.matrix_from_quaternion(q / np.linalg.norm(q))
+    assert possible(R @ np.diag(moments) @ R.T) == fine
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["panda", "xarm6", "lwr4"])
+def test_the_stiff_plant_moves_the_arm_s_own_joints(name, tmp_path, monkeypatch):
+    """Fingers are no joints of the plant; a run ends where the rates say, and leaves no file."""
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    card = read_card(name)
+    plant = PLANTS["stiff"](card, card.home, 0.01)
+    rates = 0.2 * np.cos(np.arange(card.joints))
+    for _ in range(20):
+        plant.run(rates)
+    # within what weak wrist motors lose while they speed up
+    np.testing.assert_allclose(plant.posture, card.home + 0.2 * rates, atol=3e-3)
+    plant.close()
+    assert not list(tmp_path.iterdir())

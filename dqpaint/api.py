@@ -1,6 +1,7 @@
 """The same from Python: `dqpaint.draw("star.traj", controller="hinf")`."""
 
 from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -8,15 +9,16 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 from dqpaint import outputs
-from dqpaint.errors import UsageError
+from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.examples import find_drawing
 from dqpaint.language import read
-from dqpaint.settings import make_settings
+from dqpaint.settings import Settings, make_settings
 
 if TYPE_CHECKING:
     from dqpaint.paint import Painting
     from dqpaint.picture import Picture
     from dqpaint.sketch import Preview
+    from dqpaint.stage.staging import Cast, Staging
 
 
 def draw(
@@ -184,7 +186,7 @@ def develop(
     from dqpaint.picture import photograph
     from dqpaint.scene import check_choices
 
-    scene, before = negative.read(str(film))
+    scene, before, cast = negative.read(str(film))
     width, height = _width_and_height(size)
     choices = {
         "width": width, "height": height, "view": view, "ev": ev, "exposure": exposure,
@@ -193,7 +195,32 @@ def develop(
     given = {name: value for name, value in choices.items() if value is not None}
     settings = make_settings(**{**before.model_dump(), **given})
     check_choices(settings)
-    return list(photograph(scene, settings))
+    staged, remark = _stage(settings, cast)
+    with staged as staging:
+        pictures = list(photograph(scene, settings, staging))
+    return [replace(one, remarks=(*remark, *one.remarks)) for one in pictures]
+
+
+def _stage(
+    settings: Settings, cast: "Cast | None"
+) -> "tuple[AbstractContextManager[Staging | None], tuple[str, ...]]":
+    """The arm of a film, if it is to be seen and is still there; and else what there is to say."""
+    if cast is None or not settings.staged:
+        return nullcontext(), ()
+    from dqpaint.robots.choose import find_card
+    from dqpaint.robots.urdf import prepare
+    from dqpaint.stage.staging import on_stage
+
+    try:
+        card = find_card(cast.robot)
+        if card.joints != cast.posture.shape[1]:
+            raise DqpaintError(f"{card.name} has {card.joints} joints, that arm had others")
+        prepare(card)
+    except DqpaintError as problem:
+        return nullcontext(), (
+            f"warning: the arm is left out, and what it hides is not traced: {problem}",
+        )
+    return on_stage(settings, card, cast), ()
 
 
 def _width_and_height(size: tuple[int, int] | None) -> tuple[int | None, int | None]:

@@ -259,7 +259,7 @@ def develop(
 
     from dqpaint import report
 
-    _finish([], report.of_developed(pictures, written), pictures[0].image)
+    _finish(report.of_arm(pictures), report.of_developed(pictures, written), pictures[0].image)
 
 
 @app.command(epilog="Examples:\n\n  dqpaint check star\n\n  dqpaint check drawings/*.traj --json")

@@ -76,7 +76,7 @@ def film(painting: "Painting") -> Files:
 
     scene, settings = painting.scene, painting.settings
     exact = negative.encode_linear(scene, painting.picture, settings, ".tiff")
-    return {"-film.npz": negative.encode(scene, settings), "-film.tiff": exact}
+    return {"-film.npz": negative.encode(scene, settings, painting.cast), "-film.tiff": exact}
 
 
 @OUTPUTS.add("hdr")

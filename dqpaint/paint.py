@@ -19,13 +19,14 @@ from dqpaint.motion import Motion, plan
 from dqpaint.out_of_reach import begin, check_worst
 from dqpaint.picture import Picture, photograph
 from dqpaint.plants import PLANTS, choose_plant
+from dqpaint.robots.card import DEFAULT_ROBOT
 from dqpaint.robots.choose import card_for
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Clamp
 from dqpaint.scene import Scene, arrange, check_choices
 from dqpaint.set_points import SetPoint, set_points
 from dqpaint.settings import Settings
-from dqpaint.stage.staging import on_stage
+from dqpaint.stage.staging import Cast, on_stage
 from dqpaint.tracking import Track, track
 
 
@@ -44,6 +45,7 @@ class Painting:
     attenuation: dict[str, Attenuation]  # of an unmodelled twist, in rotation and translation
     set_points: tuple[SetPoint, ...]
     scene: Scene
+    cast: Cast
     pictures: tuple[Picture, ...]  # one a view
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
     notes: tuple[str, ...] = ()  # what was assumed of the arm
@@ -126,13 +128,14 @@ def paint(
         metrics = measure(run)
         came_through = attenuation(run, gains.promise())
         steps = set_points(run)
-    stage = on_stage(settings, card, run.posture, motion.period, motion.line)
-    with clock("light"), stage as staging:
+    robot = settings.robot or program.robot or DEFAULT_ROBOT
+    cast = Cast(robot, run.posture, motion.line, motion.period)
+    with clock("light"), on_stage(settings, card, cast) as staging:
         scene = arrange(motion, run.pose, settings, metrics.table)
         pictures = tuple(photograph(scene, settings, staging))
     return Painting(
         settings, controller, card.name, plant, gains.shown(), motion, run, metrics, came_through,
-        steps, scene, pictures, clock.seconds, kinematics.notes,
+        steps, scene, cast, pictures, clock.seconds, kinematics.notes,
     )  # fmt: skip
 
 

@@ -105,7 +105,7 @@ def _pictures(pictures: Sequence[Picture]) -> list[tuple[str, str]]:
 def light_line(picture: Picture) -> str:
     """What of the light fell on the film, and how bright the picture came out."""
     film, hidden = picture.film, picture.hidden
-    emitted = picture.emitted.sum()
+    emitted = picture.emitted.sum() or 1.0  # a beam may send nothing this way
     red, green, blue = (picture.image[..., i] >= WHITE for i in range(3))
     white = float((red & green & blue).mean())
     behind = f", {hidden.energy.sum() / emitted:.1%} hidden by the arm" if hidden else ""
@@ -135,9 +135,9 @@ def remarks(painting: Painting) -> list[str]:
             "\n  = help: write period 5 ms in the drawing"
         )
     picture = painting.picture
-    share = picture.film.lost.sum() / picture.emitted.sum()
-    if share > WORTH_A_WARNING:
-        texts.append(f"warning: {share:.0%} of the light fell outside the picture")
+    lost, emitted = picture.film.lost.sum(), picture.emitted.sum()
+    if lost > WORTH_A_WARNING * emitted:
+        texts.append(f"warning: {lost / emitted:.0%} of the light fell outside the picture")
     return [*texts, *of_arm(painting.pictures)]
 
 
@@ -153,7 +153,7 @@ def _hidden(picture: Picture, where: str) -> list[str]:
     """A warning where much of the light was behind the arm."""
     if picture.hidden is None:
         return []
-    share = picture.hidden.energy.sum() / picture.emitted.sum()
+    share = picture.hidden.energy.sum() / (picture.emitted.sum() or 1.0)
     if share <= WORTH_A_WARNING:
         return []
     lines = picture.hidden.lines

@@ -62,7 +62,8 @@ def test_draw_leaves_three_files_and_a_table(dqpaint, line, tmp_path):
 CHOSEN = {
     "controller": "p", "gains": {"k": 5}, "robot": "iiwa", "plant": "ideal", "start": "home",
     "disturb": {"twist": {"": "noise", "x": 0.01, "wz": -0.1, "frequency": 2}}, "seed": 7,
-    "width": 320, "height": 200, "view": "20,30", "ev": 1.5,
+    "width": 320, "height": 200, "view": "20,30", "ev": 1.5, "ghost": True,
+    "occlusion": False,
 }  # fmt: skip
 
 
@@ -71,7 +72,7 @@ def test_options_are_all_heard(dqpaint, line, tmp_path):
         "draw", line, "--controller", "p", "--gain", "k=5", "--seed", "7",
         "--disturb", "twist=noise,x=0.01,wz=-0.1,frequency=2", "--plant", "ideal", "--from", "home",
         "--size", "320x200", "--view", "20,30", "--ev", "1.5", "--out", "made/", "--robot", "iiwa",
-        "--save", "json,motion",
+        "--save", "json,motion", "--ghost", "--no-occlusion",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert files(tmp_path / "made") == ["line-p-motion.csv", "line-p.json"]

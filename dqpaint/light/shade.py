@@ -12,9 +12,9 @@ from dqpaint.light.arrays import Floats
 if TYPE_CHECKING:
     from dqpaint.light.sweep import Sweep
 
-APART = 0.028
-"""Places along a brush that are asked are no farther apart: every fourth LED of a dense strip
-[m]."""
+APART = 0.007
+"""Places along a brush that are asked are no farther apart: the LEDs of a dense strip. Farther
+apart, edges of shade come out scalloped [m]."""
 
 
 class Opaque(Protocol):

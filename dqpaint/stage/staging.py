@@ -9,7 +9,7 @@ from functools import cached_property
 from os import PathLike
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,10 +20,10 @@ from dqpaint.light.camera import Camera
 from dqpaint.robots.card import Card
 from dqpaint.robots.urdf import prepare, urdf_file
 from dqpaint.settings import Settings
-from dqpaint.stage.arm import Arm
-from dqpaint.stage.ghost import glow, photograph
-from dqpaint.stage.shadow import visible
-from dqpaint.stage.twins import Twins
+
+if TYPE_CHECKING:
+    from dqpaint.stage.arm import Arm  # it brings in the simulator, and most pictures need none
+    from dqpaint.stage.twins import Twins
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +86,8 @@ class Staging:
     @cached_property
     def arm(self) -> Arm:
         """The arm, white."""
+        from dqpaint.stage.arm import Arm
+
         arm = Arm(self._urdf)
         self._open.append(arm)
         arm.whiten()
@@ -94,6 +96,8 @@ class Staging:
     @cached_property
     def twins(self) -> Twins:
         """What rays hit."""
+        from dqpaint.stage.twins import Twins
+
         twins = Twins(self.arm)
         self._open.append(twins)
         return twins
@@ -127,6 +131,8 @@ class Staging:
             lit: (M,) whether any of them burns.
             eye: (3,) of the camera [m].
         """
+        from dqpaint.stage.shadow import visible
+
         clock = np.arange(len(self._posture)) * self._period
         posture = np.stack([np.interp(time, clock, joint) for joint in self._posture.T], axis=1)
         return visible(self.twins, posture, places, eye, lit)
@@ -148,6 +154,8 @@ class Staging:
             falloff: whether that unit is divided by the distance squared [lamp s / (m px)^2].
             row: the instant whose posture is shown.
         """
+        from dqpaint.stage.ghost import glow, photograph
+
         self.arm.stand(self._posture[row])
         return photograph(self.arm, camera, glow(lights), exposure, falloff)
 
@@ -165,13 +173,26 @@ class Staging:
             one.close()
 
 
-@contextmanager
-def on_stage(
-    settings: Settings, card: Card, posture: Floats, period: float, line: NDArray[np.int64]
-) -> Iterator[Staging | None]:
-    """The arm of a card with the postures (N, n) of a run, if the settings have a use for it.
+@dataclass(frozen=True, eq=False)
+class Cast:
+    """How an arm moved in a run: all that is needed, beside its card, to put it on the stage.
 
-    Other arguments are those of `Staging`.
+    Attributes:
+        robot: what `find_card` finds its card by.
+        posture: (N, n) at instants a period apart, from time 0 on [rad].
+        line: (N,) of the source at these instants.
+        period: [s].
+    """
+
+    robot: str
+    posture: Floats
+    line: NDArray[np.int64]
+    period: float
+
+
+@contextmanager
+def on_stage(settings: Settings, card: Card, cast: Cast) -> Iterator[Staging | None]:
+    """The arm of a run, if the settings have a use for it.
 
     Raises:
         DqpaintError: the arm's description is not there, or cannot be read.
@@ -180,5 +201,8 @@ def on_stage(
         yield None
         return
     whole = prepare(card).whole
-    with urdf_file(card) as path, Staging(path, posture, period, line, whole) as staging:
+    with (
+        urdf_file(card) as path,
+        Staging(path, cast.posture, cast.period, cast.line, whole) as staging,
+    ):
         yield staging

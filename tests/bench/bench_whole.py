@@ -4,7 +4,7 @@ The bare program imports the same libraries, loads the same arm, gives as many m
 steps the same 24,000 times, as PyBullet does by itself. A second one is tuned as ours is: no shapes
 and the faster solver. Rounds are interleaved, as the clock of a shared machine swings. The target
 is at most 1.8 times the bare program for the 24 s spiral at 1280x720 without the arm in the
-picture; what it hides is traced.
+picture.
 """
 
 import os
@@ -49,8 +49,9 @@ def main():
         programs = {
             "bare": [sys.executable, "-c", BARE],
             "bare, tuned": [sys.executable, "-c", TUNED],
-            "draw, no ghost": [*DRAW, "--no-ghost"],
             "draw": DRAW,
+            "draw, occlusion": [*DRAW, "--occlusion"],
+            "draw, ghost": [*DRAW, "--ghost"],
         }
         times = {name: [] for name in programs}
         for _ in range(rounds + 1):

@@ -53,6 +53,14 @@ def test_the_haze_keeps_what_is_mirrored():
     np.testing.assert_allclose(total, [1.0, 0.5, 0.25], rtol=1e-4)
 
 
+def test_what_is_mirrored_falls_with_the_square_of_its_way_if_the_film_does(monkeypatch):
+    monkeypatch.setattr(floor, "HAZE", 1e-9)
+    eye, one = camera(), lamp([0.1, 0.6, 0.3])
+    plain, fallen = (floor._mirrored(eye, one, (48, 64), falloff) for falloff in (False, True))
+    away = np.array([0.1, 0.6, -0.3]) - eye.position
+    np.testing.assert_allclose(plain, fallen * (away @ away), rtol=1e-5)
+
+
 @pytest.mark.parametrize(
     ("eye", "lamps"),
     [

@@ -7,6 +7,7 @@ from dqpaint import dq
 from dqpaint.light.camera import View, frame
 from dqpaint.plants.bullet import bullet
 from dqpaint.robots.card import read_card
+from dqpaint.robots.urdf import urdf_file
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.stage import surfaces
 from dqpaint.stage.arm import Arm
@@ -58,7 +59,7 @@ def test_small_balls_are_where_the_camera_projects_them(rng):
 def test_links_are_where_pinocchio_puts_the_tool(rng):
     card = read_card("iiwa")
     kinematics = Kinematics(card)
-    with Arm(card.urdf_path) as arm:
+    with urdf_file(card) as path, Arm(path) as arm:
         postures = rng.uniform(card.lower, card.upper, (5, 7))
         last = arm.frames(postures)[:, -1]
     for q, frame_of_link in zip(postures, last, strict=True):
@@ -69,7 +70,7 @@ def test_links_are_where_pinocchio_puts_the_tool(rng):
 @pytest.mark.slow
 @pytest.mark.parametrize("robot", ["kuka_iiwa/model.urdf", "xarm/xarm6_robot.urdf", "plain"])
 def test_rays_meet_what_is_seen(robot, rng, tmp_path):
-    data = read_card("iiwa").urdf_path.parents[1]
+    data = read_card("iiwa").urdf.path.parents[1]
     path = urdf(tmp_path, second=BALL) if robot == "plain" else data / robot
     with Arm(path) as arm, Twins(arm) as twins:
         arm.whiten()

@@ -6,6 +6,7 @@ import pytest
 from dqpaint import dq
 from dqpaint.light.camera import View, frame
 from dqpaint.robots.card import read_card
+from dqpaint.robots.urdf import urdf_file
 from dqpaint.stage.arm import Arm
 from dqpaint.stage.surfaces import measure
 from dqpaint.stage.twins import Twins
@@ -68,7 +69,7 @@ def test_rays_and_the_depth_buffer_agree(rng):
     """Of 4,000 places round the arm those hide from rays that lie deeper than what is drawn."""
     card = read_card("iiwa")
     wrong = total = 0
-    with Arm(card.urdf_path) as arm, Twins(arm) as twins:
+    with urdf_file(card) as path, Arm(path) as arm, Twins(arm) as twins:
         arm.whiten()
         for view in (View(30, 15), View(-70, 40)):
             place = rng.uniform([-0.4, -0.4, 0], [0.8, 0.4, 1.2], (2000, 3))

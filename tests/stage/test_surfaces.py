@@ -7,8 +7,8 @@ from dqpaint import dq
 from dqpaint.light.camera import View, frame
 from dqpaint.plants.bullet import bullet
 from dqpaint.robots.card import read_card
-from dqpaint.robots.urdf import urdf_file
 from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.urdf import urdf_file
 from dqpaint.stage import surfaces
 from dqpaint.stage.arm import Arm
 from dqpaint.stage.surfaces import Box, measure, projection_matrix, view_matrix

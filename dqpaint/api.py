@@ -10,15 +10,16 @@ from typing import TYPE_CHECKING, Any
 
 from dqpaint import outputs
 from dqpaint.build import Drawing
-from dqpaint.errors import UsageError
+from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.examples import find_drawing
 from dqpaint.language import Program, read
-from dqpaint.settings import make_settings
+from dqpaint.settings import Settings, make_settings
 
 if TYPE_CHECKING:
     from dqpaint.paint import Painting
     from dqpaint.picture import Picture
     from dqpaint.sketch import Preview
+    from dqpaint.stage.staging import Cast, Staging
 
 
 def draw(
@@ -45,6 +46,8 @@ def draw(
     colour_by: str | None = None,
     overlay: bool = False,
     magnify: float | None = None,
+    ghost: bool = False,
+    occlusion: bool | None = None,
     progress: Callable[[float], None] = lambda _done: None,
 ) -> "Painting":
     """Paint a drawing with a simulated arm, as `dqpaint draw` does; nothing is written.
@@ -74,6 +77,8 @@ def draw(
         colour_by: a figure of the run that the colours tell.
         overlay: whether the asked drawing lies beneath the reached one.
         magnify: how many times as large deviations from the asked path are drawn.
+        ghost: whether the arm is in the picture, as it stood at the end.
+        occlusion: whether the arm's body hides light from the camera; else as `ghost`.
         progress: called while the arm moves, with the part done, 0 to 1.
 
     Raises:
@@ -87,7 +92,8 @@ def draw(
         disturb={name: dict(values) for name, values in (disturb or {}).items()}, seed=seed,
         start=start, null=null, on_limit=on_limit, width=width, height=height, view=view, ev=ev,
         brush=brush, pwm=pwm, exposure=exposure, look=look, starburst=starburst, noise=noise,
-        colour_by=colour_by, overlay=overlay, magnify=magnify,
+        colour_by=colour_by, overlay=overlay, magnify=magnify, ghost=ghost,
+        occlusion=occlusion,
     )  # fmt: skip
     begin = perf_counter()
     program = _program(drawing)
@@ -139,12 +145,17 @@ def preview(
     starburst: int | None = None,
     noise: int | None = None,
     colour_by: str | None = None,
+    ghost: bool = False,
 ) -> "Preview":
-    """The asked pictures of a drawing, without an arm; arguments as those of `draw`."""
+    """The asked pictures of a drawing, without an arm; arguments as those of `draw`.
+
+    With `ghost` the camera leaves room for the arm, as that of `draw` does.
+    """
     width, height = _width_and_height(size)
     settings = make_settings(
         robot=robot, width=width, height=height, view=view, ev=ev, brush=brush, pwm=pwm,
         exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
+        ghost=ghost,
     )  # fmt: skip
     program = _program(drawing)
 
@@ -195,7 +206,7 @@ def develop(
     from dqpaint.picture import photograph
     from dqpaint.scene import check_choices
 
-    scene, before = negative.read(str(film))
+    scene, before, cast = negative.read(str(film))
     width, height = _width_and_height(size)
     choices = {
         "width": width, "height": height, "view": view, "ev": ev, "exposure": exposure,
@@ -204,7 +215,32 @@ def develop(
     given = {name: value for name, value in choices.items() if value is not None}
     settings = make_settings(**{**before.model_dump(), **given})
     check_choices(settings)
-    return list(photograph(scene, settings))
+    staged, remark = _stage(settings, cast)
+    with staged as staging:
+        pictures = list(photograph(scene, settings, staging))
+    return [replace(one, remarks=(*remark, *one.remarks)) for one in pictures]
+
+
+def _stage(
+    settings: Settings, cast: "Cast | None"
+) -> "tuple[AbstractContextManager[Staging | None], tuple[str, ...]]":
+    """The arm of a film, if it is to be seen and is still there; and else what there is to say."""
+    if cast is None or not settings.staged:
+        return nullcontext(), ()
+    from dqpaint.robots.choose import find_card
+    from dqpaint.robots.urdf import prepare
+    from dqpaint.stage.staging import on_stage
+
+    try:
+        card = find_card(cast.robot)
+        if card.joints != cast.posture.shape[1]:
+            raise DqpaintError(f"{card.name} has {card.joints} joints, that arm had others")
+        prepare(card)
+    except DqpaintError as problem:
+        return nullcontext(), (
+            f"warning: the arm is left out, and what it hides is not traced: {problem}",
+        )
+    return on_stage(settings, card, cast), ()
 
 
 def _width_and_height(size: tuple[int, int] | None) -> tuple[int | None, int | None]:

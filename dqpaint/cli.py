@@ -113,6 +113,11 @@ ColourBy = Annotated[
 ]
 Overlay = Annotated[bool, typer.Option("--overlay", help="the asked drawing beneath")]
 Magnify = Annotated[float, typer.Option(metavar="N", help="deviations, N times as large")]
+Ghost = Annotated[bool, typer.Option("--ghost", help="the arm in the picture, and room for it")]
+Occlusion = Annotated[
+    bool | None,
+    typer.Option(help="the arm's body hides light from the camera [default: as --ghost]"),
+]
 Out = Annotated[
     str | None,
     typer.Option(metavar="PATH", help="a folder, or the stem of the files [default: here]"),
@@ -169,6 +174,8 @@ def draw(
     colour_by: ColourBy = None,
     overlay: Overlay = False,
     magnify: Magnify = 1.0,
+    ghost: Ghost = False,
+    occlusion: Occlusion = None,
     out: Out = None,
     save: Save = "png,csv,json",
 ) -> None:
@@ -188,7 +195,8 @@ def draw(
             disturb=parse_disturbances(disturb or []), seed=seed, start=start, null=null,
             on_limit=on_limit, size=parse_size(size), view=view, ev=ev, brush=brush, pwm=pwm,
             exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
-            overlay=overlay, magnify=magnify, progress=progress,
+            overlay=overlay, magnify=magnify, ghost=ghost, occlusion=occlusion,
+            progress=progress,
         )  # fmt: skip
     with Progress("movie") as progress:
         written = outputs.write(stem, outputs.make(names, painting, progress))
@@ -214,6 +222,7 @@ def preview(
     starburst: Starburst = 0,
     noise: Noise = None,
     colour_by: ColourBy = None,
+    ghost: Ghost = False,
     out: Out = None,
     watch: Annotated[bool, typer.Option("--watch", help="again at each save, till Ctrl-C")] = False,
 ) -> None:
@@ -230,6 +239,7 @@ def preview(
         preview = api.preview(
             path, robot=robot, size=pixels, view=view, ev=ev, brush=brush, pwm=pwm,
             exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
+            ghost=ghost,
         )  # fmt: skip
         written = outputs.write_pictures(stem, preview.pictures)
 
@@ -280,7 +290,7 @@ def develop(
 
     from dqpaint import report
 
-    _finish([], report.of_developed(pictures, written), pictures[0].image)
+    _finish(report.of_arm(pictures), report.of_developed(pictures, written), pictures[0].image)
 
 
 @app.command(epilog="Examples:\n\n  dqpaint check star\n\n  dqpaint check drawings/*.traj --json")

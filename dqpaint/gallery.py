@@ -77,6 +77,12 @@ SHOTS = (
         {"brush": HELICOID, "view": "20,12"},
     ),
     Shot(
+        "helicoid",
+        "The same with its arm, lit by what it painted. What the arm stood before is missing.",
+        {"brush": HELICOID, "view": "-40,14", "ghost": True},
+        "-ghost",
+    ),
+    Shot(
         "pixelstick",
         "An image, column by column, along the way of a bar.",
         {"brush": "pixelstick:length=140mm,along=y", "view": "35,-25"},

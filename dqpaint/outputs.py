@@ -78,7 +78,7 @@ def film(painting: "Painting") -> Files:
 
     scene, settings = painting.scene, painting.settings
     exact = negative.encode_linear(scene, painting.picture, settings, ".tiff")
-    return {"-film.npz": negative.encode(scene, settings), "-film.tiff": exact}
+    return {"-film.npz": negative.encode(scene, settings, painting.cast), "-film.tiff": exact}
 
 
 @OUTPUTS.add("hdr")
@@ -161,7 +161,7 @@ def encode_csv(table: "Table") -> bytes:
 def summarise(painting: "Painting") -> dict[str, Any]:
     """The JSON summary: what was run, what came out."""
     motion, film = painting.motion, painting.picture.film
-    program, settings = motion.program, painting.settings
+    program, settings, hidden = motion.program, painting.settings, painting.picture.hidden
     return {
         "schema": SCHEMA,
         "file": Path(program.name).name,
@@ -206,10 +206,10 @@ def summarise(painting: "Painting") -> dict[str, Any]:
         "limits": [{**vars(clamp), "unit": UNITS[clamp.kind]} for clamp in painting.limits],
         "light": {
             "unit": "lamp seconds, linear RGB",
-            "emitted": film.emitted.tolist(),
+            "emitted": painting.picture.emitted.tolist(),
             "on_film": film.on_film.tolist(),
             "lost": film.lost.tolist(),
-            "occluded": None,  # the arm's own shadow is not traced in this version
+            "occluded": None if hidden is None else hidden.energy.tolist(),  # None: not traced
             "exposure": painting.picture.exposure,
         },
         "wall_s": {stage: round(seconds, 4) for stage, seconds in painting.seconds.items()},

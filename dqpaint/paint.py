@@ -20,6 +20,7 @@ from dqpaint.nullspace import read_null
 from dqpaint.out_of_reach import begin, check_worst
 from dqpaint.picture import Picture, photograph
 from dqpaint.plants import choose_plant
+from dqpaint.robots.card import DEFAULT_ROBOT
 from dqpaint.robots.choose import card_for
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Clamp
@@ -27,6 +28,7 @@ from dqpaint.scene import Scene, arrange, check_choices
 from dqpaint.set_points import SetPoint, set_points
 from dqpaint.settings import Settings
 from dqpaint.slowing import Slowed, slow_down
+from dqpaint.stage.staging import Cast, on_stage
 from dqpaint.tracking import Track, track
 
 
@@ -47,6 +49,7 @@ class Painting:
     attenuation: dict[str, Attenuation]  # of an unmodelled twist, in rotation and translation
     set_points: tuple[SetPoint, ...]
     scene: Scene
+    cast: Cast
     pictures: tuple[Picture, ...]  # one a view
     slowed: Slowed | None = None  # where the drawing's clock may slow down
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
@@ -137,12 +140,15 @@ def paint(
         metrics = measure(run)
         came_through = attenuation(run, gains.promise())
         steps = set_points(run)
-    with clock("light"):
+    robot = settings.robot or program.robot or DEFAULT_ROBOT
+    cast = Cast(robot, run.posture, motion.line, motion.period)
+    with clock("light"), on_stage(settings, card, cast) as staging:
         scene = arrange(motion, run.pose, settings, metrics.table)
-        pictures = tuple(photograph(scene, settings))
+        pictures = tuple(photograph(scene, settings, staging))
     return Painting(
         settings, controller, card.name, plant.name, plant.shown(card), disturbances,
-        gains.shown(), motion, run, metrics, came_through, steps, scene, pictures, slowed,
+        gains.shown(), motion, run, metrics, came_through, steps, scene, cast,
+        pictures, slowed,
         clock.seconds, kinematics.notes,
     )  # fmt: skip
 

@@ -63,7 +63,8 @@ CHOSEN = {
     "controller": "p", "gains": {"k": 5}, "robot": "iiwa", "plant": "ideal", "start": "home",
     "disturb": {"twist": {"": "noise", "x": 0.01, "wz": -0.1, "frequency": 2}}, "seed": 7,
     "null": "limits,gain=3", "on_limit": "slow",
-    "width": 320, "height": 200, "view": "20,30", "ev": 1.5,
+    "width": 320, "height": 200, "view": "20,30", "ev": 1.5, "ghost": True,
+    "occlusion": False,
 }  # fmt: skip
 
 
@@ -73,6 +74,7 @@ def test_options_are_all_heard(dqpaint, line, tmp_path):
         "--disturb", "twist=noise,x=0.01,wz=-0.1,frequency=2", "--plant", "ideal", "--from", "home",
         "--size", "320x200", "--view", "20,30", "--ev", "1.5", "--out", "made/", "--robot", "iiwa",
         "--save", "json,motion", "--null", "limits,gain=3", "--on-limit", "slow",
+        "--ghost", "--no-occlusion",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert files(tmp_path / "made") == ["line-p-motion.csv", "line-p.json"]

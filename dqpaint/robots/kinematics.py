@@ -38,10 +38,10 @@ class Kinematics:
 
     def __init__(self, card: Card) -> None:
         self.card = card
-        text, notes = prepare(card)
-        self.notes = (*card.notes, *notes)
+        prepared = prepare(card)
+        self.notes = (*card.notes, *prepared.notes)
         try:
-            self.model = pinocchio.buildModelFromXML(text)
+            self.model = pinocchio.buildModelFromXML(prepared.text)
         except ValueError as problem:
             raise DqpaintError(f"pinocchio cannot read {card.name}: {problem}") from None
         self._data = self.model.createData()

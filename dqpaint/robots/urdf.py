@@ -30,6 +30,7 @@ class Prepared(NamedTuple):
 
     text: str
     notes: tuple[str, ...]
+    whole: bool = True  # whether every mesh is there
 
 
 def prepare(card: Card) -> Prepared:
@@ -55,8 +56,9 @@ def prepare(card: Card) -> Prepared:
         for joint in tree.joints.values():
             for dynamics in joint.element.findall("dynamics"):
                 joint.element.remove(dynamics)
-    notes = [*_weigh(tree), *_find_meshes(tree)]
-    return Prepared(Xml.tostring(tree.robot, encoding="unicode"), tuple(notes))
+    weighed, missing = list(_weigh(tree)), list(_find_meshes(tree))
+    text = Xml.tostring(tree.robot, encoding="unicode")
+    return Prepared(text, (*weighed, *missing), not missing)
 
 
 @contextmanager

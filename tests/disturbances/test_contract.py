@@ -13,6 +13,7 @@ from dqpaint.controllers.p import RateGains
 from dqpaint.disturbances import DISTURBANCES, make_disturbances
 from dqpaint.errors import UsageError
 from dqpaint.language import parse
+from dqpaint.metrics import measure
 from dqpaint.motion import plan
 from dqpaint.plants import choose_plant
 from dqpaint.plants.plant import PLANTS
@@ -182,6 +183,18 @@ def test_the_light_and_its_error_are_the_true_ones():
         dq.matrix_from_pose(noisy.believed), dq.matrix_from_pose(ARM.poses(noisy.read)), atol=1e-12
     )
     assert np.abs(noisy.pose - noisy.believed).max() > 1e-3
+
+
+def test_the_table_has_what_was_told_beside_what_is_true():
+    plain, noisy, wrong = (
+        measure(run(given, "ideal")).table
+        for given in ({}, {"noise": {"rms": 1e-3}}, {"links": {"part": 0.01}})
+    )
+    assert "read1_rad" not in plain
+    assert "believed_x_m" not in plain
+    assert 1e-4 < np.abs(noisy["read3_rad"] - noisy["q3_rad"]).max() < 1e-2
+    assert "read1_rad" not in wrong
+    assert np.abs(wrong["believed_x_m"] - wrong["x_m"]).max() > 1e-3
 
 
 @pytest.mark.parametrize("plant", ["ideal", pytest.param("torque", marks=pytest.mark.slow)])

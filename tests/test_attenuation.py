@@ -60,6 +60,7 @@ def test_a_small_rotation_comes_through_at_half_the_rate(hertz):
     assert found.bound == pytest.approx(np.sqrt(2) / 40)
 
 
+@pytest.mark.slow
 def test_the_bound_is_all_but_reached_at_zero_frequency():
     """0.997 of it in translation, at most 0.71 in rotation while errors are small."""
     long = STILL.replace("16 s", "40 s")

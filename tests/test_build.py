@@ -175,6 +175,7 @@ def test_errors_say_which_call():
         assert source.readlines()[int(call) - 1].endswith("# here\n")
 
 
+@pytest.mark.slow
 def test_errors_of_motion_and_reach_say_it_too():
     d = Drawing()
     d.line(to=(0.1, 0), speed=1e-12)

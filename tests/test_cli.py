@@ -88,7 +88,8 @@ def test_gains_that_change_are_written_as_they_were_given(dqpaint, line, tmp_pat
     done = dqpaint("draw", line, "--size", "64x36", "--gain", "gamma_T=0.2..0.1@50%")
     assert "gamma_T = 0.2..0.1@50%" in done.stdout, done.stderr
     assert (
-        json.loads((tmp_path / "line-hinf.json").read_text())["gains"]["K_T"] == "7.07107..14.1421@50%"
+        json.loads((tmp_path / "line-hinf.json").read_text())["gains"]["K_T"]
+        == "7.07107..14.1421@50%"
     )
 
 

@@ -18,6 +18,7 @@ def refused(text):
     return str(caught.value)
 
 
+@pytest.mark.slow
 def test_a_stroke_that_leaves_the_reach_between_the_rows_of_the_forecast_is_found_by_the_run():
     """A short bulge among 600 strokes that stay at home."""
     home = "repeat 150\n  line by (0.5, 0) mm\n  line by (-0.5, 0) mm\nend\n"
@@ -27,6 +28,7 @@ def test_a_stroke_that_leaves_the_reach_between_the_rows_of_the_forecast_is_foun
     assert "farthest point of this stroke" in message
 
 
+@pytest.mark.slow
 def test_the_farthest_point_is_named_with_about_its_distance():
     message = refused("hold 1 s\nline to (0, 0, 900) mm\n")
     found = re.search(r"sample \d+ \((\d+\.\d+) s\) is (\d+) mm", message)
@@ -35,6 +37,7 @@ def test_the_farthest_point_is_named_with_about_its_distance():
     assert float(found[2]) == pytest.approx(1e3 * (np.hypot(1.6 - 0.161, 0.14) - 0.82), rel=0.1)
 
 
+@pytest.mark.slow
 def test_the_advised_scale_is_reached_and_a_larger_one_is_not():
     text = "move to (0, 0, 0)\nline to (0, 0, 500) mm\n"
     scale = float(re.search(r"with scale (\d\.\d+)", refused(text))[1])
@@ -42,6 +45,7 @@ def test_the_advised_scale_is_reached_and_a_larger_one_is_not():
     refused(f"with scale {scale + 0.1}\n{text}end\n")
 
 
+@pytest.mark.slow
 def test_a_tool_that_cannot_turn_so_is_told_apart_from_a_distance():
     message = refused("line to (0, 0) mm tool rpy(180 deg, 0, 0)\n")
     assert re.search(r"and \d+ deg outside the reach|only with the tool turned", message)

@@ -108,6 +108,7 @@ def test_laws_without_feed_forward_lag_by_speed_over_rate(law, gains, rate, plan
     assert error(result)[settled].mean() == pytest.approx(speed / rate, rel=LAG_TOLERANCE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", [*TWISTS, *TORQUES])  # joint rates pass as they are
 def test_a_closed_drawing_closes_in_the_joints(law):
     """From a posture whose elbow leans; without the pull of the null space it does not close."""
@@ -133,6 +134,7 @@ def test_a_closed_drawing_closes_in_the_joints(law):
     assert np.abs(result.posture[-1] - start).max() < 0.02
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", CONTROLLERS)
 def test_from_home_every_law_converges(law):
     text = "period 8 ms\nlet r = 4 cm\nmove to (r, 0)\narc centre (0, 0) angle 1 turn in 8 s\n"

@@ -137,6 +137,7 @@ def test_an_arc_with_a_radius(radius, to, words, centre, degrees):
     assert about.end.position == pytest.approx((0, 0.006, 0), abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", [
     "def a0()\nhold 1 s\nend\n"
     + "".join(f"def a{i}()\na{i - 1}()\na{i - 1}()\nend\n" for i in range(1, 40)) + "a39()",

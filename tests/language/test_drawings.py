@@ -347,6 +347,7 @@ TREES = st.recursive(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=250, deadline=None, suppress_health_check=list(HealthCheck))
 @given(TREES, ATTRIBUTES)
 def test_whatever_is_in_a_drawing(tmp_path: Path, body: str, root: dict[str, str]) -> None:

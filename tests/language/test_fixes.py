@@ -85,6 +85,7 @@ TEXTS = {entry[0].replace("~", "\n") for entry in ENTRIES}
 TEXTS |= {entry.wrong for entry in explanations().values() if entry.wrong}
 
 
+@pytest.mark.slow
 def test_every_fix_of_the_catalogue_takes_its_message_away():
     codes = set()
     for text in sorted(TEXTS):

@@ -95,6 +95,7 @@ def test_lines_of_files_and_of_the_catalogue(line: str) -> None:
     assert agree(line), (codes(line), lark_takes(line))
 
 
+@pytest.mark.slow
 def test_mutants() -> None:
     chance = random.Random(19431205)
     differ = []

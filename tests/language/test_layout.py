@@ -154,6 +154,7 @@ def test_a_text_that_does_not_parse_is_refused():
     formatted("line to (nix, 2)")  # its meaning is not asked
 
 
+@pytest.mark.slow
 def test_mutants_are_laid_out_or_refused():
     chance, laid = random.Random(1976), 0
     texts = [PIECE.findall(text) for text in TEXTS.values()]

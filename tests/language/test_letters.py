@@ -195,6 +195,7 @@ def test_replacements(line: str, instead: str) -> None:
     assert letters.replaced(line, letters.read_font("futural")) == instead
 
 
+@pytest.mark.slow
 def test_all_letters_of_all_fonts_can_be_drawn() -> None:
     for name in FONTS:
         known = "".join(sorted(set(letters.read_font(name).glyphs) - {'"'}))

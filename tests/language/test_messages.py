@@ -276,6 +276,7 @@ def test_catalogue(entry: list[str]) -> None:
     assert text[slice(*diagnostic.span)] == words
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("text", "expected"), LARGE.items(), ids=[v[0] for v in LARGE.values()])
 def test_large(text: str, expected: tuple[str, str]) -> None:
     first = found(text)[0]

@@ -117,6 +117,7 @@ def joined(program: Program) -> None:
         assert math.hypot(*at.orientation) == pytest.approx(1, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_mutants() -> None:
     chance = random.Random(20161122)
     texts = [STAR, ROSE, MIXED, WHOLE, WHOLE, *FILES]
@@ -215,6 +216,7 @@ statements = st.one_of(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=300, deadline=None, suppress_health_check=list(HealthCheck))
 @given(st.lists(statements, min_size=1, max_size=8))
 def test_wild_numbers(lines: list[str]) -> None:
@@ -253,6 +255,7 @@ def test_large_files_end_soon(text: str) -> None:
     assert time.process_time() - begin < 3.0
 
 
+@pytest.mark.slow
 def test_ten_thousand_lines() -> None:
     text = "line to (1.5, 2.5, 3) mm\nline to (2.5, 2.5, 3) mm\n" * 5_000
     begin = time.process_time()

@@ -32,6 +32,7 @@ def test_nested_uses() -> None:
     assert len(nested_uses(30)) < 2_500
 
 
+@pytest.mark.slow
 def test_uses_are_counted_exactly() -> None:
     """A file with as many instances as allowed passes, with one more it does not."""
     # svg, g, uses: each use counts itself and its g

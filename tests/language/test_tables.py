@@ -187,6 +187,7 @@ def test_too_many_bytes(tmp_path: Path) -> None:
         made(tmp_path, 'path "p.csv" unit mm')
 
 
+@pytest.mark.slow
 def test_in_a_repeat_the_pieces_are_counted(tmp_path: Path) -> None:
     rows = "".join(f"{i % 7},{i % 11}\n" for i in range(3000))
     line = 'start at (0, 0)\nrepeat {}\npath "p.csv" unit mm speed 1 m/s\nend'
@@ -207,6 +208,7 @@ SCRAPS = st.sampled_from(
 )
 
 
+@pytest.mark.slow
 @settings(
     max_examples=300, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )

@@ -191,6 +191,7 @@ def test_rows_are_read_only():
         motion.pose[0, 0] = 2.0
 
 
+@pytest.mark.slow
 def test_the_sample_budget_is_checked_before_anything_is_made():
     huge = stroke(Straight((0.1, 0, 0)), timing=Cruise(1e-9, 1.0), law="trapezoid")
     with pytest.raises(ScriptError) as caught:

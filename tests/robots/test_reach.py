@@ -70,6 +70,7 @@ def test_waypoints_hold_ends_and_corners():
     assert waypoints(np.array([0])).tolist() == [0]
 
 
+@pytest.mark.slow
 def test_every_pose_of_a_posture_inside_the_limits_is_found(arm, rng):
     """Uniform over all postures, those close to limits and singularities among them."""
     for q in rng.uniform(arm.card.lower, arm.card.upper, (150, 7)):

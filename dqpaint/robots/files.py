@@ -52,7 +52,7 @@ def _read_toml(path: Path) -> dict[str, Any]:
     try:
         raw = tomllib.loads(path.read_text("utf-8"))
     except OSError as problem:
-        raise UsageError(f"{path} cannot be read: {problem.strerror}") from None
+        raise DqpaintError(f"robot '{path}' cannot be read: {problem.strerror}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
         raise DqpaintError(f"{path.name} is no TOML: {problem}") from None
     urdf = raw.get("urdf")

@@ -159,7 +159,7 @@ def _parse(path: Path) -> Xml.Element:
     try:
         robot = Xml.fromstring(path.read_bytes())
     except OSError as problem:
-        raise UsageError(f"{path} cannot be read: {problem.strerror}") from None
+        raise DqpaintError(f"robot '{path}' cannot be read: {problem.strerror}") from None
     except Xml.ParseError as problem:
         raise DqpaintError(f"{path.name} is no URDF: {problem}") from None
     if robot.tag != "robot":

@@ -108,7 +108,9 @@ def test_a_ramp_has_a_bounded_number_of_points():
 
 @pytest.mark.parametrize("law", ["lqr", "lqr8"])
 def test_what_counts_at_the_end_alone_has_no_ramp(law):
-    with pytest.raises(UsageError, match="'0..1@10%', but can't change on the way: only its value"):
+    with pytest.raises(
+        UsageError, match=r"'0\.\.1@10%', but can't change on the way: only its value"
+    ):
         CONTROLLERS[law].read_gains({"s": "0..1@10%"})
     assert CONTROLLERS[law].read_gains({"s": "0.3"}).first.s == 0.3
 

@@ -200,7 +200,7 @@ def test_faults_of_a_card_are_told_by_their_field(write, text, message):
     ],
 )
 def test_a_missing_file_is_named(name, message):
-    with pytest.raises(UsageError, match=message):
+    with pytest.raises(DqpaintError, match=message):
         find_card(name)
 
 

@@ -125,7 +125,7 @@ def read(path: str) -> tuple[Scene, Settings]:
             )
             legend = None if about.legend is None else Legend(**dict(about.legend))
             front = _numbers(arrays, "front")
-            if front.shape != (8,) or abs(np.linalg.norm(front[:4]) - 1) > UNIT:
+            if front.shape != (3, 3) or np.abs(front @ front.T - np.eye(3)).max() > UNIT:
                 raise ValueError("front")
             scene = Scene(about.name, light, asked, under, front, legend, about.dimmer)
             return scene, about.settings

@@ -138,6 +138,8 @@ def light_line(picture: Picture) -> str:
     emitted = film.emitted.sum()
     red, green, blue = (picture.image[..., i] >= WHITE for i in range(3))
     white = float((red & green & blue).mean())
+    if emitted == 0.0:
+        return "none: no lamp was lit"
     return (
         f"{film.on_film.sum() / emitted:.1%} on film, {film.lost.sum() / emitted:.1%} lost; "
         f"{white:.2%} of the picture is white"

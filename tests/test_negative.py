@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import dqpaint
-from dqpaint import negative, outputs, video
+from dqpaint import negative, outputs, report, video
 from dqpaint.errors import DqpaintError
 from dqpaint.picture import linear
 from dqpaint.scene import Scene
@@ -148,7 +148,8 @@ def test_a_film_without_light_is_told_without_a_share(tmp_path):
     arrays = dict(np.load(io.BytesIO(negative.encode(painting.scene, painting.settings))))
     dark = {k: v * 0 if k.endswith("colours") else v for k, v in arrays.items()}
     np.savez(tmp_path / "dark.npz", **dark)
-    assert not dqpaint.develop(tmp_path / "dark.npz")[0].film.emitted.any()
+    pictures = dqpaint.develop(tmp_path / "dark.npz")
+    assert report.light_line(pictures[0]) == "none: no lamp was lit"
 
 
 def test_a_device_is_no_place_for_a_picture():

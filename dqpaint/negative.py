@@ -133,7 +133,7 @@ def read(path: str) -> tuple[Scene, Settings]:
         reason = problem.strerror or "it is not a film"
         raise DqpaintError(f"film '{path[:60]}' cannot be read: {reason}") from None
     except (
-        ValueError, KeyError, TypeError, AttributeError, EOFError, OverflowError, RecursionError,
+        ValueError, KeyError, IndexError, TypeError, AttributeError, EOFError, OverflowError, RecursionError,
         MemoryError, NotImplementedError, zipfile.BadZipFile, zlib.error, ValidationError,
         DqpaintError,
     ):  # fmt: skip

@@ -1,5 +1,7 @@
 """Whole runs: how well the laws follow, how they lag, what limits do, that runs repeat."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -281,9 +283,7 @@ def test_a_ramp_reaches_the_law_at_its_row():
 
 
 def test_poses_have_signs_that_go_on_from_the_asked_ones():
-    motion = asked(
-        "period 8 ms\nstart at (0, 0) mm\nline to (10, 0) mm tool rot(z, 170 deg) in 1 s\n"
-    )
+    motion = asked("period 8 ms\nline to (10, 0) mm tool rot(z, 170 deg) in 1 s\n")
     motion = replace(motion, pose=-motion.pose)
     law = CONTROLLERS["p"]
     result = track(motion, ARM, CARD.home, PLANTS["ideal"], law, law.read_gains({}))

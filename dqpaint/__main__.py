@@ -28,7 +28,7 @@ def _leave(stop: SystemExit) -> None:
     try:
         for stream in (sys.stdout, sys.stderr):
             stream.flush()
-    except OSError:
+    except (OSError, ValueError):  # full, or closed
         raise stop from None
     os._exit(stop.code or 0)
 

@@ -17,7 +17,7 @@ def run() -> None:
     _secure_streams()
     try:
         _answer()
-    except OSError as problem:  # of a stream: files have their own errors
+    except OSError as problem:  # of a stream
         sys.stdout = open(os.devnull, "w")  # noqa: SIM115  nothing more can be said there
         if not isinstance(problem, BrokenPipeError):
             _end(f"error: standard output cannot be written: {problem.strerror}", 1)
@@ -36,11 +36,14 @@ def _answer() -> None:
     except SystemExit as stop:
         if stop.code == INTERRUPTED:  # typer has met a Ctrl-C
             raise KeyboardInterrupt from None
-        sys.stdout.flush()
-        raise
-    except OSError:
+        if not sys.stdout.closed:
+            sys.stdout.flush()
         raise
     except Exception as fault:
+        if isinstance(fault, OSError) and fault.filename is None:  # of a stream: files have a name
+            raise
+        if sys.stdout.closed:
+            _end("error: standard output was closed on the way", 1)
         if os.environ.get(DEBUG):
             raise
         _end(f"internal error, please report it: {fault!r}; {DEBUG}=1 shows where", 1)

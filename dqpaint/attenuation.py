@@ -58,4 +58,7 @@ def attenuation(track: Track, promise: tuple[float, float] | None) -> dict[str, 
 
 def _norm(signal: Floats) -> float:
     """The L2 norm in time, but for the square root of the period, which cancels."""
-    return float(np.sqrt((signal**2).sum()))
+    largest = float(np.abs(signal).max(initial=0.0))
+    if largest == 0.0:
+        return 0.0
+    return largest * float(np.sqrt(((signal / largest) ** 2).sum()))  # no square leaves the floats

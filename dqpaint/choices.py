@@ -53,7 +53,13 @@ def make_choice(kind: str, name: str, model: type[M], values: Values) -> M:
     """
     named: dict[str, Any] = dict(values)
     if "" in named and model.model_fields:
-        named.setdefault(next(iter(model.model_fields)), named.pop(""))
+        first_field = next(iter(model.model_fields))
+        if first_field in named:
+            raise UsageError(
+                f"{kind} '{name}': {first_field} is given twice, as {named['']!r} without its name "
+                f"and as {named[first_field]!r}"
+            )
+        named[first_field] = named.pop("")
     try:
         return model.model_validate(named)
     except ValidationError as problem:

@@ -6,13 +6,14 @@ It is NumPy's .npz: arrays that can be read with `numpy.load`, and the rest as J
 import io
 import json
 import zipfile
+import zlib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Literal
 
 import cv2
 import numpy as np
-from pydantic import ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from dqpaint import __version__
 from dqpaint.dq import Floats
@@ -27,6 +28,59 @@ from dqpaint.stage.staging import Cast
 
 SCHEMA = "dqpaint-film-1"
 GROUPS = ("light", "asked", "under")
+UNIT = 1e-6  # how far a rotation may be from one
+FARTHEST = 1e6  # of any number of an array
+Number = Annotated[float, Field(ge=0, le=FARTHEST, allow_inf_nan=False)]
+Part = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
+Shade = tuple[Number, Number, Number]
+
+
+class Facts(BaseModel):
+    """What a film says of one sweep besides its arrays."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+    period: Annotated[float, Field(ge=1e-6, le=FARTHEST, allow_inf_nan=False)]
+    pwm: Number
+    size: Number
+    joined: Part
+    lobe: Number
+    strobe: bool
+
+
+class Key(BaseModel):
+    """The legend of a film."""
+
+    model_config = ConfigDict(extra="forbid")
+    title: str
+    labels: Annotated[tuple[str, ...], Field(min_length=1)]
+    colours: Annotated[tuple[Shade, ...], Field(min_length=1)]
+    amounts: bool
+
+
+class Arm(BaseModel):
+    """What a film says of the arm that may be shown in it."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+    robot: str
+    period: Annotated[float, Field(ge=1e-6, le=FARTHEST, allow_inf_nan=False)]
+
+
+class About(BaseModel):
+    """What a film says besides its arrays."""
+
+    model_config = ConfigDict(extra="forbid", populate_by_name=True)
+    schema_: Literal["dqpaint-film-1"] = Field(alias="schema")
+    version: str
+    name: str
+    settings: Settings
+    dimmer: Annotated[float, Field(ge=0, le=FARTHEST, allow_inf_nan=False)]
+    legend: Key | None
+    light: tuple[Facts, ...]
+    asked: tuple[Facts, ...]
+    under: tuple[Facts, ...]
+    arm: Arm | None = None
+
+
 TIFF = [cv2.IMWRITE_TIFF_COMPRESSION, 8]  # deflate
 
 
@@ -78,55 +132,64 @@ def read(path: str) -> tuple[Scene, Settings, Cast | None]:
         place = place.with_suffix(".npz")
     try:
         with np.load(io.BytesIO(place.read_bytes()), allow_pickle=False) as arrays:
-            about = json.loads(str(arrays["about"]))
-            if about["schema"] != SCHEMA:
-                raise ValueError(about["schema"])
-            groups = [tuple(_sweeps(arrays, about, group)) for group in GROUPS]
-            legend = about["legend"]
-            if legend is not None:
-                shades = tuple(tuple(shade) for shade in legend["colours"])
-                words = tuple(legend["labels"])
-                legend = Legend(legend["title"], words, shades, legend["amounts"])
-            light, asked, under = groups
-            front, dimmer = np.array(arrays["front"]), float(about["dimmer"])
-            scene = Scene(about["name"], light, asked, under, front, legend, dimmer)
-            settings = Settings.model_validate(about["settings"])
-            return scene, settings, _cast(arrays, about.get("arm"), light[0])
+            about = About.model_validate(json.loads(str(arrays["about"])))
+            light, asked, under = (
+                tuple(_sweeps(arrays, group, getattr(about, group))) for group in GROUPS
+            )
+            legend = None if about.legend is None else Legend(**dict(about.legend))
+            front = _numbers(arrays, "front")
+            if front.shape != (3, 3) or np.abs(front @ front.T - np.eye(3)).max() > UNIT:
+                raise ValueError("front")
+            scene = Scene(about.name, light, asked, under, front, legend, about.dimmer)
+            return scene, about.settings, _cast(arrays, about.arm, light[0])
     except OSError as problem:
         reason = problem.strerror or "it is not a film"
         raise DqpaintError(f"film '{path[:60]}' cannot be read: {reason}") from None
-    except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile, ValidationError):
+    except (
+        ValueError, KeyError, IndexError, TypeError, AttributeError, EOFError, OverflowError,
+        RecursionError, MemoryError, NotImplementedError, zipfile.BadZipFile, zlib.error,
+        ValidationError, DqpaintError,
+    ):  # fmt: skip
         raise DqpaintError(
             f"'{path[:60]}' is not a film of dqpaint; draw with --save film makes one"
         ) from None
 
 
-def _cast(arrays: Any, facts: dict[str, Any] | None, sweep: Sweep) -> Cast | None:
+def _cast(arrays: Any, facts: Arm | None, sweep: Sweep) -> Cast | None:
     if facts is None:
         return None
-    posture = np.array(arrays["arm-posture"], np.float64)
-    line = np.array(arrays["arm-line"], np.int64)
+    posture = _numbers(arrays, "arm-posture")
+    line = np.asarray(arrays["arm-line"])
     if posture.ndim != 2 or line.shape != sweep.time.shape or len(posture) != len(line):
         raise ValueError("arm")
-    if not np.isfinite(posture).all():
+    if line.dtype.kind != "i":
         raise ValueError("arm")
-    return Cast(str(facts["robot"]), posture, line, float(facts["period"]))
+    return Cast(facts.robot, posture, line.astype(np.int64), facts.period)
 
 
-def _sweeps(arrays: Any, about: dict[str, Any], group: str) -> Iterator[Sweep]:
-    for i, facts in enumerate(about[group]):
+def _numbers(arrays: Any, name: str) -> Floats:
+    """An array of a file as floats, each of which a picture can come from."""
+    array = np.asarray(arrays[name])
+    if array.dtype.kind != "f" or not (np.abs(array) <= FARTHEST).all():
+        raise ValueError(name)
+    return np.asarray(array, dtype=np.float64)
+
+
+def _sweeps(arrays: Any, group: str, sweeps: tuple[Facts, ...]) -> Iterator[Sweep]:
+    for i, facts in enumerate(sweeps):
 
         def array(name: str, key: str = f"{group}{i}") -> Floats:
-            return np.asarray(arrays[f"{key}-{name}"], dtype=np.float64)
+            return _numbers(arrays, f"{key}-{name}")
 
         emitters = Emitters(
-            array("places"), array("tints"), facts["size"], facts["joined"], array("normal"),
-            facts["lobe"],
+            array("places"), array("tints"), facts.size, facts.joined, array("normal"),
+            facts.lobe,
         )  # fmt: skip
-        strobe = array("strobe") if facts["strobe"] else None
-        yield Sweep(
-            facts["period"], array("pose"), array("colours"), emitters, strobe, facts["pwm"]
-        )
+        strobe = array("strobe") if facts.strobe else None
+        pose = array("pose")
+        if (np.abs(np.linalg.norm(pose[:, :4], axis=1) - 1) > UNIT).any():
+            raise ValueError("pose")
+        yield Sweep(facts.period, pose, array("colours"), emitters, strobe, facts.pwm)
 
 
 def encode_linear(scene: Scene, picture: Picture, settings: Settings, ending: str) -> bytes:

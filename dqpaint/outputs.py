@@ -272,6 +272,8 @@ def _stem_and_folder(out: str | None, name: str) -> tuple[Path, Path]:
         return target / name, target
     if target.suffix in SUFFIXES:  # `--out star.png` names the picture, and its stem
         target = target.with_suffix("")
+    if target.exists() and not target.is_file():  # such as /dev/null
+        raise OutputError(f"'{target}' is neither a folder nor a file")
     if target.parent.exists() and not target.parent.is_dir():
         raise OutputError(f"'{target.parent}' is a file, not a folder")
     if not target.parent.is_dir():

@@ -14,6 +14,7 @@ from dqpaint.robots.kinematics import Kinematics, manipulability
 from dqpaint.robots.parts import Mount
 from dqpaint.terminal import table
 
+FARTHEST = 1e6  # [rad]; beyond it an angle is a slip, and its turns no longer exact
 NO_TURN = 1e-9  # [rad] below which a screw is a translation
 
 
@@ -91,7 +92,10 @@ def read_posture(card: Card, deg: str | None, rad: str | None) -> Floats:
     if len(angles) != card.joints:
         count = "1 angle" if len(angles) == 1 else f"{len(angles)} angles"
         raise UsageError(f"{card.name} has {card.joints} joints, but {option} gives {count}")
-    return np.radians(angles) if deg is not None else np.array(angles)
+    posture = np.radians(angles) if deg is not None else np.array(angles)
+    if np.abs(posture).max(initial=0.0) > FARTHEST:
+        raise UsageError(f"{option} '{text[:60]}': an angle is at most {FARTHEST:g} rad either way")
+    return posture
 
 
 def screw_of(pose: Floats) -> Screw:

@@ -135,9 +135,11 @@ def _pictures(pictures: Sequence[Picture]) -> list[tuple[str, str]]:
 def light_line(picture: Picture) -> str:
     """What of the light fell on the film, and how bright the picture came out."""
     film, hidden = picture.film, picture.hidden
-    emitted = picture.emitted.sum() or 1.0  # a beam may send nothing this way
+    emitted = picture.emitted.sum()
     red, green, blue = (picture.image[..., i] >= WHITE for i in range(3))
     white = float((red & green & blue).mean())
+    if emitted == 0.0:
+        return "none: no lamp shone this way"
     behind = f", {hidden.energy.sum() / emitted:.1%} hidden by the arm" if hidden else ""
     return (
         f"{film.on_film.sum() / emitted:.1%} on film, {film.lost.sum() / emitted:.1%} lost"

@@ -1,8 +1,11 @@
 """The H-infinity promise: what comes through against closed forms, and where it breaks."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from dqpaint import dq
 from dqpaint.attenuation import attenuation
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.disturbances import make_disturbances
@@ -108,3 +111,21 @@ def test_without_a_disturbance_there_is_nothing_to_report():
     law = CONTROLLERS["hinf"]
     run = track(motion, ARM, CARD.home, PLANTS["ideal"], law, law.read_gains({}))
     assert attenuation(run, (1.0, 1.0)) == {}
+
+
+@pytest.mark.parametrize("size", [1.0, 1e-170, 1e170])
+def test_ratios_are_found_whatever_the_size(size):
+    """A large error far from the origin, one row after its cause, by homogeneous matrices."""
+    motion = plan(parse(STILL.replace("16 s", "80 ms"), "t.traj"), CARD.canvas.pose)
+    law = CONTROLLERS["hinf"]
+    run = track(motion, ARM, CARD.home, PLANTS["ideal"], law, law.read_gains({}))
+    rng = np.random.default_rng(2)
+    turn = np.c_[rng.normal(size=(len(motion.t), 3)), np.zeros((len(motion.t), 3))]
+    far = dq.pose_from(rng.normal(size=(len(motion.t), 3)) * 9, dq.exp(0.5 * turn)[..., :4])
+    v = np.zeros((len(motion.t), 6))
+    v[:-1] = size * rng.normal(size=(len(motion.t) - 1, 6))
+    found = attenuation(replace(run, pose=dq.mul(far, motion.pose), disturbance=v), None)
+    x, x_d = (dq.matrix_from_pose(p)[1:] for p in (dq.mul(far, motion.pose), motion.pose))
+    error = (x @ np.linalg.inv(x_d))[:, :3, 3]
+    cause = np.linalg.norm(v[:, 3:] / size) * size
+    assert found["translation"].ratio == pytest.approx(np.linalg.norm(error) / cause, rel=1e-9)

@@ -464,7 +464,7 @@ def test_pose_tells_numbers_and_warnings_apart(dqpaint):
 @pytest.mark.parametrize(("words", "message"), [
     (["iiwa", "--deg=1,2"], "usage: iiwa has 7 joints, but --deg gives 2 angles"),
     (["iiwb"], "usage: no robot named 'iiwb'; known: baxter-left, "),
-    (["mine.urdf"], "usage: mine.urdf cannot be read: No such file or directory"),
+    (["mine.urdf"], "error: robot 'mine.urdf' cannot be read: No such file or directory"),
 ])  # fmt: skip
 def test_pose_refuses_what_is_no_posture(dqpaint, words, message):
     done = dqpaint("pose", *words)

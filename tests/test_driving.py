@@ -5,7 +5,8 @@ import pinocchio
 import pytest
 
 from dqpaint import dq
-from dqpaint.controllers import CONTROLLERS
+from dqpaint.controllers import CONTROLLERS, commands
+from dqpaint.controllers.own import make_controller
 from dqpaint.driving import make_drive
 from dqpaint.nullspace import make_wish
 from dqpaint.plants import PLANTS
@@ -92,3 +93,41 @@ def test_a_light_joint_gains_what_it_is_asked_in_a_whole_period():
     plant.run(Dynamics(ARM).torque(q, np.zeros(7), wanted, period))
     plant.close()
     assert plant.rates[6] / period == pytest.approx(8.0, rel=0.15)
+
+
+def test_an_own_torque_law_holds_by_the_bias_and_is_not_resolved(rng):
+    """tau = bias leaves no acceleration; the inertia is whole and pinocchio's."""
+
+    @commands("torque")
+    def hold(seen):
+        kept.append(seen)
+        return seen.bias
+
+    kept = []
+    drive = make_drive(make_controller(hold, "hold"), ARM, lambda *_: np.zeros(7), 0.005)
+    for seen in states(rng, 10):
+        q, rates = seen.posture, seen.rates
+        torque = drive.ask(seen, make_controller(hold, "hold").read_gains({}).first)
+        np.testing.assert_allclose(bend(q, rates, torque), 0, atol=1e-8)
+        data = ARM.model.createData()
+        still = pinocchio.rnea(ARM.model, data, q, rates, np.zeros(7))
+        np.testing.assert_allclose(torque, still + ARM.model.damping * rates, atol=1e-9)
+        columns = [
+            pinocchio.rnea(ARM.model, data, q, rates, one).copy() - still for one in np.eye(7)
+        ]
+        np.testing.assert_allclose(kept[-1].inertia, np.stack(columns, axis=1), atol=1e-9)
+
+
+def test_torques_stay_within_the_motors():
+    name = TORQUE_LAWS[0]
+    drive = make_drive(CONTROLLERS[name], ARM, lambda *_: np.zeros(7), 0.005)
+    effort = ARM.card.effort
+    wanted = np.array([9.0, -9.0, 0.5, -0.5, 2.0, -2.0, 0.0]) * effort
+    np.testing.assert_allclose(
+        drive.within(wanted, ARM.card.home), np.array([1, -1, 0.5, -0.5, 1, -1, 0]) * effort
+    )
+
+
+def test_what_a_law_sees_of_the_twist_is_the_jacobian_s(rng):
+    for seen in states(rng, 5):
+        np.testing.assert_allclose(seen.twist, seen.jacobian @ seen.rates, atol=1e-12)

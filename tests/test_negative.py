@@ -1,14 +1,16 @@
 """Films that are kept: developed again they are what they were, and files of others are refused."""
 
 import io
+import json
 import time
+import zipfile
 
 import cv2
 import numpy as np
 import pytest
 
 import dqpaint
-from dqpaint import negative, outputs, video
+from dqpaint import negative, outputs, report, video
 from dqpaint.errors import DqpaintError
 from dqpaint.picture import linear
 from dqpaint.scene import Scene
@@ -103,6 +105,31 @@ def broken(tmp_path):
     yield "other schema", again(about=np.array(about.replace("dqpaint-film-1", "dqpaint-film-9")))
     yield "no json", again(about=np.array("{"))
     yield "wrong shape", again(**{"light0-pose": np.zeros((3, 7))})
+    far = arrays["light0-pose"].copy()
+    for fault in (np.nan, np.inf, 1e200, 0.0):
+        yield f"pose {fault}", again(**{"light0-pose": far * fault})
+    yield "complex", again(**{"light0-pose": far * (1 + 1j)})
+    yield "text array", again(**{"light0-pose": far.astype(str)})
+    yield "one number", again(**{"light0-pose": np.array(1.0)})
+    yield "front nan", again(front=arrays["front"] * np.nan)
+    yield "front short", again(front=arrays["front"][:2])
+    yield "deep", again(about=np.array("[" * 100_000))
+    yield "list", again(about=np.array("[1]"))
+    facts = json.loads(about)
+    for name, value in (("period", 1e300), ("size", -1), ("lobe", "q"), ("pwm", -5), ("joined", 2)):
+        one = {**facts["light"][0], name: value}
+        yield name, again(about=np.array(json.dumps({**facts, "light": [one]})))
+    for name, value in (("dimmer", -5), ("name", 5), ("light", {"a": 1}), ("legend", "x")):
+        yield name, again(about=np.array(json.dumps({**facts, name: value})))
+    header = io.BytesIO()
+    form = {"descr": "<f8", "fortran_order": False, "shape": (10**12, 8)}
+    np.lib.format.write_array_header_1_0(header, form)
+    huge = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(whole)) as old, zipfile.ZipFile(huge, "w") as new:
+        for name in old.namelist():
+            is_pose = name == "light0-pose.npy"
+            new.writestr(name, header.getvalue() if is_pose else old.read(name))
+    yield "huge header", huge.getvalue()
     yield "pickle", again(**{"light0-pose": np.array([{}], dtype=object)})
 
 
@@ -114,6 +141,20 @@ def test_files_that_are_no_films_are_refused_in_a_sentence(tmp_path):
         assert "film" in str(caught.value), name
     with pytest.raises(DqpaintError, match="cannot be read: No such file"):
         dqpaint.develop(tmp_path / "none.npz")
+
+
+def test_a_film_without_light_is_told_without_a_share(tmp_path):
+    painting = dqpaint.draw("star", plant="ideal", size=(64, 36))
+    arrays = dict(np.load(io.BytesIO(negative.encode(painting.scene, painting.settings))))
+    dark = {k: v * 0 if k == "light0-colours" else v for k, v in arrays.items()}
+    np.savez(tmp_path / "dark.npz", **dark)
+    pictures = dqpaint.develop(tmp_path / "dark.npz")
+    assert report.light_line(pictures[0]) == "none: no lamp shone this way"
+
+
+def test_a_device_is_no_place_for_a_picture():
+    with pytest.raises(DqpaintError, match="'/dev/null' is neither a folder nor a file"):
+        outputs.stem_for("/dev/null", "star")
 
 
 def test_choices_are_checked(tmp_path):

@@ -124,3 +124,41 @@ def test_saving_from_python(painting, tmp_path):
     assert len(repr(painting)) < 200
     with pytest.raises(dqpaint.DqpaintError, match="size '3x3' is not"):
         dqpaint.draw("star", size="3x3")
+
+
+@pytest.fixture(scope="module")
+def stepped(tmp_path_factory):
+    """A run that is disturbed, and has a jump in both place and orientation."""
+    path = tmp_path_factory.mktemp("drawing") / "jump.traj"
+    path.write_text(
+        "period 8 ms\nstart at (10, 5, 0) mm tool rpy(10 deg, 0, 0)\nhold 0.2 s light off\n"
+        "step to (30, 20, -10) mm tool rpy(0, 10 deg, 20 deg)\nhold 1 s\n"
+    )
+    return dqpaint.draw(
+        path, plant="ideal", size=(64, 36), seed=11,
+        disturb={"twist": {"form": "noise", "x": 0.02, "wy": 0.1, "frequency": 3.0}},
+    )  # fmt: skip
+
+
+def test_the_summary_tells_the_disturbances_what_came_through_and_the_steps(stepped):
+    said = outputs.summarise(stepped)
+    one = stepped.disturbances["twist"]
+    assert said["disturbances"] == {"twist": one.model_dump()}
+    assert said["seed"] == 11
+    assert said["law"]["commands"] == stepped.controller.commands
+    for part in ("rotation", "translation"):
+        found = stepped.attenuation[part]
+        assert said["attenuation"][part] == {
+            "ratio_s": found.ratio, "bound_s": found.bound, "kept": found.kept
+        }  # fmt: skip
+        assert found.ratio != found.bound
+    (jump,), (told,) = stepped.set_points, said["set_points"]
+    assert (told["time_s"], told["line"]) == (jump.time, 4)
+    assert jump.time == pytest.approx(0.208)
+    for part, unit in (("translation", "m"), ("rotation", "rad")):
+        response = getattr(jump, part)
+        assert told[part] == {
+            f"size_{unit}": response.size, "settling_s": response.settling,
+            "overshoot": response.overshoot, f"steady_error_{unit}": response.steady,
+        }  # fmt: skip
+        assert len(set(told[part].values())) == 4

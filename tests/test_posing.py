@@ -92,6 +92,11 @@ def test_what_is_no_posture_is_refused(deg, rad, message):
         posing.read_posture(VIPER, deg, rad)
 
 
+def test_angles_that_are_slips_are_refused():
+    with pytest.raises(UsageError, match=r"--rad .*: an angle is at most 1e.06 rad either way"):
+        posing.read_posture(read_card("iiwa"), None, "1e9 0 0 0 0 0 0")
+
+
 def test_joints_beyond_their_limits_are_named():
     posture = posing.read_posture(VIPER, "0,46,0,0,-121,0", None)
     beyond = posing.pose_arm(VIPER, posture, flange=False).beyond

@@ -32,3 +32,33 @@ def test_a_gain_without_a_default_is_listed_without_one():
     text = listing.text(listing.lists("controllers"))
     assert "  K_O  1/s, in place of gamma_O\n" in text
     assert "None" not in text
+
+
+def test_rows_of_disturbances_and_set_points_have_their_figures_and_units(tmp_path):
+    from dataclasses import replace
+
+    from dqpaint.attenuation import Attenuation
+    from dqpaint.set_points import Response, SetPoint
+
+    path = tmp_path / "dot.traj"
+    path.write_text("period 8 ms\nhold 80 ms\n")
+    painting = dqpaint.draw(path, plant="ideal", size=(64, 36), disturb={"twist": {"x": 0.01}})
+    jump = SetPoint(0.2, 7, Response(0.04, 1.25, 0.125, 0.002), Response(0.5, None, 0.25, 0.1))
+    none = SetPoint(0.4, 9, Response(0.01, 0.5, 0.0, 1e-15), Response(0.0, None, 0.0, 0.0))
+    told = replace(
+        painting,
+        attenuation={"translation": Attenuation(0.3, 0.1), "rotation": Attenuation(0.05, 0.1)},
+        set_points=(jump, none),
+    )
+    text = report.of_painting(told, [])
+    assert "promised at most 0.1 s: broken, 3 times as much" in text
+    assert "promised at most 0.1 s: kept" in text
+    assert "line 7: 40 mm, settles in 1.25 s, overshoot 12.5%, steady error 2 mm" in text
+    assert "line 7: 28.6 deg, never settles, overshoot 25.0%, steady error 5.7 deg" in text
+    assert text.count("line 9") == 1
+    assert "steady error 0 mm" in text
+
+
+def test_torques_are_told_in_nm_s():
+    assert report._commanded({"torque_integral_Nm_s": 12.0}) == "12 Nm s in all joints together"
+    assert report._commanded({"command_integral_rad": 3.0}) == "3 rad in all joints together"

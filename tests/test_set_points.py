@@ -13,7 +13,7 @@ from dqpaint.motion import plan
 from dqpaint.plants import PLANTS
 from dqpaint.robots.card import read_card
 from dqpaint.robots.kinematics import Kinematics
-from dqpaint.set_points import SETTLED, set_points
+from dqpaint.set_points import SETTLED, _turn, set_points
 from dqpaint.tracking import track
 
 CARD = read_card("iiwa")
@@ -121,3 +121,17 @@ def test_drawings_without_a_jump_have_none_and_the_example_has_one():
     none = track(motion, ARM, CARD.home, PLANTS["ideal"], law, law.read_gains({}))
     assert set_points(none) == ()
     assert plan(read(find_drawing("step")), CARD.canvas.pose).jump.sum() == 1
+
+
+def test_a_turn_is_seen_along_the_base_s_axes_from_any_orientation(run):
+    """Beyond the goal along the same turn overshoots; across it does not. By pinocchio's log."""
+    import pinocchio
+
+    first, _ = set_points(answered(run, lambda t: 1.2 if t > 0.5 else 1.0 - np.exp(-9.0 * t)))
+    assert first.rotation.overshoot == pytest.approx(0.2, rel=1e-6)
+    before = int(np.flatnonzero(run.motion.jump)[0])
+    old, new = (dq.matrix_from_pose(run.motion.pose[i])[:3, :3] for i in (before, before + 1))
+    wanted = pinocchio.log3(new @ old.T)
+    found = _turn(run.motion.pose[before + 1], run.motion.pose[before])
+    np.testing.assert_allclose(found, wanted, atol=1e-9)
+    assert np.abs(wanted - pinocchio.log3(old.T @ new)).max() > 1e-2

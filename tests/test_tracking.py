@@ -1,10 +1,14 @@
 """Whole runs: how well the laws follow, how they lag, what limits do, that runs repeat."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
+from dqpaint.controllers.own import make_controller
+from dqpaint.disturbances import make_disturbances
 from dqpaint.errors import DqpaintError
 from dqpaint.examples import find_drawing
 from dqpaint.language import parse, read
@@ -13,6 +17,7 @@ from dqpaint.plants import PLANTS
 from dqpaint.robots.card import read_card
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.reach import find_start, waypoints
+from dqpaint.sensing import chance
 from dqpaint.tracking import track
 
 CARD = read_card("iiwa")
@@ -235,3 +240,61 @@ def test_a_law_that_leaves_the_numbers_is_an_error():
     for text in (CIRCLE, "period 8 ms\nhold 80 ms\n", "period 8 ms\nhold 8 ms\n"):
         with np.errstate(all="ignore"), pytest.raises(DqpaintError, match="left the numbers"):
             track(asked(text), ARM, CARD.home, PLANTS["ideal"], broken, broken.read_gains({}))
+
+
+DRIFTING = "period 8 ms\nstart at (20, 10, 5) mm tool rpy(10 deg, 5 deg, 0)\nhold 0.8 s\n"
+
+
+def disturbed(values, seed=0, controller="p", progress=lambda _: None, **gains):
+    law = CONTROLLERS[controller] if isinstance(controller, str) else controller
+    motion = asked(DRIFTING)
+    return track(
+        motion, ARM, CARD.home, PLANTS["ideal"], law, law.read_gains(gains), progress,
+        make_disturbances(values), seed,
+    )  # fmt: skip
+
+
+def test_random_numbers_differ_with_the_seed_and_with_the_disturbance():
+    noise = {"": "noise", "x": 0.01, "frequency": 3.0}
+    one, other = (disturbed({"twist": noise}, seed).disturbance for seed in (1, 2))
+    assert np.abs(one - other).max() > 1e-3
+    assert not (chance(1, "twist").random(8) == chance(1, "noise").random(8)).any()
+    assert not (chance(1, "twist").random(8) == chance(2, "twist").random(8)).any()
+
+
+def test_the_disturbance_of_a_row_is_that_of_its_time():
+    run = disturbed({"twist": {"": "sine", "wx": 0.02, "y": 0.01, "frequency": 3.0}})
+    wave = np.sin(2 * np.pi * 3.0 * run.motion.t)[:-1]
+    v, points = run.disturbance[:-1], run.points[:-1]
+    np.testing.assert_allclose(v[:, 0], 0.02 * wave, atol=1e-12)
+    carried = v[:, 3:] + np.cross(v[:, :3], points)  # of the tool's own point
+    np.testing.assert_allclose(carried, wave[:, None] * [0, 0.01, 0], atol=1e-12)
+
+
+def test_a_ramp_reaches_the_law_at_its_row():
+    heard = []
+
+    def law(seen, k=1.0):
+        heard.append((seen.time, k))
+        return seen.twist_d
+
+    disturbed({}, controller=make_controller(law, "law"), k="0..4@50%")
+    times, gains = np.array(heard).T
+    end = times[-1]
+    np.testing.assert_allclose(gains, np.minimum(4.0, 8.0 * times / end), atol=1e-9)
+
+
+def test_poses_have_signs_that_go_on_from_the_asked_ones():
+    motion = asked("period 8 ms\nline to (10, 0) mm tool rot(z, 170 deg) in 1 s\n")
+    motion = replace(motion, pose=-motion.pose)
+    law = CONTROLLERS["p"]
+    result = track(motion, ARM, CARD.home, PLANTS["ideal"], law, law.read_gains({}))
+    assert (result.pose[0] * motion.pose[0]).sum() > 0
+    assert ((result.pose[1:, :4] * result.pose[:-1, :4]).sum(axis=1) > 0).all()
+
+
+def test_progress_rises():
+    told = []
+    disturbed({}, progress=told.append)
+    assert len(told) > 1
+    assert (np.diff(told) > 0).all()

@@ -1,6 +1,6 @@
 """The gains of a law: a checked model with units, the same for every law."""
 
-from typing import Annotated, TypeVar
+from typing import Annotated, ClassVar, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -13,6 +13,7 @@ class Gains(BaseModel):
     """The gains of one law, in SI units; each field's description says the unit."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+    constant: ClassVar[dict[str, str]] = {}  # gains that cannot change on the way, and why
 
     def shown(self) -> dict[str, Value]:
         """The gains as a summary shows them: the ones given, then those that follow from them."""

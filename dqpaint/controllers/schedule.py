@@ -21,6 +21,7 @@ from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 
 GainText = Value | str
+MOST_KNOTS = 1000
 FORM = (
     "write a number without a unit, or a ramp such as 5..20@10% (from 5 to 20 over the first 10 %)"
 )
@@ -132,6 +133,11 @@ def read_schedule(model: type[G], given: Mapping[str, GainText], whose: str) -> 
             raise UsageError(f"{whose} has no gain named '{name}'; its gains: {list_gains(model)}")
         points = _read(name, value, whose, model) if isinstance(value, str) else (Knot(0.0, value),)
         fixed[name] = points[0].value
+        if len(points) > 1 and name in model.constant:
+            raise UsageError(
+                f"gain '{name}' of {whose} is '{str(value)[:60]}', but can't change on the way: "
+                f"{model.constant[name]}; its gains: {list_gains(model)}"
+            )
         if len(points) > 1:
             knots[name], texts[name] = points, str(value)
     first = _checked(model, fixed, whose)
@@ -174,6 +180,10 @@ def _range(model: type[G], name: Any) -> str:
 def _read(name: str, text: str, whose: str, model: type[G]) -> tuple[Knot, ...]:
     """The knots of a text; one alone is a value that does not change."""
     pieces = text.split("..")
+    if len(pieces) > MOST_KNOTS:
+        raise UsageError(
+            f"gain '{name}' of {whose} has {len(pieces)} points; a ramp has at most {MOST_KNOTS}"
+        )
     try:
         points = [_knot(piece, i, len(pieces)) for i, piece in enumerate(pieces)]
         parts = [point.part for point in points]

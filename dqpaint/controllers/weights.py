@@ -20,6 +20,7 @@ class Weights(Gains):
     """
 
     size: ClassVar[int]
+    constant: ClassVar[dict[str, str]] = {"s": "only its value at the end of the drawing counts"}
 
     q: Value = Field(
         4.0, description="weight of the error, a number or a diagonal; it decays at sqrt(q / r) 1/s"

@@ -14,7 +14,8 @@ from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 
 WAVES = 64  # of different frequencies in a noise
-Number = Annotated[float, Field(allow_inf_nan=False)]
+LEAST = 1e-9  # below it a size is a slip, and its square soon no number
+Number = Annotated[float, Field(ge=-1e3, le=1e3, allow_inf_nan=False)]
 
 
 @DISTURBANCES.add("twist")
@@ -30,7 +31,7 @@ class UnmodelledTwist(Disturbance):
     wx: Number = Field(0.0, description="rad/s about x, likewise")
     wy: Number = Field(0.0, description="rad/s about y")
     wz: Number = Field(0.0, description="rad/s about z")
-    frequency: Annotated[float, Field(gt=0, allow_inf_nan=False)] = Field(
+    frequency: Annotated[float, Field(ge=1e-3, le=1e6, allow_inf_nan=False)] = Field(
         1.0, description="Hz of a sine; the upper edge of a noise's band"
     )
 
@@ -43,15 +44,18 @@ class UnmodelledTwist(Disturbance):
     def _is_something(self) -> Self:
         if not self.size.any():
             raise ValueError("it moves nothing; give for example x=0.01, in m/s")
+        if ((self.size != 0) & (np.abs(self.size) < LEAST)).any():
+            raise ValueError(f"a size is 0, or from {LEAST:g} to 1000 m/s or rad/s either way")
         return self
 
     def twist(self, t: Floats, period: float, rng: np.random.Generator) -> Floats:
         """The velocity (N, 6) of the tool, angular first; of a noise each axis is its own."""
         if self.form == "constant":
             return np.tile(self.size, (len(t), 1))
-        if self.frequency > 0.5 / period:
+        half = 0.5 / period  # of a sine there, every row meets a zero
+        if self.frequency > half or (self.form == "sine" and self.frequency > half * (1 - 1e-9)):
             raise UsageError(
-                f"disturbance 'twist': frequency {self.frequency:g} Hz is above {0.5 / period:g} "
+                f"disturbance 'twist': frequency {self.frequency:g} Hz is not below {half:g} "
                 f"Hz, half the rate of a period of {period * 1e3:g} ms"
             )
         if self.form == "sine":

@@ -36,7 +36,7 @@ def find_canvas(card: Card) -> tuple[Canvas, Floats]:
     """
     arm = Kinematics(card)
     rng = np.random.default_rng(SEED)
-    low, high = np.maximum(card.lower, -np.pi), np.minimum(card.upper, np.pi)
+    low, high = _one_turn(card)
     middle, half = 0.5 * (low + high), 0.5 * MIDDLE * (high - low)
     q = rng.uniform(middle - half, middle + half, (SAMPLES, card.joints))
     poses = arm.screws().pose(q)
@@ -102,6 +102,15 @@ def canvas_at(card: Card) -> Canvas:
 def _canvas(place: Floats) -> Canvas:
     x, y, z = place.tolist()
     return Canvas(at_m=(x, y, z), right=(0, 1, 0), up=(0, 0, 1))
+
+
+def _one_turn(card: Card) -> tuple[Floats, Floats]:
+    """At most one turn (n,) of every joint [rad]: round zero, or the middle of a range far off."""
+    low, high = np.maximum(card.lower, -np.pi), np.minimum(card.upper, np.pi)
+    middle = 0.5 * (card.lower + card.upper)
+    half = np.minimum(0.5 * (card.upper - card.lower), np.pi)
+    far = high - low < half
+    return np.where(far, middle - half, low), np.where(far, middle + half, high)
 
 
 def _room(arm: Kinematics, postures: Floats) -> Floats:

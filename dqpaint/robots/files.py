@@ -17,7 +17,7 @@ from dqpaint.robots.bodies import default_body
 from dqpaint.robots.card import LEAST, Canvas, Card
 from dqpaint.robots.chain import Axes, Rows
 from dqpaint.robots.screws import Screws
-from dqpaint.robots.tree import TURNING, Joint, Tree
+from dqpaint.robots.tree import TURNING, Joint, Tree, some
 
 ANYWHERE = Canvas(at_m=(0, 0, 0), right=(0, 1, 0), up=(0, 0, 1))  # until a better one is found
 ROUND = 360.0  # [deg] to either side, of a joint without ends
@@ -52,7 +52,7 @@ def _read_toml(path: Path) -> dict[str, Any]:
     try:
         raw = tomllib.loads(path.read_text("utf-8"))
     except OSError as problem:
-        raise UsageError(f"{path} cannot be read: {problem.strerror}") from None
+        raise DqpaintError(f"robot '{path}' cannot be read: {problem.strerror}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
         raise DqpaintError(f"{path.name} is no TOML: {problem}") from None
     urdf = raw.get("urdf")
@@ -181,12 +181,19 @@ def _only_tip(tree: Tree) -> str:
         return arms[0]
     name = tree.path.name
     if not arms:
+        for joints in ends.values():
+            other = next((j for j in joints if j.kind not in TURNING), None)
+            if other is not None and len([j for j in joints if j.kind in TURNING]) >= LEAST:
+                raise DqpaintError(
+                    f"{name}: joint '{other.name}' is {other.kind or 'of no type'}: only arms "
+                    "whose joints all turn are known"
+                )
         longest = max(len([j for j in joints if j.kind in TURNING]) for joints in ends.values())
         raise DqpaintError(
             f"{name} holds no arm of {LEAST} or more joints that turn; its longest has {longest}"
         )
     raise UsageError(
-        f"{name} ends in several links: {', '.join(arms)}; name the one that carries the light, "
+        f"{name} ends in several links: {some(arms)}; name the one that carries the light, "
         f"for example {name}:{arms[0]}"
     )
 
@@ -217,9 +224,10 @@ def _end(tree: Tree, joint: Joint, what: str, without: float) -> float:
 def _strength(tree: Tree, joint: Joint, what: str, unit: str) -> float:
     value = joint.limit(what)
     if value is None or value <= 0:
-        said = (
-            "has no" if value is None else f"cannot move with its {what} of {value:g}: it needs a"
-        )
+        article = "an" if what == "effort" else "a"
+        said = "has no"
+        if value is not None:
+            said = f"cannot move with its {what} of {value:g}: it needs {article}"
         raise DqpaintError(
             f"{tree.path.name}: joint '{joint.name}' {said} {what} limit above 0, in {unit}; "
             "write it there, or all [limits] in a .toml file"

@@ -12,6 +12,7 @@ from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 
 MOST_NAMED = 12  # names in a message
+SIZES = {"box": {"size": 3}, "sphere": {"radius": 1}, "cylinder": {"radius": 1, "length": 1}}
 TURNING = ("revolute", "continuous")
 
 
@@ -24,6 +25,7 @@ class Joint:
     parent: str
     child: str
     element: Xml.Element
+    file: str
 
     def limit(self, what: str) -> float | None:
         """`lower`, `upper` [rad], `velocity` [rad/s] or `effort` [Nm]; None where not said."""
@@ -34,7 +36,9 @@ class Joint:
         except ValueError:
             number = math.nan
         if number is not None and not math.isfinite(number):
-            raise DqpaintError(f"joint '{self.name}': {what} '{value}' is not a number")
+            raise DqpaintError(
+                f"{self.file}: joint '{self.name}': {what} '{value}' is not a number"
+            )
         return number
 
 
@@ -58,9 +62,16 @@ class Tree:
             if not name or name in self.links:
                 raise self.fault(f"two links named '{name}'" if name else "a link has no name")
             self.links[name] = element
+            self._check_shapes(element, name)
         self.joints: dict[str, Joint] = {}
+        named: set[str] = set()
         for element in self.robot.findall("joint"):
             joint = self._joint(element)
+            if not joint.name or joint.name in named:
+                raise self.fault(
+                    f"two joints named '{joint.name}'" if joint.name else "a joint has no name"
+                )
+            named.add(joint.name)
             if joint.child in self.joints:
                 other = self.joints[joint.child].name
                 raise self.fault(
@@ -104,6 +115,34 @@ class Tree:
                 )
         return joints
 
+    def _check_shapes(self, link: Xml.Element, name: str) -> None:
+        """Look that a link's origins and shapes have finite numbers."""
+        for part in ("inertial", "visual", "collision"):
+            for element in link.findall(part):
+                origin = element.find("origin")
+                for attribute in ("xyz", "rpy"):
+                    text = "0 0 0" if origin is None else origin.get(attribute, "0 0 0")
+                    if len(numbers(text)) != 3:
+                        raise self.fault(
+                            f"link '{name}': {part} origin {attribute}=\"{text}\" is not three "
+                            "numbers"
+                        )
+                if part != "inertial":
+                    self._check_geometry(element, f"link '{name}': {part}")
+
+    def _check_geometry(self, shape: Xml.Element, where: str) -> None:
+        geometry = shape.find("geometry")
+        if geometry is None or len(geometry) == 0:
+            raise self.fault(f"{where} has no geometry")
+        for attribute, count in SIZES.get(geometry[0].tag, {}).items():
+            text = geometry[0].get(attribute, "")
+            values = numbers(text)
+            if len(values) != count or (values < 0).any():
+                what = "a number" if count == 1 else f"{count} numbers"
+                raise self.fault(
+                    f'{where} {geometry[0].tag} {attribute}="{text}" is not {what} from 0'
+                )
+
     def _joint(self, element: Xml.Element) -> Joint:
         name, kind = element.get("name", ""), element.get("type", "")
         ends = []
@@ -117,7 +156,13 @@ class Tree:
         for part, names in (("origin", ("xyz", "rpy")), ("axis", ("xyz",))):
             for attribute in names:
                 self._three(element, part, attribute)
-        return Joint(name, kind, ends[0], ends[1], element)
+        dynamics = element.find("dynamics")
+        for what in ("damping", "friction"):
+            text = "0" if dynamics is None else dynamics.get(what, "0")
+            said = numbers(text)
+            if len(said) != 1 or said[0] < 0:
+                raise self.fault(f"joint '{name}': {what} '{text}' is not a number from 0")
+        return Joint(name, kind, ends[0], ends[1], element, self.path.name)
 
     def _three(self, joint: Xml.Element, part: str, attribute: str) -> None:
         """Look that a part of a joint, where there is one, holds three numbers."""
@@ -159,13 +204,17 @@ def _parse(path: Path) -> Xml.Element:
     try:
         robot = Xml.fromstring(path.read_bytes())
     except OSError as problem:
-        raise UsageError(f"{path} cannot be read: {problem.strerror}") from None
-    except Xml.ParseError as problem:
+        raise DqpaintError(f"robot '{path}' cannot be read: {problem.strerror}") from None
+    except (Xml.ParseError, ValueError, LookupError) as problem:  # the latter: of its encoding
         raise DqpaintError(f"{path.name} is no URDF: {problem}") from None
     if robot.tag != "robot":
         raise DqpaintError(
             f"{path.name} is no URDF: it begins with <{robot.tag}>, not with <robot>"
         )
+    if not robot.get("name"):
+        robot.set(
+            "name", path.stem or "robot"
+        )  # libraries insist on one, and nothing depends on it
     if any("xacro" in child.tag for child in robot.iter()):
         raise DqpaintError(
             f"{path.name} is a xacro file: run xacro on it first, and give the result"

@@ -114,9 +114,14 @@ def _weigh(tree: Tree) -> Iterator[str]:
         moving = tree.root not in body
         for name in body:
             element = tree.links[name]
-            if element.find("inertial") is None:
+            inertial = element.find("inertial")
+            if inertial is None:
                 _set_inertial(element, 0.0, WEIGHTLESS)
-            elif moving and weights[name] > 0:
+            elif weights[name] == 0 and (
+                inertial.find("mass") is None or inertial.find("inertia") is None
+            ):
+                _set_inertial(element, 0.0, WEIGHTLESS, keep_origin=True)
+            elif weights[name] > 0 and (moving or inertial.find("inertia") is None):
                 yield from _judge(tree, name, weights[name])
         if moving and sum(weights.values()) == 0:
             ball = 0.4 * LIGHTEST * BALL**2
@@ -151,14 +156,15 @@ def _bodies(tree: Tree) -> list[list[str]]:
     """The links that move as one, the first of each being the one its joint carries."""
     heads: dict[str, str] = {}
 
-    def head(name: str) -> str:
-        joint = tree.joints.get(name)
-        if joint is None or joint.element.get("type") != "fixed":
-            return name
-        return head(joint.parent)
-
     for name in tree.links:
-        heads[name] = head(name)
+        way = [name]
+        while way[-1] not in heads:
+            joint = tree.joints.get(way[-1])
+            if joint is None or joint.element.get("type") != "fixed":
+                heads[way[-1]] = way[-1]
+            else:
+                way.append(joint.parent)
+        heads.update(dict.fromkeys(way, heads[way[-1]]))
     bodies: dict[str, list[str]] = {name: [name] for name in heads.values()}
     for name, first in heads.items():
         if name != first:
@@ -203,13 +209,20 @@ def _find_meshes(tree: Tree) -> Iterator[str]:
 def _find(tree: Tree, name: str) -> Path | None:
     path = Path(name)
     if path.is_absolute():
-        return path if path.is_file() else None
+        return path if _is_file(path) else None
     inner = Path(*path.parts[1:])  # without the name of a ROS package
     for folder in tree.path.resolve().parents:
         for candidate in (folder / path, folder / inner):
-            if candidate.is_file():
+            if _is_file(candidate):
                 return candidate
     return None
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):  # a name no file can have
+        return False
 
 
 def possible(moments: Floats) -> bool:

@@ -1,5 +1,7 @@
 """Laws of one's own: found in a file or handed over, their gains, and how their faults are told."""
 
+import hashlib
+import os
 from pathlib import Path
 from typing import Annotated
 
@@ -131,6 +133,23 @@ FAULTS = [
     ("def f(seen): return [[1], [2, 3]]\n", "returned an array of shape (2,)"),
     ("def f(seen): return [float('inf')] * 6\n", "at 0.250 s the law returned [inf"),
     ("def f(seen): raise SystemExit(3)\n", "mine.py:1: SystemExit: 3"),
+    ("def f(seen): raise GeneratorExit\n", "mine.py:1: GeneratorExit"),
+    ("class B(BaseException): pass\ndef f(seen): raise B('x')\n", "mine.py:2: B: x"),
+    ("class B(Exception):\n    def __str__(self): raise OSError\n\ndef f(seen): raise B()\n",
+     "mine.py:4: B\n"),
+    ("def f(seen): return ['1'] * 6\n", "returned values of type str, not numbers"),
+    ("def f(seen): return [True] * 6\n", "returned values of type bool, not numbers"),
+    ("def f(seen): return [None] * 6\n", "returned values that are not numbers"),
+    ("def f(seen): return [10**400] * 6\n", "at 0.250 s the law returned [inf"),
+    ("def f(seen): return [[1]] * 6\n", "returned an array of shape (6, 1)"),
+    ("def f(seen): return [[1], [2, 3]] * 3\n", "returned rows of several lengths"),
+    ("class A:\n    def __array__(self, *a, **k): raise OSError('no')\n\ndef f(seen): return A()\n",
+     "mine.py:2: OSError: no"),
+    ("class A:\n    def __float__(self): raise OSError('no')\n\ndef f(seen): return [A()] * 6\n",
+     "mine.py:2: OSError: no"),
+    ("import numpy as np\ndef f(seen): return np.broadcast_to(0.0, (10**12, 6))\n",
+     "returned an array of shape (1000000000000, 6)"),
+    ("def f(seen): return 1 / 0  # " + 200 * "x" + "\n", 90 * "x" + " ..."),
 ]  # fmt: skip
 
 
@@ -159,6 +178,49 @@ def test_files_that_cannot_be_read(tmp_path):
     (tmp_path / "latin.py").write_bytes(b"# M\xfcller\n")
     with pytest.raises(DqpaintError, match="not a text in UTF-8"):
         find_controller(str(tmp_path / "latin.py"))
+
+
+@pytest.mark.parametrize(("default", "said"), [("float('nan')", "nan"), ("10**400", "1000")])
+def test_a_default_is_finite(tmp_path, default, said):
+    with pytest.raises(UsageError, match=f"parameter 'k' is {said}.*, not a finite number"):
+        find_controller(written(tmp_path, f"def f(seen, k={default}): return seen.twist_d\n"))
+
+
+def test_commands_that_are_none_are_refused(tmp_path):
+    spec = written(tmp_path, "def f(seen): return seen.twist_d\nf.commands = 'force'\n")
+    with pytest.raises(UsageError, match="can't command 'force'; known: twist, rates, "):
+        find_controller(spec)
+
+
+def test_what_is_no_plain_file_is_refused(tmp_path):
+    os.mkfifo(tmp_path / "pipe.py")
+    (tmp_path / "folder.py").mkdir()
+    (tmp_path / "zero.py").symlink_to("/dev/zero")
+    for name in ("pipe.py", "folder.py", "zero.py"):
+        with pytest.raises(DqpaintError, match="is not a file"):
+            find_controller(str(tmp_path / name))
+    large = written(tmp_path, "#" * 1_000_001, "large.py")
+    with pytest.raises(DqpaintError, match="larger than 1000 kB"):
+        find_controller(large)
+
+
+def test_a_mark_at_the_beginning_does_no_harm_and_the_hash_is_of_what_was_run(tmp_path):
+    text = "\ufeffdef f(seen): return seen.twist_d\n"
+    spec = written(tmp_path, text)
+    law = find_controller(spec).law
+    Path(spec).write_text("changed since")
+    assert law.sha256 == hashlib.sha256(text.encode()).hexdigest()
+
+
+def test_a_law_can_t_load_itself(tmp_path, rng):
+    again = "from dqpaint.controllers import find_controller\n"
+    with pytest.raises(DqpaintError, match=r"mine\.py draws with itself"):
+        find_controller(written(tmp_path, again + "find_controller(__file__)\n"))
+    law = find_controller(
+        written(tmp_path, again + "def f(seen): return find_controller(__file__)\n")
+    )
+    with pytest.raises(DqpaintError, match=r"mine\.py draws with itself"):
+        law.law(seen_at(rng), law.read_gains({}).first)
 
 
 def test_neighbours_and_classes_of_a_file_can_be_used(tmp_path, rng):

@@ -96,3 +96,35 @@ def test_both_values_of_a_jump_count_for_the_promise():
     dip = CONTROLLERS["hinf"].read_gains({"K_T": "40..10@95%..40@95%"})
     assert dip.promise()[1] == pytest.approx(0.1)
     assert CONTROLLERS["hinf"].read_gains({"K_T": "10@50%..40@50%"}).promise()[1] == 0.1
+
+
+def test_a_ramp_has_a_bounded_number_of_points():
+    text = "..".join(f"{20 + i % 2}@{i / 20:g}%" for i in range(1001))
+    with pytest.raises(
+        UsageError, match=r"gain 'k' of .* has 1001 points; a ramp has at most 1000"
+    ):
+        CONTROLLERS["p"].read_gains({"k": text})
+
+
+@pytest.mark.parametrize("law", ["lqr", "lqr8"])
+def test_what_counts_at_the_end_alone_has_no_ramp(law):
+    with pytest.raises(
+        UsageError, match=r"'0\.\.1@10%', but can't change on the way: only its value"
+    ):
+        CONTROLLERS[law].read_gains({"s": "0..1@10%"})
+    assert CONTROLLERS[law].read_gains({"s": "0.3"}).first.s == 0.3
+
+
+@pytest.mark.parametrize(("gamma", "weakest"), [("0.1..0.3@50%..0.2@60%", 0.3), ("0.3..0.1", 0.3)])
+def test_the_weakest_promise_of_rotation_counts(gamma, weakest):
+    promise = CONTROLLERS["hinf"].read_gains({"gamma_O": gamma}).promise()
+    assert promise == pytest.approx(CONTROLLERS["hinf"].read_gains({"gamma_O": weakest}).promise())
+
+
+def test_a_gain_that_has_no_value_is_not_shown():
+    class Some(Gains):
+        k: Gain = Field(1.0)
+        limit: Gain | None = Field(None)
+
+    assert Some().shown() == {"k": 1.0}
+    assert Some(limit=2.0).shown() == {"k": 1.0, "limit": 2.0}

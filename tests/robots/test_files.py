@@ -182,7 +182,7 @@ def test_a_round_joint_turns_either_way(write):
     (VIPER + LIMITS + "[canvas]\nat_m = [1, 2]\n", r"canvas.at_m\[3\] is missing"),
     ("home_deg = [0, 90, 0, 0, 0, 0]\n" + VIPER + LIMITS, "home_deg must lie inside the limits"),
     ("[denavit_hartenberg\n", "mine.toml is no TOML: "),
-    ('[urdf]\nfile = "not-there.urdf"\n', "not-there.urdf cannot be read: No such file"),
+    ('[urdf]\nfile = "not-there.urdf"\n', "not-there.urdf' cannot be read: No such file"),
     ("[urdf]\nlink = 'l6'\n", "urdf.file is missing"),
     ("urdf = 3\n", "urdf should be a valid dictionary"),
 ])  # fmt: skip
@@ -195,12 +195,12 @@ def test_faults_of_a_card_are_told_by_their_field(write, text, message):
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("none.toml", "none.toml cannot be read: No such file"),
-        ("none.urdf:tip", "none.urdf cannot be read: No such file"),
+        ("none.toml", "none.toml' cannot be read: No such file"),
+        ("none.urdf:tip", "none.urdf' cannot be read: No such file"),
     ],
 )
 def test_a_missing_file_is_named(name, message):
-    with pytest.raises(UsageError, match=message):
+    with pytest.raises(DqpaintError, match=message):
         find_card(name)
 
 

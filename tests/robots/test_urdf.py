@@ -5,6 +5,7 @@ import pinocchio
 import pytest
 
 from dqpaint import dq
+from dqpaint.errors import DqpaintError
 from dqpaint.plants import PLANTS
 from dqpaint.plants.bullet import bullet, joint_indices, quiet
 from dqpaint.robots.card import read_card
@@ -141,3 +142,69 @@ def test_the_stiff_plant_moves_the_arm_s_own_joints(name, tmp_path, monkeypatch)
     np.testing.assert_allclose(plant.posture, card.home + 0.2 * rates, atol=3e-3)
     plant.close()
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(("old", "new", "said"), [
+    ('name="j2"', 'name="j1"', "arm.urdf: two joints named 'j1'"),
+    ('name="j2"', 'name=""', "arm.urdf: a joint has no name"),
+    ('xyz="0.05 0 0.02"', 'xyz="0.05 nan 0.02"', "link 'l1': inertial origin xyz=.* three numbers"),
+    ('<link name="base"/>', '<link name="base"><visual><geometry/></visual></link>',
+     "link 'base': visual has no geometry"),
+    ('<link name="base"/>', '<link name="base"><visual><geometry><box size="1 nan 1"/></geometry>'
+     '</visual></link>', "link 'base': visual box size=\"1 nan 1\" is not 3 numbers from 0"),
+    ('<axis xyz="0 1 0"/>', '<axis xyz="0 1 0"/><dynamics damping="much"/>',
+     "joint 'j2': damping 'much' is not a number from 0"),
+    ('velocity="2"', 'velocity="quick"', "arm.urdf: joint 'j1': velocity 'quick' is not a number"),
+    ('effort="400"', 'effort="0"', "it needs an effort limit above 0, in Nm"),
+    ('<robot name="arm">', '<?xml version="1.0" encoding="klingon"?><robot name="arm">',
+     "arm.urdf is no URDF: .*encoding"),
+])  # fmt: skip
+def test_faults_of_a_description_are_told_with_their_place(read, old, new, said):
+    with pytest.raises(DqpaintError, match=said):
+        prepare(read(arm_urdf().replace(old, new, 1)))
+
+
+def test_what_a_library_would_refuse_is_settled(read):
+    """A base with a mass alone, no name of the robot, the name of a mesh no file can have."""
+    base = (
+        '<link name="base"><inertial><mass value="3"/></inertial><visual><geometry>'
+        f'<mesh filename="{300 * "m"}.stl"/></geometry></visual></link>'
+    )
+    text = arm_urdf().replace('<link name="base"/>', base).replace('<robot name="arm">', "<robot>")
+    card = read(text)
+    assert any("link 'base' has a mass and no inertia" in note for note in prepare(card).notes)
+    assert Kinematics(card).model.nv == 6
+
+
+def test_long_rows_of_fixed_links_are_one_body(read):
+    rows = "".join(
+        f'<link name="f{i}"/><joint name="g{i}" type="fixed"><parent link="f{i - 1}"/>'
+        f'<child link="f{i}"/></joint>'
+        for i in range(1, 1500)
+    )
+    first = '<link name="f0"/><joint name="g0" type="fixed"><parent link="tip"/><child link="f0"/>'
+    text = arm_urdf().replace("</robot>", first + "</joint>" + rows + "</robot>")
+    assert "f1499" in prepare(read(text)).text
+
+
+def test_an_arm_with_a_slide_is_refused_for_it(tmp_path):
+    text = arm_urdf().replace(
+        '<joint name="end" type="fixed">', '<joint name="end" type="prismatic">'
+    )
+    (tmp_path / "arm.urdf").write_text(text)
+    with pytest.raises(DqpaintError, match="joint 'end' is prismatic: only arms whose joints all"):
+        read_file(str(tmp_path / "arm.urdf"))
+
+
+def test_a_range_far_from_zero_is_searched_round_its_middle(read):
+    from dqpaint.robots.derive import _one_turn
+
+    card = read(arm_urdf())
+    low, high = _one_turn(card)
+    assert low.tolist() == card.lower.tolist()
+    limits = card.limits.model_copy(update={
+        "lower_deg": (5700.0, *card.limits.lower_deg[1:]),
+        "upper_deg": (5760.0, *card.limits.upper_deg[1:]),
+    })  # fmt: skip
+    low, high = _one_turn(card.model_copy(update={"limits": limits}))
+    np.testing.assert_allclose(np.degrees([low[0], high[0]]), [5700, 5760])

@@ -4,7 +4,7 @@ import os
 import sys
 from typing import NoReturn
 
-from dqpaint.cli import app
+from dqpaint.studying import app
 from dqpaint.errors import DqpaintError, UsageError
 
 DEBUG = "DQPAINT_DEBUG"  # an environment variable: internal errors show where they are

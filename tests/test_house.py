@@ -47,6 +47,7 @@ ORDER = [
     "studies",
     "gallery",
     "cli",
+    "studying",
     "answering",
     "__main__",
 ]
@@ -57,7 +58,7 @@ DOORS = {
     "pybullet": ["plants/bullet.py"],
     "matplotlib": ["charts.py"],
     "cv2": ["light", "picture.py", "negative.py", "video.py"],
-    "typer": ["cli.py"],
+    "typer": ["cli.py", "studying.py"],
     "pydantic": [
         "robots/card.py",
         "robots/chain.py",

@@ -8,7 +8,7 @@ kept can be trusted to be what the run would give again, and a study that was st
 import hashlib
 import json
 from dataclasses import dataclass, field, replace
-from functools import cache
+from functools import cache, lru_cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Literal
@@ -67,12 +67,7 @@ class Run:
 
     def program(self) -> Program:
         """The drawing, understood; from its file where that still says the same."""
-        path = Path(self.name)
-        if path.is_file():
-            found = read(path)
-            if found.text == self.text:
-                return found
-        return parse(self.text, self.name)
+        return _program(self.name, self.text)
 
     def check(self) -> None:
         """Raise what is wrong with the choices, before anything is simulated.
@@ -162,6 +157,16 @@ def seeded(run: Run, count: int) -> list[Run]:
         )
         for i in range(count)
     ]
+
+
+@lru_cache(maxsize=8)
+def _program(name: str, text: str) -> Program:
+    path = Path(name)
+    if path.is_file():
+        found = read(path)
+        if found.text == text:
+            return found
+    return parse(text, name)
 
 
 @cache

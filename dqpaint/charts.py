@@ -16,6 +16,7 @@ from dqpaint.dq import Floats
 INK, FAINT = "#222222", "#999999"
 COLOURS = ("#0b6fa4", "#2a9d5c", "#d1495b", "#8d5a97", "#c98a1b", "#555555")
 ALARM = "#c1121f"
+MOST_DECADES = 5  # of a logarithmic axis upwards: an error that begins at 0 would take it all
 MOST_NUMBERS = 400  # cells of a heat map that are written in
 
 
@@ -33,6 +34,7 @@ class Line:
     colour: str | None = None
     marks: NDArray[np.bool_] | None = None
     bars: Floats | None = None
+    width: float = 1.8
 
 
 @dataclass(frozen=True)
@@ -81,6 +83,8 @@ def chart(panels: Sequence[Panel], width: float = 10.0, height: float = 4.0) -> 
             axes.set_xscale("log")
         if panel.log_y:
             axes.set_yscale("log")
+            top = max(float(line.y.max()) for line in panel.lines)
+            axes.set_ylim(bottom=max(axes.get_ylim()[0], top * 10.0**-MOST_DECADES))
         if panel.ticks is not None:
             axes.set_xticks(range(len(panel.ticks)), panel.ticks)
         axes.grid(which="major", color="#e6e6e6", lw=0.6)
@@ -93,7 +97,7 @@ def chart(panels: Sequence[Panel], width: float = 10.0, height: float = 4.0) -> 
 
 def _draw(axes: Axes, line: Line, colour: str) -> None:
     dots = "o" if line.marks is not None else ""
-    axes.plot(line.x, line.y, color=colour, lw=1.8, label=line.label, marker=dots, ms=4)
+    axes.plot(line.x, line.y, color=colour, lw=line.width, label=line.label, marker=dots, ms=4)
     if line.bars is not None and np.isfinite(line.bars).any():
         axes.errorbar(line.x, line.y, line.bars, fmt="none", ecolor=colour, lw=1, capsize=3)
     if line.marks is not None and line.marks.any():
@@ -113,7 +117,8 @@ def heat_map(given: HeatMap, width: float = 7.0, height: float = 5.0) -> bytes:
     log = given.log and positive.size > 0 and positive.min() > 0
     image = axes.imshow(good, cmap="viridis_r", norm="log" if log else None, aspect="auto")
     if positive.size:
-        figure.colorbar(image, ax=axes)
+        bar = figure.colorbar(image, ax=axes, format="%g")
+        bar.ax.yaxis.set_minor_formatter("%g")
     for row, col in np.ndindex(given.values.shape):
         value, marked = given.values[row, col], bool(given.marked[row, col])
         if marked:

@@ -1,6 +1,7 @@
 """The commands of studies: arguments in, calls, tables out; nothing heavy at start."""
 
 import shutil
+import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -147,3 +148,33 @@ def _columns() -> int:
 def _written(paths: list[Path]) -> None:
     for path in paths:
         print(f"  written  {path}")
+
+
+@app.command(
+    epilog="Examples:\n\n  dqpaint verify drawings/\n\n  dqpaint verify drawings/ --update"
+)
+def verify(
+    folder: Annotated[
+        str, typer.Argument(metavar="FOLDER", help="of drawings (or a cases.toml) and references")
+    ] = ".",
+    update: Annotated[
+        bool, typer.Option("--update", help="make new references, and say what changed")
+    ] = False,
+    jobs: Jobs = None,
+    out: Annotated[
+        str, typer.Option(metavar="FOLDER", help="where pictures of what differs go")
+    ] = "verify-differences",
+) -> None:
+    """Draw a folder again and compare it with its references, gate by gate."""
+    from dqpaint.studies import verify as study
+
+    verdicts = study.verify(Path(folder), jobs, lenient=update)
+    for text in study.remarks(verdicts):
+        print(text, file=sys.stderr)
+    if update:
+        print("\n".join(study.update(verdicts, Path(folder))))
+        return
+    print(study.told(verdicts))
+    _written(study.save_differences(verdicts, Path(out)))
+    if any(verdict.faults for verdict in verdicts):
+        raise typer.Exit(1)

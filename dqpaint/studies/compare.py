@@ -23,6 +23,8 @@ from dqpaint.studies.runs import Run, drawing_text, seeded
 from dqpaint.studies.statistics import LEVEL, holm, welch
 
 DIM = 0.72  # of a hue on white paper
+DARKER = -2.0  # stops, so that a hue is seen and not burnt out
+THICK, THIN = 3.6, 1.2  # lines of the chart: the last do not hide the first
 
 
 @dataclass(frozen=True)
@@ -109,11 +111,12 @@ def _pictures(compared: Comparison) -> dict[str, bytes]:
     labels = [_label(cell) for cell in compared.cells]
     colours = contact.hues(len(there))
     names = tuple(n for n, one in zip(labels, arrays, strict=True) if one is not None)
-    over = develop(contact.overlay([one["light"] for one in there]), exposure, settings.ev)
-    over = with_legend(over, Legend("one colour each", names, tuple(colours), False), settings.look)
+    over = develop(contact.overlay([one["light"] for one in there]), exposure, settings.ev + DARKER)
+    over = with_legend(over, Legend("laid over each other", names, tuple(colours), False), settings.look)
+    widths = np.geomspace(THICK, THIN, len(there)).tolist()
     lines = [
-        Line(one["t_s"], 1e3 * one["position_error_m"], label, _on_paper(colour))
-        for one, label, colour in zip(there, names, colours, strict=True)
+        Line(one["t_s"], 1e3 * one["position_error_m"], label, _on_paper(colour), width=width)
+        for one, label, colour, width in zip(there, names, colours, widths, strict=True)
     ]
     turned = [
         replace(line, y=np.degrees(one["orientation_error_rad"]))

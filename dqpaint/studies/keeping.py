@@ -36,11 +36,14 @@ def light(painting: Painting) -> Arrays:
 
 @KEEPERS.add("film")
 def film(painting: Painting) -> Arrays:
-    """The bare film (3, H, W) with its guard band, what was lost of it, and the picture."""
-    picture = painting.picture
-    planes = picture.film.planes.astype(np.float32)
-    sums = {"emitted": picture.film.emitted, "lost": picture.film.lost}
-    return {"planes": planes, "picture": picture.image, **sums}
+    """The bare film (3, H, W) with its guard band, what was emitted and lost, and the picture.
+
+    `balance` is what is neither on the film nor lost, by what was emitted.
+    """
+    picture, film = painting.picture, painting.picture.film
+    gap = np.abs(film.on_film + film.lost - film.emitted).max() / film.emitted.max()
+    sums = {"emitted": film.emitted, "lost": film.lost, "balance": np.array(gap)}
+    return {"planes": film.planes.astype(np.float32), "picture": picture.image, **sums}
 
 
 def place(folder: Path, key: str) -> Path:

@@ -25,6 +25,8 @@ from dqpaint.cli import (
     app,
 )
 
+__all__ = ["app"]
+
 Runs = Annotated[int, typer.Option(metavar="N", help="of each, with the seeds that follow --seed")]
 Jobs = Annotated[int | None, typer.Option(metavar="N", help="processes [default: all cores]")]
 Folder = Annotated[

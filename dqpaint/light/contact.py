@@ -1,7 +1,7 @@
 """Several pictures as one: a contact sheet with labels, and pictures laid over each other.
 
-    sheet     beside each other, each under its label
-    overlay   the light of each in a colour of its own, added up: what all drew alike is white
+sheet     beside each other, each under its label
+overlay   the light of each in a colour of its own, added up: what all drew alike is white
 """
 
 from __future__ import annotations
@@ -43,7 +43,9 @@ def overlay(lights: Sequence[Image]) -> Image:
     return np.asarray(total * np.float32(1.0 / math.sqrt(max(1.0, len(lights) / 2))))
 
 
-def sheet(pictures: Sequence[Picture], labels: Sequence[str], columns: int | None = None) -> Picture:
+def sheet(
+    pictures: Sequence[Picture], labels: Sequence[str], columns: int | None = None
+) -> Picture:
     """Pictures of one size beside each other, each under its label.
 
     Args:

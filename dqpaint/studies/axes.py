@@ -1,11 +1,11 @@
 """What a study varies, read from a line: axes of values, and laws with gains of their own.
 
-    k=5,10,20                     a gain of the law
-    k=1..100:log:9                nine values from 1 to 100, each the same factor apart
-    k=0..10:6                     six, the same step apart
-    plant=ideal,stiff             a choice, by the name of its setting
-    disturb.twist.x=0,0.01        a value of a disturbance
-    gain.seed=...                 a gain whose name is that of a setting
+k=5,10,20                     a gain of the law
+k=1..100:log:9                nine values from 1 to 100, each the same factor apart
+k=0..10:6                     six, the same step apart
+plant=ideal,stiff             a choice, by the name of its setting
+disturb.twist.x=0,0.01        a value of a disturbance
+gain.seed=...                 a gain whose name is that of a setting
 """
 
 import math

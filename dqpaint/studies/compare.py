@@ -112,7 +112,9 @@ def _pictures(compared: Comparison) -> dict[str, bytes]:
     colours = contact.hues(len(there))
     names = tuple(n for n, one in zip(labels, arrays, strict=True) if one is not None)
     over = develop(contact.overlay([one["light"] for one in there]), exposure, settings.ev + DARKER)
-    over = with_legend(over, Legend("laid over each other", names, tuple(colours), False), settings.look)
+    over = with_legend(
+        over, Legend("laid over each other", names, tuple(colours), False), settings.look
+    )
     widths = np.geomspace(THICK, THIN, len(there)).tolist()
     lines = [
         Line(one["t_s"], 1e3 * one["position_error_m"], label, _on_paper(colour), width=width)

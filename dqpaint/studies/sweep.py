@@ -1,4 +1,4 @@
-"""A drawing over one or two axes of values: table, curve or heat map; what is unstable is marked."""
+"""A drawing over one or two axes of values: table, curve or heat map, unstable points marked."""
 
 import math
 from collections.abc import Sequence

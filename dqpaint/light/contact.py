@@ -28,7 +28,7 @@ Colour = tuple[float, float, float]
 
 
 def hues(count: int) -> list[Colour]:
-    """Colours that add up to grey, as linear RGB: hues evenly round the circle."""
+    """Colours that add up to grey, all but, as linear RGB: hues evenly round the circle."""
     return [colorsys.hsv_to_rgb((FIRST_HUE / 360 + i / count) % 1.0, 1, 1) for i in range(count)]
 
 

@@ -8,8 +8,9 @@ r"""Light paintings by a simulated robot arm.
 seen into a twist, `robots` know the arms, `plants` answer as an arm does, `tracking` closes the
 loop, `metrics` measure, `scene` says what shines and `light` takes its pictures, `paint` is the
 flow as one function, `sketch` the same without an arm, `negative` what is kept to develop again,
-`cli` the command line. `dq` holds the algebra and its conventions, `outputs` the files. Data moves
-along this line and never back: `tests/test_house.py` holds the modules to it.
+`studies` are many paintings and what they say together, `cli` and `studying` the command line. `dq`
+holds the algebra and its conventions, `outputs` the files. Data moves along this line
+and never back: `tests/test_house.py` holds the modules to it.
 """
 
 import importlib

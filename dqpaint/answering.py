@@ -4,8 +4,8 @@ import os
 import sys
 from typing import NoReturn
 
-from dqpaint.studying import app
 from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.studying import app
 
 DEBUG = "DQPAINT_DEBUG"  # an environment variable: internal errors show where they are
 INTERRUPTED = 130

@@ -16,7 +16,6 @@ from dqpaint.dq import Floats
 INK, FAINT = "#222222", "#999999"
 COLOURS = ("#0b6fa4", "#2a9d5c", "#d1495b", "#8d5a97", "#c98a1b", "#555555")
 ALARM = "#c1121f"
-MOST_DECADES = 5  # of a logarithmic axis upwards: an error that begins at 0 would take it all
 MOST_NUMBERS = 400  # cells of a heat map that are written in
 
 
@@ -48,6 +47,7 @@ class Panel:
     bound: float | None = None
     log_x: bool = False
     log_y: bool = False
+    decades: float = 300.0  # of a logarithmic y axis, from the top: the most that is shown
     ticks: Sequence[str] | None = None  # words at 0, 1, ... of an axis of choices
 
 
@@ -84,7 +84,7 @@ def chart(panels: Sequence[Panel], width: float = 10.0, height: float = 4.0) -> 
         if panel.log_y:
             axes.set_yscale("log")
             top = max(float(line.y.max()) for line in panel.lines)
-            axes.set_ylim(bottom=max(axes.get_ylim()[0], top * 10.0**-MOST_DECADES))
+            axes.set_ylim(bottom=max(axes.get_ylim()[0], top * 10.0**-panel.decades))
         if panel.ticks is not None:
             axes.set_xticks(range(len(panel.ticks)), panel.ticks)
         axes.grid(which="major", color="#e6e6e6", lw=0.6)

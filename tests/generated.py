@@ -1,5 +1,6 @@
 """The README's generated tables: `python -m tests.generated` writes them, test_docs compares."""
 
+import json
 from math import ceil, floor
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from dqpaint.robots.chain import EXTRAS
 
 END = "<!-- end -->"
 README = Path(__file__).parent.parent / "README.md"
+CASES = Path(__file__).parent / "references/cases.toml"
 
 COLUMNS = {
     "t_s": "time",
@@ -148,5 +150,17 @@ def renewed(text, tables=(*TABLES, *SLOW_TABLES)):
     return text
 
 
+def cases():
+    """The gallery as cases of `dqpaint verify tests/references`."""
+    from dqpaint.gallery import SHOTS
+
+    lines = ["# The pictures of the gallery, small. Written by python -m tests.generated."]
+    for shot in SHOTS:
+        lines += ["", f"[{shot.name}]", f"drawing = {json.dumps(shot.example)}"]
+        lines += [f"{name} = {json.dumps(value)}" for name, value in shot.choices.items()]
+    return "\n".join(lines) + "\n"
+
+
 if __name__ == "__main__":
+    CASES.write_text(cases(), "utf-8")
     README.write_text(renewed(README.read_text("utf-8")), "utf-8")

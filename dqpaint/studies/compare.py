@@ -24,6 +24,7 @@ from dqpaint.studies.statistics import LEVEL, holm, welch
 
 DIM = 0.72  # of a hue on white paper
 DARKER = -2.0  # stops, so that a hue is seen and not burnt out
+DECADES = 5  # of error: one that begins at 0 would take the whole chart
 THICK, THIN = 3.6, 1.2  # lines of the chart: the last do not hide the first
 
 
@@ -125,8 +126,8 @@ def _pictures(compared: Comparison) -> dict[str, bytes]:
         for line, one in zip(lines, there, strict=True)
     ]
     panels = [
-        Panel("position error", "time [s]", "mm", lines, log_y=_wide(lines)),
-        Panel("orientation error", "time [s]", "deg", turned, log_y=_wide(turned)),
+        Panel("position error", "time [s]", "mm", lines, log_y=_wide(lines), decades=DECADES),
+        Panel("orientation error", "time [s]", "deg", turned, log_y=_wide(turned), decades=DECADES),
     ]
     return {
         "-sheet.png": contact.png(contact.sheet(images, labels)),

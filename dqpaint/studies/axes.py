@@ -171,5 +171,7 @@ def _disturb(changed: dict[str, Any], name: str, text: str) -> None:
         value: float | str = float(text)
     except ValueError:
         value = text
-    before = changed["disturb"].get(kind, {})
-    changed["disturb"] = {**changed["disturb"], kind: {**before, key: value}}
+    others = {name: v for name, v in changed["disturb"].items() if name != kind}
+    values = {**changed["disturb"].get(kind, {}), key: value}
+    # 0 of something that has no other value is how one asks for a run without it
+    changed["disturb"] = others if values == {key: 0.0} else {**others, kind: values}

@@ -64,6 +64,10 @@ def test_choices_go_where_they_belong():
     assert made.seed == 7
     assert made.disturb == {"twist": {"form": "sine", "x": 0.1, "frequency": 3.0}}
     assert base.disturb["twist"] == {"form": "sine", "x": 0.1}
+    bare = make_settings()
+    assert settings_of(bare, {"disturb.twist.x": "0"}).disturb == {}
+    both = {"disturb.twist.x": "0", "disturb.twist.y": "0.1"}
+    assert settings_of(bare, both).disturb == {"twist": {"y": 0.1}}
     with pytest.raises(UsageError, match=r"disturb\.NAME\.VALUE"):
         settings_of(base, {"disturb.twist": "1"})
     with pytest.raises(UsageError, match="seed"):

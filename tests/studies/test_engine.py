@@ -63,19 +63,24 @@ def test_one_failed_run_does_not_lose_the_rest(tmp_path):
         "def fine(seen, k=1.0):\n    return seen.twist_d\n"
         "def wrong(seen, k=1.0):\n    return [1.0]\n"
         "def killed(seen, k=1.0):\n    os.kill(os.getpid(), signal.SIGKILL)\n"
+        "def once(seen, k=1.0):\n"
+        f"    if not os.path.exists({str(tmp_path / 'mark')!r}):\n"
+        f"        open({str(tmp_path / 'mark')!r}, 'w').close()\n"
+        "        os.kill(os.getpid(), signal.SIGKILL)\n"
+        "    return seen.twist_d\n"
         "def loud(seen, k=1.0):\n    print('text among the answers')\n    return seen.twist_d\n"
     )
     own = [run(1.0, controller=f"{tmp_path}/law.py:{name}") for name in
-           ("fine", "wrong", "killed", "loud")]  # fmt: skip
+           ("fine", "wrong", "killed", "loud", "once")]  # fmt: skip
     results = carry_out_study([far, *own, run(5.0)], tmp_path / "study", 2)
-    assert [r.status for r in results] == ["failed", "done", "failed", "died", "done", "done"]
+    assert [r.status for r in results] == ["failed", "done", "failed", "died"] + ["done"] * 3
     assert "outside the reach" in results[0].message
     assert "returned an array of shape (1,)" in results[2].message
     assert "its process ended with signal 9" in results[3].message
     again = carry_out_study([far, *own], tmp_path / "study", 2)
     lines = (tmp_path / "study" / NAME).read_text().splitlines()
     tries = Counter(json.loads(line)["key"] for line in lines)
-    assert [tries[r.key] for r in again] == [1, 1, 1, 2, 1]  # what died is tried again
+    assert [tries[r.key] for r in again] == [1, 1, 1, 2, 1, 1]  # what died is tried again
 
 
 def test_choices_are_checked_before_anything_runs(tmp_path):

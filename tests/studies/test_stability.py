@@ -1,9 +1,12 @@
 """Where a loop in steps is stable is known: the error of rate k is 1 - k T times the one before."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import dqpaint
+from dqpaint.robots.limits import Clamp
 from dqpaint.studies.stability import FEWEST, instability
 
 PERIOD = 0.01
@@ -41,6 +44,17 @@ def test_loops_that_do_not_are_not(lines, law, product):
 def test_noise_is_no_instability(lines):
     noise = {"twist": {"form": "noise", "x": 0.05, "y": 0.05, "wz": 0.2, "frequency": 50.0}}
     assert instability(track(lines, 50.0, disturb=noise)) is None
+
+
+def test_noise_between_limits_is_none_and_a_swing_between_them_is(lines, rng):
+    one = track(lines, 20.0)
+    rows = len(one.command)
+    held = (Clamp("speed", 1, 0.0, 0.5 * float(one.motion.t[-1]), 1, 1.0, 2.0),)
+    white = replace(one, command=rng.choice([-1.0, 1.0], (rows, 7)), clamps=held)
+    assert instability(white) is None
+    swing = np.where(np.arange(rows) % 2, 1.0, -1.0)[:, None] * np.ones(7)
+    assert "limits" in instability(replace(one, command=swing, clamps=held))
+    assert instability(replace(one, command=swing)) is None  # it does not grow
 
 
 def test_a_far_start_is_none_and_an_arm_that_turns_away_is_one(lines, tmp_path):

@@ -102,6 +102,7 @@ def test_light_that_is_neither_on_the_film_nor_lost_is_told(folder):
 def test_figures_are_compared_by_their_size():
     assert changed({"a": 2.0, "b": 1e-14}, {"a": 2.02, "b": 3e-14})[1] == "a"
     assert changed({"a": 2.0}, {"a": 2.02})[0] == pytest.approx(0.01, rel=1e-6)
+    assert changed({"a": -2.0}, {"a": -2.02})[0] == pytest.approx(0.01, rel=1e-6)  # downwards, too
     assert changed({"a": 2.0}, {}) == (np.inf, "a")
     assert changed({"a": 2.0}, {"a": 2.0, "new": 1.0}) == (0.0, "")
     assert len({gate.name for gate in GATES}) == len(GATES)

@@ -16,6 +16,7 @@ from dqpaint.dq import Floats
 INK, FAINT = "#222222", "#999999"
 COLOURS = ("#0b6fa4", "#2a9d5c", "#d1495b", "#8d5a97", "#c98a1b", "#555555")
 ALARM = "#c1121f"
+MOST_INSIDE = 6  # lines whose names find room beside them
 MOST_NUMBERS = 400  # cells of a heat map that are written in
 
 
@@ -91,7 +92,9 @@ def chart(panels: Sequence[Panel], width: float = 10.0, height: float = 4.0) -> 
         axes.set_axisbelow(True)
         for side in ("top", "right"):
             axes.spines[side].set_visible(False)
-        axes.legend(frameon=False, fontsize=9, labelcolor="linecolor")
+        aside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)}
+        many = len(panel.lines) > MOST_INSIDE
+        axes.legend(frameon=False, fontsize=9, labelcolor="linecolor", **(aside if many else {}))
     return _png(figure)
 
 

@@ -85,8 +85,7 @@ def compare(
         height=height, view=view, ev=ev, brush=brush, exposure=exposure, look=look,
     )  # fmt: skip
     compared = study.compare(file, axes, base, _folder(out, file, "compare"), runs, jobs)
-    print(study.told(compared, figure, _columns()))
-    _written(study.save(compared, figure))
+    _finish(study.told(compared, figure, _columns()), study.save(compared, figure))
 
 
 SWEEP_EXAMPLES = """Examples:
@@ -134,8 +133,7 @@ def sweep(
         disturb=parse_disturbances(disturb or []), seed=seed, start=start,
     )  # fmt: skip
     swept = study.sweep(file, axes, base, _folder(out, file, "sweep"), runs, jobs)
-    print(study.told(swept, figure, _columns()))
-    _written(study.save(swept, figure))
+    _finish(study.told(swept, figure, _columns()), study.save(swept, figure))
 
 
 def _folder(out: str | None, file: str, what: str) -> Path:
@@ -147,9 +145,9 @@ def _columns() -> int:
     return shutil.get_terminal_size((100_000, 24)).columns
 
 
-def _written(paths: list[Path]) -> None:
-    for path in paths:
-        print(f"  written  {path}")
+def _finish(text: str, paths: list[Path]) -> None:
+    """Tell what came out; the files are there before, whoever stops listening."""
+    print("\n".join([text, *(f"  written  {path}" for path in paths)]))
 
 
 @app.command(
@@ -176,7 +174,6 @@ def verify(
     if update:
         print("\n".join(study.update(verdicts, Path(folder))))
         return
-    print(study.told(verdicts))
-    _written(study.save_differences(verdicts, Path(out)))
+    _finish(study.told(verdicts), study.save_differences(verdicts, Path(out)))
     if any(verdict.faults for verdict in verdicts):
         raise typer.Exit(1)

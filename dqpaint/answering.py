@@ -4,6 +4,7 @@ import os
 import sys
 from typing import NoReturn
 
+from dqpaint.cli_language import point_at, tell
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.studying import app
 
@@ -29,8 +30,9 @@ def _answer() -> None:
     except UsageError as problem:
         _end(f"usage: {problem}", 2)
     except DqpaintError as problem:
-        text = str(problem)
-        _end(text if text.startswith(("error[", "warning[")) else f"error: {text}", 1)
+        tell(problem)
+        point_at([d.code for d in getattr(problem, "diagnostics", ())], sys.stderr)
+        sys.exit(1)
     except SystemExit as stop:
         if stop.code == INTERRUPTED:  # typer has met a Ctrl-C
             raise KeyboardInterrupt from None

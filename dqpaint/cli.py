@@ -11,7 +11,8 @@ from typing import Annotated, Any
 
 import typer
 
-from dqpaint import __version__
+from dqpaint import __version__, cli_language
+from dqpaint.cli_language import point_at
 
 app = typer.Typer(
     add_completion=False,
@@ -47,7 +48,9 @@ Robot = Annotated[
 PlantName = Annotated[
     str | None,
     typer.Option(
-        metavar="NAME", help="how the arm answers [default: stiff, or torque for its laws]"
+        metavar="NAME[:KEY=VALUE,...]",
+        help="how the arm answers, such as compliant:frequency=60 [default: stiff, or torque for "
+        "its laws]",
     ),
 ]
 Disturb = Annotated[
@@ -58,6 +61,20 @@ Disturb = Annotated[
     ),
 ]
 Seed = Annotated[int, typer.Option(help="of everything random")]
+Null = Annotated[
+    str,
+    typer.Option(
+        metavar="NAME[,gain=VALUE]",
+        help="what a redundant arm does with its freedom: see dqpaint list null",
+    ),
+]
+OnLimit = Annotated[
+    str,
+    typer.Option(
+        metavar="clip|slow|stop",
+        help="where a joint would pass a limit: hold it back, slow the drawing down, or end",
+    ),
+]
 From = Annotated[str, typer.Option("--from", metavar="first|home", help="where the arm begins")]
 Size = Annotated[str, typer.Option(metavar="WxH", help="of the picture, in pixels")]
 View = Annotated[
@@ -96,6 +113,11 @@ ColourBy = Annotated[
 ]
 Overlay = Annotated[bool, typer.Option("--overlay", help="the asked drawing beneath")]
 Magnify = Annotated[float, typer.Option(metavar="N", help="deviations, N times as large")]
+Ghost = Annotated[bool, typer.Option("--ghost", help="the arm in the picture, and room for it")]
+Occlusion = Annotated[
+    bool | None,
+    typer.Option(help="the arm's body hides light from the camera [default: as --ghost]"),
+]
 Out = Annotated[
     str | None,
     typer.Option(metavar="PATH", help="a folder, or the stem of the files [default: here]"),
@@ -138,6 +160,8 @@ def draw(
     disturb: Disturb = None,
     seed: Seed = 0,
     start: From = "first",
+    null: Null = "start",
+    on_limit: OnLimit = "clip",
     size: Size = "1280x720",
     view: View = "front",
     ev: Ev = 0.0,
@@ -150,6 +174,8 @@ def draw(
     colour_by: ColourBy = None,
     overlay: Overlay = False,
     magnify: Magnify = 1.0,
+    ghost: Ghost = False,
+    occlusion: Occlusion = None,
     out: Out = None,
     save: Save = "png,csv,json",
 ) -> None:
@@ -166,10 +192,11 @@ def draw(
     with Progress(path.name) as progress:
         painting = api.draw(
             path, controller=controller, gains=parse_gains(gain or []), robot=robot, plant=plant,
-            disturb=parse_disturbances(disturb or []), seed=seed, start=start,
-            size=parse_size(size), view=view, ev=ev, brush=brush, pwm=pwm, exposure=exposure,
-            look=look, starburst=starburst, noise=noise, colour_by=colour_by, overlay=overlay,
-            magnify=magnify, progress=progress,
+            disturb=parse_disturbances(disturb or []), seed=seed, start=start, null=null,
+            on_limit=on_limit, size=parse_size(size), view=view, ev=ev, brush=brush, pwm=pwm,
+            exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
+            overlay=overlay, magnify=magnify, ghost=ghost, occlusion=occlusion,
+            progress=progress,
         )  # fmt: skip
     with Progress("movie") as progress:
         written = outputs.write(stem, outputs.make(names, painting, progress))
@@ -180,7 +207,7 @@ def draw(
 
 
 @app.command(
-    epilog="Examples:\n\n  dqpaint preview star\n\n  dqpaint preview helix.traj --view iso"
+    epilog="Examples:\n\n  dqpaint preview star\n\n  dqpaint preview helix.traj --view iso --watch"
 )
 def preview(
     file: Drawing,
@@ -195,7 +222,9 @@ def preview(
     starburst: Starburst = 0,
     noise: Noise = None,
     colour_by: ColourBy = None,
+    ghost: Ghost = False,
     out: Out = None,
+    watch: Annotated[bool, typer.Option("--watch", help="again at each save, till Ctrl-C")] = False,
 ) -> None:
     """Take the asked picture, without an arm, at once; with length, time and brightness."""
     from dqpaint import api, outputs
@@ -204,15 +233,26 @@ def preview(
 
     path = find_drawing(file)
     stem = outputs.stem_for(out, f"{path.stem}-preview")
-    preview = api.preview(
-        path, robot=robot, size=parse_size(size), view=view, ev=ev, brush=brush, pwm=pwm,
-        exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
-    )  # fmt: skip
-    written = outputs.write_pictures(stem, preview.pictures)
+    pixels = parse_size(size)
 
-    from dqpaint import report
+    def show() -> None:
+        preview = api.preview(
+            path, robot=robot, size=pixels, view=view, ev=ev, brush=brush, pwm=pwm,
+            exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
+            ghost=ghost,
+        )  # fmt: skip
+        written = outputs.write_pictures(stem, preview.pictures)
 
-    _finish(report.notes(preview.motion), report.of_preview(preview, written), preview.image)
+        from dqpaint import report
+
+        _finish(report.notes(preview.motion), report.of_preview(preview, written), preview.image)
+
+    if not watch:
+        show()
+        return
+    from dqpaint import watching
+
+    watching.watch(path, show)
 
 
 @app.command(
@@ -250,7 +290,7 @@ def develop(
 
     from dqpaint import report
 
-    _finish([], report.of_developed(pictures, written), pictures[0].image)
+    _finish(report.of_arm(pictures), report.of_developed(pictures, written), pictures[0].image)
 
 
 @app.command(epilog="Examples:\n\n  dqpaint check star\n\n  dqpaint check drawings/*.traj --json")
@@ -270,6 +310,7 @@ def check(
         print(json.dumps(checking.as_json(results), indent=2))
     else:
         print("\n".join(result.text for result in results))
+        point_at([finding.code for result in results for finding in result.findings], sys.stdout)
     if any(result.errors for result in results):
         raise typer.Exit(1)
 
@@ -279,11 +320,7 @@ def check(
 )
 def list_(
     what: Annotated[
-        str,
-        typer.Argument(
-            metavar="[robots|controllers|plants|disturbances|brushes|looks|examples]",
-            help="all, if not said",
-        ),
+        str, typer.Argument(metavar="[robots|controllers|...]", help="which list; all, if not said")
     ] = "all",
     as_json: AsJson = False,
 ) -> None:
@@ -339,6 +376,9 @@ def gallery(
 
     for path in make_gallery(out):
         print(path)
+
+
+cli_language.add_to(app)
 
 
 def _finish(remarks: list[str], table: str, image: Any) -> None:

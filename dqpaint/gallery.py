@@ -61,6 +61,10 @@ SHOTS = (
     Shot("square", "Two sides in 500 samples, two in 300: faster is darker.", {"ev": -3}),
     Shot("circle", "The thesis's circle in 3000 samples.", {}),
     Shot("baxter-screw", "A screw of pitch zero about a line given in space.", {"view": "iso"}),
+    Shot("signature", "Lettering runs through its vertices: no beads on the line.", {}),
+    Shot("logo", "An SVG drawing, its arcs still arcs.", {}),
+    Shot("orbit", "541 points of a CSV file, smoothly.", {}),
+    Shot("ribbon", "A bar of light on a screw motion sweeps a helicoid.", {"view": "iso"}),
     Shot(
         "unwinding",
         "x and -x are one pose. A law that forgets it turns away where their signs part,",
@@ -71,6 +75,12 @@ SHOTS = (
         "helicoid",
         "A bar of LEDs across the axis of one screw: orientation is seen.",
         {"brush": HELICOID, "view": "20,12"},
+    ),
+    Shot(
+        "helicoid",
+        "The same with its arm, lit by what it painted. What the arm stood before is missing.",
+        {"brush": HELICOID, "view": "-40,14", "ghost": True},
+        "-ghost",
     ),
     Shot(
         "pixelstick",

@@ -23,14 +23,15 @@ from dqpaint.light.sweep import Sweep
 from dqpaint.picture import Picture, linear
 from dqpaint.scene import Scene
 from dqpaint.settings import Settings
+from dqpaint.stage.staging import Cast
 
 SCHEMA = "dqpaint-film-1"
 GROUPS = ("light", "asked", "under")
 TIFF = [cv2.IMWRITE_TIFF_COMPRESSION, 8]  # deflate
 
 
-def encode(scene: Scene, settings: Settings) -> bytes:
-    """A scene and how it was photographed, as a file."""
+def encode(scene: Scene, settings: Settings, cast: Cast | None = None) -> bytes:
+    """A scene and how it was photographed, as a file; with the arm, if the settings use it."""
     arrays: dict[str, Any] = {"front": scene.front}
     about: dict[str, Any] = {
         "schema": SCHEMA,
@@ -57,14 +58,17 @@ def encode(scene: Scene, settings: Settings) -> bytes:
             if sweep.strobe is not None:
                 parts["strobe"] = sweep.strobe
             arrays.update({f"{key}-{name}": array for name, array in parts.items()})
+    if cast is not None and settings.staged:
+        about["arm"] = {"robot": cast.robot, "period": cast.period}
+        arrays.update({"arm-posture": cast.posture, "arm-line": cast.line})
     arrays["about"] = np.array(json.dumps(about))
     file = io.BytesIO()
     np.savez_compressed(file, **arrays)
     return file.getvalue()
 
 
-def read(path: str) -> tuple[Scene, Settings]:
-    """The scene and settings of a file that `encode` made.
+def read(path: str) -> tuple[Scene, Settings, Cast | None]:
+    """The scene, the settings and, if they use it, the arm of a file that `encode` made.
 
     Raises:
         DqpaintError: There is none, or it is something else.
@@ -86,7 +90,8 @@ def read(path: str) -> tuple[Scene, Settings]:
             light, asked, under = groups
             front, dimmer = np.array(arrays["front"]), float(about["dimmer"])
             scene = Scene(about["name"], light, asked, under, front, legend, dimmer)
-            return scene, Settings.model_validate(about["settings"])
+            settings = Settings.model_validate(about["settings"])
+            return scene, settings, _cast(arrays, about.get("arm"), light[0])
     except OSError as problem:
         reason = problem.strerror or "it is not a film"
         raise DqpaintError(f"film '{path[:60]}' cannot be read: {reason}") from None
@@ -94,6 +99,18 @@ def read(path: str) -> tuple[Scene, Settings]:
         raise DqpaintError(
             f"'{path[:60]}' is not a film of dqpaint; draw with --save film makes one"
         ) from None
+
+
+def _cast(arrays: Any, facts: dict[str, Any] | None, sweep: Sweep) -> Cast | None:
+    if facts is None:
+        return None
+    posture = np.array(arrays["arm-posture"], np.float64)
+    line = np.array(arrays["arm-line"], np.int64)
+    if posture.ndim != 2 or line.shape != sweep.time.shape or len(posture) != len(line):
+        raise ValueError("arm")
+    if not np.isfinite(posture).all():
+        raise ValueError("arm")
+    return Cast(str(facts["robot"]), posture, line, float(facts["period"]))
 
 
 def _sweeps(arrays: Any, about: dict[str, Any], group: str) -> Iterator[Sweep]:
@@ -117,7 +134,7 @@ def encode_linear(scene: Scene, picture: Picture, settings: Settings, ending: st
 
     It is brought near to 1 for saturation by a power of two, which loses nothing.
     """
-    image = linear(scene, picture.film, picture.exposure, picture.camera, settings)
+    image = linear(scene, picture.film, picture.exposure, picture.camera, settings, arm=picture.arm)
     stops = round(np.log2(picture.exposure) + settings.ev)
     image = image * np.float32(2.0**stops)
     options = TIFF if ending == ".tiff" else []

@@ -14,6 +14,8 @@ import numpy as np
 
 from dqpaint import __version__
 from dqpaint.errors import OutputError, UnknownNameError, UsageError
+from dqpaint.files import stage
+from dqpaint.nullspace import read_null
 from dqpaint.registry import Registry
 from dqpaint.robots.limits import UNITS
 
@@ -76,7 +78,7 @@ def film(painting: "Painting") -> Files:
 
     scene, settings = painting.scene, painting.settings
     exact = negative.encode_linear(scene, painting.picture, settings, ".tiff")
-    return {"-film.npz": negative.encode(scene, settings), "-film.tiff": exact}
+    return {"-film.npz": negative.encode(scene, settings, painting.cast), "-film.tiff": exact}
 
 
 @OUTPUTS.add("hdr")
@@ -159,7 +161,7 @@ def encode_csv(table: "Table") -> bytes:
 def summarise(painting: "Painting") -> dict[str, Any]:
     """The JSON summary: what was run, what came out."""
     motion, film = painting.motion, painting.picture.film
-    program, settings = motion.program, painting.settings
+    program, settings, hidden = motion.program, painting.settings, painting.picture.hidden
     return {
         "schema": SCHEMA,
         "file": Path(program.name).name,
@@ -171,10 +173,12 @@ def summarise(painting: "Painting") -> dict[str, Any]:
         },
         "robot": painting.robot,
         "plant": painting.plant,
+        "plant_values": painting.plant_values,
         "controller": painting.controller.name,
         "law": _law(painting),
         "gains": painting.gains,
-        "disturbances": settings.disturb,
+        "disturbances": {name: one.model_dump() for name, one in painting.disturbances.items()},
+        "null_space": dict(zip(("objective", "gain"), read_null(settings.null), strict=True)),
         "seed": settings.seed,
         "settings": settings.model_dump(),
         "drawing": {
@@ -184,6 +188,7 @@ def summarise(painting: "Painting") -> dict[str, Any]:
             "length_m": motion.length,
             "box_m": motion.box.tolist(),
         },
+        "pace": _pace(painting),
         **painting.metrics.figures,
         "attenuation": {
             part: {"ratio_s": one.ratio, "bound_s": one.bound, "kept": one.kept}
@@ -201,10 +206,10 @@ def summarise(painting: "Painting") -> dict[str, Any]:
         "limits": [{**vars(clamp), "unit": UNITS[clamp.kind]} for clamp in painting.limits],
         "light": {
             "unit": "lamp seconds, linear RGB",
-            "emitted": film.emitted.tolist(),
+            "emitted": painting.picture.emitted.tolist(),
             "on_film": film.on_film.tolist(),
             "lost": film.lost.tolist(),
-            "occluded": None,  # the arm's own shadow is not traced in this version
+            "occluded": None if hidden is None else hidden.energy.tolist(),  # None: not traced
             "exposure": painting.picture.exposure,
         },
         "wall_s": {stage: round(seconds, 4) for stage, seconds in painting.seconds.items()},
@@ -228,6 +233,14 @@ def _law(painting: "Painting") -> dict[str, str | None]:
         "sha256": getattr(law.law, "sha256", None),
         "commands": law.commands,
     }
+
+
+def _pace(painting: "Painting") -> dict[str, Any] | None:
+    """How the drawing was slowed down; None where its clock ran as asked, come what may."""
+    slowed = painting.slowed
+    if slowed is None:
+        return None
+    return {"longer_s": slowed.longer, "slowest": slowed.slowest, "lines": list(slowed.lines)}
 
 
 def stem_for(out: str | None, name: str) -> Path:
@@ -277,16 +290,11 @@ def write(stem: Path, contents: dict[str, bytes]) -> list[Path]:
     Raises:
         OutputError: a file could not be written; every file there is whole, the old or the new one.
     """
-    made: list[tuple[str, Path]] = []
+    made: list[tuple[Path, Path]] = []
     try:
         for end, data in contents.items():
-            handle, temporary = tempfile.mkstemp(
-                prefix=".dqpaint-", suffix=".part", dir=stem.parent
-            )
-            made.append((temporary, stem.with_name(stem.name + end)))
-            with os.fdopen(handle, "wb") as file:
-                file.write(data)
-            os.chmod(temporary, 0o666 & ~_umask())
+            path = stem.with_name(stem.name + end)
+            made.append((stage(path, data), path))
         for _, path in made:
             if path.is_dir():
                 raise OutputError(f"'{path}' cannot be written: it is a folder")
@@ -296,7 +304,7 @@ def write(stem: Path, contents: dict[str, bytes]) -> list[Path]:
         raise OutputError(f"'{stem}' cannot be written: {problem.strerror}") from None
     finally:
         for temporary, _ in made:
-            Path(temporary).unlink(missing_ok=True)
+            temporary.unlink(missing_ok=True)
     return [path for _, path in made]
 
 
@@ -304,9 +312,3 @@ def write_pictures(stem: Path, taken: "Sequence[Picture]") -> list[Path]:
     """Write pictures alone, as `write` does."""
     made = pictures(taken)
     return write(stem, made if isinstance(made, dict) else {".png": made})
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

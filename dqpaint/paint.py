@@ -11,20 +11,24 @@ from numpy.typing import NDArray
 
 from dqpaint.attenuation import Attenuation, attenuation
 from dqpaint.controllers import Controller, find_controller
-from dqpaint.disturbances import make_disturbances
+from dqpaint.disturbances import Disturbance, make_disturbances
 from dqpaint.language.program import Program
 from dqpaint.light.film import Film
 from dqpaint.metrics import Metrics, Table, measure
 from dqpaint.motion import Motion, plan
+from dqpaint.nullspace import read_null
 from dqpaint.out_of_reach import begin, check_worst
 from dqpaint.picture import Picture, photograph
-from dqpaint.plants import PLANTS, choose_plant
+from dqpaint.plants import choose_plant
+from dqpaint.robots.card import DEFAULT_ROBOT
 from dqpaint.robots.choose import card_for
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Clamp
 from dqpaint.scene import Scene, arrange, check_choices
 from dqpaint.set_points import SetPoint, set_points
 from dqpaint.settings import Settings
+from dqpaint.slowing import Slowed, slow_down
+from dqpaint.stage.staging import Cast, on_stage
 from dqpaint.tracking import Track, track
 
 
@@ -36,6 +40,8 @@ class Painting:
     controller: Controller[Any]
     robot: str
     plant: str
+    plant_values: dict[str, Any]  # with what follows from them for this arm
+    disturbances: dict[str, Disturbance]
     gains: dict[str, Any]  # all of the law's, and what follows from them
     motion: Motion
     track: Track
@@ -43,7 +49,9 @@ class Painting:
     attenuation: dict[str, Attenuation]  # of an unmodelled twist, in rotation and translation
     set_points: tuple[SetPoint, ...]
     scene: Scene
+    cast: Cast
     pictures: tuple[Picture, ...]  # one a view
+    slowed: Slowed | None = None  # where the drawing's clock may slow down
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
     notes: tuple[str, ...] = ()  # what was assumed of the arm
 
@@ -108,6 +116,9 @@ def paint(
     gains = controller.read_gains(settings.gains)
     plant = choose_plant(settings.plant, "torque" if controller.drives_torque else "rates")
     disturbances = make_disturbances(settings.disturb)
+    for name, one in disturbances.items():
+        plant.need(one.needs, name)
+    read_null(settings.null)
     card = card_for(program, settings.robot)
     with clock("motion"):
         motion = plan(program, card.canvas.pose)
@@ -115,22 +126,30 @@ def paint(
         kinematics = Kinematics(card)
         best = begin(motion, kinematics).posture
         start = card.home if settings.start == "home" else best
+        slowed = None
+        if settings.on_limit == "slow":
+            slowed = slow_down(motion, kinematics, start, settings.null, controller.drives_torque)
+            motion = slowed.motion
     with clock("arm"):
         run = track(
-            motion, kinematics, start, PLANTS[plant], controller, gains, progress,
-            disturbances, settings.seed,
+            motion, kinematics, start, plant, controller, gains, progress,
+            disturbances, settings.seed, settings.null, settings.on_limit == "stop",
         )  # fmt: skip
     check_worst(run, kinematics)
     with clock("metrics"):
         metrics = measure(run)
         came_through = attenuation(run, gains.promise())
         steps = set_points(run)
-    with clock("light"):
+    robot = settings.robot or program.robot or DEFAULT_ROBOT
+    cast = Cast(robot, run.posture, motion.line, motion.period)
+    with clock("light"), on_stage(settings, card, cast) as staging:
         scene = arrange(motion, run.pose, settings, metrics.table)
-        pictures = tuple(photograph(scene, settings))
+        pictures = tuple(photograph(scene, settings, staging))
     return Painting(
-        settings, controller, card.name, plant, gains.shown(), motion, run, metrics, came_through,
-        steps, scene, pictures, clock.seconds, kinematics.notes,
+        settings, controller, card.name, plant.name, plant.shown(card), disturbances,
+        gains.shown(), motion, run, metrics, came_through, steps, scene, cast,
+        pictures, slowed,
+        clock.seconds, kinematics.notes,
     )  # fmt: skip
 
 

@@ -1,6 +1,6 @@
 """Scene -> Picture: one way to the film, for what was asked and for what was reached."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import cv2
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.light.arrays import Image
-from dqpaint.light.camera import LENS, Camera
+from dqpaint.light.camera import FILL, LENS, Camera
 from dqpaint.light.exposure import CORE, automatic_exposure
 from dqpaint.light.film import Film, expose
 from dqpaint.light.legend import with_legend
@@ -18,15 +18,18 @@ from dqpaint.light.looks import LOOKS, with_noise
 from dqpaint.light.settings import advice, parse_exposure
 from dqpaint.light.spread import point_spread, spread
 from dqpaint.light.starburst import with_starburst
+from dqpaint.light.sweep import Sweep
 from dqpaint.light.views import Shot, camera_of, distance_to, parse_views
 from dqpaint.motion import Motion
 from dqpaint.scene import Scene, arrange
 from dqpaint.settings import Settings
+from dqpaint.stage.staging import Hidden, Staging, account
 
 # run lengths suit black ground with dithered halos: smaller and faster than the default search
 PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
 FAINT = 0.25  # what the lines of the asked drawing under the reached one are exposed to
 KEPT = 1  # pictures of one painting whose films are kept; of the others only the sums are
+BESIDE_ARM = 0.45  # of the limiting dimension a drawing takes that leaves room for the arm
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -40,6 +43,10 @@ class Picture:
         camera: where it was taken from.
         name: of the view.
         told: the exposure in a photographer's terms.
+        light: what shone, as this camera saw it.
+        hidden: what the arm's own body kept from the film; None if that was not traced.
+        arm: (H, W, 3) linear light of the arm and the floor, if they are shown.
+        remarks: what of the arm could not be shown or traced.
     """
 
     image: NDArray[np.uint8]
@@ -48,6 +55,15 @@ class Picture:
     camera: Camera
     name: str
     told: str
+    light: tuple[Sweep, ...] = ()
+    hidden: Hidden | None = None
+    arm: Image | None = None
+    remarks: tuple[str, ...] = ()
+
+    @property
+    def emitted(self) -> Floats:
+        """(3,) what the light gave off: on the film, lost and hidden, in the film's unit."""
+        return self.film.emitted + (0.0 if self.hidden is None else self.hidden.energy)
 
     @property
     def png(self) -> bytes:
@@ -66,19 +82,26 @@ def take(motion: Motion, pose: Floats, settings: Settings) -> Picture:
     return next(photograph(arrange(motion, pose, settings), settings))
 
 
-def photograph(scene: Scene, settings: Settings) -> Iterator[Picture]:
+def photograph(
+    scene: Scene, settings: Settings, staging: Staging | None = None
+) -> Iterator[Picture]:
     """The pictures of a scene: one for each view of the settings, all of one run.
 
     The views of a series (a stereo pair, an orbit) have the exposure of its first.
+
+    Args:
+        scene: what is photographed.
+        settings: views, size, exposure, look, and whether the arm is seen and hides light.
+        staging: the arm; None is a picture without one, that hides nothing.
     """
     series: dict[int, float] = {}
     for i, shot in enumerate(parse_views(settings.view)):
-        picture = _shoot(scene, settings, shot, series.get(shot.series))
+        picture = _shoot(scene, settings, shot, series.get(shot.series), staging)
         if shot.series:
             series.setdefault(shot.series, picture.exposure)
         if i >= KEPT:
             sums = picture.film.on_film[:, None, None]
-            picture = replace(picture, film=replace(picture.film, planes=sums))
+            picture = replace(picture, film=replace(picture.film, planes=sums), light=(), arm=None)
         yield picture
 
 
@@ -87,17 +110,39 @@ def place_camera(scene: Scene, settings: Settings, shot: Shot) -> Camera:
     real = parse_exposure(settings.exposure or "auto")
     lens, distance = (LENS, None) if real is None else (real.lens, real.distance)
     size = (settings.width, settings.height)
-    return camera_of(shot, scene.shown_points, scene.front, size, lens, distance)
+    fill = BESIDE_ARM if settings.ghost else FILL
+    return camera_of(shot, scene.shown_points, scene.front, size, lens, distance, fill)
 
 
-def _shoot(scene: Scene, settings: Settings, shot: Shot, given: float | None) -> Picture:
+def _shoot(
+    scene: Scene, settings: Settings, shot: Shot, given: float | None, staging: Staging | None
+) -> Picture:
     camera = place_camera(scene, settings, shot)
     exposure, told = _exposure(scene, settings, camera, given)
-    film = expose(scene.light, camera, falloff=_by_settings(settings))
-    image = linear(scene, film, exposure, camera, settings)
+    falloff, light = _by_settings(settings), scene.light
+    arm, traced = None, False
+    if staging is not None:
+        traced = settings.traced and staging.solid
+        if traced:
+            light = tuple(sweep.behind(staging, camera.position) for sweep in light)
+        if settings.ghost:
+            lamps = [lamp for sweep in scene.light for lamp in sweep.lights()]
+            arm = staging.photograph(camera, lamps, exposure, falloff)
+    film = expose(light, camera, falloff)
+    hidden = _hidden(light, staging.line) if staging is not None and traced else None
+    image = linear(scene, film, exposure, camera, settings, arm=arm)
     return Picture(
-        finish(scene, image, exposure, settings), film, exposure, camera, shot.name, told
-    )
+        finish(scene, image, exposure, settings), film, exposure, camera, shot.name, told, light,
+        hidden, arm, tuple(staging.remarks) if staging is not None else (),
+    )  # fmt: skip
+
+
+def _hidden(light: Sequence[Sweep], line: NDArray[np.int64]) -> Hidden:
+    """What of some sweeps their shades kept from the film, by the lines (N,) of the source."""
+    shades = [sweep.shade for sweep in light if sweep.shade is not None]
+    hidden = np.sum([shade.hidden for shade in shades], axis=0)
+    emitted = np.sum([shade.emitted for shade in shades], axis=0)
+    return account(hidden, emitted, line[:-1])
 
 
 def _by_settings(settings: Settings) -> bool:
@@ -125,6 +170,7 @@ def linear(
     camera: Camera,
     settings: Settings,
     under: Image | None = None,
+    arm: Image | None = None,
 ) -> Image:
     """(H, W, 3) linear light on the sensor, before it is developed.
 
@@ -135,10 +181,13 @@ def linear(
         camera: Where it was taken from.
         settings: Of the picture.
         under: From `beneath`, where it is already there.
+        arm: Light of the arm and the floor, where they are shown.
     """
     image = spread(film, point_spread(settings.height))
     if scene.under:
         image += beneath(scene, exposure, camera, settings) if under is None else under
+    if arm is not None:
+        image += arm
     if settings.starburst:
         image = with_starburst(image, settings.starburst)
     return image

@@ -33,14 +33,15 @@ def frames(
 ) -> Iterator[NDArray[np.uint8]]:
     """The picture as it grows, (H, W, 3) each; the last frame is the picture itself.
 
-    Each frame adds to the film only what has shone since the one before.
+    Each frame adds to the film only what has shone since the one before. The arm, if it is shown,
+    is there at the end: it is flashed when the light is out.
     """
     exposing = Exposing(picture.camera)
     falloff = parse_exposure(settings.exposure or "auto") is not None
     camera, exposure = picture.camera, picture.exposure
     under = beneath(scene, exposure, camera, settings) if scene.under else None
     for i in range(count - 1):
-        for sweep in scene.light:
+        for sweep in picture.light:
             steps = len(sweep.colours)
             part = slice(steps * i // count, steps * (i + 1) // count)
             for piece in sweep.towards(picture.camera, falloff, part):

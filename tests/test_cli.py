@@ -62,7 +62,9 @@ def test_draw_leaves_three_files_and_a_table(dqpaint, line, tmp_path):
 CHOSEN = {
     "controller": "p", "gains": {"k": 5}, "robot": "iiwa", "plant": "ideal", "start": "home",
     "disturb": {"twist": {"": "noise", "x": 0.01, "wz": -0.1, "frequency": 2}}, "seed": 7,
-    "width": 320, "height": 200, "view": "20,30", "ev": 1.5,
+    "null": "limits,gain=3", "on_limit": "slow",
+    "width": 320, "height": 200, "view": "20,30", "ev": 1.5, "ghost": True,
+    "occlusion": False,
 }  # fmt: skip
 
 
@@ -71,7 +73,8 @@ def test_options_are_all_heard(dqpaint, line, tmp_path):
         "draw", line, "--controller", "p", "--gain", "k=5", "--seed", "7",
         "--disturb", "twist=noise,x=0.01,wz=-0.1,frequency=2", "--plant", "ideal", "--from", "home",
         "--size", "320x200", "--view", "20,30", "--ev", "1.5", "--out", "made/", "--robot", "iiwa",
-        "--save", "json,motion",
+        "--save", "json,motion", "--null", "limits,gain=3", "--on-limit", "slow",
+        "--ghost", "--no-occlusion",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert files(tmp_path / "made") == ["line-p-motion.csv", "line-p.json"]
@@ -85,7 +88,8 @@ def test_gains_that_change_are_written_as_they_were_given(dqpaint, line, tmp_pat
     done = dqpaint("draw", line, "--size", "64x36", "--gain", "gamma_T=0.2..0.1@50%")
     assert "gamma_T = 0.2..0.1@50%" in done.stdout, done.stderr
     assert (
-        json.loads((tmp_path / "line-hinf.json").read_text())["gains"]["K_T"] == "7.07107..14.1421"
+        json.loads((tmp_path / "line-hinf.json").read_text())["gains"]["K_T"]
+        == "7.07107..14.1421@50%"
     )
 
 
@@ -255,7 +259,11 @@ def test_check_for_programs(dqpaint, line, tmp_path):
     (["draw", "line.traj", "--gain", "gamma_T=1e-306"], 2, "a gain is a number from"),
     (["draw", "line.traj", "--gain", "gamma_T=1", "--gain", "gamma_T=2"], 2, "is given twice"),
     (["draw", "line.traj", "--disturb", "twist"], 2, "'twist' is not NAME=VALUE, for example twi"),
-    (["draw", "line.traj", "--disturb", "wind=3"], 2, "no disturbance named 'wind'; known: twist"),
+    (["draw", "line.traj", "--plant", "compliant:k=3"], 2, "has no value named 'k'; its values"),
+    (["draw", "line.traj", "--null", "elbow"], 2, "no null-space objective named 'elbow'; known"),
+    (["draw", "line.traj", "--on-limit", "wait"], 2, "on_limit 'wait' should be 'clip', 'slow' or"),
+    (["draw", "line.traj", "--disturb", "gravity=0.1"], 2, "changes nothing on plant 'stiff'"),
+    (["draw", "line.traj", "--disturb", "wind=3"], 2, "no disturbance named 'wind'; known: base"),
     (["draw", "line.traj", "--disturb", "twist=sine"], 2, "it moves nothing; give for example x="),
     (["draw", "line.traj", "--disturb", "twist:x=1,x=2"], 2, "'x=2' is not KEY=VALUE, each once"),
     (["draw", "line.traj", "--disturb", "twist:x=1,,y=2"], 2, "'' is not KEY=VALUE, each once"),

@@ -7,12 +7,18 @@ import pytest
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.driving import make_drive
+from dqpaint.nullspace import make_wish
 from dqpaint.plants import PLANTS
 from dqpaint.robots.dynamics import Dynamics, drift_acceleration
 from tests.controllers.seeing import ARM, law, seen_by, states
 
 TORQUE_LAWS = [name for name, c in CONTROLLERS.items() if c.drives_torque]
 AT_ONCE = 1e-13  # [s], a period in which nothing changes
+
+
+def back_to(posture):
+    """The wish to come back to a posture, as a run has it."""
+    return make_wish("start", ARM.card, posture)
 
 
 def bend(posture, rates, torque):
@@ -25,7 +31,7 @@ def bend(posture, rates, torque):
 @pytest.mark.parametrize("name", TORQUE_LAWS)
 def test_the_tool_accelerates_as_the_law_says(name, rng):
     """J q_ddot + J_dot q_dot = a, with q_ddot by pinocchio and J_dot by differences."""
-    drive = make_drive(CONTROLLERS[name], ARM, ARM.card.home, AT_ONCE)
+    drive = make_drive(CONTROLLERS[name], ARM, back_to(ARM.card.home), AT_ONCE)
     gains, h = CONTROLLERS[name].read_gains({}).first, 1e-6
     for seen in states(rng, 50, size=0.5):
         q_ddot = bend(seen.posture, seen.rates, drive.ask(seen, gains))
@@ -49,7 +55,7 @@ def test_the_drift_acceleration_is_the_jacobian_s_derivative_times_the_rates(rng
 def test_what_is_free_in_a_redundant_arm_is_damped(name, rng):
     """In the null space q_ddot = 4 (start - q) - 4 q_dot: back to where it began, and at rest."""
     start = ARM.card.home + rng.uniform(-0.1, 0.1, 7)
-    drive = make_drive(CONTROLLERS[name], ARM, start, AT_ONCE)
+    drive = make_drive(CONTROLLERS[name], ARM, back_to(start), AT_ONCE)
     gains = CONTROLLERS[name].read_gains({}).first
     for seen in states(rng, 20):
         null = np.linalg.svd(seen.jacobian)[2][-1]
@@ -63,7 +69,7 @@ def test_a_swinging_elbow_comes_to_rest_while_the_tool_stays(name):
     goal, J = ARM.pose_and_jacobian(ARM.card.home)
     null = np.linalg.svd(J)[2][-1]
     gains, period = CONTROLLERS[name].read_gains({}).first, 0.005
-    drive = make_drive(CONTROLLERS[name], ARM, ARM.card.home, period)
+    drive = make_drive(CONTROLLERS[name], ARM, back_to(ARM.card.home), period)
     plant = PLANTS["torque"](ARM.card, ARM.card.home, period)
     plant.run(drive.within(400.0 * null, ARM.card.home))  # a knock along the self-motion
     swing, away = [], []

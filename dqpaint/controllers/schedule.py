@@ -64,10 +64,10 @@ class Schedule(Generic[G]):
 
     def promise(self) -> tuple[float, float] | None:
         """What the gains promise of disturbances all along: the weakest on the way."""
-        ends = [
-            self.first.promise(),
-            *(self.at(k.part).promise() for ks in self.knots.values() for k in ks),
-        ]
+        ends = [self.first.promise(), self.at(1.0).promise()]
+        for name, knots in self.knots.items():
+            for knot in knots:  # at a jump both values count
+                ends.append(self.at(knot.part).model_copy(update={name: knot.value}).promise())
         bounds = [end for end in ends if end is not None]
         return (max(b[0] for b in bounds), max(b[1] for b in bounds)) if bounds else None
 
@@ -84,19 +84,26 @@ class Schedule(Generic[G]):
 
     def shown(self) -> dict[str, Any]:
         """The gains as a summary shows them: one that changes as it was written."""
-        first, last = self.first.shown(), self.at(1.0).shown()
-        changed = {
-            name: self.texts.get(name, f"{_said(first[name])}..{_said(last[name])}")
-            for name in first
-            if name in self.knots or first[name] != last[name]
-        }
-        return {**first, **changed}
+        parts = sorted({0.0, *(knot.part for knots in self.knots.values() for knot in knots)})
+        rows = [self.at(part).shown() for part in parts]
+        shown: dict[str, Any] = dict(rows[0])
+        for name in shown:
+            values = [row[name] for row in rows]
+            if name in self.texts:
+                shown[name] = self.texts[name]
+            elif any(value != values[0] for value in values):  # it follows from one that changes
+                later = zip(parts[1:], values[1:], strict=True)
+                points = (f"{_said(value)}@{100 * part:g}%" for part, value in later)
+                shown[name] = "..".join([_said(values[0]), *points])
+        return shown
 
 
 def _along(knots: tuple[Knot, ...], parts: Floats) -> Floats:
     """The values at parts (N,): straight from knot to knot, the later one where two coincide."""
     at = np.array([knot.part for knot in knots])
     values = np.array([knot.value for knot in knots], dtype=np.float64)
+    if at[0] > 0:  # before its first point a gain is what it is there
+        at, values = np.append(0.0, at), np.concatenate([values[:1], values])
     inside = np.clip(parts, at[0], at[-1])
     i = np.clip(np.searchsorted(at, inside, side="right") - 1, 0, len(at) - 2)
     width = at[i + 1] - at[i]

@@ -21,7 +21,9 @@ class Weights(Gains):
 
     size: ClassVar[int]
 
-    q: Value = Field(4.0, description="weight of the error; it decays at sqrt(q / r) 1/s")
+    q: Value = Field(
+        4.0, description="weight of the error, a number or a diagonal; it decays at sqrt(q / r) 1/s"
+    )
     r: Value = Field(0.01, description="s^2, weight of the correction")
     s: Value | None = Field(
         None, description="s, weight of the error at the end; if not given sqrt(q r)"

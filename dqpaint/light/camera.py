@@ -122,8 +122,9 @@ def frame(
     size: tuple[int, int],
     lens: float = LENS,
     distance: float | None = None,
+    fill: float = FILL,
 ) -> Camera:
-    """The camera that sees all `points` from `view`, in the middle and as large as `FILL` allows.
+    """The camera that sees all `points` from `view`, in the middle and as large as `fill` allows.
 
     Args:
         points: (N, 3) what the picture is of, base frame [m]: the lit points of what was asked,
@@ -134,6 +135,7 @@ def frame(
         size: Columns and rows of the picture.
         lens: Focal length over the long side of the sensor.
         distance: From the pinhole to the middle of the points [m]; None fills the picture.
+        fill: Share of the limiting dimension that they take then.
 
     Raises:
         DqpaintError: If there is no point, or one is not finite.
@@ -153,7 +155,7 @@ def frame(
         place = np.array([0.5 * float(axis.min() + axis.max()) for axis in (right, up, back)])
         place[2] += distance
         return Camera(place @ rotation, rotation, focal, centre, width, height)
-    slopes = FILL * 0.5 * np.array([width, height]) / focal  # half the field that is to be filled
+    slopes = fill * 0.5 * np.array([width, height]) / focal  # half the field that is to be filled
     nearest = float(back.max())
     diameter = float(np.linalg.norm([np.ptp(axis) for axis in (right, up, back)]))
     extent = max(SMALLEST, SLENDEREST * diameter)

@@ -77,6 +77,14 @@ class Emitters:
         half = 0.5 * (last - first) / max(len(self.places) - 1, 1)
         return np.stack([first - half, last + half])
 
+    def along(self, apart: float) -> Floats:
+        """(P, 3) places from end to end, at most so far apart [m]; the middle of a small brush."""
+        first, last = self.extent
+        if len(self.places) == 1 or not self.straight:
+            return np.asarray(self.places.mean(axis=0, keepdims=True))
+        gaps = max(1, int(np.ceil(np.linalg.norm(last - first) / apart)))
+        return np.asarray(first + np.linspace(0.0, 1.0, gaps + 1)[:, None] * (last - first))
+
     @property
     def outermost(self) -> Floats:
         """(E, 3) places between which everything shines [m]."""

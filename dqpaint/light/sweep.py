@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -16,12 +16,17 @@ from dqpaint.light.arrays import Floats, kept
 from dqpaint.light.camera import NEAR, Camera
 from dqpaint.light.emitters import POINT, Emitters
 from dqpaint.light.light import Light, inverse_square, lit_instants
+from dqpaint.light.shade import Opaque, Shade, shade_of
 from dqpaint.light.sheet import Sheet
 from dqpaint.light.trail import BATCH
 
 ALL = slice(None)
 CHORD = 0.15
 """A chord may be this far from the smooth way [px]."""
+GROUPS = 8
+"""Parts of a brush that stand for it where it lights a scene."""
+SOFT = 0.005
+"""How far a chord may be from the smooth way there [m]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +59,7 @@ class Sweep:
         emitters: what the tool carries.
         strobe: (N-1, 2) frequency [Hz], 0 for a steady light, and duty from 0 to 1.
         pwm: frequency at which the lamps are dimmed [Hz]; 0 dims them evenly.
+        shade: what hides it from the one camera it is for; None: nothing does.
     """
 
     period: float
@@ -62,6 +68,7 @@ class Sweep:
     emitters: Emitters = POINT
     strobe: Floats | None = None
     pwm: float = 0.0
+    shade: Shade | None = None
 
     def __post_init__(self) -> None:
         if not (np.isfinite(self.period) and self.period > 0.0):
@@ -90,13 +97,18 @@ class Sweep:
         return dq.translation(self.pose)
 
     @cached_property
+    def turns(self) -> Floats:
+        """(N, 4) the rotations of the tool."""
+        return dq.rotation(self.pose)
+
+    @cached_property
     def _tangents(self) -> tuple[Floats, Floats]:
         return way.tangents(self.points)
 
     @cached_property
     def walked(self) -> Floats:
         """(N-1,) how far the lamps move from one instant to the next, in the mean [m]."""
-        ends = self.places(self.points, dq.rotation(self.pose), self.emitters.outermost)
+        ends = self.places(self.points, self.turns, self.emitters.outermost)
         return np.asarray(np.sqrt((np.diff(ends, axis=0) ** 2).sum(axis=2)).mean(axis=1))
 
     @cached_property
@@ -116,13 +128,31 @@ class Sweep:
         """(M, K, 3) where places `of` (K, 3) in the tool frame are, base frame [m]."""
         return np.asarray(place[:, None, :] + dq.rotate(rotation[:, None, :], of[None, :, :]))
 
+    def behind(self, body: Opaque, eye: Floats) -> Sweep:
+        """The same, as it is seen by an eye (3,) past a body [m]."""
+        return replace(self, shade=shade_of(self, body, eye))
+
+    def lights(self) -> Iterator[tuple[Floats, Floats]]:
+        """Paths (N, 3) and energies (N-1, 3) of lamps that light a scene as the brush does.
+
+        All of its energy, in a few groups of its lamps; beams are not regarded [m, lamp s].
+        """
+        groups = np.array_split(np.arange(len(self.emitters.places)), GROUPS)
+        for steps in self.steps(SOFT):
+            for group in groups:
+                if len(group):
+                    middle = self.emitters.places[group].mean(axis=0, keepdims=True)
+                    points = self.places(steps.place, steps.rotation, middle)[:, 0]
+                    tints = self.emitters.tints[:, group].sum(axis=1)
+                    yield points, steps.energy * tints[steps.row]
+
     @property
     def lit_points(self) -> Floats:
         """(K, 3) outermost lamps at either end of every lit step [m]: what a camera must see."""
         lit = lit_instants(self.colours)
         if self.emitters.single:
             return np.asarray(self.points[lit])
-        rotation = dq.rotation(self.pose)[lit]
+        rotation = self.turns[lit]
         return self.places(self.points[lit], rotation, self.emitters.outermost).reshape(-1, 3)
 
     def resolution(self, camera: Camera) -> float:
@@ -141,7 +171,7 @@ class Sweep:
         """
         bulges = way.bulge(self.points, self._tangents)
         if not self.emitters.single:
-            bulges = bulges + way.turning(dq.rotation(self.pose), self.emitters.reach)
+            bulges = bulges + way.turning(self.turns, self.emitters.reach)
         count = np.where(self.colours.any(axis=1), way.parts(bulges, tolerance), 1)
         for rows in self._batches(count, samples):
             yield self._steps(rows, count[rows])
@@ -177,7 +207,7 @@ class Sweep:
         begin = self.time[:-1][rows]
         instants = slice(rows.start, rows.start + len(begin) + 1)
         step, part = self._cuts(rows, count)
-        place, rotation = self.points[instants], dq.rotation(self.pose)[instants]
+        place, rotation = self.points[instants], self.turns[instants]
         of, enter, leave = _pieces(len(begin), step, part)
         time = self.time[instants]
         if len(step):
@@ -261,6 +291,8 @@ class Sweep:
         if falloff or e.lobe > 0.0:
             middle = 0.5 * (points[1:] + points[:-1])
             energy = energy * self._sent(middle, steps, camera, falloff)[..., None]
+        if self.shade is not None:
+            energy = self.shade.of_lamps(steps.time, energy)
         if len(e.places) == 1:
             return Light(points[:, 0], energy[:, 0], e.size)
         dark = np.zeros((len(e.places), 1, 3))
@@ -275,7 +307,10 @@ class Sweep:
         if falloff or e.lobe > 0.0:
             middle = 0.25 * (ends[1:] + ends[:-1]).sum(axis=1, keepdims=True)
             energy = energy * self._sent(middle, steps, camera, falloff)
-        return Sheet(ends, energy, e.tints, steps.row)
+        tints, row = e.tints, steps.row
+        if self.shade is not None:
+            tints, row = self.shade.of_line(steps.time, energy, tints, row)
+        return Sheet(ends, energy, tints, row)
 
     def _sent(self, middle: Floats, steps: Steps, camera: Camera, falloff: bool) -> Floats:
         """(M, K) share of the light at places (M, K, 3) that goes the camera's way."""

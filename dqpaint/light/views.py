@@ -131,11 +131,12 @@ def camera_of(
     size: tuple[int, int],
     lens: float = LENS,
     distance: float | None = None,
+    fill: float = FILL,
 ) -> Camera:
     """The camera of a shot that sees all points; arguments as those of `frame`."""
     if shot.orbit and distance is None:
-        return _circling(shot, points, canvas_rotation, size, lens)
-    camera = frame(points, canvas_rotation, shot.view, size, lens, distance)
+        return _circling(shot, points, canvas_rotation, size, lens, fill)
+    camera = frame(points, canvas_rotation, shot.view, size, lens, distance, fill)
     if shot.eye == 0.0:
         return camera
     away = distance_to(camera, points)
@@ -148,7 +149,12 @@ def camera_of(
 
 
 def _circling(
-    shot: Shot, points: Floats, canvas_rotation: Floats, size: tuple[int, int], lens: float
+    shot: Shot,
+    points: Floats,
+    canvas_rotation: Floats,
+    size: tuple[int, int],
+    lens: float,
+    fill: float,
 ) -> Camera:
     """A camera on a circle round the middle, far enough to see a ball round all points."""
     axes = kept("canvas rotation", canvas_rotation, (3, 3))
@@ -156,7 +162,7 @@ def _circling(
     middle = 0.5 * (local.min(axis=0) + local.max(axis=0))
     radius = max(float(np.sqrt(((local - middle) ** 2).sum(axis=1)).max()), 1e-3)
     focal = lens * max(size)
-    away = radius / math.sin(math.atan(FILL * 0.5 * min(size) / focal))
+    away = radius / math.sin(math.atan(fill * 0.5 * min(size) / focal))
     rotation = look(shot.view)
     position = axes @ (middle + away * rotation[2])
     centre = 0.5 * np.array([size[0] - 1.0, size[1] - 1.0])

@@ -19,6 +19,7 @@ from dqrobotics.robot_modeling import DQ_SerialManipulatorDH
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS, Seen
 from dqpaint.driving import make_drive
+from dqpaint.nullspace import make_wish
 from dqpaint.robots.card import read_card
 from dqpaint.robots.kinematics import Kinematics
 
@@ -40,7 +41,8 @@ def peer_arm(kinematics):
 def ours(kinematics, poses, twists):
     chosen = CONTROLLERS["pff"]
     gains = chosen.read_gains({"k": K}).first
-    drive = make_drive(chosen, kinematics, kinematics.card.home, 0.008)
+    wish = make_wish("start", kinematics.card, kinematics.card.home)
+    drive = make_drive(chosen, kinematics, wish, 0.008)
     still, rates = np.zeros(6), np.zeros(7)
 
     def step(k, q):

@@ -8,6 +8,7 @@ from dqpaint.controllers import CONTROLLERS, Seen
 from dqpaint.controllers.pose_errors import pose_map
 from dqpaint.driving import make_drive
 from dqpaint.errors import UnknownNameError, UsageError
+from dqpaint.nullspace import make_wish
 from dqpaint.plants import PLANTS
 from dqpaint.robots.card import installed_names, read_card
 from dqpaint.robots.kinematics import Kinematics
@@ -56,7 +57,7 @@ def test_commands_are_finite_everywhere(name, robot, rng):
     arm = Kinematics(read_card(robot))
     chosen = CONTROLLERS[name]
     gains = chosen.read_gains({}).first
-    drive = make_drive(chosen, arm, arm.card.home, 0.005)
+    drive = make_drive(chosen, arm, make_wish("start", arm.card, arm.card.home), 0.005)
     special = [np.zeros(arm.card.joints), arm.card.home, arm.card.lower, arm.card.upper]
     ahead = ahead_of(name)
     for q in [*special, *rng.uniform(arm.card.lower, arm.card.upper, (20, arm.card.joints))]:
@@ -86,7 +87,7 @@ def test_every_law_converges_on_a_set_point(name, robot, rng):
         x, J = arm.pose_and_jacobian(arm.card.home)
         seconds = 16.0 / (gains.k * np.linalg.svd(pose_map(x) @ J)[1][5] ** 2)
         period = 0.008
-    drive = make_drive(chosen, arm, start, period)
+    drive = make_drive(chosen, arm, make_wish("start", arm.card, start), period)
     plant = PLANTS["torque" if chosen.drives_torque else "ideal"](arm.card, start, period)
     for _ in range(int(seconds / period)):
         q = plant.posture

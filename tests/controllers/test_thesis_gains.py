@@ -87,7 +87,7 @@ def test_diagonals_change_too_and_what_follows_is_shown():
     np.testing.assert_allclose(schedule.column("q", np.array([0.25])), [[2.5] * 3 + [4] * 3])
     shown = schedule.shown()
     assert shown["q"] == "4..1,1,1,4,4,4@50%"
-    assert shown["s"] == "0.2,0.2,0.2,0.2,0.2,0.2..0.1,0.1,0.1,0.2,0.2,0.2"
+    assert shown["s"] == "0.2,0.2,0.2,0.2,0.2,0.2..0.1,0.1,0.1,0.2,0.2,0.2@50%"
     assert shown["r"] == 0.01
 
 

@@ -11,6 +11,7 @@ from dqpaint.robots.chain import EXTRAS
 END = "<!-- end -->"
 ROOT = Path(__file__).parent.parent
 CASES = ROOT / "tests/references/cases.toml"
+CASE_SIZE = {"width": 400, "height": 225}  # all of them stay below 3 MB
 
 COLUMNS = {
     "t_s": "time",
@@ -198,7 +199,8 @@ def cases():
     lines = ["# The pictures of the gallery, small. Written by python -m tests.generated."]
     for shot in SHOTS:
         lines += ["", f"[{shot.name}]", f"drawing = {json.dumps(shot.example)}"]
-        lines += [f"{name} = {json.dumps(value)}" for name, value in shot.choices.items()]
+        choices = {**shot.choices, **CASE_SIZE}
+        lines += [f"{name} = {json.dumps(value)}" for name, value in choices.items()]
     return "\n".join(lines) + "\n"
 
 

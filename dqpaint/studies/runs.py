@@ -1,7 +1,7 @@
 """A run of a study as plain data, and what comes of it: both are lines of JSON.
 
 A run has a key, the hash of everything that decides its result: the drawing's text, the settings,
-the files they name, this package's own code and the versions of its libraries. So a result that is
+the files both name, this package's own code and the versions of its libraries. So a result that is
 kept can be trusted to be what the run would give again, and a study that was stopped goes on.
 """
 
@@ -19,7 +19,9 @@ from dqpaint.disturbances import make_disturbances
 from dqpaint.errors import UsageError
 from dqpaint.examples import find_drawing
 from dqpaint.language import parse, read
+from dqpaint.language.named import files_of
 from dqpaint.language.program import Program
+from dqpaint.light.brushes import read_brush
 from dqpaint.outputs import LIBRARIES
 from dqpaint.plants import choose_plant
 from dqpaint.robots.choose import card_for
@@ -59,11 +61,15 @@ class Run:
         return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()
 
     def _files(self) -> dict[str, str]:
-        """The hashes of files that the settings name: a law or an arm of one's own."""
+        """The hashes of files: those the drawing names, a law, an arm or an image of one's own."""
         law = getattr(find_controller(self.settings.controller).law, "sha256", "")
         arm = Path(self.settings.robot or "")
-        known = arm.suffix in (".urdf", ".toml") and arm.is_file()
-        return {"law": law, "arm": _sha256(arm) if known else ""}
+        known = arm.suffix in (".urdf", ".toml")
+        brush = read_brush(self.settings.brush) if self.settings.brush else None
+        image = getattr(brush, "image", "")
+        found = {name: _sha256(path) for name, path in _named(self.name, self.text)}
+        found |= {"law": law, "arm": _sha256(arm) if known else ""}
+        return {**found, "image": _sha256(Path(image)) if image else ""}
 
     def program(self) -> Program:
         """The drawing, understood; from its file where that still says the same."""
@@ -169,6 +175,18 @@ def _program(name: str, text: str) -> Program:
     return parse(text, name)
 
 
+@lru_cache(maxsize=8)
+def _named(name: str, text: str) -> list[tuple[str, Path]]:
+    """What a drawing may read, seen from its folder; the text holds those of included files."""
+    path = Path(name)
+    others = sorted(files_of(path) - {path}) if text else []
+    return [
+        (f"./{one.relative_to(path.parent).as_posix()}", one)
+        for one in others
+        if one.is_relative_to(path.parent)
+    ]
+
+
 @cache
 def _code() -> dict[str, str]:
     """The hash of this package's code, and the versions of its libraries."""
@@ -182,4 +200,8 @@ def _code() -> dict[str, str]:
 
 
 def _sha256(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
+    """Of a file; empty where there is none, for what stands in quotes need not be a file."""
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except (OSError, ValueError):
+        return ""

@@ -16,7 +16,7 @@ from dqpaint.settings import make_settings
 from dqpaint.studies.engine import carry_out_study
 from dqpaint.studies.keeping import kept, place
 from dqpaint.studies.record import NAME, Record
-from dqpaint.studies.runs import Result, Run, result_of, run_of, seeded
+from dqpaint.studies.runs import Result, Run, drawing_text, result_of, run_of, seeded
 
 pytestmark = pytest.mark.slow
 LINE = "period 10 ms\nspeed 60 mm/s\nstart at (0, 0) mm\nline to (40, 20) mm\n"
@@ -113,6 +113,27 @@ def test_keys_change_with_what_decides_a_result(tmp_path):
     assert first not in [other.key for other in others]
     law.write_text("def law(seen, k=1.0):\n    return 2 * seen.twist_d\n")
     assert run(1.0, controller=str(law)).key != first
+
+
+def test_keys_change_with_the_files_a_drawing_and_a_brush_name(tmp_path):
+    drawing, included = tmp_path / "a.traj", tmp_path / "b.traj"
+    points, image = tmp_path / "points.csv", tmp_path / "image.png"
+    drawing.write_text('period 10 ms\ninclude "b.traj"\n')
+    included.write_text('path "points.csv" unit mm in 1 s\n')
+    points.write_text("x,y\n0,0\n1,2\n3,1\n")
+    image.write_bytes(b"one")
+
+    def key():
+        brush = f"pixelstick:length=50mm,image={image}"
+        return Run(*drawing_text(str(drawing)), run(brush=brush).settings).key
+
+    found = [key()]
+    assert key() == found[0]
+    for path, text in ((points, "x,y\n0,0\n1,2\n3,2\n"), (image, "two"),
+                       (included, 'path "points.csv" unit mm in 2 s\n')):  # fmt: skip
+        path.write_text(text)
+        found.append(key())
+    assert len(set(found)) == 4
 
 
 def test_runs_and_results_are_read_back_as_they_were():

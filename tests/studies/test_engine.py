@@ -13,6 +13,7 @@ import pytest
 import dqpaint
 from dqpaint.errors import DqpaintError, OutputError, UsageError
 from dqpaint.settings import make_settings
+from dqpaint.studies import pool
 from dqpaint.studies.engine import carry_out_study
 from dqpaint.studies.keeping import kept, place
 from dqpaint.studies.record import NAME, Record
@@ -20,7 +21,7 @@ from dqpaint.studies.runs import Result, Run, drawing_text, result_of, run_of, s
 
 pytestmark = pytest.mark.slow
 LINE = "period 10 ms\nspeed 60 mm/s\nstart at (0, 0) mm\nline to (40, 20) mm\n"
-GAINS = (5.0, 10.0, 20.0, 40.0, 400.0)
+GAINS = (5.0, 20.0, 400.0)
 
 
 def run(k=20.0, text=LINE, **choices):
@@ -35,15 +36,15 @@ def facts(results):
 
 def test_results_are_those_of_draw_whatever_the_number_of_workers(tmp_path):
     runs = [run(k) for k in GAINS]
-    one, three = (carry_out_study(runs, tmp_path / str(n), n) for n in (1, 3))
-    assert facts(one) == facts(three)
+    one, two = (carry_out_study(runs, tmp_path / str(n), n) for n in (1, 2))
+    assert facts(one) == facts(two)
     (tmp_path / "line.traj").write_text(LINE)
     for k, result in zip(GAINS, one, strict=True):
         drawn = dqpaint.draw(
             tmp_path / "line.traj", controller="p", gains={"k": k}, plant="ideal", size=(16, 16)
         )
         assert result.figures == drawn.metrics.figures  # bit for bit
-    assert [result.status for result in one] == ["done"] * 4 + ["unstable"]
+    assert [result.status for result in one] == ["done", "done", "unstable"]
 
 
 def test_what_was_done_is_not_done_again(tmp_path, capsys):
@@ -56,7 +57,7 @@ def test_what_was_done_is_not_done_again(tmp_path, capsys):
     assert "1 of 2 runs were done before" in capsys.readouterr().err
 
 
-def test_one_failed_run_does_not_lose_the_rest(tmp_path):
+def test_one_failed_run_does_not_lose_the_rest(tmp_path, monkeypatch):
     far = run(text=LINE.replace("(40, 20)", "(4000, 20)"))
     (tmp_path / "law.py").write_text(
         "import os, signal\n"
@@ -77,7 +78,8 @@ def test_one_failed_run_does_not_lose_the_rest(tmp_path):
     assert "outside the reach" in results[0].message
     assert "returned an array of shape (1,)" in results[2].message
     assert "its process ended with signal 9" in results[3].message
-    again = carry_out_study([far, *own], tmp_path / "study", 2)
+    monkeypatch.setattr(pool, "TRIES", 1)
+    again = carry_out_study([far, *own], tmp_path / "study", 1)
     lines = (tmp_path / "study" / NAME).read_text().splitlines()
     tries = Counter(json.loads(line)["key"] for line in lines)
     assert [tries[r.key] for r in again] == [1, 1, 1, 2, 1, 1]  # what died is tried again
@@ -186,8 +188,9 @@ def test_what_is_kept_is_there_or_is_made_again(tmp_path):
 # A sweep from the command line, killed and interrupted.
 
 SLOW = "period 5 ms\nspeed 20 mm/s\nstart at (0, 0) mm\nline to (60, 20) mm\n"
+POINTS = 7
 SWEEP = ("sweep", "line.traj", "--controller", "p", "--plant", "ideal",
-         "--vary", "k=2..300:log:10", "--jobs", "2")  # fmt: skip
+         "--vary", f"k=2..300:log:{POINTS}", "--jobs", "2")  # fmt: skip
 
 
 def start(folder, *words):
@@ -232,7 +235,7 @@ def test_a_sweep_that_was_stopped_goes_on(tmp_path, how, whole):
     (tmp_path / "line.traj").write_text(SLOW)
     sweep = start(tmp_path, *SWEEP, "--out", "study")
     record = tmp_path / "study" / NAME
-    wait_for_lines(record, 3)
+    wait_for_lines(record, 1)
     # Ctrl-C in a terminal reaches every process of the group, a kill the one it is meant for
     (os.killpg if how == signal.SIGINT else os.kill)(sweep.pid, how)
     said = sweep.communicate(timeout=30)[1]
@@ -245,16 +248,17 @@ def test_a_sweep_that_was_stopped_goes_on(tmp_path, how, whole):
         time.sleep(0.05)
     assert not alive(sweep.pid)  # workers end with their study
     before = record.read_bytes()
-    assert 3 <= before.count(b"\n") < 10
+    assert 1 <= before.count(b"\n") < POINTS
     assert not (tmp_path / "study" / "line-k.png").exists()
 
     record.write_bytes(before + b'{"key": "cut o')  # as a failing disk would leave it
     again = start(tmp_path, *SWEEP, "--out", "study")
-    assert f"{before.count(bytes([10]))} of 10 runs were done before" in again.communicate()[1]
+    count = before.count(b"\n")
+    assert f"{count} of {POINTS} runs were done before" in again.communicate(timeout=100)[1]
     assert again.returncode == 0
     after = record.read_bytes()
     assert after.startswith(before)
     keys = Counter(json.loads(line)["key"] for line in after.splitlines())
-    assert len(keys) == 10
+    assert len(keys) == POINTS
     assert set(keys.values()) == {1}
     assert tables(tmp_path / "study") == whole

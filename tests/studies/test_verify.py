@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from dataclasses import replace
@@ -21,11 +22,16 @@ OTHER_CPU = {"OPENBLAS_CORETYPE": "Prescott", "OPENCV_CPU_DISABLE": "AVX2",
              "NPY_DISABLE_CPU_FEATURES": "AVX2"}  # fmt: skip
 
 
-@pytest.fixture
-def folder(tmp_path):
-    made = guarded.make(tmp_path / "guarded")
+@pytest.fixture(scope="module")
+def original(tmp_path_factory):
+    made = guarded.make(tmp_path_factory.mktemp("original") / "guarded")
     assert study.update(study.verify(made, 1), made) == ["corner: new"]
     return made
+
+
+@pytest.fixture
+def folder(tmp_path, original):
+    return shutil.copytree(original, tmp_path / "guarded")
 
 
 def verdict(folder):

@@ -58,7 +58,7 @@ def test_what_was_done_is_not_done_again(tmp_path, capsys):
 
 
 def test_one_failed_run_does_not_lose_the_rest(tmp_path, monkeypatch):
-    far = run(text=LINE.replace("(40, 20)", "(4000, 20)"))
+    far = run(text=LINE.replace("(40, 20)", "(4000, 20)").replace("60 mm/s", "4 m/s"))
     (tmp_path / "law.py").write_text(
         "import os, signal\n"
         "def fine(seen, k=1.0):\n    return seen.twist_d\n"

@@ -9,8 +9,9 @@ seen into a twist, `robots` know the arms, `plants` answer as an arm does, `trac
 loop, `metrics` measure, `scene` says what shines and `light` takes its pictures, `stage`
 puts the arm before the camera, `paint` is the
 flow as one function, `sketch` the same without an arm, `negative` what is kept to develop again,
-`cli` the command line. `dq` holds the algebra and its conventions, `outputs` the files. Data moves
-along this line and never back: `tests/test_house.py` holds the modules to it.
+`studies` are many paintings and what they say together, `cli` and `studying` the command line. `dq`
+holds the algebra and its conventions, `outputs` the files. Data moves along this line
+and never back: `tests/test_house.py` holds the modules to it.
 """
 
 import importlib

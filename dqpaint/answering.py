@@ -4,9 +4,9 @@ import os
 import sys
 from typing import NoReturn
 
-from dqpaint.cli import app
 from dqpaint.cli_language import point_at, tell
 from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.studying import app
 
 DEBUG = "DQPAINT_DEBUG"  # an environment variable: internal errors show where they are
 INTERRUPTED = 130

@@ -3,22 +3,38 @@
 import io
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import cycle
 
+import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
 
 INK, FAINT = "#222222", "#999999"
 COLOURS = ("#0b6fa4", "#2a9d5c", "#d1495b", "#8d5a97", "#c98a1b", "#555555")
+ALARM = "#c1121f"
+MOST_INSIDE = 6  # lines whose names find room beside them
+MOST_NUMBERS = 400  # cells of a heat map that are written in
 
 
 @dataclass(frozen=True)
 class Line:
-    """One line of a chart: points (N,) and what is written at it."""
+    """One line of a chart: points (N,) and what is written at it.
+
+    `colour` is the next of the chart's own if not said; `marks` says where (N,) a point is
+    unstable, and has all points shown; `bars` are lengths (N,) up and down.
+    """
 
     x: Floats
     y: Floats
     label: str
+    colour: str | None = None
+    marks: NDArray[np.bool_] | None = None
+    bars: Floats | None = None
+    width: float = 1.8
 
 
 @dataclass(frozen=True)
@@ -32,6 +48,25 @@ class Panel:
     bound: float | None = None
     log_x: bool = False
     log_y: bool = False
+    decades: float = 300.0  # of a logarithmic y axis, from the top: the most that is shown
+    ticks: Sequence[str] | None = None  # words at 0, 1, ... of an axis of choices
+
+
+@dataclass(frozen=True)
+class HeatMap:
+    """Values (Y, X) over two axes of choices; cells that are `marked` (Y, X) are hatched.
+
+    A value that is nan leaves its cell empty.
+    """
+
+    title: str
+    x_label: str
+    y_label: str
+    x: Sequence[str]
+    y: Sequence[str]
+    values: Floats
+    marked: NDArray[np.bool_]
+    log: bool = False
 
 
 def chart(panels: Sequence[Panel], width: float = 10.0, height: float = 4.0) -> bytes:
@@ -39,8 +74,8 @@ def chart(panels: Sequence[Panel], width: float = 10.0, height: float = 4.0) -> 
     figure = Figure(figsize=(width, height), dpi=120, layout="constrained")
     for axes, panel in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
         axes.set_title(panel.title, loc="left", fontsize=11, color=INK)
-        for line, colour in zip(panel.lines, COLOURS, strict=False):
-            axes.plot(line.x, line.y, color=colour, lw=1.8, label=line.label)
+        for line, following in zip(panel.lines, cycle(COLOURS), strict=False):
+            _draw(axes, line, line.colour or following)
         if panel.bound is not None:
             axes.axhline(panel.bound, color=INK, lw=1, ls=(0, (4, 3)))
         axes.set_xlabel(panel.x_label)
@@ -49,11 +84,67 @@ def chart(panels: Sequence[Panel], width: float = 10.0, height: float = 4.0) -> 
             axes.set_xscale("log")
         if panel.log_y:
             axes.set_yscale("log")
+            top = max(float(line.y.max()) for line in panel.lines)
+            axes.set_ylim(bottom=max(axes.get_ylim()[0], top * 10.0**-panel.decades))
+        if panel.ticks is not None:
+            axes.set_xticks(range(len(panel.ticks)), panel.ticks)
         axes.grid(which="major", color="#e6e6e6", lw=0.6)
         axes.set_axisbelow(True)
         for side in ("top", "right"):
             axes.spines[side].set_visible(False)
-        axes.legend(frameon=False, fontsize=9, labelcolor="linecolor")
+        aside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)}
+        many = len(panel.lines) > MOST_INSIDE
+        axes.legend(frameon=False, fontsize=9, labelcolor="linecolor", **(aside if many else {}))
+    return _png(figure)
+
+
+def _draw(axes: Axes, line: Line, colour: str) -> None:
+    dots = "o" if line.marks is not None else ""
+    axes.plot(line.x, line.y, color=colour, lw=line.width, label=line.label, marker=dots, ms=4)
+    if line.bars is not None and np.isfinite(line.bars).any():
+        axes.errorbar(line.x, line.y, line.bars, fmt="none", ecolor=colour, lw=1, capsize=3)
+    if line.marks is not None and line.marks.any():
+        at = line.marks
+        axes.plot(
+            line.x[at], line.y[at], ls="", marker="o", ms=9, mfc="none", mec=ALARM, mew=1.6,
+            label="unstable" if "unstable" not in axes.get_legend_handles_labels()[1] else None,
+        )  # fmt: skip
+
+
+def heat_map(given: HeatMap, width: float = 7.0, height: float = 5.0) -> bytes:
+    """A table of values as colours, each with its number, as a PNG file."""
+    figure = Figure(figsize=(width, height), dpi=120, layout="constrained")
+    axes = figure.subplots()
+    good = np.ma.masked_invalid(np.where(given.marked, np.nan, given.values))
+    positive = good.compressed()
+    log = given.log and positive.size > 0 and positive.min() > 0
+    image = axes.imshow(good, cmap="viridis_r", norm="log" if log else None, aspect="auto")
+    if positive.size:
+        bar = figure.colorbar(image, ax=axes, format="%g")
+        bar.ax.yaxis.set_minor_formatter("%g")
+    for row, col in np.ndindex(given.values.shape):
+        value, marked = given.values[row, col], bool(given.marked[row, col])
+        if marked:
+            box = Rectangle((col - 0.5, row - 0.5), 1, 1, fc="none", ec=ALARM, hatch="///", lw=0)
+            axes.add_patch(box)
+        if given.values.size <= MOST_NUMBERS:
+            red, green, blue, _ = image.cmap(image.norm(value)) if not marked else (1, 1, 1, 1)
+            dark = 0.3 * red + 0.6 * green + 0.1 * blue < 0.5
+            said = "unstable" if marked else f"{value:.3g}"
+            ink = ALARM if marked else "white" if dark else INK
+            axes.text(
+                col, row, said, ha="center", va="center", fontsize=8, color=ink,
+                bbox={"fc": "white", "ec": "none", "pad": 1} if marked else None,
+            )  # fmt: skip
+    axes.set_title(given.title, loc="left", fontsize=11, color=INK)
+    axes.set_xticks(range(len(given.x)), given.x)
+    axes.set_yticks(range(len(given.y)), given.y)
+    axes.set_xlabel(given.x_label)
+    axes.set_ylabel(given.y_label)
+    return _png(figure)
+
+
+def _png(figure: Figure) -> bytes:
     file = io.BytesIO()
     figure.savefig(file, format="png", metadata={"Software": None})
     return file.getvalue()

@@ -18,3 +18,7 @@ class UnknownNameError(UsageError):
 
 class OutputError(DqpaintError):
     """A place that cannot be written."""
+
+
+class UnstableError(DqpaintError):
+    """A run whose numbers grew beyond what numbers can hold."""

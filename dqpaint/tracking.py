@@ -12,7 +12,7 @@ from dqpaint.controllers import Controller, Schedule, Seen
 from dqpaint.disturbances import Disturbance
 from dqpaint.dq import Floats
 from dqpaint.driving import make_drive
-from dqpaint.errors import DqpaintError
+from dqpaint.errors import UnstableError
 from dqpaint.motion import Motion
 from dqpaint.nullspace import DEFAULT_NULL, make_wish
 from dqpaint.plants.plant import Chosen, Plant, PlantMaker
@@ -230,8 +230,8 @@ def _finished(log: _Log, motion: Motion, card: Card, torques: bool) -> Track:
     )  # fmt: skip
 
 
-def _lost(time: float) -> DqpaintError:
-    return DqpaintError(
+def _lost(time: float) -> UnstableError:
+    return UnstableError(
         f"the run left the numbers before {time:.3f} s: the loop is unstable; "
         "lower the gains or shorten the period"
     )

@@ -10,12 +10,10 @@ from typing import NoReturn
 
 from dqpaint.cli_language import tell
 from dqpaint.errors import DqpaintError
-from dqpaint.language.lexer import lines
-from dqpaint.language.source import decoded, load
+from dqpaint.language.named import files_of
 
 INTERVAL = 0.1  # [s] between two looks
 SETTLED = 0.03  # [s] without a change: the editor has written all of it
-MOST_FILES = 100
 
 Signature = tuple[int, int, int] | None
 _CLEAR = "\x1b[2J\x1b[3J\x1b[H"
@@ -43,26 +41,6 @@ def watch(
         for stream in (sys.stdout, sys.stderr):
             stream.flush()
         _until_saved(path, before, wait)
-
-
-def files_of(path: Path) -> set[Path]:
-    """A drawing's file and what it names in quotes, there or not yet; the drawing may be wrong."""
-    found, unread = {path}, [path]
-    while unread and len(found) < MOST_FILES:
-        file = unread.pop()
-        named = {folder / name for name in _texts(file) for folder in (file.parent, path.parent)}
-        unread += [other for other in named - found if other.suffix == path.suffix]
-        found |= named
-    return found
-
-
-def _texts(path: Path) -> list[str]:
-    """What stands in quotes in a drawing."""
-    try:
-        text = decoded(load(path), str(path))
-    except DqpaintError:
-        return []
-    return [token.text for line in lines(text) for token in line.tokens if token.kind == "text"]
 
 
 def _until_saved(path: Path, before: dict[Path, Signature], wait: Callable[[float], None]) -> None:

@@ -1,5 +1,6 @@
 """The pages' generated tables: `python -m tests.generated` writes them, test_docs compares."""
 
+import json
 from math import ceil, floor
 from pathlib import Path
 
@@ -9,6 +10,8 @@ from dqpaint.robots.chain import EXTRAS
 
 END = "<!-- end -->"
 ROOT = Path(__file__).parent.parent
+CASES = ROOT / "tests/references/cases.toml"
+CASE_SIZE = {"width": 400, "height": 225}  # all of them stay below 3 MB
 
 COLUMNS = {
     "t_s": "time",
@@ -189,7 +192,20 @@ def renewed(page, tables=PAGES):
     return text
 
 
+def cases():
+    """The gallery as cases of `dqpaint verify tests/references`."""
+    from dqpaint.gallery import SHOTS
+
+    lines = ["# The pictures of the gallery, small. Written by python -m tests.generated."]
+    for shot in SHOTS:
+        lines += ["", f"[{shot.name}]", f"drawing = {json.dumps(shot.example)}"]
+        choices = {**shot.choices, **CASE_SIZE}
+        lines += [f"{name} = {json.dumps(value)}" for name, value in choices.items()]
+    return "\n".join(lines) + "\n"
+
+
 if __name__ == "__main__":
+    CASES.write_text(cases(), "utf-8")
     for tables in (PAGES, SLOW_TABLES):
         for page in tables:
             page.write_text(renewed(page, tables), "utf-8")

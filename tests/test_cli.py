@@ -372,7 +372,19 @@ def test_lists(dqpaint):
 
 
 @pytest.mark.parametrize(
-    "command", [[], ["draw"], ["preview"], ["develop"], ["check"], ["list"], ["gallery"]]
+    "command",
+    [
+        [],
+        ["draw"],
+        ["preview"],
+        ["develop"],
+        ["check"],
+        ["list"],
+        ["gallery"],
+        ["compare"],
+        ["sweep"],
+        ["verify"],
+    ],
 )
 def test_help_ends_with_two_examples(dqpaint, command):
     done = dqpaint(*command, "--help")
@@ -384,8 +396,8 @@ def test_help_ends_with_two_examples(dqpaint, command):
 @pytest.mark.parametrize("words", [["--help"], ["draw", "--help"], ["check", "star"]])
 def test_help_and_check_start_without_the_heavy_libraries(dqpaint, words):
     code = (
-        "import sys; from dqpaint import cli; sys.argv[0] = 'dqpaint'\n"
-        "try: cli.app()\nexcept SystemExit: pass\n"
+        "import sys; from dqpaint import studying; sys.argv[0] = 'dqpaint'\n"
+        "try: studying.app()\nexcept SystemExit: pass\n"
         "print('LOADED', [m for m in ('cv2', 'pinocchio', 'pybullet') if m in sys.modules])"
     )
     done = subprocess.run(

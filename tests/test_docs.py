@@ -22,6 +22,7 @@ from dqpaint.out_of_reach import begin
 from dqpaint.outputs import summarise
 from dqpaint.robots.card import read_card
 from dqpaint.robots.kinematics import Kinematics
+from dqpaint.studies.verify import told, verify
 from tests import generated
 
 ROOT = Path(__file__).parent.parent
@@ -140,6 +141,19 @@ def test_every_statement_s_example_is_one(word, tmp_path):
 def test_the_gallery_s_page_is_current():
     assert (ROOT / "gallery/README.md").read_text("utf-8") == page()
     assert {shot.example for shot in SHOTS} == set(example_names())
+
+
+def test_the_gallery_s_cases_are_current_and_small():
+    assert generated.CASES.read_text("utf-8") == generated.cases()
+    files = list(generated.CASES.parent.iterdir())
+    assert {path.stem for path in files} == {"cases", *(shot.name for shot in SHOTS)}
+    assert sum(path.stat().st_size for path in files) < 3e6
+
+
+@pytest.mark.slow
+def test_the_gallery_is_what_its_references_guard():
+    verdicts = verify(generated.CASES.parent)
+    assert not [one for one in verdicts if one.faults], told(verdicts)
 
 
 @pytest.mark.slow

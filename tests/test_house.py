@@ -61,6 +61,7 @@ ORDER = [
     "cli_language",
     "watching",
     "cli",
+    "studying",
     "answering",
     "__main__",
 ]
@@ -72,7 +73,7 @@ DOORS = {
     "matplotlib": ["charts.py"],
     "cv2": ["light", "stage/floor.py", "stage/ghost.py", "picture.py", "negative.py", "video.py"],
     "svgelements": ["language/drawings.py"],
-    "typer": ["cli.py", "cli_language.py"],
+    "typer": ["cli.py", "cli_language.py", "studying.py"],
     "pygments": ["editors/highlighting.py"],
     "pygls": ["editors/server.py"],
     "lsprotocol": ["editors/server.py"],

@@ -12,7 +12,8 @@ import pytest
 
 from dqpaint.errors import DqpaintError
 from dqpaint.language import parse
-from dqpaint.watching import files_of, watch
+from dqpaint.language.named import files_of
+from dqpaint.watching import watch
 
 LINE = "period 20 ms\nline to (30, {}) mm in 400 ms\n"
 

@@ -19,7 +19,7 @@ LEAST_TEXT = 9
 RIDGE = 0.8
 """The strip is as bright as the lines: what a stroke of such a picture is exposed to."""
 INK = (208, 208, 212)
-MOST_NAMED = 8
+MOST_NAMED = 12
 
 
 @dataclass(frozen=True)
@@ -53,26 +53,26 @@ def with_legend(picture: Picture, legend: Legend, look: str) -> Picture:
         return picture
     shown = picture.copy()
     top = picture.shape[0] - margin - height
-    _write(shown, legend.title, margin, top + size, size)
+    write_text(shown, legend.title, margin, top + size, size)
     below = top + size + gap
     if legend.amounts:
         along = np.linspace(0, len(legend.colours) - 1, width).round().astype(int)
         strip = _developed(np.array(legend.colours)[along], look)
         shown[below : below + thick, margin : margin + width] = strip
         baseline = below + thick + gap + size - round(0.25 * size)
-        _write(shown, legend.labels[0], margin, baseline, size)
-        right = margin + width - _length(legend.labels[-1], size)
-        _write(shown, legend.labels[-1], right, baseline, size)
+        write_text(shown, legend.labels[0], margin, baseline, size)
+        right = margin + width - text_length(legend.labels[-1], size)
+        write_text(shown, legend.labels[-1], right, baseline, size)
         return shown
     inks = _developed(np.array(legend.colours), look)
     for i, label in enumerate(legend.labels[:MOST_NAMED]):
         line = below + i * (size + gap)
         middle = line + size // 2 + 1
         shown[middle - thick // 2 : middle + (thick + 1) // 2, margin : margin + 3 * size] = inks[i]
-        _write(shown, label, margin + 4 * size, line + size, size)
+        write_text(shown, label, margin + 4 * size, line + size, size)
     if len(legend.labels) > MOST_NAMED:
         line = below + MOST_NAMED * (size + gap)
-        _write(shown, f"and {len(legend.labels) - MOST_NAMED} more", margin, line + size, size)
+        write_text(shown, f"and {len(legend.labels) - MOST_NAMED} more", margin, line + size, size)
     return shown
 
 
@@ -82,7 +82,7 @@ def _developed(colours: Floats, look: str) -> Picture:
     return np.asarray(LOOKS[look](image, 1.0, 0.0)[0])
 
 
-def _write(picture: Picture, text: str, x: int, baseline: int, size: int) -> None:
+def write_text(picture: Picture, text: str, x: int, baseline: int, size: int) -> None:
     """Text in a picture, in its place."""
     if hasattr(cv2, "FontFace"):
         face = cv2.FontFace("sans")
@@ -90,7 +90,7 @@ def _write(picture: Picture, text: str, x: int, baseline: int, size: int) -> Non
         return
     # an older OpenCV has but plotter's letters: drawn large and made small they are even
     fine, height = 4, picture.shape[0]
-    patch = np.zeros((fine * 2 * size, fine * (_length(text, size) + 2), 3), np.uint8)
+    patch = np.zeros((fine * 2 * size, fine * (text_length(text, size) + 2), 3), np.uint8)
     place, scale = (fine, fine * round(1.5 * size)), fine * size / 30.0
     cv2.putText(patch, text, place, cv2.FONT_HERSHEY_SIMPLEX, scale, INK, fine, cv2.LINE_AA)
     small = cv2.resize(patch, None, fx=1 / fine, fy=1 / fine, interpolation=cv2.INTER_AREA)
@@ -99,7 +99,7 @@ def _write(picture: Picture, text: str, x: int, baseline: int, size: int) -> Non
     np.maximum(region, small[: region.shape[0], : region.shape[1]], out=region)
 
 
-def _length(text: str, size: int) -> int:
+def text_length(text: str, size: int) -> int:
     """How long a text is [px]."""
     if hasattr(cv2, "FontFace"):
         box = cv2.getTextSize((10_000, 1_000), text, (0, 0), cv2.FontFace("sans"), size, 400)

@@ -1,0 +1,99 @@
+"""Several pictures as one: a contact sheet with labels, and pictures laid over each other.
+
+sheet     beside each other, each under its label
+overlay   the light of each in a colour of its own, added up: what all drew alike is white
+"""
+
+from __future__ import annotations
+
+import colorsys
+import math
+from collections.abc import Sequence
+
+import cv2
+import numpy as np
+
+from dqpaint.errors import DqpaintError
+from dqpaint.light.arrays import Image, Picture
+from dqpaint.light.legend import text_length, write_text
+
+GROUND = 22
+"""Grey of the sheet: the pictures' edges are seen on it."""
+FIRST_HUE = 30.0
+"""Orange, so that two pictures are orange and azure [deg]."""
+LEAST_TEXT = 11
+PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
+
+Colour = tuple[float, float, float]
+
+
+def hues(count: int) -> list[Colour]:
+    """Colours that add up to grey, all but, as linear RGB: hues evenly round the circle."""
+    return [colorsys.hsv_to_rgb((FIRST_HUE / 360 + i / count) % 1.0, 1, 1) for i in range(count)]
+
+
+def overlay(lights: Sequence[Image]) -> Image:
+    """(H, W, 3) linear light of several pictures, each in its hue.
+
+    A picture's own colours give way to its brightest channel.
+    """
+    total = np.zeros_like(lights[0])
+    for light, colour in zip(lights, hues(len(lights)), strict=True):
+        total += light.max(axis=2)[..., None] * np.asarray(colour, dtype=np.float32)
+    return np.asarray(total * np.float32(1.0 / math.sqrt(max(1.0, len(lights) / 2))))
+
+
+def sheet(
+    pictures: Sequence[Picture], labels: Sequence[str], columns: int | None = None
+) -> Picture:
+    """Pictures of one size beside each other, each under its label.
+
+    Args:
+        pictures: (H, W, 3) each.
+        labels: one each; too long a one is cut.
+        columns: how many beside each other; None makes the sheet about square in pictures.
+    """
+    height, width = pictures[0].shape[:2]
+    columns = columns or math.ceil(math.sqrt(len(pictures)))
+    rows = math.ceil(len(pictures) / columns)
+    size = max(LEAST_TEXT, round(height / 24))
+    head, gap = 2 * size, max(2, size // 3)
+    shape = (rows * (head + height) + gap, columns * (width + gap) + gap, 3)
+    whole = np.full(shape, GROUND, dtype=np.uint8)
+    for i, (picture, label) in enumerate(zip(pictures, labels, strict=True)):
+        top, left = (i // columns) * (head + height), gap + (i % columns) * (width + gap)
+        write_text(whole, _fitting(label, width, size), left, top + round(1.4 * size), size)
+        whole[top + head : top + head + height, left : left + width] = picture
+    return whole
+
+
+def note(text: str, height: int, width: int) -> Picture:
+    """A dark picture that says why there is none."""
+    blank = np.zeros((height, width, 3), dtype=np.uint8)
+    size = max(LEAST_TEXT, round(height / 28))
+    words, lines = text.split(), [""]
+    for word in words:
+        longer = f"{lines[-1]} {word}".strip()
+        if lines[-1] and text_length(longer, size) > width - 2 * size:
+            lines.append(word)
+        else:
+            lines[-1] = longer
+    for i, line in enumerate(lines[: max(1, height // (2 * size) - 1)]):
+        write_text(blank, _fitting(line, width - size, size), size, (2 * i + 2) * size, size)
+    return blank
+
+
+def png(picture: Picture) -> bytes:
+    """A picture (H, W, 3) as a PNG file."""
+    done, data = cv2.imencode(".png", np.ascontiguousarray(picture[..., ::-1]), PNG)
+    if not done:
+        raise DqpaintError("the picture could not be encoded as PNG")
+    return bytes(data.tobytes())
+
+
+def _fitting(text: str, width: int, size: int) -> str:
+    if text_length(text, size) <= width:
+        return text
+    while text and text_length(text + "...", size) > width:
+        text = text[:-1]
+    return text + "..."

@@ -1,0 +1,118 @@
+"""How much two pictures of the same thing differ, in the terms that see small faults on black.
+
+The mean of a picture that is mostly black says nothing: a visible hole leaves the mean structural
+similarity at 0.9999. So it is the largest difference, the sum of all, and the *least* similarity.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from dqpaint.errors import DqpaintError
+from dqpaint.light.arrays import Image, Picture
+
+WINDOW, SIGMA = 11, 1.5
+C1, C2 = (0.01 * 255) ** 2, (0.03 * 255) ** 2
+TIFF = [cv2.IMWRITE_TIFF_COMPRESSION, 8]  # deflate, which loses nothing
+
+
+@dataclass(frozen=True)
+class Difference:
+    """Between a reference and a new picture of one size.
+
+    Attributes:
+        film_max: largest difference of the linear light, by the reference's largest value.
+        film_l1: sum of all differences, by the sum of the reference.
+        energy: difference of the sums, by the sum of the reference.
+        u8_max: largest difference of the developed pictures, of 255.
+        ssim_min: the least structural similarity of any 11x11 window of their greys.
+    """
+
+    film_max: float
+    film_l1: float
+    energy: float
+    u8_max: int
+    ssim_min: float
+
+
+def differ(light: Image, new_light: Image, shown: Picture, new_shown: Picture) -> Difference:
+    """The difference of two pictures, linear (H, W, 3) and developed (H, W, 3)."""
+    before, after = light.astype(np.float64), new_light.astype(np.float64)
+    gap = np.abs(after - before)
+    most, whole = max(float(before.max()), 1e-300), max(float(before.sum()), 1e-300)
+    steps = np.abs(shown.astype(np.int16) - new_shown.astype(np.int16))
+    return Difference(
+        float(gap.max()) / most,
+        float(gap.sum()) / whole,
+        abs(float(after.sum()) - float(before.sum())) / whole,
+        int(steps.max()),
+        float(similarity(shown, new_shown).min()),
+    )
+
+
+def similarity(one: Picture, other: Picture) -> Image:
+    """The map (H, W) of structural similarity of the greys.
+
+    Wang et al., Image quality assessment: from error visibility to structural similarity, IEEE
+    Trans. Image Processing 13, 2004.
+    """
+    a, b = (cv2.cvtColor(p, cv2.COLOR_RGB2GRAY).astype(np.float64) for p in (one, other))
+
+    def mean(values: np.ndarray) -> np.ndarray:
+        return cv2.GaussianBlur(values, (WINDOW, WINDOW), SIGMA)
+
+    m, n = mean(a), mean(b)
+    va, vb, vab = mean(a * a) - m * m, mean(b * b) - n * n, mean(a * b) - m * n
+    over = (2 * m * n + C1) * (2 * vab + C2)
+    return np.asarray(over / ((m * m + n * n + C1) * (va + vb + C2)))
+
+
+def where_they_differ(light: Image, new_light: Image) -> tuple[Picture, float]:
+    """Their linear difference (H, W, 3) as a picture, its largest value white; and how amplified.
+
+    Linear, because lines are burnt out in a developed picture, and what is lost there is not seen.
+    """
+    gap = np.abs(new_light.astype(np.float64) - light.astype(np.float64))
+    most = float(gap.max())
+    if most == 0.0:
+        return np.zeros(light.shape, np.uint8), 1.0
+    shown = 255 * (gap / most) ** (1 / 2.2)
+    return shown.astype(np.uint8), max(float(light.max()), 1e-300) / most
+
+
+def encode_planes(planes: Image) -> bytes:
+    """Film planes (3, H, W) as a float TIFF, exact."""
+    image = np.ascontiguousarray(np.moveaxis(planes, 0, -1)[..., ::-1], dtype=np.float32)
+    done, data = cv2.imencode(".tiff", image, TIFF)
+    if not done:
+        raise DqpaintError("the film could not be encoded as TIFF")
+    return bytes(data.tobytes())
+
+
+def decode_planes(data: bytes) -> Image:
+    """The planes (3, H, W) that `encode_planes` wrote.
+
+    Raises:
+        ValueError: it is something else.
+    """
+    return np.ascontiguousarray(np.moveaxis(_decoded(data, np.float32), -1, 0))
+
+
+def decode_picture(data: bytes) -> Picture:
+    """A picture (H, W, 3) of 8 bits from a PNG file.
+
+    Raises:
+        ValueError: it is something else.
+    """
+    return _decoded(data, np.uint8)
+
+
+def _decoded(data: bytes, kind: type) -> np.ndarray:
+    """An image (H, W, 3), RGB."""
+    found = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED) if data else None
+    if found is None or found.ndim != 3 or found.shape[2] != 3 or found.dtype != kind:
+        raise ValueError("no picture of three channels")
+    return np.asarray(found[..., ::-1])

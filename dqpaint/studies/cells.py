@@ -1,0 +1,162 @@
+"""Repeated runs of one choice -> one row of a table: mean and spread of every figure."""
+
+import io
+from collections.abc import Sequence
+from csv import writer
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from dqpaint.errors import UsageError
+from dqpaint.studies.runs import Result
+from dqpaint.studies.statistics import Spread, spread
+
+
+class Figure(NamedTuple):
+    """A figure as tables show it: its names in a summary, a heading, and a scale to its unit."""
+
+    names: tuple[str, ...]
+    heading: str
+    scale: float = 1.0
+
+
+DEGREES = 57.29577951308232
+SHOWN = (
+    Figure(("error_integral",), "error integral"),
+    Figure(("position_error_rms_m",), "position rms [mm]", 1e3),
+    Figure(("position_error_max_m",), "largest [mm]", 1e3),
+    Figure(("orientation_error_rms_rad",), "orientation rms [deg]", DEGREES),
+    Figure(("command_integral_rad", "torque_integral_Nm_s"), "command [rad, Nm s]"),
+    Figure(("effort_integral",), "effort"),
+    Figure(("speed_integral_m",), "way [m]"),
+    Figure(("acceleration_integral",), "acceleration integral [m/s]"),
+)
+ROUNDING = 1e-13  # of a figure's own unit: what is smaller is shown as 0
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One choice and what came of its runs.
+
+    Attributes:
+        choice: what was chosen, by the names of the axes, as it was written.
+        results: of its runs, one a seed.
+    """
+
+    choice: dict[str, str]
+    results: tuple[Result, ...]
+
+    @property
+    def label(self) -> str:
+        """The choice in a few words."""
+        return ", ".join(self.choice.values())
+
+    @property
+    def done(self) -> list[Result]:
+        """The runs that figures are taken from."""
+        return [result for result in self.results if result.status == "done"]
+
+    @property
+    def stable(self) -> bool:
+        """Whether every run came to its end as it should."""
+        return len(self.done) == len(self.results)
+
+    @property
+    def status(self) -> str:
+        """`done`, or what became of how many runs."""
+        counts: dict[str, int] = {}
+        for result in self.results:
+            counts[result.status] = counts.get(result.status, 0) + 1
+        if len(counts) == 1:
+            return next(iter(counts))
+        return ", ".join(f"{count} {status}" for status, count in counts.items())
+
+    @property
+    def why(self) -> str:
+        """The first line of the first fault."""
+        faults = [result.message for result in self.results if result.status != "done"]
+        return faults[0].splitlines()[0] if faults else ""
+
+    def of(self, figure: Figure) -> Spread:
+        """Mean and spread of a figure; of unstable runs only where all are."""
+        chosen = self.done or [result for result in self.results if result.figures]
+        rows = (result.figures for result in chosen)
+        return spread([row[n] * figure.scale for row in rows for n in figure.names if n in row])
+
+
+def find_figure(name: str, cells: Sequence[Cell]) -> Figure:
+    """A figure by its name in a summary.
+
+    Raises:
+        UsageError: no run has one of that name.
+    """
+    for figure in SHOWN:
+        if name in figure.names:
+            return figure
+    known = names_of(cells)
+    if known and name not in known:
+        raise UsageError(f"no figure named '{name}'; known: {', '.join(known)}")
+    return Figure((name,), name)
+
+
+def names_of(cells: Sequence[Cell]) -> list[str]:
+    """The names of every figure that some run has, in the order of its summary."""
+    results = (result for cell in cells for result in cell.results)
+    return list(dict.fromkeys(name for result in results for name in result.figures))
+
+
+def rows(cells: Sequence[Cell], figures: Sequence[Figure] = SHOWN) -> list[list[str]]:
+    """Headings and rows of text; what was not done says so."""
+    axes = list(cells[0].choice)
+    found = [[*axes, *(figure.heading for figure in figures), "runs", "status"]]
+    for cell in cells:
+        texts = [said(cell.of(figure)) for figure in figures]
+        runs = str(len(cell.results))
+        found.append([*(cell.choice[axis] for axis in axes), *texts, runs, cell.status])
+    return found
+
+
+def said(value: Spread) -> str:
+    """A mean with its spread, four digits."""
+    if not value.n:
+        return "-"
+    mean = 0.0 if abs(value.mean) < ROUNDING else value.mean
+    return f"{mean:.4g}" if value.n < 2 else f"{mean:.4g} ± {value.std:.2g}"
+
+
+def text(lines: Sequence[Sequence[str]]) -> str:
+    """Rows below each other, for a terminal."""
+    widths = [max(len(line[i]) for line in lines) for i in range(len(lines[0]))]
+    return "\n".join(
+        "  ".join(f"{word:<{width}}" for word, width in zip(line, widths, strict=True)).rstrip()
+        for line in lines
+    )
+
+
+def narrow(lines: Sequence[Sequence[str]], columns: int) -> str:
+    """The same turned round, one row a figure, where it would be wider than the terminal."""
+    wide = text(lines)
+    if max(len(line) for line in wide.splitlines()) <= columns:
+        return wide
+    return text([list(column) for column in zip(*lines, strict=True)])
+
+
+def markdown(lines: Sequence[Sequence[str]]) -> str:
+    """Rows as a table in Markdown."""
+    made = ["| " + " | ".join(word.replace("|", "\\|") for word in line) + " |" for line in lines]
+    return "\n".join([made[0], "|" + "---|" * len(lines[0]), *made[1:]])
+
+
+def csv(cells: Sequence[Cell]) -> bytes:
+    """Every figure of every cell in SI units, mean and spread; all digits of a number."""
+    names = names_of(cells)
+    file = io.StringIO()
+    out = writer(file, lineterminator="\n")
+    ends = ("mean", "std")
+    heads = [f"{name}_{end}" for name in names for end in ends]
+    out.writerow([*cells[0].choice, "runs", "done", "status", "message", *heads])
+    for cell in cells:
+        spreads = [cell.of(Figure((name,), name)) for name in names]
+        values = [v for s in spreads for v in ((s.mean if s.n else ""), (s.std if s.n > 1 else ""))]
+        counts = [len(cell.results), len(cell.done), cell.status, cell.why]
+        out.writerow([*cell.choice.values(), *counts, *values])
+    return file.getvalue().encode()

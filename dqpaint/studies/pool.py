@@ -1,0 +1,185 @@
+"""Worker processes: runs go out, results come back in the order in which they are done."""
+
+import json
+import os
+import queue
+import subprocess
+import sys
+import tempfile
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.studies.runs import Result, Run
+
+ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+TRIES = 2  # at a run whose process ended
+MOST_JOBS = 1024
+GLANCE = 0.2  # [s] after which a Ctrl-C is noticed at the latest
+
+Task = tuple[str, Run]
+"""The key of a run, and the run."""
+
+
+def all_cores() -> int:
+    """The cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def check_jobs(jobs: int | None) -> int:
+    """The number of workers, all cores by default.
+
+    Raises:
+        UsageError: it is none.
+    """
+    if jobs is not None and not 1 <= jobs <= MOST_JOBS:
+        raise UsageError(f"{jobs} jobs; a study has 1 to {MOST_JOBS} workers")
+    return jobs or all_cores()
+
+
+def carry_out_all(
+    tasks: Sequence[Task], folder: Path, jobs: int, progress: Callable[[float], None]
+) -> Iterator[Result]:
+    """The results of runs, each as soon as it is there.
+
+    Args:
+        tasks: runs with their keys.
+        folder: of the study, for what is to be kept.
+        jobs: how many processes.
+        progress: called with the part of all that is done, 0 to 1.
+
+    Raises:
+        DqpaintError: the processes do not start.
+    """
+    todo: queue.SimpleQueue[Task] = queue.SimpleQueue()
+    for task in tasks:
+        todo.put(task)
+    said: queue.SimpleQueue[Any] = queue.SimpleQueue()
+    workers = [_Worker(todo, said, folder) for _ in range(min(jobs, len(tasks)))]
+    parts: dict[_Worker, float] = {}
+    done = 0
+    try:
+        while done < len(tasks):
+            try:
+                worker, what = said.get(timeout=GLANCE)
+            except queue.Empty:
+                continue
+            if isinstance(what, DqpaintError):
+                raise what
+            parts[worker] = what if isinstance(what, float) else 0.0
+            if isinstance(what, Result):
+                done += 1
+                yield what
+            progress((done + sum(parts.values())) / len(tasks))
+    finally:
+        for worker in workers:
+            worker.end()
+
+
+class _Worker(threading.Thread):
+    """One process and the thread that talks to it; another takes its place where it dies."""
+
+    def __init__(self, todo: queue.SimpleQueue[Task], said: Any, folder: Path) -> None:
+        super().__init__(daemon=True)
+        self._todo, self._said, self._folder = todo, said, folder
+        self._over = False
+        self._process: subprocess.Popen[str] | None = None
+        self._lock = threading.Lock()
+        self.start()
+
+    def end(self) -> None:
+        """Stop at once."""
+        with self._lock:
+            self._over = True
+            if self._process is not None:
+                self._process.kill()
+        self.join()
+
+    def run(self) -> None:
+        """Carry out runs until there is none left."""
+        with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as remarks:
+            try:
+                while not self._over:
+                    key, run = self._todo.get_nowait()
+                    self._say(self._result(key, run, remarks))
+            except queue.Empty:
+                pass
+            except Exception as problem:  # told where it is heard: a silent end would be a hang
+                self._say(DqpaintError(f"a worker of the study failed: {problem}"))
+            finally:
+                self._close()
+
+    def _say(self, what: object) -> None:
+        if not self._over:
+            self._said.put((self, what))
+
+    def _result(self, key: str, run: Run, remarks: Any) -> Result:
+        task = json.dumps({"key": key, "run": run.data, "folder": str(self._folder.resolve())})
+        for _ in range(TRIES):
+            process = self._process or self._begin(remarks)
+            try:
+                assert process.stdin is not None
+                process.stdin.write(task + "\n")
+                process.stdin.flush()
+                for said in self._answers(process):
+                    if "result" in said:
+                        return Result(**said["result"])
+                    self._say(float(said.get("part", 0.0)))
+            except BrokenPipeError:
+                pass
+            if self._over:
+                break
+            code = process.wait()
+            self._close()
+        last = _last_line(remarks)
+        text = f"its process ended with {'signal' if code < 0 else 'code'} {abs(code)}"
+        return Result(key, "died", f"{text}{': ' + last if last else ''}")
+
+    def _begin(self, remarks: Any) -> "subprocess.Popen[str]":
+        with self._lock:
+            if self._over:
+                raise queue.Empty
+            remarks.seek(0)
+            remarks.truncate()
+            self._process = process = subprocess.Popen(
+                [sys.executable, "-m", "dqpaint.studies.worker"],
+                stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=remarks, text=True,
+                encoding="utf-8", env=_surroundings(),
+            )  # fmt: skip
+        if not any(said.get("ready") for said in self._answers(process)) and not self._over:
+            raise DqpaintError(_last_line(remarks) or f"it ended with code {process.wait()}")
+        return process
+
+    @staticmethod
+    def _answers(process: "subprocess.Popen[str]") -> Iterator[dict[str, Any]]:
+        assert process.stdout is not None
+        while (line := process.stdout.readline()).endswith("\n"):  # else it died while it wrote
+            yield json.loads(line)
+
+    def _close(self) -> None:
+        with self._lock:
+            process, self._process = self._process, None
+        if process is None:
+            return
+        process.kill()
+        process.wait()
+        for stream in (process.stdin, process.stdout):
+            if stream is not None:
+                with suppress(OSError):
+                    stream.close()
+
+
+def _surroundings() -> dict[str, str]:
+    """Variables of a worker: it finds this package, and leaves the other cores to its like."""
+    here = str(Path(__file__).parent.parent.parent)
+    paths = os.pathsep.join(filter(None, [here, os.environ.get("PYTHONPATH")]))
+    return {**os.environ, **dict.fromkeys(ONE_THREAD, "1"), "PYTHONPATH": paths}
+
+
+def _last_line(remarks: Any) -> str:
+    remarks.seek(0)
+    lines = [line.strip() for line in remarks if line.strip()]
+    return lines[-1] if lines else ""

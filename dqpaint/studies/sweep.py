@@ -1,0 +1,162 @@
+"""A drawing over one or two axes of values: table, curve or heat map, unstable points marked."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from dqpaint.charts import HeatMap, Line, Panel, chart, heat_map
+from dqpaint.dq import Floats
+from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.outputs import write
+from dqpaint.settings import SMALLEST, Settings
+from dqpaint.studies import cells
+from dqpaint.studies.axes import Axis, combinations, settings_of
+from dqpaint.studies.cells import Cell, Figure, find_figure
+from dqpaint.studies.engine import carry_out_study
+from dqpaint.studies.runs import Run, drawing_text, seeded
+
+MOST_RUNS = 100_000
+EFFORT = "command_integral_rad", "torque_integral_Nm_s"
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """What came of a sweep: one cell a combination, the last axis running fastest."""
+
+    name: str
+    axes: tuple[Axis, ...]
+    cells: tuple[Cell, ...]
+    folder: Path
+
+
+def sweep(
+    drawing: str, axes: Sequence[Axis], base: Settings, folder: Path, count: int, jobs: int | None
+) -> Sweep:
+    """Run a drawing with every combination of the axes' values; pictures are not kept.
+
+    Args:
+        drawing: a file, or an example's name.
+        axes: one or two.
+        base: all other settings.
+        folder: of the study.
+        count: how many runs each, with the seeds that follow.
+        jobs: how many processes; None is one a core.
+
+    Raises:
+        DqpaintError: a fault in the drawing, the choices or the folder.
+    """
+    if not 1 <= len(axes) <= 2:
+        raise UsageError(f"{len(axes)} axes; a sweep has one --vary or two")
+    if len({axis.name for axis in axes}) < len(axes):
+        raise UsageError(f"'{axes[0].name}' is varied twice")
+    if math.prod(len(axis.texts) for axis in axes) * max(count, 1) > MOST_RUNS:
+        raise UsageError(f"these are more than {MOST_RUNS:,} runs; take fewer values")
+    name, text = drawing_text(drawing)
+    small = base.model_copy(update={"width": SMALLEST, "height": SMALLEST})
+    choices = combinations(axes)
+    runs = [seeded(Run(name, text, settings_of(small, choice)), count) for choice in choices]
+    results = iter(carry_out_study([run for row in runs for run in row], folder, jobs, "sweep"))
+    found = tuple(
+        Cell(choice, tuple(next(results) for _ in row))
+        for choice, row in zip(choices, runs, strict=True)
+    )
+    return Sweep(Path(name).name, tuple(axes), found, folder)
+
+
+def save(swept: Sweep, measure: str) -> list[Path]:
+    """Write the chart and the tables; returns their paths.
+
+    Raises:
+        UsageError: no figure of that name.
+        DqpaintError: the folder cannot be written.
+    """
+    figure = find_figure(measure, swept.cells)
+    title = f"# {swept.name} over {' and '.join(axis.name for axis in swept.axes)}\n\n"
+    made = curve(swept, figure) if len(swept.axes) == 1 else surface(swept, figure)
+    contents = {
+        ".png": made,
+        "-table.csv": cells.csv(swept.cells),
+        "-table.md": (title + cells.markdown(cells.rows(swept.cells)) + "\n").encode(),
+    }
+    names = "-".join(axis.name for axis in swept.axes)
+    return write(swept.folder / f"{Path(swept.name).stem}-{names}", contents)
+
+
+def values(found: Sequence[Cell], figure: Figure) -> Floats:
+    """The means (N,) of a figure; nan where no run came to one."""
+    return np.array([cell.of(figure).mean for cell in found])
+
+
+def curve(swept: Sweep, figure: Figure) -> bytes:
+    """The figure, and the command beside it, over one axis."""
+    axis = swept.axes[0]
+    numbers = axis.numbers
+    x = np.array(numbers or range(len(axis.texts)), dtype=np.float64)
+    order = np.argsort(x)
+    chosen = [swept.cells[i] for i in order]
+    marks = np.array([not cell.stable for cell in chosen])
+    effort = find_figure(EFFORT[0], swept.cells)
+    panels = []
+    for one in dict.fromkeys((figure, effort)):
+        y = values(chosen, one)
+        # where there is no number the mark stands at the top
+        top = np.nanmax(y) if np.isfinite(y).any() else 1.0
+        shown = np.where(np.isfinite(y), y, top)
+        bars = np.array([cell.of(one).std for cell in chosen])
+        line = Line(x[order], shown, one.heading.split(" [")[0], marks=marks, bars=bars)
+        positive = bool((shown > 0).all())
+        panels.append(
+            Panel(
+                swept.name,
+                axis.name,
+                one.heading,
+                [line],
+                log_x=bool(numbers) and _spans(x),
+                log_y=positive and _spans(shown),
+                ticks=None if numbers else axis.texts,
+            )
+        )
+    return chart(panels, width=12 if len(panels) > 1 else 7)
+
+
+def surface(swept: Sweep, figure: Figure) -> bytes:
+    """The figure as a heat map: the first axis upwards, the second to the right."""
+    up, right = swept.axes
+    shape = len(up.texts), len(right.texts)
+    means = values(swept.cells, figure).reshape(shape)
+    marked = np.array([not cell.stable for cell in swept.cells]).reshape(shape)
+    good = means[~marked & np.isfinite(means)]
+    log = good.size > 0 and bool((good > 0).all()) and _spans(good)
+    title = f"{swept.name}: {figure.heading}"
+    width, height = max(6.0, 1.0 + 0.9 * shape[1]), max(4.0, 1.2 + 0.55 * shape[0])
+    given = HeatMap(title, right.name, up.name, right.texts, up.texts, means, marked, log)
+    return heat_map(given, min(width, 24.0), min(height, 18.0))
+
+
+def _spans(these: Floats) -> bool:
+    """Whether values, all positive, are far enough apart for a logarithmic axis."""
+    return bool(these.min() > 0) and bool(these.max() >= 20 * these.min())
+
+
+def told(swept: Sweep, measure: str, columns: int) -> str:
+    """The table for a terminal, and why points are unstable.
+
+    Raises:
+        UsageError: no figure of that name.
+        DqpaintError: every run failed.
+    """
+    find_figure(measure, swept.cells)
+    if all(cell.status in ("failed", "died") for cell in swept.cells):
+        raise DqpaintError(f"every run failed; the first: {swept.cells[0].results[0].message}")
+    table = cells.rows(swept.cells)
+    text = cells.text(table)
+    if max(map(len, text.splitlines())) > columns:  # what few columns can say of many rows
+        kept = [table[0].index(axis.name) for axis in swept.axes]
+        heads = [f.heading for f in cells.SHOWN[:4]]
+        kept += [table[0].index(head) for head in heads] + [len(table[0]) - 1]
+        text = cells.text([[row[i] for i in kept] for row in table])
+    whys = dict.fromkeys(f"{cell.status}: {cell.why}" for cell in swept.cells if not cell.stable)
+    return "\n".join([text, *whys])

@@ -1,0 +1,179 @@
+"""The commands of studies: arguments in, calls, tables out; nothing heavy at start."""
+
+import shutil
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from dqpaint.cli import (
+    Brush,
+    Disturb,
+    Drawing,
+    Ev,
+    Exposure,
+    From,
+    Gain,
+    Law,
+    Look,
+    PlantName,
+    Robot,
+    Seed,
+    Size,
+    View,
+    app,
+)
+
+__all__ = ["app"]
+
+Runs = Annotated[int, typer.Option(metavar="N", help="of each, with the seeds that follow --seed")]
+Jobs = Annotated[int | None, typer.Option(metavar="N", help="processes [default: all cores]")]
+Folder = Annotated[
+    str | None,
+    typer.Option("--out", metavar="FOLDER", help="of the study; one that was stopped goes on"),
+]
+Measure = Annotated[
+    str, typer.Option("--figure", metavar="NAME", help="that is tested and drawn, as in the JSON")
+]
+
+COMPARE_EXAMPLES = """Examples:
+
+  dqpaint compare lag --controllers "hinf,p,p(k=5)"
+
+  dqpaint compare lag --controllers hinf,pff --runs 10 --disturb twist=noise,x=0.02,frequency=5
+"""
+
+
+@app.command(epilog=COMPARE_EXAMPLES)
+def compare(
+    file: Drawing,
+    controllers: Annotated[
+        str, typer.Option(metavar="A,B(GAIN=VALUE),...", help="the laws, with gains of their own")
+    ] = "hinf",
+    plants: Annotated[str | None, typer.Option(metavar="A,B,...", help="the plants")] = None,
+    robots: Annotated[str | None, typer.Option(metavar="A,B,...", help="the arms")] = None,
+    runs: Runs = 1,
+    figure: Measure = "error_integral",
+    disturb: Disturb = None,
+    seed: Seed = 0,
+    start: From = "first",
+    size: Size = "640x360",
+    view: View = "front",
+    ev: Ev = 0.0,
+    brush: Brush = None,
+    exposure: Exposure = None,
+    look: Look = "film",
+    jobs: Jobs = None,
+    out: Folder = None,
+) -> None:
+    """Paint one drawing by several laws, plants or arms: pictures, overlay, errors, one table.
+
+    With --runs each is done with several seeds, and the table has means and standard deviations.
+    """
+    from dqpaint.settings import make_settings, parse_disturbances, parse_size
+    from dqpaint.studies import compare as study
+    from dqpaint.studies.axes import Axis, parse_laws, parse_list
+
+    axes = [Axis("controller", tuple(parse_laws(controllers)))]
+    for name, values in (("plant", plants), ("robot", robots)):
+        if values is not None:
+            axes.append(Axis(name, tuple(parse_list(values))))
+    width, height = parse_size(size)
+    base = make_settings(
+        disturb=parse_disturbances(disturb or []), seed=seed, start=start, width=width,
+        height=height, view=view, ev=ev, brush=brush, exposure=exposure, look=look,
+    )  # fmt: skip
+    compared = study.compare(file, axes, base, _folder(out, file, "compare"), runs, jobs)
+    _finish(study.told(compared, figure, _columns()), study.save(compared, figure))
+
+
+SWEEP_EXAMPLES = """Examples:
+
+  dqpaint sweep star --controller p --vary k=5..400:log:9
+
+  dqpaint sweep star --vary gamma_T=0.01..1:log:5 --vary disturb.twist.x=0,0.01,0.02
+"""
+
+
+@app.command(epilog=SWEEP_EXAMPLES)
+def sweep(
+    file: Drawing,
+    vary: Annotated[
+        list[str],
+        typer.Option(
+            metavar="NAME=VALUES",
+            help="a gain, plant, robot, disturb.NAME.VALUE ...: k=5,10,20 or k=1..100:log:9; "
+            "once or twice",
+        ),
+    ],
+    controller: Law = "hinf",
+    gain: Gain = None,
+    plant: PlantName = None,
+    robot: Robot = None,
+    disturb: Disturb = None,
+    seed: Seed = 0,
+    start: From = "first",
+    runs: Runs = 1,
+    figure: Measure = "position_error_rms_m",
+    jobs: Jobs = None,
+    out: Folder = None,
+) -> None:
+    """Run a drawing over one or two axes of values: table, and a curve or a heat map.
+
+    Unstable points are marked. A sweep that was stopped goes on where it was.
+    """
+    from dqpaint.settings import make_settings, parse_disturbances, parse_gains
+    from dqpaint.studies import sweep as study
+    from dqpaint.studies.axes import parse_axis
+
+    axes = [parse_axis(text) for text in vary]
+    base = make_settings(
+        controller=controller, gains=parse_gains(gain or []), plant=plant, robot=robot,
+        disturb=parse_disturbances(disturb or []), seed=seed, start=start,
+    )  # fmt: skip
+    swept = study.sweep(file, axes, base, _folder(out, file, "sweep"), runs, jobs)
+    _finish(study.told(swept, figure, _columns()), study.save(swept, figure))
+
+
+def _folder(out: str | None, file: str, what: str) -> Path:
+    return Path(out) if out else Path(f"{Path(file).stem}-{what}")
+
+
+def _columns() -> int:
+    """How wide the terminal is; a file or a pipe takes any table."""
+    return shutil.get_terminal_size((100_000, 24)).columns
+
+
+def _finish(text: str, paths: list[Path]) -> None:
+    """Tell what came out; the files are there before, whoever stops listening."""
+    print("\n".join([text, *(f"  written  {path}" for path in paths)]))
+
+
+@app.command(
+    epilog="Examples:\n\n  dqpaint verify drawings/\n\n  dqpaint verify drawings/ --update"
+)
+def verify(
+    folder: Annotated[
+        str, typer.Argument(metavar="FOLDER", help="of drawings (or a cases.toml) and references")
+    ] = ".",
+    update: Annotated[
+        bool, typer.Option("--update", help="make new references, and say what changed")
+    ] = False,
+    jobs: Jobs = None,
+    out: Annotated[
+        str, typer.Option(metavar="FOLDER", help="where pictures of what differs go")
+    ] = "verify-differences",
+) -> None:
+    """Draw a folder again and compare it with its references, gate by gate."""
+    from dqpaint.studies import verify as study
+
+    verdicts = study.verify(Path(folder), jobs, lenient=update)
+    for text in study.remarks(verdicts):
+        print(text, file=sys.stderr)
+    if update:
+        print("\n".join(study.update(verdicts, Path(folder))))
+        return
+    _finish(study.told(verdicts), study.save_differences(verdicts, Path(out)))
+    if any(verdict.faults for verdict in verdicts):
+        raise typer.Exit(1)

@@ -1,0 +1,80 @@
+"""What a study varies: values as they are written, and settings with them in place."""
+
+import numpy as np
+import pytest
+
+from dqpaint.errors import UsageError
+from dqpaint.settings import make_settings
+from dqpaint.studies.axes import (
+    Axis,
+    combinations,
+    parse_axis,
+    parse_laws,
+    parse_list,
+    settings_of,
+    split_law,
+)
+
+
+def test_lists_and_ranges():
+    assert parse_axis("k=5, 10,20") == Axis("k", ("5", "10", "20"))
+    assert parse_axis("plant=ideal,stiff").numbers is None
+    assert parse_axis("k=0..10:6").texts == ("0", "2", "4", "6", "8", "10")
+    assert parse_axis("k=0..10:lin:6") == parse_axis("k=0..10:6")
+    np.testing.assert_allclose(parse_axis("k=100..1:log:5").numbers, [100, 31.62, 10, 3.162, 1])
+    assert len(set(parse_axis("k=1..1.00001:9").texts)) == 9
+    assert parse_axis("Q=[1,1,4],2").texts == ("[1,1,4]", "2")
+    assert parse_axis("k=5..20@10%,7").texts == ("5..20@10%", "7")  # a ramp is a value
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ("k", "is not NAME=VALUES"), ("k=", "is not NAME=VALUES"), ("=1,2", "is not NAME=VALUES"),
+        ("k=1,,2", "an empty value"), ("k=5,5", "there twice"), ("k=0..10:log:3", "above 0"),
+        ("k=1..2:1", "2 to"), ("k=a..b:3", "are numbers"), ("k=1..inf:3", "finite"),
+    ],
+)  # fmt: skip
+def test_bad_axes_are_told(text, fault):
+    with pytest.raises(UsageError, match=fault):
+        parse_axis(text)
+
+
+def test_laws_have_gains_of_their_own():
+    assert parse_laws("hinf, p(k=5),p(k=20)") == ["hinf", "p(k=5)", "p(k=20)"]
+    assert split_law("lqr(Q=1,1,4,R=0.01)") == ("lqr", {"Q": "1,1,4", "R": 0.01})
+    assert split_law("my.py:law(k=5..20@10%)") == ("my.py:law", {"k": "5..20@10%"})
+    for wrong in ("p(k=5", "p(k)", "p(k=5)x", "p,p", "", "p,,q"):
+        with pytest.raises(UsageError):
+            parse_laws(wrong)
+    with pytest.raises(UsageError):
+        parse_list("a,,b")
+
+
+def test_choices_go_where_they_belong():
+    base = make_settings(gains={"a": 1.0}, disturb={"twist": {"form": "sine", "x": 0.1}})
+    made = settings_of(
+        base,
+        {"controller": "p(k=5)", "plant": "ideal", "disturb.twist.frequency": "3", "seed": "7",
+         "b": "[1,2]", "gain.plant": "4"},
+    )  # fmt: skip
+    assert made.controller == "p"
+    assert made.gains == {"a": 1.0, "k": 5.0, "b": "1,2", "plant": 4.0}
+    assert made.plant == "ideal"
+    assert made.seed == 7
+    assert made.disturb == {"twist": {"form": "sine", "x": 0.1, "frequency": 3.0}}
+    assert base.disturb["twist"] == {"form": "sine", "x": 0.1}
+    bare = make_settings()
+    assert settings_of(bare, {"disturb.twist.x": "0"}).disturb == {}
+    both = {"disturb.twist.x": "0", "disturb.twist.y": "0.1"}
+    assert settings_of(bare, both).disturb == {"twist": {"y": 0.1}}
+    with pytest.raises(UsageError, match=r"disturb\.NAME\.VALUE"):
+        settings_of(base, {"disturb.twist": "1"})
+    with pytest.raises(UsageError, match="seed"):
+        settings_of(base, {"seed": "-1"})
+
+
+def test_the_last_axis_runs_fastest():
+    axes = [parse_axis("a=1,2"), parse_axis("b=x,y")]
+    found = [(c["a"], c["b"]) for c in combinations(axes)]
+    assert found == [("1", "x"), ("1", "y"), ("2", "x"), ("2", "y")]

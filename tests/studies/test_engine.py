@@ -1,0 +1,264 @@
+"""Studies in processes: stopped and gone on, the same whatever the workers, no run lost by one."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections import Counter
+
+import pytest
+
+import dqpaint
+from dqpaint.errors import DqpaintError, OutputError, UsageError
+from dqpaint.settings import make_settings
+from dqpaint.studies import pool
+from dqpaint.studies.engine import carry_out_study
+from dqpaint.studies.keeping import kept, place
+from dqpaint.studies.record import NAME, Record
+from dqpaint.studies.runs import Result, Run, drawing_text, result_of, run_of, seeded
+
+pytestmark = pytest.mark.slow
+LINE = "period 10 ms\nspeed 60 mm/s\nstart at (0, 0) mm\nline to (40, 20) mm\n"
+GAINS = (5.0, 20.0, 400.0)
+
+
+def run(k=20.0, text=LINE, **choices):
+    usual = {"controller": "p", "gains": {"k": k}, "plant": "ideal", "width": 16, "height": 16}
+    return Run("line.traj", text, make_settings(**{**usual, **choices}))
+
+
+def facts(results):
+    """All of results but the time they took."""
+    return [{k: v for k, v in vars(result).items() if k != "wall"} for result in results]
+
+
+def test_results_are_those_of_draw_whatever_the_number_of_workers(tmp_path):
+    runs = [run(k) for k in GAINS]
+    one, two = (carry_out_study(runs, tmp_path / str(n), n) for n in (1, 2))
+    assert facts(one) == facts(two)
+    (tmp_path / "line.traj").write_text(LINE)
+    for k, result in zip(GAINS, one, strict=True):
+        drawn = dqpaint.draw(
+            tmp_path / "line.traj", controller="p", gains={"k": k}, plant="ideal", size=(16, 16)
+        )
+        assert result.figures == drawn.metrics.figures  # bit for bit
+    assert [result.status for result in one] == ["done", "done", "unstable"]
+
+
+def test_what_was_done_is_not_done_again(tmp_path, capsys):
+    carry_out_study([run(5.0), run(10.0)], tmp_path, 1)
+    before = (tmp_path / NAME).read_bytes()
+    more = carry_out_study([run(10.0), run(20.0), run(10.0)], tmp_path, 1)
+    assert more[0] == more[2]
+    assert (tmp_path / NAME).read_bytes().startswith(before)
+    assert (tmp_path / NAME).read_text().count("\n") == 3
+    assert "1 of 2 runs were done before" in capsys.readouterr().err
+
+
+def test_one_failed_run_does_not_lose_the_rest(tmp_path, monkeypatch):
+    far = run(text=LINE.replace("(40, 20)", "(4000, 20)").replace("60 mm/s", "4 m/s"))
+    (tmp_path / "law.py").write_text(
+        "import os, signal\n"
+        "def fine(seen, k=1.0):\n    return seen.twist_d\n"
+        "def wrong(seen, k=1.0):\n    return [1.0]\n"
+        "def killed(seen, k=1.0):\n    os.kill(os.getpid(), signal.SIGKILL)\n"
+        "def once(seen, k=1.0):\n"
+        f"    if not os.path.exists({str(tmp_path / 'mark')!r}):\n"
+        f"        open({str(tmp_path / 'mark')!r}, 'w').close()\n"
+        "        os.kill(os.getpid(), signal.SIGKILL)\n"
+        "    return seen.twist_d\n"
+        "def loud(seen, k=1.0):\n    print('text among the answers')\n    return seen.twist_d\n"
+    )
+    own = [run(1.0, controller=f"{tmp_path}/law.py:{name}") for name in
+           ("fine", "wrong", "killed", "loud", "once")]  # fmt: skip
+    results = carry_out_study([far, *own, run(5.0)], tmp_path / "study", 2)
+    assert [r.status for r in results] == ["failed", "done", "failed", "died"] + ["done"] * 3
+    assert "outside the reach" in results[0].message
+    assert "returned an array of shape (1,)" in results[2].message
+    assert "its process ended with signal 9" in results[3].message
+    monkeypatch.setattr(pool, "TRIES", 1)
+    again = carry_out_study([far, *own], tmp_path / "study", 1)
+    lines = (tmp_path / "study" / NAME).read_text().splitlines()
+    tries = Counter(json.loads(line)["key"] for line in lines)
+    assert [tries[r.key] for r in again] == [1, 1, 1, 2, 1, 1]  # what died is tried again
+
+
+def test_choices_are_checked_before_anything_runs(tmp_path):
+    with pytest.raises(UsageError, match="no controller named 'q'"):
+        carry_out_study([run(), run(controller="q")], tmp_path / "s", 1)
+    with pytest.raises(UsageError, match="no gain named 'g'"):
+        carry_out_study([run(gains={"g": 1.0})], tmp_path / "s", 1)
+    with pytest.raises(UsageError, match="0 jobs"):
+        carry_out_study([run()], tmp_path / "s", 0)
+    assert not (tmp_path / "s").exists()
+    with pytest.raises(UsageError, match="nothing in them is random"):
+        seeded(run(), 3)
+    with pytest.raises(UsageError, match="at least 1"):
+        seeded(run(), 0)
+
+
+def test_workers_that_do_not_start_are_told(tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "executable", "/bin/false")
+    with pytest.raises(DqpaintError, match="a worker of the study failed"):
+        carry_out_study([run()], tmp_path, 2)
+
+
+def test_keys_change_with_what_decides_a_result(tmp_path):
+    law = tmp_path / "law.py"
+    law.write_text("def law(seen, k=1.0):\n    return seen.twist_d\n")
+    first = run(1.0, controller=str(law)).key
+    assert run(1.0, controller=str(law)).key == first
+    others = [run(2.0, controller=str(law)), run(1.0, LINE + "\n", controller=str(law)),
+              run(1.0, controller=str(law), seed=1)]  # fmt: skip
+    assert first not in [other.key for other in others]
+    law.write_text("def law(seen, k=1.0):\n    return 2 * seen.twist_d\n")
+    assert run(1.0, controller=str(law)).key != first
+
+
+def test_keys_change_with_the_files_a_drawing_and_a_brush_name(tmp_path):
+    drawing, included = tmp_path / "a.traj", tmp_path / "b.traj"
+    points, image = tmp_path / "points.csv", tmp_path / "image.png"
+    drawing.write_text('period 10 ms\ninclude "b.traj"\n')
+    included.write_text('path "points.csv" unit mm in 1 s\n')
+    points.write_text("x,y\n0,0\n1,2\n3,1\n")
+    image.write_bytes(b"one")
+
+    def key():
+        brush = f"pixelstick:length=50mm,image={image}"
+        return Run(*drawing_text(str(drawing)), run(brush=brush).settings).key
+
+    found = [key()]
+    assert key() == found[0]
+    for path, text in ((points, "x,y\n0,0\n1,2\n3,2\n"), (image, "two"),
+                       (included, 'path "points.csv" unit mm in 2 s\n')):  # fmt: skip
+        path.write_text(text)
+        found.append(key())
+    assert len(set(found)) == 4
+
+
+def test_runs_and_results_are_read_back_as_they_were():
+    one = run(gains={"k": "5..20@10%"}, seed=3)
+    assert run_of(json.loads(json.dumps(one.data))) == one
+    result = Result("key", "done", "", {"a": 0.1 + 0.2, "b": 1e-300}, 2, 0.5)
+    assert result_of(result.line) == result
+    for wrong in ("", "3", "{}", '{"key": 1', '{"key": "a", "status": "done", "colour": 3}'):
+        with pytest.raises(ValueError):  # noqa: PT011  of the library, in many words
+            result_of(wrong)
+
+
+def test_a_record_forgets_a_line_that_was_cut_off_and_no_other(tmp_path):
+    first, second = Result("a", "done", figures={"x": 1.5}), Result("b", "failed", "why")
+    with Record(tmp_path) as record:
+        record.add(first)
+        record.add(second)
+    path = tmp_path / NAME
+    path.write_bytes(path.read_bytes()[:-5])
+    with Record(tmp_path) as record:
+        assert record.results == {"a": first}
+        record.add(second)
+    with Record(tmp_path) as record:
+        assert record.results == {"a": first, "b": second}
+    path.write_text(first.line + "colour\n")
+    with pytest.raises(DqpaintError, match="line 2 is not the result of a run"):
+        Record(tmp_path)
+
+
+def test_a_record_is_one_study_s_at_a_time(tmp_path):
+    with Record(tmp_path), pytest.raises(DqpaintError, match="another study is at work"):
+        Record(tmp_path)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OutputError, match="cannot be written"):
+        Record(tmp_path / "file")
+
+
+def test_what_is_kept_is_there_or_is_made_again(tmp_path):
+    one = Run("line.traj", LINE, run().settings, ("series", "light"))
+    result = carry_out_study([one], tmp_path, 1)[0]
+    arrays = kept(tmp_path, result.key)
+    assert arrays["light"].shape == (16, 16, 3)
+    assert len(arrays["t_s"]) == len(arrays["position_error_m"]) > 50
+    assert arrays["position_error_m"].max() == result.figures["position_error_max_m"]
+    place(tmp_path, result.key).unlink()
+    carry_out_study([one], tmp_path, 1)
+    assert place(tmp_path, result.key).is_file()
+
+
+# A sweep from the command line, killed and interrupted.
+
+SLOW = "period 5 ms\nspeed 20 mm/s\nstart at (0, 0) mm\nline to (60, 20) mm\n"
+POINTS = 7
+SWEEP = ("sweep", "line.traj", "--controller", "p", "--plant", "ideal",
+         "--vary", f"k=2..300:log:{POINTS}", "--jobs", "2")  # fmt: skip
+
+
+def start(folder, *words):
+    return subprocess.Popen(
+        [sys.executable, "-m", "dqpaint", *words], cwd=folder, text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
+    )  # fmt: skip
+
+
+def wait_for_lines(path, count):
+    until = time.monotonic() + 60
+    while time.monotonic() < until:
+        if path.is_file() and path.read_bytes().count(b"\n") >= count:
+            return
+        time.sleep(0.01)
+    raise AssertionError("nothing was done in a minute")
+
+
+def tables(folder):
+    return [(folder / f"line-k{end}").read_bytes() for end in ("-table.csv", "-table.md", ".png")]
+
+
+def alive(group):
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """The tables of the sweep, done at once."""
+    folder = tmp_path_factory.mktemp("whole")
+    (folder / "line.traj").write_text(SLOW)
+    assert start(folder, *SWEEP, "--out", "study").communicate(timeout=100)[1] == ""
+    return tables(folder / "study")
+
+
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT])
+def test_a_sweep_that_was_stopped_goes_on(tmp_path, how, whole):
+    (tmp_path / "line.traj").write_text(SLOW)
+    sweep = start(tmp_path, *SWEEP, "--out", "study")
+    record = tmp_path / "study" / NAME
+    wait_for_lines(record, 1)
+    # Ctrl-C in a terminal reaches every process of the group, a kill the one it is meant for
+    (os.killpg if how == signal.SIGINT else os.kill)(sweep.pid, how)
+    said = sweep.communicate(timeout=30)[1]
+    assert sweep.returncode == (130 if how == signal.SIGINT else -how)
+    if how == signal.SIGINT:
+        assert "the same command goes on from there" in said
+        assert "Traceback" not in said
+    until = time.monotonic() + 20
+    while alive(sweep.pid) and time.monotonic() < until:
+        time.sleep(0.05)
+    assert not alive(sweep.pid)  # workers end with their study
+    before = record.read_bytes()
+    assert 1 <= before.count(b"\n") < POINTS
+    assert not (tmp_path / "study" / "line-k.png").exists()
+
+    record.write_bytes(before + b'{"key": "cut o')  # as a failing disk would leave it
+    again = start(tmp_path, *SWEEP, "--out", "study")
+    count = before.count(b"\n")
+    assert f"{count} of {POINTS} runs were done before" in again.communicate(timeout=100)[1]
+    assert again.returncode == 0
+    after = record.read_bytes()
+    assert after.startswith(before)
+    keys = Counter(json.loads(line)["key"] for line in after.splitlines())
+    assert len(keys) == POINTS
+    assert set(keys.values()) == {1}
+    assert tables(tmp_path / "study") == whole

@@ -1,0 +1,204 @@
+"""compare and sweep as a person calls them: tables that agree with draw, pictures, messages."""
+
+import csv
+import sys
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+import dqpaint as package
+from dqpaint import answering
+from dqpaint.charts import ALARM
+from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.light.contact import hues
+from dqpaint.settings import make_settings
+from dqpaint.studies import cells, compare, sweep
+from dqpaint.studies.axes import parse_axis, parse_laws
+from dqpaint.studies.cells import SHOWN, Cell
+from dqpaint.studies.runs import Result
+
+LINE = "period 10 ms\nspeed 60 mm/s\nstart at (0, 0) mm\nline to (40, 20) mm\n"
+NOISE = {"twist": {"form": "noise", "x": 0.02, "y": 0.02, "frequency": 5.0}}
+
+
+@pytest.fixture
+def line(tmp_path):
+    (tmp_path / "line.traj").write_text(LINE)
+    return tmp_path / "line.traj"
+
+
+def read(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def opened(path):
+    return cv2.imread(str(path))[..., ::-1].astype(int)
+
+
+def has(image, colour, least=30):
+    rgb = np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)])
+    return (np.abs(image - rgb).max(axis=2) < 12).sum() > least
+
+
+@pytest.mark.slow
+def test_a_comparison_s_table_is_what_numpy_says_of_draws(line, tmp_path):
+    base = make_settings(plant="ideal", disturb=NOISE, seed=5, width=320, height=180)
+    axes = [parse_axis("controller=p,pff")]
+    made = compare.compare(str(line), axes, base, tmp_path / "study", 3, 2)
+    paths = {path.name: path for path in compare.save(made, "error_integral")}
+    assert sorted(paths) == [
+        f"line-{end}" for end in
+        ("errors.png", "overlay.png", "sheet.png", "table.csv", "table.md")
+    ]  # fmt: skip
+    rows = read(paths["line-table.csv"])
+    assert [row["controller"] for row in rows] == ["p", "pff"]
+    means = []
+    for row in rows:
+        figures = [
+            package.draw(line, controller=row["controller"], plant="ideal", disturb=NOISE,
+                         seed=seed, size=(16, 16)).metrics.figures
+            for seed in (5, 6, 7)
+        ]  # fmt: skip
+        for name in figures[0]:
+            values = [one[name] for one in figures]
+            assert float(row[f"{name}_mean"]) == pytest.approx(np.mean(values), rel=1e-14)
+            assert float(row[f"{name}_std"]) == pytest.approx(np.std(values, ddof=1), rel=1e-9)
+        means.append(np.mean([one["error_integral"] for one in figures]))
+    tests = compare.differences(made.cells, SHOWN[0])
+    assert tests[1][:3] == ["pff", "p", f"{means[0] / means[1]:.3g}"]
+    assert tests[1][-1] == "yes"
+    assert "Welch" in paths["line-table.md"].read_text()
+    sheet = opened(paths["line-sheet.png"])
+    assert sheet.shape[1] > 2 * 320
+    overlay = opened(paths["line-overlay.png"])
+    assert overlay.shape == (180, 320, 3)
+    # both begin alike, white; what lags behind leaves the front end to one hue
+    assert (overlay.min(axis=2) > 120).any()
+    for hue in hues(2):
+        strong, weak = np.argmax(hue), np.argmin(hue)
+        assert ((overlay[..., strong] - overlay[..., weak]) > 60).any()
+
+
+@pytest.mark.slow
+def test_one_exposure_for_all_pictures(line, tmp_path):
+    """The contact sheet holds the very pictures that draw makes, whose exposure is the asked's."""
+    base = make_settings(plant="ideal", width=320, height=180)
+    axes = [parse_axis("controller=p,hinf")]
+    made = compare.compare(str(line), axes, base, tmp_path / "study", 1, 2)
+    compare.save(made, "error_integral")
+    sheet = opened(tmp_path / "study/line-sheet.png")
+    for law in ("p", "hinf"):
+        drawn = package.draw(line, controller=law, plant="ideal", size=(320, 180)).image.astype(int)
+        row = drawn[90, :, 0]
+        hits = [
+            (y, x)
+            for y in range(sheet.shape[0] - 179)
+            for x in range(sheet.shape[1] - 319)
+            if np.array_equal(sheet[y + 90, x : x + 320, 0], row)
+            and np.array_equal(sheet[y : y + 180, x : x + 320], drawn)
+        ]
+        assert len(hits) == 1, law
+
+
+@pytest.mark.slow
+def test_a_sweep_marks_what_is_unstable(line, tmp_path):
+    base = make_settings(controller="p", plant="ideal")
+    made = sweep.sweep(str(line), [parse_axis("k=10,20,40,400")], base, tmp_path / "s", 1, 2)
+    paths = sweep.save(made, "position_error_rms_m")
+    rows = read(tmp_path / "s/line-k-table.csv")
+    assert [row["status"] for row in rows] == ["done", "done", "done", "unstable"]
+    rms = [float(row["position_error_rms_m_mean"]) for row in rows]
+    assert rms[0] > rms[1] > rms[2]  # a law without feed-forward lags by v / k
+    assert rms[1] == pytest.approx(0.06 / 20, rel=0.2)
+    assert has(opened(paths[0]), ALARM)
+    told = sweep.told(made, "position_error_rms_m", 200)
+    assert "unstable: commands alternate" in told
+
+    axes = [parse_axis("k=10,400"), parse_axis("disturb.twist.x=0.01,0.02,0.04")]
+    both = sweep.sweep(str(line), axes, base, tmp_path / "s", 1, 2)
+    paths = sweep.save(both, "position_error_rms_m")
+    assert has(opened(paths[0]), ALARM)
+    assert [cell.stable for cell in both.cells] == [True] * 3 + [False] * 3
+    assert [cell.choice["disturb.twist.x"] for cell in both.cells][:3] == ["0.01", "0.02", "0.04"]
+    with pytest.raises(UsageError, match="no figure named 'colour'; known: error_integral"):
+        sweep.told(both, "colour", 200)
+
+
+def test_a_sweep_has_one_axis_or_two(line, tmp_path):
+    base = make_settings(controller="p")
+    k, q = parse_axis("k=1,2"), parse_axis("seed=1,2")
+    for axes, fault in (
+        ([], "one --vary or two"), ([k, q, k], "one --vary or two"), ([k, k], "varied twice"),
+        ([parse_axis("k=1..2:9999"), parse_axis("seed=1..99:99")], "100,000 runs"),
+    ):  # fmt: skip
+        with pytest.raises(UsageError, match=fault):
+            sweep.sweep(str(line), axes, base, tmp_path / "s", 1, 1)
+
+
+def made_up(*values, status="done", why=""):
+    return tuple(
+        Result(str(i), status, why, {"error_integral": value}) for i, value in enumerate(values)
+    )
+
+
+def test_cells_take_figures_from_runs_that_came_to_their_end():
+    mixed = Cell({"k": "5"}, made_up(1.0, 3.0) + made_up(9.0, status="unstable", why="it rings"))
+    assert mixed.of(SHOWN[0]).mean == 2.0
+    assert mixed.status == "2 done, 1 unstable"
+    assert mixed.why == "it rings"
+    assert not mixed.stable
+    alone = Cell({"k": "9"}, made_up(9.0, status="unstable", why="it rings"))
+    assert alone.of(SHOWN[0]).mean == 9.0
+    lost = Cell({"k": "10"}, (Result("x", "failed", "too far\nand more"),))
+    assert cells.rows([mixed, alone, lost])[1:] == [
+        ["5", "2 ± 1.4", *["-"] * 7, "3", "2 done, 1 unstable"],
+        ["9", "9", *["-"] * 7, "1", "unstable"],
+        ["10", *["-"] * 8, "1", "failed"],
+    ]
+    lines = cells.csv([mixed, alone, lost]).decode().splitlines()
+    assert lines[0] == "k,runs,done,status,message,error_integral_mean,error_integral_std"
+    assert lines[1].startswith('5,3,2,"2 done, 1 unstable",it rings,2.0,1.41421356237')
+    assert lines[3] == "10,1,0,failed,too far,,"
+    made = sweep.Sweep("a.traj", (parse_axis("k=5,9,10"),), (mixed, alone, lost), Path())
+    assert sweep.curve(made, SHOWN[0]).startswith(b"\x89PNG")
+    with pytest.raises(DqpaintError, match="every run failed; the first: too far"):
+        sweep.told(sweep.Sweep("a.traj", made.axes, (lost,), Path()), "error_integral", 80)
+
+
+def test_tables_of_text():
+    lines = [["law", "error"], ["p|q", "1"], ["hinf", "2.5"]]
+    assert cells.text(lines) == "law   error\np|q   1\nhinf  2.5"
+    assert cells.markdown(lines).splitlines()[:3] == ["| law | error |", "|---|---|",
+                                                      "| p\\|q | 1 |"]  # fmt: skip
+    assert cells.narrow(lines, 8).splitlines()[0] == "law    p|q  hinf"
+    assert parse_laws("p") == ["p"]
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "fault"),
+    [
+        (("compare", "line.traj", "--controllers", "p,q"), 2, "no controller named 'q'"),
+        (("compare", "line.traj", "--controllers", "p,p"), 2, "a law is there twice"),
+        (("compare", "line.traj", "--controllers", "p,pff", "--runs", "3"), 2, "nothing in them"),
+        (("compare", "line.traj", "--controllers", "p(k=x)"), 2, "k"),
+        (("sweep", "line.traj", "--vary", "q=1,2"), 2, "has no gain named 'q'; its gains: gamma"),
+        (("sweep", "line.traj", "--vary", "gamma_T"), 2, "is not NAME=VALUES"),
+        (("sweep", "none.traj", "--vary", "gamma_T=1"), 1, "no file 'none.traj'"),
+        (("sweep", "line.traj", "--vary", "plant=ideal", "--out", "line.traj"), 1, "cannot be"),
+        (("sweep", "line.traj", "--vary", "plant=ideal", "--jobs", "0"), 2, "0 jobs"),
+        (("verify", "nowhere"), 1, "no folder 'nowhere'"),
+    ],
+)  # fmt: skip
+def test_slips_are_told(line, tmp_path, words, code, fault, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "argv", ["dqpaint", *words])
+    with pytest.raises(SystemExit) as stop:
+        answering.run()
+    out, err = capsys.readouterr()
+    assert (stop.value.code, out) == (code, "")
+    assert fault in err
+    assert "Traceback" not in err
+    assert [path.name for path in tmp_path.iterdir()] == ["line.traj"]

@@ -1,9 +1,8 @@
 """What `check` says of a drawing, for people and for programs."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from dqpaint import __version__
 from dqpaint.errors import DqpaintError, UsageError
@@ -13,6 +12,9 @@ from dqpaint.language.diagnostics import Severity, Span, place
 from dqpaint.motion import Motion, plan, summary_line
 from dqpaint.robots.card import Card
 from dqpaint.robots.choose import card_for
+
+if TYPE_CHECKING:
+    from dqpaint.forewarning import Outlook
 
 
 @dataclass(frozen=True)
@@ -24,7 +26,7 @@ class Checked:
     findings: tuple[Diagnostic, ...]
     motion: Motion | None
     fault: str = ""  # of a file that could not even be read
-    reach: str = ""  # what the arm says of it, where an arm was asked
+    outlook: "Outlook | None" = None  # what the arm says of it, where an arm was asked
 
     @property
     def errors(self) -> int:
@@ -39,7 +41,8 @@ class Checked:
             return f"error: {self.fault}"
         parts = [render(finding, self.file, self.source) for finding in self.findings]
         if self.motion is not None:
-            parts.append(summary_line(self.motion) + self.reach)
+            said = self.outlook.text if self.outlook else ""
+            parts.append(summary_line(self.motion) + said)
         return "\n\n".join(parts)
 
 
@@ -57,34 +60,27 @@ def check(name: str, robot: str | None) -> Checked:
         card = card_for(program, robot)
         motion = plan(program, card.canvas.pose)
         asked = robot is not None or program.robot is not None
-        reach = _reach(motion, card) if asked else ""
+        outlook = _look_ahead(motion, card) if asked else None
     except ScriptError as problem:
         return Checked(problem.name, problem.text, problem.diagnostics, None)
     except UsageError:
         raise
     except DqpaintError as problem:
         return Checked(name, "", (), None, str(problem))
-    return Checked(str(path), program.text, motion.notes, motion, reach=reach)
+    findings = motion.notes + (outlook.warnings if outlook else ())
+    return Checked(str(path), program.text, findings, motion, outlook=outlook)
 
 
-def _reach(motion: Motion, card: Card) -> str:
-    """Whether an arm reaches all of a drawing; only this brings in the kinematics.
+def _look_ahead(motion: Motion, card: Card) -> "Outlook":
+    """What an arm says of a drawing; only this brings in the kinematics.
 
     Raises:
-        ScriptError: it does not.
+        ScriptError: it does not reach all of it.
     """
-    from dqpaint.out_of_reach import begin
+    from dqpaint.forewarning import look_ahead
     from dqpaint.robots.kinematics import Kinematics
 
-    arm = Kinematics(card)
-    notes = "".join(f"\nnote: {note}" for note in arm.notes)
-    margin = math.degrees(begin(motion, arm).margin)
-    said = (
-        f"but a joint has to go {-margin:.0f} deg beyond its limit"
-        if margin < 0
-        else f"every joint {margin:.0f} deg or more from its limits"
-    )
-    return f"; {card.name} reaches it, {said}{notes}"
+    return look_ahead(motion, Kinematics(card))
 
 
 def as_json(results: Sequence[Checked]) -> dict[str, Any]:
@@ -137,6 +133,7 @@ def _file(result: Checked) -> dict[str, Any]:
         "seconds": float(motion.t[-1]),
         "length_m": motion.length,
         "box_m": motion.box.tolist(),
+        "forecast": result.outlook.as_json if result.outlook else None,
     }
 
 

@@ -30,11 +30,13 @@ ORDER = [
     "light",
     "picture",
     "out_of_reach",
+    "forecast",
     "paint",
     "outputs",
     "terminal",
     "report",
     "posing",
+    "forewarning",
     "checking",
     "listing",
     "api",
@@ -46,7 +48,8 @@ ORDER = [
 ]
 
 DOORS = {
-    "pinocchio": ["robots/kinematics.py", "robots/dynamics.py"],
+    "pinocchio": ["robots/kinematics.py", "robots/dynamics.py", "robots/collisions.py"],
+    "coal": ["robots/collisions.py"],
     "pybullet": ["plants/bullet.py"],
     "matplotlib": ["charts.py"],
     "cv2": ["light/spread.py", "light/develop.py", "picture.py"],

@@ -115,6 +115,7 @@ class _Run:
         self.rates[joined] = 0.0
         change = np.diff(self.rates, axis=0, prepend=0.0)
         change[joined] = 0.0
+        change[-1] = 0.0  # a run ends there: nothing is asked any more
         change[1:][joined[:-1]] = 0.0
         dynamics = Dynamics(kinematics)
         self.effort = _torques(dynamics, self.posture, self.rates, change / self.period)

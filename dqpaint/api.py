@@ -26,6 +26,7 @@ def draw(
     controller: str | Callable[..., Any] | None = None,
     gains: Mapping[str, float | tuple[float, ...] | str] | None = None,
     robot: str | None = None,
+    tool: str | None = None,
     plant: str | None = None,
     disturb: Mapping[str, Mapping[str, float | str]] | None = None,
     seed: int | None = None,
@@ -43,6 +44,7 @@ def draw(
         gains: of the law, in SI units; the others keep their defaults. A text such as
             "5..20@10%" changes on the way.
         robot: the arm; else the file's robot line, else the iiwa.
+        tool: where the light sits on the flange, "X,Y,Z" or "X,Y,Z,ROLL,PITCH,YAW" [m, deg].
         plant: how the arm answers.
         disturb: values of disturbances by their names, as in {"twist": {"x": 0.01}}.
         seed: of everything random.
@@ -59,7 +61,7 @@ def draw(
     own = controller if callable(controller) else None
     name = getattr(own, "__name__", "own") if own else controller
     settings = make_settings(
-        controller=name, gains=dict(gains) if gains else None, robot=robot, plant=plant,
+        controller=name, gains=dict(gains) if gains else None, robot=robot, tool=tool, plant=plant,
         disturb={name: dict(values) for name, values in (disturb or {}).items()}, seed=seed,
         start=start, width=width, height=height, view=view, ev=ev,
     )  # fmt: skip
@@ -102,18 +104,19 @@ def preview(
     drawing: str | PathLike[str],
     *,
     robot: str | None = None,
+    tool: str | None = None,
     size: tuple[int, int] | None = None,
     view: str | None = None,
     ev: float | None = None,
 ) -> "Picture":
     """The asked picture of a drawing, without an arm; arguments as those of `draw`."""
     width, height = _width_and_height(size)
-    settings = make_settings(robot=robot, width=width, height=height, view=view, ev=ev)
+    settings = make_settings(robot=robot, tool=tool, width=width, height=height, view=view, ev=ev)
     program = read(find_drawing(str(drawing)))
 
     from dqpaint.picture import take
 
-    card = card_for(program, settings.robot)
+    card = card_for(program, settings.robot, settings.tool)
     motion = plan(program, card.canvas.pose)
     return take(motion, motion.points, settings)
 

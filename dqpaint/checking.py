@@ -46,20 +46,21 @@ class Checked:
         return "\n\n".join(parts)
 
 
-def check(name: str, robot: str | None) -> Checked:
+def check(name: str, robot: str | None, tool: str | None = None) -> Checked:
     """Read one drawing and plan its motion; nothing is simulated.
 
-    The reach is looked at where an arm is named, in the call or in the file.
+    Where an arm is named, in the call or in the file, or its tool, it looks ahead, too: reach,
+    limits, speeds, torques, singularities, collisions, hidden light.
 
     Raises:
-        UsageError: no such robot.
+        UsageError: no such robot, or no such tool.
     """
     try:
         path = find_drawing(name)
         program = read(path)
-        card = card_for(program, robot)
+        card = card_for(program, robot, tool)
         motion = plan(program, card.canvas.pose)
-        asked = robot is not None or program.robot is not None
+        asked = robot is not None or tool is not None or program.robot is not None
         outlook = _look_ahead(motion, card) if asked else None
     except ScriptError as problem:
         return Checked(problem.name, problem.text, problem.diagnostics, None)

@@ -46,6 +46,13 @@ Robot = Annotated[
         help="the arm, or its .urdf or .toml [default: the drawing's, else iiwa]",
     ),
 ]
+Tool = Annotated[
+    str | None,
+    typer.Option(
+        metavar="X,Y,Z[,R,P,Y]",
+        help="where the light sits on the flange, m and deg, or with units: 0,0,80mm",
+    ),
+]
 PlantName = Annotated[
     str | None,
     typer.Option(
@@ -108,6 +115,7 @@ def draw(
     controller: Law = "hinf",
     gain: Gain = None,
     robot: Robot = None,
+    tool: Tool = None,
     plant: PlantName = None,
     disturb: Disturb = None,
     seed: Seed = 0,
@@ -130,9 +138,9 @@ def draw(
     stem = outputs.stem_for(out, f"{path.stem}-{short_name(controller)}")
     with Progress(path.name) as progress:
         painting = api.draw(
-            path, controller=controller, gains=parse_gains(gain or []), robot=robot, plant=plant,
-            disturb=parse_disturbances(disturb or []), seed=seed, start=start,
-            size=parse_size(size), view=view, ev=ev, progress=progress,
+            path, controller=controller, gains=parse_gains(gain or []), robot=robot,
+            tool=tool, plant=plant, disturb=parse_disturbances(disturb or []), seed=seed,
+            start=start, size=parse_size(size), view=view, ev=ev, progress=progress,
         )  # fmt: skip
     written = outputs.write(stem, {end: make(painting) for end, make in makers.items()})
 
@@ -147,6 +155,7 @@ def draw(
 def preview(
     file: Drawing,
     robot: Robot = None,
+    tool: Tool = None,
     size: Size = "1280x720",
     view: View = "front",
     ev: Ev = 0.0,
@@ -159,7 +168,7 @@ def preview(
 
     path = find_drawing(file)
     stem = outputs.stem_for(out, f"{path.stem}-preview")
-    picture = api.preview(path, robot=robot, size=parse_size(size), view=view, ev=ev)
+    picture = api.preview(path, robot=robot, tool=tool, size=parse_size(size), view=view, ev=ev)
     written = outputs.write(stem, {".png": picture.png})
 
     from dqpaint import report
@@ -171,6 +180,7 @@ def preview(
 def check(
     files: Drawings,
     robot: Robot = None,
+    tool: Tool = None,
     as_json: AsJson = False,
 ) -> None:
     """Read drawings: every error at its place, or length, time, steps and box.
@@ -179,7 +189,7 @@ def check(
     """
     from dqpaint import checking
 
-    results = [checking.check(name, robot) for name in files]
+    results = [checking.check(name, robot, tool) for name in files]
     if as_json:
         print(json.dumps(checking.as_json(results), indent=2))
     else:
@@ -229,13 +239,16 @@ def pose(
         str | None, typer.Option(metavar="A,B,...", help="the joints in radians")
     ] = None,
     flange: Annotated[bool, typer.Option("--flange", help="the bare last link, no tool")] = False,
+    tool: Tool = None,
     as_json: AsJson = False,
 ) -> None:
     """Tell where an arm's tool is: dual quaternion, matrix, screw, Jacobian, manipulability."""
     from dqpaint import posing
-    from dqpaint.robots.choose import find_card
+    from dqpaint.robots.choose import find_card, with_tool
 
-    card = find_card(robot)
+    if flange and tool is not None:
+        raise UsageError("--flange leaves the tool out: give it or --tool, not both")
+    card = with_tool(find_card(robot), tool)
     posed = posing.pose_arm(card, posing.read_posture(card, deg, rad), flange)
     for kind, sentences in (("note", posed.notes), ("warning", posed.beyond)):
         for sentence in sentences:

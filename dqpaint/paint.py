@@ -102,7 +102,7 @@ def paint(
     gains = controller.read_gains(settings.gains)
     plant = choose_plant(settings.plant, "torque" if controller.drives_torque else "rates")
     disturbances = make_disturbances(settings.disturb)
-    card = card_for(program, settings.robot)
+    card = card_for(program, settings.robot, settings.tool)
     with clock("motion"):
         motion = plan(program, card.canvas.pose)
     with clock("start"):

@@ -8,7 +8,7 @@ from dqpaint.language.diagnostics import Diagnostic, PlaceProblem, Problem, Span
 from dqpaint.language.evaluate import evaluate
 from dqpaint.language.findings import EnoughError, Findings
 from dqpaint.language.pen import Pen, where
-from dqpaint.language.program import Pose, Program
+from dqpaint.language.program import Auto, Pose, Program
 from dqpaint.language.scope import BUILTINS, Scope, UnknownError
 from dqpaint.language.settings import PERIOD, changed
 from dqpaint.language.syntax import Expression, Statement
@@ -34,7 +34,7 @@ class Expander:
         self._period = PERIOD
         self._robot: str | None = None
         self._robot_span: Span | None = None
-        self._placement: Pose | None = None
+        self._placement: Pose | Auto | None = None
         self.at: Span | None = None  # the statement being worked on
 
     def program(self, statements: tuple[Statement, ...]) -> Program:
@@ -95,7 +95,14 @@ class Expander:
         if statement.word in ("robot", "place", "period", "start"):
             self._once.setdefault(statement.word, statement.span)
         name = statement.name
-        if name is not None and statement.word not in ("robot", "brush", "curve", "repeat", "def"):
+        if name is not None and statement.word not in (
+            "robot",
+            "place",
+            "brush",
+            "curve",
+            "repeat",
+            "def",
+        ):
             self._scope.names.setdefault(name.text, None)
         if statement.body and statement.word != "def":
             outside = self._open_block()
@@ -211,12 +218,13 @@ class Expander:
 
     def _place(self, statement: Statement) -> None:
         self._first(statement)
-        at, turned = statement.given("at"), statement.value("turned")
-        position = reading.place(at, self._scope, "at")
-        orientation = (1.0, 0.0, 0.0, 0.0)
-        if turned is not None:
-            orientation = reading.rotation(turned, self._scope, "turned")
-        self._placement = Pose(position, orientation)
+        turned = statement.value("turned")
+        given = None if turned is None else reading.rotation(turned, self._scope, "turned")
+        if statement.name is not None:
+            self._placement = Auto(given, statement.span)
+            return
+        position = reading.place(statement.given("at"), self._scope, "at")
+        self._placement = Pose(position, given or (1.0, 0.0, 0.0, 0.0))
 
     def _start(self, statement: Statement) -> None:
         self._first(statement, inside=True)

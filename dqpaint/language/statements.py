@@ -64,6 +64,8 @@ def _head(cursor: Cursor, word: str, head: str) -> _Head:
             return _repeat(cursor)
         case "robot":
             return _robot(cursor), ()
+        case "place":
+            return (_word(cursor) if cursor.is_word("auto") else None), ()
         case "brush":
             return _brush(cursor), ()
         case _:
@@ -129,6 +131,11 @@ def _expect(cursor: Cursor, word: str, example: str) -> None:
         message = f"expected '{word}' but found {found(cursor.token)}"
         raise problem("E116", message, span, "", f"write: {example}")
     cursor.take()
+
+
+def _word(cursor: Cursor) -> Word:
+    token = cursor.take()
+    return Word(token.text, token.span)
 
 
 def _robot(cursor: Cursor) -> Word:

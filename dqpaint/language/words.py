@@ -93,8 +93,9 @@ STATEMENTS = {
         StatementWord("let", "a name for a value", "let r = 70 mm", head="let"),
         StatementWord(
             "place",
-            "the drawing frame in the robot's base frame",
+            "the drawing frame in the robot's base frame, or auto: where it fits best",
             "place at (600, 0, 500) mm",
+            head="place",
             parts=("at", "turned"),
         ),
         StatementWord(
@@ -273,7 +274,7 @@ PART_ALIASES = {
     "position": "at",
 }
 
-LITTLE_WORDS = ("from", "for", "on", "off", "keep", "follow", "look", "up", "point", "bar")
+LITTLE_WORDS = ("from", "for", "on", "off", "keep", "follow", "look", "up", "point", "bar", "auto")
 LATER_WORDS = ("height", "width", "font", "unit")
 
 CONSTANTS = ("pi", "x", "y", "z")

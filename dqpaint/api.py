@@ -27,6 +27,7 @@ def draw(
     gains: Mapping[str, float | tuple[float, ...] | str] | None = None,
     robot: str | None = None,
     tool: str | None = None,
+    place: str | None = None,
     plant: str | None = None,
     disturb: Mapping[str, Mapping[str, float | str]] | None = None,
     seed: int | None = None,
@@ -45,6 +46,7 @@ def draw(
             "5..20@10%" changes on the way.
         robot: the arm; else the file's robot line, else the iiwa.
         tool: where the light sits on the flange, "X,Y,Z" or "X,Y,Z,ROLL,PITCH,YAW" [m, deg].
+        place: "auto" puts the drawing where it fits the arm best.
         plant: how the arm answers.
         disturb: values of disturbances by their names, as in {"twist": {"x": 0.01}}.
         seed: of everything random.
@@ -61,7 +63,8 @@ def draw(
     own = controller if callable(controller) else None
     name = getattr(own, "__name__", "own") if own else controller
     settings = make_settings(
-        controller=name, gains=dict(gains) if gains else None, robot=robot, tool=tool, plant=plant,
+        controller=name, gains=dict(gains) if gains else None, robot=robot, tool=tool, place=place,
+        plant=plant,
         disturb={name: dict(values) for name, values in (disturb or {}).items()}, seed=seed,
         start=start, width=width, height=height, view=view, ev=ev,
     )  # fmt: skip

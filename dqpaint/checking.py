@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from dqpaint import __version__
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.examples import find_drawing
-from dqpaint.language import Diagnostic, ScriptError, read, render
+from dqpaint.language import Diagnostic, Program, ScriptError, read, render
 from dqpaint.language.diagnostics import Severity, Span, place
 from dqpaint.motion import Motion, plan, summary_line
 from dqpaint.robots.card import Card
@@ -46,7 +46,9 @@ class Checked:
         return "\n\n".join(parts)
 
 
-def check(name: str, robot: str | None, tool: str | None = None) -> Checked:
+def check(
+    name: str, robot: str | None, tool: str | None = None, place: str | None = None
+) -> Checked:
     """Read one drawing and plan its motion; nothing is simulated.
 
     Where an arm is named, in the call or in the file, or its tool, it looks ahead, too: reach,
@@ -55,13 +57,16 @@ def check(name: str, robot: str | None, tool: str | None = None) -> Checked:
     Raises:
         UsageError: no such robot, or no such tool.
     """
+    if place not in (None, "auto"):
+        raise UsageError(f"place '{place}' is not auto; a place of your own is a line of the file")
     try:
         path = find_drawing(name)
         program = read(path)
         card = card_for(program, robot, tool)
         motion = plan(program, card.canvas.pose)
-        asked = robot is not None or tool is not None or program.robot is not None
-        outlook = _look_ahead(motion, card) if asked else None
+        asked = not (robot is tool is place is program.robot is None)
+        outlook = _look_ahead(program, card, place) if asked else None
+        motion = outlook.motion if outlook else motion
     except ScriptError as problem:
         return Checked(problem.name, problem.text, problem.diagnostics, None)
     except UsageError:
@@ -72,7 +77,7 @@ def check(name: str, robot: str | None, tool: str | None = None) -> Checked:
     return Checked(str(path), program.text, findings, motion, outlook=outlook)
 
 
-def _look_ahead(motion: Motion, card: Card) -> "Outlook":
+def _look_ahead(program: Program, card: Card, place: str | None) -> "Outlook":
     """What an arm says of a drawing; only this brings in the kinematics.
 
     Raises:
@@ -81,7 +86,7 @@ def _look_ahead(motion: Motion, card: Card) -> "Outlook":
     from dqpaint.forewarning import look_ahead
     from dqpaint.robots.kinematics import Kinematics
 
-    return look_ahead(motion, Kinematics(card))
+    return look_ahead(program, Kinematics(card), place)
 
 
 def as_json(results: Sequence[Checked]) -> dict[str, Any]:

@@ -53,6 +53,10 @@ Tool = Annotated[
         help="where the light sits on the flange, m and deg, or with units: 0,0,80mm",
     ),
 ]
+PlaceAt = Annotated[
+    str | None,
+    typer.Option("--place", metavar="auto", help="put the drawing where it fits the arm best"),
+]
 PlantName = Annotated[
     str | None,
     typer.Option(
@@ -116,6 +120,7 @@ def draw(
     gain: Gain = None,
     robot: Robot = None,
     tool: Tool = None,
+    place: PlaceAt = None,
     plant: PlantName = None,
     disturb: Disturb = None,
     seed: Seed = 0,
@@ -139,8 +144,8 @@ def draw(
     with Progress(path.name) as progress:
         painting = api.draw(
             path, controller=controller, gains=parse_gains(gain or []), robot=robot,
-            tool=tool, plant=plant, disturb=parse_disturbances(disturb or []), seed=seed,
-            start=start, size=parse_size(size), view=view, ev=ev, progress=progress,
+            tool=tool, place=place, plant=plant, disturb=parse_disturbances(disturb or []),
+            seed=seed, start=start, size=parse_size(size), view=view, ev=ev, progress=progress,
         )  # fmt: skip
     written = outputs.write(stem, {end: make(painting) for end, make in makers.items()})
 
@@ -176,20 +181,30 @@ def preview(
     _finish(report.notes(picture.motion), report.of_preview(picture, written), picture.image)
 
 
-@app.command(epilog="Examples:\n\n  dqpaint check star\n\n  dqpaint check drawings/*.traj --json")
+CHECK_EXAMPLES = """Examples:
+
+  dqpaint check drawings/*.traj --json
+
+  dqpaint check star --robot ur5 --place auto
+"""
+
+
+@app.command(epilog=CHECK_EXAMPLES)
 def check(
     files: Drawings,
     robot: Robot = None,
     tool: Tool = None,
+    place: PlaceAt = None,
     as_json: AsJson = False,
 ) -> None:
     """Read drawings: every error at its place, or length, time, steps and box.
 
-    With --robot, or a robot line in the file, also whether the arm reaches all of it.
+    With --robot, or a robot line in the file, it also looks ahead, line by line: reach, joint
+    limits, speeds, torques, singularities, collisions, and light the arm would hide.
     """
     from dqpaint import checking
 
-    results = [checking.check(name, robot, tool) for name in files]
+    results = [checking.check(name, robot, tool, place) for name in files]
     if as_json:
         print(json.dumps(checking.as_json(results), indent=2))
     else:

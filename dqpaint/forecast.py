@@ -43,6 +43,7 @@ class Forecast:
         line: of the file.
         start: time of its first row [s].
         margin: least distance of a joint to its limits [rad]; negative beyond them.
+        room: the same as a part of half the joint's range: 0 at a limit, 1 in the middle.
         speed: largest joint rate [rad/s].
         speed_part: and as a part of the joint's limit; both of the joint nearest to its own.
         effort: largest torque of the motion itself, of the joint nearest to its limit [Nm].
@@ -60,6 +61,7 @@ class Forecast:
     line: int
     start: float
     margin: Worst
+    room: float
     speed: Worst
     speed_part: float
     effort: Worst
@@ -123,6 +125,7 @@ class _Run:
             dynamics, self.posture, self.rates, change / min(self.period, TAKEN_UP)
         )
         self.margin = np.minimum(self.posture - self.card.lower, self.card.upper - self.posture)
+        self.room = 2 * self.margin / (self.card.upper - self.card.lower)
 
 
 def _torques(dynamics: Dynamics, postures: Floats, rates: Floats, accelerations: Floats) -> Floats:
@@ -201,6 +204,7 @@ def _of_line(run: _Run, line: int, near: _Near, hidden: dict[int, bool], light: 
         line=line,
         start=float(run.t[rows[0]]),
         margin=margin,
+        room=float(run.room[rows].min()),
         speed=speed,
         speed_part=speed_part,
         effort=effort,

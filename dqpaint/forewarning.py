@@ -7,8 +7,10 @@ from typing import Any, NamedTuple
 
 from dqpaint.forecast import Forecast, forecast
 from dqpaint.language.diagnostics import Diagnostic, Span
-from dqpaint.motion import Motion
+from dqpaint.language.program import Program
+from dqpaint.motion import Motion, plan
 from dqpaint.out_of_reach import begin
+from dqpaint.placing import Placed, settle
 from dqpaint.robots.card import Card
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.resolver import THRESHOLD
@@ -29,6 +31,8 @@ class Outlook:
     """What an arm says of a drawing it has not drawn yet.
 
     Attributes:
+        motion: what was asked, at its place.
+        placed: where `place auto` put it.
         robot: its name.
         start: the posture it begins in [rad].
         lines: the forecast of each line.
@@ -36,6 +40,8 @@ class Outlook:
         notes: what was assumed of the arm.
     """
 
+    motion: Motion
+    placed: Placed | None
     robot: str
     start: tuple[float, ...]
     lines: tuple[Forecast, ...]
@@ -53,29 +59,39 @@ class Outlook:
             else f"every joint {margin:.0f} deg or more from its limits"
         )
         notes = "".join(f"\nnote: {note}" for note in self.notes)
-        return (
-            f"; {self.robot} reaches it, {said}\n{_extremes(self.lines)}{_table(self.lines)}{notes}"
-        )
+        placed = f"  {self.placed.line}\n  {self.placed.figures}\n" if self.placed else ""
+        figures = f"{_extremes(self.lines)}{_table(self.lines)}"
+        return f"; {self.robot} reaches it, {said}\n{placed}{figures}{notes}"
 
     @property
     def as_json(self) -> dict[str, Any]:
         """All figures of all lines, in SI units."""
         return {
             "robot": self.robot,
+            "place": self.placed and self.placed.as_json,
             "start_rad": list(self.start),
             "lines": [_figures(line) for line in self.lines],
         }
 
 
-def look_ahead(motion: Motion, kinematics: Kinematics) -> Outlook:
+def look_ahead(program: Program, kinematics: Kinematics, place: str | None = None) -> Outlook:
     """The outlook of a drawing for an arm.
+
+    Args:
+        program: the drawing.
+        kinematics: of the arm.
+        place: "auto" to find a place whatever the file says.
 
     Raises:
         ScriptError: the drawing leaves the arm's reach.
     """
+    program, placed = settle(program, kinematics, place)
+    motion = plan(program, kinematics.card.canvas.pose)
     start = begin(motion, kinematics).posture
     lines = forecast(motion, kinematics, start)
     return Outlook(
+        motion,
+        placed,
         kinematics.card.name,
         tuple(start.tolist()),
         lines,
@@ -286,6 +302,7 @@ def _figures(one: Forecast) -> dict[str, Any]:
     parts = (None, one.speed_part, one.effort_part, one.jolt_part)
     return {
         "line": one.line,
+        "room": one.room,
         "start_s": one.start,
         **{
             name: asdict(value) | ({} if part is None else {"part_of_limit": part})

@@ -114,6 +114,7 @@ def summarise(painting: "Painting") -> dict[str, Any]:
             "duration_s": float(motion.t[-1]),
             "length_m": motion.length,
             "box_m": motion.box.tolist(),
+            "place": painting.placed and painting.placed.as_json,
         },
         **painting.metrics.figures,
         "attenuation": {

@@ -19,6 +19,7 @@ from dqpaint.metrics import Metrics, Table, measure
 from dqpaint.motion import Motion, plan
 from dqpaint.out_of_reach import begin, check_worst
 from dqpaint.picture import Picture, take
+from dqpaint.placing import Placed, settle
 from dqpaint.plants import PLANTS, choose_plant
 from dqpaint.robots.choose import card_for
 from dqpaint.robots.kinematics import Kinematics
@@ -45,6 +46,7 @@ class Painting:
     picture: Picture
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
     notes: tuple[str, ...] = ()  # what was assumed of the arm
+    placed: Placed | None = None  # where `place auto` put the drawing
 
     @property
     def image(self) -> NDArray[np.uint8]:
@@ -103,10 +105,12 @@ def paint(
     plant = choose_plant(settings.plant, "torque" if controller.drives_torque else "rates")
     disturbances = make_disturbances(settings.disturb)
     card = card_for(program, settings.robot, settings.tool)
+    kinematics = Kinematics(card)
+    with clock("place"):
+        program, placed = settle(program, kinematics, settings.place)
     with clock("motion"):
         motion = plan(program, card.canvas.pose)
     with clock("start"):
-        kinematics = Kinematics(card)
         best = begin(motion, kinematics).posture
         start = card.home if settings.start == "home" else best
     with clock("arm"):
@@ -123,7 +127,7 @@ def paint(
         picture = take(motion, run.points, settings)
     return Painting(
         settings, controller, card.name, plant, gains.shown(), motion, run, metrics, came_through,
-        steps, picture, clock.seconds, kinematics.notes,
+        steps, picture, clock.seconds, kinematics.notes, placed,
     )  # fmt: skip
 
 

@@ -23,6 +23,7 @@ def of_painting(painting: Painting, written: Sequence[Path]) -> str:
     gains = ", ".join(f"{name} = {_gain(value)}" for name, value in painting.gains.items())
     rows = [
         ("drawing", summary_line(painting.motion)),
+        *([("placed", one.line), ("", one.figures)] if (one := painting.placed) else []),
         ("arm", f"{painting.robot}, {painting.plant}"),
         ("controller", f"{painting.controller.name}  {gains}"),
         ("position error", _spread(figures, "position_error", "m", 1e3, "mm")),

@@ -22,6 +22,7 @@ class Settings(BaseModel):
     gains: dict[str, float | tuple[float, ...] | str] = Field(default_factory=dict)
     robot: str | None = None  # None: the file's own robot line, else the iiwa
     tool: str | None = None  # where the light sits on the flange; None: where the card says
+    place: Literal["auto"] | None = None  # None: what the file says, else the robot's canvas
     plant: str | None = None  # None: the usual one for what the law commands
     disturb: dict[str, dict[str, float | str]] = Field(default_factory=dict)
     seed: Annotated[int, Field(ge=0, le=2**63 - 1)] = 0

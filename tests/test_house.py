@@ -31,6 +31,7 @@ ORDER = [
     "picture",
     "out_of_reach",
     "forecast",
+    "placing",
     "paint",
     "outputs",
     "terminal",

@@ -28,6 +28,7 @@ def draw(
     robot: str | None = None,
     tool: str | None = None,
     place: str | None = None,
+    recorded: str | PathLike[str] | None = None,
     plant: str | None = None,
     disturb: Mapping[str, Mapping[str, float | str]] | None = None,
     seed: int | None = None,
@@ -47,6 +48,7 @@ def draw(
         robot: the arm; else the file's robot line, else the iiwa.
         tool: where the light sits on the flange, "X,Y,Z" or "X,Y,Z,ROLL,PITCH,YAW" [m, deg].
         place: "auto" puts the drawing where it fits the arm best.
+        recorded: a CSV of a real arm's joints or poses, painted instead of a simulated run.
         plant: how the arm answers.
         disturb: values of disturbances by their names, as in {"twist": {"x": 0.01}}.
         seed: of everything random.
@@ -64,6 +66,7 @@ def draw(
     name = getattr(own, "__name__", "own") if own else controller
     settings = make_settings(
         controller=name, gains=dict(gains) if gains else None, robot=robot, tool=tool, place=place,
+        recorded=None if recorded is None else str(recorded),
         plant=plant,
         disturb={name: dict(values) for name, values in (disturb or {}).items()}, seed=seed,
         start=start, width=width, height=height, view=view, ev=ev,

@@ -57,6 +57,12 @@ PlaceAt = Annotated[
     str | None,
     typer.Option("--place", metavar="auto", help="put the drawing where it fits the arm best"),
 ]
+Recorded = Annotated[
+    str | None,
+    typer.Option(
+        metavar="RUN.csv", help="paint a real arm's run: t_s and joints or poses, see README"
+    ),
+]
 PlantName = Annotated[
     str | None,
     typer.Option(
@@ -121,6 +127,7 @@ def draw(
     robot: Robot = None,
     tool: Tool = None,
     place: PlaceAt = None,
+    recorded: Recorded = None,
     plant: PlantName = None,
     disturb: Disturb = None,
     seed: Seed = 0,
@@ -140,11 +147,14 @@ def draw(
 
     makers = outputs.choose(save)
     path = find_drawing(file)
-    stem = outputs.stem_for(out, f"{path.stem}-{short_name(controller)}")
+    stem = outputs.stem_for(
+        out, f"{path.stem}-{'recorded' if recorded else short_name(controller)}"
+    )
     with Progress(path.name) as progress:
         painting = api.draw(
             path, controller=controller, gains=parse_gains(gain or []), robot=robot,
-            tool=tool, place=place, plant=plant, disturb=parse_disturbances(disturb or []),
+            tool=tool, place=place, recorded=recorded, plant=plant,
+            disturb=parse_disturbances(disturb or []),
             seed=seed, start=start, size=parse_size(size), view=view, ev=ev, progress=progress,
         )  # fmt: skip
     written = outputs.write(stem, {end: make(painting) for end, make in makers.items()})

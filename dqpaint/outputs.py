@@ -102,6 +102,7 @@ def summarise(painting: "Painting") -> dict[str, Any]:
         },
         "robot": painting.robot,
         "plant": painting.plant,
+        "recording": painting.recording and painting.recording.as_json,
         "controller": painting.controller.name,
         "law": _law(painting),
         "gains": painting.gains,

@@ -21,11 +21,13 @@ from dqpaint.out_of_reach import begin, check_worst
 from dqpaint.picture import Picture, take
 from dqpaint.placing import Placed, settle
 from dqpaint.plants import PLANTS, choose_plant
+from dqpaint.plants.plant import Takes
+from dqpaint.recorded import RECORDED, Recording, read_recording, replay
 from dqpaint.robots.choose import card_for
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Clamp
 from dqpaint.set_points import SetPoint, set_points
-from dqpaint.settings import Settings
+from dqpaint.settings import Settings, check_recorded
 from dqpaint.tracking import Track, track
 
 
@@ -47,6 +49,7 @@ class Painting:
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
     notes: tuple[str, ...] = ()  # what was assumed of the arm
     placed: Placed | None = None  # where `place auto` put the drawing
+    recording: Recording | None = None  # what was painted instead of a simulated run
 
     @property
     def image(self) -> NDArray[np.uint8]:
@@ -100,25 +103,35 @@ def paint(
     """
     clock = Stopwatch()
     parse_view(settings.view)  # a slip there is told before anything is simulated
+    check_recorded(settings)
+    card = card_for(program, settings.robot, settings.tool)
+    recording = None
+    if settings.recorded is not None:
+        recording, controller = read_recording(settings.recorded, card.joints), RECORDED
     controller = controller or find_controller(settings.controller)
     gains = controller.read_gains(settings.gains)
-    plant = choose_plant(settings.plant, "torque" if controller.drives_torque else "rates")
+    takes: Takes = "torque" if controller.drives_torque else "rates"
+    plant = "recorded" if recording else choose_plant(settings.plant, takes)
     disturbances = make_disturbances(settings.disturb)
-    card = card_for(program, settings.robot, settings.tool)
     kinematics = Kinematics(card)
     with clock("place"):
         program, placed = settle(program, kinematics, settings.place)
     with clock("motion"):
         motion = plan(program, card.canvas.pose)
-    with clock("start"):
-        best = begin(motion, kinematics).posture
-        start = card.home if settings.start == "home" else best
-    with clock("arm"):
-        run = track(
-            motion, kinematics, start, PLANTS[plant], controller, gains, progress,
-            disturbances, settings.seed,
-        )  # fmt: skip
-    check_worst(run, kinematics)
+    if recording is not None:
+        with clock("arm"):
+            run = replay(recording, motion, kinematics)
+    else:
+        with clock("start"):
+            best = begin(motion, kinematics).posture
+            start = card.home if settings.start == "home" else best
+        with clock("arm"):
+            run = track(
+                motion, kinematics, start, PLANTS[plant], controller, gains, progress,
+                disturbances, settings.seed,
+            )  # fmt: skip
+        check_worst(run, kinematics)
+    notes = kinematics.notes + (recording.notes(motion) if recording else ())
     with clock("metrics"):
         metrics = measure(run)
         came_through = attenuation(run, gains.promise())
@@ -127,7 +140,7 @@ def paint(
         picture = take(motion, run.points, settings)
     return Painting(
         settings, controller, card.name, plant, gains.shown(), motion, run, metrics, came_through,
-        steps, picture, clock.seconds, kinematics.notes, placed,
+        steps, picture, clock.seconds, notes, placed, recording,
     )  # fmt: skip
 
 

@@ -23,6 +23,7 @@ ORDER = [
     "controllers",
     "driving",
     "tracking",
+    "recorded",
     "metrics",
     "attenuation",
     "set_points",

@@ -87,6 +87,19 @@ def _gain(value: float | tuple[float, ...] | str) -> str:
     return value if isinstance(value, str) else f"{value:.4g}"
 
 
+def of_export(painting: Painting, written: Sequence[Path]) -> str:
+    """The table that follows `export`."""
+    points = f"{len(painting.motion.t)} points, one every {painting.motion.period * 1e3:g} ms"
+    rows = [
+        ("drawing", summary_line(painting.motion)),
+        *([("placed", one.line), ("", one.figures)] if (one := painting.placed) else []),
+        ("arm", f"{painting.robot}, {painting.plant}, {painting.controller.name}"),
+        ("trajectory", f"{points}; from rest to rest, within the arm's limits"),
+        *_files(written),
+    ]
+    return table(rows)
+
+
 def of_preview(picture: Picture, written: Sequence[Path]) -> str:
     """The table that follows `preview`."""
     rows = [

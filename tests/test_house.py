@@ -35,6 +35,7 @@ ORDER = [
     "placing",
     "paint",
     "outputs",
+    "exports",
     "terminal",
     "report",
     "posing",

@@ -137,7 +137,7 @@ def _judge(program: Program, kinematics: Kinematics, line: str) -> Placed | None
 
 def _clear(one: Forecast) -> bool:
     """Whether no links meet on a line, and its light can be seen."""
-    return (one.clearance is None or one.clearance > 0) and (one.hidden or 0.0) <= IN_SIGHT
+    return (one.clearance is None or one.clearance >= 0) and (one.hidden or 0.0) <= IN_SIGHT
 
 
 class _Search:

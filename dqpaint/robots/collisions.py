@@ -4,6 +4,7 @@ The shapes are the collision shapes of the arm's description, looked at with Coa
 pinocchio: it reads the model the kinematics has already, so a posture is said once.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import coal
@@ -26,7 +27,8 @@ class Nearest(NamedTuple):
     """How near links come to each other, a row a posture.
 
     Attributes:
-        distance: of the nearest two (N,) [m]; zero or less where they touch.
+        distance: of the nearest two (N,) [m]; negative where they collide, zero where only the
+            hulls of their meshes do.
         pair: the names of these two links, N of them.
     """
 
@@ -52,7 +54,7 @@ class Shapes:
         self._solids = [shape.geometry for shape in self._shapes.geometryObjects]
         for shape in self._shapes.geometryObjects:
             if isinstance(shape.geometry, coal.BVHModelBase):
-                shape.geometry.buildConvexRepresentation(False)
+                shape.geometry.buildConvexHull(True, "Qt")
                 shape.geometry = shape.geometry.convex
         self._names = [
             self._model.frames[shape.parentFrame].name for shape in self._shapes.geometryObjects
@@ -67,6 +69,9 @@ class Shapes:
         for k, posture in enumerate(postures):
             pinocchio.computeDistances(self._model, self._data, self._shapes, known, posture)
             far = [result.min_distance for result in known.distanceResults]
+            for i, hulls in enumerate(far):
+                if hulls <= 0 and not self._collide(i, known.oMg):
+                    far[i] = 0.0
             if far:
                 closest = int(np.argmin(far))
                 distance[k], pair[k] = far[closest], self._pair_names(closest)
@@ -125,6 +130,15 @@ class Shapes:
             pinocchio.computeDistances(self._model, self._data, self._shapes, known, posture)
             touch[k] = [result.min_distance <= 0 for result in known.distanceResults]
         return touch
+
+    def _collide(self, index: int, places: Sequence[pinocchio.SE3]) -> bool:
+        """Whether the two of a pair collide as they are, hulls apart."""
+        pair = self._shapes.collisionPairs[index]
+        one, other = pair.first, pair.second
+        return _meet(
+            self._solids[one], _transform(places[one]), self._solids[other],
+            _transform(places[other]),
+        )  # fmt: skip
 
     def _pair_names(self, index: int) -> tuple[str, str]:
         pair = self._shapes.collisionPairs[index]

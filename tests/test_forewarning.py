@@ -40,9 +40,12 @@ def test_limits_are_warnings_at_the_worst_line(checked):
 
 def test_the_table_speaks_of_what_is_close_alone(checked):
     table = checked(FAST).text.partition("at most:")[2].splitlines()[1:]
-    assert (
-        table[0].split() == ["line", "speed", "torque", "within", "1", "ms"] or "speed" in table[0]
-    )
+    assert re.split(r"\s{2,}", table[0].strip()) == [
+        "line",
+        "speed",
+        "torque within 1 ms",
+        "torque",
+    ]
     assert [row.split()[0] for row in table[1:]] == ["4", "5"]
     assert "off limits" not in table[0]
     calm = checked("start at (0, 0) mm\nline to (40, 0) mm\n")
@@ -82,7 +85,7 @@ def test_a_light_that_is_turned_away_is_hidden(checked):
 
 
 def test_links_that_meet_are_named(checked):
-    """Which postures collide is the room of test_collisions; here, what is said of one that does."""
+    """test_collisions looks at which postures collide; here, what is said of one."""
     from dqpaint.forewarning import _warnings
     from dqpaint.robots.card import read_card
 
@@ -100,7 +103,7 @@ def test_links_that_meet_are_named(checked):
 def test_near_a_singularity(checked):
     result = checked(
         "place at (0.9, 0, 0.36) m turned rpy(90 deg, 0 deg, 90 deg)\n"
-        "start at (0, 0) mm\nline to (0, 0, 79.5) mm in 4 s\n"
+        "start at (0, 0) mm\nline to (0, 0, 80.3) mm in 4 s\n"
     )
     worst = min(line.singular for line in result.outlook.lines)
     assert worst < 0.04

@@ -12,7 +12,21 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-from dqpaint import __version__
+from dqpaint import __version__, cli_arm
+from dqpaint.cli_options import (
+    Disturb,
+    Drawing,
+    From,
+    Gain,
+    Law,
+    Out,
+    PlaceAt,
+    PlantName,
+    Recorded,
+    Robot,
+    Seed,
+    Tool,
+)
 from dqpaint.errors import DqpaintError, UsageError
 
 app = typer.Typer(
@@ -23,61 +37,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-Drawing = Annotated[str, typer.Argument(metavar="FILE", help="a .traj file, or an example's name")]
 Drawings = Annotated[list[str], typer.Argument(metavar="FILE...", help="drawings, or examples")]
-Law = Annotated[
-    str,
-    typer.Option(
-        metavar="NAME|FILE.py[:NAME]",
-        help="control law: see dqpaint list controllers; or a function of your own",
-    ),
-]
-Gain = Annotated[
-    list[str] | None,
-    typer.Option(
-        metavar="NAME=VALUE",
-        help="a gain of that law in SI units; repeatable; 5..20@10% is a ramp in the first 10 %",
-    ),
-]
-Robot = Annotated[
-    str | None,
-    typer.Option(
-        metavar="NAME|FILE",
-        help="the arm, or its .urdf or .toml [default: the drawing's, else iiwa]",
-    ),
-]
-Tool = Annotated[
-    str | None,
-    typer.Option(
-        metavar="X,Y,Z[,R,P,Y]",
-        help="where the light sits on the flange, m and deg, or with units: 0,0,80mm",
-    ),
-]
-PlaceAt = Annotated[
-    str | None,
-    typer.Option("--place", metavar="auto", help="put the drawing where it fits the arm best"),
-]
-Recorded = Annotated[
-    str | None,
-    typer.Option(
-        metavar="RUN.csv", help="paint a real arm's run: t_s and joints or poses, see README"
-    ),
-]
-PlantName = Annotated[
-    str | None,
-    typer.Option(
-        metavar="NAME", help="how the arm answers [default: stiff, or torque for its laws]"
-    ),
-]
-Disturb = Annotated[
-    list[str] | None,
-    typer.Option(
-        metavar="NAME=VALUE,...",
-        help="a disturbance, repeatable, such as twist=sine,x=0.02,frequency=2",
-    ),
-]
-Seed = Annotated[int, typer.Option(help="of everything random")]
-From = Annotated[str, typer.Option("--from", metavar="first|home", help="where the arm begins")]
 Size = Annotated[str, typer.Option(metavar="WxH", help="of the picture, in pixels")]
 View = Annotated[
     str,
@@ -86,10 +46,6 @@ View = Annotated[
     ),
 ]
 Ev = Annotated[float, typer.Option(help="exposure in stops, on top of the automatic one")]
-Out = Annotated[
-    str | None,
-    typer.Option(metavar="PATH", help="a folder, or the stem of the files [default: here]"),
-]
 Save = Annotated[str, typer.Option(metavar="LIST", help="of png, csv, json, motion")]
 AsJson = Annotated[bool, typer.Option("--json", help="for a program to read")]
 
@@ -162,58 +118,6 @@ def draw(
     from dqpaint import report
 
     _finish(report.remarks(painting), report.of_painting(painting, written), painting.image)
-
-
-EXPORT_EXAMPLES = """Examples:
-
-  dqpaint export star --format ros2
-
-  dqpaint export trajectories/rose.traj --robot ur5 --format urscript --out programs/
-"""
-
-
-@app.command(epilog=EXPORT_EXAMPLES)
-def export(
-    file: Drawing,
-    form: Annotated[str, typer.Option("--format", metavar="csv|ros2|urscript", help="for whom")],
-    controller: Law = "hinf",
-    gain: Gain = None,
-    robot: Robot = None,
-    tool: Tool = None,
-    place: PlaceAt = None,
-    plant: PlantName = None,
-    disturb: Disturb = None,
-    seed: Seed = 0,
-    start: From = "first",
-    out: Out = None,
-) -> None:
-    """Run a drawing as draw does; write the joint trajectory for a real arm, and light cues.
-
-    Refused where a limit was met, or where the arm would have to begin suddenly. Nothing here looks
-    after people or machines.
-    """
-    from dqpaint import api, exports, outputs
-    from dqpaint.controllers.own import short_name
-    from dqpaint.examples import find_drawing
-    from dqpaint.settings import parse_disturbances, parse_gains
-    from dqpaint.terminal import Progress
-
-    exports.FORMATS[form]  # an unknown one is told before anything is simulated
-    path = find_drawing(file)
-    stem = outputs.stem_for(out, f"{path.stem}-{short_name(controller)}")
-    with Progress(path.name) as progress:
-        painting = api.draw(
-            path, controller=controller, gains=parse_gains(gain or []), robot=robot,
-            tool=tool, place=place, plant=plant, disturb=parse_disturbances(disturb or []),
-            seed=seed, start=start, size=(64, 36), progress=progress,
-        )  # fmt: skip
-    written = outputs.write(stem, exports.files_of(painting, form))
-
-    from dqpaint import report
-
-    for text in report.remarks(painting):
-        print(text, file=sys.stderr)
-    print(report.of_export(painting, written))
 
 
 @app.command(
@@ -342,6 +246,9 @@ def gallery(
 
     for path in make_gallery(out):
         print(path)
+
+
+cli_arm.add_to(app)
 
 
 def _finish(remarks: list[str], table: str, image: Any) -> None:

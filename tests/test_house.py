@@ -46,6 +46,8 @@ ORDER = [
     "charts",
     "studies",
     "gallery",
+    "cli_options",
+    "cli_arm",
     "cli",
     "__main__",
 ]
@@ -56,7 +58,7 @@ DOORS = {
     "pybullet": ["plants/bullet.py"],
     "matplotlib": ["charts.py"],
     "cv2": ["light/spread.py", "light/develop.py", "picture.py"],
-    "typer": ["cli.py"],
+    "typer": ["cli.py", "cli_options.py", "cli_arm.py"],
     "pydantic": [
         "robots/card.py",
         "robots/chain.py",

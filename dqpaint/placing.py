@@ -163,7 +163,7 @@ class _Search:
         order = np.argsort(-merits, kind="stable")[:PROMISING]
         found = [shifts[i] for i in order if merits[i] > 0]
         if found:
-            found.insert(0, self._climb(found[0], float(merits[order[0]])))
+            found.insert(0, self._climb(found[0]))
         return [self._origin + shift for shift in found]
 
     def _grid(self) -> Floats:
@@ -173,7 +173,7 @@ class _Search:
         ball = cube[np.linalg.norm(cube, axis=1) <= self._reach]
         return np.vstack([np.zeros(3), self._middle + ball - self._centre])
 
-    def _climb(self, shift: Floats, merit: float) -> Floats:
+    def _climb(self, shift: Floats) -> Floats:
         """Up to a place that has no better neighbour, in steps that halve."""
         merit = float(self._merits(shift[None], FINE, MORE_STARTS)[0])
         step = 0.5 * self._reach / PARTS

@@ -206,6 +206,16 @@ def test_a_jump_of_the_set_point_counts_as_no_speed():
     assert all(one.jolt_part < 0.5 for one in forecast(motion, arm, start))
 
 
+def test_a_jump_from_full_speed_counts_as_no_torque():
+    text = (
+        "period 4 ms\nlaw constant\nspeed 400 mm/s\nstart at (0, 0) mm\nline to (60, 0) mm\n"
+        "step to (60, 40) mm\nhold 0.2 s\n"
+    )
+    found = {one.line: one for one in forecast(*prepared(text))}
+    assert found[5].jolt_part > 1
+    assert found[6].jolt_part < 0.3
+
+
 def test_a_long_drawing_is_looked_at_in_longer_steps(monkeypatch):
     from dqpaint import forecast as module
 

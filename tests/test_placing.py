@@ -50,6 +50,19 @@ def test_no_small_step_is_better(arm, placed):
         assert other is None or other.merit < 1.05 * placed.merit
 
 
+def test_the_search_climbs_from_the_grid(arm):
+    motion = plan(parse(SMALL, "small.traj"), arm.card.canvas.pose)
+    search = placing._Search(motion, arm)
+    grid = search._grid()
+    rough = search._merits(grid, placing.COARSE, placing.STARTS)
+    best = grid[int(np.argmax(rough))]
+    found = search._climb(best)
+    before, after = search._merits(np.stack([best, found]), placing.FINE, placing.MORE_STARTS)
+    assert before > 0
+    assert after > 1.01 * before
+    assert (rough > 0).mean() < 0.9  # some places of the grid are out of reach
+
+
 def test_the_line_is_exactly_that_place(arm, placed):
     program = parse(f"{placed.line}\n{SMALL}", "pasted.traj")
     assert program.placement == placed.place

@@ -113,8 +113,8 @@ def paint(
     takes: Takes = "torque" if controller.drives_torque else "rates"
     plant = "recorded" if recording else choose_plant(settings.plant, takes)
     disturbances = make_disturbances(settings.disturb)
-    kinematics = Kinematics(card)
     with clock("place"):
+        kinematics = Kinematics(card)
         program, placed = settle(program, kinematics, settings.place)
     with clock("motion"):
         motion = plan(program, card.canvas.pose)

@@ -6,9 +6,11 @@ r"""Light paintings by a simulated robot arm.
 
 `language` reads the text, `motion` says what is asked at every sample, `controllers` turn what is
 seen into a twist, `robots` know the arms, `plants` answer as an arm does, `tracking` closes the
-loop, `metrics` measure, `light` takes the picture, `paint` is the flow as one function, `cli` the
-command line. `dq` holds the algebra and its conventions, `outputs` the files. Data moves along this
-line and never back: `tests/test_house.py` holds the modules to it.
+loop, `metrics` measure, `scene` says what shines and `light` takes its pictures, `stage`
+puts the arm before the camera, `paint` is the
+flow as one function, `sketch` the same without an arm, `negative` what is kept to develop again,
+`cli` the command line. `dq` holds the algebra and its conventions, `outputs` the files. Data moves
+along this line and never back: `tests/test_house.py` holds the modules to it.
 """
 
 import importlib
@@ -17,16 +19,19 @@ from typing import TYPE_CHECKING, Any
 from dqpaint.errors import DqpaintError
 
 if TYPE_CHECKING:
-    from dqpaint.api import draw, preview, save
+    from dqpaint.api import develop, draw, preview, save
+    from dqpaint.build import Drawing
     from dqpaint.paint import Painting
 
 __version__ = "0.1.0"
 
-__all__ = ["DqpaintError", "Painting", "draw", "preview", "save"]
+__all__ = ["DqpaintError", "Drawing", "Painting", "develop", "draw", "preview", "save"]
 
 
 _ROOMS = {
+    "Drawing": "dqpaint.build",
     "Painting": "dqpaint.paint",
+    "develop": "dqpaint.api",
     "draw": "dqpaint.api",
     "preview": "dqpaint.api",
     "save": "dqpaint.api",

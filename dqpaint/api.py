@@ -1,6 +1,7 @@
 """The same from Python: `dqpaint.draw("star.traj", controller="hinf")`."""
 
 from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -8,20 +9,21 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 from dqpaint import outputs
-from dqpaint.errors import UsageError
+from dqpaint.build import Drawing
+from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.examples import find_drawing
-from dqpaint.language import read
-from dqpaint.motion import plan
-from dqpaint.robots.choose import card_for
-from dqpaint.settings import make_settings
+from dqpaint.language import Program, read
+from dqpaint.settings import Settings, make_settings
 
 if TYPE_CHECKING:
     from dqpaint.paint import Painting
     from dqpaint.picture import Picture
+    from dqpaint.sketch import Preview
+    from dqpaint.stage.staging import Cast, Staging
 
 
 def draw(
-    drawing: str | PathLike[str],
+    drawing: str | PathLike[str] | Drawing,
     *,
     controller: str | Callable[..., Any] | None = None,
     gains: Mapping[str, float | tuple[float, ...] | str] | None = None,
@@ -33,15 +35,28 @@ def draw(
     disturb: Mapping[str, Mapping[str, float | str]] | None = None,
     seed: int | None = None,
     start: str | None = None,
+    null: str | None = None,
+    on_limit: str | None = None,
     size: tuple[int, int] | None = None,
     view: str | None = None,
     ev: float | None = None,
+    brush: str | None = None,
+    pwm: float | None = None,
+    exposure: str | None = None,
+    look: str | None = None,
+    starburst: int | None = None,
+    noise: int | None = None,
+    colour_by: str | None = None,
+    overlay: bool = False,
+    magnify: float | None = None,
+    ghost: bool = False,
+    occlusion: bool | None = None,
     progress: Callable[[float], None] = lambda _done: None,
 ) -> "Painting":
     """Paint a drawing with a simulated arm, as `dqpaint draw` does; nothing is written.
 
     Args:
-        drawing: a .traj file, or the name of an example.
+        drawing: a .traj file, the name of an example, or a `dqpaint.build.Drawing`.
         controller: the control law: a name, a file `mylaw.py[:NAME]`, or a function of one's own.
         gains: of the law, in SI units; the others keep their defaults. A text such as
             "5..20@10%" changes on the way.
@@ -49,13 +64,27 @@ def draw(
         tool: where the light sits on the flange, "X,Y,Z" or "X,Y,Z,ROLL,PITCH,YAW" [m, deg].
         place: "auto" puts the drawing where it fits the arm best.
         recorded: a CSV of a real arm's joints or poses, painted instead of a simulated run.
-        plant: how the arm answers.
+        plant: how the arm answers, with values as in "compliant:frequency=60".
         disturb: values of disturbances by their names, as in {"twist": {"x": 0.01}}.
         seed: of everything random.
         start: `first` (at the first pose) or `home`.
+        null: what a redundant arm does with its freedom: start, home, limits, manipulability or
+            none, with a gain as in "limits,gain=3".
+        on_limit: `clip` a joint that would pass a limit, `slow` the drawing, or `stop`.
         size: width and height of the picture [px].
-        view: front, iso, side, top, or "AZ,EL" in degrees.
+        view: front, iso, side, top, or "AZ,EL" in degrees; stereo, orbit; several with commas.
         ev: exposure in stops on top of the automatic one.
+        brush: what shines, such as "bar:length=300mm"; else the file's own.
+        pwm: frequency at which the lamps are dimmed [Hz]; else they are dimmed evenly.
+        exposure: a camera's settings, such as "f/8,iso100,35mm,0.1cd"; else automatic.
+        look: how the film is developed.
+        starburst: blades of the aperture, for rays round what stands out.
+        noise: seed of the sensor's noise; else there is none.
+        colour_by: a figure of the run that the colours tell.
+        overlay: whether the asked drawing lies beneath the reached one.
+        magnify: how many times as large deviations from the asked path are drawn.
+        ghost: whether the arm is in the picture, as it stood at the end.
+        occlusion: whether the arm's body hides light from the camera; else as `ghost`.
         progress: called while the arm moves, with the part done, 0 to 1.
 
     Raises:
@@ -69,10 +98,13 @@ def draw(
         recorded=None if recorded is None else str(recorded),
         plant=plant,
         disturb={name: dict(values) for name, values in (disturb or {}).items()}, seed=seed,
-        start=start, width=width, height=height, view=view, ev=ev,
+        start=start, null=null, on_limit=on_limit, width=width, height=height, view=view, ev=ev,
+        brush=brush, pwm=pwm, exposure=exposure, look=look, starburst=starburst, noise=noise,
+        colour_by=colour_by, overlay=overlay, magnify=magnify, ghost=ghost,
+        occlusion=occlusion,
     )  # fmt: skip
     begin = perf_counter()
-    program = read(find_drawing(str(drawing)))
+    program = _program(drawing)
     seconds = perf_counter() - begin
 
     # a fault in the text is told before the simulator is loaded
@@ -80,7 +112,8 @@ def draw(
     from dqpaint.paint import paint
 
     law = make_controller(own, str(name)) if own else None
-    painting = paint(program, settings, progress, law)
+    with _places(drawing):
+        painting = paint(program, settings, progress, law)
     return replace(painting, seconds={"language": seconds, **painting.seconds})
 
 
@@ -92,7 +125,7 @@ def save(
     Args:
         painting: from `draw`.
         out: a folder (that exists, or ends with a slash), or the stem of the files.
-        what: a list of png, csv, json, motion.
+        what: a list of png, csv, json, motion, film, hdr, video, webp.
 
     Returns:
         The paths of the files.
@@ -101,30 +134,124 @@ def save(
         DqpaintError: the place cannot be written; nothing was changed.
     """
     name = f"{Path(painting.motion.program.name).stem}-{painting.controller.name}"
-    makers = outputs.choose(what)
+    names = outputs.choose(what)
     stem = outputs.stem_for(str(out), name)
-    return outputs.write(stem, {end: make(painting) for end, make in makers.items()})
+    return outputs.write(stem, outputs.make(names, painting))
 
 
 def preview(
-    drawing: str | PathLike[str],
+    drawing: str | PathLike[str] | Drawing,
     *,
     robot: str | None = None,
     tool: str | None = None,
     size: tuple[int, int] | None = None,
     view: str | None = None,
     ev: float | None = None,
-) -> "Picture":
-    """The asked picture of a drawing, without an arm; arguments as those of `draw`."""
+    brush: str | None = None,
+    pwm: float | None = None,
+    exposure: str | None = None,
+    look: str | None = None,
+    starburst: int | None = None,
+    noise: int | None = None,
+    colour_by: str | None = None,
+    ghost: bool = False,
+) -> "Preview":
+    """The asked pictures of a drawing, without an arm; arguments as those of `draw`.
+
+    With `ghost` the camera leaves room for the arm, as that of `draw` does.
+    """
     width, height = _width_and_height(size)
-    settings = make_settings(robot=robot, tool=tool, width=width, height=height, view=view, ev=ev)
-    program = read(find_drawing(str(drawing)))
+    settings = make_settings(
+        robot=robot, tool=tool, width=width, height=height, view=view, ev=ev, brush=brush, pwm=pwm,
+        exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
+        ghost=ghost,
+    )  # fmt: skip
+    program = _program(drawing)
 
-    from dqpaint.picture import take
+    from dqpaint.sketch import sketch
 
-    card = card_for(program, settings.robot, settings.tool)
-    motion = plan(program, card.canvas.pose)
-    return take(motion, motion.points, settings)
+    with _places(drawing):
+        return sketch(program, settings)
+
+
+def _program(drawing: str | PathLike[str] | Drawing) -> Program:
+    if isinstance(drawing, Drawing):
+        return drawing.program()
+    return read(find_drawing(str(drawing)))
+
+
+def _places(drawing: str | PathLike[str] | Drawing) -> AbstractContextManager[None]:
+    """What is wrong with a drawing made by calls is told with the call."""
+    return drawing.places() if isinstance(drawing, Drawing) else nullcontext()
+
+
+def develop(
+    film: str | PathLike[str],
+    *,
+    size: tuple[int, int] | None = None,
+    view: str | None = None,
+    ev: float | None = None,
+    exposure: str | None = None,
+    look: str | None = None,
+    starburst: int | None = None,
+    noise: int | None = None,
+) -> "list[Picture]":
+    """Other pictures of a painting that was saved with `film`, without simulating it.
+
+    Args:
+        film: the file; arguments as those of `draw`, and what is not said is as it was.
+        size: width and height of the picture [px].
+        view: from where; several with commas.
+        ev: exposure in stops on top of the automatic one.
+        exposure: a camera's settings, or "auto".
+        look: how the film is developed.
+        starburst: blades of the aperture; 0 for a round one.
+        noise: seed of the sensor's noise.
+
+    Raises:
+        DqpaintError: no film, or a choice that is none.
+    """
+    from dqpaint import negative
+    from dqpaint.picture import photograph
+    from dqpaint.scene import check_choices
+
+    scene, before, cast = negative.read(str(film))
+    width, height = _width_and_height(size)
+    choices = {
+        "width": width, "height": height, "view": view, "ev": ev, "exposure": exposure,
+        "look": look, "starburst": starburst, "noise": noise,
+    }  # fmt: skip
+    given = {name: value for name, value in choices.items() if value is not None}
+    settings = make_settings(**{**before.model_dump(), **given})
+    check_choices(settings)
+    staged, remark = _stage(settings, cast)
+    with staged as staging:
+        pictures = list(photograph(scene, settings, staging))
+    return [replace(one, remarks=(*remark, *one.remarks)) for one in pictures]
+
+
+def _stage(
+    settings: Settings, cast: "Cast | None"
+) -> "tuple[AbstractContextManager[Staging | None], tuple[str, ...]]":
+    """The arm of a film, if it is to be seen and is still there; and else what there is to say."""
+    if cast is None or not settings.staged:
+        return nullcontext(), ()
+    from dqpaint.robots.choose import find_card
+    from dqpaint.robots.urdf import prepare
+    from dqpaint.stage.staging import on_stage
+
+    try:
+        card = find_card(cast.robot)
+        if not cast.known:
+            raise DqpaintError("the run was recorded as poses, without joints")
+        if card.joints != cast.posture.shape[1]:
+            raise DqpaintError(f"{card.name} has {card.joints} joints, that arm had others")
+        prepare(card)
+    except DqpaintError as problem:
+        return nullcontext(), (
+            f"warning: the arm is left out, and what it hides is not traced: {problem}",
+        )
+    return on_stage(settings, card, cast), ()
 
 
 def _width_and_height(size: tuple[int, int] | None) -> tuple[int | None, int | None]:

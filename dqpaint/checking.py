@@ -8,7 +8,7 @@ from dqpaint import __version__
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.examples import find_drawing
 from dqpaint.language import Diagnostic, Program, ScriptError, read, render
-from dqpaint.language.diagnostics import Severity, Span, place
+from dqpaint.language.diagnostics import Severity, Span, file_at, place
 from dqpaint.motion import Motion, plan, summary_line
 from dqpaint.robots.card import Card
 from dqpaint.robots.choose import card_for
@@ -42,8 +42,23 @@ class Checked:
         parts = [render(finding, self.file, self.source) for finding in self.findings]
         if self.motion is not None:
             said = self.outlook.text if self.outlook else ""
-            parts.append(summary_line(self.motion) + said)
+            parts.append(summary_line(self.motion) + said + self._hint)
         return "\n\n".join(parts)
+
+    @property
+    def _hint(self) -> str:
+        """Of beads at the ends of strokes, which a light painter sees first."""
+        assert self.motion is not None
+        times = self.motion.unevenness
+        if times <= BEAD:
+            return ""
+        return (
+            f"\nhint: near their ends strokes are {times:.2g} times as bright as in the middle, "
+            "where the tool is fast; for an even line write: light white even"
+        )
+
+
+BEAD = 2.0  # times the brightness of the middle: less is no matter for a hint
 
 
 def check(
@@ -112,15 +127,23 @@ def as_json(results: Sequence[Checked]) -> dict[str, Any]:
 def _as_json(result: Checked, finding: Diagnostic) -> dict[str, Any]:
     fix = finding.fix
     return {
-        "file": result.file,
+        "file": file_at(result.source, finding.span.start, result.file)[1]
+        if finding.span is not None
+        else result.file,
         "severity": finding.severity.value,
         "code": finding.code,
         "message": finding.message,
         **_range(result.source, finding.span),
         "label": finding.label,
         "help": finding.help,
+        "explain": f"dqpaint explain {finding.code}",
         "related": [
-            {**_range(result.source, span), "label": label} for span, label in finding.related
+            {
+                "file": file_at(result.source, span.start, result.file)[1],
+                **_range(result.source, span),
+                "label": label,
+            }
+            for span, label in finding.related
         ],
         "fix": fix
         and {
@@ -138,6 +161,7 @@ def _file(result: Checked) -> dict[str, Any]:
         "samples": len(motion.t),
         "seconds": float(motion.t[-1]),
         "length_m": motion.length,
+        "ends_over_middle": motion.unevenness,
         "box_m": motion.box.tolist(),
         "forecast": result.outlook.as_json if result.outlook else None,
     }

@@ -5,29 +5,46 @@ command imports what it needs.
 """
 
 import json
-import os
 import shutil
 import sys
-from typing import Annotated, Any, NoReturn
+from typing import Annotated, Any
 
 import typer
 
-from dqpaint import __version__, cli_arm
+from dqpaint import __version__, cli_arm, cli_language
+from dqpaint.cli_language import point_at
 from dqpaint.cli_options import (
+    Brush,
+    ColourBy,
     Disturb,
     Drawing,
+    Ev,
+    Exposure,
     From,
     Gain,
+    Ghost,
     Law,
+    Look,
+    Magnify,
+    Noise,
+    Null,
+    Occlusion,
+    OnLimit,
     Out,
+    Overlay,
     PlaceAt,
     PlantName,
+    Pwm,
     Recorded,
     Robot,
+    Save,
     Seed,
+    Size,
+    Starburst,
     Tool,
+    View,
 )
-from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.errors import UsageError
 
 app = typer.Typer(
     add_completion=False,
@@ -38,19 +55,7 @@ app = typer.Typer(
 )
 
 Drawings = Annotated[list[str], typer.Argument(metavar="FILE...", help="drawings, or examples")]
-Size = Annotated[str, typer.Option(metavar="WxH", help="of the picture, in pixels")]
-View = Annotated[
-    str,
-    typer.Option(
-        metavar="VIEW", help="front, iso, side, top, or AZ,EL: degrees to its right and above"
-    ),
-]
-Ev = Annotated[float, typer.Option(help="exposure in stops, on top of the automatic one")]
-Save = Annotated[str, typer.Option(metavar="LIST", help="of png, csv, json, motion")]
 AsJson = Annotated[bool, typer.Option("--json", help="for a program to read")]
-
-DEBUG = "DQPAINT_DEBUG"  # an environment variable: internal errors show where they are
-INTERRUPTED = 130
 
 DRAW_EXAMPLES = """Examples:
 
@@ -88,9 +93,22 @@ def draw(
     disturb: Disturb = None,
     seed: Seed = 0,
     start: From = "first",
+    null: Null = "start",
+    on_limit: OnLimit = "clip",
     size: Size = "1280x720",
     view: View = "front",
     ev: Ev = 0.0,
+    brush: Brush = None,
+    pwm: Pwm = 0.0,
+    exposure: Exposure = None,
+    look: Look = "film",
+    starburst: Starburst = 0,
+    noise: Noise = None,
+    colour_by: ColourBy = None,
+    overlay: Overlay = False,
+    magnify: Magnify = 1.0,
+    ghost: Ghost = False,
+    occlusion: Occlusion = None,
     out: Out = None,
     save: Save = "png,csv,json",
 ) -> None:
@@ -101,19 +119,23 @@ def draw(
     from dqpaint.settings import parse_disturbances, parse_gains, parse_size
     from dqpaint.terminal import Progress
 
-    makers = outputs.choose(save)
+    names = outputs.choose(save)
     path = find_drawing(file)
     stem = outputs.stem_for(
         out, f"{path.stem}-{'recorded' if recorded else short_name(controller)}"
     )
     with Progress(path.name) as progress:
         painting = api.draw(
-            path, controller=controller, gains=parse_gains(gain or []), robot=robot,
-            tool=tool, place=place, recorded=recorded, plant=plant,
-            disturb=parse_disturbances(disturb or []),
-            seed=seed, start=start, size=parse_size(size), view=view, ev=ev, progress=progress,
+            path, controller=controller, gains=parse_gains(gain or []), robot=robot, tool=tool,
+            place=place, recorded=recorded, plant=plant,
+            disturb=parse_disturbances(disturb or []), seed=seed, start=start, null=null,
+            on_limit=on_limit, size=parse_size(size), view=view, ev=ev, brush=brush, pwm=pwm,
+            exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
+            overlay=overlay, magnify=magnify, ghost=ghost, occlusion=occlusion,
+            progress=progress,
         )  # fmt: skip
-    written = outputs.write(stem, {end: make(painting) for end, make in makers.items()})
+    with Progress("movie") as progress:
+        written = outputs.write(stem, outputs.make(names, painting, progress))
 
     from dqpaint import report
 
@@ -121,7 +143,7 @@ def draw(
 
 
 @app.command(
-    epilog="Examples:\n\n  dqpaint preview star\n\n  dqpaint preview helix.traj --view iso"
+    epilog="Examples:\n\n  dqpaint preview star\n\n  dqpaint preview helix.traj --view iso --watch"
 )
 def preview(
     file: Drawing,
@@ -130,7 +152,16 @@ def preview(
     size: Size = "1280x720",
     view: View = "front",
     ev: Ev = 0.0,
+    brush: Brush = None,
+    pwm: Pwm = 0.0,
+    exposure: Exposure = None,
+    look: Look = "film",
+    starburst: Starburst = 0,
+    noise: Noise = None,
+    colour_by: ColourBy = None,
+    ghost: Ghost = False,
     out: Out = None,
+    watch: Annotated[bool, typer.Option("--watch", help="again at each save, till Ctrl-C")] = False,
 ) -> None:
     """Take the asked picture, without an arm, at once; with length, time and brightness."""
     from dqpaint import api, outputs
@@ -139,12 +170,64 @@ def preview(
 
     path = find_drawing(file)
     stem = outputs.stem_for(out, f"{path.stem}-preview")
-    picture = api.preview(path, robot=robot, tool=tool, size=parse_size(size), view=view, ev=ev)
-    written = outputs.write(stem, {".png": picture.png})
+    pixels = parse_size(size)
+
+    def show() -> None:
+        preview = api.preview(
+            path, robot=robot, tool=tool, size=pixels, view=view, ev=ev, brush=brush, pwm=pwm,
+            exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
+            ghost=ghost,
+        )  # fmt: skip
+        written = outputs.write_pictures(stem, preview.pictures)
+
+        from dqpaint import report
+
+        _finish(report.notes(preview.motion), report.of_preview(preview, written), preview.image)
+
+    if not watch:
+        show()
+        return
+    from dqpaint import watching
+
+    watching.watch(path, show)
+
+
+@app.command(
+    epilog="Examples:\n\n  dqpaint develop star-hinf-film.npz --look aces --ev 1\n\n"
+    "  dqpaint develop star-hinf-film.npz --view iso,orbit:8 --size 640x360 --out round/"
+)
+def develop(
+    film: Annotated[str, typer.Argument(metavar="FILM", help="from: dqpaint draw --save film")],
+    size: Annotated[str | None, typer.Option(metavar="WxH", help="of the picture")] = None,
+    view: Annotated[str | None, typer.Option(metavar="VIEW", help="as for draw")] = None,
+    ev: Annotated[float | None, typer.Option(help="exposure in stops")] = None,
+    exposure: Annotated[
+        str | None, typer.Option(metavar="SETTINGS", help="as for draw, or auto")
+    ] = None,
+    look: Annotated[
+        str | None, typer.Option(metavar="NAME", help="see: dqpaint list looks")
+    ] = None,
+    starburst: Annotated[int | None, typer.Option(metavar="BLADES", help="0: none")] = None,
+    noise: Noise = None,
+    out: Out = None,
+) -> None:
+    """Take other pictures of a finished painting, at once; what is not said is as it was."""
+    from pathlib import Path
+
+    from dqpaint import api, outputs
+    from dqpaint.settings import parse_size
+
+    name = Path(film).stem.removesuffix("-film")
+    stem = outputs.stem_for(out, f"{name}-developed")
+    pictures = api.develop(
+        film, size=parse_size(size) if size else None, view=view, ev=ev, exposure=exposure,
+        look=look, starburst=starburst, noise=noise,
+    )  # fmt: skip
+    written = outputs.write_pictures(stem, pictures)
 
     from dqpaint import report
 
-    _finish(report.notes(picture.motion), report.of_preview(picture, written), picture.image)
+    _finish(report.of_arm(pictures), report.of_developed(pictures, written), pictures[0].image)
 
 
 CHECK_EXAMPLES = """Examples:
@@ -175,6 +258,7 @@ def check(
         print(json.dumps(checking.as_json(results), indent=2))
     else:
         print("\n".join(result.text for result in results))
+        point_at([finding.code for result in results for finding in result.findings], sys.stdout)
     if any(result.errors for result in results):
         raise typer.Exit(1)
 
@@ -184,10 +268,7 @@ def check(
 )
 def list_(
     what: Annotated[
-        str,
-        typer.Argument(
-            metavar="[robots|controllers|plants|disturbances|examples]", help="all, if not said"
-        ),
+        str, typer.Argument(metavar="[robots|controllers|...]", help="which list; all, if not said")
     ] = "all",
     as_json: AsJson = False,
 ) -> None:
@@ -249,6 +330,7 @@ def gallery(
 
 
 cli_arm.add_to(app)
+cli_language.add_to(app)
 
 
 def _finish(remarks: list[str], table: str, image: Any) -> None:
@@ -260,51 +342,3 @@ def _finish(remarks: list[str], table: str, image: Any) -> None:
     print(table)
     if shows_pictures(sys.stdout):
         print(blocks(image, shutil.get_terminal_size().columns))
-
-
-def run() -> None:
-    """Answer the arguments of this process; leaves by SystemExit or KeyboardInterrupt."""
-    _secure_streams()
-    try:
-        _answer()
-    except OSError as problem:  # of a stream: files have their own errors
-        sys.stdout = open(os.devnull, "w")  # noqa: SIM115  nothing more can be said there
-        if not isinstance(problem, BrokenPipeError):
-            _end(f"error: standard output cannot be written: {problem.strerror}", 1)
-        sys.exit(1)
-
-
-def _answer() -> None:
-    try:
-        app()
-    except UsageError as problem:
-        _end(f"usage: {problem}", 2)
-    except DqpaintError as problem:
-        text = str(problem)
-        _end(text if text.startswith(("error[", "warning[")) else f"error: {text}", 1)
-    except SystemExit as stop:
-        if stop.code == INTERRUPTED:  # typer has met a Ctrl-C
-            raise KeyboardInterrupt from None
-        sys.stdout.flush()
-        raise
-    except OSError:
-        raise
-    except Exception as fault:
-        if os.environ.get(DEBUG):
-            raise
-        _end(f"internal error, please report it: {fault!r}; {DEBUG}=1 shows where", 1)
-
-
-def _secure_streams() -> None:
-    """Streams that are closed become deaf; what an encoding lacks is written as its number."""
-    for name in ("stdout", "stderr"):
-        stream = getattr(sys, name)
-        if stream is None:
-            setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115  for as long as we run
-        else:
-            stream.reconfigure(errors="backslashreplace")
-
-
-def _end(text: str, code: int) -> NoReturn:
-    print(text, file=sys.stderr)
-    sys.exit(code)

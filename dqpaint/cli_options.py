@@ -1,4 +1,4 @@
-"""The options that several commands share: which drawing, which arm, which law."""
+"""The options of `draw`, most shared by other commands: drawing, arm, law, camera, light."""
 
 from typing import Annotated
 
@@ -46,7 +46,9 @@ Recorded = Annotated[
 PlantName = Annotated[
     str | None,
     typer.Option(
-        metavar="NAME", help="how the arm answers [default: stiff, or torque for its laws]"
+        metavar="NAME[:KEY=VALUE,...]",
+        help="how the arm answers, such as compliant:frequency=60 [default: stiff, or torque for "
+        "its laws]",
     ),
 ]
 Disturb = Annotated[
@@ -57,8 +59,67 @@ Disturb = Annotated[
     ),
 ]
 Seed = Annotated[int, typer.Option(help="of everything random")]
+Null = Annotated[
+    str,
+    typer.Option(
+        metavar="NAME[,gain=VALUE]",
+        help="what a redundant arm does with its freedom: see dqpaint list null",
+    ),
+]
+OnLimit = Annotated[
+    str,
+    typer.Option(
+        metavar="clip|slow|stop",
+        help="where a joint would pass a limit: hold it back, slow the drawing down, or end",
+    ),
+]
 From = Annotated[str, typer.Option("--from", metavar="first|home", help="where the arm begins")]
+Size = Annotated[str, typer.Option(metavar="WxH", help="of the picture, in pixels")]
+View = Annotated[
+    str,
+    typer.Option(
+        metavar="VIEW",
+        help="front, iso, side, top, or AZ,EL: degrees to its right and above; stereo[:VIEW], "
+        "orbit[:N[:EL]]; several with commas",
+    ),
+]
+Ev = Annotated[float, typer.Option(help="exposure in stops, on top of the automatic one")]
+Brush = Annotated[
+    str | None,
+    typer.Option(metavar="NAME[:KEY=VALUE,...]", help="what shines; see: dqpaint list brushes"),
+]
+Pwm = Annotated[float, typer.Option(metavar="HZ", help="dim the lamps by pulses; 0: evenly")]
+Exposure = Annotated[
+    str | None,
+    typer.Option(
+        metavar="SETTINGS",
+        help="a camera's, in any order: f/8,iso100,35mm,nd3,0.1cd,2.2m [default: automatic]",
+    ),
+]
+Look = Annotated[
+    str, typer.Option(metavar="NAME", help="how it is developed; see: dqpaint list looks")
+]
+Starburst = Annotated[int, typer.Option(metavar="BLADES", help="of an aperture that draws rays")]
+Noise = Annotated[int | None, typer.Option(metavar="SEED", help="of the sensor's noise")]
+ColourBy = Annotated[
+    str | None,
+    typer.Option(
+        metavar="FIGURE",
+        help="that the colours tell: position-error, orientation-error, speed, manipulability, "
+        "line",
+    ),
+]
+Overlay = Annotated[bool, typer.Option("--overlay", help="the asked drawing beneath")]
+Magnify = Annotated[float, typer.Option(metavar="N", help="deviations, N times as large")]
+Ghost = Annotated[bool, typer.Option("--ghost", help="the arm in the picture, and room for it")]
+Occlusion = Annotated[
+    bool | None,
+    typer.Option(help="the arm's body hides light from the camera [default: as --ghost]"),
+]
 Out = Annotated[
     str | None,
     typer.Option(metavar="PATH", help="a folder, or the stem of the files [default: here]"),
+]
+Save = Annotated[
+    str, typer.Option(metavar="LIST", help="of png, csv, json, motion, film, hdr, video, webp")
 ]

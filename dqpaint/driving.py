@@ -7,6 +7,7 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.controllers import Controller, Seen
 from dqpaint.dq import Floats
+from dqpaint.nullspace import Wish
 from dqpaint.robots.dynamics import Dynamics, drift_acceleration
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Bounds
@@ -19,38 +20,41 @@ class Drive(Protocol):
     def ask(self, seen: Seen, gains: Any) -> Floats:
         """What the law wants: joint rates (n,) [rad/s] or torques (n,) [Nm]."""
 
+    def hold(self, posture: Floats) -> Floats:
+        """The command that holds the arm still in a posture (n,) [rad]."""
+
     def within(self, wanted: Floats, posture: Floats) -> Floats:
         """What of it the limits allow in a posture (n,) [rad]."""
 
 
 def make_drive(
-    controller: Controller[Any], kinematics: Kinematics, start: Floats, period: float
+    controller: Controller[Any], kinematics: Kinematics, wish: Wish, period: float
 ) -> Drive:
     """The drive a law needs.
 
     Args:
         controller: the law.
-        kinematics: of the arm.
-        start: posture (n,) [rad] a redundant arm is drawn back to.
+        kinematics: of the arm, as the law's model has it.
+        wish: what a redundant arm does with its freedom.
         period: of the control [s].
     """
     if controller.drives_torque:
-        return TorqueDrive(controller, kinematics, start)
-    return RateDrive(controller, kinematics, start, period)
+        return TorqueDrive(controller, kinematics, wish, period)
+    return RateDrive(controller, kinematics, wish, period)
 
 
 class RateDrive:
     """For laws that command a twist or joint rates.
 
-    q_dot = J^+ u + (I - J^+ J) z with z towards the start posture; joint rates pass as they are.
+    q_dot = J^+ u + (I - J^+ J) z with z the wish; joint rates pass as they are.
     """
 
     def __init__(
-        self, controller: Controller[Any], kinematics: Kinematics, start: Floats, period: float
+        self, controller: Controller[Any], kinematics: Kinematics, wish: Wish, period: float
     ) -> None:
         self._law = controller.law
         self._resolved = controller.commands == "twist"
-        self._start = start
+        self._wish = wish
         self._bounds = Bounds(kinematics.card, period)
 
     def ask(self, seen: Seen, gains: Any) -> Floats:
@@ -58,8 +62,13 @@ class RateDrive:
         said: Floats = self._law(seen, gains)
         if not self._resolved:
             return said
-        wish = PULL * (self._start - seen.posture)
-        return resolve(seen.jacobian, dq.translation(seen.pose), said, wish)
+        point = dq.translation(seen.pose)
+        wish = self._wish(seen.posture, seen.jacobian, point)
+        return resolve(seen.jacobian, point, said, wish)
+
+    def hold(self, posture: Floats) -> Floats:
+        """No rates (n,)."""
+        return np.zeros_like(posture)
 
     def within(self, wanted: Floats, posture: Floats) -> Floats:
         """Within the speed limits, and ending within the position limits."""
@@ -71,13 +80,17 @@ class TorqueDrive:
 
     An acceleration a becomes tau = H q_ddot + C q_dot + G + friction with
     q_ddot = J^+ (a - J_dot q_dot) + (I - J^+ J) z (Chandra 2020 [35]). In the null space
-    z = PULL^2 (start - q) - 2 PULL q_dot: damped critically, or a redundant arm would drift.
+    z = PULL (wish - 2 q_dot): damped, or a redundant arm would drift; critically where the wish is
+    PULL (start - q).
     """
 
-    def __init__(self, controller: Controller[Any], kinematics: Kinematics, start: Floats) -> None:
+    def __init__(
+        self, controller: Controller[Any], kinematics: Kinematics, wish: Wish, period: float
+    ) -> None:
         self._law = controller.law
         self._resolved = controller.commands == "acceleration"
-        self._start = start
+        self._period = period
+        self._wish = wish
         self._dynamics = Dynamics(kinematics)
         self._effort = kinematics.card.effort
 
@@ -89,9 +102,14 @@ class TorqueDrive:
             torque: Floats = self._law(seen._replace(inertia=inertia, bias=bias), gains)
             return torque
         wanted = self._law(seen, gains) - drift_acceleration(seen.jacobian, rates)
-        wish = PULL**2 * (self._start - q) - 2 * PULL * rates
-        bend = resolve(seen.jacobian, dq.translation(seen.pose), wanted, wish)
-        return self._dynamics.torque(q, rates, bend)
+        point = dq.translation(seen.pose)
+        wish = PULL * self._wish(q, seen.jacobian, point) - 2 * PULL * rates
+        bend = resolve(seen.jacobian, point, wanted, wish)
+        return self._dynamics.torque(q, rates, bend, self._period)
+
+    def hold(self, posture: Floats) -> Floats:
+        """What the arm weighs (n,) [Nm], by the law's model."""
+        return self.within(self._dynamics.weight(posture), posture)
 
     def within(self, wanted: Floats, posture: Floats) -> Floats:
         """Within the motors' torques."""

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.light.brushes import shine
 from dqpaint.light.camera import VIEWS, frame
+from dqpaint.light.light import shine
 from dqpaint.motion import Motion
 from dqpaint.robots.collisions import Shapes
 from dqpaint.robots.dynamics import Dynamics

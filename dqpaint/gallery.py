@@ -1,6 +1,7 @@
 """The gallery: every example drawing, painted, with the command that paints it."""
 
 import json
+import shlex
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -18,18 +19,30 @@ class Shot(NamedTuple):
     example: str
     caption: str
     choices: dict[str, Any]
+    shows: str = ""  # in the files' name, where one example is shown twice
 
     @property
     def name(self) -> str:
         """Of the files."""
-        return f"{self.example}-{short_name(self.choices.get('controller', DEFAULT_CONTROLLER))}"
+        law = short_name(self.choices.get("controller", DEFAULT_CONTROLLER))
+        return f"{self.example}-{law}{self.shows}"
 
     @property
     def command(self) -> str:
         """What to type for the same picture."""
-        options = "".join(f" --{name} {value}" for name, value in self.choices.items())
+        options = "".join(_option(name, value) for name, value in self.choices.items())
         return f"dqpaint draw {self.example}{options}"
 
+
+def _option(name: str, value: object) -> str:
+    word = f" --{name.replace('_', '-')}"
+    return word if value is True else f"{word} {shlex.quote(str(value))}"
+
+
+HELICOID = (
+    "bar:length=300mm,leds=64,colours=orange/magenta/blueviolet/cyan/blueviolet/magenta/orange"
+)
+TOLD = {"controller": "p", "colour_by": "position-error", "overlay": True}
 
 SHOTS = (
     Shot("star", "Trapezoid speed: the arm rests at each corner, and the corner glows.", {}),
@@ -37,17 +50,43 @@ SHOTS = (
         "lag", "Without feed-forward corners are cut and small circles shrink,", {"controller": "p"}
     ),
     Shot("lag", "with it they do not. Same drawing, same camera, same exposure.", {}),
+    Shot("lag", "The same by its error, over what was asked, which is grey.", TOLD, "-error"),
+    Shot(
+        "quarter-turn",
+        "A quarter turn under torques, within two micrometres.",
+        {"controller": "accel", "view": "iso"},
+    ),
     Shot("rose", "A formula with exact derivatives, six times in a ring.", {}),
     Shot("spiral", "A helix is an arc that rises.", {"view": "iso"}),
     Shot("square", "Two sides in 500 samples, two in 300: faster is darker.", {"ev": -3}),
     Shot("circle", "The thesis's circle in 3000 samples.", {}),
     Shot("baxter-screw", "A screw of pitch zero about a line given in space.", {"view": "iso"}),
+    Shot("signature", "Lettering runs through its vertices: no beads on the line.", {}),
+    Shot("logo", "An SVG drawing, its arcs still arcs.", {}),
+    Shot("orbit", "541 points of a CSV file, smoothly.", {}),
+    Shot("ribbon", "A bar of light on a screw motion sweeps a helicoid.", {"view": "iso"}),
     Shot(
         "unwinding",
         "x and -x are one pose. A law that forgets it turns away where their signs part,",
         {"controller": "unwinding.py"},
     ),
     Shot("unwinding", "one that heeds it draws on.", {}),
+    Shot(
+        "helicoid",
+        "A bar of LEDs across the axis of one screw: orientation is seen.",
+        {"brush": HELICOID, "view": "20,12"},
+    ),
+    Shot(
+        "helicoid",
+        "The same with its arm, lit by what it painted. What the arm stood before is missing.",
+        {"brush": HELICOID, "view": "-40,14", "ghost": True},
+        "-ghost",
+    ),
+    Shot(
+        "pixelstick",
+        "An image, column by column, along the way of a bar.",
+        {"brush": "pixelstick:length=140mm,along=y", "view": "35,-25"},
+    ),
     Shot("step", "A jump of the set point: the error decays, and slower is brighter.", {}),
 )
 

@@ -53,8 +53,18 @@ def _plants() -> list[dict[str, Any]]:
             "about": (plant.__doc__ or "").splitlines()[0],
             "default": name == DEFAULT_PLANTS["rates"],
             "takes": plant.takes,
+            "values": _values(plant.options) if plant.options else [],
         }
         for name, plant in PLANTS.items()
+    ]
+
+
+def _fonts() -> list[dict[str, Any]]:
+    from dqpaint.language import letters
+
+    return [
+        {"name": name, "about": letters.read_font(name).about, "default": name == letters.PLAINEST}
+        for name in letters.font_names()
     ]
 
 
@@ -65,12 +75,52 @@ def _disturbances() -> list[dict[str, Any]]:
         {
             "name": name,
             "about": (model.__doc__ or "").splitlines()[0],
-            "values": [
-                {"name": field, "default": f.default, "about": f.description}
-                for field, f in model.model_fields.items()
-            ],
+            "values": _values(model),
         }
         for name, model in DISTURBANCES.items()
+    ]
+
+
+def _values(model: Any) -> list[dict[str, Any]]:
+    return [
+        {"name": name, "default": f.default, "about": f.description}
+        for name, f in model.model_fields.items()
+    ]
+
+
+def _null() -> list[dict[str, Any]]:
+    from dqpaint.nullspace import DEFAULT_NULL, OBJECTIVES
+
+    return [
+        {
+            "name": name,
+            "about": (objective.__doc__ or "").splitlines()[0],
+            "default": name == DEFAULT_NULL,
+            "values": [{"name": "gain", "default": objective.usual, "about": objective.unit}]
+            if objective.usual
+            else [],
+        }
+        for name, objective in OBJECTIVES.items()
+    ]
+
+
+def _brushes() -> list[dict[str, Any]]:
+    from dqpaint.light.brushes import BRUSHES, choices_of
+
+    return [
+        {"name": name, "about": (kind.__doc__ or "").splitlines()[0], "choices": choices_of(kind)}
+        for name, kind in BRUSHES.items()
+    ]
+
+
+def _looks() -> list[dict[str, Any]]:
+    from dqpaint.light.looks import LOOKS
+    from dqpaint.settings import Settings
+
+    usual = Settings.model_fields["look"].default
+    return [
+        {"name": name, "about": (look.__doc__ or "").splitlines()[0], "default": name == usual}
+        for name, look in LOOKS.items()
     ]
 
 
@@ -84,12 +134,34 @@ def _examples() -> list[dict[str, Any]]:
     return [{"name": name, "about": about(name)} for name in example_names()]
 
 
+def _statements() -> list[dict[str, Any]]:
+    from dqpaint.language.words import STATEMENTS
+
+    return [
+        {"name": s.word, "about": s.says, "example": s.example, "parts": list(s.parts)}
+        for s in STATEMENTS.values()
+    ]
+
+
+def _functions() -> list[dict[str, Any]]:
+    from dqpaint.editors.vocabulary import vocabulary
+
+    kinds = ("function", "law", "constant", "unit")
+    return [{"name": e.example, "about": e.says} for e in vocabulary() if e.kind in kinds]
+
+
 LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {
     "robots": _robots,
     "controllers": _controllers,
     "plants": _plants,
     "disturbances": _disturbances,
+    "null": _null,
+    "brushes": _brushes,
+    "looks": _looks,
+    "fonts": _fonts,
     "examples": _examples,
+    "statements": _statements,
+    "functions": _functions,
 }
 
 
@@ -114,8 +186,13 @@ def text(found: dict[str, list[dict[str, Any]]]) -> str:
         for row in rows:
             usual = " (default)" if row.get("default") else ""
             lines.append((row["name"] + usual, row["about"]))
+            lines += [("", f"  {choice}") for choice in row.get("choices", [])]
             numbers = [*row.get("gains", []), *row.get("values", [])]
             lines += [("", f"  {value_line(number)}") for number in numbers]
+            if "example" in row:
+                lines.append(("", f"  {row['example']}"))
+            if row.get("parts"):
+                lines.append(("", f"  parts: {' '.join(row['parts'])}"))
             if "gains" in row:
                 lines.append(("", f"  from {row['source']}"))
         heading = [f"{name}:"] if len(found) > 1 else []

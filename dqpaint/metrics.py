@@ -87,7 +87,19 @@ def _reached_columns(track: Track) -> Table:
         **({"effort_rad": _norm(moved), "manipulability": track.manipulability} if known else {}),
         **{f"q{j + 1}_rad": track.posture[:, j] for j in joints},
         **{_command_column(track, j + 1): track.command[:, j] for j in joints},
+        **_told_columns(track),
+        **({} if motion.clock is motion.t else {"drawing_time_s": motion.clock}),
     }
+
+
+def _told_columns(track: Track) -> Table:
+    """What the law was told, where it was not the truth: angles read, and the pose they mean."""
+    told: Table = {}
+    if (track.read != track.posture).any():
+        told |= {f"read{j + 1}_rad": track.read[:, j] for j in range(track.read.shape[1])}
+    if (track.believed != track.pose).any():
+        told |= _pose_columns("believed_", dq.translation(track.believed), track.believed)
+    return told
 
 
 def _command_column(track: Track, joint: int) -> str:
@@ -95,7 +107,7 @@ def _command_column(track: Track, joint: int) -> str:
 
 
 def _velocity(points: Floats, period: float) -> Floats:
-    """Forward differences (N, 3) [m/s] of what was measured; the last row repeats."""
+    """Forward differences (N, 3) [m/s] of where it truly was; the last row repeats."""
     if len(points) < 2:
         return np.zeros_like(points)
     rates = np.diff(points, axis=0) / period

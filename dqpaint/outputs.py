@@ -5,7 +5,7 @@ import json
 import os
 import platform
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,26 +13,42 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dqpaint import __version__
-from dqpaint.errors import OutputError, UsageError
+from dqpaint.errors import OutputError, UnknownNameError, UsageError
+from dqpaint.files import stage
+from dqpaint.nullspace import read_null
 from dqpaint.registry import Registry
 from dqpaint.robots.limits import UNITS
 
 if TYPE_CHECKING:
     from dqpaint.metrics import Table  # they bring in the simulator, and types need none
     from dqpaint.paint import Painting
+    from dqpaint.picture import Picture
     from dqpaint.set_points import Response
 
 SCHEMA = "dqpaint-run-1"
 LIBRARIES = ("numpy", "opencv-python-headless", "pin", "pybullet")
 
-Output = Callable[["Painting"], bytes]
+Files = bytes | dict[str, bytes]
+"""One file with the output's own ending, or several by their endings."""
+Output = Callable[["Painting"], Files]
 OUTPUTS: Registry[Output] = Registry("output")
+Told = Callable[[float], None]
+Movie = Callable[["Painting", Told], bytes]
+MOVIES: Registry[Movie] = Registry("output")
+"""Outputs that take so long that they tell how far they are."""
 
 
 @OUTPUTS.add("png")
-def png(painting: "Painting") -> bytes:
-    """The picture."""
-    return painting.picture.png
+def png(painting: "Painting") -> Files:
+    """The pictures, one a view."""
+    return pictures(painting.pictures)
+
+
+def pictures(taken: "Sequence[Picture]") -> Files:
+    """Pictures as PNG; if there are several, each with the name of its view."""
+    if len(taken) == 1:
+        return taken[0].png
+    return {f"-{picture.name}.png": picture.png for picture in taken}
 
 
 @OUTPUTS.add("csv")
@@ -55,25 +71,80 @@ def motion(painting: "Painting") -> bytes:
     return encode_csv(motion_columns(painting.motion))
 
 
+@OUTPUTS.add("film")
+def film(painting: "Painting") -> Files:
+    """The light, camera and settings, to develop again, and the linear film as a float TIFF."""
+    from dqpaint import negative
+
+    scene, settings = painting.scene, painting.settings
+    exact = negative.encode_linear(scene, painting.picture, settings, ".tiff")
+    return {"-film.npz": negative.encode(scene, settings, painting.cast), "-film.tiff": exact}
+
+
+@OUTPUTS.add("hdr")
+def hdr(painting: "Painting") -> bytes:
+    """The linear film as Radiance HDR, which picture editors open."""
+    from dqpaint import negative
+
+    return negative.encode_linear(painting.scene, painting.picture, painting.settings, ".hdr")
+
+
+@MOVIES.add("video")
+def video(painting: "Painting", progress: Told) -> bytes:
+    """The painting as it grows: VP9 in WebM."""
+    from dqpaint.video import webm
+
+    return webm(painting.scene, painting.picture, painting.settings, progress)
+
+
+@MOVIES.add("webp")
+def webp(painting: "Painting", progress: Told) -> bytes:
+    """The same as an animation for a page."""
+    from dqpaint.video import webp as animation
+
+    return animation(painting.scene, painting.picture, painting.settings, progress)
+
+
 CHUNK = 8192  # rows of a table that are written at once
-SUFFIXES = {".png", ".csv", ".json"}
+SUFFIXES = {".png", ".csv", ".json", ".webm", ".webp", ".hdr"}
 
 
-def choose(what: str) -> dict[str, Output]:
-    """The outputs of a list with commas, by the endings of their files.
+def choose(what: str) -> list[str]:
+    """The names of a list of outputs with commas.
 
     Raises:
         UsageError: an unknown output, or none at all.
     """
     names = [name.strip() for name in what.split(",") if name.strip()]
+    known = [*OUTPUTS, *MOVIES]
     if not names:
-        raise UsageError(f"nothing to save in '{what}'; known: {', '.join(OUTPUTS)}")
-    return {ending(name): OUTPUTS[name] for name in names}
+        raise UsageError(f"nothing to save in '{what}'; known: {', '.join(known)}")
+    for name in names:
+        if name not in known:
+            raise UnknownNameError("output", name, known)
+    return names
+
+
+def make(
+    names: Sequence[str], painting: "Painting", progress: Told = lambda _done: None
+) -> dict[str, bytes]:
+    """The files of some outputs by their endings.
+
+    Args:
+        names: of the outputs, from `choose`.
+        painting: what to write.
+        progress: called while a movie is made, with the part done, 0 to 1.
+    """
+    files: dict[str, bytes] = {}
+    for name in names:
+        made = OUTPUTS[name](painting) if name in OUTPUTS else MOVIES[name](painting, progress)
+        files.update(made if isinstance(made, dict) else {ending(name): made})
+    return files
 
 
 def ending(name: str) -> str:
     """How the file of an output ends, after the stem."""
-    return "-motion.csv" if name == "motion" else f".{name}"
+    return {"motion": "-motion.csv", "video": ".webm"}.get(name, f".{name}")
 
 
 def encode_csv(table: "Table") -> bytes:
@@ -90,7 +161,7 @@ def encode_csv(table: "Table") -> bytes:
 def summarise(painting: "Painting") -> dict[str, Any]:
     """The JSON summary: what was run, what came out."""
     motion, film = painting.motion, painting.picture.film
-    program, settings = motion.program, painting.settings
+    program, settings, hidden = motion.program, painting.settings, painting.picture.hidden
     return {
         "schema": SCHEMA,
         "file": Path(program.name).name,
@@ -103,10 +174,12 @@ def summarise(painting: "Painting") -> dict[str, Any]:
         "robot": painting.robot,
         "plant": painting.plant,
         "recording": painting.recording and painting.recording.as_json,
+        "plant_values": painting.plant_values,
         "controller": painting.controller.name,
         "law": _law(painting),
         "gains": painting.gains,
-        "disturbances": settings.disturb,
+        "disturbances": {name: one.model_dump() for name, one in painting.disturbances.items()},
+        "null_space": dict(zip(("objective", "gain"), read_null(settings.null), strict=True)),
         "seed": settings.seed,
         "settings": settings.model_dump(),
         "drawing": {
@@ -117,6 +190,7 @@ def summarise(painting: "Painting") -> dict[str, Any]:
             "box_m": motion.box.tolist(),
             "place": painting.placed and painting.placed.as_json,
         },
+        "pace": _pace(painting),
         **painting.metrics.figures,
         "attenuation": {
             part: {"ratio_s": one.ratio, "bound_s": one.bound, "kept": one.kept}
@@ -134,10 +208,10 @@ def summarise(painting: "Painting") -> dict[str, Any]:
         "limits": [{**vars(clamp), "unit": UNITS[clamp.kind]} for clamp in painting.limits],
         "light": {
             "unit": "lamp seconds, linear RGB",
-            "emitted": film.emitted.tolist(),
+            "emitted": painting.picture.emitted.tolist(),
             "on_film": film.on_film.tolist(),
             "lost": film.lost.tolist(),
-            "occluded": None,  # the arm's own shadow is not traced in this version
+            "occluded": None if hidden is None else hidden.energy.tolist(),  # None: not traced
             "exposure": painting.picture.exposure,
         },
         "wall_s": {stage: round(seconds, 4) for stage, seconds in painting.seconds.items()},
@@ -161,6 +235,14 @@ def _law(painting: "Painting") -> dict[str, str | None]:
         "sha256": getattr(law.law, "sha256", None),
         "commands": law.commands,
     }
+
+
+def _pace(painting: "Painting") -> dict[str, Any] | None:
+    """How the drawing was slowed down; None where its clock ran as asked, come what may."""
+    slowed = painting.slowed
+    if slowed is None:
+        return None
+    return {"longer_s": slowed.longer, "slowest": slowed.slowest, "lines": list(slowed.lines)}
 
 
 def stem_for(out: str | None, name: str) -> Path:
@@ -210,16 +292,11 @@ def write(stem: Path, contents: dict[str, bytes]) -> list[Path]:
     Raises:
         OutputError: a file could not be written; every file there is whole, the old or the new one.
     """
-    made: list[tuple[str, Path]] = []
+    made: list[tuple[Path, Path]] = []
     try:
         for end, data in contents.items():
-            handle, temporary = tempfile.mkstemp(
-                prefix=".dqpaint-", suffix=".part", dir=stem.parent
-            )
-            made.append((temporary, stem.with_name(stem.name + end)))
-            with os.fdopen(handle, "wb") as file:
-                file.write(data)
-            os.chmod(temporary, 0o666 & ~_umask())
+            path = stem.with_name(stem.name + end)
+            made.append((stage(path, data), path))
         for _, path in made:
             if path.is_dir():
                 raise OutputError(f"'{path}' cannot be written: it is a folder")
@@ -229,11 +306,11 @@ def write(stem: Path, contents: dict[str, bytes]) -> list[Path]:
         raise OutputError(f"'{stem}' cannot be written: {problem.strerror}") from None
     finally:
         for temporary, _ in made:
-            Path(temporary).unlink(missing_ok=True)
+            temporary.unlink(missing_ok=True)
     return [path for _, path in made]
 
 
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+def write_pictures(stem: Path, taken: "Sequence[Picture]") -> list[Path]:
+    """Write pictures alone, as `write` does."""
+    made = pictures(taken)
+    return write(stem, made if isinstance(made, dict) else {".png": made})

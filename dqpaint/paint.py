@@ -11,45 +11,61 @@ from numpy.typing import NDArray
 
 from dqpaint.attenuation import Attenuation, attenuation
 from dqpaint.controllers import Controller, find_controller
-from dqpaint.disturbances import make_disturbances
+from dqpaint.disturbances import Disturbance, make_disturbances
 from dqpaint.language.program import Program
-from dqpaint.light.camera import parse_view
 from dqpaint.light.film import Film
 from dqpaint.metrics import Metrics, Table, measure
 from dqpaint.motion import Motion, plan
+from dqpaint.nullspace import read_null
 from dqpaint.out_of_reach import begin, check_worst
-from dqpaint.picture import Picture, take
+from dqpaint.picture import Picture, photograph
 from dqpaint.placing import Placed, settle
-from dqpaint.plants import PLANTS, choose_plant
+from dqpaint.plants import choose_plant
 from dqpaint.plants.plant import Takes
 from dqpaint.recorded import RECORDED, Recording, read_recording, replay
+from dqpaint.robots.card import DEFAULT_ROBOT
 from dqpaint.robots.choose import card_for
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Clamp
+from dqpaint.scene import Scene, arrange, check_choices
 from dqpaint.set_points import SetPoint, set_points
 from dqpaint.settings import Settings, check_recorded
+from dqpaint.slowing import Slowed, slow_down
+from dqpaint.stage.staging import Cast, on_stage
 from dqpaint.tracking import Track, track
+
+UNSEEN = "poses alone say nothing of the joints: the arm and what it hides are left out"
 
 
 @dataclass(frozen=True, repr=False)
 class Painting:
-    """A finished painting: what was asked, what the arm did, the picture and the numbers."""
+    """A finished painting: what was asked, what the arm did, the pictures and the numbers."""
 
     settings: Settings
     controller: Controller[Any]
     robot: str
     plant: str
+    plant_values: dict[str, Any]  # with what follows from them for this arm
+    disturbances: dict[str, Disturbance]
     gains: dict[str, Any]  # all of the law's, and what follows from them
     motion: Motion
     track: Track
     metrics: Metrics
     attenuation: dict[str, Attenuation]  # of an unmodelled twist, in rotation and translation
     set_points: tuple[SetPoint, ...]
-    picture: Picture
+    scene: Scene
+    cast: Cast
+    pictures: tuple[Picture, ...]  # one a view
+    slowed: Slowed | None = None  # where the drawing's clock may slow down
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
     notes: tuple[str, ...] = ()  # what was assumed of the arm
     placed: Placed | None = None  # where `place auto` put the drawing
     recording: Recording | None = None  # what was painted instead of a simulated run
+
+    @property
+    def picture(self) -> Picture:
+        """The picture of the first view."""
+        return self.pictures[0]
 
     @property
     def image(self) -> NDArray[np.uint8]:
@@ -102,7 +118,7 @@ def paint(
         DqpaintError: the run or the light came to nothing.
     """
     clock = Stopwatch()
-    parse_view(settings.view)  # a slip there is told before anything is simulated
+    check_choices(settings)  # a slip there is told before anything is simulated
     check_recorded(settings)
     card = card_for(program, settings.robot, settings.tool)
     recording = None
@@ -111,13 +127,17 @@ def paint(
     controller = controller or find_controller(settings.controller)
     gains = controller.read_gains(settings.gains)
     takes: Takes = "torque" if controller.drives_torque else "rates"
-    plant = "recorded" if recording else choose_plant(settings.plant, takes)
+    plant = choose_plant(settings.plant, takes)
     disturbances = make_disturbances(settings.disturb)
+    for name, one in disturbances.items():
+        plant.need(one.needs, name)
+    read_null(settings.null)
     with clock("place"):
         kinematics = Kinematics(card)
         program, placed = settle(program, kinematics, settings.place)
     with clock("motion"):
         motion = plan(program, card.canvas.pose)
+    slowed = None
     if recording is not None:
         with clock("arm"):
             run = replay(recording, motion, kinematics)
@@ -125,10 +145,15 @@ def paint(
         with clock("start"):
             best = begin(motion, kinematics).posture
             start = card.home if settings.start == "home" else best
+            if settings.on_limit == "slow":
+                slowed = slow_down(
+                    motion, kinematics, start, settings.null, controller.drives_torque
+                )
+                motion = slowed.motion
         with clock("arm"):
             run = track(
-                motion, kinematics, start, PLANTS[plant], controller, gains, progress,
-                disturbances, settings.seed,
+                motion, kinematics, start, plant, controller, gains, progress,
+                disturbances, settings.seed, settings.null, settings.on_limit == "stop",
             )  # fmt: skip
         check_worst(run, kinematics)
     notes = kinematics.notes + (recording.notes(motion) if recording else ())
@@ -136,11 +161,18 @@ def paint(
         metrics = measure(run)
         came_through = attenuation(run, gains.promise())
         steps = set_points(run)
-    with clock("light"):
-        picture = take(motion, run.points, settings)
+    robot = settings.robot or program.robot or DEFAULT_ROBOT
+    cast = Cast(robot, run.posture, motion.line, motion.period)
+    if settings.staged and not cast.known:
+        notes += (UNSEEN,)
+    with clock("light"), on_stage(settings, card, cast) as staging:
+        scene = arrange(motion, run.pose, settings, metrics.table)
+        pictures = tuple(photograph(scene, settings, staging))
     return Painting(
-        settings, controller, card.name, plant, gains.shown(), motion, run, metrics, came_through,
-        steps, picture, clock.seconds, notes, placed, recording,
+        settings, controller, card.name,
+        "recorded" if recording else plant.name, {} if recording else plant.shown(card),
+        disturbances, gains.shown(), motion, run, metrics, came_through, steps, scene, cast,
+        pictures, slowed, clock.seconds, notes, placed, recording,
     )  # fmt: skip
 
 

@@ -1,27 +1,35 @@
-"""Points -> Picture: one way to the film, for what was asked and for what was reached."""
+"""Scene -> Picture: one way to the film, for what was asked and for what was reached."""
 
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
-from dqpaint.light.brushes import shine
-from dqpaint.light.camera import Camera, frame, parse_view
-from dqpaint.light.develop import develop
-from dqpaint.light.exposure import automatic_exposure
+from dqpaint.light.arrays import Image
+from dqpaint.light.camera import FILL, LENS, Camera
+from dqpaint.light.exposure import CORE, automatic_exposure
 from dqpaint.light.film import Film, expose
+from dqpaint.light.legend import with_legend
+from dqpaint.light.looks import LOOKS, with_noise
+from dqpaint.light.settings import advice, parse_exposure
 from dqpaint.light.spread import point_spread, spread
+from dqpaint.light.starburst import with_starburst
+from dqpaint.light.sweep import Sweep
+from dqpaint.light.views import Shot, camera_of, distance_to, parse_views
 from dqpaint.motion import Motion
+from dqpaint.scene import Scene, arrange
 from dqpaint.settings import Settings
-
-SETTLING = 0.25  # [s] in which a jump of the set point counts as drawn
+from dqpaint.stage.staging import Hidden, Staging, account
 
 # run lengths suit black ground with dithered halos: smaller and faster than the default search
 PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
+FAINT = 0.25  # what the lines of the asked drawing under the reached one are exposed to
+KEPT = 1  # pictures of one painting whose films are kept; of the others only the sums are
+BESIDE_ARM = 0.45  # of the limiting dimension a drawing takes that leaves room for the arm
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -33,14 +41,29 @@ class Picture:
         film: the light that fell on it, linear.
         exposure: the factor that was applied to the film, `ev` not included.
         camera: where it was taken from.
-        motion: what was asked.
+        name: of the view.
+        told: the exposure in a photographer's terms.
+        light: what shone, as this camera saw it.
+        hidden: what the arm's own body kept from the film; None if that was not traced.
+        arm: (H, W, 3) linear light of the arm and the floor, if they are shown.
+        remarks: what of the arm could not be shown or traced.
     """
 
     image: NDArray[np.uint8]
     film: Film
     exposure: float
     camera: Camera
-    motion: Motion
+    name: str
+    told: str
+    light: tuple[Sweep, ...] = ()
+    hidden: Hidden | None = None
+    arm: Image | None = None
+    remarks: tuple[str, ...] = ()
+
+    @property
+    def emitted(self) -> Floats:
+        """(3,) what the light gave off: on the film, lost and hidden, in the film's unit."""
+        return self.film.emitted + (0.0 if self.hidden is None else self.hidden.energy)
 
     @property
     def png(self) -> bytes:
@@ -54,33 +77,133 @@ class Picture:
         return self.png
 
 
-def take(motion: Motion, points: Floats, settings: Settings) -> Picture:
-    """The long exposure of a light that goes through points (N, 3) in the colours of a motion.
+def take(motion: Motion, pose: Floats, settings: Settings) -> Picture:
+    """The first picture of a motion's light carried through poses (N, 8)."""
+    return next(photograph(arrange(motion, pose, settings), settings))
 
-    Camera and exposure are chosen from what was asked, not from the points: so pictures of two
-    control laws can be laid over each other.
+
+def photograph(
+    scene: Scene, settings: Settings, staging: Staging | None = None
+) -> Iterator[Picture]:
+    """The pictures of a scene: one for each view of the settings, all of one run.
+
+    The views of a series (a stereo pair, an orbit) have the exposure of its first.
+
+    Args:
+        scene: what is photographed.
+        settings: views, size, exposure, look, and whether the arm is seen and hides light.
+        staging: the arm; None is a picture without one, that hides nothing.
     """
-    if not motion.lit.any():
-        raise DqpaintError(
-            f"{motion.program.name}: no light is on anywhere, so the picture would be black"
-        )
+    series: dict[int, float] = {}
+    for i, shot in enumerate(parse_views(settings.view)):
+        picture = _shoot(scene, settings, shot, series.get(shot.series), staging)
+        if shot.series:
+            series.setdefault(shot.series, picture.exposure)
+        if i >= KEPT:
+            sums = picture.film.on_film[:, None, None]
+            picture = replace(picture, film=replace(picture.film, planes=sums), light=(), arm=None)
+        yield picture
+
+
+def place_camera(scene: Scene, settings: Settings, shot: Shot) -> Camera:
+    """The camera of one view."""
+    real = parse_exposure(settings.exposure or "auto")
+    lens, distance = (LENS, None) if real is None else (real.lens, real.distance)
     size = (settings.width, settings.height)
-    asked = shine(motion.points, _metered(motion), motion.period)
-    front = dq.matrix_from_quaternion(motion.front)
-    shown = shine(motion.points, motion.light, motion.period).lit_points
-    camera = frame(shown, front, parse_view(settings.view), size)
-    psf = point_spread(settings.height)
-    exposure = automatic_exposure(asked, camera, psf)
-    film = expose(shine(points, motion.light, motion.period), camera)
-    image = develop(spread(film, psf), exposure, settings.ev)
-    return Picture(image, film, exposure, camera, motion)
+    fill = BESIDE_ARM if settings.ghost else FILL
+    return camera_of(shot, scene.shown_points, scene.front, size, lens, distance, fill)
 
 
-def _metered(motion: Motion) -> Floats:
-    """The colours (N, 3) the exposure is chosen from.
+def _shoot(
+    scene: Scene, settings: Settings, shot: Shot, given: float | None, staging: Staging | None
+) -> Picture:
+    camera = place_camera(scene, settings, shot)
+    exposure, told = _exposure(scene, settings, camera, given)
+    falloff, light = _by_settings(settings), scene.light
+    arm, traced = None, False
+    if staging is not None:
+        traced = settings.traced and staging.solid
+        if traced:
+            light = tuple(sweep.behind(staging, camera.position) for sweep in light)
+        if settings.ghost:
+            lamps = [lamp for sweep in scene.light for lamp in sweep.lights()]
+            arm = staging.photograph(camera, lamps, exposure, falloff)
+    film = expose(light, camera, falloff)
+    hidden = _hidden(light, staging.line) if staging is not None and traced else None
+    image = linear(scene, film, exposure, camera, settings, arm=arm)
+    return Picture(
+        finish(scene, image, exposure, settings), film, exposure, camera, shot.name, told, light,
+        hidden, arm, tuple(staging.remarks) if staging is not None else (),
+    )  # fmt: skip
 
-    A set point that jumps leaves no line, but the arm that follows it does: the jump counts as a
-    line drawn in `SETTLING`.
+
+def _hidden(light: Sequence[Sweep], line: NDArray[np.int64]) -> Hidden:
+    """What of some sweeps their shades kept from the film, by the lines (N,) of the source."""
+    shades = [sweep.shade for sweep in light if sweep.shade is not None]
+    hidden = np.sum([shade.hidden for shade in shades], axis=0)
+    emitted = np.sum([shade.emitted for shade in shades], axis=0)
+    return account(hidden, emitted, line[:-1])
+
+
+def _by_settings(settings: Settings) -> bool:
+    return parse_exposure(settings.exposure or "auto") is not None
+
+
+def _exposure(
+    scene: Scene, settings: Settings, camera: Camera, given: float | None
+) -> tuple[float, str]:
+    """The factor from film to saturation, and how a photographer would say it."""
+    real = parse_exposure(settings.exposure or "auto")
+    if real is not None:
+        return real.factor(camera), str(real)
+    if given is None:
+        psf = point_spread(settings.height)
+        given = automatic_exposure(scene.asked, camera, psf) * scene.dimmer
+    shown = given * 2.0**settings.ev
+    return given, f"automatic, {advice(shown, camera, distance_to(camera, scene.shown_points))}"
+
+
+def linear(
+    scene: Scene,
+    film: Film,
+    exposure: float,
+    camera: Camera,
+    settings: Settings,
+    under: Image | None = None,
+    arm: Image | None = None,
+) -> Image:
+    """(H, W, 3) linear light on the sensor, before it is developed.
+
+    Args:
+        scene: What is photographed.
+        film: What fell on the film.
+        exposure: Of the picture.
+        camera: Where it was taken from.
+        settings: Of the picture.
+        under: From `beneath`, where it is already there.
+        arm: Light of the arm and the floor, where they are shown.
     """
-    weight = np.where(motion.jump, SETTLING / motion.period, 1.0)
-    return np.asarray(motion.light * weight[:, None])
+    image = spread(film, point_spread(settings.height))
+    if scene.under:
+        image += beneath(scene, exposure, camera, settings) if under is None else under
+    if arm is not None:
+        image += arm
+    if settings.starburst:
+        image = with_starburst(image, settings.starburst)
+    return image
+
+
+def beneath(scene: Scene, exposure: float, camera: Camera, settings: Settings) -> Image:
+    """(H, W, 3) the faint lines of the asked drawing, on the same scale as the film's light."""
+    psf = point_spread(settings.height)
+    ridge = automatic_exposure(scene.under, camera, psf) / CORE
+    faint = np.float32(FAINT * ridge / (exposure * 2.0**settings.ev))
+    return spread(expose(scene.under, camera), psf) * faint
+
+
+def finish(scene: Scene, image: Image, exposure: float, settings: Settings) -> NDArray[np.uint8]:
+    """The picture of linear light: noise, look, legend."""
+    if settings.noise is not None:
+        image = with_noise(image, exposure * 2.0**settings.ev, settings.noise)
+    shown = LOOKS[settings.look](image, exposure, settings.ev)
+    return shown if scene.legend is None else with_legend(shown, scene.legend, settings.look)

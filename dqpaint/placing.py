@@ -273,7 +273,7 @@ def _nowhere(program: Program, card: Card, motion: Motion) -> ScriptError:
     assert isinstance(program.placement, Auto)
     box = " x ".join(f"{side * 1e3:.0f}" for side in motion.box)
     problem = Diagnostic(
-        "E312",
+        "E313",
         f"nowhere in the reach of {card.name} is there room for this drawing ({box} mm)",
         program.placement.span,
         help="make it smaller: with scale 0.5 ... end; turn the tool less; or take a larger arm",

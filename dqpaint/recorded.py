@@ -264,10 +264,13 @@ def replay(recording: Recording, motion: Motion, kinematics: Kinematics) -> Trac
         measure = manipulability(J)
         command = _given(recording, posture, motion)
     pose[0] = dq.nearest(pose[0], motion.pose[0])
+    pose = dq.continuous(pose)
     return Track(
         motion=motion,
         posture=posture,
-        pose=dq.continuous(pose),
+        pose=pose,
+        read=posture,
+        believed=pose,
         manipulability=measure,
         command=command,
         torques=recording.torques,

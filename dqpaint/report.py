@@ -9,10 +9,12 @@ from dqpaint.motion import Motion, summary_line
 from dqpaint.paint import Painting
 from dqpaint.picture import Picture
 from dqpaint.robots.limits import Clamp
+from dqpaint.sketch import Preview
 from dqpaint.terminal import table
 
 WHITE = 250  # of 255
 MOST_NAMED = 3  # limits in the table; all of them are in the warnings
+LONGEST_TORQUE_PERIOD = 5e-3  # [s], the 200 Hz of Chandra 2020
 WORTH_A_WARNING = 0.01  # of the light
 NOTHING = 1e-9  # [mm, deg] is shown as 0
 
@@ -26,17 +28,29 @@ def of_painting(painting: Painting, written: Sequence[Path]) -> str:
         *([("placed", one.line), ("", one.figures)] if (one := painting.placed) else []),
         ("arm", f"{painting.robot}, {painting.plant}"),
         ("controller", f"{painting.controller.name}  {gains}".rstrip()),
+        *_disturbed(painting),
         ("position error", _spread(figures, "position_error", "m", 1e3, "mm")),
         ("", f"largest at {_worst(painting)}"),
         ("orientation error", _spread(figures, "orientation_error", "rad", math.degrees(1), "deg")),
         *_commanded(figures),
         *_came_through(painting),
         *_steps(painting),
+        *_pace(painting),
         ("limits", _limits_line(painting)),
-        ("light", light_line(painting.picture)),
+        *_pictures(painting.pictures),
         *_files(written),
     ]
     return table(rows)
+
+
+def _disturbed(painting: Painting) -> list[tuple[str, str]]:
+    """What no law knew of, each with the values that were given."""
+    rows: list[tuple[str, str]] = []
+    for name, one in painting.disturbances.items():
+        given = one.model_dump(exclude_defaults=True)
+        values = ", ".join(f"{key} = {_gain(value)}" for key, value in given.items())
+        rows.append(("" if rows else "disturbed by", f"{name}  {values or 'nothing'}"))
+    return rows
 
 
 def _came_through(painting: Painting) -> list[tuple[str, str]]:
@@ -46,11 +60,29 @@ def _came_through(painting: Painting) -> list[tuple[str, str]]:
         said = f"{part} {one.ratio:.3g} s"
         if one.bound is not None:
             kept = "kept" if one.kept else f"broken, {one.ratio / one.bound:.3g} times as much"
+            if not one.kept and one.bound < painting.motion.period:
+                kept += ", as the gain is above 1 a period"
             if not one.kept and painting.limits:
                 kept += "; limits held joints meanwhile"
+            if not one.kept and len(painting.disturbances) > 1:
+                kept += "; other disturbances took part"
             said += f", promised at most {one.bound:.3g} s: {kept}"
         rows.append(("" if rows else "disturbance", said))
     return rows
+
+
+def _pace(painting: Painting) -> list[tuple[str, str]]:
+    """How much longer it takes, where a drawing may be slowed down."""
+    slowed = painting.slowed
+    if slowed is None:
+        return []
+    if not slowed.lines:
+        return [("pace", "as asked: no joint needs more time")]
+    where = ", ".join(str(line) for line in slowed.lines[:MOST_NAMED])
+    more = f" and {len(slowed.lines) - MOST_NAMED} more" if len(slowed.lines) > MOST_NAMED else ""
+    lines = "lines" if len(slowed.lines) > 1 else "line"
+    said = f"{slowed.longer:.3g} s longer, down to {slowed.slowest:.2g} of the asked speed"
+    return [("pace", f"{said} ({lines} {where}{more})")]
 
 
 def _steps(painting: Painting) -> list[tuple[str, str]]:
@@ -100,25 +132,32 @@ def of_export(painting: Painting, written: Sequence[Path]) -> str:
     return table(rows)
 
 
-def of_preview(picture: Picture, written: Sequence[Path]) -> str:
+def of_preview(preview: Preview, written: Sequence[Path]) -> str:
     """The table that follows `preview`."""
-    rows = [
-        ("drawing", summary_line(picture.motion)),
-        ("light", light_line(picture)),
-        *_files(written),
-    ]
-    return table(rows)
+    rows = [("drawing", summary_line(preview.motion)), *_pictures(preview.pictures)]
+    return table([*rows, *_files(written)])
+
+
+def of_developed(pictures: Sequence[Picture], written: Sequence[Path]) -> str:
+    """The table that follows `develop`."""
+    return table([*_pictures(pictures), *_files(written)])
+
+
+def _pictures(pictures: Sequence[Picture]) -> list[tuple[str, str]]:
+    """What the light and the exposure of the first picture are; the others are of the same run."""
+    return [("light", light_line(pictures[0])), ("exposure", pictures[0].told)]
 
 
 def light_line(picture: Picture) -> str:
     """What of the light fell on the film, and how bright the picture came out."""
-    film = picture.film
-    emitted = film.emitted.sum()
+    film, hidden = picture.film, picture.hidden
+    emitted = picture.emitted.sum() or 1.0  # a beam may send nothing this way
     red, green, blue = (picture.image[..., i] >= WHITE for i in range(3))
     white = float((red & green & blue).mean())
+    behind = f", {hidden.energy.sum() / emitted:.1%} hidden by the arm" if hidden else ""
     return (
-        f"{film.on_film.sum() / emitted:.1%} on film, {film.lost.sum() / emitted:.1%} lost; "
-        f"{white:.2%} of the picture is white"
+        f"{film.on_film.sum() / emitted:.1%} on film, {film.lost.sum() / emitted:.1%} lost"
+        f"{behind}; {white:.2%} of the picture is white"
     )
 
 
@@ -134,11 +173,43 @@ def remarks(painting: Painting) -> list[str]:
     for (kind, line), held in _grouped(painting).items():
         joints = "".join(f"\n    {clamp}" for clamp in held)
         texts.append(f"warning: line {line} runs into {kind} limits:{joints}{CURES[kind]}")
-    film = painting.picture.film
-    if film.lost.sum() > WORTH_A_WARNING * film.emitted.sum():
-        share = film.lost.sum() / film.emitted.sum()
-        texts.append(f"warning: {share:.0%} of the light fell outside the picture")
-    return texts
+    period = painting.motion.period
+    if painting.track.torques and period > LONGEST_TORQUE_PERIOD * (1 + 1e-9):
+        texts.append(
+            f"warning: torques are held for {period * 1e3:g} ms; laws that command them are made "
+            f"for {LONGEST_TORQUE_PERIOD * 1e3:g} ms (200 Hz) or less"
+            "\n  = help: write period 5 ms in the drawing"
+        )
+    picture = painting.picture
+    lost, emitted = picture.film.lost.sum(), picture.emitted.sum()
+    if lost > WORTH_A_WARNING * emitted:
+        texts.append(f"warning: {lost / emitted:.0%} of the light fell outside the picture")
+    return [*texts, *of_arm(painting.pictures)]
+
+
+def of_arm(pictures: Sequence[Picture]) -> list[str]:
+    """Warnings about what the arm hides, and what of it could not be shown or traced."""
+    texts: list[str] = []
+    for picture in pictures:
+        texts += _hidden(picture, f" in {picture.name}" if len(pictures) > 1 else "")
+    return [*texts, *dict.fromkeys(remark for one in pictures for remark in one.remarks)]
+
+
+def _hidden(picture: Picture, where: str) -> list[str]:
+    """A warning where much of the light was behind the arm."""
+    if picture.hidden is None:
+        return []
+    share = picture.hidden.energy.sum() / (picture.emitted.sum() or 1.0)
+    if share <= WORTH_A_WARNING:
+        return []
+    lines = picture.hidden.lines
+    named = ", ".join(f"{line} ({part:.0%})" for line, part in lines[:MOST_NAMED])
+    more = f" and {len(lines) - MOST_NAMED} more" if len(lines) > MOST_NAMED else ""
+    word = "lines" if len(lines) > 1 else "line"
+    return [
+        f"warning: the arm stood before {share:.0%} of its light{where}: {word} {named}{more}"
+        "\n  = help: look from another side (--view), or let it shine through (--no-occlusion)"
+    ]
 
 
 CURES = {

@@ -6,11 +6,13 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from dqpaint.choices import number_or_text, read_choice
 from dqpaint.errors import UsageError
 
 DEFAULT_CONTROLLER = "hinf"
 LARGEST = 8192  # columns or rows of a picture
 SMALLEST = 16
+DISTURBANCE = "twist=sine,x=0.02,frequency=2"
 
 
 class Settings(BaseModel):
@@ -26,12 +28,35 @@ class Settings(BaseModel):
     recorded: str | None = None  # a CSV of a real arm's run, instead of a simulated one
     plant: str | None = None  # None: the usual one for what the law commands
     disturb: dict[str, dict[str, float | str]] = Field(default_factory=dict)
+    null: str = "start"  # what a redundant arm does with its freedom
+    on_limit: Literal["clip", "slow", "stop"] = "clip"
     seed: Annotated[int, Field(ge=0, le=2**63 - 1)] = 0
     start: Literal["first", "home"] = "first"
     width: Annotated[int, Field(ge=SMALLEST, le=LARGEST)] = 1280
     height: Annotated[int, Field(ge=SMALLEST, le=LARGEST)] = 720
     view: str = "front"
     ev: Annotated[float, Field(ge=-20, le=20, allow_inf_nan=False)] = 0.0
+    brush: str | None = None  # None: the file's own
+    pwm: Annotated[float, Field(ge=0, le=1e5, allow_inf_nan=False)] = 0.0  # [Hz]; 0: even light
+    exposure: str | None = None  # None: automatic
+    look: str = "film"
+    starburst: Annotated[int, Field(ge=0)] = 0  # blades of the aperture; 0: a round one
+    noise: Annotated[int, Field(ge=0)] | None = None  # its seed; None: there is none
+    colour_by: str | None = None
+    overlay: bool = False
+    magnify: Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)] = 1.0
+    ghost: bool = False  # the arm is in the picture
+    occlusion: bool | None = None  # its body hides light from the camera; None: as ghost
+
+    @property
+    def traced(self) -> bool:
+        """Whether what the arm hides is traced."""
+        return self.ghost if self.occlusion is None else self.occlusion
+
+    @property
+    def staged(self) -> bool:
+        """Whether the arm's shapes are needed at all."""
+        return self.ghost or self.traced
 
 
 def make_settings(**choices: object) -> Settings:
@@ -57,14 +82,15 @@ def check_recorded(settings: Settings) -> None:
     """Look that nothing is asked of a recorded run that only a simulated one has.
 
     Raises:
-        UsageError: a law, gain, plant, disturbance or start was chosen.
+        UsageError: a law, gain, plant, disturbance, start, null or on_limit was chosen.
     """
     if settings.recorded is None:
         return
     plain = Settings(recorded=settings.recorded)
     for name, option in (
         ("controller", "--controller"), ("gains", "--gain"), ("plant", "--plant"),
-        ("disturb", "--disturb"), ("start", "--from"),
+        ("disturb", "--disturb"), ("start", "--from"), ("null", "--null"),
+        ("on_limit", "--on-limit"),
     ):  # fmt: skip
         if getattr(settings, name) != getattr(plain, name):
             raise UsageError(f"a recorded run is not simulated: leave out {option}")
@@ -97,7 +123,7 @@ def parse_gains(texts: Sequence[str]) -> dict[str, float | str]:
             )
         if name in gains:
             raise UsageError(f"gain '{name}' is given twice")
-        gains[name] = _number_or_text(value)
+        gains[name] = number_or_text(value)
     return gains
 
 
@@ -111,27 +137,10 @@ def parse_disturbances(texts: Sequence[str]) -> dict[str, dict[str, float | str]
     """
     found: dict[str, dict[str, float | str]] = {}
     for text in texts:
-        parts = re.fullmatch(r"\s*([\w-]+)\s*[:=](.+)", text)
-        if parts is None:
-            raise UsageError(
-                f"disturbance '{text}' is not NAME=VALUE, for example twist=sine,x=0.02,frequency=2"
-            )
-        name = parts[1]
+        name, values = read_choice("disturbance", text, DISTURBANCE)
+        if not values:
+            raise UsageError(f"disturbance '{text}' is not NAME=VALUE, for example {DISTURBANCE}")
         if name in found:
             raise UsageError(f"disturbance '{name}' is given twice")
-        found[name] = {}
-        for item in parts[2].split(","):
-            key, sign, value = (part.strip() for part in item.rpartition("="))
-            if not value or (sign and not key) or key in found[name]:
-                raise UsageError(
-                    f"disturbance '{text}': '{item.strip()}' is not KEY=VALUE, each once"
-                )
-            found[name][key] = _number_or_text(value)
+        found[name] = values
     return found
-
-
-def _number_or_text(value: str) -> float | str:
-    try:
-        return float(value)
-    except ValueError:
-        return value

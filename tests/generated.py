@@ -1,4 +1,4 @@
-"""The README's generated tables: `python -m tests.generated` writes them, test_docs compares."""
+"""The pages' generated tables: `python -m tests.generated` writes them, test_docs compares."""
 
 from math import ceil, floor
 from pathlib import Path
@@ -8,7 +8,7 @@ import numpy as np
 from dqpaint.robots.chain import EXTRAS
 
 END = "<!-- end -->"
-README = Path(__file__).parent.parent / "README.md"
+ROOT = Path(__file__).parent.parent
 
 COLUMNS = {
     "t_s": "time",
@@ -16,8 +16,8 @@ COLUMNS = {
     "lit": "1 while the light shines until the next row",
     "desired_x_m, desired_y_m, desired_z_m": "asked place",
     "desired_qw, desired_qx, desired_qy, desired_qz": "asked orientation, scalar first",
-    "x_m, y_m, z_m": "measured place",
-    "qw, qx, qy, qz": "measured orientation",
+    "x_m, y_m, z_m": "place of the light, the true one",
+    "qw, qx, qy, qz": "true orientation",
     "position_error_m": "distance from the asked place",
     "orientation_error_rad": "angle from the asked orientation",
     "invariant_error": "norm of 1 - x* x_d",
@@ -25,7 +25,7 @@ COLUMNS = {
     "acceleration_m_s2": "of the light",
     "effort_rad": "how far the joints move until the next row",
     "manipulability": "square root of det(J J')",
-    "q1_rad ...": "joint angles",
+    "q1_rad ...": "joint angles, the true ones",
     "command1_rad_s ...": "joint rates the arm is given",
 }
 
@@ -107,19 +107,80 @@ def stars():
 def plants():
     from dqpaint.plants import PLANTS
 
-    return table(["plant", ""], [[f"`{n}`", p.__doc__.splitlines()[0]] for n, p in PLANTS.items()])
+    rows = [
+        [f"`{name}`", plant.__doc__.splitlines()[0], _values(plant.options)]
+        for name, plant in PLANTS.items()
+    ]
+    return table(["plant", "", "values"], rows)
+
+
+def disturbances():
+    from dqpaint.disturbances import DISTURBANCES
+
+    rows = [
+        [f"`{name}`", model.__doc__.splitlines()[0], _values(model)]
+        for name, model in DISTURBANCES.items()
+    ]
+    return table(["disturbance", "", "values"], rows)
+
+
+def null():
+    from dqpaint.nullspace import OBJECTIVES
+
+    rows = [
+        [f"`{name}`", one.__doc__.splitlines()[0], f"{one.usual:g} {one.unit}" if one.usual else ""]
+        for name, one in OBJECTIVES.items()
+    ]
+    return table(["`--null`", "", "gain"], rows)
+
+
+def _values(model):
+    fields = model.model_fields.items() if model else ()
+    return ", ".join(f"`{name}` ({field.description})" for name, field in fields)
+
+
+def brushes():
+    from dqpaint.light.brushes import BRUSHES
+
+    rows = [
+        [
+            f"`{name}`",
+            kind.__doc__.splitlines()[0],
+            " ".join(f"`{key}`" for key in kind.model_fields),
+        ]
+        for name, kind in BRUSHES.items()
+    ]
+    return table(["brush", "", "its choices"], rows)
+
+
+def looks():
+    from dqpaint.light.looks import LOOKS
+
+    return table(["look", ""], [[f"`{n}`", k.__doc__.splitlines()[0]] for n, k in LOOKS.items()])
 
 
 def columns():
     return table(["column", ""], [[f"`{name}`", about] for name, about in COLUMNS.items()])
 
 
-TABLES = [statements, parts, values, controllers, robots, plants, columns]
-SLOW_TABLES = [stars]
+def messages():
+    from dqpaint.catalogue import explanations
+
+    rows = [[f"`{e.code}`", e.title] for e in explanations().values()]
+    return table(["code", "what it is about"], rows)
 
 
-def renewed(text, tables=(*TABLES, *SLOW_TABLES)):
-    for make in tables:
+README = ROOT / "README.md"
+PAGES = {
+    README: [controllers, robots, plants, disturbances, null, brushes, looks, columns],
+    ROOT / "trajectories/README.md": [messages, statements, parts, values],
+}
+SLOW_TABLES = {README: [stars]}
+
+
+def renewed(page, tables=PAGES):
+    text = page.read_text("utf-8")
+    for make in tables[page]:
         mark = f"<!-- {make.__name__} -->"
         before, found, rest = text.partition(mark)
         assert found, mark
@@ -129,4 +190,6 @@ def renewed(text, tables=(*TABLES, *SLOW_TABLES)):
 
 
 if __name__ == "__main__":
-    README.write_text(renewed(README.read_text("utf-8")), "utf-8")
+    for tables in (PAGES, SLOW_TABLES):
+        for page in tables:
+            page.write_text(renewed(page, tables), "utf-8")

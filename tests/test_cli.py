@@ -14,6 +14,7 @@ import dqpaint as package
 from dqpaint import __main__ as entry
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.listing import LISTS
+from dqpaint.settings import Settings
 from tests.robots.arm_files import arm_urdf
 
 pytestmark = pytest.mark.slow
@@ -58,30 +59,37 @@ def test_draw_leaves_three_files_and_a_table(dqpaint, line, tmp_path):
         assert word in done.stdout
 
 
+CHOSEN = {
+    "controller": "p", "gains": {"k": 5}, "robot": "iiwa", "plant": "ideal", "start": "home",
+    "disturb": {"twist": {"": "noise", "x": 0.01, "wz": -0.1, "frequency": 2}}, "seed": 7,
+    "null": "limits,gain=3", "on_limit": "slow",
+    "width": 320, "height": 200, "view": "20,30", "ev": 1.5, "ghost": True,
+    "occlusion": False,
+}  # fmt: skip
+
+
 def test_options_are_all_heard(dqpaint, line, tmp_path):
     done = dqpaint(
         "draw", line, "--controller", "p", "--gain", "k=5", "--seed", "7",
         "--disturb", "twist=noise,x=0.01,wz=-0.1,frequency=2", "--plant", "ideal", "--from", "home",
         "--size", "320x200", "--view", "20,30", "--ev", "1.5", "--out", "made/", "--robot", "iiwa",
-        "--save", "json,motion", "--tool", "0,0,9cm",
+        "--save", "json,motion", "--null", "limits,gain=3", "--on-limit", "slow",
+        "--ghost", "--no-occlusion", "--tool", "0,0,9cm",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert files(tmp_path / "made") == ["line-p-motion.csv", "line-p.json"]
     facts = json.loads((tmp_path / "made/line-p.json").read_text())
     assert facts["gains"] == {"k": 5}
-    assert facts["settings"] == {
-        "controller": "p", "gains": {"k": 5}, "robot": "iiwa", "plant": "ideal", "start": "home",
-        "tool": "0,0,9cm", "place": None, "recorded": None,
-        "disturb": {"twist": {"": "noise", "x": 0.01, "wz": -0.1, "frequency": 2}}, "seed": 7,
-        "width": 320, "height": 200, "view": "20,30", "ev": 1.5,
-    }  # fmt: skip
+    assert {name: facts["settings"][name] for name in CHOSEN} == CHOSEN
+    assert set(facts["settings"]) == set(Settings.model_fields)
 
 
 def test_gains_that_change_are_written_as_they_were_given(dqpaint, line, tmp_path):
     done = dqpaint("draw", line, "--size", "64x36", "--gain", "gamma_T=0.2..0.1@50%")
     assert "gamma_T = 0.2..0.1@50%" in done.stdout, done.stderr
     assert (
-        json.loads((tmp_path / "line-hinf.json").read_text())["gains"]["K_T"] == "7.07107..14.1421"
+        json.loads((tmp_path / "line-hinf.json").read_text())["gains"]["K_T"]
+        == "7.07107..14.1421@50%"
     )
 
 
@@ -177,6 +185,43 @@ def test_preview_needs_no_arm(dqpaint, line, tmp_path):
     assert "on film" in done.stdout
 
 
+def test_a_kept_film_is_developed_without_an_arm(dqpaint, line, tmp_path):
+    done = dqpaint(
+        "draw",
+        line,
+        "--size",
+        "160x90",
+        "--save",
+        "film,video,webp",
+        "--brush",
+        "ribbon:length=5mm",
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert files(tmp_path) == [
+        "line-hinf-film.npz", "line-hinf-film.tiff", "line-hinf.webm", "line-hinf.webp",
+        "line.traj",
+    ]  # fmt: skip
+    done = dqpaint("develop", "line-hinf-film.npz", "--view", "front,20,30", "--look", "agx")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "exposure  automatic, as f/8, ISO 100, 40 mm at " in done.stdout
+    names = ["line-hinf-developed-az20-el30.png", "line-hinf-developed-front.png"]
+    assert [name for name in files(tmp_path) if "developed" in name] == names
+
+
+def test_light_that_tells_from_the_command_line(dqpaint, line, tmp_path):
+    done = dqpaint(
+        "draw", line, "--size", "640x360", "--save", "png,json", "--colour-by", "position-error",
+        "--overlay", "--magnify", "20", "--exposure", "auto", "--noise", "1", "--starburst", "6",
+        "--pwm", "400", "--look", "clip", "--brush", "fibre",
+    )  # fmt: skip
+    assert (done.returncode, done.stderr) == (0, "")
+    settings = json.loads((tmp_path / "line-hinf.json").read_text())["settings"]
+    for name, value in {"colour_by": "position-error", "overlay": True, "magnify": 20.0,
+                        "noise": 1, "starburst": 6, "pwm": 400.0, "look": "clip",
+                        "brush": "fibre", "exposure": "auto"}.items():  # fmt: skip
+        assert settings[name] == value
+
+
 def test_check_of_good_and_bad_files(dqpaint, line, tmp_path):
     (tmp_path / "bad.traj").write_text("lin to (0, 0, 70) mm\nline to (0, 0, 70)\n")
     done = dqpaint("check", line, "bad.traj", "star")
@@ -214,7 +259,11 @@ def test_check_for_programs(dqpaint, line, tmp_path):
     (["draw", "line.traj", "--gain", "gamma_T=1e-306"], 2, "a gain is a number from"),
     (["draw", "line.traj", "--gain", "gamma_T=1", "--gain", "gamma_T=2"], 2, "is given twice"),
     (["draw", "line.traj", "--disturb", "twist"], 2, "'twist' is not NAME=VALUE, for example twi"),
-    (["draw", "line.traj", "--disturb", "wind=3"], 2, "no disturbance named 'wind'; known: twist"),
+    (["draw", "line.traj", "--plant", "compliant:k=3"], 2, "has no value named 'k'; its values"),
+    (["draw", "line.traj", "--null", "elbow"], 2, "no null-space objective named 'elbow'; known"),
+    (["draw", "line.traj", "--on-limit", "wait"], 2, "on_limit 'wait' should be 'clip', 'slow' or"),
+    (["draw", "line.traj", "--disturb", "gravity=0.1"], 2, "changes nothing on plant 'stiff'"),
+    (["draw", "line.traj", "--disturb", "wind=3"], 2, "no disturbance named 'wind'; known: base"),
     (["draw", "line.traj", "--disturb", "twist=sine"], 2, "it moves nothing; give for example x="),
     (["draw", "line.traj", "--disturb", "twist:x=1,x=2"], 2, "'x=2' is not KEY=VALUE, each once"),
     (["draw", "line.traj", "--disturb", "twist:x=1,,y=2"], 2, "'' is not KEY=VALUE, each once"),
@@ -237,7 +286,19 @@ def test_check_for_programs(dqpaint, line, tmp_path):
     (["draw", "line.traj", "--out", "no/such/x"], 1, "folder 'no/such' does not exist"),
     (["draw", "line.traj", "--out", "/proc/"], 1, "cannot be written"),
     (["draw", "line.traj", "--colour", "red"], 2, "No such option"),
-    (["list", "brushes"], 2, "no list named 'brushes'; known: robots"),
+    (["list", "lamps"], 2, "no list named 'lamps'; known: robots"),
+    (["draw", "line.traj", "--brush", "broom"], 2, "no brush named 'broom'; known: point, ball"),
+    (["draw", "line.traj", "--brush", "bar:length=3"], 2, "'3' is not a length with a unit"),
+    (["draw", "line.traj", "--exposure", "f8"], 2, "'f8' is no part of one; its parts: f/8"),
+    (["draw", "line.traj", "--look", "x"], 2, "no look named 'x'; known: film, aces, agx, clip"),
+    (["draw", "line.traj", "--view", "iso,iso"], 2, "iso is given twice"),
+    (["draw", "line.traj", "--starburst", "2"], 2, "an aperture has 3 to 24 blades"),
+    (["draw", "line.traj", "--colour-by", "mood"], 2, "no colour-by named 'mood'; known: position"),
+    (["draw", "line.traj", "--magnify", "0"], 2, "magnify"),
+    (["draw", "line.traj", "--pwm", "-3"], 2, "pwm"),
+    (["preview", "line.traj", "--colour-by", "manipulability"], 2, "needs an arm: use draw"),
+    (["develop", "line.traj"], 1, "'line.traj' is not a film of dqpaint; draw with --save film"),
+    (["develop", "none.npz"], 1, "film 'none.npz' cannot be read: No such file"),
     (["paint", "line.traj"], 2, "No such command"),
     (["draw", "line.traj", "--tool", "0,0,80"], 2, "write 80mm"),
     (["draw", "line.traj", "--place", "there"], 2, "place 'there' should be 'auto'"),
@@ -321,8 +382,10 @@ def test_lists(dqpaint):
     assert "star" in dqpaint("list", "examples").stdout
 
 
-@pytest.mark.parametrize("command", [[], ["draw"], ["preview"], ["check"], ["list"], ["gallery"],
-                                     ["export"]])  # fmt: skip
+@pytest.mark.parametrize(
+    "command",
+    [[], ["draw"], ["preview"], ["develop"], ["check"], ["list"], ["gallery"], ["export"]],
+)
 def test_help_ends_with_two_examples(dqpaint, command):
     done = dqpaint(*command, "--help")
     assert done.returncode == 0
@@ -402,7 +465,7 @@ def test_ctrl_c_while_libraries_are_imported(monkeypatch, capsys):
     def interrupted():
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("dqpaint.cli.run", interrupted)
+    monkeypatch.setattr("dqpaint.answering.run", interrupted)
     with pytest.raises(SystemExit) as stopped:
         entry.main()
     assert stopped.value.code == 130

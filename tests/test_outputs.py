@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import dqpaint
-from dqpaint import outputs
+from dqpaint import files, outputs
 from dqpaint.errors import OutputError
 from dqpaint.robots.card import read_card
 
@@ -81,7 +81,7 @@ def test_files_are_written_beside_each_other_and_nothing_else_is_left(tmp_path):
     written = outputs.write(tmp_path / "a", {".png": b"1", ".csv": b"2"})
     assert [path.name for path in written] == ["a.png", "a.csv"]
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.csv", "a.png"]
-    assert stat.S_IMODE(written[0].stat().st_mode) == 0o666 & ~outputs._umask()
+    assert stat.S_IMODE(written[0].stat().st_mode) == 0o666 & ~files._umask()
 
 
 def test_nothing_is_half_written(tmp_path, monkeypatch):

@@ -124,7 +124,7 @@ def test_nowhere(arm):
     with pytest.raises(ScriptError) as caught:
         settle(parse("place auto\nline to (3, 0) m\n", "long.traj"), arm)
     text = str(caught.value)
-    assert "E312" in text
+    assert "E313" in text
     assert "long.traj:1:1" in text
     assert "3000 x 0 x 0 mm" in text
 

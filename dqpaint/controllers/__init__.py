@@ -1,8 +1,9 @@
-"""Control laws, one a file, its equation on top: what is seen -> the commanded twist.
+"""Control laws, one a file, its equation on top: what is seen -> what is commanded.
 
 A new law is a function in a new file of this folder under `@controller(name, source, gains)`; it is
 found by itself. It sees a `Seen` and its gains, arrays of any leading shape, and returns a spatial
-twist (..., 6); `dqpaint.robots.resolver` turns that into joint rates.
+twist (..., 6), which `dqpaint.driving` turns into joint rates; or, where it says so, joint rates,
+an acceleration or torques. A law that wants to know the whole drawing beforehand brings `prepare`.
 """
 
 import importlib

@@ -33,7 +33,11 @@ G = TypeVar("G", bound=Gains)
 def list_gains(model: type[Gains]) -> str:
     """Name, default and unit of every gain, in words."""
     fields = model.model_fields.items()
-    return ", ".join(
-        f"{name}{'' if f.default is None else f' = {f.default:g}'} ({f.description})"
-        for name, f in fields
+    return (
+        "none"
+        if not model.model_fields
+        else ", ".join(
+            f"{name}{'' if f.default is None else f' = {f.default:g}'} ({f.description})"
+            for name, f in fields
+        )
     )

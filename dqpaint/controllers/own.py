@@ -18,7 +18,7 @@ import traceback
 from collections.abc import Callable
 from pathlib import Path
 from types import FunctionType, ModuleType
-from typing import Annotated, Any, TypeVar, get_args
+from typing import Annotated, Any, TypeVar, get_args, get_type_hints
 
 import numpy as np
 from pydantic import Field, create_model
@@ -132,6 +132,8 @@ class OwnLaw:
         joints = seen.posture.shape[-1]
         size = 6 if self._kind in ("twist", "acceleration") else joints
         try:
+            if np.iscomplexobj(said):
+                raise DqpaintError(f"{self._at()}: the law returned complex numbers, not real ones")
             answer = np.array(said, dtype=np.float64)
         except (TypeError, ValueError):
             answer = np.zeros(0)
@@ -198,14 +200,27 @@ def _gains(function: Callable[..., Any], where: str) -> type[Gains]:
     if not parameters:
         raise UsageError(f"{where} takes nothing; {HOW}")
     fields: dict[str, Any] = {}
+    hints = _hints(function)
     for parameter in parameters[1:]:
         default = parameter.default
         is_number = isinstance(default, int | float) and not isinstance(default, bool)
         if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD) or not is_number:
             raise UsageError(f"{where}: parameter '{parameter.name}' has no number; {HOW}")
-        unit = getattr(parameter.annotation, "__metadata__", ("",))[0]
+        if parameter.name.startswith("_") or hasattr(Gains, parameter.name):
+            raise UsageError(
+                f"{where}: a gain can't be called '{parameter.name}'; choose another name"
+            )
+        unit = getattr(hints.get(parameter.name), "__metadata__", ("",))[0]
         fields[parameter.name] = (Finite, Field(float(default), description=unit or "no unit said"))
     return create_model("OwnGains", __base__=Gains, **fields)
+
+
+def _hints(function: Callable[..., Any]) -> dict[str, Any]:
+    """The annotations, also where the file puts their evaluation off."""
+    try:
+        return get_type_hints(function, include_extras=True)
+    except (NameError, TypeError, AttributeError):
+        return {}
 
 
 def _told(fault: BaseException, path: Path) -> str:

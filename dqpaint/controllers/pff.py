@@ -1,9 +1,11 @@
 """Proportional law with feed-forward on the invariant error, after Pereira."""
 
+import numpy as np
+
 from dqpaint import dq
 from dqpaint.controllers.law import Seen, controller
 from dqpaint.controllers.p import RateGains
-from dqpaint.controllers.pose_errors import invariant_error, twist_of_invariant_rate
+from dqpaint.controllers.pose_errors import pose_map, twist_of_invariant_rate
 from dqpaint.dq import Floats
 
 
@@ -15,7 +17,7 @@ def pff(seen: Seen, gains: RateGains) -> Floats:
 
     As e_dot = -N q_dot - vec(x* x_d_dot), what is left is e_dot = -k e in the range of N.
     """
-    pose_d = dq.nearest(seen.pose_d, seen.pose)
-    rate_d = 0.5 * dq.mul(dq.pure(seen.twist_d), pose_d)
-    wanted = gains.k * invariant_error(seen.pose, pose_d) - dq.mul(dq.conj(seen.pose), rate_d)
-    return twist_of_invariant_rate(seen.pose, pose_d, wanted)
+    back, x_d = dq.conj(seen.pose), dq.nearest(seen.pose_d, seen.pose)
+    x_d_dot = np.matvec(pose_map(x_d), seen.twist_d)
+    e = dq.IDENTITY - dq.mul(back, x_d)
+    return twist_of_invariant_rate(seen.pose, x_d, gains.k * e - dq.mul(back, x_d_dot))

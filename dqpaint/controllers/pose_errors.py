@@ -9,11 +9,17 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
+from dqpaint.robots.inverse import inverse
 
 
 def invariant_error(pose: Floats, pose_d: Floats) -> Floats:
     """The error e = vec(1 - x* x_d) (..., 8), the same from whatever frame it is seen."""
     return dq.IDENTITY - dq.mul(dq.conj(pose), dq.nearest(pose_d, pose))
+
+
+def difference_error(pose: Floats, pose_d: Floats) -> Floats:
+    """The error e = vec(x_d - x) (..., 8), the plain difference of the eight numbers."""
+    return np.asarray(dq.nearest(pose_d, pose) - pose)
 
 
 def spatial_error(pose: Floats, pose_d: Floats) -> Floats:
@@ -27,11 +33,29 @@ def twist_of_invariant_rate(pose: Floats, pose_d: Floats, rate: Floats) -> Float
     x_dot* = -1/2 x* u gives M u = rate with M = -1/2 H+(x*) H-(x_d) E6, 8 x 6 of full column
     rank, and u = M^+ rate. N = M J_w is the papers' 8 x n matrix, so N^+ = J_w^+ M^+.
     """
-    x_d = dq.nearest(pose_d, pose)
-    M = -0.5 * (dq.hamilton_plus(dq.conj(pose)) @ dq.hamilton_minus(x_d))[..., :, _IMAGINARY]
-    transposed = M.swapaxes(-1, -2)
-    solved = np.linalg.solve(transposed @ M, transposed @ rate[..., None])
-    return np.asarray(solved[..., 0], dtype=np.float64)
+    back: Floats = np.dot(pose, _BACK).reshape(*pose.shape[:-1], 8, 8)
+    return _least_squares(back @ pose_map(dq.nearest(pose_d, pose)), rate)
 
 
-_IMAGINARY = np.array([1, 2, 3, 5, 6, 7])  # the columns that E6 keeps
+def twist_of_pose_rate(pose: Floats, rate: Floats) -> Floats:
+    """The twist u (..., 6) with vec(x_dot) = rate as nearly as can be: M^+ rate, see `pose_map`."""
+    return _least_squares(pose_map(pose), rate)
+
+
+def pose_map(pose: Floats) -> Floats:
+    """M = 1/2 H-(x) E6 (..., 8, 6), with vec(x_dot) = M xi.
+
+    J8 = M J_w is the papers' 8 x n Jacobian, so J8^+ = J_w^+ M^+ and J8' = J_w' M'.
+    """
+    M: Floats = np.dot(pose, _POSE_MAP).reshape(*pose.shape[:-1], 8, 6)
+    return M
+
+
+def _least_squares(M: Floats, rate: Floats) -> Floats:
+    """M^+ rate (..., 6) for matrices (..., 8, 6) of full column rank."""
+    return np.asarray(np.matvec(inverse(M.mT @ M), np.vecmat(rate, M)))
+
+
+_BACK = -dq.hamilton_plus(np.diag(dq.C8)).reshape(8, 64)  # x -> -H+(x*), which is linear in x
+_IMAGINARY = [1, 2, 3, 5, 6, 7]  # the columns that E6 keeps
+_POSE_MAP = 0.5 * dq.hamilton_minus(np.eye(8))[..., _IMAGINARY].reshape(8, 48)

@@ -21,7 +21,9 @@ from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 
 GainText = Value | str
-FORM = "write a number, or a ramp such as 5..20@10% (from 5 to 20 over the first 10 %)"
+FORM = (
+    "write a number without a unit, or a ramp such as 5..20@10% (from 5 to 20 over the first 10 %)"
+)
 
 
 class Knot(NamedTuple):
@@ -53,7 +55,7 @@ class Schedule(Generic[G]):
         """The gains at parts (N,) of the drawing, each from 0 to 1."""
         if not self.knots:
             return [self.first] * len(parts)
-        columns = {name: _along(knots, parts) for name, knots in self.knots.items()}
+        columns = {name: self._rows(name, parts) for name in self.knots}
         model, fixed = type(self.first), dict(self.first)
         return [  # between values that are allowed all are: nothing to check again
             model.model_construct(**{**fixed, **dict(zip(columns, row, strict=True))})
@@ -62,36 +64,53 @@ class Schedule(Generic[G]):
 
     def promise(self) -> tuple[float, float] | None:
         """What the gains promise of disturbances all along: the weakest on the way."""
-        ends = [
-            self.first.promise(),
-            *(self.at(k.part).promise() for ks in self.knots.values() for k in ks),
-        ]
+        ends = [self.first.promise(), self.at(1.0).promise()]
+        for name, knots in self.knots.items():
+            for knot in knots:  # at a jump both values count
+                ends.append(self.at(knot.part).model_copy(update={name: knot.value}).promise())
         bounds = [end for end in ends if end is not None]
         return (max(b[0] for b in bounds), max(b[1] for b in bounds)) if bounds else None
 
+    def column(self, name: str, parts: Floats) -> Floats:
+        """One gain at parts (N,) of the drawing: numbers (N,), or diagonals (N, m)."""
+        if name in self.knots:
+            return _along(self.knots[name], parts)
+        value = np.asarray(getattr(self.first, name), dtype=np.float64)
+        return np.broadcast_to(value, (len(parts), *value.shape))
+
+    def _rows(self, name: str, parts: Floats) -> list[Value]:
+        rows = _along(self.knots[name], parts).tolist()
+        return [tuple(row) if isinstance(row, list) else row for row in rows]
+
     def shown(self) -> dict[str, Any]:
         """The gains as a summary shows them: one that changes as it was written."""
-        first, last = self.first.shown(), self.at(1.0).shown()
-        changed = {
-            name: self.texts.get(name, f"{first[name]:.6g}..{last[name]:.6g}")
-            for name in first
-            if name in self.knots or first[name] != last[name]
-        }
-        return {**first, **changed}
+        parts = sorted({0.0, *(knot.part for knots in self.knots.values() for knot in knots)})
+        rows = [self.at(part).shown() for part in parts]
+        shown: dict[str, Any] = dict(rows[0])
+        for name in shown:
+            values = [row[name] for row in rows]
+            if name in self.texts:
+                shown[name] = self.texts[name]
+            elif any(value != values[0] for value in values):  # it follows from one that changes
+                later = zip(parts[1:], values[1:], strict=True)
+                points = (f"{_said(value)}@{100 * part:g}%" for part, value in later)
+                shown[name] = "..".join([_said(values[0]), *points])
+        return shown
 
 
-def _along(knots: tuple[Knot, ...], parts: Floats) -> list[Value]:
+def _along(knots: tuple[Knot, ...], parts: Floats) -> Floats:
     """The values at parts (N,): straight from knot to knot, the later one where two coincide."""
     at = np.array([knot.part for knot in knots])
     values = np.array([knot.value for knot in knots], dtype=np.float64)
+    if at[0] > 0:  # before its first point a gain is what it is there
+        at, values = np.append(0.0, at), np.concatenate([values[:1], values])
     inside = np.clip(parts, at[0], at[-1])
     i = np.clip(np.searchsorted(at, inside, side="right") - 1, 0, len(at) - 2)
     width = at[i + 1] - at[i]
     share = np.where(width > 0, (inside - at[i]) / np.where(width > 0, width, 1.0), 1.0)
     if values.ndim > 1:
         share = share[:, None]
-    rows = ((1 - share) * values[i] + share * values[i + 1]).tolist()
-    return [tuple(row) if isinstance(row, list) else row for row in rows]
+    return np.asarray((1 - share) * values[i] + share * values[i + 1])
 
 
 def read_schedule(model: type[G], given: Mapping[str, GainText], whose: str) -> Schedule[G]:
@@ -109,7 +128,9 @@ def read_schedule(model: type[G], given: Mapping[str, GainText], whose: str) -> 
     knots: dict[str, tuple[Knot, ...]] = {}
     texts: dict[str, str] = {}
     for name, value in given.items():
-        points = _read(name, value, whose) if isinstance(value, str) else (Knot(0.0, value),)
+        if name not in model.model_fields:
+            raise UsageError(f"{whose} has no gain named '{name}'; its gains: {list_gains(model)}")
+        points = _read(name, value, whose, model) if isinstance(value, str) else (Knot(0.0, value),)
         fixed[name] = points[0].value
         if len(points) > 1:
             knots[name], texts[name] = points, str(value)
@@ -127,15 +148,13 @@ def _checked(model: type[G], values: Mapping[str, Value], whose: str) -> G:
         first = problem.errors()[0]
         if not first["loc"]:  # what the model itself says of several gains together
             text = f"{whose}: {first['msg'].removeprefix('Value error, ')}"
-        elif first["type"] == "extra_forbidden":
-            text = f"{whose} has no gain named '{first['loc'][0]}'"
         elif first["type"] == "value_error":
             text = (
                 f"gain '{first['loc'][0]}' of {whose} {first['msg'].removeprefix('Value error, ')}"
             )
         else:
             shown = values[str(first["loc"][0])]
-            said = ",".join(f"{v:g}" for v in shown) if isinstance(shown, tuple) else shown
+            said = shown if isinstance(shown, str) else _said(shown)
             text = (
                 f"gain '{first['loc'][0]}' of {whose} is {said}; {_range(model, first['loc'][0])}"
             )
@@ -152,7 +171,7 @@ def _range(model: type[G], name: Any) -> str:
     return f"a gain is a number from {low:g} to {high:g}"
 
 
-def _read(name: str, text: str, whose: str) -> tuple[Knot, ...]:
+def _read(name: str, text: str, whose: str, model: type[G]) -> tuple[Knot, ...]:
     """The knots of a text; one alone is a value that does not change."""
     pieces = text.split("..")
     try:
@@ -165,7 +184,9 @@ def _read(name: str, text: str, whose: str) -> tuple[Knot, ...]:
             return tuple(points)
         return tuple(Knot(p.part, _widened(p.value, size)) for p in points)
     except ValueError:
-        raise UsageError(f"gain '{name}' of {whose} is '{text[:60]}'; {FORM}") from None
+        raise UsageError(
+            f"gain '{name}' of {whose} is '{text[:60]}'; {FORM}; its gains: {list_gains(model)}"
+        ) from None
 
 
 def _knot(text: str, i: int, count: int) -> Knot:
@@ -187,3 +208,8 @@ def _widened(value: Value, size: int) -> tuple[float, ...]:
     if len(wide) != size:
         raise ValueError
     return wide
+
+
+def _said(value: Value) -> str:
+    """A gain as it is written."""
+    return ",".join(f"{part:.6g}" for part in value) if isinstance(value, tuple) else f"{value:.6g}"

@@ -1,35 +1,69 @@
 """What a disturbance is, and how one is made from its name and values."""
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Callable, Mapping
+from typing import ClassVar
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict
 
+from dqpaint.choices import Values, make_choice
 from dqpaint.dq import Floats
-from dqpaint.errors import UsageError
+from dqpaint.plants.plant import Trait
+from dqpaint.plants.world import World
 from dqpaint.registry import Registry
+from dqpaint.robots.kinematics import Kinematics
 
-Values = Mapping[str, float | str]
+Encoder = Callable[[int, Floats], Floats]
 
 
 class Disturbance(BaseModel):
     """One disturbance; its fields are its values in SI units, each description says the unit.
 
-    A value that is given without a name is the first field's.
+    A value that is given without a name is the first field's. A disturbance overrides the hooks of
+    what it disturbs; at size zero each of them changes nothing. Random numbers come from `rng`
+    alone.
+
+    Attributes:
+        needs: what a plant must have for the disturbance to show.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+    needs: ClassVar[Trait | None] = None
 
     def twist(self, t: Floats, period: float, rng: np.random.Generator) -> Floats:
-        """The tool's unmodelled velocity (N, 6) from each time (N,) [s] to the next.
+        """What is added to the motion: the tool's unmodelled velocity (N, 6).
 
-        Angular first [rad/s], then of the tool's own point [m/s], along the axes of the base.
+        From each time (N,) [s] to the next; angular first [rad/s], then of the tool's own point
+        [m/s], along the axes of the base.
 
         Raises:
             UsageError: a value that does not go with the period.
         """
         return np.zeros((len(t), 6))
+
+    def check(self, t: Floats) -> None:
+        """See that it can show in a run at times (N,) [s].
+
+        Raises:
+            UsageError: it cannot.
+        """
+
+    def encoder(self, rows: int, joints: int, rng: np.random.Generator) -> Encoder | None:
+        """What is measured: (row, true joint angles (n,)) -> read ones (n,) [rad]; None is true."""
+        return None
+
+    @property
+    def delay(self) -> int:
+        """What is commanded: how many periods late it comes to the motors."""
+        return 0
+
+    def world(self, world: World) -> World:
+        """What the arm and its surroundings truly are."""
+        return world
+
+    def belief(self, kinematics: Kinematics, rng: np.random.Generator) -> Kinematics:
+        """What the law's model of the arm believes."""
+        return kinematics
 
 
 DISTURBANCES: Registry[type[Disturbance]] = Registry("disturbance")
@@ -41,24 +75,7 @@ def make_disturbances(given: Mapping[str, Values]) -> dict[str, Disturbance]:
     Raises:
         UsageError: an unknown disturbance, an unknown value, or one outside its range.
     """
-    return {name: _make(name, DISTURBANCES[name], values) for name, values in given.items()}
-
-
-def _make(name: str, model: type[Disturbance], values: Values) -> Disturbance:
-    named: dict[str, Any] = dict(values)
-    if "" in named:
-        named.setdefault(next(iter(model.model_fields)), named.pop(""))
-    try:
-        return model.model_validate(named)
-    except ValidationError as problem:
-        first = problem.errors()[0]
-        field = ".".join(str(part) for part in first["loc"])
-        if first["type"] == "extra_forbidden":
-            fault = f"has no value named '{field}'"
-        elif field:
-            fault = f"{field} {first['input']!r} {first['msg'].removeprefix('Input ')}"
-        else:
-            fault = first["msg"].removeprefix("Value error, ")
-        fields = model.model_fields.items()
-        known = ", ".join(f"{word} ({field.description})" for word, field in fields)
-        raise UsageError(f"disturbance '{name}': {fault}; its values: {known}") from None
+    return {
+        name: make_choice("disturbance", name, DISTURBANCES[name], values)
+        for name, values in given.items()
+    }

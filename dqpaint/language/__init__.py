@@ -3,16 +3,36 @@
 In goes the text of a file; out comes a `Program` (see `program`), or a `ScriptError` with every
 mistake that was found. The text passes through
 
-    lexer -> parser (statements, forms, expressions) -> syntax tree
-          -> expand (evaluate, reading, settings, blocks) -> strokes (arcs, curves, tools, timing)
+    lexer -> parser (statements, clauses, forms, expressions) -> syntax tree -> includes
+          -> expand (evaluate, reading, settings, blocks, definitions)
+          -> strokes (arcs, curves, tools, timing, and for what comes from elsewhere
+             letters, tables, drawings) -> blends
 
 and `words` and `units` hold the tables all of them read. A new statement is a line in
 `words.STATEMENTS` and a function in `strokes`; a new function a line in `words.FUNCTIONS` and one
 in `functions.TABLE`.
 """
 
-from dqpaint.language.compile import parse, read
+import importlib
+from typing import TYPE_CHECKING, Any
+
 from dqpaint.language.diagnostics import Diagnostic, ScriptError, render
-from dqpaint.language.program import Program
+
+if TYPE_CHECKING:
+    from dqpaint.language.compile import parse, read
+    from dqpaint.language.program import Program
 
 __all__ = ["Diagnostic", "Program", "ScriptError", "parse", "read", "render"]
+
+_ROOMS = {
+    "Program": "dqpaint.language.program",
+    "parse": "dqpaint.language.compile",
+    "read": "dqpaint.language.compile",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import on first use: a text can be laid out without the numbers that it stands for."""
+    if name in _ROOMS:
+        return getattr(importlib.import_module(_ROOMS[name]), name)
+    raise AttributeError(f"module 'dqpaint.language' has no attribute '{name}'")

@@ -47,6 +47,55 @@ def through(start: Vector, via: Vector, end: Vector, via_span: Span, end_span: S
     return Arc(centre, axis, angle)
 
 
+def of_radius(
+    start: Vector,
+    end: Vector,
+    radius: float,
+    axis: Vector,
+    long: bool,
+    radius_span: Span,
+    end_span: Span,
+) -> Arc:
+    """The arc of a radius [m] that turns about `axis` by the right-hand rule, to `end`.
+
+    With the chord d: the centre lies square to it, on the left of the way, by
+    sqrt(radius^2 - d^2 / 4); a `long` arc has it on the right.
+    """
+    chord = space.minus(end, start)
+    size = space.length(chord)
+    if size <= CLOSED * radius + SAME_PLACE:
+        raise here(
+            "E245",
+            "this arc ends where it starts, so nothing says where its centre is",
+            end_span,
+            "same as the start point",
+            "for a full circle write: arc centre POINT angle 360 deg",
+        )
+    height = space.dot(chord, axis)
+    if abs(height) > CLOSED * size + SAME_PLACE:
+        raise here(
+            "E290",
+            f"the end lies {1e3 * abs(height):.4g} mm outside of the plane of this arc",
+            end_span,
+            "",
+            "say what it turns about with axis, or use: arc via POINT to POINT",
+        )
+    square = radius * radius - 0.25 * size * size
+    if square < -CLOSED * radius * radius:
+        raise here(
+            "E291",
+            f"no circle of radius {1e3 * radius:.4g} mm goes through both points",
+            radius_span,
+            f"they are {1e3 * size:.4g} mm apart",
+            f"the least is: radius {math.ceil(5e5 * size - 1e-6) / 1e3:g} mm",
+        )
+    left = space.unit(space.cross(axis, chord))
+    side = math.sqrt(max(0.0, square)) * (-1.0 if long else 1.0)
+    middle = space.plus(start, space.times(0.5, chord))
+    angle = 2.0 * math.atan2(0.5 * size, side)
+    return Arc(space.plus(middle, space.times(side, left)), axis, angle)
+
+
 def check(arc: Arc, start: Vector, centre_span: Span, grow_span: Span) -> None:
     """Raises if the arc has no radius, or ends with less than none."""
     way = space.minus(start, arc.centre)

@@ -7,7 +7,7 @@ from dqpaint.language.scope import Scope, UnknownError
 from dqpaint.language.space import Frame
 from dqpaint.language.syntax import Part, Statement
 from dqpaint.language.units import PLAIN
-from dqpaint.language.values import Point
+from dqpaint.language.values import Drawing, Point
 
 MOST_PASSES = 10_000
 MOST_STATEMENTS = 1_000_000
@@ -45,9 +45,12 @@ def _size(body: tuple[Statement, ...], scope: Scope) -> int:
     size = 0
     for statement in body:
         size += 1
-        if statement.body:
+        if statement.body and statement.word != "def":
             count = _known_count(statement, scope) if statement.word == "repeat" else 1
             size += count * _size(statement.body, scope)
+        elif statement.word == "call" and statement.name is not None:
+            drawing = scope.names.get(statement.name.text)
+            size += drawing.size if isinstance(drawing, Drawing) else 0
     return size
 
 
@@ -81,6 +84,8 @@ def inner_frame(statement: Statement, outer: Frame, scope: Scope) -> Frame:
             frame = frame.within(Frame(shift=reading.place(part.expression, scope, "shift")))
         elif part.word == "scale":
             frame = frame.within(Frame(scale=reading.positive(part.expression, scope, "scale")))
+        elif part.word == "frame":
+            frame = frame.within(reading.frame(part.expression, scope))
     if not 1.0 / reading.LARGEST <= frame.scale <= reading.LARGEST:
         raise problem("E201", "this scale is too extreme", statement.span)
     return frame

@@ -5,7 +5,7 @@ Names are those of CSS Color Module Level 4 (W3C); they and `#ff8800` are sRGB (
 
 import colorsys
 
-from dqpaint.language.program import Colour
+Colour = tuple[float, float, float]  # linear RGB, 1 for full brightness
 
 _CSS = """
 aliceblue f0f8ff antiquewhite faebd7 aqua 00ffff aquamarine 7fffd4 azure f0ffff beige f5f5dc

@@ -5,15 +5,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from dqpaint.errors import DqpaintError
 from dqpaint.language.diagnostics import Diagnostic, ScriptError, Span
 from dqpaint.language.expand import Expander
 from dqpaint.language.findings import EnoughError, Findings
-from dqpaint.language.parser import parse_statements
+from dqpaint.language.includes import MOST_LINES, Loader
 from dqpaint.language.program import Program
-
-MOST_BYTES = 2_000_000
-MOST_LINES = 100_000
+from dqpaint.language.source import MOST_BYTES, decoded, load
 
 
 def read(path: str | Path) -> Program:
@@ -23,61 +20,39 @@ def read(path: str | Path) -> Program:
         DqpaintError: the file can't be read as text.
         ScriptError: the text is not a drawing.
     """
-    try:
-        with Path(path).open("rb") as file:
-            data = file.read(MOST_BYTES + 1)
-    except (OSError, ValueError) as fault:
-        reason = fault.strerror if isinstance(fault, OSError) else str(fault)
-        raise DqpaintError(f"can't read {path}: {(reason or str(fault)).lower()}") from None
-    return parse(_decoded(data, str(path)), str(path))
+    return parse(_text_of(Path(path)), str(path), Path(path))
 
 
-def _decoded(data: bytes, name: str) -> str:
-    if len(data) > MOST_BYTES:
-        raise DqpaintError(f"{name} is larger than {MOST_BYTES // 1_000_000} MB")
-    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise DqpaintError(f"{name} is written in UTF-16; save it as UTF-8")
-    if b"\0" in data:
-        raise DqpaintError(f"{name} is not a text: byte {data.index(0) + 1} is 0")
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError as fault:
-        byte = data[fault.start]
-        line = data.count(b"\n", 0, fault.start) + 1
-        raise DqpaintError(
-            f"{name} is not written in UTF-8: line {line}, byte {fault.start + 1} is "
-            f"0x{byte:02x}{_latin(byte)}; save it as UTF-8"
-        ) from None
-    return text.replace("\r\n", "\n").replace("\r", "\n")
+def _text_of(path: Path) -> str:
+    return decoded(load(path), str(path))
 
 
-def _latin(byte: int) -> str:
-    """What the byte would be in Latin-1, where files that are not UTF-8 mostly come from."""
-    letter = bytes([byte]).decode("latin-1")
-    return f" ('{letter}' in Latin-1)" if letter.isprintable() else ""
-
-
-def parse(text: str, name: str = "<text>") -> Program:
+def parse(text: str, name: str = "<text>", path: Path | None = None) -> Program:
     """The drawing in a text; `name` is what messages call it.
+
+    Where the text is a file, `path` says which, so that it can include and read others.
 
     Raises:
         ScriptError: with every mistake that was found, in the order of the text.
     """
     findings = Findings()
-    expander = Expander(name, text, findings)
+    loader = Loader(text, path, _text_of, findings)
+    expander: Expander | None = None
     fault: Exception | None = None
     program: Program | None = None
     try:
         if _fits(text, findings):
             with _collector_at_rest():
-                program = expander.program(parse_statements(text, findings))
+                statements = loader.statements()
+                expander = Expander(name, loader.source, findings, path)
+                program = expander.program(statements)
     except EnoughError:
         pass
     except Exception as unexpected:
         fault = unexpected
-        _add(findings, _internal(unexpected, expander.at))
+        _add(findings, _internal(unexpected, expander.at if expander else None))
     if findings.errors or program is None:
-        raise ScriptError(name, text, findings.ordered()) from fault
+        raise ScriptError(name, loader.source, findings.ordered()) from fault
     return program
 
 

@@ -7,9 +7,9 @@ from dqpaint.language.diagnostics import Problem, ScriptError, Span, problem
 from dqpaint.language.evaluate import evaluate
 from dqpaint.language.pen import Pen, here
 from dqpaint.language.program import Curve, Formula, Vector
-from dqpaint.language.scope import Scope
+from dqpaint.language.scope import MOST_CURVE_STEPS, Budget, Scope
 from dqpaint.language.space import Frame
-from dqpaint.language.syntax import Expression, Statement, names_in
+from dqpaint.language.syntax import Expression, Statement, names_in, size_of
 from dqpaint.language.taylor import Floats, Taylor
 from dqpaint.language.units import ANGLE, LENGTH, TIME, Dimension
 from dqpaint.language.values import Point, Quantity, Value, describe, is_zero
@@ -66,16 +66,19 @@ def _formula(
     scope: Scope,
     file: tuple[str, str],
 ) -> Formula:
-    known = scope.only(names_in(node))
+    size, _ = size_of(node)
+    if size > MOST_CURVE_STEPS:
+        message = f"a formula of more than {MOST_CURVE_STEPS:,} numbers and signs"
+        raise problem("E309", message, node.span, "", "use several curves")
+    known = scope.known(names_in(node))
     columns = tuple(frame.vector(axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), space.Z))
 
     def formula(t: Taylor) -> tuple[Taylor, Taylor, Taylor]:
         try:
             # What is not finite is found and reported afterwards.
             with np.errstate(all="ignore"):
-                inner = known.only(known.names)
-                inner.names[name] = Quantity(t, dimension)
-                point = _point(node, inner)
+                names = {**known, name: Quantity(t, dimension)}
+                point = _point(node, scope.within(names, Budget(MOST_CURVE_STEPS)))
                 x, y, z = (0.0 * t + number for number in point.xyz)
                 series = (_row(0, x, y, z), _row(1, x, y, z), _row(2, x, y, z))
             _check_finite(series, t, name, dimension, node.span)

@@ -1,6 +1,7 @@
 """The one kind of message about a drawing: what, where, which rule, and what would help."""
 
-from dataclasses import dataclass, field
+from bisect import bisect_right
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import NamedTuple
 
@@ -12,6 +13,28 @@ class Span(NamedTuple):
 
     start: int
     end: int
+
+
+class Source(str):
+    """The text of a drawing, and after it those of the files it includes.
+
+    So an offset alone says which file it is in.
+
+    Attributes:
+        included: where each further file begins, and its name; in order.
+    """
+
+    __slots__ = ("included",)
+    included: tuple[tuple[int, str], ...]
+
+    def __new__(cls, text: str, included: tuple[tuple[int, str], ...] = ()) -> "Source":
+        """The whole text, one file behind the other, each on lines of its own."""
+        source = super().__new__(cls, text)
+        source.included = included
+        return source
+
+    def __reduce__(self) -> tuple[type, tuple[object, ...]]:
+        return Source, (str(self), self.included)
 
 
 class Severity(StrEnum):
@@ -66,9 +89,17 @@ class Place(NamedTuple):
 
 
 def place(text: str, offset: int) -> Place:
-    """Line and column of an offset."""
+    """Line and column of an offset, in its own file."""
     line_start = text.rfind("\n", 0, offset) + 1
-    return Place(text.count("\n", 0, offset) + 1, offset - line_start + 1)
+    first = file_at(text, offset, "")[0]
+    return Place(text.count("\n", first, offset) + 1, offset - line_start + 1)
+
+
+def file_at(text: str, offset: int, name: str) -> tuple[int, str]:
+    """Where the file of an offset begins, and its name; `name` is that of the first."""
+    included = text.included if isinstance(text, Source) else ()
+    at = bisect_right(included, offset, key=lambda file: file[0])
+    return included[at - 1] if at else (0, name)
 
 
 def render(diagnostic: Diagnostic, name: str, text: str) -> str:
@@ -80,11 +111,13 @@ def render(diagnostic: Diagnostic, name: str, text: str) -> str:
     else:
         at = place(text, diagnostic.span.start)
         margin = " " * (len(str(at.line)) + 1)
-        lines = [head, f"{margin[:-1]}--> {name}:{at.line}:{at.column}"]
+        file = file_at(text, diagnostic.span.start, name)[1]
+        lines = [head, f"{margin[:-1]}--> {file}:{at.line}:{at.column}"]
         lines += _excerpt(diagnostic, text, at, margin)
     for span, label in diagnostic.related:
         there = place(text, span.start)
-        lines.append(f"{margin}= {label}: {name}:{there.line}:{there.column}")
+        file = file_at(text, span.start, name)[1]
+        lines.append(f"{margin}= {label}: {file}:{there.line}:{there.column}")
     if diagnostic.help:
         lines.append(f"{margin}= help: {diagnostic.help}")
     return "\n".join(lines)
@@ -132,6 +165,18 @@ class Problem(Exception):  # noqa: N818  a message on its way to the list, not a
 
 class PlaceProblem(Problem):
     """The same, where it depends on where the tool is: not worth a word if that is not known."""
+
+
+def called_here(mistake: Problem, span: Span) -> Problem:
+    """The same mistake, which came out because of a call from elsewhere."""
+    diagnostic = mistake.diagnostic
+    if len(diagnostic.related) < MOST_CALLS_SHOWN:
+        related = (*diagnostic.related, (span, "called from"))
+        mistake.diagnostic = replace(diagnostic, related=related)
+    return mistake
+
+
+MOST_CALLS_SHOWN = 3
 
 
 def problem(

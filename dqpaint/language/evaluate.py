@@ -3,8 +3,8 @@
 from collections.abc import Callable, Iterable
 
 from dqpaint.language import functions, mistakes, values
-from dqpaint.language.diagnostics import Span, problem
-from dqpaint.language.scope import BUILTINS, UNIT_VALUES, Scope, UnknownError
+from dqpaint.language.diagnostics import Problem, Span, called_here, problem
+from dqpaint.language.scope import BUILTINS, DEEPEST_CALLS, UNIT_VALUES, Scope, UnknownError
 from dqpaint.language.syntax import (
     Bracket,
     Call,
@@ -19,7 +19,17 @@ from dqpaint.language.syntax import (
 from dqpaint.language.taylor import Taylor
 from dqpaint.language.taylor import Value as Scalar
 from dqpaint.language.units import PLAIN, UNITS, Dimension, dimension_name
-from dqpaint.language.values import Point, Quantity, Text, Value, describe, gated, is_zero
+from dqpaint.language.values import (
+    Drawing,
+    Function,
+    Point,
+    Quantity,
+    Text,
+    Value,
+    describe,
+    gated,
+    is_zero,
+)
 
 
 def evaluate(node: Expression, scope: Scope, words: Iterable[str] = ()) -> Value:
@@ -50,6 +60,8 @@ def _name(node: Name, scope: Scope) -> Value:
         value = names[node.name]
         if value is None:
             raise UnknownError
+        if isinstance(value, Function | Drawing):
+            raise mistakes.no_value_of(node, value)
         return value
     if node.name in BUILTINS:
         return BUILTINS[node.name]
@@ -104,11 +116,40 @@ def _with_unit(value: Quantity, unit: str) -> Value:
 
 
 def _call(node: Call, scope: Scope) -> Value:
+    if node.name in scope.names:
+        own = scope.names[node.name]
+        if own is None:
+            raise UnknownError
+        if isinstance(own, Function):
+            return _own_call(own, node, scope)
     if node.name not in functions.TABLE:
         raise mistakes.unknown_function(node, scope)
     given = [evaluate(child, scope) for child in node.values]
     arguments = functions.Arguments(node.name, given, node.values, node.span, scope.text)
     return gated(functions.call(arguments), node.span)
+
+
+def _own_call(function: Function, node: Call, scope: Scope) -> Value:
+    """A function of the file; what goes wrong in its formula is shown there."""
+    given = [evaluate(child, scope) for child in node.values]
+    if len(given) != len(function.params):
+        raise mistakes.wrong_count(function, node)
+    budget = scope.budget
+    budget.steps -= function.size
+    if budget.steps < 0:
+        message = "the functions of this file have too much to do"
+        raise problem("E309", message, node.span, "", "let them call each other less often")
+    if budget.depth + function.depth > DEEPEST_CALLS:
+        message = "too many functions that call each other in turn"
+        raise problem("E308", message, node.span, "", "write some of them out")
+    names = {**function.known, **dict(zip(function.params, given, strict=True))}
+    budget.depth += function.depth
+    try:
+        return evaluate(function.body, scope.within(names))
+    except Problem as mistake:
+        raise called_here(mistake, node.span) from None
+    finally:
+        budget.depth -= function.depth
 
 
 def _sign(node: Sign, scope: Scope) -> Value:

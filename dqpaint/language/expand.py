@@ -2,32 +2,49 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
-from dqpaint.language import blocks, reading, strokes, tools
-from dqpaint.language.diagnostics import Diagnostic, PlaceProblem, Problem, Span, problem
+from dqpaint.language import blends, blocks, reading, strokes, tools
+from dqpaint.language.definitions import called, drawing_of, frame_of, function_of, handed
+from dqpaint.language.diagnostics import (
+    Diagnostic,
+    PlaceProblem,
+    Problem,
+    Span,
+    called_here,
+    file_at,
+    place,
+    problem,
+)
 from dqpaint.language.evaluate import evaluate
 from dqpaint.language.findings import EnoughError, Findings
-from dqpaint.language.pen import Pen, where
-from dqpaint.language.program import Auto, Pose, Program
+from dqpaint.language.pen import Pen
+from dqpaint.language.program import Auto, Pose, Program, Segment
 from dqpaint.language.scope import BUILTINS, Scope, UnknownError
 from dqpaint.language.settings import PERIOD, changed
-from dqpaint.language.syntax import Expression, Statement
+from dqpaint.language.space import Frame
+from dqpaint.language.syntax import Part, Statement
+from dqpaint.language.timing import timing
 from dqpaint.language.units import PLAIN
-from dqpaint.language.values import Quantity
+from dqpaint.language.values import Quantity, Value
 from dqpaint.language.words import SETTINGS, STATEMENTS
 
+NAMELESS = ("robot", "place", "curve", "repeat", "call")  # their name is none that they give
 SHORTEST_PERIOD = 1e-5  # [s]
 LONGEST_PERIOD = 10.0
+DEEPEST = 64  # blocks, calls and files within each other
 
 
 class Expander:
     """Works through a file's statements in order."""
 
-    def __init__(self, name: str, text: str, findings: Findings) -> None:
+    def __init__(self, name: str, text: str, findings: Findings, path: Path | None = None) -> None:
         self._name, self._text, self._findings = name, text, findings
-        self._pen = Pen(name, text, findings)
+        self._pen = Pen(name, text, findings, path)
         self._scope = Scope(text)
-        self._depth = 0  # of blocks
+        self._depth = 0  # of blocks, calls and files
+        self._including = 0  # of them: files
+        self._calls: list[Span] = []  # those that are being drawn
         self._expanded = 0  # statements so far
         self._failed = 0  # of them
         self._once: dict[str, Span] = {}  # statements that may come once
@@ -50,9 +67,16 @@ class Expander:
             self._robot_span,
             self._placement,
             self._pen.start,
-            tuple(self._pen.segments),
+            self._rounded(),
             self._findings.ordered(),
         )
+
+    def _rounded(self) -> tuple[Segment, ...]:
+        """The strokes with their corners rounded, where that was asked."""
+        pen = self._pen
+        if not any(pen.corners) or self._findings.errors:
+            return tuple(pen.segments)
+        return tuple(blends.rounded(pen.segments, pen.corners, self._findings))
 
     def _run(self, statements: tuple[Statement, ...]) -> None:
         for statement in statements:
@@ -69,12 +93,13 @@ class Expander:
             if statement.word in _HANDLERS:
                 _HANDLERS[statement.word](self, statement)
             elif statement.word in SETTINGS:
-                pen = self._pen
-                pen.settings = changed(pen.settings, statement.parts[0], self._scope, pen.frame)
+                self._change(statement.parts[0], self._pen.frame)
             elif STATEMENTS[statement.word].moves:
                 strokes.draw(statement, self._pen, self._scope)
         except Problem as mistake:
             if not (isinstance(mistake, PlaceProblem) and self._pen.lost):
+                for call in reversed(self._calls):
+                    mistake = called_here(mistake, call)
                 self._findings.add(mistake.diagnostic)
             self._pass_over(statement)
         except UnknownError:  # its cause was reported
@@ -95,16 +120,9 @@ class Expander:
         if statement.word in ("robot", "place", "period", "start"):
             self._once.setdefault(statement.word, statement.span)
         name = statement.name
-        if name is not None and statement.word not in (
-            "robot",
-            "place",
-            "brush",
-            "curve",
-            "repeat",
-            "def",
-        ):
+        if name is not None and statement.word not in NAMELESS:
             self._scope.names.setdefault(name.text, None)
-        if statement.body and statement.word != "def":
+        if statement.body and statement.word != "def" and self._depth < DEEPEST:
             outside = self._open_block()
             if name is not None:
                 self._scope.names.setdefault(name.text, None)
@@ -115,6 +133,18 @@ class Expander:
 
     # Names and blocks.
 
+    def _check_depth(self, statement: Statement) -> None:
+        if self._depth >= DEEPEST:
+            message = f"more than {DEEPEST} blocks, calls and files within each other"
+            raise problem("E127", message, statement.span)
+
+    def _inside(self, statement: Statement, body: tuple[Statement, ...]) -> None:
+        """Runs the lines of a block."""
+        self._check_depth(statement)
+        outside = self._open_block()
+        self._run(body)
+        self._close_block(outside)
+
     def _open_block(self) -> int:
         """Begins a block; gives what `_close_block` needs to forget its names again."""
         self._depth += 1
@@ -124,24 +154,59 @@ class Expander:
         self._depth -= 1
         self._scope.forget_all_but(outside)
 
-    def _define(self, statement: Statement, value: Expression | None = None) -> None:
+    def _define(self, statement: Statement, value: Value | None = None) -> None:
         """Checks that a name is new, and gives it a value if there is one."""
         name = statement.name
         assert name is not None
         if name.text in self._scope.places:
+            again = self._scope.places[name.text] == name.span  # of a file included twice
+            if again and value is not None and self._scope.names.get(name.text) == value:
+                return
             raise problem(
                 "E230",
                 f"'{name.text}' already has a value",
                 name.span,
-                f"(first: {where(self._text, self._scope.places[name.text])})",
+                f"(first: {self._where(self._scope.places[name.text], name.span)})",
                 "values never change; choose another name",
             )
         if value is not None:
-            self._scope.names[name.text] = evaluate(value, self._scope, BUILTINS)
+            self._scope.names[name.text] = value
             self._scope.places[name.text] = name.span
 
     def _let(self, statement: Statement) -> None:
-        self._define(statement, statement.values[0])
+        if statement.params is None:
+            value = evaluate(statement.values[0], self._scope, BUILTINS)
+        else:
+            value = function_of(statement, self._scope)
+        self._define(statement, value)
+
+    def _def(self, statement: Statement) -> None:
+        self._define(statement, drawing_of(statement, self._scope))
+
+    def _frame(self, statement: Statement) -> None:
+        self._define(statement, frame_of(statement, self._scope))
+
+    def _call(self, statement: Statement) -> None:
+        drawing = called(statement, self._scope)
+        inner = handed(drawing, statement, self._scope)
+        self._check_size(statement, self._expanded + drawing.size)
+        scope, settings, failed = self._scope, self._pen.settings, self._failed
+        self._scope = inner
+        self._calls.append(statement.span)
+        self._inside(statement, drawing.body)
+        self._calls.pop()
+        self._scope = scope
+        self._pen.settings = replace(settings, shone=self._pen.settings.shone)
+        if self._failed > failed:
+            self._pen.lost = True
+
+    def _include(self, statement: Statement) -> None:
+        self._check_depth(statement)
+        self._depth += 1
+        self._including += 1
+        self._run(statement.body)
+        self._including -= 1
+        self._depth -= 1
 
     def _repeat(self, statement: Statement) -> None:
         if statement.name is not None:
@@ -149,6 +214,7 @@ class Expander:
         passes = blocks.passes(statement, self._scope)
         size = blocks.size(statement, len(passes), self._scope)
         self._check_size(statement, self._expanded + size)
+        self._check_depth(statement)
         for value in passes if statement.body else ():
             outside, failed = self._open_block(), self._failed
             if statement.name is not None:
@@ -166,17 +232,44 @@ class Expander:
         inner = blocks.inner_frame(statement, frame, self._scope)
         for part in statement.parts:
             if part.word in SETTINGS:
-                pen.settings = changed(pen.settings, part, self._scope, inner)
+                self._change(part, inner)
         pen.frame = inner
-        outside = self._open_block()
-        self._run(statement.body)
-        self._close_block(outside)
+        self._inside(statement, statement.body)
         pen.frame = frame
+        pen.settings = replace(settings, shone=pen.settings.shone)
+
+    def _change(self, part: Part, frame: Frame) -> None:
+        pen = self._pen
+        pen.check_pace(part)
+        pen.settings = changed(pen.settings, part, self._scope, frame)
+
+    def _stroke(self, statement: Statement) -> None:
+        pen = self._pen
+        if pen.run is not None:
+            cure = "one 'stroke' takes any number of lines"
+            raise problem("E280", "a stroke within a stroke", statement.span, "", cure)
+        settings = pen.settings
+        for part in statement.parts:
+            if part.word in SETTINGS:
+                self._change(part, pen.frame)
+        light = pen.settings.light if statement.part("light") else None
+        pen.begin_run(timing(statement, pen.settings, self._scope), light)
+        try:
+            self._inside(statement, statement.body)
+        finally:
+            pen.run = None
         pen.settings = replace(settings, shone=pen.settings.shone)
 
     def _curve(self, statement: Statement) -> None:
         self._define(statement)
         strokes.draw(statement, self._pen, self._scope)
+
+    def _where(self, span: Span, seen_from: Span) -> str:
+        """`line:column`, and the file if it is another one."""
+        line, column = place(self._text, span.start)
+        begin, file = file_at(self._text, span.start, self._name)
+        here = file_at(self._text, seen_from.start, self._name)[0]
+        return f"{line}:{column}" if begin == here else f"{file}:{line}:{column}"
 
     # Statements that come once, at the top.
 
@@ -184,20 +277,22 @@ class Expander:
         """Checks that a statement comes once, outside blocks, before the first movement."""
         word = statement.word
         span = Span(statement.span.start, statement.span.start + len(word))
-        if self._depth and not inside:
+        if self._depth > self._including and not inside:
             message = f"'{word}' stands outside of all blocks"
             raise problem("E123", message, span, "", "write it at the top of the file")
         if word in self._once:
-            first = where(self._text, self._once[word])
+            first = self._where(self._once[word], span)
             message, label = f"'{word}' is given twice", f"second (first: {first})"
             raise problem("E113", message, span, label, "keep one of them")
         if self._pen.started:
             message = f"'{word}' comes too late: the tool has moved already"
-            label = f"(first movement: {where(self._text, self._pen.moved)})"
+            label = f"(first movement: {self._where(self._pen.moved, span)})"
             raise problem("E124", message, span, label, "write it before the first movement")
         self._once[word] = statement.span
 
     def _traj(self, statement: Statement) -> None:
+        if self._including:  # it is of its own file
+            return
         self._first(statement)
         if self._expanded > 1:
             cure = "the version of the language comes before all other lines"
@@ -241,9 +336,6 @@ class Expander:
                 raise problem("E255", message, tool.value.span, "", cure)
         pen.start_at(position, orientation)
 
-    def _nothing_to_do(self, statement: Statement) -> None:
-        """`brush point` is what there is."""
-
 
 _HANDLERS: dict[str, Callable[[Expander, Statement], None]] = {
     "traj": Expander._traj,
@@ -252,7 +344,11 @@ _HANDLERS: dict[str, Callable[[Expander, Statement], None]] = {
     "place": Expander._place,
     "start": Expander._start,
     "period": Expander._period_line,
-    "brush": Expander._nothing_to_do,
+    "include": Expander._include,
+    "def": Expander._def,
+    "call": Expander._call,
+    "frame": Expander._frame,
+    "stroke": Expander._stroke,
     "curve": Expander._curve,
     "repeat": Expander._repeat,
     "with": Expander._with,

@@ -3,7 +3,7 @@
 import math
 
 from dqpaint.language.cursor import Cursor, found, no_value
-from dqpaint.language.diagnostics import Problem, Span, problem
+from dqpaint.language.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.lexer import number_value
 from dqpaint.language.syntax import (
     Bracket,
@@ -83,7 +83,7 @@ def _value(cursor: Cursor, after: str) -> Expression:
             return Literal(value, unit.text, Span(token.start, unit.end))
         return Literal(value, "", Span(token.start, token.end))
     if kind == "sign" and token.text == "(":
-        values = _bracket(cursor)
+        values = bracket(cursor)
         unit = cursor.token
         if unit.kind == "name" and unit.text in UNITS:
             cursor.take()
@@ -93,7 +93,7 @@ def _value(cursor: Cursor, after: str) -> Expression:
         cursor.take()
         if not cursor.is_sign("("):
             return _name(cursor, token.text, token.span)
-        values = _bracket(cursor, of=token.text)
+        values = bracket(cursor, of=token.text)
         return Call(token.text, values, cursor.span_from(token.start))
     if kind == "text":
         cursor.take()
@@ -114,8 +114,8 @@ def _name(cursor: Cursor, name: str, span: Span) -> Expression:
     return Name(name, span)
 
 
-def _bracket(cursor: Cursor, of: str = "(") -> tuple[Expression, ...]:
-    """The values in brackets, with commas between."""
+def bracket(cursor: Cursor, of: str = "(") -> tuple[Expression, ...]:
+    """The values in brackets, with commas between; `of` is the function's name before them."""
     opening = cursor.take()
     _deeper(cursor, opening.span)
     values: list[Expression] = []
@@ -136,9 +136,14 @@ def _bracket(cursor: Cursor, of: str = "(") -> tuple[Expression, ...]:
 def _not_closed(cursor: Cursor) -> Problem:
     token = cursor.token
     cure = "the numbers of a point stand in brackets, with commas between: (10, 20) mm"
+    fix = None
     if token.kind == "number" or token.kind == "name":
         cure = "put a comma between the numbers of a point, a * between the factors of a product"
-    return problem("E109", f"expected ',' or ')' but found {found(token)}", token.span, "", cure)
+    if token.kind == cursor.before.kind == "number":
+        end = cursor.before.end
+        fix = Fix("put a comma between", Span(end, end), ",")
+    message = f"expected ',' or ')' but found {found(token)}"
+    return problem("E109", message, token.span, "", cure, fix)
 
 
 def _deeper(cursor: Cursor, span: Span) -> None:

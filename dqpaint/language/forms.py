@@ -1,12 +1,16 @@
 """Which parts go together in a statement: the two forms of an arc, of a screw, one time only."""
 
+import re
+
 from dqpaint.language.cursor import Cursor
-from dqpaint.language.diagnostics import Problem, Span, place, problem
+from dqpaint.language.diagnostics import Fix, Problem, Span, place, problem
 from dqpaint.language.lexer import Token
 from dqpaint.language.syntax import Part, Statement
 from dqpaint.language.words import STATEMENTS, TIMES
 
 _FORM_OF_CENTRE = ("axis", "angle", "rise", "grow")
+_QUESTION = re.compile(r"did you mean '(\w+)'\?")
+_FORM_OF_RADIUS = ("radius", "left", "right", "long")
 _FORM_OF_ABOUT = ("along", "angle", "pitch")
 
 
@@ -14,12 +18,14 @@ def check(statement: Statement, text: str) -> None:
     """Raises a `Problem` if parts are missing, doubled or contradict each other."""
     _once(statement, text)
     _one_time(statement.parts)
-    checks = {"arc": _arc, "screw": _screw, "with": _with}
+    checks = {"arc": _arc, "screw": _screw, "with": _with, "frame": _frame}
     if statement.word in checks:
         checks[statement.word](statement)
     elif statement.word in ("line", "move"):
         if not statement.part("to") and not statement.part("by"):
             raise _to_or_by(statement.word, _first_word(statement))
+    elif statement.word in ("text", "path", "svg"):
+        _from_elsewhere(statement)
     elif statement.word == "place" and statement.name is not None:
         _place_auto(statement)
     elif statement.word in ("step", "start", "place"):
@@ -82,13 +88,21 @@ def _arc(statement: Statement) -> None:
     via = statement.part("via")
     centre = statement.part("centre") or statement.part("center")
     if via is not None:
-        for word in ("centre", "center", *_FORM_OF_CENTRE):
+        for word in ("centre", "center", *_FORM_OF_CENTRE, *_FORM_OF_RADIUS):
             if part := statement.part(word):
                 message = f"'arc via' goes through two points; it takes no '{word}'"
                 cure = "write: arc via POINT to POINT, or: arc centre POINT angle ANGLE"
                 raise problem("E248", message, part.span, "", cure)
         _needs(statement, "to", "an arc through three points ends at the last: via POINT to POINT")
         return
+    if statement.part("radius") is not None:
+        _radius(statement)
+        return
+    for word in ("left", "right", "long"):
+        if part := statement.part(word):
+            message = f"'{word}' belongs to an arc with a radius"
+            cure = "write: arc radius 20 mm to (10, 0) mm left"
+            raise problem("E248", message, part.span, "", cure)
     if to := statement.part("to"):
         if centre is None and not any(statement.part(word) for word in _FORM_OF_CENTRE):
             cure = "write: arc via POINT to POINT, or: arc centre POINT angle ANGLE"
@@ -103,6 +117,33 @@ def _arc(statement: Statement) -> None:
     if centre is None:
         _needs(statement, "centre", "write: arc centre POINT angle ANGLE")
     _needs(statement, "angle", "add how far it turns: angle 360 deg")
+
+
+def _radius(statement: Statement) -> None:
+    if statement.part("centre") or statement.part("center"):
+        part = statement.part("radius")
+        assert part is not None
+        cure = "the radius is the distance from here to the centre: first move to the circle"
+        raise problem("E248", "'arc centre' takes no 'radius'", part.span, "", cure)
+    for word in ("angle", "rise", "grow"):
+        if part := statement.part(word):
+            message = f"'arc radius' goes from here to a point; it takes no '{word}'"
+            cure = "with a centre, the radius is the distance from here to it"
+            raise problem("E248", message, part.span, "", cure)
+    _needs(statement, "to", "add where it ends: arc radius 20 mm to (10, 0) mm left")
+    left, right = statement.part("left"), statement.part("right")
+    if left and right:
+        span = max(left.span, right.span)
+        raise problem("E248", "an arc turns left or right, not both", span, "", "keep one of them")
+    if not left and not right:
+        message = "this 'arc' does not say which way it turns"
+        cure = "add left (against the clock) or right"
+        raise problem("E115", message, _first_word(statement), "", cure)
+
+
+def _frame(statement: Statement) -> None:
+    if not statement.parts:
+        _needs(statement, "at")
 
 
 def _screw(statement: Statement) -> None:
@@ -141,6 +182,24 @@ def _with(statement: Statement) -> None:
         before = part.word
 
 
+def _from_elsewhere(statement: Statement) -> None:
+    """A size for what has none of its own; one file for a drawing, at most three for a path."""
+    word, fitted = statement.word, statement.part("height") or statement.part("width")
+    unit = statement.part("unit")
+    if word == "text" and not fitted:
+        _needs(statement, "height", "say how high its capitals are: height 30 mm")
+    if word == "path" and not fitted and not unit:
+        _needs(statement, "unit", "numbers in a file have no unit; write: unit mm, or height 80 mm")
+    if fitted and unit:
+        message = f"'unit' and '{fitted.word}' both say how large it is"
+        raise problem("E248", message, unit.span, "", "keep one of them")
+    most = {"svg": 1, "path": 3}.get(word)
+    if most and len(statement.values) > most:
+        cure = "one drawing to a line" if most == 1 else "one file, or one for each of x, y and z"
+        message = f"'{word}' takes {'one file' if most == 1 else 'at most 3 files'}"
+        raise problem("E248", message, statement.values[most].span, "", cure)
+
+
 def misplaced(word: str, token: Token) -> Problem | None:
     """A part that other statements have: a message of its own, or None."""
     if token.text == "period":
@@ -172,7 +231,9 @@ def misplaced(word: str, token: Token) -> Problem | None:
     if cure is None:
         return None
     message = f"'{word}' has no part called '{token.text}'"
-    return problem("E110", message, token.span, "", cure)
+    meant = _QUESTION.fullmatch(cure)
+    fix = Fix(f"write {meant[1]}", token.span, meant[1]) if meant else None
+    return problem("E110", message, token.span, "", cure, fix)
 
 
 def unexpected(word: str, cursor: Cursor) -> Problem | None:

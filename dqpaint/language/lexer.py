@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from dqpaint.language.diagnostics import Diagnostic, Fix, Span
-from dqpaint.language.units import UNITS
+from dqpaint.language.units import SAME_UNITS, UNITS
 from dqpaint.language.words import STATEMENTS
 
 
@@ -31,8 +31,10 @@ class Line(NamedTuple):
     problems: list[Diagnostic]
 
 
+MOST_TOKENS = 100_000  # of one line
+
 _NUMBER = r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
-_TOKEN = re.compile(
+TOKEN = re.compile(
     rf"""[^\S\n]*(?:
       (?P<name>[A-Za-z_][A-Za-z0-9_]*|°)
     | (?P<number>{_NUMBER})(?P<glued>[A-Za-z_°][\w°]*|\.[\d.]*)?
@@ -81,14 +83,20 @@ _LOOKALIKES = {
 _NAMES_OF_LETTERS = {"π": "pi", "µ": "m", "²": "^2", "³": "^3", "√": "sqrt(…)"}
 
 
-def lines(text: str) -> Iterator[Line]:
-    """The lines that hold anything, in order."""
+def lines(text: str, begin: int = 0) -> Iterator[Line]:
+    """The lines from an offset on that hold anything, in order."""
     tokens: list[Token] = []
     problems: list[Diagnostic] = []
     brackets: list[Token] = []
-    position, size = (1 if text.startswith("\ufeff") else 0), len(text)
-    match_at = _TOKEN.match
+    position, size = begin + text.startswith("\ufeff", begin), len(text)
+    match_at = TOKEN.match
     while position < size:
+        if len(tokens) > MOST_TOKENS:
+            yield _too_long(tokens)
+            tokens, problems = [], []
+            brackets.clear()
+            position = text.find("\n", position) % (size + 1)
+            continue
         match = match_at(text, position)
         assert match is not None  # the pattern has an answer to every character
         kind = match.lastgroup
@@ -116,7 +124,7 @@ def lines(text: str) -> Iterator[Line]:
         elif kind == "text":
             tokens.append(Token("text", text[start + 1 : position - 1], start, position))
         elif kind == "bad":
-            position = _bad(text, start, tokens, problems)
+            position = _bad(text, start, tokens, problems, bool(brackets))
         elif kind == "newline" and (not brackets or _begins_statement(text, position)):
             if tokens or problems:
                 yield _close(tokens, problems, brackets, start)
@@ -124,6 +132,13 @@ def lines(text: str) -> Iterator[Line]:
             brackets.clear()
     if tokens or problems:
         yield _close(tokens, problems, brackets, size)
+
+
+def _too_long(tokens: list[Token]) -> Line:
+    message = f"this line has more than {MOST_TOKENS:,} words, numbers and signs"
+    mistake = Diagnostic("E314", message, tokens[0].span, "begins here", "make several lines of it")
+    last = tokens[-1].end
+    return Line([*tokens[:2], Token("end", "", last, last)], [mistake])
 
 
 def _close(
@@ -170,20 +185,27 @@ def _glued(
     if letters in UNITS:
         tokens.append(Token("name", letters, number.end, end))
         return end
-    span = Span(number.start, end)
+    span, fix = Span(number.start, end), None
     if letters.startswith("."):
         message, cure = f"'{text[span.start : end]}' is not a number", "write one decimal point"
     elif letters in STATEMENTS or not re.fullmatch(r"[A-Za-z_]\w*", letters, re.ASCII):
         message = f"'{letters}' straight after the number {number.text} is not a unit"
         cure = f"put a blank between: {number.text} {letters}"
+        fix = Fix("put a blank between", Span(number.end, number.end), " ")
+    elif letters in SAME_UNITS:
+        message = f"'{letters}' straight after the number {number.text} is not a unit"
+        cure = f"write {number.text} {SAME_UNITS[letters]}"
+        fix = Fix(cure, span, f"{number.text} {SAME_UNITS[letters]}")
     else:
         message = f"'{letters}' straight after the number {number.text} is not a unit"
         cure = f"units are {', '.join(UNITS)}; a product is written {number.text}*{letters}"
-    problems.append(Diagnostic("E102", message, span, "", cure))
+    problems.append(Diagnostic("E102", message, span, "", cure, fix=fix))
     return end
 
 
-def _bad(text: str, start: int, tokens: list[Token], problems: list[Diagnostic]) -> int:
+def _bad(
+    text: str, start: int, tokens: list[Token], problems: list[Diagnostic], in_brackets: bool
+) -> int:
     """A character that is not ours: says so, and returns where to go on."""
     character, end = text[start], start + 1
     if character.isspace():
@@ -212,6 +234,11 @@ def _bad(text: str, start: int, tokens: list[Token], problems: list[Diagnostic])
         fix = Fix(cure, Span(start, end), plain)
     elif character in _NAMES_OF_LETTERS:
         cure = f"write {_NAMES_OF_LETTERS[character]}"
+        if "…" not in cure:
+            fix = Fix(cure, Span(start, end), _NAMES_OF_LETTERS[character])
+    elif character == ";" and in_brackets:
+        cure = "the numbers of a point have commas between them"
+        fix = Fix("write a comma", Span(start, end), ",")
     elif character == ";":
         cure = "no ; is needed: one statement per line"
         fix = Fix("take the ; away", Span(start, end), "")
@@ -219,8 +246,11 @@ def _bad(text: str, start: int, tokens: list[Token], problems: list[Diagnostic])
         cure = ".traj has no conditions: use repeat, min/max, or write two files"
     elif character == ":":
         cure = "no : is needed: a block ends with a line 'end'"
+        fix = Fix("take the : away", Span(start, end), "")
     elif character == "/" or text.startswith("//", start):
         cure = "a comment begins with #"
+    elif character == ".":
+        cure = 'the name of a file stands in quotes: "points.csv"'
     elif character.isalpha():
         cure = "names are made of the letters a to z, digits and _"
         word = _WORD.match(text, start)

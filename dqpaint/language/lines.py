@@ -23,8 +23,8 @@ from dqpaint.language.timing import shared, timing
 
 
 def sets_start(statement: Statement, pen: Pen) -> bool:
-    """Whether a `move` is the first thing that says where the tool is."""
-    return statement.word == "move" and not (pen.started or pen.placed)
+    """Whether a movement that names its own first point is the first to say where the tool is."""
+    return statement.word in ("move", "text", "path", "svg") and not (pen.started or pen.placed)
 
 
 def _stops(statement: Statement, pen: Pen, scope: Scope) -> list[tuple[Vector, Span]]:
@@ -100,11 +100,19 @@ def _legs(
         tool, orientation = _tool_of_leg(pen, stop, statement.span, first, last)
         way = space.minus(stop, start)
         tools.check_way(mode, (_nearest(mode, start, way),), statement.span)
-        glow = light and Light(
-            colours.mixed(light.first, light.last, first),
-            colours.mixed(light.first, light.last, last),
-        )
+        glow = light
+        if light is not None and light.first != light.last and not _of_run(pen, light):
+            glow = Light(
+                colours.mixed(light.first, light.last, first),
+                colours.mixed(light.first, light.last, last),
+                light.even,
+            )
         pen.draw(Straight(way), tool, leg_time, glow, Pose(stop, orientation), statement.span)
+
+
+def _of_run(pen: Pen, light: Light) -> bool:
+    """Whether a gradient goes over a whole `stroke`."""
+    return pen.run is not None and light is pen.run.light
 
 
 def _shares(sizes: list[float]) -> list[tuple[float, float]]:

@@ -8,8 +8,15 @@ from dqpaint.language.scope import BUILTINS, Scope
 from dqpaint.language.suggestions import closest, did_you_mean, listed
 from dqpaint.language.syntax import Bracket, Call, Expression, Literal, Name, Sign
 from dqpaint.language.taylor import Taylor
-from dqpaint.language.units import FOREIGN_UNITS, PLAIN, UNITS, Dimension, plausible_unit
-from dqpaint.language.values import Point, Quantity, Value, describe, is_zero
+from dqpaint.language.units import (
+    FOREIGN_UNITS,
+    PLAIN,
+    SAME_UNITS,
+    UNITS,
+    Dimension,
+    plausible_unit,
+)
+from dqpaint.language.values import Drawing, Function, Point, Quantity, Value, describe, is_zero
 from dqpaint.language.words import CONSTANTS, FUNCTION_ALIASES, FUNCTIONS, LAW_ALIASES, LAWS
 
 
@@ -23,7 +30,9 @@ def unknown(node: Name, scope: Scope, words: Iterable[str] = ()) -> Problem:
     if name in FOREIGN_UNITS:
         units = f"units are {', '.join(UNITS)}"
         cure = f"did you mean '{FOREIGN_UNITS[name]}'? {units}"
-        return problem("E205", f"'{name}' is not known", node.span, "", cure)
+        same = SAME_UNITS.get(name)
+        fix = Fix(f"write {same}", node.span, same) if same else None
+        return problem("E205", f"'{name}' is not known", node.span, "", cure, fix)
     words = list(words)
     aliases = LAW_ALIASES if set(LAWS) <= set(words) else {}
     known = (*scope.names, *CONSTANTS, *words)
@@ -41,15 +50,39 @@ def _abbreviation(name: str, scope: Scope) -> str:
     return max(short, key=len) if short else ""
 
 
+def no_value_of(node: Name, value: Function | Drawing) -> Problem:
+    """E206: the name of a function or of a `def`, alone."""
+    if isinstance(value, Function):
+        cure = f"write: {value.name}({', '.join(value.params)})"
+        return problem("E206", f"'{node.name}' is a function", node.span, "", cure)
+    return problem("E206", f"'{node.name}' is drawn, it has no value", node.span, "", _CALLED)
+
+
+_CALLED = "a call of it is a line of its own"
+
+
+def wrong_count(function: Function, node: Call) -> Problem:
+    """E207."""
+    count = len(function.params)
+    noun = "value" if count == 1 else "values"
+    message = f"{function.name} takes {count or 'no'} {noun}, not {len(node.values)}"
+    cure = f"write: {function.name}({', '.join(function.params)})"
+    return problem("E207", message, node.span, "", cure)
+
+
 def too_many(node: Bracket, scope: Scope) -> Problem:
     """E202."""
     count, cure = len(node.values), "write decimals with a point, not a comma: 0.5"
-    first, second = node.values[0], node.values[1]
-    if isinstance(first, Literal) and isinstance(second, Literal) and count in (4, 6):
-        decimal = f"{scope.written(first)}.{scope.written(second)}"
-        if decimal.replace(".", "").isdigit():
-            cure = f"write decimals with a point, not a comma: {decimal}"
-    return problem("E202", f"a point has 2 or 3 numbers, this has {count}", node.span, "", cure)
+    fix, written = None, [scope.written(value) for value in node.values]
+    if count in (4, 6) and all(isinstance(value, Literal) for value in node.values):
+        pairs = zip(written[::2], written[1::2], strict=True)
+        decimals = [f"{whole}.{part}" for whole, part in pairs]
+        if all(text.isdigit() for text in written):
+            cure = f"write decimals with a point, not a comma: {decimals[0]}"
+            unit = f" {node.unit}" if node.unit else ""
+            fix = Fix("write decimal points", node.span, f"({', '.join(decimals)}){unit}")
+    message = f"a point has 2 or 3 numbers, this has {count}"
+    return problem("E202", message, node.span, "", cure, fix)
 
 
 def mixed(node: Bracket, coordinates: list[Quantity], scope: Scope) -> Problem:
@@ -60,10 +93,14 @@ def mixed(node: Bracket, coordinates: list[Quantity], scope: Scope) -> Problem:
     at = (plain or others)[0]
     literals = [child for child in node.values if isinstance(child, Literal)]
     units = {child.unit for child in literals if child.unit}
-    cure = "give each of them a unit of the same kind"
+    cure, fix = "give each of them a unit of the same kind", None
     if len(literals) == len(node.values) and len(units) == 1:
-        numbers = ", ".join(f"{child.value:g}" for child in literals)
-        cure = f"one unit after the bracket is enough: ({numbers}) {units.pop()}"
+        numbers = ", ".join(
+            scope.written(child).removesuffix(child.unit).rstrip() for child in literals
+        )
+        mended = f"({numbers}) {units.pop()}"
+        cure = f"one unit after the bracket is enough: {mended}"
+        fix = Fix(f"write {mended}", node.span, mended)
     elif plain:
         cure = f"{scope.written(node.values[at])} needs a unit too"
     return problem(
@@ -72,6 +109,7 @@ def mixed(node: Bracket, coordinates: list[Quantity], scope: Scope) -> Problem:
         node.values[at].span,
         f"{scope.written(node.values[at])} is {describe(coordinates[at])}",
         cure,
+        fix,
     )
 
 
@@ -85,6 +123,9 @@ def second_unit(node: Bracket, what: str) -> Problem:
 def unknown_function(node: Call, scope: Scope) -> Problem:
     """E206."""
     span = Span(node.span.start, node.span.start + len(node.name))
+    if isinstance(scope.names.get(node.name), Drawing):
+        message = f"'{node.name}' is drawn, it has no value"
+        return problem("E206", message, span, "", _CALLED)
     if node.name in scope.names or node.name in BUILTINS:
         message = f"'{node.name}' is not a function"
         cure = f"a product is written {node.name}*(…)"
@@ -95,8 +136,10 @@ def unknown_function(node: Call, scope: Scope) -> Problem:
             'write the colour in quotes: "#ff8800"',
         )
         return problem("E206", message, span, "", cure)
-    meant = closest(node.name, functions.TABLE, FUNCTION_ALIASES)
-    fix = Fix(f"write {meant}", span, meant) if meant in functions.TABLE else None
+    own = [name for name, value in scope.names.items() if isinstance(value, Function)]
+    known = (*own, *functions.TABLE)
+    meant = closest(node.name, known, FUNCTION_ALIASES)
+    fix = Fix(f"write {meant}", span, meant) if meant in known else None
     message = f"there is no function '{node.name}'"
     return problem("E206", message, span, "", did_you_mean(meant), fix)
 
@@ -112,20 +155,14 @@ def no_sum(
     at, lacking, other = child, right, left
     if isinstance(left, Quantity | Point) and left.dimension == PLAIN:
         at, lacking, other = first, left, right
-    cure = ""
+    cure, fix = "", None
     alike = isinstance(lacking, Quantity | Point) and type(lacking) is type(other)
     if alike and isinstance(lacking, Quantity | Point) and lacking.dimension == PLAIN:
         assert isinstance(other, Quantity | Point)
-        cure = did_you_mean_unit(at, lacking, other.dimension, scope)
-    return problem("E208", message, at.span, describe(lacking), cure)
-
-
-def did_you_mean_unit(
-    node: Expression, value: Quantity | Point, dimension: Dimension, scope: Scope
-) -> str:
-    """`did you mean 5 mm?`, if a unit can simply be added to what stands there."""
-    written = with_unit(node, value, dimension, scope)
-    return f"did you mean {written}?" if written else ""
+        if written := with_unit(at, lacking, other.dimension, scope):
+            cure = f"did you mean {written}?"
+            fix = Fix(f"write {written}", at.span, written)
+    return problem("E208", message, at.span, describe(lacking), cure, fix)
 
 
 def with_unit(

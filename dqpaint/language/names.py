@@ -24,8 +24,11 @@ def meaning(word: str) -> str:
     return "a colour" if word in colours.NAMES else ""
 
 
-def new_name(cursor: Cursor, after: str, example: str) -> Word:
-    """Reads a name that is about to get a meaning."""
+def new_name(cursor: Cursor, after: str, example: str, handed: bool = False) -> Word:
+    """Reads a name that is about to get a meaning.
+
+    What a function is `handed` may be called x, y or z.
+    """
     token = cursor.token
     if token.kind != "name" or token.text == "°":
         raise problem(
@@ -35,7 +38,8 @@ def new_name(cursor: Cursor, after: str, example: str) -> Word:
             "",
             f"for example: {example}",
         )
-    if taken := meaning(token.text):
+    taken = meaning(token.text)
+    if taken and not (handed and token.text in ("x", "y", "z")):
         raise taken_name(token, taken)
     cursor.take()
     return Word(token.text, token.span)

@@ -1,6 +1,8 @@
 """Text -> statements: lines and blocks. Every line is read, whatever was wrong in those before."""
 
+import re
 from collections.abc import Iterable
+from dataclasses import replace
 
 from dqpaint.language import statements
 from dqpaint.language.cursor import Cursor, found
@@ -13,7 +15,6 @@ from dqpaint.language.syntax import Statement, Word
 from dqpaint.language.words import (
     FOREIGN,
     FOREIGN_BLOCKS,
-    NOT_YET,
     PARTS,
     STATEMENT_ALIASES,
     STATEMENTS,
@@ -21,6 +22,7 @@ from dqpaint.language.words import (
 
 DEEPEST = 32  # blocks within each other
 _BLOCKS = tuple(word for word, known in STATEMENTS.items() if known.block)
+_FIRST_WORDS = re.compile(r"^[^\S\n]*([a-z]+)\b[^\S\n]*([A-Za-z_]\w*)?", re.ASCII | re.MULTILINE)
 _NEEDLESS = ";:"  # signs of other languages that change nothing
 
 
@@ -35,9 +37,12 @@ class _Block:
         self.body: list[Statement] = []
 
 
-def parse_statements(text: str, findings: Findings) -> tuple[Statement, ...]:
-    """The statements of a file; what is wrong with it goes to `findings`."""
-    return _Parser(text, findings).file()
+def parse_statements(text: str, findings: Findings, begin: int = 0) -> tuple[Statement, ...]:
+    """The statements of a file, which begins at an offset and ends with the text.
+
+    What is wrong with it goes to `findings`.
+    """
+    return _Parser(text, findings).file(begin)
 
 
 class _Parser:
@@ -48,12 +53,14 @@ class _Parser:
         self._open: list[_Block] = []
         self._outer: list[list[Statement]] = []  # the bodies round it
         self._spare_ends = 0  # more than our blocks need: those of misspelt ones
+        self._defined: frozenset[str] | None = None  # what may be called; None: anything
 
-    def file(self) -> tuple[Statement, ...]:
+    def file(self, begin: int) -> tuple[Statement, ...]:
         """Reads all lines."""
-        found_lines = list(lines(self._text))
-        self._spare_ends = _spare_ends(found_lines)
-        for line in found_lines:
+        first_words = list(_FIRST_WORDS.findall(self._text, begin))
+        self._spare_ends = _spare_ends(first_words)
+        self._defined = None if begin else _defined(first_words)
+        for line in lines(self._text, begin):
             try:
                 self._line(line)
             except Problem as mistake:
@@ -71,16 +78,18 @@ class _Parser:
             self._findings.add(line.problems[0])
             return
         word = first.text
-        if first.kind != "name" or word not in STATEMENTS:
+        if (first.kind != "name" or word not in STATEMENTS) and not self._may_be_call(line):
             self._unknown(line)
             return
+        if word == "include" and line.tokens[1].kind != "text":
+            raise _not_quoted(line.tokens, self._text)
         if line.problems:
             self._findings.add(line.problems[0])
         if word == "end":
             self._end(line)
             return
         statement = self._statement(line)
-        if STATEMENTS[word].block:
+        if word in _BLOCKS:
             self._begin(statement, known=True)
         else:
             self._body.append(statement)
@@ -89,8 +98,9 @@ class _Parser:
         """One line; a mistake in it is reported, and the statement marked as broken."""
         cursor = Cursor(line.tokens, self._text)
         needless = all(self._text[p.span.start] in _NEEDLESS for p in line.problems if p.span)
+        read = statements.statement if line.tokens[0].text in STATEMENTS else statements.call
         try:
-            statement = statements.statement(cursor)
+            statement = read(cursor)
         except Problem as mistake:
             if not line.problems:  # else it follows from the one that was reported
                 self._findings.add(mistake.diagnostic)
@@ -120,6 +130,7 @@ class _Parser:
                 header.parts,
                 tuple(body),
                 header.broken,
+                header.params,
             )
         )
 
@@ -130,7 +141,7 @@ class _Parser:
                 "'end' without a block to close",
                 line.tokens[0].span,
                 "",
-                "only repeat and with are closed with 'end'",
+                f"only {', '.join(_BLOCKS[:-1])} and {_BLOCKS[-1]} are closed with 'end'",
             )
         self._close()
         if line.tokens[1].kind != "end" and not line.problems:
@@ -141,6 +152,15 @@ class _Parser:
             )
 
     # What is no statement of ours.
+
+    def _may_be_call(self, line: Line) -> bool:
+        """Whether a line is `star(…)`, where there may be a `def star`."""
+        name, bracket = line.tokens[0], line.tokens[1]
+        if name.kind != "name" or bracket.kind != "sign" or bracket.text != "(":
+            return False
+        if self._defined is not None:
+            return name.text in self._defined
+        return not meaning(name.text) and name.text not in STATEMENT_ALIASES
 
     def _unknown(self, line: Line) -> None:
         mistake, opens = self._unknown_statement(line.tokens)
@@ -161,20 +181,20 @@ class _Parser:
             return Diagnostic("E120", message, first.span, "", cure), False
         if _is_definition(tokens):
             return self._definition(tokens), False
-        if word in NOT_YET:
-            message = f"'{word}' is not in this version of dqpaint yet"
-            return Diagnostic("E122", message, first.span), NOT_YET[word]
         if word in FOREIGN:
             message, cure = FOREIGN[word]
             return Diagnostic("E121", message, first.span, "", cure), word in FOREIGN_BLOCKS
-        message = f"unknown statement '{word}'"
         if word in PARTS:
+            message = f"unknown statement '{word}'"
             cure = f"'{word}' belongs to a statement and stands on its line: {_user_of(word)}"
             return Diagnostic("E120", message, first.span, "", cure), False
-        meant = closest(word, STATEMENTS, STATEMENT_ALIASES)
-        fix = Fix(f"write {meant}", first.span, meant) if meant in STATEMENTS else None
-        cure = did_you_mean(meant)
-        return Diagnostic("E120", message, first.span, "", cure, fix=fix), meant in _BLOCKS
+        calls = self._defined or ()
+        mistake, meant = unknown_statement(first.text, first.span, calls, tokens[1].text)
+        if (not mistake.help and tokens[1].kind == "end") or word in calls:
+            mistake = replace(
+                mistake, help=f"to draw what a 'def' names, write: {word}()", fix=None
+            )
+        return mistake, meant in _BLOCKS
 
     def _definition(self, tokens: list[Token]) -> Diagnostic:
         """`r = 3 cm`: another language's way to name a value."""
@@ -191,6 +211,18 @@ class _Parser:
         )
 
 
+def unknown_statement(
+    word: str, span: Span, calls: Iterable[str] = (), after: str = ""
+) -> tuple[Diagnostic, str]:
+    """E120, and the word that may be meant; `calls` can be called, `after` is what follows."""
+    meant = closest(word, (*STATEMENTS, *calls), STATEMENT_ALIASES)
+    fits = meant in STATEMENTS or meant in calls
+    fits = fits or (meant.endswith(" to") and after in ("(", "polar"))
+    fix = Fix(f"write {meant}", span, meant) if fits else None
+    message = f"unknown statement '{word}'"
+    return Diagnostic("E120", message, span, "", did_you_mean(meant), fix=fix), meant
+
+
 def _is_definition(tokens: list[Token]) -> bool:
     """Whether a line is `r = …`, as other languages name a value."""
     if tokens[0].text in STATEMENTS or len(tokens) < 2:
@@ -198,13 +230,20 @@ def _is_definition(tokens: list[Token]) -> bool:
     return tokens[1].kind == "sign" and tokens[1].text == "="
 
 
-def _spare_ends(found_lines: Iterable[Line]) -> int:
+def _defined(first_words: Iterable[tuple[str, str]]) -> frozenset[str] | None:
+    """The names behind `def` and `let` in a file; None if more may come from another file."""
+    names = set()
+    for word, name in first_words:
+        if word == "include":
+            return None
+        if word in ("def", "let", "frame"):
+            names.add(name)
+    return frozenset(names)
+
+
+def _spare_ends(first_words: Iterable[tuple[str, str]]) -> int:
     """How many `end` lines there are more than lines that begin one of our blocks."""
-    spare = 0
-    for line in found_lines:
-        word = line.tokens[0].text
-        spare += (word == "end") - (word in _BLOCKS)
-    return spare
+    return sum((word == "end") - (word in _BLOCKS) for word, _ in first_words)
 
 
 def _user_of(part: str) -> str:
@@ -224,9 +263,18 @@ def _broken(tokens: list[Token]) -> Statement:
         word = ""
     if _is_definition(tokens):
         name = Word(tokens[0].text, tokens[0].span)
-    elif word in ("let", "repeat", "def") and len(tokens) > 2 and tokens[1].kind == "name":
+    elif word in ("let", "repeat", "def", "frame") and len(tokens) > 2 and tokens[1].kind == "name":
         name = Word(tokens[1].text, tokens[1].span)
     return Statement(word, span, name, broken=True)
+
+
+def _not_quoted(tokens: list[Token], text: str) -> Problem:
+    span = Span(tokens[1].start, tokens[-1].end)
+    if span.start == span.end:
+        message = "expected the name of a file but found the end of the line"
+        return problem("E109", message, tokens[0].span, "", 'for example: include "f.traj"')
+    message, cure = "the name of a file stands in quotes", f'include "{text[slice(*span)]}"'
+    return problem("E109", message, span, "", f"write: {cure}")
 
 
 def _no_end(header: Statement) -> Diagnostic:

@@ -2,9 +2,10 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path as FilePath
 
 from dqpaint.language import space
-from dqpaint.language.diagnostics import Diagnostic, PlaceProblem, Span, place, problem
+from dqpaint.language.diagnostics import Diagnostic, PlaceProblem, Span, file_at, problem
 from dqpaint.language.findings import EnoughError, Findings
 from dqpaint.language.program import (
     IDENTITY,
@@ -16,7 +17,10 @@ from dqpaint.language.program import (
     Path,
     Pose,
     Quaternion,
+    Run,
     Segment,
+    Step,
+    Still,
     Straight,
     Timing,
     Tool,
@@ -24,6 +28,8 @@ from dqpaint.language.program import (
     Vector,
 )
 from dqpaint.language.settings import REST_TO_REST, Settings, Towards
+from dqpaint.language.syntax import Part
+from dqpaint.language.words import PACE, PARTS
 
 MOST_SEGMENTS = 50_000
 FARTHEST = 1e9  # [m]
@@ -35,8 +41,11 @@ LOOKS_ALREADY = 1e-9  # [rad] what rounding may leave between a look and the str
 class Pen:
     """The state of the drawing: `settings` and `frame` are changed from outside."""
 
-    def __init__(self, name: str, text: str, findings: Findings) -> None:
+    def __init__(
+        self, name: str, text: str, findings: Findings, path: FilePath | None = None
+    ) -> None:
         self.file = name, text
+        self.path = path  # of the main file, if the text is one
         self.text = text
         self.findings = findings
         self.settings = Settings()
@@ -44,6 +53,10 @@ class Pen:
         self.pose = IDENTITY
         self.start = IDENTITY
         self.segments: list[Segment] = []
+        self.corners: list[float] = []  # within what distance [m] the end of each is rounded
+        self.run: Run | None = None  # of the `stroke` that is being drawn
+        self._runs = 0
+        self.pieces = 0  # of chains
         self.placed = False  # the file has said where the drawing starts
         self.started = False  # something has moved
         self.oriented = False  # the file has said how the tool is held at the start
@@ -80,23 +93,67 @@ class Pen:
         if max(map(abs, end.position)) > FARTHEST:
             raise here("E201", "this ends too far away", span)
         line, words = self._lines.line(span), first_line(self.text, span)
+        settings, run = self.settings, self.run
+        if run is not None:
+            self._check_goes_on(path, span)
+            timing = run.timing
+        law = run.law if run is not None else settings.law
         self.segments.append(
-            Segment(path, tool, self.settings.law, timing, light, self.pose, end, words, line)
+            Segment(
+                *(path, tool, law, timing, light, self.pose, end, words, line),
+                *(settings.brush, settings.strobe, run),
+            )
         )
+        self.corners.append(settings.blend * self.frame.scale)
         self.pose = end
         self.oriented = True
+
+    # Strokes of several lines.
+
+    def check_no_stop(self, span: Span) -> None:
+        """Raises if a way or a turn of our own would come into the middle of a `stroke`."""
+        if self.run is not None and self.segments and self.segments[-1].run is self.run:
+            message = "the tool would have to stop within this stroke"
+            cure = "let this line begin where the one before it ends, and the tool look there"
+            raise here("E283", message, span, "", cure)
+
+    def begin_run(self, timing: Timing, light: Light | None) -> None:
+        """The segments that follow share a time law, and `light` if it is a gradient."""
+        self._runs += 1
+        self.run = Run(self._runs, self.settings.law, timing, light)
+
+    def check_pace(self, part: Part) -> None:
+        """Raises if a line within a `stroke` has a time of its own."""
+        if self.run is not None and part.word in PACE:
+            message = f"'{part.word}' belongs to the whole stroke"
+            cure = f"write it on its first line: stroke {PARTS[part.word].example}"
+            raise problem("E281", message, part.span, "", cure)
+
+    def _check_goes_on(self, path: Path, span: Span) -> None:
+        """Raises if the point stands still within a `stroke`."""
+        if isinstance(path, Still | Step) or path == Straight(space.ZERO):
+            what = {Still: "a pause", Step: "a jump"}.get(type(path), "a turn on the spot")
+            message = f"{what} can't be part of a stroke, which does not stop"
+            raise problem("E282", message, span, "", "end the stroke before it")
 
     def warn(self, code: str, message: str, span: Span, label: str = "", cure: str = "") -> None:
         """Says what is assumed, unless it only follows from a mistake."""
         if not self.lost:
             self.findings.add(Diagnostic(code, message, span, label, cure))
 
-    def travel(self, to: Vector, span: Span) -> None:
-        """A way in the dark that the file did not ask for."""
+    def travel(
+        self,
+        to: Vector,
+        span: Span,
+        tool: Tool | None = None,
+        orientation: Quaternion | None = None,
+        timing: Timing | None = None,
+    ) -> None:
+        """A way in the dark that the file did not ask for; the tool keeps, if nothing is said."""
         by = space.minus(to, self.pose.position)
-        speed = Cruise(self.settings.speed, self.settings.turnspeed)
-        end = Pose(to, self.pose.orientation)
-        self._assumed(Straight(by), Keep(), speed, end, span)
+        timing = timing or Cruise(self.settings.speed, self.settings.turnspeed)
+        end = Pose(to, orientation or self.pose.orientation)
+        self._assumed(Straight(by), tool or Keep(), timing, end, span)
 
     def look(self, mode: Look | LookLine, orientation: Quaternion, span: Span) -> None:
         """Turns the tool to where a stroke needs it at its start, in the dark, if it is not."""
@@ -106,6 +163,7 @@ class Pen:
         if not self.oriented or self.lost:
             self._adopt(orientation)
             return
+        self.check_no_stop(span)
         what, how = ("point", "look") if isinstance(mode, Look) else ("line", "look line")
         degrees = math.degrees(angle)
         message = f"the tool turns by {degrees:.3g} deg before this, to look at the {what}"
@@ -117,10 +175,10 @@ class Pen:
 
     def _assumed(self, path: Path, tool: Tool, timing: Timing, end: Pose, span: Span) -> None:
         """A stroke of our own, rest to rest whatever law the file's strokes have."""
-        settings = self.settings
-        self.settings = replace(settings, law=REST_TO_REST)
+        settings, run = self.settings, self.run
+        self.settings, self.run = replace(settings, law=REST_TO_REST, blend=0.0), None
         self.draw(path, tool, timing, None, end, span)
-        self.settings = settings
+        self.settings, self.run = settings, run
 
 
 def first_line(text: str, span: Span) -> Span:
@@ -142,8 +200,9 @@ class _LineCounter:
         if known is not None:
             return known
         offset, line = self._last
-        if span.start < offset:
-            offset, line = 0, 1
+        begin, _ = file_at(self._text, span.start, "")
+        if not begin <= offset <= span.start:
+            offset, line = begin, 1
         line += self._text.count("\n", offset, span.start)
         self._last = (span.start, line)
         self._known[span.start] = line
@@ -163,9 +222,3 @@ def _too_many(span: Span) -> Diagnostic:
 def here(code: str, message: str, span: Span, label: str = "", cure: str = "") -> PlaceProblem:
     """A mistake that depends on where the tool is."""
     return PlaceProblem(problem(code, message, span, label, cure).diagnostic)
-
-
-def where(text: str, span: Span) -> str:
-    """`line:column`, for a label."""
-    line, column = place(text, span.start)
-    return f"{line}:{column}"

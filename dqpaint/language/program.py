@@ -10,12 +10,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
+import numpy as np
+
+from dqpaint.language.colours import Colour as Colour
 from dqpaint.language.diagnostics import Diagnostic, Span
-from dqpaint.language.taylor import Taylor
+from dqpaint.language.taylor import Floats, Taylor
 
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
-Colour = tuple[float, float, float]
 Formula = Callable[[Taylor], tuple[Taylor, Taylor, Taylor]]
 
 
@@ -91,7 +93,40 @@ class Step:
     """A jump of the set point to the end pose, within one sample."""
 
 
-Path = Straight | Arc | Curve | Screw | ScrewTo | Still | Step
+@dataclass(frozen=True, slots=True, eq=False)
+class Chain:
+    """Smooth pieces end to end: one time law over all, no stop where one passes into the next.
+
+    Over its own g in [0, 1] a piece is at  c0 + c1 g + c2 g^2 + c3 g^3 + u cos(a) + v sin(a)  with
+    a = a0 + g a1: a straight line, a Bezier curve, an arc of a circle or of any ellipse. Where the
+    direction changes between two pieces it jumps, as at the corner of a letter. The tool keeps,
+    turns evenly or looks; it can't follow corners.
+
+    Attributes:
+        cubic: c0 to c3 of each piece (M, 4, 3) [m], in the drawing frame.
+        ellipse: u and v of each piece (M, 2, 3) [m]; zero for what is no arc.
+        angles: a0 and a1 of each piece (M, 2) [rad].
+    """
+
+    cubic: Floats
+    ellipse: Floats
+    angles: Floats
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Chain) and all(
+            np.array_equal(mine, theirs)
+            for mine, theirs in (
+                (self.cubic, other.cubic),
+                (self.ellipse, other.ellipse),
+                (self.angles, other.angles),
+            )
+        )
+
+    def __hash__(self) -> int:
+        return hash(self.cubic.tobytes())
+
+
+Path = Straight | Arc | Curve | Screw | ScrewTo | Still | Step | Chain
 
 
 # What the tool does meanwhile. `Screw` and `ScrewTo` say it themselves and carry `Follow`.
@@ -215,6 +250,20 @@ class Strobe:
 
 
 @dataclass(frozen=True, slots=True)
+class Run:
+    """One time law over several segments in a row, which all carry it: no stop between them.
+
+    Law and timing are those of the whole. A segment whose light is `light` has its part of that
+    gradient, which goes over the whole length.
+    """
+
+    number: int  # which of the drawing's runs
+    law: Law
+    timing: Timing
+    light: Light | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Segment:
     """One stroke or pause: what the point does, what the tool does, when, and in which light."""
 
@@ -229,6 +278,7 @@ class Segment:
     line: int  # 1-based line of the file
     brush: Brush = Point()
     strobe: Strobe | None = None  # None: it burns steadily
+    run: Run | None = None  # None: it has law and timing for itself
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,11 +8,13 @@ from dqpaint.language.evaluate import evaluate
 from dqpaint.language.mistakes import with_unit
 from dqpaint.language.program import Colour, Law, Quaternion, Vector
 from dqpaint.language.scope import Scope
+from dqpaint.language.space import Frame
 from dqpaint.language.suggestions import closest, did_you_mean
-from dqpaint.language.syntax import Expression
+from dqpaint.language.syntax import Call, Expression, Literal, Name
 from dqpaint.language.taylor import Taylor
 from dqpaint.language.units import (
     ANGLE,
+    FREQUENCY,
     LENGTH,
     PITCH,
     PLAIN,
@@ -25,6 +27,7 @@ from dqpaint.language.units import (
 )
 from dqpaint.language.values import (
     Orientation,
+    Placement,
     Point,
     Quantity,
     Text,
@@ -47,6 +50,14 @@ _DIMENSIONS = {
     "pitch": PITCH,
     "number": PLAIN,
 }
+_OTHERS = {
+    "period": TIME,
+    "hold": TIME,
+    "strobe": FREQUENCY,
+    "blend": LENGTH,
+    "brush point": LENGTH,
+    "brush bar": LENGTH,
+}
 # Of lengths [m], angles [rad] and times [s]: far above any drawing, and the fourth power of it,
 # scaled as much again, is still a computer's number.
 LARGEST = 1e9
@@ -55,8 +66,8 @@ _LARGEST_COUNT = 10**15  # of samples; far above what is ever allowed, far below
 
 def dimension_of(word: str) -> Dimension:
     """The dimension of the number that a part takes."""
-    if word in ("period", "hold"):
-        return TIME
+    if word in _OTHERS:
+        return _OTHERS[word]
     return _DIMENSIONS[PARTS[word].takes]
 
 
@@ -131,6 +142,21 @@ def direction(node: Expression, scope: Scope, word: str) -> Vector:
     return space.unit(floats(value))
 
 
+def frame(node: Expression, scope: Scope) -> Frame:
+    """The frame that a name stands for."""
+    if isinstance(node, Name) and not scope.knows(node.name):
+        frames = [name for name, value in scope.names.items() if isinstance(value, Placement)]
+        cure = did_you_mean(closest(node.name, frames))
+        cure = cure or f"name it first: frame {node.name} at (30, 0) mm"
+        raise problem("E205", f"'{node.name}' is not known", node.span, "", cure)
+    value = evaluate(node, scope)
+    if isinstance(value, Placement):
+        return value.frame
+    message = f"'frame' needs a frame, but this is {describe(value)}"
+    cure = "name one first: frame leaf at (30, 0) mm turned 45 deg"
+    raise problem("E218", message, node.span, "", cure)
+
+
 def rotation(node: Expression, scope: Scope, word: str) -> Quaternion:
     """An orientation, or an angle about z."""
     value = evaluate(node, scope)
@@ -189,7 +215,8 @@ def _colour_of_text(node: Expression, text: str) -> Colour:
         )
     meant = closest(text, colours.NAMES)
     cure = did_you_mean(meant) or 'for example: red, hsv(30 deg), "#ff8800"'
-    raise problem("E216", f'there is no colour "{text}"', node.span, "", cure)
+    fix = Fix(f"write {meant}", node.span, f'"{meant}"') if meant else None
+    raise problem("E216", f'there is no colour "{text}"', node.span, "", cure, fix)
 
 
 def floats(value: Point) -> Vector:
@@ -212,24 +239,31 @@ def needs(node: Expression, value: Value, scope: Scope, word: str, dimension: Di
         cure = f"write {written}" if written else f"for example: {_example(word)}"
         fix = Fix(cure, node.span, written) if written else None
         return problem("E218", message, node.span, "no unit", cure, fix)
-    cure = f"for example: {_example(word)}" if _example(word) else ""
+    cure, fix = (f"for example: {_example(word)}" if _example(word) else ""), None
     if isinstance(value, Quantity | Point):
         kind = value.dimension
         per_time = tuple(a - b for a, b in zip(kind, TIME, strict=True))
         per_angle = tuple(a - b for a, b in zip(kind, ANGLE, strict=True))
+        per = ""
         if dimension == per_time and dimension in (SPEED, TURNSPEED):
-            cure = f"write {scope.written(node)}/s"
+            per = "/s"
         elif dimension == per_angle == PITCH:
-            cure = f"write {scope.written(node)}/turn"
+            per = "/turn"
         elif kind == (1.0, 0.0, 1.0, 0.0) and dimension == LENGTH:
             cure = "an angle becomes a plain number when it is divided by rad"
+        if per:
+            cure = f"write {scope.written(node)}{per}"
+            if isinstance(node, Literal | Name | Call):
+                fix = Fix(cure, node.span, f"{scope.written(node)}{per}")
     shown = describe(value)
     if isinstance(value, Point) and word in ("to", "by") and value.dimension != PLAIN:
         shown = dimension_name(value.dimension)
-    return problem("E218", f"'{word}' needs {needed}, but this is {shown}", node.span, "", cure)
+    message = f"'{word}' needs {needed}, but this is {shown}"
+    return problem("E218", message, node.span, "", cure, fix)
 
 
 def _example(word: str) -> str:
+    word = word.partition(" ")[0]
     if word in PARTS:
         return PARTS[word].example
     return STATEMENTS[word].example if word in STATEMENTS else ""

@@ -29,16 +29,32 @@ BUILTINS: dict[str, Value] = {
 }
 
 
+MOST_STEPS = 1_000_000  # of all calls of a file's functions, a step for each part of a formula
+MOST_CURVE_STEPS = 10_000  # of those in one formula of a curve, which works on whole series
+DEEPEST_CALLS = 100  # parts of formulas within each other
+
+
+class Budget:
+    """What may still be spent on calls of the file's own functions."""
+
+    __slots__ = ("depth", "steps")
+
+    def __init__(self, steps: int = MOST_STEPS) -> None:
+        self.steps = steps
+        self.depth = 0
+
+
 class Scope:
     """The names that have a value at one place, and the text they were written in.
 
     A value of None belongs to a name whose line had a mistake.
     """
 
-    __slots__ = ("names", "places", "text")
+    __slots__ = ("budget", "names", "places", "text")
 
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, budget: Budget | None = None) -> None:
         self.text = text
+        self.budget = budget or Budget()
         self.names: dict[str, Value | None] = {}
         self.places: dict[str, Span] = {}
 
@@ -52,10 +68,14 @@ class Scope:
             name, _ = self.names.popitem()
             self.places.pop(name, None)
 
-    def only(self, names: Iterable[str]) -> "Scope":
-        """A copy that knows some of the names; it stays as it is when this one goes on."""
-        inner = Scope(self.text)
-        inner.names = {name: self.names[name] for name in names if name in self.names}
+    def known(self, names: Iterable[str]) -> dict[str, Value | None]:
+        """Those of the names that have a value; it stays as it is when this scope goes on."""
+        return {name: self.names[name] for name in names if name in self.names}
+
+    def within(self, names: dict[str, Value | None], budget: Budget | None = None) -> "Scope":
+        """Another scope, which knows these names alone."""
+        inner = Scope(self.text, budget or self.budget)
+        inner.names = names
         return inner
 
     def written(self, node: Expression) -> str:

@@ -1,10 +1,13 @@
-"""What holds until something else is said: speed, law, tool, light."""
+"""What holds until something else is said: speed, law, tool, blend, light, brush, strobe."""
 
 import math
 from dataclasses import dataclass, replace
 
 from dqpaint.language import colours, reading
+from dqpaint.language.diagnostics import problem
 from dqpaint.language.program import (
+    Bar,
+    Brush,
     Colour,
     Follow,
     Keep,
@@ -13,10 +16,21 @@ from dqpaint.language.program import (
     Look,
     LookLine,
     Quaternion,
+    Strobe,
 )
+from dqpaint.language.program import Point as Dot
 from dqpaint.language.scope import Scope
 from dqpaint.language.space import Frame, Y
-from dqpaint.language.syntax import LightWords, Part, Shade, ToolWords
+from dqpaint.language.syntax import (
+    BlendWords,
+    BrushWords,
+    Expression,
+    LightWords,
+    Part,
+    Shade,
+    StrobeWords,
+    ToolWords,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +44,7 @@ ToolMode = Keep | Follow | Look | LookLine | Towards
 
 
 REST_TO_REST, KEEP = Law("trapezoid"), Keep()
+POINT = Dot()
 WHITE = Light(colours.WHITE, colours.WHITE)
 
 
@@ -44,6 +59,9 @@ class Settings:
         tool: what it does meanwhile.
         light: None is dark.
         shone: the light that was named last: what `on` means.
+        brush: what shines.
+        strobe: None is steady.
+        blend: the distance [m] within which corners are rounded.
     """
 
     speed: float = 0.1
@@ -52,9 +70,14 @@ class Settings:
     tool: ToolMode = KEEP
     light: Light | None = WHITE
     shone: Light = WHITE
+    brush: Brush = POINT
+    strobe: Strobe | None = None
+    blend: float = 0.0
 
 
 PERIOD = 0.008  # [s]
+LARGEST_LAMP = 10.0  # [m]
+SLOWEST_STROBE, FASTEST_STROBE = 1e-3, 1e6  # [Hz]
 
 
 def changed(settings: Settings, part: Part, scope: Scope, frame: Frame) -> Settings:
@@ -67,6 +90,13 @@ def changed(settings: Settings, part: Part, scope: Scope, frame: Frame) -> Setti
         named = value.first.word != "on"  # `on 40%` is 40% of what was named, however often
         shone = light if light is not None and named else settings.shone
         return replace(settings, light=light, shone=shone)
+    if isinstance(value, BrushWords):
+        return replace(settings, brush=brush_of(value, scope))
+    if isinstance(value, StrobeWords):
+        return replace(settings, strobe=strobe_of(value, scope))
+    if isinstance(value, BlendWords):
+        size = 0.0 if value.size is None else reading.positive(value.size, scope, "blend")
+        return replace(settings, blend=size)
     if part.word == "law":
         return replace(settings, law=reading.law(value, scope))
     size = reading.positive(value, scope, part.word)
@@ -103,7 +133,38 @@ def light_of(words: LightWords, settings: Settings, scope: Scope) -> Light | Non
         last = _shade(words.last, settings.shone.last, scope, after_to=True)
     elif words.first.word == "on":
         last = colours.dimmed(settings.shone.last, words.first.brightness)
-    return Light(first, last) if (first, last) != (colours.DARK, colours.DARK) else None
+    even = words.even or (words.first.word == "on" and settings.shone.even)
+    return Light(first, last, even) if (first, last) != (colours.DARK, colours.DARK) else None
+
+
+def brush_of(words: BrushWords, scope: Scope) -> Brush:
+    """What stands after `brush`; it stands in the tool's frame and is never scaled."""
+    if words.kind == "point":
+        return Dot(_size_of_lamp(words.size, scope, "brush point") if words.size else 0.0)
+    assert words.size is not None
+    size = _size_of_lamp(words.size, scope, "brush bar")
+    if words.along is None:
+        return Bar(size)
+    return Bar(size, reading.direction(words.along, scope, "along"))
+
+
+def _size_of_lamp(node: Expression, scope: Scope, word: str) -> float:
+    size = reading.positive(node, scope, word)
+    if size > LARGEST_LAMP:
+        message = f"a lamp is at most {LARGEST_LAMP:g} m large"
+        raise problem("E258", message, node.span, "", "for example: brush bar 120 mm along x")
+    return size
+
+
+def strobe_of(words: StrobeWords, scope: Scope) -> Strobe | None:
+    """What stands after `strobe`."""
+    if words.frequency is None:
+        return None
+    frequency = reading.positive(words.frequency, scope, "strobe")
+    if not SLOWEST_STROBE <= frequency <= FASTEST_STROBE:
+        message = f"a strobe flashes {SLOWEST_STROBE:g} to {FASTEST_STROBE:,.0f} times a second"
+        raise problem("E259", message, words.frequency.span, "", "for example: strobe 10 Hz 30%")
+    return Strobe(frequency, words.duty)
 
 
 def _shade(shade: Shade, on: Colour, scope: Scope, after_to: bool = False) -> Colour:
@@ -115,6 +176,6 @@ def _shade(shade: Shade, on: Colour, scope: Scope, after_to: bool = False) -> Co
 
 def standing(light: Light | None) -> Light | None:
     """The light of a pause under this setting: what the stroke before it ended with."""
-    if light is None or light.last == colours.DARK:
-        return None
+    if light is None or light.even or light.last == colours.DARK:
+        return None  # a light that is even over the way does not shine where there is none
     return Light(light.last, light.last)

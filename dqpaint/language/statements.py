@@ -1,50 +1,54 @@
 """One line of tokens -> one statement, as the tables of `words` say it is made."""
 
-import re
+from typing import NamedTuple
 
-from dqpaint.language import forms
+from dqpaint.language import clauses, fits, forms
 from dqpaint.language.cursor import Cursor, example_of, found, no_value
 from dqpaint.language.diagnostics import Fix, Problem, Span, problem
-from dqpaint.language.expressions import expression
+from dqpaint.language.expressions import bracket, expression
 from dqpaint.language.lexer import Token, number_value
 from dqpaint.language.names import new_name
 from dqpaint.language.suggestions import closest, did_you_mean, listed
-from dqpaint.language.syntax import (
-    Expression,
-    LightWords,
-    Part,
-    Shade,
-    Statement,
-    ToolWords,
-    Word,
-)
-from dqpaint.language.units import FOREIGN_UNITS, UNITS
-from dqpaint.language.words import NOT_YET, PART_ALIASES, PARTS, SETTINGS, STATEMENTS
+from dqpaint.language.syntax import Expression, Part, Quoted, Statement, Word
+from dqpaint.language.units import FOREIGN_UNITS, SAME_UNITS, UNITS
+from dqpaint.language.words import PART_ALIASES, PARTS, SETTINGS, STATEMENTS
 
 VERSION = 1  # of the language, for `traj 1`
 
-# A colour that has become a comment for want of quotes.
-_COMMENTED_COLOUR = re.compile(r"[^\S\n]*(#[0-9a-fA-F]{3,8})\b")
 
-_Head = tuple[Word | None, tuple[Expression, ...]]
+class _Head(NamedTuple):
+    """What stands between the first word of a line and its parts."""
+
+    name: Word | None = None
+    values: tuple[Expression, ...] = ()
+    params: tuple[Word, ...] | None = None
 
 
 def statement(cursor: Cursor) -> Statement:
     """Reads a line whose first word is a statement's; raises a `Problem` at its first mistake."""
     first = cursor.take()
     known = STATEMENTS[first.text]
-    name: Word | None = None
-    values: tuple[Expression, ...] = ()
+    head = _Head()
     if first.text in SETTINGS:  # a setting's line is the clause alone
         parts = [_part(cursor, first.text, first.span)]
     else:
-        name, values = _head(cursor, first.text, known.head)
+        head = _head(cursor, first.text, known.head)
         parts = _parts(cursor, first.text)
     if not cursor.at_end:
         raise _left_over(cursor, first.text)
-    whole = Statement(first.text, cursor.span_from(first.start), name, values, tuple(parts))
+    span = cursor.span_from(first.start)
+    whole = Statement(first.text, span, head.name, head.values, tuple(parts), params=head.params)
     forms.check(whole, cursor.text)
     return whole
+
+
+def call(cursor: Cursor) -> Statement:
+    """Reads a line that calls a `def`: `star(20 mm)`."""
+    name = cursor.take()
+    values = bracket(cursor, of=name.text)
+    if not cursor.at_end:
+        raise _left_over(cursor, name.text)
+    return Statement("call", cursor.span_from(name.start), Word(name.text, name.span), values)
 
 
 # What stands between the first word and the parts.
@@ -53,9 +57,9 @@ def statement(cursor: Cursor) -> Statement:
 def _head(cursor: Cursor, word: str, head: str) -> _Head:
     match head:
         case "":
-            return None, ()
+            return _Head()
         case "value":
-            return None, (_expression(cursor, word),)
+            return _Head(values=(_expression(cursor, word),))
         case "let":
             return _let(cursor)
         case "formula":
@@ -63,15 +67,21 @@ def _head(cursor: Cursor, word: str, head: str) -> _Head:
         case "repeat":
             return _repeat(cursor)
         case "robot":
-            return _robot(cursor), ()
+            return _Head(_robot(cursor))
         case "place":
-            return (_word(cursor) if cursor.is_word("auto") else None), ()
-        case "brush":
-            return _brush(cursor), ()
+            return _Head(_word(cursor) if cursor.is_word("auto") else None)
+        case "include":
+            return _include(cursor)
+        case "def":
+            return _def(cursor)
+        case "frame":
+            return _Head(new_name(cursor, "frame", example_of("frame")))
+        case "texts":
+            return _Head(values=fits.texts(cursor, word))
         case _:
             assert head == "version", head
             _version(cursor)
-            return None, ()
+            return _Head()
 
 
 def _expression(cursor: Cursor, after: str) -> Expression:
@@ -83,17 +93,12 @@ def _expression(cursor: Cursor, after: str) -> Expression:
 
 def _let(cursor: Cursor) -> _Head:
     name = new_name(cursor, "let", example_of("let"))
-    if cursor.is_sign("("):
-        raise problem(
-            "E122",
-            "functions of your own are not in this version of dqpaint yet",
-            cursor.token.span,
-        )
+    params = _params(cursor, "let") if cursor.is_sign("(") else None
     if not cursor.is_sign("="):
         message = f"expected '=' but found {found(cursor.token)}"
         raise problem("E109", message, cursor.token.span, "", f"write: let {name.text} = …")
     cursor.take()
-    return name, (_expression(cursor, "="),)
+    return _Head(name, (_expression(cursor, "="),), params)
 
 
 def _formula(cursor: Cursor) -> _Head:
@@ -104,7 +109,7 @@ def _formula(cursor: Cursor) -> _Head:
     _expect(cursor, "from", example)
     lower = _expression(cursor, "from")
     _expect(cursor, "to", example)
-    return name, (formula, lower, _expression(cursor, "to"))
+    return _Head(name, (formula, lower, _expression(cursor, "to")))
 
 
 def _repeat(cursor: Cursor) -> _Head:
@@ -114,7 +119,7 @@ def _repeat(cursor: Cursor) -> _Head:
         if cursor.is_word("from"):
             message = "expected a name before 'from'"
             raise problem("E109", message, count.span, "", "for example: repeat i from 1 to 5")
-        return None, (count,)
+        return _Head(values=(count,))
     name = new_name(cursor, "repeat", example_of("repeat"))
     cursor.take()
     lower = _expression(cursor, "from")
@@ -122,14 +127,17 @@ def _repeat(cursor: Cursor) -> _Head:
     upper = cursor.token.text if cursor.token.kind == "number" else "5"
     example = f"repeat {name.text} from {written} to {upper}"
     _expect(cursor, "to", example)
-    return name, (lower, _expression(cursor, "to"))
+    return _Head(name, (lower, _expression(cursor, "to")))
 
 
 def _expect(cursor: Cursor, word: str, example: str) -> None:
     if not cursor.is_word(word):
         span = cursor.token.span if not cursor.at_end else cursor.before.span
         message = f"expected '{word}' but found {found(cursor.token)}"
-        raise problem("E116", message, span, "", f"write: {example}")
+        at = cursor.token.start if not cursor.at_end else cursor.before.end
+        opens = cursor.token.kind == "number" or cursor.is_sign("(")
+        fix = Fix(f"write {word}", Span(at, at), f"{word} ") if opens else None
+        raise problem("E116", message, span, "", f"write: {example}", fix)
     cursor.take()
 
 
@@ -150,14 +158,39 @@ def _robot(cursor: Cursor) -> Word:
     return Word(token.text, token.span)
 
 
-def _brush(cursor: Cursor) -> Word:
-    token = cursor.take()
-    if token.text == "bar":
-        raise problem("E122", "'brush bar' is not in this version of dqpaint yet", token.span)
-    if token.kind != "name" or token.text != "point":
-        message = f"expected a kind of brush but found {found(token)}"
-        raise problem("E109", message, token.span, "", "write: brush point")
-    return Word(token.text, token.span)
+def _include(cursor: Cursor) -> _Head:
+    token = cursor.take()  # a text, as the parser saw to
+    if not token.text.strip():
+        message = "this text has no name of a file in it"
+        raise problem("E109", message, token.span, "", f"write: {example_of('include')}")
+    return _Head(values=(Quoted(token.text, token.span),))
+
+
+def _def(cursor: Cursor) -> _Head:
+    name = new_name(cursor, "def", example_of("def"))
+    return _Head(name, params=_params(cursor, "def") if cursor.is_sign("(") else ())
+
+
+def _params(cursor: Cursor, after: str) -> tuple[Word, ...]:
+    """The names in brackets behind the name of a function or a `def`."""
+    cursor.take()
+    example = "let f(x) = 2*x" if after == "let" else example_of(after)
+    params: dict[str, Word] = {}
+    while not (cursor.is_sign(")") and not params):
+        name = new_name(cursor, "(" if not params else ",", example, handed=True)
+        if name.text in params:
+            message = f"'{name.text}' comes twice in these brackets"
+            raise problem("E230", message, name.span, "second", "choose another name")
+        params[name.text] = name
+        if not cursor.is_sign(","):
+            break
+        cursor.take()
+    if not cursor.is_sign(")"):
+        message = f"expected ',' or ')' but found {found(cursor.token)}"
+        cure = "in these brackets stand names alone; values follow where it is called"
+        raise problem("E109", message, cursor.token.span, "", cure)
+    cursor.take()
+    return tuple(params.values())
 
 
 def _version(cursor: Cursor) -> None:
@@ -189,90 +222,18 @@ def _parts(cursor: Cursor, word: str) -> list[Part]:
 
 def _part(cursor: Cursor, word: str, span: Span) -> Part:
     takes = PARTS[word].takes
-    if takes == "tool":
-        return Part(word, span, _tool(cursor))
-    if takes == "light":
-        return Part(word, span, _light(cursor))
+    if takes in clauses.READERS:
+        return Part(word, span, clauses.READERS[takes](cursor))
+    if takes in fits.READERS:
+        return Part(word, span, fits.READERS[takes](cursor))
     return Part(word, span, _expression(cursor, word))
 
 
-def _tool(cursor: Cursor) -> ToolWords:
-    start = cursor.token.start
-    values: tuple[Expression, ...] = ()
-    if cursor.is_word("keep") or cursor.is_word("follow"):
-        mode = cursor.take().text
-    elif cursor.is_word("look"):
-        cursor.take()
-        if cursor.is_word("line"):
-            cursor.take()
-            mode = "look line"
-            point = _expression(cursor, "look line")
-            _expect(cursor, "along", "tool look line POINT along DIRECTION")
-            values = (point, _expression(cursor, "along"))
-        else:
-            mode = "look"
-            values = (_expression(cursor, "look"),)
-            if cursor.is_word("up"):
-                cursor.take()
-                values = (*values, _expression(cursor, "up"))
-    else:
-        mode = "turn"
-        values = (_expression(cursor, "tool"),)
-    return ToolWords(mode, values, cursor.span_from(start))
-
-
-def _light(cursor: Cursor) -> LightWords:
-    start = cursor.token.start
-    first = _shade(cursor)
-    last = None
-    if cursor.is_word("to"):
-        cursor.take()
-        last = _shade(cursor, "light … to")
-    return LightWords(first, last, cursor.span_from(start))
-
-
-def _shade(cursor: Cursor, after: str = "light") -> Shade:
-    start, word, value = cursor.token.start, "", None
-    percent = cursor.peek().kind == "sign" and cursor.peek().text == "%"
-    if cursor.is_word("on") or cursor.is_word("off"):
-        word = cursor.take().text
-    elif cursor.at_end or (cursor.token.kind == "number" and percent):
-        raise _no_colour(cursor)
-    else:
-        value = expression(cursor, after)
-    brightness = 1.0
-    if cursor.token.kind == "number":
-        brightness = number_value(cursor.take().text) / 100.0
-        if not cursor.is_sign("%"):
-            message = f"expected '%' after the brightness but found {found(cursor.token)}"
-            raise problem("E109", message, cursor.before.span, "", "for example: light red 40%")
-        cursor.take()
-        if brightness > 1.0:
-            span = Span(start, cursor.before.end)
-            message = "the brightness goes from 0% to 100%"
-            raise problem("E217", message, span, "", "for a brighter picture expose it longer")
-    return Shade(word, value, brightness, cursor.span_from(start))
-
-
-def _no_colour(cursor: Cursor) -> Problem:
-    """E108. A comment swallowed `#ff8800`, or the brightness stands without its colour."""
-    cure = 'for example: light red, light hsv(30 deg), light "#ff8800", light off'
-    span = cursor.before.span
-    if cursor.token.kind == "number":
-        cure = f"the brightness follows the colour: light white {cursor.token.text}%"
-        span = cursor.token.span
-    elif comment := _COMMENTED_COLOUR.match(cursor.text, span.end):
-        cure = f'a # starts a comment; put the colour in quotes: light "{comment[1]}"'
-    return problem("E108", "'light' needs a colour", span, "", cure)
-
-
-ROUND = ("radius", "r", "diameter")  # what people give an arc besides its centre
+ROUND = ("r", "diameter")  # what people give an arc besides its centre
 
 
 def _unknown_part(cursor: Cursor, word: str) -> Problem:
     token, known = cursor.token, STATEMENTS[word]
-    if token.text in NOT_YET:
-        return problem("E122", f"'{token.text}' is not in this version of dqpaint yet", token.span)
     after_number = cursor.before.kind == "number" or cursor.before.text == ")"
     if token.text in FOREIGN_UNITS and after_number:
         return _foreign_unit(token)
@@ -297,7 +258,9 @@ def _unknown_part(cursor: Cursor, word: str) -> Problem:
 def _foreign_unit(token: Token) -> Problem:
     unit = FOREIGN_UNITS[token.text]
     cure = f"did you mean '{unit}'? units are {', '.join(UNITS)}"
-    return problem("E102", f"'{token.text}' is not a unit of this language", token.span, "", cure)
+    fix = Fix(f"write {unit}", token.span, unit) if token.text in SAME_UNITS else None
+    message = f"'{token.text}' is not a unit of this language"
+    return problem("E102", message, token.span, "", cure, fix)
 
 
 def _left_over(cursor: Cursor, word: str) -> Problem:

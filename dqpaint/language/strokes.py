@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from dqpaint.language import arcs, curves, lines, reading, space, tools
+from dqpaint.language import arcs, curves, elsewhere, lines, reading, space, tools
 from dqpaint.language.diagnostics import problem
 from dqpaint.language.pen import SAME_PLACE, SAME_TURN, Pen
 from dqpaint.language.program import (
@@ -32,6 +32,8 @@ from dqpaint.language.words import SETTINGS
 def draw(statement: Statement, pen: Pen, scope: Scope) -> None:
     """Adds what a movement draws; its clauses hold for it alone."""
     outside = pen.settings
+    for part in statement.parts:
+        pen.check_pace(part)
     if not lines.sets_start(statement, pen):
         pen.begin(statement.span)
     try:
@@ -70,6 +72,17 @@ def _arc(statement: Statement, pen: Pen, scope: Scope) -> None:
             pen.pose, pen.lost = Pose(end, pen.pose.orientation), False
             return
         arc = arcs.through(start, through, end, via.span, to.span)
+    elif statement.part("radius") is not None:
+        to = statement.given("to")
+        end = _place(to, pen, scope, "to")
+        radius = pen.frame.scale * reading.positive(statement.given("radius"), scope, "radius")
+        axis = _axis(statement, pen, scope)
+        if pen.lost:
+            pen.pose, pen.lost = Pose(end, pen.pose.orientation), False
+            return
+        side = 1.0 if statement.part("left") else -1.0
+        long, spans = statement.part("long") is not None, (statement.given("radius").span, to.span)
+        arc = arcs.of_radius(start, end, radius, space.times(side, axis), long, *spans)
     else:
         arc = _turn_about_centre(statement, pen, scope)
         end = arcs.end_of(arc, start)
@@ -80,8 +93,7 @@ def _turn_about_centre(statement: Statement, pen: Pen, scope: Scope) -> Arc:
     node = statement.value("centre") or statement.given("center")
     frame = pen.frame
     centre = _place(node, pen, scope, "centre")
-    axis_node = statement.value("axis")
-    axis = reading.direction(axis_node, scope, "axis") if axis_node else space.Z
+    axis = _axis(statement, pen, scope)
     angle_node = statement.given("angle")
     angle = reading.number(angle_node, scope, "angle")
     if angle == 0.0:
@@ -94,11 +106,17 @@ def _turn_about_centre(statement: Statement, pen: Pen, scope: Scope) -> Arc:
         for word in ("rise", "grow")
         for part in (statement.value(word),)
     )
-    arc = Arc(centre, frame.direction(axis), angle, rise, grow)
+    arc = Arc(centre, axis, angle, rise, grow)
     if not pen.lost:
         grow_node = statement.value("grow")
         arcs.check(arc, pen.pose.position, node.span, grow_node.span if grow_node else node.span)
     return arc
+
+
+def _axis(statement: Statement, pen: Pen, scope: Scope) -> Vector:
+    """What an arc turns about, in the drawing frame."""
+    node = statement.value("axis")
+    return pen.frame.direction(reading.direction(node, scope, "axis") if node else space.Z)
 
 
 def _draw_arc(statement: Statement, pen: Pen, scope: Scope, arc: Arc, end: Vector) -> None:
@@ -166,6 +184,7 @@ def _curve(statement: Statement, pen: Pen, scope: Scope) -> None:
     if pen.lost:
         pen.pose, pen.lost = Pose(start, pen.pose.orientation), False
     elif gap > curves.GAP:
+        pen.check_no_stop(statement.span)
         message = f"the curve starts {_millimetres(gap)} away from where the tool is"
         cure = "a light-off move is added; write a move to choose its speed"
         pen.warn("W402", message, span, "", cure)
@@ -228,4 +247,7 @@ _DRAW = {
     "curve": _curve,
     "step": _step,
     "hold": _hold,
+    "text": elsewhere.text,
+    "path": elsewhere.path,
+    "svg": elsewhere.svg,
 }

@@ -1,6 +1,6 @@
 """The syntax tree: what was written, with its place, before anything is known about its meaning."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass
 
 from dqpaint.language.diagnostics import Span
 
@@ -79,23 +79,46 @@ class Power:
 Expression = Literal | Name | Quoted | Bracket | Call | Sign | Chain | Power
 
 
-def names_in(node: Expression) -> set[str]:
-    """The names an expression uses."""
+def names_in(tree: object) -> set[str]:
+    """The names, functions and calls that an expression uses, or a statement with all its lines."""
+    names, left = set(), [tree]
+    while left:  # no recursion: a tree may be deep
+        node = left.pop()
+        if isinstance(node, tuple):
+            left.extend(node)
+        elif isinstance(node, Name | Call):
+            names.add(node.name)
+        elif isinstance(node, Statement) and node.word == "call" and node.name is not None:
+            names.add(node.name.text)
+        if is_dataclass(node):
+            left.extend(getattr(node, field.name) for field in fields(node))
+    return names
+
+
+def size_of(node: Expression) -> tuple[int, int]:
+    """How many nodes an expression has, and how many of them within each other."""
+    size, deepest, left = 0, 0, [(node, 1)]
+    while left:
+        inner, depth = left.pop()
+        size, deepest = size + 1, max(deepest, depth)
+        left.extend((child, depth + 1) for child in _children(inner))
+    return size, deepest
+
+
+def _children(node: Expression) -> tuple[Expression, ...]:
     match node:
-        case Name(name):
-            return {name}
         case Bracket(values) | Call(_, values):
-            return set().union(*map(names_in, values))
+            return values
         case Sign(value):
-            return names_in(value)
+            return (value,)
         case Chain(first, rest):
-            return names_in(first).union(*(names_in(value) for _, value in rest))
+            return (first, *(value for _, value in rest))
         case Power(base, exponent):
-            return names_in(base) | names_in(exponent)
-    return set()
+            return base, exponent
+    return ()
 
 
-# What stands after `tool` and `light`.
+# What stands after `tool`, `light`, `brush`, `strobe` and `blend`.
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,11 +142,42 @@ class Shade:
 
 @dataclass(frozen=True, slots=True)
 class LightWords:
-    """One shade, or one that goes over into another."""
+    """One shade, or one that goes over into another; `even` if it is to be equally bright."""
 
     first: Shade
     last: Shade | None
     span: Span
+    even: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class BrushWords:
+    """`point` with its size, or `bar` with its length and perhaps its direction."""
+
+    kind: str
+    size: Expression | None
+    along: Expression | None
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class StrobeWords:
+    """How often it flashes, None for `off`, and for what part of the time, 0 to 1."""
+
+    frequency: Expression | None
+    duty: float
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class BlendWords:
+    """The distance within which corners are rounded; None for `off`."""
+
+    size: Expression | None
+    span: Span
+
+
+Words = ToolWords | LightWords | BrushWords | StrobeWords | BlendWords
 
 
 # Statements.
@@ -143,12 +197,12 @@ class Part:
 
     word: str
     span: Span  # of the word alone
-    value: Expression | ToolWords | LightWords
+    value: Expression | Words
 
     @property
     def expression(self) -> Expression:
-        """The value of a part that takes neither tool nor light."""
-        assert not isinstance(self.value, ToolWords | LightWords)
+        """The value of a part that has no little grammar of its own; a flag's is its own word."""
+        assert not isinstance(self.value, Words)
         return self.value
 
 
@@ -157,14 +211,16 @@ class Statement:
     """A line.
 
     Attributes:
-        word: its first word, as in `words.STATEMENTS`.
+        word: its first word, as in `words.STATEMENTS`; `call` for the call of a `def`.
         span: all of it.
-        name: what it gives a name to, or the robot's.
+        name: what it gives a name to, or the robot's; the `def` that is called.
         values: the values before its parts: of a `let`, a `hold`; the formula and the two ends of
-            a `curve`; the count of a `repeat`, or its two ends.
+            a `curve`; the count of a `repeat`, or its two ends; what a call hands over; the file
+            of an `include`.
         parts: the parts, as they come.
-        body: the lines of a block.
+        body: the lines of a block, or of the file that is included.
         broken: a mistake in it was reported; only its name and its body are to be trusted.
+        params: the names of what a function or a `def` is handed; None for a `let` of a value.
     """
 
     word: str
@@ -174,6 +230,7 @@ class Statement:
     parts: tuple[Part, ...] = ()
     body: tuple["Statement", ...] = ()
     broken: bool = False
+    params: tuple[Word, ...] | None = None
 
     def part(self, word: str) -> Part | None:
         """The first part of this name."""

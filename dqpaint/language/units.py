@@ -64,6 +64,13 @@ FOREIGN_UNITS = {
     "k": "K",
 }
 
+# Those of them that are the same by another name, so that no number changes.
+SAME_UNITS = {
+    word: unit
+    for word, unit in FOREIGN_UNITS.items()
+    if word not in ("min", "us", "km", "inch", "px", "pt")
+}
+
 NAMES = {
     PLAIN: "a plain number",
     LENGTH: "a length",
@@ -75,7 +82,7 @@ NAMES = {
     ACCELERATION: "an acceleration",
     TURN_ACCELERATION: "a turning acceleration",
     PITCH: "a length per angle",
-    FREQUENCY: "a number per time",
+    FREQUENCY: "a frequency",
     (2.0, 0.0, 0.0, 0.0): "an area",
     (1.0, 0.0, 1.0, 0.0): "a length times an angle",
 }
@@ -111,6 +118,7 @@ def plausible_unit(value: float, dimension: Dimension, word: str = "") -> str:
         SPEED: "mm/s" if size >= 1 or size == 0 else "m/s",
         TURNSPEED: "deg/s" if size >= 7 or float(value).is_integer() else "rad/s",
         PITCH: "mm/turn",
+        FREQUENCY: "Hz",
         ACCELERATION: "mm/s/s",
         TURN_ACCELERATION: "deg/s/s",
         TEMPERATURE: "K",

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from dqpaint.language import space, taylor
 from dqpaint.language.diagnostics import Span, problem
 from dqpaint.language.program import Colour, Quaternion
+from dqpaint.language.syntax import Expression, Statement, Word
 from dqpaint.language.taylor import Taylor
 from dqpaint.language.taylor import Value as Scalar
 from dqpaint.language.units import LARGEST_EXPONENT, LENGTH, PLAIN, Dimension, dimension_name
@@ -57,7 +58,43 @@ class Text:
     text: str
 
 
-Value = Quantity | Point | Orientation | Tint | TimeLaw | Text
+@dataclass(frozen=True, slots=True)
+class Placement:
+    """A frame with a name."""
+
+    frame: space.Frame
+
+
+@dataclass(frozen=True, slots=True)
+class Function:
+    """A function of the file: the names it is handed, its formula, and the names that knows.
+
+    `size` and `depth` are those of the formula, as `syntax.size_of` counts them.
+    """
+
+    name: str
+    params: tuple[str, ...]
+    body: Expression
+    known: dict[str, "Value | None"]
+    size: int
+    depth: int
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """A `def` of the file: the names it is handed, its lines, and the names those know.
+
+    `size` is how many statements a call of it is at least.
+    """
+
+    name: str
+    params: tuple[Word, ...]
+    body: tuple[Statement, ...]
+    known: dict[str, "Value | None"]
+    size: int
+
+
+Value = Quantity | Point | Orientation | Tint | TimeLaw | Text | Placement | Function | Drawing
 
 
 def describe(value: Value) -> str:
@@ -79,6 +116,12 @@ def describe(value: Value) -> str:
             return "a time law"
         case Text():
             return "a text"
+        case Placement():
+            return "a frame"
+        case Function():
+            return "a function"
+        case Drawing():
+            return "a def"
 
 
 def is_zero(value: Value) -> bool:

@@ -13,8 +13,8 @@ class PartWord:
 
     Attributes:
         word: as it is written.
-        takes: the kind of value: a dimension or a kind of value, or `tool` or `light`, which have a
-            little grammar of their own.
+        takes: the kind of value: a dimension or a kind of value; or `tool`, `light`, `brush`,
+            `strobe`, `blend`, which have a little grammar of their own; or `flag`, for none.
         says: its meaning in a line.
         example: the word with a value, fit to be pasted.
     """
@@ -50,10 +50,13 @@ class StatementWord:
     moves: bool = False
 
 
-SETTINGS = ("speed", "turnspeed", "law", "tool", "light")
+LAMP = ("light", "brush", "strobe")  # what shines, and how
+SETTINGS = ("speed", "turnspeed", "law", "tool", "blend", *LAMP)
 TIMES = ("in", "samples")
+PACE = (*TIMES, "speed", "turnspeed", "law")  # what a `stroke` says for all of its lines
 CLAUSES = (*TIMES, *SETTINGS)
-DARK_CLAUSES = tuple(word for word in CLAUSES if word != "light")
+OWN_CORNERS = tuple(word for word in CLAUSES if word != "blend")  # of what comes from elsewhere
+DARK_CLAUSES = tuple(word for word in CLAUSES if word not in LAMP)
 
 PARTS = {
     part.word: part
@@ -66,6 +69,10 @@ PARTS = {
         PartWord("center", "place", "the same as centre", "center (0, 0)"),
         PartWord("axis", "direction", "what the arc turns about; z if not said", "axis z"),
         PartWord("angle", "angle", "how far it turns, by the right-hand rule", "angle 360 deg"),
+        PartWord("radius", "length", "the radius of an arc to a point", "radius 20 mm"),
+        PartWord("left", "flag", "the arc turns left, against the clock", "left"),
+        PartWord("right", "flag", "the arc turns right, with the clock", "right"),
+        PartWord("long", "flag", "the longer of two arcs: more than half a turn", "long"),
         PartWord("rise", "length", "how far it advances along the axis in all", "rise 7 cm"),
         PartWord("grow", "length", "how much the radius grows in all", "grow -3 cm"),
         PartWord("about", "place", "a point of the axis", "about (0, 0, 0)"),
@@ -74,6 +81,7 @@ PARTS = {
         PartWord("rotate", "rotation", "the block, turned", "rotate 30 deg"),
         PartWord("shift", "shift", "the block, moved", "shift (80, 0) mm"),
         PartWord("scale", "number", "the block, larger or smaller", "scale 0.5"),
+        PartWord("frame", "frame", "the block, in a frame that has a name", "frame leaf"),
         PartWord("turned", "rotation", "which way round", "turned rpy(0 deg, 0 deg, 90 deg)"),
         PartWord("in", "time", "how long it takes", "in 2 s"),
         PartWord("samples", "count", "how many samples it takes", "samples 300"),
@@ -81,7 +89,18 @@ PARTS = {
         PartWord("turnspeed", "turnspeed", "the speed of a turn on the spot", "turnspeed 60 deg/s"),
         PartWord("law", "law", "how the speed goes along a stroke", "law trapezoid"),
         PartWord("tool", "tool", "what the tool does meanwhile", "tool look (0, 0, 300) mm"),
+        PartWord("blend", "blend", "corners rounded within this distance", "blend 5 mm"),
         PartWord("light", "light", "the colour, or from one colour to another", "light red"),
+        PartWord("font", "font", "which letters; see: dqpaint list fonts", 'font "scripts"'),
+        PartWord("height", "length", "how high: a capital letter, a whole drawing", "height 30 mm"),
+        PartWord("width", "length", "how wide: the longest line, a whole drawing", "width 90 mm"),
+        PartWord("align", "alignment", "which end of each line stands at `at`", "align centre"),
+        PartWord("unit", "unit", "of the numbers in a file", "unit mm"),
+        PartWord("smooth", "flag", "bends from point to point, but for sharp corners", "smooth"),
+        PartWord("brush", "brush", "what shines: a point, or a bar", "brush bar 120 mm along x"),
+        PartWord(
+            "strobe", "strobe", "the light flashes, for a part of the time", "strobe 10 Hz 30%"
+        ),
     )
 }
 
@@ -90,7 +109,15 @@ STATEMENTS = {
     for statement in (
         StatementWord("traj", "the version of the language", "traj 1", head="version"),
         StatementWord("robot", "the arm the drawing is for", "robot iiwa", head="robot"),
-        StatementWord("let", "a name for a value", "let r = 70 mm", head="let"),
+        StatementWord("include", "the lines of another file", 'include "f.traj"', head="include"),
+        StatementWord("let", "a name for a value, or a function", "let r = 70 mm", head="let"),
+        StatementWord(
+            "frame",
+            "a name for a place and a turn, for 'with frame'",
+            "frame leaf at (30, 0) mm turned 45 deg",
+            head="frame",
+            parts=("at", "turned"),
+        ),
         StatementWord(
             "place",
             "the drawing frame in the robot's base frame, or auto: where it fits best",
@@ -109,7 +136,6 @@ STATEMENTS = {
             StatementWord(word, f"{PARTS[word].says}, from here on", PARTS[word].example, word)
             for word in SETTINGS
         ),
-        StatementWord("brush", "what shines", "brush point", head="brush"),
         StatementWord(
             "line",
             "a straight stroke, or several",
@@ -130,7 +156,11 @@ STATEMENTS = {
             "arc",
             "an arc, circle, helix or flat spiral",
             "arc centre (30, 0) mm angle 360 deg",
-            parts=("via", "to", "centre", "center", "axis", "angle", "rise", "grow", *CLAUSES),
+            parts=(
+                *("via", "to", "centre", "center", "axis", "angle", "rise", "grow"),
+                *("radius", "left", "right", "long"),
+                *CLAUSES,
+            ),
             moves=True,
         ),
         StatementWord(
@@ -152,10 +182,34 @@ STATEMENTS = {
             "step",
             "a jump of the set point",
             "step to (50, 50, -20) mm",
-            parts=("to", "tool", "light"),
+            parts=("to", "tool", *LAMP),
             moves=True,
         ),
-        StatementWord("hold", "a pause", "hold 1 s", head="value", parts=("light",), moves=True),
+        StatementWord(
+            "text",
+            "lettering; a second text is a second line",
+            'text "Ada" height 30 mm',
+            head="texts",
+            parts=("font", "height", "width", "at", "align", *OWN_CORNERS),
+            moves=True,
+        ),
+        StatementWord(
+            "path",
+            "a line through the points in a file, or in a file for each axis",
+            'path "orbit.csv" unit cm',
+            head="texts",
+            parts=("unit", "height", "width", "at", "smooth", *OWN_CORNERS),
+            moves=True,
+        ),
+        StatementWord(
+            "svg",
+            "the lines of an SVG drawing, in its own colours",
+            'svg "logo.svg" height 80 mm',
+            head="texts",
+            parts=("height", "width", "at", *OWN_CORNERS),
+            moves=True,
+        ),
+        StatementWord("hold", "a pause", "hold 1 s", head="value", parts=LAMP, moves=True),
         StatementWord(
             "repeat", "its lines, several times", "repeat i from 1 to 5", head="repeat", block=True
         ),
@@ -163,26 +217,26 @@ STATEMENTS = {
             "with",
             "its lines, turned, moved, scaled or set differently",
             "with rotate 30 deg shift (80, 0) mm",
-            parts=("rotate", "about", "shift", "scale", *SETTINGS),
-            many=("rotate", "about", "shift", "scale"),
+            parts=("rotate", "about", "shift", "scale", "frame", *SETTINGS),
+            many=("rotate", "about", "shift", "scale", "frame"),
+            block=True,
+        ),
+        StatementWord(
+            "stroke",
+            "its lines in one go, without a stop between them",
+            "stroke in 5 s",
+            parts=CLAUSES,
+            block=True,
+        ),
+        StatementWord(
+            "def",
+            "lines with a name, drawn where it is called: star(20 mm)",
+            "def star(r)",
+            head="def",
             block=True,
         ),
         StatementWord("end", "closes a block", "end"),
     )
-}
-
-# Words of the whole language that this version does not know yet; True: they hold a block.
-NOT_YET = {
-    "text": False,
-    "path": False,
-    "svg": False,
-    "def": True,
-    "frame": False,
-    "include": False,
-    "strobe": False,
-    "even": False,
-    "stroke": True,
-    "blend": False,
 }
 
 # Statements of other languages: the word, the sentence, what to do.
@@ -238,6 +292,14 @@ STATEMENT_ALIASES = {
     "var": "let",
     "const": "let",
     "loop": "repeat",
+    "function": "def",
+    "define": "def",
+    "proc": "def",
+    "import": "include",
+    "use": "include",
+    "round": "blend",
+    "flash": "strobe",
+    "pulse": "strobe",
     "begin": "start",
     "origin": "place",
     "translate": "with shift POINT",
@@ -246,6 +308,8 @@ STATEMENT_ALIASES = {
     "scale": "with scale NUMBER",
     "parametric": "curve",
     "spline": "curve",
+    "write": "text",
+    "csv": "path",
     "jumpto": "step to",
     "turn": "line by (0, 0) tool ORIENTATION",
     "orient": "tool",
@@ -263,6 +327,11 @@ PART_ALIASES = {
     "steps": "samples",
     "velocity": "speed",
     "height": "rise",
+    "round": "blend",
+    "zone": "blend",
+    "flash": "strobe",
+    "ccw": "left",
+    "cw": "right",
     "lead": "pitch",
     "turns": "angle",
     "orientation": "tool",
@@ -274,8 +343,9 @@ PART_ALIASES = {
     "position": "at",
 }
 
-LITTLE_WORDS = ("from", "for", "on", "off", "keep", "follow", "look", "up", "point", "bar", "auto")
-LATER_WORDS = ("height", "width", "font", "unit")
+LITTLE_WORDS = (
+    *("from", "for", "on", "off", "even", "keep", "follow", "look", "up", "point", "bar", "auto"),
+)
 
 CONSTANTS = ("pi", "x", "y", "z")
 LAWS = {"constant": (0,), "trapezoid": (0,), "cubic": (0, 2), "quintic": (0, 4)}
@@ -321,6 +391,6 @@ FUNCTION_ALIASES = {
 }
 
 # Never part of an expression: a value was forgotten if one of them is found there.
-RESERVED = frozenset(
-    (*STATEMENTS, *PARTS, *NOT_YET, *LITTLE_WORDS, *LATER_WORDS, "def", "if", "else", "while")
-)
+# But these say something in a few statements alone, and `let radius = …` is what people write.
+FREE = ("radius", "left", "right", "long", "height", "width", "unit")
+RESERVED = frozenset((*STATEMENTS, *PARTS, *LITTLE_WORDS, "if", "else", "while")).difference(FREE)

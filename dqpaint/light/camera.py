@@ -116,9 +116,15 @@ class Camera:
 
 
 def frame(
-    points: ArrayLike, canvas_rotation: ArrayLike, view: View, size: tuple[int, int]
+    points: ArrayLike,
+    canvas_rotation: ArrayLike,
+    view: View,
+    size: tuple[int, int],
+    lens: float = LENS,
+    distance: float | None = None,
+    fill: float = FILL,
 ) -> Camera:
-    """The camera that sees all `points` from `view`, in the middle and as large as `FILL` allows.
+    """The camera that sees all `points` from `view`, in the middle and as large as `fill` allows.
 
     Args:
         points: (N, 3) what the picture is of, base frame [m]: the lit points of what was asked,
@@ -127,6 +133,9 @@ def frame(
             as unit vectors of the base frame.
         view: From where, see `parse_view`.
         size: Columns and rows of the picture.
+        lens: Focal length over the long side of the sensor.
+        distance: From the pinhole to the middle of the points [m]; None fills the picture.
+        fill: Share of the limiting dimension that they take then.
 
     Raises:
         DqpaintError: If there is no point, or one is not finite.
@@ -137,25 +146,29 @@ def frame(
     width, height = size
     if width < 1 or height < 1:
         raise UsageError(f"picture size {width}x{height} must be at least 1x1")
-    focal = LENS * max(width, height)
-    rotation = _look(view) @ kept("canvas rotation", canvas_rotation, (3, 3)).T
+    focal = lens * max(width, height)
+    rotation = look(view) @ kept("canvas rotation", canvas_rotation, (3, 3)).T
 
     right, up, back = rotation @ cloud.T
-    slopes = FILL * 0.5 * np.array([width, height]) / focal  # half the field that is to be filled
+    centre = 0.5 * np.array([width - 1.0, height - 1.0])
+    if distance is not None:
+        place = np.array([0.5 * float(axis.min() + axis.max()) for axis in (right, up, back)])
+        place[2] += distance
+        return Camera(place @ rotation, rotation, focal, centre, width, height)
+    slopes = fill * 0.5 * np.array([width, height]) / focal  # half the field that is to be filled
     nearest = float(back.max())
     diameter = float(np.linalg.norm([np.ptp(axis) for axis in (right, up, back)]))
     extent = max(SMALLEST, SLENDEREST * diameter)
-    distance = max(
+    away = max(
         _tightest(right, back, float(slopes[0])),
         _tightest(up, back, float(slopes[1])),
         nearest + 0.5 * extent / float(slopes.min()),
     )
-    place = np.array([_middle(right, back, distance), _middle(up, back, distance), distance])
-    centre = 0.5 * np.array([width - 1.0, height - 1.0])
+    place = np.array([_middle(right, back, away), _middle(up, back, away), away])
     return Camera(place @ rotation, rotation, focal, centre, width, height)
 
 
-def _look(view: View) -> Floats:
+def look(view: View) -> Floats:
     """(3, 3) rows: the picture's right, up and back as unit vectors of the canvas."""
     a, e = np.radians(view)
     right = np.array([np.cos(a), 0.0, -np.sin(a)])  # level at any elevation, so the pole is no case

@@ -73,6 +73,14 @@ def _filled(light: Image) -> Image:
     return cast(Image, np.maximum(np.subtract(np.float32(1.0), empty, out=empty), 0.0, out=empty))
 
 
+def encode(shown: Image) -> Picture:
+    """8-bit sRGB, dithered, of some rows (H, W, 3) of display light from 0 to 1."""
+    srgb = np.where(shown <= 0.0031308, 12.92 * shown, 1.055 * shown ** (1.0 / 2.4) - 0.055)
+    level = np.floor(255.0 * 256.0 * srgb + 0.5).astype(np.uint16)
+    level += _dither((STRIP, *shown.shape[1:]))[: len(shown)]
+    return np.asarray(level >> 8, dtype=np.uint8)
+
+
 @cache
 def _curve() -> NDArray[np.uint16]:
     """Toe and sRGB in 8.8 bits over the root of y: even steps there are fine in the darks."""

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
+from dqpaint.light import disc, sheet
 from dqpaint.light.arrays import Floats
-from dqpaint.light.brushes import Light
 from dqpaint.light.camera import Camera
+from dqpaint.light.light import Emission, Light
+from dqpaint.light.sheet import Sheet
 from dqpaint.light.trail import bins, trace
 
 PAD = 64
@@ -41,24 +44,77 @@ class Film:
         return np.asarray(self.planes.sum(axis=(1, 2)))
 
 
-def expose(light: Light, camera: Camera) -> Film:
+def expose(light: Emission | Iterable[Emission], camera: Camera, falloff: bool = False) -> Film:
     """A film of the camera's size, plus the guard band, that saw all of `light`.
 
     A deposit is spread over 3x3 pixels by the quadratic B-spline. That is the smoothest weight of
     its size, and unlike the bilinear one it has the same variance between pixels as on them, so
     that a slanted line is not beaded.
+
+    Args:
+        light: What shines; several add up.
+        camera: Where it is seen from.
+        falloff: Whether light is divided by its distance squared [lamp s / m^2].
     """
-    height, width = camera.height + 2 * PAD, camera.width + 2 * PAD
-    planes = np.zeros((3, height, width))
-    lost = np.zeros(3)
-    for trail in trace(light, camera, margin=PAD - 1.0):  # a spline needs a pixel on either side
-        lost += trail.lost
-        for piece in bins(trail, SPACING):
-            _deposit(planes, piece.position + PAD, piece.energy)
-    film = Film(planes, light.energy.sum(axis=0), lost)
-    for array in (film.planes, film.emitted, film.lost):
-        array.setflags(write=False)
-    return film
+    exposing = Exposing(camera)
+    for emission in light if isinstance(light, Iterable) else (light,):
+        for piece in emission.towards(camera, falloff):
+            exposing.add(piece)
+    return exposing.film()
+
+
+class Exposing:
+    """A film in the camera: light is added piece by piece, and the film can be taken at any time.
+
+    Args:
+        camera: Where the light is seen from.
+    """
+
+    def __init__(self, camera: Camera) -> None:
+        self.camera = camera
+        self._shape = (3, camera.height + 2 * PAD, camera.width + 2 * PAD)
+        self._planes = np.zeros(self._shape)
+        self._discs: dict[int, Floats] = {}
+        self._emitted, self._lost = np.zeros(3), np.zeros(3)
+
+    def add(self, piece: Light | Sheet) -> None:
+        """Let some light in."""
+        margin = PAD - 1.0  # a spline needs a pixel on either side
+        if isinstance(piece, Sheet):
+            self._emitted += piece.emitted
+            for part in sheet.cells(piece, self.camera, margin):
+                self._lost += part.lost
+                _deposit(self._planes, part.position + PAD, part.energy)
+            return
+        self._emitted += piece.energy.sum(axis=0)
+        for planes, light in self._layers(piece):
+            for trail in trace(light, self.camera, margin):
+                self._lost += trail.lost
+                for bit in bins(trail, SPACING):
+                    _deposit(planes, bit.position + PAD, bit.energy)
+
+    def _layers(self, light: Light) -> Iterator[tuple[Floats, Light]]:
+        """Where to put a light: lamps that are seen as discs go to a layer for each diameter."""
+        if light.size == 0.0:
+            yield self._planes, light
+            return
+        for layer, share in disc.layers(light, self.camera):
+            planes = self._planes
+            if layer is not None:
+                planes = self._discs.setdefault(layer, np.zeros(self._shape))
+            yield planes, Light(light.points, light.energy * share[:, None])
+
+    def film(self) -> Film:
+        """What the film holds by now."""
+        planes, lost = self._planes.copy() if self._discs else self._planes, self._lost.copy()
+        for layer, points in sorted(self._discs.items()):
+            spread = disc.spread(points, layer)
+            lost += points.sum(axis=(1, 2)) - spread.sum(axis=(1, 2))
+            planes += spread
+        film = Film(planes.view(), self._emitted.copy(), np.maximum(lost, 0.0))
+        for array in (film.planes, film.emitted, film.lost):
+            array.setflags(write=False)
+        return film
 
 
 def _deposit(planes: Floats, position: Floats, energy: Floats) -> None:

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.light.arrays import Floats
-from dqpaint.light.brushes import Light
 from dqpaint.light.camera import NEAR, Camera
+from dqpaint.light.light import Light
 
 BATCH = 1 << 15
 """How many steps, or pieces, are worked on at once: what fits the cache. It is fixed, so that sums

@@ -14,6 +14,7 @@ from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.language.program import (
     Arc,
+    Chain,
     Curve,
     Follow,
     Keep,
@@ -25,6 +26,7 @@ from dqpaint.language.program import (
     Still,
     Straight,
 )
+from dqpaint.motion.chains import place_chain
 from dqpaint.motion.orientations import Spin, orientation
 from dqpaint.motion.places import Places, place_arc, place_curve, place_straight
 
@@ -151,5 +153,7 @@ def _places(segment: Segment) -> Places:
         return place_arc(path, segment.start.position)
     if isinstance(path, Curve):
         return place_curve(path)
+    if isinstance(path, Chain):
+        return place_chain(path)
     assert isinstance(path, Straight)
     return place_straight(path, segment.start.position)

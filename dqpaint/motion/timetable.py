@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from itertools import groupby
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from dqpaint.language.findings import Findings
 from dqpaint.language.program import Cruise, Lasting, Program, Samples, Segment, Step, Still
 from dqpaint.motion.laws import LAWS, Progress, Rates, cruise_time, scale_rates
 from dqpaint.motion.lengths import Extent, has_cusp, measure
+from dqpaint.motion.runs import joined
 from dqpaint.motion.shapes import Shape, shape
 
 MOST_SAMPLES = 2_000_000
@@ -26,17 +28,32 @@ ROUNDING_WORTH_SAYING = 0.01
 
 @dataclass(frozen=True)
 class Stroke:
-    """A segment with its shape, its extent and its number of new samples.
+    """A segment, or several of one run, with shape, extent and the number of new samples.
 
-    `by_length`: the law runs over the length of the path, not over the parameter of its formula.
+    Attributes:
+        segments: one, or all of a run (M).
+        edges: the fractions (M + 1,) of the length where they begin, and the end.
+        shape: of all of it.
+        extent: of all of it.
+        count: of new samples.
+        by_length: the law runs over the length of the path, not over the parameter of its formula.
+        end_rates: of the law: fractions of the path per second, and per second squared.
+        wanted: the time [s] it would take if times were not rounded up to whole samples.
     """
 
-    segment: Segment
+    segments: tuple[Segment, ...]
+    edges: Floats
     shape: Shape
     extent: Extent
     count: int
     by_length: bool
-    end_rates: Rates  # fractions of the path per second, and per second squared
+    end_rates: Rates
+    wanted: float
+
+    @property
+    def segment(self) -> Segment:
+        """The first one; law and timing are those of all."""
+        return self.segments[0]
 
     @property
     def samples(self) -> Floats:
@@ -77,9 +94,10 @@ def timetable(program: Program, findings: Findings) -> list[Stroke]:
     """
     strokes: list[Stroke] = []
     total = 1
-    for segment in program.segments:
+    for segments in _runs(program.segments):
+        segment = segments[0]
         try:
-            stroke, note = _stroke(segment, program.period)
+            stroke, note = _stroke(segments, program.period)
             total += stroke.count
             if total > MOST_SAMPLES:
                 raise StrokeError(_too_many(segment, stroke.count))
@@ -97,26 +115,44 @@ def timetable(program: Program, findings: Findings) -> list[Stroke]:
     return strokes
 
 
-def _stroke(segment: Segment, period: float) -> tuple[Stroke, Diagnostic | None]:
-    with stroke_errors(segment):
-        form = shape(segment)
-        extent = measure(form)
-    timing = segment.timing
-    rates = segment.law.rates
-    by_length = not extent.even and (
-        isinstance(timing, Cruise) or (any(rates) and not segment.law.angular)
-    )
-    if by_length and has_cusp(form, extent):
-        raise StrokeError(_cusp(segment))
+def _runs(segments: tuple[Segment, ...]) -> Iterator[tuple[Segment, ...]]:
+    """The segments one by one, or all of a run together."""
+    for number, group in groupby(segments, key=lambda s: s.run.number if s.run else None):
+        if number is None:
+            yield from ((segment,) for segment in group)
+        else:
+            yield tuple(group)
+
+
+def _stroke(segments: tuple[Segment, ...], period: float) -> tuple[Stroke, Diagnostic | None]:
+    segment, timing = segments[0], segments[0].timing
+    shapes, extents = [], []
+    for one in segments:
+        with stroke_errors(one):
+            shapes.append(shape(one))
+            extents.append(measure(shapes[-1]))
+        by_length = not extents[-1].even and (
+            one.run is not None
+            or isinstance(timing, Cruise)
+            or (any(one.law.rates) and not one.law.angular)
+        )
+        if by_length and has_cusp(shapes[-1], extents[-1]):
+            raise StrokeError(_cusp(one))
+        if one.run is not None and extents[-1].length == 0:
+            raise StrokeError(_on_the_spot(one))
+    form, extent, edges = shapes[0], extents[0], np.array([0.0, 1.0])
+    if segment.run is not None:
+        form, extent = joined(shapes, extents)
+        by_length, edges = False, extent.edges
     end_rates = _end_rates(segment, extent)
-    seconds = _seconds(segment, extent, end_rates, period)
+    seconds = _seconds(segment, extents, end_rates, period)
     wanted = seconds / period
     if not wanted < ENDLESS:
         raise StrokeError(_too_many(segment, math.inf))
     count = timing.count if isinstance(timing, Samples) else _whole(wanted)
     if isinstance(segment.path, Step):
         count = 1
-    stroke = Stroke(segment, form, extent, count, by_length, end_rates)
+    stroke = Stroke(segments, edges, form, extent, count, by_length, end_rates, seconds)
     return stroke, _rounding(segment, seconds, count * period)
 
 
@@ -137,13 +173,17 @@ def _end_rates(segment: Segment, extent: Extent) -> Rates:
     return tuple(rate / size for rate in rates)
 
 
-def _seconds(segment: Segment, extent: Extent, end_rates: Rates, period: float) -> float:
+def _seconds(segment: Segment, extents: list[Extent], end_rates: Rates, period: float) -> float:
     timing = segment.timing
     if isinstance(timing, Samples):
         return timing.count * period
     if isinstance(timing, Lasting):
         return timing.seconds
-    least = max(extent.length / timing.speed, extent.angle / timing.turnspeed)
+    length = sum(extent.length for extent in extents)
+    least = length / timing.speed
+    for extent in extents:  # nowhere may the tool turn too fast
+        share = extent.length / length if length else 1.0
+        least = max(least, extent.angle / share / timing.turnspeed)
     if least == 0:
         return period
     if not least < ENDLESS * period:
@@ -179,6 +219,15 @@ def _fast_end(segment: Segment) -> Diagnostic:
         "the rates of the law carry this stroke beyond its speed",
         segment.span,
         help="lower the rates in the brackets, raise speed, or give a time: in 10 s",
+    )
+
+
+def _on_the_spot(segment: Segment) -> Diagnostic:
+    return Diagnostic(
+        "E326",
+        "this goes nowhere, so it can't be part of a stroke, which does not stop",
+        segment.span,
+        help="end the stroke before it",
     )
 
 

@@ -1,13 +1,32 @@
 """What a plant is: an arm that is given commands, each for one period, and answers by moving."""
 
-from typing import Literal, Protocol
+from dataclasses import dataclass
+from typing import Any, Literal, Protocol
 
+from pydantic import BaseModel, ConfigDict
+
+from dqpaint.choices import make_choice, read_choice
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
+from dqpaint.plants.world import UNDISTURBED, World
 from dqpaint.registry import Registry
 from dqpaint.robots.card import Card
 
 Takes = Literal["rates", "torque"]
+Trait = Literal["masses", "a model of gravity"]
+
+
+class Values(BaseModel):
+    """What a plant takes besides its name; each field's description says the unit."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    def shown(self, card: Card) -> dict[str, Any]:
+        """The values as a summary shows them, with what follows from them for an arm."""
+        return self.model_dump()
+
+
+Options = type[Values] | None
 DEFAULT_PLANTS: dict[Takes, str] = {"rates": "stiff", "torque": "torque"}
 
 
@@ -15,14 +34,22 @@ class Plant(Protocol):
     """One arm under control, from its start posture on.
 
     Attributes:
-        posture: measured joint angles (n,) [rad].
-        rates: measured joint rates (n,) [rad/s].
+        posture: true joint angles (n,) [rad].
+        rates: true joint rates (n,) [rad/s].
         effort: motor torques (n,) [Nm], the largest seen in the last period; zeros without motors.
+        encoder: the angles (n,) [rad] where the encoders sit: the joints', or the motors'.
+        encoder_rates: the rates (n,) [rad/s] there.
     """
 
     posture: Floats
     rates: Floats
     effort: Floats
+
+    @property
+    def encoder(self) -> Floats: ...  # noqa: D102  attributes, as above
+
+    @property
+    def encoder_rates(self) -> Floats: ...  # noqa: D102
 
     def run(self, command: Floats, drift: Floats | None = None) -> None:
         """Hold a command for one control period.
@@ -43,26 +70,81 @@ class PlantMaker(Protocol):
     def takes(self) -> Takes:
         """What its commands are."""
 
-    def __call__(self, card: Card, posture: Floats, period: float) -> Plant:
+    @property
+    def traits(self) -> frozenset[Trait]:
+        """What it has that a disturbance may need."""
+
+    @property
+    def options(self) -> Options:
+        """The model of its own values, if it has any."""
+
+    def __call__(
+        self,
+        card: Card,
+        posture: Floats,
+        period: float,
+        world: World = UNDISTURBED,
+        options: Any = None,
+    ) -> Plant:
         """The arm of a card at rest in a posture (n,) [rad], controlled every `period` [s]."""
 
 
 PLANTS: Registry[PlantMaker] = Registry("plant")
 
 
-def choose_plant(name: str | None, takes: Takes) -> str:
-    """The name of a plant that takes such commands: the one asked for, or the usual one.
+@dataclass(frozen=True)
+class Chosen:
+    """A plant with its values.
+
+    Attributes:
+        name: as it was asked for, values included.
+        make: how it is built.
+        options: its values; None where it has none.
+    """
+
+    name: str
+    make: PlantMaker
+    options: Values | None = None
+
+    def __call__(self, card: Card, posture: Floats, period: float, world: World) -> Plant:
+        """Build it; arguments as those of a `PlantMaker`."""
+        return self.make(card, posture, period, world, self.options)
+
+    def shown(self, card: Card) -> dict[str, Any]:
+        """The plant's values, for an arm."""
+        return self.options.shown(card) if self.options else {}
+
+    def need(self, trait: Trait | None, disturbance: str) -> None:
+        """See that a disturbance can show.
+
+        Raises:
+            UsageError: the plant lacks what it needs.
+        """
+        if trait is None or trait in self.make.traits:
+            return
+        suited = [name for name, plant in PLANTS.items() if trait in plant.traits]
+        raise UsageError(
+            f"disturbance '{disturbance}' changes nothing on plant '{self.name}', which has no "
+            f"{trait.removeprefix('a ')}; plants that have: {', '.join(suited)}"
+        )
+
+
+def choose_plant(text: str | None, takes: Takes) -> Chosen:
+    """The plant that was asked for, such as `compliant:frequency=60`, or the usual one.
 
     Raises:
-        UsageError: an unknown plant, or one that takes other commands.
+        UsageError: an unknown plant or value, or one that takes other commands.
     """
-    if name is None:
-        return DEFAULT_PLANTS[takes]
-    if PLANTS[name].takes != takes:
-        suited = [other for other, plant in PLANTS.items() if plant.takes == takes]
+    name, values = read_choice("plant", text or DEFAULT_PLANTS[takes], "compliant:frequency=60")
+    plant = PLANTS[name]
+    if plant.takes != takes:
+        suited = [other for other, one in PLANTS.items() if one.takes == takes]
         words = {"rates": "joint rates", "torque": "torques"}
         raise UsageError(
-            f"plant '{name}' takes {words[PLANTS[name].takes]}, but this controller commands "
+            f"plant '{name}' takes {words[plant.takes]}, but this controller commands "
             f"{words[takes]}; plants for it: {', '.join(suited)}"
         )
-    return name
+    if plant.options is None and values:
+        raise UsageError(f"plant '{name}' takes no values")
+    options = make_choice("plant", name, plant.options, values) if plant.options else None
+    return Chosen((text or name).strip(), plant, options)

@@ -8,6 +8,7 @@ from dqpaint.dq import Floats
 from dqpaint.plants.bullet import bullet
 from dqpaint.plants.plant import PLANTS, Takes
 from dqpaint.plants.rigid import RigidArm
+from dqpaint.plants.world import UNDISTURBED, World
 from dqpaint.robots.card import Card
 
 
@@ -17,8 +18,15 @@ class Stiff(RigidArm):
 
     takes: ClassVar[Takes] = "rates"
 
-    def __init__(self, card: Card, posture: Floats, period: float) -> None:
-        super().__init__(card, posture, period)
+    def __init__(
+        self,
+        card: Card,
+        posture: Floats,
+        period: float,
+        world: World = UNDISTURBED,
+        options: None = None,
+    ) -> None:
+        super().__init__(card, posture, period, world)
         self._limits = card.effort.tolist()
 
     def run(self, command: Floats, drift: Floats | None = None) -> None:
@@ -32,9 +40,9 @@ class Stiff(RigidArm):
             physicsClientId=self.client,
         )
         # what a new command asks of the motors is most in the first step
-        bullet.stepSimulation(self.client)
+        self.advance()
         first = bullet.getJointStates(self.body, self.joints, self.client)
         for _ in range(self.steps - 1):
-            bullet.stepSimulation(self.client)
+            self.advance()
         last = self.measure()
         self.effort = np.array([max(a[3], b[3], key=abs) for a, b in zip(first, last, strict=True)])

@@ -2,13 +2,14 @@
 
 from typing import ClassVar
 
-import numpy as np
-
 from dqpaint.dq import Floats
 from dqpaint.plants.bullet import bullet
-from dqpaint.plants.plant import PLANTS, Takes
-from dqpaint.plants.rigid import RigidArm
+from dqpaint.plants.plant import PLANTS, Takes, Trait
+from dqpaint.plants.rigid import LONGEST_STEP, RigidArm, some_postures
+from dqpaint.plants.world import UNDISTURBED, World
 from dqpaint.robots.card import Card
+from dqpaint.robots.dynamics import Dynamics
+from dqpaint.robots.kinematics import Kinematics
 
 
 @PLANTS.add("torque")
@@ -16,20 +17,23 @@ class Torque(RigidArm):
     """Torques held for a period on rigid bodies with the file's friction, gravity on.
 
     The dynamics are those of the file: its inertias, the viscous friction of its joints, and none
-    of the damping that PyBullet gives every body unasked. Its integration is semi-implicit Euler.
+    of the damping that PyBullet gives every body unasked. Its integration is semi-implicit Euler,
+    friction taken at the beginning of a step: much friction on a light link needs shorter ones.
     """
 
     takes: ClassVar[Takes] = "torque"
+    traits: ClassVar[frozenset[Trait]] = frozenset({"masses", "a model of gravity"})
 
-    def __init__(self, card: Card, posture: Floats, period: float) -> None:
-        super().__init__(card, posture, period)
-        here = {"physicsClientId": self.client}
-        for link in range(-1, bullet.getNumJoints(self.body, **here)):
-            bullet.changeDynamics(self.body, link, linearDamping=0, angularDamping=0, **here)
-        idle = [0.0] * len(self.joints)
-        bullet.setJointMotorControlArray(
-            self.body, self.joints, bullet.VELOCITY_CONTROL, forces=idle, **here
-        )
+    def __init__(
+        self,
+        card: Card,
+        posture: Floats,
+        period: float,
+        world: World = UNDISTURBED,
+        options: None = None,
+    ) -> None:
+        super().__init__(card, posture, period, world, _longest_step(card))
+        self.free()
 
     def run(self, command: Floats, drift: Floats | None = None) -> None:
         """One period at joint torques (n,) [Nm]."""
@@ -42,15 +46,15 @@ class Torque(RigidArm):
                 forces=torques,
                 physicsClientId=self.client,
             )
-            bullet.stepSimulation(self.client)
+            self.advance()
             if drift is not None:
-                self._displace(drift)
+                self.displace(self.step * drift)
         self.measure()
         self.effort = command
 
-    def _displace(self, drift: Floats) -> None:
-        """Carry the joints along for a physics step, their own rates kept."""
-        self.measure()
-        moved = (self.posture + self.step * np.asarray(drift)).tolist()
-        for joint, angle, rate in zip(self.joints, moved, self.rates.tolist(), strict=True):
-            bullet.resetJointState(self.body, joint, angle, rate, self.client)
+
+def _longest_step(card: Card) -> float:
+    """The physics step [s] in which the quickest joint loses its speed to friction, or 1 ms."""
+    dynamics = Dynamics(Kinematics(card))
+    decay = max(dynamics.decay(q) for q in some_postures(card))
+    return min(LONGEST_STEP, 1 / decay) if decay > 0 else LONGEST_STEP

@@ -4,6 +4,9 @@ Pinocchio puts the linear part of a twist first; its WORLD frame is about the ba
 nowhere else, the halves change places.
 """
 
+from copy import copy
+from typing import Self
+
 import numpy as np
 import pinocchio
 
@@ -35,10 +38,10 @@ class Kinematics:
 
     def __init__(self, card: Card) -> None:
         self.card = card
-        text, notes = prepare(card)
-        self.notes = (*card.notes, *notes)
+        prepared = prepare(card)
+        self.notes = (*card.notes, *prepared.notes)
         try:
-            self.model = pinocchio.buildModelFromXML(text)
+            self.model = pinocchio.buildModelFromXML(prepared.text)
         except ValueError as problem:
             raise DqpaintError(f"pinocchio cannot read {card.name}: {problem}") from None
         self._data = self.model.createData()
@@ -46,6 +49,30 @@ class Kinematics:
         self._joint = frame.parentJoint
         tool = pinocchio.SE3(dq.matrix_from_pose(card.tool.pose))
         self._tool = frame.placement * tool
+
+    def changed(self, lengths: Floats | None = None, gravity: float = 1.0) -> Self:
+        """The same arm with a model that differs, as one that errs would.
+
+        Args:
+            lengths: what is added to each joint's place on the link before it, and to the tool's
+                place on the last joint (n + 1, 3) [m].
+            gravity: as a part of the true one.
+        """
+        other = copy(self)
+        other.model = pinocchio.Model(self.model)
+        other.model.gravity.linear = gravity * self.model.gravity.linear
+        if lengths is not None:
+            for joint, way in enumerate(lengths[:-1], start=1):
+                other.model.jointPlacements[joint].translation += way
+            other._tool = pinocchio.SE3(self._tool.rotation, self._tool.translation + lengths[-1])
+        other._data = other.model.createData()
+        return other
+
+    @property
+    def lengths(self) -> Floats:
+        """Each joint's place on the link before it, then the tool's on the last joint (n+1, 3)."""
+        places = [self.model.jointPlacements[i + 1].translation for i in range(self.model.nv)]
+        return np.array([*places, self._tool.translation])
 
     def pose(self, posture: Floats) -> Floats:
         """The tool's pose (8,) in the base frame at a posture (n,) [rad]; its sign is arbitrary."""

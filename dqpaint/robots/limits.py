@@ -77,6 +77,7 @@ def clamps(
     command: Floats,
     effort: Floats,
     torques: bool,
+    period: float | None = None,
 ) -> tuple[Clamp, ...]:
     """Every limit that held a joint during a run, one entry for each joint, kind and line.
 
@@ -84,21 +85,23 @@ def clamps(
         card: with the limits.
         t: (N,) [s].
         line: (N,) of the file.
-        posture: measured (N, n) [rad].
+        posture: (N, n) [rad], as the encoders read it where the commands are rates.
         wanted: what the law asked for (N, n), rates [rad/s] or torques [Nm].
         command: what the arm was given (N, n).
         effort: motor torques (N, n) [Nm], the largest seen in the period before each row.
         torques: whether the commands are torques.
+        period: of the control [s], where the times do not show it.
     """
+    period = period or (float(t[1] - t[0]) if len(t) > 1 else 0.0)
     found: list[Clamp] = []
     for kind, where, asked, most in (
         _torque_clamps(card, posture, wanted, command)
         if torques
-        else _rate_clamps(card, t, posture, wanted, command, effort)
+        else _rate_clamps(card, period, posture, wanted, command, effort)
     ):
         for joint in range(where.shape[1]):
             found += _by_line(
-                kind, joint, where[:, joint], asked[:, joint], most[:, joint], t, line
+                kind, joint, where[:, joint], asked[:, joint], most[:, joint], t, line, period
             )
     return tuple(sorted(found, key=lambda clamp: clamp.start))
 
@@ -107,9 +110,8 @@ Held = tuple[str, NDArray[np.bool_], Floats, Floats]  # kind; where, what was as
 
 
 def _rate_clamps(
-    card: Card, t: Floats, posture: Floats, wanted: Floats, command: Floats, effort: Floats
+    card: Card, period: float, posture: Floats, wanted: Floats, command: Floats, effort: Floats
 ) -> list[Held]:
-    period = t[1] - t[0] if len(t) > 1 else 0.0
     held = wanted != command
     fast = held & (np.abs(command) >= card.speed * (1 - AT_LIMIT))
     ahead = posture + period * wanted
@@ -143,10 +145,10 @@ def _by_line(
     most: Floats,
     t: Floats,
     line: NDArray[np.int64],
+    period: float,
 ) -> list[Clamp]:
     out = []
     rows = np.flatnonzero(where)
-    period = t[1] - t[0] if len(t) > 1 else 0.0
     for number in np.unique(line[rows]):
         here = rows[line[rows] == number]
         worst = here[np.argmax(np.abs(asked[here]))]

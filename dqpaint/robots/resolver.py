@@ -8,6 +8,7 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
+from dqpaint.robots.inverse import inverse
 
 LENGTH = 0.3  # [m] weighs metres against radians where singular values are compared
 THRESHOLD = 0.04  # singular values [rad/rad] below it are damped
@@ -30,11 +31,30 @@ def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats) -> Flo
     """
     shift = to_tool(point)
     J = shift @ jacobian
-    squares, axes = np.linalg.eigh(J @ J.swapaxes(-1, -2))
+    square = J @ J.mT
     left = np.matvec(shift, twist) - np.matvec(J, wish)
-    along = damped_inverse(squares) * np.vecmat(left, axes)
-    rates: Floats = np.vecmat(np.matvec(axes, along), J) + wish
+    plain = plain_inverse(square)
+    if plain is None:
+        squares, axes = np.linalg.eigh(square)
+        force = np.matvec(axes, damped_inverse(squares) * np.vecmat(left, axes))
+    else:
+        force = np.matvec(plain, left)
+    rates: Floats = np.vecmat(force, J) + wish
     return rates
+
+
+def plain_inverse(square: Floats) -> Floats | None:
+    """The inverses of J J' (..., 6, 6), or None where any is so near a singularity as to be damped.
+
+    The trace of an inverse is the sum of 1 / s^2: up to 1 / THRESHOLD^2 no s is below THRESHOLD.
+    An inverse costs a fifth of what the singular directions do.
+    """
+    try:
+        found = inverse(square)
+    except np.linalg.LinAlgError:
+        return None
+    least = 1.0 / found.trace(axis1=-2, axis2=-1)
+    return found if least.min() >= THRESHOLD**2 else None
 
 
 def to_tool(point: Floats) -> Floats:

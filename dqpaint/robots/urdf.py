@@ -7,7 +7,7 @@ own, is settled in it: joints off the arm stand still, every link has a mass, ev
 import math
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
@@ -30,6 +30,7 @@ class Prepared(NamedTuple):
 
     text: str
     notes: tuple[str, ...]
+    whole: bool = True  # whether every mesh is there
 
 
 def prepare(card: Card) -> Prepared:
@@ -55,20 +56,25 @@ def prepare(card: Card) -> Prepared:
         for joint in tree.joints.values():
             for dynamics in joint.element.findall("dynamics"):
                 joint.element.remove(dynamics)
-    notes = [*_weigh(tree), *_find_meshes(tree)]
-    return Prepared(Xml.tostring(tree.robot, encoding="unicode"), tuple(notes))
+    weighed, missing = list(_weigh(tree)), list(_find_meshes(tree))
+    text = Xml.tostring(tree.robot, encoding="unicode")
+    return Prepared(text, (*weighed, *missing), not missing)
 
 
 @contextmanager
-def urdf_file(card: Card) -> Iterator[str]:
+def urdf_file(card: Card, change: Callable[[str], str] = str) -> Iterator[str]:
     """The description as a file of its own, for libraries that read nothing else; gone afterwards.
 
     Its name is new each time: PyBullet remembers files by their names.
+
+    Args:
+        card: of the arm.
+        change: what is done to the description first.
     """
     handle, path = tempfile.mkstemp(prefix="dqpaint-", suffix=".urdf")
     try:
         with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(prepare(card).text)
+            file.write(change(prepare(card).text))
         yield path
     finally:
         os.unlink(path)

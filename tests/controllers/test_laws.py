@@ -1,46 +1,40 @@
-"""Each law against the same law written otherwise, and against its own differential equation."""
+"""Each law against the same law written otherwise: dqrobotics, pinocchio, homogeneous matrices."""
 
 import dqrobotics
 import numpy as np
+import pinocchio
 import pytest
+from dqrobotics.robot_modeling import DQ_Kinematics
 
 from dqpaint import dq
-from dqpaint.controllers import CONTROLLERS, Seen
+from dqpaint.controllers import CONTROLLERS
 from dqpaint.controllers.pose_errors import invariant_error, spatial_error
-from dqpaint.robots.card import read_card
-from dqpaint.robots.kinematics import Kinematics, manipulability
 from dqpaint.robots.resolver import resolve
-from tests.conftest import random_poses, random_rotations
+from tests.conftest import random_poses
+from tests.controllers.seeing import STILL, ahead_of, law, states
 
-ARM = Kinematics(read_card("iiwa"))
-
-
-def law(name, **gains):
-    chosen = CONTROLLERS[name]
-    return lambda seen: chosen.law(seen, chosen.read_gains(gains).first)
+E6 = np.zeros((8, 6))
+E6[[1, 2, 3, 5, 6, 7], range(6)] = 1
 
 
-def states(rng, n, size=0.3):
-    """What a law sees at random healthy postures, with errors up to about `size`."""
-    out = []
-    while len(out) < n:
-        q = rng.uniform(ARM.card.lower, ARM.card.upper)
-        x, J = ARM.pose_and_jacobian(q)
-        if manipulability(J) < 0.03:
-            continue
-        error = dq.exp(rng.uniform(-size, size, 6) / 2)
-        x_d = dq.mul(error, x) * rng.choice([-1, 1])
-        out.append(Seen(x, x_d, rng.normal(size=6), rng.normal(size=6), J, q, 0.0, 0.008))
-    return out
+def joint_rates(name, seen, **gains):
+    """What the arm is told, without a wish in the null space."""
+    said = law(name, **gains)(seen)
+    if CONTROLLERS[name].commands == "rates":
+        return said
+    return resolve(seen.jacobian, dq.translation(seen.pose), said, np.zeros(7))
 
 
-def peer_rates(seen, k, feed_forward):
-    """N^+ (k e - vec(x* x_d_dot)) with dqrobotics' own primitives and an 8 x n pseudo-inverse."""
+def peers(seen):
+    """x, x_d on its side, J8: in dqrobotics' own primitives."""
     x = dqrobotics.DQ(list(seen.pose))
     x_d = dqrobotics.DQ(list(dq.nearest(seen.pose_d, seen.pose)))
-    E6 = np.zeros((8, 6))
-    E6[[1, 2, 3, 5, 6, 7], range(6)] = 1
-    J8 = 0.5 * x.haminus8() @ E6 @ seen.jacobian
+    return x, x_d, 0.5 * x.haminus8() @ E6 @ seen.jacobian
+
+
+def peer_invariant(seen, k, feed_forward):
+    """N^+ (k e - vec(x* x_d_dot)); dqrobotics' `1 - x` has the wrong sign, `DQ([1]) - x` not."""
+    x, x_d, J8 = peers(seen)
     N = x_d.haminus8() @ dqrobotics.C8() @ J8
     e = (dqrobotics.DQ([1]) - x.conj() * x_d).vec8()
     rate_d = 0.5 * dqrobotics.DQ(list(dq.pure(seen.twist_d))) * x_d
@@ -48,122 +42,130 @@ def peer_rates(seen, k, feed_forward):
     return np.linalg.pinv(N, rcond=1e-8) @ wanted
 
 
-@pytest.mark.parametrize(("name", "feed_forward"), [("p", 0), ("pff", 1)])
-def test_proportional_laws_agree_with_dqrobotics(rng, name, feed_forward):
-    for seen in states(rng, 100):
-        ours = resolve(
-            seen.jacobian, dq.translation(seen.pose), law(name, k=7.0)(seen), np.zeros(7)
-        )
-        np.testing.assert_allclose(ours, peer_rates(seen, 7.0, feed_forward), atol=1e-9, rtol=1e-7)
+def peer_pham(seen, k):
+    x, x_d, J8 = peers(seen)
+    return np.linalg.pinv(J8, rcond=1e-8) @ (k * (x_d - x).vec8())
 
 
-def test_hinf_set_is_its_equation(rng):
-    """x_e by homogeneous matrices: R_e = R R_d', p_e = p - R_e p_d."""
-    for seen in states(rng, 50):
-        T, T_d = dq.matrix_from_pose(seen.pose), dq.matrix_from_pose(seen.pose_d)
-        T_e = T @ np.linalg.inv(T_d)
-        q = dqrobotics.DQ(list(spatial_error(seen.pose, seen.pose_d)))
-        assert q.q[0] >= 0
-        u = law("hinf-set", gamma_O=0.1, gamma_T=0.05)(seen)
-        angle = np.arccos(np.clip((np.trace(T_e[:3, :3]) - 1) / 2, -1, 1))
-        axis = np.array([T_e[2, 1] - T_e[1, 2], T_e[0, 2] - T_e[2, 0], T_e[1, 0] - T_e[0, 1]]) / (
-            2 * np.sin(angle)
-        )
-        np.testing.assert_allclose(u[:3], -(2 / 0.1) * np.sin(angle / 2) * axis, atol=1e-7)
-        np.testing.assert_allclose(u[3:], -np.sqrt(2) / 0.05 * T_e[:3, 3], atol=1e-10)
+def peer_pham_t(seen, k):
+    x, x_d, J8 = peers(seen)
+    return J8.T @ (k * (x_d - x).vec8())
 
 
-def simulate(name, gains, x, x_d_of, seconds, steps):
-    """The ideal body under a law, by RK4 on exponential coordinates: error poses along the way."""
-    chosen = law(name, **gains)
-    h = seconds / steps
-    errors = []
-
-    def twist(pose, t):
-        pose_d, twist_d = x_d_of(t)
-        seen = Seen(pose, pose_d, twist_d, np.zeros(6), np.zeros((6, 0)), np.zeros(0), t, h)
-        return chosen(seen)
-
-    for k in range(steps):
-        t = k * h
-        errors.append(spatial_error(x, x_d_of(t)[0]))
-        a = twist(x, t)
-        b = twist(dq.mul(dq.exp(0.25 * h * a), x), t + h / 2)
-        c = twist(dq.mul(dq.exp(0.25 * h * b), x), t + h / 2)
-        d = twist(dq.mul(dq.exp(0.5 * h * c), x), t + h)
-        x = dq.mul(dq.exp(0.5 * h * (a + 2 * b + 2 * c + d) / 6), x)
-    errors.append(spatial_error(x, x_d_of(seconds)[0]))
-    return np.array(errors)
+def peer_decoupled(seen, k_t, k_r):
+    """[J_t; N_r]^+ [...] with dqrobotics' own translation and rotation Jacobians."""
+    x, x_d, J8 = peers(seen)
+    J_t = DQ_Kinematics.translation_jacobian(J8, x)
+    N_r = x_d.P().haminus4() @ dqrobotics.C4() @ DQ_Kinematics.rotation_jacobian(J8)
+    e_r = (dqrobotics.DQ([1]) - x.P().conj() * x_d.P()).vec4()
+    e_t = (x_d.translation() - x.translation()).vec4()
+    return np.linalg.pinv(np.vstack([J_t, N_r]), rcond=1e-8) @ np.r_[k_t * e_t, k_r * e_r]
 
 
-RATES = [
-    ("p", {"k": 5.0}, 5.0, 5.0), ("pff", {"k": 5.0}, 5.0, 5.0),
-    ("hinf-set", {"gamma_O": 0.25, "gamma_T": 0.5}, 4.0, np.sqrt(2) / 0.5),
-    ("hinf", {"gamma_O": 0.25, "gamma_T": 0.5}, 4.0, np.sqrt(2) / 0.5),
-]  # fmt: skip
+@pytest.mark.parametrize(("name", "gains", "peer"), [
+    ("p", {"k": 7.0}, lambda s: peer_invariant(s, 7.0, 0)),
+    ("pff", {"k": 7.0}, lambda s: peer_invariant(s, 7.0, 1)),
+    ("pham", {"k": 7.0}, lambda s: peer_pham(s, 7.0)),
+    ("pham-t", {"k": 7.0}, lambda s: peer_pham_t(s, 7.0)),
+    ("decoupled", {"k_t": 7.0, "k_r": 4.0}, lambda s: peer_decoupled(s, 7.0, 4.0)),
+])  # fmt: skip
+def test_laws_agree_with_dqrobotics(rng, name, gains, peer):
+    for seen in states(rng, 100, size=1.0):
+        ours = joint_rates(name, seen, **gains)
+        np.testing.assert_allclose(ours, peer(seen), atol=1e-9, rtol=1e-7)
 
 
-@pytest.mark.parametrize(("name", "gains", "turning", "moving"), RATES)
-def test_small_errors_decay_at_the_stated_rates(rng, name, gains, turning, moving):
-    """A rotation alone and a translation alone; within 1 %."""
-    x_d = random_poses(rng, 1)[0]
-    at = dq.translation(x_d)
-    axis = random_rotations(rng, 1)[0][1:]
-    spin = np.concatenate([axis, dq.cross(at, axis)])  # a turn about the tool itself
-    move = np.concatenate([np.zeros(3), axis])
-    for start, rate, part in ((spin, turning, slice(0, 3)), (move, moving, slice(3, 6))):
-        x = dq.mul(dq.exp(0.5 * 0.01 * start), x_d)
-        errors = simulate(name, gains, x, lambda _t: (x_d, np.zeros(6)), 0.5, 500)
-        left = np.linalg.norm(dq.log(errors)[:, part], axis=1)
-        assert np.log(left[0] / left[-1]) / 0.5 == pytest.approx(rate, rel=0.01)
+def twist_matrix(T):
+    """Ad of a homogeneous matrix, 6 x 6, on [w; v]."""
+    R, p = T[:3, :3], T[:3, 3]
+    cross = np.array([[0, -p[2], p[1]], [p[2], 0, -p[0]], [-p[1], p[0], 0]])
+    return np.block([[R, np.zeros((3, 3))], [cross @ R, R]])
 
 
-@pytest.mark.parametrize("name", ["pff", "hinf"])
-def test_feed_forward_leaves_no_lag_on_a_moving_pose(rng, name):
-    xi, x0 = rng.normal(size=6), random_poses(rng, 1)[0]
-
-    def asked(t):
-        return dq.mul(dq.exp(0.5 * np.sin(t) * xi), x0), np.cos(t) * xi
-
-    errors = simulate(name, {}, x0, asked, 2.0, 2000)
-    assert np.abs(dq.log(errors)).max() < 1e-9
-    off = simulate(name, {}, dq.mul(dq.exp(0.05 * rng.normal(size=6)), x0), asked, 2.0, 2000)
-    assert np.abs(dq.log(off[-1])).max() < 1e-9
+def error_matrix(seen):
+    return dq.matrix_from_pose(seen.pose) @ np.linalg.inv(dq.matrix_from_pose(seen.pose_d))
 
 
-def test_the_feed_forward_of_hinf_is_the_asked_twist_carried_to_the_error(rng):
-    """hinf - hinf-set = Ad(x_e) xi_d, by the 6 x 6 matrix of a homogeneous one."""
+@pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
+def test_log_by_the_logarithm_of_pinocchio(rng, share):
+    for seen in states(rng, 100, size=2.5):
+        T = error_matrix(seen)
+        v_w = pinocchio.log6(pinocchio.SE3(T)).vector
+        wanted = -3.0 * np.r_[v_w[3:], v_w[:3]] + share * twist_matrix(T) @ seen.twist_d
+        said = law("log", k=3.0, feed_forward=share)(seen)
+        np.testing.assert_allclose(said, wanted, atol=1e-9)
+
+
+def sine_and_place(T):
+    """Im(r_e) and p_e by matrices: sin(angle / 2) about the axis, and the translation."""
+    angle = np.arccos(np.clip((np.trace(T[:3, :3]) - 1) / 2, -1, 1))
+    axis = np.array([T[2, 1] - T[1, 2], T[0, 2] - T[2, 0], T[1, 0] - T[0, 1]]) / 2 / np.sin(angle)
+    return np.sin(angle / 2) * axis, T[:3, 3]
+
+
+@pytest.mark.parametrize(("gains", "k_O", "k_T"), [
+    ({"gamma_O": 0.1, "gamma_T": 0.05}, 2 / 0.1, np.sqrt(2) / 0.05),
+    ({"K_O": 5.3, "K_T": 3.8}, 5.3, 3.8), ({"K_O": 5.3, "gamma_T": 0.372}, 5.3, np.sqrt(2) / 0.372),
+])  # fmt: skip
+def test_hinf_set_is_its_equation(rng, gains, k_O, k_T):
+    for seen in states(rng, 50, size=1.0):
+        sine, place = sine_and_place(error_matrix(seen))
+        u = law("hinf-set", **gains)(seen)
+        np.testing.assert_allclose(u[:3], -k_O * sine, atol=1e-6)
+        np.testing.assert_allclose(u[3:], -k_T * place, rtol=1e-5, atol=1e-9)
+
+
+def test_lqr_is_its_equation(rng):
+    q, r = np.array([1.0, 2, 3, 4, 5, 6]), np.array([0.1, 0.2, 0.3, 0.1, 0.2, 0.3])
+    P = np.sqrt(q * r)  # of a drawing that ends in this weight, at any time
+    for seen in states(rng, 50, size=1.0):
+        T = error_matrix(seen)
+        sine, place = sine_and_place(T)
+        wanted = -2 * P / r * np.r_[sine, place / 2] + twist_matrix(T) @ seen.twist_d
+        said = law("lqr", q=tuple(q), r=tuple(r))(seen)
+        np.testing.assert_allclose(said, wanted, atol=1e-6)
+
+
+def test_lqr8_is_its_equation(rng):
+    """N^+ R^-1 (P e + g) with the 8 x n matrix, any P and g, a diagonal R."""
+    r = np.arange(1.0, 9.0)
+    upper = np.triu_indices(8)
+    for seen in states(rng, 50, size=1.0):
+        P = rng.normal(size=(8, 8))
+        P, g = P + P.T, rng.normal(size=8)
+        seen = seen._replace(ahead=np.r_[P[upper], g])
+        x, x_d, J8 = peers(seen)
+        N = x_d.haminus8() @ dqrobotics.C8() @ J8
+        e = (dqrobotics.DQ([1]) - x.conj() * x_d).vec8()
+        wanted = np.linalg.pinv(N, rcond=1e-8) @ ((P @ e + g) / r)
+        ours = joint_rates("lqr8", seen, r=tuple(r))
+        np.testing.assert_allclose(ours, wanted, atol=1e-9, rtol=1e-7)
+
+
+def test_lqr8_of_a_drawing_that_stands_still_is_p(rng):
+    """P = sqrt(q r) and g = 0: the proportional law at the rate sqrt(q / r)."""
+    ahead = ahead_of("lqr8", motion=STILL)
+    for seen in states(rng, 20):
+        seen = seen._replace(ahead=ahead)
+        np.testing.assert_allclose(law("lqr8")(seen), law("p", k=20.0)(seen), atol=1e-9)
+
+
+@pytest.mark.parametrize(("with_it", "without"), [("hinf", "hinf-set"), ("log", "log0")])
+def test_the_feed_forward_is_the_asked_twist_carried_to_the_error(rng, with_it, without):
+    """Ad(x_e) xi_d, by the 6 x 6 matrix of a homogeneous one."""
     for seen in states(rng, 30, size=2.0):
-        T = dq.matrix_from_pose(seen.pose) @ np.linalg.inv(dq.matrix_from_pose(seen.pose_d))
-        R, p = T[:3, :3], T[:3, 3]
-        cross = np.array([[0, -p[2], p[1]], [p[2], 0, -p[0]], [-p[1], p[0], 0]])
-        wanted = np.r_[R @ seen.twist_d[:3], R @ seen.twist_d[3:] + cross @ R @ seen.twist_d[:3]]
-        added = law("hinf")(seen) - law("hinf-set")(seen)
-        np.testing.assert_allclose(added, wanted, atol=1e-11)
-
-
-def test_hinf_error_obeys_its_own_differential_equation(rng):
-    """d(2 (1 - eta))/dt = -K_O |Im r_e|^2 and d|p_e|^2/dt = -2 K_T |p_e|^2, from large errors."""
-    x, x_d = random_poses(rng, 2)
-    errors = simulate(
-        "hinf-set", {"gamma_O": 0.5, "gamma_T": 0.5}, x, lambda _t: (x_d, np.zeros(6)), 0.4, 4000
-    )
-    h = 1e-4
-    eta, sine = errors[:, 0], (errors[:, 1:4] ** 2).sum(1)
-    np.testing.assert_allclose((2 * (eta[:-2] - eta[2:]) / (2 * h)), -4.0 * sine[1:-1], rtol=1e-5)
-    p = (dq.translation(errors) ** 2).sum(1)
-    np.testing.assert_allclose(
-        (p[2:] - p[:-2]) / (2 * h), -2 * np.sqrt(2) / 0.5 * p[1:-1], rtol=1e-5
-    )
+        plain = law("log", feed_forward=0)(seen) if without == "log0" else law(without)(seen)
+        wanted = twist_matrix(error_matrix(seen)) @ seen.twist_d
+        np.testing.assert_allclose(law(with_it)(seen) - plain, wanted, atol=1e-11)
 
 
 def test_gammas_give_the_gains_of_the_thesis():
     gains = CONTROLLERS["hinf"].read_gains({}).first
-    assert pytest.approx(40) == gains.K_O
-    assert pytest.approx(20, rel=1e-3) == gains.K_T
+    assert pytest.approx(40) == gains.k_O
+    assert pytest.approx(20, rel=1e-3) == gains.k_T
     # equal pairs: sqrt(2) sqrt(g^-2 + g^-2) and sqrt(g^-2 + g^-2)
-    assert pytest.approx(np.sqrt(2) * np.sqrt(2 / gains.gamma_O**2)) == gains.K_O
-    assert pytest.approx(np.sqrt(2 / gains.gamma_T**2)) == gains.K_T
+    assert pytest.approx(np.sqrt(2) * np.sqrt(2 / gains.gamma_O**2)) == gains.k_O
+    assert pytest.approx(np.sqrt(2 / gains.gamma_T**2)) == gains.k_T
 
 
 def test_errors_are_the_ones_of_the_papers(rng):
@@ -175,3 +177,4 @@ def test_errors_are_the_ones_of_the_papers(rng):
     moved = random_poses(rng, 1)[0]
     again = invariant_error(dq.mul(moved, x), dq.mul(moved, x_d))
     np.testing.assert_allclose(again, e, atol=1e-13)  # the same from any frame
+    assert spatial_error(x, -x_d)[0] >= 0

@@ -190,3 +190,26 @@ def test_a_function_can_be_handed_over_from_python(tmp_path):
     assert [path.name for path in dqpaint.save(painting, tmp_path)] == [
         "line-straight.png", "line-straight.csv", "line-straight.json",
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["_k", "shown", "promise", "copy", "json", "model_config"])
+def test_a_gain_has_no_name_of_the_model_s_own(name):
+    scope = {}
+    exec(f"def law(seen, {name}=1.0): pass", scope)
+    with pytest.raises(UsageError, match=f"a gain can't be called '{name}'; choose another"):
+        make_controller(scope["law"], "law")
+
+
+def test_complex_answers_are_refused(rng):
+    law = make_controller(lambda seen: seen.twist_d + 1j, "law")
+    with pytest.raises(DqpaintError, match="complex numbers, not real ones"):
+        law.law(seen_at(rng), law.read_gains({}).first)
+
+
+def test_units_are_found_where_annotations_are_put_off(tmp_path):
+    text = (
+        "from __future__ import annotations\nfrom typing import Annotated\n\n"
+        'def f(seen, k: Annotated[float, "1/s"] = 2.0): return k * seen.twist_d\n'
+    )
+    assert find_controller(written(tmp_path, text)).list_gains() == "k = 2 (1/s)"
+    assert make_controller(lambda seen: 0, "law").list_gains() == "none"

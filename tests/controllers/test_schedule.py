@@ -67,10 +67,32 @@ def test_what_is_shown_is_what_was_written():
     assert read(k="5..20@10%").shown() == {"k": "5..20@10%", "q": 1.0}
     shown = CONTROLLERS["hinf"].read_gains({"gamma_O": "0.5..0.25@10%"}).shown()
     assert shown["gamma_O"] == "0.5..0.25@10%"
-    assert shown["K_O"] == "4..8"  # follows
+    assert shown["K_O"] == "4..8@10%"  # follows
     assert shown["gamma_T"] == 0.0707
 
 
 def test_constant_gains_are_one_object():
     rows = read(k=3.0).over(np.linspace(0, 1, 5))
     assert all(row is rows[0] for row in rows)
+
+
+@pytest.mark.parametrize(("text", "at"), [
+    ("10@50%..40@50%", {0.0: 10, 0.49: 10, 0.5: 40, 1.0: 40}),
+    ("10@50%..40@50%..60@100%", {0.0: 10, 0.25: 10, 0.75: 50, 1.0: 60}),
+])  # fmt: skip
+def test_what_stands_before_a_first_jump_holds_until_then(text, at):
+    gains = read(k=text)
+    for part, value in at.items():
+        assert gains.at(part).k == pytest.approx(value)
+
+
+def test_what_follows_from_a_gain_that_comes_back_is_not_shown_as_constant():
+    shown = CONTROLLERS["hinf"].read_gains({"K_T": "20..40@50%..20"}).shown()
+    assert shown["gamma_T"] == "0.0707107..0.0353553@50%..0.0707107@100%"
+    assert shown["K_O"] == 40
+
+
+def test_both_values_of_a_jump_count_for_the_promise():
+    dip = CONTROLLERS["hinf"].read_gains({"K_T": "40..10@95%..40@95%"})
+    assert dip.promise()[1] == pytest.approx(0.1)
+    assert CONTROLLERS["hinf"].read_gains({"K_T": "10@50%..40@50%"}).promise()[1] == 0.1

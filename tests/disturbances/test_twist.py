@@ -74,7 +74,7 @@ def test_a_frequency_beyond_half_the_rate_is_refused():
 
 
 def test_unknown_disturbances_list_the_known_ones():
-    with pytest.raises(UnknownNameError, match="no disturbance named 'wind'; known: twist"):
+    with pytest.raises(UnknownNameError, match="no disturbance named 'wind'; known: base"):
         make_disturbances({"wind": {}})
 
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from dqpaint.light.brushes import Light
 from dqpaint.light.camera import Camera
+from dqpaint.light.light import Light
 
 WIDTH, HEIGHT = 240, 180
 

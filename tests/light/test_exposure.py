@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from dqpaint.light.brushes import Light
 from dqpaint.light.exposure import CORE, _weighted_median, automatic_exposure
 from dqpaint.light.film import expose
+from dqpaint.light.light import Light
 from dqpaint.light.spread import point_spread, spread
 from tests.light.scene import at_pixels, drawn, flat_camera, line
 

@@ -3,9 +3,9 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from dqpaint.light.brushes import Light
 from dqpaint.light.camera import NEAR
 from dqpaint.light.film import PAD, expose
+from dqpaint.light.light import Light
 from tests.light.scene import HEIGHT, WIDTH, at_pixels, drawn, flat_camera, line
 
 ENERGY_TOLERANCE = 1e-9  # relative

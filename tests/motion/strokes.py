@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.language import taylor
+from dqpaint.language import chains, taylor
 from dqpaint.language.diagnostics import Span
 from dqpaint.language.program import (
     Arc,
@@ -56,6 +56,9 @@ def _raw(t):
     return x, y, z
 
 
+BEZIER = np.array([START.position, (0.3, 0.1, -0.2), (-0.1, 0.25, 0.1), (0.2, 0.1, 0.0)])
+HALF_AXES = np.array([[0.08, 0.02, -0.01], [0.03, -0.05, 0.06]])  # conjugate, not square
+
 PATHS = {
     "line": Straight((0.12, 0.05, -0.09)),
     "turn": Straight((0.0, 0.0, 0.0)),
@@ -65,6 +68,11 @@ PATHS = {
     "screw": Screw((0.4, 0.1, -0.2), AXIS, 1.7, 0.08),
     "screw-to": ScrewTo(),
     "curve": Curve(formula, 0.2, 1.4),
+    "bezier": chains.bezier(BEZIER),
+    "ellipse": chains.arc(
+        START.position - np.cos(0.4) * HALF_AXES[0] - np.sin(0.4) * HALF_AXES[1],
+        *(*HALF_AXES, 0.4, -3.9),
+    ),
 }
 TOOLS = {
     "keep": Keep(),
@@ -82,11 +90,14 @@ LAWS = {
     "quintic-rates": Law("quintic", (0.02, 0.04, -0.01, 0.03)),
 }
 RIGID = {"screw", "screw-to"}
+CHAINS = {"bezier", "ellipse"}  # what is made of pieces has corners, in general
 KINDS = [
     (path, tool)
     for path in PATHS
     for tool in TOOLS
-    if (path not in RIGID or tool == "follow") and (path != "turn" or tool == "turn")
+    if (path not in RIGID or tool == "follow")
+    and (path != "turn" or tool == "turn")
+    and (path not in CHAINS or tool != "follow")
 ]
 
 

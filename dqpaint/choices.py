@@ -1,0 +1,71 @@
+"""A choice with values of its own, as text: `twist=sine,x=0.02`, `compliant:frequency=60`."""
+
+import re
+from collections.abc import Mapping
+from typing import Any, TypeVar
+
+from pydantic import BaseModel, ValidationError
+
+from dqpaint.errors import UsageError
+
+Values = Mapping[str, float | str]
+M = TypeVar("M", bound=BaseModel)
+
+
+def read_choice(kind: str, text: str, example: str) -> tuple[str, dict[str, float | str]]:
+    """Name and values of a text like `twist=sine,x=0.02` or `twist:form=sine,x=0.02`, or a name.
+
+    A value without a name has the name "".
+
+    Args:
+        kind: of the choice, for the messages.
+        text: as typed.
+        example: a text that is right.
+
+    Raises:
+        UsageError: anything else, or a value given twice.
+    """
+    parts = re.fullmatch(r"\s*([\w-]+)\s*(?:[:=,](.+))?", text)
+    if parts is None:
+        raise UsageError(f"{kind} '{text}' is not NAME or NAME:KEY=VALUE, for example {example}")
+    values: dict[str, float | str] = {}
+    for item in (parts[2] or "").split(",") if parts[2] else ():
+        key, sign, value = (part.strip() for part in item.rpartition("="))
+        if not value or (sign and not key) or key in values:
+            raise UsageError(f"{kind} '{text}': '{item.strip()}' is not KEY=VALUE, each once")
+        values[key] = number_or_text(value)
+    return parts[1], values
+
+
+def number_or_text(value: str) -> float | str:
+    """A number where the text is one."""
+    try:
+        return float(value)
+    except ValueError:
+        return value
+
+
+def make_choice(kind: str, name: str, model: type[M], values: Values) -> M:
+    """The model of a choice from the values given; one without a name is the first field's.
+
+    Raises:
+        UsageError: an unknown value, or one outside its range; lists the known ones.
+    """
+    named: dict[str, Any] = dict(values)
+    if "" in named and model.model_fields:
+        named.setdefault(next(iter(model.model_fields)), named.pop(""))
+    try:
+        return model.model_validate(named)
+    except ValidationError as problem:
+        first = problem.errors()[0]
+        field = ".".join(str(part) for part in first["loc"])
+        if first["type"] == "extra_forbidden":
+            fault = f"has no value named '{field}'" if field else "takes no value"
+        elif first["type"] == "value_error":
+            fault = f"{field} {first['msg'].removeprefix('Value error, ')}".strip()
+        else:
+            fault = f"{field} {first['input']!r} {first['msg'].removeprefix('Input ')}"
+        fields = model.model_fields.items()
+        known = ", ".join(f"{word} ({field.description})" for word, field in fields)
+        known = f"; its values: {known}" if known else ""
+        raise UsageError(f"{kind} '{name}': {fault}{known}") from None

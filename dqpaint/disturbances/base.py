@@ -1,0 +1,31 @@
+"""A base that stands elsewhere than the law believes."""
+
+from dataclasses import replace
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field
+
+from dqpaint import dq
+from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance
+from dqpaint.plants.world import World
+
+Number = Annotated[float, Field(ge=-10, le=10, allow_inf_nan=False)]
+
+
+@DISTURBANCES.add("base")
+class DisplacedBase(Disturbance):
+    """The arm's base is displaced and turned; everything else stays where it was."""
+
+    x: Number = Field(0.0, description="m along the x axis of the base the law believes in")
+    y: Number = Field(0.0, description="m along y")
+    z: Number = Field(0.0, description="m along z")
+    wx: Number = Field(0.0, description="rad about x, part of one turning about (wx, wy, wz)")
+    wy: Number = Field(0.0, description="rad about y")
+    wz: Number = Field(0.0, description="rad about z")
+
+    def world(self, world: World) -> World:
+        """With the base's true pose; gravity stays upright."""
+        turn = np.array([self.wx, self.wy, self.wz, 0, 0, 0])
+        moved = dq.pose_from((self.x, self.y, self.z), dq.rotation(dq.exp(turn / 2)))
+        return replace(world, base=dq.mul(moved, world.base))

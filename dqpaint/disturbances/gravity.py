@@ -1,0 +1,31 @@
+"""A model that takes gravity for stronger or weaker than it is."""
+
+from dataclasses import replace
+from typing import Annotated, ClassVar
+
+import numpy as np
+from pydantic import Field
+
+from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance
+from dqpaint.plants.plant import Trait
+from dqpaint.plants.world import World
+from dqpaint.robots.kinematics import Kinematics
+
+
+@DISTURBANCES.add("gravity")
+class GravityError(Disturbance):
+    """Gravity in the model is too strong: of laws that command torque, and of compensations."""
+
+    needs: ClassVar[Trait | None] = "a model of gravity"
+
+    error: Annotated[float, Field(ge=-1, le=10, allow_inf_nan=False)] = Field(
+        0.0, description="as a part of gravity; 0.1 is 10 % too strong, -1 is none"
+    )
+
+    def world(self, world: World) -> World:
+        """The arm's own model errs."""
+        return replace(world, model_gravity=world.model_gravity * (1 + self.error))
+
+    def belief(self, kinematics: Kinematics, rng: np.random.Generator) -> Kinematics:
+        """And the law's."""
+        return kinematics.changed(gravity=1 + self.error) if self.error else kinematics

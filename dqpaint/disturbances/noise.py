@@ -1,0 +1,29 @@
+"""Encoders that err: noise, and steps of their own."""
+
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field
+
+from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance, Encoder
+from dqpaint.dq import Floats
+
+Size = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
+
+
+@DISTURBANCES.add("noise")
+class EncoderNoise(Disturbance):
+    """The encoders read angles with noise, or in steps; speeds are read off them."""
+
+    rms: Size = Field(0.0, description="rad of white noise at each reading")
+    step: Size = Field(0.0, description="rad, the smallest step an encoder tells apart")
+
+    def encoder(self, rows: int, joints: int, rng: np.random.Generator) -> Encoder | None:
+        """Each reading has noise of its own, and is then rounded."""
+        errors = self.rms * rng.standard_normal((rows, joints))
+
+        def read(row: int, angles: Floats) -> Floats:
+            found = angles + errors[row]
+            return np.asarray(self.step * np.round(found / self.step) if self.step else found)
+
+        return read

@@ -1,0 +1,28 @@
+"""A load the model does not know of."""
+
+from dataclasses import replace
+from typing import Annotated, ClassVar
+
+from pydantic import Field
+
+from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance
+from dqpaint.plants.plant import Trait
+from dqpaint.plants.world import Payload, World
+
+
+@DISTURBANCES.add("payload")
+class UnknownPayload(Disturbance):
+    """The arm carries a ball where the light sits; no model knows of it."""
+
+    needs: ClassVar[Trait | None] = "masses"
+
+    mass: Annotated[float, Field(ge=0, le=1000, allow_inf_nan=False)] = Field(0.0, description="kg")
+    radius: Annotated[float, Field(gt=0, le=1, allow_inf_nan=False)] = Field(
+        0.03, description="m, of the ball"
+    )
+
+    def world(self, world: World) -> World:
+        """With the ball, if it weighs anything."""
+        if not self.mass:
+            return world
+        return replace(world, payloads=(*world.payloads, Payload(self.mass, self.radius)))

@@ -1,0 +1,46 @@
+"""A force on the arm for a while."""
+
+from dataclasses import replace
+from typing import Annotated, ClassVar
+
+from pydantic import Field
+
+from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance
+from dqpaint.dq import Floats
+from dqpaint.errors import UsageError
+from dqpaint.plants.plant import Trait
+from dqpaint.plants.world import Push, World
+
+Force = Annotated[float, Field(ge=-1e5, le=1e5, allow_inf_nan=False)]
+Time = Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)]
+
+
+@DISTURBANCES.add("push")
+class ForceForAWhile(Disturbance):
+    """A force pushes the tool, or a link."""
+
+    needs: ClassVar[Trait | None] = "masses"
+
+    x: Force = Field(0.0, description="N along the base's x")
+    y: Force = Field(0.0, description="N along y")
+    z: Force = Field(0.0, description="N along z")
+    link: Annotated[int, Field(ge=0, le=100)] = Field(
+        0, description="which link, from 1, at its centre of mass; 0 is the tool, at the light"
+    )
+    start: Time = Field(1.0, description="s, when it begins")
+    seconds: Time = Field(0.1, description="s, how long it lasts")
+
+    def check(self, t: Floats) -> None:
+        """It begins before the end."""
+        if self.start >= t[-1]:
+            raise UsageError(
+                f"disturbance 'push': it starts at {self.start:g} s, when the drawing is over "
+                f"({t[-1]:.4g} s)"
+            )
+
+    def world(self, world: World) -> World:
+        """With the push, if it is any."""
+        if not (self.x or self.y or self.z):
+            return world
+        push = Push((self.x, self.y, self.z), self.link, self.start, self.seconds)
+        return replace(world, pushes=(*world.pushes, push))

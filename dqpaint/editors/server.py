@@ -1,0 +1,233 @@
+"""The language server: an editor's questions over standard input and output, answered.
+
+Places are code points in dqpaint and UTF-16 units (or what the editor asked for) in the protocol;
+`_Document` turns one into the other.
+"""
+
+import gc
+import os
+import sys
+from contextlib import redirect_stdout
+from pathlib import Path
+from urllib.parse import unquote, urlparse
+
+from lsprotocol import types as lsp
+from pygls.lsp.server import LanguageServer
+from pygls.workspace import PositionCodec
+
+from dqpaint import __version__
+from dqpaint.editors import hints
+from dqpaint.editors.strokes import Understood, understand
+from dqpaint.language import Diagnostic, ScriptError
+from dqpaint.language.diagnostics import Severity, Span, file_at, place
+from dqpaint.language.layout import formatted
+from dqpaint.language.words import STATEMENTS
+
+_SEVERITIES = {
+    Severity.ERROR: lsp.DiagnosticSeverity.Error,
+    Severity.WARNING: lsp.DiagnosticSeverity.Warning,
+}
+_KINDS = {
+    "statement": lsp.CompletionItemKind.Keyword,
+    "part": lsp.CompletionItemKind.Property,
+    "word": lsp.CompletionItemKind.Keyword,
+    "unit": lsp.CompletionItemKind.Unit,
+    "function": lsp.CompletionItemKind.Function,
+    "law": lsp.CompletionItemKind.EnumMember,
+    "constant": lsp.CompletionItemKind.Constant,
+    "colour": lsp.CompletionItemKind.Color,
+    "name": lsp.CompletionItemKind.Variable,
+}
+
+
+class _Document:
+    """A text, with the editor's places in it."""
+
+    def __init__(self, text: str, codec: PositionCodec) -> None:
+        self.text = text.replace("\r\n", "\n").replace("\r", "\n")
+        self._lines = self.text.split("\n")
+        self._codec = codec
+
+    def position(self, offset: int) -> lsp.Position:
+        line, column = place(self.text, offset)
+        before = self._lines[line - 1][: column - 1]
+        return lsp.Position(line - 1, self._codec.client_num_units(before))
+
+    def range(self, span: Span | None) -> lsp.Range:
+        """Where a span is; the first line for the text as a whole, and for other files."""
+        start, end = span if span is not None and span.start <= len(self.text) else (0, 0)
+        return lsp.Range(self.position(start), self.position(end))
+
+    def offset(self, position: lsp.Position) -> int:
+        line = min(position.line, len(self._lines) - 1)
+        row, column, units = self._lines[line], 0, 0
+        while column < len(row) and units < position.character:
+            units += self._codec.client_num_units(row[column])
+            column += 1
+        return sum(len(earlier) + 1 for earlier in self._lines[:line]) + column
+
+
+def _name(uri: str) -> str:
+    """A document's path, which messages name and other files are found by."""
+    parts = urlparse(uri)
+    return unquote(parts.path) if parts.scheme == "file" else Path(uri).name
+
+
+class _Server(LanguageServer):
+    """What is known of each open text."""
+
+    def __init__(self) -> None:
+        super().__init__("dqpaint", __version__)
+        self._understood: dict[str, Understood] = {}
+
+    def document(self, uri: str) -> _Document:
+        return _Document(self.workspace.get_text_document(uri).source, self._codec)
+
+    @property
+    def _codec(self) -> PositionCodec:
+        return self.workspace.position_codec
+
+    def understood(self, uri: str, planned: bool) -> Understood:
+        """What there is to say about a text; nothing is worked out twice."""
+        text = self.document(uri).text
+        known = self._understood.get(uri)
+        if known is None or known.text != text or (planned and not known.planned):
+            known = understand(text, _name(uri), planned)
+            self._understood[uri] = known
+        return known
+
+    def publish(self, uri: str, planned: bool) -> None:
+        """Send the messages about a text."""
+        document = self.document(uri)
+        understood = self.understood(uri, planned)
+        found = [_message(d, document, uri, understood.source) for d in understood.findings]
+        self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, found))
+
+    def forget(self, uri: str) -> None:
+        """A text that was closed has no messages any more."""
+        self._understood.pop(uri, None)
+        self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, []))
+
+
+def _message(found: Diagnostic, document: _Document, uri: str, source: str) -> lsp.Diagnostic:
+    text = found.message + (f" ({found.label})" if found.label else "")
+    if found.span is not None and found.span.start > len(document.text):
+        at = place(source, found.span.start)
+        text = f"{file_at(source, found.span.start, '')[1]}:{at.line}:{at.column}: {text}"
+    return lsp.Diagnostic(
+        range=document.range(found.span),
+        message=text + (f"\nhelp: {found.help}" if found.help else ""),
+        severity=_SEVERITIES[found.severity],
+        code=found.code,
+        source="dqpaint",
+        related_information=[
+            lsp.DiagnosticRelatedInformation(lsp.Location(uri, document.range(span)), label)
+            for span, label in found.related
+            if span.start <= len(document.text)
+        ],
+    )
+
+
+def make_server() -> LanguageServer:
+    """The server with all it answers."""
+    server = _Server()
+
+    @server.feature(lsp.TEXT_DOCUMENT_DID_OPEN)
+    def opened(params: lsp.DidOpenTextDocumentParams) -> None:
+        server.publish(params.text_document.uri, planned=True)
+
+    @server.feature(lsp.TEXT_DOCUMENT_DID_CHANGE)
+    def changed(params: lsp.DidChangeTextDocumentParams) -> None:
+        server.publish(params.text_document.uri, planned=False)  # at each key: the text alone
+
+    @server.feature(lsp.TEXT_DOCUMENT_DID_SAVE)
+    def saved(params: lsp.DidSaveTextDocumentParams) -> None:
+        server.publish(params.text_document.uri, planned=True)
+
+    @server.feature(lsp.TEXT_DOCUMENT_DID_CLOSE)
+    def closed(params: lsp.DidCloseTextDocumentParams) -> None:
+        server.forget(params.text_document.uri)
+
+    @server.feature(lsp.TEXT_DOCUMENT_HOVER)
+    def hover(params: lsp.HoverParams) -> lsp.Hover | None:
+        return _hover(server, params.text_document.uri, params.position)
+
+    @server.feature(lsp.TEXT_DOCUMENT_COMPLETION)
+    def complete(params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
+        document = server.document(params.text_document.uri)
+        found = hints.completions(document.text, document.offset(params.position))
+        return [
+            lsp.CompletionItem(e.word, kind=_KINDS[e.kind], detail=e.says, documentation=e.example)
+            for e in found
+        ]
+
+    @server.feature(
+        lsp.TEXT_DOCUMENT_CODE_ACTION,
+        lsp.CodeActionOptions(code_action_kinds=[lsp.CodeActionKind.QuickFix]),
+    )
+    def actions(params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
+        return _fixes(server, params.text_document.uri, params.range)
+
+    @server.feature(lsp.TEXT_DOCUMENT_FORMATTING)
+    def layout(params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
+        document = server.document(params.text_document.uri)
+        try:
+            made = formatted(document.text)
+        except ScriptError:  # its mistakes are shown already
+            return []
+        return [lsp.TextEdit(document.range(Span(0, len(document.text))), made)]
+
+    return server
+
+
+def _hover(server: _Server, uri: str, position: lsp.Position) -> lsp.Hover | None:
+    """What the word means; for a line that moves the tool also how long it is and takes."""
+    document = server.document(uri)
+    found = hints.meaning_at(document.text, document.offset(position))
+    if found is None:
+        return None
+    entry, span = found
+    parts = [f"**{entry.word}**: {entry.says}", f"```traj\n{entry.example}\n```"]
+    line = position.line + 1
+    figures = server.understood(uri, planned=True).figures.get(line)
+    if figures is not None:
+        parts.insert(0, str(figures))
+    if entry.kind == "statement" and STATEMENTS[entry.word].parts:
+        parts.append(hints.listed(STATEMENTS[entry.word].parts))
+    content = lsp.MarkupContent(lsp.MarkupKind.Markdown, "\n\n".join(parts))
+    return lsp.Hover(content, document.range(span))
+
+
+def _fixes(server: _Server, uri: str, asked: lsp.Range) -> list[lsp.CodeAction]:
+    """The edits that mend what is wrong within a range."""
+    document = server.document(uri)
+    start, end = document.offset(asked.start), document.offset(asked.end)
+    found = []
+    understood = server.understood(uri, planned=False)
+    for diagnostic in understood.findings:
+        fix, span = diagnostic.fix, diagnostic.span
+        if fix is None or span is None or span.end < start or span.start > end:
+            continue
+        edit = lsp.TextEdit(document.range(fix.span), fix.text)
+        found.append(
+            lsp.CodeAction(
+                fix.title,
+                kind=lsp.CodeActionKind.QuickFix,
+                diagnostics=[_message(diagnostic, document, uri, understood.source)],
+                edit=lsp.WorkspaceEdit(changes={uri: [edit]}),
+                is_preferred=True,
+            )
+        )
+    return found
+
+
+def serve() -> None:
+    """Answer until the editor says goodbye.
+
+    The server closes the pipes it is given, so it gets its own; what anything prints meanwhile goes
+    to standard error and not between its answers.
+    """
+    gc.enable()  # a long life, unlike a command's
+    server = make_server()
+    with redirect_stdout(sys.stderr):
+        server.start_io(open(os.dup(0), "rb"), open(os.dup(1), "wb"))  # noqa: SIM115

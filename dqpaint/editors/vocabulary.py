@@ -1,0 +1,46 @@
+"""The words of the language by their kinds, as editors colour and explain them."""
+
+from functools import cache
+from typing import NamedTuple
+
+from dqpaint.language import colours
+from dqpaint.language.units import UNITS
+from dqpaint.language.words import CONSTANTS, FUNCTIONS, LAWS, LITTLE_WORDS, PARTS, STATEMENTS
+
+
+class Entry(NamedTuple):
+    """A word: its kind, its meaning in a line, how it is written."""
+
+    word: str
+    kind: str  # statement, part, word, unit, function, law, constant, colour
+    says: str
+    example: str
+
+
+@cache
+def vocabulary() -> tuple[Entry, ...]:
+    """All words; one that is a statement and a part comes twice, the statement first."""
+    ends = {0: "", 2: "(v0, v1)", 4: "(v0, v1, a0, a1)"}
+    return (
+        *(Entry(s.word, "statement", s.says, s.example) for s in STATEMENTS.values()),
+        *(Entry(p.word, "part", p.says, p.example) for p in PARTS.values()),
+        *(Entry(word, "word", "a little word of the language", word) for word in LITTLE_WORDS),
+        *(Entry(unit, "unit", f"the unit {name}", unit) for unit, (_, _, name) in UNITS.items()),
+        *(Entry(name, "function", "a function", call) for name, call in FUNCTIONS.items()),
+        *(
+            Entry(law, "law", "a time law", f"{law}{ends[max(counts)]}")
+            for law, counts in LAWS.items()
+        ),
+        *(Entry(name, "constant", _constant(name), name) for name in CONSTANTS),
+        *(Entry(name, "colour", "a colour", name) for name in colours.NAMES),
+    )
+
+
+def words(*kinds: str) -> list[str]:
+    """The words of some kinds, each once, the longest first, so that none hides another."""
+    found = {entry.word for entry in vocabulary() if entry.kind in kinds}
+    return sorted(found, key=lambda word: (-len(word), word))
+
+
+def _constant(name: str) -> str:
+    return "the number pi" if name == "pi" else f"the direction of the {name} axis"

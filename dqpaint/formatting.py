@@ -1,0 +1,52 @@
+"""Files -> the same files in the one layout. Line ends stay as a file has them."""
+
+import sys
+from pathlib import Path
+
+from dqpaint.errors import DqpaintError
+from dqpaint.files import rewrite
+from dqpaint.language.layout import formatted
+from dqpaint.language.source import decoded, load
+
+STDIN = "-"
+
+
+def laid_out(data: bytes, name: str) -> bytes:
+    """The bytes of a drawing in the one layout.
+
+    All line ends become those of the first line: which ones it has depends on the system, and is
+    no part of the layout. A byte-order mark is left out.
+
+    Raises:
+        ScriptError: the text does not parse.
+        DqpaintError: it is no text.
+    """
+    text = formatted(decoded(data, name), name)
+    first = data.partition(b"\n")[0]
+    return text.replace("\n", "\r\n" if first.endswith(b"\r") else "\n").encode()
+
+
+def format_file(name: str, write: bool) -> bool:
+    """Whether a file is not in the one layout; if so, it is rewritten where that is asked for.
+
+    Raises:
+        DqpaintError: it cannot be read, understood or written; it is as it was.
+    """
+    data = load(name)
+    made = laid_out(data, name)
+    if write and made != data:
+        rewrite(Path(name), made)
+    return made != data
+
+
+def format_input() -> tuple[bytes, bool]:
+    """Standard input in the one layout, and whether it was not.
+
+    Raises:
+        DqpaintError: it cannot be understood.
+    """
+    if sys.stdin is None:
+        raise DqpaintError("standard input is closed")
+    data = sys.stdin.buffer.read()
+    made = laid_out(data, "<stdin>")
+    return made, made != data

@@ -1,0 +1,51 @@
+"""A file -> its text, or why it is none. This and the layout are all that `fmt` needs."""
+
+from pathlib import Path
+
+from dqpaint.errors import DqpaintError
+
+MOST_BYTES = 2_000_000
+
+
+def load(path: str | Path) -> bytes:
+    """The bytes of a file, one more than allowed at most.
+
+    Raises:
+        DqpaintError: the file can't be read.
+    """
+    try:
+        with Path(path).open("rb") as file:
+            return file.read(MOST_BYTES + 1)
+    except (OSError, ValueError) as fault:
+        reason = fault.strerror if isinstance(fault, OSError) else str(fault)
+        raise DqpaintError(f"can't read {path}: {(reason or str(fault)).lower()}") from None
+
+
+def decoded(data: bytes, name: str) -> str:
+    """The text of a file, its lines ended by a newline alone.
+
+    Raises:
+        DqpaintError: it is not a text in UTF-8, or too large.
+    """
+    if len(data) > MOST_BYTES:
+        raise DqpaintError(f"{name} is larger than {MOST_BYTES // 1_000_000} MB")
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise DqpaintError(f"{name} is written in UTF-16; save it as UTF-8")
+    if b"\0" in data:
+        raise DqpaintError(f"{name} is not a text: byte {data.index(0) + 1} is 0")
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as fault:
+        byte = data[fault.start]
+        line = data.count(b"\n", 0, fault.start) + 1
+        raise DqpaintError(
+            f"{name} is not written in UTF-8: line {line}, byte {fault.start + 1} is "
+            f"0x{byte:02x}{_latin(byte)}; save it as UTF-8"
+        ) from None
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _latin(byte: int) -> str:
+    """What the byte would be in Latin-1, where files that are not UTF-8 mostly come from."""
+    letter = bytes([byte]).decode("latin-1")
+    return f" ('{letter}' in Latin-1)" if letter.isprintable() else ""

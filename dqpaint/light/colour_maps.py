@@ -1,0 +1,88 @@
+"""Colour maps for light on black: equal steps of value look equally different.
+
+The map of amounts is a path through OKLab (Ottosson, A perceptual color space for image
+processing, 2020), from blue over magenta and orange to pale yellow, lightness 0.48 to 0.95 and
+never falling, cut into pieces of equal length there. It starts bright enough to be seen on black,
+and as lightness alone orders it, it is read by those who do not tell red from green.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+
+from dqpaint.light.arrays import Floats
+
+STEPS = 256
+LIGHTNESS = (0.48, 0.95)
+HUES = ((0.0, 264.0), (0.45, 350.0), (0.75, 410.0), (1.0, 465.0))
+"""Place on the path and hue there [deg]."""
+MOST_CHROMA = 0.24
+KINDS_LIGHTNESS, KINDS_CHROMA = 0.76, 0.15
+GOLDEN = 180.0 * (3.0 - 5.0**0.5)
+"""The golden angle: turns by it never come close to each other [deg]."""
+
+_TO_LMS = np.array([
+    [1.0, 0.3963377774, 0.2158037573],
+    [1.0, -0.1055613458, -0.0638541728],
+    [1.0, -0.0894841775, -1.2914855480],
+])  # fmt: skip
+_TO_RGB = np.array([
+    [4.0767416621, -3.3077115913, 0.2309699292],
+    [-1.2684380046, 2.6097574011, -0.3413193965],
+    [-0.0041960863, -0.7034186147, 1.7076147010],
+])  # fmt: skip
+
+
+def rgb_from_oklch(lightness: Floats, chroma: Floats, hue: Floats) -> Floats:
+    """(..., 3) linear RGB of lightness, chroma and hue [deg], each (...)."""
+    h = np.radians(hue)
+    lab = np.stack([lightness, chroma * np.cos(h), chroma * np.sin(h)], axis=-1)
+    return np.asarray((lab @ _TO_LMS.T) ** 3 @ _TO_RGB.T)
+
+
+def _within(lightness: Floats, hue: Floats, most: float) -> Floats:
+    """The largest chroma up to `most` that linear sRGB can show, for each colour."""
+    low, high = np.zeros_like(lightness), np.full_like(lightness, most)
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        rgb = rgb_from_oklch(lightness, middle, hue)
+        fits = ((rgb >= 0.0) & (rgb <= 1.0)).all(axis=-1)
+        low, high = np.where(fits, middle, low), np.where(fits, high, middle)
+    return low
+
+
+@cache
+def amounts() -> Floats:
+    """(STEPS, 3) linear RGB from little to much."""
+    t = np.linspace(0.0, 1.0, 4001)
+    lightness = LIGHTNESS[0] + (LIGHTNESS[1] - LIGHTNESS[0]) * t
+    at, turned = np.array(HUES).T
+    hue = np.interp(t, at, turned)
+    chroma = _within(lightness, hue, MOST_CHROMA)
+    kernel = np.ones(401) / 401.0  # the border of what can be shown has edges that would be seen
+    smooth = np.convolve(np.pad(chroma, 200, mode="edge"), kernel, mode="valid")
+    chroma = np.minimum(chroma, smooth)
+    h = np.radians(hue)
+    lab = np.stack([lightness, chroma * np.cos(h), chroma * np.sin(h)], axis=1)
+    walked = np.append(0.0, np.cumsum(np.sqrt((np.diff(lab, axis=0) ** 2).sum(axis=1))))
+    even = np.interp(np.linspace(0.0, walked[-1], STEPS), walked, t)
+    rgb = rgb_from_oklch(*(np.interp(even, t, v) for v in (lightness, chroma, hue)))
+    return np.clip(rgb, 0.0, 1.0)
+
+
+def colour_amounts(values: Floats) -> Floats:
+    """(..., 3) linear RGB of values from 0 to 1; what is beyond has the colour of the end."""
+    at = np.clip(values, 0.0, 1.0) * (STEPS - 1)
+    below = np.minimum(at.astype(np.int64), STEPS - 2)
+    part = (at - below)[..., None]
+    table = amounts()
+    return np.asarray((1.0 - part) * table[below] + part * table[below + 1])
+
+
+def colour_kinds(count: int) -> Floats:
+    """(count, 3) linear RGB of things without an order: one lightness, hues far apart."""
+    hue: Floats = np.asarray((250.0 + GOLDEN * np.arange(count)) % 360.0, dtype=np.float64)
+    lightness = np.full(count, KINDS_LIGHTNESS)
+    return np.clip(rgb_from_oklch(lightness, _within(lightness, hue, KINDS_CHROMA), hue), 0.0, 1.0)

@@ -1,0 +1,166 @@
+"""Where the point is along a chain of smooth pieces: by the fraction of the whole length.
+
+A chain has no parameter of its own that could be slow or fast somewhere, so the point runs evenly:
+speed over the fraction is the length of the chain, everywhere. Each piece is integrated by
+Gauss-Legendre quadrature on panels that are halved until halving changes nothing, which also
+closes in on the tip of a cusp; from a length back to the piece's parameter leads Newton's method,
+kept within a bracket.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.dq import Floats
+from dqpaint.language.chains import NODES, WEIGHTS, Indices, derivatives
+from dqpaint.language.program import Chain
+from dqpaint.motion.places import Places
+
+EXACT = 1e-14  # of the length of the chain: what halving a panel may change
+MOST_HALVINGS = 30
+AT_ONCE = 10_000  # panels, for the sake of memory
+AT_REST = 1e-6  # of a piece's mean speed: there its formula stands still
+NEXT_TO = 1e-4  # of the way to the middle of a piece: where a direction is taken instead
+
+
+def place_chain(path: Chain) -> Places:
+    """Place and derivatives over the fraction of the length, by the chain rule.
+
+    With s the length and p(g) a piece: ds/dg = |p'|, and the inverse's derivatives are
+    g1 = 1 / |p'|, g2 = -(p'.p'') g1^4, g3 = -(p''.p'' + p'.p''') g1^5 + 4 (p'.p'')^2 g1^7.
+    Beyond its ends the chain goes on straight.
+    """
+    panels = _measure(path)
+    total = float(panels.edges[-1])
+    scale = total ** np.arange(4)[:, None, None]
+
+    def places(f: Floats) -> Floats:
+        distance = f * total
+        inside = np.clip(distance, 0.0, total)
+        piece, g = _parameter(path, panels, inside)
+        out = _by_length(path, piece, g, panels.mean_speed[piece])
+        beyond = distance - inside
+        out[0] += beyond[:, None] * out[1]
+        out[2:, beyond != 0] = 0.0
+        return out * scale
+
+    return places
+
+
+def _by_length(path: Chain, piece: Indices, g: Floats, mean_speed: Floats) -> Floats:
+    """Place (4, N, 3) and its derivatives over the length.
+
+    Where a piece's formula stands still, as at the end of a Bezier curve whose handle has no
+    length, the direction is the one next to it; the curvature may have no bound there and is left
+    out, as the jump of the direction is at a vertex.
+    """
+    p = derivatives(path, piece, g)
+    rest = np.linalg.norm(p[1], axis=1) <= AT_REST * mean_speed
+    if rest.any():
+        beside = g[rest] + NEXT_TO * (0.5 - g[rest])
+        p[1, rest] = derivatives(path, piece[rest], beside)[1]
+        p[2:, rest] = 0.0
+    g1 = 1.0 / np.linalg.norm(p[1], axis=1)[:, None]
+    p12 = (p[1] * p[2]).sum(1)[:, None]
+    p22_13 = (p[2] ** 2 + p[1] * p[3]).sum(1)[:, None]
+    g2 = -p12 * g1**4
+    g3 = -p22_13 * g1**5 + 4.0 * p12**2 * g1**7
+    first, second = p[1] * g1, p[2] * g1**2 + p[1] * g2
+    third = p[3] * g1**3 + 3.0 * p[2] * g1 * g2 + p[1] * g3
+    return np.stack([p[0], first, second, third])
+
+
+@dataclass(frozen=True)
+class _Panels:
+    """Stretches of pieces, in order.
+
+    Attributes:
+        piece: the piece of each (P,).
+        lower: its parameter where the panel begins (P,).
+        upper: and where it ends (P,).
+        edges: from the start of the chain to where each begins [m], and the end (P + 1,).
+        mean_speed: of each piece (M,): its length [m].
+    """
+
+    piece: Indices
+    lower: Floats
+    upper: Floats
+    edges: Floats
+    mean_speed: Floats
+
+
+def _measure(path: Chain) -> _Panels:
+    piece = np.arange(len(path.cubic))
+    lower, upper = np.zeros(len(piece)), np.ones(len(piece))
+    size = _lengths(path, piece, lower, upper)
+    close = EXACT * size.sum()
+    done: list[tuple[Indices, Floats, Floats, Floats]] = []
+    for halving in range(MOST_HALVINGS):
+        middle = 0.5 * (lower + upper)
+        first, second = _lengths(path, piece, lower, middle), _lengths(path, piece, middle, upper)
+        good = np.abs(first + second - size) <= close
+        good |= halving == MOST_HALVINGS - 1
+        done.append((piece[good], lower[good], upper[good], (first + second)[good]))
+        left = ~good
+        piece = np.concatenate([piece[left], piece[left]])
+        lower, upper = (
+            np.concatenate([lower[left], middle[left]]),
+            np.concatenate([middle[left], upper[left]]),
+        )
+        size = np.concatenate([first[left], second[left]])
+        if not left.any():
+            break
+    piece, lower, upper, size = (np.concatenate(part) for part in zip(*done, strict=True))
+    order = np.lexsort((lower, piece))
+    piece, lower, upper, size = piece[order], lower[order], upper[order], size[order]
+    edges = np.concatenate([[0.0], np.cumsum(size)])
+    return _Panels(piece, lower, upper, edges, np.bincount(piece, weights=size).astype(np.float64))
+
+
+def _lengths(path: Chain, piece: Indices, lower: Floats, upper: Floats) -> Floats:
+    """The lengths (N,) of pieces (N,) between parameters (N,)."""
+    out = np.linalg.norm(path.cubic[piece, 1], axis=1) * (upper - lower)
+    bent = np.flatnonzero(_is_bent(path)[piece])
+    for some in np.split(bent, range(AT_ONCE, len(bent), AT_ONCE)):
+        half = 0.5 * (upper[some] - lower[some])
+        at = 0.5 * (lower[some] + upper[some])[:, None] + half[:, None] * NODES
+        of = np.repeat(piece[some], len(NODES))
+        speed = np.linalg.norm(derivatives(path, of, at.ravel())[1], axis=1)
+        out[some] = (speed.reshape(at.shape) @ WEIGHTS) * half
+    return np.asarray(out)
+
+
+def _parameter(path: Chain, panels: _Panels, distance: Floats) -> tuple[Indices, Floats]:
+    """The piece (N,) and its parameter (N,) at distances (N,) along the chain.
+
+    At a joint it is the piece that begins there.
+    """
+    panel = np.searchsorted(panels.edges, distance, side="right") - 1
+    panel = np.clip(panel, 0, len(panels.piece) - 1)
+    piece, start = panels.piece[panel], panels.lower[panel]
+    lower, upper = start.copy(), panels.upper[panel]
+    wanted = distance - panels.edges[panel]
+    size = panels.edges[panel + 1] - panels.edges[panel]
+    g = np.clip(lower + (upper - lower) * wanted / size, lower, upper)
+    bent = np.flatnonzero(_is_bent(path)[piece])
+    for _ in range(60):
+        if not len(bent):
+            break
+        now, of = g[bent], piece[bent]
+        excess = _lengths(path, of, start[bent], now) - wanted[bent]
+        upper[bent] = np.where(excess > 0.0, now, upper[bent])
+        lower[bent] = np.where(excess > 0.0, lower[bent], now)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            new = now - excess / np.linalg.norm(derivatives(path, of, now)[1], axis=1)
+        safe = (new >= lower[bent]) & (new <= upper[bent])
+        new = np.where(safe, new, 0.5 * (lower[bent] + upper[bent]))
+        g[bent] = new
+        bent = bent[np.abs(new - now) > 1e-12]  # the next step would be its square
+    return piece, g
+
+
+def _is_bent(path: Chain) -> NDArray[np.bool_]:
+    """Which pieces (M,) are no straight line that runs evenly."""
+    turns = path.ellipse.any(axis=(1, 2)) & (path.angles[:, 1] != 0.0)
+    return np.asarray(path.cubic[:, 2:].any(axis=(1, 2)) | turns)

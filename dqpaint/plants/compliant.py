@@ -1,0 +1,232 @@
+"""The compliant arm: series elastic joints between velocity-driven motors and rigid bodies.
+
+    motor   theta_dot = command
+    spring  tau = k (theta - q) + d (theta_dot - q_dot) + share G_model(q)
+    arm     H(q) q_ddot + C q_dot + G(q) + friction = tau
+
+The damper sits between motor and joint; with `damper=ground` it is d (0 - q_dot), between joint and
+ground. The share of gravity that is compensated is a torque the motor adds by winding its spring
+further, so tau is all that the joint is given; it ends at the card's torque.
+"""
+
+from typing import Annotated, Any, ClassVar, Literal
+
+import numpy as np
+from pydantic import Field, field_validator
+
+from dqpaint.dq import Floats
+from dqpaint.errors import UsageError
+from dqpaint.plants.bullet import bullet
+from dqpaint.plants.plant import PLANTS, Options, Takes, Trait, Values
+from dqpaint.plants.rigid import LONGEST_STEP, RigidArm, some_postures
+from dqpaint.plants.world import UNDISTURBED, World
+from dqpaint.robots.card import Card
+from dqpaint.robots.dynamics import Dynamics
+from dqpaint.robots.kinematics import Kinematics
+
+FINE = 0.02  # of a joint's own swing, in radians of its phase, fits one physics step
+STABLE = 0.5  # of the longest step that is stable, for the quickest mode of any posture
+SHORTEST_STEP = 1e-5  # [s]
+
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+
+
+class CompliantOptions(Values):
+    """The springs of a compliant arm."""
+
+    frequency: Positive = Field(
+        60.0, description="rad/s, natural frequency of each joint at home, the others held"
+    )
+    damping: Annotated[float, Field(ge=0, le=10)] = Field(
+        0.7, description="ratio of each joint's damping to the critical one, likewise"
+    )
+    gravity: Annotated[float, Field(ge=0, le=1)] = Field(
+        0.7, description="share of the weight that is compensated, 0 to 1"
+    )
+    stiffness: float | str | None = Field(
+        None, description="Nm/rad instead of a frequency, for all joints or each: 300/300/200/..."
+    )
+    damper: Literal["motor", "ground"] = Field(
+        "motor", description="motor: between motor and joint; ground: between joint and ground"
+    )
+    encoder: Literal["joint", "motor"] = Field(
+        "joint", description="the side of the spring where angles are measured: joint or motor"
+    )
+
+    @field_validator("stiffness")
+    @classmethod
+    def _are_positive(cls, given: float | str | None) -> float | str | None:
+        try:
+            numbers = [] if given is None else [float(part) for part in str(given).split("/")]
+        except ValueError:
+            numbers = [0.0]
+        if not all(0 < number < float("inf") for number in numbers):
+            raise ValueError(f"{given!r} should be positive numbers, as in 300 or 300/300/200")
+        return given
+
+    def shown(self, card: Card) -> dict[str, Any]:
+        """The values, and the springs they mean for an arm."""
+        inertia = np.diag(Dynamics(Kinematics(card)).inertia(card.home))
+        k, d = self.springs(card, inertia)
+        found = {"stiffness_Nm_rad": k.tolist(), "damping_Nm_s_rad": d.tolist()}
+        return {**self.model_dump(exclude={"stiffness"}), **found}
+
+    def springs(self, card: Card, inertia: Floats) -> tuple[Floats, Floats]:
+        """Stiffness (n,) [Nm/rad] and damping (n,) [Nm s/rad].
+
+        Args:
+            card: of the arm.
+            inertia: of each joint (n,) [kg m^2] with the others held.
+
+        Raises:
+            UsageError: not one stiffness for each joint.
+        """
+        if self.stiffness is None:
+            k = self.frequency**2 * inertia
+        else:
+            k = np.array([float(part) for part in str(self.stiffness).split("/")])
+            if len(k) not in (1, card.joints):
+                raise UsageError(
+                    f"plant 'compliant': stiffness has {len(k)} numbers, "
+                    f"but {card.name} has {card.joints} joints"
+                )
+            k = np.broadcast_to(k, card.joints)
+        return k, 2 * self.damping * np.sqrt(k * inertia)
+
+
+@PLANTS.add("compliant")
+class Compliant(RigidArm):
+    """Series elastic joints: motors wind springs that move rigid bodies, gravity on.
+
+    It begins at rest, its springs already carrying their part of the weight. Physics steps are as
+    short as the springs need: each joint's own swing is resolved finely, the quickest mode of the
+    coupled arm stays stable. Semi-implicit Euler has its places half a step ahead of its rates: all
+    forces are those of the middle of a step, and so the whole is of second order.
+
+    A motor at its torque is held back: its spring is wound no further.
+
+    Attributes:
+        stiffness: (n,) [Nm/rad].
+        damping: (n,) [Nm s/rad].
+        motor: motor angles (n,) [rad], without what compensates gravity.
+    """
+
+    takes: ClassVar[Takes] = "rates"
+    traits: ClassVar[frozenset[Trait]] = frozenset({"masses", "a model of gravity"})
+    options: ClassVar[Options] = CompliantOptions
+
+    def __init__(
+        self,
+        card: Card,
+        posture: Floats,
+        period: float,
+        world: World = UNDISTURBED,
+        options: CompliantOptions | None = None,
+    ) -> None:
+        chosen = options or CompliantOptions.model_validate({})
+        model = Kinematics(card)
+        dynamics = Dynamics(model)
+        inertia = np.diag(dynamics.inertia(card.home))
+        self.stiffness, self.damping = chosen.springs(card, inertia)
+        longest = _longest_step(card, dynamics, self.stiffness, self.damping)
+        super().__init__(card, posture, period, world, longest)
+        self.free()
+        self._own = Dynamics(model.changed(gravity=world.model_gravity))
+        self._share = chosen.gravity
+        self._grounded = chosen.damper == "ground"
+        self._at_motor = chosen.encoder == "motor"
+        self._true_weight = self._weigh(posture)
+        self.motor = posture + (self._true_weight - self._compensation()) / self.stiffness
+        self._motor_rates = np.zeros(card.joints)
+        self._before = [0.0] * card.joints  # rates [rad/s] a physics step ago
+        self.effort = self._true_weight
+
+    @property
+    def encoder(self) -> Floats:
+        """Joint angles (n,) [rad], or the motors'."""
+        return self.motor if self._at_motor else self.posture
+
+    @property
+    def encoder_rates(self) -> Floats:
+        """Joint rates (n,) [rad/s], or the motors'."""
+        return self._motor_rates if self._at_motor else self.rates
+
+    def run(self, command: Floats, drift: Floats | None = None) -> None:
+        """One period in which the motors turn at joint rates (n,) [rad/s]."""
+        self._motor_rates = command if drift is None else command + drift
+        added = self._compensation().tolist()  # renewed once a period, from the joints
+        rates = np.zeros_like(command) if self._grounded else command
+        turn = (self.step * self._motor_rates).tolist()
+        rest = list(zip(
+            self.stiffness.tolist(), self.damping.tolist(), rates.tolist(), added,
+            self.card.effort.tolist(), strict=True,
+        ))  # fmt: skip
+        middle = (self.motor + 0.5 * self.step * self._motor_rates).tolist()
+        before, carried = self._before, []
+        for _ in range(self.steps):
+            states = bullet.getJointStates(self.body, self.joints, self.client)
+            torques = [
+                min(max(k * (m - s[0]) + d * (u - 1.5 * s[1] + 0.5 * v) + c, -most), most)
+                for m, s, v, (k, d, u, c, most) in zip(middle, states, before, rest, strict=True)
+            ]
+            before = [s[1] for s in states]
+            bullet.setJointMotorControlArray(
+                self.body,
+                self.joints,
+                bullet.TORQUE_CONTROL,
+                forces=torques,
+                physicsClientId=self.client,
+            )
+            self.advance()
+            carried.append(torques)
+            if drift is not None:
+                self.displace(self.step * drift)
+            middle = [m + way for m, way in zip(middle, turn, strict=True)]
+        self._before = before
+        self.measure()
+        self.posture = self.posture - 0.5 * self.step * self.rates
+        efforts = np.array(carried)
+        self.effort = efforts[np.abs(efforts).argmax(axis=0), np.arange(len(command))]
+        motor = self.motor + self.steps * self.step * self._motor_rates
+        most = self.card.effort
+        self.motor = self.posture + np.clip(
+            motor - self.posture, (-most - added) / self.stiffness, (most - added) / self.stiffness
+        )
+
+    def _compensation(self) -> Floats:
+        """(n,) [Nm] at the present posture, by the arm's own model."""
+        return self._share * self._own.weight(self.posture)
+
+    def _weigh(self, posture: Floats) -> Floats:
+        """What the arm, with all it carries, truly weighs on its joints (n,) [Nm]."""
+        still = [0.0] * len(posture)
+        needed = bullet.calculateInverseDynamics(
+            self.body, posture.tolist(), still, still, physicsClientId=self.client
+        )
+        return np.array(needed)
+
+
+def _longest_step(card: Card, dynamics: Dynamics, k: Floats, d: Floats) -> float:
+    """The physics step [s] that resolves the springs and keeps every mode stable.
+
+    A step h of semi-implicit Euler whose damper sees 1.5 v(k) - 0.5 v(k-1) is stable for
+    h^2 w^2 + 4 h c < 4, with w^2 and c the eigenvalues of H^-1 k and H^-1 d, friction included.
+    Looked at in postures all over the arm's range.
+
+    Raises:
+        UsageError: springs that need steps too short to be simulated.
+    """
+    own = np.sqrt(k / np.diag(dynamics.inertia(card.home)))
+    longest = min(LONGEST_STEP, FINE / float(own.max()))
+    for q in some_postures(card):
+        H = dynamics.inertia(q)
+        swing = float(np.linalg.eigvals(np.linalg.solve(H, np.diag(k))).real.max())
+        loss = dynamics.decay(q, d)
+        stable = 2 * (np.sqrt(loss**2 + swing) - loss) / swing
+        longest = min(longest, STABLE * stable)
+    if longest < SHORTEST_STEP:
+        raise UsageError(
+            f"plant 'compliant': springs this stiff on {card.name} need physics steps of "
+            f"{longest * 1e6:.2g} us; take softer ones, or plant stiff"
+        )
+    return longest

@@ -1,0 +1,72 @@
+"""What an arm is under, besides its commands, and what its own model says of it."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+
+GRAVITY = -9.81  # [m/s^2]
+
+
+@dataclass(frozen=True)
+class Payload:
+    """A ball at the light's place, of a mass [kg] and a radius [m]."""
+
+    mass: float
+    radius: float
+
+
+@dataclass(frozen=True)
+class Push:
+    """A force for a while.
+
+    Attributes:
+        force: (3,) [N], along the axes of the base the law believes in.
+        link: which link, from 1, at its centre of mass; 0 is the tool, at the light.
+        start: from when [s].
+        seconds: for how long.
+    """
+
+    force: tuple[float, float, float]
+    link: int
+    start: float
+    seconds: float
+
+
+@dataclass(frozen=True)
+class World:
+    """What is true of an arm and its surroundings, where the law knows of none of it.
+
+    Attributes:
+        base: pose (8,) of the arm's true base in the frame the law takes for it.
+        payloads: what it carries.
+        pushes: what pushes it.
+        model_gravity: the gravity of the arm's own model, as a part of the true one.
+    """
+
+    base: Floats = field(default_factory=dq.IDENTITY.copy)
+    payloads: tuple[Payload, ...] = ()
+    pushes: tuple[Push, ...] = ()
+    model_gravity: float = 1.0
+
+    @property
+    def displaced(self) -> bool:
+        """Whether the base is elsewhere than believed."""
+        return bool((self.base != dq.IDENTITY).any())
+
+    @property
+    def gravity(self) -> Floats:
+        """(3,) [m/s^2] along the axes of the arm's true base."""
+        return self.in_base(np.array([0.0, 0.0, GRAVITY]))
+
+    def in_base(self, vector: Floats) -> Floats:
+        """A vector (3,) of the believed base along the axes of the true one."""
+        if not self.displaced:
+            return vector
+        R = dq.matrix_from_quaternion(dq.rotation(self.base))
+        return np.asarray(R.T @ vector)
+
+
+UNDISTURBED = World()

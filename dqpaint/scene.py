@@ -1,0 +1,186 @@
+"""What is photographed: every light of a painting, and what a camera is chosen by.
+
+A scene knows no robot and no drawing's text, only light: it is what `--save film` keeps, and all
+that another view, size, look or exposure needs.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.language.program import Brush as BrushWords
+from dqpaint.light.brushes import brush_of, read_brush
+from dqpaint.light.emitters import Emitters
+from dqpaint.light.exposure import CORE
+from dqpaint.light.legend import RIDGE, Legend
+from dqpaint.light.looks import LOOKS
+from dqpaint.light.settings import parse_exposure
+from dqpaint.light.starburst import BLADES
+from dqpaint.light.sweep import Sweep
+from dqpaint.light.views import parse_views
+from dqpaint.metrics import Table
+from dqpaint.motion import Motion
+from dqpaint.settings import Settings
+from dqpaint.telling import TELLINGS, asked_table, colours_of, magnified
+
+SETTLING = 0.25  # [s] in which a jump of the set point counts as drawn
+MOST_FLASHES = 2_000_000
+FLOOR = 0.02  # of the usual speed: light that tells shows what stands still, too
+UNDER = (0.62, 0.8, 1.0)  # the colour of the asked drawing under the reached one
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Lights, and what camera and exposure are chosen by.
+
+    Attributes:
+        name: Of the drawing.
+        light: What shines, one sweep a brush.
+        asked: The same as it was asked: it alone chooses camera and exposure, so that pictures of
+            two control laws can be laid over each other.
+        under: What is drawn beneath, as faint lines.
+        front: (3, 3) columns: right, up and towards the viewer, base frame.
+        legend: What the colours say, if they do.
+        dimmer: Factor on the automatic exposure.
+    """
+
+    name: str
+    light: tuple[Sweep, ...]
+    asked: tuple[Sweep, ...]
+    under: tuple[Sweep, ...]
+    front: Floats
+    legend: Legend | None = None
+    dimmer: float = 1.0
+
+    @property
+    def shown_points(self) -> Floats:
+        """(K, 3) what must be in the picture [m]."""
+        return np.concatenate([sweep.lit_points for sweep in self.asked])
+
+    @property
+    def seconds(self) -> float:
+        """How long the painting takes [s]."""
+        return max(float(sweep.time[-1]) for sweep in self.light)
+
+
+def check_choices(settings: Settings) -> None:
+    """Raise a UsageError for a slip in what concerns light, before anything is simulated."""
+    parse_views(settings.view)
+    LOOKS[settings.look]
+    if settings.starburst and not BLADES[0] <= settings.starburst <= BLADES[1]:
+        bounds = f"{BLADES[0]} to {BLADES[1]} blades; 0 is a round one"
+        raise UsageError(f"starburst {settings.starburst}: an aperture has {bounds}")
+    if settings.brush is not None:
+        read_brush(settings.brush).emitters()
+    if settings.exposure is not None:
+        parse_exposure(settings.exposure)
+    if settings.colour_by is not None:
+        TELLINGS[settings.colour_by]
+
+
+def arrange(motion: Motion, pose: Floats, settings: Settings, table: Table | None = None) -> Scene:
+    """The scene of a motion's light carried through poses (N, 8), base frame.
+
+    Args:
+        motion: What was asked.
+        pose: Of the tool, measured or asked.
+        settings: Brush, dimming and what colours are to tell.
+        table: Columns of the run, for colours that tell; None is a run without an arm.
+
+    Raises:
+        DqpaintError: No light is on anywhere.
+    """
+    if not motion.lit.any():
+        raise DqpaintError(
+            f"{motion.program.name}: no light is on anywhere, so the picture would be black"
+        )
+    colours, legend, dimmer = motion.light, None, 1.0
+    metered = colours
+    if settings.colour_by is not None:
+        columns = asked_table(motion) if table is None else table
+        colours, legend = colours_of(motion, columns, settings.colour_by)
+        dimmer = RIDGE / CORE
+        metered = np.where(motion.lit[:, None], np.ones(3), 0.0)  # as bright as the legend's strip
+    even = settings.colour_by is not None
+    shown = pose if settings.magnify == 1.0 else magnified(motion, pose, settings.magnify)
+    under = _thin(_sweeps(motion, motion.pose, np.where(motion.lit[:, None], UNDER, 0.0), settings))
+    return Scene(
+        motion.program.name,
+        _sweeps(motion, shown, colours, settings, even),
+        _sweeps(motion, motion.pose, _metered(motion, metered), settings, even),
+        under if settings.overlay else (),
+        dq.matrix_from_quaternion(motion.front),
+        legend,
+        dimmer,
+    )
+
+
+def _metered(motion: Motion, colours: Floats) -> Floats:
+    """The colours (N, 3) the exposure is chosen from.
+
+    A set point that jumps leaves no line, but the arm that follows it does: the jump counts as a
+    line drawn in `SETTLING`.
+    """
+    weight = np.where(motion.jump, SETTLING / motion.period, 1.0)
+    return np.asarray(colours * weight[:, None])
+
+
+def _sweeps(
+    motion: Motion, pose: Floats, colours: Floats, settings: Settings, even: bool = False
+) -> tuple[Sweep, ...]:
+    """One sweep for each brush of the drawing; the others are dark in it."""
+    segments = motion.program.segments
+    rates = [(s.strobe.frequency, s.strobe.duty) if s.strobe else (0.0, 1.0) for s in segments]
+    strobe = np.array(rates)[motion.stroke[:-1]] if any(s.strobe for s in segments) else None
+    fastest = max(settings.pwm, max(rate for rate, _ in rates))
+    if fastest * motion.t[-1] > MOST_FLASHES:
+        raise DqpaintError(
+            f"{motion.program.name}: {fastest:g} Hz for {motion.t[-1]:.0f} s are more than "
+            f"{MOST_FLASHES:,} flashes; so fast they are not seen: leave them out"
+        )
+    found = []
+    for emitters, used in _brushes(motion, settings):
+        shone = colours[:-1] if used is None else colours[:-1] * used[:, None]
+        if used is not None and not shone.any():
+            continue
+        sweep = Sweep(motion.period, pose, shone, emitters, strobe, settings.pwm)
+        found.append(_evened(sweep) if even else sweep)
+    return tuple(found)
+
+
+def _brushes(motion: Motion, settings: Settings) -> list[tuple[Emitters, Floats | None]]:
+    """The brushes of a drawing with where (N-1,) each is used; None: everywhere."""
+    if settings.brush is not None:
+        return [(read_brush(settings.brush).emitters(), None)]
+    words: list[BrushWords] = [segment.brush for segment in motion.program.segments]
+    kinds = list(dict.fromkeys(words))
+    if len(kinds) == 1:
+        return [(brush_of(kinds[0]).emitters(), None)]
+    of = np.array([kinds.index(word) for word in words])[motion.stroke[:-1]]
+    return [
+        (brush_of(kind).emitters(), (of == i).astype(np.float64)) for i, kind in enumerate(kinds)
+    ]
+
+
+def _evened(sweep: Sweep) -> Sweep:
+    """The sweep with every millimetre equally bright: its light goes by way, not by time."""
+    lit = sweep.colours.any(axis=1)
+    rates = sweep.walked / sweep.period
+    moving = rates[lit & (rates > 0.0)]
+    usual = float(np.median(moving)) if len(moving) else 1.0
+    return replace(sweep, colours=sweep.colours * (rates / usual + FLOOR)[:, None])
+
+
+def _thin(sweeps: tuple[Sweep, ...]) -> tuple[Sweep, ...]:
+    """The same as lines, of the tool's point or the ends of its bar, equally bright all along."""
+    thin = []
+    for sweep in sweeps:
+        places = sweep.emitters.extent
+        if len(sweep.emitters.places) == 1 or not sweep.emitters.straight:
+            places = np.zeros((1, 3))
+        lines = Emitters(places, np.ones((1, len(places), 3)))
+        thin.append(_evened(replace(sweep, emitters=lines, strobe=None, pwm=0.0)))
+    return tuple(thin)

@@ -1,0 +1,140 @@
+"""`--on-limit slow`: the drawing's clock slows where a joint could not keep up.
+
+The kinematic arm goes along the drawing first. What its joints would need is split into the part
+that shrinks with the clock, a = J^+ xi_d, and the part that does not, the pull of the null space
+and what brings the arm back to the path: q_dot = a s_dot + b. For laws that command torques the
+motors' share is looked at as well, the weight of the arm being the part that does not shrink.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.motion import Motion, plan
+from dqpaint.motion.pace import Pace, smooth
+from dqpaint.nullspace import make_wish
+from dqpaint.robots.dynamics import Dynamics, drift_acceleration
+from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.resolver import resolve
+
+SHARE = 0.9  # of a limit is planned with; the rest is for what a law adds
+LEAST = 0.3  # of that at least is taken for the drawing, whatever the rest takes
+SLOWEST = 50.0  # times
+PASSES = 6
+ENOUGH = 1e-3
+RATE = 20.0  # [1/s] at which the arm comes back to the path, as every law does by itself
+SETTLED = 1e-3  # [rad, m] from the path: it has arrived there, and what it needs now counts
+
+
+@dataclass(frozen=True)
+class Slowed:
+    """A drawing that was slowed down.
+
+    Attributes:
+        motion: re-timed.
+        longer: how much longer it takes [s].
+        slowest: the least pace, as a part of the asked one.
+        lines: of the file that were slowed.
+    """
+
+    motion: Motion
+    longer: float
+    slowest: float
+    lines: tuple[int, ...]
+
+
+def slow_down(
+    motion: Motion, kinematics: Kinematics, start: Floats, null: str, torques: bool
+) -> Slowed:
+    """The motion at a pace an arm can keep, as far as slowness helps.
+
+    Position limits are not helped by it, nor is the way to the path where an arm begins off it, or
+    after a jump.
+
+    Args:
+        motion: what is asked.
+        kinematics: of the arm.
+        start: posture (n,) [rad] to begin from.
+        null: what the arm does with its freedom.
+        torques: whether the motors' torques count.
+    """
+    slowness = np.ones(len(motion.t))
+    for turn in range(PASSES):
+        needed = _needed(motion, kinematics, start, null, torques, slowness, turn > 0)
+        needed = np.clip(needed, 1, SLOWEST)
+        if turn and (needed <= slowness * (1 + ENOUGH)).all():
+            break
+        slowness = np.maximum(slowness, smooth(needed, motion.period))
+    if (slowness == 1).all():
+        return Slowed(motion, 0.0, 1.0, ())
+    placed = plan(motion.program, kinematics.card.canvas.pose, Pace(slowness, motion.period))
+    lines = sorted({int(line) for line in motion.line[slowness > 1 + ENOUGH]})
+    longer = float(placed.t[-1] - motion.t[-1])
+    return Slowed(placed, longer, float(1 / slowness.max()), tuple(lines))
+
+
+def _needed(
+    motion: Motion,
+    kinematics: Kinematics,
+    start: Floats,
+    null: str,
+    torques: bool,
+    slowness: Floats,
+    returning: bool,
+) -> Floats:
+    """The slowness (N,) each row needs by itself, when the clock is as slow as given.
+
+    What brings the arm back to the path is counted only if it is `returning`: at full speed it
+    would be too much.
+    """
+    card, period = kinematics.card, motion.period
+    wish, zero = make_wish(null, card, start), np.zeros(card.joints)
+    speed = SHARE * card.speed
+    motors = _Motors(kinematics) if torques else None
+    growth = np.gradient(slowness, period) if len(slowness) > 1 else np.zeros(1)
+    needed = np.empty(len(motion.t))
+    q = start
+    settled = False
+    rows = zip(
+        motion.pose, motion.twist, motion.acceleration, motion.jump, slowness, growth, strict=True
+    )
+    for k, (pose, twist, slope, jump, slow, grow) in enumerate(rows):
+        x, J = kinematics.pose_and_jacobian(q)
+        point = dq.translation(x)
+        error = 2 * dq.log(dq.mul(dq.nearest(pose, x), dq.conj(x)))
+        settled = (settled or float(np.abs(error).max()) < SETTLED) and not jump
+        back = resolve(J, point, error, zero)
+        along = resolve(J, point, twist, zero)
+        pull = resolve(J, point, np.zeros(6), wish(q, J, point))
+        room = np.maximum(speed - np.abs(pull), LEAST * speed)
+        needed[k] = (np.abs(along) / room).max()
+        if settled and returning:
+            needed[k] = max(needed[k], (np.abs(along + slow * (pull + RATE * back)) / speed).max())
+        if motors is not None:
+            acceleration = slope / slow**2 - twist * (grow / slow**3)
+            rates = along / slow + pull
+            needed[k] = max(needed[k], slow * motors.excess(q, rates, J, point, acceleration))
+        close = 1 - math.exp(-RATE * period * slow)
+        q = np.clip(q + period * (along + slow * pull) + close * back, card.lower, card.upper)
+    return needed
+
+
+class _Motors:
+    """How much slower a motion has to be for the motors' torques."""
+
+    def __init__(self, kinematics: Kinematics) -> None:
+        self._dynamics = Dynamics(kinematics)
+        self._most = SHARE * kinematics.card.effort
+
+    def excess(self, q: Floats, rates: Floats, J: Floats, point: Floats, slope: Floats) -> float:
+        """By which factor, from joint rates (n,) and the tool's acceleration (6,)."""
+        wanted = slope - drift_acceleration(J, rates)
+        bend = resolve(J, point, wanted, np.zeros_like(q))
+        weight = self._dynamics.weight(q)
+        moving = np.abs(self._dynamics.torque(q, rates, bend) - weight)
+        room = self._most - np.abs(weight)
+        over = room > LEAST * self._most  # no pace helps a motor that can hardly bear the weight
+        return float(np.sqrt(np.max(moving[over] / room[over], initial=0.0)))

@@ -1,0 +1,58 @@
+"""A painting's own light, gathered into a few lamps."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from dqpaint.dq import Floats
+
+MOST = 128
+"""Lamps that a painting is gathered into."""
+
+
+@dataclass(frozen=True, eq=False)
+class Lamps:
+    """Points that shine to all sides.
+
+    Attributes:
+        place: (K, 3) base frame [m].
+        energy: (K, 3) linear RGB [lamp s].
+    """
+
+    place: Floats
+    energy: Floats
+
+    @property
+    def total(self) -> Floats:
+        """(3,) of all of them [lamp s]."""
+        return np.asarray(self.energy.sum(axis=0))
+
+    @property
+    def middle(self) -> Floats:
+        """(3,) where half of the light is to any side, or nearly [m]."""
+        weight = self.energy.sum(axis=1)
+        return np.asarray((weight[:, None] * self.place).sum(axis=0) / weight.sum())
+
+
+def gather(lights: Iterable[tuple[Floats, Floats]], most: int = MOST) -> Lamps:
+    """Few lamps that light a scene as many steps do: all of the energy, each where its steps were.
+
+    Args:
+        lights: of each light its points (N, 3) [m] and the energy (N-1, 3) of the steps between.
+        most: lamps there may be.
+    """
+    pairs = list(lights)
+    place = np.concatenate([0.5 * (points[1:] + points[:-1]) for points, _ in pairs])
+    energy = np.concatenate([energy for _, energy in pairs])
+    weight = energy.sum(axis=1)
+    lit = weight > 0.0
+    place, energy, weight = place[lit], energy[lit], weight[lit]
+    if len(weight) == 0:
+        return Lamps(np.zeros((0, 3)), np.zeros((0, 3)))
+    done = np.cumsum(weight)
+    group = np.minimum((done - 0.5 * weight) / done[-1] * most, most - 1).astype(np.int64)
+    begins = np.flatnonzero(np.diff(group, prepend=-1))
+    mass = np.add.reduceat(weight, begins)
+    moment = np.add.reduceat(weight[:, None] * place, begins, axis=0)
+    return Lamps(moment / mass[:, None], np.add.reduceat(energy, begins, axis=0))

@@ -1,0 +1,40 @@
+"""The arm in the picture at 1920x1080: `python tests/bench/bench_ghost.py [ROUNDS]`.
+
+The target is 2.5 s on two cores, loading the shapes included.
+"""
+
+import statistics
+import sys
+import time
+
+import dqpaint
+from dqpaint.robots.card import read_card
+from dqpaint.stage.staging import on_stage
+
+SIZE = (1920, 1080)
+
+
+def main():
+    rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 5
+    for example, view in (("star", "front"), ("star", "-30,12"), ("spiral", "iso")):
+        painting = dqpaint.draw(example, view=view, size=SIZE, ghost=True, occlusion=False)
+        camera, exposure, scene = painting.picture.camera, painting.picture.exposure, painting.scene
+        card = read_card(painting.robot)
+        times = {"ghost": [], "occlusion": []}
+        for _ in range(rounds):
+            begin = time.perf_counter()
+            with on_stage(painting.settings, card, painting.cast) as staging:
+                lights = [lamp for sweep in scene.light for lamp in sweep.lights()]
+                staging.photograph(camera, lights, exposure)
+            middle = time.perf_counter()
+            with on_stage(painting.settings, card, painting.cast) as staging:
+                for sweep in scene.light:
+                    sweep.behind(staging, camera.position)
+            times["ghost"].append(middle - begin)
+            times["occlusion"].append(time.perf_counter() - middle)
+        for name, values in times.items():
+            print(f"{example:8} {view:8} {name:10} {statistics.median(values):.3f} s")
+
+
+if __name__ == "__main__":
+    main()

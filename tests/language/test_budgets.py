@@ -1,0 +1,70 @@
+"""Hostile and enormous files, through the command line: an answer within 2 s and 300 MB."""
+
+import os
+import resource
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+MOST_SECONDS = 2.0  # of processor time, the start of the program included
+MOST_BYTES = 300 << 20  # of data
+
+LINE = "line by (1, 0) mm"
+FILES = {  # the file, the exit code, what is said
+    "repeats": ("repeat 9999\n" * 3 + LINE + "\nend" * 3, 1, "error[E304]"),
+    "samples": (f"{LINE} samples 10000000000", 1, "error[E302]"),
+    "slow": (f"{LINE} speed 1e-6 mm/s", 1, "error[E302]"),
+    "brackets": ("let a = " + "(" * 5_000 + "1" + ")" * 5_000, 1, "error[E106]"),
+    "opened": ("(" * 5_000_000, 1, "is larger than 2 MB"),
+    "opened-2-mb": ("(" * 1_900_000, 1, "error[E120]"),
+    "circle": ('include "circle.traj"', 1, "error[E273]"),
+    "doubling": (
+        "def a0(n)\nhold n\nend\n"
+        + "".join(f"def a{i}(n)\na{i - 1}(n)\na{i - 1}(n)\nend\n" for i in range(1, 60))
+        + "a59(1 s)",
+        1,
+        "error[E304]",
+    ),
+    "functions": (
+        "let f0(a) = a\n"
+        + "".join(f"let f{i}(a) = f{i - 1}(a) + f{i - 1}(a)\n" for i in range(1, 30))
+        + "line by (f29(1)*mm, 0)",
+        1,
+        "error[E309]",
+    ),
+    "zero": (f"{LINE}\n\0", 1, "is not a text: byte 19 is 0"),
+    "crlf": (f"{LINE}\r\n{LINE}\r\n", 0, "2 mm"),
+    "bom": (f"\ufeff{LINE}\n", 0, "1 mm"),
+    "latin": (f"{LINE} # für\n".encode("latin-1"), 1, "line 1, byte 22 is 0xfc ('ü' in Latin-1)"),
+    "lines": (f"{LINE}\n" * 100_002, 1, "error[E306]"),
+    "one-line": ("line" + " by (1, 0) mm" * 140_000, 1, "error[E314]"),
+    "ends": ("end\n" * 99_000, 1, "error[E131]"),
+    "deep": ("with rotate 1 deg\n" * 50_000, 1, "error[E126]"),
+}
+
+
+def limit() -> None:
+    resource.setrlimit(resource.RLIMIT_DATA, (MOST_BYTES, MOST_BYTES))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", FILES)
+def test_the_command_line_answers_soon(tmp_path: Path, name: str) -> None:
+    text, code, said = FILES[name]
+    path = tmp_path / f"{name}.traj"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(
+        [sys.executable, "-m", "dqpaint", "check", str(path)],
+        capture_output=True, text=True, preexec_fn=limit, timeout=120, check=False,
+        env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
+    )  # fmt: skip
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    output = done.stdout + done.stderr
+    assert (done.returncode, said in output) == (code, True), output[:500]
+    assert "Traceback" not in output
+    assert "internal error" not in output
+    spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    assert spent < MOST_SECONDS

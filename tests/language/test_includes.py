@@ -1,0 +1,147 @@
+"""Files that include files: what they mean together, and where messages point."""
+
+import pickle
+from pathlib import Path
+
+import pytest
+
+from dqpaint.language import Program, ScriptError, read, render
+from dqpaint.language.diagnostics import file_at, place
+from dqpaint.language.program import Straight
+
+CHAIN = {f"{i}.traj": f'include "{i + 1}.traj"' for i in range(12)} | {"12.traj": "hold 1 s"}
+
+# The files, and of the message: file, line:column, the caret's words, what it says.
+OF_FILES = {
+    "E271": [
+        ({"a.traj": 'include "/etc/hosts"'}, "a.traj", '1:9 "/etc/hosts"', "a file to include is"),
+        ({"a.traj": 'include "../b.traj"'}, "a.traj", '1:9 "../b.traj"', "this file is outside"),
+        ({"a.traj": 'include "in/../../b.traj"'}, "a.traj", "1:9", "this file is outside"),
+        (
+            {"a.traj": 'include "in/b.traj"', "in/b.traj": '\n  include "../../c.traj"'},
+            "in/b.traj",
+            '2:11 "../../c.traj"',
+            "this file is outside",
+        ),
+    ],
+    "E272": [
+        ({"a.traj": 'include "b.traj"'}, "a.traj", '1:9 "b.traj"', "can't read "),
+        ({"a.traj": 'include "."'}, "a.traj", '1:9 "."', "can't read "),
+        ({"a.traj": 'include "b.traj"', "b.traj": "\0"}, "a.traj", "1:9", ""),
+        ({"a.traj": 'include "b.traj"', "b.traj": "\n# \xfc"}, "a.traj", "1:9", ""),
+    ],
+    "E273": [
+        (
+            {"a.traj": 'include "b.traj"', "b.traj": 'include "in/c.traj"',
+             "in/c.traj": 'let a = 1\ninclude "../b.traj"'},
+            "in/c.traj",
+            '2:9 "../b.traj"',
+            "this include goes in a circle: b.traj includes in/c.traj includes b.traj",
+        ),
+        ({"a.traj": 'include "a.traj"'}, "a.traj", "1:9",
+         "this include goes in a circle: a.traj includes a.traj"),
+    ],
+    "E274": [
+        ({**CHAIN, "a.traj": 'include "0.traj"'}, "7.traj", '1:9 "8.traj"',
+         "more than 8 files within each other"),
+    ],
+    "E205": [
+        ({"a.traj": 'hold 1 s\ninclude "b.traj"', "b.traj": "# b\n\nline to (nix, 0)"},
+         "b.traj", "3:10 nix", "'nix' is not known"),
+    ],
+    "E120": [
+        ({"a.traj": 'include "b.traj"', "b.traj": "lin to (1, 0) mm"}, "b.traj", "1:1 lin",
+         "unknown statement 'lin'"),
+    ],
+    "E305": [
+        ({"a.traj": 'include "b.traj"\n' + "#" * 1_500_000, "b.traj": "#" * 600_000},
+         "a.traj", "1:9", "all files together are larger than 2 MB"),
+    ],
+    "E306": [
+        ({"a.traj": 'include "b.traj"' + "\n" * 60_000, "b.traj": "\n" * 60_000},
+         "a.traj", "1:9", "all files together have more than 100,000 lines"),
+    ],
+}  # fmt: skip
+
+
+def write(folder: Path, files: dict[str, str]) -> Path:
+    for name, text in files.items():
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_bytes(text.encode("latin-1"))
+    return folder / "a.traj"
+
+
+def compiled(folder: Path, files: dict[str, str]) -> Program:
+    return read(write(folder, files))
+
+
+@pytest.mark.parametrize(
+    ("code", "files", "file", "caret", "message"),
+    [(code, *case) for code, cases in OF_FILES.items() for case in cases],
+)
+def test_messages(
+    tmp_path: Path, code: str, files: dict[str, str], file: str, caret: str, message: str
+) -> None:
+    with pytest.raises(ScriptError) as caught:
+        compiled(tmp_path, files)
+    error = caught.value
+    (found,) = error.diagnostics
+    assert (found.code, found.message[: len(message)]) == (code, message)
+    assert found.span is not None
+    at, _, words = caret.partition(" ")
+    assert "{}:{}".format(*place(error.text, found.span.start)) == at
+    assert error.text[slice(*found.span)].startswith(words)
+    assert file_at(error.text, found.span.start, error.name)[1] == str(tmp_path / file)
+    assert f"--> {tmp_path / file}:{at}\n" in render(found, error.name, error.text)
+
+
+def test_lines_stand_where_they_are_included(tmp_path: Path) -> None:
+    files = {
+        "a.traj": 'speed 20 mm/s\ninclude "in/b.traj"\nwith shift (5, 0) mm\n'
+        '  repeat 2\n    include "in/c.traj"\n  end\nend\nstar(r)',
+        "in/b.traj": "traj 1\nperiod 5 ms\nlet r = 3 mm\ndef star(a)\n  line by (a, a)\nend",
+        "in/c.traj": "let q = 7 mm\nline to (q, 0)\nline to (0, 0)",
+    }
+    program = compiled(tmp_path, files)
+    assert program.period == pytest.approx(0.005)
+    ends = [segment.end.position for segment in program.segments]
+    assert ends == [
+        pytest.approx(p, abs=1e-15)
+        for p in [(0.012, 0, 0), (0.005, 0, 0)] * 2 + [(0.008, 0.003, 0)]
+    ]
+    assert [segment.line for segment in program.segments] == [2, 3, 2, 3, 5]
+    words = [program.text[slice(*segment.span)] for segment in program.segments]
+    assert words == ["line to (q, 0)", "line to (0, 0)"] * 2 + ["line by (a, a)"]
+    assert pickle.loads(pickle.dumps(program.text)).included == program.text.included
+
+
+def test_what_two_files_both_need_is_said_once(tmp_path: Path) -> None:
+    files = {
+        "a.traj": 'include "b.traj"\ninclude "c.traj"\nline to (x1, x2)',
+        "b.traj": 'include "d.traj"\nlet x1 = 2*u',
+        "c.traj": 'include "d.traj"\nlet x2 = 3*u',
+        "d.traj": "let u = 1 mm\nlet f(a) = 2*a\ndef g\nhold 1 s\nend\nframe h at (u, 0)",
+    }
+    (segment,) = compiled(tmp_path, files).segments
+    assert isinstance(segment.path, Straight)
+    assert segment.path.by == pytest.approx((0.002, 0.003, 0))
+
+
+def test_a_name_of_two_files_is_told_with_both_places(tmp_path: Path) -> None:
+    files = {"a.traj": 'let r = 1 mm\ninclude "b.traj"', "b.traj": "\nlet r = 2 mm"}
+    with pytest.raises(ScriptError) as caught:
+        compiled(tmp_path, files)
+    (found,) = caught.value.diagnostics
+    assert (found.code, found.label) == ("E230", f"(first: {tmp_path}/a.traj:1:5)")
+
+
+def test_links_do_not_lead_out(tmp_path: Path) -> None:
+    (tmp_path / "secret.traj").write_text("hold 1 s")
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "b.traj").symlink_to(tmp_path / "secret.traj")
+    (tmp_path / "in" / "c.traj").symlink_to(tmp_path / "in" / "c.traj")
+    for name in ("b", "c"):
+        main = tmp_path / "in" / "a.traj"
+        main.write_text(f'include "{name}.traj"')
+        with pytest.raises(ScriptError, match="outside of the main file's folder"):
+            read(main)

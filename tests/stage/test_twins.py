@@ -1,0 +1,108 @@
+"""Rays against the twins of plain shapes, whose answers are known in closed form."""
+
+import numpy as np
+import pytest
+
+from dqpaint import dq
+from dqpaint.light.camera import View, frame
+from dqpaint.robots.card import read_card
+from dqpaint.robots.urdf import urdf_file
+from dqpaint.stage.arm import Arm
+from dqpaint.stage.surfaces import measure
+from dqpaint.stage.twins import Twins
+from tests.stage.arms import BALL, BOX, urdf
+
+pytestmark = pytest.mark.slow
+EDGE = 0.003  # [m] nearer to an outline the answer may be either
+
+
+def through_ball(start, end, centre, radius):
+    """How far (R,) inside the ball the nearest point of each way is [m]."""
+    way = end - start
+    t = np.clip(((centre - start) * way).sum(1) / (way * way).sum(1), 0, 1)
+    return radius - np.linalg.norm(start + t[:, None] * way - centre, axis=1)
+
+
+def through_box(start, end, half):
+    """Whether each way meets the box of half sides about the origin: slabs."""
+    way = end - start
+    a, b = (-half - start) / way, (half - start) / way
+    enter, leave = np.minimum(a, b).max(axis=1), np.maximum(a, b).min(axis=1)
+    return (enter <= leave) & (leave >= 0) & (enter <= 1)
+
+
+def many_rays(rng, n, around):
+    return around + rng.normal(size=(n, 3)), around + 0.1 * rng.normal(size=(n, 3))
+
+
+def test_a_ball_on_a_link_blocks_what_goes_through_it(rng, tmp_path):
+    with Arm(urdf(tmp_path, base="", first="", second=BALL)) as arm, Twins(arm) as twins:
+        for posture in rng.uniform(-1, 1, (4, 2)):
+            twins.stand(posture)
+            centre = dq.translation(dq.mul(arm.frames(posture[None])[0, 2], arm.shapes[0].frame))
+            start, end = many_rays(rng, 2000, centre)
+            deep = through_ball(start, end, centre, 0.06)
+            clear = np.abs(deep) > EDGE
+            clear &= np.linalg.norm(end - centre, axis=1) > 0.06  # none ends inside
+            hit = twins.blocked(start, end)
+            assert clear.sum() > 500
+            assert 0.05 < hit[clear].mean() < 0.95
+            np.testing.assert_array_equal(hit[clear], deep[clear] > 0)
+
+
+def test_a_base_whose_weight_is_elsewhere_blocks_where_it_is_drawn(rng, tmp_path):
+    with Arm(urdf(tmp_path, base=BOX, first="", second="")) as arm, Twins(arm) as twins:
+        twins.stand(np.zeros(2))
+        turn = np.array([np.cos(0.2), 0, 0, np.sin(0.2)])
+        start, near = many_rays(rng, 4000, [0, 0, 0.1])
+        end = 3 * near - 2 * start  # well outside
+        own = [dq.rotate(turn * [1, -1, -1, -1], p - [0, 0, 0.1]) for p in (start, end)]
+        half = np.array([0.1, 0.05, 0.15])
+        sure = through_box(*own, half + EDGE) == through_box(*own, half - EDGE)
+        outside = (np.abs(own[0]) > half + EDGE).any(axis=1)
+        hit = twins.blocked(start, end)
+        assert 0.005 < hit[sure & outside].mean() < 0.9
+        np.testing.assert_array_equal(hit[sure & outside], through_box(*own, half)[sure & outside])
+
+
+def test_rays_and_the_depth_buffer_agree(rng):
+    """Of 4,000 places round the arm those hide from rays that lie deeper than what is drawn."""
+    card = read_card("iiwa")
+    wrong = total = 0
+    with urdf_file(card) as path, Arm(path) as arm, Twins(arm) as twins:
+        arm.whiten()
+        for view in (View(30, 15), View(-70, 40)):
+            place = rng.uniform([-0.4, -0.4, 0], [0.8, 0.4, 1.2], (2000, 3))
+            camera = frame(place, np.eye(3)[[1, 2, 0]].T, view, (640, 360), 0.9)
+            twins.stand(card.home + 0.3 * rng.normal(size=7))
+            found = measure(arm, camera)
+            pixels, depth = camera.project(place)
+            x, y = np.rint(pixels).astype(int).T - np.array([[found.box.left], [found.box.top]])
+            height, width = found.sure.shape
+            inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)
+            drawn = np.full(found.sure.shape, np.inf)
+            drawn[found.sure] = found.depth
+            hidden = np.zeros(len(place), bool)
+            hidden[inside] = drawn[y[inside], x[inside]] < depth[inside]
+            hit = twins.blocked(place, np.broadcast_to(camera.position, place.shape))
+            wrong, total = wrong + (hit != hidden).sum(), total + len(place)
+            assert 0.05 < hit.mean() < 0.95
+    assert wrong < 0.006 * total  # outlines
+
+
+def test_more_rays_than_one_call_takes_and_as_many_answers(rng, tmp_path):
+    with Arm(urdf(tmp_path)) as arm, Twins(arm) as twins:
+        twins.stand(np.array([0.3, -0.2]))
+        start, end = many_rays(rng, 33_000, [0, 0, 0.3])
+        whole = twins.blocked(start, end)
+        parts = [twins.blocked(start[i : i + 400], end[i : i + 400]) for i in range(0, 33_000, 400)]
+        assert 0.05 < whole.mean() < 0.95
+        np.testing.assert_array_equal(whole, np.concatenate(parts))  # one thread or more
+
+
+def test_a_file_that_is_no_mesh_has_no_twin(tmp_path):
+    (tmp_path / "junk.stl").write_text("junk")
+    mesh = '<visual><geometry><mesh filename="junk.stl"/></geometry></visual>'
+    with Arm(urdf(tmp_path, second=mesh)) as arm, Twins(arm) as twins:
+        assert [shape.link for shape in twins.unread] == [1]
+        twins.stand(np.zeros(2))

@@ -28,7 +28,7 @@ def checked(tmp_path):
 def test_limits_are_warnings_at_the_worst_line(checked):
     result = checked(FAST)
     assert result.errors == 0
-    codes = {d.code: d for d in result.findings}
+    codes = {d.code: d for d in result.outlook.warnings}
     assert set(codes) == {"W502", "W503", "W504"}
     speed = codes["W502"]
     lines = {line.line: line for line in result.outlook.lines}
@@ -39,7 +39,8 @@ def test_limits_are_warnings_at_the_worst_line(checked):
 
 
 def test_the_table_speaks_of_what_is_close_alone(checked):
-    table = checked(FAST).text.partition("at most:")[2].splitlines()[1:]
+    said = checked(FAST).text.partition("\nhint: ")[0]
+    table = said.partition("at most:")[2].splitlines()[1:]
     assert re.split(r"\s{2,}", table[0].strip()) == [
         "line",
         "speed",
@@ -50,7 +51,7 @@ def test_the_table_speaks_of_what_is_close_alone(checked):
     assert "off limits" not in table[0]
     calm = checked("start at (0, 0) mm\nline to (40, 0) mm\n")
     assert not calm.findings
-    assert calm.text.splitlines()[-1].startswith("  at most: joint")
+    assert calm.text.partition("\nhint: ")[0].splitlines()[-1].startswith("  at most: joint")
 
 
 def test_the_numbers_for_programs(checked):
@@ -66,8 +67,9 @@ def test_the_numbers_for_programs(checked):
     assert set(last["effort_Nm"]) == {"value", "joint", "time", "part_of_limit"}
     assert last["clearance_m"] > 0
     assert last["hidden"] == 0
-    assert {d["code"] for d in made["diagnostics"]} == {"W502", "W503", "W504"}
-    assert made["summary"]["warnings"] == 3
+    codes = {d["code"] for d in made["diagnostics"]}
+    assert codes == {"W403", "W502", "W503", "W504"}  # W403 is of the text alone
+    assert made["summary"]["warnings"] == 4
 
 
 def test_without_an_arm_nothing_is_looked_ahead(checked):

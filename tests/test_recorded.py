@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import dqpaint
-from dqpaint import dq, outputs
+from dqpaint import dq, negative, outputs
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.recorded import along_cubics, along_screws, read_recording
 from tests.conftest import random_poses
@@ -47,6 +47,8 @@ def test_a_simulated_run_recorded_gives_the_same_figures_and_picture(drawing, si
     path.write_bytes(outputs.csv(simulated))
     again = dqpaint.draw(drawing, recorded=path, size=(160, 90))
     assert again.plant == "recorded"
+    np.testing.assert_array_equal(again.track.read, again.track.posture)
+    np.testing.assert_array_equal(again.track.believed, again.track.pose)
     for name, value in simulated.metrics.figures.items():
         assert again.metrics.figures[name] == pytest.approx(value, rel=1e-6, abs=1e-12), name
     assert again.metrics.figures["position_error_max_m"] > 1e-3
@@ -87,6 +89,24 @@ def test_poses(drawing, simulated, tmp_path):
     assert not any(name.startswith("q1") for name in again.table)
     assert outputs.encode_csv(again.table)
     assert outputs.summary(again)
+
+
+def test_poses_alone_leave_the_arm_out_of_the_picture(drawing, simulated, tmp_path):
+    names = ["t_s", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"]
+    path = write(tmp_path / "poses.csv", simulated.table, names=names)
+    again = dqpaint.draw(drawing, recorded=path, size=(160, 90), occlusion=True)
+    plain = dqpaint.draw(drawing, recorded=path, size=(160, 90))
+    assert "the arm and what it hides are left out" in " ".join(again.notes)
+    assert "left out" not in " ".join(plain.notes)
+    assert again.picture.hidden is None
+    np.testing.assert_array_equal(again.image, plain.image)
+    film = tmp_path / "hook-film.npz"
+    film.write_bytes(negative.encode(again.scene, again.settings, again.cast))
+    (developed,) = dqpaint.develop(film)
+    np.testing.assert_array_equal(developed.image, again.image)
+    assert "recorded as poses" in " ".join(developed.remarks)
+    with pytest.raises(DqpaintError, match="manipulability"):
+        dqpaint.draw(drawing, recorded=path, size=(160, 90), colour_by="manipulability")
 
 
 def test_times_that_do_not_cover_the_drawing_are_held_and_said(drawing, simulated, tmp_path):
@@ -185,7 +205,8 @@ def test_other_slips(drawing, tmp_path):
     for choice, option in (
         ({"controller": "p"}, "--controller"), ({"gains": {"k": 3}}, "--gain"),
         ({"plant": "ideal"}, "--plant"), ({"start": "home"}, "--from"),
-        ({"disturb": {"twist": {"x": 0.1}}}, "--disturb"),
+        ({"disturb": {"twist": {"x": 0.1}}}, "--disturb"), ({"null": "none"}, "--null"),
+        ({"on_limit": "stop"}, "--on-limit"),
     ):  # fmt: skip
         with pytest.raises(UsageError, match=f"leave out {option}"):
             dqpaint.draw(drawing, recorded=late, **choice)

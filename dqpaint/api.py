@@ -28,6 +28,9 @@ def draw(
     controller: str | Callable[..., Any] | None = None,
     gains: Mapping[str, float | tuple[float, ...] | str] | None = None,
     robot: str | None = None,
+    tool: str | None = None,
+    place: str | None = None,
+    recorded: str | PathLike[str] | None = None,
     plant: str | None = None,
     disturb: Mapping[str, Mapping[str, float | str]] | None = None,
     seed: int | None = None,
@@ -58,6 +61,9 @@ def draw(
         gains: of the law, in SI units; the others keep their defaults. A text such as
             "5..20@10%" changes on the way.
         robot: the arm; else the file's robot line, else the iiwa.
+        tool: where the light sits on the flange, "X,Y,Z" or "X,Y,Z,ROLL,PITCH,YAW" [m, deg].
+        place: "auto" puts the drawing where it fits the arm best.
+        recorded: a CSV of a real arm's joints or poses, painted instead of a simulated run.
         plant: how the arm answers, with values as in "compliant:frequency=60".
         disturb: values of disturbances by their names, as in {"twist": {"x": 0.01}}.
         seed: of everything random.
@@ -88,7 +94,9 @@ def draw(
     own = controller if callable(controller) else None
     name = getattr(own, "__name__", "own") if own else controller
     settings = make_settings(
-        controller=name, gains=dict(gains) if gains else None, robot=robot, plant=plant,
+        controller=name, gains=dict(gains) if gains else None, robot=robot, tool=tool, place=place,
+        recorded=None if recorded is None else str(recorded),
+        plant=plant,
         disturb={name: dict(values) for name, values in (disturb or {}).items()}, seed=seed,
         start=start, null=null, on_limit=on_limit, width=width, height=height, view=view, ev=ev,
         brush=brush, pwm=pwm, exposure=exposure, look=look, starburst=starburst, noise=noise,
@@ -135,6 +143,7 @@ def preview(
     drawing: str | PathLike[str] | Drawing,
     *,
     robot: str | None = None,
+    tool: str | None = None,
     size: tuple[int, int] | None = None,
     view: str | None = None,
     ev: float | None = None,
@@ -153,7 +162,7 @@ def preview(
     """
     width, height = _width_and_height(size)
     settings = make_settings(
-        robot=robot, width=width, height=height, view=view, ev=ev, brush=brush, pwm=pwm,
+        robot=robot, tool=tool, width=width, height=height, view=view, ev=ev, brush=brush, pwm=pwm,
         exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
         ghost=ghost,
     )  # fmt: skip
@@ -233,6 +242,8 @@ def _stage(
 
     try:
         card = find_card(cast.robot)
+        if not cast.known:
+            raise DqpaintError("the run was recorded as poses, without joints")
         if card.joints != cast.posture.shape[1]:
             raise DqpaintError(f"{card.name} has {card.joints} joints, that arm had others")
         prepare(card)

@@ -1,18 +1,20 @@
 """What `check` says of a drawing, for people and for programs."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from dqpaint import __version__
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.examples import find_drawing
-from dqpaint.language import Diagnostic, ScriptError, read, render
+from dqpaint.language import Diagnostic, Program, ScriptError, read, render
 from dqpaint.language.diagnostics import Severity, Span, file_at, place
 from dqpaint.motion import Motion, plan, summary_line
 from dqpaint.robots.card import Card
 from dqpaint.robots.choose import card_for
+
+if TYPE_CHECKING:
+    from dqpaint.forewarning import Outlook
 
 
 @dataclass(frozen=True)
@@ -24,7 +26,7 @@ class Checked:
     findings: tuple[Diagnostic, ...]
     motion: Motion | None
     fault: str = ""  # of a file that could not even be read
-    reach: str = ""  # what the arm says of it, where an arm was asked
+    outlook: "Outlook | None" = None  # what the arm says of it, where an arm was asked
 
     @property
     def errors(self) -> int:
@@ -39,7 +41,8 @@ class Checked:
             return f"error: {self.fault}"
         parts = [render(finding, self.file, self.source) for finding in self.findings]
         if self.motion is not None:
-            parts.append(summary_line(self.motion) + self.reach + self._hint)
+            said = self.outlook.text if self.outlook else ""
+            parts.append(summary_line(self.motion) + said + self._hint)
         return "\n\n".join(parts)
 
     @property
@@ -58,48 +61,47 @@ class Checked:
 BEAD = 2.0  # times the brightness of the middle: less is no matter for a hint
 
 
-def check(name: str, robot: str | None) -> Checked:
+def check(
+    name: str, robot: str | None, tool: str | None = None, place: str | None = None
+) -> Checked:
     """Read one drawing and plan its motion; nothing is simulated.
 
-    The reach is looked at where an arm is named, in the call or in the file.
+    Where an arm is named, in the call or in the file, or its tool, it looks ahead, too: reach,
+    limits, speeds, torques, singularities, collisions, hidden light.
 
     Raises:
-        UsageError: no such robot.
+        UsageError: no such robot, or no such tool.
     """
+    if place not in (None, "auto"):
+        raise UsageError(f"place '{place}' is not auto; a place of your own is a line of the file")
     try:
         path = find_drawing(name)
         program = read(path)
-        card = card_for(program, robot)
+        card = card_for(program, robot, tool)
         motion = plan(program, card.canvas.pose)
-        asked = robot is not None or program.robot is not None
-        reach = _reach(motion, card) if asked else ""
+        asked = not (robot is tool is place is program.robot is None)
+        outlook = _look_ahead(program, card, place) if asked else None
+        motion = outlook.motion if outlook else motion
     except ScriptError as problem:
         return Checked(problem.name, problem.text, problem.diagnostics, None)
     except UsageError:
         raise
     except DqpaintError as problem:
         return Checked(name, "", (), None, str(problem))
-    return Checked(str(path), program.text, motion.notes, motion, reach=reach)
+    findings = motion.notes + (outlook.warnings if outlook else ())
+    return Checked(str(path), program.text, findings, motion, outlook=outlook)
 
 
-def _reach(motion: Motion, card: Card) -> str:
-    """Whether an arm reaches all of a drawing; only this brings in the kinematics.
+def _look_ahead(program: Program, card: Card, place: str | None) -> "Outlook":
+    """What an arm says of a drawing; only this brings in the kinematics.
 
     Raises:
-        ScriptError: it does not.
+        ScriptError: it does not reach all of it.
     """
-    from dqpaint.out_of_reach import begin
+    from dqpaint.forewarning import look_ahead
     from dqpaint.robots.kinematics import Kinematics
 
-    arm = Kinematics(card)
-    notes = "".join(f"\nnote: {note}" for note in arm.notes)
-    margin = math.degrees(begin(motion, arm).margin)
-    said = (
-        f"but a joint has to go {-margin:.0f} deg beyond its limit"
-        if margin < 0
-        else f"every joint {margin:.0f} deg or more from its limits"
-    )
-    return f"; {card.name} reaches it, {said}{notes}"
+    return look_ahead(program, Kinematics(card), place)
 
 
 def as_json(results: Sequence[Checked]) -> dict[str, Any]:
@@ -161,6 +163,7 @@ def _file(result: Checked) -> dict[str, Any]:
         "length_m": motion.length,
         "ends_over_middle": motion.unevenness,
         "box_m": motion.box.tolist(),
+        "forecast": result.outlook.as_json if result.outlook else None,
     }
 
 

@@ -11,8 +11,40 @@ from typing import Annotated, Any
 
 import typer
 
-from dqpaint import __version__, cli_language
+from dqpaint import __version__, cli_arm, cli_language
 from dqpaint.cli_language import point_at
+from dqpaint.cli_options import (
+    Brush,
+    ColourBy,
+    Disturb,
+    Drawing,
+    Ev,
+    Exposure,
+    From,
+    Gain,
+    Ghost,
+    Law,
+    Look,
+    Magnify,
+    Noise,
+    Null,
+    Occlusion,
+    OnLimit,
+    Out,
+    Overlay,
+    PlaceAt,
+    PlantName,
+    Pwm,
+    Recorded,
+    Robot,
+    Save,
+    Seed,
+    Size,
+    Starburst,
+    Tool,
+    View,
+)
+from dqpaint.errors import UsageError
 
 app = typer.Typer(
     add_completion=False,
@@ -22,109 +54,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-Drawing = Annotated[str, typer.Argument(metavar="FILE", help="a .traj file, or an example's name")]
 Drawings = Annotated[list[str], typer.Argument(metavar="FILE...", help="drawings, or examples")]
-Law = Annotated[
-    str,
-    typer.Option(
-        metavar="NAME|FILE.py[:NAME]",
-        help="control law: see dqpaint list controllers; or a function of your own",
-    ),
-]
-Gain = Annotated[
-    list[str] | None,
-    typer.Option(
-        metavar="NAME=VALUE",
-        help="a gain of that law in SI units; repeatable; 5..20@10% is a ramp in the first 10 %",
-    ),
-]
-Robot = Annotated[
-    str | None,
-    typer.Option(
-        metavar="NAME|FILE",
-        help="the arm, or its .urdf or .toml [default: the drawing's, else iiwa]",
-    ),
-]
-PlantName = Annotated[
-    str | None,
-    typer.Option(
-        metavar="NAME[:KEY=VALUE,...]",
-        help="how the arm answers, such as compliant:frequency=60 [default: stiff, or torque for "
-        "its laws]",
-    ),
-]
-Disturb = Annotated[
-    list[str] | None,
-    typer.Option(
-        metavar="NAME=VALUE,...",
-        help="a disturbance, repeatable, such as twist=sine,x=0.02,frequency=2",
-    ),
-]
-Seed = Annotated[int, typer.Option(help="of everything random")]
-Null = Annotated[
-    str,
-    typer.Option(
-        metavar="NAME[,gain=VALUE]",
-        help="what a redundant arm does with its freedom: see dqpaint list null",
-    ),
-]
-OnLimit = Annotated[
-    str,
-    typer.Option(
-        metavar="clip|slow|stop",
-        help="where a joint would pass a limit: hold it back, slow the drawing down, or end",
-    ),
-]
-From = Annotated[str, typer.Option("--from", metavar="first|home", help="where the arm begins")]
-Size = Annotated[str, typer.Option(metavar="WxH", help="of the picture, in pixels")]
-View = Annotated[
-    str,
-    typer.Option(
-        metavar="VIEW",
-        help="front, iso, side, top, or AZ,EL: degrees to its right and above; stereo[:VIEW], "
-        "orbit[:N[:EL]]; several with commas",
-    ),
-]
-Ev = Annotated[float, typer.Option(help="exposure in stops, on top of the automatic one")]
-Brush = Annotated[
-    str | None,
-    typer.Option(metavar="NAME[:KEY=VALUE,...]", help="what shines; see: dqpaint list brushes"),
-]
-Pwm = Annotated[float, typer.Option(metavar="HZ", help="dim the lamps by pulses; 0: evenly")]
-Exposure = Annotated[
-    str | None,
-    typer.Option(
-        metavar="SETTINGS",
-        help="a camera's, in any order: f/8,iso100,35mm,nd3,0.1cd,2.2m [default: automatic]",
-    ),
-]
-Look = Annotated[
-    str, typer.Option(metavar="NAME", help="how it is developed; see: dqpaint list looks")
-]
-Starburst = Annotated[int, typer.Option(metavar="BLADES", help="of an aperture that draws rays")]
-Noise = Annotated[int | None, typer.Option(metavar="SEED", help="of the sensor's noise")]
-ColourBy = Annotated[
-    str | None,
-    typer.Option(
-        metavar="FIGURE",
-        help="that the colours tell: position-error, orientation-error, speed, manipulability, "
-        "line",
-    ),
-]
-Overlay = Annotated[bool, typer.Option("--overlay", help="the asked drawing beneath")]
-Magnify = Annotated[float, typer.Option(metavar="N", help="deviations, N times as large")]
-Ghost = Annotated[bool, typer.Option("--ghost", help="the arm in the picture, and room for it")]
-Occlusion = Annotated[
-    bool | None,
-    typer.Option(help="the arm's body hides light from the camera [default: as --ghost]"),
-]
-Out = Annotated[
-    str | None,
-    typer.Option(metavar="PATH", help="a folder, or the stem of the files [default: here]"),
-]
-Save = Annotated[
-    str, typer.Option(metavar="LIST", help="of png, csv, json, motion, film, hdr, video, webp")
-]
 AsJson = Annotated[bool, typer.Option("--json", help="for a program to read")]
 
 DRAW_EXAMPLES = """Examples:
@@ -156,6 +86,9 @@ def draw(
     controller: Law = "hinf",
     gain: Gain = None,
     robot: Robot = None,
+    tool: Tool = None,
+    place: PlaceAt = None,
+    recorded: Recorded = None,
     plant: PlantName = None,
     disturb: Disturb = None,
     seed: Seed = 0,
@@ -188,10 +121,13 @@ def draw(
 
     names = outputs.choose(save)
     path = find_drawing(file)
-    stem = outputs.stem_for(out, f"{path.stem}-{short_name(controller)}")
+    stem = outputs.stem_for(
+        out, f"{path.stem}-{'recorded' if recorded else short_name(controller)}"
+    )
     with Progress(path.name) as progress:
         painting = api.draw(
-            path, controller=controller, gains=parse_gains(gain or []), robot=robot, plant=plant,
+            path, controller=controller, gains=parse_gains(gain or []), robot=robot, tool=tool,
+            place=place, recorded=recorded, plant=plant,
             disturb=parse_disturbances(disturb or []), seed=seed, start=start, null=null,
             on_limit=on_limit, size=parse_size(size), view=view, ev=ev, brush=brush, pwm=pwm,
             exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
@@ -212,6 +148,7 @@ def draw(
 def preview(
     file: Drawing,
     robot: Robot = None,
+    tool: Tool = None,
     size: Size = "1280x720",
     view: View = "front",
     ev: Ev = 0.0,
@@ -237,7 +174,7 @@ def preview(
 
     def show() -> None:
         preview = api.preview(
-            path, robot=robot, size=pixels, view=view, ev=ev, brush=brush, pwm=pwm,
+            path, robot=robot, tool=tool, size=pixels, view=view, ev=ev, brush=brush, pwm=pwm,
             exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
             ghost=ghost,
         )  # fmt: skip
@@ -293,19 +230,30 @@ def develop(
     _finish(report.of_arm(pictures), report.of_developed(pictures, written), pictures[0].image)
 
 
-@app.command(epilog="Examples:\n\n  dqpaint check star\n\n  dqpaint check drawings/*.traj --json")
+CHECK_EXAMPLES = """Examples:
+
+  dqpaint check drawings/*.traj --json
+
+  dqpaint check star --robot ur5 --place auto
+"""
+
+
+@app.command(epilog=CHECK_EXAMPLES)
 def check(
     files: Drawings,
     robot: Robot = None,
+    tool: Tool = None,
+    place: PlaceAt = None,
     as_json: AsJson = False,
 ) -> None:
     """Read drawings: every error at its place, or length, time, steps and box.
 
-    With --robot, or a robot line in the file, also whether the arm reaches all of it.
+    With --robot, or a robot line in the file, it also looks ahead, line by line: reach, joint
+    limits, speeds, torques, singularities, collisions, and light the arm would hide.
     """
     from dqpaint import checking
 
-    results = [checking.check(name, robot) for name in files]
+    results = [checking.check(name, robot, tool, place) for name in files]
     if as_json:
         print(json.dumps(checking.as_json(results), indent=2))
     else:
@@ -353,13 +301,16 @@ def pose(
         str | None, typer.Option(metavar="A,B,...", help="the joints in radians")
     ] = None,
     flange: Annotated[bool, typer.Option("--flange", help="the bare last link, no tool")] = False,
+    tool: Tool = None,
     as_json: AsJson = False,
 ) -> None:
     """Tell where an arm's tool is: dual quaternion, matrix, screw, Jacobian, manipulability."""
     from dqpaint import posing
-    from dqpaint.robots.choose import find_card
+    from dqpaint.robots.choose import find_card, with_tool
 
-    card = find_card(robot)
+    if flange and tool is not None:
+        raise UsageError("--flange leaves the tool out: give it or --tool, not both")
+    card = with_tool(find_card(robot), tool)
     posed = posing.pose_arm(card, posing.read_posture(card, deg, rad), flange)
     for kind, sentences in (("note", posed.notes), ("warning", posed.beyond)):
         for sentence in sentences:
@@ -378,6 +329,7 @@ def gallery(
         print(path)
 
 
+cli_arm.add_to(app)
 cli_language.add_to(app)
 
 

@@ -74,6 +74,7 @@ def _reached_columns(track: Track) -> Table:
     turned = dq.log(dq.mul(track.pose, dq.conj(motion.pose)))[:, :3]
     velocity = _velocity(points, motion.period)
     acceleration = _acceleration(points, motion.period)
+    known = track.posture.shape[1] > 0  # a recording may have poses alone
     moved = np.diff(track.posture, axis=0, append=track.posture[-1:])
     joints = range(track.posture.shape[1])
     return {
@@ -83,8 +84,7 @@ def _reached_columns(track: Track) -> Table:
         "invariant_error": _norm(invariant_error(track.pose, motion.pose)),
         "speed_m_s": _norm(velocity),
         "acceleration_m_s2": _norm(acceleration),
-        "effort_rad": _norm(moved),
-        "manipulability": track.manipulability,
+        **({"effort_rad": _norm(moved), "manipulability": track.manipulability} if known else {}),
         **{f"q{j + 1}_rad": track.posture[:, j] for j in joints},
         **{_command_column(track, j + 1): track.command[:, j] for j in joints},
         **_told_columns(track),
@@ -133,15 +133,13 @@ def _figures(table: Table, track: Track) -> dict[str, float]:
         """Over the N - 1 steps of the run; the last row's command is not carried out."""
         return float(values[:-1].sum() * period)
 
-    figures = {
-        "error_integral": integral(table["invariant_error"]),
-        "torque_integral_Nm_s" if track.torques else "command_integral_rad": integral(
-            _norm(track.command)
-        ),
-        "effort_integral": integral(table["effort_rad"]),
-        "speed_integral_m": integral(table["speed_m_s"]),
-        "acceleration_integral": integral(table["acceleration_m_s2"]),
-    }
+    figures = {"error_integral": integral(table["invariant_error"])}
+    if "effort_rad" in table:
+        given = "torque_integral_Nm_s" if track.torques else "command_integral_rad"
+        figures[given] = integral(_norm(track.command))
+        figures["effort_integral"] = integral(table["effort_rad"])
+    figures["speed_integral_m"] = integral(table["speed_m_s"])
+    figures["acceleration_integral"] = integral(table["acceleration_m_s2"])
     errors = ("position_error", "m"), ("orientation_error", "rad")
     for name, unit in errors:
         values = table[f"{name}_{unit}"]

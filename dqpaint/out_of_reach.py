@@ -1,5 +1,7 @@
 """Where the arm begins a drawing; what is said of one that leaves its reach."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -8,7 +10,9 @@ from dqpaint.language.diagnostics import Diagnostic, ScriptError
 from dqpaint.motion import Motion
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.reach import Miss, Start, find_start, waypoints
-from dqpaint.tracking import Track
+
+if TYPE_CHECKING:
+    from dqpaint.tracking import Track  # brings in the simulator, and a forecast needs none
 
 WORTH_A_LOOK = 1e-3  # [m]
 LOOKS = 9  # at a stroke, for its farthest point
@@ -29,7 +33,7 @@ def begin(motion: Motion, kinematics: Kinematics) -> Start:
     return found
 
 
-def check_worst(track: Track, kinematics: Kinematics) -> None:
+def check_worst(track: "Track", kinematics: Kinematics) -> None:
     """Look again where a run strayed most: the forecast sees a drawing at some of its rows alone.
 
     A pose that is out of reach keeps the arm at least as far away as its shortfall.

@@ -19,17 +19,22 @@ from dqpaint.motion import Motion, plan
 from dqpaint.nullspace import read_null
 from dqpaint.out_of_reach import begin, check_worst
 from dqpaint.picture import Picture, photograph
+from dqpaint.placing import Placed, settle
 from dqpaint.plants import choose_plant
+from dqpaint.plants.plant import Takes
+from dqpaint.recorded import RECORDED, Recording, read_recording, replay
 from dqpaint.robots.card import DEFAULT_ROBOT
 from dqpaint.robots.choose import card_for
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Clamp
 from dqpaint.scene import Scene, arrange, check_choices
 from dqpaint.set_points import SetPoint, set_points
-from dqpaint.settings import Settings
+from dqpaint.settings import Settings, check_recorded
 from dqpaint.slowing import Slowed, slow_down
 from dqpaint.stage.staging import Cast, on_stage
 from dqpaint.tracking import Track, track
+
+UNSEEN = "poses alone say nothing of the joints: the arm and what it hides are left out"
 
 
 @dataclass(frozen=True, repr=False)
@@ -54,6 +59,8 @@ class Painting:
     slowed: Slowed | None = None  # where the drawing's clock may slow down
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
     notes: tuple[str, ...] = ()  # what was assumed of the arm
+    placed: Placed | None = None  # where `place auto` put the drawing
+    recording: Recording | None = None  # what was painted instead of a simulated run
 
     @property
     def picture(self) -> Picture:
@@ -112,44 +119,60 @@ def paint(
     """
     clock = Stopwatch()
     check_choices(settings)  # a slip there is told before anything is simulated
+    check_recorded(settings)
+    card = card_for(program, settings.robot, settings.tool)
+    recording = None
+    if settings.recorded is not None:
+        recording, controller = read_recording(settings.recorded, card.joints), RECORDED
     controller = controller or find_controller(settings.controller)
     gains = controller.read_gains(settings.gains)
-    plant = choose_plant(settings.plant, "torque" if controller.drives_torque else "rates")
+    takes: Takes = "torque" if controller.drives_torque else "rates"
+    plant = choose_plant(settings.plant, takes)
     disturbances = make_disturbances(settings.disturb)
     for name, one in disturbances.items():
         plant.need(one.needs, name)
     read_null(settings.null)
-    card = card_for(program, settings.robot)
+    with clock("place"):
+        kinematics = Kinematics(card)
+        program, placed = settle(program, kinematics, settings.place)
     with clock("motion"):
         motion = plan(program, card.canvas.pose)
-    with clock("start"):
-        kinematics = Kinematics(card)
-        best = begin(motion, kinematics).posture
-        start = card.home if settings.start == "home" else best
-        slowed = None
-        if settings.on_limit == "slow":
-            slowed = slow_down(motion, kinematics, start, settings.null, controller.drives_torque)
-            motion = slowed.motion
-    with clock("arm"):
-        run = track(
-            motion, kinematics, start, plant, controller, gains, progress,
-            disturbances, settings.seed, settings.null, settings.on_limit == "stop",
-        )  # fmt: skip
-    check_worst(run, kinematics)
+    slowed = None
+    if recording is not None:
+        with clock("arm"):
+            run = replay(recording, motion, kinematics)
+    else:
+        with clock("start"):
+            best = begin(motion, kinematics).posture
+            start = card.home if settings.start == "home" else best
+            if settings.on_limit == "slow":
+                slowed = slow_down(
+                    motion, kinematics, start, settings.null, controller.drives_torque
+                )
+                motion = slowed.motion
+        with clock("arm"):
+            run = track(
+                motion, kinematics, start, plant, controller, gains, progress,
+                disturbances, settings.seed, settings.null, settings.on_limit == "stop",
+            )  # fmt: skip
+        check_worst(run, kinematics)
+    notes = kinematics.notes + (recording.notes(motion) if recording else ())
     with clock("metrics"):
         metrics = measure(run)
         came_through = attenuation(run, gains.promise())
         steps = set_points(run)
     robot = settings.robot or program.robot or DEFAULT_ROBOT
     cast = Cast(robot, run.posture, motion.line, motion.period)
+    if settings.staged and not cast.known:
+        notes += (UNSEEN,)
     with clock("light"), on_stage(settings, card, cast) as staging:
         scene = arrange(motion, run.pose, settings, metrics.table)
         pictures = tuple(photograph(scene, settings, staging))
     return Painting(
-        settings, controller, card.name, plant.name, plant.shown(card), disturbances,
-        gains.shown(), motion, run, metrics, came_through, steps, scene, cast,
-        pictures, slowed,
-        clock.seconds, kinematics.notes,
+        settings, controller, card.name,
+        "recorded" if recording else plant.name, {} if recording else plant.shown(card),
+        disturbances, gains.shown(), motion, run, metrics, came_through, steps, scene, cast,
+        pictures, slowed, clock.seconds, notes, placed, recording,
     )  # fmt: skip
 
 

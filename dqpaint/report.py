@@ -25,13 +25,14 @@ def of_painting(painting: Painting, written: Sequence[Path]) -> str:
     gains = ", ".join(f"{name} = {_gain(value)}" for name, value in painting.gains.items())
     rows = [
         ("drawing", summary_line(painting.motion)),
+        *([("placed", one.line), ("", one.figures)] if (one := painting.placed) else []),
         ("arm", f"{painting.robot}, {painting.plant}"),
-        ("controller", f"{painting.controller.name}  {gains}"),
+        ("controller", f"{painting.controller.name}  {gains}".rstrip()),
         *_disturbed(painting),
         ("position error", _spread(figures, "position_error", "m", 1e3, "mm")),
         ("", f"largest at {_worst(painting)}"),
         ("orientation error", _spread(figures, "orientation_error", "rad", math.degrees(1), "deg")),
-        ("commanded", _commanded(figures)),
+        *_commanded(figures),
         *_came_through(painting),
         *_steps(painting),
         *_pace(painting),
@@ -104,16 +105,31 @@ def _steps(painting: Painting) -> list[tuple[str, str]]:
     return rows
 
 
-def _commanded(figures: dict[str, float]) -> str:
-    if "torque_integral_Nm_s" in figures:
-        return f"{figures['torque_integral_Nm_s']:.3g} Nm s in all joints together"
-    return f"{figures['command_integral_rad']:.3g} rad in all joints together"
+def _commanded(figures: dict[str, float]) -> list[tuple[str, str]]:
+    """What the joints were given in all, where they are known."""
+    for name, unit in (("torque_integral_Nm_s", "Nm s"), ("command_integral_rad", "rad")):
+        if name in figures:
+            return [("commanded", f"{figures[name]:.3g} {unit} in all joints together")]
+    return []
 
 
 def _gain(value: float | tuple[float, ...] | str) -> str:
     if isinstance(value, tuple):
         return f"({', '.join(f'{part:.4g}' for part in value)})"
     return value if isinstance(value, str) else f"{value:.4g}"
+
+
+def of_export(painting: Painting, written: Sequence[Path]) -> str:
+    """The table that follows `export`."""
+    points = f"{len(painting.motion.t)} points, one every {painting.motion.period * 1e3:g} ms"
+    rows = [
+        ("drawing", summary_line(painting.motion)),
+        *([("placed", one.line), ("", one.figures)] if (one := painting.placed) else []),
+        ("arm", f"{painting.robot}, {painting.plant}, {painting.controller.name}"),
+        ("trajectory", f"{points}; from rest to rest, within the arm's limits"),
+        *_files(written),
+    ]
+    return table(rows)
 
 
 def of_preview(preview: Preview, written: Sequence[Path]) -> str:
@@ -215,6 +231,8 @@ def _grouped(painting: Painting) -> dict[tuple[str, int], list[Clamp]]:
 
 def _limits_line(painting: Painting) -> str:
     groups = _grouped(painting)
+    if painting.recording is not None:
+        return "not known of a recorded run"
     if not groups:
         return "none reached"
     parts = (f"{kind} (line {line})" for kind, line in list(groups)[:MOST_NAMED])

@@ -23,6 +23,9 @@ class Settings(BaseModel):
     controller: str = DEFAULT_CONTROLLER
     gains: dict[str, float | tuple[float, ...] | str] = Field(default_factory=dict)
     robot: str | None = None  # None: the file's own robot line, else the iiwa
+    tool: str | None = None  # where the light sits on the flange; None: where the card says
+    place: Literal["auto"] | None = None  # None: what the file says, else the robot's canvas
+    recorded: str | None = None  # a CSV of a real arm's run, instead of a simulated one
     plant: str | None = None  # None: the usual one for what the law commands
     disturb: dict[str, dict[str, float | str]] = Field(default_factory=dict)
     null: str = "start"  # what a redundant arm does with its freedom
@@ -73,6 +76,24 @@ def make_settings(**choices: object) -> Settings:
             raise UsageError(f"no setting named '{name}'; known: {known}") from None
         reason = first["msg"].removeprefix("Input ")
         raise UsageError(f"{name} {first['input']!r} {reason}") from None
+
+
+def check_recorded(settings: Settings) -> None:
+    """Look that nothing is asked of a recorded run that only a simulated one has.
+
+    Raises:
+        UsageError: a law, gain, plant, disturbance, start, null or on_limit was chosen.
+    """
+    if settings.recorded is None:
+        return
+    plain = Settings(recorded=settings.recorded)
+    for name, option in (
+        ("controller", "--controller"), ("gains", "--gain"), ("plant", "--plant"),
+        ("disturb", "--disturb"), ("start", "--from"), ("null", "--null"),
+        ("on_limit", "--on-limit"),
+    ):  # fmt: skip
+        if getattr(settings, name) != getattr(plain, name):
+            raise UsageError(f"a recorded run is not simulated: leave out {option}")
 
 
 def parse_size(text: str) -> tuple[int, int]:

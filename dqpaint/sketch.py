@@ -44,6 +44,6 @@ def sketch(program: Program, settings: Settings) -> Preview:
         DqpaintError: a fault in the drawing, or no light in it.
     """
     check_choices(settings)
-    motion = plan(program, card_for(program, settings.robot).canvas.pose)
+    motion = plan(program, card_for(program, settings.robot, settings.tool).canvas.pose)
     scene = arrange(motion, motion.pose, settings)
     return Preview(settings, motion, scene, tuple(photograph(scene, settings)))

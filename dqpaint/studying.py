@@ -7,7 +7,8 @@ from typing import Annotated
 
 import typer
 
-from dqpaint.cli import (
+from dqpaint.cli import app
+from dqpaint.cli_options import (
     Brush,
     Disturb,
     Drawing,
@@ -22,7 +23,6 @@ from dqpaint.cli import (
     Seed,
     Size,
     View,
-    app,
 )
 
 __all__ = ["app"]

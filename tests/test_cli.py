@@ -74,7 +74,7 @@ def test_options_are_all_heard(dqpaint, line, tmp_path):
         "--disturb", "twist=noise,x=0.01,wz=-0.1,frequency=2", "--plant", "ideal", "--from", "home",
         "--size", "320x200", "--view", "20,30", "--ev", "1.5", "--out", "made/", "--robot", "iiwa",
         "--save", "json,motion", "--null", "limits,gain=3", "--on-limit", "slow",
-        "--ghost", "--no-occlusion",
+        "--ghost", "--no-occlusion", "--tool", "0,0,9cm",
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert files(tmp_path / "made") == ["line-p-motion.csv", "line-p.json"]
@@ -300,6 +300,17 @@ def test_check_for_programs(dqpaint, line, tmp_path):
     (["develop", "line.traj"], 1, "'line.traj' is not a film of dqpaint; draw with --save film"),
     (["develop", "none.npz"], 1, "film 'none.npz' cannot be read: No such file"),
     (["paint", "line.traj"], 2, "No such command"),
+    (["draw", "line.traj", "--tool", "0,0,80"], 2, "write 80mm"),
+    (["draw", "line.traj", "--place", "there"], 2, "place 'there' should be 'auto'"),
+    (["check", "line.traj", "--place", "there"], 2, "place 'there' is not auto"),
+    (["check", "line.traj", "--tool", "x"], 2, "tool 'x' is not X,Y,Z"),
+    (["pose", "iiwa", "--tool", "0,0,0", "--flange"], 2, "not both"),
+    (["draw", "line.traj", "--recorded", "no.csv"], 2, "'no.csv' cannot be read"),
+    (["draw", "line.traj", "--recorded", "line.traj"], 1, "line.traj has no column 't_s'"),
+    (["export", "line.traj"], 2, "Missing option '--format'"),
+    (["export", "line.traj", "--format", "gcode"], 2, "no format named 'gcode'; known: "),
+    (["export", "line.traj", "--format", "urscript"], 2, "URScript is for the arms of Universal"),
+    (["export", "line.traj", "--format", "csv", "--from", "home"], 1, "not exported: iiwa could"),
     (["check"], 2, "Missing argument"),
 ])  # fmt: skip
 def test_wrong_calls_are_answered_with_what_would_be_right(
@@ -384,6 +395,7 @@ def test_lists(dqpaint):
         ["compare"],
         ["sweep"],
         ["verify"],
+        ["export"],
     ],
 )
 def test_help_ends_with_two_examples(dqpaint, command):
@@ -404,6 +416,33 @@ def test_help_and_check_start_without_the_heavy_libraries(dqpaint, words):
         [sys.executable, "-c", code, *words], capture_output=True, text=True, check=True
     )
     assert done.stdout.splitlines()[-1] == "LOADED []"
+
+
+def test_looking_ahead_needs_neither_the_simulator_nor_the_image_library(dqpaint):
+    code = (
+        "import sys; from dqpaint import checking\n"
+        "assert checking.check('star', 'iiwa').outlook\n"
+        "print('LOADED', [m for m in ('cv2', 'pybullet') if m in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "LOADED []"
+
+
+def test_export_writes_a_trajectory_and_its_cues(dqpaint, line, tmp_path):
+    done = dqpaint("export", line, "--format", "ros2", "--plant", "ideal")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert files(tmp_path) == ["line-hinf-cues.csv", "line-hinf-trajectory.yaml", "line.traj"]
+    assert "from rest to rest, within the arm's limits" in done.stdout
+
+
+def test_a_run_comes_back(dqpaint, line, tmp_path):
+    """Exported, painted again: the option of its own, the names of the files."""
+    assert dqpaint("export", line, "--format", "csv").returncode == 0
+    done = dqpaint("draw", line, "--recorded", "line-hinf-trajectory.csv", "--size", "64x36")
+    assert done.returncode == 0, done.stderr
+    assert "note: line-hinf-trajectory.csv: 21 rows" in done.stderr
+    assert "iiwa, recorded" in done.stdout
+    assert (tmp_path / "line-recorded.json").is_file()
 
 
 def test_streams_that_cannot_say_everything(dqpaint, tmp_path):

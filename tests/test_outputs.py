@@ -66,7 +66,15 @@ def test_summary_says_what_was_run_and_what_came_out(painting):
     total = np.add(light["on_film"], light["lost"])
     np.testing.assert_allclose(total, light["emitted"], rtol=1e-9)
     np.testing.assert_allclose(light["emitted"], painting.motion.light.sum(0) * 0.02, rtol=1e-12)
-    assert set(facts["wall_s"]) == {"language", "motion", "start", "arm", "metrics", "light"}
+    assert set(facts["wall_s"]) == {
+        "language",
+        "place",
+        "motion",
+        "start",
+        "arm",
+        "metrics",
+        "light",
+    }
 
 
 def test_files_are_written_beside_each_other_and_nothing_else_is_left(tmp_path):

@@ -54,7 +54,7 @@ def completions(text: str, offset: int) -> list[Entry]:
         return [*_of("colour", "function"), *_little("on", "off")]
     if last == "tool":
         return [*_little("keep", "follow", "look"), *_of("function")]
-    found = _next_parts(tokens)
+    found = [*(_little("auto") if last == "place" else ()), *_next_parts(tokens)]
     if last == ")":
         found += units
     return [*found, *_values(text)]

@@ -19,7 +19,7 @@ from dqpaint.language.diagnostics import (
 from dqpaint.language.evaluate import evaluate
 from dqpaint.language.findings import EnoughError, Findings
 from dqpaint.language.pen import Pen
-from dqpaint.language.program import Pose, Program, Segment
+from dqpaint.language.program import Auto, Pose, Program, Segment
 from dqpaint.language.scope import BUILTINS, Scope, UnknownError
 from dqpaint.language.settings import PERIOD, changed
 from dqpaint.language.space import Frame
@@ -29,6 +29,7 @@ from dqpaint.language.units import PLAIN
 from dqpaint.language.values import Quantity, Value
 from dqpaint.language.words import SETTINGS, STATEMENTS
 
+NAMELESS = ("robot", "place", "curve", "repeat", "call")  # their name is none that they give
 SHORTEST_PERIOD = 1e-5  # [s]
 LONGEST_PERIOD = 10.0
 DEEPEST = 64  # blocks, calls and files within each other
@@ -50,7 +51,7 @@ class Expander:
         self._period = PERIOD
         self._robot: str | None = None
         self._robot_span: Span | None = None
-        self._placement: Pose | None = None
+        self._placement: Pose | Auto | None = None
         self.at: Span | None = None  # the statement being worked on
 
     def program(self, statements: tuple[Statement, ...]) -> Program:
@@ -119,7 +120,7 @@ class Expander:
         if statement.word in ("robot", "place", "period", "start"):
             self._once.setdefault(statement.word, statement.span)
         name = statement.name
-        if name is not None and statement.word not in ("robot", "curve", "repeat", "call"):
+        if name is not None and statement.word not in NAMELESS:
             self._scope.names.setdefault(name.text, None)
         if statement.body and statement.word != "def" and self._depth < DEEPEST:
             outside = self._open_block()
@@ -312,12 +313,13 @@ class Expander:
 
     def _place(self, statement: Statement) -> None:
         self._first(statement)
-        at, turned = statement.given("at"), statement.value("turned")
-        position = reading.place(at, self._scope, "at")
-        orientation = (1.0, 0.0, 0.0, 0.0)
-        if turned is not None:
-            orientation = reading.rotation(turned, self._scope, "turned")
-        self._placement = Pose(position, orientation)
+        turned = statement.value("turned")
+        given = None if turned is None else reading.rotation(turned, self._scope, "turned")
+        if statement.name is not None:
+            self._placement = Auto(given, statement.span)
+            return
+        position = reading.place(statement.given("at"), self._scope, "at")
+        self._placement = Pose(position, given or (1.0, 0.0, 0.0, 0.0))
 
     def _start(self, statement: Statement) -> None:
         self._first(statement, inside=True)

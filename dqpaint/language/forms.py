@@ -26,6 +26,8 @@ def check(statement: Statement, text: str) -> None:
             raise _to_or_by(statement.word, _first_word(statement))
     elif statement.word in ("text", "path", "svg"):
         _from_elsewhere(statement)
+    elif statement.word == "place" and statement.name is not None:
+        _place_auto(statement)
     elif statement.word in ("step", "start", "place"):
         _needs(statement, "to" if statement.word == "step" else "at")
 
@@ -159,6 +161,13 @@ def _screw(statement: Statement) -> None:
         message = "'screw about' moves the tool rigidly; it takes no 'tool'"
         cure = "turn the tool before, or write: screw to POINT tool ORIENTATION"
         raise problem("E248", message, tool.span, "", cure)
+
+
+def _place_auto(statement: Statement) -> None:
+    if at := statement.part("at"):
+        message = "'place auto' finds the place itself; it takes no 'at'"
+        cure = "write: place auto, or: place at POINT turned ORIENTATION"
+        raise problem("E248", message, at.span, "", cure)
 
 
 def _with(statement: Statement) -> None:

@@ -282,6 +282,14 @@ class Segment:
 
 
 @dataclass(frozen=True, slots=True)
+class Auto:
+    """`place auto`: where the drawing fits the arm best, which only the arm can say."""
+
+    orientation: Quaternion | None  # of the drawing in the base frame; None: the robot's canvas'
+    span: Span | None
+
+
+@dataclass(frozen=True, slots=True)
 class Program:
     """A whole drawing."""
 
@@ -290,7 +298,7 @@ class Program:
     period: float  # [s]
     robot: str | None  # the file's own `robot` line
     robot_span: Span | None  # and the name in it
-    placement: Pose | None  # the drawing frame in the robot's base frame; None: the robot's canvas
+    placement: Pose | Auto | None  # the drawing in the robot's base frame; None: on its canvas
     start: Pose
     segments: tuple[Segment, ...]
     notes: tuple[Diagnostic, ...]  # warnings; errors are raised

@@ -68,6 +68,8 @@ def _head(cursor: Cursor, word: str, head: str) -> _Head:
             return _repeat(cursor)
         case "robot":
             return _Head(_robot(cursor))
+        case "place":
+            return _Head(_word(cursor) if cursor.is_word("auto") else None)
         case "include":
             return _include(cursor)
         case "def":
@@ -137,6 +139,11 @@ def _expect(cursor: Cursor, word: str, example: str) -> None:
         fix = Fix(f"write {word}", Span(at, at), f"{word} ") if opens else None
         raise problem("E116", message, span, "", f"write: {example}", fix)
     cursor.take()
+
+
+def _word(cursor: Cursor) -> Word:
+    token = cursor.take()
+    return Word(token.text, token.span)
 
 
 def _robot(cursor: Cursor) -> Word:

@@ -120,8 +120,9 @@ STATEMENTS = {
         ),
         StatementWord(
             "place",
-            "the drawing frame in the robot's base frame",
+            "the drawing frame in the robot's base frame, or auto: where it fits best",
             "place at (600, 0, 500) mm",
+            head="place",
             parts=("at", "turned"),
         ),
         StatementWord(
@@ -343,7 +344,7 @@ PART_ALIASES = {
 }
 
 LITTLE_WORDS = (
-    *("from", "for", "on", "off", "even", "keep", "follow", "look", "up", "point", "bar"),
+    *("from", "for", "on", "off", "even", "keep", "follow", "look", "up", "point", "bar", "auto"),
 )
 
 CONSTANTS = ("pi", "x", "y", "z")

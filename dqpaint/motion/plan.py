@@ -9,7 +9,7 @@ from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.language.diagnostics import Diagnostic, ScriptError
 from dqpaint.language.findings import EnoughError, Findings
-from dqpaint.language.program import Program, Step
+from dqpaint.language.program import Auto, Pose, Program, Step
 from dqpaint.motion.corners import jumps, slow
 from dqpaint.motion.glow import ends_over_middle, glow
 from dqpaint.motion.lengths import flow_by_length, length_fraction
@@ -164,6 +164,17 @@ def flow_at(stroke: Stroke, tau: Floats, period: float) -> tuple[Flow, Floats]:
     return flow.at_rates(progress.rate, progress.slope), fraction
 
 
+def _placed(program: Program, canvas: Floats) -> Floats:
+    """The drawing frame (8,) in the base frame; one that is still to be found is on the canvas."""
+    match program.placement:
+        case Pose():
+            return pose_array(program.placement)
+        case Auto(orientation=turned) if turned is not None:
+            return dq.pose_from(dq.translation(canvas), np.array(turned))
+        case _:
+            return canvas
+
+
 def _assemble(
     program: Program,
     strokes: list[Stroke],
@@ -172,7 +183,7 @@ def _assemble(
     canvas: Floats,
     findings: tuple[Diagnostic, ...],
 ) -> Motion:
-    placed = canvas if program.placement is None else pose_array(program.placement)
+    placed = _placed(program, canvas)
     counts = np.array([tick.count for tick in ticks])
     n = int(counts.sum()) + 1
     pose, twist, acceleration = np.empty((n, 8)), np.empty((n, 6)), np.empty((n, 6))

@@ -3,6 +3,7 @@
 from dqpaint.errors import UnknownNameError
 from dqpaint.language import Diagnostic, Program, ScriptError
 from dqpaint.robots.card import DEFAULT_ROBOT, Card, read_card
+from dqpaint.robots.tooling import parse_tool
 
 
 def find_card(robot: str) -> Card:
@@ -19,13 +20,32 @@ def find_card(robot: str) -> Card:
     return read_card(robot)
 
 
-def card_for(program: Program, robot: str | None) -> Card:
+def with_tool(card: Card, tool: str | None) -> Card:
+    """The same arm with its light elsewhere on the flange, as `tooling.parse_tool` reads it.
+
+    Raises:
+        UsageError: it is not `X,Y,Z` or `X,Y,Z,ROLL,PITCH,YAW`.
+    """
+    return card if tool is None else card.model_copy(update={"tool": parse_tool(tool)})
+
+
+def card_for(program: Program, robot: str | None, tool: str | None = None) -> Card:
     """The card of the arm that was asked for, else of the file's own, else of the default.
+
+    Args:
+        program: the drawing.
+        robot: the arm that was asked for.
+        tool: where its light sits, if not where the card says.
 
     Raises:
         UnknownNameError: no card has the name that was asked for.
+        UsageError: the tool is not one.
         ScriptError: no card has the name in the file.
     """
+    return with_tool(_card_for(program, robot), tool)
+
+
+def _card_for(program: Program, robot: str | None) -> Card:
     if robot is not None or program.robot is None:
         return find_card(DEFAULT_ROBOT if robot is None else robot)
     try:

@@ -179,7 +179,8 @@ class Cast:
 
     Attributes:
         robot: what `find_card` finds its card by.
-        posture: (N, n) at instants a period apart, from time 0 on [rad].
+        posture: (N, n) at instants a period apart, from time 0 on [rad]; (N, 0) where the run was
+            recorded as poses.
         line: (N,) of the source at these instants.
         period: [s].
     """
@@ -189,15 +190,20 @@ class Cast:
     line: NDArray[np.int64]
     period: float
 
+    @property
+    def known(self) -> bool:
+        """Whether it is known how the joints moved."""
+        return len(self.posture.T) > 0
+
 
 @contextmanager
 def on_stage(settings: Settings, card: Card, cast: Cast) -> Iterator[Staging | None]:
-    """The arm of a run, if the settings have a use for it.
+    """The arm of a run, if the settings have a use for it, and the run has its joints.
 
     Raises:
         DqpaintError: the arm's description is not there, or cannot be read.
     """
-    if not settings.staged:
+    if not (settings.staged and cast.known):
         yield None
         return
     whole = prepare(card).whole

@@ -69,6 +69,8 @@ class Run:
         image = getattr(brush, "image", "")
         found = {name: _sha256(path) for name, path in _named(self.name, self.text)}
         found |= {"law": law, "arm": _sha256(arm) if known else ""}
+        recorded = self.settings.recorded
+        found |= {"recorded": _sha256(Path(recorded)) if recorded else ""}
         return {**found, "image": _sha256(Path(image)) if image else ""}
 
     def program(self) -> Program:
@@ -88,7 +90,7 @@ class Run:
         law.read_gains(settings.gains)
         choose_plant(settings.plant, "torque" if law.drives_torque else "rates")
         make_disturbances(settings.disturb)
-        card_for(self.program(), settings.robot)
+        card_for(self.program(), settings.robot, settings.tool)
 
 
 def run_of(data: dict[str, Any]) -> Run:

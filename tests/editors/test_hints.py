@@ -48,6 +48,7 @@ def test_no_meaning(text):
     ("line to (1, 0) mm light |", {"red", "off", "hsv"}, {"mm", "speed"}),
     ("light red to b|", {"blue"}, {"to"}),
     ("hold 3 |", {"s", "ms"}, {"light", "red"}),
+    ("place |", {"auto", "at"}, {"red", "keep"}),
     ("tool |", {"keep", "look", "rpy"}, {"red"}),
     ("let size = 3 mm\nline to (si|", {"size", "sin"}, {"line"}),
     ("# |", set(), {"line"}),

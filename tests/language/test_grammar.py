@@ -82,9 +82,10 @@ def agree(line: str) -> bool:
     return any(code not in ("E130", "E131") for code in mine)
 
 
+AUTO = "place auto\nplace auto turned rpy(90 deg, 0 deg, 60 deg)"
 LINES = [
     line
-    for text in (*FILES, MIXED, WHOLE, *(entry[0].replace("~", "\n") for entry in ENTRIES))
+    for text in (*FILES, MIXED, WHOLE, AUTO, *(entry[0].replace("~", "\n") for entry in ENTRIES))
     for line in text.split("\n")
     if line.strip() and not line.lstrip().startswith("#")
 ]

@@ -1,0 +1,76 @@
+"""The command for real arms: arguments in, calls, text out. `cli` adds it to its own."""
+
+import sys
+from typing import Annotated
+
+import typer
+
+from dqpaint.cli_options import (
+    Disturb,
+    Drawing,
+    From,
+    Gain,
+    Law,
+    Out,
+    PlaceAt,
+    PlantName,
+    Robot,
+    Seed,
+    Tool,
+)
+
+
+def add_to(app: typer.Typer) -> None:
+    """Make the command known."""
+    app.command(epilog=EXPORT_EXAMPLES)(export)
+
+
+EXPORT_EXAMPLES = """Examples:
+
+  dqpaint export star --format ros2
+
+  dqpaint export trajectories/rose.traj --robot ur5 --format urscript --out programs/
+"""
+
+
+def export(
+    file: Drawing,
+    form: Annotated[str, typer.Option("--format", metavar="csv|ros2|urscript", help="for whom")],
+    controller: Law = "hinf",
+    gain: Gain = None,
+    robot: Robot = None,
+    tool: Tool = None,
+    place: PlaceAt = None,
+    plant: PlantName = None,
+    disturb: Disturb = None,
+    seed: Seed = 0,
+    start: From = "first",
+    out: Out = None,
+) -> None:
+    """Run a drawing as draw does; write the joint trajectory for a real arm, and light cues.
+
+    Refused where a limit was met, or where the arm would have to begin suddenly. Nothing here looks
+    after people or machines.
+    """
+    from dqpaint import api, exports, outputs
+    from dqpaint.controllers.own import short_name
+    from dqpaint.examples import find_drawing
+    from dqpaint.settings import parse_disturbances, parse_gains
+    from dqpaint.terminal import Progress
+
+    exports.FORMATS[form]  # an unknown one is told before anything is simulated
+    path = find_drawing(file)
+    stem = outputs.stem_for(out, f"{path.stem}-{short_name(controller)}")
+    with Progress(path.name) as progress:
+        painting = api.draw(
+            path, controller=controller, gains=parse_gains(gain or []), robot=robot,
+            tool=tool, place=place, plant=plant, disturb=parse_disturbances(disturb or []),
+            seed=seed, start=start, size=(64, 36), progress=progress,
+        )  # fmt: skip
+    written = outputs.write(stem, exports.files_of(painting, form))
+
+    from dqpaint import report
+
+    for text in report.remarks(painting):
+        print(text, file=sys.stderr)
+    print(report.of_export(painting, written))

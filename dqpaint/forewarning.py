@@ -1,0 +1,316 @@
+"""What is said of a forecast: warnings at their places, a table of what is close to a limit."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any, NamedTuple
+
+from dqpaint.forecast import Forecast, forecast
+from dqpaint.language.diagnostics import Diagnostic, Span
+from dqpaint.language.program import Program
+from dqpaint.motion import Motion, plan
+from dqpaint.out_of_reach import begin
+from dqpaint.placing import Placed, settle
+from dqpaint.robots.card import Card
+from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.resolver import THRESHOLD
+
+CLOSE = 0.9  # of a limit
+CLOSE_ANGLE = math.radians(5.0)
+CLOSE_SINGULAR = 2 * THRESHOLD
+CLOSE_LINKS = 5e-3  # [m]
+CLOSE_HIDDEN = 0.005  # of a line's light
+HIDDEN = 0.01
+MOST_LINES = 12  # of the table
+MOST_NAMED = 6  # lines in a warning
+DEG = math.degrees(1)
+
+
+@dataclass(frozen=True)
+class Outlook:
+    """What an arm says of a drawing it has not drawn yet.
+
+    Attributes:
+        motion: what was asked, at its place.
+        placed: where `place auto` put it.
+        robot: its name.
+        start: the posture it begins in [rad].
+        lines: the forecast of each line.
+        warnings: for the limits it would run into.
+        notes: what was assumed of the arm.
+    """
+
+    motion: Motion
+    placed: Placed | None
+    robot: str
+    start: tuple[float, ...]
+    lines: tuple[Forecast, ...]
+    warnings: tuple[Diagnostic, ...]
+    notes: tuple[str, ...]
+
+    @property
+    def text(self) -> str:
+        """As it follows the drawing's figures."""
+        worst = min(self.lines, key=lambda line: line.margin.value)
+        margin = worst.margin.value * DEG
+        said = (
+            f"but a joint has to go {-margin:.0f} deg beyond its limit"
+            if margin < 0
+            else f"every joint {margin:.0f} deg or more from its limits"
+        )
+        notes = "".join(f"\nnote: {note}" for note in self.notes)
+        placed = f"  {self.placed.line}\n  {self.placed.figures}\n" if self.placed else ""
+        figures = f"{_extremes(self.lines)}{_table(self.lines)}"
+        return f"; {self.robot} reaches it, {said}\n{placed}{figures}{notes}"
+
+    @property
+    def as_json(self) -> dict[str, Any]:
+        """All figures of all lines, in SI units."""
+        return {
+            "robot": self.robot,
+            "place": self.placed and self.placed.as_json,
+            "start_rad": list(self.start),
+            "lines": [_figures(line) for line in self.lines],
+        }
+
+
+def look_ahead(program: Program, kinematics: Kinematics, place: str | None = None) -> Outlook:
+    """The outlook of a drawing for an arm.
+
+    Args:
+        program: the drawing.
+        kinematics: of the arm.
+        place: "auto" to find a place whatever the file says.
+
+    Raises:
+        ScriptError: the drawing leaves the arm's reach.
+    """
+    program, placed = settle(program, kinematics, place)
+    motion = plan(program, kinematics.card.canvas.pose)
+    start = begin(motion, kinematics).posture
+    lines = forecast(motion, kinematics, start)
+    return Outlook(
+        motion,
+        placed,
+        kinematics.card.name,
+        tuple(start.tolist()),
+        lines,
+        tuple(_warnings(motion, kinematics.card, lines)),
+        kinematics.notes,
+    )
+
+
+class _Rule(NamedTuple):
+    """A limit: its warning, how bad a line is (1 is at the limit), and what is said of it."""
+
+    code: str
+    badness: Callable[[Forecast], float]
+    message: Callable[[Forecast, Card], str]
+    help: str
+
+
+def _position(one: Forecast, _card: Card) -> str:
+    at = one.margin
+    return f"joint {at.joint} has to go {-at.value * DEG:.3g} deg beyond its limit{_when(at.time)}"
+
+
+def _speed(one: Forecast, card: Card) -> str:
+    at = one.speed
+    most = card.speed[at.joint - 1] * DEG
+    return (
+        f"joint {at.joint} has to turn at {at.value * DEG:.4g} deg/s{_when(at.time)}, "
+        f"but goes to {most:.4g} deg/s"
+    )
+
+
+def _effort(one: Forecast, card: Card) -> str:
+    at = one.effort
+    most = card.effort[at.joint - 1]
+    return f"joint {at.joint} needs {at.value:.4g} Nm{_when(at.time)}, but has {most:.4g} Nm"
+
+
+def _jolt(one: Forecast, card: Card) -> str:
+    at = one.jolt
+    most = card.effort[at.joint - 1]
+    return (
+        f"the speed changes at once{_when(at.time)}: to follow within 1 ms joint {at.joint} needs "
+        f"{at.value:.4g} Nm, but has {most:.4g} Nm"
+    )
+
+
+def _singular(one: Forecast, _card: Card) -> str:
+    return (
+        f"the arm comes close to a singularity (smallest singular value {one.singular:.2g}, "
+        f"below {THRESHOLD:g}): there it follows inexactly"
+    )
+
+
+def _collision(one: Forecast, _card: Card) -> str:
+    first, second = one.between or ("", "")
+    depth = -(one.clearance or 0.0) * 1e3
+    return f"link '{first}' runs into link '{second}' (by {depth:.0f} mm)"
+
+
+def _hidden(one: Forecast, _card: Card) -> str:
+    return f"the arm stands before {one.hidden or 0:.0%} of the light, seen from the front"
+
+
+def _when(time: float) -> str:
+    return f" at {time:.2f} s"
+
+
+RULES = (
+    _Rule(
+        "W501",
+        lambda one: 1.0 - one.margin.value,
+        _position,
+        "turn the tool less, or move the drawing with place",
+    ),
+    _Rule("W502", lambda one: one.speed_part, _speed, "draw it slower (speed, in, samples)"),
+    _Rule(
+        "W503", lambda one: one.effort_part, _effort, "a lower speed or a smoother law needs less"
+    ),
+    _Rule(
+        "W504",
+        lambda one: one.jolt_part if one.effort_part <= 1 else 0.0,
+        _jolt,
+        "law trapezoid and law quintic begin and end each stroke at rest",
+    ),
+    _Rule(
+        "W505",
+        lambda one: 2.0 - one.singular / THRESHOLD,
+        _singular,
+        "move the drawing with place, or hold the tool another way",
+    ),
+    _Rule(
+        "W506",
+        lambda one: 1.0 if one.clearance is None else 1.0 - one.clearance,
+        _collision,
+        "move the drawing with place, or hold the tool another way",
+    ),
+    _Rule(
+        "W507",
+        lambda one: (one.hidden or 0.0) / HIDDEN,
+        _hidden,
+        "point the tool's z axis at the viewer, or move the drawing with place",
+    ),
+)
+
+
+def _warnings(motion: Motion, card: Card, lines: Sequence[Forecast]) -> list[Diagnostic]:
+    """One warning for each limit, at the line that is worst; the others are named."""
+    spans = _spans(motion)
+    found = []
+    for rule in RULES:
+        bad = [one for one in lines if rule.badness(one) > 1.0]
+        if not bad:
+            continue
+        worst = max(bad, key=rule.badness)
+        others = [one.line for one in bad if one is not worst]
+        found.append(
+            Diagnostic(
+                rule.code,
+                rule.message(worst, card),
+                spans.get(worst.line),
+                label=f"likewise {_named(others)}" if others else "",
+                help=rule.help,
+            )
+        )
+    return found
+
+
+def _spans(motion: Motion) -> dict[int, Span]:
+    spans: dict[int, Span] = {}
+    for segment in motion.program.segments:
+        spans.setdefault(segment.line, segment.span)
+    return spans
+
+
+def _named(lines: Sequence[int]) -> str:
+    listed = ", ".join(str(line) for line in lines[:MOST_NAMED])
+    more = f" and {len(lines) - MOST_NAMED} more" if len(lines) > MOST_NAMED else ""
+    return f"line{'s' if len(lines) > 1 else ''} {listed}{more}"
+
+
+def _extremes(lines: Sequence[Forecast]) -> str:
+    """The worst of the whole drawing in a sentence."""
+    speed = max(lines, key=lambda one: one.speed_part)
+    effort = max(lines, key=lambda one: one.effort_part)
+    least = min(lines, key=lambda one: one.manipulability)
+    parts = [
+        f"joint {speed.speed.joint} at {speed.speed_part:.0%} of its speed (line {speed.line})",
+        f"joint {effort.effort.joint} at {effort.effort_part:.0%} of its torque "
+        f"(line {effort.line})",
+        f"manipulability {least.manipulability:.2g} (line {least.line})",
+    ]
+    clear = [one for one in lines if one.clearance is not None]
+    if clear:
+        near = min(clear, key=lambda one: one.clearance or 0.0)
+        parts.append(f"links {max(near.clearance or 0.0, 0.0) * 1e3:.0f} mm apart")
+    return f"  at most: {', '.join(parts)}"
+
+
+def _cells(one: Forecast) -> dict[str, str]:
+    """What of a line is close to a limit, or beyond it."""
+    cells: dict[str, str] = {}
+    if one.margin.value < CLOSE_ANGLE:
+        cells["off limits"] = f"{one.margin.value * DEG:.1f} deg (joint {one.margin.joint})"
+    if one.speed_part > CLOSE:
+        cells["speed"] = f"{one.speed_part:.0%} (joint {one.speed.joint})"
+    if one.effort_part > CLOSE:
+        cells["torque"] = f"{one.effort_part:.0%} (joint {one.effort.joint})"
+    if one.jolt_part > CLOSE:
+        cells["torque within 1 ms"] = f"{one.jolt_part:.0%} (joint {one.jolt.joint})"
+    if one.singular < CLOSE_SINGULAR:
+        cells["singular value"] = f"{one.singular:.2g}"
+    if one.clearance is not None and one.clearance < CLOSE_LINKS:
+        cells["links apart"] = f"{one.clearance * 1e3:.0f} mm"
+    if one.hidden is not None and one.hidden > CLOSE_HIDDEN:
+        cells["hidden"] = f"{one.hidden:.1%}"
+    return cells
+
+
+def _table(lines: Sequence[Forecast]) -> str:
+    """The lines that come close to a limit, and the limits that any of them comes close to."""
+    close = {one.line: cells for one in lines if (cells := _cells(one))}
+    if not close:
+        return ""
+    heads = list(dict.fromkeys(head for cells in close.values() for head in cells))
+    rows = [["line", *heads]]
+    rows += [
+        [str(line), *(cells.get(head, "") for head in heads)]
+        for line, cells in list(close.items())[:MOST_LINES]
+    ]
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    text = "".join(
+        "\n  "
+        + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+        for row in rows
+    )
+    more = len(close) - MOST_LINES
+    return text + (f"\n  and {more} more lines: --json has them all" if more > 0 else "")
+
+
+def _figures(one: Forecast) -> dict[str, Any]:
+    """One line, each figure with its unit; nothing in it is infinite."""
+    worst = {
+        "margin_rad": one.margin,
+        "speed_rad_s": one.speed,
+        "effort_Nm": one.effort,
+        "effort_within_1_ms_Nm": one.jolt,
+    }
+    parts = (None, one.speed_part, one.effort_part, one.jolt_part)
+    return {
+        "line": one.line,
+        "room": one.room,
+        "start_s": one.start,
+        **{
+            name: asdict(value) | ({} if part is None else {"part_of_limit": part})
+            for (name, value), part in zip(worst.items(), parts, strict=True)
+        },
+        "smallest_singular_value": one.singular,
+        "manipulability": one.manipulability,
+        "clearance_m": one.clearance,
+        "between": one.between,
+        "hidden": one.hidden,
+    }

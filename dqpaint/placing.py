@@ -1,0 +1,281 @@
+"""`place auto`: where a drawing fits an arm best.
+
+The drawing is tried all over the arm's reach, always facing the way it faces on the robot's canvas
+(or as `place auto turned` says), so that the picture stays the same. Of each place two things
+count, both the worst along the whole path: the manipulability, and the room a joint has left, from
+0 at a limit to 1 in the middle of its range. Their product is the figure of merit. Many places are
+followed at once on a few of the drawing's poses; the best is then moved in ever smaller steps; what
+comes out is looked at along the whole drawing, and has to be free of collisions and in sight.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.forecast import Forecast, forecast
+from dqpaint.language import parse
+from dqpaint.language.diagnostics import Diagnostic, ScriptError
+from dqpaint.language.program import Auto, Pose, Program
+from dqpaint.motion import Motion, plan
+from dqpaint.out_of_reach import begin
+from dqpaint.robots.built import roll_pitch_yaw
+from dqpaint.robots.card import Card
+from dqpaint.robots.kinematics import Kinematics, manipulability
+from dqpaint.robots.reach import waypoints
+from dqpaint.robots.resolver import PULL, resolve
+
+SEED = 1988
+TRIALS = 400  # random postures that tell how far the arm reaches
+PARTS = 5  # of the reach, in the grid of places, to either side of the base
+STARTS, MORE_STARTS = 4, 12  # postures each place is begun from, at first and in the end
+COARSE, FINE = 10, 32  # poses of the drawing that are looked at
+STEPS = 6  # times the search halves its step
+PROMISING = 8  # places that are looked at along the whole drawing, at the most
+NEWTON, STRIDE = 12, 0.6  # iterations, and the largest move of a joint in one [rad]
+CLOSE = 1e-3  # [rad, m] counts as reached
+IN_SIGHT = 0.01  # of the light may be hidden
+
+
+@dataclass(frozen=True)
+class Placed:
+    """Where a drawing was put, and how well it fits there.
+
+    Attributes:
+        place: the drawing frame in the base frame.
+        line: the same as a line of the language, fit to be pasted: exactly this place.
+        merit: `manipulability` times `room`.
+        manipulability: the least along the drawing.
+        room: the least of any joint, from 0 at a limit to 1 in the middle of its range.
+    """
+
+    place: Pose
+    line: str
+    merit: float
+    manipulability: float
+    room: float
+
+    @property
+    def as_json(self) -> dict[str, Any]:
+        """For a summary: the origin [m], the quaternion, the figures."""
+        return {
+            "at_m": list(self.place.position),
+            "orientation": list(self.place.orientation),
+            "line": self.line,
+            "merit": self.merit,
+            "manipulability": self.manipulability,
+            "room": self.room,
+        }
+
+    @property
+    def figures(self) -> str:
+        """How well it fits there, in words."""
+        return (
+            f"merit {self.merit:.3g}: manipulability {self.manipulability:.3g} or more, "
+            f"times {self.room:.2g} of a joint's room to its limits"
+        )
+
+
+def settle(
+    program: Program, kinematics: Kinematics, place: str | None = None
+) -> tuple[Program, Placed | None]:
+    """A program with its place found, if it is to be found.
+
+    Args:
+        program: the drawing.
+        kinematics: of the arm.
+        place: "auto" to find a place whatever the file says; None leaves it to the file.
+
+    Raises:
+        ScriptError: the arm can draw it nowhere.
+    """
+    wanted = program.placement
+    if place == "auto" and not isinstance(wanted, Auto):
+        wanted = Auto(wanted.orientation if wanted else None, None)
+    if not isinstance(wanted, Auto):
+        return program, None
+    program = replace(program, placement=wanted)
+    placed = find_place(program, kinematics)
+    return replace(program, placement=placed.place), placed
+
+
+def find_place(program: Program, kinematics: Kinematics) -> Placed:
+    """Where a drawing fits an arm best; the same answer each time.
+
+    Raises:
+        ScriptError: the arm can draw it nowhere.
+    """
+    motion = plan(program, kinematics.card.canvas.pose)
+    search = _Search(motion, kinematics)
+    for origin in search.best_places():
+        place = _write(origin, dq.rotation(motion.canvas))
+        placed = _judge(program, kinematics, place)
+        if placed is not None:
+            return placed
+    raise _nowhere(program, kinematics.card, motion)
+
+
+def _judge(program: Program, kinematics: Kinematics, line: str) -> Placed | None:
+    """A place looked at along the whole drawing; None where it does not do."""
+    place = parse(f"{line}\nhold 1 s\n", "place").placement
+    assert isinstance(place, Pose)
+    motion = plan(replace(program, placement=place), kinematics.card.canvas.pose)
+    try:
+        start = begin(motion, kinematics).posture
+    except ScriptError:
+        return None
+    lines = forecast(motion, kinematics, start)
+    room = min(one.room for one in lines)
+    if room <= 0 or not all(_clear(one) for one in lines):
+        return None
+    worst = min(one.manipulability for one in lines)
+    return Placed(place, line, worst * room, worst, room)
+
+
+def _clear(one: Forecast) -> bool:
+    """Whether no links meet on a line, and its light can be seen."""
+    return (one.clearance is None or one.clearance >= 0) and (one.hidden or 0.0) <= IN_SIGHT
+
+
+class _Search:
+    """Many places at once: which of them can be drawn at, and how well."""
+
+    def __init__(self, motion: Motion, kinematics: Kinematics) -> None:
+        self._arm, self._motion = kinematics, motion
+        card = kinematics.card
+        rng = np.random.default_rng(SEED)
+        trials = rng.uniform(card.lower, card.upper, (TRIALS, card.joints))
+        places = dq.translation(kinematics.poses_and_jacobians(trials)[0])
+        self._middle = np.median(places, axis=0)
+        self._reach = float(np.linalg.norm(places - self._middle, axis=1).max())
+        self._seeds = np.vstack([card.home, trials[: MORE_STARTS - 1]])
+        corners = motion.points
+        self._centre = 0.5 * (corners.max(axis=0) + corners.min(axis=0))
+        self._origin = dq.translation(motion.canvas)
+
+    def best_places(self) -> list[Floats]:
+        """Origins (3,) of the drawing frame, the most promising first."""
+        shifts = self._grid()
+        merits = self._merits(shifts, COARSE, STARTS)
+        order = np.argsort(-merits, kind="stable")[:PROMISING]
+        found = [shifts[i] for i in order if merits[i] > 0]
+        if found:
+            found.insert(0, self._climb(found[0]))
+        return [self._origin + shift for shift in found]
+
+    def _grid(self) -> Floats:
+        """Shifts (P, 3) [m] of the drawing; none at all is the first."""
+        axis = np.linspace(-self._reach, self._reach, 2 * PARTS + 1)
+        cube = np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1).reshape(-1, 3)
+        ball = cube[np.linalg.norm(cube, axis=1) <= self._reach]
+        return np.vstack([np.zeros(3), self._middle + ball - self._centre])
+
+    def _climb(self, shift: Floats) -> Floats:
+        """Up to a place that has no better neighbour, in steps that halve."""
+        merit = float(self._merits(shift[None], FINE, MORE_STARTS)[0])
+        step = 0.5 * self._reach / PARTS
+        directions = np.vstack([np.eye(3), -np.eye(3)])
+        for _ in range(STEPS):
+            around = shift + step * directions
+            merits = self._merits(around, FINE, MORE_STARTS)
+            best = int(np.argmax(merits))
+            if merits[best] > merit:
+                shift, merit = around[best], float(merits[best])
+            else:
+                step *= 0.5
+        return shift
+
+    def _merits(self, shifts: Floats, poses: int, starts: int) -> Floats:
+        """Figures of merit (P,) of shifted drawings; 0 where one cannot be drawn."""
+        rows = waypoints(self._motion.stroke)
+        rows = rows[np.unique(np.linspace(0, len(rows) - 1, poses).astype(int))]
+        whose = np.repeat(np.arange(len(shifts)), starts)
+        moves = dq.pose_from(shifts, np.tile([1.0, 0, 0, 0], (len(shifts), 1)))[whose]
+        first = np.tile(self._seeds[:starts], (len(shifts), 1))
+        follow = _Follow(self._arm, first)
+        seconds = self._motion.t[rows]
+        for k, row in enumerate(rows):
+            pause = seconds[k] - seconds[k - 1] if k else None
+            follow.go(dq.mul(moves, self._motion.pose[row]), pause)
+        merits = np.zeros(len(shifts))
+        np.maximum.at(merits, whose[follow.alive], follow.merit[follow.alive])
+        return merits
+
+
+class _Follow:
+    """Arms (M, n) that go from pose to pose, each its own way, as long as they can."""
+
+    def __init__(self, kinematics: Kinematics, postures: Floats) -> None:
+        self._arm, self._card = kinematics, kinematics.card
+        self._q, self._start = postures, postures
+        self._half = 0.5 * (self._card.upper - self._card.lower)
+        self._worst = np.full(len(postures), np.inf)
+        self._room = np.ones(len(postures))
+        self.alive = np.arange(len(postures))
+
+    @property
+    def merit(self) -> Floats:
+        """Least manipulability times least room so far (M,)."""
+        return self._worst * self._room
+
+    def go(self, poses: Floats, pause: float | None) -> None:
+        """On to the next poses (M, 8), after a time [s]; None leads to the first ones."""
+        if not len(self.alive):
+            return
+        alive = self.alive
+        wish = np.zeros_like(self._q[alive])
+        if pause is not None:
+            wish = (1.0 - np.exp(-PULL * pause)) * (self._start[alive] - self._q[alive])
+        q, measure, reached = self._newton(poses[alive], self._q[alive], wish)
+        room = np.minimum(q - self._card.lower, self._card.upper - q) / self._half
+        self._q[alive] = q
+        self._worst[alive] = np.minimum(self._worst[alive], measure)
+        self._room[alive] = np.minimum(self._room[alive], room.min(axis=1))
+        self.alive = alive[reached & (self._room[alive] > 0)]
+        if pause is None:
+            self._start = self._q.copy()
+
+    def _newton(
+        self, poses: Floats, q: Floats, wish: Floats
+    ) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+        """Postures, their manipulability, and whether they have come to their poses."""
+        q, measure = q.copy(), np.zeros(len(q))
+        busy = np.arange(len(q))
+        for iteration in range(NEWTON):
+            x, J = self._arm.poses_and_jacobians(q[busy])
+            error = 2 * dq.log(dq.mul(poses[busy], dq.conj(x)))
+            measure[busy] = manipulability(J)
+            there = (np.abs(error).max(axis=1) < CLOSE) & (iteration > 0)
+            busy, x, J, error = busy[~there], x[~there], J[~there], error[~there]
+            if not len(busy):
+                break
+            step = resolve(J, dq.translation(x), error, wish[busy])
+            wish[busy] = 0.0
+            largest = np.maximum(np.abs(step).max(axis=1), 1e-12)
+            q[busy] += step * np.minimum(1.0, STRIDE / largest)[:, None]
+        reached = np.ones(len(q), dtype=bool)
+        reached[busy] = False
+        return q, measure, reached
+
+
+def _write(origin: Floats, orientation: Floats) -> str:
+    """A `place` line, to a tenth of a millimetre; plain where the drawing is not turned."""
+    at = ", ".join(f"{x:.4f}" for x in np.round(origin, 4) + 0.0)
+    angles = np.degrees(roll_pitch_yaw(dq.matrix_from_quaternion(orientation)))
+    turned = ", ".join(f"{angle:.10g} deg" for angle in np.round(angles, 9) + 0.0)
+    return f"place at ({at}) m turned rpy({turned})"
+
+
+def _nowhere(program: Program, card: Card, motion: Motion) -> ScriptError:
+    assert isinstance(program.placement, Auto)
+    box = " x ".join(f"{side * 1e3:.0f}" for side in motion.box)
+    problem = Diagnostic(
+        "E313",
+        f"nowhere in the reach of {card.name} is there room for this drawing ({box} mm)",
+        program.placement.span,
+        help="make it smaller: with scale 0.5 ... end; turn the tool less; or take a larger arm",
+    )
+    return ScriptError(program.name, program.text, (problem,))

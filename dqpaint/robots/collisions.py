@@ -1,0 +1,171 @@
+"""An arm's solid shapes: how near its links come to each other, and what they hide.
+
+The shapes are the collision shapes of the arm's description, looked at with Coal, which comes with
+pinocchio: it reads the model the kinematics has already, so a posture is said once.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import coal
+import numpy as np
+import pinocchio
+from numpy.typing import NDArray
+
+from dqpaint.dq import Floats
+from dqpaint.robots.card import Card
+from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.urdf import prepare
+
+APART = 2  # joints between two links that may collide: neighbours touch by design
+TRIALS, MOSTLY, SEED = 32, 0.5, 1988  # postures in which two links show whether they always touch
+SIGHT = 5e-4  # [m] half the width of a line of sight
+LAMP = 0.015  # [m] round the light that hide nothing: a lamp has a size, and fingers may hold it
+
+
+class Nearest(NamedTuple):
+    """How near links come to each other, a row a posture.
+
+    Attributes:
+        distance: of the nearest two (N,) [m]; negative where they collide, zero where only the
+            hulls of their meshes do.
+        pair: the names of these two links, N of them.
+    """
+
+    distance: Floats
+    pair: list[tuple[str, str]]
+
+
+class Shapes:
+    """The solid shapes of an arm.
+
+    For distances a mesh counts as its convex hull, which is a hundred times faster; for what hides
+    what it counts as it is.
+
+    Links that touch in the home posture, or in most postures, are not looked at: their shapes are
+    coarser than the arm itself.
+    """
+
+    def __init__(self, kinematics: Kinematics) -> None:
+        self._model, self._data = kinematics.model, kinematics.model.createData()
+        self._shapes = pinocchio.buildGeomFromUrdfString(
+            self._model, prepare(kinematics.card).text, pinocchio.GeometryType.COLLISION
+        )
+        self._solids = [shape.geometry for shape in self._shapes.geometryObjects]
+        for shape in self._shapes.geometryObjects:
+            if isinstance(shape.geometry, coal.BVHModelBase):
+                shape.geometry.buildConvexHull(True, "Qt")
+                shape.geometry = shape.geometry.convex
+        self._names = [
+            self._model.frames[shape.parentFrame].name for shape in self._shapes.geometryObjects
+        ]
+        self._choose_pairs(kinematics.card)
+
+    def nearest(self, postures: Floats) -> Nearest:
+        """The nearest links in postures (N, n) [rad]; infinity where no two can meet."""
+        known = self._shapes.createData()
+        distance = np.full(len(postures), np.inf)
+        pair = [("", "")] * len(postures)
+        for k, posture in enumerate(postures):
+            pinocchio.computeDistances(self._model, self._data, self._shapes, known, posture)
+            far = [result.min_distance for result in known.distanceResults]
+            for i, hulls in enumerate(far):
+                if hulls <= 0 and not self._collide(i, known.oMg):
+                    far[i] = 0.0
+            if far:
+                closest = int(np.argmin(far))
+                distance[k], pair[k] = far[closest], self._pair_names(closest)
+        return Nearest(distance, pair)
+
+    def hides(self, postures: Floats, points: Floats, eye: Floats) -> NDArray[np.bool_]:
+        """Whether the arm stands between an eye and a light (N,).
+
+        Args:
+            postures: of the arm (N, n) [rad].
+            points: the light in each (N, 3) [m].
+            eye: where it is looked at from (3,) [m].
+        """
+        known = self._shapes.createData()
+        hidden = np.zeros(len(postures), dtype=bool)
+        for k, (posture, point) in enumerate(zip(postures, points, strict=True)):
+            pinocchio.updateGeometryPlacements(
+                self._model, self._data, self._shapes, known, posture
+            )
+            line, place = _line_of_sight(point, eye)
+            hidden[k] = any(
+                _meet(line, place, solid, _transform(where))
+                for solid, where in zip(self._solids, known.oMg, strict=True)
+            )
+        return hidden
+
+    def _choose_pairs(self, card: Card) -> None:
+        """Look at every two links that are apart, by their joints and as postures show them."""
+        joints = [shape.parentJoint for shape in self._shapes.geometryObjects]
+        apart = [
+            (i, j)
+            for i, first in enumerate(joints)
+            for j in range(i + 1, len(joints))
+            if abs(first - joints[j]) >= APART
+        ]
+        for i, j in apart:
+            self._shapes.addCollisionPair(pinocchio.CollisionPair(i, j))
+        trials = np.random.default_rng(SEED).uniform(card.lower, card.upper, (TRIALS, card.joints))
+        at_home = self._touching(card.home[None])[0]
+        often = self._touching(trials).mean(axis=0) > MOSTLY
+        touching = {
+            (joints[i], joints[j])
+            for (i, j), touch in zip(apart, at_home | often, strict=True)
+            if touch
+        }
+        self._shapes.removeAllCollisionPairs()
+        for i, j in apart:
+            if (joints[i], joints[j]) not in touching:
+                self._shapes.addCollisionPair(pinocchio.CollisionPair(i, j))
+
+    def _touching(self, postures: Floats) -> NDArray[np.bool_]:
+        """Which pairs touch, (N, pairs)."""
+        known = self._shapes.createData()
+        touch = np.zeros((len(postures), len(known.distanceResults)), dtype=bool)
+        for k, posture in enumerate(postures):
+            pinocchio.computeDistances(self._model, self._data, self._shapes, known, posture)
+            touch[k] = [result.min_distance <= 0 for result in known.distanceResults]
+        return touch
+
+    def _collide(self, index: int, places: Sequence[pinocchio.SE3]) -> bool:
+        """Whether the two of a pair collide as they are, hulls apart."""
+        pair = self._shapes.collisionPairs[index]
+        one, other = pair.first, pair.second
+        return _meet(
+            self._solids[one], _transform(places[one]), self._solids[other],
+            _transform(places[other]),
+        )  # fmt: skip
+
+    def _pair_names(self, index: int) -> tuple[str, str]:
+        pair = self._shapes.collisionPairs[index]
+        return self._names[pair.first], self._names[pair.second]
+
+
+def _line_of_sight(point: Floats, eye: Floats) -> tuple[coal.Capsule, coal.Transform3s]:
+    """From the eye to where the lamp begins: a thin capsule, and its place."""
+    way = point - eye
+    length = float(np.linalg.norm(way))
+    along = way / length
+    side = np.cross(along, np.eye(3)[np.argmin(np.abs(along))])
+    side /= np.linalg.norm(side)
+    rotation = np.stack([side, np.cross(along, side), along], axis=1)
+    seen = max(length - LAMP, SIGHT)
+    return coal.Capsule(SIGHT, seen), coal.Transform3s(rotation, eye + 0.5 * seen * along)
+
+
+def _transform(placement: pinocchio.SE3) -> coal.Transform3s:
+    return coal.Transform3s(placement.rotation, placement.translation)
+
+
+def _meet(
+    one: coal.CollisionGeometry,
+    here: coal.Transform3s,
+    other: coal.CollisionGeometry,
+    there: coal.Transform3s,
+) -> bool:
+    result = coal.CollisionResult()
+    return bool(coal.collide(one, here, other, there, coal.CollisionRequest(), result))

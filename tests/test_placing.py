@@ -1,0 +1,139 @@
+"""`place auto`: reachable, better than elsewhere, the same each time, and fit to be pasted."""
+
+import numpy as np
+import pytest
+
+from dqpaint import dq, placing
+from dqpaint.language import ScriptError, parse
+from dqpaint.motion import plan
+from dqpaint.out_of_reach import begin
+from dqpaint.placing import find_place, settle
+from dqpaint.robots.card import read_card
+from dqpaint.robots.kinematics import Kinematics
+
+WIDE = "place auto\nstart at (0, 0) mm\nline to (500, 0) mm\nline by (0, 300) mm\n"
+SMALL = "start at (-60, 0) mm\nline to (60, 30) mm tool rot(y, 20 deg)\nline to (0, 90) mm\n"
+
+
+@pytest.fixture(scope="module")
+def arm():
+    return Kinematics(read_card("iiwa"))
+
+
+@pytest.fixture(scope="module")
+def placed(arm):
+    return settle(parse(SMALL, "small.traj"), arm, "auto")[1]
+
+
+@pytest.mark.slow
+def test_it_is_better_than_the_canvas_and_than_other_places(arm, placed):
+    """Against the figures of the whole drawing, at places nobody chose for it."""
+    program = settle(parse(SMALL, "small.traj"), arm, "auto")[0]
+    canvas = arm.card.canvas.pose
+    turned = dq.rotation(canvas)
+    rng = np.random.default_rng(9)
+    places = [dq.translation(canvas), *rng.uniform([0.3, -0.6, 0], [0.8, 0.6, 0.9], (7, 3))]
+    others = [placing._judge(program, arm, placing._write(p, turned)) for p in places]
+    merits = [other.merit for other in others if other is not None]
+    assert len(merits) > 2
+    assert placed.merit > 1.5 * merits[0]
+    assert placed.merit > max(merits)
+
+
+@pytest.mark.slow
+def test_no_small_step_is_better(arm, placed):
+    program = settle(parse(SMALL, "small.traj"), arm, "auto")[0]
+    at = np.array(placed.place.position)
+    for way in np.vstack([np.eye(3), -np.eye(3)]):
+        line = placing._write(at + 0.02 * way, dq.rotation(arm.card.canvas.pose))
+        other = placing._judge(program, arm, line)
+        assert other is None or other.merit < 1.05 * placed.merit
+
+
+def test_the_search_climbs_from_the_grid(arm):
+    motion = plan(parse(SMALL, "small.traj"), arm.card.canvas.pose)
+    search = placing._Search(motion, arm)
+    grid = search._grid()
+    rough = search._merits(grid, placing.COARSE, placing.STARTS)
+    best = grid[int(np.argmax(rough))]
+    found = search._climb(best)
+    before, after = search._merits(np.stack([best, found]), placing.FINE, placing.MORE_STARTS)
+    assert before > 0
+    assert after > 1.01 * before
+    assert (rough > 0).mean() < 0.9  # some places of the grid are out of reach
+
+
+def test_the_line_is_exactly_that_place(arm, placed):
+    program = parse(f"{placed.line}\n{SMALL}", "pasted.traj")
+    assert program.placement == placed.place
+    np.testing.assert_allclose(
+        dq.matrix_from_quaternion(np.array(placed.place.orientation)),
+        dq.matrix_from_quaternion(dq.rotation(arm.card.canvas.pose)),
+        atol=1e-9,
+    )
+
+
+def test_the_figures_are_those_of_the_drawing_at_that_place(arm, placed):
+    program = parse(f"{placed.line}\n{SMALL}", "pasted.traj")
+    motion = plan(program, arm.card.canvas.pose)
+    q = begin(motion, arm).posture
+    worst, room = np.inf, 1.0
+    card = arm.card
+    for x_d in motion.pose[::4]:  # Newton by pinocchio's Jacobian alone
+        for _ in range(4):
+            x, J = arm.pose_and_jacobian(q)
+            error = 2 * dq.log(dq.mul(dq.nearest(x_d, x), dq.conj(x)))
+            q = q + np.linalg.pinv(J) @ error
+        J = arm.pose_and_jacobian(q)[1]
+        worst = min(worst, np.sqrt(np.linalg.det(J @ J.T)))
+        left = np.minimum(q - card.lower, card.upper - q) / (0.5 * (card.upper - card.lower))
+        room = min(room, left.min())
+    assert placed.manipulability == pytest.approx(worst, rel=0.05)
+    assert placed.room == pytest.approx(room, rel=0.05)
+    assert placed.merit == pytest.approx(placed.manipulability * placed.room)
+
+
+@pytest.mark.slow
+def test_a_drawing_too_wide_for_the_canvas_finds_its_place(arm):
+    program = parse(WIDE, "wide.traj")
+    with pytest.raises(ScriptError, match="E310"):
+        begin(plan(program, arm.card.canvas.pose), arm)
+    settled, first = settle(program, arm)
+    motion = plan(settled, arm.card.canvas.pose)
+    assert begin(motion, arm).margin > 0
+    assert find_place(program, arm) == first  # again the same
+    np.testing.assert_array_equal(motion.front, dq.rotation(arm.card.canvas.pose))
+
+
+def test_turned_is_kept(arm):
+    text = "place auto turned rpy(90 deg, 0 deg, 60 deg)\n" + SMALL
+    program, found = settle(parse(text, "turned.traj"), arm)
+    asked = parse(text.replace("auto", "at (0, 0) mm"), "t").placement
+    np.testing.assert_allclose(found.place.orientation, asked.orientation, atol=1e-9)
+    assert program.placement == found.place
+
+
+def test_a_place_of_the_file_stays_unless_auto_is_asked_for(arm):
+    text = "place at (700, 0, 500) mm turned rpy(90 deg, 0 deg, 90 deg)\n" + SMALL
+    program = parse(text, "t")
+    assert settle(program, arm) == (program, None)
+    assert settle(program, arm, "auto")[1].merit > 0
+
+
+def test_nowhere(arm):
+    with pytest.raises(ScriptError) as caught:
+        settle(parse("place auto\nline to (3, 0) m\n", "long.traj"), arm)
+    text = str(caught.value)
+    assert "E313" in text
+    assert "long.traj:1:1" in text
+    assert "3000 x 0 x 0 mm" in text
+
+
+@pytest.mark.parametrize(("line", "code"), [
+    ("place auto at (0, 0) mm", "E248"), ("place automatic", "E110"), ("place auto auto", "E110"),
+    ("place auto\nplace auto", "E1"), ("let auto = 3 mm", "E1"),
+])  # fmt: skip
+def test_slips_in_the_language(line, code):
+    with pytest.raises(ScriptError) as caught:
+        parse(f"{line}\nline to (1, 0) mm\n", "t")
+    assert code in str(caught.value)

@@ -71,4 +71,4 @@ def _signature(path: Path) -> Signature:
 def _clear() -> None:
     """The picture, or the errors, stand where those before stood."""
     if sys.stdout.isatty():
-        print(_CLEAR, end="")
+        print(_CLEAR, end="", flush=True)  # before what follows on the other stream

@@ -10,7 +10,7 @@ from dqpaint.language import parse
 from dqpaint.motion import plan
 from dqpaint.nullspace import OBJECTIVES, Wish, make_wish, read_null
 from dqpaint.plants import PLANTS
-from dqpaint.robots.card import card_names, read_card
+from dqpaint.robots.card import installed_names, read_card
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.tracking import track
 from tests.disturbances.test_contract import ACCEL
@@ -22,7 +22,7 @@ STILL = plan(parse("period 8 ms\nhold 3 s\n", "t.traj"), CARD.canvas.pose)
 
 
 @EVERY
-@pytest.mark.parametrize("robot", card_names())
+@pytest.mark.parametrize("robot", installed_names())
 def test_slopes_are_the_derivatives(name, robot, rng):
     arm = Kinematics(read_card(robot))
     card = arm.card

@@ -10,7 +10,7 @@ from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.plants import PLANTS, choose_plant, stiff
 from dqpaint.plants.rigid import LONGEST_STEP
 from dqpaint.plants.world import GRAVITY, Payload, World
-from dqpaint.robots.card import card_names, read_card
+from dqpaint.robots.card import installed_names, read_card
 from dqpaint.robots.kinematics import Kinematics
 
 pytestmark = pytest.mark.slow
@@ -99,7 +99,7 @@ def test_a_plant_is_chosen_to_suit_the_commands():
         choose_plant("rubber", "rates")
 
 
-@pytest.mark.parametrize("robot", card_names())
+@pytest.mark.parametrize("robot", installed_names())
 def test_the_torque_driven_arm_obeys_pinocchio_s_forward_dynamics(robot, rng):
     """From random states, one physics step: q_ddot to 1e-9 of its size, semi-implicit Euler."""
     import pinocchio

@@ -8,7 +8,8 @@ from dqpaint import dq
 from dqpaint.controllers import Controller, Seen
 from dqpaint.dq import Floats
 from dqpaint.nullspace import Wish
-from dqpaint.robots.dynamics import Dynamics, drift_acceleration
+from dqpaint.robots.dynamics import Dynamics
+from dqpaint.robots.jacobians import drift_acceleration
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Bounds
 from dqpaint.robots.resolver import PULL, resolve

@@ -6,9 +6,6 @@ from dataclasses import dataclass, field
 from time import perf_counter
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from dqpaint.attenuation import Attenuation, attenuation
 from dqpaint.controllers import Controller, find_controller
 from dqpaint.disturbances import Disturbance, make_disturbances
@@ -18,7 +15,7 @@ from dqpaint.metrics import Metrics, Table, measure
 from dqpaint.motion import Motion, plan
 from dqpaint.nullspace import read_null
 from dqpaint.out_of_reach import begin, check_worst
-from dqpaint.picture import Picture, photograph
+from dqpaint.picture import Picture, Shown, photograph
 from dqpaint.placing import Placed, settle
 from dqpaint.plants import choose_plant
 from dqpaint.plants.plant import Takes
@@ -38,7 +35,7 @@ UNSEEN = "poses alone say nothing of the joints: the arm and what it hides are l
 
 
 @dataclass(frozen=True, repr=False)
-class Painting:
+class Painting(Shown):
     """A finished painting: what was asked, what the arm did, the pictures and the numbers."""
 
     settings: Settings
@@ -63,16 +60,6 @@ class Painting:
     recording: Recording | None = None  # what was painted instead of a simulated run
 
     @property
-    def picture(self) -> Picture:
-        """The picture of the first view."""
-        return self.pictures[0]
-
-    @property
-    def image(self) -> NDArray[np.uint8]:
-        """The picture (H, W, 3), sRGB."""
-        return self.picture.image
-
-    @property
     def film(self) -> Film:
         """The linear film the picture was developed from."""
         return self.picture.film
@@ -93,9 +80,6 @@ class Painting:
             f"<Painting of {name} by {self.controller.name} on {self.robot}: "
             f"{self.motion.t[-1]:.2f} s, rms {rms * 1e3:.3g} mm>"
         )
-
-    def _repr_png_(self) -> bytes:
-        return self.picture.png
 
 
 def paint(

@@ -82,6 +82,25 @@ def take(motion: Motion, pose: Floats, settings: Settings) -> Picture:
     return next(photograph(arrange(motion, pose, settings), settings))
 
 
+class Shown:
+    """What is shown by its pictures, one a view: the first stands for it, in a notebook, too."""
+
+    pictures: tuple[Picture, ...]
+
+    @property
+    def picture(self) -> Picture:
+        """The picture of the first view."""
+        return self.pictures[0]
+
+    @property
+    def image(self) -> NDArray[np.uint8]:
+        """The picture (H, W, 3), sRGB."""
+        return self.picture.image
+
+    def _repr_png_(self) -> bytes:
+        return self.picture.png
+
+
 def photograph(
     scene: Scene, settings: Settings, staging: Staging | None = None
 ) -> Iterator[Picture]:

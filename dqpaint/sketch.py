@@ -2,38 +2,22 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from dqpaint.language.program import Program
 from dqpaint.motion import Motion, plan
-from dqpaint.picture import Picture, photograph
+from dqpaint.picture import Picture, Shown, photograph
 from dqpaint.robots.choose import card_for
 from dqpaint.scene import Scene, arrange, check_choices
 from dqpaint.settings import Settings
 
 
 @dataclass(frozen=True, repr=False)
-class Preview:
+class Preview(Shown):
     """What was asked, and its pictures, one a view."""
 
     settings: Settings
     motion: Motion
     scene: Scene
     pictures: tuple[Picture, ...]
-
-    @property
-    def picture(self) -> Picture:
-        """The picture of the first view."""
-        return self.pictures[0]
-
-    @property
-    def image(self) -> NDArray[np.uint8]:
-        """The picture (H, W, 3), sRGB."""
-        return self.picture.image
-
-    def _repr_png_(self) -> bytes:
-        return self.picture.png
 
 
 def sketch(program: Program, settings: Settings) -> Preview:

@@ -16,7 +16,8 @@ from dqpaint.dq import Floats
 from dqpaint.motion import Motion, plan
 from dqpaint.motion.pace import Pace, smooth
 from dqpaint.nullspace import make_wish
-from dqpaint.robots.dynamics import Dynamics, drift_acceleration
+from dqpaint.robots.dynamics import Dynamics
+from dqpaint.robots.jacobians import drift_acceleration
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.resolver import resolve
 

@@ -10,7 +10,8 @@ from dqpaint.controllers.own import make_controller
 from dqpaint.driving import make_drive
 from dqpaint.nullspace import make_wish
 from dqpaint.plants import PLANTS
-from dqpaint.robots.dynamics import Dynamics, drift_acceleration
+from dqpaint.robots.dynamics import Dynamics
+from dqpaint.robots.jacobians import drift_acceleration
 from tests.controllers.seeing import ARM, law, seen_by, states
 
 TORQUE_LAWS = [name for name, c in CONTROLLERS.items() if c.drives_torque]

@@ -5,8 +5,9 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.controllers.law import Seen, controller
 from dqpaint.controllers.p import RateGains
-from dqpaint.controllers.pose_errors import pose_map, twist_of_invariant_rate
+from dqpaint.controllers.pose_errors import twist_of_invariant_rate
 from dqpaint.dq import Floats
+from dqpaint.robots.jacobians import pose_map
 
 
 @controller("pff", source="Pereira 2016, K+FF [3.12]", gains=RateGains)

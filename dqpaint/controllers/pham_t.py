@@ -5,8 +5,9 @@ from pydantic import Field
 
 from dqpaint.controllers.gains import Gain, Gains
 from dqpaint.controllers.law import Seen, controller
-from dqpaint.controllers.pose_errors import difference_error, pose_map
+from dqpaint.controllers.pose_errors import difference_error
 from dqpaint.dq import Floats
+from dqpaint.robots.jacobians import pose_map
 
 
 class TransposeGains(Gains):

@@ -10,6 +10,7 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.robots.inverse import inverse
+from dqpaint.robots.jacobians import pose_map
 
 
 def invariant_error(pose: Floats, pose_d: Floats) -> Floats:
@@ -42,20 +43,9 @@ def twist_of_pose_rate(pose: Floats, rate: Floats) -> Floats:
     return _least_squares(pose_map(pose), rate)
 
 
-def pose_map(pose: Floats) -> Floats:
-    """M = 1/2 H-(x) E6 (..., 8, 6), with vec(x_dot) = M xi.
-
-    J8 = M J_w is the papers' 8 x n Jacobian, so J8^+ = J_w^+ M^+ and J8' = J_w' M'.
-    """
-    M: Floats = np.dot(pose, _POSE_MAP).reshape(*pose.shape[:-1], 8, 6)
-    return M
-
-
 def _least_squares(M: Floats, rate: Floats) -> Floats:
     """M^+ rate (..., 6) for matrices (..., 8, 6) of full column rank."""
     return np.asarray(np.matvec(inverse(M.mT @ M), np.vecmat(rate, M)))
 
 
 _BACK = -dq.hamilton_plus(np.diag(dq.C8)).reshape(8, 64)  # x -> -H+(x*), which is linear in x
-_IMAGINARY = [1, 2, 3, 5, 6, 7]  # the columns that E6 keeps
-_POSE_MAP = 0.5 * dq.hamilton_minus(np.eye(8))[..., _IMAGINARY].reshape(8, 48)

@@ -67,8 +67,9 @@ class Schedule(Generic[G]):
         """What the gains promise of disturbances all along: the weakest on the way."""
         ends = [self.first.promise(), self.at(1.0).promise()]
         for name, knots in self.knots.items():
-            for knot in knots:  # at a jump both values count
-                ends.append(self.at(knot.part).model_copy(update={name: knot.value}).promise())
+            rows = self.over(np.array([knot.part for knot in knots]))
+            for knot, row in zip(knots, rows, strict=True):  # at a jump both values count
+                ends.append(row.model_copy(update={name: knot.value}).promise())
         bounds = [end for end in ends if end is not None]
         return (max(b[0] for b in bounds), max(b[1] for b in bounds)) if bounds else None
 
@@ -86,7 +87,7 @@ class Schedule(Generic[G]):
     def shown(self) -> dict[str, Any]:
         """The gains as a summary shows them: one that changes as it was written."""
         parts = sorted({0.0, *(knot.part for knots in self.knots.values() for knot in knots)})
-        rows = [self.at(part).shown() for part in parts]
+        rows = [gains.shown() for gains in self.over(np.array(parts))]
         shown: dict[str, Any] = dict(rows[0])
         for name in shown:
             values = [row[name] for row in rows]

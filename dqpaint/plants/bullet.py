@@ -5,7 +5,7 @@ import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, Self
 
 
 @contextmanager
@@ -49,6 +49,25 @@ def _import_pybullet() -> Any:
 
 
 bullet: Any = _import_pybullet()
+
+
+class Client:
+    """A connection to a world of PyBullet's own, until it is closed."""
+
+    def __init__(self) -> None:
+        with quiet():
+            self.client: int = bullet.connect(bullet.DIRECT)
+
+    def close(self) -> None:
+        """Give the world back."""
+        bullet.disconnect(self.client)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *fault: object) -> None:
+        """Close it."""
+        self.close()
 
 
 def joint_indices(body: int, client: int) -> list[int]:

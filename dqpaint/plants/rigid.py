@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from dqpaint.dq import Floats
-from dqpaint.plants.bullet import bullet, joint_indices, quiet
+from dqpaint.plants.bullet import Client, bullet, joint_indices, quiet
 from dqpaint.plants.load import Pushing, check_pushes, loaded
 from dqpaint.plants.plant import Options, Trait
 from dqpaint.plants.world import UNDISTURBED, World
@@ -28,7 +28,7 @@ def some_postures(card: Card) -> Floats:
     return np.vstack([card.home, others])
 
 
-class RigidArm:
+class RigidArm(Client):
     """The bodies of a card's arm, at rest in a posture, in a world of their own.
 
     Masses and inertias are the file's own. Shapes are left out: nothing touches anything in a
@@ -61,8 +61,8 @@ class RigidArm:
         self.card = card
         self.steps = max(1, math.ceil(period / longest - 1e-9))
         self.step = period / self.steps  # [s]
+        super().__init__()
         with quiet():
-            self.client = bullet.connect(bullet.DIRECT)
             self.body = self._build(card, world)
         self.joints = joint_indices(self.body, self.client)
         for joint, angle, lower, upper in zip(
@@ -134,7 +134,3 @@ class RigidArm:
         moved = (self.posture + way).tolist()
         for joint, angle, rate in zip(self.joints, moved, self.rates.tolist(), strict=True):
             bullet.resetJointState(self.body, joint, angle, rate, self.client)
-
-    def close(self) -> None:
-        """End the simulation."""
-        bullet.disconnect(self.client)

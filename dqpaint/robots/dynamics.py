@@ -3,20 +3,8 @@
 import numpy as np
 import pinocchio
 
-from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.robots.kinematics import Kinematics
-
-
-def drift_acceleration(jacobian: Floats, rates: Floats) -> Floats:
-    """J_w_dot q_dot (..., 6): how the tool's twist changes at constant joint rates.
-
-    Column i of J_w_dot is xi_i x s_i, with xi_i the twist of link i and s_i the i-th column of J_w
-    (Chandra 2020 [38]). J_w (..., 6, n) spatial, rates (..., n) [rad/s].
-    """
-    moved = (jacobian * rates[..., None, :]).swapaxes(-1, -2)  # what each joint adds
-    carried = np.cumsum(moved, axis=-2)
-    return np.asarray(dq.spatial_cross(carried, moved).sum(axis=-2))
 
 
 class Dynamics:

@@ -19,12 +19,22 @@ def _operator() -> Floats:
 
 
 _OPERATOR = _operator()
+_IMAGINARY = [1, 2, 3, 5, 6, 7]  # the columns that E6 keeps
+_POSE_MAP = 0.5 * dq.hamilton_minus(np.eye(8))[..., _IMAGINARY].reshape(8, 48)
+
+
+def pose_map(pose: Floats) -> Floats:
+    """M = 1/2 H-(x) E6 (..., 8, 6), with vec(x_dot) = M xi.
+
+    J8 = M J_w is the papers' 8 x n Jacobian, so J8^+ = J_w^+ M^+ and J8' = J_w' M'.
+    """
+    M: Floats = np.dot(pose, _POSE_MAP).reshape(*pose.shape[:-1], 8, 6)
+    return M
 
 
 def jacobian8(jacobian: Floats, pose: Floats) -> Floats:
     """J8 = H-(x) E6 J_w / 2 (..., 8, n), with vec(x_dot) = J8 q_dot, at poses x (..., 8)."""
-    left = 0.5 * dq.hamilton_minus(pose)[..., [1, 2, 3, 5, 6, 7]]
-    J8: Floats = left @ jacobian
+    J8: Floats = pose_map(pose) @ jacobian
     return J8
 
 
@@ -32,12 +42,17 @@ def jacobian_rate(jacobian: Floats, rates: Floats) -> Floats:
     """The time derivative of J_w (..., 6, n) at joint rates (..., n) [rad/s].
 
     Column i is xi_i x s_i: the twist of link i carries the axis s_i along (Ozgur and Mezouar 2016;
-    Chandra 2020 [38]). J_w_dot q_dot is the drift: the spatial acceleration at constant rates.
+    Chandra 2020 [38]).
     """
     twists = np.cumsum(jacobian * rates[..., None, :], axis=-1).swapaxes(-1, -2)
     carried = np.dot(twists, _OPERATOR).reshape(*twists.shape, 6)
     out: Floats = np.matvec(carried, jacobian.swapaxes(-1, -2)).swapaxes(-1, -2)
     return out
+
+
+def drift_acceleration(jacobian: Floats, rates: Floats) -> Floats:
+    """J_w_dot q_dot (..., 6): how the tool's twist changes at constant joint rates (..., n)."""
+    return np.asarray(np.matvec(jacobian_rate(jacobian, rates), rates))
 
 
 def jacobian8_rate(jacobian: Floats, pose: Floats, rates: Floats) -> Floats:

@@ -4,14 +4,13 @@ import tempfile
 import xml.etree.ElementTree as Xml
 from dataclasses import dataclass
 from os import PathLike
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.plants.bullet import bullet, joint_indices, quiet
+from dqpaint.plants.bullet import Client, bullet, joint_indices, quiet
 
 WHITE = [1.0, 1.0, 1.0, 1.0]
 
@@ -37,7 +36,7 @@ class Shape:
     colour: tuple[float, float, float]
 
 
-class Arm:
+class Arm(Client):
     """An arm that stands still where it is told to.
 
     Where a mesh is not there, or of a kind that cannot be read, all meshes are left out.
@@ -50,8 +49,8 @@ class Arm:
     """
 
     def __init__(self, urdf: str | PathLike[str]) -> None:
+        super().__init__()
         with quiet():
-            self.client: int = bullet.connect(bullet.DIRECT)
             here = {"physicsClientId": self.client}
             self.body = self._load(urdf)
             self.shapes = [_shape(data) for data in bullet.getVisualShapeData(self.body, **here)]
@@ -98,22 +97,6 @@ class Arm:
                 self.body, shape.link, rgbaColor=WHITE, textureUniqueId=-1,
                 physicsClientId=self.client,
             )  # fmt: skip
-
-    def close(self) -> None:
-        """Give the world back."""
-        bullet.disconnect(self.client)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        fault: BaseException | None,
-        at: TracebackType | None,
-    ) -> None:
-        """Close it."""
-        self.close()
 
 
 def _without_meshes(urdf: str | PathLike[str]) -> bytes:

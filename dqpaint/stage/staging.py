@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from types import TracebackType
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,8 +53,8 @@ def account(hidden: Floats, emitted: Floats, line: NDArray[np.int64]) -> Hidden:
     return Hidden(hidden.sum(axis=0), found)
 
 
-class Staging:
-    """An arm with the postures of a run. Its shapes are loaded when they are first needed.
+class Staging(ExitStack):
+    """An arm with the postures of a run. Its shapes are loaded when first needed, till the end.
 
     Args:
         urdf: its description.
@@ -76,20 +75,19 @@ class Staging:
         line: NDArray[np.int64] | None = None,
         whole: bool = True,
     ) -> None:
+        super().__init__()
         self._urdf = urdf
         self._whole = whole
         self._posture = posture
         self.line = np.zeros(len(posture), np.int64) if line is None else line
         self._period = period
-        self._open: list[Arm | Twins] = []
 
     @cached_property
     def arm(self) -> Arm:
         """The arm, white."""
         from dqpaint.stage.arm import Arm
 
-        arm = Arm(self._urdf)
-        self._open.append(arm)
+        arm = self.enter_context(Arm(self._urdf))
         arm.whiten()
         return arm
 
@@ -98,9 +96,7 @@ class Staging:
         """What rays hit."""
         from dqpaint.stage.twins import Twins
 
-        twins = Twins(self.arm)
-        self._open.append(twins)
-        return twins
+        return self.enter_context(Twins(self.arm))
 
     @property
     def solid(self) -> bool:
@@ -158,19 +154,6 @@ class Staging:
 
         self.arm.stand(self._posture[row])
         return photograph(self.arm, camera, glow(lights), exposure, falloff)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        fault: BaseException | None,
-        at: TracebackType | None,
-    ) -> None:
-        """Give back what was loaded."""
-        for one in self._open:
-            one.close()
 
 
 @dataclass(frozen=True, eq=False)

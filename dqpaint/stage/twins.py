@@ -1,15 +1,14 @@
 """Twins of an arm's shapes that rays can hit, in a world of their own."""
 
 from collections.abc import Iterator
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.plants.bullet import bullet, quiet
+from dqpaint.plants.bullet import Client, bullet, quiet
 from dqpaint.stage.arm import Arm, Shape
 
 MOST_RAYS = 16_000
@@ -18,7 +17,7 @@ WORTH_THREADS = 500
 """With fewer rays it costs more to wake a second thread than it saves."""
 
 
-class Twins:
+class Twins(Client):
     """Immovable bodies in the shape of an arm's links, as the file draws them.
 
     Meshes are taken as they are. The convex hulls that the physics would make of them stand proud
@@ -32,9 +31,9 @@ class Twins:
     """
 
     def __init__(self, arm: Arm) -> None:
+        super().__init__()
         self._arm = arm
         with quiet():
-            self._client: int = bullet.connect(bullet.DIRECT)
             built = [(shape, self._build(shape)) for shape in arm.shapes]
         solid = [(shape, body) for shape, body in built if body is not None]
         self.unread = [shape for shape, body in built if body is None]
@@ -43,7 +42,7 @@ class Twins:
         self._frames = np.array([shape.frame for shape, _ in solid]).reshape(-1, 8)
 
     def _build(self, shape: Shape) -> int | None:
-        here = {"physicsClientId": self._client}
+        here = {"physicsClientId": self.client}
         try:
             made = bullet.createCollisionShape(shape.kind, **_dimensions(shape), **here)
         except bullet.error:
@@ -63,7 +62,7 @@ class Twins:
         turns = np.roll(dq.rotation(poses), -1, axis=-1).tolist()  # PyBullet has w last
         for row, at in enumerate(zip(places, turns, strict=True)):
             for body, place, turn in zip(self._bodies, *at, strict=True):
-                bullet.resetBasePositionAndOrientation(body, place, turn, self._client)
+                bullet.resetBasePositionAndOrientation(body, place, turn, self.client)
             yield row
 
     def blocked(self, start: Floats, end: Floats) -> NDArray[np.bool_]:
@@ -75,26 +74,10 @@ class Twins:
                 start[rows].tolist(),
                 end[rows].tolist(),
                 numThreads=1 if len(hit[rows]) <= WORTH_THREADS else 0,
-                physicsClientId=self._client,
+                physicsClientId=self.client,
             )
             hit[rows] = [ray[0] >= 0 for ray in rays]
         return hit
-
-    def close(self) -> None:
-        """Give the world back."""
-        bullet.disconnect(self._client)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        fault: BaseException | None,
-        at: TracebackType | None,
-    ) -> None:
-        """Close it."""
-        self.close()
 
 
 def _dimensions(shape: Shape) -> dict[str, Any]:

@@ -5,12 +5,12 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS, Seen
-from dqpaint.controllers.pose_errors import pose_map
 from dqpaint.driving import make_drive
 from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.nullspace import make_wish
 from dqpaint.plants import PLANTS
 from dqpaint.robots.card import installed_names, read_card
+from dqpaint.robots.jacobians import pose_map
 from dqpaint.robots.kinematics import Kinematics
 from tests.conftest import random_poses
 from tests.controllers.seeing import ARM, STILL, ahead_of, body_sees, law, seen_by

@@ -5,7 +5,8 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
-from dqpaint.controllers.pose_errors import difference_error, pose_map, spatial_error
+from dqpaint.controllers.pose_errors import difference_error, spatial_error
+from dqpaint.robots.jacobians import pose_map
 from tests.conftest import random_poses, random_rotations
 from tests.controllers.seeing import ARM, STILL, ahead_of, body_sees, law, seen_by, states
 

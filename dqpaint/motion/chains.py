@@ -8,6 +8,7 @@ kept within a bracket.
 """
 
 from dataclasses import dataclass
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +16,6 @@ from numpy.typing import NDArray
 from dqpaint.dq import Floats
 from dqpaint.language.chains import NODES, WEIGHTS, Indices, derivatives
 from dqpaint.language.program import Chain
-from dqpaint.motion.places import Places
 
 EXACT = 1e-14  # of the length of the chain: what halving a panel may change
 MOST_HALVINGS = 30
@@ -24,28 +24,48 @@ AT_REST = 1e-6  # of a piece's mean speed: there its formula stands still
 NEXT_TO = 1e-4  # of the way to the middle of a piece: where a direction is taken instead
 
 
-def place_chain(path: Chain) -> Places:
+def place_chain(path: Chain) -> "Pieces":
+    """The places of a chain, by the fraction of its length."""
+    return Pieces(path, _measure(path))
+
+
+@dataclass(frozen=True)
+class Pieces:
     """Place and derivatives over the fraction of the length, by the chain rule.
 
     With s the length and p(g) a piece: ds/dg = |p'|, and the inverse's derivatives are
     g1 = 1 / |p'|, g2 = -(p'.p'') g1^4, g3 = -(p''.p'' + p'.p''') g1^5 + 4 (p'.p'')^2 g1^7.
     Beyond its ends the chain goes on straight.
     """
-    panels = _measure(path)
-    total = float(panels.edges[-1])
-    scale = total ** np.arange(4)[:, None, None]
 
-    def places(f: Floats) -> Floats:
+    path: Chain
+    panels: "_Panels"
+    even: ClassVar[bool] = True
+
+    def of(self, _rows: Indices | int) -> Self:
+        """It is one stroke alone."""
+        return self
+
+    def largest(self) -> Floats:
+        """It may leave the numbers anywhere."""
+        return np.full(1, np.inf)
+
+    def point(self, f: Floats) -> Floats:
+        """The place."""
+        return np.asarray(self(f)[0])
+
+    def __call__(self, f: Floats) -> Floats:
+        """With its derivatives."""
+        panels = self.panels
+        total = float(panels.edges[-1])
         distance = f * total
         inside = np.clip(distance, 0.0, total)
-        piece, g = _parameter(path, panels, inside)
-        out = _by_length(path, piece, g, panels.mean_speed[piece])
+        piece, g = _parameter(self.path, panels, inside)
+        out = _by_length(self.path, piece, g, panels.mean_speed[piece])
         beyond = distance - inside
         out[0] += beyond[:, None] * out[1]
         out[2:, beyond != 0] = 0.0
-        return out * scale
-
-    return places
+        return np.asarray(out * total ** np.arange(4)[:, None, None])
 
 
 def _by_length(path: Chain, piece: Indices, g: Floats, mean_speed: Floats) -> Floats:

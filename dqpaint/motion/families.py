@@ -1,7 +1,7 @@
 """The shapes of all segments of a drawing; those of one kind are computed at once.
 
 A drawing of ten thousand lines holds a handful of kinds: their parameters stand in arrays, one row
-a segment, and a formula is asked for all rows in one call. A curve or a chain is a kind for itself.
+a segment, and a formula is asked for all rows in one call. A curve is a kind for itself.
 """
 
 from collections.abc import Iterator, Sequence
@@ -26,7 +26,7 @@ from dqpaint.language.program import (
     Straight,
     Vector,
 )
-from dqpaint.motion.chains import place_chain
+from dqpaint.motion.chains import place_chains
 from dqpaint.motion.faults import Faults, StrokeError, stroke_errors
 from dqpaint.motion.lengths import Extent, flow_by_length, measure
 from dqpaint.motion.orientations import orientation
@@ -146,9 +146,9 @@ def gather(segments: tuple[Segment, ...], faults: Faults) -> Shapes:
 
 def _kind(number: int, segment: Segment) -> Kind:
     path = segment.path
-    if isinstance(path, Curve | Chain):
+    if isinstance(path, Curve):
         return (number,)
-    if isinstance(path, Straight | Arc):
+    if isinstance(path, Straight | Arc | Chain):
         return type(path), type(segment.tool), isinstance(path, Arc) and path.grow != 0
     return (type(path),)
 
@@ -202,7 +202,7 @@ def _places(segments: Sequence[Segment]) -> Places:
     if isinstance(path, Curve):
         return Formula(path)
     if isinstance(path, Chain):
-        return place_chain(path)
+        return place_chains([s.path for s in segments if isinstance(s.path, Chain)])
     return place_straight(segments)
 
 

@@ -112,24 +112,32 @@ def peak_rate(name: str, rates: Rates) -> Floats:
     return np.asarray(np.abs(horner(slope, _stationary(slope))).max(axis=0))
 
 
-def _stationary(coefficients: Rates) -> Floats:
-    """0, 1, and between them where the derivative of a polynomial may be zero (R, K).
+def _stationary(slope: Rates) -> Floats:
+    """0, 1, and between them where the derivative of a polynomial is zero (R, K).
 
-    Those of the derivative's own derivative are its turning points; from one to the next it goes
-    one way, so that bisection finds the zero, if there is one.
+    It has degree 1, or 3: then it goes one way from one of its turning points to the next, and
+    bisection finds the zero, if there is one.
     """
-    bend = derivative(coefficients)
-    ends = np.broadcast_arrays(*(np.asarray(c, np.float64) for c in (0.0, 1.0, *bend)))[:2]
-    edges = np.stack(ends) if len(bend) < 3 else np.sort(_stationary(bend), axis=0)
-    if len(bend) == 1:
-        return edges
+    bend = derivative(slope)
+    edges = np.stack(np.broadcast_arrays(0.0 * sum(bend), 1.0))
+    if len(bend) == 2:
+        return np.concatenate([edges, _inside(-bend[0], bend[1])[None]])
+    c, b, a = derivative(bend)
+    t = -0.5 * (b + np.copysign(np.sqrt(np.maximum(b**2 - 4 * a * c, 0.0)), b))
+    edges = np.sort(np.stack([*edges, _inside(t, a), _inside(c, t)]), axis=0)
     lower, upper = edges[:-1], edges[1:]
     rising = horner(bend, upper) > horner(bend, lower)
     for _ in range(HALVINGS):
         middle = 0.5 * (lower + upper)
         beyond = (horner(bend, middle) > 0.0) == rising
         lower, upper = np.where(beyond, lower, middle), np.where(beyond, middle, upper)
-    return np.concatenate([edges[[0, -1]], lower])
+    return np.concatenate([edges, lower])
+
+
+def _inside(a: float | Floats, b: float | Floats) -> Floats:
+    """Quotients as far as they lie between 0 and 1, else one of these."""
+    a, b = np.broadcast_arrays(np.asarray(a, np.float64), b)
+    return np.clip(np.divide(a, b, out=np.zeros(a.shape), where=b != 0.0), 0.0, 1.0)
 
 
 def cruise_time(name: str, end_rates: Rates, least: Floats) -> Floats:

@@ -10,8 +10,6 @@ from dqpaint.examples import find_drawing
 from dqpaint.language import Diagnostic, Program, ScriptError, read, render
 from dqpaint.language.diagnostics import Severity, Span, file_at, place
 from dqpaint.motion import Motion, Survey, summary_line, survey
-from dqpaint.robots.card import Card
-from dqpaint.robots.choose import card_for
 
 if TYPE_CHECKING:
     from dqpaint.forewarning import Outlook
@@ -77,11 +75,9 @@ def check(
     try:
         path = find_drawing(name)
         program = read(path)
-        card = card_for(program, robot, tool)
-        drawing: Motion | Survey = survey(program)
         asked = not (robot is tool is place is program.robot is None)
-        outlook = _look_ahead(program, card, place) if asked else None
-        drawing = outlook.motion if outlook else drawing
+        outlook = _look_ahead(program, robot, tool, place) if asked else None
+        drawing: Motion | Survey = outlook.motion if outlook else survey(program)
     except ScriptError as problem:
         return Checked(problem.name, problem.text, problem.diagnostics, None)
     except UsageError:
@@ -92,12 +88,20 @@ def check(
     return Checked(str(path), program.text, findings, drawing, outlook=outlook)
 
 
-def _look_ahead(program: Program, card: Card, place: str | None) -> "Outlook":
-    """What an arm says of a drawing; only this brings in the kinematics.
+def _look_ahead(
+    program: Program, robot: str | None, tool: str | None, place: str | None
+) -> "Outlook":
+    """What an arm says of a drawing; only this brings in the arms and their kinematics.
 
     Raises:
-        ScriptError: it does not reach all of it.
+        UsageError: no such robot, or no such tool.
+        ScriptError: a fault of the drawing, or the arm does not reach all of it.
     """
+    from dqpaint.robots.choose import card_for
+
+    card = card_for(program, robot, tool)
+    survey(program)  # what is wrong with the drawing by itself goes before what an arm says
+
     from dqpaint.forewarning import look_ahead
     from dqpaint.robots.kinematics import Kinematics
 

@@ -32,10 +32,11 @@ def same(program: Program) -> Motion | None:
     try:
         with np.errstate(all="ignore"):
             motion = plan(program, CANVAS)
-    except ScriptError as planned:
+    except ScriptError as fault:
+        planned = fault.diagnostics
         with np.errstate(all="ignore"), pytest.raises(ScriptError) as surveyed:
             survey(program)
-        assert surveyed.value.diagnostics == planned.diagnostics
+        assert surveyed.value.diagnostics == planned
         return None
     found = survey(program)
     assert found.notes == motion.notes

@@ -1,6 +1,5 @@
 """Painting -> files: pictures, tables and summaries, written whole or not at all."""
 
-import hashlib
 import json
 import os
 import platform
@@ -165,7 +164,7 @@ def summarise(painting: "Painting") -> dict[str, Any]:
     return {
         "schema": SCHEMA,
         "file": Path(program.name).name,
-        "sha256": hashlib.sha256(program.text.encode()).hexdigest(),
+        "sha256": painting.sha256,
         "versions": {
             "dqpaint": __version__,
             "python": platform.python_version(),

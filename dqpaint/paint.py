@@ -1,5 +1,6 @@
 """The whole flow, from a drawing's text to its painting, to be read in a minute."""
 
+import hashlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -68,6 +69,11 @@ class Painting(Shown):
     def table(self) -> Table:
         """The columns of the CSV, each (N,)."""
         return self.metrics.table
+
+    @property
+    def sha256(self) -> str:
+        """Of the drawing's text."""
+        return hashlib.sha256(self.motion.program.text.encode()).hexdigest()
 
     @property
     def limits(self) -> tuple[Clamp, ...]:

@@ -41,6 +41,7 @@ ORDER = [
     "stage",
     "telling",
     "scene",
+    "settings_file",
     "picture",
     "sketch",
     "out_of_reach",

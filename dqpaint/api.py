@@ -50,7 +50,7 @@ def draw(
     colour_by: str | None = None,
     overlay: bool | None = None,
     magnify: float | None = None,
-    ghost: bool | None = None,
+    ghost: bool | str | None = None,
     occlusion: bool | None = None,
     settings: "str | PathLike[str] | Given | None" = None,
     progress: Callable[[float], None] = lambda _done: None,
@@ -85,7 +85,8 @@ def draw(
         colour_by: a figure of the run that the colours tell.
         overlay: whether the asked drawing lies beneath the reached one.
         magnify: how many times as large deviations from the asked path are drawn.
-        ghost: whether the arm is in the picture, as it stood at the end.
+        ghost: whether the arm is in the picture: True as it stood at the end, "motion" as a veil,
+            as it moved.
         occlusion: whether the arm's body hides light from the camera; else as `ghost`.
         settings: a file of such choices, TOML, or the JSON summary of a run; what is said here
             wins.
@@ -211,6 +212,8 @@ def develop(
     look: str | None = None,
     starburst: int | None = None,
     noise: int | None = None,
+    ghost: bool | str | None = None,
+    occlusion: bool | None = None,
 ) -> "list[Picture]":
     """Other pictures of a painting that was saved with `film`, without simulating it.
 
@@ -223,6 +226,8 @@ def develop(
         look: how the film is developed.
         starburst: blades of the aperture; 0 for a round one.
         noise: seed of the sensor's noise.
+        ghost: whether the arm is in the picture, and how.
+        occlusion: whether its body hides light from the camera; else as it was.
 
     Raises:
         DqpaintError: no film, or a choice that is none.
@@ -231,18 +236,19 @@ def develop(
     from dqpaint.picture import photograph
     from dqpaint.scene import check_choices
 
-    scene, before, cast = negative.read(str(film))
+    scene, before, cast, worked = negative.read(str(film))
     width, height = _width_and_height(size)
     choices = {
         "width": width, "height": height, "view": view, "ev": ev, "exposure": exposure,
-        "look": look, "starburst": starburst, "noise": noise,
+        "look": look, "starburst": starburst, "noise": noise, "ghost": ghost,
+        "occlusion": occlusion,
     }  # fmt: skip
     given = {name: value for name, value in choices.items() if value is not None}
     settings = make_settings(**{**before.model_dump(), **given})
     check_choices(settings)
     staged, remark = _stage(settings, cast)
     with staged as staging:
-        pictures = list(photograph(scene, settings, staging))
+        pictures = list(photograph(scene, settings, staging, worked))
     return [replace(one, remarks=(*remark, *one.remarks)) for one in pictures]
 
 
@@ -250,13 +256,15 @@ def _stage(
     settings: Settings, cast: "Cast | None"
 ) -> "tuple[AbstractContextManager[Staging | None], tuple[str, ...]]":
     """The arm of a film, if it is to be seen and is still there; and else what there is to say."""
-    if cast is None or not settings.staged:
+    if not settings.staged:
         return nullcontext(), ()
     from dqpaint.robots.choose import find_card
     from dqpaint.robots.urdf import prepare
     from dqpaint.stage.staging import on_stage
 
     try:
+        if cast is None:
+            raise DqpaintError("the film does not say how its joints moved")
         card = find_card(cast.robot)
         if not cast.known:
             raise DqpaintError("the run was recorded as poses, without joints")

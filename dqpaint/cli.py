@@ -26,6 +26,7 @@ from dqpaint.cli_options import (
     Law,
     Look,
     Magnify,
+    MotionGhost,
     Noise,
     Null,
     Occlusion,
@@ -111,6 +112,7 @@ def draw(
     overlay: Overlay = False,
     magnify: Magnify = 1.0,
     ghost: Ghost = False,
+    motion_ghost: MotionGhost = False,
     occlusion: Occlusion = None,
     settings: SettingsFile = None,
     out: Out = None,
@@ -134,6 +136,8 @@ def draw(
         noise=noise, colour_by=colour_by, overlay=overlay, magnify=magnify, ghost=ghost,
         occlusion=occlusion,
     )  # fmt: skip
+    if motion_ghost:
+        choices["ghost"] = "motion"
     both = given.under(choices) if given else choices
     law = "recorded" if both.get("recorded") else short_name(both.get("controller") or controller)
     stem = outputs.stem_for(out, f"{path.stem}-{law}")
@@ -219,6 +223,11 @@ def develop(
     ] = None,
     starburst: Annotated[int | None, typer.Option(metavar="BLADES", help="0: none")] = None,
     noise: Noise = None,
+    ghost: Annotated[bool | None, typer.Option(help="the arm in the picture")] = None,
+    motion_ghost: MotionGhost = False,
+    occlusion: Annotated[
+        bool | None, typer.Option(help="the arm's body hides light from the camera")
+    ] = None,
     out: Out = None,
 ) -> None:
     """Take other pictures of a finished painting, at once; what is not said is as it was."""
@@ -231,7 +240,8 @@ def develop(
     stem = outputs.stem_for(out, f"{name}-developed")
     pictures = api.develop(
         film, size=parse_size(size) if size else None, view=view, ev=ev, exposure=exposure,
-        look=look, starburst=starburst, noise=noise,
+        look=look, starburst=starburst, noise=noise, ghost="motion" if motion_ghost else ghost,
+        occlusion=occlusion,
     )  # fmt: skip
     written = outputs.write_pictures(stem, pictures)
 

@@ -112,6 +112,9 @@ ColourBy = Annotated[
 Overlay = Annotated[bool, typer.Option(help="the asked drawing beneath")]
 Magnify = Annotated[float, typer.Option(metavar="N", help="deviations, N times as large")]
 Ghost = Annotated[bool, typer.Option(help="the arm in the picture, and room for it")]
+MotionGhost = Annotated[
+    bool, typer.Option("--motion-ghost", help="the arm as a veil, seen all through its motion")
+]
 Occlusion = Annotated[
     bool | None,
     typer.Option(help="the arm's body hides light from the camera [default: as --ghost]"),

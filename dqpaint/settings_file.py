@@ -40,6 +40,7 @@ from dqpaint.settings import (
 LARGEST = 1_000_000  # bytes of a file
 SUMMARY = "dqpaint-run-1"
 OPTIONS = {"gain": "gains", "from": "start"}  # options that are called otherwise among the settings
+SPECIAL = ("size", "motion_ghost")  # options that are no fields of the settings
 MEANT = {
     "camera": "view", "color-by": "colour-by", "colour": "colour-by", "law": "controller",
     "arm": "robot", "lens": "exposure", "f-number": "exposure", "iso": "exposure",
@@ -176,15 +177,16 @@ def _parsed(place: Path, text: str) -> tuple[dict[str, Any], tuple[str | None, s
 
 
 def _field(key: str) -> str:
-    """The field of `Settings` that a key is for, or `size`."""
+    """The field of `Settings` that a key is for, or one of `SPECIAL`."""
     option = key.replace("_", "-")
     name = OPTIONS.get(option, option.replace("-", "_"))
-    if name in Settings.model_fields or name == "size":
+    if name in (*Settings.model_fields, *SPECIAL):
         return name
     if option in NOT_OF_THE_PICTURE:
         raise UsageError(f"'{option}' is no part of a picture: say it on the command line")
     fields = (field.replace("_", "-") for field in Settings.model_fields)
-    known = sorted({"size", *OPTIONS, *fields} - {"width", "height", *OPTIONS.values()})
+    special = (name.replace("_", "-") for name in SPECIAL)
+    known = sorted({*special, *OPTIONS, *fields} - {"width", "height", *OPTIONS.values()})
     meant = closest(option, known, MEANT)
     cure = f"did you mean '{meant}'?" if meant else f"known: {', '.join(known)}"
     raise UsageError(f"no setting named '{key[:60]}'; {cure}")
@@ -192,6 +194,8 @@ def _field(key: str) -> str:
 
 def _read(name: str, value: Any) -> dict[str, Any]:
     """The fields of `Settings` that a value gives, as the command line would have them."""
+    if name == "motion_ghost":
+        return {"ghost": "motion"} if value is True else {}
     if name == "size":
         return dict(zip(("width", "height"), parse_size(str(value)), strict=True))
     readers: dict[str, Callable[[list[str]], Any]] = {

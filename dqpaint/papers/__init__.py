@@ -89,6 +89,8 @@ class Paper(_Data):
         drawing: a file beside this one, or an example.
         settings: what all runs have in common.
         axes: of a grid of cells, by the name of a gain.
+        grid_drawing: of the grid, if it has another one.
+        grid_settings: what all cells of the grid have in common.
         figures: the columns.
         cells: the rows.
         claims: what is looked at.
@@ -104,6 +106,8 @@ class Paper(_Data):
     drawing: str = ""
     settings: dict[str, Any] = Field(default_factory=dict)
     axes: dict[str, tuple[float, ...]] = Field(default_factory=dict)
+    grid_drawing: str = ""
+    grid_settings: dict[str, Any] = Field(default_factory=dict)
     figures: tuple[Figure, ...]
     cells: tuple[Cell, ...] = ()
     claims: tuple[Claim, ...]
@@ -146,10 +150,10 @@ def read_paper(name: str) -> Paper:
     return Paper(name=name, **tomllib.loads(text))
 
 
-def drawing_of(paper: Paper) -> Path:
-    """The file of a paper's drawing."""
-    own = _folder() / f"{paper.drawing}.traj"
-    return own if own.is_file() else find_drawing(paper.drawing)
+def find_paper_drawing(name: str) -> Path:
+    """The file of a drawing that a paper names: one of its own, or an example."""
+    own = _folder() / f"{name}.traj"
+    return own if own.is_file() else find_drawing(name)
 
 
 def _folder() -> Path:

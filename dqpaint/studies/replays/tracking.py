@@ -1,13 +1,14 @@
 """Replays of a drawing under several laws: a run a cell, or several with seeds."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from dqpaint.charts import COLOURS, Line, Panel, chart
 from dqpaint.errors import DqpaintError
-from dqpaint.papers import Paper, drawing_of
+from dqpaint.papers import Paper, find_paper_drawing
 from dqpaint.robots.card import DEFAULT_ROBOT
 from dqpaint.settings import Settings, make_settings
 from dqpaint.studies.cells import Cell, Figure
@@ -34,18 +35,33 @@ def tracking(paper: Paper, asked: Asked) -> Measured:
 
 
 def carry_out(
-    paper: Paper, asked: Asked, choices: dict[str, dict[str, Any]], keep: tuple[str, ...]
+    paper: Paper,
+    asked: Asked,
+    choices: dict[str, dict[str, Any]],
+    keep: tuple[str, ...],
+    drawing: str = "",
+    always: tuple[str, ...] = (),
 ) -> tuple[Cell, ...]:
-    """Run a paper's drawing with each of some choices of settings, by the names of the cells.
+    """Run a drawing with each of some choices of settings.
+
+    Args:
+        paper: the experiment.
+        asked: what a person asked for.
+        choices: settings by the names of the cells.
+        keep: what is kept of the first run of each.
+        drawing: its name, if it is not the paper's.
+        always: what is kept of every run.
 
     Raises:
         DqpaintError: every run failed.
     """
-    name, text = drawing_text(str(drawing_of(paper)))
-    rows = [
-        seeded(Run(name, text, settings_of(paper, asked, choice), keep), asked.runs or 1)
-        for choice in choices.values()
-    ]
+    name, text = drawing_text(str(find_paper_drawing(drawing or paper.drawing)))
+    rows = []
+    for choice in choices.values():
+        settings = settings_of(paper, asked, choice)
+        count = (asked.runs or 1) if settings.disturb else 1
+        row = seeded(Run(name, text, settings, (*always, *keep)), count)
+        rows.append([replace(run, keep=run.keep or always) for run in row])
     runs = [run for row in rows for run in row]
     results = iter(carry_out_study(runs, asked.folder, asked.jobs, paper.name))
     found = tuple(

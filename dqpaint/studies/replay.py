@@ -19,6 +19,7 @@ RULE = (
     "holds, fails: as these numbers stand; not shown: they differ by less than chance explains "
     "(Welch, 5 %), or by less than 0.1 %"
 )
+PRINTED = Verdict("holds", "its own numbers")
 
 
 @dataclass(frozen=True)
@@ -58,7 +59,12 @@ def judged(paper: Paper, ours: Numbers) -> tuple[tuple[Claim, Verdict, Verdict],
     """Every claim, by the paper's numbers and by ours."""
     theirs = published(paper)
     return tuple(
-        (claim, judge(claim, paper, theirs), judge(claim, paper, ours)) for claim in paper.claims
+        (
+            claim,
+            PRINTED if claim.kind == "equals" else judge(claim, paper, theirs),
+            judge(claim, paper, ours),
+        )
+        for claim in paper.claims
     )
 
 
@@ -132,7 +138,7 @@ def _listed(bullet: str, replayed: Replayed) -> list[str]:
     """What has no numbers, and what cannot be tested."""
     lost = [f"{bullet}{name}: {why}" for name, why in replayed.measured.lost.items()]
     parts = [
-        ("Runs that were not done as they should:", lost),
+        ("To be known of some runs:", lost),
         ("Not tested, for it cannot be:", [f"{bullet}{one}" for one in replayed.paper.open]),
     ]
     gap = "\n" if bullet.startswith(" ") else "\n\n"

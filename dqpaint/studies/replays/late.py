@@ -9,7 +9,7 @@ from dqpaint.papers import Paper
 from dqpaint.studies.cells import Cell
 from dqpaint.studies.keeping import kept
 from dqpaint.studies.replays.measure import MEASURES, Asked, Measured
-from dqpaint.studies.replays.tracking import beside_published, carry_out, measured, settings_of
+from dqpaint.studies.replays.tracking import beside_published, carry_out, measured
 from dqpaint.studies.statistics import spread
 
 LATE = 0.1  # of the run
@@ -31,7 +31,9 @@ def late(paper: Paper, asked: Asked) -> Measured:
         for cell in found
         if cell.done
     }
-    return replace(made, numbers=numbers, files={"-published.png": beside_published(paper, numbers)})
+    return replace(
+        made, numbers=numbers, files={"-published.png": beside_published(paper, numbers)}
+    )
 
 
 def late_integral(folder: Path, key: str, period: float) -> float:

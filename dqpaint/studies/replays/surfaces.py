@@ -48,8 +48,7 @@ def maps(paper: Paper, numbers: Numbers) -> dict[str, bytes]:
         for (i, a), (j, b) in product(enumerate(ups), enumerate(rights)):
             cell = numbers.get(cell_name({up: a, right: b}), {})
             values[i, j] = cell[name].mean if name in cell else np.nan
-        texts = [[f"{value:g}" for value in axis] for axis in (rights, ups)]
-        lost = ~np.isfinite(values)
-        given = HeatMap(says[name], right, up, *texts, values, lost, log=True)
+        x, y = ([f"{value:g}" for value in axis] for axis in (rights, ups))
+        given = HeatMap(says[name], right, up, x, y, values, ~np.isfinite(values), log=True)
         files[f"-{name.split('_')[0]}.png"] = heat_map(given, 9.0, 5.5)
     return files

@@ -119,7 +119,7 @@ def test_every_paper_is_whole_and_its_own_numbers_decide_its_claims(name):
     assert paper.claims
     theirs = published(paper)
     for claim, first, second in judged(paper, theirs):
-        assert first == second
+        assert first.word == second.word
         if claim.kind in ("order", "ratio") and first.word == "holds":
             a, b = claim.cells[:2]
             swapped = {**theirs, a: theirs[b], b: theirs[a]}

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.charts import Line, Panel, chart
+from dqpaint.charts import COLOURS, Line, Panel, chart
 from dqpaint.controllers import find_controller
 from dqpaint.controllers.pose_errors import difference_error, spatial_error
 from dqpaint.dq import Floats
@@ -25,6 +25,7 @@ ROBOT = "viper850"
 INITIAL_DEG = (20.0, -110.0, 190.0, 25.0, 45.0, 20.0)
 POSE = ("w", "x", "y", "z", "w_dual", "x_dual", "y_dual", "z_dual")
 PLACE = ("x_m", "y_m", "z_m")
+MORE = ("#7a9a01", "#d98cb3")  # colours, for eight lines
 SETTLED = 0.02  # of the step
 
 
@@ -99,7 +100,10 @@ def settling(t: Floats, error: Floats) -> float:
 def picture(runs: dict[str, Track], motion: Motion) -> bytes:
     """As Figs. 5 and 9: the eight numbers by the first law, and the angle to go by all."""
     name, run = next(iter(runs.items()))
-    eight = [Line(motion.t, run.pose[:, i], POSE[i].replace("_dual", "'")) for i in range(8)]
+    eight = [
+        Line(motion.t, run.pose[:, i], POSE[i].replace("_dual", "'"), [*COLOURS, *MORE][i])
+        for i in range(8)
+    ]
     turns = [Line(motion.t, np.degrees(angles(one)), name) for name, one in runs.items()]
     panels = [
         Panel(name, "time [s]", "the eight numbers of the pose", eight),

@@ -300,13 +300,14 @@ def _carried(
     """Unmodelled velocities (N, B, 6) of the tool; each disturbance has its own random numbers."""
     if not disturbances:
         return None
-    return np.stack([
+    found = np.stack([
         sum(
             one.twist(motion.t, motion.period, chance(seed, name))
             for name, one in disturbances.items()
         )
         for seed in seeds
     ], axis=1)  # fmt: skip
+    return found if found.any() else None
 
 
 def _finished(log: _Log, motion: Motion, card: Card, torques: bool) -> Track:

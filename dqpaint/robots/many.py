@@ -35,16 +35,17 @@ class ManyKinematics:
         The postures run along the last axis of every array within: (column, row, B).
         """
         count, joints = posture.shape
-        angles = np.ascontiguousarray(posture.T)
-        s, c = np.sin(angles), 1.0 - np.cos(angles)
-        T = np.repeat(_EYE, count, axis=1)  # (4, 3 B)
-        axes, points = np.empty((joints, 3, count)), np.empty((joints, 3, count))
-        for i, constants in enumerate(self._joints):
-            G = np.dot(constants, T).reshape(10, 3, count)
-            axes[i], points[i] = G[8], G[9]
-            G[:4] *= s[i]
-            G[4:8] *= c[i]
-            T += (G[:4] + G[4:8]).reshape(4, -1)
+        factors = np.empty((joints, 2, 1, count))
+        factors[:, 0, 0], factors[:, 1, 0] = np.sin(posture.T), 1.0 - np.cos(posture.T)
+        T = np.repeat(_EYE, count, axis=1)
+        found = np.empty((joints, 10, 3 * count))
+        for constants, G, factor in zip(self._joints, found, factors, strict=True):
+            np.dot(constants, T, out=G)
+            turns = G[:8].reshape(2, 12, count)
+            turns *= factor
+            T += turns[0].reshape(4, -1)
+            T += turns[1].reshape(4, -1)
+        axes, points = (found[:, i].reshape(joints, 3, count) for i in (8, 9))
         J = np.empty((6, joints, count))
         J[:3] = axes.swapaxes(0, 1)
         for a, b, d in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):

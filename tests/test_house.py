@@ -16,6 +16,7 @@ ORDER = [
     "registry",
     "choices",
     "examples",
+    "papers",
     "dq",
     "language",
     "build",
@@ -100,6 +101,7 @@ DOORS = {
         "settings.py",
         "light/brushes.py",
         "negative.py",
+        "papers",
     ],
 }
 EVERYWHERE = {"numpy", "dqpaint", "typing_extensions"}

@@ -84,14 +84,14 @@ def save(compared: Comparison, measure: str) -> list[Path]:
     if differences(compared.cells, figure):
         parts += [about_test(figure), cells.markdown(differences(compared.cells, figure))]
     contents = {
-        **_pictures(compared),
+        **pictures(compared),
         "-table.csv": cells.csv(compared.cells),
         "-table.md": (title + "\n\n".join(parts) + "\n").encode(),
     }
     return write(compared.folder / Path(compared.name).stem, contents)
 
 
-def _pictures(compared: Comparison) -> dict[str, bytes]:
+def pictures(compared: Comparison) -> dict[str, bytes]:
     """Contact sheet, overlay and errors over time, of the first run of each choice."""
     settings = compared.settings
     arrays = [

@@ -64,8 +64,8 @@ def guard(data: bytes) -> Guarded:
         SvgError: it is no SVG, or too much of it, or a part of it can't be read.
     """
     root, lines = _tree(data)
-    if tag_of(root) != "svg":
-        raise SvgError(f"this is no SVG: it begins with <{tag_of(root)[:40]}>")
+    if tag_of(root) != "svg" or _is_foreign(root):
+        raise SvgError(f"this is no SVG: it begins with <{str(root.tag)[:60]}>")
     _Count(root).check()
     out = Guarded(b"")
 
@@ -189,11 +189,19 @@ def _shown(count: int) -> str:
     return f"{count:,}" if count < 10**9 else f"about 10^{len(str(count)) - 1}"
 
 
+def _is_foreign(element: Element) -> bool:
+    """Whether an element belongs to another language than SVG, as an editor's own notes do."""
+    space = str(element.tag).rpartition("}")[0]
+    return space not in ("", "{http://www.w3.org/2000/svg")
+
+
 def _clean(parent: Element, lines: dict[Element, int], left_out: Lines) -> None:
     """Takes away what is not drawn, and hides what is drawn only by reference."""
     kept: list[Element] = []
     for child in parent:
         name, hidden = tag_of(child), child.attrib.get("display", "").strip() == "none"
+        if _is_foreign(child):
+            continue
         if name in _NO_LINES or hidden:
             if name in _SAID and not hidden:
                 left_out.setdefault(name, []).append(lines[child])

@@ -130,8 +130,7 @@ def _lines(guarded: Guarded) -> Iterator[tuple[Chain, Colour | None]]:
     except SvgError:
         raise
     except Exception as fault:  # of many kinds: the library takes much on trust
-        reason = f"{type(fault).__name__}: {fault}"[:120]
-        raise SvgError(f"it can't be understood ({reason})", "save it as plain SVG") from None
+        raise SvgError("the SVG library can't read it", "save it as plain SVG") from fault
 
 
 # Colours.
@@ -173,10 +172,8 @@ def _chains(shape: Any) -> Iterator[Chain]:
     shift = np.array([m.e, m.f, 0.0], dtype=np.float64)
     to_metres = PIXEL * np.diag([1.0, -1.0, 1.0])
     for pieces in _parts(shape):
-        with np.errstate(all="ignore"):  # what is too large is refused below
-            chain = chains.mapped(chains.joined(pieces), to_metres @ matrix, to_metres @ shift)
-        numbers = np.concatenate([chain.cubic.ravel(), chain.ellipse.ravel()])
-        if not (np.abs(numbers) <= LARGEST * PIXEL).all():
+        chain = chains.mapped(chains.joined(pieces), to_metres @ matrix, to_metres @ shift)
+        if not chains.farthest([chain]) <= LARGEST * PIXEL:
             raise SvgError("a place in it is not finite, or far too large")
         if chain.cubic[:, 1:].any() or chain.ellipse.any():
             yield chain

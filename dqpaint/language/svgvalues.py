@@ -11,6 +11,7 @@ import re
 from dqpaint.language import colours
 
 LARGEST = 1e9  # [px]
+LEAST_RADIUS = 1e-9
 INCH = 96.0  # [px] as CSS has it
 _UNITS = {"": 1.0, "px": 1.0, "in": INCH, "pc": INCH / 6, "pt": INCH / 72, "q": INCH / 101.6}
 _UNITS |= {"cm": INCH / 2.54, "mm": INCH / 25.4}
@@ -167,7 +168,14 @@ def _arcs(command: str, text: str, after: str) -> str:
     if end < len(text) or not text.strip() or text.rstrip().endswith(","):
         numbers(text, f"a number of its {command}", after)  # says so, if something is none
         raise _wrong_count(command, text, len(NUMBER.findall(text)))
-    return _joined([_bounded(float(one), one) for arc in _ARC.findall(text) for one in arc])
+    made = []
+    for arc in _ARC.findall(text):
+        rx, ry, *others = (_bounded(float(one), one) for one in arc)
+        for size, one in ((rx, arc[0]), (ry, arc[1])):
+            if 0.0 < abs(size) < LEAST_RADIUS:
+                raise UnreadableError(f"the radius {shown(one)} of its {command} is far too small")
+        made += [rx, ry, *others]
+    return _joined(made)
 
 
 def _wrong_count(command: str, text: str, count: int) -> UnreadableError:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from dqpaint import __version__
+from dqpaint.catalogue import url
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.examples import find_drawing
 from dqpaint.language import Diagnostic, Program, ScriptError, read, render
@@ -137,6 +138,7 @@ def _as_json(result: Checked, finding: Diagnostic) -> dict[str, Any]:
         "label": finding.label,
         "help": finding.help,
         "explain": f"dqpaint explain {finding.code}",
+        "url": url(finding.code),
         "related": [
             {
                 "file": file_at(result.source, span.start, result.file)[1],

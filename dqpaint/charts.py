@@ -25,7 +25,8 @@ class Line:
     """One line of a chart: points (N,) and what is written at it.
 
     `colour` is the next of the chart's own if not said; `marks` says where (N,) a point is
-    unstable, and has all points shown; `bars` are lengths (N,) up and down.
+    unstable, and has all points shown; `bars` are lengths (N,) up and down. A width of 0 leaves
+    the points alone.
     """
 
     x: Floats
@@ -39,7 +40,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Panel:
-    """One chart: lines, a bound that is drawn dashed, and what the axes say."""
+    """One chart: lines, bounds that are drawn dashed, and what the axes say."""
 
     title: str
     x_label: str
@@ -50,6 +51,7 @@ class Panel:
     log_y: bool = False
     decades: float = 300.0  # of a logarithmic y axis, from the top: the most that is shown
     ticks: Sequence[str] | None = None  # words at 0, 1, ... of an axis of choices
+    wall: float | None = None  # a bound of x
 
 
 @dataclass(frozen=True)
@@ -78,6 +80,8 @@ def chart(panels: Sequence[Panel], width: float = 10.0, height: float = 4.0) -> 
             _draw(axes, line, line.colour or following)
         if panel.bound is not None:
             axes.axhline(panel.bound, color=INK, lw=1, ls=(0, (4, 3)))
+        if panel.wall is not None:
+            axes.axvline(panel.wall, color=INK, lw=1, ls=(0, (4, 3)))
         axes.set_xlabel(panel.x_label)
         axes.set_ylabel(panel.y_label)
         if panel.log_x:
@@ -100,7 +104,10 @@ def chart(panels: Sequence[Panel], width: float = 10.0, height: float = 4.0) -> 
 
 def _draw(axes: Axes, line: Line, colour: str) -> None:
     dots = "o" if line.marks is not None else ""
-    axes.plot(line.x, line.y, color=colour, lw=line.width, label=line.label, marker=dots, ms=4)
+    kind = "-" if line.width else ""
+    axes.plot(
+        line.x, line.y, kind, color=colour, lw=line.width, label=line.label, marker=dots, ms=4
+    )
     if line.bars is not None and np.isfinite(line.bars).any():
         axes.errorbar(line.x, line.y, line.bars, fmt="none", ecolor=colour, lw=1, capsize=3)
     if line.marks is not None and line.marks.any():

@@ -136,6 +136,68 @@ def sweep(
     _finish(study.told(swept, figure, _columns()), study.save(swept, figure))
 
 
+TUNE_EXAMPLES = """Examples:
+
+  dqpaint tune circle --controller p --vary k=2..200 --effort 1.05
+
+  dqpaint tune star --controller hinf --plant compliant --runs 3 --disturb noise=0.0005
+"""
+
+
+@app.command(epilog=TUNE_EXAMPLES)
+def tune(
+    file: Drawing,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="GAIN=LOW..HIGH[:lin]",
+            help="where a gain is sought, repeatable "
+            "[default: all of the law's, from a tenth to ten times the usual value]",
+        ),
+    ] = None,
+    controller: Law = "hinf",
+    effort: Annotated[
+        float, typer.Option(metavar="X", help="at most, times what the drawing itself needs")
+    ] = 1.1,
+    gain: Gain = None,
+    plant: PlantName = None,
+    robot: Robot = None,
+    disturb: Disturb = None,
+    seed: Seed = 0,
+    start: From = "first",
+    runs: Runs = 1,
+    figure: Annotated[
+        str, typer.Option("--figure", metavar="NAME", help="that is to be small, as in the JSON")
+    ] = "error_integral",
+    effort_figure: Annotated[
+        str, typer.Option(metavar="NAME", help="that is bounded")
+    ] = "command_integral_rad",
+    budget: Annotated[int, typer.Option(metavar="N", help="the most runs")] = 300,
+    jobs: Jobs = None,
+    out: Folder = None,
+) -> None:
+    """Seek the gains with the least error within an effort bound, and what error costs in effort.
+
+    The bound is 1 for the effort of an arm that does exactly what the drawing asks. Seeded; a
+    search that was stopped goes on where it was.
+    """
+    from dqpaint.settings import make_settings, parse_disturbances, parse_gains
+    from dqpaint.studies import tradeoff
+    from dqpaint.studies import tune as study
+
+    base = make_settings(
+        controller=controller, gains=parse_gains(gain or []), plant=plant, robot=robot,
+        disturb=parse_disturbances(disturb or []), seed=seed, start=start,
+    )  # fmt: skip
+    tuned = study.tune(
+        file, vary or [], base, _folder(out, file, "tune"), factor=effort, error=figure,
+        effort=effort_figure, count=runs, budget=budget, jobs=jobs,
+    )  # fmt: skip
+    _finish(tradeoff.told(tuned, _columns()), tradeoff.save(tuned))
+    if tuned.best is None:
+        raise typer.Exit(1)
+
+
 def _folder(out: str | None, file: str, what: str) -> Path:
     return Path(out) if out else Path(f"{Path(file).stem}-{what}")
 

@@ -79,6 +79,7 @@ DOORS = {
     "eigenpy": ["robots/inverse.py"],
     "pybullet": ["plants/bullet.py"],
     "matplotlib": ["charts.py"],
+    "scipy": ["studies/tune.py"],
     "cv2": ["light", "stage/floor.py", "stage/ghost.py", "picture.py", "negative.py", "video.py"],
     "svgelements": ["language/drawings.py"],
     "typer": ["cli.py", "cli_options.py", "cli_language.py", "cli_arm.py", "studying.py"],

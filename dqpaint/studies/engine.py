@@ -36,7 +36,7 @@ def carry_out_study(
     check_jobs(jobs)
     check(runs)
     with Study(folder, jobs, what, len(runs)) as study:
-        return study.results(runs)
+        return study.results(runs, tell_known=True)
 
 
 class Study:
@@ -60,8 +60,12 @@ class Study:
         self._known: set[str] = set()  # keys of runs that were done before
         self._done: set[str] = set()
 
-    def results(self, runs: Sequence[Run]) -> list[Result]:
+    def results(self, runs: Sequence[Run], tell_known: bool = False) -> list[Result]:
         """The results of runs, in their order; what is on record is not run again.
+
+        Args:
+            runs: what to paint.
+            tell_known: say beforehand how many are on record.
 
         Raises:
             DqpaintError: the folder cannot be written, or the workers do not start.
@@ -74,9 +78,9 @@ class Study:
             if not _is_done(found.get(key), run, self._folder)
         }
         known = set(keys) - tasks.keys() - self._done - self._known
-        if known:
-            self._known |= known
-            self._total -= len(known)
+        self._known |= known
+        self._total -= len(known)
+        if known and tell_known:
             print(f"note: {len(known)} of {len(set(keys))} runs were done before", file=sys.stderr)
         before = len(self._done)
 
@@ -87,6 +91,11 @@ class Study:
             self._record.add(result)
             self._done.add(result.key)
         return [found[key] for key in keys]
+
+    @property
+    def known(self) -> int:
+        """How many of the runs so far were done before."""
+        return len(self._known)
 
     def __enter__(self) -> Self:
         return self

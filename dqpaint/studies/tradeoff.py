@@ -98,17 +98,18 @@ def save(tuned: Tuning) -> list[Path]:
 def panels(tuned: Tuning) -> list[Panel]:
     """Error over effort, and error over each gain."""
     tried = [cell for cell in tuned.cells if np.isfinite(cell.of(tuned.error).mean)]
+    stable = [cell for cell in tried if cell.stable]  # of the others effort says nothing
     error = tuned.error.heading
     made = [
         Panel(
             "the trade-off", tuned.effort.heading, error,
             [
-                _dots(tuned, tried, "tried", tuned.effort, TRIED),
+                _dots(tuned, stable, "tried", tuned.effort, TRIED),
                 _line(tuned.front, tuned, tuned.effort),
                 *_named(tuned, tuned.effort),
             ],
-            wall=tuned.bound, log_x=_wide(_values(tried, tuned.effort)),
-            log_y=_wide(_values(tried, tuned.error)),
+            wall=tuned.bound, log_x=_wide(_values(stable, tuned.effort)),
+            log_y=_wide(_values(stable, tuned.error)),
         )
     ]  # fmt: skip
     for one in tuned.ranges:

@@ -11,6 +11,7 @@ was stopped goes on, and its answer is the same bit for bit, whatever the number
 
 import math
 import re
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -153,8 +154,8 @@ def tune(
     least = 1 + generation(len(ranges)) * max(count, 1)
     if not least <= budget <= MOST_RUNS:
         raise UsageError(
-            f"a budget of {budget} runs; {len(ranges)} gains, {count} runs each, need at least "
-            f"{least}, and {MOST_RUNS:,} are the most"
+            f"a budget of {budget} runs; for gains {', '.join(one.name for one in ranges)} and "
+            f"--runs {count} it is {least} to {MOST_RUNS:,}"
         )
     if not (math.isfinite(factor) and factor > 0):
         raise UsageError(f"effort {factor:g} is no bound: write 1.1 for 10 % more than is needed")
@@ -186,6 +187,9 @@ def tune(
         search = _Search(study, ranges, runs_of, cost, (budget - 1) // max(count, 1))
         usual = _usual(base, ranges)
         settled = search.seek(usual, base.seed)
+    if study.known:
+        tried = 1 + len(search.cells) * count
+        print(f"note: {study.known} of {tried} runs were done before", file=sys.stderr)
     return Tuning(
         Path(name).name, base, ranges, tuple(search.cells.values()),
         search.cells[usual] if usual else None,

@@ -2,11 +2,14 @@
 
 minimise error(gains)  subject to  effort(gains) <= bound x what the drawing itself needs
 
-The optimiser is SciPy's differential evolution (R. Storn and K. Price, J. Global Optimization 11,
-1997): it wants no derivative, is not held up by the valleys of noise or the cliffs where a loop
-becomes unstable, and asks for a whole generation at once, which the workers share. It draws from a
-seeded generator and is fed from the study's record, so it takes the same way again: a study that
-was stopped goes on, and its answer is the same bit for bit, whatever the number of workers.
+Two of SciPy's optimisers seek it, neither of which wants a derivative. Differential evolution (R.
+Storn and K. Price, J. Global Optimization 11, 1997) finds the region: it is not held up by noise or
+the cliffs where a loop becomes unstable, and asks for a whole generation at once, which the workers
+share. COBYQA (T. Ragonneau, Hong Kong Polytechnic University, 2022), a trust-region method that
+knows bounds such as ours, goes the rest of the way, a run at a time. The first draws from a seeded
+generator, the second from nothing, and both are fed from the study's record. So they take the same
+way again: a study that was stopped goes on, and its answer is the same bit for bit, whatever the
+number of workers.
 """
 
 import math
@@ -17,7 +20,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from scipy.optimize import OptimizeResult, differential_evolution
+from scipy.optimize import (
+    Bounds,
+    NonlinearConstraint,
+    OptimizeResult,
+    differential_evolution,
+    minimize,
+)
 
 from dqpaint.controllers import find_controller
 from dqpaint.dq import Floats
@@ -32,7 +41,9 @@ EFFORT = "command_integral_rad"  # of laws that command torque, theirs
 PER_GAIN = 8  # of a generation
 MOST_GAINS = 4
 DIGITS = 4  # of a gain: what is tried is what is written
-WITHIN = 0.01  # part of the error by which the last generation differs
+ALIKE = 0.3  # part of the error by which a generation differs when the region is found
+FIRST_STEP, LAST_STEP = 0.03, 2e-4  # of the second search, as parts of the ranges
+LOCAL = 16  # runs that are left to it, a gain
 ABOUT = 10.0  # a gain nobody gave a range is sought from a tenth to ten times its usual value
 BEYOND = 1e30  # above any error: gains that cost too much, the dearer the worse
 REFERENCE = "hinf"
@@ -82,7 +93,7 @@ class Tuning:
         effort: the figure that was bounded.
         needed: effort that the drawing itself needs.
         factor: how many times that was allowed.
-        settled: whether the last generation agreed; else the budget was spent.
+        settled: whether the search came to its end; else the budget was spent.
         folder: where the record lies.
     """
 
@@ -151,7 +162,7 @@ def tune(
         DqpaintError: a fault in the drawing, the choices or the folder.
     """
     ranges = _ranges(texts, base)
-    least = 1 + generation(len(ranges)) * max(count, 1)
+    least = 1 + (generation(len(ranges)) + LOCAL * len(ranges)) * max(count, 1)
     if not least <= budget <= MOST_RUNS:
         raise UsageError(
             f"a budget of {budget} runs; for gains {', '.join(one.name for one in ranges)} and "
@@ -178,11 +189,9 @@ def tune(
         figures = find_figure(error, [whole]), find_figure(effort, [whole])
         needed = whole.of(figures[1]).mean
 
-        def cost(cell: Cell) -> float:
-            if not cell.stable:
-                return math.inf
-            part = cell.of(figures[1]).mean / (factor * needed)
-            return cell.of(figures[0]).mean if part <= 1 else BEYOND * part
+        def cost(cell: Cell) -> tuple[float, float]:
+            effort = cell.of(figures[1]).mean / (factor * needed)
+            return (cell.of(figures[0]).mean, effort) if cell.stable else (math.inf, math.inf)
 
         search = _Search(study, ranges, runs_of, cost, (budget - 1) // max(count, 1))
         usual = _usual(base, ranges)
@@ -203,50 +212,74 @@ def generation(gains: int) -> int:
 
 
 class _Search:
-    """Gains in, costs out, a generation at a time; each choice is run once."""
+    """Gains in, error and effort by its bound out; each choice is run once."""
 
     def __init__(
         self,
         study: Study,
         ranges: Sequence[Range],
         runs_of: Callable[[Gains], list[Run]],
-        cost: Callable[[Cell], float],
+        cost: Callable[[Cell], tuple[float, float]],
         most: int,
     ) -> None:
         self.cells: dict[Gains, Cell] = {}
         self._study, self._ranges, self._runs_of, self._cost = study, ranges, runs_of, cost
-        self._most = most
-        self._size = generation(len(ranges))
+        self._most, self._dimensions = most, [(0.0, 1.0)] * len(ranges)
 
     def seek(self, start: Gains | None, seed: int) -> bool:
-        """Whether a generation agreed before the most choices were tried."""
+        """Whether the search came to its end before the most choices were tried."""
         found = differential_evolution(
-            self._costs, [(0.0, 1.0)] * len(self._ranges), popsize=PER_GAIN, init="sobol",
-            vectorized=True, updating="deferred", polish=False, tol=WITHIN, maxiter=self._most,
+            self._ranked, self._dimensions, popsize=PER_GAIN, init="sobol", vectorized=True,
+            updating="deferred", polish=False, tol=ALIKE, maxiter=self._most,
             x0=None if start is None else self._parts(start), callback=self._is_spent,
             rng=np.random.default_rng(seed),
         )  # fmt: skip
-        return bool(found.success)
+        scale = self._at(found.x)[0]
+        left = self._most - len(self.cells)
+        if not math.isfinite(scale) or left < LOCAL:
+            return False
+        # gains that cost too much are a wall to the first search, a slope to the second
+        bound = NonlinearConstraint(lambda parts: self._at(parts)[1], -np.inf, 1.0)
+        steps = {"initial_tr_radius": FIRST_STEP, "final_tr_radius": LAST_STEP, "maxfev": left}
+        refined = minimize(
+            lambda parts: self._at(parts)[0] / scale, found.x, method="COBYQA",
+            bounds=Bounds(*zip(*self._dimensions, strict=True)), constraints=[bound],
+            options=steps,
+        )  # fmt: skip
+        return bool(refined.success)
 
     def _parts(self, gains: Gains) -> list[float]:
         return [r.part(value) for r, value in zip(self._ranges, gains, strict=True)]
 
-    def _is_spent(self, intermediate_result: OptimizeResult) -> bool:
-        return len(self.cells) + self._size > self._most
+    def _gains(self, parts: Floats) -> Gains:
+        return tuple(r.value(p) for r, p in zip(self._ranges, parts.tolist(), strict=True))
 
-    def _costs(self, parts: Floats) -> Floats:
-        """Of parts (n, S) of the ranges: (S,)."""
-        choices = [
-            tuple(r.value(part) for r, part in zip(self._ranges, column, strict=True))
-            for column in parts.T.tolist()
-        ]
+    def _is_spent(self, intermediate_result: OptimizeResult) -> bool:
+        size, local = generation(len(self._ranges)), LOCAL * len(self._ranges)
+        return len(self.cells) + size + local > self._most
+
+    def _ranked(self, parts: Floats) -> Floats:
+        """One number (S,) for each of parts (n, S): within the bound the error, else above any."""
+        choices = [self._gains(column) for column in parts.T]
+        self._run(choices)
+        costs = [self._cost(self.cells[gains]) for gains in choices]
+        return np.array([error if by <= 1 else BEYOND * by for error, by in costs])
+
+    def _at(self, parts: Floats) -> tuple[float, float]:
+        """Error and effort at one point."""
+        gains = self._gains(np.clip(parts, 0.0, 1.0))
+        self._run([gains])
+        return self._cost(self.cells[gains])
+
+    def _run(self, choices: Sequence[Gains]) -> None:
         new = [gains for gains in dict.fromkeys(choices) if gains not in self.cells]
+        if not new:
+            return
         runs = [self._runs_of(gains) for gains in new]
         results = iter(self._study.results([run for row in runs for run in row]))
         for gains, row in zip(new, runs, strict=True):
-            cell = Cell(_choice(self._ranges, gains), tuple(next(results) for _ in row))
-            self.cells[gains] = cell
-        return np.array([self._cost(self.cells[gains]) for gains in choices])
+            choice = _choice(self._ranges, gains)
+            self.cells[gains] = Cell(choice, tuple(next(results) for _ in row))
 
 
 def read_range(text: str) -> Range:

@@ -11,6 +11,7 @@ from dqpaint.errors import DqpaintError
 from dqpaint.outputs import write
 from dqpaint.studies import cells
 from dqpaint.studies.cells import Cell, Figure
+from dqpaint.studies.page import Block, Charts, Page, Rows, Words, html
 from dqpaint.studies.tune import Tuning
 
 MOST_ROWS = 12  # of the trade-off in a table; the CSV has all
@@ -82,15 +83,29 @@ def told(tuned: Tuning, columns: int) -> str:
     return "\n\n".join([cells.narrow(rows(tuned), columns), answer(tuned)])
 
 
-def save(tuned: Tuning) -> list[Path]:
-    """Write the chart, the trade-off and all that was tried; returns their paths."""
-    title = f"# {tuned.name}, tuned\n\n"
+def save(tuned: Tuning, again: str | None = None) -> list[Path]:
+    """Write the chart, the trade-off and all that was tried; returns their paths.
+
+    Args:
+        tuned: from `tune`.
+        again: the command that does it again, for a report; None for no report.
+    """
+    title = f"{tuned.name}, tuned"
+    shown = panels(tuned)
     contents = {
-        ".png": chart(panels(tuned), width=6.0 * len(panels(tuned)), height=4.5),
+        ".png": chart(shown, width=6.0 * len(shown), height=4.5),
         "-tradeoff.csv": cells.csv(tuned.front or tuned.cells[:1]),
         "-table.csv": cells.csv(tuned.cells),
-        "-table.md": f"{title}{cells.markdown(rows(tuned))}\n\n{answer(tuned)}\n".encode(),
+        "-table.md": f"# {title}\n\n{cells.markdown(rows(tuned))}\n\n{answer(tuned)}\n".encode(),
     }
+    if again is not None:
+        blocks: list[Block] = [
+            Words(answer(tuned)),
+            Charts("What less error costs in effort", shown),
+            Rows("The best, the usual, and the trade-off", rows(tuned)),
+        ]
+        page = Page(title, blocks, tuned.settings, tuned.text, again)
+        contents["-report.html"] = html(page)
     names = "-".join(one.name for one in tuned.ranges)
     return write(tuned.folder / f"{Path(tuned.name).stem}-{names}-tuned", contents)
 

@@ -95,6 +95,7 @@ class Tuning:
         factor: how many times that was allowed.
         settled: whether the search came to its end; else the budget was spent.
         folder: where the record lies.
+        text: of the drawing.
     """
 
     name: str
@@ -108,6 +109,7 @@ class Tuning:
     factor: float
     settled: bool
     folder: Path
+    text: str = ""
 
     @property
     def bound(self) -> float:
@@ -202,7 +204,7 @@ def tune(
     return Tuning(
         Path(name).name, base, ranges, tuple(search.cells.values()),
         search.cells[usual] if usual else None,
-        *figures, needed, factor, settled, folder,
+        *figures, needed, factor, settled, folder, text,
     )  # fmt: skip
 
 

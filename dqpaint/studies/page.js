@@ -80,6 +80,12 @@ function axes(svg, width, height, x, y, panel) {
     transform: `translate(14 ${(MARGIN.top + bottom) / 2}) rotate(-90)` }, panel.y_label);
 }
 
+function watch(figure, stale, draw) {
+  new ResizeObserver(() => requestAnimationFrame(() => {
+    if (figure.clientWidth && stale()) draw();
+  })).observe(figure);
+}
+
 function sizeOf(figure) {
   const width = Math.max(280, figure.clientWidth);
   return [width, Math.round(Math.min(400, Math.max(240, 0.6 * width)))];
@@ -244,7 +250,7 @@ function curves(figure, panel) {
   svg.addEventListener("pointercancel", () => { from = null; });
   svg.addEventListener("dblclick", whole);
   tip.hidden = true;
-  new ResizeObserver(() => { if (figure.clientWidth && sizeOf(figure)[0] !== size[0]) draw(); }).observe(figure);
+  watch(figure, () => sizeOf(figure)[0] !== size[0], draw);
   draw();
 }
 
@@ -305,7 +311,7 @@ function heat(figure, map) {
       transform: `translate(12 ${(height - MARGIN.bottom) / 2}) rotate(-90)` }, map.y_label);
   }
   svg.addEventListener("pointerleave", () => { tip.hidden = true; });
-  new ResizeObserver(() => { if (figure.clientWidth && sizeOf(figure)[0] !== drawn) draw(); }).observe(figure);
+  watch(figure, () => sizeOf(figure)[0] !== drawn, draw);
   draw();
 }
 

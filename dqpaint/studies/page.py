@@ -123,13 +123,26 @@ def _about(page: Page) -> list[Block]:
     blocks: list[Block] = []
     if page.settings is not None:
         chosen = json.loads(page.settings.model_dump_json(exclude_defaults=True))
-        rows = [[name, v if isinstance(v, str) else json.dumps(v)] for name, v in chosen.items()]
+        rows = [[name, _said(value)] for name, value in chosen.items()]
         blocks.append(Rows("Settings of all runs; the others as usual", [["", ""], *rows]))
     if page.text:
         blocks.append(_Source("The drawing", page.text))
     if page.again:
         blocks.append(_Source("To run it again", page.again))
     return blocks
+
+
+def _said(value: object) -> str:
+    """A setting about as the command line has it: gains, and disturbances by their names."""
+    if not isinstance(value, dict):
+        return value if isinstance(value, str) else json.dumps(value)
+    parts = {
+        name: ",".join(f"{k}={v}" if k else f"{v}" for k, v in one.items())
+        if isinstance(one, dict)
+        else _said(one)
+        for name, one in value.items()
+    }
+    return "  ".join(f"{name}={said}" for name, said in parts.items())
 
 
 @dataclass(frozen=True)

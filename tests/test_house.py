@@ -82,6 +82,7 @@ DOORS = {
     "pybullet": ["plants/bullet.py"],
     "matplotlib": ["charts.py"],
     "cv2": ["light", "stage", "picture.py", "negative.py", "video.py"],
+    "scipy": ["studies/tune.py"],
     "svgelements": ["language/drawings.py"],
     "typer": ["cli.py", "cli_options.py", "cli_language.py", "cli_arm.py", "studying.py"],
     "pygments": ["editors/highlighting.py"],

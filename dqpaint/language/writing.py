@@ -94,7 +94,7 @@ def written_head(word: str, values: Sequence[Any]) -> Iterator[str]:
         case ("def", [name, *names]) if names:
             yield f"{_text(name)}({', '.join(map(_text, names))})"
         case (_, []):
-            if head:
+            if head and head != "place":  # which has a word of its own or parts
                 raise Unwritable(f"a value is missing, as in: {STATEMENTS[word].example}")
         case (_, [value]):
             yield _single(word, head, value)

@@ -16,7 +16,7 @@ from dqpaint.dq import Floats
 from dqpaint.hiding import LOOKS, PLAIN, Hiding, hide, looks_at
 from dqpaint.motion import Motion
 from dqpaint.nullspace import DEFAULT_NULL, Wish, make_wish
-from dqpaint.robots.collisions import Nearest, Shapes
+from dqpaint.robots.collisions import Nearest, shapes_of
 from dqpaint.robots.dynamics import Dynamics
 from dqpaint.robots.kinematics import Kinematics, manipulability
 from dqpaint.robots.reach import ON_THE_WAY, solve
@@ -94,7 +94,7 @@ def forecast(
         One entry for each line of the file that moves, in the order they are first drawn.
     """
     run = _Run(motion, kinematics, start, settings.null)
-    shapes = Shapes(kinematics)
+    shapes = shapes_of(kinematics)
     looks = looks_at(run.line, LOOKS)
     near = shapes.nearest(run.posture[looks])
     hiding = hide(shapes, motion, run.rows, run.posture, settings)

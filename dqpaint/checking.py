@@ -13,6 +13,7 @@ from dqpaint.language.diagnostics import Severity, Span, file_at, place
 from dqpaint.motion import Motion, Survey, summary_line, survey
 from dqpaint.robots.card import Card
 from dqpaint.robots.choose import card_for
+from dqpaint.settings import Settings, make_settings
 
 if TYPE_CHECKING:
     from dqpaint.forewarning import Outlook
@@ -59,29 +60,31 @@ class Checked:
         )
 
 
+PLAIN = Settings()
 BEAD = 2.0  # times the brightness of the middle: less is no matter for a hint
 
 
-def check(
-    name: str, robot: str | None, tool: str | None = None, place: str | None = None
-) -> Checked:
+def check(name: str, **choices: Any) -> Checked:
     """Read one drawing and survey its motion; nothing is simulated.
 
-    Where an arm is named, in the call or in the file, or its tool, it looks ahead, too: reach,
+    Where anything of the run is chosen, or an arm named in the file, it looks ahead, too: reach,
     limits, speeds, torques, singularities, collisions, hidden light.
 
+    Args:
+        name: of the drawing's file, or of an example.
+        choices: of the run, as those of `dqpaint.draw`.
+
     Raises:
-        UsageError: no such robot, or no such tool.
+        UsageError: no such choice.
     """
-    if place not in (None, "auto"):
-        raise UsageError(f"place '{place}' is not auto; a place of your own is a line of the file")
+    settings = make_settings(**choices)
     try:
         path = find_drawing(name)
         program = read(path)
-        card = card_for(program, robot, tool)
+        card = card_for(program, settings.robot, settings.tool)
         drawing: Motion | Survey = survey(program)
-        asked = not (robot is tool is place is program.robot is None)
-        outlook = _look_ahead(program, card, place) if asked else None
+        asked = settings != PLAIN or program.robot is not None
+        outlook = _look_ahead(program, card, settings) if asked else None
         drawing = outlook.motion if outlook else drawing
     except ScriptError as problem:
         return Checked(problem.name, problem.text, problem.diagnostics, None)
@@ -93,7 +96,7 @@ def check(
     return Checked(str(path), program.text, findings, drawing, outlook=outlook)
 
 
-def _look_ahead(program: Program, card: Card, place: str | None) -> "Outlook":
+def _look_ahead(program: Program, card: Card, settings: Settings) -> "Outlook":
     """What an arm says of a drawing; only this brings in the kinematics.
 
     Raises:
@@ -102,7 +105,7 @@ def _look_ahead(program: Program, card: Card, place: str | None) -> "Outlook":
     from dqpaint.forewarning import look_ahead
     from dqpaint.robots.kinematics import Kinematics
 
-    return look_ahead(program, Kinematics(card), place)
+    return look_ahead(program, Kinematics(card), settings)
 
 
 def as_json(results: Sequence[Checked]) -> dict[str, Any]:

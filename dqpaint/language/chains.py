@@ -166,7 +166,7 @@ def mapped(chain: Chain, matrix: Floats, shift: Floats) -> Chain:
 
 def farthest(chains: Sequence[Chain]) -> float:
     """The largest number of all pieces [m]; NaN if one of them is none."""
-    whole = _together(chains)[0]
+    whole = together(chains)[0]
     return float(max(np.abs(whole.cubic).max(), np.abs(whole.ellipse).max()))
 
 

@@ -5,11 +5,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from dqpaint import __version__
+from dqpaint.catalogue import url
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.examples import find_drawing
 from dqpaint.language import Diagnostic, Program, ScriptError, read, render
 from dqpaint.language.diagnostics import Severity, Span, file_at, place
 from dqpaint.motion import Motion, Survey, summary_line, survey
+from dqpaint.settings import Settings, make_settings
 
 if TYPE_CHECKING:
     from dqpaint.forewarning import Outlook
@@ -56,27 +58,29 @@ class Checked:
         )
 
 
+PLAIN = Settings()
 BEAD = 2.0  # times the brightness of the middle: less is no matter for a hint
 
 
-def check(
-    name: str, robot: str | None, tool: str | None = None, place: str | None = None
-) -> Checked:
+def check(name: str, **choices: Any) -> Checked:
     """Read one drawing and survey its motion; nothing is simulated.
 
-    Where an arm is named, in the call or in the file, or its tool, it looks ahead, too: reach,
+    Where anything of the run is chosen, or an arm named in the file, it looks ahead, too: reach,
     limits, speeds, torques, singularities, collisions, hidden light.
 
+    Args:
+        name: of the drawing's file, or of an example.
+        choices: of the run, as those of `dqpaint.draw`.
+
     Raises:
-        UsageError: no such robot, or no such tool.
+        UsageError: no such choice.
     """
-    if place not in (None, "auto"):
-        raise UsageError(f"place '{place}' is not auto; a place of your own is a line of the file")
+    settings = make_settings(**choices)
     try:
         path = find_drawing(name)
         program = read(path)
-        asked = not (robot is tool is place is program.robot is None)
-        outlook = _look_ahead(program, robot, tool, place) if asked else None
+        asked = settings != PLAIN or program.robot is not None
+        outlook = _look_ahead(program, settings) if asked else None
         drawing: Motion | Survey = outlook.motion if outlook else survey(program)
     except ScriptError as problem:
         return Checked(problem.name, problem.text, problem.diagnostics, None)
@@ -88,9 +92,7 @@ def check(
     return Checked(str(path), program.text, findings, drawing, outlook=outlook)
 
 
-def _look_ahead(
-    program: Program, robot: str | None, tool: str | None, place: str | None
-) -> "Outlook":
+def _look_ahead(program: Program, settings: Settings) -> "Outlook":
     """What an arm says of a drawing; only this brings in the arms and their kinematics.
 
     Raises:
@@ -99,13 +101,13 @@ def _look_ahead(
     """
     from dqpaint.robots.choose import card_for
 
-    card = card_for(program, robot, tool)
+    card = card_for(program, settings.robot, settings.tool)
     survey(program)  # what is wrong with the drawing by itself goes before what an arm says
 
     from dqpaint.forewarning import look_ahead
     from dqpaint.robots.kinematics import Kinematics
 
-    return look_ahead(program, Kinematics(card), place)
+    return look_ahead(program, Kinematics(card), settings)
 
 
 def as_json(results: Sequence[Checked]) -> dict[str, Any]:
@@ -141,6 +143,7 @@ def _as_json(result: Checked, finding: Diagnostic) -> dict[str, Any]:
         "label": finding.label,
         "help": finding.help,
         "explain": f"dqpaint explain {finding.code}",
+        "url": url(finding.code),
         "related": [
             {
                 "file": file_at(result.source, span.start, result.file)[1],

@@ -157,10 +157,17 @@ def reversed_(chain: Chain) -> Chain:
 
 
 def mapped(chain: Chain, matrix: Floats, shift: Floats) -> Chain:
-    """Every point p goes to matrix (3, 3) p + shift (3,)."""
-    cubic = chain.cubic @ matrix.T
-    cubic[:, 0] += shift
-    return Chain(cubic, chain.ellipse @ matrix.T, chain.angles)
+    """Every point p goes to matrix (3, 3) p + shift (3,); too far for a number is infinite."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        cubic = chain.cubic @ matrix.T
+        cubic[:, 0] += shift
+        return Chain(cubic, chain.ellipse @ matrix.T, chain.angles)
+
+
+def farthest(chains: Sequence[Chain]) -> float:
+    """The largest number of all pieces [m]; NaN if one of them is none."""
+    whole = together(chains)[0]
+    return float(max(np.abs(whole.cubic).max(), np.abs(whole.ellipse).max()))
 
 
 # Measured.

@@ -10,7 +10,7 @@ from dqpaint.choices import Values, make_choice
 from dqpaint.dq import Floats
 from dqpaint.plants.plant import Trait
 from dqpaint.plants.world import World
-from dqpaint.registry import Registry
+from dqpaint.registry import Folder, Registry
 from dqpaint.robots.kinematics import Kinematics
 
 Encoder = Callable[[int, Floats], Floats]
@@ -66,7 +66,7 @@ class Disturbance(BaseModel):
         return kinematics
 
 
-DISTURBANCES: Registry[type[Disturbance]] = Registry("disturbance")
+DISTURBANCES: Registry[type[Disturbance]] = Folder("disturbance", "dqpaint.disturbances")
 
 
 def make_disturbances(given: Mapping[str, Values]) -> dict[str, Disturbance]:

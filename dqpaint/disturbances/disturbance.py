@@ -30,7 +30,7 @@ class Disturbance(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
     needs: ClassVar[Trait | None] = None
 
-    def twist(self, t: Floats, period: float, rng: np.random.Generator) -> Floats:
+    def twist(self, t: Floats, period: float, rng: "np.random.Generator") -> Floats:
         """What is added to the motion: the tool's unmodelled velocity (N, 6).
 
         From each time (N,) [s] to the next; angular first [rad/s], then of the tool's own point
@@ -48,7 +48,7 @@ class Disturbance(BaseModel):
             UsageError: it cannot.
         """
 
-    def encoder(self, rows: int, joints: int, rng: np.random.Generator) -> Encoder | None:
+    def encoder(self, rows: int, joints: int, rng: "np.random.Generator") -> Encoder | None:
         """What is measured: (row, true joint angles (n,)) -> read ones (n,) [rad]; None is true."""
         return None
 
@@ -61,7 +61,7 @@ class Disturbance(BaseModel):
         """What the arm and its surroundings truly are."""
         return world
 
-    def belief(self, kinematics: Kinematics, rng: np.random.Generator) -> Kinematics:
+    def belief(self, kinematics: Kinematics, rng: "np.random.Generator") -> Kinematics:
         """What the law's model of the arm believes."""
         return kinematics
 

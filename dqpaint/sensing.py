@@ -50,6 +50,7 @@ class Senses:
                 self._encoders.append(encoder)
         self._error = np.zeros(kinematics.card.joints)
         self.honest = not self._encoders and self.believed is kinematics
+        self._displaced = self.world.displaced
 
     def tell(self, row: int, plant: Plant) -> Told:
         """What the law is told at a row.
@@ -69,11 +70,10 @@ class Senses:
 
     def truth(self, plant: Plant, told: Told) -> tuple[Floats, Floats]:
         """The light's true pose (8,) and Jacobian (6, n), in the frame the law takes for base."""
-        displaced = self.world.displaced
-        if self.honest and not displaced and told.posture is plant.posture:
+        if self.honest and not self._displaced and told.posture is plant.posture:
             return told.pose, told.jacobian
         x, J = self._true.pose_and_jacobian(plant.posture)
-        if displaced:
+        if self._displaced:
             base = self.world.base
             x, J = dq.mul(base, x), dq.adjoint(base, J.T).T
         return x, J

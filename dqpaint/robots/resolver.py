@@ -12,6 +12,7 @@ from dqpaint.robots.inverse import inverse
 
 LENGTH = 0.3  # [m] weighs metres against radians where singular values are compared
 THRESHOLD = 0.04  # singular values [rad/rad] below it are damped
+MOST_TRACE = 1.0 / THRESHOLD**2
 PULL = 2.0  # [1/s] towards the start posture, in the null space
 
 
@@ -30,6 +31,8 @@ def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats) -> Flo
     resolution", 1997).
     """
     shift = to_tool(point)
+    if jacobian.ndim == 2 and (rates := _resolve_one(shift, jacobian, twist, wish)) is not None:
+        return rates
     J = shift @ jacobian
     square = J @ J.mT
     left = np.matvec(shift, twist) - np.matvec(J, wish)
@@ -39,7 +42,17 @@ def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats) -> Flo
         force = np.matvec(axes, damped_inverse(squares) * np.vecmat(left, axes))
     else:
         force = np.matvec(plain, left)
-    rates: Floats = np.vecmat(force, J) + wish
+    return np.asarray(np.vecmat(force, J) + wish)
+
+
+def _resolve_one(shift: Floats, jacobian: Floats, twist: Floats, wish: Floats) -> Floats | None:
+    """`resolve` of one state, in half the time, or None where it is near a singularity."""
+    J = np.dot(shift, jacobian)
+    plain = plain_inverse(np.dot(J, J.T))
+    if plain is None:
+        return None
+    rates: Floats = np.dot(np.dot(plain, np.dot(shift, twist) - np.dot(J, wish)), J)
+    rates += wish
     return rates
 
 
@@ -53,8 +66,9 @@ def plain_inverse(square: Floats) -> Floats | None:
         found = inverse(square)
     except np.linalg.LinAlgError:
         return None
-    least = 1.0 / found.trace(axis1=-2, axis2=-1)
-    return found if least.min() >= THRESHOLD**2 else None
+    trace = found.trace(axis1=-2, axis2=-1)
+    most = trace if found.ndim == 2 else trace.max()
+    return found if most <= MOST_TRACE else None
 
 
 def to_tool(point: Floats) -> Floats:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -94,6 +95,12 @@ class Camera:
             raise ValueError(f"camera focal length {self.focal} px must be positive")
         if self.width < 1 or self.height < 1:
             raise UsageError(f"picture size {self.width}x{self.height} must be at least 1x1")
+
+    def coarser(self, scale: float) -> Camera:
+        """The same camera with pixels 1 / scale times as wide, as many as it takes."""
+        size = (math.ceil(self.width * scale), math.ceil(self.height * scale))
+        centre = (self.centre + 0.5) * scale - 0.5
+        return Camera(self.position, self.rotation, self.focal * scale, centre, *size)
 
     def project(self, points: ArrayLike) -> tuple[Floats, Floats]:
         """Where points are seen.

@@ -12,7 +12,6 @@ from dqpaint.robots.inverse import inverse
 
 LENGTH = 0.3  # [m] weighs metres against radians where singular values are compared
 THRESHOLD = 0.04  # singular values [rad/rad] below it are damped
-MOST_TRACE = 1.0 / THRESHOLD**2
 PULL = 2.0  # [1/s] towards the start posture, in the null space
 
 
@@ -31,44 +30,50 @@ def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats) -> Flo
     resolution", 1997).
     """
     shift = to_tool(point)
-    if jacobian.ndim == 2 and (rates := _resolve_one(shift, jacobian, twist, wish)) is not None:
-        return rates
+    if shift.ndim == jacobian.ndim == 2 and twist.ndim == wish.ndim == 1:
+        return _resolve_one(shift, jacobian, twist, wish)
     J = shift @ jacobian
     square = J @ J.mT
     left = np.matvec(shift, twist) - np.matvec(J, wish)
-    plain = plain_inverse(square)
-    if plain is None:
-        squares, axes = np.linalg.eigh(square)
-        force = np.matvec(axes, damped_inverse(squares) * np.vecmat(left, axes))
-    else:
-        force = np.matvec(plain, left)
-    return np.asarray(np.vecmat(force, J) + wish)
-
-
-def _resolve_one(shift: Floats, jacobian: Floats, twist: Floats, wish: Floats) -> Floats | None:
-    """`resolve` of one state, in half the time, or None where it is near a singularity."""
-    J = np.dot(shift, jacobian)
-    plain = plain_inverse(np.dot(J, J.T))
-    if plain is None:
-        return None
-    rates: Floats = np.dot(np.dot(plain, np.dot(shift, twist) - np.dot(J, wish)), J)
-    rates += wish
+    rates: Floats = np.vecmat(_force(square, left), J) + wish
     return rates
 
 
-def plain_inverse(square: Floats) -> Floats | None:
-    """The inverses of J J' (..., 6, 6), or None where any is so near a singularity as to be damped.
+def _resolve_one(shift: Floats, jacobian: Floats, twist: Floats, wish: Floats) -> Floats:
+    """The same of one state, a control step: small products by np.dot take half the time."""
+    J = np.dot(shift, jacobian)
+    force = _force(np.dot(J, J.T), np.dot(shift, twist) - np.dot(J, wish))
+    return np.asarray(np.dot(force, J) + wish)
+
+
+def _force(square: Floats, left: Floats) -> Floats:
+    """(J J')^+ left (..., 6), damped where it is near a singularity.
 
     The trace of an inverse is the sum of 1 / s^2: up to 1 / THRESHOLD^2 no s is below THRESHOLD.
-    An inverse costs a fifth of what the singular directions do.
+    An inverse costs a fifth of what the singular directions do. Of many, each is looked at by
+    itself: what one needs does not depend on the others.
     """
     try:
         found = inverse(square)
     except np.linalg.LinAlgError:
-        return None
-    trace = found.trace(axis1=-2, axis2=-1)
-    most = trace if found.ndim == 2 else trace.max()
-    return found if most <= MOST_TRACE else None
+        return _damped(square, left)
+    plain = found.trace(axis1=-2, axis2=-1) <= 1.0 / THRESHOLD**2
+    if left.ndim == 1:
+        return np.asarray(np.dot(found, left)) if plain else _damped(square, left)
+    if plain.all():
+        return np.asarray(np.matvec(found, left))
+    if square.ndim == 2:
+        return _damped(square, left)
+    force: Floats = np.matvec(found, left)
+    near = ~plain
+    force[near] = _damped(square[near], np.broadcast_to(left, force.shape)[near])
+    return force
+
+
+def _damped(square: Floats, left: Floats) -> Floats:
+    """By the singular directions, each damped by itself."""
+    squares, axes = np.linalg.eigh(square)
+    return np.asarray(np.matvec(axes, damped_inverse(squares) * np.vecmat(left, axes)))
 
 
 def to_tool(point: Floats) -> Floats:

@@ -30,11 +30,20 @@ def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats) -> Flo
     resolution", 1997).
     """
     shift = to_tool(point)
+    if shift.ndim == jacobian.ndim == 2 and twist.ndim == wish.ndim == 1:
+        return _resolve_one(shift, jacobian, twist, wish)
     J = shift @ jacobian
     square = J @ J.mT
     left = np.matvec(shift, twist) - np.matvec(J, wish)
     rates: Floats = np.vecmat(_force(square, left), J) + wish
     return rates
+
+
+def _resolve_one(shift: Floats, jacobian: Floats, twist: Floats, wish: Floats) -> Floats:
+    """The same of one state, a control step: small products by np.dot take half the time."""
+    J = np.dot(shift, jacobian)
+    force = _force(np.dot(J, J.T), np.dot(shift, twist) - np.dot(J, wish))
+    return np.asarray(np.dot(force, J) + wish)
 
 
 def _force(square: Floats, left: Floats) -> Floats:
@@ -48,7 +57,9 @@ def _force(square: Floats, left: Floats) -> Floats:
         found = inverse(square)
     except np.linalg.LinAlgError:
         return _damped(square, left)
-    plain = 1.0 / found.trace(axis1=-2, axis2=-1) >= THRESHOLD**2
+    plain = found.trace(axis1=-2, axis2=-1) <= 1.0 / THRESHOLD**2
+    if left.ndim == 1:
+        return np.asarray(np.dot(found, left)) if plain else _damped(square, left)
     if plain.all():
         return np.asarray(np.matvec(found, left))
     if square.ndim == 2:

@@ -254,7 +254,7 @@ CHECK_EXAMPLES = """Examples:
 
   dqpaint check drawings/*.traj --json
 
-  dqpaint check star --robot ur5 --place auto
+  dqpaint check star --robot panda --place auto --view iso
 """
 
 
@@ -264,16 +264,33 @@ def check(
     robot: Robot = None,
     tool: Tool = None,
     place: PlaceAt = None,
+    start: From = "first",
+    null: Null = "start",
+    on_limit: OnLimit = "clip",
+    brush: Brush = None,
+    view: View = "front",
+    size: Size = "1280x720",
+    exposure: Exposure = None,
+    ghost: Ghost = False,
     as_json: AsJson = False,
 ) -> None:
     """Read drawings: every error at its place, or length, time, steps and box.
 
-    With --robot, or a robot line in the file, it also looks ahead, line by line: reach, joint
-    limits, speeds, torques, singularities, collisions, and light the arm would hide.
+    With --robot or any other choice of a run, or a robot line in the file, it also looks ahead,
+    line by line: reach, joint limits, speeds, torques, singularities, collisions, and light the arm
+    would hide.
     """
     from dqpaint import checking
+    from dqpaint.settings import parse_size
 
-    results = [checking.check(name, robot, tool, place) for name in files]
+    width, height = parse_size(size)
+    results = [
+        checking.check(
+            name, robot=robot, tool=tool, place=place, start=start, null=null, on_limit=on_limit,
+            brush=brush, view=view, width=width, height=height, exposure=exposure, ghost=ghost,
+        )
+        for name in files
+    ]  # fmt: skip
     if as_json:
         print(json.dumps(checking.as_json(results), indent=2))
     else:

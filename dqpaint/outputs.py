@@ -242,10 +242,7 @@ def _law(painting: "Painting") -> dict[str, str | None]:
 
 def _pace(painting: "Painting") -> dict[str, Any] | None:
     """How the drawing was slowed down; None where its clock ran as asked, come what may."""
-    slowed = painting.slowed
-    if slowed is None:
-        return None
-    return {"longer_s": slowed.longer, "slowest": slowed.slowest, "lines": list(slowed.lines)}
+    return None if painting.slowed is None else painting.slowed.as_json
 
 
 def stem_for(out: str | None, name: str) -> Path:

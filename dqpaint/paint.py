@@ -128,7 +128,7 @@ def paint(
     read_null(settings.null)
     with clock("place"):
         kinematics = Kinematics(card)
-        program, placed = settle(program, kinematics, settings.place)
+        program, placed = settle(program, kinematics, settings)
     with clock("motion"):
         motion = plan(program, card.canvas.pose)
     slowed = None
@@ -137,12 +137,10 @@ def paint(
             run = replay(recording, motion, kinematics)
     else:
         with clock("start"):
-            best = begin(motion, kinematics).posture
+            best = begin(motion, kinematics, settings.null).posture
             start = card.home if settings.start == "home" else best
             if settings.on_limit == "slow":
-                slowed = slow_down(
-                    motion, kinematics, start, settings.null, controller.drives_torque
-                )
+                slowed = slow_down(motion, kinematics, start, settings.null, plant.motors)
                 motion = slowed.motion
         with clock("arm"):
             run = track(

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.light.arrays import Image
-from dqpaint.light.camera import FILL, LENS, Camera
+from dqpaint.light.camera import Camera
 from dqpaint.light.exposure import CORE, automatic_exposure
 from dqpaint.light.film import Film, expose
 from dqpaint.light.legend import with_legend
@@ -21,17 +21,17 @@ from dqpaint.light.shade import Shade, shade_of
 from dqpaint.light.spread import point_spread, spread
 from dqpaint.light.starburst import with_starburst
 from dqpaint.light.sweep import ALL, Sweep
-from dqpaint.light.views import Shot, camera_of, distance_to, parse_views
+from dqpaint.light.views import Shot, distance_to, parse_views
 from dqpaint.motion import Motion
 from dqpaint.scene import Scene, arrange
 from dqpaint.settings import Settings
+from dqpaint.shining import stand
 from dqpaint.stage.staging import Hidden, Staging, account
 
 # run lengths suit black ground with dithered halos: smaller and faster than the default search
 PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
 FAINT = 0.25  # what the lines of the asked drawing under the reached one are exposed to
 KEPT = 1  # pictures of one painting whose films are kept; of the others only the sums are
-BESIDE_ARM = 0.45  # of the limiting dimension a drawing takes that leaves room for the arm
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -179,11 +179,7 @@ def photograph(
 
 def place_camera(scene: Scene, settings: Settings, shot: Shot) -> Camera:
     """The camera of one view."""
-    real = parse_exposure(settings.exposure or "auto")
-    lens, distance = (LENS, None) if real is None else (real.lens, real.distance)
-    size = (settings.width, settings.height)
-    fill = BESIDE_ARM if settings.ghost else FILL
-    return camera_of(shot, scene.shown_points, scene.front, size, lens, distance, fill)
+    return stand(scene.shown_points, scene.front, settings, shot)
 
 
 def _shoot(

@@ -9,10 +9,11 @@ from dqpaint.language import parse
 from dqpaint.light.camera import FILL
 from dqpaint.light.sweep import ALL
 from dqpaint.motion import plan
-from dqpaint.picture import BESIDE_ARM, photograph, take
+from dqpaint.picture import photograph, take
 from dqpaint.robots.card import read_card
 from dqpaint.scene import SETTLING, arrange
 from dqpaint.settings import make_settings
+from dqpaint.shining import BESIDE_ARM
 
 CANVAS = read_card("iiwa").canvas.pose
 SETTINGS = make_settings(width=320, height=180)

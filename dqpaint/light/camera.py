@@ -117,8 +117,10 @@ class Camera:
         seen = self.rotation @ np.asarray(points, dtype=np.float64).T
         seen -= (self.rotation @ self.position)[:, None]
         depth = -seen[2]
-        scale = self.focal / np.where(depth > NEAR, depth, np.nan)
-        pixels = np.stack([self.centre[0] + scale * seen[0], self.centre[1] - scale * seen[1]])
+        pixels = seen[:2]  # in place: of a million points a copy takes longer than the arithmetic
+        pixels *= self.focal / np.where(depth > NEAR, depth, np.nan)
+        pixels[0] += self.centre[0]
+        np.subtract(self.centre[1], pixels[1], out=pixels[1])
         return pixels.T, depth
 
 

@@ -83,7 +83,8 @@ def draw(
         look: how the film is developed.
         starburst: blades of the aperture, for rays round what stands out.
         noise: seed of the sensor's noise; else there is none.
-        colour_by: a figure of the run that the colours tell.
+        colour_by: a figure of the run that the colours tell; the scale ends at a round number, or
+            where it is said, as in "position-error:20" [mm].
         overlay: whether the asked drawing lies beneath the reached one.
         magnify: how many times as large deviations from the asked path are drawn.
         ghost: whether the arm is in the picture: True as it stood at the end, "motion" as a veil,

@@ -80,6 +80,7 @@ DOORS = {
     "pybullet": ["plants/bullet.py"],
     "matplotlib": ["charts.py"],
     "scipy": ["studies/tune.py"],
+    "distributed": ["studies/cluster.py"],
     "cv2": ["light", "stage/floor.py", "stage/ghost.py", "picture.py", "negative.py", "video.py"],
     "svgelements": ["language/drawings.py"],
     "typer": ["cli.py", "cli_options.py", "cli_language.py", "cli_arm.py", "studying.py"],

@@ -17,7 +17,7 @@ from dqpaint.settings import Settings
 from dqpaint.studies import cells
 from dqpaint.studies.axes import Axis, combinations, settings_of
 from dqpaint.studies.cells import Cell, Figure, find_figure
-from dqpaint.studies.engine import carry_out_study
+from dqpaint.studies.engine import Workers, carry_out_study
 from dqpaint.studies.keeping import kept
 from dqpaint.studies.page import Block, Charts, Page, Rows, Shot, Words, html
 from dqpaint.studies.runs import Run, drawing_text, seeded
@@ -49,7 +49,7 @@ class Comparison:
 
 
 def compare(
-    drawing: str, axes: Sequence[Axis], base: Settings, folder: Path, count: int, jobs: int | None
+    drawing: str, axes: Sequence[Axis], base: Settings, folder: Path, count: int, jobs: Workers
 ) -> Comparison:
     """Paint a drawing with every combination of the axes' values.
 
@@ -59,7 +59,7 @@ def compare(
         base: all other settings; its seed is that of the first run.
         folder: of the study.
         count: how many runs each, with the seeds that follow.
-        jobs: how many processes; None is one a core.
+        jobs: how many processes, None is one a core; or the address of a Dask cluster.
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.

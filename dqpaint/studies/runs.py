@@ -57,10 +57,10 @@ class Run:
     @property
     def key(self) -> str:
         """The hash of all that decides the result."""
-        data = {**self.data, "name": Path(self.name).name, "files": self._files(), "code": _code()}
+        data = {**self.data, "name": Path(self.name).name, "files": self.files(), "code": code()}
         return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()
 
-    def _files(self) -> dict[str, str]:
+    def files(self) -> dict[str, str]:
         """The hashes of files: those the drawing names, a law, an arm or an image of one's own."""
         law = getattr(find_controller(self.settings.controller).law, "sha256", "")
         arm = Path(self.settings.robot or "")
@@ -190,7 +190,7 @@ def _named(name: str, text: str) -> list[tuple[str, Path]]:
 
 
 @cache
-def _code() -> dict[str, str]:
+def code() -> dict[str, str]:
     """The hash of this package's code, and the versions of its libraries."""
     package = Path(__file__).parent.parent
     whole = hashlib.sha256()

@@ -15,7 +15,7 @@ from dqpaint.settings import SMALLEST, Settings
 from dqpaint.studies import cells
 from dqpaint.studies.axes import Axis, combinations, settings_of
 from dqpaint.studies.cells import Cell, Figure, find_figure
-from dqpaint.studies.engine import carry_out_study
+from dqpaint.studies.engine import Workers, carry_out_study
 from dqpaint.studies.page import Block, Charts, Map, Page, Rows, Words, html
 from dqpaint.studies.runs import Run, drawing_text, seeded
 
@@ -36,7 +36,7 @@ class Sweep:
 
 
 def sweep(
-    drawing: str, axes: Sequence[Axis], base: Settings, folder: Path, count: int, jobs: int | None
+    drawing: str, axes: Sequence[Axis], base: Settings, folder: Path, count: int, jobs: Workers
 ) -> Sweep:
     """Run a drawing with every combination of the axes' values; pictures are not kept.
 
@@ -46,7 +46,7 @@ def sweep(
         base: all other settings.
         folder: of the study.
         count: how many runs each, with the seeds that follow.
-        jobs: how many processes; None is one a core.
+        jobs: how many processes, None is one a core; or the address of a Dask cluster.
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.

@@ -34,7 +34,7 @@ from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.settings import SMALLEST, Settings
 from dqpaint.studies.axes import settings_of
 from dqpaint.studies.cells import Cell, Figure, find_figure
-from dqpaint.studies.engine import Study, check
+from dqpaint.studies.engine import Study, Workers, check
 from dqpaint.studies.runs import Run, drawing_text, seeded
 
 EFFORT = "command_integral_rad"  # of laws that command torque, theirs
@@ -144,7 +144,7 @@ def tune(
     effort: str = EFFORT,
     count: int = 1,
     budget: int = 300,
-    jobs: int | None = None,
+    jobs: Workers = None,
 ) -> Tuning:
     """Seek gains of a law.
 
@@ -158,7 +158,7 @@ def tune(
         effort: name of the figure that is bounded.
         count: how many runs each, with the seeds that follow.
         budget: the most runs.
-        jobs: how many processes; None is one a core.
+        jobs: how many processes, None is one a core; or the address of a Dask cluster.
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.

@@ -10,7 +10,7 @@ from dqpaint.light import contact
 from dqpaint.light.differences import where_they_differ
 from dqpaint.outputs import write
 from dqpaint.studies import cells
-from dqpaint.studies.engine import carry_out_study
+from dqpaint.studies.engine import Workers, carry_out_study
 from dqpaint.studies.gates import GATES, Measured, developed_from, measure, spoke
 from dqpaint.studies.keeping import kept
 from dqpaint.studies.page import Page, Rows, Shot, Words, html
@@ -50,12 +50,12 @@ class Verdict:
     remarks: tuple[str, ...] = ()
 
 
-def verify(folder: Path, jobs: int | None = None, lenient: bool = False) -> list[Verdict]:
+def verify(folder: Path, jobs: Workers = None, lenient: bool = False) -> list[Verdict]:
     """Draw every case of a folder again and compare.
 
     Args:
         folder: of drawings and references.
-        jobs: how many processes; None is one a core.
+        jobs: how many processes, None is one a core; or the address of a Dask cluster.
         lenient: a reference that cannot be read counts as none, for it will be made again.
 
     Raises:

@@ -54,7 +54,8 @@ class Cluster:
                 "a study on a cluster needs Dask: pip install 'dqpaint[cluster]'"
             ) from None
         self._folder, self._address = folder, address
-        logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters is told by us
+        for name in [n for n in logging.root.manager.loggerDict if n.startswith("distributed")]:
+            logging.getLogger(name).setLevel(logging.CRITICAL)  # what matters is told by us
         try:
             self._client: Any = Client(address, timeout=PATIENCE, set_as_default=False)
         except (OSError, ValueError, TypeError) as problem:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from dqpaint import __version__
+from dqpaint.build import Drawing
 from dqpaint.controllers import find_controller
 from dqpaint.disturbances import make_disturbances
 from dqpaint.errors import UsageError
@@ -99,9 +100,11 @@ def run_of(data: dict[str, Any]) -> Run:
     return Run(data["name"], data["text"], settings, tuple(data["keep"]))
 
 
-def drawing_text(name: str) -> tuple[str, str]:
-    """Path and text of a drawing: a file, or an example's name."""
-    path = find_drawing(name)
+def drawing_text(drawing: str | Drawing) -> tuple[str, str]:
+    """Path and text of a drawing: a file, an example's name, or one made by calls."""
+    if isinstance(drawing, Drawing):
+        return str(drawing.folder / f"{drawing.name}.traj"), str(drawing)
+    path = find_drawing(drawing)
     return str(path), read(path).text
 
 

@@ -28,6 +28,7 @@ from scipy.optimize import (
     minimize,
 )
 
+from dqpaint.build import Drawing
 from dqpaint.controllers import find_controller
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
@@ -134,7 +135,7 @@ class Tuning:
 
 
 def tune(
-    drawing: str,
+    drawing: str | Drawing,
     texts: Sequence[str],
     base: Settings,
     folder: Path,
@@ -149,7 +150,7 @@ def tune(
     """Seek gains of a law.
 
     Args:
-        drawing: a file, or an example's name.
+        drawing: a file, an example's name, or one made by calls.
         texts: where which gains are sought, as in "k=1..100"; none for all of the law's.
         base: all other settings; its seed is that of the first run and of the search.
         folder: of the study.

@@ -136,7 +136,7 @@ def heat_map(given: HeatMap, width: float = 7.0, height: float = 5.0) -> bytes:
     image = axes.imshow(good, cmap="viridis_r", norm="log" if log else None, aspect="auto")
     if positive.size:
         bar = figure.colorbar(image, ax=axes, format="%g")
-        bar.ax.yaxis.set_minor_formatter("%g")
+        bar.ax.yaxis.set_minor_formatter("{x:g}")
     for row, col in np.ndindex(given.values.shape):
         value, marked = given.values[row, col], bool(given.marked[row, col])
         if marked:

@@ -217,6 +217,47 @@ def tune(
         raise typer.Exit(1)
 
 
+REPLAY_EXAMPLES = """Examples:
+
+  dqpaint replay thesis-spiral --runs 10
+
+  dqpaint replay ozgur-cost
+"""
+
+
+@app.command(epilog=REPLAY_EXAMPLES)
+def replay(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="see: dqpaint list replays")],
+    runs: Annotated[
+        int | None, typer.Option(metavar="N", help="of each, with the seeds that follow --seed")
+    ] = None,
+    plant: PlantName = None,
+    robot: Robot = None,
+    disturb: Disturb = None,
+    seed: Annotated[int | None, typer.Option(metavar="N", help="of everything random")] = None,
+    jobs: Jobs = None,
+    cluster: Address = None,
+    out: Folder = None,
+    report: Report = False,
+) -> None:
+    """Do a paper's experiment again: its numbers beside ours, and which of its claims hold.
+
+    Every verdict follows from the numbers of this run; the paper's own are judged alike.
+    """
+    from dqpaint.settings import parse_disturbances
+    from dqpaint.studies import replay as study
+    from dqpaint.studies.replays import Asked
+
+    given = {
+        "plant": plant, "robot": robot, "seed": seed,
+        "disturb": parse_disturbances(disturb) if disturb else None,
+    }  # fmt: skip
+    changed = {key: value for key, value in given.items() if value is not None}
+    folder = Path(out) if out else Path(f"{name}-replay")
+    replayed = study.replay(name, Asked(folder, runs, _workers(jobs, cluster), changed))
+    _finish(study.told(replayed, _columns()), study.save(replayed, _again(report)))
+
+
 def _folder(out: str | None, file: str, what: str) -> Path:
     return Path(out) if out else Path(f"{Path(file).stem}-{what}")
 

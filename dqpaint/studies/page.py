@@ -25,7 +25,13 @@ from dqpaint.studies.references import versions
 
 MOST_POINTS = 1500  # of a line: two a pixel, the least and the largest of a stretch
 DIGITS = 6
-BAD = ("unstable", "failed", "died", "differs")  # words of a row that is not as it should be
+BAD = (
+    "unstable",
+    "failed",
+    "died",
+    "differs",
+    "fails",
+)  # words of a row that is not as it should be
 
 
 @dataclass(frozen=True)

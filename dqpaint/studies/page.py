@@ -25,6 +25,7 @@ from dqpaint.studies.references import versions
 
 MOST_POINTS = 1500  # of a line: two a pixel, the least and the largest of a stretch
 DIGITS = 6
+LONGEST, LONG = 36, ' class="long"'  # letters of a cell that stays on one line
 BAD = (
     "unstable",
     "failed",
@@ -202,7 +203,9 @@ def _table(lines: Sequence[Sequence[str]]) -> str:
     if any(head):
         made.append(f"<tr>{''.join(f'<th>{escape(word)}</th>' for word in head)}</tr>")
     for row in rows:
-        cells = "".join(f"<td>{escape(word)}</td>" for word in row)
+        cells = "".join(
+            f"<td{LONG if len(word) > LONGEST else ''}>{escape(word)}</td>" for word in row
+        )
         made.append(f"<tr{_class(row)}>{cells}</tr>")
     return "\n".join([*made, "</table></div>\n"])
 

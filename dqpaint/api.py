@@ -266,8 +266,6 @@ def _stage(
         if cast is None:
             raise DqpaintError("the film does not say how its joints moved")
         card = find_card(cast.robot)
-        if not cast.known:
-            raise DqpaintError("the run was recorded as poses, without joints")
         if card.joints != cast.posture.shape[1]:
             raise DqpaintError(f"{card.name} has {card.joints} joints, that arm had others")
         prepare(card)

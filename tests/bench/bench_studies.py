@@ -1,10 +1,10 @@
-"""A study on all cores by what the cores allow: `python tests/bench/bench_studies.py [ROUNDS [RUNS]]`.
+"""A study on all cores by what they allow: `python tests/bench/bench_studies.py [ROUNDS [RUNS]]`.
 
 Cores that share a machine, or each other's units, do not do one core's work each. So a busy loop is
 measured alongside: as many processes as cores, each with the work of one. The target is at least
-0.9 times that ceiling for a study, the start of its workers included. On a machine that
-does other things as well the two are hard to compare; what always tells is the part of their time in
-which the workers were at a run, and not started, waiting or idle at the end.
+0.9 times that ceiling for a study, the start of its workers included. On a machine that does other
+things as well the two are hard to compare; what always tells is the part of their time in which the
+workers were at a run, and not started, waiting or idle at the end.
 """
 
 import os

@@ -35,7 +35,6 @@ from dqpaint.studies.verify import Verdict
 S = TypeVar("S", Comparison, Sweep, Tuning)
 Where = str | PathLike[str]
 WIDE = 100_000  # columns: a table as wide as it is
-FROM_PYTHON = "made from Python"
 
 
 @dataclass(frozen=True, repr=False)
@@ -136,7 +135,11 @@ def compare(
     with _kept(folder) as place:
         made = comparing.compare(_name(drawing), axes, base, place, runs, _workers(jobs, cluster))
         text = comparing.told(made, figure, WIDE)
-        files = comparing.contents(made, figure, FROM_PYTHON)
+        again = _call(
+            "compare", drawing, list(controllers), plants=plants, robots=robots, runs=runs,
+            figure=figure, size=size, **settings,
+        )  # fmt: skip
+        files = comparing.contents(made, figure, again)
     return Studied(made, text, files, comparing.stem(made))
 
 
@@ -172,7 +175,8 @@ def sweep(
             _name(drawing), axes, _settings(settings), place, runs, _workers(jobs, cluster)
         )
         text = sweeping.told(made, figure, WIDE)
-        files = sweeping.contents(made, figure, FROM_PYTHON)
+        again = _call("sweep", drawing, vary, runs=runs, figure=figure, **settings)
+        files = sweeping.contents(made, figure, again)
     return Studied(made, text, files, sweeping.stem(made))
 
 
@@ -218,7 +222,11 @@ def tune(
             effort=effort_figure, count=runs, budget=budget, jobs=_workers(jobs, cluster),
         )  # fmt: skip
         text = tradeoff.told(made, WIDE)
-        files = tradeoff.contents(made, FROM_PYTHON)
+        again = _call(
+            "tune", drawing, vary, effort=effort, runs=runs, figure=figure,
+            effort_figure=effort_figure, budget=budget, **settings,
+        )  # fmt: skip
+        files = tradeoff.contents(made, again)
     return Studied(made, text, files, tradeoff.stem(made))
 
 
@@ -245,8 +253,16 @@ def verify(
     """
     verdicts = verifying.verify(Path(folder), _workers(jobs, cluster))
     if out is not None:
-        verifying.save_differences(verdicts, Path(out), FROM_PYTHON)
+        verifying.save_differences(verdicts, Path(out), _call("verify", Path(folder)))
     return verdicts
+
+
+def _call(name: str, *given: Any, **choices: Any) -> str:
+    """The call, as a report says it; what was left as usual is left out."""
+    shown = [str(one) if isinstance(one, Path) else one for one in given]
+    words = ["drawing" if isinstance(one, Drawing) else repr(one) for one in shown]
+    words += [f"{key}={value!r}" for key, value in choices.items() if value is not None]
+    return f"dqpaint.{name}({', '.join(words)})"
 
 
 def _name(drawing: Where | Drawing) -> str | Drawing:

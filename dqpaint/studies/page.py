@@ -26,6 +26,10 @@ from dqpaint.studies.references import versions
 MOST_POINTS = 1500  # of a line: two a pixel, the least and the largest of a stretch
 DIGITS = 6
 LONGEST, LONG = 36, ' class="long"'  # letters of a cell that stays on one line
+HINT = (
+    " Drag along a chart to zoom, double-click to see all again; names in a legend show and hide "
+    "their lines."
+)
 BAD = (
     "unstable",
     "failed",
@@ -105,6 +109,7 @@ def html(page: Page) -> bytes:
     )
     parts = [_block(block, str(i)) for i, block in enumerate([*page.blocks, *_about(page)])]
     said = " ".join(f"{name} {value}" for name, value in versions().items())
+    hint = HINT if any(isinstance(block, Charts) for block in page.blocks) else ""
     return f"""<!doctype html>
 <html lang="en">
 <head>
@@ -117,8 +122,7 @@ def html(page: Page) -> bytes:
 <body>
 <h1>{escape(page.title)}</h1>
 {"".join(parts)}
-<footer>Made by dqpaint {escape(__version__)} with {escape(said)}. Drag along a chart to zoom,
-double-click to see all again; names in a legend show and hide their lines.</footer>
+<footer>Made by dqpaint {escape(__version__)} with {escape(said)}.{hint}</footer>
 <script>{script}</script>
 </body>
 </html>

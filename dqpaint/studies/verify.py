@@ -89,7 +89,8 @@ def _why(result: Result) -> str:
 
 def _judge(case: Case, result: Result, reference: Reference | None, made: Arrays) -> Verdict:
     if reference is None:
-        return Verdict(case, result, None, made, None, ("no reference",))
+        hint = "there is nothing to compare it with yet; --update makes a reference"
+        return Verdict(case, result, None, made, None, ("no reference",), (hint,))
     facts = reference.facts
     remarks = []
     if facts["sha256"] != sha256(case.run):
@@ -170,7 +171,7 @@ def page(verdicts: Sequence[Verdict], shots: Sequence[Shot], again: str) -> Page
     said = f"{len(bad)} of {len(verdicts)} differ: {', '.join(bad)}." if bad else "All are alike."
     words = Words("\n".join([said, *remarks(verdicts)]))
     return Page(
-        f"{len(verdicts)} guarded pictures", [words, Rows("Gates", table(verdicts)), *shots],
+        "Guarded pictures", [words, Rows("Gates", table(verdicts)), *shots],
         again=again,
     )  # fmt: skip
 

@@ -27,6 +27,8 @@ def test_studies_return_tables_and_pictures(tmp_path):
     assert repr(compared) == "<Comparison of line.traj: 2 cells>"
     assert "| p |" in compared._repr_markdown_()
     assert compared.page.startswith("<!doctype html>")
+    assert "dqpaint.compare(" in compared.page
+    assert "plant=&#x27;ideal&#x27;)" in compared.page
     assert (tmp_path / "s/runs.jsonl").is_file()
     written = compared.save(tmp_path / "out")
     assert tmp_path / "out/line-report.html" in written

@@ -89,6 +89,15 @@ def test_readme_python_runs(tmp_path, monkeypatch):
     assert scope["painting"].image.shape == (720, 1280, 3)
 
 
+@pytest.mark.slow
+def test_readme_studies_from_python_run(tmp_path, monkeypatch):
+    scope = {}
+    monkeypatch.chdir(tmp_path)
+    exec(blocks("python")[2], scope)
+    assert scope["compared"].pictures["overlay"].shape == (360, 640, 3)
+    assert (tmp_path / "pictures/lag-report.html").is_file()
+
+
 def test_the_readme_shows_the_law_as_it_is():
     assert blocks("python")[1] == (examples_folder() / "mylaw.py").read_text("utf-8")
 

@@ -25,7 +25,7 @@ def test_a_stroke_that_leaves_the_reach_between_the_rows_of_the_forecast_is_foun
     out = "curve (0, 0, 400 mm * sin(t)) for t from 0 to 180 deg in 0.6 s\n"
     message = refused("period 8 ms\n" + home + out + home)
     assert "--> far.traj:6:1" in message
-    assert "farthest point of this stroke" in message
+    assert "farthest point of this line" in message
 
 
 @pytest.mark.slow

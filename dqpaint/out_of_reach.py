@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from dqpaint.tracking import Track  # brings in the simulator, and a forecast needs none
 
 WORTH_A_LOOK = 1e-3  # [m]
-LOOKS, MOST_LOOKS = 9, 192  # at a stroke, for its farthest point; at a drawing
+LOOKS, MOST_LOOKS = 9, 96  # at a stroke, for its farthest point; at a drawing
 MOST_TOLD, MOST_NAMED = 5, 6  # lines with a message of their own; further ones by their numbers
 WORTH_SAYING = np.radians(0.5)
 MOVE = "place auto looks for room"
@@ -121,7 +121,7 @@ def out_of_reach(motion: Motion, kinematics: Kinematics, outside: list[Outside])
     """The error for lines of a motion, some of whose rows no posture reaches."""
     program = motion.program
     told, others = outside[:MOST_TOLD], outside[MOST_TOLD:]
-    advice = _advice(motion, kinematics, outside)
+    advice = _advice(motion, kinematics, told)
     problems = []
     for one in told:
         last = one is told[-1]

@@ -17,13 +17,13 @@ from dqpaint.robots.resolver import LENGTH, PULL, resolve, to_tool
 
 CANDIDATES = 16
 MORE_CANDIDATES = 160
-FEW, MANY = 4, 64  # postures from which a single pose is tried at first, and in the end
+FEW, MANY = 4, 32  # postures from which a single pose is tried at first, and in the end
 WAYPOINTS = 32
 EXACT = 1e-9  # [rad, m] from the pose where the arm begins, if it can be had
 GOOD = 1e-5  # [rad, m] is good enough to begin there: the law takes up the rest
 ON_THE_WAY = 1e-3  # [rad, m] is close enough for a forecast; farther off, a pose is missed
 ITERATIONS = 16
-DESCENT = 25  # steps towards a pose out of reach, with each of these weights
+DESCENT = 40  # steps towards a pose out of reach, with each of these weights
 KEPT_TURN, KEPT_PLACE = (0.3, 1.0, 3.0, 10.0), (0.3, 0.1, 0.03, 0.01)  # [m/rad] of its orientation
 NEAR = 0.05  # [m] ahead it is aimed: a place far off would be taken to lie where it does not
 DAMPING = 0.02  # [m/rad] of these steps

@@ -13,6 +13,7 @@ from dqpaint.motion import Motion, plan
 from dqpaint.out_of_reach import begin
 from dqpaint.placing import Placed, settle
 from dqpaint.robots.card import Card
+from dqpaint.robots.collisions import shapes_of
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.resolver import THRESHOLD
 from dqpaint.settings import Settings
@@ -110,7 +111,7 @@ def look_ahead(program: Program, kinematics: Kinematics, settings: Settings = PL
         tuple(start.tolist()),
         lines,
         tuple(_warnings(motion, kinematics.card, lines)),
-        kinematics.notes,
+        kinematics.notes + shapes_of(kinematics).notes,
     )
 
 

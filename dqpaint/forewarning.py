@@ -67,7 +67,7 @@ class Outlook:
         )
         notes = "".join(f"\nnote: {note}" for note in self.notes)
         placed = f"  {self.placed.line}\n  {self.placed.figures}\n" if self.placed else ""
-        slowed = f"  {self.slowed}\n" if self.slowed else ""
+        slowed = f"  pace: {self.slowed}\n" if self.slowed else ""
         figures = f"{_extremes(self.lines)}{_table(self.lines)}"
         return f"; {self.robot} reaches it, {said}\n{placed}{slowed}{figures}{notes}"
 

@@ -220,6 +220,18 @@ def without_broken_meshes(text: str, broken: dict[str, None]) -> str:
     return Xml.tostring(robot, encoding="unicode")
 
 
+def read_mesh(path: str, scale: Sequence[float]) -> tuple[Floats, NDArray[np.int64]]:
+    """The corners (V, 3) [m] and triangles (T, 3) of a mesh file.
+
+    Raises:
+        ValueError: it cannot be read.
+    """
+    mesh = coal.MeshLoader().load(path, np.array(scale, dtype=np.float64))
+    corners = [mesh.tri_indices(i) for i in range(mesh.num_tris)]
+    triangles = np.array([[one[0], one[1], one[2]] for one in corners], dtype=np.int64)
+    return np.array(mesh.vertices()), triangles.reshape(-1, 3)
+
+
 def _transform(placement: pinocchio.SE3) -> coal.Transform3s:
     return coal.Transform3s(placement.rotation, placement.translation)
 

@@ -66,7 +66,7 @@ class Scene:
 
 def check_choices(settings: Settings) -> None:
     """Raise a UsageError for a slip in what concerns light, before anything is simulated."""
-    parse_views(settings.view)
+    shots = parse_views(settings.view)
     LOOKS[settings.look]
     if settings.starburst and not BLADES[0] <= settings.starburst <= BLADES[1]:
         bounds = f"{BLADES[0]} to {BLADES[1]} blades; 0 is a round one"
@@ -74,7 +74,12 @@ def check_choices(settings: Settings) -> None:
     if settings.brush is not None:
         read_brush(settings.brush).emitters()
     if settings.exposure is not None:
-        parse_exposure(settings.exposure)
+        exposure = parse_exposure(settings.exposure)
+        if exposure and exposure.distance is not None and any(shot.place for shot in shots):
+            raise UsageError(
+                f"view '{settings.view}' says where the camera stands: leave the distance out of "
+                f"exposure '{settings.exposure}'"
+            )
     if settings.colour_by is not None:
         TELLINGS[settings.colour_by]
 

@@ -16,6 +16,7 @@ ORDER = [
     "registry",
     "choices",
     "examples",
+    "papers",
     "dq",
     "language",
     "build",
@@ -42,6 +43,7 @@ ORDER = [
     "shining",
     "telling",
     "scene",
+    "settings_file",
     "picture",
     "sketch",
     "out_of_reach",
@@ -81,7 +83,8 @@ DOORS = {
     "eigenpy": ["robots/inverse.py"],
     "pybullet": ["plants/bullet.py"],
     "matplotlib": ["charts.py"],
-    "cv2": ["light", "stage/floor.py", "stage/ghost.py", "picture.py", "negative.py", "video.py"],
+    "cv2": ["light", "stage", "picture.py", "negative.py", "video.py"],
+    "scipy": ["studies/tune.py"],
     "svgelements": ["language/drawings.py"],
     "typer": ["cli.py", "cli_options.py", "cli_language.py", "cli_arm.py", "studying.py"],
     "pygments": ["editors/highlighting.py"],
@@ -101,6 +104,7 @@ DOORS = {
         "settings.py",
         "light/brushes.py",
         "negative.py",
+        "papers",
     ],
 }
 EVERYWHERE = {"numpy", "dqpaint", "typing_extensions"}

@@ -165,6 +165,7 @@ def summarise(painting: "Painting") -> dict[str, Any]:
     return {
         "schema": SCHEMA,
         "file": Path(program.name).name,
+        "included": [Path(name).name for _, name in getattr(program.text, "included", ())],
         "sha256": hashlib.sha256(program.text.encode()).hexdigest(),
         "versions": {
             "dqpaint": __version__,
@@ -199,13 +200,16 @@ def summarise(painting: "Painting") -> dict[str, Any]:
         "set_points": [
             {
                 "time_s": jump.time,
-                "line": jump.line,
+                "line": program.told(jump.line),
                 "translation": _response(jump.translation, "m"),
                 "rotation": _response(jump.rotation, "rad"),
             }
             for jump in painting.set_points
         ],
-        "limits": [{**vars(clamp), "unit": UNITS[clamp.kind]} for clamp in painting.limits],
+        "limits": [
+            {**vars(clamp), "line": program.told(clamp.line), "unit": UNITS[clamp.kind]}
+            for clamp in painting.limits
+        ],
         "light": {
             "unit": "lamp seconds, linear RGB",
             "emitted": painting.picture.emitted.tolist(),
@@ -242,7 +246,8 @@ def _pace(painting: "Painting") -> dict[str, Any] | None:
     slowed = painting.slowed
     if slowed is None:
         return None
-    return {"longer_s": slowed.longer, "slowest": slowed.slowest, "lines": list(slowed.lines)}
+    lines = [painting.motion.program.told(line) for line in slowed.lines]
+    return {"longer_s": slowed.longer, "slowest": slowed.slowest, "lines": lines}
 
 
 def stem_for(out: str | None, name: str) -> Path:

@@ -15,7 +15,7 @@ def test_it_is_a_drawing_that_the_default_arm_reaches(tmp_path):
     assert formatted(text) == text
     result = check(str(path), "iiwa")
     assert (result.findings, result.fault) == ((), "")
-    assert "iiwa reaches it" in result.reach
+    assert "iiwa reaches it" in result.text
     assert 5 < result.motion.t[-1] < 30
     assert text.count("#") > 6
 

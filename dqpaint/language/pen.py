@@ -5,7 +5,14 @@ from dataclasses import replace
 from pathlib import Path as FilePath
 
 from dqpaint.language import space
-from dqpaint.language.diagnostics import Diagnostic, PlaceProblem, Span, file_at, problem
+from dqpaint.language.diagnostics import (
+    Diagnostic,
+    PlaceProblem,
+    Span,
+    file_at,
+    first_number,
+    problem,
+)
 from dqpaint.language.findings import EnoughError, Findings
 from dqpaint.language.program import (
     IDENTITY,
@@ -202,7 +209,7 @@ class _LineCounter:
         offset, line = self._last
         begin, _ = file_at(self._text, span.start, "")
         if not begin <= offset <= span.start:
-            offset, line = begin, 1
+            offset, line = begin, first_number(self._text, begin)
         line += self._text.count("\n", offset, span.start)
         self._last = (span.start, line)
         self._known[span.start] = line

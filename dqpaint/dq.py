@@ -41,6 +41,7 @@ def _structure() -> Floats:
     return t
 
 
+FEW = 8 * 256  # numbers, up to which matrix products cost less than the general way
 _T = _structure()
 _PLUS = np.ascontiguousarray(_T.transpose(0, 2, 1)).reshape(64, 8)  # @ a -> H+(a), flat
 _MINUS = np.ascontiguousarray(_T).reshape(64, 8)  # @ b -> H-(b), flat
@@ -65,6 +66,9 @@ def mul(a: Floats, b: Floats) -> Floats:
     if a.ndim == b.ndim == 1:  # a control step: two small matrix products beat the general way
         single: Floats = np.dot(np.dot(_PLUS, a).reshape(8, 8), b)
         return single
+    if max(a.size, b.size) <= FEW:  # and for a batch of runs
+        few: Floats = np.matvec(hamilton_plus(a), b)
+        return few
     a, b = np.broadcast_arrays(a, b)
     p, d = a[..., :4], a[..., 4:]
     q, e = b[..., :4], b[..., 4:]
@@ -242,6 +246,9 @@ def translation(x: Floats) -> Floats:
     if x.ndim == 1:
         place: Floats = np.dot(np.dot(_PLACE, x).reshape(3, 8), x)
         return place
+    if x.size <= FEW:
+        few: Floats = np.matvec(np.dot(x, _PLACE.T).reshape(*x.shape[:-1], 3, 8), x)
+        return few
     return 2.0 * quaternion_mul(x[..., 4:], x[..., :4] * C4)[..., 1:]
 
 

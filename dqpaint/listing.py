@@ -134,6 +134,13 @@ def _examples() -> list[dict[str, Any]]:
     return [{"name": name, "about": about(name)} for name in example_names()]
 
 
+def _replays() -> list[dict[str, Any]]:
+    from dqpaint.papers import paper_names, read_paper
+
+    papers = [read_paper(name) for name in paper_names()]
+    return [{"name": p.name, "about": f"{p.source}: {p.title}", "source": p.source} for p in papers]
+
+
 def _statements() -> list[dict[str, Any]]:
     from dqpaint.language.words import STATEMENTS
 
@@ -160,6 +167,7 @@ LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {
     "looks": _looks,
     "fonts": _fonts,
     "examples": _examples,
+    "replays": _replays,
     "statements": _statements,
     "functions": _functions,
 }

@@ -1,11 +1,14 @@
 """Motion x robot x plant x law -> Track: what the arm did."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
+from functools import partial
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dqpaint import dq
 from dqpaint.controllers import Controller, Schedule, Seen
@@ -20,7 +23,7 @@ from dqpaint.robots.card import Card
 from dqpaint.robots.kinematics import Kinematics, manipulability
 from dqpaint.robots.limits import Clamp, clamps
 from dqpaint.robots.resolver import resolve
-from dqpaint.sensing import Late, Senses, Told, chance, delay
+from dqpaint.sensing import Late, ManySenses, Senses, Told, chance, delay
 from dqpaint.stopping import limit_error, meets_limit
 
 REPORT_EVERY = 50  # rows
@@ -113,13 +116,89 @@ def track(
         ScriptError: a limit was met, and `stop`.
         DqpaintError: the simulation left the numbers, or a law of one's own has a fault.
     """
-    n, card = len(motion.t), kinematics.card
     senses = Senses(kinematics, motion.t, motion.period, disturbances, seed)
-    log = _Log(n, card.joints)
+    carried = _carried(motion, disturbances, [seed])
+    log = _Log(len(motion.t), (), kinematics.card.joints)
+    see_limits = partial(log.see_limits, kinematics.card, motion, controller.drives_torque)
+
+    def at_row(k: int) -> None:
+        if stop:
+            see_limits(k)
+        if k % REPORT_EVERY == 0:
+            progress(k / len(motion.t))
+
+    _follow(
+        motion, senses, start, make_plant, controller, gains, disturbances, null, log,
+        None if carried is None else carried[:, 0], at_row,
+    )  # fmt: skip
+    if not log.finite.all():
+        raise _lost(float(motion.t[-1]))
+    return _finished(log, motion, kinematics.card, controller.drives_torque)
+
+
+def track_many(
+    motion: Motion,
+    kinematics: Kinematics,
+    start: Floats,
+    make_plant: PlantMaker | Chosen,
+    controller: Controller[Any],
+    gains: Schedule[Any],
+    disturbances: Mapping[str, Disturbance],
+    seeds: Sequence[int],
+    null: str = DEFAULT_NULL,
+    progress: Callable[[float], None] = lambda _done: None,
+) -> list[Track | None]:
+    """The same run with several seeds at once, as arrays (B, ...) through the same laws.
+
+    Each is, to rounding, what `track` gives. For a plant, a law and an objective of the null space
+    that take arrays of any leading shape: the ideal arm and the laws that command rates do.
+
+    Args:
+        motion: what is asked.
+        kinematics: of the arm, and its card.
+        start: posture (n,) [rad] of all of them.
+        make_plant: how the arms answer.
+        controller: the law.
+        gains: of the law, over the drawing.
+        disturbances: by their names; none that changes the law's model of the arm.
+        seeds: one a run.
+        null: what a redundant arm does with its freedom.
+        progress: called now and then with the part done, 0 to 1.
+
+    Returns:
+        A track a seed; None for one that left the numbers.
+    """
+    senses = ManySenses(kinematics, motion.t, motion.period, disturbances, seeds)
+    log = _Log(len(motion.t), (len(seeds),), kinematics.card.joints)
+    _follow(
+        motion, senses, np.tile(start, (len(seeds), 1)), make_plant, controller, gains,
+        disturbances, null, log, _carried(motion, disturbances, seeds),
+        lambda k: progress(k / len(motion.t)) if k % REPORT_EVERY == 0 else None,
+    )  # fmt: skip
+    return [
+        _finished(log.one(i), motion, kinematics.card, controller.drives_torque) if good else None
+        for i, good in enumerate(log.finite.tolist())
+    ]
+
+
+def _follow(
+    motion: Motion,
+    senses: Senses,
+    start: Floats,
+    make_plant: PlantMaker | Chosen,
+    controller: Controller[Any],
+    gains: Schedule[Any],
+    disturbances: Mapping[str, Disturbance],
+    null: str,
+    log: "_Log",
+    carried: Floats | None,
+    at_row: Callable[[int], None],
+) -> None:
+    """The loop itself, for one arm (n,) or for many (B, n); what comes of it is in `log`."""
+    n, card = len(motion.t), senses.believed.card
     ahead = controller.prepare(motion, gains) if controller.prepare else np.zeros((n, 0))
     wish = make_wish(null, card, start)
     drive = make_drive(controller, senses.believed, wish, motion.period)
-    carried = _carried(motion, disturbances, seed)
     late = Late(delay(disturbances), drive.hold(start))
     parts = motion.clock / motion.clock[-1] if n > 1 else motion.clock
     plant = make_plant(card, start, motion.period, senses.world)
@@ -135,31 +214,39 @@ def track(
             wanted = drive.ask(seen, now)
             given = drive.within(wanted, q)
             log.keep(k, plant, told, senses.truth(plant, told), wanted, given)
-            if stop:
-                log.see_limits(k, card, motion, controller.drives_torque)
-            if k % REPORT_EVERY == 0:
-                progress(k / n)
+            at_row(k)
             if k < n - 1:
                 plant.run(late(given), log.drift(k, carried))
     except np.linalg.LinAlgError:  # a posture that is no number any more has no singular values
         raise _lost(t) from None
     finally:
         plant.close()
-    if not (np.isfinite(log.posture).all() and np.isfinite(log.command).all()):
-        raise _lost(float(motion.t[-1]))
-    return _finished(log, motion, card, controller.drives_torque)
 
 
 class _Log:
-    """What a run leaves, row by row."""
+    """What a run leaves, row by row; what `shape` (B,) runs leave, if there are several."""
 
-    def __init__(self, n: int, joints: int) -> None:
-        self.posture, self.effort = np.empty((n, joints)), np.zeros((n, joints))
-        self.read, self.believed = np.empty((n, joints)), np.empty((n, 8))
-        self.wanted, self.command = np.empty((n, joints)), np.empty((n, joints))
-        self.pose, self.manipulability = np.empty((n, 8)), np.empty(n)
-        self.disturbance = np.zeros((n, 6))
-        self._jacobian = np.empty((BLOCK, 6, joints))
+    def __init__(self, n: int, shape: tuple[int, ...], joints: int) -> None:
+        of_joints = (n, *shape, joints)
+        self.posture, self.effort = np.empty(of_joints), np.zeros(of_joints)
+        self.read, self.believed = np.empty(of_joints), np.empty((n, *shape, 8))
+        self.wanted, self.command = np.empty(of_joints), np.empty(of_joints)
+        self.pose, self.manipulability = np.empty((n, *shape, 8)), np.empty((n, *shape))
+        self.disturbance = np.zeros((n, *shape, 6))
+        self._jacobian = np.empty((BLOCK, *shape, 6, joints))
+
+    @property
+    def finite(self) -> NDArray[np.bool_]:
+        """Whether all postures and commands of a run are numbers, for each of several."""
+        found = np.isfinite(self.posture).all(axis=(0, -1))
+        return np.asarray(found & np.isfinite(self.command).all(axis=(0, -1)))
+
+    def one(self, i: int) -> Self:
+        """Of several runs the i-th alone."""
+        other = copy(self)
+        for name, array in vars(self).items():
+            setattr(other, name, np.ascontiguousarray(array[:, i]))
+        return other
 
     def keep(
         self,
@@ -179,7 +266,7 @@ class _Log:
             first = k - k % BLOCK
             self.manipulability[first : k + 1] = manipulability(self._jacobian[: k + 1 - first])
 
-    def see_limits(self, k: int, card: Card, motion: Motion, torques: bool) -> None:
+    def see_limits(self, card: Card, motion: Motion, torques: bool, k: int) -> None:
         """End the run where row k, or the period before it, met a limit.
 
         Raises:
@@ -203,20 +290,24 @@ class _Log:
         if carried is None:
             return None
         point, J = dq.translation(self.pose[k]), self._jacobian[k % BLOCK]
-        self.disturbance[k] = dq.twist_from_point(carried[k, :3], carried[k, 3:], point)
+        self.disturbance[k] = dq.twist_from_point(carried[k, ..., :3], carried[k, ..., 3:], point)
         return resolve(J, point, self.disturbance[k], np.zeros(J.shape[-1]))
 
 
-def _carried(motion: Motion, disturbances: Mapping[str, Disturbance], seed: int) -> Floats | None:
-    """The unmodelled velocity (N, 6) of the tool; each disturbance has its own random numbers."""
+def _carried(
+    motion: Motion, disturbances: Mapping[str, Disturbance], seeds: Sequence[int]
+) -> Floats | None:
+    """Unmodelled velocities (N, B, 6) of the tool; each disturbance has its own random numbers."""
     if not disturbances:
         return None
-    return np.asarray(
+    found = np.stack([
         sum(
             one.twist(motion.t, motion.period, chance(seed, name))
             for name, one in disturbances.items()
         )
-    )
+        for seed in seeds
+    ], axis=1)  # fmt: skip
+    return found if found.any() else None
 
 
 def _finished(log: _Log, motion: Motion, card: Card, torques: bool) -> Track:

@@ -42,6 +42,17 @@ def test_a_computed_star_is_the_written_star():
     assert np.array_equal(built.light, written.light)
 
 
+def test_the_place_may_be_left_to_the_arm():
+    drawing = Drawing()
+    drawing.robot("iiwa")
+    drawing.place("auto")
+    drawing.line(to=(0.01, 0))
+    assert "place auto" in str(drawing).splitlines()
+    drawing.place("auto", at=(0.6, 0, 0.5))
+    with pytest.raises(DrawingError, match="takes no 'at'"):
+        drawing.program()
+
+
 def rich():
     d = Drawing(period=0.008)
     d.comment("all sorts\n\nof things")

@@ -45,7 +45,10 @@ def twist_of_pose_rate(pose: Floats, rate: Floats) -> Floats:
 
 def _least_squares(M: Floats, rate: Floats) -> Floats:
     """M^+ rate (..., 6) for matrices (..., 8, 6) of full column rank."""
-    return np.asarray(np.matvec(inverse(M.mT @ M), np.vecmat(rate, M)))
+    square, right = M.mT @ M, np.vecmat(rate, M)
+    if M.ndim > 2:
+        return np.asarray(np.linalg.solve(square, right[..., None])[..., 0])
+    return np.asarray(np.matvec(inverse(square), right))
 
 
 _BACK = -dq.hamilton_plus(np.diag(dq.C8)).reshape(8, 64)  # x -> -H+(x*), which is linear in x

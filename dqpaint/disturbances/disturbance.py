@@ -1,6 +1,7 @@
 """What a disturbance is, and how one is made from its name and values."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
@@ -13,7 +14,23 @@ from dqpaint.plants.world import World
 from dqpaint.registry import Registry
 from dqpaint.robots.kinematics import Kinematics
 
-Encoder = Callable[[int, Floats], Floats]
+
+@dataclass(frozen=True)
+class Encoder:
+    """How angles are read.
+
+    Attributes:
+        errors: what is added at each row (N, n) [rad]; of many runs (N, B, n).
+        step: to which a reading is rounded [rad]; 0 is not at all.
+    """
+
+    errors: Floats
+    step: float
+
+    def read(self, row: int, angles: Floats) -> Floats:
+        """What is read at a row, of angles (n,) or (B, n) [rad]."""
+        found = angles + self.errors[row]
+        return np.asarray(self.step * np.round(found / self.step) if self.step else found)
 
 
 class Disturbance(BaseModel):
@@ -49,7 +66,7 @@ class Disturbance(BaseModel):
         """
 
     def encoder(self, rows: int, joints: int, rng: np.random.Generator) -> Encoder | None:
-        """What is measured: (row, true joint angles (n,)) -> read ones (n,) [rad]; None is true."""
+        """What is measured, in a number of rows; None is the truth."""
         return None
 
     @property

@@ -6,7 +6,6 @@ import numpy as np
 from pydantic import Field
 
 from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance, Encoder
-from dqpaint.dq import Floats
 
 Size = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
 
@@ -20,10 +19,4 @@ class EncoderNoise(Disturbance):
 
     def encoder(self, rows: int, joints: int, rng: np.random.Generator) -> Encoder | None:
         """Each reading has noise of its own, and is then rounded."""
-        errors = self.rms * rng.standard_normal((rows, joints))
-
-        def read(row: int, angles: Floats) -> Floats:
-            found = angles + errors[row]
-            return np.asarray(self.step * np.round(found / self.step) if self.step else found)
-
-        return read
+        return Encoder(self.rms * rng.standard_normal((rows, joints)), self.step)

@@ -1,10 +1,13 @@
 """A file -> its text, or why it is none. This and the layout are all that `fmt` needs."""
 
+import sys
 from pathlib import Path
 
 from dqpaint.errors import DqpaintError
 
 MOST_BYTES = 2_000_000
+STDIN = "-"  # as a file's name: standard input
+STDIN_NAME = "<stdin>"  # and as messages call it
 
 
 def load(path: str | Path) -> bytes:
@@ -19,6 +22,17 @@ def load(path: str | Path) -> bytes:
     except (OSError, ValueError) as fault:
         reason = fault.strerror if isinstance(fault, OSError) else str(fault)
         raise DqpaintError(f"can't read {path}: {(reason or str(fault)).lower()}") from None
+
+
+def load_input() -> bytes:
+    """What comes over standard input, one byte more than allowed at most.
+
+    Raises:
+        DqpaintError: it is closed.
+    """
+    if sys.stdin is None:
+        raise DqpaintError("standard input is closed")
+    return sys.stdin.buffer.read(MOST_BYTES + 1)
 
 
 def decoded(data: bytes, name: str) -> str:

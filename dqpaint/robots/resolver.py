@@ -33,28 +33,36 @@ def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats) -> Flo
     J = shift @ jacobian
     square = J @ J.mT
     left = np.matvec(shift, twist) - np.matvec(J, wish)
-    plain = plain_inverse(square)
-    if plain is None:
-        squares, axes = np.linalg.eigh(square)
-        force = np.matvec(axes, damped_inverse(squares) * np.vecmat(left, axes))
-    else:
-        force = np.matvec(plain, left)
-    rates: Floats = np.vecmat(force, J) + wish
+    rates: Floats = np.vecmat(_force(square, left), J) + wish
     return rates
 
 
-def plain_inverse(square: Floats) -> Floats | None:
-    """The inverses of J J' (..., 6, 6), or None where any is so near a singularity as to be damped.
+def _force(square: Floats, left: Floats) -> Floats:
+    """(J J')^+ left (..., 6), damped where it is near a singularity.
 
     The trace of an inverse is the sum of 1 / s^2: up to 1 / THRESHOLD^2 no s is below THRESHOLD.
-    An inverse costs a fifth of what the singular directions do.
+    An inverse costs a fifth of what the singular directions do. Of many, each is looked at by
+    itself: what one needs does not depend on the others.
     """
     try:
         found = inverse(square)
     except np.linalg.LinAlgError:
-        return None
-    least = 1.0 / found.trace(axis1=-2, axis2=-1)
-    return found if least.min() >= THRESHOLD**2 else None
+        return _damped(square, left)
+    plain = 1.0 / found.trace(axis1=-2, axis2=-1) >= THRESHOLD**2
+    if plain.all():
+        return np.asarray(np.matvec(found, left))
+    if square.ndim == 2:
+        return _damped(square, left)
+    force: Floats = np.matvec(found, left)
+    near = ~plain
+    force[near] = _damped(square[near], np.broadcast_to(left, force.shape)[near])
+    return force
+
+
+def _damped(square: Floats, left: Floats) -> Floats:
+    """By the singular directions, each damped by itself."""
+    squares, axes = np.linalg.eigh(square)
+    return np.asarray(np.matvec(axes, damped_inverse(squares) * np.vecmat(left, axes)))
 
 
 def to_tool(point: Floats) -> Floats:

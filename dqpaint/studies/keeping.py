@@ -20,7 +20,7 @@ KEEPERS: Registry[Callable[[Painting], Arrays]] = Registry("thing to keep")
 @KEEPERS.add("series")
 def series(painting: Painting) -> Arrays:
     """Time and errors of every control step (N,)."""
-    names = ("t_s", "position_error_m", "orientation_error_rad")
+    names = ("t_s", "position_error_m", "orientation_error_rad", "invariant_error")
     return {name: np.asarray(painting.table[name]) for name in names}
 
 

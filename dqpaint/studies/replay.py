@@ -1,0 +1,209 @@
+"""A paper's experiment again: its numbers beside ours, and what both say to its claims."""
+
+import io
+from collections.abc import Sequence
+from csv import writer
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from dqpaint.outputs import write
+from dqpaint.papers import Claim, Figure, Paper, read_paper
+from dqpaint.studies import cells
+from dqpaint.studies.claims import Numbers, Verdict, judge, published
+from dqpaint.studies.replays import MEASURES, Asked, Measured
+from dqpaint.studies.statistics import Spread
+
+RULE = (
+    "holds, fails: as these numbers stand; not shown: they differ by less than chance explains "
+    "(Welch, 5 %), or by less than 0.1 %"
+)
+PRINTED = Verdict("holds", "its own numbers")
+
+
+@dataclass(frozen=True)
+class Replayed:
+    """What came of a replay.
+
+    Attributes:
+        paper: the experiment.
+        measured: here.
+        verdicts: of each of its claims: the claim, by the paper's numbers, by ours.
+        folder: where files go.
+    """
+
+    paper: Paper
+    measured: Measured
+    verdicts: tuple[tuple[Claim, Verdict, Verdict], ...]
+    folder: Path
+
+
+def replay(name: str, asked: Asked) -> Replayed:
+    """Do a paper's experiment again.
+
+    Args:
+        name: of the replay.
+        asked: how often, where, and what is to be different.
+
+    Raises:
+        UnknownNameError: there is none of that name.
+        DqpaintError: a fault in the choices or the folder, or nothing could be run.
+    """
+    paper = read_paper(name)
+    found = MEASURES[paper.measure](paper, asked)
+    return Replayed(paper, found, judged(paper, found.numbers), asked.folder)
+
+
+def judged(paper: Paper, ours: Numbers) -> tuple[tuple[Claim, Verdict, Verdict], ...]:
+    """Every claim, by the paper's numbers and by ours."""
+    theirs = published(paper)
+    return tuple(
+        (
+            claim,
+            PRINTED if claim.kind == "equals" else judge(claim, paper, theirs),
+            judge(claim, paper, ours),
+        )
+        for claim in paper.claims
+    )
+
+
+def tables(replayed: Replayed) -> list[tuple[Figure, list[list[str]]]]:
+    """A table a figure: cell, the paper's number, ours, and ours by the paper's."""
+    theirs, ours = published(replayed.paper), replayed.measured.numbers
+    found = []
+    for figure in replayed.paper.figures:
+        head = [figure.says, f"paper: {figure.paper}" if figure.paper else "paper", "here",
+                "here / paper"]  # fmt: skip
+        rows = []
+        for name in dict.fromkeys([*theirs, *ours]):
+            a, b = (table.get(name, {}).get(figure.name) for table in (theirs, ours))
+            if a or b:
+                rows.append([name, _said(a), _said(b), _quotient(a, b)])
+        if rows:
+            found.append((figure, [head, *rows]))
+    return found
+
+
+def _said(value: Spread | None) -> str:
+    if value is None or not np.isfinite(value.mean):
+        return "-"
+    known = value if np.isfinite(value.std) else Spread(1, value.mean, value.std)
+    return cells.said(known)
+
+
+def _quotient(theirs: Spread | None, ours: Spread | None) -> str:
+    if theirs is None or ours is None or not theirs.mean or not np.isfinite(ours.mean):
+        return "-"
+    return f"{ours.mean / theirs.mean:.3g}"
+
+
+def verdict_rows(replayed: Replayed) -> list[list[str]]:
+    """The claims: what is said, where, by the paper's numbers, by ours."""
+    rows = [["claim", "in", "by the paper's numbers", "here"]]
+    for claim, theirs, ours in replayed.verdicts:
+        rows.append([claim.says, claim.where or "-", str(theirs), str(ours)])
+    return rows
+
+
+def summary(verdicts: Sequence[tuple[Claim, Verdict, Verdict]]) -> str:
+    """How many claims hold, in a line."""
+    words = [ours.word for _, _, ours in verdicts]
+    same = sum(theirs.word == ours.word for _, theirs, ours in verdicts)
+    known = sum(theirs.word != "no numbers" for _, theirs, _ in verdicts)
+    text = f"{words.count('holds')} of {len(words)} claims hold here"
+    return f"{text}; {same} of {known} as by the paper's own numbers" if known else text
+
+
+def told(replayed: Replayed, columns: int) -> str:
+    """The whole of it for a terminal."""
+    paper, measured = replayed.paper, replayed.measured
+    parts = [f"{paper.name}: {paper.title}\n{paper.source}\n"
+             f"  theirs  {paper.theirs}\n  here    {measured.ours}"]  # fmt: skip
+    parts += [cells.text(rows) for _, rows in tables(replayed)]
+    rows = verdict_rows(replayed)
+    if max(map(len, cells.text(rows).splitlines())) <= columns:
+        parts.append(cells.text(rows))
+    else:
+        parts.append("\n".join(
+            f"{claim.says}{f' ({claim.where})' if claim.where else ''}\n"
+            f"  paper  {theirs}\n  here   {ours}" for claim, theirs, ours in replayed.verdicts
+        ))  # fmt: skip
+    parts[-1] += f"\n{RULE}\n{summary(replayed.verdicts)}"
+    parts += _listed("  - ", replayed)
+    return "\n\n".join(parts)
+
+
+def _listed(bullet: str, replayed: Replayed) -> list[str]:
+    """What has no numbers, and what cannot be tested."""
+    lost = [f"{bullet}{name}: {why}" for name, why in replayed.measured.lost.items()]
+    parts = [
+        ("To be known of some runs:", lost),
+        ("Not tested, for it cannot be:", [f"{bullet}{one}" for one in replayed.paper.open]),
+    ]
+    gap = "\n" if bullet.startswith(" ") else "\n\n"
+    return [gap.join([head, "\n".join(lines)]) for head, lines in parts if lines]
+
+
+def markdown(replayed: Replayed) -> str:
+    """The whole of it as a page."""
+    paper, measured = replayed.paper, replayed.measured
+    parts = [f"# {paper.name}: {paper.title}", paper.source,
+             f"- theirs: {paper.theirs}\n- here: {measured.ours}"]  # fmt: skip
+    parts += [cells.markdown(rows) for _, rows in tables(replayed)]
+    parts += [cells.markdown(verdict_rows(replayed)), f"{RULE}. {summary(replayed.verdicts)}."]
+    parts += _listed("- ", replayed)
+    return "\n\n".join(parts) + "\n"
+
+
+def numbers_csv(replayed: Replayed) -> bytes:
+    """Every number, all digits: cell, figure, table, the paper's, ours."""
+    theirs, ours = published(replayed.paper), replayed.measured.numbers
+    where = {cell.name: cell.table for cell in replayed.paper.cells}
+    file = io.StringIO()
+    out = writer(file, lineterminator="\n")
+    names = ("runs", "mean", "std")
+    out.writerow(
+        ["cell", "figure", "table", *(f"paper_{n}" for n in names), *(f"here_{n}" for n in names)]
+    )
+    for cell in dict.fromkeys([*theirs, *ours]):
+        for figure in replayed.paper.figures:
+            pair = [table.get(cell, {}).get(figure.name) for table in (theirs, ours)]
+            if any(pair):
+                out.writerow(
+                    [cell, figure.name, where.get(cell, ""), *_row(pair[0]), *_row(pair[1])]
+                )
+    return file.getvalue().encode()
+
+
+def _row(value: Spread | None) -> list[object]:
+    if value is None or not np.isfinite(value.mean):
+        return ["", "", ""]
+    return [value.n, value.mean, value.std if np.isfinite(value.std) else ""]
+
+
+def verdicts_csv(replayed: Replayed) -> bytes:
+    """The claims and both verdicts."""
+    file = io.StringIO()
+    out = writer(file, lineterminator="\n")
+    out.writerow(["claim", "kind", "figure", "where", "paper", "paper_why", "here", "here_why"])
+    for claim, theirs, ours in replayed.verdicts:
+        facts = [claim.says, claim.kind, claim.figure, claim.where]
+        out.writerow([*facts, theirs.word, theirs.why, ours.word, ours.why])
+    return file.getvalue().encode()
+
+
+def save(replayed: Replayed) -> list[Path]:
+    """Write tables, verdicts and pictures; returns the paths.
+
+    Raises:
+        DqpaintError: the folder cannot be written.
+    """
+    replayed.folder.mkdir(parents=True, exist_ok=True)
+    contents = {
+        **replayed.measured.files,
+        "-table.csv": numbers_csv(replayed),
+        "-claims.csv": verdicts_csv(replayed),
+        "-table.md": markdown(replayed).encode(),
+    }
+    return write(replayed.folder / replayed.paper.name, contents)

@@ -1,0 +1,62 @@
+"""What a kind of replay takes and gives."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from dqpaint.errors import UsageError
+from dqpaint.papers import Paper
+from dqpaint.registry import Registry
+from dqpaint.studies.cells import Cell
+from dqpaint.studies.claims import Numbers
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a person asked for.
+
+    Attributes:
+        folder: of the study.
+        runs: how many of each, with the seeds that follow; None leaves it to the replay.
+        jobs: how many processes; None is one a core.
+        settings: that take the place of the paper's, by their names.
+    """
+
+    folder: Path
+    runs: int | None = None
+    jobs: int | None = None
+    settings: Mapping[str, Any] = field(default_factory=dict)
+
+    def nothing_of(self, paper: Paper, *names: str) -> None:
+        """Refuse settings that a replay has no use for.
+
+        Raises:
+            UsageError: one of them was given.
+        """
+        for name in self.settings:
+            if name in names:
+                raise UsageError(f"replay '{paper.name}' takes no --{name}: {paper.title}")
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What came out here.
+
+    Attributes:
+        numbers: by the names of cell and figure, SI units.
+        ours: on what it was measured, in words.
+        lost: why a cell has no numbers, or ones that say nothing, by its name.
+        files: pictures and whatever else, by their endings.
+        cells: of a study, with every run; for a table of all figures.
+    """
+
+    numbers: Numbers
+    ours: str
+    lost: Mapping[str, str] = field(default_factory=dict)
+    files: Mapping[str, bytes] = field(default_factory=dict)
+    cells: tuple[Cell, ...] = ()
+
+
+Measure = Callable[[Paper, Asked], Measured]
+MEASURES: Registry[Measure] = Registry("kind of replay")

@@ -1,0 +1,127 @@
+"""Verdicts on planted numbers: each kind holds, fails, and turns round where two laws swap."""
+
+import numpy as np
+import pytest
+
+from dqpaint.papers import Claim, Paper, paper_names, read_paper
+from dqpaint.studies.claims import RULES, cell_name, judge, published
+from dqpaint.studies.replay import judged
+from dqpaint.studies.statistics import Spread, spread
+
+FIGURES = ({"name": "e", "says": "error"},)
+
+
+def paper(claim, cells=("a", "b", "c"), numbers=(), axes=None):
+    made = [
+        {"name": n, "table": "1", "published": {"e": v} if v is not None else {}}
+        for n, v in zip(cells, [*numbers, *[None] * len(cells)], strict=False)
+    ]
+    return Paper(
+        name="p", title="t", source="s", theirs="x", runs=10, figures=FIGURES, cells=made,
+        claims=[{"says": "so", "figure": "e", **claim}], open=[], axes=axes or {},
+    )  # fmt: skip
+
+
+def ours(*values, std=None, n=1):
+    made = [Spread(n, v, np.nan if std is None else std) for v in values]
+    return dict(zip("abcdef", ({"e": one} for one in made), strict=False))
+
+
+def word(claim, found, **more):
+    made = paper(claim, **more)
+    return judge(made.claims[0], made, found).word
+
+
+ORDER = {"kind": "order", "cells": ["a", "b", "c"]}
+
+
+def test_an_order_holds_and_swapping_two_laws_turns_it_round():
+    assert word(ORDER, ours(1.0, 2.0, 3.0)) == "holds"
+    assert word(ORDER, ours(2.0, 1.0, 3.0)) == "fails"
+    assert word(ORDER, ours(1.0, 3.0, 2.0)) == "fails"
+
+
+@pytest.mark.parametrize("std", [0.1, 3.0])
+def test_repeated_runs_must_show_a_difference(std):
+    """Against Welch's test as numpy's numbers feed it: 1 against 2 in 10 runs each."""
+    shown = std < 1.0
+    assert word(ORDER, ours(1.0, 2.0, 3.0, std=std, n=10)) == ("holds" if shown else "not shown")
+    assert word(ORDER, ours(2.0, 1.0, 3.0, std=std, n=10)) == ("fails" if shown else "not shown")
+
+
+def test_a_difference_of_less_than_a_thousandth_is_none():
+    assert word(ORDER, ours(1.0, 1.0005, 2.0)) == "not shown"
+    assert word(ORDER, ours(1.0005, 1.0, 2.0, std=1e-9, n=10)) == "not shown"
+    assert word(ORDER, ours(1.0, 1.002, 2.0)) == "holds"
+
+
+def test_spreads_are_ordered_by_their_deviations():
+    claim = {"kind": "spread", "cells": ["a", "b"]}
+    found = {"a": {"e": Spread(5, 9.0, 1.0)}, "b": {"e": Spread(5, 1.0, 2.0)}}
+    assert word(claim, found) == "holds"
+    assert word(claim, {"a": found["b"], "b": found["a"]}) == "fails"
+    assert word(claim, ours(1.0, 2.0)) == "no numbers"
+
+
+def test_ratios():
+    claim = {"kind": "ratio", "cells": ["a", "b"], "value": 2.0, "tolerance": 0.1}
+    assert word(claim, ours(2.19, 1.0)) == "holds"
+    assert word(claim, ours(2.21, 1.0)) == "fails"
+    assert word(claim, ours(1.0, 2.0)) == "fails"  # swapped
+    assert word(claim, ours(1.0, 0.0)) == "no numbers"
+
+
+def test_alike_and_below_and_equals():
+    alike = {"kind": "alike", "cells": ["a", "b"], "tolerance": 0.02}
+    assert word(alike, ours(1.0, 1.015)) == "holds"
+    assert word(alike, ours(1.0, 1.03)) == "fails"
+    below = {"kind": "below", "cells": ["a", "b"], "value": 1.0}
+    assert word(below, ours(0.5, 1.0)) == "holds"
+    assert word(below, ours(0.5, 1.01)) == "fails"
+    equals = {"kind": "equals", "cells": ["a", "b"], "tolerance": 1e-4}
+    printed = {"numbers": (0.5, 0.25)}
+    assert word(equals, ours(0.50005, 0.25), **printed) == "holds"
+    assert word(equals, ours(0.25, 0.5), **printed) == "fails"  # swapped
+    assert word(equals, ours(0.5, 0.25)) == "no numbers"
+
+
+def test_a_trend_over_a_grid():
+    axes = {"q": (1.0, 2.0, 3.0), "r": (0.1, 0.2)}
+    claim = {"kind": "trend", "axis": "r", "way": "falls"}
+
+    def grid(value):
+        places = [{"q": q, "r": r} for q in axes["q"] for r in axes["r"]]
+        return {cell_name(p): {"e": spread([value(p["q"], p["r"])])} for p in places}
+
+    assert word(claim, grid(lambda q, r: q / r), cells=(), axes=axes) == "holds"
+    assert word(claim, grid(lambda q, r: q * r), cells=(), axes=axes) == "fails"
+    assert word({**claim, "axis": "q", "way": "rises"}, grid(lambda q, r: q / r), cells=(),
+                axes=axes) == "holds"  # fmt: skip
+    bent = grid(lambda q, r: q * r if q == 2 else q / r)
+    assert word(claim, bent, cells=(), axes=axes) == "in part"
+
+
+def test_what_has_no_numbers_has_no_verdict():
+    assert word(ORDER, ours(1.0, 2.0)) == "no numbers"
+    assert word(ORDER, {}) == "no numbers"
+
+
+def test_every_kind_has_a_rule():
+    kinds = set(Claim.model_fields["kind"].annotation.__args__)
+    assert kinds == {*RULES, "trend"}
+
+
+@pytest.mark.parametrize("name", paper_names())
+def test_every_paper_is_whole_and_its_own_numbers_decide_its_claims(name):
+    """With the numbers of two cells swapped some verdict changes, where there are such claims."""
+    paper = read_paper(name)
+    assert paper.open
+    assert paper.claims
+    theirs = published(paper)
+    for claim, first, second in judged(paper, theirs):
+        assert first.word == second.word
+        if claim.kind in ("order", "ratio") and first.word == "holds":
+            a, b = claim.cells[:2]
+            swapped = {**theirs, a: theirs[b], b: theirs[a]}
+            if claim.kind == "order" or abs(claim.value - 1) > 2 * claim.tolerance:
+                assert judge(claim, paper, swapped).word == "fails", claim.says

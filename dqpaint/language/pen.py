@@ -117,9 +117,15 @@ class Pen:
 
     # Strokes of several lines.
 
+    @property
+    def amid_run(self) -> bool:
+        """Whether a `stroke` has begun to move."""
+        segments = self.segments
+        return self.run is not None and bool(segments) and segments[-1].run is self.run
+
     def check_no_stop(self, span: Span) -> None:
         """Raises if a way or a turn of our own would come into the middle of a `stroke`."""
-        if self.run is not None and self.segments and self.segments[-1].run is self.run:
+        if self.amid_run:
             message = "the tool would have to stop within this stroke"
             cure = "let this line begin where the one before it ends, and the tool look there"
             raise here("E283", message, span, "", cure)

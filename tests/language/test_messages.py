@@ -77,6 +77,7 @@ text "Ada" font "comic" height 3 mm|E260|1:17 "comic"|there is no font "comic"||
 text "Müller" height 3 mm|E261|1:8 ü|font "futural" has no letter 'ü'|here|use "Mueller"
 text "Ada" "λ=3" height 3 mm|E261|1:13 λ|font "futural" has no letter 'λ'|here|font "greeks" has it
 text "日本" height 3 mm|E261|1:7 日|font "futural" has no letter '日'|here|take it away; the fonts have the letters of ASCII, and Greek
+stroke in 5 s~text "Ada" height 3 mm~end|E283|2:1 text|this 'text' lifts its pen between its 7 lines, and a 'stroke' does not stop||write it outside of the stroke: each of its lines runs through by itself; text … in 5 s
 text "  " height 3 mm|E262|1:6 "  "|this text has no letters||to wait, use: hold 1 s
 path "flat.csv" height 3 mm|E263|1:24 3 mm|its height is 0, so it can't be scaled to 3 mm||say its width instead
 path "points.csv" unit mm|E292|1:6 "points.csv"|a text that is no file can't read one||save it beside the other file

@@ -87,7 +87,8 @@ def _fits(text: str, findings: Findings) -> bool:
     elif "\0" in text:
         at = text.index("\0")
         message = "this is not a text: there is a zero character in it"
-        findings.add(Diagnostic("E307", message, Span(at, at + 1)))
+        cure = "a picture perhaps, or a text in UTF-16; save it as UTF-8"
+        findings.add(Diagnostic("E307", message, Span(at, at + 1), "", cure))
     return not findings.errors
 
 

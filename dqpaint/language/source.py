@@ -45,8 +45,6 @@ def decoded(data: bytes, name: str) -> str:
         raise DqpaintError(f"{name} is larger than {MOST_BYTES // 1_000_000} MB")
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         raise DqpaintError(f"{name} is written in UTF-16; save it as UTF-8")
-    if b"\0" in data:
-        raise DqpaintError(f"{name} is not a text: byte {data.index(0) + 1} is 0")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as fault:

@@ -191,7 +191,8 @@ def transform(text: str) -> str:
     """Turns, shifts and scales, in degrees and pixels; the names as SVG or CSS have them."""
     if not text.strip() or text.strip() == "none":
         return ""
-    made, at = [], 0
+    made: list[str] = []
+    at = 0
     while match := _FUNCTION.match(text, at):
         if len(made) == MOST_TRANSFORMS:
             raise UnreadableError(f"more than {MOST_TRANSFORMS:,} transforms one after the other")

@@ -91,6 +91,7 @@ path "one.csv" "flat.csv" unit mm|E296|1:16 "flat.csv"|flat.csv has 2 columns||o
 svg "words.svg"|E298|1:5 "words.svg"|can't draw words.svg: there are no lines in it||in the program it was made with, convert texts to paths
 svg "bomb.svg"|E298|1:5 "bomb.svg"|can't draw bomb.svg: with every 'use' it has about 10^10 elements||draw a part of it, or make it simpler
 svg "points.csv"|E298|1:5 "points.csv"|can't draw points.csv: line 1: syntax error||it is not well-formed XML
+svg "flat.svg" height 1e8 m|E201|1:1 svg "flat.svg" height 1e8 m|this goes too far away||
 svg "passed.svg"|W421|1:5 "passed.svg"|passed over in passed.svg, as SVG says: line 3: stroke: 'blu' is no colour; line 4: there is no 'nope' to be used; line 5: a <rect> without a size|and 1 more|mend it in the file, or leave it: browsers draw it so, too
 svg "otherwise.svg"|W422|1:5 "otherwise.svg"|drawn otherwise than in otherwise.svg: 1 clip-path (line 4), 1 gradient (line 4), 2 stroke-dasharray (from line 3)||what a clip or a mask would hide is drawn, too; a gradient is drawn in its mean colour; dashes are drawn as whole lines
 svg "unread.svg"|E298|1:5 "unread.svg"|can't draw unread.svg: line 3: d of a <path>: 'nan' stands where a number of its L is expected||mend it, or save the drawing as plain SVG in the program it was made with

@@ -8,8 +8,9 @@ from dqpaint import __version__
 from dqpaint.catalogue import url
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.examples import find_drawing
-from dqpaint.language import Diagnostic, Program, ScriptError, read, render
+from dqpaint.language import Diagnostic, Program, ScriptError, read, read_input, render
 from dqpaint.language.diagnostics import Severity, Span, file_at, place
+from dqpaint.language.source import STDIN
 from dqpaint.motion import Motion, Survey, summary_line, survey
 from dqpaint.settings import Settings, make_settings
 
@@ -69,7 +70,7 @@ def check(name: str, **choices: Any) -> Checked:
     limits, speeds, torques, singularities, collisions, hidden light.
 
     Args:
-        name: of the drawing's file, or of an example.
+        name: of the drawing's file, or of an example; `-` is standard input.
         choices: of the run, as those of `dqpaint.draw`.
 
     Raises:
@@ -77,8 +78,7 @@ def check(name: str, **choices: Any) -> Checked:
     """
     settings = make_settings(**choices)
     try:
-        path = find_drawing(name)
-        program = read(path)
+        program = read_input() if name == STDIN else read(find_drawing(name))
         asked = settings != PLAIN or program.robot is not None
         outlook = _look_ahead(program, settings) if asked else None
         drawing: Motion | Survey = outlook.motion if outlook else survey(program)
@@ -89,7 +89,7 @@ def check(name: str, **choices: Any) -> Checked:
     except DqpaintError as problem:
         return Checked(name, "", (), None, str(problem))
     findings = drawing.notes + (outlook.warnings if outlook else ())
-    return Checked(str(path), program.text, findings, drawing, outlook=outlook)
+    return Checked(program.name, program.text, findings, drawing, outlook=outlook)
 
 
 def _look_ahead(program: Program, settings: Settings) -> "Outlook":

@@ -34,7 +34,7 @@ FILES = {  # the file, the exit code, what is said
         1,
         "error[E309]",
     ),
-    "zero": (f"{LINE}\n\0", 1, "is not a text: byte 19 is 0"),
+    "zero": (f"{LINE}\n\0", 1, "error[E307]"),
     "crlf": (f"{LINE}\r\n{LINE}\r\n", 0, "2 mm"),
     "bom": (f"\ufeff{LINE}\n", 0, "1 mm"),
     "latin": (f"{LINE} # für\n".encode("latin-1"), 1, "line 1, byte 22 is 0xfc ('ü' in Latin-1)"),

@@ -13,15 +13,13 @@ from pathlib import Path
 from typing import Any
 
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.studies.runs import Result, Run
+from dqpaint.studies.batches import Task, groups
+from dqpaint.studies.runs import Result
 
 ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 TRIES = 2  # at a run whose process ended
 MOST_JOBS = 1024
 GLANCE = 0.2  # [s] after which a Ctrl-C is noticed at the latest
-
-Task = tuple[str, Run]
-"""The key of a run, and the run."""
 
 
 def all_cores() -> int:
@@ -54,11 +52,12 @@ def carry_out_all(
     Raises:
         DqpaintError: the processes do not start.
     """
-    todo: queue.SimpleQueue[Task] = queue.SimpleQueue()
-    for task in tasks:
-        todo.put(task)
+    todo: queue.SimpleQueue[list[Task]] = queue.SimpleQueue()
+    together = groups(tasks)
+    for group in together:
+        todo.put(group)
     said: queue.SimpleQueue[Any] = queue.SimpleQueue()
-    workers = [_Worker(todo, said, folder) for _ in range(min(jobs, len(tasks)))]
+    workers = [_Worker(todo, said, folder) for _ in range(min(jobs, len(together)))]
     parts: dict[_Worker, float] = {}
     done = 0
     try:
@@ -82,7 +81,7 @@ def carry_out_all(
 class _Worker(threading.Thread):
     """One process and the thread that talks to it; another takes its place where it dies."""
 
-    def __init__(self, todo: queue.SimpleQueue[Task], said: Any, folder: Path) -> None:
+    def __init__(self, todo: queue.SimpleQueue[list[Task]], said: Any, folder: Path) -> None:
         super().__init__(daemon=True)
         self._todo, self._said, self._folder = todo, said, folder
         self._over = False
@@ -103,8 +102,8 @@ class _Worker(threading.Thread):
         with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as remarks:
             try:
                 while not self._over:
-                    key, run = self._todo.get_nowait()
-                    self._say(self._result(key, run, remarks))
+                    for result in self._results(self._todo.get_nowait(), remarks):
+                        self._say(result)
             except queue.Empty:
                 pass
             except Exception as problem:  # told where it is heard: a silent end would be a hang
@@ -116,18 +115,26 @@ class _Worker(threading.Thread):
         if not self._over:
             self._said.put((self, what))
 
-    def _result(self, key: str, run: Run, remarks: Any) -> Result:
-        task = json.dumps({"key": key, "run": run.data, "folder": str(self._folder.resolve())})
+    def _results(self, group: list[Task], remarks: Any) -> Iterator[Result]:
+        """Of runs that go together, each as soon as it is there."""
+        left = dict(group)
         for _ in range(TRIES):
             process = self._process or self._begin(remarks)
+            tasks = [{"key": key, "run": run.data} for key, run in left.items()]
             try:
                 assert process.stdin is not None
+                task = json.dumps({"tasks": tasks, "folder": str(self._folder.resolve())})
                 process.stdin.write(task + "\n")
                 process.stdin.flush()
                 for said in self._answers(process):
                     if "result" in said:
-                        return Result(**said["result"])
-                    self._say(float(said.get("part", 0.0)))
+                        result = Result(**said["result"])
+                        del left[result.key]
+                        yield result
+                        if not left:
+                            return
+                    else:
+                        self._say(float(said.get("part", 0.0)))
             except BrokenPipeError:
                 pass
             if self._over:
@@ -136,7 +143,8 @@ class _Worker(threading.Thread):
             self._close()
         last = _last_line(remarks)
         text = f"its process ended with {'signal' if code < 0 else 'code'} {abs(code)}"
-        return Result(key, "died", f"{text}{': ' + last if last else ''}")
+        for key in left:
+            yield Result(key, "died", f"{text}{': ' + last if last else ''}")
 
     def _begin(self, remarks: Any) -> "subprocess.Popen[str]":
         with self._lock:

@@ -18,6 +18,7 @@ from dqpaint.settings import Settings, make_settings
 if TYPE_CHECKING:
     from dqpaint.paint import Painting
     from dqpaint.picture import Picture
+    from dqpaint.settings_file import Given
     from dqpaint.sketch import Preview
     from dqpaint.stage.staging import Cast, Staging
 
@@ -47,10 +48,11 @@ def draw(
     starburst: int | None = None,
     noise: int | None = None,
     colour_by: str | None = None,
-    overlay: bool = False,
+    overlay: bool | None = None,
     magnify: float | None = None,
-    ghost: bool = False,
+    ghost: bool | str | None = None,
     occlusion: bool | None = None,
+    settings: "str | PathLike[str] | Given | None" = None,
     progress: Callable[[float], None] = lambda _done: None,
 ) -> "Painting":
     """Paint a drawing with a simulated arm, as `dqpaint draw` does; nothing is written.
@@ -83,8 +85,11 @@ def draw(
         colour_by: a figure of the run that the colours tell.
         overlay: whether the asked drawing lies beneath the reached one.
         magnify: how many times as large deviations from the asked path are drawn.
-        ghost: whether the arm is in the picture, as it stood at the end.
+        ghost: whether the arm is in the picture: True as it stood at the end, "motion" as a veil,
+            as it moved.
         occlusion: whether the arm's body hides light from the camera; else as `ghost`.
+        settings: a file of such choices, TOML, or the JSON summary of a run; what is said here
+            wins.
         progress: called while the arm moves, with the part done, 0 to 1.
 
     Raises:
@@ -93,16 +98,17 @@ def draw(
     width, height = _width_and_height(size)
     own = controller if callable(controller) else None
     name = getattr(own, "__name__", "own") if own else controller
-    settings = make_settings(
+    given, choices = _given(settings), dict(
         controller=name, gains=dict(gains) if gains else None, robot=robot, tool=tool, place=place,
         recorded=None if recorded is None else str(recorded),
         plant=plant,
-        disturb={name: dict(values) for name, values in (disturb or {}).items()}, seed=seed,
+        disturb={name: dict(values) for name, values in (disturb or {}).items()} or None, seed=seed,
         start=start, null=null, on_limit=on_limit, width=width, height=height, view=view, ev=ev,
         brush=brush, pwm=pwm, exposure=exposure, look=look, starburst=starburst, noise=noise,
         colour_by=colour_by, overlay=overlay, magnify=magnify, ghost=ghost,
         occlusion=occlusion,
     )  # fmt: skip
+    chosen = make_settings(**given.under(choices))
     begin = perf_counter()
     program = _program(drawing)
     seconds = perf_counter() - begin
@@ -113,8 +119,9 @@ def draw(
 
     law = make_controller(own, str(name)) if own else None
     with _places(drawing):
-        painting = paint(program, settings, progress, law)
-    return replace(painting, seconds={"language": seconds, **painting.seconds})
+        painting = paint(program, chosen, progress, law)
+    notes = given.remarks(painting.sha256) + painting.notes
+    return replace(painting, seconds={"language": seconds, **painting.seconds}, notes=notes)
 
 
 def save(
@@ -154,24 +161,34 @@ def preview(
     starburst: int | None = None,
     noise: int | None = None,
     colour_by: str | None = None,
-    ghost: bool = False,
+    ghost: bool | None = None,
+    settings: "str | PathLike[str] | Given | None" = None,
 ) -> "Preview":
     """The asked pictures of a drawing, without an arm; arguments as those of `draw`.
 
     With `ghost` the camera leaves room for the arm, as that of `draw` does.
     """
     width, height = _width_and_height(size)
-    settings = make_settings(
+    choices = dict(
         robot=robot, tool=tool, width=width, height=height, view=view, ev=ev, brush=brush, pwm=pwm,
         exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
         ghost=ghost,
     )  # fmt: skip
+    chosen = make_settings(**_given(settings).under(choices))
     program = _program(drawing)
 
     from dqpaint.sketch import sketch
 
     with _places(drawing):
-        return sketch(program, settings)
+        return sketch(program, chosen)
+
+
+def _given(settings: "str | PathLike[str] | Given | None") -> "Given":
+    from dqpaint.settings_file import Given, read_given
+
+    if settings is None:
+        return Given()
+    return settings if isinstance(settings, Given) else read_given(str(settings))
 
 
 def _program(drawing: str | PathLike[str] | Drawing) -> Program:
@@ -195,6 +212,8 @@ def develop(
     look: str | None = None,
     starburst: int | None = None,
     noise: int | None = None,
+    ghost: bool | str | None = None,
+    occlusion: bool | None = None,
 ) -> "list[Picture]":
     """Other pictures of a painting that was saved with `film`, without simulating it.
 
@@ -207,6 +226,8 @@ def develop(
         look: how the film is developed.
         starburst: blades of the aperture; 0 for a round one.
         noise: seed of the sensor's noise.
+        ghost: whether the arm is in the picture, and how.
+        occlusion: whether its body hides light from the camera; else as it was.
 
     Raises:
         DqpaintError: no film, or a choice that is none.
@@ -215,18 +236,19 @@ def develop(
     from dqpaint.picture import photograph
     from dqpaint.scene import check_choices
 
-    scene, before, cast = negative.read(str(film))
+    scene, before, cast, worked = negative.read(str(film))
     width, height = _width_and_height(size)
     choices = {
         "width": width, "height": height, "view": view, "ev": ev, "exposure": exposure,
-        "look": look, "starburst": starburst, "noise": noise,
+        "look": look, "starburst": starburst, "noise": noise, "ghost": ghost,
+        "occlusion": occlusion,
     }  # fmt: skip
     given = {name: value for name, value in choices.items() if value is not None}
     settings = make_settings(**{**before.model_dump(), **given})
     check_choices(settings)
     staged, remark = _stage(settings, cast)
     with staged as staging:
-        pictures = list(photograph(scene, settings, staging))
+        pictures = list(photograph(scene, settings, staging, worked))
     return [replace(one, remarks=(*remark, *one.remarks)) for one in pictures]
 
 
@@ -234,16 +256,16 @@ def _stage(
     settings: Settings, cast: "Cast | None"
 ) -> "tuple[AbstractContextManager[Staging | None], tuple[str, ...]]":
     """The arm of a film, if it is to be seen and is still there; and else what there is to say."""
-    if cast is None or not settings.staged:
+    if not settings.staged:
         return nullcontext(), ()
     from dqpaint.robots.choose import find_card
     from dqpaint.robots.urdf import prepare
     from dqpaint.stage.staging import on_stage
 
     try:
+        if cast is None:
+            raise DqpaintError("the film does not say how its joints moved")
         card = find_card(cast.robot)
-        if not cast.known:
-            raise DqpaintError("the run was recorded as poses, without joints")
         if card.joints != cast.posture.shape[1]:
             raise DqpaintError(f"{card.name} has {card.joints} joints, that arm had others")
         prepare(card)

@@ -25,7 +25,7 @@ from dqpaint.language import Program, ScriptError, parse, render
 from dqpaint.language.diagnostics import file_at
 from dqpaint.language.layout import STEP, formatted
 from dqpaint.language.words import STATEMENTS
-from dqpaint.language.writing import Unwritable, quoted, written_head, written_part
+from dqpaint.language.writing import Unwritable, called, quoted, written_head, written_part
 
 _BLOCKS = {"with": "block", "def": "define"}  # as methods
 _METHODS = {
@@ -33,6 +33,15 @@ _METHODS = {
     for word in STATEMENTS
     if word != "end"
 }
+
+
+_OF_FORM = ("E105", "E109", "E110", "E111", "E112", "E115", "E116")  # a form that is not kept
+
+
+def _form(word: str) -> str:
+    """How a statement is called, as it would be typed."""
+    method = next(method for method, known in _METHODS.items() if known == word)
+    return f"d.{called(word, method)}"
 
 
 class Call(NamedTuple):
@@ -61,9 +70,17 @@ class DrawingError(ScriptError):
             if diagnostic.span is not None and not file_at(self.text, diagnostic.span.start, "")[0]:
                 line = self.text.count("\n", 0, diagnostic.span.start) + 1
                 margin = " " * (len(str(line)) + 1)
-                shown += f"\n{margin}= call: {self.calls[line]}" if line in self.calls else ""
+                shown += self._call(line, margin, diagnostic.code)
             texts.append(shown)
         return "\n\n".join(texts)
+
+    def _call(self, line: int, margin: str, code: str) -> str:
+        """Which call a message is about, and how it is called where something is missing."""
+        if line not in self.calls:
+            return ""
+        word = self.text.split("\n")[line - 1].split()[0]
+        form = f"; for example: {_form(word)}" if code in _OF_FORM and word in STATEMENTS else ""
+        return f"\n{margin}= call: {self.calls[line]}{form}"
 
 
 class Drawing:
@@ -86,7 +103,7 @@ class Drawing:
 
     def __getattr__(self, method: str) -> Callable[..., Any]:
         if method not in _METHODS:
-            raise AttributeError(f"a drawing has no '{method}'; it has: {', '.join(_METHODS)}")
+            raise AttributeError(self._no_method(method))
         word = _METHODS[method]
         known = STATEMENTS[word]
 
@@ -97,6 +114,11 @@ class Drawing:
         statement.__name__ = method
         statement.__doc__ = f"{known.says.capitalize()}: `{known.example}`."
         return statement
+
+    def _no_method(self, method: str) -> str:
+        if f"def {method}(" in "\n".join(self._lines):
+            return f"'{method}' is drawn by a line of the language: d.write(\"{method}(...)\")"
+        return f"a drawing has no '{method}'; it has: {', '.join(_METHODS)}"
 
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *_METHODS})
@@ -148,7 +170,8 @@ class Drawing:
         try:
             line = " ".join([word, *written_head(word, values), *_parts(word, parts)])
         except Unwritable as problem:
-            raise UsageError(f"{_caller()}: {word}: {problem}") from None
+            example = "" if "for example" in str(problem) else f"; for example: {_form(word)}"
+            raise UsageError(f"{_caller()}: {word}: {problem}{example}") from None
         self._line(line)
 
     def _line(self, line: str) -> None:

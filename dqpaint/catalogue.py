@@ -14,6 +14,7 @@ from typing import Any
 
 from dqpaint.errors import UsageError
 
+PAGE = "trajectories/MESSAGES.md"
 STAGES = ("text", "motion", "arm", "other")
 _INDENT = "  "
 
@@ -70,6 +71,11 @@ def explanation(code: str) -> Explanation:
     near = get_close_matches(wanted[:8], known, n=4, cutoff=0.6)
     about = f"; near it: {', '.join(sorted(near))}" if near else ""
     raise UsageError(f"no message has the code '{code[:40]}'{about}; all: dqpaint explain")
+
+
+def url(code: str) -> str:
+    """Where a message stands in the documents, from the folder of the package's source on."""
+    return f"{PAGE}#{code.lower()}"
 
 
 def told(found: Explanation) -> str:

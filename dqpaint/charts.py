@@ -16,6 +16,7 @@ from dqpaint.dq import Floats
 INK, FAINT = "#222222", "#999999"
 COLOURS = ("#0b6fa4", "#2a9d5c", "#d1495b", "#8d5a97", "#c98a1b", "#555555")
 ALARM = "#c1121f"
+LONGEST = 60  # letters of a label
 MOST_INSIDE = 6  # lines whose names find room beside them
 MOST_NUMBERS = 400  # cells of a heat map that are written in
 
@@ -25,7 +26,8 @@ class Line:
     """One line of a chart: points (N,) and what is written at it.
 
     `colour` is the next of the chart's own if not said; `marks` says where (N,) a point is
-    unstable, and has all points shown; `bars` are lengths (N,) up and down.
+    unstable, and has all points shown; `bars` are lengths (N,) up and down. A width of 0 leaves
+    the points alone.
     """
 
     x: Floats
@@ -39,7 +41,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Panel:
-    """One chart: lines, a bound that is drawn dashed, and what the axes say."""
+    """One chart: lines, bounds that are drawn dashed, and what the axes say."""
 
     title: str
     x_label: str
@@ -50,6 +52,7 @@ class Panel:
     log_y: bool = False
     decades: float = 300.0  # of a logarithmic y axis, from the top: the most that is shown
     ticks: Sequence[str] | None = None  # words at 0, 1, ... of an axis of choices
+    wall: float | None = None  # a bound of x
 
 
 @dataclass(frozen=True)
@@ -73,13 +76,15 @@ def chart(panels: Sequence[Panel], width: float = 10.0, height: float = 4.0) -> 
     """Panels side by side as a PNG file; width and height in inches of 120 dots."""
     figure = Figure(figsize=(width, height), dpi=120, layout="constrained")
     for axes, panel in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
-        axes.set_title(panel.title, loc="left", fontsize=11, color=INK)
+        axes.set_title(_plain(panel.title), loc="left", fontsize=11, color=INK)
         for line, following in zip(panel.lines, cycle(COLOURS), strict=False):
             _draw(axes, line, line.colour or following)
         if panel.bound is not None:
             axes.axhline(panel.bound, color=INK, lw=1, ls=(0, (4, 3)))
-        axes.set_xlabel(panel.x_label)
-        axes.set_ylabel(panel.y_label)
+        if panel.wall is not None:
+            axes.axvline(panel.wall, color=INK, lw=1, ls=(0, (4, 3)))
+        axes.set_xlabel(_plain(panel.x_label))
+        axes.set_ylabel(_plain(panel.y_label))
         if panel.log_x:
             axes.set_xscale("log")
         if panel.log_y:
@@ -87,7 +92,7 @@ def chart(panels: Sequence[Panel], width: float = 10.0, height: float = 4.0) -> 
             top = max(float(line.y.max()) for line in panel.lines)
             axes.set_ylim(bottom=max(axes.get_ylim()[0], top * 10.0**-panel.decades))
         if panel.ticks is not None:
-            axes.set_xticks(range(len(panel.ticks)), panel.ticks)
+            axes.set_xticks(range(len(panel.ticks)), list(map(_plain, panel.ticks)))
         axes.grid(which="major", color="#e6e6e6", lw=0.6)
         axes.set_axisbelow(True)
         for side in ("top", "right"):
@@ -100,7 +105,17 @@ def chart(panels: Sequence[Panel], width: float = 10.0, height: float = 4.0) -> 
 
 def _draw(axes: Axes, line: Line, colour: str) -> None:
     dots = "o" if line.marks is not None else ""
-    axes.plot(line.x, line.y, color=colour, lw=line.width, label=line.label, marker=dots, ms=4)
+    kind = "-" if line.width else ""
+    axes.plot(
+        line.x,
+        line.y,
+        kind,
+        color=colour,
+        lw=line.width,
+        label=_plain(line.label),
+        marker=dots,
+        ms=4,
+    )
     if line.bars is not None and np.isfinite(line.bars).any():
         axes.errorbar(line.x, line.y, line.bars, fmt="none", ecolor=colour, lw=1, capsize=3)
     if line.marks is not None and line.marks.any():
@@ -136,12 +151,19 @@ def heat_map(given: HeatMap, width: float = 7.0, height: float = 5.0) -> bytes:
                 col, row, said, ha="center", va="center", fontsize=8, color=ink,
                 bbox={"fc": "white", "ec": "none", "pad": 1} if marked else None,
             )  # fmt: skip
-    axes.set_title(given.title, loc="left", fontsize=11, color=INK)
-    axes.set_xticks(range(len(given.x)), given.x)
-    axes.set_yticks(range(len(given.y)), given.y)
-    axes.set_xlabel(given.x_label)
-    axes.set_ylabel(given.y_label)
+    axes.set_title(_plain(given.title), loc="left", fontsize=11, color=INK)
+    axes.set_xticks(range(len(given.x)), list(map(_plain, given.x)))
+    axes.set_yticks(range(len(given.y)), list(map(_plain, given.y)))
+    axes.set_xlabel(_plain(given.x_label))
+    axes.set_ylabel(_plain(given.y_label))
     return _png(figure)
+
+
+def _plain(text: str) -> str:
+    """What a user wrote: no formula, whatever it holds, one line, and not longer than a chart."""
+    line = " ".join(text.split())
+    short = line if len(line) <= LONGEST else f"{line[: LONGEST - 3]}..."
+    return short.replace("$", r"\$")
 
 
 def _png(figure: Figure) -> bytes:

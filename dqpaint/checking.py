@@ -5,13 +5,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from dqpaint import __version__
+from dqpaint.catalogue import url
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.examples import find_drawing
 from dqpaint.language import Diagnostic, Program, ScriptError, read, render
 from dqpaint.language.diagnostics import Severity, Span, file_at, place
-from dqpaint.motion import Motion, plan, summary_line
+from dqpaint.motion import Motion, Survey, summary_line, survey
 from dqpaint.robots.card import Card
 from dqpaint.robots.choose import card_for
+from dqpaint.settings import Settings, make_settings
 
 if TYPE_CHECKING:
     from dqpaint.forewarning import Outlook
@@ -24,7 +26,7 @@ class Checked:
     file: str
     source: str
     findings: tuple[Diagnostic, ...]
-    motion: Motion | None
+    drawing: Motion | Survey | None
     fault: str = ""  # of a file that could not even be read
     outlook: "Outlook | None" = None  # what the arm says of it, where an arm was asked
 
@@ -40,16 +42,16 @@ class Checked:
         if self.fault:
             return f"error: {self.fault}"
         parts = [render(finding, self.file, self.source) for finding in self.findings]
-        if self.motion is not None:
+        if self.drawing is not None:
             said = self.outlook.text if self.outlook else ""
-            parts.append(summary_line(self.motion) + said + self._hint)
+            parts.append(summary_line(self.drawing) + said + self._hint)
         return "\n\n".join(parts)
 
     @property
     def _hint(self) -> str:
         """Of beads at the ends of strokes, which a light painter sees first."""
-        assert self.motion is not None
-        times = self.motion.unevenness
+        assert self.drawing is not None
+        times = self.drawing.unevenness
         if times <= BEAD:
             return ""
         return (
@@ -58,41 +60,43 @@ class Checked:
         )
 
 
+PLAIN = Settings()
 BEAD = 2.0  # times the brightness of the middle: less is no matter for a hint
 
 
-def check(
-    name: str, robot: str | None, tool: str | None = None, place: str | None = None
-) -> Checked:
-    """Read one drawing and plan its motion; nothing is simulated.
+def check(name: str, **choices: Any) -> Checked:
+    """Read one drawing and survey its motion; nothing is simulated.
 
-    Where an arm is named, in the call or in the file, or its tool, it looks ahead, too: reach,
+    Where anything of the run is chosen, or an arm named in the file, it looks ahead, too: reach,
     limits, speeds, torques, singularities, collisions, hidden light.
 
+    Args:
+        name: of the drawing's file, or of an example.
+        choices: of the run, as those of `dqpaint.draw`.
+
     Raises:
-        UsageError: no such robot, or no such tool.
+        UsageError: no such choice.
     """
-    if place not in (None, "auto"):
-        raise UsageError(f"place '{place}' is not auto; a place of your own is a line of the file")
+    settings = make_settings(**choices)
     try:
         path = find_drawing(name)
         program = read(path)
-        card = card_for(program, robot, tool)
-        motion = plan(program, card.canvas.pose)
-        asked = not (robot is tool is place is program.robot is None)
-        outlook = _look_ahead(program, card, place) if asked else None
-        motion = outlook.motion if outlook else motion
+        card = card_for(program, settings.robot, settings.tool)
+        drawing: Motion | Survey = survey(program)
+        asked = settings != PLAIN or program.robot is not None
+        outlook = _look_ahead(program, card, settings) if asked else None
+        drawing = outlook.motion if outlook else drawing
     except ScriptError as problem:
         return Checked(problem.name, problem.text, problem.diagnostics, None)
     except UsageError:
         raise
     except DqpaintError as problem:
         return Checked(name, "", (), None, str(problem))
-    findings = motion.notes + (outlook.warnings if outlook else ())
-    return Checked(str(path), program.text, findings, motion, outlook=outlook)
+    findings = drawing.notes + (outlook.warnings if outlook else ())
+    return Checked(str(path), program.text, findings, drawing, outlook=outlook)
 
 
-def _look_ahead(program: Program, card: Card, place: str | None) -> "Outlook":
+def _look_ahead(program: Program, card: Card, settings: Settings) -> "Outlook":
     """What an arm says of a drawing; only this brings in the kinematics.
 
     Raises:
@@ -101,25 +105,25 @@ def _look_ahead(program: Program, card: Card, place: str | None) -> "Outlook":
     from dqpaint.forewarning import look_ahead
     from dqpaint.robots.kinematics import Kinematics
 
-    return look_ahead(program, Kinematics(card), place)
+    return look_ahead(program, Kinematics(card), settings)
 
 
 def as_json(results: Sequence[Checked]) -> dict[str, Any]:
     """The findings of several drawings: 1-based, columns in code points, ends not included."""
     findings = [(result, finding) for result in results for finding in result.findings]
     warnings = sum(d.severity is Severity.WARNING for _, d in findings)
-    planned = [result.motion for result in results if result.motion is not None]
+    surveyed = [result.drawing for result in results if result.drawing is not None]
     return {
         "version": 1,
         "tool": f"dqpaint {__version__}",
-        "files": [_file(result) for result in results if result.motion is not None],
+        "files": [_file(result) for result in results if result.drawing is not None],
         "diagnostics": [_as_json(result, finding) for result, finding in findings]
         + [_unread(result) for result in results if result.fault],
         "summary": {
             "errors": sum(result.errors for result in results),
             "warnings": warnings,
-            "samples": sum(len(motion.t) for motion in planned),
-            "seconds": sum(float(motion.t[-1]) for motion in planned),
+            "samples": sum(drawing.samples for drawing in surveyed),
+            "seconds": sum(drawing.seconds for drawing in surveyed),
         },
     }
 
@@ -137,6 +141,7 @@ def _as_json(result: Checked, finding: Diagnostic) -> dict[str, Any]:
         "label": finding.label,
         "help": finding.help,
         "explain": f"dqpaint explain {finding.code}",
+        "url": url(finding.code),
         "related": [
             {
                 "file": file_at(result.source, span.start, result.file)[1],
@@ -154,15 +159,15 @@ def _as_json(result: Checked, finding: Diagnostic) -> dict[str, Any]:
 
 
 def _file(result: Checked) -> dict[str, Any]:
-    motion = result.motion
-    assert motion is not None
+    drawing = result.drawing
+    assert drawing is not None
     return {
         "file": result.file,
-        "samples": len(motion.t),
-        "seconds": float(motion.t[-1]),
-        "length_m": motion.length,
-        "ends_over_middle": motion.unevenness,
-        "box_m": motion.box.tolist(),
+        "samples": drawing.samples,
+        "seconds": drawing.seconds,
+        "length_m": drawing.length,
+        "ends_over_middle": drawing.unevenness,
+        "box_m": drawing.box.tolist(),
         "forecast": result.outlook.as_json if result.outlook else None,
     }
 

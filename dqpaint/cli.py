@@ -26,6 +26,7 @@ from dqpaint.cli_options import (
     Law,
     Look,
     Magnify,
+    MotionGhost,
     Noise,
     Null,
     Occlusion,
@@ -39,10 +40,12 @@ from dqpaint.cli_options import (
     Robot,
     Save,
     Seed,
+    SettingsFile,
     Size,
     Starburst,
     Tool,
     View,
+    typed,
 )
 from dqpaint.errors import UsageError
 
@@ -82,6 +85,7 @@ def common(
 
 @app.command(epilog=DRAW_EXAMPLES)
 def draw(
+    context: typer.Context,
     file: Drawing,
     controller: Law = "hinf",
     gain: Gain = None,
@@ -108,7 +112,9 @@ def draw(
     overlay: Overlay = False,
     magnify: Magnify = 1.0,
     ghost: Ghost = False,
+    motion_ghost: MotionGhost = False,
     occlusion: Occlusion = None,
+    settings: SettingsFile = None,
     out: Out = None,
     save: Save = "png,csv,json",
 ) -> None:
@@ -117,22 +123,28 @@ def draw(
     from dqpaint.controllers.own import short_name
     from dqpaint.examples import find_drawing
     from dqpaint.settings import parse_disturbances, parse_gains, parse_size
+    from dqpaint.settings_file import read_given
     from dqpaint.terminal import Progress
 
     names = outputs.choose(save)
     path = find_drawing(file)
-    stem = outputs.stem_for(
-        out, f"{path.stem}-{'recorded' if recorded else short_name(controller)}"
-    )
+    given = read_given(settings) if settings else None
+    choices = typed(
+        context, controller=controller, robot=robot, tool=tool, place=place, recorded=recorded,
+        plant=plant, seed=seed, start=start, null=null, on_limit=on_limit, size=parse_size(size),
+        view=view, ev=ev, brush=brush, pwm=pwm, exposure=exposure, look=look, starburst=starburst,
+        noise=noise, colour_by=colour_by, overlay=overlay, magnify=magnify, ghost=ghost,
+        occlusion=occlusion,
+    )  # fmt: skip
+    if motion_ghost:
+        choices["ghost"] = "motion"
+    both = given.under(choices) if given else choices
+    law = "recorded" if both.get("recorded") else short_name(both.get("controller") or controller)
+    stem = outputs.stem_for(out, f"{path.stem}-{law}")
     with Progress(path.name) as progress:
         painting = api.draw(
-            path, controller=controller, gains=parse_gains(gain or []), robot=robot, tool=tool,
-            place=place, recorded=recorded, plant=plant,
-            disturb=parse_disturbances(disturb or []), seed=seed, start=start, null=null,
-            on_limit=on_limit, size=parse_size(size), view=view, ev=ev, brush=brush, pwm=pwm,
-            exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
-            overlay=overlay, magnify=magnify, ghost=ghost, occlusion=occlusion,
-            progress=progress,
+            path, **choices, gains=parse_gains(gain or []),
+            disturb=parse_disturbances(disturb or []), settings=given, progress=progress,
         )  # fmt: skip
     with Progress("movie") as progress:
         written = outputs.write(stem, outputs.make(names, painting, progress))
@@ -146,6 +158,7 @@ def draw(
     epilog="Examples:\n\n  dqpaint preview star\n\n  dqpaint preview helix.traj --view iso --watch"
 )
 def preview(
+    context: typer.Context,
     file: Drawing,
     robot: Robot = None,
     tool: Tool = None,
@@ -160,6 +173,7 @@ def preview(
     noise: Noise = None,
     colour_by: ColourBy = None,
     ghost: Ghost = False,
+    settings: SettingsFile = None,
     out: Out = None,
     watch: Annotated[bool, typer.Option("--watch", help="again at each save, till Ctrl-C")] = False,
 ) -> None:
@@ -170,14 +184,14 @@ def preview(
 
     path = find_drawing(file)
     stem = outputs.stem_for(out, f"{path.stem}-preview")
-    pixels = parse_size(size)
+    choices = typed(
+        context, robot=robot, tool=tool, size=parse_size(size), view=view, ev=ev, brush=brush,
+        pwm=pwm, exposure=exposure, look=look, starburst=starburst, noise=noise,
+        colour_by=colour_by, ghost=ghost,
+    )  # fmt: skip
 
     def show() -> None:
-        preview = api.preview(
-            path, robot=robot, tool=tool, size=pixels, view=view, ev=ev, brush=brush, pwm=pwm,
-            exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
-            ghost=ghost,
-        )  # fmt: skip
+        preview = api.preview(path, **choices, settings=settings)
         written = outputs.write_pictures(stem, preview.pictures)
 
         from dqpaint import report
@@ -209,6 +223,11 @@ def develop(
     ] = None,
     starburst: Annotated[int | None, typer.Option(metavar="BLADES", help="0: none")] = None,
     noise: Noise = None,
+    ghost: Annotated[bool | None, typer.Option(help="the arm in the picture")] = None,
+    motion_ghost: MotionGhost = False,
+    occlusion: Annotated[
+        bool | None, typer.Option(help="the arm's body hides light from the camera")
+    ] = None,
     out: Out = None,
 ) -> None:
     """Take other pictures of a finished painting, at once; what is not said is as it was."""
@@ -221,7 +240,8 @@ def develop(
     stem = outputs.stem_for(out, f"{name}-developed")
     pictures = api.develop(
         film, size=parse_size(size) if size else None, view=view, ev=ev, exposure=exposure,
-        look=look, starburst=starburst, noise=noise,
+        look=look, starburst=starburst, noise=noise, ghost="motion" if motion_ghost else ghost,
+        occlusion=occlusion,
     )  # fmt: skip
     written = outputs.write_pictures(stem, pictures)
 
@@ -234,7 +254,7 @@ CHECK_EXAMPLES = """Examples:
 
   dqpaint check drawings/*.traj --json
 
-  dqpaint check star --robot ur5 --place auto
+  dqpaint check star --robot panda --place auto --view iso
 """
 
 
@@ -244,16 +264,33 @@ def check(
     robot: Robot = None,
     tool: Tool = None,
     place: PlaceAt = None,
+    start: From = "first",
+    null: Null = "start",
+    on_limit: OnLimit = "clip",
+    brush: Brush = None,
+    view: View = "front",
+    size: Size = "1280x720",
+    exposure: Exposure = None,
+    ghost: Ghost = False,
     as_json: AsJson = False,
 ) -> None:
     """Read drawings: every error at its place, or length, time, steps and box.
 
-    With --robot, or a robot line in the file, it also looks ahead, line by line: reach, joint
-    limits, speeds, torques, singularities, collisions, and light the arm would hide.
+    With --robot or any other choice of a run, or a robot line in the file, it also looks ahead,
+    line by line: reach, joint limits, speeds, torques, singularities, collisions, and light the arm
+    would hide.
     """
     from dqpaint import checking
+    from dqpaint.settings import parse_size
 
-    results = [checking.check(name, robot, tool, place) for name in files]
+    width, height = parse_size(size)
+    results = [
+        checking.check(
+            name, robot=robot, tool=tool, place=place, start=start, null=null, on_limit=on_limit,
+            brush=brush, view=view, width=width, height=height, exposure=exposure, ghost=ghost,
+        )
+        for name in files
+    ]  # fmt: skip
     if as_json:
         print(json.dumps(checking.as_json(results), indent=2))
     else:

@@ -11,6 +11,8 @@ from dqpaint.cli_options import (
     From,
     Gain,
     Law,
+    Null,
+    OnLimit,
     Out,
     PlaceAt,
     PlantName,
@@ -29,7 +31,7 @@ EXPORT_EXAMPLES = """Examples:
 
   dqpaint export star --format ros2
 
-  dqpaint export trajectories/rose.traj --robot ur5 --format urscript --out programs/
+  dqpaint export rose --robot ur5 --format urscript --on-limit slow --out programs/
 """
 
 
@@ -45,6 +47,8 @@ def export(
     disturb: Disturb = None,
     seed: Seed = 0,
     start: From = "first",
+    null: Null = "start",
+    on_limit: OnLimit = "clip",
     out: Out = None,
 ) -> None:
     """Run a drawing as draw does; write the joint trajectory for a real arm, and light cues.
@@ -65,7 +69,7 @@ def export(
         painting = api.draw(
             path, controller=controller, gains=parse_gains(gain or []), robot=robot,
             tool=tool, place=place, plant=plant, disturb=parse_disturbances(disturb or []),
-            seed=seed, start=start, size=(64, 36), progress=progress,
+            seed=seed, start=start, null=null, on_limit=on_limit, size=(64, 36), progress=progress,
         )  # fmt: skip
     written = outputs.write(stem, exports.files_of(painting, form))
 

@@ -1,6 +1,6 @@
 """The options of `draw`, most shared by other commands: drawing, arm, law, camera, light."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -80,7 +80,7 @@ View = Annotated[
     typer.Option(
         metavar="VIEW",
         help="front, iso, side, top, or AZ,EL: degrees to its right and above; stereo[:VIEW], "
-        "orbit[:N[:EL]]; several with commas",
+        "orbit[:N[:EL]], at:X:Y:Z[:X:Y:Z] m; several with commas",
     ),
 ]
 Ev = Annotated[float, typer.Option(help="exposure in stops, on top of the automatic one")]
@@ -109,12 +109,23 @@ ColourBy = Annotated[
         "line",
     ),
 ]
-Overlay = Annotated[bool, typer.Option("--overlay", help="the asked drawing beneath")]
+Overlay = Annotated[bool, typer.Option(help="the asked drawing beneath")]
 Magnify = Annotated[float, typer.Option(metavar="N", help="deviations, N times as large")]
-Ghost = Annotated[bool, typer.Option("--ghost", help="the arm in the picture, and room for it")]
+Ghost = Annotated[bool, typer.Option(help="the arm in the picture, and room for it")]
+MotionGhost = Annotated[
+    bool, typer.Option("--motion-ghost", help="the arm as a veil, seen all through its motion")
+]
 Occlusion = Annotated[
     bool | None,
     typer.Option(help="the arm's body hides light from the camera [default: as --ghost]"),
+]
+SettingsFile = Annotated[
+    str | None,
+    typer.Option(
+        "--settings",
+        metavar="FILE",
+        help="a TOML of these options, or the JSON of a run; what is typed wins",
+    ),
 ]
 Out = Annotated[
     str | None,
@@ -123,3 +134,12 @@ Out = Annotated[
 Save = Annotated[
     str, typer.Option(metavar="LIST", help="of png, csv, json, motion, film, hdr, video, webp")
 ]
+
+
+def typed(context: typer.Context, **choices: Any) -> dict[str, Any]:
+    """The choices that were typed, by name; None for those that were left to their defaults."""
+    typed_in = {
+        name for name in context.params
+        if (source := context.get_parameter_source(name)) and source.name == "COMMANDLINE"
+    }  # fmt: skip
+    return {name: value if name in typed_in else None for name, value in choices.items()}

@@ -14,6 +14,8 @@ from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Bounds
 from dqpaint.robots.resolver import PULL, resolve
 
+STILL = np.zeros(6)  # the twist of a tool that stays
+
 
 class Drive(Protocol):
     """Turns what a law sees into a command."""
@@ -47,7 +49,8 @@ def make_drive(
 class RateDrive:
     """For laws that command a twist or joint rates.
 
-    q_dot = J^+ u + (I - J^+ J) z with z the wish; joint rates pass as they are.
+    q_dot = J^+ u + (I - J^+ J) z with z the wish. Joint rates pass as they are, but for those of a
+    law that leaves the null space free: they gain (I - J^+ J) z.
     """
 
     def __init__(
@@ -55,17 +58,20 @@ class RateDrive:
     ) -> None:
         self._law = controller.law
         self._resolved = controller.commands == "twist"
+        self._leaves_null = controller.leaves_null
         self._wish = wish
         self._bounds = Bounds(kinematics.card, period)
 
     def ask(self, seen: Seen, gains: Any) -> Floats:
         """Joint rates (n,) [rad/s]."""
         said: Floats = self._law(seen, gains)
-        if not self._resolved:
+        if not (self._resolved or self._leaves_null):
             return said
         point = dq.translation(seen.pose)
         wish = self._wish(seen.posture, seen.jacobian, point)
-        return resolve(seen.jacobian, point, said, wish)
+        if self._resolved:
+            return resolve(seen.jacobian, point, said, wish)
+        return said + resolve(seen.jacobian, point, STILL, wish)
 
     def hold(self, posture: Floats) -> Floats:
         """No rates (n,)."""

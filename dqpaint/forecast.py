@@ -1,8 +1,9 @@
 """Motion x arm -> Forecast: what a drawing asks of an arm, line by line, before it is simulated.
 
 The arm follows what was asked without error and without limits, through the same resolver and with
-the same pull in its null space as a run. So where nothing is beyond a limit, a run goes the same
-way; where something is, the forecast says what would have been needed.
+the same wish in its null space as a run. So where nothing is beyond a limit, a run goes the same
+way; where something is, the forecast says what would have been needed. Disturbances are what nobody
+foresees, and how an arm that begins elsewhere comes to the drawing is its law's own.
 """
 
 from dataclasses import dataclass
@@ -12,18 +13,18 @@ from numpy.typing import NDArray
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.light.camera import VIEWS, frame
-from dqpaint.light.light import shine
+from dqpaint.hiding import LOOKS, PLAIN, Hiding, hide, looks_at
 from dqpaint.motion import Motion
-from dqpaint.robots.collisions import Shapes
+from dqpaint.nullspace import DEFAULT_NULL, Wish, make_wish
+from dqpaint.robots.collisions import Nearest, shapes_of
 from dqpaint.robots.dynamics import Dynamics
 from dqpaint.robots.kinematics import Kinematics, manipulability
 from dqpaint.robots.reach import ON_THE_WAY, solve
-from dqpaint.robots.resolver import PULL, resolve, to_tool
+from dqpaint.robots.resolver import resolve, to_tool
+from dqpaint.settings import Settings
+from dqpaint.slowing import TAKEN_UP
 
 MOST_ROWS = 20_000  # that are followed; of a longer drawing every second, third ... one
-LOOKS = 400  # at the arm's shapes in a whole drawing
-TAKEN_UP = 1e-3  # [s] in which the motors of the plant `stiff` take up a new rate
 
 
 @dataclass(frozen=True)
@@ -54,8 +55,9 @@ class Forecast:
         manipulability: the least sqrt(det(J J')).
         clearance: least distance between two links [m], and which; None where none can meet.
         between: these two links.
-        hidden: part of the line's light that the arm stands before, seen from the front; None for
-            a dark line.
+        hidden: part of the line's light that the arm stands before, in the view where that is most;
+            None for a dark line.
+        view: that view.
     """
 
     line: int
@@ -73,26 +75,31 @@ class Forecast:
     clearance: float | None
     between: tuple[str, str] | None
     hidden: float | None
+    view: str
 
 
-def forecast(motion: Motion, kinematics: Kinematics, start: Floats) -> tuple[Forecast, ...]:
+def forecast(
+    motion: Motion, kinematics: Kinematics, start: Floats, settings: Settings = PLAIN
+) -> tuple[Forecast, ...]:
     """Look ahead along a drawing.
 
     Args:
         motion: what is asked.
         kinematics: of the arm.
         start: posture (n,) [rad] it begins in.
+        settings: of the run: what the arm does with its freedom, what shines, and from where it is
+            looked at.
 
     Returns:
         One entry for each line of the file that moves, in the order they are first drawn.
     """
-    run = _Run(motion, kinematics, start)
-    near, hidden = _shapes(run, motion, kinematics)
+    run = _Run(motion, kinematics, start, settings.null)
+    shapes = shapes_of(kinematics)
+    looks = looks_at(run.line, LOOKS)
+    near = shapes.nearest(run.posture[looks])
+    hiding = hide(shapes, motion, run.rows, run.posture, settings)
     lines, first = np.unique(run.line, return_index=True)
-    return tuple(
-        _of_line(run, int(line), near, hidden, motion.light[run.rows])
-        for line in lines[np.argsort(first)]
-    )
+    return tuple(_of_line(run, int(line), looks, near, hiding) for line in lines[np.argsort(first)])
 
 
 class _Run:
@@ -101,14 +108,18 @@ class _Run:
     The speed and the torque of a jump of the set point are a law's own: they count as none.
     """
 
-    def __init__(self, motion: Motion, kinematics: Kinematics, start: Floats) -> None:
+    def __init__(
+        self, motion: Motion, kinematics: Kinematics, start: Floats, null: str = DEFAULT_NULL
+    ) -> None:
         self.card = kinematics.card
         stride = -(-len(motion.t) // MOST_ROWS)
         self.rows = np.arange(0, len(motion.t), stride)
         self.t, self.line = motion.t[self.rows], motion.line[self.rows]
         self.period = stride * motion.period
         joined = np.add.reduceat(motion.jump, self.rows) > 0
-        self.posture, self.points, J = _follow(motion, kinematics, start, self.rows, joined)
+        self.posture, self.points, J = _follow(
+            motion, kinematics, start, self.rows, joined, make_wish(null, self.card, start)
+        )
         self.manipulability = manipulability(J)
         at_tool = to_tool(self.points) @ J
         self.singular = np.linalg.svd(at_tool, compute_uv=False)[:, -1]
@@ -139,56 +150,32 @@ def _follow(
     start: Floats,
     rows: NDArray[np.intp],
     jump: NDArray[np.bool_],
+    wish: Wish,
 ) -> tuple[Floats, Floats, Floats]:
     """Postures (N, n), places (N, 3) and Jacobians (N, 6, n); one Newton step leads to each row."""
     period = motion.period * (rows[1] - rows[0] if len(rows) > 1 else 1)
-    pull = 1.0 - np.exp(-PULL * period)
     postures, jacobians = np.empty((len(rows), len(start))), np.empty((len(rows), 6, len(start)))
     points = np.empty((len(rows), 3))
-    q = start
+    still = np.zeros((1, len(start)))
+    q = solve(kinematics, motion.pose[0], start[None], still, ON_THE_WAY)[0][0]
     for k in range(len(rows)):
         x, J = kinematics.pose_and_jacobian(q)
         p = dq.translation(x)
         postures[k], jacobians[k], points[k] = q, J, p
         if k + 1 == len(rows):
             break
-        ahead, wish = motion.pose[rows[k + 1]], pull * (start - q)
+        ahead, drawn = motion.pose[rows[k + 1]], wish.over(period, q, J, p)
         if jump[k]:
-            q = solve(kinematics, ahead, q[None], wish[None], ON_THE_WAY)[0][0]
+            q = solve(kinematics, ahead, q[None], drawn[None], ON_THE_WAY)[0][0]
         else:
             way = 2 * dq.log(dq.mul(dq.nearest(ahead, x), dq.conj(x)))
-            q = q + resolve(J, p, way, wish)
+            q = q + resolve(J, p, way, drawn)
     return postures, points, jacobians
 
 
-@dataclass(frozen=True)
-class _Near:
-    """The arm's shapes at some of the rows."""
-
-    rows: NDArray[np.intp]
-    distance: Floats
-    pair: list[tuple[str, str]]
-
-
-def _shapes(run: _Run, motion: Motion, kinematics: Kinematics) -> tuple[_Near, dict[int, bool]]:
-    """How near the links come, and at which lit rows the arm hides the light."""
-    n = len(run.rows)
-    ends = np.flatnonzero(np.diff(run.line)) + 1
-    middles = (np.append(0, ends) + np.append(ends, n)) // 2  # every line is looked at
-    looks = np.unique(np.concatenate([np.linspace(0, n - 1, min(n, LOOKS)).astype(int), middles]))
-    shapes = Shapes(kinematics)
-    nearest = shapes.nearest(run.posture[looks])
-    near = _Near(looks, nearest.distance, nearest.pair)
-    lit = looks[motion.light[run.rows[looks]].any(axis=1)]
-    if not len(lit):
-        return near, {}
-    shown = shine(motion.points, motion.light, motion.period).lit_points
-    eye = frame(shown, dq.matrix_from_quaternion(motion.front), VIEWS["front"], (1280, 720))
-    hides = shapes.hides(run.posture[lit], run.points[lit], eye.position)
-    return near, dict(zip(lit.tolist(), hides.tolist(), strict=True))
-
-
-def _of_line(run: _Run, line: int, near: _Near, hidden: dict[int, bool], light: Floats) -> Forecast:
+def _of_line(
+    run: _Run, line: int, looks: NDArray[np.intp], near: Nearest, hiding: Hiding
+) -> Forecast:
     rows = np.flatnonzero(run.line == line)
     card = run.card
     speed, speed_part = _worst(run, rows, run.rates, card.speed)
@@ -196,10 +183,10 @@ def _of_line(run: _Run, line: int, near: _Near, hidden: dict[int, bool], light: 
     jolt, jolt_part = _worst(run, rows, run.jolt, card.effort)
     k, joint = np.unravel_index(run.margin[rows].argmin(), (len(rows), card.joints))
     margin = Worst(float(run.margin[rows[k], joint]), int(joint) + 1, float(run.t[rows[k]]))
-    looked = np.flatnonzero(np.isin(near.rows, rows))
+    looked = np.flatnonzero(np.isin(looks, rows))
     closest = looked[near.distance[looked].argmin()]
     meets = bool(np.isfinite(near.distance[closest]))
-    seen = {row: hides for row, hides in hidden.items() if run.line[row] == line}
+    hidden, view = hiding.of(rows)
     return Forecast(
         line=line,
         start=float(run.t[rows[0]]),
@@ -215,15 +202,9 @@ def _of_line(run: _Run, line: int, near: _Near, hidden: dict[int, bool], light: 
         manipulability=float(run.manipulability[rows].min()),
         clearance=float(near.distance[closest]) if meets else None,
         between=near.pair[closest] if meets else None,
-        hidden=_share(seen, light),
+        hidden=hidden,
+        view=view,
     )
-
-
-def _share(hidden: dict[int, bool], light: Floats) -> float | None:
-    """The part of the light that is hidden, by its energy."""
-    energy = {row: float(light[row].sum()) for row in hidden}
-    total = sum(energy.values())
-    return sum(energy[row] for row, hides in hidden.items() if hides) / total if total else None
 
 
 def _worst(run: _Run, rows: NDArray[np.intp], values: Floats, limit: Floats) -> tuple[Worst, float]:

@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
 from dqpaint.forecast import Forecast, forecast
+from dqpaint.hiding import PLAIN
 from dqpaint.language.diagnostics import Diagnostic, Span
 from dqpaint.language.program import Program
 from dqpaint.motion import Motion, plan
@@ -14,6 +15,8 @@ from dqpaint.placing import Placed, settle
 from dqpaint.robots.card import Card
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.resolver import THRESHOLD
+from dqpaint.settings import Settings
+from dqpaint.slowing import Slowed, slow_down
 
 CLOSE = 0.9  # of a limit
 CLOSE_ANGLE = math.radians(5.0)
@@ -23,6 +26,7 @@ CLOSE_HIDDEN = 0.005  # of a line's light
 HIDDEN = 0.01
 MOST_LINES = 12  # of the table
 MOST_NAMED = 6  # lines in a warning
+FROM = ("front", "side", "top")  # where an eye may be said to be
 DEG = math.degrees(1)
 
 
@@ -33,6 +37,7 @@ class Outlook:
     Attributes:
         motion: what was asked, at its place.
         placed: where `place auto` put it.
+        slowed: how it was slowed down, where it may be.
         robot: its name.
         start: the posture it begins in [rad].
         lines: the forecast of each line.
@@ -42,6 +47,7 @@ class Outlook:
 
     motion: Motion
     placed: Placed | None
+    slowed: Slowed | None
     robot: str
     start: tuple[float, ...]
     lines: tuple[Forecast, ...]
@@ -60,8 +66,9 @@ class Outlook:
         )
         notes = "".join(f"\nnote: {note}" for note in self.notes)
         placed = f"  {self.placed.line}\n  {self.placed.figures}\n" if self.placed else ""
+        slowed = f"  {self.slowed}\n" if self.slowed else ""
         figures = f"{_extremes(self.lines)}{_table(self.lines)}"
-        return f"; {self.robot} reaches it, {said}\n{placed}{figures}{notes}"
+        return f"; {self.robot} reaches it, {said}\n{placed}{slowed}{figures}{notes}"
 
     @property
     def as_json(self) -> dict[str, Any]:
@@ -69,29 +76,36 @@ class Outlook:
         return {
             "robot": self.robot,
             "place": self.placed and self.placed.as_json,
+            "pace": self.slowed and self.slowed.as_json,
             "start_rad": list(self.start),
             "lines": [_figures(line) for line in self.lines],
         }
 
 
-def look_ahead(program: Program, kinematics: Kinematics, place: str | None = None) -> Outlook:
+def look_ahead(program: Program, kinematics: Kinematics, settings: Settings = PLAIN) -> Outlook:
     """The outlook of a drawing for an arm.
 
     Args:
         program: the drawing.
         kinematics: of the arm.
-        place: "auto" to find a place whatever the file says.
+        settings: of the run that is looked ahead to.
 
     Raises:
         ScriptError: the drawing leaves the arm's reach.
     """
-    program, placed = settle(program, kinematics, place)
+    program, placed = settle(program, kinematics, settings)
     motion = plan(program, kinematics.card.canvas.pose)
-    start = begin(motion, kinematics).posture
-    lines = forecast(motion, kinematics, start)
+    best = begin(motion, kinematics, settings.null).posture
+    start = kinematics.card.home if settings.start == "home" else best
+    slowed = None
+    if settings.on_limit == "slow":
+        slowed = slow_down(motion, kinematics, start, settings.null, "sudden")
+        motion = slowed.motion
+    lines = forecast(motion, kinematics, start, settings)
     return Outlook(
         motion,
         placed,
+        slowed,
         kinematics.card.name,
         tuple(start.tolist()),
         lines,
@@ -152,7 +166,8 @@ def _collision(one: Forecast, _card: Card) -> str:
 
 
 def _hidden(one: Forecast, _card: Card) -> str:
-    return f"the arm stands before {one.hidden or 0:.0%} of the light, seen from the front"
+    where = f"from the {one.view}" if one.view in FROM else f"in the view {one.view}"
+    return f"the arm stands before {one.hidden or 0:.0%} of the light, seen {where}"
 
 
 def _when(time: float) -> str:

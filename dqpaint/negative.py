@@ -9,7 +9,7 @@ import zipfile
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, NamedTuple
 
 import cv2
 import numpy as np
@@ -21,7 +21,7 @@ from dqpaint.errors import DqpaintError
 from dqpaint.light.emitters import Emitters
 from dqpaint.light.legend import Legend
 from dqpaint.light.sweep import Sweep
-from dqpaint.picture import Picture, linear
+from dqpaint.picture import Picture, Worked, linear
 from dqpaint.scene import Scene
 from dqpaint.settings import Settings
 from dqpaint.stage.staging import Cast
@@ -65,6 +65,14 @@ class Arm(BaseModel):
     period: Annotated[float, Field(ge=1e-6, le=FARTHEST, allow_inf_nan=False)]
 
 
+class Shown(BaseModel):
+    """What a film says of the picture of the arm that is in it, and of what the arm hid."""
+
+    model_config = ConfigDict(extra="forbid")
+    shares: Annotated[int, Field(ge=0)]
+    remarks: tuple[str, ...]
+
+
 class About(BaseModel):
     """What a film says besides its arrays."""
 
@@ -79,13 +87,25 @@ class About(BaseModel):
     asked: tuple[Facts, ...]
     under: tuple[Facts, ...]
     arm: Arm | None = None
+    shown: Shown | None = None
 
 
 TIFF = [cv2.IMWRITE_TIFF_COMPRESSION, 8]  # deflate
 
 
-def encode(scene: Scene, settings: Settings, cast: Cast | None = None) -> bytes:
-    """A scene and how it was photographed, as a file; with the arm, if the settings use it."""
+class Negative(NamedTuple):
+    """What a film holds: what shone, how it was photographed, the arm, and how that was seen."""
+
+    scene: Scene
+    settings: Settings
+    cast: Cast | None = None
+    worked: Worked | None = None
+
+
+def encode(
+    scene: Scene, settings: Settings, cast: Cast | None = None, worked: Worked | None = None
+) -> bytes:
+    """A scene and how it was photographed, as a file; with the arm, if it is known how it moved."""
     arrays: dict[str, Any] = {"front": scene.front}
     about: dict[str, Any] = {
         "schema": SCHEMA,
@@ -112,17 +132,23 @@ def encode(scene: Scene, settings: Settings, cast: Cast | None = None) -> bytes:
             if sweep.strobe is not None:
                 parts["strobe"] = sweep.strobe
             arrays.update({f"{key}-{name}": array for name, array in parts.items()})
-    if cast is not None and settings.staged:
+    if cast is not None and cast.known:
         about["arm"] = {"robot": cast.robot, "period": cast.period}
         arrays.update({"arm-posture": cast.posture, "arm-line": cast.line})
+    if worked is not None and settings.staged:
+        about["shown"] = {"shares": len(worked.shares), "remarks": worked.remarks}
+        arrays["shown-key"] = worked.key
+        arrays.update({f"shown-share{i}": share for i, share in enumerate(worked.shares)})
+        if worked.arm is not None:
+            arrays["shown-arm"] = worked.arm
     arrays["about"] = np.array(json.dumps(about))
     file = io.BytesIO()
     np.savez_compressed(file, **arrays)
     return file.getvalue()
 
 
-def read(path: str) -> tuple[Scene, Settings, Cast | None]:
-    """The scene, the settings and, if they use it, the arm of a file that `encode` made.
+def read(path: str) -> Negative:
+    """What is in a file that `encode` made.
 
     Raises:
         DqpaintError: There is none, or it is something else.
@@ -141,7 +167,8 @@ def read(path: str) -> tuple[Scene, Settings, Cast | None]:
             if front.shape != (3, 3) or np.abs(front @ front.T - np.eye(3)).max() > UNIT:
                 raise ValueError("front")
             scene = Scene(about.name, light, asked, under, front, legend, about.dimmer)
-            return scene, about.settings, _cast(arrays, about.arm, light[0])
+            cast = _cast(arrays, about.arm, light[0])
+            return Negative(scene, about.settings, cast, _worked(arrays, about, light))
     except OSError as problem:
         reason = problem.strerror or "it is not a film"
         raise DqpaintError(f"film '{path[:60]}' cannot be read: {reason}") from None
@@ -165,6 +192,26 @@ def _cast(arrays: Any, facts: Arm | None, sweep: Sweep) -> Cast | None:
     if line.dtype.kind != "i":
         raise ValueError("arm")
     return Cast(facts.robot, posture, line.astype(np.int64), facts.period)
+
+
+def _worked(arrays: Any, about: About, light: tuple[Sweep, ...]) -> Worked | None:
+    if about.shown is None:
+        return None
+    key = _numbers(arrays, "shown-key")
+    arm = _numbers(arrays, "shown-arm") if "shown-arm" in arrays else None
+    shares = tuple(_numbers(arrays, f"shown-share{i}") for i in range(about.shown.shares))
+    size = (about.settings.height, about.settings.width, 3)
+    if key.shape != (18,) or (arm is not None and (arm.shape != size or arm.min() < 0.0)):
+        raise ValueError("shown")
+    if shares and len(shares) != len(light):
+        raise ValueError("shown")
+    for share, sweep in zip(shares, light, strict=False):
+        if share.ndim != 2 or len(share) != len(sweep.colours) or not share.shape[1]:
+            raise ValueError("share")
+        if share.min() < 0.0 or share.max() > 1.0:
+            raise ValueError("share")
+    seen = None if arm is None else arm.astype(np.float32)
+    return Worked(key, about.settings.ghost, seen, shares, about.shown.remarks)
 
 
 def _numbers(arrays: Any, name: str) -> Floats:

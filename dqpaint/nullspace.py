@@ -4,6 +4,8 @@ Each objective is a number h(q) that should become small; the null space is give
 gradient, z = -gain dh/dq. A new objective is a class here under `@OBJECTIVES.add(name)`.
 """
 
+import math
+from collections.abc import Callable
 from typing import ClassVar, Protocol
 
 import numpy as np
@@ -15,6 +17,7 @@ from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 from dqpaint.registry import Registry
 from dqpaint.robots.card import Card
+from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.resolver import PULL, to_tool
 
 DEFAULT_NULL = "start"
@@ -172,6 +175,15 @@ class Wish:
         """The wished joint rates -gain dh/dq (n,) [rad/s]."""
         return self._gain * self._objective.slope(posture, jacobian, point)
 
+    def over(self, seconds: float, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
+        """How far it moves the joints (n,) [rad] in a time, left to itself.
+
+        As though h were half a squared distance, which it is for pulls towards a posture: however
+        long the time, none goes too far.
+        """
+        part = math.expm1(self._gain * seconds)
+        return part * self._objective.slope(posture, jacobian, point)
+
 
 class _Gain(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -202,3 +214,23 @@ def make_wish(text: str, card: Card, start: Floats) -> Wish:
     """
     name, gain = read_null(text)
     return Wish(OBJECTIVES[name](card, start), gain)
+
+
+def make_pull(text: str, kinematics: Kinematics) -> Callable[[Floats, Floats, float], Floats]:
+    """The wish of many arms at once, as `robots.reach.find_start` takes it.
+
+    Raises:
+        UsageError: as `read_null`.
+    """
+    name, gain = read_null(text)
+    card = kinematics.card
+
+    def pull(postures: Floats, starts: Floats, seconds: float) -> Floats:
+        ways = []
+        for posture, start in zip(postures, starts, strict=True):
+            x, J = kinematics.pose_and_jacobian(posture)
+            wish = Wish(OBJECTIVES[name](card, start), gain)
+            ways.append(wish.over(seconds, posture, J, dq.translation(x)))
+        return np.array(ways)
+
+    return pull

@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 from dqpaint import dq
 from dqpaint.language.diagnostics import Diagnostic, ScriptError
 from dqpaint.motion import Motion
+from dqpaint.nullspace import DEFAULT_NULL, make_pull
 from dqpaint.robots.kinematics import Kinematics
-from dqpaint.robots.reach import Miss, Start, find_start, waypoints
+from dqpaint.robots.reach import Miss, Start, find_start, to_start, waypoints
 
 if TYPE_CHECKING:
     from dqpaint.tracking import Track  # brings in the simulator, and a forecast needs none
@@ -20,14 +21,20 @@ WORTH_SAYING = np.radians(0.5)
 SCALES = np.arange(0.95, 0.05, -0.05)
 
 
-def begin(motion: Motion, kinematics: Kinematics) -> Start:
+def begin(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL) -> Start:
     """The posture that leaves the most margin over the whole drawing.
+
+    Args:
+        motion: what is asked.
+        kinematics: of the arm.
+        null: what the arm does with its freedom.
 
     Raises:
         ScriptError: the drawing leaves the arm's reach, wherever it begins.
     """
     rows = waypoints(motion.stroke)
-    found = find_start(kinematics, motion.pose[rows], motion.t[rows])
+    pull = to_start if null == DEFAULT_NULL else make_pull(null, kinematics)
+    found = find_start(kinematics, motion.pose[rows], motion.t[rows], pull)
     if isinstance(found, Miss):
         raise out_of_reach(motion, kinematics, int(rows[found.index]), found)
     return found

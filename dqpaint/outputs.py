@@ -1,6 +1,5 @@
 """Painting -> files: pictures, tables and summaries, written whole or not at all."""
 
-import hashlib
 import json
 import os
 import platform
@@ -78,7 +77,9 @@ def film(painting: "Painting") -> Files:
 
     scene, settings = painting.scene, painting.settings
     exact = negative.encode_linear(scene, painting.picture, settings, ".tiff")
-    return {"-film.npz": negative.encode(scene, settings, painting.cast), "-film.tiff": exact}
+    worked = painting.picture.worked(settings.ghost)
+    kept = negative.encode(scene, settings, painting.cast, worked)
+    return {"-film.npz": kept, "-film.tiff": exact}
 
 
 @OUTPUTS.add("hdr")
@@ -94,7 +95,8 @@ def video(painting: "Painting", progress: Told) -> bytes:
     """The painting as it grows: VP9 in WebM."""
     from dqpaint.video import webm
 
-    return webm(painting.scene, painting.picture, painting.settings, progress)
+    with painting.staged() as staging:
+        return webm(painting.scene, painting.picture, painting.settings, progress, staging)
 
 
 @MOVIES.add("webp")
@@ -102,7 +104,8 @@ def webp(painting: "Painting", progress: Told) -> bytes:
     """The same as an animation for a page."""
     from dqpaint.video import webp as animation
 
-    return animation(painting.scene, painting.picture, painting.settings, progress)
+    with painting.staged() as staging:
+        return animation(painting.scene, painting.picture, painting.settings, progress, staging)
 
 
 CHUNK = 8192  # rows of a table that are written at once
@@ -165,7 +168,7 @@ def summarise(painting: "Painting") -> dict[str, Any]:
     return {
         "schema": SCHEMA,
         "file": Path(program.name).name,
-        "sha256": hashlib.sha256(program.text.encode()).hexdigest(),
+        "sha256": painting.sha256,
         "versions": {
             "dqpaint": __version__,
             "python": platform.python_version(),
@@ -239,10 +242,7 @@ def _law(painting: "Painting") -> dict[str, str | None]:
 
 def _pace(painting: "Painting") -> dict[str, Any] | None:
     """How the drawing was slowed down; None where its clock ran as asked, come what may."""
-    slowed = painting.slowed
-    if slowed is None:
-        return None
-    return {"longer_s": slowed.longer, "slowest": slowed.slowest, "lines": list(slowed.lines)}
+    return None if painting.slowed is None else painting.slowed.as_json
 
 
 def stem_for(out: str | None, name: str) -> Path:

@@ -1,7 +1,8 @@
 """The whole flow, from a drawing's text to its painting, to be read in a minute."""
 
+import hashlib
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from time import perf_counter
 from typing import Any
@@ -22,14 +23,14 @@ from dqpaint.plants import choose_plant
 from dqpaint.plants.plant import Chosen, Takes
 from dqpaint.recorded import RECORDED, Recording, read_recording, replay
 from dqpaint.robots.card import DEFAULT_ROBOT
-from dqpaint.robots.choose import card_for
+from dqpaint.robots.choose import card_for, find_card
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.limits import Clamp
 from dqpaint.scene import Scene, arrange, check_choices
 from dqpaint.set_points import SetPoint, set_points
 from dqpaint.settings import Settings, check_recorded
 from dqpaint.slowing import Slowed, slow_down
-from dqpaint.stage.staging import Cast, on_stage
+from dqpaint.stage.staging import Cast, Staging, on_stage
 from dqpaint.tracking import Track, track
 
 UNSEEN = "poses alone say nothing of the joints: the arm and what it hides are left out"
@@ -71,9 +72,18 @@ class Painting(Shown):
         return self.metrics.table
 
     @property
+    def sha256(self) -> str:
+        """Of the drawing's text."""
+        return hashlib.sha256(self.motion.program.text.encode()).hexdigest()
+
+    @property
     def limits(self) -> tuple[Clamp, ...]:
         """Every limit of the arm that held a joint back."""
         return self.track.clamps
+
+    def staged(self) -> AbstractContextManager[Staging | None]:
+        """The arm as it moved, if the settings show it or let it hide light."""
+        return on_stage(self.settings, find_card(self.cast.robot), self.cast)
 
     def __repr__(self) -> str:
         name, rms = self.motion.program.name, self.metrics.figures["position_error_rms_m"]
@@ -160,18 +170,16 @@ def prepare(
     read_null(settings.null)
     with clock("place"):
         kinematics = Kinematics(card)
-        program, placed = settle(program, kinematics, settings.place)
+        program, placed = settle(program, kinematics, settings)
     with clock("motion"):
         motion = plan(program, card.canvas.pose)
     slowed, start = None, card.home
     if recording is None:
         with clock("start"):
-            best = begin(motion, kinematics).posture
+            best = begin(motion, kinematics, settings.null).posture
             start = card.home if settings.start == "home" else best
             if settings.on_limit == "slow":
-                slowed = slow_down(
-                    motion, kinematics, start, settings.null, controller.drives_torque
-                )
+                slowed = slow_down(motion, kinematics, start, settings.null, plant.motors)
                 motion = slowed.motion
     return Ready(
         program, settings, clock, controller, gains, plant, disturbances, kinematics, motion,

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import cv2
 import numpy as np
@@ -10,26 +11,27 @@ from numpy.typing import NDArray
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.light.arrays import Image
-from dqpaint.light.camera import FILL, LENS, Camera
+from dqpaint.light.camera import Camera
 from dqpaint.light.exposure import CORE, automatic_exposure
 from dqpaint.light.film import Film, expose
 from dqpaint.light.legend import with_legend
 from dqpaint.light.looks import LOOKS, with_noise
 from dqpaint.light.settings import advice, parse_exposure
+from dqpaint.light.shade import Shade, shade_of
 from dqpaint.light.spread import point_spread, spread
 from dqpaint.light.starburst import with_starburst
-from dqpaint.light.sweep import Sweep
-from dqpaint.light.views import Shot, camera_of, distance_to, parse_views
+from dqpaint.light.sweep import ALL, Sweep
+from dqpaint.light.views import Shot, distance_to, parse_views
 from dqpaint.motion import Motion
 from dqpaint.scene import Scene, arrange
 from dqpaint.settings import Settings
+from dqpaint.shining import stand
 from dqpaint.stage.staging import Hidden, Staging, account
 
 # run lengths suit black ground with dithered halos: smaller and faster than the default search
 PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
 FAINT = 0.25  # what the lines of the asked drawing under the reached one are exposed to
 KEPT = 1  # pictures of one painting whose films are kept; of the others only the sums are
-BESIDE_ARM = 0.45  # of the limiting dimension a drawing takes that leaves room for the arm
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -64,6 +66,12 @@ class Picture:
     def emitted(self) -> Floats:
         """(3,) what the light gave off: on the film, lost and hidden, in the film's unit."""
         return self.film.emitted + (0.0 if self.hidden is None else self.hidden.energy)
+
+    def worked(self, ghost: bool | str) -> "Worked":
+        """What of the arm was worked out for it, where it was shown like this."""
+        shades = [sweep.shade for sweep in self.light if sweep.shade is not None]
+        shares = tuple(shade.share for shade in shades)
+        return Worked(key_of(self.camera, self.exposure), ghost, self.arm, shares, self.remarks)
 
     @property
     def png(self) -> bytes:
@@ -101,8 +109,52 @@ class Shown:
         return self.picture.png
 
 
+@dataclass(frozen=True, eq=False)
+class Worked:
+    """What of the arm was worked out for one picture, to be used again where that fits.
+
+    Attributes:
+        key: (18,) the picture's camera and exposure, see `key_of`.
+        ghost: how the arm is shown in it.
+        arm: (H, W, 3) linear light of the arm and the floor, if they are shown.
+        shares: (N-1, P) of each sweep what the arm let through; none if that was not traced.
+        remarks: what could not be shown or traced.
+    """
+
+    key: Floats
+    ghost: bool | str
+    arm: Image | None
+    shares: tuple[Floats, ...]
+    remarks: tuple[str, ...]
+
+    def shows(self, key: Floats, settings: Settings) -> bool:
+        """Whether the arm looks like this in another picture."""
+        same = self.arm is not None and self.ghost == settings.ghost
+        return same and bool(np.array_equal(key, self.key))
+
+    def hides(self, key: Floats) -> bool:
+        """Whether it hides the same from another camera."""
+        return bool(self.shares) and bool(np.array_equal(key[:3], self.key[:3]))
+
+    def shaded(self, light: tuple[Sweep, ...]) -> tuple[Sweep, ...]:
+        """Light with what is hidden of it."""
+        return tuple(
+            replace(sweep, shade=Shade(sweep.period, share))
+            for sweep, share in zip(light, self.shares, strict=True)
+        )
+
+
+def key_of(camera: Camera, exposure: float) -> Floats:
+    """(18,) all that a picture of the arm depends on besides arm and light; first the eye."""
+    numbers = (camera.focal, *camera.centre, camera.width, camera.height, exposure)
+    return np.concatenate([camera.position, camera.rotation.ravel(), numbers])
+
+
 def photograph(
-    scene: Scene, settings: Settings, staging: Staging | None = None
+    scene: Scene,
+    settings: Settings,
+    staging: Staging | None = None,
+    worked: Worked | None = None,
 ) -> Iterator[Picture]:
     """The pictures of a scene: one for each view of the settings, all of one run.
 
@@ -112,10 +164,11 @@ def photograph(
         scene: what is photographed.
         settings: views, size, exposure, look, and whether the arm is seen and hides light.
         staging: the arm; None is a picture without one, that hides nothing.
+        worked: what of the arm is known already.
     """
     series: dict[int, float] = {}
     for i, shot in enumerate(parse_views(settings.view)):
-        picture = _shoot(scene, settings, shot, series.get(shot.series), staging)
+        picture = _shoot(scene, settings, shot, series.get(shot.series), staging, worked)
         if shot.series:
             series.setdefault(shot.series, picture.exposure)
         if i >= KEPT:
@@ -126,34 +179,63 @@ def photograph(
 
 def place_camera(scene: Scene, settings: Settings, shot: Shot) -> Camera:
     """The camera of one view."""
-    real = parse_exposure(settings.exposure or "auto")
-    lens, distance = (LENS, None) if real is None else (real.lens, real.distance)
-    size = (settings.width, settings.height)
-    fill = BESIDE_ARM if settings.ghost else FILL
-    return camera_of(shot, scene.shown_points, scene.front, size, lens, distance, fill)
+    return stand(scene.shown_points, scene.front, settings, shot)
 
 
 def _shoot(
-    scene: Scene, settings: Settings, shot: Shot, given: float | None, staging: Staging | None
+    scene: Scene,
+    settings: Settings,
+    shot: Shot,
+    given: float | None,
+    staging: Staging | None,
+    worked: Worked | None,
 ) -> Picture:
     camera = place_camera(scene, settings, shot)
     exposure, told = _exposure(scene, settings, camera, given)
-    falloff, light = _by_settings(settings), scene.light
-    arm, traced = None, False
+    staged = Worked(key_of(camera, exposure), False, None, (), ())
     if staging is not None:
-        traced = settings.traced and staging.solid
-        if traced:
-            light = tuple(sweep.behind(staging, camera.position) for sweep in light)
-        if settings.ghost:
-            lamps = [lamp for sweep in scene.light for lamp in sweep.lights()]
-            arm = staging.photograph(camera, lamps, exposure, falloff)
-    film = expose(light, camera, falloff)
-    hidden = _hidden(light, staging.line) if staging is not None and traced else None
-    image = linear(scene, film, exposure, camera, settings, arm=arm)
+        staged = _stage(scene, settings, camera, exposure, staging, worked)
+    light = staged.shaded(scene.light) if staged.shares else scene.light
+    film = expose(light, camera, _by_settings(settings))
+    hidden = _hidden(light, staging.line) if staging is not None and staged.shares else None
+    image = linear(scene, film, exposure, camera, settings, arm=staged.arm)
     return Picture(
         finish(scene, image, exposure, settings), film, exposure, camera, shot.name, told, light,
-        hidden, arm, tuple(staging.remarks) if staging is not None else (),
+        hidden, staged.arm, staged.remarks,
     )  # fmt: skip
+
+
+def _stage(
+    scene: Scene,
+    settings: Settings,
+    camera: Camera,
+    exposure: float,
+    staging: Staging,
+    worked: Worked | None,
+) -> Worked:
+    """What of the arm is to be seen, and what it hides; what is known already is not asked."""
+    key, fresh = key_of(camera, exposure), False
+    arm: Image | None = None
+    shares: tuple[Floats, ...] = ()
+    if settings.traced and worked is not None and worked.hides(key):
+        shares = worked.shares
+    elif settings.traced:
+        fresh = True
+        if staging.solid:
+            shares = tuple(shade_of(sweep, staging, camera.position).share for sweep in scene.light)
+    if settings.ghost and worked is not None and worked.shows(key, settings):
+        arm = worked.arm
+    elif settings.ghost:
+        fresh = True
+        take = staging.blur if settings.ghost == "motion" else staging.photograph
+        arm = take(camera, partial(lights_of, scene), exposure, _by_settings(settings))
+    remarks = tuple(staging.remarks) if fresh or worked is None else worked.remarks
+    return Worked(key, settings.ghost, arm, shares, remarks)
+
+
+def lights_of(scene: Scene, samples: slice = ALL) -> list[tuple[Floats, Floats]]:
+    """The paths (N, 3) and energies (N-1, 3) of a scene's lamps, of some steps between samples."""
+    return [lamp for sweep in scene.light for lamp in sweep.lights(samples)]
 
 
 def _hidden(light: Sequence[Sweep], line: NDArray[np.int64]) -> Hidden:

@@ -27,6 +27,7 @@ from dqpaint.robots.card import Card
 from dqpaint.robots.kinematics import Kinematics, manipulability
 from dqpaint.robots.reach import waypoints
 from dqpaint.robots.resolver import PULL, resolve
+from dqpaint.settings import Settings
 
 SEED = 1988
 TRIALS = 400  # random postures that tell how far the arm reaches
@@ -38,6 +39,7 @@ PROMISING = 8  # places that are looked at along the whole drawing, at the most
 NEWTON, STRIDE = 12, 0.6  # iterations, and the largest move of a joint in one [rad]
 CLOSE = 1e-3  # [rad, m] counts as reached
 IN_SIGHT = 0.01  # of the light may be hidden
+PLAIN = Settings()
 
 
 @dataclass(frozen=True)
@@ -80,30 +82,33 @@ class Placed:
 
 
 def settle(
-    program: Program, kinematics: Kinematics, place: str | None = None
+    program: Program, kinematics: Kinematics, settings: Settings = PLAIN
 ) -> tuple[Program, Placed | None]:
     """A program with its place found, if it is to be found.
 
     Args:
         program: the drawing.
         kinematics: of the arm.
-        place: "auto" to find a place whatever the file says; None leaves it to the file.
+        settings: of the run; `place` finds a place whatever the file says.
 
     Raises:
         ScriptError: the arm can draw it nowhere.
     """
     wanted = program.placement
-    if place == "auto" and not isinstance(wanted, Auto):
+    if settings.place == "auto" and not isinstance(wanted, Auto):
         wanted = Auto(wanted.orientation if wanted else None, None)
     if not isinstance(wanted, Auto):
         return program, None
     program = replace(program, placement=wanted)
-    placed = find_place(program, kinematics)
+    placed = find_place(program, kinematics, settings)
     return replace(program, placement=placed.place), placed
 
 
-def find_place(program: Program, kinematics: Kinematics) -> Placed:
+def find_place(program: Program, kinematics: Kinematics, settings: Settings = PLAIN) -> Placed:
     """Where a drawing fits an arm best; the same answer each time.
+
+    It is to be in sight from the front, from wherever it is looked at: pictures of two views are of
+    one run.
 
     Raises:
         ScriptError: the arm can draw it nowhere.
@@ -112,22 +117,25 @@ def find_place(program: Program, kinematics: Kinematics) -> Placed:
     search = _Search(motion, kinematics)
     for origin in search.best_places():
         place = _write(origin, dq.rotation(motion.canvas))
-        placed = _judge(program, kinematics, place)
+        placed = _judge(program, kinematics, place, settings)
         if placed is not None:
             return placed
     raise _nowhere(program, kinematics.card, motion)
 
 
-def _judge(program: Program, kinematics: Kinematics, line: str) -> Placed | None:
+def _judge(
+    program: Program, kinematics: Kinematics, line: str, settings: Settings = PLAIN
+) -> Placed | None:
     """A place looked at along the whole drawing; None where it does not do."""
     place = parse(f"{line}\nhold 1 s\n", "place").placement
     assert isinstance(place, Pose)
     motion = plan(replace(program, placement=place), kinematics.card.canvas.pose)
     try:
-        start = begin(motion, kinematics).posture
+        start = begin(motion, kinematics, settings.null).posture
     except ScriptError:
         return None
-    lines = forecast(motion, kinematics, start)
+    seen = PLAIN.model_copy(update={"null": settings.null, "brush": settings.brush})
+    lines = forecast(motion, kinematics, start, seen)
     room = min(one.room for one in lines)
     if room <= 0 or not all(_clear(one) for one in lines):
         return None

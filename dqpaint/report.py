@@ -76,13 +76,7 @@ def _pace(painting: Painting) -> list[tuple[str, str]]:
     slowed = painting.slowed
     if slowed is None:
         return []
-    if not slowed.lines:
-        return [("pace", "as asked: no joint needs more time")]
-    where = ", ".join(str(line) for line in slowed.lines[:MOST_NAMED])
-    more = f" and {len(slowed.lines) - MOST_NAMED} more" if len(slowed.lines) > MOST_NAMED else ""
-    lines = "lines" if len(slowed.lines) > 1 else "line"
-    said = f"{slowed.longer:.3g} s longer, down to {slowed.slowest:.2g} of the asked speed"
-    return [("pace", f"{said} ({lines} {where}{more})")]
+    return [("pace", str(slowed))]
 
 
 def _steps(painting: Painting) -> list[tuple[str, str]]:
@@ -126,6 +120,7 @@ def of_export(painting: Painting, written: Sequence[Path]) -> str:
         ("drawing", summary_line(painting.motion)),
         *([("placed", one.line), ("", one.figures)] if (one := painting.placed) else []),
         ("arm", f"{painting.robot}, {painting.plant}, {painting.controller.name}"),
+        *_pace(painting),
         ("trajectory", f"{points}; from rest to rest, within the arm's limits"),
         *_files(written),
     ]

@@ -11,8 +11,7 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.language.program import Brush as BrushWords
-from dqpaint.light.brushes import brush_of, read_brush
+from dqpaint.light.brushes import read_brush
 from dqpaint.light.emitters import Emitters
 from dqpaint.light.exposure import CORE
 from dqpaint.light.legend import RIDGE, Legend
@@ -24,11 +23,10 @@ from dqpaint.light.views import parse_views
 from dqpaint.metrics import Table
 from dqpaint.motion import Motion
 from dqpaint.settings import Settings
+from dqpaint.shining import evened, sweeps
 from dqpaint.telling import TELLINGS, asked_table, colours_of, magnified
 
 SETTLING = 0.25  # [s] in which a jump of the set point counts as drawn
-MOST_FLASHES = 2_000_000
-FLOOR = 0.02  # of the usual speed: light that tells shows what stands still, too
 UNDER = (0.62, 0.8, 1.0)  # the colour of the asked drawing under the reached one
 
 
@@ -68,7 +66,7 @@ class Scene:
 
 def check_choices(settings: Settings) -> None:
     """Raise a UsageError for a slip in what concerns light, before anything is simulated."""
-    parse_views(settings.view)
+    shots = parse_views(settings.view)
     LOOKS[settings.look]
     if settings.starburst and not BLADES[0] <= settings.starburst <= BLADES[1]:
         bounds = f"{BLADES[0]} to {BLADES[1]} blades; 0 is a round one"
@@ -76,7 +74,12 @@ def check_choices(settings: Settings) -> None:
     if settings.brush is not None:
         read_brush(settings.brush).emitters()
     if settings.exposure is not None:
-        parse_exposure(settings.exposure)
+        exposure = parse_exposure(settings.exposure)
+        if exposure and exposure.distance is not None and any(shot.place for shot in shots):
+            raise UsageError(
+                f"view '{settings.view}' says where the camera stands: leave the distance out of "
+                f"exposure '{settings.exposure}'"
+            )
     if settings.colour_by is not None:
         TELLINGS[settings.colour_by]
 
@@ -106,11 +109,11 @@ def arrange(motion: Motion, pose: Floats, settings: Settings, table: Table | Non
         metered = np.where(motion.lit[:, None], np.ones(3), 0.0)  # as bright as the legend's strip
     even = settings.colour_by is not None
     shown = pose if settings.magnify == 1.0 else magnified(motion, pose, settings.magnify)
-    under = _thin(_sweeps(motion, motion.pose, np.where(motion.lit[:, None], UNDER, 0.0), settings))
+    under = _thin(sweeps(motion, motion.pose, np.where(motion.lit[:, None], UNDER, 0.0), settings))
     return Scene(
         motion.program.name,
-        _sweeps(motion, shown, colours, settings, even),
-        _sweeps(motion, motion.pose, _metered(motion, metered), settings, even),
+        sweeps(motion, shown, colours, settings, even),
+        sweeps(motion, motion.pose, _metered(motion, metered), settings, even),
         under if settings.overlay else (),
         dq.matrix_from_quaternion(motion.front),
         legend,
@@ -128,52 +131,6 @@ def _metered(motion: Motion, colours: Floats) -> Floats:
     return np.asarray(colours * weight[:, None])
 
 
-def _sweeps(
-    motion: Motion, pose: Floats, colours: Floats, settings: Settings, even: bool = False
-) -> tuple[Sweep, ...]:
-    """One sweep for each brush of the drawing; the others are dark in it."""
-    segments = motion.program.segments
-    rates = [(s.strobe.frequency, s.strobe.duty) if s.strobe else (0.0, 1.0) for s in segments]
-    strobe = np.array(rates)[motion.stroke[:-1]] if any(s.strobe for s in segments) else None
-    fastest = max(settings.pwm, max(rate for rate, _ in rates))
-    if fastest * motion.t[-1] > MOST_FLASHES:
-        raise DqpaintError(
-            f"{motion.program.name}: {fastest:g} Hz for {motion.t[-1]:.0f} s are more than "
-            f"{MOST_FLASHES:,} flashes; so fast they are not seen: leave them out"
-        )
-    found = []
-    for emitters, used in _brushes(motion, settings):
-        shone = colours[:-1] if used is None else colours[:-1] * used[:, None]
-        if used is not None and not shone.any():
-            continue
-        sweep = Sweep(motion.period, pose, shone, emitters, strobe, settings.pwm)
-        found.append(_evened(sweep) if even else sweep)
-    return tuple(found)
-
-
-def _brushes(motion: Motion, settings: Settings) -> list[tuple[Emitters, Floats | None]]:
-    """The brushes of a drawing with where (N-1,) each is used; None: everywhere."""
-    if settings.brush is not None:
-        return [(read_brush(settings.brush).emitters(), None)]
-    words: list[BrushWords] = [segment.brush for segment in motion.program.segments]
-    kinds = list(dict.fromkeys(words))
-    if len(kinds) == 1:
-        return [(brush_of(kinds[0]).emitters(), None)]
-    of = np.array([kinds.index(word) for word in words])[motion.stroke[:-1]]
-    return [
-        (brush_of(kind).emitters(), (of == i).astype(np.float64)) for i, kind in enumerate(kinds)
-    ]
-
-
-def _evened(sweep: Sweep) -> Sweep:
-    """The sweep with every millimetre equally bright: its light goes by way, not by time."""
-    lit = sweep.colours.any(axis=1)
-    rates = sweep.walked / sweep.period
-    moving = rates[lit & (rates > 0.0)]
-    usual = float(np.median(moving)) if len(moving) else 1.0
-    return replace(sweep, colours=sweep.colours * (rates / usual + FLOOR)[:, None])
-
-
 def _thin(sweeps: tuple[Sweep, ...]) -> tuple[Sweep, ...]:
     """The same as lines, of the tool's point or the ends of its bar, equally bright all along."""
     thin = []
@@ -182,5 +139,5 @@ def _thin(sweeps: tuple[Sweep, ...]) -> tuple[Sweep, ...]:
         if len(sweep.emitters.places) == 1 or not sweep.emitters.straight:
             places = np.zeros((1, 3))
         lines = Emitters(places, np.ones((1, len(places), 3)))
-        thin.append(_evened(replace(sweep, emitters=lines, strobe=None, pwm=0.0)))
+        thin.append(evened(replace(sweep, emitters=lines, strobe=None, pwm=0.0)))
     return tuple(thin)

@@ -45,18 +45,18 @@ class Settings(BaseModel):
     colour_by: str | None = None
     overlay: bool = False
     magnify: Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)] = 1.0
-    ghost: bool = False  # the arm is in the picture
+    ghost: bool | Literal["motion"] = False  # the arm is in the picture: flashed, or as it moved
     occlusion: bool | None = None  # its body hides light from the camera; None: as ghost
 
     @property
     def traced(self) -> bool:
         """Whether what the arm hides is traced."""
-        return self.ghost if self.occlusion is None else self.occlusion
+        return bool(self.ghost) if self.occlusion is None else self.occlusion
 
     @property
     def staged(self) -> bool:
         """Whether the arm's shapes are needed at all."""
-        return self.ghost or self.traced
+        return bool(self.ghost) or self.traced
 
 
 def make_settings(**choices: object) -> Settings:

@@ -2,12 +2,13 @@
 
 The kinematic arm goes along the drawing first. What its joints would need is split into the part
 that shrinks with the clock, a = J^+ xi_d, and the part that does not, the pull of the null space
-and what brings the arm back to the path: q_dot = a s_dot + b. For laws that command torques the
+and what brings the arm back to the path: q_dot = a s_dot + b. On a plant with masses the
 motors' share is looked at as well, the weight of the arm being the part that does not shrink.
 """
 
 import math
 from dataclasses import dataclass
+from typing import Any, Literal
 
 import numpy as np
 
@@ -27,7 +28,11 @@ SLOWEST = 50.0  # times
 PASSES = 6
 ENOUGH = 1e-3
 RATE = 20.0  # [1/s] at which the arm comes back to the path, as every law does by itself
+MOST_NAMED = 3  # lines
+TAKEN_UP = 1e-3  # [s] in which the motors of the plant `stiff` take up a new rate
 SETTLED = 1e-3  # [rad, m] from the path: it has arrived there, and what it needs now counts
+
+Motors = Literal["none", "smooth", "sudden"]
 
 
 @dataclass(frozen=True)
@@ -46,9 +51,22 @@ class Slowed:
     slowest: float
     lines: tuple[int, ...]
 
+    @property
+    def as_json(self) -> dict[str, Any]:
+        """For a summary."""
+        return {"longer_s": self.longer, "slowest": self.slowest, "lines": list(self.lines)}
+
+    def __str__(self) -> str:
+        if not self.lines:
+            return "as asked: no joint needs more time"
+        where = ", ".join(str(line) for line in self.lines[:MOST_NAMED])
+        more = f" and {len(self.lines) - MOST_NAMED} more" if len(self.lines) > MOST_NAMED else ""
+        said = f"{self.longer:.3g} s longer, down to {self.slowest:.2g} of the asked speed"
+        return f"{said} (line{'s' if len(self.lines) > 1 else ''} {where}{more})"
+
 
 def slow_down(
-    motion: Motion, kinematics: Kinematics, start: Floats, null: str, torques: bool
+    motion: Motion, kinematics: Kinematics, start: Floats, null: str, motors: Motors
 ) -> Slowed:
     """The motion at a pace an arm can keep, as far as slowness helps.
 
@@ -60,11 +78,12 @@ def slow_down(
         kinematics: of the arm.
         start: posture (n,) [rad] to begin from.
         null: what the arm does with its freedom.
-        torques: whether the motors' torques count.
+        motors: what of their torques counts: nothing; what smooth motion needs; or also what new
+            rates need that are taken up at once.
     """
     slowness = np.ones(len(motion.t))
     for turn in range(PASSES):
-        needed = _needed(motion, kinematics, start, null, torques, slowness, turn > 0)
+        needed = _needed(motion, kinematics, start, null, motors, slowness, turn > 0)
         needed = np.clip(needed, 1, SLOWEST)
         if turn and (needed <= slowness * (1 + ENOUGH)).all():
             break
@@ -82,7 +101,7 @@ def _needed(
     kinematics: Kinematics,
     start: Floats,
     null: str,
-    torques: bool,
+    motors: Motors,
     slowness: Floats,
     returning: bool,
 ) -> Floats:
@@ -94,10 +113,10 @@ def _needed(
     card, period = kinematics.card, motion.period
     wish, zero = make_wish(null, card, start), np.zeros(card.joints)
     speed = SHARE * card.speed
-    motors = _Motors(kinematics) if torques else None
+    torques = _Torques(kinematics) if motors != "none" else None
     growth = np.gradient(slowness, period) if len(slowness) > 1 else np.zeros(1)
     needed = np.empty(len(motion.t))
-    q = start
+    q, before = start, zero
     settled = False
     rows = zip(
         motion.pose, motion.twist, motion.acceleration, motion.jump, slowness, growth, strict=True
@@ -114,16 +133,19 @@ def _needed(
         needed[k] = (np.abs(along) / room).max()
         if settled and returning:
             needed[k] = max(needed[k], (np.abs(along + slow * (pull + RATE * back)) / speed).max())
-        if motors is not None:
+        if torques is not None:
             acceleration = slope / slow**2 - twist * (grow / slow**3)
             rates = along / slow + pull
-            needed[k] = max(needed[k], slow * motors.excess(q, rates, J, point, acceleration))
+            needed[k] = max(needed[k], slow * torques.excess(q, rates, J, point, acceleration))
+            if motors == "sudden" and not jump:
+                needed[k] = max(needed[k], slow * torques.jolt(q, rates, before))
+            before = rates
         close = 1 - math.exp(-RATE * period * slow)
         q = np.clip(q + period * (along + slow * pull) + close * back, card.lower, card.upper)
     return needed
 
 
-class _Motors:
+class _Torques:
     """How much slower a motion has to be for the motors' torques."""
 
     def __init__(self, kinematics: Kinematics) -> None:
@@ -133,7 +155,17 @@ class _Motors:
     def excess(self, q: Floats, rates: Floats, J: Floats, point: Floats, slope: Floats) -> float:
         """By which factor, from joint rates (n,) and the tool's acceleration (6,)."""
         wanted = slope - drift_acceleration(J, rates)
-        bend = resolve(J, point, wanted, np.zeros_like(q))
+        return self._slower(q, rates, resolve(J, point, wanted, np.zeros_like(q)))
+
+    def jolt(self, q: Floats, rates: Floats, before: Floats) -> float:
+        """The same, where motors take up rates (n,) that follow on others at once.
+
+        The factor is that of a smooth motion, whose rates change with the square of the pace. At a
+        corner they change with the pace itself, and it takes a few passes to get there.
+        """
+        return self._slower(q, rates, (rates - before) / TAKEN_UP)
+
+    def _slower(self, q: Floats, rates: Floats, bend: Floats) -> float:
         weight = self._dynamics.weight(q)
         moving = np.abs(self._dynamics.torque(q, rates, bend) - weight)
         room = self._most - np.abs(weight)

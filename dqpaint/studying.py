@@ -1,5 +1,6 @@
 """The commands of studies: arguments in, calls, tables out; nothing heavy at start."""
 
+import shlex
 import shutil
 import sys
 from pathlib import Path
@@ -37,6 +38,8 @@ Measure = Annotated[
     str, typer.Option("--figure", metavar="NAME", help="that is tested and drawn, as in the JSON")
 ]
 
+Report = Annotated[bool, typer.Option("--report", help="one HTML page of it all, as well")]
+
 COMPARE_EXAMPLES = """Examples:
 
   dqpaint compare lag --controllers "hinf,p,p(k=5)"
@@ -66,6 +69,7 @@ def compare(
     look: Look = "film",
     jobs: Jobs = None,
     out: Folder = None,
+    report: Report = False,
 ) -> None:
     """Paint one drawing by several laws, plants or arms: pictures, overlay, errors, one table.
 
@@ -85,7 +89,7 @@ def compare(
         height=height, view=view, ev=ev, brush=brush, exposure=exposure, look=look,
     )  # fmt: skip
     compared = study.compare(file, axes, base, _folder(out, file, "compare"), runs, jobs)
-    _finish(study.told(compared, figure, _columns()), study.save(compared, figure))
+    _finish(study.told(compared, figure, _columns()), study.save(compared, figure, _again(report)))
 
 
 SWEEP_EXAMPLES = """Examples:
@@ -118,6 +122,7 @@ def sweep(
     figure: Measure = "position_error_rms_m",
     jobs: Jobs = None,
     out: Folder = None,
+    report: Report = False,
 ) -> None:
     """Run a drawing over one or two axes of values: table, and a curve or a heat map.
 
@@ -133,7 +138,70 @@ def sweep(
         disturb=parse_disturbances(disturb or []), seed=seed, start=start,
     )  # fmt: skip
     swept = study.sweep(file, axes, base, _folder(out, file, "sweep"), runs, jobs)
-    _finish(study.told(swept, figure, _columns()), study.save(swept, figure))
+    _finish(study.told(swept, figure, _columns()), study.save(swept, figure, _again(report)))
+
+
+TUNE_EXAMPLES = """Examples:
+
+  dqpaint tune circle --controller p --vary k=2..200 --effort 1.05
+
+  dqpaint tune star --controller hinf --plant compliant --runs 3 --disturb noise=0.0005
+"""
+
+
+@app.command(epilog=TUNE_EXAMPLES)
+def tune(
+    file: Drawing,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="GAIN=LOW..HIGH[:lin]",
+            help="where a gain is sought, repeatable "
+            "[default: all of the law's, from a tenth to ten times the usual value]",
+        ),
+    ] = None,
+    controller: Law = "hinf",
+    effort: Annotated[
+        float, typer.Option(metavar="X", help="at most, times what the drawing itself needs")
+    ] = 1.1,
+    gain: Gain = None,
+    plant: PlantName = None,
+    robot: Robot = None,
+    disturb: Disturb = None,
+    seed: Seed = 0,
+    start: From = "first",
+    runs: Runs = 1,
+    figure: Annotated[
+        str, typer.Option("--figure", metavar="NAME", help="that is to be small, as in the JSON")
+    ] = "error_integral",
+    effort_figure: Annotated[
+        str, typer.Option(metavar="NAME", help="that is bounded")
+    ] = "command_integral_rad",
+    budget: Annotated[int, typer.Option(metavar="N", help="the most runs")] = 300,
+    jobs: Jobs = None,
+    out: Folder = None,
+    report: Report = False,
+) -> None:
+    """Seek the gains with the least error within an effort bound, and what error costs in effort.
+
+    The bound is 1 for the effort of an arm that does exactly what the drawing asks. Seeded; a
+    search that was stopped goes on where it was.
+    """
+    from dqpaint.settings import make_settings, parse_disturbances, parse_gains
+    from dqpaint.studies import tradeoff
+    from dqpaint.studies import tune as study
+
+    base = make_settings(
+        controller=controller, gains=parse_gains(gain or []), plant=plant, robot=robot,
+        disturb=parse_disturbances(disturb or []), seed=seed, start=start,
+    )  # fmt: skip
+    tuned = study.tune(
+        file, vary or [], base, _folder(out, file, "tune"), factor=effort, error=figure,
+        effort=effort_figure, count=runs, budget=budget, jobs=jobs,
+    )  # fmt: skip
+    _finish(tradeoff.told(tuned, _columns()), tradeoff.save(tuned, _again(report)))
+    if tuned.best is None:
+        raise typer.Exit(1)
 
 
 REPLAY_EXAMPLES = """Examples:
@@ -179,6 +247,11 @@ def _folder(out: str | None, file: str, what: str) -> Path:
     return Path(out) if out else Path(f"{Path(file).stem}-{what}")
 
 
+def _again(report: bool) -> str | None:
+    """The command, as a report says it."""
+    return shlex.join(["dqpaint", *sys.argv[1:]]) if report else None
+
+
 def _columns() -> int:
     """How wide the terminal is; a file or a pipe takes any table."""
     return shutil.get_terminal_size((100_000, 24)).columns
@@ -203,6 +276,7 @@ def verify(
     out: Annotated[
         str, typer.Option(metavar="FOLDER", help="where pictures of what differs go")
     ] = "verify-differences",
+    report: Report = False,
 ) -> None:
     """Draw a folder again and compare it with its references, gate by gate."""
     from dqpaint.studies import verify as study
@@ -213,6 +287,6 @@ def verify(
     if update:
         print("\n".join(study.update(verdicts, Path(folder))))
         return
-    _finish(study.told(verdicts), study.save_differences(verdicts, Path(out)))
+    _finish(study.told(verdicts), study.save_differences(verdicts, Path(out), _again(report)))
     if any(verdict.faults for verdict in verdicts):
         raise typer.Exit(1)

@@ -5,6 +5,8 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
+from itertools import pairwise, repeat
 from pathlib import Path
 
 import cv2
@@ -12,11 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.errors import DqpaintError
+from dqpaint.light.arrays import Image
 from dqpaint.light.film import Exposing
 from dqpaint.light.settings import parse_exposure
-from dqpaint.picture import Picture, beneath, finish, linear
+from dqpaint.picture import Picture, beneath, finish, lights_of, linear
 from dqpaint.scene import Scene
 from dqpaint.settings import Settings
+from dqpaint.stage.staging import Staging
 
 RATE = 25  # frames a second
 LONGEST = 10.0  # [s]: a longer painting is shown faster
@@ -29,24 +33,40 @@ Told = Callable[[float], None]
 
 
 def frames(
-    scene: Scene, picture: Picture, settings: Settings, count: int, progress: Told
+    scene: Scene,
+    picture: Picture,
+    settings: Settings,
+    count: int,
+    progress: Told,
+    staging: Staging | None = None,
 ) -> Iterator[NDArray[np.uint8]]:
     """The picture as it grows, (H, W, 3) each; the last frame is the picture itself.
 
     Each frame adds to the film only what has shone since the one before. The arm, if it is shown,
-    is there at the end: it is flashed when the light is out.
+    stands in each as it stood then, lit by what was painted so far.
+
+    Args:
+        scene: what is photographed.
+        picture: the finished one.
+        settings: of the picture.
+        count: of frames.
+        progress: called with the part done, 0 to 1.
+        staging: the arm; None leaves it out till the end.
     """
     exposing = Exposing(picture.camera)
     falloff = parse_exposure(settings.exposure or "auto") is not None
     camera, exposure = picture.camera, picture.exposure
     under = beneath(scene, exposure, camera, settings) if scene.under else None
-    for i in range(count - 1):
+    steps = max(len(sweep.colours) for sweep in scene.light)
+    edges = [steps * i // count for i in range(count)]
+    arms: Iterator[Image | None] = repeat(None)
+    if staging is not None and settings.ghost:
+        arms = staging.frames(camera, partial(lights_of, scene), exposure, falloff, edges[1:])
+    for i, (first, last) in enumerate(pairwise(edges)):
         for sweep in picture.light:
-            steps = len(sweep.colours)
-            part = slice(steps * i // count, steps * (i + 1) // count)
-            for piece in sweep.towards(picture.camera, falloff, part):
+            for piece in sweep.towards(picture.camera, falloff, slice(first, last)):
                 exposing.add(piece)
-        image = linear(scene, exposing.film(), exposure, camera, settings, under)
+        image = linear(scene, exposing.film(), exposure, camera, settings, under, next(arms))
         progress((i + 1) / count)
         yield finish(scene, image, picture.exposure, settings)
     yield picture.image
@@ -57,8 +77,14 @@ def count_frames(scene: Scene, rate: int) -> int:
     return max(2, round(min(max(scene.seconds, LEAST), LONGEST) * rate))
 
 
-def webm(scene: Scene, picture: Picture, settings: Settings, progress: Told) -> bytes:
-    """A video browsers play: VP9 in WebM.
+def webm(
+    scene: Scene,
+    picture: Picture,
+    settings: Settings,
+    progress: Told,
+    staging: Staging | None = None,
+) -> bytes:
+    """A video browsers play: VP9 in WebM; arguments as those of `frames`.
 
     Raises:
         DqpaintError: This build of OpenCV cannot write it.
@@ -75,7 +101,7 @@ def webm(scene: Scene, picture: Picture, settings: Settings, progress: Told) -> 
             raise DqpaintError("this build of OpenCV has no VP9 encoder for --save video")
         try:
             count = count_frames(scene, RATE)
-            for frame in frames(scene, picture, settings, count, progress):
+            for frame in frames(scene, picture, settings, count, progress, staging):
                 shown = np.ascontiguousarray(frame[:height, :width, ::-1])
                 writer.write(shown)
             for _ in range(round(REST * RATE)):
@@ -106,8 +132,14 @@ def _hushed() -> Iterator[None]:
         os.close(kept)
 
 
-def webp(scene: Scene, picture: Picture, settings: Settings, progress: Told) -> bytes:
-    """An animation a README shows: WebP, small, over and over.
+def webp(
+    scene: Scene,
+    picture: Picture,
+    settings: Settings,
+    progress: Told,
+    staging: Staging | None = None,
+) -> bytes:
+    """An animation a README shows: WebP, small, over and over; arguments as those of `frames`.
 
     Raises:
         DqpaintError: This build of OpenCV cannot write it.
@@ -120,7 +152,7 @@ def webp(scene: Scene, picture: Picture, settings: Settings, progress: Told) -> 
     count = count_frames(scene, SLOW_RATE)
     shown = [
         cv2.resize(frame[..., ::-1], size, interpolation=cv2.INTER_AREA)
-        for frame in frames(scene, picture, settings, count, progress)
+        for frame in frames(scene, picture, settings, count, progress, staging)
     ]
     animation = cv2.Animation()
     animation.frames = shown

@@ -169,14 +169,33 @@ def columns():
 def messages():
     from dqpaint.catalogue import explanations
 
-    rows = [[f"`{e.code}`", e.title] for e in explanations().values()]
+    rows = [
+        [f"[`{e.code}`](MESSAGES.md#{e.code.lower()})", e.title] for e in explanations().values()
+    ]
     return table(["code", "what it is about"], rows)
+
+
+def rules():
+    from dqpaint.catalogue import explanations
+
+    return "\n".join(rule(e) for e in explanations().values())
+
+
+def rule(explanation):
+    """One message as its part of the page, under its code alone, so that it can be linked."""
+    parts = [f"## {explanation.code}", f"**{explanation.title}**", explanation.says]
+    for title, text in (("Wrong:", explanation.wrong), ("Right:", explanation.right)):
+        parts += [title, f"```text\n{text}\n```"] if text else []
+    for name, text in explanation.files.items():
+        parts.append(f"with `{name}` beside it:\n\n```text\n{text.strip()}\n```")
+    return "\n\n".join(parts) + "\n"
 
 
 README = ROOT / "README.md"
 PAGES = {
     README: [controllers, robots, plants, disturbances, null, brushes, looks, columns],
     ROOT / "trajectories/README.md": [messages, statements, parts, values],
+    ROOT / "trajectories/MESSAGES.md": [rules],
 }
 SLOW_TABLES = {README: [stars]}
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import dqpaint
-from dqpaint.build import _METHODS, Drawing, DrawingError, quoted
+from dqpaint.build import _METHODS, Drawing, DrawingError, _form, quoted
 from dqpaint.errors import UsageError
 from dqpaint.examples import find_drawing
 from dqpaint.language import parse, read
@@ -40,6 +40,17 @@ def test_a_computed_star_is_the_written_star():
     assert built.pose == pytest.approx(written.pose, abs=1e-12)
     assert built.twist == pytest.approx(written.twist, abs=1e-12)
     assert np.array_equal(built.light, written.light)
+
+
+def test_the_place_may_be_left_to_the_arm():
+    drawing = Drawing()
+    drawing.robot("iiwa")
+    drawing.place("auto")
+    drawing.line(to=(0.01, 0))
+    assert "place auto" in str(drawing).splitlines()
+    drawing.place("auto", at=(0.6, 0, 0.5))
+    with pytest.raises(DrawingError, match="takes no 'at'"):
+        drawing.program()
 
 
 def rich():
@@ -189,19 +200,22 @@ def test_errors_of_motion_and_reach_say_it_too():
 
 @pytest.mark.parametrize(("call", "says"), [
     (lambda d: d.line(too=(1, 0)), "line: no part named 'too'; its parts are: to, by, in"),
-    (lambda d: d.line(to=(1, 2, 3, 4)), r"line: \(1, 2, 3, 4\) is not what is needed here"),
+    (lambda d: d.line(to=(1, 2, 3, 4)), r"line: to: \(1, 2, 3, 4\) is not what is needed here"),
     (lambda d: d.line(to=(math.nan, 0)), "nan is not a finite number"),
     (lambda d: d.line(to=("1 # 2", 0)), "'1 # 2' is not one piece of a line"),
     (lambda d: d.line(to=(None, 0)), "0 alone|None has no text in the language"),
-    (lambda d: d.line((1, 0)), "it takes no value without a name, such as to="),
+    (lambda d: d.line((1, 0)), "it takes no value without a name; for example: d.line"),
     (lambda d: d.hold(math.inf), "hold: inf is not a finite number"),
     (lambda d: d.hold(True), "hold: True has no text in the language"),
     (lambda d: d.hold("1 s # off"), "is not one piece of a line"),
     (lambda d: d.hold("1 s\nhold 2 s"), "is not one piece of a line"),
-    (lambda d: d.hold(), "a value is missing, as in: hold 1 s"),
-    (lambda d: d.hold(1, 2), "too many values; for example: hold 1 s"),
-    (lambda d: d.repeat("i", 1), "too many values; for example: repeat i from 1 to 5"),
-    (lambda d: d.tool(5), "tool: 5 alone does not say it; write it as text"),
+    (lambda d: d.hold(), 'a value is missing; for example: d.hold\\("1 s"\\)'),
+    (lambda d: d.hold(1, 2), "2 values are not what it takes; for example: d.hold"),
+    (lambda d: d.repeat("i", 1), "2 values are not what it takes; for example: d.repeat"),
+    (lambda d: d.tool(5), "tool: 5 alone does not say it; for example: d.tool"),
+    (lambda d: d.line(to=None), "to: None has no text in the language; for example: to="),
+    (lambda d: d.line(to=(1, 0), brush=3), 'for example: brush="bar 120 mm along x"'),
+    (lambda d: d.curve("t", t=(0, 1)), "no part named 't'.*; for example: d.curve"),
     (lambda d: d.hold(1, light=quoted('r"d')), "neither quotes nor line ends"),
     (lambda d: d.write("hold 1 s\nhold 1 s"), "one line at a time"),
     (lambda d: Drawing(perod=1), "no statement named 'perod'; known: traj, robot"),
@@ -248,3 +262,31 @@ def test_draw_takes_a_drawing(tmp_path):
         "star-hinf.png",
     ]
     assert dqpaint.preview(star(), size=(64, 36)).image.max() > 200
+
+
+@pytest.mark.parametrize("word", WORDS)
+def test_every_example_of_a_call_is_one(word):
+    """What messages show can be typed, and writes the statement's own example."""
+    for form in _form(word).split(", or "):
+        d = Drawing()
+        block = eval(form, {"d": d})
+        if block is not None:
+            with block:
+                pass
+        line = str(d).split("\n")[0]
+        assert line.split()[0] == word
+        if ", or " not in _form(word) and not STATEMENTS[word].block:
+            assert line == formatted(STATEMENTS[word].example).strip()
+
+
+def test_a_call_that_lacks_something_is_shown_how_it_goes():
+    d = Drawing()
+    d.curve("polar(1, t)")
+    with pytest.raises(DrawingError) as caught:
+        d.program()
+    assert 'for example: d.curve("polar(40 mm, t)", "t", 0, "360 deg")' in str(caught.value)
+    d = Drawing()
+    with d.define("star", "r"):
+        d.line(by=("r", 0))
+    with pytest.raises(AttributeError, match=r"d\.write"):
+        d.star(3)

@@ -34,7 +34,7 @@ def of_text(path):
 
 def of_all(path):
     """The codes that `check` finds."""
-    result = check(str(path), None)
+    result = check(str(path))
     assert not result.fault
     return [finding.code for finding in result.findings]
 

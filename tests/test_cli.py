@@ -84,6 +84,29 @@ def test_options_are_all_heard(dqpaint, line, tmp_path):
     assert set(facts["settings"]) == set(Settings.model_fields)
 
 
+def test_the_summary_of_a_run_draws_it_again_and_what_is_typed_wins(dqpaint, line, tmp_path):
+    options = ("--controller", "p", "--gain", "k=5", "--size", "160x90", "--view", "iso", "--ghost",
+               "--plant", "ideal", "--overlay", "--from", "home")  # fmt: skip
+    assert dqpaint("draw", line, *options).returncode == 0
+    again = dqpaint("draw", line, "--settings", "line-p.json", "--out", "again/")
+    assert (again.returncode, again.stderr) == (0, "")
+    for end in (".png", ".csv"):
+        first, second = (tmp_path / f"{place}line-p{end}" for place in ("", "again/"))
+        assert first.read_bytes() == second.read_bytes()
+    other = dqpaint("draw", line, "--settings", "line-p.json", "--controller", "hinf", "--no-ghost",
+                    "--view", "front", "--size", "160x90", "--out", "other/")  # fmt: skip
+    assert other.returncode == 0, other.stderr
+    settings = json.loads((tmp_path / "other/line-hinf.json").read_text())["settings"]
+    changed = ("controller", "view", "ghost", "gains", "plant", "overlay", "width", "start")
+    assert [settings[name] for name in changed] == [
+        "hinf", "front", False, {}, "ideal", True, 160, "home",
+    ]  # fmt: skip
+    (tmp_path / "a.toml").write_text("\nveiw = 3\n")
+    wrong = dqpaint("preview", line, "--settings", "a.toml")
+    assert (wrong.returncode, wrong.stdout) == (1, "")
+    assert wrong.stderr == "error: a.toml:2: no setting named 'veiw'; did you mean 'view'?\n"
+
+
 def test_gains_that_change_are_written_as_they_were_given(dqpaint, line, tmp_path):
     done = dqpaint("draw", line, "--size", "64x36", "--gain", "gamma_T=0.2..0.1@50%")
     assert "gamma_T = 0.2..0.1@50%" in done.stdout, done.stderr
@@ -421,7 +444,7 @@ def test_help_and_check_start_without_the_heavy_libraries(dqpaint, words):
 def test_looking_ahead_needs_neither_the_simulator_nor_the_image_library(dqpaint):
     code = (
         "import sys; from dqpaint import checking\n"
-        "assert checking.check('star', 'iiwa').outlook\n"
+        "assert checking.check('star', robot='iiwa').outlook\n"
         "print('LOADED', [m for m in ('cv2', 'pybullet') if m in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

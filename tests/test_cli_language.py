@@ -107,9 +107,10 @@ def test_check_tells_programs_what_would_mend(dqpaint, tmp_path):  # noqa: F811
         ],
     }
     assert found["E101"]["explain"] == "dqpaint explain E101"
+    assert found["E101"]["url"] == "trajectories/MESSAGES.md#e101"
     assert set(found["E101"]) == {
         "file", "severity", "code", "message", "start", "end", "label", "help", "explain",
-        "related", "fix",
+        "url", "related", "fix",
     }  # fmt: skip
 
 

@@ -20,7 +20,7 @@ def checked(tmp_path):
     def call(text, robot="iiwa", **options):
         path = tmp_path / "a.traj"
         path.write_text(text)
-        return check(str(path), robot, **options)
+        return check(str(path), robot=robot, **options)
 
     return call
 
@@ -118,5 +118,5 @@ def test_place_auto_says_where(checked):
     assert "\n  place at (" in result.text
     assert "merit " in result.text
     assert as_json([result])["files"][0]["forecast"]["place"]["line"] in result.text
-    with pytest.raises(UsageError, match="is not auto"):
+    with pytest.raises(UsageError, match="place 'here' should be 'auto'"):
         checked(FAST, place="here")

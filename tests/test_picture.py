@@ -7,11 +7,13 @@ from dqpaint import dq
 from dqpaint.errors import DqpaintError
 from dqpaint.language import parse
 from dqpaint.light.camera import FILL
+from dqpaint.light.sweep import ALL
 from dqpaint.motion import plan
-from dqpaint.picture import BESIDE_ARM, photograph, take
+from dqpaint.picture import photograph, take
 from dqpaint.robots.card import read_card
 from dqpaint.scene import SETTLING, arrange
 from dqpaint.settings import make_settings
+from dqpaint.shining import BESIDE_ARM
 
 CANVAS = read_card("iiwa").canvas.pose
 SETTINGS = make_settings(width=320, height=180)
@@ -144,7 +146,9 @@ def test_the_arm_is_lit_by_all_light_and_leaves_the_film_alone():
     screen = Screen(motion)
     with_arm = staged(motion, screen=screen)
     bare = take(motion, motion.pose, GHOST)
-    np.testing.assert_allclose(sum(e.sum(0) for _, e in screen.lights), bare.emitted, rtol=1e-9)
+    np.testing.assert_allclose(
+        sum(e.sum(0) for _, e in screen.lights(ALL)), bare.emitted, rtol=1e-9
+    )
     assert with_arm.film.on_film[0] == pytest.approx(bare.film.on_film[0], rel=1e-9)
     assert with_arm.image.min() > 20
     assert bare.image.min() < 5

@@ -10,7 +10,9 @@ from dqpaint.out_of_reach import begin
 from dqpaint.placing import find_place, settle
 from dqpaint.robots.card import read_card
 from dqpaint.robots.kinematics import Kinematics
+from dqpaint.settings import make_settings
 
+AUTO = make_settings(place="auto")
 WIDE = "place auto\nstart at (0, 0) mm\nline to (500, 0) mm\nline by (0, 300) mm\n"
 SMALL = "start at (-60, 0) mm\nline to (60, 30) mm tool rot(y, 20 deg)\nline to (0, 90) mm\n"
 
@@ -22,13 +24,13 @@ def arm():
 
 @pytest.fixture(scope="module")
 def placed(arm):
-    return settle(parse(SMALL, "small.traj"), arm, "auto")[1]
+    return settle(parse(SMALL, "small.traj"), arm, AUTO)[1]
 
 
 @pytest.mark.slow
 def test_it_is_better_than_the_canvas_and_than_other_places(arm, placed):
     """Against the figures of the whole drawing, at places nobody chose for it."""
-    program = settle(parse(SMALL, "small.traj"), arm, "auto")[0]
+    program = settle(parse(SMALL, "small.traj"), arm, AUTO)[0]
     canvas = arm.card.canvas.pose
     turned = dq.rotation(canvas)
     rng = np.random.default_rng(9)
@@ -42,7 +44,7 @@ def test_it_is_better_than_the_canvas_and_than_other_places(arm, placed):
 
 @pytest.mark.slow
 def test_no_small_step_is_better(arm, placed):
-    program = settle(parse(SMALL, "small.traj"), arm, "auto")[0]
+    program = settle(parse(SMALL, "small.traj"), arm, AUTO)[0]
     at = np.array(placed.place.position)
     for way in np.vstack([np.eye(3), -np.eye(3)]):
         line = placing._write(at + 0.02 * way, dq.rotation(arm.card.canvas.pose))
@@ -117,7 +119,7 @@ def test_a_place_of_the_file_stays_unless_auto_is_asked_for(arm):
     text = "place at (700, 0, 500) mm turned rpy(90 deg, 0 deg, 90 deg)\n" + SMALL
     program = parse(text, "t")
     assert settle(program, arm) == (program, None)
-    assert settle(program, arm, "auto")[1].merit > 0
+    assert settle(program, arm, AUTO)[1].merit > 0
 
 
 def test_nowhere(arm):

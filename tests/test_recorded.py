@@ -104,7 +104,7 @@ def test_poses_alone_leave_the_arm_out_of_the_picture(drawing, simulated, tmp_pa
     film.write_bytes(negative.encode(again.scene, again.settings, again.cast))
     (developed,) = dqpaint.develop(film)
     np.testing.assert_array_equal(developed.image, again.image)
-    assert "recorded as poses" in " ".join(developed.remarks)
+    assert "does not say how its joints moved" in " ".join(developed.remarks)
     with pytest.raises(DqpaintError, match="manipulability"):
         dqpaint.draw(drawing, recorded=path, size=(160, 90), colour_by="manipulability")
 

@@ -60,5 +60,9 @@ def test_rows_of_disturbances_and_set_points_have_their_figures_and_units(tmp_pa
 
 
 def test_torques_are_told_in_nm_s():
-    assert report._commanded({"torque_integral_Nm_s": 12.0}) == "12 Nm s in all joints together"
-    assert report._commanded({"command_integral_rad": 3.0}) == "3 rad in all joints together"
+    for figures, told in (
+        ({"torque_integral_Nm_s": 12.0}, "12 Nm s in all joints together"),
+        ({"command_integral_rad": 3.0}, "3 rad in all joints together"),
+    ):
+        assert report._commanded(figures) == [("commanded", told)]
+    assert report._commanded({}) == []  # of a recorded run

@@ -16,7 +16,7 @@ from dqpaint.robots.card import read_card
 from dqpaint.robots.dynamics import Dynamics
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.resolver import resolve
-from dqpaint.slowing import SHARE, _Motors, slow_down
+from dqpaint.slowing import SHARE, _Torques, slow_down
 from dqpaint.stopping import meets_limit
 
 FAST = """period 8 ms
@@ -184,7 +184,7 @@ def test_a_law_of_torques_is_slowed_for_its_motors_too():
     motion = plan(parse(text, "t.traj"), card.canvas.pose)
     start = begin(motion, arm).posture
     law = make_controller(stiff_law, "stiff_law")
-    slowed = slow_down(motion, arm, start, "start", True)
+    slowed = slow_down(motion, arm, start, "start", "smooth")
     assert slowed.lines[0] == 3
     clip, slow = (
         track(one, arm, start, PLANTS["torque"], law, law.read_gains({}))
@@ -195,7 +195,7 @@ def test_a_law_of_torques_is_slowed_for_its_motors_too():
     apart = [np.linalg.norm(run.points - run.motion.points, axis=1).max() for run in (clip, slow)]
     assert apart[1] < 1e-3 < apart[0]
     assert (np.abs(slow.effort) < arm.card.effort).all()
-    rates = slow_down(motion, arm, start, "start", False)  # their speeds alone need less
+    rates = slow_down(motion, arm, start, "start", "none")  # their speeds alone need less
     assert rates.longer < slowed.longer
 
 
@@ -212,7 +212,7 @@ def test_a_joint_driven_past_its_end_by_torques_meets_its_limit():
 def test_a_motor_s_share_is_worked_out_as_it_is():
     """From rest, a motion m times too strong for a motor needs sqrt(m) times as long."""
     arm = Kinematics(read_card("iiwa"))
-    motors, dynamics = _Motors(arm), Dynamics(arm)
+    motors, dynamics = _Torques(arm), Dynamics(arm)
     q = arm.card.home + 0.1
     x, J = arm.pose_and_jacobian(q)
     slope = np.array([5.0, -3, 2, 40, 30, -20])

@@ -13,10 +13,11 @@ def test_it_is_a_drawing_that_the_default_arm_reaches(tmp_path):
     text = path.read_text("utf-8")
     assert text.startswith("# flower.traj - ")
     assert formatted(text) == text
-    result = check(str(path), "iiwa")
+    result = check(str(path), robot="iiwa")
     assert (result.findings, result.fault) == ((), "")
-    assert "iiwa reaches it" in result.reach
-    assert 5 < result.motion.t[-1] < 30
+    assert result.outlook is not None
+    assert "iiwa reaches it" in result.outlook.text
+    assert 5 < result.outlook.motion.t[-1] < 30
     assert text.count("#") > 6
 
 

@@ -70,6 +70,8 @@ class Controller(Generic[G]):
             spatial `acceleration` (..., 6) or joint `torque` (..., n).
         prepare: looks over the whole motion and all gains before the drawing starts; row k of what
             it returns is `seen.ahead` at row k.
+        leaves_null: whether joint rates it says have nothing in the null space, so that the
+            objective of `--null` is added to them. A twist or an acceleration always leaves it.
     """
 
     name: str
@@ -78,6 +80,7 @@ class Controller(Generic[G]):
     law: Law[G]
     commands: Commands = "twist"
     prepare: Prepare[G] | None = None
+    leaves_null: bool = False
 
     @property
     def summary(self) -> str:
@@ -111,11 +114,12 @@ def controller(
     gains: type[G],
     commands: Commands = "twist",
     prepare: Prepare[G] | None = None,
+    leaves_null: bool = False,
 ) -> Callable[[Law[G]], Law[G]]:
     """A decorator that registers the law below it; arguments as in `Controller`."""
 
     def record(law: Law[G]) -> Law[G]:
-        CONTROLLERS.add(name)(Controller(name, source, gains, law, commands, prepare))
+        CONTROLLERS.add(name)(Controller(name, source, gains, law, commands, prepare, leaves_null))
         return law
 
     return record

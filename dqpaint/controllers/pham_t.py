@@ -23,7 +23,10 @@ class TransposeGains(Gains):
     )
 
 
-@controller("pham-t", source="Pham 2010, transpose [29]", gains=TransposeGains, commands="rates")
+@controller(
+    "pham-t", source="Pham 2010, transpose [29]", gains=TransposeGains, commands="rates",
+    leaves_null=True,
+)  # fmt: skip
 def pham_t(seen: Seen, gains: TransposeGains) -> Floats:
     """Transposed Jacobian: needs no inverse and fears no singularity; slow in its weak modes.
 
@@ -31,6 +34,8 @@ def pham_t(seen: Seen, gains: TransposeGains) -> Floats:
 
     At a set point d|e|^2/dt = -2 k |J8' e|^2, so |e| never grows; a mode with singular value s of
     J8 decays at k s^2. Held for a period T the fastest one is stable for k s^2 T < 2.
+    J8' e has nothing in the null space; what `--null` adds there is projected by an inverse, and
+    `--null none` is the paper's law.
     """
     error = difference_error(seen.pose, seen.pose_d)
     along = np.vecmat(gains.k * error, pose_map(seen.pose))  # J8' = J_w' M'

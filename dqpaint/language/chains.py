@@ -140,7 +140,7 @@ def turns(points: Floats) -> Floats:
 
 def joined(chains: Sequence[Chain]) -> Chain:
     """One chain of several that follow each other; a start is moved to the end before it."""
-    whole, first, last = _together(chains)
+    whole, first, last = together(chains)
     heads = first[1:]
     gap = _at(whole, last[:-1], 1.0) - _at(whole, heads, 0.0)
     whole.cubic[heads, 0] += gap
@@ -157,10 +157,17 @@ def reversed_(chain: Chain) -> Chain:
 
 
 def mapped(chain: Chain, matrix: Floats, shift: Floats) -> Chain:
-    """Every point p goes to matrix (3, 3) p + shift (3,)."""
-    cubic = chain.cubic @ matrix.T
-    cubic[:, 0] += shift
-    return Chain(cubic, chain.ellipse @ matrix.T, chain.angles)
+    """Every point p goes to matrix (3, 3) p + shift (3,); too far for a number is infinite."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        cubic = chain.cubic @ matrix.T
+        cubic[:, 0] += shift
+        return Chain(cubic, chain.ellipse @ matrix.T, chain.angles)
+
+
+def farthest(chains: Sequence[Chain]) -> float:
+    """The largest number of all pieces [m]; NaN if one of them is none."""
+    whole = together(chains)[0]
+    return float(max(np.abs(whole.cubic).max(), np.abs(whole.ellipse).max()))
 
 
 # Measured.
@@ -178,13 +185,13 @@ def ends(chain: Chain) -> tuple[Vector, Vector]:
 
 def all_ends(chains: Sequence[Chain]) -> Floats:
     """The first and the last points (N, 2, 3) of many chains."""
-    whole, first, last = _together(chains)
+    whole, first, last = together(chains)
     return np.stack([_at(whole, first, 0.0), _at(whole, last, 1.0)], axis=1)
 
 
 def directions(chains: Sequence[Chain]) -> Floats:
     """Unit vectors (N, 2, 3) into each chain from its start and from its end."""
-    whole, *pieces = _together(chains)
+    whole, *pieces = together(chains)
     ways = [
         sign * derivatives(whole, piece, np.full(len(piece), g))[1]
         for piece, g, sign in zip(pieces, (1e-3, 1.0 - 1e-3), (1.0, -1.0), strict=True)
@@ -194,7 +201,7 @@ def directions(chains: Sequence[Chain]) -> Floats:
     return np.asarray(out / np.where(norm > 0.0, norm, 1.0))
 
 
-def _together(chains: Sequence[Chain]) -> tuple[Chain, Indices, Indices]:
+def together(chains: Sequence[Chain]) -> tuple[Chain, Indices, Indices]:
     """All pieces of many chains, and which are the first and the last of each."""
     whole = Chain(
         np.concatenate([chain.cubic for chain in chains]),
@@ -207,7 +214,7 @@ def _together(chains: Sequence[Chain]) -> tuple[Chain, Indices, Indices]:
 
 def lengths(chains: Sequence[Chain]) -> list[float]:
     """The lengths of chains, good enough to share out time and colour by them."""
-    whole, first, _ = _together(chains)
+    whole, first, _ = together(chains)
     size = np.linalg.norm(whole.cubic[:, 1], axis=1)
     bent = whole.cubic[:, 2:].any(axis=(1, 2)) | whole.ellipse.any(axis=(1, 2))
     (some,) = np.nonzero(bent)
@@ -220,7 +227,7 @@ def lengths(chains: Sequence[Chain]) -> list[float]:
 
 def box(chains: Sequence[Chain]) -> tuple[Floats, Floats]:
     """The least and the greatest coordinates (3,), exact where a curve bulges out as well."""
-    whole = _together(chains)[0]
+    whole = together(chains)[0]
     every = np.arange(len(whole.cubic))
     found = [_at(whole, every, 0.0), _at(whole, every, 1.0)]
     for axis in range(3):

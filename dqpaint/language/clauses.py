@@ -91,15 +91,16 @@ def _shade(cursor: Cursor, after: str = "light") -> Shade:
     percent = cursor.peek().kind == "sign" and cursor.peek().text == "%"
     if cursor.is_word("on") or cursor.is_word("off"):
         word = cursor.take().text
-    elif cursor.at_end or (cursor.token.kind == "number" and percent):
+    elif cursor.at_end or cursor.is_word("even") or (cursor.token.kind == "number" and percent):
         raise _no_colour(cursor)
     else:
         value = expression(cursor, after)
     brightness = 1.0
     if cursor.token.kind == "number":
+        at = cursor.token.start
         brightness = _percent(cursor, "the brightness", "light red 40%")
         if brightness > 1.0:
-            span = Span(start, cursor.before.end)
+            span = cursor.span_from(at)
             message = "the brightness goes from 0% to 100%"
             raise problem("E217", message, span, "", "for a brighter picture expose it longer")
     return Shade(word, value, brightness, cursor.span_from(start))
@@ -109,7 +110,10 @@ def _no_colour(cursor: Cursor) -> Problem:
     """E108. A comment swallowed `#ff8800`, or the brightness stands without its colour."""
     cure = 'for example: light red, light hsv(30 deg), light "#ff8800", light off'
     span, fix = cursor.before.span, None
-    if cursor.token.kind == "number":
+    if cursor.is_word("even"):
+        span, cure = cursor.token.span, "the colour comes before it: light white even"
+        fix = Fix("write white even", span, "white even")
+    elif cursor.token.kind == "number":
         cure = f"the brightness follows the colour: light white {cursor.token.text}%"
         span = cursor.token.span
     elif comment := _COMMENTED_COLOUR.match(cursor.text, span.end):
@@ -153,11 +157,14 @@ def _strobe(cursor: Cursor) -> StrobeWords:
         return StrobeWords(None, 1.0, cursor.take().span)
     frequency, duty = _value(cursor, "strobe"), 0.5
     if cursor.token.kind == "number":
+        at = cursor.token.start
         duty = _percent(cursor, "the part of the time", PARTS["strobe"].example)
-    if not 0.0 < duty <= 1.0:
-        message = "a strobe shines for more than 0% and at most 100% of the time"
-        cure = "to turn the light off, write: light off" if duty == 0.0 else ""
-        raise problem("E217", message, cursor.span_from(start), "", cure)
+        if not 0.0 < duty <= 1.0:
+            message = "a strobe shines for more than 0% and at most 100% of the time"
+            cure = "to turn the light off, write: light off"
+            if duty > 0.0:
+                cure = f"for a steady light write: strobe off; else {PARTS['strobe'].example}"
+            raise problem("E217", message, cursor.span_from(at), "", cure)
     return StrobeWords(frequency, duty, cursor.span_from(start))
 
 

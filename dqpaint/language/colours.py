@@ -55,13 +55,10 @@ def from_hex(digits: str) -> Colour | None:
     return red, green, blue
 
 
-def _named() -> dict[str, Colour]:
-    words = _CSS.split()
-    pairs = zip(words[::2], words[1::2], strict=True)
-    return {name: colour for name, digits in pairs if (colour := from_hex(digits)) is not None}
-
-
-NAMES: dict[str, Colour] = _named()
+DIGITS: dict[str, str] = dict(zip(_CSS.split()[::2], _CSS.split()[1::2], strict=True))
+NAMES: dict[str, Colour] = {
+    name: colour for name, digits in DIGITS.items() if (colour := from_hex(digits)) is not None
+}
 WHITE: Colour = (1.0, 1.0, 1.0)
 DARK: Colour = (0.0, 0.0, 0.0)
 

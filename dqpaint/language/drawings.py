@@ -7,6 +7,7 @@ and Bezier curves Bezier curves, whatever transforms they stand under.
 import io
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -17,13 +18,23 @@ from dqpaint.language.beside import contents
 from dqpaint.language.diagnostics import Problem, problem
 from dqpaint.language.pen import Pen
 from dqpaint.language.program import Chain, Colour
-from dqpaint.language.svgtree import MOST_BYTES, Guarded, SvgError, guard
+from dqpaint.language.svgtree import MOST_BYTES, Guarded, Lines, guard
+from dqpaint.language.svgvalues import LARGEST, SvgError
 from dqpaint.language.syntax import Quoted
 from dqpaint.language.taylor import Floats
 
 PIXEL = 0.0254 / 96.0  # [m] as CSS has it
 DARKEST = 0.02  # of linear light: what is darker is ink, not a colour of light
-LARGEST = 1e9  # [px]
+MOST_SAID = 3  # of what was passed over
+_WHOLE = "what a clip or a mask would hide is drawn, too"
+_OTHERWISE = {
+    "stroke-dasharray": "dashes are drawn as whole lines",
+    "gradient": "a gradient is drawn in its mean colour",
+    "pattern": "a pattern is drawn in the light that holds",
+    "opacity": "the opacity of a 'use' is not followed",
+    "transform-origin": "transforms are about the origin: write the place into the transform",
+    "symbol": "a symbol is drawn in its own size, whatever its viewBox",
+}
 
 
 class Line(NamedTuple):
@@ -50,10 +61,35 @@ def read(node: Quoted, pen: Pen) -> list[Line]:
         raise problem("E298", message, node.span, "", fault.cure) from None
     except ImportError:
         raise _no_library(node) from None
-    if guarded.left_out:
-        what = ", ".join(f"{n} {name}" for name, n in sorted(guarded.left_out.items()))
-        pen.warn("W420", f"left out of {node.text}: {what}", node.span, "", _said(guarded))
+    _warn(guarded, node, pen)
     return lines
+
+
+def _warn(guarded: Guarded, node: Quoted, pen: Pen) -> None:
+    """Says what of the file is not drawn, or not as it stands there."""
+    if guarded.left_out:
+        message = f"left out of {node.text}: {_counted(guarded.left_out)}"
+        pen.warn("W420", message, node.span, "", _said(guarded))
+    if guarded.passed_over:
+        some = "; ".join(guarded.passed_over[:MOST_SAID])
+        more = len(guarded.passed_over) - MOST_SAID
+        message = f"passed over in {node.text}, as SVG says: {some}"
+        label = f"and {more} more" if more > 0 else ""
+        cure = "mend it in the file, or leave it: browsers draw it so, too"
+        pen.warn("W421", message, node.span, label, cure)
+    if guarded.otherwise:
+        names = sorted(guarded.otherwise)
+        message = f"drawn otherwise than in {node.text}: {_counted(guarded.otherwise)}"
+        cure = "; ".join(dict.fromkeys(_OTHERWISE.get(name, _WHOLE) for name in names))
+        pen.warn("W422", message, node.span, "", cure)
+
+
+def _counted(found: Lines) -> str:
+    """`2 text (from line 3)`, of each kind."""
+    return ", ".join(
+        f"{len(at)} {name} ({'from ' if len(at) > 1 else ''}line {at[0]})"
+        for name, at in sorted(found.items())
+    )
 
 
 @lru_cache(maxsize=4)  # as in a `repeat`
@@ -63,13 +99,16 @@ def _read(data: bytes) -> Drawing:
     if not lines:
         raise SvgError("there are no lines in it", _said(guarded))
     ordered = [Line(chain, colour) for chain, colour in routes.in_order(lines)]
-    return Drawing(ordered, Guarded(b"", guarded.left_out))
+    return Drawing(ordered, replace(guarded, xml=b""))
 
 
 def _said(guarded: Guarded) -> str:
-    if guarded.left_out:
-        return "in the program it was made with, convert texts to paths"
-    return "only paths and shapes are drawn"
+    cures = []
+    if set(guarded.left_out) - {"image"}:
+        cures.append("in the program it was made with, convert texts to paths")
+    if "image" in guarded.left_out:
+        cures.append("trace an image to paths, or draw without it")
+    return "; ".join(cures) or "only paths and shapes are drawn"
 
 
 def _no_library(node: Quoted) -> Problem:
@@ -91,8 +130,7 @@ def _lines(guarded: Guarded) -> Iterator[tuple[Chain, Colour | None]]:
     except SvgError:
         raise
     except Exception as fault:  # of many kinds: the library takes much on trust
-        reason = f"{type(fault).__name__}: {fault}"[:120]
-        raise SvgError(f"it can't be understood ({reason})", "save it as plain SVG") from None
+        raise SvgError("the SVG library can't read it", "save it as plain SVG") from fault
 
 
 # Colours.
@@ -135,8 +173,7 @@ def _chains(shape: Any) -> Iterator[Chain]:
     to_metres = PIXEL * np.diag([1.0, -1.0, 1.0])
     for pieces in _parts(shape):
         chain = chains.mapped(chains.joined(pieces), to_metres @ matrix, to_metres @ shift)
-        numbers = np.concatenate([chain.cubic.ravel(), chain.ellipse.ravel()])
-        if not (np.abs(numbers) <= LARGEST * PIXEL).all():
+        if not chains.farthest([chain]) <= LARGEST * PIXEL:
             raise SvgError("a place in it is not finite, or far too large")
         if chain.cubic[:, 1:].any() or chain.ellipse.any():
             yield chain

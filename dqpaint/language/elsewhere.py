@@ -13,7 +13,7 @@ from dqpaint.language import chains, colours, letters, reading, space, tools
 from dqpaint.language.curves import GAP
 from dqpaint.language.diagnostics import Diagnostic, Fix, Problem, Span, problem
 from dqpaint.language.findings import EnoughError
-from dqpaint.language.pen import SAME_PLACE, Pen, here
+from dqpaint.language.pen import FARTHEST, SAME_PLACE, Pen, here
 from dqpaint.language.program import (
     Chain,
     Colour,
@@ -215,6 +215,8 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
     if pen.pieces > MOST_PIECES:
         pen.findings.add(_too_many(span))
         raise EnoughError
+    if not chains.farthest([trace.chain for trace in traces]) <= FARTHEST:
+        raise here("E201", "this goes too far away", span)
     ends = chains.all_ends([trace.chain for trace in traces]).tolist()
     starts, stops = ([_vector(pair[side]) for pair in ends] for side in (0, 1))
     _begin(pen, starts[0], span)

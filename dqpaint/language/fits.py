@@ -24,7 +24,11 @@ def texts(cursor: Cursor, word: str) -> tuple[Expression, ...]:
     if not found_texts:
         token = cursor.token if not cursor.at_end else cursor.before
         message = f"expected a text in quotes after '{word}' but found {found(cursor.token)}"
-        raise problem("E109", message, token.span, "", f"for example: {example_of(word)}")
+        cure, fix = f"for example: {example_of(word)}", None
+        if cursor.token.kind == "name":
+            cure = f'put it in quotes: {word} "{token.text}"'
+            fix = Fix("put it in quotes", token.span, f'"{token.text}"')
+        raise problem("E109", message, token.span, "", cure, fix)
     return tuple(found_texts)
 
 

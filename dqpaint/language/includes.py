@@ -20,6 +20,9 @@ DEEPEST = 8  # files within each other
 MOST_LETTERS = 2_000_000  # of all files together
 MOST_LINES = 100_000
 
+# Files of other kinds, and the statement that draws them.
+_FOR_OTHERS = {".svg": "svg", ".csv": "path", ".txt": "path", ".dat": "path"}
+
 Statements = tuple[Statement, ...]
 
 
@@ -101,6 +104,10 @@ class Loader:
         return path
 
     def _load(self, node: Quoted, path: Path, name: str, resolved: Path) -> None:
+        if statement := _FOR_OTHERS.get(path.suffix.lower()):
+            message = f"only drawings in .traj are included, and this is a {path.suffix} file"
+            cure = f"write: {statement} {node.text!r}".replace("'", '"')
+            raise problem("E272", message, node.span, "", cure)
         try:
             text = self._read(path)
         except DqpaintError as fault:

@@ -2,6 +2,7 @@
 
 import math
 import re
+import unicodedata
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -80,7 +81,9 @@ _LOOKALIKES = {
     "}": ")",
     "º": "°",
 }
-_NAMES_OF_LETTERS = {"π": "pi", "µ": "m", "²": "^2", "³": "^3", "√": "sqrt(…)"}
+_QUOTES = "“”„«»'‘’"
+_QUOTED = re.compile(rf"[{_QUOTES}]([^{_QUOTES}\"\n]*)[{_QUOTES}]")
+_NAMES_OF_LETTERS = {"π": "pi", "²": "^2", "³": "^3", "√": "sqrt(…)"}
 
 
 def lines(text: str, begin: int = 0) -> Iterator[Line]:
@@ -224,8 +227,14 @@ def _bad(
         )
         tokens.append(Token("text", text[end:line_end].rstrip(), start, line_end))
         return line_end
+    if character.isalpha():
+        end = _whole_word(text, start, tokens)
     if problems:
         return end  # one is enough for a line
+    if character in _QUOTES and (closing := _QUOTED.match(text, start)):
+        problems.append(_quotes(closing))
+        tokens.append(Token("text", closing[1], *closing.span()))
+        return closing.end()
     fix = None
     shown = f"'{character}'" if character.isprintable() else f"U+{ord(character):04X}"
     if character in _LOOKALIKES:
@@ -252,10 +261,11 @@ def _bad(
     elif character == ".":
         cure = 'the name of a file stands in quotes: "points.csv"'
     elif character.isalpha():
-        cure = "names are made of the letters a to z, digits and _"
-        word = _WORD.match(text, start)
-        end = word.end() if word else end
-        shown = f"'{character}'"
+        cure, word = "names are made of the letters a to z, digits and _", tokens[-1]
+        plain = unicodedata.normalize("NFKD", word.text).encode("ascii", "ignore").decode()
+        if len(plain) >= len(word.text) and plain.isidentifier():
+            cure += f": {plain}"
+            fix = Fix(f"write {plain}", word.span, plain)
     else:
         cure = "a comment begins with #, a text stands in quotes"
     problems.append(
@@ -264,6 +274,26 @@ def _bad(
         )
     )
     return end
+
+
+def _whole_word(text: str, start: int, tokens: list[Token]) -> int:
+    """Makes one name of a letter that is not ours and those beside it; returns where it ends."""
+    before = tokens[-1] if tokens else None
+    if before and before.kind == "name" and before.end == start and before.text != "°":
+        start = tokens.pop().start
+    word = _WORD.match(text, start)
+    end = word.end() if word else start + 1
+    tokens.append(Token("name", text[start:end], start, end))
+    return end
+
+
+def _quotes(found: re.Match[str]) -> Diagnostic:
+    """Quotes of another kind round a text."""
+    message, plain = f"unexpected character '{found[0][0]}'", f'"{found[1]}"'
+    fix = Fix(f"write {plain}", Span(*found.span()), plain)
+    span = Span(found.start(), found.start() + 1)
+    cure = f"a text stands in plain double quotes: {plain}"
+    return Diagnostic("E101", message, span, "", cure, fix=fix)
 
 
 def number_value(text: str) -> float:

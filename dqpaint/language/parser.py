@@ -190,7 +190,7 @@ class _Parser:
             return Diagnostic("E120", message, first.span, "", cure), False
         calls = self._defined or ()
         mistake, meant = unknown_statement(first.text, first.span, calls, tokens[1].text)
-        if (not mistake.help and tokens[1].kind == "end") or word in calls:
+        if (mistake.help == _HELP and tokens[1].kind == "end") or word in calls:
             mistake = replace(
                 mistake, help=f"to draw what a 'def' names, write: {word}()", fix=None
             )
@@ -211,6 +211,9 @@ class _Parser:
         )
 
 
+_HELP = "a line begins with a word such as line, arc or let, and a comment with #"
+
+
 def unknown_statement(
     word: str, span: Span, calls: Iterable[str] = (), after: str = ""
 ) -> tuple[Diagnostic, str]:
@@ -220,7 +223,7 @@ def unknown_statement(
     fits = fits or (meant.endswith(" to") and after in ("(", "polar"))
     fix = Fix(f"write {meant}", span, meant) if fits else None
     message = f"unknown statement '{word}'"
-    return Diagnostic("E120", message, span, "", did_you_mean(meant), fix=fix), meant
+    return Diagnostic("E120", message, span, "", did_you_mean(meant) or _HELP, fix=fix), meant
 
 
 def _is_definition(tokens: list[Token]) -> bool:

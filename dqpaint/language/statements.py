@@ -240,6 +240,9 @@ def _unknown_part(cursor: Cursor, word: str) -> Problem:
     special = forms.misplaced(word, token)
     if special is not None:
         return special
+    if token.text == "even" and "light" in known.parts:
+        message = "'even' belongs to a light, behind its colour"
+        return problem("E110", message, token.span, "", "write: light white even")
     if word == "arc" and token.text in ROUND:
         cure = "the radius is the distance from here to the centre: first move to the circle"
         message = f"'arc' has no part called '{token.text}'"

@@ -6,77 +6,93 @@ not show where it stands (symbols, masks, markers ...) is put into `defs`, what 
 out and counted.
 """
 
-import re
-from collections import Counter
 from dataclasses import dataclass, field
 from xml.etree import ElementTree
 from xml.parsers import expat
 
+from dqpaint.language.svgattributes import LINK, SHAPES, STYLED, Attributes
+from dqpaint.language.svgstyle import TooManyRulesError, inline, tag_of
+from dqpaint.language.svgvalues import NUMBER, SvgError
+
 MOST_BYTES = 10_000_000
 MOST_ELEMENTS = 100_000  # as they are written, and as they come by `use`
-MOST_NUMBERS = 1_000_000  # of paths and polygons, as they come by `use`
-MOST_SHAPES = 25_000  # each of them a stroke, and a way to it
+MOSTNUMBERS = 1_000_000  # of paths and polygons, as they come by `use`
+MOSTSHAPES = 25_000  # each of them a stroke, and a way to it
 DEEPEST = 200  # elements and uses within each other
 
 _HIDDEN = ("clipPath", "mask", "pattern", "marker", "symbol")  # shown only by reference, if at all
-_NO_LINES = ("text", "image", "foreignObject", "flowRoot", "script", "video", "audio", "canvas")
+_NO_LINES = (
+    "text",
+    "image",
+    "foreignObject",
+    "flowRoot",
+    "style",
+    "script",
+    "video",
+    "audio",
+    "canvas",
+)
 _SAID = ("text", "image", "foreignObject", "flowRoot")  # of these a person misses the loss
-_LINK = ("href", "{http://www.w3.org/1999/xlink}href")
-_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
-_LENGTH = re.compile(rf"({_NUMBER.pattern})\s*([a-zA-Z]*)")
-_DISPLAY = re.compile(r"(?:^|;)\s*display\s*:\s*none\s*(?:;|$|!)")
-
 _LESS = "draw a part of it, or make it simpler"
 
-_SHAPES = ("path", "line", "polyline", "polygon", "rect", "circle", "ellipse")
-
 Element = ElementTree.Element
+Lines = dict[str, list[int]]  # of a file, where something stands
 Counts = tuple[int, int, int, int]  # elements, shapes, numbers, depth
-
-
-class SvgError(Exception):
-    """Why a drawing is not drawn, and what would help."""
-
-    def __init__(self, message: str, cure: str = "") -> None:
-        super().__init__(message)
-        self.message, self.cure = message, cure
 
 
 @dataclass
 class Guarded:
-    """A drawing that may be read: its text, and how many texts and images were left out."""
+    """A drawing that may be read, and what of it is not drawn as it stands there.
+
+    Attributes:
+        xml: its text.
+        left_out: texts, images ..., and the lines they stand on.
+        otherwise: what is drawn, but not as SVG says, and the lines.
+        passed_over: what SVG itself passes over, each with its line.
+    """
 
     xml: bytes
-    left_out: Counter[str] = field(default_factory=Counter)
+    left_out: Lines = field(default_factory=dict)
+    otherwise: Lines = field(default_factory=dict)
+    passed_over: list[str] = field(default_factory=list)
 
 
 def guard(data: bytes) -> Guarded:
-    """A drawing without what does not belong to its lines.
+    """A drawing without what does not belong to its lines, its attributes written plainly.
 
     Raises:
-        SvgError: it is no SVG, or too much of it.
+        SvgError: it is no SVG, or too much of it, or a part of it can't be read.
     """
-    root = _tree(data)
-    if _name(root) != "svg":
-        raise SvgError(f"this is no SVG: it begins with <{_name(root)[:40]}>")
+    root, lines = _tree(data)
+    if tag_of(root) != "svg" or _is_foreign(root):
+        raise SvgError(f"this is no SVG: it begins with <{str(root.tag)[:60]}>")
     _Count(root).check()
     out = Guarded(b"")
+
+    def remark(element: Element, text: str) -> None:
+        out.passed_over.append(f"line {lines[element]}: {text}")
+
+    def otherwise(element: Element, name: str) -> None:
+        out.otherwise.setdefault(name, []).append(lines[element])
+
+    try:
+        inline(root, STYLED, remark)
+    except TooManyRulesError:
+        raise SvgError("its style has too many rules for so many elements", _LESS) from None
+    attributes = Attributes(root, lines, remark, otherwise)
+    _clean(root, lines, out.left_out)
+    attributes.write(root)
     _size(root)
-    _clean(root, out.left_out)
     out.xml = ElementTree.tostring(root, encoding="utf-8")
     return out
 
 
-def _name(element: Element) -> str:
-    """The tag without its namespace."""
-    return str(element.tag).rpartition("}")[2]
-
-
-def _tree(data: bytes) -> Element:
-    """The elements of a file; stops at the first that is too many."""
+def _tree(data: bytes) -> tuple[Element, dict[Element, int]]:
+    """The elements of a file and the line of each; stops at the first that is too many."""
     builder = ElementTree.TreeBuilder()
     parser = expat.ParserCreate(namespace_separator="}")
     depth = count = 0
+    lines: dict[Element, int] = {}
 
     def tag(name: str) -> str:
         return f"{{{name}" if "}" in name else name
@@ -88,7 +104,8 @@ def _tree(data: bytes) -> Element:
             raise SvgError(f"more than {DEEPEST} elements within each other")
         if count > MOST_ELEMENTS:
             raise SvgError(f"more than {MOST_ELEMENTS:,} elements", _LESS)
-        builder.start(tag(name), {tag(key): value for key, value in attributes.items()})
+        made = builder.start(tag(name), {tag(key): value for key, value in attributes.items()})
+        lines[made] = parser.CurrentLineNumber
 
     def end(name: str) -> None:
         nonlocal depth
@@ -114,7 +131,7 @@ def _tree(data: bytes) -> Element:
         raise SvgError(f"line {fault.lineno}: {reason}", "it is not well-formed XML") from None
     except (ValueError, LookupError) as fault:  # of an encoding that is none
         raise SvgError(str(fault)[:80]) from None
-    return builder.close()
+    return builder.close(), lines
 
 
 class _Count:
@@ -131,9 +148,9 @@ class _Count:
         elements, shapes, numbers, _ = self._of(self._root, 1)
         if elements > MOST_ELEMENTS:
             raise SvgError(f"with every 'use' it has {_shown(elements)} elements", _LESS)
-        if shapes > MOST_SHAPES:
-            raise SvgError(f"it has {shapes:,} shapes, more than {MOST_SHAPES:,}", _LESS)
-        if numbers > MOST_NUMBERS:
+        if shapes > MOSTSHAPES:
+            raise SvgError(f"it has {shapes:,} shapes, more than {MOSTSHAPES:,}", _LESS)
+        if numbers > MOSTNUMBERS:
             raise SvgError(f"with every 'use' its paths have {_shown(numbers)} numbers", _LESS)
 
     def _of(self, element: Element, depth: int) -> Counts:
@@ -155,12 +172,12 @@ class _Count:
 
     def _counted(self, element: Element, depth: int) -> Counts:
         below = list(element)
-        if _name(element) == "use":
-            links = [element.attrib[key] for key in _LINK if key in element.attrib]
+        if tag_of(element) == "use":
+            links = [element.attrib[key] for key in LINK if key in element.attrib]
             below += [self._by_id[k[1:]] for k in links[:1] if k[1:] in self._by_id]
         paths = element.attrib.get("d", ""), element.attrib.get("points", "")
-        elements, shapes, deepest = 1, int(_name(element) in _SHAPES), 0
-        numbers = sum(len(_NUMBER.findall(path)) for path in paths)
+        elements, shapes, deepest = 1, int(tag_of(element) in SHAPES), 0
+        numbers = sum(len(NUMBER.findall(path)) for path in paths)
         for other in below:
             *more, deep = self._of(other, depth + 1)
             elements, shapes, numbers = elements + more[0], shapes + more[1], numbers + more[2]
@@ -172,42 +189,42 @@ def _shown(count: int) -> str:
     return f"{count:,}" if count < 10**9 else f"about 10^{len(str(count)) - 1}"
 
 
-def _clean(parent: Element, left_out: Counter[str]) -> None:
+def _is_foreign(element: Element) -> bool:
+    """Whether an element belongs to another language than SVG, as an editor's own notes do."""
+    space = str(element.tag).rpartition("}")[0]
+    return space not in ("", "{http://www.w3.org/2000/svg")
+
+
+def _clean(parent: Element, lines: dict[Element, int], left_out: Lines) -> None:
     """Takes away what is not drawn, and hides what is drawn only by reference."""
     kept: list[Element] = []
     for child in parent:
-        name, hidden = _name(child), _is_hidden(child)
-        if name in _NO_LINES or hidden:
-            left_out.update([name] if name in _SAID and not hidden else [])
+        name, hidden = tag_of(child), child.attrib.get("display", "").strip() == "none"
+        if _is_foreign(child):
             continue
-        _clean(child, left_out)
-        if name in _HIDDEN and _name(parent) != "defs":
+        if name in _NO_LINES or hidden:
+            if name in _SAID and not hidden:
+                left_out.setdefault(name, []).append(lines[child])
+            continue
+        _clean(child, lines, left_out)
+        if name in _HIDDEN and tag_of(parent) != "defs":
             shelf = Element(str(child.tag).replace(name, "defs"))
             shelf.append(child)
             child = shelf
         kept.append(child)
-    if _name(parent) == "switch":
+    if tag_of(parent) == "switch":
         del kept[1:]
     parent[:] = kept
 
 
 def _size(root: Element) -> None:
     """A width or a height that is not said follows from the view box, as browsers have it."""
-    said = {key: root.attrib[key] for key in ("width", "height") if key in root.attrib}
-    said = {key: value for key, value in said.items() if "%" not in value}
-    box = [float(number) for number in _NUMBER.findall(root.attrib.get("viewBox", ""))]
-    if len(box) != 4 or not all(0.0 < side < 1e9 for side in box[2:]) or len(said) == 2:
+    sizes = {key: root.attrib.get(key, "%") for key in ("width", "height")}
+    said = {key: float(value) for key, value in sizes.items() if "%" not in value}
+    box = [float(number) for number in root.attrib.get("viewBox", "").split()]
+    if len(box) != 4 or min(box[2:]) <= 0.0 or len(said) == 2:
         return
     for key, side, other in (("width", box[2], box[3]), ("height", box[3], box[2])):
-        if key in said:
-            continue
-        root.attrib[key] = repr(side)
-        for value in said.values():  # the other one, with its unit
-            if match := _LENGTH.fullmatch(value.strip()):
-                root.attrib[key] = f"{float(match[1]) * side / other!r}{match[2]}"
-
-
-def _is_hidden(element: Element) -> bool:
-    if element.attrib.get("display", "").strip() == "none":
-        return True
-    return bool(_DISPLAY.search(element.attrib.get("style", "")))
+        if key not in said:
+            given = next(iter(said.values()), other)
+            root.attrib[key] = repr(given * side / other)

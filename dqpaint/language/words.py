@@ -187,7 +187,7 @@ STATEMENTS = {
         ),
         StatementWord(
             "text",
-            "lettering; a second text is a second line",
+            "lettering; a further string in quotes is a further line",
             'text "Ada" height 30 mm',
             head="texts",
             parts=("font", "height", "width", "at", "align", *OWN_CORNERS),

@@ -6,6 +6,7 @@ Numbers are in SI units and get their unit here; a string is text of the languag
 import math
 import re
 from collections.abc import Iterator, Sequence
+from keyword import iskeyword
 from numbers import Real
 from typing import Any
 
@@ -53,6 +54,38 @@ def quoted(text: str) -> Quoted:
     return Quoted(f'"{text}"')
 
 
+# Of statements with a form of their own; those of the others follow from their examples.
+_FORMS = {
+    "let": 'let("r", "70 mm")',
+    "curve": 'curve("polar(40 mm, t)", "t", 0, "360 deg")',
+    "repeat": 'repeat("i", 1, 5), or d.repeat(5)',
+    "def": 'define("star", "r")',
+}
+
+
+def called(word: str, method: str) -> str:
+    """A statement's example as a call: `hold("1 s")`, `line(to="(10, 0) mm")`."""
+    if word in _FORMS:
+        return _FORMS[word]
+    known = STATEMENTS[word]
+    given: list[str] = []
+    rest = known.example[len(word) :].strip()
+    parts = "|".join(re.escape(part) for part in known.parts) or "(?!)"
+    head, *pieces = re.split(rf"(?:^|\s)({parts})(?=\s|$)", rest)
+    if head.strip():
+        text = head.strip()
+        given.append(_in_quotes(text))
+    for part, value in zip(pieces[::2], pieces[1::2], strict=True):
+        name, text = f"{part}_" if iskeyword(part) else part, value.strip()
+        given.append(f"{name}={_in_quotes(text)}" if text else f"{name}=True")
+    return f"{method}({', '.join(given)})"
+
+
+def _in_quotes(text: str) -> str:
+    """A text of the language as a string of Python; one in quotes is a string already."""
+    return text if text.startswith('"') else f'"{text}"'
+
+
 def written_part(word: str, name: str, value: Any) -> Iterator[str]:
     """A part of a statement: its word and value; several times where a list is given.
 
@@ -72,7 +105,14 @@ def written_part(word: str, name: str, value: Any) -> Iterator[str]:
     if isinstance(value, str) and PARTS[name].example.startswith(f'{name} "'):
         value = value if value.startswith('"') else quoted(value)
     for one in _each(value) if name in known.many else [value]:
-        yield f"{name} {_written(one, takes)}"
+        try:
+            yield f"{name} {_written(one, takes)}"
+        except Unwritable as problem:
+            example = PARTS[name].example.partition(" ")[2]
+            word = f"{name}_" if iskeyword(name) else name
+            raise Unwritable(
+                f"{name}: {problem}; for example: {word}={_in_quotes(example)}"
+            ) from None
 
 
 def written_head(word: str, values: Sequence[Any]) -> Iterator[str]:
@@ -83,7 +123,7 @@ def written_head(word: str, values: Sequence[Any]) -> Iterator[str]:
     """
     head = STATEMENTS[word].head
     if not head and values:
-        raise Unwritable("it takes no value without a name, such as to=(0.1, 0)")
+        raise Unwritable("it takes no value without a name")
     match head, list(values):
         case ("let", [name, value]):
             yield f"{_text(name)} = {_written(value, 'number')}"
@@ -94,14 +134,14 @@ def written_head(word: str, values: Sequence[Any]) -> Iterator[str]:
         case ("def", [name, *names]) if names:
             yield f"{_text(name)}({', '.join(map(_text, names))})"
         case (_, []):
-            if head:
-                raise Unwritable(f"a value is missing, as in: {STATEMENTS[word].example}")
+            if head and word != "place":  # `place auto`, or its parts
+                raise Unwritable("a value is missing")
         case (_, [value]):
             yield _single(word, head, value)
         case (_, texts) if _begins_with_text(word) and all(isinstance(t, str) for t in texts):
             yield from (quoted(text) for text in texts)
         case _:
-            raise Unwritable(f"too many values; for example: {STATEMENTS[word].example}")
+            raise Unwritable(f"{len(values)} values are not what it takes")
 
 
 def _single(word: str, head: str, value: Any) -> str:
@@ -125,7 +165,10 @@ def _each(value: Any) -> list[Any]:
     """The values of a part that may stand several times."""
     if isinstance(value, str | Real):
         return [value]
-    values = list(value)
+    try:
+        values = list(value)
+    except TypeError:
+        return [value]
     within = Real | str if isinstance(value, tuple) else Real  # ("2*r", 0) is a point
     return [value] if all(isinstance(one, within) for one in values) else values
 
@@ -150,12 +193,12 @@ def _written(value: Any, takes: str) -> str:
         if any(isinstance(one, str) for one in values):
             return f"({', '.join(_written(one, takes) for one in values)})"
         return _with_unit(f"({', '.join(map(_number, values))})", takes)
-    raise Unwritable(f"{value!r} is not what is needed here; write it as text of the language")
+    raise Unwritable(f"{value!r} is not what is needed here")
 
 
 def _with_unit(text: str, takes: str) -> str:
     if takes not in _UNITS:
-        raise Unwritable(f"{text} alone does not say it; write it as text of the language")
+        raise Unwritable(f"{text} alone does not say it")
     return f"{text} {_UNITS[takes]}".rstrip()
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dqpaint.light import disc, sheet
-from dqpaint.light.arrays import Floats
+from dqpaint.light.arrays import Floats, summed
 from dqpaint.light.camera import Camera
 from dqpaint.light.light import Emission, Light
 from dqpaint.light.sheet import Sheet
@@ -86,7 +86,7 @@ class Exposing:
                 self._lost += part.lost
                 _deposit(self._planes, part.position + PAD, part.energy)
             return
-        self._emitted += piece.energy.sum(axis=0)
+        self._emitted += summed(piece.energy)
         for planes, light in self._layers(piece):
             for trail in trace(light, self.camera, margin):
                 self._lost += trail.lost

@@ -53,6 +53,11 @@ class Shade:
         self._whole: NDArray[np.bool_] = np.asarray((share >= 1.0).all(axis=1))
         self.emitted, self.hidden = np.zeros((len(share), 3)), np.zeros((len(share), 3))
 
+    @property
+    def share(self) -> Floats:
+        """(N-1, P) as given."""
+        return self._share
+
     def of_lamps(self, time: Floats, energy: Floats) -> Floats:
         """What arrives (M, K, 3) of the energy of lamps on a line, or close together, and count.
 

@@ -132,13 +132,13 @@ class Sweep:
         """The same, as it is seen by an eye (3,) past a body [m]."""
         return replace(self, shade=shade_of(self, body, eye))
 
-    def lights(self) -> Iterator[tuple[Floats, Floats]]:
+    def lights(self, samples: slice = ALL) -> Iterator[tuple[Floats, Floats]]:
         """Paths (N, 3) and energies (N-1, 3) of lamps that light a scene as the brush does.
 
         All of its energy, in a few groups of its lamps; beams are not regarded [m, lamp s].
         """
         groups = np.array_split(np.arange(len(self.emitters.places)), GROUPS)
-        for steps in self.steps(SOFT):
+        for steps in self.steps(SOFT, samples):
             for group in groups:
                 if len(group):
                     middle = self.emitters.places[group].mean(axis=0, keepdims=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import cast
 
 import numpy as np
@@ -11,11 +12,15 @@ from numpy.typing import NDArray
 
 from dqpaint.light.arrays import Floats
 from dqpaint.light.camera import NEAR, Camera
+from dqpaint.light.joining import joined
 from dqpaint.light.light import Light
 
 BATCH = 1 << 15
 """How many steps, or pieces, are worked on at once: what fits the cache. It is fixed, so that sums
 are made in the same order whatever machine they are made on."""
+READ = 2 * BATCH
+"""How many steps are looked through at once for whether they can be joined. With twice as many
+matrix products would be spread over threads, for more than they take."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,15 +39,16 @@ class Trail:
     energy: Floats
     lost: Floats
 
-    @property
+    @cached_property
     def length(self) -> Floats:
-        """(M,) [px]."""
-        return _length(self.end - self.start)
+        """(M,) [px]. Unlike np.hypot this is quick; no path is long enough to overflow."""
+        way = self.end - self.start
+        return cast(Floats, np.sqrt(way[0] ** 2 + way[1] ** 2))
 
-
-def _length(way: Floats) -> Floats:
-    """(M,) of vectors (2, M). Unlike np.hypot this is quick; no path is long enough to overflow."""
-    return cast(Floats, np.sqrt(way[0] ** 2 + way[1] ** 2))
+    def part(self, steps: slice) -> Trail:
+        """Some of the steps; what fell outside is not among them."""
+        start, end, energy = (of[:, steps] for of in (self.start, self.end, self.energy))
+        return Trail(start, end, energy, np.zeros(3))
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,9 +79,13 @@ def trace(light: Light, camera: Camera, margin: float) -> Iterator[Trail]:
         camera: Where it is seen from.
         margin: How far outside the outermost pixel centres light still counts [px].
     """
-    for first in range(0, len(light.energy), BATCH):
-        energy = light.energy[first : first + BATCH]
-        yield _trace(light.points[first : first + len(energy) + 1], energy, camera, margin)
+    for first in range(0, len(light.energy), READ):
+        energy = light.energy[first : first + READ]
+        points = light.points[first : first + len(energy) + 1]
+        points, energy = joined(points, energy, camera, margin)
+        for begin in range(0, len(energy), BATCH):
+            some = energy[begin : begin + BATCH]
+            yield _trace(points[begin : begin + len(some) + 1], some, camera, margin)
 
 
 def _trace(points: Floats, energy: Floats, camera: Camera, margin: float) -> Trail:
@@ -138,22 +148,24 @@ def bins(trail: Trail, step: float) -> Iterator[Bins]:
         trail: What to cut.
         step: The longest piece [px].
     """
-    if trail.start.shape[1] == 0:
+    steps = len(trail.length)
+    if steps == 0:
+        return
+    if steps + trail.length.sum() / step <= BATCH:
+        yield _bin(trail, step)
         return
     work = np.cumsum(1.0 + trail.length / step)
     ends = np.searchsorted(work, np.arange(BATCH, work[-1] + BATCH, BATCH))
     first = 0
-    for last in np.unique(np.append(ends, len(work))):
+    for last in sorted({*ends.tolist(), steps}):
         if last > first:
-            batch = slice(first, int(last))
-            yield _bin(trail.start[:, batch], trail.end[:, batch], trail.energy[:, batch], step)
-            first = int(last)
+            yield _bin(trail.part(slice(first, last)), step)
+            first = last
 
 
-def _bin(start: Floats, end: Floats, energy: Floats, step: float) -> Bins:
-    """The same for one batch: cut the steps where a bin ends, then add up from cut to cut."""
-    way = end - start
-    length = _length(way)
+def _bin(trail: Trail, step: float) -> Bins:
+    """The same for one batch: whole steps are added up from cut to cut, those with cuts shared."""
+    start, end, energy, length = trail.start, trail.end, trail.energy, trail.length
     path = np.cumsum(length)  # walked at the end of each step
     breaks = np.ones(len(length), dtype=bool)  # where a run begins: not where the last step ended
     breaks[1:] = (start[:, 1:] != end[:, :-1]).any(axis=0)
@@ -165,29 +177,49 @@ def _bin(start: Floats, end: Floats, energy: Floats, step: float) -> Bins:
     count = np.maximum(np.ceil(reach / step), 1.0).astype(np.int64)  # bins of each run
     nth = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
     size = np.repeat(reach / count, count)
-    cut = (np.repeat(origin, count) + nth * size)[nth > 0]
+    after = np.flatnonzero(nth)  # the bin that begins at each cut
+    cut = np.repeat(origin, count)[after] + (nth * size)[after]
+    on = np.minimum(np.searchsorted(path, cut), len(path) - 1)  # the step each cut falls on
 
-    # a cut ends the piece of the step it falls on and begins another
-    on = np.minimum(np.searchsorted(path, cut), len(path) - 1)
+    held = np.empty((5, len(length)))  # by each step: energy, and twice its moments about the axes
+    held[:3] = energy
+    np.multiply(energy.sum(axis=0), start + end, out=held[3:])
+    held[:, on] = 0.0
+    begins = np.repeat(first, count)
+    begins[after] = on
+    total = np.add.reduceat(held, begins, axis=1)
+
     part = np.clip(1.0 - (path[on] - cut) / length[on], 0.0, 1.0)
-    ends = on + np.arange(len(on))
-    of = np.insert(np.arange(len(length)), on, on)  # the step each piece belongs to
-    enter, leave = np.zeros(len(of)), np.ones(len(of))
-    leave[ends], enter[ends + 1] = part, part
-    begins = np.empty(len(nth), dtype=np.int64)  # the first piece of each bin
-    begins[nth > 0] = ends + 1
-    begins[nth == 0] = first + np.searchsorted(on, first)
-
-    share, middle = leave - enter, 0.5 * (enter + leave)
-    pieces = share * energy.take(of, axis=1)  # five times as quick as energy[:, of]
-    centres = start.take(of, axis=1) + middle * way.take(of, axis=1)
-    weight = pieces.sum(axis=0)
-    mass = np.add.reduceat(weight, begins)
-    moment = np.add.reduceat(weight * centres, begins, axis=1)
-    held = mass > 0.0
+    _share(total, after, trail, on, part)
+    mass = total[:3].sum(axis=0)
+    lit = mass > 0.0
     return Bins(
-        moment[:, held] / mass[held],
-        np.add.reduceat(pieces, begins, axis=1)[:, held],
-        size[held],
-        np.repeat(count == 1, count)[held],
+        total[3:, lit] / (2.0 * mass[lit]),
+        total[:3, lit],
+        size[lit],
+        np.repeat(count == 1, count)[lit],
     )
+
+
+def _share(
+    total: Floats, after: NDArray[np.int64], trail: Trail, on: NDArray[np.int64], part: Floats
+) -> None:
+    """Add steps with cuts to the bins at either side of each cut.
+
+    Args:
+        total: (5, B) energy of each bin, and twice its moments about the axes.
+        after: (C,) the bin that begins at each cut.
+        trail: Of all steps.
+        on: (C,) the step each cut falls on, in order.
+        part: (C,) where on it, 0 to 1.
+    """
+    enter, leave = np.zeros(len(on)), np.ones(len(on))
+    more = np.flatnonzero(on[1:] == on[:-1])  # cuts with another one on the same step
+    enter[more + 1], leave[more] = part[more], part[more]  # which gives the piece between them
+    energy, start, way = (of.take(on, axis=1) for of in (trail.energy, trail.start, trail.end))
+    way -= start
+    for gets, a, b in ((after - 1, enter, part), (after, part, leave)):
+        piece = (b - a) * energy
+        moment = piece.sum(axis=0) * (2.0 * start + (a + b) * way)
+        for row, amount in zip(total, (*piece, *moment), strict=True):  # no bin gets two at once
+            row[gets] += amount

@@ -10,13 +10,17 @@ import numpy as np
 
 from dqpaint.errors import UsageError
 from dqpaint.light.arrays import Floats, kept
-from dqpaint.light.camera import FILL, LENS, VIEWS, Camera, View, frame, look
+from dqpaint.light.camera import FILL, LENS, NEAR, VIEWS, Camera, View, frame, look
 
 EYES = 1.0 / 30.0
 """Distance of the eyes of a stereo pair over that to the drawing: the rule of photographers."""
 ROUND = 12
 """Views of an orbit where no number is said."""
 MOST = 360
+CLOSEST = 0.01
+"""A camera is at least so far from what it looks at [m]."""
+FARTHEST = 100.0
+"""And at most so far from anything [m]."""
 RAISED = 15.0
 """Elevation of an orbit where none is said [deg]."""
 
@@ -31,6 +35,8 @@ class Shot:
         eye: Half the distance of the eyes, with its sign, over that to the drawing.
         orbit: Whether all of it must be seen from the same distance as from all round.
         series: Shots of one series have one exposure; 0 is by itself.
+        place: Of the camera, base frame [m]; None: where the drawing fills the picture.
+        target: What is in the middle of the picture then, likewise; None: the drawing's middle.
     """
 
     name: str
@@ -38,12 +44,15 @@ class Shot:
     eye: float = 0.0
     orbit: bool = False
     series: int = 0
+    place: tuple[float, float, float] | None = None
+    target: tuple[float, float, float] | None = None
 
 
 def parse_views(text: str) -> tuple[Shot, ...]:
     """The pictures of a text: names with commas, such as `front,iso,20,30,stereo:side,orbit:12`.
 
-    Two numbers that follow each other are azimuth and elevation in degrees.
+    Two numbers that follow each other are azimuth and elevation in degrees; `at:X:Y:Z[:X:Y:Z]` are
+    the camera's place and what it looks at, in metres from the robot's base.
 
     Raises:
         UsageError: an unknown view, an elevation beyond a pole, or one view twice.
@@ -58,6 +67,8 @@ def parse_views(text: str) -> tuple[Shot, ...]:
             shots += _stereo(text, word, choices, next(series))
         elif kind == "orbit":
             shots += _orbit(text, word, choices, next(series))
+        elif kind == "at":
+            shots.append(_placed(word, choices))
         elif word in VIEWS:
             shots.append(Shot(word, VIEWS[word]))
         else:
@@ -86,9 +97,26 @@ def _angles(text: str, first: str, second: str) -> View:
     azimuth, elevation = _number(first), _number(second)
     if azimuth is None or elevation is None:
         shown = first if azimuth is None else text
-        known = f"{', '.join(VIEWS)}, AZ,EL in degrees, stereo[:VIEW], orbit[:N[:EL]]"
+        known = f"{', '.join(VIEWS)}, AZ,EL in degrees, stereo[:VIEW], orbit[:N[:EL]], at:X:Y:Z"
         raise UsageError(f"no view named '{shown}'; known: {known}")
     return View(azimuth, _elevation(elevation))
+
+
+def _placed(word: str, choices: list[str]) -> Shot:
+    numbers = [_number(choice) for choice in choices]
+    known = [number for number in numbers if number is not None and abs(number) <= FARTHEST]
+    if len(numbers) not in (3, 6) or len(known) != len(numbers):
+        raise UsageError(
+            f"view '{word[:60]}' is not at:X:Y:Z or at:X:Y:Z:X:Y:Z, the camera's place and what it "
+            f"looks at, in metres from the robot's base, {FARTHEST:g} at most"
+        )
+    place, target = (known[0], known[1], known[2]), None
+    if len(known) == 6:
+        target = (known[3], known[4], known[5])
+        if math.dist(place, target) < CLOSEST:
+            raise UsageError(f"view '{word}': the camera stands in what it looks at")
+    name = "_".join(["at", *(f"{number:g}" for number in known)])
+    return Shot(name, VIEWS["front"], place=place, target=target)
 
 
 def _elevation(value: float) -> float:
@@ -134,6 +162,8 @@ def camera_of(
     fill: float = FILL,
 ) -> Camera:
     """The camera of a shot that sees all points; arguments as those of `frame`."""
+    if shot.place is not None:
+        return _standing(shot, points, canvas_rotation, size, lens)
     if shot.orbit and distance is None:
         return _circling(shot, points, canvas_rotation, size, lens, fill)
     camera = frame(points, canvas_rotation, shot.view, size, lens, distance, fill)
@@ -146,6 +176,30 @@ def camera_of(
     # nothing is higher in one eye than in the other
     centre = camera.centre + np.array([camera.focal * shift / away, 0.0])
     return Camera(position, camera.rotation, camera.focal, centre, camera.width, camera.height)
+
+
+def _standing(
+    shot: Shot, points: Floats, canvas_rotation: Floats, size: tuple[int, int], lens: float
+) -> Camera:
+    """A camera that stands where it was put, upright as the canvas is."""
+    axes = kept("canvas rotation", canvas_rotation, (3, 3))
+    place = np.array(shot.place)
+    if shot.target is None:
+        local = points @ axes
+        target = axes @ (0.5 * (local.min(axis=0) + local.max(axis=0)))
+    else:
+        target = np.array(shot.target)
+    away = float(np.linalg.norm(place - target))
+    if away < CLOSEST:
+        raise UsageError(f"view '{shot.name}': the camera stands in what it looks at")
+    right, up, back = axes.T @ (place - target) / away
+    azimuth = math.degrees(math.atan2(right, back)) if math.hypot(right, back) > 1e-9 else 0.0
+    view = View(azimuth, math.degrees(math.asin(np.clip(up, -1.0, 1.0))))
+    centre = 0.5 * np.array([size[0] - 1.0, size[1] - 1.0])
+    camera = Camera(place, look(view) @ axes.T, lens * max(size), centre, *size)
+    if camera.project(points)[1].max() <= NEAR:
+        raise UsageError(f"view '{shot.name}': the camera looks away from the drawing")
+    return camera
 
 
 def _circling(

@@ -7,15 +7,16 @@ closes in on the tip of a cusp; from a length back to the piece's parameter lead
 kept within a bracket.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
-from dqpaint.language.chains import NODES, WEIGHTS, Indices, derivatives
+from dqpaint.language.chains import NODES, WEIGHTS, Indices, derivatives, together
 from dqpaint.language.program import Chain
-from dqpaint.motion.places import Places
 
 EXACT = 1e-14  # of the length of the chain: what halving a panel may change
 MOST_HALVINGS = 30
@@ -24,28 +25,59 @@ AT_REST = 1e-6  # of a piece's mean speed: there its formula stands still
 NEXT_TO = 1e-4  # of the way to the middle of a piece: where a direction is taken instead
 
 
-def place_chain(path: Chain) -> Places:
+def place_chains(paths: Sequence[Chain]) -> "Pieces":
+    """The places of chains, by the fraction of their length."""
+    whole, first, _ = together(paths)
+    chain = np.repeat(np.arange(len(paths)), np.diff(np.append(first, len(whole.cubic))))
+    return Pieces(whole, _measure(whole, chain), np.arange(len(paths)))
+
+
+@dataclass(frozen=True)
+class Pieces:
     """Place and derivatives over the fraction of the length, by the chain rule.
 
     With s the length and p(g) a piece: ds/dg = |p'|, and the inverse's derivatives are
     g1 = 1 / |p'|, g2 = -(p'.p'') g1^4, g3 = -(p''.p'' + p'.p''') g1^5 + 4 (p'.p'')^2 g1^7.
-    Beyond its ends the chain goes on straight.
-    """
-    panels = _measure(path)
-    total = float(panels.edges[-1])
-    scale = total ** np.arange(4)[:, None, None]
+    Beyond its ends a chain goes on straight.
 
-    def places(f: Floats) -> Floats:
+    Attributes:
+        path: the pieces of all chains.
+        panels: their lengths.
+        chain: which of the chains each row is.
+    """
+
+    path: Chain
+    panels: "_Panels"
+    chain: Indices
+    even: ClassVar[bool] = True
+
+    def of(self, rows: Indices | int) -> Self:
+        """The same pieces, for other rows."""
+        return replace(self, chain=np.asarray(self.chain[rows]))
+
+    def largest(self) -> Floats:
+        """It may leave the numbers anywhere."""
+        return np.full(1, np.inf)
+
+    def point(self, f: Floats) -> Floats:
+        """The place."""
+        return np.asarray(self(f)[0])
+
+    def __call__(self, f: Floats) -> Floats:
+        """With its derivatives."""
+        panels = self.panels
+        chain = np.broadcast_to(self.chain, f.shape)
+        total = panels.total[chain]
         distance = f * total
         inside = np.clip(distance, 0.0, total)
-        piece, g = _parameter(path, panels, inside)
-        out = _by_length(path, piece, g, panels.mean_speed[piece])
+        piece, g = _parameter(self.path, panels, chain, inside)
+        out = _by_length(self.path, piece, g, panels.mean_speed[piece])
         beyond = distance - inside
         out[0] += beyond[:, None] * out[1]
         out[2:, beyond != 0] = 0.0
-        return out * scale
-
-    return places
+        for order in (1, 2, 3):
+            out[order] *= total[:, None] ** order
+        return out
 
 
 def _by_length(path: Chain, piece: Indices, g: Floats, mean_speed: Floats) -> Floats:
@@ -79,27 +111,52 @@ class _Panels:
         piece: the piece of each (P,).
         lower: its parameter where the panel begins (P,).
         upper: and where it ends (P,).
-        edges: from the start of the chain to where each begins [m], and the end (P + 1,).
+        begin: from the start of its chain to where each begins [m] (P,).
+        end: and to where it ends [m] (P,).
+        first: of each chain (K,).
+        last: of each chain (K,).
+        before: all chains before each, end to end [m] (K,).
+        total: the length of each chain [m] (K,).
         mean_speed: of each piece (M,): its length [m].
+        bent: whether it is no straight line that runs evenly (M,).
     """
 
     piece: Indices
     lower: Floats
     upper: Floats
-    edges: Floats
+    begin: Floats
+    end: Floats
+    first: Indices
+    last: Indices
+    before: Floats
+    total: Floats
     mean_speed: Floats
+    bent: NDArray[np.bool_]
+
+    def at(self, chain: Indices, distance: Floats) -> Indices:
+        """The panels at distances (N,) along chains (N,); at a joint the one that begins there."""
+        every = self.before[np.repeat(np.arange(len(self.first)), self.last - self.first + 1)]
+        near = np.searchsorted(every + self.begin, self.before[chain] + distance, side="right") - 1
+        first, last = self.first[chain], self.last[chain]
+        panel = np.clip(near, first, last)
+        # all chains in a row have more digits before the point than one by itself
+        panel = np.clip(panel - (distance < self.begin[panel]), first, last)
+        return np.clip(panel + (distance >= self.end[panel]), first, last)
 
 
-def _measure(path: Chain) -> _Panels:
+def _measure(path: Chain, chain: Indices) -> _Panels:
+    """The panels of pieces, each of a chain (M,)."""
+    bent = _is_bent(path)
     piece = np.arange(len(path.cubic))
     lower, upper = np.zeros(len(piece)), np.ones(len(piece))
-    size = _lengths(path, piece, lower, upper)
-    close = EXACT * size.sum()
+    size = _lengths(path, bent, piece, lower, upper)
+    close = EXACT * np.bincount(chain, weights=size)
     done: list[tuple[Indices, Floats, Floats, Floats]] = []
     for halving in range(MOST_HALVINGS):
         middle = 0.5 * (lower + upper)
-        first, second = _lengths(path, piece, lower, middle), _lengths(path, piece, middle, upper)
-        good = np.abs(first + second - size) <= close
+        first = _lengths(path, bent, piece, lower, middle)
+        second = _lengths(path, bent, piece, middle, upper)
+        good = np.abs(first + second - size) <= close[chain[piece]]
         good |= halving == MOST_HALVINGS - 1
         done.append((piece[good], lower[good], upper[good], (first + second)[good]))
         left = ~good
@@ -114,14 +171,24 @@ def _measure(path: Chain) -> _Panels:
     piece, lower, upper, size = (np.concatenate(part) for part in zip(*done, strict=True))
     order = np.lexsort((lower, piece))
     piece, lower, upper, size = piece[order], lower[order], upper[order], size[order]
-    edges = np.concatenate([[0.0], np.cumsum(size)])
-    return _Panels(piece, lower, upper, edges, np.bincount(piece, weights=size).astype(np.float64))
+    starts = np.searchsorted(chain[piece], np.arange(chain[-1] + 2))
+    end = np.concatenate([np.cumsum(own) for own in np.split(size, starts[1:-1])])
+    begin = np.concatenate([[0.0], end[:-1]])
+    begin[starts[:-1]] = 0.0
+    total = end[starts[1:] - 1]
+    mean_speed = np.bincount(piece, weights=size).astype(np.float64)
+    return _Panels(
+        *(piece, lower, upper, begin, end, starts[:-1], starts[1:] - 1),
+        *(np.cumsum(total) - total, total, mean_speed, bent),
+    )
 
 
-def _lengths(path: Chain, piece: Indices, lower: Floats, upper: Floats) -> Floats:
+def _lengths(
+    path: Chain, is_bent: NDArray[np.bool_], piece: Indices, lower: Floats, upper: Floats
+) -> Floats:
     """The lengths (N,) of pieces (N,) between parameters (N,)."""
     out = np.linalg.norm(path.cubic[piece, 1], axis=1) * (upper - lower)
-    bent = np.flatnonzero(_is_bent(path)[piece])
+    bent = np.flatnonzero(is_bent[piece])
     for some in np.split(bent, range(AT_ONCE, len(bent), AT_ONCE)):
         half = 0.5 * (upper[some] - lower[some])
         at = 0.5 * (lower[some] + upper[some])[:, None] + half[:, None] * NODES
@@ -131,24 +198,25 @@ def _lengths(path: Chain, piece: Indices, lower: Floats, upper: Floats) -> Float
     return np.asarray(out)
 
 
-def _parameter(path: Chain, panels: _Panels, distance: Floats) -> tuple[Indices, Floats]:
-    """The piece (N,) and its parameter (N,) at distances (N,) along the chain.
+def _parameter(
+    path: Chain, panels: _Panels, chain: Indices, distance: Floats
+) -> tuple[Indices, Floats]:
+    """The piece (N,) and its parameter (N,) at distances (N,) along chains (N,).
 
     At a joint it is the piece that begins there.
     """
-    panel = np.searchsorted(panels.edges, distance, side="right") - 1
-    panel = np.clip(panel, 0, len(panels.piece) - 1)
+    panel = panels.at(chain, distance)
     piece, start = panels.piece[panel], panels.lower[panel]
     lower, upper = start.copy(), panels.upper[panel]
-    wanted = distance - panels.edges[panel]
-    size = panels.edges[panel + 1] - panels.edges[panel]
+    wanted = distance - panels.begin[panel]
+    size = panels.end[panel] - panels.begin[panel]
     g = np.clip(lower + (upper - lower) * wanted / size, lower, upper)
-    bent = np.flatnonzero(_is_bent(path)[piece])
+    bent = np.flatnonzero(panels.bent[piece])
     for _ in range(60):
         if not len(bent):
             break
         now, of = g[bent], piece[bent]
-        excess = _lengths(path, of, start[bent], now) - wanted[bent]
+        excess = _lengths(path, panels.bent, of, start[bent], now) - wanted[bent]
         upper[bent] = np.where(excess > 0.0, now, upper[bent])
         lower[bent] = np.where(excess > 0.0, lower[bent], now)
         with np.errstate(divide="ignore", invalid="ignore"):

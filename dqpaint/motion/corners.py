@@ -1,7 +1,6 @@
 """Warnings with numbers: where the velocity jumps, where a stroke does not reach its speed."""
 
 from collections.abc import Iterator
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -10,13 +9,12 @@ from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.language.diagnostics import Diagnostic, Span
 from dqpaint.language.program import Arc, Chain, Cruise, Segment, Straight
-from dqpaint.motion.laws import peak_rate, scale_rates
-from dqpaint.motion.runs import Joined, end_velocities
-from dqpaint.motion.shapes import Flow
-from dqpaint.motion.timetable import Stroke
+from dqpaint.motion.places import Indices
+from dqpaint.motion.timetable import Timetable
 
 LEAST_JUMP = 1e-4  # [m/s] worth a word,
 LEAST_PART = 0.01  # and of the speed
+ALIKE = 1e-9  # of a jump: rounding is not to say which corner is the largest
 REACHED = 0.9  # of its speed: a stroke that comes to that needs no word
 
 
@@ -27,48 +25,78 @@ class _Corner(NamedTuple):
     round: bool  # it can be rounded
 
 
-def jumps(strokes: list[Stroke], flows: list[Flow], period: float) -> Iterator[Diagnostic]:
-    """W403: the largest jump of the velocity between strokes, and the largest within one."""
-    found = [*_between(strokes, flows), *_within(strokes, period)]
-    for within in (False, True):
-        corners = [corner for corner in found if corner.within == within]
-        if corners:
-            yield _jump(max(corners), len(corners))
+def jumps(table: Timetable, pace: Floats | None = None) -> Iterator[Diagnostic]:
+    """W403: the largest jump of the velocity between strokes, and the largest within one.
+
+    Args:
+        table: the strokes (S).
+        pace: how fast the drawing's clock runs where each begins and ends (S, 2); None is as asked.
+    """
+    for within, found in ((False, _between(table, pace)), (True, _within(table))):
+        jump, number = found
+        if len(jump):
+            largest = number[jump >= jump.max() * (1.0 - ALIKE)].tolist()
+            segments = table.program.segments
+            pairs = [(segments[n - 1], segments[n]) for n in largest]
+            corner = max(_corner(float(jump.max()), pair, within) for pair in pairs)
+            yield _jump(corner, len(jump))
 
 
-def _between(strokes: list[Stroke], flows: list[Flow]) -> Iterator[_Corner]:
-    for (before, after), (flow, next_flow) in zip(pairwise(strokes), pairwise(flows), strict=True):
-        if before.extent.length and after.extent.length:
-            velocities = _velocity(flow, -1), _velocity(next_flow, 0)
-            pair = before.segments[-1], after.segments[0]
-            yield from _corner(*velocities, pair, within=False)
+def _between(table: Timetable, pace: Floats | None) -> tuple[Floats, Indices]:
+    """The jumps worth a word (K,) [m/s], and the segments they begin (K,)."""
+    number = np.arange(len(table))
+    velocity = np.empty((2, len(table), 3))
+    for end in (0, 1):
+        flow, _ = table.flow(number, np.full(len(table), float(end)), {})
+        velocity[end] = dq.point_velocity(flow.twist, dq.translation(flow.pose))
+        if pace is not None:
+            velocity[end] *= pace[:, end, None]
+    moves = table.length > 0.0
+    after = np.flatnonzero(moves[1:] & moves[:-1]) + 1
+    jump, told = _worth(velocity[1, after - 1], velocity[0, after])
+    return jump, table.first[after[told]]
 
 
-def _velocity(flow: Flow, row: int) -> Floats:
-    return dq.point_velocity(flow.twist[row], dq.translation(flow.pose[row]))
+def _within(table: Timetable) -> tuple[Floats, Indices]:
+    """The same at the joints of strokes of several lines."""
+    runs = np.flatnonzero(table.size > 1)
+    if not len(runs):
+        return np.empty(0), np.empty(0, dtype=np.intp)
+    stroke = np.repeat(runs, table.size[runs])
+    number = np.concatenate(
+        [np.arange(n, n + m) for n, m in zip(table.first[runs], table.size[runs], strict=True)]
+    )
+    velocity = np.empty((2, len(number), 3))
+    for end in (0, 1):
+        at = np.full(len(number), float(end))
+        flow = table.shapes.flow(number, at, table.by_length, {})
+        velocity[end] = dq.point_velocity(flow.twist, dq.translation(flow.pose))
+        velocity[end] /= (table.end - table.begin)[number, None]
+    joint = np.flatnonzero(stroke[1:] == stroke[:-1]) + 1
+    rate = np.concatenate([_rates_at_joints(table, run) for run in runs.tolist()])[:, None]
+    jump, told = _worth(rate * velocity[1, joint - 1], rate * velocity[0, joint])
+    return jump, number[joint[told]]
 
 
-def _corner(
-    before: Floats, after: Floats, segments: tuple[Segment, Segment], within: bool
-) -> Iterator[_Corner]:
-    jump = float(np.linalg.norm(after - before))
-    speed = max(float(np.linalg.norm(before)), float(np.linalg.norm(after)))
-    if jump > max(LEAST_JUMP, LEAST_PART * speed):
-        lifted = (segments[0].light is None) != (segments[1].light is None)
-        round_ = not lifted and all(isinstance(s.path, Straight | Arc) for s in segments)
-        yield _Corner(jump, segments[1].span, within, round_)
+def _rates_at_joints(table: Timetable, run: int) -> Floats:
+    """How fast a stroke runs where its segments meet (M - 1,), in fractions of it per second."""
+    tau = np.linspace(0.0, 1.0, 4 * int(table.count[run]) + 1)
+    progress = table.progress(np.full(len(tau), run), tau)
+    return np.interp(table.edges(run)[1:-1], progress.value, np.abs(progress.rate))
 
 
-def _within(strokes: list[Stroke], period: float) -> Iterator[_Corner]:
-    for stroke in strokes:
-        if isinstance(stroke.shape, Joined):
-            begin, end = end_velocities(stroke.shape)
-            tau = np.linspace(0.0, 1.0, 4 * stroke.count + 1)
-            progress = stroke.progress(tau, period)
-            rates = np.interp(stroke.edges[1:-1], progress.value, np.abs(progress.rate))
-            for i, rate in enumerate(rates):
-                pair = stroke.segments[i], stroke.segments[i + 1]
-                yield from _corner(rate * end[i], rate * begin[i + 1], pair, within=True)
+def _worth(before: Floats, after: Floats) -> tuple[Floats, Indices]:
+    """Jumps of velocities (K, 3) that are worth a word (L,), and which these are (L,)."""
+    jump = np.linalg.norm(after - before, axis=1)
+    speed = np.maximum(np.linalg.norm(before, axis=1), np.linalg.norm(after, axis=1))
+    told = np.flatnonzero(jump > np.maximum(LEAST_JUMP, LEAST_PART * speed))
+    return jump[told], told
+
+
+def _corner(jump: float, segments: tuple[Segment, Segment], within: bool) -> _Corner:
+    lifted = (segments[0].light is None) != (segments[1].light is None)
+    round_ = not lifted and all(isinstance(s.path, Straight | Arc) for s in segments)
+    return _Corner(jump, segments[1].span, within, round_)
 
 
 def _jump(corner: _Corner, count: int) -> Diagnostic:
@@ -80,29 +108,22 @@ def _jump(corner: _Corner, count: int) -> Diagnostic:
     return Diagnostic("W403", message, corner.span, "corner where this begins", ", or ".join(ways))
 
 
-def slow(strokes: list[Stroke], period: float) -> Iterator[Diagnostic]:
+def slow(table: Timetable) -> Iterator[Diagnostic]:
     """W411: the stroke that stays most below the speed it is to cruise at."""
-    found = []
-    for stroke in strokes:
-        segment = stroke.segments[0]
-        if isinstance(segment.timing, Cruise) and stroke.extent.length and _lit(stroke.segments):
-            time = stroke.count * period
-            peak = peak_rate(segment.law.name, scale_rates(stroke.end_rates, time))
-            reached = peak * stroke.extent.length / time
-            if reached < REACHED * segment.timing.speed:
-                rounded = stroke.count * period - stroke.wanted > 0.5 * (
-                    time - peak * stroke.extent.length / segment.timing.speed
-                )
-                if rounded and isinstance(segment.path, Chain):
-                    continue  # the dot of an i can't help it
-                found.append((reached / segment.timing.speed, reached, segment, rounded))
-    if found:
-        _, reached, segment, rounded = min(found, key=lambda one: one[0])
-        yield _slow(segment, reached, rounded, len(found))
-
-
-def _lit(segments: tuple[Segment, ...]) -> bool:
-    return any(segment.light is not None for segment in segments)
+    firsts = table.firsts
+    speed = np.array([s.timing.speed if isinstance(s.timing, Cruise) else 0.0 for s in firsts])
+    lit = np.array([segment.light is not None for segment in table.program.segments])
+    lit_strokes = np.logical_or.reduceat(lit, table.first)
+    chains = np.array([isinstance(segment.path, Chain) for segment in firsts])
+    peak, time = table.peak_rates, table.time
+    reached = peak * table.length / time
+    below = (speed > 0.0) & (table.length > 0.0) & lit_strokes & (reached < REACHED * speed)
+    least = np.divide(peak * table.length, speed, out=np.zeros_like(time), where=speed > 0.0)
+    rounded = time - table.wanted > 0.5 * (time - least)
+    found = np.flatnonzero(below & ~(rounded & chains))  # the dot of an i can't help it
+    if len(found):
+        worst = found[np.argmin(reached[found] / speed[found])]
+        yield _slow(firsts[worst], float(reached[worst]), bool(rounded[worst]), len(found))
 
 
 def _slow(segment: Segment, reached: float, rounded: bool, count: int) -> Diagnostic:

@@ -1,70 +1,74 @@
-"""The light of a stroke, row by row: gradients over its length, and light that is even."""
+"""The light of strokes, row by row: gradients over their length, and light that is even."""
+
+from dataclasses import dataclass
 
 import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.language.program import Bar, Light, Segment, Step, Still
-from dqpaint.motion.laws import LAWS, peak_rate, scale_rates
-from dqpaint.motion.runs import part_at
-from dqpaint.motion.shapes import Flow
-from dqpaint.motion.timetable import Stroke
+from dqpaint.language.program import Bar, Light, Step, Still
+from dqpaint.motion.families import Flags
+from dqpaint.motion.laws import LAWS, Rates
+from dqpaint.motion.places import Indices
+from dqpaint.motion.sampling import Rows
+from dqpaint.motion.timetable import Timetable, part_at
 
 NEAR_END = 0.01  # of the length: how bright the ends of a stroke are is told there
+DARK = Light((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
-def glow(stroke: Stroke, flow: Flow, fraction: Floats, period: float) -> Floats:
-    """Mean linear RGB (N, 3) between the rows of a stroke.
+@dataclass(frozen=True, eq=False)
+class Glow:
+    """The light of each segment (M) of a drawing.
 
-    Args:
-        stroke: which.
-        flow: its N + 1 rows, per second; more than it has steps where the clock was slowed.
-        fraction: of the length before each row (N + 1,).
-        period: [s].
+    Attributes:
+        first: linear RGB at the first point (M, 3).
+        last: and at the last (M, 3).
+        even: whether it is dimmed where the tool is slow (M,).
+        way: the length of each stroke (S,) that even light is even over; 0 where it stays. A point
+            of light that turns on the spot has none, a bar has its angle.
+        peak: and its largest speed, where its law says it (S,).
     """
-    if all(segment.light is None for segment in stroke.segments):
-        return np.zeros((len(fraction) - 1, 3))
-    first, last = _colours(stroke)
-    # a law may run beyond the ends of a stroke; its colours do not
-    inside = np.clip(fraction, 0.0, 1.0)
-    light = _means(stroke.edges, first, last, inside)
-    even = np.array([s.light is not None and s.light.even for s in stroke.segments])
-    if even.any():
-        part = part_at(stroke.edges, 0.5 * (inside[1:] + inside[:-1]))
-        share = _share_of_peak(stroke, flow, fraction, period)
-        light *= np.where(even[part], share, 1.0)[:, None]
-    return light
 
+    table: Timetable
+    first: Floats
+    last: Floats
+    even: Flags
+    way: Floats
+    peak: Floats
 
-def _colours(stroke: Stroke) -> tuple[Floats, Floats]:
-    """The colours at the first and at the last point of each part (M, 3)."""
-    pairs = [
-        _part_of_gradient(segment, *stroke.edges[i : i + 2])
-        for i, segment in enumerate(stroke.segments)
-    ]
-    colours = np.array(pairs)
-    return colours[:, 0], colours[:, 1]
+    def along(self, rows: Rows) -> Floats:
+        """Mean linear RGB (K, 3) from each row to the next, but from those that are the last."""
+        table = self.table
+        at = np.flatnonzero(~rows.last)
+        stroke = rows.stroke[at]
+        # a law may run beyond the ends of a stroke; its colours do not
+        inside = np.clip(rows.fraction, 0.0, 1.0)
+        middle = 0.5 * (inside[at + 1] + inside[at])
+        part, share = table.inside(stroke, middle)
+        share = share[:, None]
+        light = (1 - share) * self.first[part] + share * self.last[part]
+        for run in np.unique(stroke[table.size[stroke] > 1]).tolist():
+            own = slice(*np.searchsorted(rows.stroke, (run, run + 1)))
+            steps = slice(*np.searchsorted(stroke, (run, run + 1)))
+            self._over_joints(run, inside[own], light[steps])
+        if self.even[part].any():
+            dimmed = np.where(self.even[part], self._share_of_peak(rows, at), 1.0)
+            light *= dimmed[:, None]
+        return light
 
+    def _over_joints(self, run: int, at: Floats, means: Floats) -> None:
+        """The mean colours over joints: there each is a difference of the integral.
 
-def _part_of_gradient(segment: Segment, start: float, end: float) -> tuple[Floats, Floats]:
-    light = segment.light or Light((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    first, last = np.array(light.first), np.array(light.last)
-    if segment.run is not None and light == segment.run.light:
-        return (1 - start) * first + start * last, (1 - end) * first + end * last
-    return first, last
-
-
-def _means(edges: Floats, first: Floats, last: Floats, at: Floats) -> Floats:
-    """The mean colours (N, 3) over the length between fractions (N + 1,) of it.
-
-    Within a part that is the colour in the middle; over a joint, a difference of the integral.
-    """
-    width = np.diff(edges)[:, None]
-    middle = 0.5 * (at[1:] + at[:-1])
-    part = part_at(edges, middle)
-    share = (middle - edges[part])[:, None] / width[part]
-    means = (1 - share) * first[part] + share * last[part]
-    if len(width) > 1:
+        Args:
+            run: which stroke.
+            at: the fractions of its length at its rows (N + 1,).
+            means: of the colours between them (N, 3), each that in the middle.
+        """
+        edges = self.table.edges(run)
+        begin = self.table.first[run]
+        own = slice(begin, begin + self.table.size[run])
+        first, last, width = self.first[own], self.last[own], np.diff(edges)[:, None]
         before = np.concatenate([np.zeros((1, 3)), np.cumsum(width * 0.5 * (first + last), axis=0)])
         parts = part_at(edges, at)
         u = (at - edges[parts])[:, None] / width[parts]
@@ -74,43 +78,68 @@ def _means(edges: Floats, first: Floats, last: Floats, at: Floats) -> Floats:
         step = np.diff(at)[:, None]
         over = (np.diff(parts) != 0) & (np.abs(step[:, 0]) > 1e-9)
         means[over] = np.clip(np.diff(total, axis=0)[over] / step[over], 0.0, 1.0)
-    return np.asarray(means)
+
+    def _share_of_peak(self, rows: Rows, at: Indices) -> Floats:
+        """How fast the point is from rows `at` (K,) to the next, as a share of its fastest."""
+        table = self.table
+        stroke = rows.stroke[at]
+        speed = np.abs(rows.fraction[at + 1] - rows.fraction[at]) * self.way[stroke]
+        speed /= table.program.period
+        peak = np.where(self.way > 0.0, self.peak, np.inf)[stroke]
+        for of in self._by_formula(stroke):
+            own = slice(*np.searchsorted(rows.stroke, (of, of + 1)))
+            steps = slice(*np.searchsorted(stroke, (of, of + 1)))
+            point = dq.translation(rows.flow.pose[own])
+            velocity = dq.point_velocity(rows.flow.twist[own], point)
+            peak[steps] = max(np.linalg.norm(velocity, axis=1).max(), speed[steps].max())
+        return np.asarray(np.minimum(speed / peak, 1.0))
+
+    def _by_formula(self, stroke: Indices) -> list[int]:
+        """Those of some strokes that are run neither by their length nor evenly."""
+        table = self.table
+        return [
+            of
+            for of in np.unique(stroke[table.size[stroke] == 1]).tolist()
+            if table.first[of] in table.shapes.uneven
+            and not table.by_length[table.first[of]]
+            and table.length[of] > 0.0
+        ]
 
 
-def _share_of_peak(stroke: Stroke, flow: Flow, fraction: Floats, period: float) -> Floats:
-    """How fast the point is from row to row (N,), as a share of the fastest of the stroke.
-
-    A point of light that stays where it is has no way to be even over; a bar that turns has.
-    """
-    segment = stroke.segments[0]
-    length = stroke.extent.length
-    if length == 0.0:
-        if isinstance(segment.path, Still | Step) or not isinstance(segment.brush, Bar):
-            return np.zeros(len(fraction) - 1)
-        length = 1.0
-    way = np.abs(np.diff(fraction)) * length / period
-    time = stroke.count * period
-    if stroke.by_length or stroke.extent.even or stroke.extent.length == 0.0:
-        rates = scale_rates(stroke.end_rates, time)
-        peak = peak_rate(segment.law.name, rates) * length / time
-    else:
-        velocity = dq.point_velocity(flow.twist, dq.translation(flow.pose))
-        peak = max(float(np.linalg.norm(velocity, axis=1).max()), float(way.max()))
-    return np.asarray(np.minimum(way / peak, 1.0))
+def glow(table: Timetable) -> Glow:
+    """The light of a drawing."""
+    segments = table.program.segments
+    lights = [segment.light or DARK for segment in segments]
+    first, last = np.array([light.first for light in lights]), np.array([x.last for x in lights])
+    shared = [s.run is not None and (s.light or DARK) == s.run.light for s in segments]
+    of = np.flatnonzero(shared)  # they have their parts of a gradient over the whole stroke
+    start, end = table.begin[of, None], table.end[of, None]
+    a, b = first[of], last[of]
+    first[of], last[of] = (1 - start) * a + start * b, (1 - end) * a + end * b
+    even = np.array([light.even for light in lights])
+    way = table.length.copy()
+    for stroke in np.flatnonzero(way == 0.0).tolist():
+        segment = segments[table.first[stroke]]
+        turns = not isinstance(segment.path, Still | Step)
+        way[stroke] = float(turns and isinstance(segment.brush, Bar))
+    return Glow(table, first, last, even, way, table.peak_rates * way / table.time)
 
 
-def ends_over_middle(stroke: Stroke, period: float) -> float:
-    """How much brighter a stroke is at 1 % of its length than in the middle; 1 for even light."""
-    lit = any(s.light is not None and not s.light.even for s in stroke.segments)
-    if not lit or stroke.extent.length == 0.0:
-        return 1.0
-    segment = stroke.segments[0]
-    if not any(segment.law.rates):
-        return _OVER_MIDDLE[segment.law.name]
-    return _over_middle(segment.law.name, scale_rates(stroke.end_rates, stroke.count * period))
+def unevenness(table: Timetable) -> float:
+    """How much brighter strokes are at 1 % of their length than in the middle; 1 for even light."""
+    lit = np.array([s.light is not None and not s.light.even for s in table.program.segments])
+    matters = np.logical_or.reduceat(lit, table.first) & (table.length > 0.0)
+    found = [] if matters.all() else [1.0]
+    for name, with_rates, strokes in table.laws():
+        some = strokes[matters[strokes]]
+        if not with_rates and len(some):
+            found.append(_over_middle(name, ()))
+        for stroke in some.tolist() if with_rates else ():
+            found.append(_over_middle(name, table.end_rates(name, stroke)))
+    return max(found)
 
 
-def _over_middle(law: str, rates: tuple[float, ...]) -> float:
+def _over_middle(law: str, rates: Rates) -> float:
     """Brightness is time per length."""
     progress = LAWS[law](np.linspace(0.0, 1.0, 2001), rates)
     if not (np.diff(progress.value) > 0).all():
@@ -118,6 +147,3 @@ def _over_middle(law: str, rates: tuple[float, ...]) -> float:
     near = np.array([NEAR_END, 0.5, 1 - NEAR_END])
     start, middle, end = np.interp(near, progress.value, progress.rate)
     return float(middle / min(start, end))
-
-
-_OVER_MIDDLE = {name: _over_middle(name, ()) for name in LAWS}

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
 from dqpaint.registry import Registry
@@ -22,10 +23,12 @@ class Progress(NamedTuple):
     slope: Floats
 
 
-Rates = tuple[float, ...]  # boundary rates and accelerations, in fractions of path per tau
+# Boundary rates and accelerations, in fractions of path per tau: one number each, or one a row.
+Rates = tuple[float | Floats, ...]
 TimeLaw = Callable[[Floats, Rates], Progress]
 
 LAWS: Registry[TimeLaw] = Registry("time law")
+HALVINGS = 26  # of an interval in which the fastest moment lies: its rate is stationary there
 RAMP = 0.2  # of a trapezoid's time, at each end
 
 
@@ -64,67 +67,105 @@ def quintic(tau: Floats, rates: Rates = ()) -> Progress:
     return _polynomial(quintic_coefficients(rates), tau)
 
 
-def cubic_coefficients(rates: Rates) -> Floats:
+def cubic_coefficients(rates: Rates) -> Rates:
     """Of 1, tau, ... tau^3: 0 at 0, 1 at 1, slopes v0 and v1."""
     v0, v1 = rates or (0.0, 0.0)
-    return np.array([0.0, v0, 3 - 2 * v0 - v1, v0 + v1 - 2])
+    return 0.0, v0, 3 - 2 * v0 - v1, v0 + v1 - 2
 
 
-def quintic_coefficients(rates: Rates) -> Floats:
+def quintic_coefficients(rates: Rates) -> Rates:
     """Of 1, tau, ... tau^5: 0 at 0, 1 at 1, slopes v0, v1 and second derivatives a0, a1."""
     v0, v1, a0, a1 = rates or (0.0, 0.0, 0.0, 0.0)
     c3 = 10 - 6 * v0 - 4 * v1 - 1.5 * a0 + 0.5 * a1
     c4 = -15 + 8 * v0 + 7 * v1 + 1.5 * a0 - a1
     c5 = 6 - 3 * v0 - 3 * v1 - 0.5 * a0 + 0.5 * a1
-    return np.array([0.0, v0, 0.5 * a0, c3, c4, c5])
+    return 0.0, v0, 0.5 * a0, c3, c4, c5
 
 
-def _polynomial(coefficients: Floats, tau: Floats) -> Progress:
-    p = np.polynomial.Polynomial(coefficients)
-    return Progress(p(tau), p.deriv(1)(tau), p.deriv(2)(tau))
+def _polynomial(coefficients: Rates, tau: Floats) -> Progress:
+    rate = derivative(coefficients)
+    return Progress(*(horner(c, tau) for c in (coefficients, rate, derivative(rate))))
+
+
+def derivative(coefficients: Rates) -> Rates:
+    """Of a polynomial: its coefficients, from that of 1 on."""
+    return tuple(power * c for power, c in enumerate(coefficients[1:], start=1))
+
+
+def horner(coefficients: Rates, tau: Floats) -> Floats:
+    """A polynomial's values (N,)."""
+    value: Floats = coefficients[-1] + 0.0 * tau
+    for c in reversed(coefficients[:-1]):
+        value = c + value * tau
+    return value
 
 
 PEAK = {"constant": 1.0, "trapezoid": 1.0 / (1.0 - RAMP), "cubic": 1.5, "quintic": 1.875}
 
 
-def peak_rate(name: str, rates: Rates) -> float:
-    """The largest |d progress / d tau| of a law with boundary rates."""
-    if not any(rates):
-        return PEAK[name]
+def peak_rate(name: str, rates: Rates) -> Floats:
+    """The largest |d progress / d tau| of a law with boundary rates; of many, one a row (K,)."""
+    if not rates:
+        return np.array(PEAK[name])
     coefficients = cubic_coefficients(rates) if name == "cubic" else quintic_coefficients(rates)
-    slope = np.polynomial.Polynomial(coefficients).deriv()
-    turning = slope.deriv().roots()
-    inside = turning.real[(abs(turning.imag) < 1e-9) & (turning.real > 0) & (turning.real < 1)]
-    return float(np.abs(slope(np.concatenate([[0.0, 1.0], inside]))).max())
+    slope = derivative(coefficients)
+    return np.asarray(np.abs(horner(slope, _stationary(slope))).max(axis=0))
 
 
-def cruise_time(name: str, end_rates: Rates, least: float) -> float | None:
-    """The shortest time [s] in which a law with boundary rates never exceeds the cruising speed.
+def _stationary(slope: Rates) -> Floats:
+    """0, 1, and between them where the derivative of a polynomial is zero (R, K).
 
-    `least` is the path over the cruising speed [s]; `end_rates` are fractions of path per second
-    (v0, v1) and per second squared (a0, a1). None where no time is long enough: an end is faster
-    than the cruising speed.
+    It has degree 1, or 3: then it goes one way from one of its turning points to the next, and
+    bisection finds the zero, if there is one.
+    """
+    bend = derivative(slope)
+    edges = np.stack(np.broadcast_arrays(0.0 * sum(bend), 1.0))
+    if len(bend) == 2:
+        return np.concatenate([edges, _inside(-bend[0], bend[1])[None]])
+    c, b, a = derivative(bend)
+    t = -0.5 * (b + np.copysign(np.sqrt(np.maximum(b**2 - 4 * a * c, 0.0)), b))
+    edges = np.sort(np.stack([*edges, _inside(t, a), _inside(c, t)]), axis=0)
+    lower, upper = edges[:-1], edges[1:]
+    rising = horner(bend, upper) > horner(bend, lower)
+    for _ in range(HALVINGS):
+        middle = 0.5 * (lower + upper)
+        beyond = (horner(bend, middle) > 0.0) == rising
+        lower, upper = np.where(beyond, lower, middle), np.where(beyond, middle, upper)
+    return np.concatenate([edges, lower])
+
+
+def _inside(a: float | Floats, b: float | Floats) -> Floats:
+    """Quotients as far as they lie between 0 and 1, else one of these."""
+    a, b = np.broadcast_arrays(np.asarray(a, np.float64), b)
+    return np.clip(np.divide(a, b, out=np.zeros(a.shape), where=b != 0.0), 0.0, 1.0)
+
+
+def cruise_time(name: str, end_rates: Rates, least: Floats) -> Floats:
+    """The shortest times (K,) [s] in which a law with boundary rates never exceeds its speed.
+
+    `least` (K,) is the path over the cruising speed [s]; `end_rates` are fractions of path per
+    second (v0, v1) and per second squared (a0, a1), each (K,). Not a number where no time is long
+    enough: an end is faster than the cruising speed.
     """
 
-    def too_fast(time: float) -> bool:
-        scaled = scale_rates(end_rates, time)
-        return peak_rate(name, scaled) > time / least * (1 + 1e-12)
+    def too_fast(time: Floats) -> NDArray[np.bool_]:
+        peak = peak_rate(name, scale_rates(end_rates, time))
+        return np.asarray(peak > time / least * (1 + 1e-12))
 
-    if not any(end_rates):
-        return PEAK[name] * least
-    long = least
-    while too_fast(long):
-        long *= 1.25
-        if long > 1e3 * least:
-            return None
+    if not end_rates:
+        return np.asarray(PEAK[name] * least)
+    long = np.array(least, dtype=np.float64)
+    while (still := too_fast(long) & (long <= 1e3 * least)).any():
+        long[still] *= 1.25
     short = long / 1.25
     for _ in range(60):
         middle = 0.5 * (short + long)
-        short, long = (middle, long) if too_fast(middle) else (short, middle)
-    return long
+        fast = too_fast(middle)
+        short, long = np.where(fast, middle, short), np.where(fast, long, middle)
+    return np.where(long > 1e3 * least, np.nan, long)
 
 
-def scale_rates(end_rates: Rates, time: float) -> Rates:
+def scale_rates(end_rates: Rates, time: float | Floats) -> Rates:
     """Rates per second as rates per tau, for a stroke that takes `time` [s]."""
     v, a = end_rates[:2], end_rates[2:]
     return (*(x * time for x in v), *(x * time**2 for x in a))

@@ -1,8 +1,8 @@
 """How long a stroke is, and the way from a distance along it back to its parameter.
 
-Straight lines, screws and arcs of one radius run evenly: their length is a product. Curves and
-growing arcs are integrated by Gauss-Legendre quadrature, panel by panel, and turned round by
-Newton's method; the derivatives of the way back are exact.
+Straight lines, screws, arcs of one radius and chains run evenly: their length is a speed. What does
+not, such as a curve or an arc that grows, is integrated by Gauss-Legendre quadrature, panel by
+panel, and turned round by Newton's method; the derivatives of the way back are exact.
 """
 
 from dataclasses import dataclass
@@ -39,10 +39,10 @@ class Extent:
 
 
 def measure(shape: Shape) -> Extent:
-    """Length and angle of a stroke, to the last digits or to what `MOST_PANELS` give."""
-    panels = 16 if isinstance(shape, Loose) else 1
+    """Length and angle of one stroke, to the last digits or to what `MOST_PANELS` give."""
+    panels = 16
     before = _integrate(shape, panels)
-    while panels < MOST_PANELS and isinstance(shape, Loose):
+    while panels < MOST_PANELS:
         panels *= 2
         after = _integrate(shape, panels)
         close = abs(after.length - before.length) <= EXACT * after.length

@@ -1,57 +1,104 @@
 """What the tool does along a stroke: orientation, angular velocity and its derivative."""
 
-from collections.abc import Callable
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar, Protocol, Self
 
 import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.language.program import Arc, Follow, Keep, Look, LookLine, Segment, Turn
-from dqpaint.motion.places import Places
+from dqpaint.motion.places import Indices, Places, Rowed, column
 
-# (f (N,), places (4, N, 3)) -> r (N, 4), w (N, 3) [rad per f], its derivative (N, 3)
-Spin = Callable[[Floats, Floats], tuple[Floats, Floats, Floats]]
+Turns = tuple[Floats, Floats, Floats]  # r (N, 4), w (N, 3) [rad per f], its derivative (N, 3)
 
 
-def orientation(segment: Segment, places: Places) -> Spin:
-    """The tool of one segment along its places, for strokes that are not one screw."""
-    tool = segment.tool
-    r0 = np.array(segment.start.orientation)
-    if isinstance(tool, Keep):
-        return _turning(r0, np.zeros(3))
-    if isinstance(tool, Turn):
-        r1 = np.array(segment.end.orientation)
+class Spin(Protocol):
+    """How the tool turns over f (N,), at places (4, N, 3)."""
+
+    @property
+    def even(self) -> bool:
+        """Whether its speed over f is one number."""
+
+    def of(self, rows: Indices | int) -> Self:
+        """The parameters of some strokes, one a row; or of one."""
+
+    def largest(self) -> Floats:
+        """As of `Places`."""
+
+    def __call__(self, f: Floats, at: Floats, /) -> Turns:
+        """Orientation, angular velocity, and its derivative."""
+
+
+def orientation(segments: Sequence[Segment], places: Places) -> Spin:
+    """The tool of segments of one kind along their places, for strokes that are not one screw."""
+    first = segments[0].tool
+    r0 = column([segment.start.orientation for segment in segments])
+    if isinstance(first, Keep):
+        return Turning(r0, np.zeros((len(segments), 3)))
+    if isinstance(first, Turn):
+        r1 = column([segment.end.orientation for segment in segments])
         step = dq.quaternion_mul(r1, r0 * dq.C4)
-        return _turning(r0, 2 * dq.log(dq.pose_from(np.zeros(3), step))[:3])
-    if isinstance(tool, Follow) and isinstance(segment.path, Arc):
-        return _turning(r0, segment.path.angle * np.array(segment.path.axis))
-    if isinstance(tool, Follow):
-        return _heading(r0, np.array(tool.axis), places)
-    if isinstance(tool, Look):
-        return _looking_at(np.array(tool.point), np.array(tool.up))
-    return _looking_at_line(tool)
+        return Turning(r0, 2 * dq.log(dq.pose_from(np.zeros((len(segments), 3)), step))[:, :3])
+    if isinstance(first, Look):
+        looks = [s.tool for s in segments if isinstance(s.tool, Look)]
+        return Looking(column([t.point for t in looks]), column([t.up for t in looks]))
+    if isinstance(first, LookLine):
+        at = [s.tool for s in segments if isinstance(s.tool, LookLine)]
+        return LookingAtLine(column([t.point for t in at]), column([t.along for t in at]))
+    arcs = [s.path for s in segments if isinstance(s.path, Arc)]
+    if arcs:
+        return Turning(r0, column([[a.angle] for a in arcs]) * column([a.axis for a in arcs]))
+    assert isinstance(first, Follow)
+    return heading(r0[0], np.array(first.axis), places)
 
 
-def _turning(r0: Floats, turn: Floats) -> Spin:
-    """A constant turn (3,) [rad], axis times angle, over the whole stroke."""
+@dataclass(frozen=True)
+class Turning(Rowed):
+    """A constant turn [rad], axis times angle, over the whole stroke."""
 
-    def spin(f: Floats, _at: Floats) -> tuple[Floats, Floats, Floats]:
-        half = np.concatenate([0.5 * f[:, None] * turn, np.zeros((len(f), 3))], axis=1)
-        w = np.tile(turn, (len(f), 1))
-        return dq.quaternion_mul(dq.exp(half)[:, :4], r0), w, np.zeros_like(w)
+    r0: Floats
+    turn: Floats
+    even: ClassVar[bool] = True
 
-    return spin
+    def __call__(self, f: Floats, _at: Floats) -> Turns:
+        """From the first orientation on."""
+        half = np.concatenate([0.5 * f[:, None] * self.turn, np.zeros((len(f), 3))], axis=1)
+        w = np.broadcast_to(self.turn, (len(f), 3))
+        return dq.quaternion_mul(dq.exp(half)[:, :4], self.r0), w, np.zeros((len(f), 3))
 
 
-def _heading(r0: Floats, axis: Floats, places: Places) -> Spin:
-    """The turn about `axis` by which the tangent's direction across it has changed."""
+def heading(r0: Floats, axis: Floats, places: Places) -> "Heading":
+    """The heading of a curve, which begins with the orientation r0 (4,)."""
     e1 = _across(axis)
     e2 = dq.cross(axis, e1)
     tangent = places(np.zeros(1))[1, 0]
-    start = np.arctan2(tangent @ e2, tangent @ e1)
+    return Heading(r0, axis, e1, e2, float(np.arctan2(tangent @ e2, tangent @ e1)))
 
-    def spin(_f: Floats, at: Floats) -> tuple[Floats, Floats, Floats]:
-        x, y = at[1:] @ e1, at[1:] @ e2  # (3, N): of p', p'', p'''
+
+@dataclass(frozen=True)
+class Heading:
+    """The turn about `axis` by which the tangent's direction across it has changed."""
+
+    r0: Floats
+    axis: Floats
+    e1: Floats
+    e2: Floats
+    start: float
+    even: ClassVar[bool] = False
+
+    def of(self, _rows: Indices | int) -> Self:
+        """It is one stroke alone."""
+        return self
+
+    def largest(self) -> Floats:
+        """It may leave the numbers anywhere."""
+        return np.full(1, np.inf)
+
+    def __call__(self, _f: Floats, at: Floats) -> Turns:
+        """From the tangent and its derivatives; FloatingPointError where there is none."""
+        x, y = at[1:] @ self.e1, at[1:] @ self.e2  # (3, N): of the place's derivatives
         square = x[0] ** 2 + y[0] ** 2
         if not np.isfinite(at[3]).all() or not (square > 0).all():
             raise FloatingPointError("a heading, or one of its derivatives, is not finite")
@@ -59,11 +106,10 @@ def _heading(r0: Floats, axis: Floats, places: Places) -> Spin:
         rate = turning / square
         spread = 2 * (x[0] * x[1] + y[0] * y[1])
         slope = (x[0] * y[2] - y[0] * x[2] - rate * spread) / square
-        half = 0.5 * (np.arctan2(y[0], x[0]) - start)
-        q = np.concatenate([np.cos(half)[:, None], np.sin(half)[:, None] * axis], axis=1)
-        return dq.quaternion_mul(q, r0), rate[:, None] * axis, slope[:, None] * axis
-
-    return spin
+        half = 0.5 * (np.arctan2(y[0], x[0]) - self.start)
+        q = np.concatenate([np.cos(half)[:, None], np.sin(half)[:, None] * self.axis], axis=1)
+        turned = dq.quaternion_mul(q, self.r0)
+        return turned, rate[:, None] * self.axis, slope[:, None] * self.axis
 
 
 def _across(axis: Floats) -> Floats:
@@ -73,36 +119,50 @@ def _across(axis: Floats) -> Floats:
     return np.asarray(across / np.linalg.norm(across))
 
 
-def _looking_at(point: Floats, up: Floats) -> Spin:
+@dataclass(frozen=True)
+class Looking(Rowed):
     """Tool z towards `point`, x = up x z made a unit vector, y = z x x."""
 
-    def spin(_f: Floats, at: Floats) -> tuple[Floats, Floats, Floats]:
-        towards = np.stack([point - at[0], -at[1], -at[2]])
-        z = _unit(towards)
-        x = _unit(_cross(_fixed(up, z), z))
+    point: Floats
+    up: Floats
+    even: ClassVar[bool] = False
+
+    def largest(self) -> Floats:
+        """It may leave the numbers anywhere."""
+        return np.full(1, np.inf)
+
+    def __call__(self, _f: Floats, at: Floats) -> Turns:
+        """From where the point is, and how it moves."""
+        z = _unit(np.stack([self.point - at[0], -at[1], -at[2]]))
+        x = _unit(_cross(_fixed(self.up, z), z))
         return _spin_of_frame(x, _cross(z, x), z)
 
-    return spin
 
-
-def _looking_at_line(tool: LookLine) -> Spin:
+@dataclass(frozen=True)
+class LookingAtLine(Rowed):
     """Tool z square to the line and towards it, x along the line, y = z x x."""
-    point, along = np.array(tool.point), np.array(tool.along)
 
-    def spin(_f: Floats, at: Floats) -> tuple[Floats, Floats, Floats]:
-        towards = np.stack([point - at[0], -at[1], -at[2]])
-        z = _unit(towards - (towards @ along)[..., None] * along)
-        x = _fixed(along, z)
+    point: Floats
+    along: Floats
+    even: ClassVar[bool] = False
+
+    def largest(self) -> Floats:
+        """It may leave the numbers anywhere."""
+        return np.full(1, np.inf)
+
+    def __call__(self, _f: Floats, at: Floats) -> Turns:
+        """From where the point is, and how it moves."""
+        towards = np.stack([self.point - at[0], -at[1], -at[2]])
+        z = _unit(towards - (towards * self.along).sum(-1, keepdims=True) * self.along)
+        x = _fixed(self.along, z)
         return _spin_of_frame(x, _cross(z, x), z)
-
-    return spin
 
 
 # Vectors that move: (3, N, 3), value and first two derivatives.
 
 
 def _fixed(vector: Floats, like: Floats) -> Floats:
-    """A vector (3,) that does not move."""
+    """Vectors (3,) or (N, 3) that do not move."""
     out = np.zeros_like(like)
     out[0] = vector
     return out

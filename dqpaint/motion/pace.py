@@ -38,6 +38,11 @@ class Ticks:
         """New samples of the stroke."""
         return len(self.tau) - 1
 
+    @property
+    def paces(self) -> tuple[float, float]:
+        """s_dot at the first and at the last sample."""
+        return (1.0, 1.0) if self.rate is None else (float(self.rate[0]), float(self.rate[-1]))
+
 
 @dataclass(frozen=True)
 class Pace:

@@ -1,5 +1,6 @@
 """Program -> Motion: what the light is asked to do at every sample, in the robot's base frame."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -11,12 +12,13 @@ from dqpaint.language.diagnostics import Diagnostic, ScriptError
 from dqpaint.language.findings import EnoughError, Findings
 from dqpaint.language.program import Auto, Pose, Program, Step
 from dqpaint.motion.corners import jumps, slow
-from dqpaint.motion.glow import ends_over_middle, glow
-from dqpaint.motion.lengths import flow_by_length, length_fraction
+from dqpaint.motion.faults import Faults
+from dqpaint.motion.glow import glow, unevenness
 from dqpaint.motion.pace import Pace, Ticks
-from dqpaint.motion.runs import part_at
-from dqpaint.motion.shapes import Flow, pose_array
-from dqpaint.motion.timetable import Stroke, StrokeError, stroke_errors, timetable
+from dqpaint.motion.sampling import Rows, sampled
+from dqpaint.motion.shapes import pose_array
+from dqpaint.motion.survey import tell
+from dqpaint.motion.timetable import Timetable, timetable
 
 
 @dataclass(frozen=True)
@@ -69,6 +71,16 @@ class Motion:
                 array.setflags(write=False)
 
     @property
+    def samples(self) -> int:
+        """How many poses there are."""
+        return len(self.t)
+
+    @property
+    def seconds(self) -> float:
+        """How long it takes."""
+        return float(self.t[-1])
+
+    @property
     def points(self) -> Floats:
         """The asked places of the light (N, 3) [m]."""
         return dq.translation(self.pose)
@@ -97,71 +109,37 @@ def plan(program: Program, canvas: Floats, pace: Pace | None = None) -> Motion:
         ScriptError: a stroke without a timetable, or more samples than the budget.
     """
     findings = Findings()
-    strokes: list[Stroke] = []
-    flows: list[tuple[Flow, Floats]] = []
-    ticks: list[Ticks] = []
+    faults: Faults = {}
+    table, ticks, sheet = None, None, None
     try:
-        strokes = timetable(program, findings)
-        first = 0
-        for stroke in strokes:
-            ticks.append(_ticks(stroke, first, pace))
-            first += stroke.count
-            try:
-                with stroke_errors(stroke.segment):
-                    flows.append(_paced(stroke, ticks[-1], program.period))
-                    check_finite(flows[-1][0])
-            except StrokeError as fault:
-                for diagnostic in fault.diagnostics:
-                    findings.add(diagnostic)
+        table = timetable(program, findings)
+        ticks = _ticks(table, pace)
+        sheet = _Sheet(table, ticks, _placed(program, canvas))
+        for rows in sampled(table, ticks, faults):
+            if not (faults or findings.errors):
+                sheet.add(rows)
+        tell(faults, findings)
     except EnoughError:
         pass
-    if findings.errors:
+    if findings.errors or table is None or sheet is None:
         raise ScriptError(program.name, program.text, findings.ordered())
-    for note in (
-        *jumps(strokes, [flow for flow, _ in flows], program.period),
-        *slow(strokes, program.period),
-    ):
+    paces = None if ticks is None else np.array([tick.paces for tick in ticks])
+    for note in (*jumps(table, paces), *slow(table)):
         findings.add(note)
-    return _assemble(program, strokes, ticks, flows, canvas, findings.ordered())
+    return sheet.motion(canvas, findings.ordered())
 
 
-def _ticks(stroke: Stroke, first: int, pace: Pace | None) -> Ticks:
-    """When the samples of a stroke are; a jump is never slowed."""
-    if pace is None or isinstance(stroke.segment.path, Step):
-        return Ticks(stroke.samples)
-    return pace.ticks(first, stroke.count)
-
-
-def _paced(stroke: Stroke, ticks: Ticks, period: float) -> tuple[Flow, Floats]:
-    flow, fraction = flow_at(stroke, ticks.tau, period)
-    if ticks.rate is None or ticks.slope is None:
-        return flow, fraction
-    return flow.at_rates(ticks.rate, ticks.slope), fraction
-
-
-def check_finite(flow: Flow) -> None:
-    """Raise FloatingPointError where a stroke leaves the numbers."""
-    if not all(np.isfinite(part).all() for part in (flow.pose, flow.twist, flow.slope)):
-        raise FloatingPointError("a stroke is not finite")
-
-
-def flow_at(stroke: Stroke, tau: Floats, period: float) -> tuple[Flow, Floats]:
-    """A stroke at fractions tau (N,) of its time: its flow per second, the fraction of its length.
-
-    In the drawing frame. The fraction of the length is exact where the light needs it: in a
-    gradient, and where it is even.
-    """
-    progress = stroke.progress(tau, period)
-    if stroke.by_length:
-        flow, fraction = flow_by_length(stroke.shape, stroke.extent, progress.value), progress.value
-    else:
-        flow = stroke.shape.flow(progress.value)
-        light = stroke.segment.light
-        matters = light is not None and (light.first != light.last or light.even)
-        fraction = progress.value
-        if matters:
-            fraction = length_fraction(stroke.shape, stroke.extent, progress.value)
-    return flow.at_rates(progress.rate, progress.slope), fraction
+def _ticks(table: Timetable, pace: Pace | None) -> list[Ticks] | None:
+    """When the samples of each stroke are, where the clock is slowed; a jump never is."""
+    if pace is None:
+        return None
+    first = np.cumsum(table.count) - table.count
+    return [
+        Ticks(np.arange(2) / 1) if isinstance(segment.path, Step) else pace.ticks(begin, count)
+        for segment, begin, count in zip(
+            table.firsts, first.tolist(), table.count.tolist(), strict=True
+        )
+    ]
 
 
 def _placed(program: Program, canvas: Floats) -> Floats:
@@ -175,54 +153,61 @@ def _placed(program: Program, canvas: Floats) -> Floats:
             return canvas
 
 
-def _assemble(
-    program: Program,
-    strokes: list[Stroke],
-    ticks: list[Ticks],
-    flows: list[tuple[Flow, Floats]],
-    canvas: Floats,
-    findings: tuple[Diagnostic, ...],
-) -> Motion:
-    placed = _placed(program, canvas)
-    counts = np.array([tick.count for tick in ticks])
-    n = int(counts.sum()) + 1
-    pose, twist, acceleration = np.empty((n, 8)), np.empty((n, 6)), np.empty((n, 6))
-    light, number = np.zeros((n, 3)), np.zeros(n, dtype=np.int64)
-    clock = np.zeros(n)
-    first = segments = begun = 0
-    for stroke, tick, (flow, fraction) in zip(strokes, ticks, flows, strict=True):
-        last = first + tick.count
-        clock[first : last + 1] = (begun + tick.tau * stroke.count) * program.period
-        begun += stroke.count
-        # the end row is written too, and again by the stroke that begins there
-        pose[first : last + 1] = flow.pose
-        twist[first : last + 1] = flow.twist
-        acceleration[first : last + 1] = flow.slope
-        light[first:last] = glow(stroke, flow, fraction, program.period)
-        number[first : last + 1] = segments
-        if len(stroke.segments) > 1:
-            number[first : last + 1] += part_at(stroke.edges, fraction)
-        first, segments = last, segments + len(stroke.segments)
-    number[-1] = segments - 1
-    lines = np.array([segment.line for segment in program.segments])
-    steps = np.array([isinstance(segment.path, Step) for segment in program.segments])
-    t = np.arange(n, dtype=np.float64) * program.period
-    slowed = any(tick.rate is not None for tick in ticks)
-    return Motion(
-        period=program.period,
-        t=t,
-        pose=dq.continuous(dq.mul(placed, pose)),
-        twist=dq.adjoint(placed, twist),
-        acceleration=dq.adjoint(placed, acceleration),
-        light=light,
-        line=lines[number],
-        stroke=number,
-        canvas=np.array(placed),
-        front=np.array(dq.rotation(canvas)),
-        jump=steps[number],
-        clock=clock if slowed else t,
-        program=program,
-        length=sum(stroke.extent.length for stroke in strokes),
-        unevenness=max(ends_over_middle(stroke, program.period) for stroke in strokes),
-        notes=program.notes + findings,
-    )
+class _Sheet:
+    """The rows of a motion, as they come."""
+
+    def __init__(self, table: Timetable, ticks: Sequence[Ticks] | None, placed: Floats) -> None:
+        self._table, self._ticks, self._placed = table, ticks, placed
+        counts = table.count if ticks is None else np.array([tick.count for tick in ticks])
+        n = int(counts.sum()) + 1
+        self._pose, self._twist, self._slope = (np.empty((n, width)) for width in (8, 6, 6))
+        self._light, self._number = np.zeros((n, 3)), np.empty(n, dtype=np.int64)
+        self._clock = np.empty(n)
+        self._begun = np.cumsum(table.count) - table.count  # samples before each stroke
+        self._glow = glow(table)
+        self._rows = 0
+
+    def add(self, rows: Rows) -> None:
+        """Takes some in; the end of a stroke is the start of the next, but for the very last."""
+        table, begin = self._table, self._rows
+        kept = ~rows.last
+        end = begin + int(kept.sum())
+        self._light[begin:end] = self._glow.along(rows)
+        if rows.stroke[-1] == len(table) - 1:
+            kept[-1] = True
+            end += 1
+        stroke, here = rows.stroke[kept], slice(begin, end)
+        self._pose[here] = dq.mul(self._placed, rows.flow.pose[kept])
+        self._twist[here] = dq.adjoint(self._placed, rows.flow.twist[kept])
+        self._slope[here] = dq.adjoint(self._placed, rows.flow.slope[kept])
+        self._number[here] = table.parts(stroke, rows.fraction[kept])
+        samples = self._begun[stroke] + rows.tau[kept] * table.count[stroke]
+        self._clock[here] = samples * table.program.period
+        self._rows = end
+
+    def motion(self, canvas: Floats, findings: tuple[Diagnostic, ...]) -> Motion:
+        """All of it, seen from the base frame."""
+        table, program, number = self._table, self._table.program, self._number
+        number[-1] = len(program.segments) - 1
+        lines = np.array([segment.line for segment in program.segments])
+        steps = np.array([isinstance(segment.path, Step) for segment in program.segments])
+        t = np.arange(len(number), dtype=np.float64) * program.period
+        slowed = self._ticks is not None and any(tick.rate is not None for tick in self._ticks)
+        return Motion(
+            period=program.period,
+            t=t,
+            pose=dq.continuous(self._pose),
+            twist=self._twist,
+            acceleration=self._slope,
+            light=self._light,
+            line=lines[number],
+            stroke=number,
+            canvas=np.array(self._placed),
+            front=np.array(dq.rotation(canvas)),
+            jump=steps[number],
+            clock=self._clock if slowed else t,
+            program=program,
+            length=float(sum(table.length.tolist())),
+            unevenness=unevenness(table),
+            notes=program.notes + findings,
+        )

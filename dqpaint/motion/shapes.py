@@ -6,29 +6,15 @@ something else meanwhile, place and orientation are two functions of the same pa
 """
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import ClassVar, Protocol, Self
 
 import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.language.program import (
-    Arc,
-    Chain,
-    Curve,
-    Follow,
-    Keep,
-    Pose,
-    Screw,
-    ScrewTo,
-    Segment,
-    Step,
-    Still,
-    Straight,
-)
-from dqpaint.motion.chains import place_chain
-from dqpaint.motion.orientations import Spin, orientation
-from dqpaint.motion.places import Places, place_arc, place_curve, place_straight
+from dqpaint.language.program import Pose
+from dqpaint.motion.orientations import Spin
+from dqpaint.motion.places import Indices, Lines, Places, Rowed
 
 
 @dataclass(frozen=True)
@@ -46,7 +32,24 @@ class Flow:
 
 
 class Shape(Protocol):
-    """A stroke as a function of the fraction f in [0, 1] of its own parameter."""
+    """Strokes of one kind, as functions of the fraction f in [0, 1] of their own parameter.
+
+    The parameters belong to one stroke, or stand one a row, as in `places`.
+    """
+
+    @property
+    def even(self) -> bool:
+        """Whether the point and the tool's turning each have one speed over f."""
+
+    @property
+    def straight(self) -> bool:
+        """Whether the point goes straight from the first place to the last."""
+
+    def of(self, rows: Indices | int) -> Self:
+        """The parameters of some strokes, one a row of f; or of one."""
+
+    def largest(self) -> Floats:
+        """As of `Places`, (K,)."""
 
     def flow(self, f: Floats) -> Flow:
         """Pose, twist per unit of f and its derivative at f (N,), in the drawing frame."""
@@ -54,33 +57,51 @@ class Shape(Protocol):
     def speeds(self, f: Floats) -> tuple[Floats, Floats]:
         """Speed of the point [m] and of the tool's turning [rad] per unit of f (N,)."""
 
+    def points(self, f: Floats) -> Floats:
+        """The places (N, 3) alone."""
+
 
 @dataclass(frozen=True)
-class Rigid:
-    """One screw: the displacement (6,) carries the start pose (8,) along."""
+class Rigid(Rowed):
+    """One screw each: the displacement (K, 6) carries the start pose (K, 8) along."""
 
     start: Floats
     displacement: Floats
+    even: ClassVar[bool] = True
+
+    @property
+    def straight(self) -> bool:
+        """If it does not turn."""
+        return not self.displacement[..., :3].any()
 
     def flow(self, f: Floats) -> Flow:
         """With x = exp(f d / 2) x0 the twist per f is d itself."""
         pose = dq.mul(dq.exp(0.5 * f[:, None] * self.displacement), self.start)
-        twist = np.tile(self.displacement, (len(f), 1))
-        return Flow(pose, twist, np.zeros_like(twist))
+        twist = np.broadcast_to(self.displacement, (len(f), 6))
+        return Flow(pose, twist, np.zeros((len(f), 6)))
 
     def speeds(self, f: Floats) -> tuple[Floats, Floats]:
         """A screw runs evenly."""
         velocity = dq.point_velocity(self.displacement, dq.translation(self.start))
-        speeds = np.linalg.norm(velocity), np.linalg.norm(self.displacement[:3])
-        return np.full(len(f), speeds[0]), np.full(len(f), speeds[1])
+        speed, turning = _size(velocity), _size(self.displacement[..., :3])
+        return np.broadcast_to(speed, f.shape), np.broadcast_to(turning, f.shape)
+
+    def points(self, f: Floats) -> Floats:
+        """Without the turns, where there are none."""
+        if self.straight:
+            by = f[:, None] * self.displacement[..., 3:]
+            return np.asarray(dq.translation(self.start) + by)
+        return dq.translation(self.flow(f).pose)
 
 
 @dataclass(frozen=True)
-class Jump:
+class Jump(Rowed):
     """A set point that is at one pose until the end, then at another; no impulse is invented."""
 
     start: Floats
     end: Floats
+    even: ClassVar[bool] = True
+    straight: ClassVar[bool] = True
 
     def flow(self, f: Floats) -> Flow:
         """The end pose at f = 1 alone, and no twist."""
@@ -91,6 +112,10 @@ class Jump:
         """None."""
         return np.zeros_like(f), np.zeros_like(f)
 
+    def points(self, f: Floats) -> Floats:
+        """Two places."""
+        return dq.translation(self.flow(f).pose)
+
 
 @dataclass(frozen=True)
 class Loose:
@@ -98,6 +123,24 @@ class Loose:
 
     places: Places
     spin: Spin
+
+    @property
+    def even(self) -> bool:
+        """If both are."""
+        return self.places.even and self.spin.even
+
+    @property
+    def straight(self) -> bool:
+        """If the places are."""
+        return isinstance(self.places, Lines)
+
+    def largest(self) -> Floats:
+        """Of both."""
+        return np.maximum(self.places.largest(), self.spin.largest())
+
+    def of(self, rows: Indices | int) -> Self:
+        """Of both."""
+        return type(self)(self.places.of(rows), self.spin.of(rows))
 
     def flow(self, f: Floats) -> Flow:
         """The spatial twist from the point's and the orientation's own derivatives."""
@@ -111,7 +154,11 @@ class Loose:
         """Of the two functions."""
         p = self.places(f)
         w = self.spin(f, p)[1]
-        return np.sqrt((p[1] ** 2).sum(1)), np.sqrt((w**2).sum(1))
+        return _size(p[1]), _size(w)
+
+    def points(self, f: Floats) -> Floats:
+        """Whatever the tool does."""
+        return self.places.point(f)
 
 
 def pose_array(pose: Pose) -> Floats:
@@ -119,41 +166,5 @@ def pose_array(pose: Pose) -> Floats:
     return dq.pose_from(pose.position, pose.orientation)
 
 
-def shape(segment: Segment) -> Shape:
-    """The stroke of one segment."""
-    start = pose_array(segment.start)
-    path, tool = segment.path, segment.tool
-    if isinstance(path, Screw):
-        return Rigid(start, _screw(path.point, path.axis, path.angle, path.advance))
-    if isinstance(path, ScrewTo):
-        return Rigid(start, 2 * dq.log(dq.mul(pose_array(segment.end), dq.conj(start))))
-    if isinstance(path, Still):
-        return Rigid(start, np.zeros(6))
-    if isinstance(path, Step):
-        return Jump(start, pose_array(segment.end))
-    if isinstance(path, Straight) and isinstance(tool, Keep | Follow):
-        return Rigid(start, np.concatenate([np.zeros(3), path.by]))
-    if isinstance(path, Arc) and isinstance(tool, Follow) and path.grow == 0:
-        return Rigid(start, _screw(path.centre, path.axis, path.angle, path.rise))
-    places = _places(segment)
-    return Loose(places, orientation(segment, places))
-
-
-def _screw(
-    point: tuple[float, ...], axis: tuple[float, ...], angle: float, advance: float
-) -> Floats:
-    """The displacement (6,) of a turn and an advance along one line; the angle may be zero."""
-    turn = angle * dq.twist_from_screw(axis, point)
-    return turn + advance * np.concatenate([np.zeros(3), axis])
-
-
-def _places(segment: Segment) -> Places:
-    path = segment.path
-    if isinstance(path, Arc):
-        return place_arc(path, segment.start.position)
-    if isinstance(path, Curve):
-        return place_curve(path)
-    if isinstance(path, Chain):
-        return place_chain(path)
-    assert isinstance(path, Straight)
-    return place_straight(path, segment.start.position)
+def _size(vectors: Floats) -> Floats:
+    return np.asarray(np.sqrt((vectors**2).sum(-1)))

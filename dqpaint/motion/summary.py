@@ -3,13 +3,14 @@
 from pathlib import Path
 
 from dqpaint.motion.plan import Motion
+from dqpaint.motion.survey import Survey
 
 
-def summary_line(motion: Motion) -> str:
+def summary_line(drawing: Motion | Survey) -> str:
     """Length of the path, time, steps and box."""
-    box = " x ".join(f"{side * 1e3:.0f}" for side in motion.box)
+    box = " x ".join(f"{round(side * 1e3, 6):.0f}" for side in drawing.box)  # noise is no half
     return (
-        f"{Path(motion.program.name).name}: {motion.length * 1e3:.0f} mm, {motion.t[-1]:.2f} s, "
-        f"{len(motion.t) - 1} steps of {motion.period * 1e3:g} ms ({len(motion.t)} poses), "
-        f"box {box} mm"
+        f"{Path(drawing.program.name).name}: {drawing.length * 1e3:.0f} mm, "
+        f"{drawing.seconds:.2f} s, {drawing.samples - 1} steps of {drawing.period * 1e3:g} ms "
+        f"({drawing.samples} poses), box {box} mm"
     )

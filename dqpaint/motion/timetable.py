@@ -1,275 +1,357 @@
 """When each stroke runs: whole samples, the time law over them, and the budget.
 
-Durations are rounded up, so that every corner is itself a sample and no speed is exceeded.
+Durations are rounded up, so that every corner is itself a sample and no speed is exceeded. What
+belongs to the strokes stands in arrays, one row a stroke: a drawing may have many.
 """
 
 import math
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
-from itertools import groupby
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
-from dqpaint.language.diagnostics import Diagnostic, ScriptError
+from dqpaint.language.diagnostics import Diagnostic
 from dqpaint.language.findings import Findings
-from dqpaint.language.program import Cruise, Lasting, Program, Samples, Segment, Step, Still
-from dqpaint.motion.laws import LAWS, Progress, Rates, cruise_time, scale_rates
-from dqpaint.motion.lengths import Extent, has_cusp, measure
-from dqpaint.motion.runs import joined
-from dqpaint.motion.shapes import Shape, shape
+from dqpaint.language.program import Cruise, Program, Samples, Segment, Step, Still
+from dqpaint.motion import faults as told
+from dqpaint.motion.families import Flags, Shapes, gather
+from dqpaint.motion.faults import MOST_SAMPLES, MOST_SECONDS, Faults
+from dqpaint.motion.laws import LAWS, PEAK, Progress, Rates, cruise_time, peak_rate, scale_rates
+from dqpaint.motion.lengths import has_cusp, length_fraction
+from dqpaint.motion.places import Indices
+from dqpaint.motion.shapes import Flow
 
-MOST_SAMPLES = 2_000_000
-MOST_SECONDS = 86_400.0  # of a drawing
 ENDLESS = 1e15  # samples
-ROUNDING_WORTH_SAYING = 0.01
+NAMES = tuple(LAWS)
+RATES = {"cubic": 2, "quintic": 4}  # how many a law may have
 
 
-@dataclass(frozen=True)
-class Stroke:
-    """A segment, or several of one run, with shape, extent and the number of new samples.
+@dataclass(frozen=True, eq=False)
+class Timetable:
+    """The strokes of a drawing (S): a segment each, or several of one run.
 
     Attributes:
-        segments: one, or all of a run (M).
-        edges: the fractions (M + 1,) of the length where they begin, and the end.
-        shape: of all of it.
-        extent: of all of it.
-        count: of new samples.
-        by_length: the law runs over the length of the path, not over the parameter of its formula.
-        end_rates: of the law: fractions of the path per second, and per second squared.
-        wanted: the time [s] it would take if times were not rounded up to whole samples.
+        program: what is drawn.
+        shapes: of its segments (M).
+        first: the number of each stroke's first segment (S,).
+        size: and how many it has (S,).
+        begin: where each segment begins, as a fraction of its stroke's length (M,).
+        end: and where it ends (M,).
+        by_length: which segments (M,) the law runs over by the length of their path, not by the
+            parameter of their formula.
+        length: of each stroke's path [m] (S,).
+        law: which of `NAMES` each time law is (S,).
+        rates: v0, v1, a0, a1 of each law (S, 4): fractions of the path per second, and per second
+            squared.
+        count: of new samples (S,).
+        wanted: the times [s] they would take if those were not rounded up to whole samples (S,).
     """
 
-    segments: tuple[Segment, ...]
-    edges: Floats
-    shape: Shape
-    extent: Extent
-    count: int
-    by_length: bool
-    end_rates: Rates
-    wanted: float
+    program: Program
+    shapes: Shapes
+    first: Indices
+    size: Indices
+    begin: Floats
+    end: Floats
+    by_length: Flags
+    length: Floats
+    law: Indices
+    rates: Floats
+    count: NDArray[np.int64]
+    wanted: Floats
 
-    @property
-    def segment(self) -> Segment:
-        """The first one; law and timing are those of all."""
-        return self.segments[0]
+    def __len__(self) -> int:
+        return len(self.first)
 
-    @property
-    def samples(self) -> Floats:
-        """The fractions of the stroke's time at its count + 1 samples."""
-        return np.arange(self.count + 1) / self.count
+    @cached_property
+    def time(self) -> Floats:
+        """How long each stroke takes (S,) [s]."""
+        return np.asarray(self.count * self.program.period)
 
-    def progress(self, tau: Floats, period: float) -> Progress:
-        """Fraction of the path at fractions tau (N,) of the time, with derivatives per second."""
-        time = self.count * period
-        law = LAWS[self.segment.law.name](tau, scale_rates(self.end_rates, time))
-        return Progress(law.value, law.rate / time, law.slope / time**2)
+    @cached_property
+    def firsts(self) -> list[Segment]:
+        """The first segment of each stroke; its law and timing are those of all."""
+        return [self.program.segments[number] for number in self.first]
+
+    def of(self, strokes: Flags | Indices) -> "Timetable":
+        """Some of the strokes."""
+        names = ("first", "size", "length", "law", "rates", "count", "wanted")
+        return replace(self, **{name: getattr(self, name)[strokes] for name in names})
+
+    def edges(self, stroke: int) -> Floats:
+        """The fractions of a stroke's length where its segments begin, and the end."""
+        first = self.first[stroke]
+        return np.append(self.begin[first : first + self.size[stroke]], 1.0)
+
+    def laws(self) -> Iterator[tuple[str, bool, Indices]]:
+        """The strokes of each time law that occurs, those from rest to rest apart."""
+        rated = self.rates.any(axis=1)
+        for number, name in enumerate(NAMES):
+            for with_rates in (False, True):
+                strokes = np.flatnonzero((self.law == number) & (rated == with_rates))
+                if len(strokes):
+                    yield name, with_rates, strokes
+
+    def end_rates(self, name: str, strokes: Indices | int) -> Rates:
+        """The rates of strokes of one law, or of one stroke, per tau, as `laws` takes them."""
+        columns = self.rates[strokes].T[: RATES[name]]
+        return scale_rates(tuple(columns), self.time[strokes])
+
+    @cached_property
+    def peak_rates(self) -> Floats:
+        """The largest rates of the laws (S,), in fractions of the path per tau."""
+        peak = np.empty(len(self))
+        for name, with_rates, strokes in self.laws():
+            rates = self.end_rates(name, strokes) if with_rates else ()
+            peak[strokes] = peak_rate(name, rates)
+        return peak
+
+    def progress(self, stroke: Indices, tau: Floats) -> Progress:
+        """Fractions of the paths at fractions tau (N,) of the times of strokes (N,), per second."""
+        value, rate, slope = np.empty((3, len(tau)))
+        kind = np.empty(len(self), dtype=np.intp)
+        laws = list(self.laws())
+        for number, (_, _, strokes) in enumerate(laws):
+            kind[strokes] = number
+        for number, (name, with_rates, _) in enumerate(laws):
+            rows = slice(None) if len(laws) == 1 else np.flatnonzero(kind[stroke] == number)
+            rates = self.end_rates(name, stroke[rows]) if with_rates else ()
+            law = LAWS[name](tau[rows], rates)
+            value[rows], rate[rows], slope[rows] = law.value, law.rate, law.slope
+        time = self.time[stroke]
+        return Progress(value, rate / time, slope / time**2)
+
+    def parts(self, stroke: Indices, fraction: Floats) -> Indices:
+        """The segments that strokes (N,), in order, are on at fractions (N,) of their length.
+
+        At a joint it is the one that begins there; the outer ones for what lies beyond.
+        """
+        number = self.first[stroke]
+        for run in np.unique(stroke[self.size[stroke] > 1]):
+            rows = slice(*np.searchsorted(stroke, (run, run + 1)))
+            number[rows] += part_at(self.edges(run), fraction[rows])
+        return np.asarray(number)
+
+    def flow(self, stroke: Indices, tau: Floats, faults: Faults) -> tuple[Flow, Floats]:
+        """Strokes (N,), in order, at fractions tau (N,) of their time, in the drawing frame.
+
+        Args:
+            stroke: which.
+            tau: when.
+            faults: gets what goes wrong, by the segment; there the rows are not finite.
+
+        Returns:
+            The flow per second, and the fraction of the length, which is exact where the light
+            needs it: in a gradient, and where it is even.
+        """
+        progress = self.progress(stroke, tau)
+        number, f = self.inside(stroke, progress.value)
+        flow = self.shapes.flow(number, f, self.by_length, faults)
+        if (self.size[stroke] > 1).any():
+            flow = flow.at_rates(1.0 / (self.end - self.begin)[number], np.zeros(len(tau)))
+        fraction = self._by_length(stroke, progress.value, faults)
+        return flow.at_rates(progress.rate, progress.slope), fraction
+
+    def _by_length(self, stroke: Indices, fraction: Floats, faults: Faults) -> Floats:
+        """Fractions of the parameter as those of the length, where the light changes over it."""
+        out = fraction
+        for number in self._changing():
+            rows = slice(*np.searchsorted(stroke, (number, number + 1)))
+            if rows.start < rows.stop and int(self.first[number]) not in faults:
+                out = out.copy() if out is fraction else out
+                first = int(self.first[number])
+                form, extent = self.shapes.shape(first), self.shapes.uneven[first]
+                out[rows] = length_fraction(form, extent, fraction[rows])
+        return out
+
+    def _changing(self) -> list[int]:
+        """The strokes that are not run by their length, but whose light is a matter of it."""
+        found = []
+        for first in self.shapes.uneven:
+            light = self.program.segments[first].light
+            changes = light is not None and (light.first != light.last or light.even)
+            if changes and not self.by_length[first]:
+                found += np.flatnonzero(self.first == first).tolist()
+        return found
+
+    def inside(self, stroke: Indices, fraction: Floats) -> tuple[Indices, Floats]:
+        """The segments as in `parts`, and the fractions of their own."""
+        number = self.parts(stroke, fraction)
+        begin = self.begin[number]
+        return number, (fraction - begin) / (self.end[number] - begin)
 
 
-class StrokeError(Exception):
-    """A stroke that has no timetable, as diagnostics."""
-
-    def __init__(self, *diagnostics: Diagnostic) -> None:
-        super().__init__(diagnostics[0].message)
-        self.diagnostics = diagnostics
+def part_at(edges: Floats, f: Floats) -> Indices:
+    """Which part (N,) fractions lie in; the outer ones for what lies beyond."""
+    return np.clip(np.searchsorted(edges, f, side="right") - 1, 0, len(edges) - 2)
 
 
-@contextmanager
-def stroke_errors(segment: Segment) -> Iterator[None]:
-    """Turn what a formula may raise on its way into a `StrokeError`."""
-    try:
-        yield
-    except FloatingPointError:
-        raise StrokeError(_not_finite(segment)) from None
-    except ScriptError as problem:  # the formula names the value of its parameter itself
-        raise StrokeError(*problem.diagnostics) from None
-
-
-def timetable(program: Program, findings: Findings) -> list[Stroke]:
+def timetable(program: Program, findings: Findings) -> Timetable:
     """The strokes of a program; what is wrong or worth saying about their times is added.
+
+    Strokes that are wrong are left out.
 
     Raises:
         EnoughError: the list of errors is full.
     """
-    strokes: list[Stroke] = []
-    total = 1
-    for segments in _runs(program.segments):
-        segment = segments[0]
-        try:
-            stroke, note = _stroke(segments, program.period)
-            total += stroke.count
-            if total > MOST_SAMPLES:
-                raise StrokeError(_too_many(segment, stroke.count))
-            if total * program.period > MOST_SECONDS:
-                raise StrokeError(_too_long(segment, stroke.count * program.period))
-        except StrokeError as fault:
-            for diagnostic in fault.diagnostics:
-                findings.add(diagnostic)
-            if total > MOST_SAMPLES or total * program.period > MOST_SECONDS:
-                break
+    segments, period = program.segments, program.period
+    faults: Faults = {}  # of segments
+    shapes = gather(segments, faults)
+    first, size = _strokes(segments)
+    by_length = _by_length(shapes, faults)
+    begin, end, length = _joined(shapes, first, size)
+    draft = Timetable(
+        *(program, shapes, first, size, begin, end, by_length, length),
+        *(np.zeros(len(first), np.intp), np.zeros((len(first), 4))),
+        *(np.ones(len(first), np.int64), np.ones(len(first))),
+    )
+    wrong = _of_strokes(faults, first)
+    law, rates = _laws(draft, wrong)
+    wanted = _seconds(replace(draft, law=law, rates=rates), wrong)
+    count = _counts(draft.firsts, wanted, period)
+    table = replace(draft, law=law, rates=rates, count=count, wanted=wanted)
+    return table.of(_told(table, wrong, findings))
+
+
+def _strokes(segments: Sequence[Segment]) -> tuple[Indices, Indices]:
+    """The first segment of each stroke (S,), and how many each has."""
+    run = np.array([s.run.number if s.run else 0 for s in segments])
+    goes_on = (run[1:] == run[:-1]) & (run[1:] != 0)
+    first = np.flatnonzero(np.concatenate([[True], ~goes_on]))
+    return first, np.diff(np.append(first, len(segments)))
+
+
+def _by_length(shapes: Shapes, faults: Faults) -> Flags:
+    """Which segments (M,) are run by their length; not one may come to a point on its way."""
+    out = np.zeros(len(shapes.segments), dtype=bool)
+    for number, extent in shapes.uneven.items():
+        segment = shapes.segments[number]
+        law = segment.law
+        cruises = segment.run is not None or isinstance(segment.timing, Cruise)
+        out[number] = cruises or (any(law.rates) and not law.angular)
+        if out[number] and has_cusp(shapes.shape(number), extent):
+            faults.setdefault(number, (told.cusp(segment),))
+    for number in np.flatnonzero(shapes.length == 0.0).tolist():
+        if shapes.segments[number].run is not None:
+            faults.setdefault(number, (told.on_the_spot(shapes.segments[number]),))
+    return out
+
+
+def _joined(shapes: Shapes, first: Indices, size: Indices) -> tuple[Floats, Floats, Floats]:
+    """Where segments begin and end (M,), as fractions of their strokes, and the lengths (S,)."""
+    begin, end = np.zeros(len(shapes.segments)), np.ones(len(shapes.segments))
+    length = shapes.length[first]
+    for stroke in np.flatnonzero(size > 1).tolist():
+        own = slice(first[stroke], first[stroke] + size[stroke])
+        ends = np.concatenate([[0.0], np.cumsum(shapes.length[own])])
+        length[stroke] = ends[-1]
+        if ends[-1] > 0.0:
+            edges = ends / ends[-1]
+            begin[own], end[own] = edges[:-1], edges[1:]
+    return begin, end, length
+
+
+def _of_strokes(faults: Faults, first: Indices) -> Faults:
+    """The faults of segments as those of their strokes: of each stroke the first."""
+    wrong: Faults = {}
+    for number in sorted(faults):
+        stroke = int(np.searchsorted(first, number, side="right")) - 1
+        wrong.setdefault(stroke, faults[number])
+    return wrong
+
+
+def _laws(table: Timetable, wrong: Faults) -> tuple[Indices, Floats]:
+    """Which law each stroke has (S,), and its rates as fractions of the path (S, 4)."""
+    firsts = table.firsts
+    law = np.array([NAMES.index(segment.law.name) for segment in firsts])
+    rates = np.zeros((len(firsts), 4))
+    for stroke, segment in enumerate(firsts):
+        given = segment.law.rates
+        if not any(given) or stroke in wrong:
             continue
-        strokes.append(stroke)
-        if note is not None:
-            findings.add(note)
-    return strokes
+        angles = table.shapes.angle[table.first[stroke] :][: table.size[stroke]]
+        extent = sum(angles.tolist()) if segment.law.angular else float(table.length[stroke])
+        if extent != 0:
+            rates[stroke, : len(given)] = np.array(given) / extent
+        elif not isinstance(segment.path, Still | Step):
+            wrong[stroke] = (told.no_extent(segment),)
+    return law, rates
 
 
-def _runs(segments: tuple[Segment, ...]) -> Iterator[tuple[Segment, ...]]:
-    """The segments one by one, or all of a run together."""
-    for number, group in groupby(segments, key=lambda s: s.run.number if s.run else None):
-        if number is None:
-            yield from ((segment,) for segment in group)
-        else:
-            yield tuple(group)
-
-
-def _stroke(segments: tuple[Segment, ...], period: float) -> tuple[Stroke, Diagnostic | None]:
-    segment, timing = segments[0], segments[0].timing
-    shapes, extents = [], []
-    for one in segments:
-        with stroke_errors(one):
-            shapes.append(shape(one))
-            extents.append(measure(shapes[-1]))
-        by_length = not extents[-1].even and (
-            one.run is not None
-            or isinstance(timing, Cruise)
-            or (any(one.law.rates) and not one.law.angular)
-        )
-        if by_length and has_cusp(shapes[-1], extents[-1]):
-            raise StrokeError(_cusp(one))
-        if one.run is not None and extents[-1].length == 0:
-            raise StrokeError(_on_the_spot(one))
-    form, extent, edges = shapes[0], extents[0], np.array([0.0, 1.0])
-    if segment.run is not None:
-        form, extent = joined(shapes, extents)
-        by_length, edges = False, extent.edges
-    end_rates = _end_rates(segment, extent)
-    seconds = _seconds(segment, extents, end_rates, period)
-    wanted = seconds / period
-    if not wanted < ENDLESS:
-        raise StrokeError(_too_many(segment, math.inf))
-    count = timing.count if isinstance(timing, Samples) else _whole(wanted)
-    if isinstance(segment.path, Step):
-        count = 1
-    stroke = Stroke(segments, edges, form, extent, count, by_length, end_rates, seconds)
-    return stroke, _rounding(segment, seconds, count * period)
-
-
-def _whole(samples: float) -> int:
-    """The next whole number of samples, at least 1; the noise of a division is not another one."""
-    return max(1, math.ceil(samples - 1e-9 - 1e-12 * samples))
-
-
-def _end_rates(segment: Segment, extent: Extent) -> Rates:
-    rates = segment.law.rates
-    if not any(rates):
-        return ()
-    size, kind = (extent.angle, "turn") if segment.law.angular else (extent.length, "length")
-    if size == 0 and isinstance(segment.path, Still | Step):
-        return ()
-    if size == 0:
-        raise StrokeError(_no_extent(segment, kind))
-    return tuple(rate / size for rate in rates)
-
-
-def _seconds(segment: Segment, extents: list[Extent], end_rates: Rates, period: float) -> float:
-    timing = segment.timing
-    if isinstance(timing, Samples):
-        return timing.count * period
-    if isinstance(timing, Lasting):
-        return timing.seconds
-    length = sum(extent.length for extent in extents)
-    least = length / timing.speed
-    for extent in extents:  # nowhere may the tool turn too fast
-        share = extent.length / length if length else 1.0
-        least = max(least, extent.angle / share / timing.turnspeed)
-    if least == 0:
-        return period
-    if not least < ENDLESS * period:
-        raise StrokeError(_too_many(segment, math.inf))
-    seconds = cruise_time(segment.law.name, end_rates, least)
-    if seconds is None:
-        raise StrokeError(_fast_end(segment))
+def _seconds(table: Timetable, wrong: Faults) -> Floats:
+    """How long each stroke is to take (S,) [s]."""
+    period, firsts = table.program.period, table.firsts
+    seconds, speed, turnspeed = np.array([_asked(s, period) for s in firsts]).T
+    cruising = speed > 0.0
+    total = np.repeat(table.length, table.size)
+    share = np.divide(table.shapes.length, total, out=np.ones_like(total), where=total > 0.0)
+    with np.errstate(all="ignore"):  # of strokes that are wrong already
+        turns = np.maximum.reduceat(table.shapes.angle / share, table.first)
+        least = np.maximum(table.length / speed, turns / turnspeed)  # nowhere too fast
+    peak = np.array([PEAK[name] for name in NAMES])[table.law]
+    seconds = np.where(cruising, np.where(least == 0, period, peak * least), seconds)
+    endless = ~(seconds / period < ENDLESS) | (cruising & ~(least < ENDLESS * period))
+    for stroke in np.flatnonzero(endless).tolist():
+        wrong.setdefault(stroke, (told.endless(firsts[stroke]),))
+    good = np.array([stroke not in wrong for stroke in range(len(table))])
+    for name, with_rates, strokes in table.laws():
+        own = strokes[(cruising & (least > 0) & good)[strokes]]
+        if with_rates and len(own):
+            rates = tuple(table.rates[own].T[: RATES[name]])
+            seconds[own] = cruise_time(name, rates, least[own])
+    for stroke in np.flatnonzero(np.isnan(seconds) & good).tolist():
+        wrong[stroke] = (told.fast_end(firsts[stroke]),)
     return seconds
 
 
-def _not_finite(segment: Segment) -> Diagnostic:
-    return Diagnostic(
-        "E324",
-        "this stroke, or one of its derivatives, is not finite everywhere on the way",
-        segment.span,
-        help="keep a formula away from where it breaks down, and rates and times within reason",
-    )
+def _asked(segment: Segment, period: float) -> tuple[float, float, float]:
+    """The time [s] of a stroke, or its speed [m/s] and turnspeed [rad/s]."""
+    timing = segment.timing
+    if isinstance(timing, Cruise):
+        return 0.0, timing.speed, timing.turnspeed
+    return timing.count * period if isinstance(timing, Samples) else timing.seconds, 0.0, 1.0
 
 
-def _cusp(segment: Segment) -> Diagnostic:
-    return Diagnostic(
-        "E321",
-        "this curve comes to a point on its way, so it can't be run at one speed",
-        segment.span,
-        label="its formula stands still somewhere",
-        help="give it a time instead, for example: in 10 s",
-    )
+def _counts(firsts: Sequence[Segment], seconds: Floats, period: float) -> NDArray[np.int64]:
+    """How many new samples each stroke has (S,); far too many are one more than the budget."""
+    wanted = np.minimum(np.nan_to_num(seconds / period), 2.0 * MOST_SAMPLES)
+    # the next whole number, at least 1; the noise of a division is not another one
+    count = np.maximum(1, np.ceil(wanted - 1e-9 - 1e-12 * wanted)).astype(np.int64)
+    for stroke, segment in enumerate(firsts):
+        if isinstance(segment.path, Step):
+            count[stroke] = 1
+        elif isinstance(segment.timing, Samples):
+            count[stroke] = min(segment.timing.count, 2 * MOST_SAMPLES)
+    return count
 
 
-def _fast_end(segment: Segment) -> Diagnostic:
-    return Diagnostic(
-        "E322",
-        "the rates of the law carry this stroke beyond its speed",
-        segment.span,
-        help="lower the rates in the brackets, raise speed, or give a time: in 10 s",
-    )
+def _told(table: Timetable, wrong: Faults, findings: Findings) -> Flags:
+    """Says what is wrong, and what is rounded by much; gives which strokes (S,) are left."""
+    period, firsts = table.program.period, table.firsts
+    good = np.array([stroke not in wrong for stroke in range(len(table))])
+    total = 1 + np.cumsum(np.where(good, table.count, 0))
+    over = np.flatnonzero(good & ((total > MOST_SAMPLES) | (total * period > MOST_SECONDS)))
+    end = int(over[0]) if len(over) else len(table)
+    longer = table.time - table.wanted > told.ROUNDING_WORTH_SAYING * table.wanted
+    for stroke in sorted({*wrong, *np.flatnonzero(longer & good).tolist()}):
+        if stroke >= end:
+            break
+        note = told.rounding(firsts[stroke], float(table.wanted[stroke]), float(table.time[stroke]))
+        for diagnostic in wrong.get(stroke, (note,) if note else ()):
+            findings.add(diagnostic)
+    if end < len(table):
+        findings.add(_too_much(firsts[end], table, end, bool(total[end] > MOST_SAMPLES)))
+    return good & (np.arange(len(table)) < end)
 
 
-def _on_the_spot(segment: Segment) -> Diagnostic:
-    return Diagnostic(
-        "E326",
-        "this goes nowhere, so it can't be part of a stroke, which does not stop",
-        segment.span,
-        help="end the stroke before it",
-    )
-
-
-def _no_extent(segment: Segment, kind: str) -> Diagnostic:
-    unit = "deg/s" if kind == "turn" else "mm/s"
-    other = "mm/s" if kind == "turn" else "deg/s"
-    return Diagnostic(
-        "E323",
-        f"the law has rates in {unit}, but this stroke has no {kind}",
-        segment.span,
-        help=f"give the rates in {other}, or leave the brackets out",
-    )
-
-
-def _too_many(segment: Segment, count: float) -> Diagnostic:
-    alone = f"{count:,}" if isinstance(count, int) else "endlessly many"
-    return Diagnostic(
-        "E302",
-        f"more than {MOST_SAMPLES:,} samples in all",
-        segment.span,
-        label=f"this line alone has {alone}",
-        help="make the period longer or the path shorter or faster",
-    )
-
-
-def _too_long(segment: Segment, seconds: float) -> Diagnostic:
-    return Diagnostic(
-        "E325",
-        f"the drawing takes more than {MOST_SECONDS / 3600:.0f} hours",
-        segment.span,
-        label=f"this line alone takes {seconds:,.0f} s",
-        help="draw it faster, or shorten the pauses",
-    )
-
-
-def _rounding(segment: Segment, wanted: float, given: float) -> Diagnostic | None:
-    asked = isinstance(segment.timing, Lasting) and not isinstance(segment.path, Step)
-    if not asked or given - wanted <= ROUNDING_WORTH_SAYING * wanted:
-        return None
-    return Diagnostic(
-        "W410",
-        f"this takes {given:.4g} s, not {wanted:.4g} s: times are rounded up to whole periods",
-        segment.span,
-        help="a shorter period comes closer",
-    )
+def _too_much(segment: Segment, table: Timetable, stroke: int, samples: bool) -> Diagnostic:
+    count, period = int(table.count[stroke]), table.program.period
+    if count >= 2 * MOST_SAMPLES:
+        wanted = float(table.wanted[stroke]) / period
+        count = math.ceil(wanted - 1e-9 - 1e-12 * wanted)
+    if isinstance(segment.timing, Samples):
+        count = segment.timing.count
+    return told.too_many(segment, count) if samples else told.too_long(segment, count * period)

@@ -13,7 +13,7 @@ from dqpaint.registry import Registry
 from dqpaint.robots.card import Card
 
 Takes = Literal["rates", "torque"]
-Trait = Literal["masses", "a model of gravity"]
+Trait = Literal["masses", "a model of gravity", "sudden motors"]
 
 
 class Values(BaseModel):
@@ -72,7 +72,7 @@ class PlantMaker(Protocol):
 
     @property
     def traits(self) -> frozenset[Trait]:
-        """What it has that a disturbance may need."""
+        """What it has that a disturbance may need, or that tells what its motors bear."""
 
     @property
     def options(self) -> Options:
@@ -109,6 +109,13 @@ class Chosen:
     def __call__(self, card: Card, posture: Floats, period: float, world: World) -> Plant:
         """Build it; arguments as those of a `PlantMaker`."""
         return self.make(card, posture, period, world, self.options)
+
+    @property
+    def motors(self) -> Literal["none", "smooth", "sudden"]:
+        """What its motors' torques are needed for: for nothing, smooth motion, or new rates too."""
+        if "masses" not in self.make.traits:
+            return "none"
+        return "sudden" if "sudden motors" in self.make.traits else "smooth"
 
     def shown(self, card: Card) -> dict[str, Any]:
         """The plant's values, for an arm."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from dqpaint.dq import Floats
 from dqpaint.plants.bullet import bullet
-from dqpaint.plants.plant import PLANTS, Takes
+from dqpaint.plants.plant import PLANTS, Takes, Trait
 from dqpaint.plants.rigid import RigidArm
 from dqpaint.plants.world import UNDISTURBED, World
 from dqpaint.robots.card import Card
@@ -17,6 +17,7 @@ class Stiff(RigidArm):
     """Velocity motors within the card's torques, gravity on, physics steps of at most 1 ms."""
 
     takes: ClassVar[Takes] = "rates"
+    traits: ClassVar[frozenset[Trait]] = frozenset({"masses", "sudden motors"})
 
     def __init__(
         self,

@@ -23,10 +23,14 @@ def find_card(robot: str) -> Card:
 def with_tool(card: Card, tool: str | None) -> Card:
     """The same arm with its light elsewhere on the flange, as `tooling.parse_tool` reads it.
 
+    A place alone leaves the tool turned as it is on the card.
+
     Raises:
         UsageError: it is not `X,Y,Z` or `X,Y,Z,ROLL,PITCH,YAW`.
     """
-    return card if tool is None else card.model_copy(update={"tool": parse_tool(tool)})
+    if tool is None:
+        return card
+    return card.model_copy(update={"tool": parse_tool(tool, card.tool.rpy_deg)})
 
 
 def card_for(program: Program, robot: str | None, tool: str | None = None) -> Card:

@@ -1,10 +1,12 @@
 """An arm's solid shapes: how near its links come to each other, and what they hide.
 
-The shapes are the collision shapes of the arm's description, looked at with Coal, which comes with
-pinocchio: it reads the model the kinematics has already, so a posture is said once.
+What may collide are the collision shapes of the arm's description; what hides light are the visual
+ones, as in a picture. Both are looked at with Coal, which comes with pinocchio: it reads the model
+the kinematics has already, so a posture is said once.
 """
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import coal
@@ -19,8 +21,8 @@ from dqpaint.robots.urdf import prepare
 
 APART = 2  # joints between two links that may collide: neighbours touch by design
 TRIALS, MOSTLY, SEED = 32, 0.5, 1988  # postures in which two links show whether they always touch
-SIGHT = 5e-4  # [m] half the width of a line of sight
-LAMP = 0.015  # [m] round the light that hide nothing: a lamp has a size, and fingers may hold it
+SIGHT = 1e-5  # [m] half the width of a line of sight, as thin as a ray
+LAMP = 0.010  # [m] round the light that hide nothing: what holds a lamp, as `stage.shadow` has it
 
 
 class Nearest(NamedTuple):
@@ -36,11 +38,16 @@ class Nearest(NamedTuple):
     pair: list[tuple[str, str]]
 
 
+@lru_cache(maxsize=1)
+def shapes_of(kinematics: Kinematics) -> "Shapes":
+    """The shapes of an arm; of the last one that was asked for they are kept."""
+    return Shapes(kinematics)
+
+
 class Shapes:
     """The solid shapes of an arm.
 
-    For distances a mesh counts as its convex hull, which is a hundred times faster; for what hides
-    what it counts as it is.
+    For distances a mesh counts as its convex hull, which is a hundred times faster.
 
     Links that touch in the home posture, or in most postures, are not looked at: their shapes are
     coarser than the arm itself.
@@ -50,6 +57,9 @@ class Shapes:
         self._model, self._data = kinematics.model, kinematics.model.createData()
         self._shapes = pinocchio.buildGeomFromUrdfString(
             self._model, prepare(kinematics.card).text, pinocchio.GeometryType.COLLISION
+        )
+        self._visual = pinocchio.buildGeomFromUrdfString(
+            self._model, prepare(kinematics.card).text, pinocchio.GeometryType.VISUAL
         )
         self._solids = [shape.geometry for shape in self._shapes.geometryObjects]
         for shape in self._shapes.geometryObjects:
@@ -85,16 +95,16 @@ class Shapes:
             points: the light in each (N, 3) [m].
             eye: where it is looked at from (3,) [m].
         """
-        known = self._shapes.createData()
+        known = self._visual.createData()
         hidden = np.zeros(len(postures), dtype=bool)
         for k, (posture, point) in enumerate(zip(postures, points, strict=True)):
             pinocchio.updateGeometryPlacements(
-                self._model, self._data, self._shapes, known, posture
+                self._model, self._data, self._visual, known, posture
             )
             line, place = _line_of_sight(point, eye)
             hidden[k] = any(
-                _meet(line, place, solid, _transform(where))
-                for solid, where in zip(self._solids, known.oMg, strict=True)
+                _meet(line, place, shape.geometry, _transform(where))
+                for shape, where in zip(self._visual.geometryObjects, known.oMg, strict=True)
             )
         return hidden
 

@@ -4,6 +4,7 @@ A redundant arm has many postures for the first pose. Each candidate follows the
 kinematic arm; the one that stays farthest from its joint limits is chosen.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -61,23 +62,39 @@ class Miss:
         return self.shortfall + TURN * self.turned
 
 
-def find_start(kinematics: Kinematics, poses: Floats, seconds: Floats) -> Start | Miss:
+Pull = Callable[[Floats, Floats, float], Floats]
+
+
+def to_start(postures: Floats, starts: Floats, seconds: float) -> Floats:
+    """How far a null space is pulled (M, n) [rad] in a time, from postures to where they began."""
+    return np.asarray((1.0 - np.exp(-PULL * seconds)) * (starts - postures))
+
+
+def find_start(
+    kinematics: Kinematics, poses: Floats, seconds: Floats, pull: Pull = to_start
+) -> Start | Miss:
     """The posture to begin with, for poses (N, 8) asked at times (N,) [s].
 
     A second, larger crowd of candidates is tried where the first one does not reach, or would
     end beyond a joint limit.
+
+    Args:
+        kinematics: of the arm.
+        poses: to be reached one after another.
+        seconds: when.
+        pull: what the null space does meanwhile.
     """
-    found = _find_start(kinematics, poses, seconds, CANDIDATES)
+    found = _find_start(kinematics, poses, seconds, CANDIDATES, pull)
     if isinstance(found, Start) and found.margin >= 0:
         return found
-    again = _find_start(kinematics, poses, seconds, MORE_CANDIDATES)
+    again = _find_start(kinematics, poses, seconds, MORE_CANDIDATES, pull)
     if isinstance(again, Miss) and isinstance(found, Miss):
         return max(found, again, key=lambda miss: miss.index)
     return again if isinstance(again, Start) else found
 
 
 def _find_start(
-    kinematics: Kinematics, poses: Floats, seconds: Floats, candidates: int
+    kinematics: Kinematics, poses: Floats, seconds: Floats, candidates: int, pull: Pull
 ) -> Start | Miss:
     card = kinematics.card
     rng = np.random.default_rng(SEED)
@@ -88,11 +105,11 @@ def _find_start(
     postures, errors = solve(kinematics, poses[0], seeds, wish, EXACT, inside)
     reached = (errors < GOOD) & (_margins(kinematics, postures) >= 0)
     if reached.any():
-        return _follow(kinematics, poses, seconds, postures[reached])
+        return _follow(kinematics, poses, seconds, postures[reached], pull)
     # close to a limit Newton's steps are cut short; a patient descent may still arrive
     miss, posture = _closest(kinematics, poses, 0, postures)
     if miss.badness < GOOD:
-        return _follow(kinematics, poses, seconds, posture[None])
+        return _follow(kinematics, poses, seconds, posture[None], pull)
     return miss
 
 
@@ -106,15 +123,16 @@ def waypoints(strokes: NDArray[np.int64]) -> NDArray[np.intp]:
     return np.unique(np.concatenate([even, corners]))
 
 
-def _follow(kinematics: Kinematics, poses: Floats, seconds: Floats, starts: Floats) -> Start | Miss:
+def _follow(
+    kinematics: Kinematics, poses: Floats, seconds: Floats, starts: Floats, pull: Pull
+) -> Start | Miss:
     """The best of the starts (M, n) by its least margin over the path."""
     postures, margin = starts.copy(), _margins(kinematics, starts)
     alive = np.arange(len(starts))
     before = seconds[0]
     for index in range(1, len(poses)):
-        pull = 1.0 - np.exp(-PULL * (seconds[index] - before))
+        wish = pull(postures[alive], starts[alive], float(seconds[index] - before))
         before = seconds[index]
-        wish = pull * (starts[alive] - postures[alive])
         moved, errors = solve(kinematics, poses[index], postures[alive], wish, ON_THE_WAY)
         reached = errors < ON_THE_WAY
         if not reached.any():

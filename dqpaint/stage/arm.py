@@ -4,6 +4,7 @@ import tempfile
 import xml.etree.ElementTree as Xml
 from dataclasses import dataclass
 from os import PathLike
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.plants.bullet import Client, bullet, joint_indices, quiet
+from dqpaint.stage.rounding import rounded
 
 WHITE = [1.0, 1.0, 1.0, 1.0]
 
@@ -54,6 +56,7 @@ class Arm(Client):
             here = {"physicsClientId": self.client}
             self.body = self._load(urdf)
             self.shapes = [_shape(data) for data in bullet.getVisualShapeData(self.body, **here)]
+            self._round_off(urdf)
         self.joints = joint_indices(self.body, self.client)
         self.links = list(range(bullet.getNumJoints(self.body, **here)))
 
@@ -70,6 +73,17 @@ class Arm(Client):
                 bare.flush()
                 body = bullet.loadURDF(bare.name, **how)
         return body
+
+    def _round_off(self, urdf: str | PathLike[str]) -> None:
+        """Put a body with finer shapes in the place of this one, if it has no meshes."""
+        files = rounded(Path(urdf).read_bytes())
+        if files is None:
+            return
+        bullet.removeBody(self.body, physicsClientId=self.client)
+        with tempfile.TemporaryDirectory() as folder:
+            for name, data in files.items():
+                (Path(folder) / name).write_bytes(data)
+            self.body = self._load(Path(folder) / "arm.urdf")
 
     def stand(self, posture: Floats) -> None:
         """Take a posture (n,) [rad]."""

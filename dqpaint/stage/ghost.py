@@ -8,6 +8,8 @@ while the arm was elsewhere stay in front of it. How bright the arm is against t
 everything else is optics.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -53,6 +55,8 @@ LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 PATH = 4096
 """Points that stand for the painting in the floor's mirror."""
 
+Lights = Sequence[tuple[Floats, Floats]]
+
 
 @dataclass(frozen=True, eq=False)
 class Glow:
@@ -62,14 +66,20 @@ class Glow:
         lamps: few, for what is lit.
         path: many, for what mirrors.
         gain: factor from what lamps send [lamp s / m^2] to saturation.
+        whole: all of the painting, where this is a part of it; its ends colour the rims.
     """
 
     lamps: Lamps
     path: Lamps
     gain: float
+    whole: Lamps
+
+    def part(self, lights: Lights, most: int) -> Glow:
+        """A part of this light, as strong as it is in it, in so many lamps."""
+        return Glow(gather(lights, most), gather(lights, PATH), self.gain, self.whole)
 
 
-def glow(lights: Sequence[tuple[Floats, Floats]]) -> Glow:
+def glow(lights: Lights) -> Glow:
     """The light of lamps on their ways.
 
     Its gain does not depend on a camera: several views of one painting show one arm.
@@ -80,13 +90,18 @@ def glow(lights: Sequence[tuple[Floats, Floats]]) -> Glow:
     lamps = gather(lights)
     total = float(lamps.total.max(initial=0.0))
     if total == 0.0:
-        return Glow(lamps, lamps, 0.0)
+        return Glow(lamps, lamps, 0.0, lamps)
     spread = ((lamps.place - lamps.middle) ** 2).sum(axis=1).mean()
-    return Glow(lamps, gather(lights, PATH), KEY * np.pi * (spread + ROOM**2) / total)
+    return Glow(lamps, gather(lights, PATH), KEY * np.pi * (spread + ROOM**2) / total, lamps)
 
 
 def photograph(
-    arm: Arm, camera: Camera, light: Glow, exposure: float, falloff: bool = False
+    arm: Arm,
+    camera: Camera,
+    light: Glow,
+    exposure: float,
+    falloff: bool = False,
+    scale: float = 1.0,
 ) -> Image:
     """(H, W, 3) linear light of arm and floor, to be added to the picture before it is developed.
 
@@ -96,34 +111,55 @@ def photograph(
         light: what was painted.
         exposure: of the picture: factor from its own unit [lamp s / px^2] to saturation.
         falloff: whether that unit is divided by the distance squared [lamp s / (m px)^2].
+        scale: 1 / width of the pixels that are worked on, for a picture in a moving one.
     """
-    shown = light_of_floor(camera, light.lamps, light.path, light.gain, exposure, falloff)
-    if shown is None:
-        shown = np.zeros((camera.height, camera.width, 3), np.float32)
-    surfaces = measure(arm, camera)
+    seen = camera if scale == 1.0 else camera.coarser(scale)
+    shown = floor(seen, light, exposure * scale**2, falloff)
+    surfaces = measure(arm, seen)
     if surfaces is not None:
-        box = surfaces.box
-        part = shown[box.top : box.bottom, box.left : box.right]
+        part = surfaces.box.of(shown)
         cover = surfaces.cover[..., None]
         part *= 1.0 - cover
-        part += cover * _spread(_lit(arm, surfaces, camera, light), surfaces.sure)
+        part += cover * _spread(lit(arm, surfaces, seen, light), surfaces.sure)
+    return finished(shown, camera, exposure, scale)
+
+
+def floor(camera: Camera, light: Glow, exposure: float, falloff: bool) -> Image:
+    """(H, W, 3) what the floor sends to the camera; 1 saturates it. Arguments as above."""
+    shown = light_of_floor(camera, light.lamps, light.path, light.gain, exposure, falloff)
+    return np.zeros((camera.height, camera.width, 3), np.float32) if shown is None else shown
+
+
+def finished(shown: Image, camera: Camera, exposure: float, scale: float = 1.0) -> Image:
+    """Light of arm and floor in the picture's unit and size, as sharp as a lens would have it."""
     soft = cv2.GaussianBlur(shown, (0, 0), SOFT)
+    if scale != 1.0:
+        whole = cv2.resize(soft, None, fx=1 / scale, fy=1 / scale, interpolation=cv2.INTER_LINEAR)
+        soft = whole[: camera.height, : camera.width]
     return np.asarray(soft * np.float32(1.0 / exposure), np.float32)
 
 
-def _lit(arm: Arm, surfaces: Surfaces, camera: Camera, light: Glow) -> Numbers:
-    """(P, 3) what the arm's surfaces send to the camera; 1 saturates it."""
+def lit(arm: Arm, surfaces: Surfaces, camera: Camera, light: Glow, room: float = 1.0) -> Numbers:
+    """(P, 3) what the arm's surfaces send to the camera; 1 saturates it.
+
+    Args:
+        arm: in its posture.
+        surfaces: of it that are seen.
+        camera: by which they are.
+        light: that is painted meanwhile.
+        room: how strong the other lamps are: those behind the arm, and the flash.
+    """
     points = seen_from(camera.position, surfaces.place, surfaces.normal)
     body, coat = _albedo(arm)[surfaces.link + 1], fresnel(points.facing)[:, None]
     dull, glossy = by_lamps(points, light.lamps, GLOSS)
     shown = (body * dull + coat * glossy) * np.float32(light.gain)
     sides = np.stack([camera.rotation.T @ np.multiply(BEHIND, (sign, 1, 1)) for sign in (1, -1)])
-    for way, colour in zip(sides, _rims(light.lamps, camera), strict=True):
+    for way, colour in zip(sides, _rims(light.whole, camera), strict=True):
         dull, glossy = by_lamp(points, way, RIM_GLOSS)
         edge = np.float32(RIM_DULL) * body * dull + np.float32(RIM_GLINT) * coat * glossy
-        shown += np.float32(RIM) * colour * edge
+        shown += np.float32(room * RIM) * colour * edge
     dull, glossy = by_lamp(points, camera.rotation.T @ FROM_ABOVE, GLOSS)
-    flash = np.float32(FLASH) * np.array(FLASH_COLOUR, np.float32)
+    flash = np.float32(room * FLASH) * np.array(FLASH_COLOUR, np.float32)
     shown += flash * (dull + np.float32(FLASH_GLINT) * coat * glossy)
     return np.asarray(shown, np.float32)
 

@@ -12,8 +12,9 @@ from dqpaint.stage.surfaces import Numbers
 
 COAT = 0.04
 """Share of the light that lacquer reflects straight on; Schlick's approximation has the rest."""
-BATCH = 512
-"""Points that are worked on at once, whatever the machine, so that they stay in the cache."""
+BATCH, MANY = 512, 128
+"""Points that are worked on at once with so many lamps, whatever the machine, so that they stay in
+the cache; with fewer lamps there are more points."""
 BLUNT = 0.05
 """Nearer than this a lamp gets no brighter: it stands for a stretch of path [m]."""
 THREADS = 2
@@ -76,9 +77,10 @@ def by_lamps(points: Points, lamps: Lamps, sharpness: int) -> tuple[Numbers, Num
     glossy = np.zeros_like(dull)
     mirrored = points.mirrored
     at, energy = lamps.place.astype(np.float32), lamps.energy.astype(np.float32)
+    batch = BATCH * max(1, MANY // max(1, len(at)))
 
     def work(first: int) -> None:
-        rows = slice(first, first + BATCH)
+        rows = slice(first, first + batch)
         place, normal = points.place[rows], points.normal[rows]
         inverse, cosine = _geometry(place, normal, at)
         lobe = np.maximum(_along(mirrored[rows], place, at), 0.0)
@@ -92,7 +94,7 @@ def by_lamps(points: Points, lamps: Lamps, sharpness: int) -> tuple[Numbers, Num
         dull[rows], glossy[rows] = cosine @ energy, lobe @ energy
 
     with ThreadPoolExecutor(THREADS) as pool:  # each batch is by itself: order changes nothing
-        list(pool.map(work, range(0, len(dull), BATCH)))
+        list(pool.map(work, range(0, len(dull), batch)))
     dull /= np.float32(np.pi)
     glossy *= np.float32((sharpness + 2) / (2.0 * np.pi))
     return dull, glossy

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from functools import cached_property
@@ -23,6 +23,13 @@ from dqpaint.settings import Settings
 if TYPE_CHECKING:
     from dqpaint.stage.arm import Arm  # it brings in the simulator, and most pictures need none
     from dqpaint.stage.twins import Twins
+
+
+Shine = Callable[[slice], Sequence[tuple[Floats, Floats]]]
+MOVING = 480
+"""Pixels of the longer side that the arm is worked out on in a moving picture."""
+FEW = 32
+"""Lamps that stand for what was painted, there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,26 +141,45 @@ class Staging(ExitStack):
         return visible(self.twins, posture, places, eye, lit)
 
     def photograph(
-        self,
-        camera: Camera,
-        lights: Sequence[tuple[Floats, Floats]],
-        exposure: float,
-        falloff: bool = False,
-        row: int = -1,
+        self, camera: Camera, shine: Shine, exposure: float, falloff: bool = False
     ) -> Image:
         """(H, W, 3) linear light of arm and floor, to be added before the picture is developed.
 
+        The arm is flashed at the end.
+
         Args:
             camera: that of the picture.
-            lights: of each lamp its points (N, 3) [m] and the energy (N-1, 3) between them.
+            shine: of some steps between samples, of each lamp its points (N, 3) [m] and the energy
+                (N-1, 3) between them.
             exposure: of the picture: factor from its own unit [lamp s / px^2] to saturation.
             falloff: whether that unit is divided by the distance squared [lamp s / (m px)^2].
-            row: the instant whose posture is shown.
         """
         from dqpaint.stage.ghost import glow, photograph
 
-        self.arm.stand(self._posture[row])
-        return photograph(self.arm, camera, glow(lights), exposure, falloff)
+        self.arm.stand(self._posture[-1])
+        return photograph(self.arm, camera, glow(shine(slice(None))), exposure, falloff)
+
+    def blur(self, camera: Camera, shine: Shine, exposure: float, falloff: bool = False) -> Image:
+        """The same of an arm that is not flashed, but seen all the time as it moves."""
+        from dqpaint.stage.blur import blurred
+
+        return blurred(self.arm, self._posture, camera, shine, exposure, falloff)
+
+    def frames(
+        self, camera: Camera, shine: Shine, exposure: float, falloff: bool, rows: Sequence[int]
+    ) -> Iterator[Image]:
+        """The same at some instants of the run, each lit by what was painted until then.
+
+        They are coarser, for a moving picture.
+        """
+        from dqpaint.stage.ghost import glow, photograph
+
+        whole = glow(shine(slice(None)))
+        scale = min(1.0, MOVING / max(camera.width, camera.height))
+        for row in rows:
+            self.arm.stand(self._posture[row])
+            light = whole.part(shine(slice(0, row)), FEW)
+            yield photograph(self.arm, camera, light, exposure, falloff, scale)
 
 
 @dataclass(frozen=True, eq=False)

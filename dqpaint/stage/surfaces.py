@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -30,6 +31,8 @@ and counts in full."""
 SHIFTS = ((-0.125, -0.375), (0.125, 0.375), (0.375, -0.125), (-0.375, 0.125))
 """Where in a pixel each of the four looks goes, right and down of its middle: a rotated square, so
 that outlines come out smooth at no cost [px]."""
+ROUND = (5, 5)
+"""Pixels over which a glance takes the mean of normals, so that facets do not show."""
 LINK_BITS = 24
 """The segmentation has the body's number below and the link's, plus one, above these bits."""
 
@@ -43,6 +46,10 @@ class Box(NamedTuple):
     top: int
     right: int
     bottom: int
+
+    def of(self, image: NDArray[Any]) -> NDArray[Any]:
+        """This part of a picture (H, W, ...), to be written to."""
+        return image[self.top : self.bottom, self.left : self.right]
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +113,36 @@ def measure(arm: Arm, camera: Camera) -> Surfaces | None:
         _places(camera, box, sure, depth[sure]),
         _turned(normal, camera.rotation.astype(np.float32)),
         (link[sure].astype(np.int64) >> LINK_BITS) - 1,
+    )
+
+
+def glance(arm: Arm, camera: Camera, shift: tuple[float, float]) -> Surfaces | None:
+    """What `measure` finds, from one look instead of four, with hard outlines.
+
+    Args:
+        arm: in its posture.
+        camera: that of the picture.
+        shift: where in a pixel to look, right and down of its middle [px].
+    """
+    whole = Box(0, 0, camera.width, camera.height)
+    side = _look(arm, camera, whole, 1.0, (0.0, 0.0, 1.0), shift)
+    seen = side.segment >= 0
+    if not seen.any():
+        return None
+    rows, columns = np.flatnonzero(seen.any(axis=1)), np.flatnonzero(seen.any(axis=0))
+    box = Box(int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1)
+    sure, depth = box.of(seen), _depth(box.of(side.depth))
+    flat = np.where(sure[..., None], _flat(camera, box, depth), np.float32(0.0))
+    normal = np.asarray(cv2.blur(flat, ROUND, borderType=cv2.BORDER_CONSTANT), np.float32)[sure]
+    normal /= np.maximum(np.sqrt((normal * normal).sum(axis=1, keepdims=True)), np.float32(1e-6))
+    return Surfaces(
+        box,
+        sure.astype(np.float32),
+        sure,
+        depth[sure],
+        _places(camera, box, sure, depth[sure]),
+        _turned(normal, camera.rotation.astype(np.float32)),
+        (box.of(side.segment)[sure].astype(np.int64) >> LINK_BITS) - 1,
     )
 
 

@@ -19,6 +19,7 @@ from dqpaint.studies.axes import Axis, combinations, settings_of
 from dqpaint.studies.cells import Cell, Figure, find_figure
 from dqpaint.studies.engine import carry_out_study
 from dqpaint.studies.keeping import kept
+from dqpaint.studies.page import Block, Charts, Page, Rows, Shot, Words, html
 from dqpaint.studies.runs import Run, drawing_text, seeded
 from dqpaint.studies.statistics import LEVEL, holm, welch
 
@@ -37,12 +38,14 @@ class Comparison:
         settings: what all have in common.
         cells: one a choice.
         folder: where record and pictures lie.
+        text: of the drawing.
     """
 
     name: str
     settings: Settings
     cells: tuple[Cell, ...]
     folder: Path
+    text: str = ""
 
 
 def compare(
@@ -73,26 +76,65 @@ def compare(
         Cell({n: choice[n] for n in several}, tuple(next(results) for _ in row))
         for choice, row in zip(choices, runs, strict=True)
     )
-    return Comparison(Path(name).name, base, found, folder)
+    return Comparison(Path(name).name, base, found, folder, text)
 
 
-def save(compared: Comparison, measure: str) -> list[Path]:
-    """Write the pictures and tables; returns their paths."""
+def save(compared: Comparison, measure: str, again: str | None = None) -> list[Path]:
+    """Write the pictures and tables; returns their paths.
+
+    Args:
+        compared: from `compare`.
+        measure: name of the figure that is tested.
+        again: the command that does it again, for a report; None for no report.
+    """
     figure = find_figure(measure, compared.cells)
     title = f"# {compared.name}, compared\n\n"
+    shown = pictures(compared)
     parts = [cells.markdown(cells.rows(compared.cells))]
     if differences(compared.cells, figure):
         parts += [about_test(figure), cells.markdown(differences(compared.cells, figure))]
     contents = {
-        **pictures(compared),
+        **({} if shown is None else shown.files),
         "-table.csv": cells.csv(compared.cells),
         "-table.md": (title + "\n\n".join(parts) + "\n").encode(),
     }
+    if again is not None:
+        contents["-report.html"] = html(page(compared, figure, shown, again))
     return write(compared.folder / Path(compared.name).stem, contents)
 
 
-def pictures(compared: Comparison) -> dict[str, bytes]:
-    """Contact sheet, overlay and errors over time, of the first run of each choice."""
+@dataclass(frozen=True)
+class Pictures:
+    """What a comparison shows of the first run of each choice: PNG files, and errors over time."""
+
+    sheet: bytes
+    overlay: bytes
+    panels: tuple[Panel, ...]
+
+    @property
+    def files(self) -> dict[str, bytes]:
+        """The pictures by the ends of their names."""
+        errors = chart(self.panels, width=12, height=4.5)
+        return {"-sheet.png": self.sheet, "-overlay.png": self.overlay, "-errors.png": errors}
+
+
+def page(compared: Comparison, figure: Figure, shown: Pictures | None, again: str) -> Page:
+    """The comparison as a report."""
+    blocks: list[Block] = [Rows("Means and standard deviations", cells.rows(compared.cells))]
+    tests = differences(compared.cells, figure)
+    if tests:
+        blocks += [Rows("Differences", tests), Words(about_test(figure))]
+    if shown is not None:
+        blocks += [
+            Shot("One exposure for all", shown.sheet),
+            Shot("Laid over each other: what all drew alike is white", shown.overlay),
+            Charts("Errors over time, of the first run of each", shown.panels),
+        ]
+    return Page(f"{compared.name}, compared", blocks, compared.settings, compared.text, again)
+
+
+def pictures(compared: Comparison) -> Pictures | None:
+    """Contact sheet, overlay and errors over time; None if no run came to a picture."""
     settings = compared.settings
     arrays = [
         kept(compared.folder, cell.results[0].key) if cell.results[0].figures else None
@@ -100,7 +142,7 @@ def pictures(compared: Comparison) -> dict[str, bytes]:
     ]
     there = [one for one in arrays if one is not None]
     if not there:
-        return {}
+        return None
     exposure = float(there[0]["exposure"])  # one for all, or they could not be compared
     develop = LOOKS[settings.look]
     images = [
@@ -125,15 +167,12 @@ def pictures(compared: Comparison) -> dict[str, bytes]:
         replace(line, y=np.degrees(one["orientation_error_rad"]))
         for line, one in zip(lines, there, strict=True)
     ]
-    panels = [
+    panels = (
         Panel("position error", "time [s]", "mm", lines, log_y=_wide(lines), decades=DECADES),
         Panel("orientation error", "time [s]", "deg", turned, log_y=_wide(turned), decades=DECADES),
-    ]
-    return {
-        "-sheet.png": contact.png(contact.sheet(images, labels)),
-        "-overlay.png": contact.png(over),
-        "-errors.png": chart(panels, width=12, height=4.5),
-    }
+    )
+    sheet = contact.sheet(images, labels)
+    return Pictures(contact.png(sheet), contact.png(over), panels)
 
 
 def _label(cell: Cell) -> str:

@@ -7,9 +7,11 @@ same study again finds its runs there, and so does a larger one that shares some
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from types import TracebackType
+from typing import Self
 
 from dqpaint.studies.keeping import place
-from dqpaint.studies.pool import carry_out_all, check_jobs
+from dqpaint.studies.pool import Pool, check_jobs
 from dqpaint.studies.record import Record
 from dqpaint.studies.runs import Result, Run
 from dqpaint.terminal import Progress
@@ -31,36 +33,99 @@ def carry_out_study(
         DqpaintError: the folder cannot be written, or the workers do not start.
         KeyboardInterrupt: a Ctrl-C; what was done is on disk.
     """
-    jobs = check_jobs(jobs)
-    _check(runs)
-    keys = [run.key for run in runs]
-    with Record(folder) as record:
+    check_jobs(jobs)
+    check(runs)
+    with Study(folder, jobs, what, len(runs)) as study:
+        return study.results(runs, tell_known=True)
+
+
+class Study:
+    """A study at work: runs in, results out, as often as one likes; with one progress bar.
+
+    Args:
+        folder: where the record lies; made if it is not there.
+        jobs: how many processes; None is one a core.
+        what: is being done, for the progress bar.
+        total: how many runs it will be at most.
+
+    Raises:
+        DqpaintError: the folder cannot be written.
+    """
+
+    def __init__(self, folder: Path, jobs: int | None, what: str, total: int) -> None:
+        self._pool = Pool(folder, check_jobs(jobs))
+        self._folder, self._total = folder, total
+        self._progress = Progress(f"{what}, {total} runs")
+        self._record = Record(folder)
+        self._known: set[str] = set()  # keys of runs that were done before
+        self._done: set[str] = set()
+
+    def results(self, runs: Sequence[Run], tell_known: bool = False) -> list[Result]:
+        """The results of runs, in their order; what is on record is not run again.
+
+        Args:
+            runs: what to paint.
+            tell_known: say beforehand how many are on record.
+
+        Raises:
+            DqpaintError: the folder cannot be written, or the workers do not start.
+        """
+        keys = [run.key for run in runs]
+        found = self._record.results
         tasks = {
             key: run
             for key, run in zip(keys, runs, strict=True)
-            if not _is_done(record.results.get(key), run, folder)
+            if not _is_done(found.get(key), run, self._folder)
         }
-        known = len(set(keys)) - len(tasks)
-        if known:
-            print(f"note: {known} of {len(set(keys))} runs were done before", file=sys.stderr)
-        done = 0
-        try:
-            with Progress(f"{what}, {len(tasks)} runs") as progress:
-                for result in carry_out_all(list(tasks.items()), folder, jobs, progress):
-                    record.add(result)
-                    done += 1
-        except KeyboardInterrupt:
+        known = set(keys) - tasks.keys() - self._done - self._known
+        self._known |= known
+        self._total -= len(known)
+        if known and tell_known:
+            print(f"note: {len(known)} of {len(set(keys))} runs were done before", file=sys.stderr)
+        before = len(self._done)
+
+        def tell(count: float) -> None:
+            self._progress(min(1.0, (before + count) / max(1, self._total)))
+
+        for result in self._pool.carry_out(list(tasks.items()), tell):
+            self._record.add(result)
+            self._done.add(result.key)
+        return [found[key] for key in keys]
+
+    @property
+    def known(self) -> int:
+        """How many of the runs so far were done before."""
+        return len(self._known)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        fault: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """End the workers; after a Ctrl-C, say what is kept."""
+        self._pool.close()
+        self._progress.__exit__()
+        self._record.__exit__(kind, fault, trace)
+        if kind is KeyboardInterrupt:
+            done = len(self._known | self._done)
             print(
-                f"note: {known + done} of {len(set(keys))} runs are done and kept in '{folder}'; "
+                f"note: {done} runs are done and kept in '{self._folder}'; "
                 "the same command goes on from there",
                 file=sys.stderr,
             )
-            raise
-        return [record.results[key] for key in keys]
 
 
-def _check(runs: Sequence[Run]) -> None:
-    """Check each choice once; seeds make no difference."""
+def check(runs: Sequence[Run]) -> None:
+    """Check each choice once; seeds make no difference.
+
+    Raises:
+        UsageError: an unknown name or a value out of its range.
+        ScriptError: a mistake in the drawing.
+    """
     seen = set()
     for run in runs:
         alike = run.settings.model_copy(update={"seed": 0}).model_dump_json(), run.text

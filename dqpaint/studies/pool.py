@@ -38,32 +38,42 @@ def check_jobs(jobs: int | None) -> int:
     return jobs or all_cores()
 
 
-def carry_out_all(
-    tasks: Sequence[Task], folder: Path, jobs: int, progress: Callable[[float], None]
-) -> Iterator[Result]:
-    """The results of runs, each as soon as it is there.
+class Pool:
+    """Worker processes that live as long as a study; the first begin with its first runs.
 
     Args:
-        tasks: runs with their keys.
         folder: of the study, for what is to be kept.
-        jobs: how many processes.
-        progress: called with the part of all that is done, 0 to 1.
-
-    Raises:
-        DqpaintError: the processes do not start.
+        jobs: how many processes at most.
     """
-    todo: queue.SimpleQueue[list[Task]] = queue.SimpleQueue()
-    together = groups(tasks)
-    for group in together:
-        todo.put(group)
-    said: queue.SimpleQueue[Any] = queue.SimpleQueue()
-    workers = [_Worker(todo, said, folder) for _ in range(min(jobs, len(together)))]
-    parts: dict[_Worker, float] = {}
-    done = 0
-    try:
+
+    def __init__(self, folder: Path, jobs: int) -> None:
+        self._folder, self._jobs = folder, jobs
+        self._todo: queue.SimpleQueue[list[Task] | None] = queue.SimpleQueue()
+        self._said: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        self._workers: list[_Worker] = []
+
+    def carry_out(
+        self, tasks: Sequence[Task], progress: Callable[[float], None]
+    ) -> Iterator[Result]:
+        """The results of runs, each as soon as it is there.
+
+        Args:
+            tasks: runs with their keys.
+            progress: called with how many are done; one under way counts as a part.
+
+        Raises:
+            DqpaintError: the processes do not start.
+        """
+        together = groups(tasks)
+        for group in together:
+            self._todo.put(group)
+        while len(self._workers) < min(self._jobs, len(together)):
+            self._workers.append(_Worker(self._todo, self._said, self._folder))
+        parts: dict[_Worker, float] = {}
+        done = 0
         while done < len(tasks):
             try:
-                worker, what = said.get(timeout=GLANCE)
+                worker, what = self._said.get(timeout=GLANCE)
             except queue.Empty:
                 continue
             if isinstance(what, DqpaintError):
@@ -72,16 +82,24 @@ def carry_out_all(
             if isinstance(what, Result):
                 done += 1
                 yield what
-            progress((done + sum(parts.values())) / len(tasks))
-    finally:
-        for worker in workers:
+            progress(done + sum(parts.values()))
+
+    def close(self) -> None:
+        """End all processes at once."""
+        for _ in self._workers:
+            self._todo.put(None)
+        for worker in self._workers:
             worker.end()
+
+
+class _Over(Exception):  # noqa: N818  no fault: the study ended while a process was to begin
+    pass
 
 
 class _Worker(threading.Thread):
     """One process and the thread that talks to it; another takes its place where it dies."""
 
-    def __init__(self, todo: queue.SimpleQueue[list[Task]], said: Any, folder: Path) -> None:
+    def __init__(self, todo: queue.SimpleQueue[list[Task] | None], said: Any, folder: Path) -> None:
         super().__init__(daemon=True)
         self._todo, self._said, self._folder = todo, said, folder
         self._over = False
@@ -98,13 +116,13 @@ class _Worker(threading.Thread):
         self.join()
 
     def run(self) -> None:
-        """Carry out runs until there is none left."""
+        """Carry out runs until there are to be no more."""
         with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as remarks:
             try:
-                while not self._over:
-                    for result in self._results(self._todo.get_nowait(), remarks):
+                while (group := self._todo.get()) is not None and not self._over:
+                    for result in self._results(group, remarks):
                         self._say(result)
-            except queue.Empty:
+            except _Over:
                 pass
             except Exception as problem:  # told where it is heard: a silent end would be a hang
                 self._say(DqpaintError(f"a worker of the study failed: {problem}"))
@@ -149,7 +167,7 @@ class _Worker(threading.Thread):
     def _begin(self, remarks: Any) -> "subprocess.Popen[str]":
         with self._lock:
             if self._over:
-                raise queue.Empty
+                raise _Over
             remarks.seek(0)
             remarks.truncate()
             self._process = process = subprocess.Popen(

@@ -26,6 +26,7 @@ from dqpaint.light.differences import decode_picture, decode_planes, encode_plan
 from dqpaint.light.film import PAD
 from dqpaint.outputs import LIBRARIES
 from dqpaint.settings import make_settings
+from dqpaint.settings_file import beside
 from dqpaint.studies.runs import Result, Run, drawing_text
 
 SCHEMA = "dqpaint-reference-1"
@@ -96,24 +97,14 @@ def _case(folder: Path, name: str, values: object) -> Case:
         raise UsageError(f"{where}: a case says drawing = 'FILE.traj'")
     if Path(name).name != name or name.startswith("."):
         raise UsageError(f"{where}: a case's name is that of its files")
-    choices = {word: _local(folder, value) for word, value in values.items() if word != "drawing"}
+    choices = {word: beside(folder, value) for word, value in values.items() if word != "drawing"}
     choices = {"width": WIDTH, "height": HEIGHT, **choices}
     try:
         settings = make_settings(**choices)
     except UsageError as problem:
         raise UsageError(f"{where}: {problem}") from None
-    path, text = drawing_text(str(_local(folder, values["drawing"])))
+    path, text = drawing_text(str(beside(folder, values["drawing"])))
     return Case(name, Run(path, text, settings, ("film",)))
-
-
-def _local(folder: Path, value: object) -> object:
-    """A file of the folder as such; anything else as it is."""
-    if not isinstance(value, str):
-        return value
-    head, sign, name = value.partition(":")
-    if (folder / head).is_file():
-        return f"{folder / head}{sign}{name}"
-    return value
 
 
 def read_reference(folder: Path, case: Case) -> Reference | None:

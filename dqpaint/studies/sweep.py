@@ -16,6 +16,7 @@ from dqpaint.studies import cells
 from dqpaint.studies.axes import Axis, combinations, settings_of
 from dqpaint.studies.cells import Cell, Figure, find_figure
 from dqpaint.studies.engine import carry_out_study
+from dqpaint.studies.page import Block, Charts, Map, Page, Rows, Words, html
 from dqpaint.studies.runs import Run, drawing_text, seeded
 
 MOST_RUNS = 100_000
@@ -30,6 +31,8 @@ class Sweep:
     axes: tuple[Axis, ...]
     cells: tuple[Cell, ...]
     folder: Path
+    settings: Settings | None = None
+    text: str = ""
 
 
 def sweep(
@@ -63,24 +66,42 @@ def sweep(
         Cell(choice, tuple(next(results) for _ in row))
         for choice, row in zip(choices, runs, strict=True)
     )
-    return Sweep(Path(name).name, tuple(axes), found, folder)
+    return Sweep(Path(name).name, tuple(axes), found, folder, base, text)
 
 
-def save(swept: Sweep, measure: str) -> list[Path]:
+def save(swept: Sweep, measure: str, again: str | None = None) -> list[Path]:
     """Write the chart and the tables; returns their paths.
+
+    Args:
+        swept: from `sweep`.
+        measure: name of the figure that is drawn.
+        again: the command that does it again, for a report; None for no report.
 
     Raises:
         UsageError: no figure of that name.
         DqpaintError: the folder cannot be written.
     """
     figure = find_figure(measure, swept.cells)
-    title = f"# {swept.name} over {' and '.join(axis.name for axis in swept.axes)}\n\n"
-    made = curve(swept, figure) if len(swept.axes) == 1 else surface(swept, figure)
+    title = f"{swept.name} over {' and '.join(axis.name for axis in swept.axes)}"
+    rows = cells.rows(swept.cells)
+    shown: Charts | Map
+    if len(swept.axes) == 1:
+        panels = curves(swept, figure)
+        picture = chart(panels, width=12 if len(panels) > 1 else 7)
+        shown = Charts("Over the axis", panels)
+    else:
+        given = surface(swept, figure)
+        width, height = max(6.0, 1.0 + 0.9 * len(given.x)), max(4.0, 1.2 + 0.55 * len(given.y))
+        picture = heat_map(given, min(width, 24.0), min(height, 18.0))
+        shown = Map("Over the two axes", given)
     contents = {
-        ".png": made,
+        ".png": picture,
         "-table.csv": cells.csv(swept.cells),
-        "-table.md": (title + cells.markdown(cells.rows(swept.cells)) + "\n").encode(),
+        "-table.md": f"# {title}\n\n{cells.markdown(rows)}\n".encode(),
     }
+    if again is not None:
+        blocks: list[Block] = [shown, Words("\n".join(whys(swept))), Rows("All points", rows)]
+        contents["-report.html"] = html(Page(title, blocks, swept.settings, swept.text, again))
     names = "-".join(axis.name for axis in swept.axes)
     return write(swept.folder / f"{Path(swept.name).stem}-{names}", contents)
 
@@ -90,7 +111,7 @@ def values(found: Sequence[Cell], figure: Figure) -> Floats:
     return np.array([cell.of(figure).mean for cell in found])
 
 
-def curve(swept: Sweep, figure: Figure) -> bytes:
+def curves(swept: Sweep, figure: Figure) -> list[Panel]:
     """The figure, and the command beside it, over one axis."""
     axis = swept.axes[0]
     numbers = axis.numbers
@@ -119,10 +140,10 @@ def curve(swept: Sweep, figure: Figure) -> bytes:
                 ticks=None if numbers else axis.texts,
             )
         )
-    return chart(panels, width=12 if len(panels) > 1 else 7)
+    return panels
 
 
-def surface(swept: Sweep, figure: Figure) -> bytes:
+def surface(swept: Sweep, figure: Figure) -> HeatMap:
     """The figure as a heat map: the first axis upwards, the second to the right."""
     up, right = swept.axes
     shape = len(up.texts), len(right.texts)
@@ -131,9 +152,7 @@ def surface(swept: Sweep, figure: Figure) -> bytes:
     good = means[~marked & np.isfinite(means)]
     log = good.size > 0 and bool((good > 0).all()) and _spans(good)
     title = f"{swept.name}: {figure.heading}"
-    width, height = max(6.0, 1.0 + 0.9 * shape[1]), max(4.0, 1.2 + 0.55 * shape[0])
-    given = HeatMap(title, right.name, up.name, right.texts, up.texts, means, marked, log)
-    return heat_map(given, min(width, 24.0), min(height, 18.0))
+    return HeatMap(title, right.name, up.name, right.texts, up.texts, means, marked, log)
 
 
 def _spans(these: Floats) -> bool:
@@ -158,5 +177,10 @@ def told(swept: Sweep, measure: str, columns: int) -> str:
         heads = [f.heading for f in cells.SHOWN[:4]]
         kept += [table[0].index(head) for head in heads] + [len(table[0]) - 1]
         text = cells.text([[row[i] for i in kept] for row in table])
-    whys = dict.fromkeys(f"{cell.status}: {cell.why}" for cell in swept.cells if not cell.stable)
-    return "\n".join([text, *whys])
+    return "\n".join([text, *whys(swept)])
+
+
+def whys(swept: Sweep) -> list[str]:
+    """Why points are not as they should be, each reason once."""
+    bad = (cell for cell in swept.cells if not cell.stable)
+    return list(dict.fromkeys(f"{cell.status}: {cell.why}" for cell in bad))

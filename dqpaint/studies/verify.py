@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from dqpaint.errors import DqpaintError
+from dqpaint.errors import DqpaintError, OutputError
 from dqpaint.light import contact
 from dqpaint.light.differences import where_they_differ
 from dqpaint.outputs import write
@@ -13,6 +13,7 @@ from dqpaint.studies import cells
 from dqpaint.studies.engine import carry_out_study
 from dqpaint.studies.gates import GATES, Measured, developed_from, measure, spoke
 from dqpaint.studies.keeping import kept
+from dqpaint.studies.page import Page, Rows, Shot, Words, html
 from dqpaint.studies.references import (
     Arrays,
     Case,
@@ -107,7 +108,12 @@ def _judge(case: Case, result: Result, reference: Reference | None, made: Arrays
 
 
 def told(verdicts: Sequence[Verdict]) -> str:
-    """The table: what was measured of each case, and the gate that spoke."""
+    """The table for a terminal."""
+    return cells.text(table(verdicts))
+
+
+def table(verdicts: Sequence[Verdict]) -> list[list[str]]:
+    """Headings and rows: what was measured of each case, and the gate that spoke."""
     lines = [["case", *(gate.name for gate in GATES), "verdict"]]
     for one in verdicts:
         measured = one.measured
@@ -117,7 +123,7 @@ def told(verdicts: Sequence[Verdict]) -> str:
     for limits, alike in (("same libraries, at most", True), ("other versions", False)):
         values = [gate.same if alike else gate.other for gate in GATES]
         lines.append([limits, *(f"{value:.2g}" for value in values), ""])
-    return cells.text(lines)
+    return lines
 
 
 def remarks(verdicts: Sequence[Verdict]) -> list[str]:
@@ -125,13 +131,21 @@ def remarks(verdicts: Sequence[Verdict]) -> list[str]:
     return [f"note: {one.case.name}: {text}" for one in verdicts for text in one.remarks]
 
 
-def save_differences(verdicts: Sequence[Verdict], out: Path) -> list[Path]:
+def save_differences(
+    verdicts: Sequence[Verdict], out: Path, again: str | None = None
+) -> list[Path]:
     """Reference, new and amplified difference of each case that differs; returns the paths.
+
+    Args:
+        verdicts: from `verify`.
+        out: the folder; made if there is something to write.
+        again: the command that does it again, for a report; None for no report.
 
     Raises:
         OutputError: the folder cannot be written.
     """
     written = []
+    shots = []
     for one in verdicts:
         if not one.faults or one.reference is None or one.made is None or one.measured is None:
             continue
@@ -141,9 +155,31 @@ def save_differences(verdicts: Sequence[Verdict], out: Path) -> list[Path]:
                   f"difference of the light, {factor:.3g} times"]  # fmt: skip
         pictures = [one.reference.picture, one.made["picture"], gap]
         data = contact.png(contact.sheet(pictures, labels, columns=3))
-        out.mkdir(parents=True, exist_ok=True)
+        _make(out)
         written += write(out / one.case.name, {"-differs.png": data})
+        shots.append(Shot(f"{one.case.name}: reference, new, and where they differ", data))
+    if again is not None:
+        _make(out)
+        written += write(out / "verify", {"-report.html": html(page(verdicts, shots, again))})
     return written
+
+
+def page(verdicts: Sequence[Verdict], shots: Sequence[Shot], again: str) -> Page:
+    """The verdicts as a report."""
+    bad = [one.case.name for one in verdicts if one.faults]
+    said = f"{len(bad)} of {len(verdicts)} differ: {', '.join(bad)}." if bad else "All are alike."
+    words = Words("\n".join([said, *remarks(verdicts)]))
+    return Page(
+        f"{len(verdicts)} guarded pictures", [words, Rows("Gates", table(verdicts)), *shots],
+        again=again,
+    )  # fmt: skip
+
+
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as problem:
+        raise OutputError(f"'{folder}' cannot be written: {problem.strerror}") from None
 
 
 def update(verdicts: Sequence[Verdict], folder: Path) -> list[str]:

@@ -12,6 +12,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -63,15 +64,17 @@ def carry_out_all(
         folder: of the study.
         progress: called while arms move, with how many runs are done.
     """
+    results = None
     if goes_in_batches(tasks[0][1]):
-        try:
+        with suppress(Exception):  # what is wrong each run says by itself
             results = carry_out_batch(tasks, folder, lambda part: progress(part * len(tasks)))
-        except Exception:  # what is wrong each run says by itself, as any other
-            results = None
-        if results is not None:
-            yield from results
-            return
-    for key, run in tasks:
+    if results is not None:
+        yield from results
+    elif len(tasks) > 1:  # one that cannot be in a batch must not change how the others are done
+        for task in tasks:
+            yield from carry_out_all([task], folder, progress)
+    else:
+        ((key, run),) = tasks
         yield carry_out(run, key, folder, progress)
 
 

@@ -8,11 +8,9 @@ from dqpaint.controllers import CONTROLLERS
 from dqpaint.controllers.lqr8 import BLOCK, PLACES, body_rates
 from dqpaint.controllers.riccati import GAUSS
 from dqpaint.language import parse
-from dqpaint.language.findings import Findings
 from dqpaint.motion import plan
-from dqpaint.motion.plan import flow_at
-from dqpaint.motion.timetable import timetable
 from tests.controllers.seeing import ARM
+from tests.motion.strokes import strokes_of
 
 ACCURACY = 1e-6  # of P and g, relative to their largest
 SMOOTH = (
@@ -44,9 +42,9 @@ def exact_body_rates(motion, tau):
     Seen from the light it does not matter where the drawing is placed.
     """
     rates = []
-    for stroke in timetable(motion.program, Findings()):
+    for stroke in strokes_of(motion.program):
         fractions = (np.arange(stroke.count)[:, None] + tau) / stroke.count
-        flow, _ = flow_at(stroke, fractions.ravel(), motion.period)
+        flow = stroke.flow(fractions.ravel())
         y = 0.5 * dq.adjoint(dq.conj(flow.pose), flow.twist)
         rates.append(y.reshape(stroke.count, len(tau), 6))
     y = np.concatenate(rates)

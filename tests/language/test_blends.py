@@ -18,7 +18,7 @@ from dqpaint.language.program import (
     Straight,
     Turn,
 )
-from dqpaint.motion.shapes import shape
+from dqpaint.motion.families import shape
 from tests.language.drawing import drawn
 
 TOOL = "start at (11, -7, 5) mm tool rpy(20 deg, 30 deg, 40 deg)\n"

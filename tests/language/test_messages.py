@@ -51,7 +51,17 @@ color red|E120|1:1 color|unknown statement 'color'||did you mean 'light'?
 G1 X10|E120|1:1 G1|unknown statement 'G1'||did you mean 'line to'?
 repaet 3~line by (1,0) mm~end|E120|1:1 repaet|unknown statement 'repaet'||did you mean 'repeat'?
 if x > 3~line by (1,0) mm~end|E121|1:1 if|.traj has no conditions||use repeat, min/max, or write two files
-text Hello height 3 mm|E109|1:6 Hello|expected a text in quotes after 'text' but found 'Hello'||for example: text "Ada" height 30 mm
+text Hello height 3 mm|E109|1:6 Hello|expected a text in quotes after 'text' but found 'Hello'||put it in quotes: text "Hello"
+text 3 height 3 mm|E109|1:6 3|expected a text in quotes after 'text' but found the number 3||for example: text "Ada" height 30 mm
+text “Ada” height 3 mm|E101|1:6 “|unexpected character '“'||a text stands in plain double quotes: "Ada"
+let café = 3|E101|1:8 é|unexpected character 'é'||names are made of the letters a to z, digits and _: cafe
+let größe = 3|E101|1:7 ö|unexpected character 'ö'||names are made of the letters a to z, digits and _
+line by (3 — 1, 0)|E101|1:12 —|unexpected character '—'||write the plain sign -
+café — naïve|E120|1:1 café|unknown statement 'café'||a line begins with a word such as line, arc or let, and a comment with #
+°é|E120|1:1 °|unknown statement '°'||a line begins with a word such as line, arc or let, and a comment with #
+line by (1, 0) mm even|E110|1:19 even|'even' belongs to a light, behind its colour||write: light white even
+line by (1, 0) mm light even|E108|1:25 even|'light' needs a colour||the colour comes before it: light white even
+include "plain.svg"|E272|1:9 "plain.svg"|only drawings in .traj are included, and this is a .svg file||write: svg "plain.svg"
 text "Ada" font scripts height 3 mm|E109|1:17 scripts|expected a name in quotes after 'font' but found 'scripts'||write: font "scripts"
 text "Ada" height 3 mm align middle|E109|1:30 middle|expected left, centre or right after 'align' but found 'middle'||did you mean 'centre'?
 path "points.csv" unit inch|E109|1:24 inch|expected mm, cm or m after 'unit' but found 'inch'||did you mean 'mm'?
@@ -80,7 +90,10 @@ path "one.csv" "flat.csv" unit mm|E296|1:16 "flat.csv"|flat.csv has 2 columns||o
 svg "words.svg"|E298|1:5 "words.svg"|can't draw words.svg: there are no lines in it||in the program it was made with, convert texts to paths
 svg "bomb.svg"|E298|1:5 "bomb.svg"|can't draw bomb.svg: with every 'use' it has about 10^10 elements||draw a part of it, or make it simpler
 svg "points.csv"|E298|1:5 "points.csv"|can't draw points.csv: line 1: syntax error||it is not well-formed XML
-svg "plain.svg"|W420|1:5 "plain.svg"|left out of plain.svg: 1 text||in the program it was made with, convert texts to paths
+svg "passed.svg"|W421|1:5 "passed.svg"|passed over in passed.svg, as SVG says: line 3: stroke: 'blu' is no colour; line 4: there is no 'nope' to be used; line 5: a <rect> without a size|and 1 more|mend it in the file, or leave it: browsers draw it so, too
+svg "otherwise.svg"|W422|1:5 "otherwise.svg"|drawn otherwise than in otherwise.svg: 1 clip-path (line 4), 1 gradient (line 4), 2 stroke-dasharray (from line 3)||what a clip or a mask would hide is drawn, too; a gradient is drawn in its mean colour; dashes are drawn as whole lines
+svg "unread.svg"|E298|1:5 "unread.svg"|can't draw unread.svg: line 3: d of a <path>: 'nan' stands where a number of its L is expected||mend it, or save the drawing as plain SVG in the program it was made with
+svg "plain.svg"|W420|1:5 "plain.svg"|left out of plain.svg: 1 text (line 2)||in the program it was made with, convert texts to paths
 with rotate 3 deg~period 3 ms~end|E123|2:1 period|'period' stands outside of all blocks||write it at the top of the file
 line by (1,0) mm~place at (0, 0)|E124|2:1 place|'place' comes too late: the tool has moved already|(first movement: 1:1)|write it before the first movement
 repeat 3~line by (1,0) mm|E130|1:1 repeat|this 'repeat' has no 'end'|opened here|add a line 'end' after the last line of the block
@@ -104,7 +117,7 @@ let a = sin(30)|E213|1:13 30|sin needs an angle, this is a plain number||say whi
 start at (0, 0) tool quat(1, 1, 0, 0)|E214|1:22 quat(1, 1, 0, 0)|this quaternion has length 1.414; an orientation needs length 1||the order is quat(w, x, y, z)
 start at (0, 0) tool rot((0, 0, 0), 3 deg)|E215|1:26 (0, 0, 0)|a direction can't be (0, 0, 0)||
 light "#ff88"|E216|1:7 "#ff88"|"#ff88" is not a colour||a # and 3 or 6 digits from 0 to f: "#ff8800"
-light red 140%|E217|1:7 red 140%|the brightness goes from 0% to 100%||for a brighter picture expose it longer
+light red 140%|E217|1:11 140%|the brightness goes from 0% to 100%||for a brighter picture expose it longer
 line to (0, 0, 70)|E218|1:9 (0, 0, 70)|'to' needs a length, but this has no unit|no unit|write (0, 0, 70) mm
 speed 40 mm|E218|1:7 40 mm|'speed' needs a speed, but this is a length||write 40 mm/s
 period 20|E218|1:8 20|'period' needs a time, but this has no unit|no unit|write 20 ms
@@ -150,7 +163,8 @@ brush bar 20 m|E258|1:11 20 m|a lamp is at most 10 m large||for example: brush b
 strobe 10|E218|1:8 10|'strobe' needs a frequency, but this has no unit|no unit|write 10 Hz
 strobe 0 Hz|E220|1:8 0 Hz|'strobe' needs a frequency greater than 0|this is 0|
 strobe 1e9 Hz|E259|1:8 1e9 Hz|a strobe flashes 0.001 to 1,000,000 times a second||for example: strobe 10 Hz 30%
-strobe 10 Hz 0%|E217|1:8 10 Hz 0%|a strobe shines for more than 0% and at most 100% of the time||to turn the light off, write: light off
+strobe 10 Hz 0%|E217|1:14 0%|a strobe shines for more than 0% and at most 100% of the time||to turn the light off, write: light off
+strobe 10 Hz 130%|E217|1:14 130%|a strobe shines for more than 0% and at most 100% of the time||for a steady light write: strobe off; else strobe 10 Hz 30%
 strobe 10 Hz 30|E109|1:14 30|expected '%' after the part of the time but found the end of the line||for example: strobe 10 Hz 30%
 blend 5|E218|1:7 5|'blend' needs a length, but this has no unit|no unit|write 5 mm
 include foo.traj|E109|1:9 foo.traj|the name of a file stands in quotes||write: include "foo.traj"

@@ -151,3 +151,15 @@ def test_an_unknown_view_names_the_known(text):
 def test_an_elevation_beyond_the_pole_is_refused(text):
     with pytest.raises(UsageError, match=r"elevation .* must be from -90 to 90"):
         parse_view(text)
+
+
+def test_coarser_pixels_cover_the_same_places(rng):
+    camera = frame(rng.uniform(-0.2, 0.2, (50, 3)), np.eye(3), View(20, 10), (641, 361))
+    points = rng.uniform(-0.1, 0.1, (20, 3))
+    for scale in (0.5, 0.37, 1.0):
+        coarse = camera.coarser(scale)
+        assert (coarse.width, coarse.height) == (
+            int(np.ceil(641 * scale)), int(np.ceil(361 * scale)),
+        )  # fmt: skip
+        edge = camera.project(points)[0] + 0.5  # from the picture's corner
+        np.testing.assert_allclose(coarse.project(points)[0] + 0.5, scale * edge, atol=1e-9)

@@ -56,6 +56,34 @@ def test_an_orbit_keeps_its_distance_and_everything_in_the_picture():
     assert (names[0], names[-1], len(names)) == ("orbit-00", "orbit-11", 12)
 
 
+@pytest.mark.parametrize("text", ["at:1.7:-0.9:0.9:0.4:0.1:0.3", "at:-0.5:0.6:0.1:0.4:0.1:0.3"])
+def test_a_camera_that_is_put_somewhere_stands_there_upright_and_looks_there(text):
+    place, target = np.split(np.array(text.split(":")[1:], float), 2)
+    camera = camera_of(parse_views(text)[0], POINTS, FRONT, SIZE, lens=2.0)
+    np.testing.assert_allclose(camera.position, place)
+    pixel, depth = camera.project(target[None])
+    np.testing.assert_allclose(pixel[0], camera.centre, atol=1e-9)
+    np.testing.assert_allclose(depth, np.linalg.norm(place - target))
+    assert camera.rotation[0] @ FRONT[:, 1] == pytest.approx(0, abs=1e-12)  # level
+    assert camera.rotation[1] @ FRONT[:, 1] > 0  # not upside down
+    assert camera.focal == 2.0 * max(SIZE)
+
+
+def test_without_a_target_it_looks_at_the_middle_of_the_drawing_even_from_right_above():
+    local = POINTS @ FRONT
+    middle = FRONT @ (0.5 * (local.min(axis=0) + local.max(axis=0)))
+    for away in (FRONT[:, 1], FRONT @ [0.3, -0.4, 1.2]):
+        x, y, z = middle + away
+        camera = camera_of(parse_views(f"at:{x}:{y}:{z}")[0], POINTS, FRONT, SIZE)
+        np.testing.assert_allclose(camera.project(middle[None])[0][0], camera.centre, atol=1e-6)
+
+
+def test_a_camera_with_the_drawing_at_its_back_is_refused():
+    (shot,) = parse_views("at:3:0:0.4:4:0:0.4")
+    with pytest.raises(UsageError, match="the camera looks away from the drawing"):
+        camera_of(shot, POINTS, FRONT, SIZE)
+
+
 @pytest.mark.parametrize(("text", "says"), [
     ("back", "no view named 'back'; known: front, iso, side, top, AZ,EL in degrees, stereo[:VIEW]"),
     ("20", "no view named '20'; known"),
@@ -71,6 +99,12 @@ def test_an_orbit_keeps_its_distance_and_everything_in_the_picture():
     ("orbit:x", "is not orbit, orbit:N or orbit:N:EL"),
     ("orbit:1:2:3", "is not orbit, orbit:N or orbit:N:EL"),
     ("orbit:8:99", "view elevation 99"),
+    ("at:1:2", "is not at:X:Y:Z or at:X:Y:Z:X:Y:Z, the camera's place and what it looks at"),
+    ("at:1:2:3:4", "is not at:X:Y:Z"),
+    ("at:1:2:x", "is not at:X:Y:Z"),
+    ("at:1:2:inf", "is not at:X:Y:Z"),
+    ("at:1:2:101", "100 at most"),
+    ("at:1:2:3:1:2:3", "the camera stands in what it looks at"),
     ("stereo:back", "is not stereo, stereo:NAME or stereo:AZ:EL"),
 ])  # fmt: skip
 def test_wrong_views(text, says):

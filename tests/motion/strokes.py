@@ -1,13 +1,14 @@
 """One segment of every kind, from a general start pose, for the tests of motion."""
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from dqpaint import dq
 from dqpaint.language import chains, taylor
 from dqpaint.language.diagnostics import Span
+from dqpaint.language.findings import Findings
 from dqpaint.language.program import (
     Arc,
     Cruise,
@@ -27,8 +28,10 @@ from dqpaint.language.program import (
     Straight,
     Turn,
 )
-from dqpaint.motion.orientations import orientation
-from dqpaint.motion.shapes import shape
+from dqpaint.motion.families import shape
+from dqpaint.motion.laws import Progress
+from dqpaint.motion.shapes import Flow
+from dqpaint.motion.timetable import Timetable, timetable
 
 START = Pose((0.11, -0.07, 0.05), tuple(np.array([0.3, -0.5, 0.7, 0.4]) / math.sqrt(0.99)))
 TURNED = tuple(np.array([0.1, 0.6, -0.2, 0.5]) / math.sqrt(0.66))
@@ -115,8 +118,8 @@ def segment(path, tool, law="trapezoid", timing=None, start=START):
         line=1,
     )
     if tool in ("look", "look-line"):  # the start lies on the look, as the language makes sure
-        spin = orientation(made, places := shape(made).places)
-        r = spin(np.zeros(1), places(np.zeros(1)))[0][0]
+        form = shape(made)
+        r = form.spin(np.zeros(1), form.places(np.zeros(1)))[0][0]
         made = replace(made, start=Pose(start.position, tuple(r)))
     last = shape(made).flow(np.ones(1)).pose[0]
     return replace(made, end=Pose(tuple(dq.translation(last)), tuple(last[:4])))
@@ -127,3 +130,50 @@ def program(*segments, period=0.008, placement=None):
     return Program(
         "test.traj", "line", period, None, None, placement, segments[0].start, segments, ()
     )
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """One stroke of a timetable."""
+
+    table: Timetable
+    number: int
+
+    @property
+    def count(self) -> int:
+        return int(self.table.count[self.number])
+
+    @property
+    def length(self) -> float:
+        return float(self.table.length[self.number])
+
+    @property
+    def edges(self):
+        return self.table.edges(self.number)
+
+    @property
+    def samples(self):
+        return np.arange(self.count + 1) / self.count
+
+    def progress(self, tau) -> Progress:
+        return self.table.progress(np.full(len(tau), self.number), tau)
+
+    def flow(self, tau) -> Flow:
+        return self._flow(tau)[0]
+
+    def fraction(self, tau):
+        return self._flow(tau)[1]
+
+    def _flow(self, tau):
+        faults = {}
+        found = self.table.flow(np.full(len(tau), self.number), tau, faults)
+        assert not faults
+        return found
+
+
+def strokes_of(drawing):
+    """The strokes of a program without a fault."""
+    findings = Findings()
+    table = timetable(drawing, findings)
+    assert not findings.errors
+    return [Stroke(table, number) for number in range(len(table))]

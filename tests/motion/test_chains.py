@@ -5,11 +5,15 @@ import pytest
 
 from dqpaint.language import chains
 from dqpaint.language.program import Chain
-from dqpaint.motion.chains import place_chain
+from dqpaint.motion.chains import place_chains
 from tests.motion.strokes import BEZIER, HALF_AXES
 
 CUSP = np.array([[0, 0, 0], [1, 1, 0], [0, 1, 0], [1, 0, 0]], dtype=float)  # at (0.5, 0.75)
 POINTS = np.array([[0, 0, 0], [3, 0, 0], [3, 4, 0], [3, 4, 12]], dtype=float)
+
+
+def place_chain(chain: Chain):
+    return place_chains([chain]).of(0)
 
 
 def mixed() -> Chain:

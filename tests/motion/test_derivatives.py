@@ -6,22 +6,15 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
-from dqpaint.language.findings import Findings
 from dqpaint.language.program import Lasting, Law
-from dqpaint.motion.plan import flow_at
-from dqpaint.motion.timetable import timetable
-from tests.motion.strokes import KINDS, LAWS, program, segment
+from tests.motion.strokes import KINDS, LAWS, program, segment, strokes_of
 
 BREAKPOINTS = np.array([0.0, 0.2, 0.8, 1.0])
 STEP = 0.002  # of the stroke's time; halved once
 
 
 def only_stroke(*args):
-    drawing = program(segment(*args))
-    findings = Findings()
-    strokes = timetable(drawing, findings)
-    assert not findings.ordered()
-    return strokes[0]
+    return strokes_of(program(segment(*args)))[0]
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -33,10 +26,10 @@ def test_twist_and_acceleration_are_derivatives(rng, path, tool, law):
     time = stroke.count * 0.008
     tau = rng.uniform(0, 1, 400)
     tau = tau[np.abs(tau[:, None] - BREAKPOINTS).min(axis=1) > 2 * STEP][:60]
-    now = flow_at(stroke, tau, 0.008)[0]
+    now = stroke.flow(tau)
 
     def errors(h):
-        ahead, behind = (flow_at(stroke, tau + s * h, 0.008)[0] for s in (1, -1))
+        ahead, behind = (stroke.flow(tau + s * h) for s in (1, -1))
         forward, backward = dq.nearest(ahead.pose, now.pose), dq.nearest(behind.pose, now.pose)
         rate = (forward - backward) / (2 * h * time)
         slope = (ahead.twist - behind.twist) / (2 * h * time)
@@ -58,19 +51,17 @@ def test_twist_and_acceleration_are_derivatives(rng, path, tool, law):
 def test_a_law_that_runs_beyond_the_ends_takes_the_pose_along(path, tool):
     """Rates that begin backwards: place and twist agree there too."""
     back = replace(segment(path, tool), law=Law("cubic", (-0.02, 0.03)), timing=Lasting(2.504))
-    findings = Findings()
-    strokes = timetable(program(back), findings)
-    assert not findings.ordered()
+    (stroke,) = strokes_of(program(back))
     tau, h = np.linspace(0.02, 0.3, 15), 1e-4
-    time = strokes[0].count * 0.008
-    now, ahead, behind = (flow_at(strokes[0], tau + d, 0.008)[0] for d in (0, h, -h))
+    time = stroke.count * 0.008
+    now, ahead, behind = (stroke.flow(tau + d) for d in (0, h, -h))
     rate = (dq.nearest(ahead.pose, now.pose) - dq.nearest(behind.pose, now.pose)) / (2 * h * time)
     np.testing.assert_allclose(rate, 0.5 * dq.mul(dq.pure(now.twist), now.pose), atol=1e-6)
-    assert (strokes[0].progress(tau, 0.008).value < 0).any()
+    assert (stroke.progress(tau).value < 0).any()
 
 
 @pytest.mark.parametrize(("path", "tool"), KINDS)
 def test_poses_stay_unit(path, tool, rng):
-    pose = flow_at(only_stroke(path, tool), rng.uniform(0, 1, 50), 0.008)[0].pose
+    pose = only_stroke(path, tool).flow(rng.uniform(0, 1, 50)).pose
     np.testing.assert_allclose((pose[:, :4] ** 2).sum(1), 1, atol=1e-13)
     np.testing.assert_allclose((pose[:, :4] * pose[:, 4:]).sum(1), 0, atol=1e-13)

@@ -7,10 +7,8 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.language import ScriptError, parse
-from dqpaint.language.findings import Findings
 from dqpaint.motion import plan
-from dqpaint.motion.plan import flow_at
-from dqpaint.motion.timetable import timetable
+from tests.motion import strokes
 
 PERIOD = 0.008
 START = "start at (110, -70, 50) mm tool rpy(20 deg, 30 deg, 40 deg)\n"
@@ -39,11 +37,7 @@ LAWS = ["constant", "trapezoid", "cubic", "quintic", "cubic(20 mm/s, 30 mm/s)"]
 
 
 def strokes_of(text):
-    findings = Findings()
-    program = parse(text, "run.traj")
-    strokes = timetable(program, findings)
-    assert not findings.errors
-    return strokes
+    return strokes.strokes_of(parse(text, "run.traj"))
 
 
 def stroke_of(body, clauses="in 6 s", before=""):
@@ -65,14 +59,14 @@ def test_twist_and_acceleration_are_derivatives(rng, body, law):
     stroke = stroke_of(lines, f"in 6 s law {law}", before)
     time, step = stroke.count * PERIOD, 0.001
     grid = np.linspace(0, 1, 20_001)
-    joints = np.interp(stroke.edges, stroke.progress(grid, PERIOD).value, grid)
+    joints = np.interp(stroke.edges, stroke.progress(grid).value, grid)
     tau = rng.uniform(0, 1, 500)
     breaks = np.concatenate([joints, [0.0, 0.2, 0.8, 1.0]])
     tau = tau[np.abs(tau[:, None] - breaks).min(axis=1) > 2 * step][:120]
-    now = flow_at(stroke, tau, PERIOD)[0]
+    now = stroke.flow(tau)
 
     def errors(h):
-        ahead, behind = (flow_at(stroke, tau + s * h, PERIOD)[0] for s in (1, -1))
+        ahead, behind = (stroke.flow(tau + s * h) for s in (1, -1))
         rate = dq.nearest(ahead.pose, now.pose) - dq.nearest(behind.pose, now.pose)
         slope = (ahead.twist - behind.twist) / (2 * h * time)
         pose_rate = 0.5 * dq.mul(dq.pure(now.twist), now.pose)
@@ -89,9 +83,9 @@ def test_twist_and_acceleration_are_derivatives(rng, body, law):
 def test_the_point_runs_evenly_and_the_pose_has_no_gap(body):
     lines, before = BODIES[body]
     stroke = stroke_of(lines, "in 6 s law constant", before)
-    flow = flow_at(stroke, np.linspace(0, 1, 4001), PERIOD)[0]
+    flow = stroke.flow(np.linspace(0, 1, 4001))
     speed = np.linalg.norm(dq.point_velocity(flow.twist, dq.translation(flow.pose)), axis=1)
-    length = stroke.extent.length
+    length = stroke.length
     np.testing.assert_allclose(speed, length / 6.0, rtol=1e-9)
     way = np.linalg.norm(np.diff(dq.translation(flow.pose), axis=0), axis=1)
     assert way.sum() == pytest.approx(length, rel=3e-4)
@@ -158,7 +152,7 @@ def test_a_gradient_of_the_stroke_goes_over_all_of_it():
     ways = np.linalg.norm(np.diff(motion.points, axis=0), axis=1)
     # corners are cut between two rows: the way along the drawing comes from the law
     (stroke,) = strokes_of(text)
-    at = stroke.progress(stroke.samples, PERIOD).value
+    at = stroke.progress(stroke.samples).value
     middle = 0.5 * (at[1:] + at[:-1])
     light = motion.light[:-1]
     own = (middle > 40.2 / 105) & (middle < 59.8 / 105)
@@ -196,7 +190,7 @@ def test_even_light_gives_every_millimetre_the_same(path, time, law):
     text = f"period 4 ms\n{EVEN[path]} {time} law {law} light white even"
     motion = plan(parse(text, "a"), dq.IDENTITY)
     stroke = strokes_of(text)[0]
-    fraction = flow_at(stroke, stroke.samples, 0.004)[1]
+    fraction = stroke.fraction(stroke.samples)
     way = np.diff(fraction) * motion.length
     per_length = motion.light[:-1, 0] * 0.004 / way
     np.testing.assert_allclose(per_length, per_length.mean(), rtol=1e-7)
@@ -210,7 +204,7 @@ def test_even_light_of_a_stroke_of_several_lines_and_of_a_part_of_it():
     body = "line by (30, 0) mm\narc centre (30, 20) mm angle 90 deg light red\nend"
     text = f"stroke in 2 s light white even\n{body}"
     (stroke,) = strokes_of(text)
-    at = stroke.progress(stroke.samples, PERIOD)
+    at = stroke.progress(stroke.samples)
     light = plan(parse(text, "a"), dq.IDENTITY).light[:-1]
     first = at.value[1:] < stroke.edges[1]
     share = np.diff(at.value) / PERIOD / at.rate.max()

@@ -20,8 +20,15 @@ def test_units(text):
     assert mount.rpy_deg == pytest.approx((10, 20, -30))
 
 
-def test_three_numbers_are_a_place():
-    assert parse_tool("0,0,80mm").rpy_deg == (0, 0, 0)
+@pytest.mark.parametrize("name", ["panda", "meka-a2", "iiwa"])
+def test_three_numbers_are_a_place_and_leave_the_turn(name):
+    """Of the Panda's hand and the Meka's fist, which are turned on their links."""
+    card = read_card(name)
+    moved = with_tool(card, "1cm,-2cm,80mm")
+    assert moved.tool.at_m == pytest.approx((0.01, -0.02, 0.08))
+    turns = [dq.rotation(Kinematics(one).pose(one.home)) for one in (card, moved)]
+    np.testing.assert_array_equal(*turns)
+    assert with_tool(card, "0,0,80mm,0,0,0").tool.rpy_deg == (0, 0, 0)
 
 
 def test_the_light_is_moved_in_the_flange_s_frame():

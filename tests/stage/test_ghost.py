@@ -77,7 +77,7 @@ def test_each_side_of_the_arm_has_the_colour_of_its_side(tmp_path):
         arm.stand(np.array([-0.3, 0.0]))
         found = measure(arm, camera)
         light = glow([(points, energy)])
-        colours = ghost._lit(arm, found, camera, replace(light, gain=0.0))
+        colours = ghost.lit(arm, found, camera, replace(light, gain=0.0))
     side = found.normal @ camera.rotation[0]
     right, left = (colours[side * sign > 0.7].mean(axis=0) for sign in (1, -1))
     assert right[0] > 1.5 * right[2]

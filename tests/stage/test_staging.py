@@ -2,12 +2,15 @@
 
 import json
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
 
 import dqpaint
 from dqpaint import outputs, report, video
+from dqpaint.picture import lights_of
+from dqpaint.stage.arm import Arm
 from dqpaint.stage.staging import Staging, account
 from tests.stage.arms import urdf
 from tests.stage.test_shadow import EYE, Wall
@@ -132,6 +135,41 @@ def test_a_film_with_its_arm_is_developed_as_it_was_and_from_elsewhere(drawing, 
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("ghost", [True, "motion"])
+def test_what_was_worked_out_of_the_arm_is_not_asked_again(ghost, drawing, tmp_path, monkeypatch):
+    painting = dqpaint.draw(drawing, ghost=ghost, view="150,10", **SMALL)
+    dqpaint.save(painting, f"{tmp_path}/a", "film")
+    asked = []
+    load = Arm._load
+    monkeypatch.setattr(Arm, "_load", lambda self, urdf: asked.append(1) or load(self, urdf))
+    for choices in ({}, {"look": "aces", "ev": 1.5}, {"starburst": 6}):
+        (again,) = dqpaint.develop(tmp_path / "a-film.npz", **choices)
+        drawn = dqpaint.draw(drawing, ghost=ghost, view="150,10", **SMALL, **choices)
+        np.testing.assert_array_equal(again.image, drawn.image)
+        assert again.hidden.lines == painting.picture.hidden.lines
+        asked_by_draw = len(asked)
+        dqpaint.develop(tmp_path / "a-film.npz", **choices)
+        assert len(asked) == asked_by_draw
+    dqpaint.develop(tmp_path / "a-film.npz", view="front")
+    assert len(asked) > asked_by_draw
+
+
+@pytest.mark.slow
+def test_a_film_without_its_arm_can_show_it_and_the_other_way_round(drawing, tmp_path):
+    dqpaint.save(dqpaint.draw(drawing, **SMALL), f"{tmp_path}/a", "film")
+    for ghost in (True, "motion"):
+        (shown,) = dqpaint.develop(tmp_path / "a-film.npz", ghost=ghost)
+        painting = dqpaint.draw(drawing, ghost=ghost, **SMALL)
+        np.testing.assert_array_equal(shown.image, painting.image)
+    dqpaint.save(painting, f"{tmp_path}/b", "film")
+    (bare,) = dqpaint.develop(tmp_path / "b-film.npz", ghost=False)
+    np.testing.assert_array_equal(bare.image, dqpaint.draw(drawing, **SMALL).image)
+    (open_,) = dqpaint.develop(tmp_path / "b-film.npz", occlusion=False)
+    assert open_.hidden is None
+    assert open_.arm is not None
+
+
+@pytest.mark.slow
 def test_a_film_whose_arm_is_gone_is_developed_without_and_that_is_said(drawing, tmp_path):
     painting = dqpaint.draw(drawing, ghost=True, **SMALL)
     for robot, reason in (("xarm6", "xarm6 has 6 joints"), ("gone.urdf", "gone.urdf")):
@@ -155,6 +193,30 @@ def test_a_movie_ends_with_the_arm(drawing):
     bare = np.abs(films[-2].astype(int) - painting.image).max(axis=2)
     lit = painting.picture.arm.max(axis=2) * painting.picture.exposure > 0.01
     assert (bare[lit] > 0).mean() > 0.9
+
+
+@pytest.mark.slow
+def test_the_arm_moves_in_a_movie_and_stands_in_each_frame_as_it_stood_then(drawing):
+    """Against the pictures of runs that end there: their arm is where the frame's is."""
+    painting = dqpaint.draw(drawing, ghost=True, view="120,10", plant="ideal", **SMALL)
+    scene, picture, posture = painting.scene, painting.picture, painting.cast.posture
+    rows = [len(posture) * k // 4 for k in (1, 2, 3)]
+    camera, exposure = picture.camera, picture.exposure
+    shine = partial(lights_of, scene)
+    with painting.staged() as staging:
+        moving = list(staging.frames(camera, shine, exposure, False, rows))
+        for row, frame in zip(rows, moving, strict=True):
+            staging._posture = posture[: row + 1]
+            still = staging.photograph(camera, shine, exposure)
+            a, b = (image.max(axis=2) * exposure > 0.01 for image in (frame, still))
+            assert (a & b).sum() > 0.9 * (a | b).sum()
+    assert np.abs(moving[0] - moving[-1]).max() * exposure > 0.05
+    with painting.staged() as staging:
+        films = list(
+            video.frames(scene, picture, painting.settings, 4, lambda _done: None, staging)
+        )
+    np.testing.assert_array_equal(films[-1], painting.image)
+    assert (films[0].max(axis=2) > 12).mean() > 0.05  # it is there from the first
 
 
 @pytest.mark.slow

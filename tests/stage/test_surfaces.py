@@ -82,15 +82,13 @@ def test_rays_meet_what_is_seen(robot, rng, tmp_path):
         hit = twins.blocked(eye, camera.position + 20 * way).reshape(found.sure.shape)
         outline = (found.cover > 0) & (found.cover < 1)  # it may be either
         wrong = (hit != (found.cover > 0.5)) & ~outline
-        # plain shapes are drawn with few corners, inside what the rays meet
-        loose = 0.06 if robot == "plain" else SEEN_ELSEWHERE
-        assert wrong.sum() < loose * found.sure.sum()
+        assert wrong.sum() < SEEN_ELSEWHERE * found.sure.sum()
         assert found.sure.sum() > 500
         # and a ray to just before each place is free, to just behind it is not
         place = found.place.astype(float)
         to = (place - camera.position) / np.linalg.norm(place - camera.position, axis=1)[:, None]
         begin = np.broadcast_to(camera.position, place.shape)
-        gap = 0.015 if robot == "plain" else 0.002
+        gap = 0.004 if robot == "plain" else 0.002  # primitives have a margin
         assert twins.blocked(begin, place - gap * to).mean() < 0.02
         assert twins.blocked(begin, place + gap * to).mean() > 0.98
 
@@ -106,7 +104,7 @@ def test_normals_and_links_of_a_ball(rng, tmp_path):
     outwards = found.place - centre
     outwards /= np.linalg.norm(outwards, axis=1)[:, None]
     angle = np.degrees(np.arccos(np.clip((outwards * found.normal).sum(axis=1), -1, 1)))
-    assert np.median(angle) < 6  # few corners: its facets lie up to 10 deg beside the ball
+    assert np.median(angle) < 1.5
     assert set(found.link) == {1}
     np.testing.assert_allclose(np.linalg.norm(found.normal, axis=1), 1, atol=1e-4)
 

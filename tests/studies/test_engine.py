@@ -3,9 +3,7 @@
 import json
 import os
 import signal
-import subprocess
 import sys
-import time
 from collections import Counter
 
 import pytest
@@ -18,6 +16,7 @@ from dqpaint.studies.engine import carry_out_study
 from dqpaint.studies.keeping import kept, place
 from dqpaint.studies.record import NAME, Record
 from dqpaint.studies.runs import Result, Run, drawing_text, result_of, run_of, seeded
+from tests.studies.processes import start, wait_for_lines, wait_for_the_end
 
 pytestmark = pytest.mark.slow
 LINE = "period 10 ms\nspeed 60 mm/s\nstart at (0, 0) mm\nline to (40, 20) mm\n"
@@ -193,32 +192,8 @@ SWEEP = ("sweep", "line.traj", "--controller", "p", "--plant", "ideal",
          "--vary", f"k=2..300:log:{POINTS}", "--jobs", "2")  # fmt: skip
 
 
-def start(folder, *words):
-    return subprocess.Popen(
-        [sys.executable, "-m", "dqpaint", *words], cwd=folder, text=True,
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
-    )  # fmt: skip
-
-
-def wait_for_lines(path, count):
-    until = time.monotonic() + 60
-    while time.monotonic() < until:
-        if path.is_file() and path.read_bytes().count(b"\n") >= count:
-            return
-        time.sleep(0.01)
-    raise AssertionError("nothing was done in a minute")
-
-
 def tables(folder):
     return [(folder / f"line-k{end}").read_bytes() for end in ("-table.csv", "-table.md", ".png")]
-
-
-def alive(group):
-    try:
-        os.killpg(group, 0)
-    except ProcessLookupError:
-        return False
-    return True
 
 
 @pytest.fixture(scope="module")
@@ -243,10 +218,7 @@ def test_a_sweep_that_was_stopped_goes_on(tmp_path, how, whole):
     if how == signal.SIGINT:
         assert "the same command goes on from there" in said
         assert "Traceback" not in said
-    until = time.monotonic() + 20
-    while alive(sweep.pid) and time.monotonic() < until:
-        time.sleep(0.05)
-    assert not alive(sweep.pid)  # workers end with their study
+    wait_for_the_end(sweep.pid)  # workers end with their study
     before = record.read_bytes()
     assert 1 <= before.count(b"\n") < POINTS
     assert not (tmp_path / "study" / "line-k.png").exists()

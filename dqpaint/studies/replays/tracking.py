@@ -30,7 +30,8 @@ def tracking(paper: Paper, asked: Asked) -> Measured:
     found = carry_out(paper, asked, choices, KEPT)
     files = {"-published.png": beside_published(paper, numbers_of(paper, found))}
     base = settings_of(paper, asked, {})
-    files |= pictures(Comparison(paper.name, base, found, asked.folder))
+    shown = pictures(Comparison(paper.name, base, found, asked.folder))
+    files |= {} if shown is None else shown.files
     return measured(paper, asked, found, files)
 
 

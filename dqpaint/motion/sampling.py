@@ -1,0 +1,105 @@
+"""The rows of strokes, some strokes at a time, so that a long drawing needs little memory."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.dq import Floats
+from dqpaint.motion.faults import Faults, not_finite
+from dqpaint.motion.pace import Ticks
+from dqpaint.motion.places import Indices
+from dqpaint.motion.shapes import Flow
+from dqpaint.motion.timetable import Timetable
+
+AT_ONCE = 16_384  # rows, unless one stroke alone has more
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """Strokes in a row, each from its start to its end, both included.
+
+    Attributes:
+        stroke: the number of each row's stroke (N,), in order.
+        tau: the fraction of its time (N,).
+        flow: per second, in the drawing frame.
+        fraction: of the path, as the law has it (N,).
+        last: whether a row is the end of its stroke (N,); the next row is the start of another.
+    """
+
+    stroke: Indices
+    tau: Floats
+    flow: Flow
+    fraction: Floats
+    last: NDArray[np.bool_]
+
+
+def blocks(counts: NDArray[np.int64]) -> Iterator[Indices]:
+    """The numbers of strokes with so many new samples each (S,), some at a time."""
+    ends = np.cumsum(counts + 1)
+    begin = 0
+    while begin < len(counts):
+        before = int(ends[begin - 1]) if begin else 0
+        end = max(begin + 1, int(np.searchsorted(ends, before + AT_ONCE, side="right")))
+        yield np.arange(begin, end)
+        begin = end
+
+
+def every_sample(counts: NDArray[np.int64], strokes: Indices) -> tuple[Indices, Floats]:
+    """Of strokes: the stroke of each row (N,), and the fraction of its time (N,)."""
+    own = counts[strokes]
+    stroke = np.repeat(strokes, own + 1)
+    begins = np.cumsum(own + 1) - (own + 1)
+    step = np.arange(len(stroke)) - np.repeat(begins, own + 1)
+    return stroke, step / counts[stroke]
+
+
+def sampled(table: Timetable, ticks: Sequence[Ticks] | None, faults: Faults) -> Iterator[Rows]:
+    """All rows of all strokes.
+
+    Args:
+        table: the strokes.
+        ticks: when the samples of each are, where the clock is slowed; else at whole periods.
+        faults: gets what goes wrong, by the stroke.
+    """
+    counts = table.count if ticks is None else np.array([tick.count for tick in ticks])
+    for strokes in blocks(counts):
+        if ticks is None:
+            stroke, tau = every_sample(counts, strokes)
+        else:
+            some = [ticks[number] for number in strokes]
+            stroke = np.repeat(strokes, counts[strokes] + 1)
+            tau = np.concatenate([tick.tau for tick in some])
+        of_segments: Faults = {}
+        flow, fraction = table.flow(stroke, tau, of_segments)
+        if ticks is not None:
+            flow = flow.at_rates(*_paces(some))
+        last = np.append(stroke[1:] != stroke[:-1], True)
+        _note(table, stroke, flow, of_segments, faults)
+        yield Rows(stroke, tau, flow, fraction, last)
+
+
+def _paces(ticks: Sequence[Ticks]) -> tuple[Floats, Floats]:
+    """How fast the clock of each row runs, and how that changes."""
+    rates = [np.ones(len(t.tau)) if t.rate is None else t.rate for t in ticks]
+    slopes = [np.zeros(len(t.tau)) if t.slope is None else t.slope for t in ticks]
+    return np.concatenate(rates), np.concatenate(slopes)
+
+
+def _note(
+    table: Timetable, stroke: Indices, flow: Flow, of_segments: Faults, faults: Faults
+) -> None:
+    """The first fault of each stroke: what a formula said, or that its rows are not finite."""
+    for number in sorted(of_segments):
+        of = int(np.searchsorted(table.first, number, side="right")) - 1
+        found = of_segments[number]
+        if found[0].code == "E324":
+            found = (not_finite(table.program.segments[table.first[of]]),)
+        faults.setdefault(of, found)
+    parts = (flow.pose, flow.twist, flow.slope)
+    if all(np.isfinite(part).all() for part in parts):
+        return
+    finite = np.logical_and.reduce([np.isfinite(part).all(axis=1) for part in parts])
+    for of in np.unique(stroke[~finite]).tolist():
+        faults.setdefault(of, (not_finite(table.program.segments[table.first[of]]),))

@@ -1,0 +1,143 @@
+"""What there is to say about a drawing without sampling all of it: faults, warnings, figures.
+
+It says what `plan` would say. Straight lines, screws and arcs are finite wherever their numbers
+are, and their boxes need their places alone, or those of their ends; only what is a formula or
+looks somewhere is asked at every sample.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.language.diagnostics import Diagnostic, ScriptError
+from dqpaint.language.findings import EnoughError, Findings
+from dqpaint.language.program import Program
+from dqpaint.motion.corners import jumps, slow
+from dqpaint.motion.families import Flags
+from dqpaint.motion.faults import Faults
+from dqpaint.motion.glow import unevenness
+from dqpaint.motion.places import Indices
+from dqpaint.motion.sampling import blocks, every_sample, sampled
+from dqpaint.motion.timetable import Timetable, timetable
+
+HARMLESS = 1e40  # numbers below that stay finite in all the products of a stroke
+
+
+@dataclass(frozen=True)
+class Survey:
+    """The figures of a drawing.
+
+    Attributes:
+        program: what was looked at.
+        samples: how many poses there are.
+        seconds: how long it takes.
+        length: of the path [m], dark parts included.
+        box: the sides (3,) [m] of the box round the samples, in the drawing's own frame.
+        unevenness: how much brighter strokes are near their ends than in the middle.
+        notes: warnings about the drawing.
+    """
+
+    program: Program
+    samples: int
+    seconds: float
+    length: float
+    box: Floats
+    unevenness: float
+    notes: tuple[Diagnostic, ...]
+
+    @property
+    def period(self) -> float:
+        """Between two samples [s]."""
+        return self.program.period
+
+
+def survey(program: Program) -> Survey:
+    """Look at a drawing.
+
+    Raises:
+        ScriptError: a stroke without a timetable, or more samples than the budget.
+    """
+    findings = Findings()
+    faults: Faults = {}
+    box = _Box()
+    try:
+        table = timetable(program, findings)
+        doubtful = _doubtful(table)
+        for rows in sampled(table.of(doubtful), None, faults):
+            box.add(dq.translation(rows.flow.pose))
+        tell(faults, findings)
+    except EnoughError:
+        pass
+    if findings.errors:
+        raise ScriptError(program.name, program.text, findings.ordered())
+    for note in (*jumps(table), *slow(table)):
+        findings.add(note)
+    for stroke, tau in _telling(table, np.flatnonzero(~doubtful)):
+        number, f = table.inside(stroke, table.progress(stroke, tau).value)
+        box.add(table.shapes.points(number, f))
+    samples = int(table.count.sum()) + 1
+    return Survey(
+        program,
+        samples,
+        (samples - 1) * program.period,
+        float(sum(table.length.tolist())),
+        box.sides,
+        unevenness(table),
+        program.notes + findings.ordered(),
+    )
+
+
+def tell(faults: Faults, findings: Findings) -> None:
+    """Adds faults in the order of the strokes."""
+    for stroke in sorted(faults):
+        for diagnostic in faults[stroke]:
+            findings.add(diagnostic)
+
+
+class _Box:
+    """The box round places."""
+
+    def __init__(self) -> None:
+        self._least, self._most = np.full(3, np.inf), np.full(3, -np.inf)
+
+    def add(self, points: Floats) -> None:
+        """Takes places (N, 3) in."""
+        self._least = np.minimum(self._least, points.min(axis=0))
+        self._most = np.maximum(self._most, points.max(axis=0))
+
+    @property
+    def sides(self) -> Floats:
+        """Its sides (3,) [m]."""
+        return np.asarray(self._most - self._least)
+
+
+def _doubtful(table: Timetable) -> Flags:
+    """Which strokes (S,) may leave the numbers on their way, or have a box that is not simple."""
+    shapes = table.shapes
+    largest = [shape.largest() for shape in shapes.families]
+    of_segment = np.full(len(shapes.segments), np.inf)
+    for family, sizes in enumerate(largest):
+        own = shapes.family == family
+        of_segment[own] = np.broadcast_to(sizes, shapes.member[own].max() + 1)[shapes.member[own]]
+    with np.errstate(all="ignore"):
+        of_segment = np.maximum(of_segment, 1.0 / (table.end - table.begin))
+        of_stroke = np.maximum.reduceat(of_segment, table.first)
+        rates = np.abs(table.rates).max(axis=1)
+        harmless = (of_stroke < HARMLESS) & (rates * table.time**2 < HARMLESS)
+        return np.asarray(~(harmless & (1.0 / table.time < HARMLESS)))
+
+
+def _telling(table: Timetable, strokes: Indices) -> Iterator[tuple[Indices, Floats]]:
+    """Rows of strokes that tell their box: ends of straight ones, all samples of others."""
+    straight = np.array([shape.straight for shape in table.shapes.families])
+    alone = (table.size == 1) & ~table.rates.any(axis=1)
+    by_ends = (alone & straight[table.shapes.family[table.first]])[strokes]
+    ends = strokes[by_ends]
+    if len(ends):
+        yield np.repeat(ends, 2), np.tile([0.0, 1.0], len(ends))
+    others = strokes[~by_ends]
+    for some in blocks(table.count[others]):
+        yield every_sample(table.count, others[some])

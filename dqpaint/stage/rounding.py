@@ -1,0 +1,104 @@
+"""Balls, cylinders and capsules as fine meshes: the renderer's own have a dozen sides."""
+
+import xml.etree.ElementTree as Xml
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+AROUND = 40
+"""Sides of what is round."""
+BENDS = 10
+"""Rings from the equator of a ball to its pole."""
+
+
+class Ring(NamedTuple):
+    """A circle about z: radius, height, and the normal's parts outwards and along z."""
+
+    radius: float
+    height: float
+    out: float
+    up: float
+
+
+Strips = Sequence[Sequence[Ring]]
+"""Rings that are joined, from below to above; between two strips there is an edge."""
+
+
+def rounded(description: bytes) -> dict[str, bytes] | None:
+    """The files of the same description with fine meshes; None if it has meshes of its own.
+
+    Args:
+        description: a URDF.
+
+    Returns:
+        The bytes of each by its name; the description is `arm.urdf`.
+    """
+    tree = Xml.fromstring(description)
+    if tree.find(".//mesh") is not None:
+        return None
+    files: dict[str, bytes] = {}
+    for geometry in tree.iterfind("link/visual/geometry"):
+        for element in list(geometry):
+            if element.tag not in SHAPES:
+                continue
+            sizes = tuple(float(element.get(word, "nan")) for word in ("radius", "length"))
+            name = f"{len(files)}.obj"
+            files[name] = mesh(SHAPES[element.tag](*sizes))
+            geometry.remove(element)
+            Xml.SubElement(geometry, "mesh", filename=name)
+    files["arm.urdf"] = Xml.tostring(tree)
+    return files
+
+
+def _ball(radius: float, _length: float = 0.0) -> Strips:
+    return [_cap(radius, 0.0, -1)[:-1] + _cap(radius, 0.0, 1)]
+
+
+def _cylinder(radius: float, length: float) -> Strips:
+    z = 0.5 * length
+    return [
+        [Ring(0.0, -z, 0.0, -1.0), Ring(radius, -z, 0.0, -1.0)],
+        [Ring(radius, -z, 1.0, 0.0), Ring(radius, z, 1.0, 0.0)],
+        [Ring(radius, z, 0.0, 1.0), Ring(0.0, z, 0.0, 1.0)],
+    ]
+
+
+def _capsule(radius: float, length: float) -> Strips:
+    return [_cap(radius, -0.5 * length, -1) + _cap(radius, 0.5 * length, 1)]
+
+
+def _cap(radius: float, z: float, side: int) -> list[Ring]:
+    """Half a ball about (0, 0, z), its pole above or below."""
+    angles = np.linspace(0.0, 0.5 * np.pi, BENDS + 1)[::side]
+    return [
+        Ring(float(radius * c), float(z + side * radius * s), float(c), float(side * s))
+        for c, s in zip(np.cos(angles), np.sin(angles), strict=True)
+    ]
+
+
+SHAPES: dict[str, Callable[[float, float], Strips]] = {
+    "sphere": _ball, "cylinder": _cylinder, "capsule": _capsule,
+}  # fmt: skip
+
+
+def mesh(strips: Strips) -> bytes:
+    """A surface of revolution about z as Wavefront OBJ, its normals smooth along each strip."""
+    turn = 2.0 * np.pi * np.arange(AROUND) / AROUND
+    x, y = np.cos(turn), np.sin(turn)
+    points, normals, faces = [], [], []
+    first = 1  # OBJ counts from 1
+    for strip in strips:
+        for ring in strip:
+            points.append(np.stack([ring.radius * x, ring.radius * y, 0 * x + ring.height], 1))
+            normals.append(np.stack([ring.out * x, ring.out * y, 0 * x + ring.up], 1))
+        for k in range(len(strip) - 1):
+            here = first + k * AROUND + np.arange(AROUND)
+            beside = first + k * AROUND + (np.arange(AROUND) + 1) % AROUND
+            faces.append(np.stack([here, beside, beside + AROUND], 1))
+            faces.append(np.stack([here, beside + AROUND, here + AROUND], 1))
+        first += len(strip) * AROUND
+    lines = [f"v {a:.7g} {b:.7g} {c:.7g}" for a, b, c in np.concatenate(points).tolist()]
+    lines += [f"vn {a:.7g} {b:.7g} {c:.7g}" for a, b, c in np.concatenate(normals).tolist()]
+    lines += [f"f {a}//{a} {b}//{b} {c}//{c}" for a, b, c in np.concatenate(faces).tolist()]
+    return "\n".join([*lines, ""]).encode()

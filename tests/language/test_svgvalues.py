@@ -1,0 +1,138 @@
+"""Attributes of SVG: read by its grammar, written plainly; the library reads both as the same."""
+
+import math
+
+import pytest
+import svgelements
+
+from dqpaint.language import svgvalues
+from dqpaint.language.svgvalues import UnreadableError
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "M10 20 L30 40 H50 V10 z m1 1 2 3",
+        "M.5.5-1-1 3,4",
+        "m1e1-2E-1c1 2 3 4 5 6 7 8 9 10 11 12",
+        "M0 0 a1 2 30 0011 12 3 4 0 1,0 5 6",
+        "M0,0A5 5 0 01 7,8Q1 2 3 4T5 6S1 2 3 4",
+        "\n M 0\t0\r\nL +1 -1 \n",
+    ],
+)
+def test_paths_mean_the_same(text: str) -> None:
+    made = svgelements.Path(svgvalues.path(text))
+    assert made == svgelements.Path(text)
+    assert len(made) > 1
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "translate(3)",
+        "translate(3-4)",
+        "rotate(30 5,6) scale(2)",
+        " matrix(1 2,3 4 5 6), skewX(30) skewY(-10) ",
+        "scale(2,-1.5e-1)translate(1 2)",
+    ],
+)
+def test_transforms_mean_the_same(text: str) -> None:
+    one, other = (svgelements.Matrix(t) for t in (text, svgvalues.transform(text)))
+    for name in "abcdef":
+        assert getattr(one, name) == pytest.approx(getattr(other, name), abs=1e-12)
+
+
+def test_units() -> None:
+    for text, pixels in (
+        ("7", 7), ("7px", 7), ("1in", 96), ("2.54cm", 96), ("25.4 mm".replace(" ", ""), 96),
+        ("72pt", 96), ("6pc", 96), ("101.6Q", 96), (" -1e1 ", -10),
+    ):  # fmt: skip
+        assert float(svgvalues.length(text)) == pytest.approx(pixels)
+    assert svgvalues.length("50%") == "50.0%"
+    assert svgvalues.size_or_auto("auto") == ""
+    turned = svgvalues.transform("rotate(0.25turn) translate(1in, 2)")
+    assert turned == "rotate(90.0) translate(96.0, 2.0)"
+    assert svgvalues.transform("rotate(1.5707963267948966rad)") == "rotate(90.0)"
+
+
+@pytest.mark.parametrize(
+    ("text", "made"),
+    [
+        ("red", "#ff0000ff"),
+        ("#F80", "#ff8800ff"),
+        ("#f808", "#ff880088"),
+        ("#12345678", "#12345678"),
+        ("rgb(255, 0, 128)", "#ff0080ff"),
+        ("rgb(100% 0% 50% / 50%)", "#ff008080"),
+        ("rgba(300,-5,0,.5)", "#ff000080"),
+        ("hsl(120deg, 100%, 50%)", "#00ff00ff"),
+        ("hsl(0.5turn 100% 50%)", "#00ffffff"),
+        ("none", "none"),
+        ("transparent", "none"),
+        ("CurrentColor", "currentColor"),
+    ],
+)
+def test_paints(text: str, made: str) -> None:
+    assert svgvalues.paint(text) == made
+
+
+def test_a_gradient_s_mean() -> None:
+    assert svgvalues.mean(["#ff0000ff", "none", "#0000ff00"]) == "#80008080"
+    assert svgvalues.mean(["none"]) == "#000000ff"
+
+
+@pytest.mark.parametrize(
+    ("read", "text", "reason"),
+    [
+        (svgvalues.path, "L1 2", "it begins with 'L', not with M"),
+        (svgvalues.path, "M0 0 X 5", "'X' stands where a number of its M is expected"),
+        (svgvalues.path, "M0 0 Lnan 3", "'nan' stands where a number of its L is expected"),
+        (svgvalues.path, "M0 0 L1 2 3", "its L needs numbers by 2, and has 3: 'L1 2 3'"),
+        (svgvalues.path, "M0 0 H", "its H needs a number, and has 0: 'H'"),
+        (svgvalues.path, "M0 0 L1,,2", "',2' stands where a number of its L is expected"),
+        (svgvalues.path, "M0 0 L1 2,", "',' stands where a number of its L is expected"),
+        (svgvalues.path, "M0 0 A5 5 0 0", "its A needs numbers by 7, and has 4: 'A5 5 0 0'"),
+        (svgvalues.path, "M0 0 A5 5 0 2 0 1 1", "the flags of 'A5 5 0 2 0 1 1' are not 0 or 1"),
+        (svgvalues.path, "M0 0 A5 1e-300 0 0 0 1 1",
+         "the radius '1e-300' of its A is far too small"),
+        (svgvalues.path, "M0 0 z 3", "'3' follows its z, which takes no numbers"),
+        (svgvalues.path, "M0 0 L1e400 3", "'1e400' is far too large"),
+        (svgvalues.points, "1,2 3", "it has 3 numbers, and points have two each"),
+        (svgvalues.points, "1,2 three", "'three' stands where a number is expected"),
+        (svgvalues.length, "nan", "'nan' is no length"),
+        (svgvalues.length, "inf", "'inf' is no length"),
+        (svgvalues.length, "3em", "the unit of '3em' is none of px, mm, cm, in, pt, pc, %"),
+        (svgvalues.length, "1e8in", "'1e8in' is far too large"),
+        (svgvalues.size, "-2", "'-2' is negative"),
+        (svgvalues.view_box, "0 0 5", "it has 3 numbers instead of 4"),
+        (svgvalues.view_box, "0 0 -5 5", "its size is negative: '0 0 -5 5'"),
+        (svgvalues.transform, "rotate(x)", "'x' is no angle"),
+        (svgvalues.transform, "rotate()", "rotate needs 1 or 3 numbers, and has 0"),
+        (svgvalues.transform, "scale(1e400)", "'1e400' is far too large"),
+        (svgvalues.transform, "spin(3)", "'spin' is none of matrix, translate, translateX, "
+         "translateY, scale, scaleX, scaleY, rotate, skewX, skewY"),
+        (svgvalues.transform, "scale(2", "'scale(2' is no transform"),
+        (svgvalues.transform, "translate(5%)", "'5%' of what is not known"),
+        (svgvalues.paint, "blu", "'blu' is no colour"),
+        (svgvalues.paint, "bad", "'bad' is no colour"),  # without its #
+        (svgvalues.paint, "rgb(1, 2)", "'rgb(1, 2)' is no colour"),
+        (svgvalues.paint, "rgb(a, 2, 3)", "'a' is no number"),
+        (svgvalues.opacity, "half", "'half' is no number"),
+    ],
+)  # fmt: skip
+def test_what_can_t_be_read(read, text: str, reason: str) -> None:
+    with pytest.raises(UnreadableError) as caught:
+        read(text)
+    assert str(caught.value) == reason
+
+
+def test_opacities_are_cut_off() -> None:
+    assert [svgvalues.opacity(t) for t in ("2", "-1", "50%", "0.25")] == [1.0, 0.0, 0.5, 0.25]
+    assert math.isclose(svgvalues.opacity("33.3%"), 0.333)
+
+
+def test_a_long_path_that_is_wrong_at_its_end_is_answered_at_once() -> None:
+    """No going back and forth over what was read."""
+    for text in ("M" + "11" * 100_000 + "x", "M0 0A" + "1" * 100_000 + "x", "M" + "1 " * 99_999):
+        with pytest.raises(UnreadableError):
+            svgvalues.path(text)

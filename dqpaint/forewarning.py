@@ -67,14 +67,9 @@ class Outlook:
         )
         notes = "".join(f"\nnote: {note}" for note in self.notes)
         placed = f"  {self.placed.line}\n  {self.placed.figures}\n" if self.placed else ""
-<<<<<<< HEAD
         slowed = f"  pace: {self.slowed}\n" if self.slowed else ""
-        figures = f"{_extremes(self.lines)}{_table(self.lines)}"
-=======
-        slowed = f"  {self.slowed}\n" if self.slowed else ""
         program = self.motion.program
         figures = f"{_extremes(self.lines, program)}{_table(self.lines, program)}"
->>>>>>> words8
         return f"; {self.robot} reaches it, {said}\n{placed}{slowed}{figures}{notes}"
 
     @property

@@ -12,8 +12,6 @@ from dqpaint.language import Diagnostic, Program, ScriptError, read, read_input,
 from dqpaint.language.diagnostics import Severity, Span, file_at, place
 from dqpaint.language.source import STDIN
 from dqpaint.motion import Motion, Survey, summary_line, survey
-from dqpaint.robots.card import Card
-from dqpaint.robots.choose import card_for
 from dqpaint.settings import Settings, make_settings
 
 if TYPE_CHECKING:
@@ -81,11 +79,9 @@ def check(name: str, **choices: Any) -> Checked:
     settings = make_settings(**choices)
     try:
         program = read_input() if name == STDIN else read(find_drawing(name))
-        card = card_for(program, settings.robot, settings.tool)
-        drawing: Motion | Survey = survey(program)
         asked = settings != PLAIN or program.robot is not None
-        outlook = _look_ahead(program, card, settings) if asked else None
-        drawing = outlook.motion if outlook else drawing
+        outlook = _look_ahead(program, settings) if asked else None
+        drawing: Motion | Survey = outlook.motion if outlook else survey(program)
     except ScriptError as problem:
         return Checked(problem.name, problem.text, problem.diagnostics, None)
     except UsageError:
@@ -96,12 +92,18 @@ def check(name: str, **choices: Any) -> Checked:
     return Checked(program.name, program.text, findings, drawing, outlook=outlook)
 
 
-def _look_ahead(program: Program, card: Card, settings: Settings) -> "Outlook":
-    """What an arm says of a drawing; only this brings in the kinematics.
+def _look_ahead(program: Program, settings: Settings) -> "Outlook":
+    """What an arm says of a drawing; only this brings in the arms and their kinematics.
 
     Raises:
-        ScriptError: it does not reach all of it.
+        UsageError: no such robot, or no such tool.
+        ScriptError: a fault of the drawing, or the arm does not reach all of it.
     """
+    from dqpaint.robots.choose import card_for
+
+    card = card_for(program, settings.robot, settings.tool)
+    survey(program)  # what is wrong with the drawing by itself goes before what an arm says
+
     from dqpaint.forewarning import look_ahead
     from dqpaint.robots.kinematics import Kinematics
 

@@ -203,9 +203,11 @@ def preview(
     if not watch:
         show()
         return
+    from pathlib import Path
+
     from dqpaint import watching
 
-    watching.watch(path, show)
+    watching.watch(path, show, others=[Path(settings)] if settings else ())
 
 
 @app.command(

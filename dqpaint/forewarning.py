@@ -13,6 +13,7 @@ from dqpaint.motion import Motion, plan
 from dqpaint.out_of_reach import begin
 from dqpaint.placing import Placed, settle
 from dqpaint.robots.card import Card
+from dqpaint.robots.collisions import shapes_of
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.resolver import THRESHOLD
 from dqpaint.settings import Settings
@@ -66,7 +67,7 @@ class Outlook:
         )
         notes = "".join(f"\nnote: {note}" for note in self.notes)
         placed = f"  {self.placed.line}\n  {self.placed.figures}\n" if self.placed else ""
-        slowed = f"  {self.slowed}\n" if self.slowed else ""
+        slowed = f"  pace: {self.slowed}\n" if self.slowed else ""
         program = self.motion.program
         figures = f"{_extremes(self.lines, program)}{_table(self.lines, program)}"
         return f"; {self.robot} reaches it, {said}\n{placed}{slowed}{figures}{notes}"
@@ -111,7 +112,7 @@ def look_ahead(program: Program, kinematics: Kinematics, settings: Settings = PL
         tuple(start.tolist()),
         lines,
         tuple(_warnings(motion, kinematics.card, lines)),
-        kinematics.notes,
+        kinematics.notes + shapes_of(kinematics).notes,
     )
 
 

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from dqpaint.language import render
 from dqpaint.language.diagnostics import line_named
@@ -10,8 +11,10 @@ from dqpaint.motion import Motion, summary_line
 from dqpaint.paint import Painting
 from dqpaint.picture import Picture
 from dqpaint.robots.limits import Clamp
-from dqpaint.sketch import Preview
 from dqpaint.terminal import table
+
+if TYPE_CHECKING:
+    from dqpaint.sketch import Preview
 
 WHITE = 250  # of 255
 MOST_NAMED = 3  # limits in the table; all of them are in the warnings
@@ -129,7 +132,7 @@ def of_export(painting: Painting, written: Sequence[Path]) -> str:
     return table(rows)
 
 
-def of_preview(preview: Preview, written: Sequence[Path]) -> str:
+def of_preview(preview: "Preview", written: Sequence[Path]) -> str:
     """The table that follows `preview`."""
     rows = [("drawing", summary_line(preview.motion)), *_pictures(preview.pictures)]
     return table([*rows, *_files(written)])

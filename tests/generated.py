@@ -11,7 +11,7 @@ from dqpaint.robots.chain import EXTRAS
 END = "<!-- end -->"
 ROOT = Path(__file__).parent.parent
 CASES = ROOT / "tests/references/cases.toml"
-CASE_SIZE = {"width": 400, "height": 225}  # all of them stay below 3 MB
+CASE_SIZE = {"width": 400, "height": 225}  # all of them stay below 3.5 MB
 
 COLUMNS = {
     "t_s": "time",

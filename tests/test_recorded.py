@@ -104,7 +104,7 @@ def test_poses_alone_leave_the_arm_out_of_the_picture(drawing, simulated, tmp_pa
     film.write_bytes(negative.encode(again.scene, again.settings, again.cast))
     (developed,) = dqpaint.develop(film)
     np.testing.assert_array_equal(developed.image, again.image)
-    assert "recorded as poses" in " ".join(developed.remarks)
+    assert "does not say how its joints moved" in " ".join(developed.remarks)
     with pytest.raises(DqpaintError, match="manipulability"):
         dqpaint.draw(drawing, recorded=path, size=(160, 90), colour_by="manipulability")
 
@@ -175,6 +175,9 @@ ROW = ",0,0.4,0,-1.5,0,-0.4,1.5\n"
     (HEAD + "# c\n0" + ROW + "nan" + ROW, ["row 4", "column t_s", "'nan'"]),
     (HEAD + "0" + ROW + "0.1,1\n", ["row 3", "2 values, but 8 columns"]),
     (HEAD + "0" + ROW + "0.1" + ROW + "0.1" + ROW, ["row 4", "column t_s", "does not come after"]),
+    (HEAD + "0" + ROW + "1e-9" + ROW, ["row 3", "column t_s", "less than a microsecond after 0 s"]),
+    (HEAD + "0" + ROW + "1e300" + ROW, ["row 3", "column t_s", "1e+300 is more than any arm does"]),
+    (HEAD + "0" + ROW.replace("0", "1e300", 1), ["row 2", "is more than any arm does"]),
     (HEAD.replace("q3_rad", "q3_deg") + "0" + ROW, ["rad and in deg"]),
     (HEAD.replace("q3_rad", "q9_rad") + "0" + ROW, ["no column 'q3_rad'"]),
     (HEAD.replace("q3_rad", "q2_rad") + "0" + ROW, ["row 1", "'q2_rad' is there twice"]),

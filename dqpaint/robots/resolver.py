@@ -15,7 +15,7 @@ THRESHOLD = 0.04  # singular values [rad/rad] below it are damped
 PULL = 2.0  # [1/s] towards the start posture, in the null space
 
 
-def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats) -> Floats:
+def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats | None) -> Floats:
     """The joint rates (..., n) [rad/s] for a commanded twist.
 
     Args:
@@ -23,7 +23,8 @@ def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats) -> Flo
         point: the tool's place (..., 3) [m]. Nearness to a singularity is measured there: about the
             base origin a healthy posture far out looks ill.
         twist: u (..., 6), spatial [rad/s, m/s].
-        wish: z (..., n) [rad/s], granted as far as it does not move the tool.
+        wish: z (..., n) [rad/s], granted as far as it does not move the tool; None is the least
+            motion.
 
     Each singular direction of the Jacobian is damped by itself and only below THRESHOLD, so that
     the other directions stay exact (after Chiaverini, "Singularity-robust task-priority redundancy
@@ -32,9 +33,11 @@ def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats) -> Flo
     shift = to_tool(point)
     J = shift @ jacobian
     square = J @ J.mT
-    left = np.matvec(shift, twist) - np.matvec(J, wish)
-    rates: Floats = np.vecmat(_force(square, left), J) + wish
-    return rates
+    left = np.matvec(shift, twist)
+    if wish is not None:
+        left = left - np.matvec(J, wish)
+    rates: Floats = np.vecmat(_force(square, left), J)
+    return rates if wish is None else rates + wish
 
 
 def _force(square: Floats, left: Floats) -> Floats:

@@ -10,8 +10,9 @@ from pathlib import Path
 from types import TracebackType
 from typing import Protocol, Self
 
+from dqpaint.studies.batches import Task
 from dqpaint.studies.keeping import place
-from dqpaint.studies.pool import Pool, Task, check_jobs
+from dqpaint.studies.pool import Pool, check_jobs
 from dqpaint.studies.record import Record
 from dqpaint.studies.runs import Result, Run
 from dqpaint.terminal import Progress

@@ -199,6 +199,26 @@ def test_a_law_of_torques_is_slowed_for_its_motors_too():
     assert rates.longer < slowed.longer
 
 
+SUDDEN = (
+    "period 8 ms\nlaw constant\nstart at (-100, 0) mm\nline to (100, 60) mm speed 500 mm/s\n"
+    "line to (100, -60) mm speed 100 mm/s\nhold 0.3 s\n"
+)
+
+
+@pytest.mark.slow
+def test_motors_that_take_up_a_new_rate_at_once_are_spared_too(draw):
+    """On the stiff arm a corner at full speed asks four times what a motor has."""
+    clip, slow = (draw(SUDDEN, how, plant="stiff") for how in ("clip", "slow"))
+    assert {held.kind for held in clip.limits} == {"torque"}
+    assert not slow.limits
+    assert worst(slow) < 1e-3
+    effort = read_card("iiwa").effort
+    assert 0.7 < (np.abs(slow.track.effort) / effort).max() < 1  # no slower than due
+    assert draw(SUDDEN, "slow", plant="ideal").slowed.longer == 0  # nobody's motors there
+    gentle = draw(SUDDEN, "slow", plant="compliant").slowed  # springs take a corner softly
+    assert gentle.longer < 0.5 * slow.slowed.longer
+
+
 def test_a_joint_driven_past_its_end_by_torques_meets_its_limit():
     """Nothing clips its command there: the stop is what holds it."""
     card, zero = read_card("iiwa"), np.zeros(7)

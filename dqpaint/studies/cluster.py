@@ -6,6 +6,7 @@ what is to be kept comes back. Each worker process carries out one run at a time
 number of its threads.
 """
 
+import hashlib
 import logging
 import platform
 import queue
@@ -19,6 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.studies.batches import Task, groups
 from dqpaint.studies.keeping import place, write_kept
 from dqpaint.studies.runs import Result, Run, code, run_of
 
@@ -90,7 +92,7 @@ class Cluster:
                     )
 
     def carry_out(
-        self, tasks: Sequence[tuple[str, Run]], progress: Callable[[float], None]
+        self, tasks: Sequence[Task], progress: Callable[[float], None]
     ) -> Iterator[Result]:
         """The results of runs, each as soon as it is there.
 
@@ -102,14 +104,16 @@ class Cluster:
             DqpaintError: the cluster was lost, or a worker's files are not those here.
         """
         done: queue.SimpleQueue[Any] = queue.SimpleQueue()
-        keys = {}
-        for key, run in tasks:
-            future: Any = self._client.submit(carry_out_there, key, run.data, key=f"dqpaint-{key}")
-            keys[future.key] = key
+        asked: dict[str, list[str]] = {}  # keys of runs, by Dask's own
+        for group in groups(tasks):
+            keys = [key for key, _ in group]
+            given = [(key, run.data) for key, run in group]
+            future: Any = self._client.submit(carry_out_there, given, key=_name(keys))
+            asked[future.key] = keys
             future.add_done_callback(done.put)
         since = time.monotonic()
         count = 0
-        while count < len(keys):
+        while count < len(tasks):
             try:
                 future = done.get(timeout=GLANCE)
             except queue.Empty:
@@ -121,12 +125,12 @@ class Cluster:
                     raise self._lost("it has no workers any more") from None
                 continue
             since = time.monotonic()
-            result = self._result(keys[future.key], future)
-            count += 1
-            yield result
-            progress(count)
+            for result in self._results(asked[future.key], future):
+                count += 1
+                yield result
+                progress(count)
 
-    def _result(self, key: str, future: Any) -> Result:
+    def _results(self, keys: Sequence[str], future: Any) -> list[Result]:
         from distributed import KilledWorker
 
         if future.status in ("cancelled", "lost"):
@@ -134,14 +138,17 @@ class Cluster:
         if future.status == "error":
             fault = future.exception()
             if isinstance(fault, KilledWorker):
-                return Result(key, "died", "the workers that tried it ended")
+                return [Result(key, "died", "the workers that tried it ended") for key in keys]
             if isinstance(fault, DqpaintError):
                 raise fault
             raise DqpaintError(f"a worker of the cluster failed: {fault!r}")
-        given, kept = future.result()
-        if kept is not None:
-            write_kept(self._folder, key, kept)
-        return Result(**given)
+        results = []
+        for given, kept in future.result():
+            result = Result(**given)
+            if kept is not None:
+                write_kept(self._folder, result.key, kept)
+            results.append(result)
+        return results
 
     def _lost(self, why: str) -> DqpaintError:
         return DqpaintError(
@@ -159,15 +166,34 @@ def facts() -> dict[str, str]:
     return {"Python": platform.python_version(), "distributed": version("distributed"), **code()}
 
 
-def carry_out_there(key: str, data: dict[str, Any]) -> tuple[dict[str, Any], bytes | None]:
-    """A run at a worker: its result as plain data, and the file of what is to be kept.
+def _name(keys: Sequence[str]) -> str:
+    """Of runs that go together, for Dask."""
+    return f"dqpaint-{hashlib.sha256(' '.join(keys).encode()).hexdigest()}"
+
+
+def carry_out_there(
+    given: Sequence[tuple[str, dict[str, Any]]],
+) -> list[tuple[dict[str, Any], bytes | None]]:
+    """Runs that go together at a worker, each with its key: results, and files of what is kept.
 
     Raises:
-        DqpaintError: the files that the run names are not the same here.
+        DqpaintError: the files that a run names are not the same here.
     """
-    from dqpaint.studies.worker import carry_out
+    from dqpaint.studies.worker import carry_out_all
 
-    run = run_of(data)
+    tasks = [(key, run_of(data)) for key, data in given]
+    for key, run in tasks:
+        _check_files(key, run)
+    with _one_at_a_time, tempfile.TemporaryDirectory(prefix="dqpaint-") as scratch:
+        results = list(carry_out_all(tasks, Path(scratch)))
+        kept = [place(Path(scratch), result.key) for result in results]
+        return [
+            (vars(result), path.read_bytes() if path.is_file() else None)
+            for result, path in zip(results, kept, strict=True)
+        ]
+
+
+def _check_files(key: str, run: Run) -> None:
     try:
         same = run.key == key
     except DqpaintError as problem:
@@ -178,7 +204,3 @@ def carry_out_there(key: str, data: dict[str, Any]) -> tuple[dict[str, Any], byt
             f"on a worker of the cluster the files of {Path(run.name).name} are not those here; "
             f"they have to lie in the same places (there: {names})"
         )
-    with _one_at_a_time, tempfile.TemporaryDirectory(prefix="dqpaint-") as scratch:
-        result = carry_out(run, key, Path(scratch))
-        kept = place(Path(scratch), key)
-        return vars(result), kept.read_bytes() if kept.is_file() else None

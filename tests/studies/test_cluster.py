@@ -77,10 +77,11 @@ def test_a_killed_worker_loses_no_run_and_repeats_none(tmp_path, two_workers):
 def test_what_is_kept_comes_back(tmp_path, two_workers):
     (tmp_path / "line.traj").write_text(LINE)
     (tmp_path / "far.py").write_text("def far(seen, k=1.0):\n    return [1.0]\n")
-    base = make_settings(plant="ideal", width=160, height=90)
+    noise = {"twist": {"form": "noise", "x": 0.02, "frequency": 5.0}}  # such go as batches
+    base = make_settings(plant="ideal", width=160, height=90, disturb=noise)
     axes = [parse_axis(f"controller=p,pff,{tmp_path / 'far.py'}")]
     there, here = (
-        compare.compare(str(tmp_path / "line.traj"), axes, base, tmp_path / f"s{i}", 1, jobs)
+        compare.compare(str(tmp_path / "line.traj"), axes, base, tmp_path / f"s{i}", 3, jobs)
         for i, jobs in enumerate((two_workers[0], 1))
     )
     assert [cell.status for cell in there.cells] == ["done", "done", "failed"]
@@ -103,14 +104,14 @@ def test_files_that_are_not_alike_are_refused(tmp_path):
     )
     run = Run("line.traj", LINE, settings)
     key = run.key
-    given, kept = cluster.carry_out_there(key, run.data)
+    ((given, kept),) = cluster.carry_out_there([(key, run.data)])
     assert (given["status"], kept) == ("done", None)
     (tmp_path / "law.py").write_text("def law(seen, k=2.0):\n    return seen.twist_d\n")
     with pytest.raises(DqpaintError, match=r"the files of line[.]traj are not those here"):
-        cluster.carry_out_there(key, run.data)
+        cluster.carry_out_there([(key, run.data)])
     (tmp_path / "law.py").unlink()
     with pytest.raises(DqpaintError, match=r"on a worker of the cluster: .*law\.py"):
-        cluster.carry_out_there(key, run.data)
+        cluster.carry_out_there([(key, run.data)])
 
 
 def test_a_cluster_without_workers_is_told(tmp_path, no_workers, monkeypatch):

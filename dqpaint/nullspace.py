@@ -25,7 +25,7 @@ MOST = 20.0  # times the period must stay below 1, or the null space swings
 
 
 class Objective(Protocol):
-    """One objective, for one arm and start posture.
+    """One objective, for one arm and start posture; its slope takes arrays of any leading shape.
 
     Attributes:
         usual: its gain where none is given.
@@ -128,16 +128,19 @@ class Manipulability:
         """
         shift = to_tool(point)
         J = shift @ jacobian
-        square = J @ J.T
+        square = J @ J.mT
         volume = np.linalg.det(square)
-        if volume < 1e-18:
-            return np.zeros(len(posture))
-        inverse = np.linalg.solve(square, J)  # (6, n)
-        columns = jacobian.T
-        change = dq.spatial_cross(columns[:, None], columns[None])  # (k, j, 6)
-        change *= _BEFORE[: len(columns), : len(columns), None]
-        trace = ((change @ shift.T) * inverse.T[None]).sum(axis=(1, 2))
-        return np.asarray(-np.sqrt(volume) * trace)
+        singular = volume < 1e-18
+        if singular.any():
+            square = np.where(singular[..., None, None], np.eye(6), square)
+            volume = np.where(singular, 0.0, volume)
+        inverse = np.linalg.solve(square, J)  # (..., 6, n)
+        columns, n = jacobian.mT, jacobian.shape[-1]
+        change = dq.spatial_cross(columns[..., :, None, :], columns[..., None, :, :])
+        change *= _BEFORE[:n, :n, None]  # (..., k, j, 6)
+        along = change @ shift.mT[..., None, :, :]
+        trace = (along * inverse.mT[..., None, :, :]).sum(axis=(-2, -1))
+        return np.asarray(-np.sqrt(volume)[..., None] * trace)
 
 
 @OBJECTIVES.add("none")

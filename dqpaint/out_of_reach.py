@@ -80,11 +80,24 @@ def check_worst(track: "Track", kinematics: Kinematics) -> None:
     Raises:
         ScriptError: no posture reaches the pose of that row.
     """
-    motion = track.motion
-    stray = np.linalg.norm(track.points - motion.points, axis=1)
+    row = worst_row(track)
+    if row is not None:
+        check_row(track.motion, kinematics, row)
+
+
+def worst_row(track: "Track") -> int | None:
+    """Where a run strayed most; None if that is not worth a look."""
+    stray = np.linalg.norm(track.points - track.motion.points, axis=1)
     row = int(np.argmax(stray))
-    if stray[row] < WORTH_A_LOOK:
-        return
+    return row if stray[row] >= WORTH_A_LOOK else None
+
+
+def check_row(motion: Motion, kinematics: Kinematics, row: int) -> None:
+    """See that the arm reaches the pose of a row.
+
+    Raises:
+        ScriptError: no posture does; it tells all lines that are out of reach.
+    """
     if strays(kinematics, motion.pose[row : row + 1])[0] >= ON_THE_WAY:
         rows = np.unique(np.append(waypoints(motion.stroke), row))
         outside = _outside(motion, kinematics, rows)

@@ -8,8 +8,9 @@ from time import perf_counter
 from typing import Any
 
 from dqpaint.attenuation import Attenuation, attenuation
-from dqpaint.controllers import Controller, find_controller
+from dqpaint.controllers import Controller, Schedule, find_controller
 from dqpaint.disturbances import Disturbance, make_disturbances
+from dqpaint.dq import Floats
 from dqpaint.language.program import Program
 from dqpaint.light.film import Film
 from dqpaint.metrics import Metrics, Table, measure
@@ -19,7 +20,7 @@ from dqpaint.out_of_reach import begin, check_worst
 from dqpaint.picture import Picture, Shown, photograph
 from dqpaint.placing import Placed, settle
 from dqpaint.plants import choose_plant
-from dqpaint.plants.plant import Takes
+from dqpaint.plants.plant import Chosen, Takes
 from dqpaint.recorded import RECORDED, Recording, read_recording, replay
 from dqpaint.robots.card import DEFAULT_ROBOT
 from dqpaint.robots.choose import card_for, find_card
@@ -111,6 +112,47 @@ def paint(
         ScriptError: the drawing has no timetable or leaves the arm's reach.
         DqpaintError: the run or the light came to nothing.
     """
+    ready = prepare(program, settings, controller)
+    with ready.clock("arm"):
+        run = ready.follow(progress)
+    return finish(ready, run)
+
+
+@dataclass(frozen=True)
+class Ready:
+    """A drawing and everything that its run needs, checked and worked out."""
+
+    program: Program
+    settings: Settings
+    clock: "Stopwatch"
+    controller: Controller[Any]
+    gains: Schedule[Any]
+    plant: Chosen
+    disturbances: dict[str, Disturbance]
+    kinematics: Kinematics
+    motion: Motion
+    start: Floats  # posture (n,) [rad]
+    slowed: Slowed | None
+    placed: Placed | None
+    recording: Recording | None
+
+    def follow(self, progress: Callable[[float], None] = lambda _done: None) -> Track:
+        """The run."""
+        if self.recording is not None:
+            return replay(self.recording, self.motion, self.kinematics)
+        settings = self.settings
+        run = track(
+            self.motion, self.kinematics, self.start, self.plant, self.controller, self.gains,
+            progress, self.disturbances, settings.seed, settings.null, settings.on_limit == "stop",
+        )  # fmt: skip
+        check_worst(run, self.kinematics)
+        return run
+
+
+def prepare(
+    program: Program, settings: Settings, controller: Controller[Any] | None = None
+) -> Ready:
+    """What comes before the arm moves; arguments and errors as those of `paint`."""
     clock = Stopwatch()
     check_choices(settings)  # a slip there is told before anything is simulated
     check_recorded(settings)
@@ -131,29 +173,30 @@ def paint(
         program, placed = settle(program, kinematics, settings)
     with clock("motion"):
         motion = plan(program, card.canvas.pose)
-    slowed = None
-    if recording is not None:
-        with clock("arm"):
-            run = replay(recording, motion, kinematics)
-    else:
+    slowed, start = None, card.home
+    if recording is None:
         with clock("start"):
             best = begin(motion, kinematics, settings.null).posture
             start = card.home if settings.start == "home" else best
             if settings.on_limit == "slow":
                 slowed = slow_down(motion, kinematics, start, settings.null, plant.motors)
                 motion = slowed.motion
-        with clock("arm"):
-            run = track(
-                motion, kinematics, start, plant, controller, gains, progress,
-                disturbances, settings.seed, settings.null, settings.on_limit == "stop",
-            )  # fmt: skip
-        check_worst(run, kinematics)
-    notes = kinematics.notes + (recording.notes(motion) if recording else ())
+    return Ready(
+        program, settings, clock, controller, gains, plant, disturbances, kinematics, motion,
+        start, slowed, placed, recording,
+    )  # fmt: skip
+
+
+def finish(ready: Ready, run: Track) -> Painting:
+    """What comes after the arm has moved: numbers and pictures."""
+    settings, motion, clock = ready.settings, ready.motion, ready.clock
+    card, recording = ready.kinematics.card, ready.recording
+    notes = ready.kinematics.notes + (recording.notes(motion) if recording else ())
     with clock("metrics"):
         metrics = measure(run)
-        came_through = attenuation(run, gains.promise())
+        came_through = attenuation(run, ready.gains.promise())
         steps = set_points(run)
-    robot = settings.robot or program.robot or DEFAULT_ROBOT
+    robot = settings.robot or ready.program.robot or DEFAULT_ROBOT
     cast = Cast(robot, run.posture, motion.line, motion.period)
     if settings.staged and not cast.known:
         notes += (UNSEEN,)
@@ -161,10 +204,11 @@ def paint(
         scene = arrange(motion, run.pose, settings, metrics.table)
         pictures = tuple(photograph(scene, settings, staging))
     return Painting(
-        settings, controller, card.name,
-        "recorded" if recording else plant.name, {} if recording else plant.shown(card),
-        disturbances, gains.shown(), motion, run, metrics, came_through, steps, scene, cast,
-        pictures, slowed, clock.seconds, notes, placed, recording,
+        settings, ready.controller, card.name,
+        "recorded" if recording else ready.plant.name,
+        {} if recording else ready.plant.shown(card),
+        ready.disturbances, ready.gains.shown(), motion, run, metrics, came_through, steps, scene,
+        cast, pictures, ready.slowed, clock.seconds, notes, ready.placed, recording,
     )  # fmt: skip
 
 

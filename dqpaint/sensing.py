@@ -29,6 +29,10 @@ class Told(NamedTuple):
     jacobian: Floats
 
 
+class ModelsDifferError(ValueError):
+    """Arms cannot go as one batch: the law's model of each is another."""
+
+
 class Senses:
     """Tells a law of the arm: by the encoders' readings and the model it believes in.
 
@@ -94,7 +98,7 @@ class ManySenses(Senses):
     """The same of many arms at once, which differ in their random numbers alone; arrays (B, ...).
 
     Raises:
-        ValueError: their models differ, too.
+        ModelsDifferError: their models differ, too.
     """
 
     def __init__(
@@ -107,7 +111,7 @@ class ManySenses(Senses):
     ) -> None:
         each = [Senses(kinematics, t, period, given, seed) for seed in seeds]
         if any(one.believed is not kinematics for one in each):
-            raise ValueError("the law's models of the arms differ")
+            raise ModelsDifferError("the law's models of the arms differ")
         self.world, self._period = each[0].world, period
         self.believed = kinematics
         self._arms = ManyKinematics(kinematics)
@@ -147,7 +151,7 @@ class Late:
         return self._waiting.popleft()
 
 
-def chance(seed: int, name: str) -> np.random.Generator:
+def chance(seed: int, name: str) -> "np.random.Generator":
     """The random numbers of one disturbance: its own, whatever else disturbs."""
     return np.random.default_rng([seed, crc32(name.encode())])
 

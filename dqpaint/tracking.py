@@ -291,7 +291,7 @@ class _Log:
             return None
         point, J = dq.translation(self.pose[k]), self._jacobian[k % BLOCK]
         self.disturbance[k] = dq.twist_from_point(carried[k, ..., :3], carried[k, ..., 3:], point)
-        return resolve(J, point, self.disturbance[k], np.zeros(J.shape[-1]))
+        return resolve(J, point, self.disturbance[k], None)
 
 
 def _carried(

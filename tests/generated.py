@@ -9,11 +9,12 @@ import numpy as np
 END = "<!-- end -->"
 ROOT = Path(__file__).parent.parent
 CASES = ROOT / "tests/references/cases.toml"
-CASE_SIZE = {"width": 400, "height": 225}  # all of them stay below 3 MB
+CASE_SIZE = {"width": 400, "height": 225}  # all of them stay below 3.5 MB
 
 COLUMNS = {
     "t_s": "time",
     "line": "the line of the drawing that asks for what follows",
+    "file": "which file `line` is of, where the drawing includes others: 0 is the main one",
     "lit": "1 while the light shines until the next row",
     "desired_x_m, desired_y_m, desired_z_m": "asked place",
     "desired_qw, desired_qx, desired_qy, desired_qz": "asked orientation, scalar first",

@@ -1,4 +1,4 @@
-"""Pose and Jacobian of one arm in many postures at once, in numpy: a run of 50 costs as one of 5.
+"""Pose and Jacobian of one arm in many postures at once, in numpy.
 
 The product of exponentials, T = E_1(q_1) ... E_n(q_n) T_0, with matrices: for a joint about the
 line of direction l through p, with K = l^ (so K^3 = -K),
@@ -26,7 +26,7 @@ class ManyKinematics:
     def __init__(self, kinematics: Kinematics) -> None:
         self.card: Card = kinematics.card
         screws = kinematics.screws()
-        self._joints = [_constants(axis) for axis in screws.axes]
+        self._turns, self._lines = map(np.stack, zip(*map(_constants, screws.axes), strict=True))
         self._home = np.ascontiguousarray(dq.matrix_from_pose(screws.home).T)
 
     def pose_and_jacobian(self, posture: Floats) -> tuple[Floats, Floats]:
@@ -35,40 +35,40 @@ class ManyKinematics:
         The postures run along the last axis of every array within: (column, row, B).
         """
         count, joints = posture.shape
-        factors = np.empty((joints, 2, 1, count))
-        factors[:, 0, 0], factors[:, 1, 0] = np.sin(posture.T), 1.0 - np.cos(posture.T)
-        T = np.repeat(_EYE, count, axis=1)
-        found = np.empty((joints, 10, 3 * count))
-        for constants, G, factor in zip(self._joints, found, factors, strict=True):
-            np.dot(constants, T, out=G)
-            turns = G[:8].reshape(2, 12, count)
-            turns *= factor
-            T += turns[0].reshape(4, -1)
-            T += turns[1].reshape(4, -1)
-        axes, points = (found[:, i].reshape(joints, 3, count) for i in (8, 9))
+        factors = np.ones((joints, 3, 1, count))
+        factors[:, 1, 0], factors[:, 2, 0] = np.sin(posture.T), 1.0 - np.cos(posture.T)
+        Ts, scaled = np.empty((joints + 1, 4, 3 * count)), np.empty((12, 3 * count))
+        Ts[0] = np.repeat(_EYE, count, axis=1)
+        parts = scaled.reshape(3, 12, count)
+        for i, turn in enumerate(self._turns):
+            np.multiply(factors[i], Ts[i].reshape(12, count), out=parts)
+            np.dot(turn, scaled, out=Ts[i + 1])
+        lines = np.matmul(self._lines, Ts[:-1]).reshape(joints, 2, 3, count)
+        axes, points = lines[:, 0], lines[:, 1]
         J = np.empty((6, joints, count))
         J[:3] = axes.swapaxes(0, 1)
         for a, b, d in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
             J[3 + a] = points[:, b] * axes[:, d] - points[:, d] * axes[:, b]
-        T = np.dot(self._home, T)
+        T = np.dot(self._home, Ts[-1])
         return _pose(T.reshape(4, 3, count)), np.ascontiguousarray(J.transpose(2, 0, 1))
 
 
 _EYE = np.eye(4)[:, :3]  # the transposed upper rows of T = I
 
 
-def _constants(axis: Floats) -> Floats:
-    """(10, 4): what T' is multiplied with for a joint: the two matrices of E, l and p."""
+def _constants(axis: Floats) -> tuple[Floats, Floats]:
+    """Of a joint: (4, 12), by which T', sin q T' and (1 - cos q) T', stacked, are multiplied.
+
+    And (2, 4), which takes l and p from T'.
+    """
     direction, moment = axis[:3], axis[3:]
     point = dq.cross(direction, moment)
     K = np.array([dq.cross(direction, e) for e in np.eye(3)]).T
-    out = np.zeros((4, 10))
-    for first, turn in ((0, K), (4, K @ K)):
-        out[:3, first : first + 3] = turn
-        out[:3, first + 3] = -turn @ point
-    out[:3, 8] = direction
-    out[:3, 9], out[3, 9] = point, 1.0
-    return np.ascontiguousarray(out.T)
+    E = np.zeros((3, 4, 4))
+    E[0] = np.eye(4)
+    for i, turn in ((1, K), (2, K @ K)):
+        E[i, :3, :3], E[i, :3, 3] = turn, -turn @ point
+    return np.concatenate(list(E.mT), axis=1), np.array([[*direction, 0.0], [*point, 1.0]])
 
 
 def _products() -> tuple[Floats, Floats]:

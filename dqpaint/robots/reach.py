@@ -125,7 +125,7 @@ def waypoints(strokes: NDArray[np.int64]) -> NDArray[np.intp]:
     corners = np.flatnonzero(np.diff(strokes)) + 1
     if len(corners) > WAYPOINTS:
         corners = corners[np.linspace(0, len(corners) - 1, WAYPOINTS).astype(np.intp)]
-    return np.unique(np.concatenate([even, corners]))
+    return np.array(sorted({*even.tolist(), *corners.tolist()}), dtype=np.intp)
 
 
 def _follow(

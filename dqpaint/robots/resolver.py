@@ -15,7 +15,7 @@ THRESHOLD = 0.04  # singular values [rad/rad] below it are damped
 PULL = 2.0  # [1/s] towards the start posture, in the null space
 
 
-def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats) -> Floats:
+def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats | None) -> Floats:
     """The joint rates (..., n) [rad/s] for a commanded twist.
 
     Args:
@@ -23,18 +23,31 @@ def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats) -> Flo
         point: the tool's place (..., 3) [m]. Nearness to a singularity is measured there: about the
             base origin a healthy posture far out looks ill.
         twist: u (..., 6), spatial [rad/s, m/s].
-        wish: z (..., n) [rad/s], granted as far as it does not move the tool.
+        wish: z (..., n) [rad/s], granted as far as it does not move the tool; None is the least
+            motion.
 
     Each singular direction of the Jacobian is damped by itself and only below THRESHOLD, so that
     the other directions stay exact (after Chiaverini, "Singularity-robust task-priority redundancy
     resolution", 1997).
     """
     shift = to_tool(point)
+    one = shift.ndim == jacobian.ndim == 2 and twist.ndim == 1
+    if one and wish is not None and wish.ndim == 1:
+        return _resolve_one(shift, jacobian, twist, wish)
     J = shift @ jacobian
     square = J @ J.mT
-    left = np.matvec(shift, twist) - np.matvec(J, wish)
-    rates: Floats = np.vecmat(_force(square, left), J) + wish
-    return rates
+    left = np.matvec(shift, twist)
+    if wish is not None:
+        left = left - np.matvec(J, wish)
+    rates: Floats = np.vecmat(_force(square, left), J)
+    return rates if wish is None else rates + wish
+
+
+def _resolve_one(shift: Floats, jacobian: Floats, twist: Floats, wish: Floats) -> Floats:
+    """The same of one state, a control step: small products by np.dot take half the time."""
+    J = np.dot(shift, jacobian)
+    force = _force(np.dot(J, J.T), np.dot(shift, twist) - np.dot(J, wish))
+    return np.asarray(np.dot(force, J) + wish)
 
 
 def _force(square: Floats, left: Floats) -> Floats:
@@ -48,7 +61,9 @@ def _force(square: Floats, left: Floats) -> Floats:
         found = inverse(square)
     except np.linalg.LinAlgError:
         return _damped(square, left)
-    plain = 1.0 / found.trace(axis1=-2, axis2=-1) >= THRESHOLD**2
+    plain = found.trace(axis1=-2, axis2=-1) <= 1.0 / THRESHOLD**2
+    if left.ndim == 1:
+        return np.asarray(np.dot(found, left)) if plain else _damped(square, left)
     if plain.all():
         return np.asarray(np.matvec(found, left))
     if square.ndim == 2:

@@ -13,15 +13,13 @@ from pathlib import Path
 from typing import Any
 
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.studies.runs import Result, Run
+from dqpaint.studies.batches import Task, groups
+from dqpaint.studies.runs import Result
 
 ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 TRIES = 2  # at a run whose process ended
 MOST_JOBS = 1024
 GLANCE = 0.2  # [s] after which a Ctrl-C is noticed at the latest
-
-Task = tuple[str, Run]
-"""The key of a run, and the run."""
 
 
 def all_cores() -> int:
@@ -50,7 +48,7 @@ class Pool:
 
     def __init__(self, folder: Path, jobs: int) -> None:
         self._folder, self._jobs = folder, jobs
-        self._todo: queue.SimpleQueue[Task | None] = queue.SimpleQueue()
+        self._todo: queue.SimpleQueue[list[Task] | None] = queue.SimpleQueue()
         self._said: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self._workers: list[_Worker] = []
 
@@ -66,9 +64,10 @@ class Pool:
         Raises:
             DqpaintError: the processes do not start.
         """
-        for task in tasks:
-            self._todo.put(task)
-        while len(self._workers) < min(self._jobs, len(tasks)):
+        together = groups(tasks)
+        for group in together:
+            self._todo.put(group)
+        while len(self._workers) < min(self._jobs, len(together)):
             self._workers.append(_Worker(self._todo, self._said, self._folder))
         parts: dict[_Worker, float] = {}
         done = 0
@@ -100,7 +99,7 @@ class _Over(Exception):  # noqa: N818  no fault: the study ended while a process
 class _Worker(threading.Thread):
     """One process and the thread that talks to it; another takes its place where it dies."""
 
-    def __init__(self, todo: queue.SimpleQueue[Task | None], said: Any, folder: Path) -> None:
+    def __init__(self, todo: queue.SimpleQueue[list[Task] | None], said: Any, folder: Path) -> None:
         super().__init__(daemon=True)
         self._todo, self._said, self._folder = todo, said, folder
         self._over = False
@@ -120,8 +119,9 @@ class _Worker(threading.Thread):
         """Carry out runs until there are to be no more."""
         with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as remarks:
             try:
-                while (task := self._todo.get()) is not None and not self._over:
-                    self._say(self._result(*task, remarks))
+                while (group := self._todo.get()) is not None and not self._over:
+                    for result in self._results(group, remarks):
+                        self._say(result)
             except _Over:
                 pass
             except Exception as problem:  # told where it is heard: a silent end would be a hang
@@ -133,18 +133,26 @@ class _Worker(threading.Thread):
         if not self._over:
             self._said.put((self, what))
 
-    def _result(self, key: str, run: Run, remarks: Any) -> Result:
-        task = json.dumps({"key": key, "run": run.data, "folder": str(self._folder.resolve())})
+    def _results(self, group: list[Task], remarks: Any) -> Iterator[Result]:
+        """Of runs that go together, each as soon as it is there."""
+        left = dict(group)
         for _ in range(TRIES):
             process = self._process or self._begin(remarks)
+            tasks = [{"key": key, "run": run.data} for key, run in left.items()]
             try:
                 assert process.stdin is not None
+                task = json.dumps({"tasks": tasks, "folder": str(self._folder.resolve())})
                 process.stdin.write(task + "\n")
                 process.stdin.flush()
                 for said in self._answers(process):
                     if "result" in said:
-                        return Result(**said["result"])
-                    self._say(float(said.get("part", 0.0)))
+                        result = Result(**said["result"])
+                        del left[result.key]
+                        yield result
+                        if not left:
+                            return
+                    else:
+                        self._say(float(said.get("part", 0.0)))
             except BrokenPipeError:
                 pass
             if self._over:
@@ -153,7 +161,8 @@ class _Worker(threading.Thread):
             self._close()
         last = _last_line(remarks)
         text = f"its process ended with {'signal' if code < 0 else 'code'} {abs(code)}"
-        return Result(key, "died", f"{text}{': ' + last if last else ''}")
+        for key in left:
+            yield Result(key, "died", f"{text}{': ' + last if last else ''}")
 
     def _begin(self, remarks: Any) -> "subprocess.Popen[str]":
         with self._lock:

@@ -11,12 +11,14 @@ import os
 import signal
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from dqpaint.errors import DqpaintError, UnstableError
 from dqpaint.paint import paint
+from dqpaint.studies.batches import Task, carry_out_batch, goes_in_batches
 from dqpaint.studies.keeping import keep
 from dqpaint.studies.runs import Result, Run, run_of
 from dqpaint.studies.stability import instability
@@ -52,6 +54,30 @@ def carry_out(
     return Result(key, "unstable" if why else "done", why or "", figures, held, wall)
 
 
+def carry_out_all(
+    tasks: Sequence[Task], folder: Path, progress: Callable[[float], None] = lambda _done: None
+) -> Iterator[Result]:
+    """The results of a run, or of several that may go as one batch.
+
+    Args:
+        tasks: with their keys.
+        folder: of the study.
+        progress: called while arms move, with how many runs are done.
+    """
+    results = None
+    if goes_in_batches(tasks[0][1]):
+        with suppress(Exception):  # what is wrong each run says by itself
+            results = carry_out_batch(tasks, folder, lambda part: progress(part * len(tasks)))
+    if results is not None:
+        yield from results
+    elif len(tasks) > 1:  # one that cannot be in a batch must not change how the others are done
+        for task in tasks:
+            yield from carry_out_all([task], folder, progress)
+    else:
+        ((key, run),) = tasks
+        yield carry_out(run, key, folder, progress)
+
+
 def main() -> None:
     """Answer the study that started this process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # a Ctrl-C is the study's to answer
@@ -72,9 +98,10 @@ def main() -> None:
     try:
         say(ready=True)
         for line in sys.stdin:
-            task = json.loads(line)
-            result = carry_out(run_of(task["run"]), task["key"], Path(task["folder"]), tell)
-            say(result=vars(result))
+            said = json.loads(line)
+            tasks = [(task["key"], run_of(task["run"])) for task in said["tasks"]]
+            for result in carry_out_all(tasks, Path(said["folder"]), tell):
+                say(result=vars(result))
     except BrokenPipeError:  # the study has ended
         os._exit(1)
 

@@ -7,6 +7,6 @@
 A run is plain data with a key, carried out by a worker process; its result is a line of the study's
 record. A new study says which runs it wants, hands them to `engine.carry_out_study`, and reads the
 results that come back in their order; what it needs beside figures is a line in
-`keeping.KEEPERS`. Runs that differ in their seeds alone may go as one of `batches`. `promise` stands
-apart: it needs no pictures, only tracks.
+`keeping.KEEPERS`. Runs that differ in their seeds alone may go as one of `batches`. `promise`
+stands apart: it needs no pictures, only tracks.
 """

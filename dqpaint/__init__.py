@@ -23,10 +23,23 @@ if TYPE_CHECKING:
     from dqpaint.api import develop, draw, preview, save
     from dqpaint.build import Drawing
     from dqpaint.paint import Painting
+    from dqpaint.studies.calls import compare, sweep, tune, verify
 
 __version__ = "0.1.0"
 
-__all__ = ["DqpaintError", "Drawing", "Painting", "develop", "draw", "preview", "save"]
+__all__ = [
+    "DqpaintError",
+    "Drawing",
+    "Painting",
+    "compare",
+    "develop",
+    "draw",
+    "preview",
+    "save",
+    "sweep",
+    "tune",
+    "verify",
+]
 
 
 _ROOMS = {
@@ -36,6 +49,7 @@ _ROOMS = {
     "draw": "dqpaint.api",
     "preview": "dqpaint.api",
     "save": "dqpaint.api",
+    **dict.fromkeys(("compare", "sweep", "tune", "verify"), "dqpaint.studies.calls"),
 }
 
 

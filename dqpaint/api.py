@@ -1,21 +1,22 @@
 """The same from Python: `dqpaint.draw("star.traj", controller="hinf")`."""
 
+import sys
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeGuard
 
 from dqpaint import outputs
-from dqpaint.build import Drawing
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.examples import find_drawing
 from dqpaint.language import Program, read
 from dqpaint.settings import Settings, make_settings
 
 if TYPE_CHECKING:
+    from dqpaint.build import Drawing
     from dqpaint.paint import Painting
     from dqpaint.picture import Picture
     from dqpaint.settings_file import Given
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 
 def draw(
-    drawing: str | PathLike[str] | Drawing,
+    drawing: "str | PathLike[str] | Drawing",
     *,
     controller: str | Callable[..., Any] | None = None,
     gains: Mapping[str, float | tuple[float, ...] | str] | None = None,
@@ -82,7 +83,8 @@ def draw(
         look: how the film is developed.
         starburst: blades of the aperture, for rays round what stands out.
         noise: seed of the sensor's noise; else there is none.
-        colour_by: a figure of the run that the colours tell.
+        colour_by: a figure of the run that the colours tell; the scale ends at a round number, or
+            where it is said, as in "position-error:20" [mm].
         overlay: whether the asked drawing lies beneath the reached one.
         magnify: how many times as large deviations from the asked path are drawn.
         ghost: whether the arm is in the picture: True as it stood at the end, "motion" as a veil,
@@ -147,7 +149,7 @@ def save(
 
 
 def preview(
-    drawing: str | PathLike[str] | Drawing,
+    drawing: "str | PathLike[str] | Drawing",
     *,
     robot: str | None = None,
     tool: str | None = None,
@@ -191,15 +193,19 @@ def _given(settings: "str | PathLike[str] | Given | None") -> "Given":
     return settings if isinstance(settings, Given) else read_given(str(settings))
 
 
-def _program(drawing: str | PathLike[str] | Drawing) -> Program:
-    if isinstance(drawing, Drawing):
-        return drawing.program()
-    return read(find_drawing(str(drawing)))
+def _program(drawing: "str | PathLike[str] | Drawing") -> Program:
+    return drawing.program() if _is_built(drawing) else read(find_drawing(str(drawing)))
 
 
-def _places(drawing: str | PathLike[str] | Drawing) -> AbstractContextManager[None]:
+def _places(drawing: "str | PathLike[str] | Drawing") -> AbstractContextManager[None]:
     """What is wrong with a drawing made by calls is told with the call."""
-    return drawing.places() if isinstance(drawing, Drawing) else nullcontext()
+    return drawing.places() if _is_built(drawing) else nullcontext()
+
+
+def _is_built(drawing: object) -> "TypeGuard[Drawing]":
+    """Whether it is a `Drawing`: where nobody has made one, their class need not be read."""
+    build = sys.modules.get("dqpaint.build")
+    return build is not None and isinstance(drawing, build.Drawing)
 
 
 def develop(

@@ -35,7 +35,7 @@ _METHODS = {
 }
 
 
-_OF_FORM = ("E105", "E109", "E110", "E111", "E112", "E115", "E116")  # a form that is not kept
+_OF_FORM = "E1"  # what the codes begin with that are about a form that is not kept
 
 
 def _form(word: str) -> str:
@@ -79,7 +79,11 @@ class DrawingError(ScriptError):
         if line not in self.calls:
             return ""
         word = self.text.split("\n")[line - 1].split()[0]
-        form = f"; for example: {_form(word)}" if code in _OF_FORM and word in STATEMENTS else ""
+        form = (
+            f"; for example: {_form(word)}"
+            if code.startswith(_OF_FORM) and word in STATEMENTS
+            else ""
+        )
         return f"\n{margin}= call: {self.calls[line]}{form}"
 
 

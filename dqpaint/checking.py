@@ -8,11 +8,10 @@ from dqpaint import __version__
 from dqpaint.catalogue import url
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.examples import find_drawing
-from dqpaint.language import Diagnostic, Program, ScriptError, read, render
+from dqpaint.language import Diagnostic, Program, ScriptError, read, read_input, render
 from dqpaint.language.diagnostics import Severity, Span, file_at, place
+from dqpaint.language.source import STDIN
 from dqpaint.motion import Motion, Survey, summary_line, survey
-from dqpaint.robots.card import Card
-from dqpaint.robots.choose import card_for
 from dqpaint.settings import Settings, make_settings
 
 if TYPE_CHECKING:
@@ -71,7 +70,7 @@ def check(name: str, **choices: Any) -> Checked:
     limits, speeds, torques, singularities, collisions, hidden light.
 
     Args:
-        name: of the drawing's file, or of an example.
+        name: of the drawing's file, or of an example; `-` is standard input.
         choices: of the run, as those of `dqpaint.draw`.
 
     Raises:
@@ -79,13 +78,10 @@ def check(name: str, **choices: Any) -> Checked:
     """
     settings = make_settings(**choices)
     try:
-        path = find_drawing(name)
-        program = read(path)
-        card = card_for(program, settings.robot, settings.tool)
-        drawing: Motion | Survey = survey(program)
+        program = read_input() if name == STDIN else read(find_drawing(name))
         asked = settings != PLAIN or program.robot is not None
-        outlook = _look_ahead(program, card, settings) if asked else None
-        drawing = outlook.motion if outlook else drawing
+        outlook = _look_ahead(program, settings) if asked else None
+        drawing: Motion | Survey = outlook.motion if outlook else survey(program)
     except ScriptError as problem:
         return Checked(problem.name, problem.text, problem.diagnostics, None)
     except UsageError:
@@ -93,15 +89,21 @@ def check(name: str, **choices: Any) -> Checked:
     except DqpaintError as problem:
         return Checked(name, "", (), None, str(problem))
     findings = drawing.notes + (outlook.warnings if outlook else ())
-    return Checked(str(path), program.text, findings, drawing, outlook=outlook)
+    return Checked(program.name, program.text, findings, drawing, outlook=outlook)
 
 
-def _look_ahead(program: Program, card: Card, settings: Settings) -> "Outlook":
-    """What an arm says of a drawing; only this brings in the kinematics.
+def _look_ahead(program: Program, settings: Settings) -> "Outlook":
+    """What an arm says of a drawing; only this brings in the arms and their kinematics.
 
     Raises:
-        ScriptError: it does not reach all of it.
+        UsageError: no such robot, or no such tool.
+        ScriptError: a fault of the drawing, or the arm does not reach all of it.
     """
+    from dqpaint.robots.choose import card_for
+
+    card = card_for(program, settings.robot, settings.tool)
+    survey(program)  # what is wrong with the drawing by itself goes before what an arm says
+
     from dqpaint.forewarning import look_ahead
     from dqpaint.robots.kinematics import Kinematics
 

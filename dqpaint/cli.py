@@ -57,7 +57,9 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-Drawings = Annotated[list[str], typer.Argument(metavar="FILE...", help="drawings, or examples")]
+Drawings = Annotated[
+    list[str], typer.Argument(metavar="FILE...", help="drawings, or examples; - reads stdin")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="for a program to read")]
 
 DRAW_EXAMPLES = """Examples:
@@ -201,9 +203,11 @@ def preview(
     if not watch:
         show()
         return
+    from pathlib import Path
+
     from dqpaint import watching
 
-    watching.watch(path, show)
+    watching.watch(path, show, others=[Path(settings)] if settings else ())
 
 
 @app.command(

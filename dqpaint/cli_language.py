@@ -47,11 +47,12 @@ def fmt(
 ) -> None:
     """Lay drawings out as all drawings are: blanks and blocks, nothing that has a meaning."""
     from dqpaint import formatting
+    from dqpaint.language.source import STDIN
 
     failed = False
     for name in files:
         try:
-            if name == formatting.STDIN:
+            if name == STDIN:
                 made, changed = formatting.format_input()
                 if not check:
                     sys.stdout.buffer.write(made)

@@ -104,9 +104,9 @@ Noise = Annotated[int | None, typer.Option(metavar="SEED", help="of the sensor's
 ColourBy = Annotated[
     str | None,
     typer.Option(
-        metavar="FIGURE",
+        metavar="FIGURE[:END]",
         help="that the colours tell: position-error, orientation-error, speed, manipulability, "
-        "line",
+        "line; END of the scale, such as position-error:20",
     ),
 ]
 Overlay = Annotated[bool, typer.Option(help="the asked drawing beneath")]

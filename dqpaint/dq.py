@@ -49,6 +49,18 @@ _PLACE = np.zeros((24, 8))  # t = x' _PLACE x, flat
 _PLACE.reshape(3, 8, 8)[:, 4:, :4] = 2.0 * _T[1:4, :4, :4] * C4
 
 
+def _adjoints() -> Floats:
+    """(288, 8): the matrix of Ad(x), which is quadratic in x: [row, column, k] of one x_k, flat."""
+    plus = _PLUS.T.reshape(8, 1, 8, 8)
+    minus = (_MINUS * C8).T.reshape(1, 8, 8, 8)
+    six = np.array([1, 2, 3, 5, 6, 7])
+    both = (plus @ minus)[:, :, six[:, None], six]  # k, l, row, column
+    return np.ascontiguousarray(both.transpose(2, 3, 0, 1)).reshape(288, 8)
+
+
+_ADJOINT = _adjoints()
+
+
 def hamilton_plus(a: Floats) -> Floats:
     """H+(a) (..., 8, 8), with vec(a b) = H+(a) vec(b)."""
     H: Floats = np.dot(a, _PLUS.T).reshape(*a.shape[:-1], 8, 8)
@@ -203,6 +215,9 @@ def sclerp(a: Floats, b: Floats, s: ArrayLike) -> Floats:
 
 def adjoint(x: Floats, a: Floats) -> Floats:
     """Ad(x) a = x a x*: a twist (..., 6) given in frame x, seen from the base."""
+    if x.ndim == a.ndim == 1:  # a control step
+        carried: Floats = np.dot(np.dot(np.dot(_ADJOINT, x).reshape(36, 8), x).reshape(6, 6), a)
+        return carried
     return vector(mul(mul(x, pure(a)), conj(x)))
 
 

@@ -23,6 +23,8 @@ def find_drawing(name: str) -> Path:
     Raises:
         DqpaintError: neither a file nor an example.
     """
+    if name == "-":
+        raise DqpaintError("only check and fmt read standard input: write it into a file first")
     path = Path(name)
     example = examples_folder() / f"{name.removesuffix('.traj')}.traj"
     try:

@@ -13,6 +13,7 @@ from dqpaint.motion import Motion, plan
 from dqpaint.out_of_reach import begin
 from dqpaint.placing import Placed, settle
 from dqpaint.robots.card import Card
+from dqpaint.robots.collisions import shapes_of
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.resolver import THRESHOLD
 from dqpaint.settings import Settings
@@ -66,8 +67,9 @@ class Outlook:
         )
         notes = "".join(f"\nnote: {note}" for note in self.notes)
         placed = f"  {self.placed.line}\n  {self.placed.figures}\n" if self.placed else ""
-        slowed = f"  {self.slowed}\n" if self.slowed else ""
-        figures = f"{_extremes(self.lines)}{_table(self.lines)}"
+        slowed = f"  pace: {self.slowed}\n" if self.slowed else ""
+        program = self.motion.program
+        figures = f"{_extremes(self.lines, program)}{_table(self.lines, program)}"
         return f"; {self.robot} reaches it, {said}\n{placed}{slowed}{figures}{notes}"
 
     @property
@@ -78,7 +80,7 @@ class Outlook:
             "place": self.placed and self.placed.as_json,
             "pace": self.slowed and self.slowed.as_json,
             "start_rad": list(self.start),
-            "lines": [_figures(line) for line in self.lines],
+            "lines": [_figures(line, self.motion.program) for line in self.lines],
         }
 
 
@@ -110,7 +112,7 @@ def look_ahead(program: Program, kinematics: Kinematics, settings: Settings = PL
         tuple(start.tolist()),
         lines,
         tuple(_warnings(motion, kinematics.card, lines)),
-        kinematics.notes,
+        kinematics.notes + shapes_of(kinematics).notes,
     )
 
 
@@ -181,15 +183,23 @@ RULES = (
         _position,
         "turn the tool less, or move the drawing with place",
     ),
-    _Rule("W502", lambda one: one.speed_part, _speed, "draw it slower (speed, in, samples)"),
     _Rule(
-        "W503", lambda one: one.effort_part, _effort, "a lower speed or a smoother law needs less"
+        "W502",
+        lambda one: one.speed_part,
+        _speed,
+        "draw it slower (speed, in, samples), or let --on-limit slow do it",
+    ),
+    _Rule(
+        "W503",
+        lambda one: one.effort_part,
+        _effort,
+        "a lower speed or a smoother law needs less; --on-limit slow finds one",
     ),
     _Rule(
         "W504",
         lambda one: one.jolt_part if one.effort_part <= 1 else 0.0,
         _jolt,
-        "law trapezoid and law quintic begin and end each stroke at rest",
+        "law trapezoid and law quintic begin and end each stroke at rest; or: --on-limit slow",
     ),
     _Rule(
         "W505",
@@ -221,7 +231,7 @@ def _warnings(motion: Motion, card: Card, lines: Sequence[Forecast]) -> list[Dia
         if not bad:
             continue
         worst = max(bad, key=rule.badness)
-        others = [one.line for one in bad if one is not worst]
+        others = [motion.program.where(one.line) for one in bad if one is not worst]
         found.append(
             Diagnostic(
                 rule.code,
@@ -241,22 +251,23 @@ def _spans(motion: Motion) -> dict[int, Span]:
     return spans
 
 
-def _named(lines: Sequence[int]) -> str:
-    listed = ", ".join(str(line) for line in lines[:MOST_NAMED])
+def _named(lines: Sequence[str]) -> str:
+    listed = ", ".join(lines[:MOST_NAMED])
     more = f" and {len(lines) - MOST_NAMED} more" if len(lines) > MOST_NAMED else ""
     return f"line{'s' if len(lines) > 1 else ''} {listed}{more}"
 
 
-def _extremes(lines: Sequence[Forecast]) -> str:
+def _extremes(lines: Sequence[Forecast], program: Program) -> str:
     """The worst of the whole drawing in a sentence."""
     speed = max(lines, key=lambda one: one.speed_part)
     effort = max(lines, key=lambda one: one.effort_part)
     least = min(lines, key=lambda one: one.manipulability)
     parts = [
-        f"joint {speed.speed.joint} at {speed.speed_part:.0%} of its speed (line {speed.line})",
+        f"joint {speed.speed.joint} at {speed.speed_part:.0%} of its speed "
+        f"(line {program.where(speed.line)})",
         f"joint {effort.effort.joint} at {effort.effort_part:.0%} of its torque "
-        f"(line {effort.line})",
-        f"manipulability {least.manipulability:.2g} (line {least.line})",
+        f"(line {program.where(effort.line)})",
+        f"manipulability {least.manipulability:.2g} (line {program.where(least.line)})",
     ]
     clear = [one for one in lines if one.clearance is not None]
     if clear:
@@ -285,7 +296,7 @@ def _cells(one: Forecast) -> dict[str, str]:
     return cells
 
 
-def _table(lines: Sequence[Forecast]) -> str:
+def _table(lines: Sequence[Forecast], program: Program) -> str:
     """The lines that come close to a limit, and the limits that any of them comes close to."""
     close = {one.line: cells for one in lines if (cells := _cells(one))}
     if not close:
@@ -293,7 +304,7 @@ def _table(lines: Sequence[Forecast]) -> str:
     heads = list(dict.fromkeys(head for cells in close.values() for head in cells))
     rows = [["line", *heads]]
     rows += [
-        [str(line), *(cells.get(head, "") for head in heads)]
+        [program.where(line), *(cells.get(head, "") for head in heads)]
         for line, cells in list(close.items())[:MOST_LINES]
     ]
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
@@ -306,7 +317,7 @@ def _table(lines: Sequence[Forecast]) -> str:
     return text + (f"\n  and {more} more lines: --json has them all" if more > 0 else "")
 
 
-def _figures(one: Forecast) -> dict[str, Any]:
+def _figures(one: Forecast, program: Program) -> dict[str, Any]:
     """One line, each figure with its unit; nothing in it is infinite."""
     worst = {
         "margin_rad": one.margin,
@@ -316,7 +327,7 @@ def _figures(one: Forecast) -> dict[str, Any]:
     }
     parts = (None, one.speed_part, one.effort_part, one.jolt_part)
     return {
-        "line": one.line,
+        "line": program.told(one.line),
         "room": one.room,
         "start_s": one.start,
         **{

@@ -1,14 +1,10 @@
 """Files -> the same files in the one layout. Line ends stay as a file has them."""
 
-import sys
 from pathlib import Path
 
-from dqpaint.errors import DqpaintError
 from dqpaint.files import rewrite
 from dqpaint.language.layout import formatted
-from dqpaint.language.source import decoded, load
-
-STDIN = "-"
+from dqpaint.language.source import STDIN_NAME, decoded, load, load_input
 
 
 def laid_out(data: bytes, name: str) -> bytes:
@@ -45,8 +41,6 @@ def format_input() -> tuple[bytes, bool]:
     Raises:
         DqpaintError: it cannot be understood.
     """
-    if sys.stdin is None:
-        raise DqpaintError("standard input is closed")
-    data = sys.stdin.buffer.read()
-    made = laid_out(data, "<stdin>")
+    data = load_input()
+    made = laid_out(data, STDIN_NAME)
     return made, made != data

@@ -35,6 +35,8 @@ class Shot(NamedTuple):
 
 
 def _option(name: str, value: object) -> str:
+    if (name, value) == ("ghost", "motion"):
+        return " --motion-ghost"
     word = f" --{name.replace('_', '-')}"
     return word if value is True else f"{word} {shlex.quote(str(value))}"
 
@@ -42,7 +44,7 @@ def _option(name: str, value: object) -> str:
 HELICOID = (
     "bar:length=300mm,leds=64,colours=orange/magenta/blueviolet/cyan/blueviolet/magenta/orange"
 )
-TOLD = {"controller": "p", "colour_by": "position-error", "overlay": True}
+TOLD = {"plant": "compliant", "colour_by": "position-error:20", "overlay": True}
 
 SHOTS = (
     Shot("star", "Trapezoid speed: the arm rests at each corner, and the corner glows.", {}),
@@ -50,7 +52,19 @@ SHOTS = (
         "lag", "Without feed-forward corners are cut and small circles shrink,", {"controller": "p"}
     ),
     Shot("lag", "with it they do not. Same drawing, same camera, same exposure.", {}),
-    Shot("lag", "The same by its error, over what was asked, which is grey.", TOLD, "-error"),
+    Shot(
+        "lag",
+        "On an elastic arm, coloured by its error, over what was asked, which is grey:",
+        {"controller": "p", **TOLD},
+        "-error",
+    ),
+    Shot(
+        "lag",
+        "with feed-forward lines and wide circles are true. Corners make the springs swing, "
+        "and the small circle goes round as fast as they do.",
+        TOLD,
+        "-error",
+    ),
     Shot(
         "quarter-turn",
         "A quarter turn under torques, within two micrometres.",
@@ -58,7 +72,11 @@ SHOTS = (
     ),
     Shot("rose", "A formula with exact derivatives, six times in a ring.", {}),
     Shot("spiral", "A helix is an arc that rises.", {"view": "iso"}),
-    Shot("square", "Two sides in 500 samples, two in 300: faster is darker.", {"ev": -3}),
+    Shot(
+        "square",
+        "Two sides in 500 samples, two in 300: the colours tell the speed.",
+        {"colour_by": "speed"},
+    ),
     Shot("circle", "The thesis's circle in 3000 samples.", {}),
     Shot("baxter-screw", "A screw of pitch zero about a line given in space.", {"view": "iso"}),
     Shot("signature", "Lettering runs through its vertices: no beads on the line.", {}),
@@ -74,18 +92,24 @@ SHOTS = (
     Shot(
         "helicoid",
         "A bar of LEDs across the axis of one screw: orientation is seen.",
-        {"brush": HELICOID, "view": "20,12"},
+        {"brush": HELICOID, "view": "45,8"},
     ),
     Shot(
         "helicoid",
-        "The same with its arm, lit by what it painted. What the arm stood before is missing.",
-        {"brush": HELICOID, "view": "-40,14", "ghost": True},
+        "The same with its arm, lit by what it painted; the camera stands where it was put.",
+        {"brush": HELICOID, "view": "at:2.0:1.05:0.65:0.4:0.02:0.51", "ghost": True},
         "-ghost",
+    ),
+    Shot(
+        "star",
+        "The arm as a veil, in the little light of a room: it was there, and there, and there.",
+        {"view": "-30,12", "ghost": "motion"},
+        "-motion",
     ),
     Shot(
         "pixelstick",
         "An image, column by column, along the way of a bar.",
-        {"brush": "pixelstick:length=140mm,along=y", "view": "35,-25"},
+        {"brush": "pixelstick:length=140mm,along=y", "view": "20,40"},
     ),
     Shot("step", "A jump of the set point: the error decays, and slower is brighter.", {}),
 )

@@ -12,6 +12,7 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.controllers.pose_errors import invariant_error
 from dqpaint.dq import Floats
+from dqpaint.language.diagnostics import LINES
 from dqpaint.motion import Motion
 from dqpaint.tracking import Track
 
@@ -34,9 +35,11 @@ def measure(track: Track) -> Metrics:
 
 def asked_columns(motion: Motion) -> Table:
     """Time, source line, light, and the asked pose in the base frame."""
+    file, line = np.divmod(motion.line, LINES)
     return {
         "t_s": motion.t,
-        "line": motion.line.astype(np.float64),
+        "line": line.astype(np.float64),
+        **({"file": file.astype(np.float64)} if file.any() else {}),
         "lit": motion.lit.astype(np.float64),
         **_pose_columns("desired_", motion.points, motion.pose),
     }

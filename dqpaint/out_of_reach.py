@@ -1,24 +1,50 @@
 """Where the arm begins a drawing; what is said of one that leaves its reach."""
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint import dq
+from dqpaint.dq import Floats
 from dqpaint.language.diagnostics import Diagnostic, ScriptError
 from dqpaint.motion import Motion
 from dqpaint.nullspace import DEFAULT_NULL, make_pull
 from dqpaint.robots.kinematics import Kinematics
-from dqpaint.robots.reach import Miss, Start, find_start, to_start, waypoints
+from dqpaint.robots.reach import (
+    ON_THE_WAY,
+    Miss,
+    Start,
+    find_start,
+    shortfall,
+    strays,
+    to_start,
+    waypoints,
+)
 
 if TYPE_CHECKING:
     from dqpaint.tracking import Track  # brings in the simulator, and a forecast needs none
 
 WORTH_A_LOOK = 1e-3  # [m]
-LOOKS = 9  # at a stroke, for its farthest point
+LOOKS, MOST_LOOKS = 9, 96  # at a stroke, for its farthest point; at a drawing
+MOST_TOLD, MOST_NAMED = 5, 6  # lines with a message of their own; further ones by their numbers
 WORTH_SAYING = np.radians(0.5)
+MOVE = "place auto looks for room"
 SCALES = np.arange(0.95, 0.05, -0.05)
+
+
+@dataclass(frozen=True)
+class Outside:
+    """A point of a line that leaves the reach: its row of the motion, and by how much.
+
+    `miss` is None where it was not worked out; `alone` is whether no posture reaches the point at
+    all, or only none on the way of the drawing.
+    """
+
+    row: int
+    miss: Miss | None = None
+    alone: bool = True
 
 
 def begin(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL) -> Start:
@@ -35,8 +61,14 @@ def begin(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL) -> S
     rows = waypoints(motion.stroke)
     pull = to_start if null == DEFAULT_NULL else make_pull(null, kinematics)
     found = find_start(kinematics, motion.pose[rows], motion.t[rows], pull)
+    if isinstance(found, Start) and found.margin >= 0:
+        return found
+    outside = _outside(motion, kinematics, rows)
+    if outside:
+        raise out_of_reach(motion, kinematics, outside)
     if isinstance(found, Miss):
-        raise out_of_reach(motion, kinematics, int(rows[found.index]), found)
+        at = Outside(int(rows[found.index]), found, alone=False)
+        raise out_of_reach(motion, kinematics, [at])
     return found
 
 
@@ -64,60 +96,93 @@ def check_row(motion: Motion, kinematics: Kinematics, row: int) -> None:
     """See that the arm reaches the pose of a row.
 
     Raises:
-        ScriptError: no posture does.
+        ScriptError: no posture does; it tells all lines that are out of reach.
     """
-    found = find_start(kinematics, motion.pose[row : row + 1], motion.t[row : row + 1])
-    if isinstance(found, Miss):
-        raise out_of_reach(motion, kinematics, row, found)
+    if strays(kinematics, motion.pose[row : row + 1])[0] >= ON_THE_WAY:
+        rows = np.unique(np.append(waypoints(motion.stroke), row))
+        outside = _outside(motion, kinematics, rows)
+        if outside:
+            raise out_of_reach(motion, kinematics, outside)
 
 
-def out_of_reach(motion: Motion, kinematics: Kinematics, row: int, miss: Miss) -> ScriptError:
-    """The error for a stroke of the motion, one of whose rows no posture reaches."""
+def _outside(motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp]) -> list[Outside]:
+    """The lines of which no posture reaches all, in order; looked at in some rows and between."""
+    strokes = np.unique(motion.stroke[rows])
+    looks = min(LOOKS, max(2, MOST_LOOKS // len(strokes)))
+    for stroke in strokes:
+        its = np.flatnonzero(motion.stroke == stroke)
+        rows = np.append(rows, its[np.linspace(0, len(its) - 1, looks).astype(int)])
+    rows = np.unique(rows)
+    left = strays(kinematics, motion.pose[rows])
+    beyond = np.flatnonzero(left >= ON_THE_WAY)
+    found: list[Outside] = []
+    for line in np.unique(motion.line[rows[beyond]]):
+        its = beyond[motion.line[rows[beyond]] == line]
+        worst = its[left[its].argmax()]
+        if len(found) >= MOST_TOLD:
+            found.append(Outside(int(rows[worst])))
+            continue
+        few = rows[np.unique([its[0], worst, its[-1]])].tolist()
+        misses = [(shortfall(kinematics, motion.pose[row]), row) for row in few]
+        miss, row = max(misses, key=lambda pair: pair[0].badness)
+        if miss.badness >= ON_THE_WAY:
+            found.append(Outside(row, miss))
+    return found
+
+
+def out_of_reach(motion: Motion, kinematics: Kinematics, outside: list[Outside]) -> ScriptError:
+    """The error for lines of a motion, some of whose rows no posture reaches."""
     program = motion.program
-    segment = program.segments[int(motion.stroke[row])]
-    row, miss = _farthest(motion, kinematics, row, miss)
-    name = kinematics.card.name
-    far, turned = miss.shortfall * 1e3, np.degrees(miss.turned)
-    if far < 0.5 and miss.turned > WORTH_SAYING:
-        fault = f"can be reached by {name} only with the tool turned by {turned:.0f} deg"
-    elif miss.turned > WORTH_SAYING:
-        fault = f"is {far:.0f} mm and {turned:.0f} deg outside the reach of {name}"
-    else:
-        fault = f"is {far:.0f} mm outside the reach of {name}"
-    problem = Diagnostic(
-        "E310",
-        f"sample {row} ({motion.t[row]:.2f} s) {fault}",
-        segment.span,
-        label="farthest point of this stroke",
-        help=_advice(motion, kinematics, row),
-    )
-    return ScriptError(program.name, program.text, (problem,))
+    told, others = outside[:MOST_TOLD], outside[MOST_TOLD:]
+    advice = _advice(motion, kinematics, told)
+    problems = []
+    for one in told:
+        last = one is told[-1]
+        label = "farthest point of this line"
+        if last and others:
+            lines = [int(motion.line[other.row]) for other in others]
+            more = f" and {len(lines) - MOST_NAMED} more" if len(lines) > MOST_NAMED else ""
+            label += f"; likewise line{'s' if len(lines) > 1 else ''} "
+            label += ", ".join(str(line) for line in lines[:MOST_NAMED]) + more
+        problems.append(
+            Diagnostic(
+                "E310",
+                f"sample {one.row} ({motion.t[one.row]:.2f} s) {_fault(one, kinematics.card.name)}",
+                program.segments[int(motion.stroke[one.row])].span,
+                label=label,
+                help=advice if last else "",
+            )
+        )
+    return ScriptError(program.name, program.text, tuple(problems))
 
 
-def _farthest(motion: Motion, kinematics: Kinematics, row: int, miss: Miss) -> tuple[int, Miss]:
-    """Of some rows of the same stroke the one that is missed most."""
-    stroke = np.flatnonzero(motion.stroke == motion.stroke[row])
-    for other in np.linspace(stroke[0], stroke[-1], LOOKS).astype(int):
-        found = find_start(kinematics, motion.pose[other : other + 1], np.zeros(1))
-        if isinstance(found, Miss) and found.badness > miss.badness:
-            row, miss = int(other), found
-    return row, miss
+def _fault(one: Outside, name: str) -> str:
+    """How far it is away, in words."""
+    assert one.miss is not None
+    far, angle = one.miss.shortfall * 1e3, np.degrees(one.miss.turned)
+    turned = one.miss.turned > WORTH_SAYING
+    if not one.alone:
+        away = f"{far:.0f} mm" + (f" and {angle:.0f} deg" if turned else "")
+        return f"is not reached by {name} from the strokes before it: it stays {away} away"
+    if far < 0.5 and turned:
+        return f"can be reached by {name} only with the tool turned by {angle:.0f} deg"
+    amount = f"{far:.0f} mm" if far >= 1 else f"{far:.1f} mm"
+    return f"is {amount}{f' and {angle:.0f} deg' if turned else ''} outside the reach of {name}"
 
 
-def _advice(motion: Motion, kinematics: Kinematics, row: int) -> str:
+def _advice(motion: Motion, kinematics: Kinematics, outside: list[Outside]) -> str:
     """A scale about the drawing's origin at which the arm reaches all of it, if there is one."""
-    rows = waypoints(motion.stroke)
     local = dq.mul(dq.conj(motion.canvas), motion.pose)
     places, turns = dq.translation(local), dq.rotation(local)
 
-    def reached(scale: float, these: NDArray[np.intp]) -> bool:
-        poses = dq.mul(motion.canvas, dq.pose_from(scale * places[these], turns[these]))
-        return isinstance(find_start(kinematics, poses, motion.t[these]), Start)
+    def scaled(scale: float, rows: NDArray[np.intp]) -> Floats:
+        return dq.mul(motion.canvas, dq.pose_from(scale * places[rows], turns[rows]))
 
-    worst = np.array([row])
-    for scale in SCALES:  # the worst point first: it is soon answered
-        if reached(scale, worst) and reached(scale, np.unique(np.append(rows, row))):
-            return (
-                f"shift the drawing with place, or make it smaller: with scale {scale:.2g} ... end"
-            )
-    return "shift the drawing with place, or turn the tool another way"
+    worst = np.array([one.row for one in outside])
+    tried = np.concatenate([scaled(scale, worst) for scale in SCALES])
+    reached = (strays(kinematics, tried) < ON_THE_WAY).reshape(len(SCALES), len(worst))
+    rows = np.unique(np.append(waypoints(motion.stroke), worst))
+    for scale in SCALES[reached.all(axis=1)]:
+        if isinstance(find_start(kinematics, scaled(scale, rows), motion.t[rows]), Start):
+            return f"make it smaller: with scale {scale:.2g} ... end; or move it: {MOVE}"
+    return f"move it: {MOVE}; or turn the tool another way"

@@ -168,6 +168,7 @@ def summarise(painting: "Painting") -> dict[str, Any]:
     return {
         "schema": SCHEMA,
         "file": Path(program.name).name,
+        "included": [Path(name).name for _, name in getattr(program.text, "included", ())],
         "sha256": painting.sha256,
         "versions": {
             "dqpaint": __version__,
@@ -202,13 +203,16 @@ def summarise(painting: "Painting") -> dict[str, Any]:
         "set_points": [
             {
                 "time_s": jump.time,
-                "line": jump.line,
+                "line": program.told(jump.line),
                 "translation": _response(jump.translation, "m"),
                 "rotation": _response(jump.rotation, "rad"),
             }
             for jump in painting.set_points
         ],
-        "limits": [{**vars(clamp), "unit": UNITS[clamp.kind]} for clamp in painting.limits],
+        "limits": [
+            {**vars(clamp), "line": program.told(clamp.line), "unit": UNITS[clamp.kind]}
+            for clamp in painting.limits
+        ],
         "light": {
             "unit": "lamp seconds, linear RGB",
             "emitted": painting.picture.emitted.tolist(),

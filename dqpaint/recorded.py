@@ -28,6 +28,9 @@ POSE = ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz")
 UNIT = 1e-3  # a quaternion's norm may be off 1 by this: it was printed with few digits
 LONG_GAP = 0.05  # [s] between two rows that is worth a word, if it is several periods
 SAME_TIME = 1e-9  # [s]
+SHORTEST = 1e-6  # [s] between two rows
+MOST = {"_s": 1e13, "_rad": 1e4, "_deg": 1e6, "_m": 1e3}  # more is a slip, by a column's unit
+LARGEST_NUMBER = 1e9  # of the others
 MOST_NAMED = 8
 
 
@@ -180,6 +183,9 @@ class _Table:
             value = np.nan
         if not np.isfinite(value):
             raise self.fault(row, column, f"'{text.strip()[:40]}' is not a number")
+        most = MOST.get(column[column.rfind("_") :], LARGEST_NUMBER)
+        if abs(value) > most:
+            raise self.fault(row, column, f"{value:.6g} is more than any arm does (up to {most:g})")
         return value
 
     def fault(self, row: int, column: str, text: str) -> DqpaintError:
@@ -188,10 +194,12 @@ class _Table:
 
 
 def _check_times(table: _Table, t: Floats) -> None:
-    back = np.flatnonzero(np.diff(t) <= 0)
+    back = np.flatnonzero(np.diff(t) < SHORTEST)
     if len(back):
         k = int(back[0])
         text = f"{t[k + 1]:.9g} s does not come after {t[k]:.9g} s"
+        if t[k + 1] > t[k]:
+            text = f"{t[k + 1]:.9g} s comes less than a microsecond after {t[k]:.9g} s"
         raise table.fault(table.rows[k + 1], "t_s", text)
 
 

@@ -3,14 +3,18 @@
 import math
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from dqpaint.language import render
+from dqpaint.language.diagnostics import line_named
 from dqpaint.motion import Motion, summary_line
 from dqpaint.paint import Painting
 from dqpaint.picture import Picture
 from dqpaint.robots.limits import Clamp
-from dqpaint.sketch import Preview
 from dqpaint.terminal import table
+
+if TYPE_CHECKING:
+    from dqpaint.sketch import Preview
 
 WHITE = 250  # of 255
 MOST_NAMED = 3  # limits in the table; all of them are in the warnings
@@ -82,6 +86,7 @@ def _pace(painting: Painting) -> list[tuple[str, str]]:
 def _steps(painting: Painting) -> list[tuple[str, str]]:
     """How each jump of the set point was taken."""
     rows: list[tuple[str, str]] = []
+    where = painting.motion.program.where
     for jump in painting.set_points[:MOST_NAMED]:
         parts = ((jump.translation, 1e3, "mm"), (jump.rotation, math.degrees(1), "deg"))
         for part, scale, unit in parts:
@@ -93,7 +98,7 @@ def _steps(painting: Painting) -> list[tuple[str, str]]:
             steady = 0.0 if part.steady * scale < NOTHING else part.steady * scale
             rows.append((
                 "" if rows else "set points",
-                f"line {jump.line}: {part.size * scale:.3g} {unit}, {settled}, overshoot "
+                f"line {where(jump.line)}: {part.size * scale:.3g} {unit}, {settled}, overshoot "
                 f"{part.overshoot:.1%}, steady error {steady:.2g} {unit}",
             ))  # fmt: skip
     return rows
@@ -127,7 +132,7 @@ def of_export(painting: Painting, written: Sequence[Path]) -> str:
     return table(rows)
 
 
-def of_preview(preview: Preview, written: Sequence[Path]) -> str:
+def of_preview(preview: "Preview", written: Sequence[Path]) -> str:
     """The table that follows `preview`."""
     rows = [("drawing", summary_line(preview.motion)), *_pictures(preview.pictures)]
     return table([*rows, *_files(written)])
@@ -169,7 +174,8 @@ def remarks(painting: Painting) -> list[str]:
     texts += notes(painting.motion)
     for (kind, line), held in _grouped(painting).items():
         joints = "".join(f"\n    {clamp}" for clamp in held)
-        texts.append(f"warning: line {line} runs into {kind} limits:{joints}{CURES[kind]}")
+        where = painting.motion.program.where(line)
+        texts.append(f"warning: line {where} runs into {kind} limits:{joints}{CURES[kind]}")
     period = painting.motion.period
     if painting.track.torques and period > LONGEST_TORQUE_PERIOD * (1 + 1e-9):
         texts.append(
@@ -181,18 +187,22 @@ def remarks(painting: Painting) -> list[str]:
     lost, emitted = picture.film.lost.sum(), picture.emitted.sum()
     if lost > WORTH_A_WARNING * emitted:
         texts.append(f"warning: {lost / emitted:.0%} of the light fell outside the picture")
-    return [*texts, *of_arm(painting.pictures)]
+    return [*texts, *of_arm(painting.pictures, painting.motion.program.text)]
 
 
-def of_arm(pictures: Sequence[Picture]) -> list[str]:
-    """Warnings about what the arm hides, and what of it could not be shown or traced."""
+def of_arm(pictures: Sequence[Picture], source: str = "") -> list[str]:
+    """Warnings about what the arm hides, and what of it could not be shown or traced.
+
+    `source` is the text of the drawing, if it is known: it names the files that it includes.
+    """
     texts: list[str] = []
     for picture in pictures:
-        texts += _hidden(picture, f" in {picture.name}" if len(pictures) > 1 else "")
+        seen = f" in {picture.name}" if len(pictures) > 1 else ""
+        texts += _hidden(picture, seen, source)
     return [*texts, *dict.fromkeys(remark for one in pictures for remark in one.remarks)]
 
 
-def _hidden(picture: Picture, where: str) -> list[str]:
+def _hidden(picture: Picture, where: str, source: str) -> list[str]:
     """A warning where much of the light was behind the arm."""
     if picture.hidden is None:
         return []
@@ -200,7 +210,9 @@ def _hidden(picture: Picture, where: str) -> list[str]:
     if share <= WORTH_A_WARNING:
         return []
     lines = picture.hidden.lines
-    named = ", ".join(f"{line} ({part:.0%})" for line, part in lines[:MOST_NAMED])
+    named = ", ".join(
+        f"{line_named(source, line)} ({part:.0%})" for line, part in lines[:MOST_NAMED]
+    )
     more = f" and {len(lines) - MOST_NAMED} more" if len(lines) > MOST_NAMED else ""
     word = "lines" if len(lines) > 1 else "line"
     return [
@@ -230,7 +242,8 @@ def _limits_line(painting: Painting) -> str:
         return "not known of a recorded run"
     if not groups:
         return "none reached"
-    parts = (f"{kind} (line {line})" for kind, line in list(groups)[:MOST_NAMED])
+    where = painting.motion.program.where
+    parts = (f"{kind} (line {where(line)})" for kind, line in list(groups)[:MOST_NAMED])
     more = f" and {len(groups) - MOST_NAMED} more" if len(groups) > MOST_NAMED else ""
     return f"{', '.join(parts)}{more} reached: there the arm could not follow"
 
@@ -244,7 +257,7 @@ def _spread(figures: dict[str, float], name: str, unit: str, scale: float, shown
 def _worst(painting: Painting) -> str:
     motion = painting.motion
     row = int(painting.table["position_error_m"].argmax())
-    return f"{motion.t[row]:.3f} s, line {motion.line[row]}"
+    return f"{motion.t[row]:.3f} s, line {motion.program.where(int(motion.line[row]))}"
 
 
 def _files(written: Sequence[Path]) -> list[tuple[str, str]]:

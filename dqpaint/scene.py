@@ -24,7 +24,7 @@ from dqpaint.metrics import Table
 from dqpaint.motion import Motion
 from dqpaint.settings import Settings
 from dqpaint.shining import evened, sweeps
-from dqpaint.telling import TELLINGS, asked_table, colours_of, magnified
+from dqpaint.telling import asked_table, colours_of, magnified, read_telling
 
 SETTLING = 0.25  # [s] in which a jump of the set point counts as drawn
 UNDER = (0.62, 0.8, 1.0)  # the colour of the asked drawing under the reached one
@@ -81,7 +81,7 @@ def check_choices(settings: Settings) -> None:
                 f"exposure '{settings.exposure}'"
             )
     if settings.colour_by is not None:
-        TELLINGS[settings.colour_by]
+        read_telling(settings.colour_by)
 
 
 def arrange(motion: Motion, pose: Floats, settings: Settings, table: Table | None = None) -> Scene:

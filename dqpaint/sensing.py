@@ -151,7 +151,7 @@ class Late:
         return self._waiting.popleft()
 
 
-def chance(seed: int, name: str) -> np.random.Generator:
+def chance(seed: int, name: str) -> "np.random.Generator":
     """The random numbers of one disturbance: its own, whatever else disturbs."""
     return np.random.default_rng([seed, crc32(name.encode())])
 

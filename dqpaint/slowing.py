@@ -54,12 +54,13 @@ class Slowed:
     @property
     def as_json(self) -> dict[str, Any]:
         """For a summary."""
-        return {"longer_s": self.longer, "slowest": self.slowest, "lines": list(self.lines)}
+        lines = [self.motion.program.told(line) for line in self.lines]
+        return {"longer_s": self.longer, "slowest": self.slowest, "lines": lines}
 
     def __str__(self) -> str:
         if not self.lines:
             return "as asked: no joint needs more time"
-        where = ", ".join(str(line) for line in self.lines[:MOST_NAMED])
+        where = ", ".join(map(self.motion.program.where, self.lines[:MOST_NAMED]))
         more = f" and {len(self.lines) - MOST_NAMED} more" if len(self.lines) > MOST_NAMED else ""
         said = f"{self.longer:.3g} s longer, down to {self.slowest:.2g} of the asked speed"
         return f"{said} (line{'s' if len(self.lines) > 1 else ''} {where}{more})"

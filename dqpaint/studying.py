@@ -25,11 +25,16 @@ from dqpaint.cli_options import (
     Size,
     View,
 )
+from dqpaint.errors import UsageError
 
 __all__ = ["app"]
 
 Runs = Annotated[int, typer.Option(metavar="N", help="of each, with the seeds that follow --seed")]
 Jobs = Annotated[int | None, typer.Option(metavar="N", help="processes [default: all cores]")]
+Address = Annotated[
+    str | None,
+    typer.Option("--cluster", metavar="ADDRESS", help="of a Dask scheduler, instead of --jobs"),
+]
 Folder = Annotated[
     str | None,
     typer.Option("--out", metavar="FOLDER", help="of the study; one that was stopped goes on"),
@@ -68,6 +73,7 @@ def compare(
     exposure: Exposure = None,
     look: Look = "film",
     jobs: Jobs = None,
+    cluster: Address = None,
     out: Folder = None,
     report: Report = False,
 ) -> None:
@@ -88,7 +94,9 @@ def compare(
         disturb=parse_disturbances(disturb or []), seed=seed, start=start, width=width,
         height=height, view=view, ev=ev, brush=brush, exposure=exposure, look=look,
     )  # fmt: skip
-    compared = study.compare(file, axes, base, _folder(out, file, "compare"), runs, jobs)
+    compared = study.compare(
+        file, axes, base, _folder(out, file, "compare"), runs, _workers(jobs, cluster)
+    )
     _finish(study.told(compared, figure, _columns()), study.save(compared, figure, _again(report)))
 
 
@@ -121,6 +129,7 @@ def sweep(
     runs: Runs = 1,
     figure: Measure = "position_error_rms_m",
     jobs: Jobs = None,
+    cluster: Address = None,
     out: Folder = None,
     report: Report = False,
 ) -> None:
@@ -137,7 +146,9 @@ def sweep(
         controller=controller, gains=parse_gains(gain or []), plant=plant, robot=robot,
         disturb=parse_disturbances(disturb or []), seed=seed, start=start,
     )  # fmt: skip
-    swept = study.sweep(file, axes, base, _folder(out, file, "sweep"), runs, jobs)
+    swept = study.sweep(
+        file, axes, base, _folder(out, file, "sweep"), runs, _workers(jobs, cluster)
+    )
     _finish(study.told(swept, figure, _columns()), study.save(swept, figure, _again(report)))
 
 
@@ -179,6 +190,7 @@ def tune(
     ] = "command_integral_rad",
     budget: Annotated[int, typer.Option(metavar="N", help="the most runs")] = 300,
     jobs: Jobs = None,
+    cluster: Address = None,
     out: Folder = None,
     report: Report = False,
 ) -> None:
@@ -197,7 +209,8 @@ def tune(
     )  # fmt: skip
     tuned = study.tune(
         file, vary or [], base, _folder(out, file, "tune"), factor=effort, error=figure,
-        effort=effort_figure, count=runs, budget=budget, jobs=jobs,
+        effort=effort_figure, count=runs, budget=budget,
+        jobs=_workers(jobs, cluster),
     )  # fmt: skip
     _finish(tradeoff.told(tuned, _columns()), tradeoff.save(tuned, _again(report)))
     if tuned.best is None:
@@ -223,7 +236,9 @@ def replay(
     disturb: Disturb = None,
     seed: Annotated[int | None, typer.Option(metavar="N", help="of everything random")] = None,
     jobs: Jobs = None,
+    cluster: Address = None,
     out: Folder = None,
+    report: Report = False,
 ) -> None:
     """Do a paper's experiment again: its numbers beside ours, and which of its claims hold.
 
@@ -239,12 +254,19 @@ def replay(
     }  # fmt: skip
     changed = {key: value for key, value in given.items() if value is not None}
     folder = Path(out) if out else Path(f"{name}-replay")
-    replayed = study.replay(name, Asked(folder, runs, jobs, changed))
-    _finish(study.told(replayed, _columns()), study.save(replayed))
+    replayed = study.replay(name, Asked(folder, runs, _workers(jobs, cluster), changed))
+    _finish(study.told(replayed, _columns()), study.save(replayed, _again(report)))
 
 
 def _folder(out: str | None, file: str, what: str) -> Path:
     return Path(out) if out else Path(f"{Path(file).stem}-{what}")
+
+
+def _workers(jobs: int | None, cluster: str | None) -> int | str | None:
+    """How many processes, or a cluster's address."""
+    if jobs is not None and cluster is not None:
+        raise UsageError("--jobs is how many processes here, --cluster asks others: not both")
+    return jobs if cluster is None else cluster
 
 
 def _again(report: bool) -> str | None:
@@ -273,6 +295,7 @@ def verify(
         bool, typer.Option("--update", help="make new references, and say what changed")
     ] = False,
     jobs: Jobs = None,
+    cluster: Address = None,
     out: Annotated[
         str, typer.Option(metavar="FOLDER", help="where pictures of what differs go")
     ] = "verify-differences",
@@ -281,7 +304,7 @@ def verify(
     """Draw a folder again and compare it with its references, gate by gate."""
     from dqpaint.studies import verify as study
 
-    verdicts = study.verify(Path(folder), jobs, lenient=update)
+    verdicts = study.verify(Path(folder), _workers(jobs, cluster), lenient=update)
     for text in study.remarks(verdicts):
         print(text, file=sys.stderr)
     if update:

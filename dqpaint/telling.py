@@ -42,7 +42,32 @@ for _name, _telling in {
 
 MOST = 98.0
 """Percentile of the lit values that gets the last colour: a peak does not hide the rest."""
+LEAST, GREATEST = 1e-6, 1e6
+"""Ends that a scale can be given."""
 NICE = (1.0, 2.0, 2.5, 5.0, 10.0)
+
+
+def read_telling(text: str) -> tuple[str, float | None]:
+    """A figure's name, and the end of its scale in the unit that is shown, of `position-error:20`.
+
+    Raises:
+        UsageError: an unknown figure, or an end that is none.
+    """
+    name, colon, end = text.partition(":")
+    unit = TELLINGS[name].unit
+    if not colon:
+        return name, None
+    known = [name for name, telling in TELLINGS.items() if telling.from_zero]
+    try:
+        high = float(end)
+    except ValueError:
+        high = math.nan
+    if name not in known or not LEAST <= high <= GREATEST:
+        raise UsageError(
+            f"colour by '{text[:40]}': what follows the colon is the end of its scale"
+            f"{f' in {unit}' if unit else ''}, for {', '.join(known)}, as in position-error:20"
+        )
+    return name, high
 
 
 def colours_of(motion: Motion, table: Table, by: str) -> tuple[Floats, Legend]:
@@ -51,6 +76,7 @@ def colours_of(motion: Motion, table: Table, by: str) -> tuple[Floats, Legend]:
     Raises:
         UsageError: an unknown figure, or one that only an arm has.
     """
+    by, end = read_telling(by)
     telling = TELLINGS[by]
     if telling.column not in table:
         known = ", ".join(name for name, t in TELLINGS.items() if t.column in table)
@@ -64,7 +90,7 @@ def colours_of(motion: Motion, table: Table, by: str) -> tuple[Floats, Legend]:
         labels = tuple(_labelled(motion, int(line)) for line in lines)
         legend = Legend(telling.title, labels, _tuples(colours), amounts=False)
     else:
-        low, high = limits(values[lit], telling.from_zero)
+        low, high = limits(values[lit], telling.from_zero) if end is None else (0.0, end)
         shown = colour_amounts((values - low) / (high - low))
         title = telling.title + (f" [{telling.unit}]" if telling.unit else "")
         more = "≥ " if values[lit].max() > high * (1.0 + 1e-9) else ""

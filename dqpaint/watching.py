@@ -20,7 +20,10 @@ _CLEAR = "\x1b[2J\x1b[3J\x1b[H"
 
 
 def watch(
-    path: Path, show: Callable[[], None], wait: Callable[[float], None] = time.sleep
+    path: Path,
+    show: Callable[[], None],
+    wait: Callable[[float], None] = time.sleep,
+    others: Iterable[Path] = (),
 ) -> NoReturn:
     """Show a drawing now and whenever one of its files is saved; ends by Ctrl-C alone.
 
@@ -28,10 +31,11 @@ def watch(
         path: of the drawing.
         show: shows it; what it raises is shown in its place, and waited on.
         wait: how to let time pass.
+        others: files that are looked at, too.
     """
     gc.enable()  # a long life, unlike a command's
     while True:
-        before = _signatures(files_of(path))
+        before = _signatures([*files_of(path), *others])
         _clear()
         try:
             show()

@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from dqpaint.charts import COLOURS, Line, Panel, chart
+from dqpaint.charts import COLOURS, HeatMap, Line, Panel, chart, heat_map
 
 X = np.linspace(1, 10, 50)
 
@@ -40,3 +40,12 @@ def test_axes_may_be_logarithmic(log):
     column = image[:, image.shape[1] // 2]
     middle = np.flatnonzero(np.abs(column.astype(int) - [0x0B, 0x6F, 0xA4]).max(axis=1) < 60)
     assert (middle.min() < 0.6 * len(column)) == log  # a straight line, or one that hugs the floor
+
+
+def test_names_are_no_formulas_and_not_longer_than_a_chart():
+    """As a formula `$x_$` is a fault, and a chart with a long name has no room for its curves."""
+    for name in ("$x_$", "a $ b $", "long " * 40, "two\nlines"):
+        line = Line(np.arange(3.0), np.arange(3.0), name)
+        assert chart([Panel(name, name, name, [line], ticks=(name, "b", "c"))])
+        values, marked = np.ones((1, 1)), np.zeros((1, 1), dtype=bool)
+        assert heat_map(HeatMap(name, name, name, (name,), (name,), values, marked))

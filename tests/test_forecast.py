@@ -13,6 +13,7 @@ from dqpaint.plants import PLANTS
 from dqpaint.robots.card import Card, Limits, read_card
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.resolver import LENGTH
+from dqpaint.settings import make_settings
 from dqpaint.tracking import track
 
 RATE, TORQUE = 0.025, 0.04  # relative: a run takes each step with what it saw before it
@@ -225,3 +226,37 @@ def test_a_long_drawing_is_looked_at_in_longer_steps(monkeypatch):
     coarse = forecast(motion, arm, start)[0]
     assert coarse.speed_part == pytest.approx(whole.speed_part, rel=0.03)
     assert coarse.margin.value == pytest.approx(whole.margin.value, abs=ANGLE)
+
+
+@pytest.mark.parametrize("null", ["none", "home", "limits,gain=4", "manipulability,gain=3"])
+def test_the_null_space_is_that_of_the_run(null):
+    """On an arm with a joint to spare other wishes lead to other postures, forecast and run."""
+    text = (
+        "period 8 ms\nstart at (60, 0) mm\n"
+        "line to (-80, 60) mm in 2 s\nline to (40, -60) mm in 2 s tool rot(x, 25 deg)\n"
+    )
+    motion, arm, start = prepared(text)
+    law = CONTROLLERS["pff"]
+    run = track(
+        motion, Kinematics(lifted(arm.card)), start, PLANTS["ideal"], law, law.read_gains({}),
+        null=null,
+    )  # fmt: skip
+    found = forecast(motion, arm, start, make_settings(null=null))
+    if null.startswith("limits"):  # of the card, not of the arm without any
+        run = track(motion, arm, start, PLANTS["ideal"], law, law.read_gains({}), null=null)
+        assert not run.clamps
+    compare_amounts(found, run, arm.card, efforts=False)
+    own = _Run(motion, arm, start, null)
+    assert np.abs(own.posture - run.posture).max() < 0.01
+    assert np.abs(own.posture - _Run(motion, arm, start).posture).max() > 0.03
+
+
+def test_an_arm_that_begins_elsewhere_is_forecast_from_where_it_joins_the_drawing():
+    motion, arm, _ = prepared("period 8 ms\nstart at (60, 0) mm\nline to (-80, 60) mm in 2 s\n")
+    run = _Run(motion, arm, arm.card.home)
+    assert np.linalg.norm(run.points - motion.points, axis=1).max() < 1e-3
+    law = CONTROLLERS["pff"]
+    ran = track(motion, arm, arm.card.home, PLANTS["ideal"], law, law.read_gains({}))
+    settled = motion.t > 0.5
+    assert np.abs(run.posture - ran.posture)[settled].max() < 0.01
+    assert forecast(motion, arm, arm.card.home)[0].speed_part < 0.5  # not the way there

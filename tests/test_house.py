@@ -85,6 +85,7 @@ DOORS = {
     "matplotlib": ["charts.py"],
     "cv2": ["light", "stage", "picture.py", "negative.py", "video.py"],
     "scipy": ["studies/tune.py"],
+    "distributed": ["studies/cluster.py"],
     "svgelements": ["language/drawings.py"],
     "typer": ["cli.py", "cli_options.py", "cli_language.py", "cli_arm.py", "studying.py"],
     "pygments": ["editors/highlighting.py"],

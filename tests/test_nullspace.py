@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 from dqpaint import api, dq
-from dqpaint.controllers import CONTROLLERS
+from dqpaint.controllers import CONTROLLERS, Seen
+from dqpaint.driving import make_drive
 from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.language import parse
 from dqpaint.motion import plan
-from dqpaint.nullspace import OBJECTIVES, Wish, make_wish, read_null
+from dqpaint.nullspace import OBJECTIVES, Wish, make_pull, make_wish, read_null
 from dqpaint.plants import PLANTS
 from dqpaint.robots.card import installed_names, read_card
 from dqpaint.robots.kinematics import Kinematics
@@ -70,7 +71,7 @@ def leaning(rng):
 
 @EVERY
 @pytest.mark.parametrize("law", [
-    "hinf", "p", pytest.param("accelerate", marks=pytest.mark.slow),
+    "hinf", "p", "pham-t", pytest.param("accelerate", marks=pytest.mark.slow),
 ])  # fmt: skip
 def test_objectives_improve_while_the_tool_stands_still(name, law, rng):
     """For laws of velocity and of torque."""
@@ -109,6 +110,47 @@ def test_a_singular_posture_has_no_wish_for_manipulability():
     x, J = ARM.pose_and_jacobian(q)
     slope = OBJECTIVES["manipulability"](CARD, q).slope(q, J, dq.translation(x))
     assert np.isfinite(slope).all()
+
+
+@pytest.mark.parametrize("null", ["limits", "manipulability,gain=3"])
+def test_pham_s_transpose_leaves_room_for_a_wish_and_is_the_paper_s_without(null, rng):
+    """q_dot = J8' k e, and what --null wishes, which moves the tool by nothing."""
+    law = CONTROLLERS["pham-t"]
+    gains = law.read_gains({}).first
+    q = CARD.home + rng.uniform(-0.3, 0.3, 7)
+    x, J = ARM.pose_and_jacobian(q)
+    goal = dq.mul(dq.exp(0.02 * rng.normal(size=6)), x)
+    seen = Seen(x, goal, np.zeros(6), np.zeros(6), J, q, 0.0, 0.008, np.zeros(7))
+    plain, wished = (
+        make_drive(law, ARM, make_wish(one, CARD, CARD.home), 0.008).ask(seen, gains)
+        for one in ("none", null)
+    )
+    np.testing.assert_allclose(plain, law.law(seen, gains), atol=1e-15)
+    wish = make_wish(null, CARD, CARD.home)(q, J, dq.translation(x))
+    projected = wish - np.linalg.pinv(J) @ (J @ wish)
+    np.testing.assert_allclose(wished - plain, projected, atol=1e-9)
+    assert np.abs(projected).max() > 1e-3
+    np.testing.assert_allclose(J @ (wished - plain), 0, atol=1e-12)
+
+
+def test_what_a_wish_does_in_a_time():
+    """Of a pull towards a posture exactly e^-gt of the way is left, however long it takes."""
+    q = CARD.home + 0.1
+    x, J = ARM.pose_and_jacobian(q)
+    wish = make_wish("home,gain=3", CARD, CARD.home)
+    for seconds in (1e-6, 0.3, 50.0):
+        way = wish.over(seconds, q, J, dq.translation(x))
+        np.testing.assert_allclose(q + way - CARD.home, 0.1 * np.exp(-3 * seconds), atol=1e-12)
+    pull = make_pull("home,gain=3", ARM)
+    both = pull(np.array([q, CARD.home]), np.array([q, q]), 0.3)
+    np.testing.assert_allclose(both[0], wish.over(0.3, q, J, dq.translation(x)))
+    np.testing.assert_allclose(both[1], 0, atol=1e-15)
+    from dqpaint.robots.reach import to_start
+
+    starts = np.array([CARD.home, q])
+    posture = np.array([q, CARD.home])
+    np.testing.assert_allclose(make_pull("start", ARM)(posture, starts, 0.4),
+                               to_start(posture, starts, 0.4), atol=1e-15)  # fmt: skip
 
 
 def test_texts():

@@ -4,6 +4,12 @@ import pytest
 
 import dqpaint
 from dqpaint import listing, report
+from dqpaint.language import read
+from dqpaint.language.diagnostics import LINES
+from dqpaint.metrics import asked_columns
+from dqpaint.motion import plan
+from dqpaint.outputs import summarise
+from dqpaint.robots.card import read_card
 
 
 def remarks(tmp_path, period, controller):
@@ -66,3 +72,25 @@ def test_torques_are_told_in_nm_s():
     ):
         assert report._commanded(figures) == [("commanded", told)]
     assert report._commanded({}) == []  # of a recorded run
+
+
+@pytest.mark.slow
+def test_lines_of_included_files_are_named(tmp_path):
+    """In the reports by the file's name, in the CSV by a column of its own."""
+    (tmp_path / "petal.traj").write_text("# petal\n\nline by (30, 0) mm speed 2 m/s law constant\n")
+    main = tmp_path / "a.traj"
+    main.write_text('include "petal.traj"\nhold 40 ms\nline by (0, 9) mm\nhold 1 s\n')
+    painting = dqpaint.draw(main, size=(64, 36))
+    petal = str(tmp_path / "petal.traj")
+    rows = zip(painting.table["file"].tolist(), painting.table["line"].tolist(), strict=True)
+    assert list(dict.fromkeys(rows)) == [(1, 3), (0, 2), (0, 3), (0, 4)]
+    assert {clamp.line for clamp in painting.limits} >= {LINES + 3}
+    assert f"warning: line {petal}:3 runs into speed limits" in "\n".join(report.remarks(painting))
+    summary = summarise(painting)
+    assert summary["included"] == ["petal.traj"]
+    assert summary["limits"][0]["line"] == f"{petal}:3"
+    alone = tmp_path / "b.traj"
+    alone.write_text("line by (0, 9) mm\n")
+    program = read(alone)
+    assert (program.where(12), program.told(12)) == ("12", 12)
+    assert "file" not in asked_columns(plan(program, read_card("iiwa").canvas.pose))

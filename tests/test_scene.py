@@ -116,6 +116,11 @@ def test_what_only_an_arm_has_is_refused_without_one(by):
     ({"look": "velvia"}, "no look named 'velvia'; known: film, aces, agx, clip"),
     ({"brush": "broom"}, "no brush named 'broom'"),
     ({"exposure": "f8"}, "is no part of one"),
+    ({"colour_by": "mood:3"}, "no colour-by named 'mood'; known: position-error"),
+    ({"colour_by": "position-error:"}, "is the end of its scale in mm"),
+    ({"colour_by": "position-error:-1"}, "for position-error, orientation-error, speed"),
+    ({"colour_by": "speed:nan"}, "is the end of its scale in mm/s"),
+    ({"colour_by": "line:3"}, "is the end of its scale"),
     ({"colour_by": "mood"}, "no colour-by named 'mood'; known: position-error, orientation-error"),
 ])  # fmt: skip
 def test_slips_are_told_first(choice, says):

@@ -44,6 +44,14 @@ def past_a_singularity():
     )
 
 
+def far_out():
+    """0.7 m in front of the iiwa's shoulder, and sideways to 110 % of its reach."""
+    card = read_card("iiwa")
+    reach = 0.42 + 0.4 + 0.081 + 0.08  # upper arm, forearm, wrist to flange face, lamp
+    far = np.sqrt((1.1 * reach) ** 2 - card.canvas.at_m[0] ** 2 - (0.5 - 0.36) ** 2)
+    return f"period 8 ms\nline to ({far * 1e3:.0f}, 0) mm\n"
+
+
 @pytest.fixture
 def draw(tmp_path):
     def painted(text, on_limit, **more):
@@ -139,11 +147,7 @@ def test_one_across_a_joint_limit(draw):
 @pytest.mark.slow
 @pytest.mark.parametrize("how", ["clip", "slow", "stop"])
 def test_one_out_of_reach_is_refused_whatever_is_asked(draw, how):
-    """Ten per cent beyond: 0.7 m in front of the shoulder, and sideways to 110 % of the reach."""
-    card = read_card("iiwa")
-    reach = 0.42 + 0.4 + 0.081 + 0.08  # upper arm, forearm, wrist to flange face, lamp
-    far = np.sqrt((1.1 * reach) ** 2 - card.canvas.at_m[0] ** 2 - (0.5 - 0.36) ** 2)
-    text = f"period 8 ms\nline to ({far * 1e3:.0f}, 0) mm\n"
+    text = far_out()
     with pytest.raises(ScriptError, match=r"E310.*outside the reach of iiwa"):
         draw(text, how)
 
@@ -197,6 +201,26 @@ def test_a_law_of_torques_is_slowed_for_its_motors_too():
     assert (np.abs(slow.effort) < arm.card.effort).all()
     rates = slow_down(motion, arm, start, "start", "none")  # their speeds alone need less
     assert rates.longer < slowed.longer
+
+
+SUDDEN = (
+    "period 8 ms\nlaw constant\nstart at (-100, 0) mm\nline to (100, 60) mm speed 500 mm/s\n"
+    "line to (100, -60) mm speed 100 mm/s\nhold 0.3 s\n"
+)
+
+
+@pytest.mark.slow
+def test_motors_that_take_up_a_new_rate_at_once_are_spared_too(draw):
+    """On the stiff arm a corner at full speed asks four times what a motor has."""
+    clip, slow = (draw(SUDDEN, how, plant="stiff") for how in ("clip", "slow"))
+    assert {held.kind for held in clip.limits} == {"torque"}
+    assert not slow.limits
+    assert worst(slow) < 1e-3
+    effort = read_card("iiwa").effort
+    assert 0.7 < (np.abs(slow.track.effort) / effort).max() < 1  # no slower than due
+    assert draw(SUDDEN, "slow", plant="ideal").slowed.longer == 0  # nobody's motors there
+    gentle = draw(SUDDEN, "slow", plant="compliant").slowed  # springs take a corner softly
+    assert gentle.longer < 0.5 * slow.slowed.longer
 
 
 def test_a_joint_driven_past_its_end_by_torques_meets_its_limit():

@@ -77,6 +77,22 @@ def test_files_that_were_read_along_are_watched_too(files):
     assert len(shown) == 3
 
 
+def test_settings_are_watched_too(files):
+    drawing, settings = files
+    shown = []
+    script = iter([idle, lambda: settings.write_text("ev = 1"), idle, idle])
+
+    def wait(_seconds):
+        step = next(script, None)
+        if step is None:
+            raise Over
+        step()
+
+    with pytest.raises(Over):
+        watch(drawing, lambda: shown.append(settings.read_text()), wait, [settings])
+    assert shown == ["hold 1 s", "ev = 1"]
+
+
 def test_an_editor_may_move_the_file_away_for_a_moment(files):
     drawing, other = files
     shown = []

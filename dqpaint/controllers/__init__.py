@@ -6,16 +6,9 @@ twist (..., 6), which `dqpaint.driving` turns into joint rates; or, where it say
 an acceleration or torques. A law that wants to know the whole drawing beforehand brings `prepare`.
 """
 
-import importlib
-import pkgutil
-
 from dqpaint.controllers.gains import Gains
 from dqpaint.controllers.law import CONTROLLERS, Controller, Seen
 from dqpaint.controllers.own import commands, find_controller
 from dqpaint.controllers.schedule import Schedule
-
-# a law that is found by itself registers when its file is imported
-for _module in pkgutil.iter_modules(__path__):
-    importlib.import_module(f"{__name__}.{_module.name}")
 
 __all__ = ["CONTROLLERS", "Controller", "Gains", "Schedule", "Seen", "commands", "find_controller"]

@@ -10,7 +10,7 @@ from dqpaint.controllers.gains import G, list_gains
 from dqpaint.controllers.schedule import GainText, Schedule, read_schedule
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
-from dqpaint.registry import Registry
+from dqpaint.registry import Folder, Registry
 
 Commands = Literal["twist", "rates", "acceleration", "torque"]
 NOTHING: Floats = np.zeros(0)
@@ -105,7 +105,7 @@ class Controller(Generic[G]):
         return list_gains(self.gains)
 
 
-CONTROLLERS: Registry[Controller[Any]] = Registry("controller")
+CONTROLLERS: Registry[Controller[Any]] = Folder("controller", "dqpaint.controllers")
 
 
 def controller(

@@ -11,7 +11,7 @@ from dqpaint.choices import Values, make_choice
 from dqpaint.dq import Floats
 from dqpaint.plants.plant import Trait
 from dqpaint.plants.world import World
-from dqpaint.registry import Registry
+from dqpaint.registry import Folder, Registry
 from dqpaint.robots.kinematics import Kinematics
 
 
@@ -47,7 +47,7 @@ class Disturbance(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
     needs: ClassVar[Trait | None] = None
 
-    def twist(self, t: Floats, period: float, rng: np.random.Generator) -> Floats:
+    def twist(self, t: Floats, period: float, rng: "np.random.Generator") -> Floats:
         """What is added to the motion: the tool's unmodelled velocity (N, 6).
 
         From each time (N,) [s] to the next; angular first [rad/s], then of the tool's own point
@@ -65,7 +65,7 @@ class Disturbance(BaseModel):
             UsageError: it cannot.
         """
 
-    def encoder(self, rows: int, joints: int, rng: np.random.Generator) -> Encoder | None:
+    def encoder(self, rows: int, joints: int, rng: "np.random.Generator") -> Encoder | None:
         """What is measured, in a number of rows; None is the truth."""
         return None
 
@@ -78,12 +78,12 @@ class Disturbance(BaseModel):
         """What the arm and its surroundings truly are."""
         return world
 
-    def belief(self, kinematics: Kinematics, rng: np.random.Generator) -> Kinematics:
+    def belief(self, kinematics: Kinematics, rng: "np.random.Generator") -> Kinematics:
         """What the law's model of the arm believes."""
         return kinematics
 
 
-DISTURBANCES: Registry[type[Disturbance]] = Registry("disturbance")
+DISTURBANCES: Registry[type[Disturbance]] = Folder("disturbance", "dqpaint.disturbances")
 
 
 def make_disturbances(given: Mapping[str, Values]) -> dict[str, Disturbance]:

@@ -4,6 +4,7 @@ import numpy as np
 
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
+from dqpaint.motion import Motion
 from dqpaint.paint import Painting
 from dqpaint.robots.card import Card
 from dqpaint.robots.dynamics import Dynamics
@@ -25,7 +26,10 @@ def check_limits(painting: Painting, kinematics: Kinematics) -> None:
         DqpaintError: something of it is beyond the arm; all of it is listed.
     """
     card, motion, q = kinematics.card, painting.motion, painting.track.posture
-    reasons = [f"line {one.line}: the {one.kind} limit held {one}" for one in painting.limits]
+    where = motion.program.where
+    reasons = [
+        f"line {where(one.line)}: the {one.kind} limit held {one}" for one in painting.limits
+    ]
     rates = np.diff(q, axis=0, prepend=q[:1], append=q[-1:]) / motion.period  # N + 1, at rest first
     bends = np.diff(rates, axis=0) / motion.period
     reasons += _beyond(painting, card, q, rates[1:])
@@ -33,14 +37,14 @@ def check_limits(painting: Painting, kinematics: Kinematics) -> None:
     joint, row = _worst(np.abs(torques) / card.effort)
     if abs(torques[row, joint]) > card.effort[joint] * (1 + SLACK):
         reasons.append(
-            f"line {motion.line[row]}: joint {joint + 1} needs {abs(torques[row, joint]):.4g} Nm "
+            f"{_line(motion, row)}: joint {joint + 1} needs {abs(torques[row, joint]):.4g} Nm "
             f"at {motion.t[row]:.3f} s, but has {card.effort[joint]:.4g} Nm"
         )
     for when, row in (("start", 0), ("end", len(q) - 1)):
         joint = int(np.abs(bends[row]).argmax())
         if abs(bends[row, joint]) > SUDDEN:
             reasons.append(
-                f"line {motion.line[row]}: a sudden {when}: joint {joint + 1} changes its speed by "
+                f"{_line(motion, row)}: a sudden {when}: joint {joint + 1} changes its speed by "
                 f"{abs(bends[row, joint]) * motion.period * DEG:.3g} deg/s within "
                 f"{motion.period * 1e3:g} ms ({abs(bends[row, joint]):.3g} rad/s^2, at most "
                 f"{SUDDEN:g}); law trapezoid or quintic is gentle"
@@ -59,13 +63,13 @@ def _beyond(painting: Painting, card: Card, q: Floats, rates: Floats) -> list[st
     joint, row = _worst(over)
     if over[row, joint] > SLACK:
         found.append(
-            f"line {motion.line[row]}: joint {joint + 1} is {over[row, joint] * DEG:.3g} deg "
+            f"{_line(motion, row)}: joint {joint + 1} is {over[row, joint] * DEG:.3g} deg "
             f"beyond its limit at {motion.t[row]:.3f} s"
         )
     joint, row = _worst(np.abs(rates) / card.speed)
     if abs(rates[row, joint]) > card.speed[joint] * (1 + SLACK):
         found.append(
-            f"line {motion.line[row]}: joint {joint + 1} goes at "
+            f"{_line(motion, row)}: joint {joint + 1} goes at "
             f"{abs(rates[row, joint]) * DEG:.4g} deg/s at {motion.t[row]:.3f} s, but can go at "
             f"{card.speed[joint] * DEG:.4g} deg/s"
         )
@@ -83,3 +87,7 @@ def _worst(values: Floats) -> tuple[int, int]:
     """Joint and row of the largest of values (N, n)."""
     row, joint = np.unravel_index(values.argmax(), values.shape)
     return int(joint), int(row)
+
+
+def _line(motion: Motion, row: int) -> str:
+    return f"line {motion.program.where(int(motion.line[row]))}"

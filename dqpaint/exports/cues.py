@@ -3,6 +3,7 @@
 import numpy as np
 
 from dqpaint.exports.trajectory import commented
+from dqpaint.language.diagnostics import LINES
 from dqpaint.motion import Motion
 from dqpaint.outputs import encode_csv
 
@@ -22,11 +23,14 @@ def cue_sheet(motion: Motion, about: tuple[str, ...]) -> str:
     """
     segments = motion.program.segments
     strobes = [segments[stroke].strobe for stroke in motion.stroke.tolist()]
+    file, line = np.divmod(motion.line, LINES)
+    heads = (*HEADS, "file") if file.any() else HEADS
     rows = np.column_stack([
         np.round(motion.light, DIGITS),
         [strobe.frequency if strobe else 0.0 for strobe in strobes],
         [strobe.duty if strobe else 1.0 for strobe in strobes],
-        motion.line,
+        line,
+        *([file] if file.any() else []),
     ])  # fmt: skip
     changes = np.append(True, (np.diff(rows, axis=0) != 0).any(axis=1))
     values = np.column_stack([motion.t, rows])[changes]
@@ -35,4 +39,4 @@ def cue_sheet(motion: Motion, about: tuple[str, ...]) -> str:
         "Light cues: each holds until the next; linear colours from 0 to 1; t = 0 is the first "
         "point of the trajectory.",
     ))  # fmt: skip
-    return head + encode_csv(dict(zip(HEADS, values.T, strict=True))).decode()
+    return head + encode_csv(dict(zip(heads, values.T, strict=True))).decode()

@@ -11,7 +11,7 @@ import numpy as np
 from dqpaint import __version__
 from dqpaint.dq import Floats
 from dqpaint.paint import Painting
-from dqpaint.registry import Registry
+from dqpaint.registry import Folder, Registry
 from dqpaint.robots.kinematics import Kinematics
 
 
@@ -50,7 +50,7 @@ class Exported(NamedTuple):
 
 
 Format = Callable[[Trajectory], Exported]
-FORMATS: Registry[Format] = Registry("format")
+FORMATS: Registry[Format] = Folder("format", "dqpaint.exports")
 
 CAUTION = (
     "Simulated, and found within the arm's limits of position, speed and torque.",

@@ -19,15 +19,16 @@ from typing import TYPE_CHECKING, Any
 from dqpaint.language.diagnostics import Diagnostic, ScriptError, render
 
 if TYPE_CHECKING:
-    from dqpaint.language.compile import parse, read
+    from dqpaint.language.compile import parse, read, read_input
     from dqpaint.language.program import Program
 
-__all__ = ["Diagnostic", "Program", "ScriptError", "parse", "read", "render"]
+__all__ = ["Diagnostic", "Program", "ScriptError", "parse", "read", "read_input", "render"]
 
 _ROOMS = {
     "Program": "dqpaint.language.program",
     "parse": "dqpaint.language.compile",
     "read": "dqpaint.language.compile",
+    "read_input": "dqpaint.language.compile",
 }
 
 

@@ -44,8 +44,9 @@ def derivatives(chain: Chain, piece: Indices, g: Floats) -> Floats:
 
 
 def _of_cubic(cubic: Floats) -> Chain:
+    none = np.zeros(())  # no arcs, without room for each
     count = len(cubic)
-    return Chain(cubic, np.zeros((count, 2, 3)), np.zeros((count, 2)))
+    return Chain(cubic, np.broadcast_to(none, (count, 2, 3)), np.broadcast_to(none, (count, 2)))
 
 
 def straight(points: Floats) -> Chain:
@@ -161,13 +162,15 @@ def mapped(chain: Chain, matrix: Floats, shift: Floats) -> Chain:
     with np.errstate(over="ignore", invalid="ignore"):
         cubic = chain.cubic @ matrix.T
         cubic[:, 0] += shift
-        return Chain(cubic, chain.ellipse @ matrix.T, chain.angles)
+        arcs = chain.ellipse.any()
+        return Chain(cubic, chain.ellipse @ matrix.T if arcs else chain.ellipse, chain.angles)
 
 
 def farthest(chains: Sequence[Chain]) -> float:
     """The largest number of all pieces [m]; NaN if one of them is none."""
     whole = together(chains)[0]
-    return float(max(np.abs(whole.cubic).max(), np.abs(whole.ellipse).max()))
+    parts = whole.cubic, whole.ellipse
+    return float(max(max(part.max(), -part.min()) for part in parts))
 
 
 # Measured.
@@ -203,11 +206,13 @@ def directions(chains: Sequence[Chain]) -> Floats:
 
 def together(chains: Sequence[Chain]) -> tuple[Chain, Indices, Indices]:
     """All pieces of many chains, and which are the first and the last of each."""
-    whole = Chain(
-        np.concatenate([chain.cubic for chain in chains]),
-        np.concatenate([chain.ellipse for chain in chains]),
-        np.concatenate([chain.angles for chain in chains]),
-    )
+    whole = chains[0]
+    if len(chains) > 1:  # else it is there already, and may be long
+        whole = Chain(
+            np.concatenate([chain.cubic for chain in chains]),
+            np.concatenate([chain.ellipse for chain in chains]),
+            np.concatenate([chain.angles for chain in chains]),
+        )
     stop = np.cumsum([len(chain.cubic) for chain in chains])
     return whole, np.concatenate([[0], stop[:-1]]), stop - 1
 

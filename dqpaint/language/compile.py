@@ -10,7 +10,7 @@ from dqpaint.language.expand import Expander
 from dqpaint.language.findings import EnoughError, Findings
 from dqpaint.language.includes import MOST_LINES, Loader
 from dqpaint.language.program import Program
-from dqpaint.language.source import MOST_BYTES, decoded, load
+from dqpaint.language.source import MOST_BYTES, STDIN_NAME, decoded, load, load_input
 
 
 def read(path: str | Path) -> Program:
@@ -21,6 +21,16 @@ def read(path: str | Path) -> Program:
         ScriptError: the text is not a drawing.
     """
     return parse(_text_of(Path(path)), str(path), Path(path))
+
+
+def read_input() -> Program:
+    """The drawing that comes over standard input; the files it names lie in the working folder.
+
+    Raises:
+        DqpaintError: it can't be read as text.
+        ScriptError: the text is not a drawing.
+    """
+    return parse(decoded(load_input(), STDIN_NAME), STDIN_NAME, Path(STDIN_NAME))
 
 
 def _text_of(path: Path) -> str:
@@ -77,7 +87,8 @@ def _fits(text: str, findings: Findings) -> bool:
     elif "\0" in text:
         at = text.index("\0")
         message = "this is not a text: there is a zero character in it"
-        findings.add(Diagnostic("E307", message, Span(at, at + 1)))
+        cure = "a picture perhaps, or a text in UTF-16; save it as UTF-8"
+        findings.add(Diagnostic("E307", message, Span(at, at + 1), "", cure))
     return not findings.errors
 
 

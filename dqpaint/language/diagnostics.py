@@ -102,6 +102,29 @@ def file_at(text: str, offset: int, name: str) -> tuple[int, str]:
     return included[at - 1] if at else (0, name)
 
 
+LINES = 1_000_000  # more than all files together have
+
+
+def first_number(text: str, begin: int) -> int:
+    """The number of the first line of the file that begins at an offset.
+
+    Lines of the main file have their own number; those of the k-th file that it includes have k
+    times `LINES` more, so that a number alone says which file it is of.
+    """
+    included = text.included if isinstance(text, Source) else ()
+    return LINES * bisect_right(included, begin, key=lambda file: file[0]) + 1
+
+
+def line_named(text: str, number: int) -> str:
+    """A line as a person is told it: `12`, or `petal.traj:3` of an included file."""
+    file, line = divmod(number, LINES)
+    if not file:
+        return str(line)
+    included = text.included if isinstance(text, Source) else ()
+    name = included[file - 1][1] if file <= len(included) else f"included file {file}"
+    return f"{name}:{line}"
+
+
 def render(diagnostic: Diagnostic, name: str, text: str) -> str:
     """The message as a person reads it in a terminal, with the line it speaks of and a caret."""
     head = f"{diagnostic.severity}[{diagnostic.code}]: {diagnostic.message}"

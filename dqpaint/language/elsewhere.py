@@ -97,7 +97,7 @@ def path(statement: Statement, pen: Pen, scope: Scope) -> None:
     trace = Trace(_drawn(chain, pen, scale, shift))
     start = chains.ends(trace.chain)[0]
     gap = space.length(space.minus(start, pen.pose.position))
-    if pen.started and gap > GAP and not statement.part("at"):
+    if pen.started and gap > GAP and not statement.part("at") and not pen.amid_run:
         message = f"the path starts {1e3 * gap:.3g} mm away from where the tool is"
         cure = "a light-off move is added; write a move to choose its speed"
         pen.warn("W402", message, nodes[0].span, "", cure)
@@ -219,6 +219,8 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
         raise here("E201", "this goes too far away", span)
     ends = chains.all_ends([trace.chain for trace in traces]).tolist()
     starts, stops = ([_vector(pair[side]) for pair in ends] for side in (0, 1))
+    if pen.run is not None and len(traces) > 1:
+        raise _pen_up(statement, len(traces))
     _begin(pen, starts[0], span)
     lengths = chains.lengths([trace.chain for trace in traces])
     ways = [
@@ -240,6 +242,17 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
 def _too_many(span: Span) -> Diagnostic:
     message = f"more than {MOST_PIECES:,} pieces of lines from elsewhere in all"
     return Diagnostic("E299", message, span, "", "draw it less often, or with fewer points")
+
+
+def _pen_up(statement: Statement, count: int) -> Problem:
+    """What lifts its pen can't be part of a `stroke`, which goes on without a stop."""
+    word = statement.word
+    message = f"this '{word}' lifts its pen between its {count} lines, and a 'stroke' does not stop"
+    span = Span(statement.span.start, statement.span.start + len(word))
+    cure = (
+        f"write it outside of the stroke: each of its lines runs through by itself; {word} … in 5 s"
+    )
+    return problem("E283", message, span, "", cure)
 
 
 def _begin(pen: Pen, start: Vector, span: Span) -> None:

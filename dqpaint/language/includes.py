@@ -112,6 +112,10 @@ class Loader:
             text = self._read(path)
         except DqpaintError as fault:
             raise problem("E272", str(fault), node.span) from None
+        if "\0" in text:
+            raise problem(
+                "E272", f"{name} is not a text: there is a zero character in it", node.span
+            )
         begin = len(self.source) + 1
         if begin + len(text) > MOST_LETTERS:
             message = f"all files together are larger than {MOST_LETTERS // 1_000_000} MB"

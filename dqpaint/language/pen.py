@@ -5,7 +5,14 @@ from dataclasses import replace
 from pathlib import Path as FilePath
 
 from dqpaint.language import space
-from dqpaint.language.diagnostics import Diagnostic, PlaceProblem, Span, file_at, problem
+from dqpaint.language.diagnostics import (
+    Diagnostic,
+    PlaceProblem,
+    Span,
+    file_at,
+    first_number,
+    problem,
+)
 from dqpaint.language.findings import EnoughError, Findings
 from dqpaint.language.program import (
     IDENTITY,
@@ -110,9 +117,15 @@ class Pen:
 
     # Strokes of several lines.
 
+    @property
+    def amid_run(self) -> bool:
+        """Whether a `stroke` has begun to move."""
+        segments = self.segments
+        return self.run is not None and bool(segments) and segments[-1].run is self.run
+
     def check_no_stop(self, span: Span) -> None:
         """Raises if a way or a turn of our own would come into the middle of a `stroke`."""
-        if self.run is not None and self.segments and self.segments[-1].run is self.run:
+        if self.amid_run:
             message = "the tool would have to stop within this stroke"
             cure = "let this line begin where the one before it ends, and the tool look there"
             raise here("E283", message, span, "", cure)
@@ -202,7 +215,7 @@ class _LineCounter:
         offset, line = self._last
         begin, _ = file_at(self._text, span.start, "")
         if not begin <= offset <= span.start:
-            offset, line = begin, 1
+            offset, line = begin, first_number(self._text, begin)
         line += self._text.count("\n", offset, span.start)
         self._last = (span.start, line)
         self._known[span.start] = line

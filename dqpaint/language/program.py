@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dqpaint.language.colours import Colour as Colour
-from dqpaint.language.diagnostics import Diagnostic, Span
+from dqpaint.language.diagnostics import LINES, Diagnostic, Span, line_named
 from dqpaint.language.taylor import Floats, Taylor
 
 Vector = tuple[float, float, float]
@@ -275,7 +275,7 @@ class Segment:
     start: Pose
     end: Pose
     span: Span  # the words of the file that asked for it
-    line: int  # 1-based line of the file
+    line: int  # of the file, from 1; of an included one as `diagnostics.first_number` has it
     brush: Brush = Point()
     strobe: Strobe | None = None  # None: it burns steadily
     run: Run | None = None  # None: it has law and timing for itself
@@ -302,3 +302,11 @@ class Program:
     start: Pose
     segments: tuple[Segment, ...]
     notes: tuple[Diagnostic, ...]  # warnings; errors are raised
+
+    def where(self, line: int) -> str:
+        """A line number of a segment as a person is told it: `12`, `petal.traj:3`."""
+        return line_named(self.text, line)
+
+    def told(self, line: int) -> int | str:
+        """The same for a program: a number for a line of the main file."""
+        return line if line < LINES else self.where(line)

@@ -1,10 +1,13 @@
 """A file -> its text, or why it is none. This and the layout are all that `fmt` needs."""
 
+import sys
 from pathlib import Path
 
 from dqpaint.errors import DqpaintError
 
 MOST_BYTES = 2_000_000
+STDIN = "-"  # as a file's name: standard input
+STDIN_NAME = "<stdin>"  # and as messages call it
 
 
 def load(path: str | Path) -> bytes:
@@ -21,6 +24,17 @@ def load(path: str | Path) -> bytes:
         raise DqpaintError(f"can't read {path}: {(reason or str(fault)).lower()}") from None
 
 
+def load_input() -> bytes:
+    """What comes over standard input, one byte more than allowed at most.
+
+    Raises:
+        DqpaintError: it is closed.
+    """
+    if sys.stdin is None:
+        raise DqpaintError("standard input is closed")
+    return sys.stdin.buffer.read(MOST_BYTES + 1)
+
+
 def decoded(data: bytes, name: str) -> str:
     """The text of a file, its lines ended by a newline alone.
 
@@ -31,8 +45,6 @@ def decoded(data: bytes, name: str) -> str:
         raise DqpaintError(f"{name} is larger than {MOST_BYTES // 1_000_000} MB")
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         raise DqpaintError(f"{name} is written in UTF-16; save it as UTF-8")
-    if b"\0" in data:
-        raise DqpaintError(f"{name} is not a text: byte {data.index(0) + 1} is 0")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as fault:

@@ -6,7 +6,7 @@ others are named, not followed.
 """
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
@@ -17,6 +17,7 @@ _RULE = re.compile(r"([^{}]*)\{([^{}]*)\}")
 _SELECTOR = re.compile(r"(\*|[a-zA-Z][\w-]*)?((?:[.#][\w-]+)*)")
 _PART = re.compile(r"[.#][\w-]+")
 _AT = re.compile(r"\s*(@[\w-]+)?")
+_IMPORTANT = re.compile(r"\s*!\s*important$")
 _BRACKETS = re.compile(r"[{}]")
 _STATES = re.compile(r"::?[a-z-]+(\(|$)")  # such as :hover: not of a still picture
 
@@ -28,12 +29,19 @@ class TooManyRulesError(Exception):
     """More rules and elements than are tried on each other."""
 
 
+class _Declared(NamedTuple):
+    """What a rule says, and what of it goes before all that is said otherwise."""
+
+    plain: dict[str, str]
+    important: dict[str, str]
+
+
 class _Rule(NamedTuple):
     """A rule with one selector; `weight` orders rules as CSS has it: ids, classes, tag, place."""
 
     weight: tuple[int, int, bool, int]
     names: frozenset[str]  # `#id`, `.class` and `tag`, all of which an element must have
-    declared: Mapping[str, str]
+    declared: _Declared
 
 
 def tag_of(element: Element) -> str:
@@ -56,6 +64,7 @@ def inline(root: Element, known: frozenset[str], remark: Remark) -> None:
     for element in root.iter():
         has = element.attrib
         own = _declared(has.pop("style", ""), known)
+        holding: list[_Declared] = []
         if rules:
             names = {f".{one}" for one in has.get("class", "").split()}
             names |= {tag_of(element), f"#{has.get('id', '')}"}
@@ -63,17 +72,19 @@ def inline(root: Element, known: frozenset[str], remark: Remark) -> None:
             work += len(tried)
             if work > MOST_WORK:
                 raise TooManyRulesError
-            for rule in sorted(tried, key=lambda rule: rule.weight):
-                if rule.names <= names:
-                    has.update(rule.declared)
-        has.update(own)
+            tried.sort(key=lambda rule: rule.weight)
+            holding = [rule.declared for rule in tried if rule.names <= names]
+        for declared in (*holding, own):
+            has.update(declared.plain)
+        for declared in (*holding, own):
+            has.update(declared.important)
 
 
 def _rules(sheet: Element, known: frozenset[str], remark: Remark) -> Iterator[_Rule]:
     text = _COMMENT.sub(" ", sheet.text or "").replace("<!--", " ").replace("-->", " ")
     for order, (selectors, body) in enumerate(_blocks(text, sheet, remark)):
         declared = _declared(body, known)
-        for selector in map(str.strip, selectors.split(",") if declared else ()):
+        for selector in map(str.strip, selectors.split(",") if any(declared) else ()):
             match = _SELECTOR.fullmatch(selector)
             if match and selector:
                 names = {part[0] for part in _PART.finditer(match[2])}
@@ -115,14 +126,13 @@ def _close(text: str, brace: int) -> int:
     return len(text)
 
 
-def _declared(text: str, known: frozenset[str]) -> dict[str, str]:
-    """The declarations that matter; the last of a name holds, an important one in any case."""
-    found: dict[str, str] = {}
-    important: dict[str, str] = {}
+def _declared(text: str, known: frozenset[str]) -> _Declared:
+    """The declarations that matter; the last of a name holds."""
+    found = _Declared({}, {})
     for declaration in _COMMENT.sub(" ", text).split(";"):
         name, colon, value = declaration.partition(":")
         name, value = name.strip().lower(), value.strip()
         if colon and name in known:
-            plain = re.sub(r"\s*!\s*important$", "", value)
-            (found if plain == value else important)[name] = plain
-    return {**found, **important}
+            plain = _IMPORTANT.sub("", value)
+            (found.plain if plain == value else found.important)[name] = plain
+    return found

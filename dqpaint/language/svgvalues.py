@@ -12,6 +12,7 @@ from dqpaint.language import colours
 
 LARGEST = 1e9  # [px]
 LEAST_RADIUS = 1e-9
+MOST_TRANSFORMS = 1_000  # of one attribute
 INCH = 96.0  # [px] as CSS has it
 _UNITS = {"": 1.0, "px": 1.0, "in": INCH, "pc": INCH / 6, "pt": INCH / 72, "q": INCH / 101.6}
 _UNITS |= {"cm": INCH / 2.54, "mm": INCH / 25.4}
@@ -190,8 +191,11 @@ def transform(text: str) -> str:
     """Turns, shifts and scales, in degrees and pixels; the names as SVG or CSS have them."""
     if not text.strip() or text.strip() == "none":
         return ""
-    made, at = [], 0
+    made: list[str] = []
+    at = 0
     while match := _FUNCTION.match(text, at):
+        if len(made) == MOST_TRANSFORMS:
+            raise UnreadableError(f"more than {MOST_TRANSFORMS:,} transforms one after the other")
         made.append(_function(match[1], match[2]))
         at = match.end()
     if text[at:].strip():

@@ -5,6 +5,7 @@ semicolons or tabs a comma may be the decimal sign. A first line that holds no n
 heading; empty lines and what follows a # are passed over.
 """
 
+import io
 from collections.abc import Iterator
 from functools import lru_cache
 
@@ -16,7 +17,7 @@ from dqpaint.language.pen import Pen
 from dqpaint.language.syntax import Quoted
 from dqpaint.language.taylor import Floats
 
-MOST_ROWS = 1_000_000
+MOST_ROWS = 500_000
 MOST_BYTES = 100_000_000
 FARTHEST = 1e12  # in the file's unit
 
@@ -62,22 +63,33 @@ def _numbers_in(name: str, data: bytes, span: Span) -> Floats:
         cure = "save it as plain text in UTF-8"
         raise problem("E295", f"{node.text} is not a plain text", node.span, "", cure)
     text = data.decode("utf-8-sig", errors="replace").replace("\r\n", "\n").replace("\r", "\n")
-    lines = list(_lines(text))
-    if lines and _is_heading(lines[0][1]):
-        del lines[0]
-    if not lines:
+    heading, first = _first(text)
+    if not first:
         raise problem("E295", f"there are no numbers in {node.text}", node.span)
-    if len(lines) > MOST_ROWS:
-        raise _too_many(node)
-    parted, comma = _style(lines[0][1])
-    rows = (line.replace(",", ".") if comma else line for _, line in lines)
+    parted, comma = _style(first)
+    text = text.replace(",", ".") if comma else text
     try:
-        points = np.loadtxt(rows, delimiter=parted, ndmin=2, comments=None)
-    except ValueError:
-        raise _fault(node, lines, parted, comma) from None
-    if not (np.abs(points) < FARTHEST).all():
-        raise _fault(node, lines, parted, comma)
-    return points
+        points = np.loadtxt(io.StringIO(text), delimiter=parted, ndmin=2, skiprows=heading)
+    except ValueError:  # perhaps a line of blanks alone
+        lines = list(_lines(text))[heading > 0 :]
+        try:
+            points = np.loadtxt((row for _, row in lines), delimiter=parted, ndmin=2)
+        except ValueError:
+            raise _fault(node, lines, parted) from None
+    if len(points) > MOST_ROWS:
+        raise _too_many(node)
+    if max(points.max(), -points.min()) < FARTHEST:
+        return points
+    raise _fault(node, list(_lines(text))[heading > 0 :], parted)
+
+
+def _first(text: str) -> tuple[int, str]:
+    """How many lines there are up to the heading, if there is one, and the first row behind it."""
+    lines = _lines(text)
+    number, line = next(lines, (0, ""))
+    if not line or not _is_heading(line):
+        return 0, line
+    return number, next(lines, (0, ""))[1]
 
 
 def _lines(text: str) -> Iterator[tuple[int, str]]:
@@ -112,9 +124,9 @@ def _is_heading(line: str) -> bool:
     return not any(map(_is_number, _numbers(line, *_style(line))))
 
 
-def _fault(node: Quoted, lines: list[tuple[int, str]], parted: str | None, comma: bool) -> Problem:
+def _fault(node: Quoted, lines: list[tuple[int, str]], parted: str | None) -> Problem:
     """E295: the first line that is not as it should be."""
-    rows = [(number, _numbers(line, parted, comma)) for number, line in lines]
+    rows = [(number, line.split(parted)) for number, line in lines]
     wanted = len(rows[0][1])
     faults = ((number, _wrong(fields, wanted)) for number, fields in rows)
     line, what = next((f for f in faults if f[1]), (rows[0][0], "can't be read"))

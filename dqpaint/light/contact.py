@@ -91,6 +91,11 @@ def png(picture: Picture) -> bytes:
     return bytes(data.tobytes())
 
 
+def opened(data: bytes) -> Picture:
+    """The picture (H, W, 3) of a PNG file."""
+    return np.ascontiguousarray(cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR_RGB))
+
+
 def _fitting(text: str, width: int, size: int) -> str:
     if text_length(text, size) <= width:
         return text

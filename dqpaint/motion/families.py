@@ -30,7 +30,7 @@ from dqpaint.motion.chains import place_chains
 from dqpaint.motion.faults import Faults, StrokeError, stroke_errors
 from dqpaint.motion.lengths import Extent, flow_by_length, measure
 from dqpaint.motion.orientations import orientation
-from dqpaint.motion.places import Formula, Indices, Places, column, place_arc, place_straight
+from dqpaint.motion.places import Arcs, Formula, Indices, Places, column, place_arc, place_straight
 from dqpaint.motion.shapes import Flow, Jump, Loose, Rigid, Shape
 
 Kind = tuple[object, ...]
@@ -100,6 +100,18 @@ class Shapes:
         out = np.empty((len(f), 3))
         for family, rows in _alike(self.family[number]):
             out[rows] = self.families[family].of(self.member[number[rows]]).points(f[rows])
+        return out
+
+    def may_leave(self, number: Indices, least: Floats, most: Floats) -> Flags:
+        """Which segments (N,) may go out of a box that their ends lie in, on their way."""
+        out = np.ones(len(number), dtype=bool)
+        for family, rows in _alike(self.family[number]):
+            form = self.families[family]
+            if form.straight:
+                out[rows] = False
+            elif isinstance(form, Loose) and isinstance(form.places, Arcs):
+                lower, upper = form.places.of(self.member[number[rows]]).bounds()
+                out[rows] = ((lower < least) | (upper > most)).any(axis=1)
         return out
 
     def _groups(self, number: Indices, by_length: Flags) -> Iterator[tuple[Rows, int, bool]]:
@@ -208,6 +220,8 @@ def _places(segments: Sequence[Segment]) -> Places:
 
 def _alike(values: Indices) -> Iterator[tuple[int, Rows]]:
     """Each value that occurs, and the rows where it does, in order."""
+    if not len(values):
+        return
     if (values == values[0]).all():
         yield int(values[0]), slice(None)
         return

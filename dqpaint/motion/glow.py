@@ -8,7 +8,7 @@ from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.language.program import Bar, Light, Step, Still
 from dqpaint.motion.families import Flags
-from dqpaint.motion.laws import LAWS, Rates
+from dqpaint.motion.laws import Rates, rate_at, turns_back
 from dqpaint.motion.places import Indices
 from dqpaint.motion.sampling import Rows
 from dqpaint.motion.timetable import Timetable, part_at
@@ -132,18 +132,13 @@ def unevenness(table: Timetable) -> float:
     found = [] if matters.all() else [1.0]
     for name, with_rates, strokes in table.laws():
         some = strokes[matters[strokes]]
-        if not with_rates and len(some):
-            found.append(_over_middle(name, ()))
-        for stroke in some.tolist() if with_rates else ():
-            found.append(_over_middle(name, table.end_rates(name, stroke)))
+        if len(some):
+            found.append(_over_middle(name, table.end_rates(name, some) if with_rates else ()))
     return max(found)
 
 
 def _over_middle(law: str, rates: Rates) -> float:
-    """Brightness is time per length."""
-    progress = LAWS[law](np.linspace(0.0, 1.0, 2001), rates)
-    if not (np.diff(progress.value) > 0).all():
-        return 1.0  # it turns back on its way
-    near = np.array([NEAR_END, 0.5, 1 - NEAR_END])
-    start, middle, end = np.interp(near, progress.value, progress.rate)
-    return float(middle / min(start, end))
+    """The largest of some strokes with one law. Brightness is time per length."""
+    start, middle, end = (rate_at(law, rates, f) for f in (NEAR_END, 0.5, 1.0 - NEAR_END))
+    times = middle / np.minimum(start, end)
+    return float(np.where(turns_back(law, rates), 1.0, times).max())

@@ -29,6 +29,7 @@ TimeLaw = Callable[[Floats, Rates], Progress]
 
 LAWS: Registry[TimeLaw] = Registry("time law")
 HALVINGS = 26  # of an interval in which the fastest moment lies: its rate is stationary there
+BACKWARDS = 1e-9  # a rate below that, the other way, is the noise of one that is none
 RAMP = 0.2  # of a trapezoid's time, at each end
 
 
@@ -110,6 +111,26 @@ def peak_rate(name: str, rates: Rates) -> Floats:
     coefficients = cubic_coefficients(rates) if name == "cubic" else quintic_coefficients(rates)
     slope = derivative(coefficients)
     return np.asarray(np.abs(horner(slope, _stationary(slope))).max(axis=0))
+
+
+def turns_back(name: str, rates: Rates) -> NDArray[np.bool_]:
+    """Whether a law with boundary rates goes backwards on its way; of many, one a row (K,)."""
+    if not rates:
+        return np.zeros((), dtype=bool)
+    coefficients = cubic_coefficients(rates) if name == "cubic" else quintic_coefficients(rates)
+    slope = derivative(coefficients)
+    return np.asarray(horner(slope, _stationary(slope)).min(axis=0) < -BACKWARDS)
+
+
+def rate_at(name: str, rates: Rates, fraction: float) -> Floats:
+    """The rate of a law that does not turn back, where it has come so far; of many (K,)."""
+    lower = np.zeros(np.shape(rates[0]) if rates else ())
+    upper = np.ones_like(lower)
+    for _ in range(60):
+        middle = 0.5 * (lower + upper)
+        beyond = LAWS[name](middle, rates).value > fraction
+        lower, upper = np.where(beyond, lower, middle), np.where(beyond, middle, upper)
+    return LAWS[name](lower, rates).rate
 
 
 def _stationary(slope: Rates) -> Floats:

@@ -96,6 +96,13 @@ class Arcs(Rowed):
     grow: Floats
     even: ClassVar[bool] = True
 
+    def bounds(self) -> tuple[Floats, Floats]:
+        """The least and the greatest coordinates (K, 3) of the whole circles that arcs are of."""
+        way = np.stack([self.foot, self.foot + self.rise])
+        size = np.maximum(np.abs(self.radius), np.abs(self.radius + self.grow))
+        reach = size * np.sqrt(self.e1**2 + self.e2**2)
+        return way.min(axis=0) - reach, way.max(axis=0) + reach
+
     def point(self, f: Floats) -> Floats:
         """The place."""
         f = f[:, None]
@@ -142,9 +149,9 @@ def place_arc(segments: Sequence[Segment]) -> Arcs:
     foot = p0 - (arm - axis * (arm * axis).sum(-1, keepdims=True))
     radius = np.sqrt(((p0 - foot) ** 2).sum(-1, keepdims=True))
     e1 = (p0 - foot) / radius
-    angle, rise, grow = (
-        column([[getattr(path, name)] for path in paths]) for name in ("angle", "rise", "grow")
-    )
+    angle = column([path.angle for path in paths])[:, None]
+    rise = column([path.rise for path in paths])[:, None]
+    grow = column([path.grow for path in paths])[:, None]
     made = Spirals if grow.any() else Arcs
     return made(foot, rise * axis, e1, dq.cross(axis, e1), radius, angle, grow)
 

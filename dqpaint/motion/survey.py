@@ -5,7 +5,6 @@ are, and their boxes need their places alone, or those of their ends; only what 
 looks somewhere is asked at every sample.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -75,9 +74,7 @@ def survey(program: Program) -> Survey:
         raise ScriptError(program.name, program.text, findings.ordered())
     for note in (*jumps(table), *slow(table)):
         findings.add(note)
-    for stroke, tau in _telling(table, np.flatnonzero(~doubtful)):
-        number, f = table.inside(stroke, table.progress(stroke, tau).value)
-        box.add(table.shapes.points(number, f))
+    _bound(table, np.flatnonzero(~doubtful), box)
     samples = int(table.count.sum()) + 1
     return Survey(
         program,
@@ -101,17 +98,17 @@ class _Box:
     """The box round places."""
 
     def __init__(self) -> None:
-        self._least, self._most = np.full(3, np.inf), np.full(3, -np.inf)
+        self.least, self.most = np.full(3, np.inf), np.full(3, -np.inf)
 
     def add(self, points: Floats) -> None:
         """Takes places (N, 3) in."""
-        self._least = np.minimum(self._least, points.min(axis=0))
-        self._most = np.maximum(self._most, points.max(axis=0))
+        self.least = np.minimum(self.least, points.min(axis=0))
+        self.most = np.maximum(self.most, points.max(axis=0))
 
     @property
     def sides(self) -> Floats:
         """Its sides (3,) [m]."""
-        return np.asarray(self._most - self._least)
+        return np.asarray(self.most - self.least)
 
 
 def _doubtful(table: Timetable) -> Flags:
@@ -130,14 +127,18 @@ def _doubtful(table: Timetable) -> Flags:
         return np.asarray(~(harmless & (1.0 / table.time < HARMLESS)))
 
 
-def _telling(table: Timetable, strokes: Indices) -> Iterator[tuple[Indices, Floats]]:
-    """Rows of strokes that tell their box: ends of straight ones, all samples of others."""
-    straight = np.array([shape.straight for shape in table.shapes.families])
-    alone = (table.size == 1) & ~table.rates.any(axis=1)
-    by_ends = (alone & straight[table.shapes.family[table.first]])[strokes]
-    ends = strokes[by_ends]
-    if len(ends):
-        yield np.repeat(ends, 2), np.tile([0.0, 1.0], len(ends))
-    others = strokes[~by_ends]
+def _bound(table: Timetable, strokes: Indices, box: _Box) -> None:
+    """Takes the samples of strokes into a box: their ends, and what lies farther out between."""
+    if not len(strokes):
+        return
+
+    def add(stroke: Indices, tau: Floats) -> None:
+        number, f = table.inside(stroke, table.progress(stroke, tau).value)
+        box.add(table.shapes.points(number, f))
+
+    add(np.repeat(strokes, 2), np.tile([0.0, 1.0], len(strokes)))
+    alone = (table.size[strokes] == 1) & ~table.rates[strokes].any(axis=1)
+    leaves = table.shapes.may_leave(table.first[strokes], box.least, box.most)
+    others = strokes[leaves | ~alone]
     for some in blocks(table.count[others]):
-        yield every_sample(table.count, others[some])
+        add(*every_sample(table.count, others[some]))

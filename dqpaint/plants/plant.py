@@ -9,7 +9,7 @@ from dqpaint.choices import make_choice, read_choice
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.registry import Registry
+from dqpaint.registry import Folder, Registry
 from dqpaint.robots.card import Card
 
 Takes = Literal["rates", "torque"]
@@ -89,7 +89,7 @@ class PlantMaker(Protocol):
         """The arm of a card at rest in a posture (n,) [rad], controlled every `period` [s]."""
 
 
-PLANTS: Registry[PlantMaker] = Registry("plant")
+PLANTS: Registry[PlantMaker] = Folder("plant", "dqpaint.plants")
 
 
 @dataclass(frozen=True)

@@ -46,4 +46,5 @@ class Stiff(RigidArm):
         for _ in range(self.steps - 1):
             self.advance()
         last = self.measure()
-        self.effort = np.array([max(a[3], b[3], key=abs) for a, b in zip(first, last, strict=True)])
+        torques = ((a[3], b[3]) for a, b in zip(first, last, strict=True))
+        self.effort = np.array([a if abs(a) >= abs(b) else b for a, b in torques])

@@ -1,6 +1,7 @@
 """What an arm is under, besides its commands, and what its own model says of it."""
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -51,7 +52,7 @@ class World:
     pushes: tuple[Push, ...] = ()
     model_gravity: float = 1.0
 
-    @property
+    @cached_property
     def displaced(self) -> bool:
         """Whether the base is elsewhere than believed."""
         return bool((self.base != dq.IDENTITY).any())

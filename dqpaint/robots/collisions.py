@@ -7,7 +7,9 @@ the kinematics has already, so a posture is said once.
 
 from collections.abc import Sequence
 from functools import lru_cache
+from pathlib import Path
 from typing import NamedTuple
+from xml.etree import ElementTree as Xml
 
 import coal
 import numpy as np
@@ -22,6 +24,7 @@ from dqpaint.robots.urdf import prepare
 APART = 2  # joints between two links that may collide: neighbours touch by design
 TRIALS, MOSTLY, SEED = 32, 0.5, 1988  # postures in which two links show whether they always touch
 SIGHT = 1e-5  # [m] half the width of a line of sight, as thin as a ray
+POINT = coal.Sphere(SIGHT)
 LAMP = 0.010  # [m] round the light that hide nothing: what holds a lamp, as `stage.shadow` has it
 
 
@@ -51,15 +54,19 @@ class Shapes:
 
     Links that touch in the home posture, or in most postures, are not looked at: their shapes are
     coarser than the arm itself.
+
+    Attributes:
+        notes: what of the arm had to be left out, a sentence each.
     """
 
     def __init__(self, kinematics: Kinematics) -> None:
         self._model, self._data = kinematics.model, kinematics.model.createData()
-        self._shapes = pinocchio.buildGeomFromUrdfString(
-            self._model, prepare(kinematics.card).text, pinocchio.GeometryType.COLLISION
-        )
-        self._visual = pinocchio.buildGeomFromUrdfString(
-            self._model, prepare(kinematics.card).text, pinocchio.GeometryType.VISUAL
+        self._text, unread = prepare(kinematics.card).text, dict[str, None]()
+        self._shapes = self._read(pinocchio.GeometryType.COLLISION, unread)
+        self._visual = self._read(pinocchio.GeometryType.VISUAL, unread)
+        self.notes = tuple(
+            f"mesh '{Path(mesh).name}' cannot be read: what it meets and hides is left out"
+            for mesh in unread
         )
         self._solids = [shape.geometry for shape in self._shapes.geometryObjects]
         for shape in self._shapes.geometryObjects:
@@ -70,6 +77,16 @@ class Shapes:
             self._model.frames[shape.parentFrame].name for shape in self._shapes.geometryObjects
         ]
         self._choose_pairs(kinematics.card)
+
+    def _read(
+        self, kind: pinocchio.GeometryType, unread: dict[str, None]
+    ) -> pinocchio.GeometryModel:
+        """The shapes of one kind, without the meshes that cannot be read; these are named."""
+        try:
+            return pinocchio.buildGeomFromUrdfString(self._model, self._text, kind)
+        except ValueError:
+            self._text = without_broken_meshes(self._text, unread)
+        return pinocchio.buildGeomFromUrdfString(self._model, self._text, kind)
 
     def nearest(self, postures: Floats) -> Nearest:
         """The nearest links in postures (N, n) [rad]; infinity where no two can meet."""
@@ -101,9 +118,9 @@ class Shapes:
             pinocchio.updateGeometryPlacements(
                 self._model, self._data, self._visual, known, posture
             )
-            line, place = _line_of_sight(point, eye)
+            sight = _line_of_sight(point, eye)
             hidden[k] = any(
-                _meet(line, place, shape.geometry, _transform(where))
+                _blocks(shape.geometry, _transform(where), *sight)
                 for shape, where in zip(self._visual.geometryObjects, known.oMg, strict=True)
             )
         return hidden
@@ -155,8 +172,11 @@ class Shapes:
         return self._names[pair.first], self._names[pair.second]
 
 
-def _line_of_sight(point: Floats, eye: Floats) -> tuple[coal.Capsule, coal.Transform3s]:
-    """From the eye to where the lamp begins: a thin capsule, and its place."""
+Sight = tuple[coal.Capsule, coal.Transform3s, coal.Transform3s]
+
+
+def _line_of_sight(point: Floats, eye: Floats) -> Sight:
+    """From the eye to where the lamp begins: a thin capsule, its place, and that end's."""
     way = point - eye
     length = float(np.linalg.norm(way))
     along = way / length
@@ -164,7 +184,52 @@ def _line_of_sight(point: Floats, eye: Floats) -> tuple[coal.Capsule, coal.Trans
     side /= np.linalg.norm(side)
     rotation = np.stack([side, np.cross(along, side), along], axis=1)
     seen = max(length - LAMP, SIGHT)
-    return coal.Capsule(SIGHT, seen), coal.Transform3s(rotation, eye + 0.5 * seen * along)
+    middle, end = (eye + part * seen * along for part in (0.5, 1.0))
+    place = coal.Transform3s(rotation, middle)
+    return coal.Capsule(SIGHT, seen), place, coal.Transform3s(rotation, end)
+
+
+def _blocks(
+    solid: coal.CollisionGeometry,
+    where: coal.Transform3s,
+    line: coal.Capsule,
+    place: coal.Transform3s,
+    end: coal.Transform3s,
+) -> bool:
+    """Whether a shape is in the way; a plain one that the lamp sits in is not, as for a ray."""
+    if not _meet(line, place, solid, where):
+        return False
+    return isinstance(solid, coal.BVHModelBase) or not _meet(POINT, end, solid, where)
+
+
+def without_broken_meshes(text: str, broken: dict[str, None]) -> str:
+    """A description without the shapes whose meshes cannot be read; their files are noted."""
+    robot = Xml.fromstring(text)
+    loader = coal.MeshLoader()
+    for link in robot.iter("link"):
+        for shape in [*link.findall("visual"), *link.findall("collision")]:
+            mesh = shape.find("geometry/mesh")
+            if mesh is None:
+                continue
+            name = mesh.get("filename", "")
+            try:
+                loader.load(name, np.ones(3))
+            except ValueError:
+                link.remove(shape)
+                broken[name] = None
+    return Xml.tostring(robot, encoding="unicode")
+
+
+def read_mesh(path: str, scale: Sequence[float]) -> tuple[Floats, NDArray[np.int64]]:
+    """The corners (V, 3) [m] and triangles (T, 3) of a mesh file.
+
+    Raises:
+        ValueError: it cannot be read.
+    """
+    mesh = coal.MeshLoader().load(path, np.array(scale, dtype=np.float64))
+    corners = [mesh.tri_indices(i) for i in range(mesh.num_tris)]
+    triangles = np.array([[one[0], one[1], one[2]] for one in corners], dtype=np.int64)
+    return np.array(mesh.vertices()), triangles.reshape(-1, 3)
 
 
 def _transform(placement: pinocchio.SE3) -> coal.Transform3s:

@@ -149,7 +149,7 @@ def _by_line(
 ) -> list[Clamp]:
     out = []
     rows = np.flatnonzero(where)
-    for number in np.unique(line[rows]):
+    for number in sorted(set(line[rows].tolist())):
         here = rows[line[rows] == number]
         worst = here[np.argmax(np.abs(asked[here]))]
         out.append(
@@ -158,7 +158,7 @@ def _by_line(
                 joint=joint + 1,
                 start=float(t[here[0]]),
                 seconds=float(len(here) * period),
-                line=int(number),
+                line=number,
                 limit=float(most[worst]),
                 wanted=float(asked[worst]),
             )

@@ -31,6 +31,9 @@ def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats | None)
     resolution", 1997).
     """
     shift = to_tool(point)
+    one = shift.ndim == jacobian.ndim == 2 and twist.ndim == 1
+    if one and wish is not None and wish.ndim == 1:
+        return _resolve_one(shift, jacobian, twist, wish)
     J = shift @ jacobian
     square = J @ J.mT
     left = np.matvec(shift, twist)
@@ -38,6 +41,13 @@ def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats | None)
         left = left - np.matvec(J, wish)
     rates: Floats = np.vecmat(_force(square, left), J)
     return rates if wish is None else rates + wish
+
+
+def _resolve_one(shift: Floats, jacobian: Floats, twist: Floats, wish: Floats) -> Floats:
+    """The same of one state, a control step: small products by np.dot take half the time."""
+    J = np.dot(shift, jacobian)
+    force = _force(np.dot(J, J.T), np.dot(shift, twist) - np.dot(J, wish))
+    return np.asarray(np.dot(force, J) + wish)
 
 
 def _force(square: Floats, left: Floats) -> Floats:
@@ -51,7 +61,9 @@ def _force(square: Floats, left: Floats) -> Floats:
         found = inverse(square)
     except np.linalg.LinAlgError:
         return _damped(square, left)
-    plain = 1.0 / found.trace(axis1=-2, axis2=-1) >= THRESHOLD**2
+    plain = found.trace(axis1=-2, axis2=-1) <= 1.0 / THRESHOLD**2
+    if left.ndim == 1:
+        return np.asarray(np.dot(found, left)) if plain else _damped(square, left)
     if plain.all():
         return np.asarray(np.matvec(found, left))
     if square.ndim == 2:

@@ -9,7 +9,7 @@ from dqpaint.robots.parts import Mount, Three
 LENGTHS = {"": 1.0, "m": 1.0, "cm": 0.01, "mm": 0.001}
 ANGLES = {"": 1.0, "deg": 1.0, "rad": math.degrees(1)}
 FARTHEST = 2.0  # [m] from the flange; more is a slip of units
-_NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([a-z]*)")
+_NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([a-z]*)", re.ASCII)
 
 
 def parse_tool(text: str, turn: Three = (0.0, 0.0, 0.0)) -> Mount:

@@ -12,7 +12,10 @@ from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 
 MOST_NAMED = 12  # names in a message
-SIZES = {"box": {"size": 3}, "sphere": {"radius": 1}, "cylinder": {"radius": 1, "length": 1}}
+ROUND = {"radius": 1, "length": 1}
+SIZES: dict[str, dict[str, int]] = {
+    "box": {"size": 3}, "sphere": {"radius": 1}, "cylinder": ROUND, "capsule": ROUND, "mesh": {},
+}  # fmt: skip
 TURNING = ("revolute", "continuous")
 
 
@@ -134,7 +137,12 @@ class Tree:
         geometry = shape.find("geometry")
         if geometry is None or len(geometry) == 0:
             raise self.fault(f"{where} has no geometry")
-        for attribute, count in SIZES.get(geometry[0].tag, {}).items():
+        if geometry[0].tag not in SIZES:
+            raise self.fault(f"{where} is a {geometry[0].tag}; known: {', '.join(SIZES)}")
+        scale = geometry[0].get("scale", "1 1 1")
+        if geometry[0].tag == "mesh" and (len(numbers(scale)) != 3 or not numbers(scale).all()):
+            raise self.fault(f'{where} mesh scale="{scale}" is not three numbers, none of them 0')
+        for attribute, count in SIZES[geometry[0].tag].items():
             text = geometry[0].get(attribute, "")
             values = numbers(text)
             if len(values) != count or (values < 0).any():

@@ -49,6 +49,7 @@ def prepare(card: Card) -> Prepared:
             f"robot '{card.name}' has {len(arm)} joints that move, "
             f"its card gives limits for {card.joints}"
         )
+    _strip(tree)
     _still(tree, arm, card)
     if card.urdf.products_negated:
         _negate_products(tree)
@@ -78,6 +79,22 @@ def urdf_file(card: Card, change: Callable[[str], str] = str) -> Iterator[str]:
         yield path
     finally:
         os.unlink(path)
+
+
+def _strip(tree: Tree) -> None:
+    """Leave out what has no part in moving and shape: libraries stumble over slips in it."""
+    tree.robot.attrib.pop("version", None)
+    for element in list(tree.robot):
+        if element.tag not in ("link", "joint"):
+            tree.robot.remove(element)
+    for link in tree.links.values():
+        for visual in link.findall("visual"):
+            for material in visual.findall("material"):
+                visual.remove(material)
+    for joint in tree.joints.values():
+        for idle in ("safety_controller", "calibration"):
+            for element in joint.element.findall(idle):
+                joint.element.remove(element)
 
 
 def _still(tree: Tree, arm: list[Joint], card: Card) -> None:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.plants.bullet import Client, bullet, quiet
+from dqpaint.robots.collisions import read_mesh
 from dqpaint.stage.arm import Arm, Shape
 
 MOST_RAYS = 16_000
@@ -45,8 +46,11 @@ class Twins(Client):
         here = {"physicsClientId": self.client}
         try:
             made = bullet.createCollisionShape(shape.kind, **_dimensions(shape), **here)
-        except bullet.error:
-            return None
+        except bullet.error:  # of Collada files it can only make pictures
+            try:
+                made = bullet.createCollisionShape(shape.kind, **_triangles(shape), **here)
+            except (ValueError, bullet.error):
+                return None
         body: int = bullet.createMultiBody(0, made, **here)
         return body
 
@@ -78,6 +82,17 @@ class Twins(Client):
             )
             hit[rows] = [ray[0] >= 0 for ray in rays]
         return hit
+
+
+def _triangles(shape: Shape) -> dict[str, Any]:
+    """A mesh by its corners.
+
+    Raises:
+        ValueError: it cannot be read, or is none.
+    """
+    corners, triangles = read_mesh(shape.mesh, shape.size)
+    concave = bullet.GEOM_FORCE_CONCAVE_TRIMESH
+    return {"vertices": corners.tolist(), "indices": triangles.ravel().tolist(), "flags": concave}
 
 
 def _dimensions(shape: Shape) -> dict[str, Any]:

@@ -1,6 +1,7 @@
 """Repeated runs of one choice -> one row of a table: mean and spread of every figure."""
 
 import io
+import math
 from collections.abc import Sequence
 from csv import writer
 from dataclasses import dataclass
@@ -146,17 +147,29 @@ def markdown(lines: Sequence[Sequence[str]]) -> str:
     return "\n".join([made[0], "|" + "---|" * len(lines[0]), *made[1:]])
 
 
+Columns = dict[str, list[str] | list[int] | list[float]]
+
+
+def columns(cells: Sequence[Cell]) -> Columns:
+    """Every figure of every cell in SI units, mean and spread; nan where there is none."""
+    found: Columns = {axis: [cell.choice[axis] for cell in cells] for axis in cells[0].choice}
+    found["runs"] = [len(cell.results) for cell in cells]
+    found["done"] = [len(cell.done) for cell in cells]
+    found["status"] = [cell.status for cell in cells]
+    found["message"] = [cell.why for cell in cells]
+    for name in names_of(cells):
+        spreads = [cell.of(Figure((name,), name)) for cell in cells]
+        found[f"{name}_mean"] = [one.mean for one in spreads]
+        found[f"{name}_std"] = [one.std for one in spreads]
+    return found
+
+
 def csv(cells: Sequence[Cell]) -> bytes:
-    """Every figure of every cell in SI units, mean and spread; all digits of a number."""
-    names = names_of(cells)
+    """The columns as a file; all digits of a number, and nothing where there is none."""
+    table = columns(cells)
     file = io.StringIO()
     out = writer(file, lineterminator="\n")
-    ends = ("mean", "std")
-    heads = [f"{name}_{end}" for name in names for end in ends]
-    out.writerow([*cells[0].choice, "runs", "done", "status", "message", *heads])
-    for cell in cells:
-        spreads = [cell.of(Figure((name,), name)) for name in names]
-        values = [v for s in spreads for v in ((s.mean if s.n else ""), (s.std if s.n > 1 else ""))]
-        counts = [len(cell.results), len(cell.done), cell.status, cell.why]
-        out.writerow([*cell.choice.values(), *counts, *values])
+    out.writerow(table)
+    for row in zip(*table.values(), strict=True):
+        out.writerow(["" if isinstance(v, float) and math.isnan(v) else v for v in row])
     return file.getvalue().encode()

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from dqpaint.build import Drawing
 from dqpaint.charts import Line, Panel, chart
 from dqpaint.errors import DqpaintError
 from dqpaint.light import contact
@@ -17,7 +18,7 @@ from dqpaint.settings import Settings
 from dqpaint.studies import cells
 from dqpaint.studies.axes import Axis, combinations, settings_of
 from dqpaint.studies.cells import Cell, Figure, find_figure
-from dqpaint.studies.engine import carry_out_study
+from dqpaint.studies.engine import Workers, carry_out_study
 from dqpaint.studies.keeping import kept
 from dqpaint.studies.page import Block, Charts, Page, Rows, Shot, Words, html
 from dqpaint.studies.runs import Run, drawing_text, seeded
@@ -49,17 +50,22 @@ class Comparison:
 
 
 def compare(
-    drawing: str, axes: Sequence[Axis], base: Settings, folder: Path, count: int, jobs: int | None
+    drawing: str | Drawing,
+    axes: Sequence[Axis],
+    base: Settings,
+    folder: Path,
+    count: int,
+    jobs: Workers,
 ) -> Comparison:
     """Paint a drawing with every combination of the axes' values.
 
     Args:
-        drawing: a file, or an example's name.
+        drawing: a file, an example's name, or one made by calls.
         axes: what differs.
         base: all other settings; its seed is that of the first run.
         folder: of the study.
         count: how many runs each, with the seeds that follow.
-        jobs: how many processes; None is one a core.
+        jobs: how many processes, None is one a core; or the address of a Dask cluster.
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.
@@ -80,7 +86,17 @@ def compare(
 
 
 def save(compared: Comparison, measure: str, again: str | None = None) -> list[Path]:
-    """Write the pictures and tables; returns their paths.
+    """Write the files; returns their paths. Arguments as those of `contents`."""
+    return write(compared.folder / stem(compared), contents(compared, measure, again))
+
+
+def stem(compared: Comparison) -> str:
+    """What the files of a comparison begin with."""
+    return Path(compared.name).stem
+
+
+def contents(compared: Comparison, measure: str, again: str | None = None) -> dict[str, bytes]:
+    """Pictures and tables by the ends of their names.
 
     Args:
         compared: from `compare`.
@@ -93,14 +109,14 @@ def save(compared: Comparison, measure: str, again: str | None = None) -> list[P
     parts = [cells.markdown(cells.rows(compared.cells))]
     if differences(compared.cells, figure):
         parts += [about_test(figure), cells.markdown(differences(compared.cells, figure))]
-    contents = {
+    made = {
         **({} if shown is None else shown.files),
         "-table.csv": cells.csv(compared.cells),
         "-table.md": (title + "\n\n".join(parts) + "\n").encode(),
     }
     if again is not None:
-        contents["-report.html"] = html(page(compared, figure, shown, again))
-    return write(compared.folder / Path(compared.name).stem, contents)
+        made["-report.html"] = html(page(compared, figure, shown, again))
+    return made
 
 
 @dataclass(frozen=True)

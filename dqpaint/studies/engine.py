@@ -5,27 +5,31 @@ same study again finds its runs there, and so does a larger one that shares some
 """
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import Protocol, Self
 
+from dqpaint.studies.batches import Task
 from dqpaint.studies.keeping import place
 from dqpaint.studies.pool import Pool, check_jobs
 from dqpaint.studies.record import Record
 from dqpaint.studies.runs import Result, Run
 from dqpaint.terminal import Progress
 
+Workers = int | str | None
+"""How many processes, None for one a core; or the address of a Dask cluster."""
+
 
 def carry_out_study(
-    runs: Sequence[Run], folder: Path, jobs: int | None = None, what: str = "study"
+    runs: Sequence[Run], folder: Path, jobs: Workers = None, what: str = "study"
 ) -> list[Result]:
     """The results of runs, in their order.
 
     Args:
         runs: what to paint; all are checked before the first begins.
         folder: where the record lies; made if it is not there.
-        jobs: how many processes; None is one a core.
+        jobs: how many processes, None is one a core; or the address of a Dask cluster.
         what: is being done, for the progress bar.
 
     Raises:
@@ -33,7 +37,8 @@ def carry_out_study(
         DqpaintError: the folder cannot be written, or the workers do not start.
         KeyboardInterrupt: a Ctrl-C; what was done is on disk.
     """
-    check_jobs(jobs)
+    if not isinstance(jobs, str):
+        check_jobs(jobs)
     check(runs)
     with Study(folder, jobs, what, len(runs)) as study:
         return study.results(runs, tell_known=True)
@@ -44,7 +49,7 @@ class Study:
 
     Args:
         folder: where the record lies; made if it is not there.
-        jobs: how many processes; None is one a core.
+        jobs: how many processes, None is one a core; or the address of a Dask cluster.
         what: is being done, for the progress bar.
         total: how many runs it will be at most.
 
@@ -52,11 +57,15 @@ class Study:
         DqpaintError: the folder cannot be written.
     """
 
-    def __init__(self, folder: Path, jobs: int | None, what: str, total: int) -> None:
-        self._pool = Pool(folder, check_jobs(jobs))
+    def __init__(self, folder: Path, jobs: Workers, what: str, total: int) -> None:
         self._folder, self._total = folder, total
         self._progress = Progress(f"{what}, {total} runs")
-        self._record = Record(folder)
+        self._crew = _crew(folder, jobs)
+        try:
+            self._record = Record(folder)
+        except BaseException:
+            self._crew.close()
+            raise
         self._known: set[str] = set()  # keys of runs that were done before
         self._done: set[str] = set()
 
@@ -87,7 +96,7 @@ class Study:
         def tell(count: float) -> None:
             self._progress(min(1.0, (before + count) / max(1, self._total)))
 
-        for result in self._pool.carry_out(list(tasks.items()), tell):
+        for result in self._crew.carry_out(list(tasks.items()), tell):
             self._record.add(result)
             self._done.add(result.key)
         return [found[key] for key in keys]
@@ -107,9 +116,9 @@ class Study:
         trace: TracebackType | None,
     ) -> None:
         """End the workers; after a Ctrl-C, say what is kept."""
-        self._pool.close()
+        self._crew.close()
         self._progress.__exit__()
-        self._record.__exit__(kind, fault, trace)
+        self._record.close()
         if kind is KeyboardInterrupt:
             done = len(self._known | self._done)
             print(
@@ -117,6 +126,26 @@ class Study:
                 "the same command goes on from there",
                 file=sys.stderr,
             )
+
+
+class Crew(Protocol):
+    """Who carries out runs: processes here, or a cluster."""
+
+    def carry_out(
+        self, tasks: Sequence[Task], progress: Callable[[float], None]
+    ) -> Iterator[Result]:
+        """The results, each as soon as it is there."""
+
+    def close(self) -> None:
+        """End what is under way."""
+
+
+def _crew(folder: Path, jobs: Workers) -> Crew:
+    if isinstance(jobs, str):
+        from dqpaint.studies.cluster import Cluster
+
+        return Cluster(folder, jobs)
+    return Pool(folder, check_jobs(jobs))
 
 
 def check(runs: Sequence[Run]) -> None:

@@ -62,9 +62,18 @@ def keep(painting: Painting, names: tuple[str, ...], folder: Path, key: str) -> 
         arrays.update(KEEPERS[name](painting))
     file = io.BytesIO()
     np.savez(file, allow_pickle=False, **arrays)
+    write_kept(folder, key, file.getvalue())
+
+
+def write_kept(folder: Path, key: str, data: bytes) -> None:
+    """Write the file of a run's arrays.
+
+    Raises:
+        OutputError: the folder cannot be written.
+    """
     path = place(folder, key)
     path.parent.mkdir(parents=True, exist_ok=True)
-    write(path.with_suffix(""), {".npz": file.getvalue()})
+    write(path.with_suffix(""), {".npz": data})
 
 
 def kept(folder: Path, key: str) -> Mapping[str, NDArray[Any]]:

@@ -25,7 +25,18 @@ from dqpaint.studies.references import versions
 
 MOST_POINTS = 1500  # of a line: two a pixel, the least and the largest of a stretch
 DIGITS = 6
-BAD = ("unstable", "failed", "died", "differs")  # words of a row that is not as it should be
+LONGEST, LONG = 36, ' class="long"'  # letters of a cell that stays on one line
+HINT = (
+    " Drag along a chart to zoom, double-click to see all again; names in a legend show and hide "
+    "their lines."
+)
+BAD = (
+    "unstable",
+    "failed",
+    "died",
+    "differs",
+    "fails",
+)  # words of a row that is not as it should be
 
 
 @dataclass(frozen=True)
@@ -98,6 +109,7 @@ def html(page: Page) -> bytes:
     )
     parts = [_block(block, str(i)) for i, block in enumerate([*page.blocks, *_about(page)])]
     said = " ".join(f"{name} {value}" for name, value in versions().items())
+    hint = HINT if any(isinstance(block, Charts) for block in page.blocks) else ""
     return f"""<!doctype html>
 <html lang="en">
 <head>
@@ -110,8 +122,7 @@ def html(page: Page) -> bytes:
 <body>
 <h1>{escape(page.title)}</h1>
 {"".join(parts)}
-<footer>Made by dqpaint {escape(__version__)} with {escape(said)}. Drag along a chart to zoom,
-double-click to see all again; names in a legend show and hide their lines.</footer>
+<footer>Made by dqpaint {escape(__version__)} with {escape(said)}.{hint}</footer>
 <script>{script}</script>
 </body>
 </html>
@@ -196,7 +207,9 @@ def _table(lines: Sequence[Sequence[str]]) -> str:
     if any(head):
         made.append(f"<tr>{''.join(f'<th>{escape(word)}</th>' for word in head)}</tr>")
     for row in rows:
-        cells = "".join(f"<td>{escape(word)}</td>" for word in row)
+        cells = "".join(
+            f"<td{LONG if len(word) > LONGEST else ''}>{escape(word)}</td>" for word in row
+        )
         made.append(f"<tr{_class(row)}>{cells}</tr>")
     return "\n".join([*made, "</table></div>\n"])
 

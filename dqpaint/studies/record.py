@@ -91,4 +91,8 @@ class Record:
         fault: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Let others in."""
         self._file.close()

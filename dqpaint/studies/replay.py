@@ -12,6 +12,7 @@ from dqpaint.outputs import write
 from dqpaint.papers import Claim, Figure, Paper, read_paper
 from dqpaint.studies import cells
 from dqpaint.studies.claims import Numbers, Verdict, judge, published
+from dqpaint.studies.page import Block, Page, Rows, Shot, Words, html
 from dqpaint.studies.replays import MEASURES, Asked, Measured
 from dqpaint.studies.statistics import Spread
 
@@ -193,8 +194,30 @@ def verdicts_csv(replayed: Replayed) -> bytes:
     return file.getvalue().encode()
 
 
-def save(replayed: Replayed) -> list[Path]:
+def page(replayed: Replayed, again: str) -> Page:
+    """The whole of it as a report."""
+    paper, measured = replayed.paper, replayed.measured
+    blocks: list[Block] = [
+        Words(f"{paper.source}\nTheirs: {paper.theirs}\nHere: {measured.ours}"),
+        Rows("What the paper claims", verdict_rows(replayed)),
+        Words(f"{RULE}.\n{summary(replayed.verdicts)}."),
+        *(Rows(figure.says, rows) for figure, rows in tables(replayed)),
+        *(
+            Shot(end.removeprefix("-").removesuffix(".png"), data)
+            for end, data in measured.files.items()
+            if end.endswith(".png")
+        ),
+        *(Words(text) for text in _listed("  - ", replayed)),
+    ]
+    return Page(f"{paper.name}: {paper.title}", blocks, again=again)
+
+
+def save(replayed: Replayed, again: str | None = None) -> list[Path]:
     """Write tables, verdicts and pictures; returns the paths.
+
+    Args:
+        replayed: from `replay`.
+        again: the command that does it again, for a report; None for no report.
 
     Raises:
         DqpaintError: the folder cannot be written.
@@ -206,4 +229,6 @@ def save(replayed: Replayed) -> list[Path]:
         "-claims.csv": verdicts_csv(replayed),
         "-table.md": markdown(replayed).encode(),
     }
+    if again is not None:
+        contents["-report.html"] = html(page(replayed, again))
     return write(replayed.folder / replayed.paper.name, contents)

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from dqpaint import __version__
+from dqpaint.build import Drawing
 from dqpaint.controllers import find_controller
 from dqpaint.disturbances import make_disturbances
 from dqpaint.errors import UsageError
@@ -57,10 +58,10 @@ class Run:
     @property
     def key(self) -> str:
         """The hash of all that decides the result."""
-        data = {**self.data, "name": Path(self.name).name, "files": self._files(), "code": _code()}
+        data = {**self.data, "name": Path(self.name).name, "files": self.files(), "code": code()}
         return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()
 
-    def _files(self) -> dict[str, str]:
+    def files(self) -> dict[str, str]:
         """The hashes of files: those the drawing names, a law, an arm or an image of one's own."""
         law = getattr(find_controller(self.settings.controller).law, "sha256", "")
         arm = Path(self.settings.robot or "")
@@ -99,9 +100,11 @@ def run_of(data: dict[str, Any]) -> Run:
     return Run(data["name"], data["text"], settings, tuple(data["keep"]))
 
 
-def drawing_text(name: str) -> tuple[str, str]:
-    """Path and text of a drawing: a file, or an example's name."""
-    path = find_drawing(name)
+def drawing_text(drawing: str | Drawing) -> tuple[str, str]:
+    """Path and text of a drawing: a file, an example's name, or one made by calls."""
+    if isinstance(drawing, Drawing):
+        return str(drawing.folder / f"{drawing.name}.traj"), str(drawing)
+    path = find_drawing(drawing)
     return str(path), read(path).text
 
 
@@ -190,7 +193,7 @@ def _named(name: str, text: str) -> list[tuple[str, Path]]:
 
 
 @cache
-def _code() -> dict[str, str]:
+def code() -> dict[str, str]:
     """The hash of this package's code, and the versions of its libraries."""
     package = Path(__file__).parent.parent
     whole = hashlib.sha256()

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from dqpaint.build import Drawing
 from dqpaint.charts import HeatMap, Line, Panel, chart, heat_map
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
@@ -15,7 +16,7 @@ from dqpaint.settings import SMALLEST, Settings
 from dqpaint.studies import cells
 from dqpaint.studies.axes import Axis, combinations, settings_of
 from dqpaint.studies.cells import Cell, Figure, find_figure
-from dqpaint.studies.engine import carry_out_study
+from dqpaint.studies.engine import Workers, carry_out_study
 from dqpaint.studies.page import Block, Charts, Map, Page, Rows, Words, html
 from dqpaint.studies.runs import Run, drawing_text, seeded
 
@@ -36,17 +37,22 @@ class Sweep:
 
 
 def sweep(
-    drawing: str, axes: Sequence[Axis], base: Settings, folder: Path, count: int, jobs: int | None
+    drawing: str | Drawing,
+    axes: Sequence[Axis],
+    base: Settings,
+    folder: Path,
+    count: int,
+    jobs: Workers,
 ) -> Sweep:
     """Run a drawing with every combination of the axes' values; pictures are not kept.
 
     Args:
-        drawing: a file, or an example's name.
+        drawing: a file, an example's name, or one made by calls.
         axes: one or two.
         base: all other settings.
         folder: of the study.
         count: how many runs each, with the seeds that follow.
-        jobs: how many processes; None is one a core.
+        jobs: how many processes, None is one a core; or the address of a Dask cluster.
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.
@@ -70,7 +76,17 @@ def sweep(
 
 
 def save(swept: Sweep, measure: str, again: str | None = None) -> list[Path]:
-    """Write the chart and the tables; returns their paths.
+    """Write the files; returns their paths. Arguments as those of `contents`."""
+    return write(swept.folder / stem(swept), contents(swept, measure, again))
+
+
+def stem(swept: Sweep) -> str:
+    """What the files of a sweep begin with."""
+    return f"{Path(swept.name).stem}-{'-'.join(axis.name for axis in swept.axes)}"
+
+
+def contents(swept: Sweep, measure: str, again: str | None = None) -> dict[str, bytes]:
+    """Chart and tables by the ends of their names.
 
     Args:
         swept: from `sweep`.
@@ -79,7 +95,6 @@ def save(swept: Sweep, measure: str, again: str | None = None) -> list[Path]:
 
     Raises:
         UsageError: no figure of that name.
-        DqpaintError: the folder cannot be written.
     """
     figure = find_figure(measure, swept.cells)
     title = f"{swept.name} over {' and '.join(axis.name for axis in swept.axes)}"
@@ -94,16 +109,15 @@ def save(swept: Sweep, measure: str, again: str | None = None) -> list[Path]:
         width, height = max(6.0, 1.0 + 0.9 * len(given.x)), max(4.0, 1.2 + 0.55 * len(given.y))
         picture = heat_map(given, min(width, 24.0), min(height, 18.0))
         shown = Map("Over the two axes", given)
-    contents = {
+    made = {
         ".png": picture,
         "-table.csv": cells.csv(swept.cells),
         "-table.md": f"# {title}\n\n{cells.markdown(rows)}\n".encode(),
     }
     if again is not None:
         blocks: list[Block] = [shown, Words("\n".join(whys(swept))), Rows("All points", rows)]
-        contents["-report.html"] = html(Page(title, blocks, swept.settings, swept.text, again))
-    names = "-".join(axis.name for axis in swept.axes)
-    return write(swept.folder / f"{Path(swept.name).stem}-{names}", contents)
+        made["-report.html"] = html(Page(title, blocks, swept.settings, swept.text, again))
+    return made
 
 
 def values(found: Sequence[Cell], figure: Figure) -> Floats:

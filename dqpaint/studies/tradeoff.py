@@ -84,7 +84,17 @@ def told(tuned: Tuning, columns: int) -> str:
 
 
 def save(tuned: Tuning, again: str | None = None) -> list[Path]:
-    """Write the chart, the trade-off and all that was tried; returns their paths.
+    """Write the files; returns their paths. Arguments as those of `contents`."""
+    return write(tuned.folder / stem(tuned), contents(tuned, again))
+
+
+def stem(tuned: Tuning) -> str:
+    """What the files of a tuning begin with."""
+    return f"{Path(tuned.name).stem}-{'-'.join(one.name for one in tuned.ranges)}-tuned"
+
+
+def contents(tuned: Tuning, again: str | None = None) -> dict[str, bytes]:
+    """The chart, the trade-off and all that was tried, by the ends of their names.
 
     Args:
         tuned: from `tune`.
@@ -92,7 +102,7 @@ def save(tuned: Tuning, again: str | None = None) -> list[Path]:
     """
     title = f"{tuned.name}, tuned"
     shown = panels(tuned)
-    contents = {
+    made = {
         ".png": chart(shown, width=6.0 * len(shown), height=4.5),
         "-tradeoff.csv": cells.csv(tuned.front or tuned.cells[:1]),
         "-table.csv": cells.csv(tuned.cells),
@@ -105,9 +115,8 @@ def save(tuned: Tuning, again: str | None = None) -> list[Path]:
             Rows("The best, the usual, and the trade-off", rows(tuned)),
         ]
         page = Page(title, blocks, tuned.settings, tuned.text, again)
-        contents["-report.html"] = html(page)
-    names = "-".join(one.name for one in tuned.ranges)
-    return write(tuned.folder / f"{Path(tuned.name).stem}-{names}-tuned", contents)
+        made["-report.html"] = html(page)
+    return made
 
 
 def panels(tuned: Tuning) -> list[Panel]:

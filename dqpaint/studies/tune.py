@@ -28,13 +28,14 @@ from scipy.optimize import (
     minimize,
 )
 
+from dqpaint.build import Drawing
 from dqpaint.controllers import find_controller
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.settings import SMALLEST, Settings
 from dqpaint.studies.axes import settings_of
 from dqpaint.studies.cells import Cell, Figure, find_figure
-from dqpaint.studies.engine import Study, check
+from dqpaint.studies.engine import Study, Workers, check
 from dqpaint.studies.runs import Run, drawing_text, seeded
 
 EFFORT = "command_integral_rad"  # of laws that command torque, theirs
@@ -134,7 +135,7 @@ class Tuning:
 
 
 def tune(
-    drawing: str,
+    drawing: str | Drawing,
     texts: Sequence[str],
     base: Settings,
     folder: Path,
@@ -144,12 +145,12 @@ def tune(
     effort: str = EFFORT,
     count: int = 1,
     budget: int = 300,
-    jobs: int | None = None,
+    jobs: Workers = None,
 ) -> Tuning:
     """Seek gains of a law.
 
     Args:
-        drawing: a file, or an example's name.
+        drawing: a file, an example's name, or one made by calls.
         texts: where which gains are sought, as in "k=1..100"; none for all of the law's.
         base: all other settings; its seed is that of the first run and of the search.
         folder: of the study.
@@ -158,7 +159,7 @@ def tune(
         effort: name of the figure that is bounded.
         count: how many runs each, with the seeds that follow.
         budget: the most runs.
-        jobs: how many processes; None is one a core.
+        jobs: how many processes, None is one a core; or the address of a Dask cluster.
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.

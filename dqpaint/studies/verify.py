@@ -10,7 +10,7 @@ from dqpaint.light import contact
 from dqpaint.light.differences import where_they_differ
 from dqpaint.outputs import write
 from dqpaint.studies import cells
-from dqpaint.studies.engine import carry_out_study
+from dqpaint.studies.engine import Workers, carry_out_study
 from dqpaint.studies.gates import GATES, Measured, developed_from, measure, spoke
 from dqpaint.studies.keeping import kept
 from dqpaint.studies.page import Page, Rows, Shot, Words, html
@@ -50,12 +50,12 @@ class Verdict:
     remarks: tuple[str, ...] = ()
 
 
-def verify(folder: Path, jobs: int | None = None, lenient: bool = False) -> list[Verdict]:
+def verify(folder: Path, jobs: Workers = None, lenient: bool = False) -> list[Verdict]:
     """Draw every case of a folder again and compare.
 
     Args:
         folder: of drawings and references.
-        jobs: how many processes; None is one a core.
+        jobs: how many processes, None is one a core; or the address of a Dask cluster.
         lenient: a reference that cannot be read counts as none, for it will be made again.
 
     Raises:
@@ -89,7 +89,8 @@ def _why(result: Result) -> str:
 
 def _judge(case: Case, result: Result, reference: Reference | None, made: Arrays) -> Verdict:
     if reference is None:
-        return Verdict(case, result, None, made, None, ("no reference",))
+        hint = "there is nothing to compare it with yet; --update makes a reference"
+        return Verdict(case, result, None, made, None, ("no reference",), (hint,))
     facts = reference.facts
     remarks = []
     if facts["sha256"] != sha256(case.run):
@@ -170,7 +171,7 @@ def page(verdicts: Sequence[Verdict], shots: Sequence[Shot], again: str) -> Page
     said = f"{len(bad)} of {len(verdicts)} differ: {', '.join(bad)}." if bad else "All are alike."
     words = Words("\n".join([said, *remarks(verdicts)]))
     return Page(
-        f"{len(verdicts)} guarded pictures", [words, Rows("Gates", table(verdicts)), *shots],
+        "Guarded pictures", [words, Rows("Gates", table(verdicts)), *shots],
         again=again,
     )  # fmt: skip
 

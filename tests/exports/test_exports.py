@@ -12,7 +12,7 @@ import yaml
 import dqpaint
 from dqpaint import dq
 from dqpaint.errors import DqpaintError, UnknownNameError, UsageError
-from dqpaint.exports import FORMATS, files_of
+from dqpaint.exports import FORMATS, Trajectory, files_of
 from dqpaint.exports.urscript import is_universal
 from dqpaint.robots.card import read_card
 from dqpaint.robots.kinematics import Kinematics
@@ -103,6 +103,130 @@ def test_times_beyond_a_second_and_roundings():
     assert all(isinstance(x, float) for p in points for x in p["positions"])
 
 
+HEADER = {"stamp": {"sec": "int32", "nanosec": "uint32"}, "frame_id": "string"}
+POINT = {
+    "positions": "float64[]", "velocities": "float64[]", "accelerations": "float64[]",
+    "effort": "float64[]", "time_from_start": {"sec": "int32", "nanosec": "uint32"},
+}  # fmt: skip
+MESSAGE = {"header": HEADER, "joint_names": "string[]", "points": [POINT]}
+BOUNDS = {"int32": (-(2**31), 2**31 - 1), "uint32": (0, 2**32 - 1)}
+
+
+def fill(definition, given, where="message"):
+    """A message as `ros2 topic pub` fills it from YAML: known fields of their types, else zero."""
+    if isinstance(definition, dict):
+        assert isinstance(given, dict), where
+        assert set(given) <= set(definition), f"{where}: {set(given) - set(definition)}"
+        return {
+            name: fill(kind, given[name], f"{where}.{name}") if name in given else None
+            for name, kind in definition.items()
+        }
+    if isinstance(definition, list):
+        assert isinstance(given, list), where
+        return [fill(definition[0], one, f"{where}[{i}]") for i, one in enumerate(given)]
+    if definition.endswith("[]"):
+        assert isinstance(given, list), where
+        return [fill(definition[:-2], one, where) for one in given]
+    if definition in BOUNDS:
+        assert type(given) is int, where
+        assert BOUNDS[definition][0] <= given <= BOUNDS[definition][1], where
+    else:
+        assert type(given) is {"string": str, "float64": float}[definition], where
+    return given
+
+
+def test_the_ros_message_has_the_fields_of_its_type(painting):
+    """Those of trajectory_msgs/JointTrajectory, JointTrajectoryPoint, Header, Time, Duration."""
+    text = texts(painting, "ros2")["-trajectory.yaml"]
+    message = fill(MESSAGE, yaml.safe_load(text))
+    joints = len(message["joint_names"])
+    for point in message["points"]:
+        assert len(point["positions"]) == len(point["velocities"]) == joints
+        assert point["accelerations"] is point["effort"] is None  # may be left out, as all or none
+    assert not any(isinstance(value, int) for p in message["points"] for value in p["positions"])
+    with pytest.raises(AssertionError, match="names"):
+        fill(MESSAGE, yaml.safe_load(text.replace("joint_names", "names")))
+    with pytest.raises(AssertionError, match=r"stamp\.sec"):
+        fill(MESSAGE, yaml.safe_load(text.replace("{sec: 0,", "{sec: 0.5,")))
+
+
+class Universal:
+    """What a Universal Robots arm makes of a script, told in Python by its manual's own words.
+
+    movej turns every joint on one trapezoid: the leading one at `a` and `v`, the others as long.
+    servoj takes the posture to be in `t`; its lookahead and gain smooth what comes of it.
+    """
+
+    NAMES = ("movej", "servoj", "stopj", "textmsg")
+
+    def __init__(self, posture):
+        self.t, self.posture, self.log, self.said = 0.0, np.array(posture), [], []
+
+    def movej(self, q, a=1.4, v=1.05, t=0, r=0):
+        way = float(np.abs(np.array(q) - self.posture).max())
+        self.t += t or (way / v + v / a if way > v * v / a else 2 * np.sqrt(way / a))
+        self.posture = np.array(q, float)
+        assert len(q) == 6
+        assert a > 0 < v
+
+    def servoj(self, q, a, v, t=0.008, lookahead_time=0.1, gain=300):
+        assert len(q) == 6
+        assert t >= 0.002
+        assert 0.03 <= lookahead_time <= 0.2
+        assert 100 <= gain <= 2000
+        if not self.log:
+            self.log.append((self.t, self.posture))
+        self.t += t
+        self.posture = np.array(q, float)
+        self.log.append((self.t, self.posture))
+
+    def stopj(self, a):
+        assert a > 0
+
+    def textmsg(self, text, more=""):
+        self.said.append((self.t, text))
+
+    def run(self, script):
+        """Its blocks end with `end`, Python's with their indentation; else they are alike."""
+        body = [line for line in script.splitlines() if line.strip() != "end"]
+        assert len([1 for line in script.splitlines() if line.strip() == "end"]) == len(
+            [1 for line in body if line.startswith("def ")]
+        )
+        names = {name: getattr(self, name) for name in self.NAMES}
+        exec(compile("\n".join(body), "script", "exec"), {"__builtins__": {}, **names})
+        return self
+
+
+def obeyed(script, posture):
+    arm = Universal(posture).run(script)
+    (zero, _), *_ = [one for one in arm.said if "t = 0" in one[1]]
+    t, postures = zip(*arm.log, strict=True)
+    return np.array(t) - zero, np.array(postures)
+
+
+def universal_trajectory():
+    """A trajectory of an arm whose joints are named as theirs, without its package."""
+    t = 0.01 * np.arange(120)
+    swing = np.outer(np.sin(2 * t) ** 2, [0.3, -1e-9, 0.5, -0.4, 0.2, 1e-3])
+    q = swing + np.array([0, -1, 1, 2, 3, -4])
+    joints = tuple(f"{name}_joint" for name in (
+        "shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3",
+    ))  # fmt: skip
+    return Trajectory("a b-1", "ur", joints, "base", 0.01, t, q, 0 * q, ("one", "two"))
+
+
+def test_the_program_obeyed_leads_along_the_path_on_its_clock():
+    trajectory = universal_trajectory()
+    script = FORMATS["urscript"](trajectory).text
+    t, postures = obeyed(script, trajectory.positions[0] - 0.7)
+    np.testing.assert_allclose(t, trajectory.t, atol=1e-9)
+    np.testing.assert_allclose(postures, trajectory.positions, atol=1e-8)
+    assert script.startswith("# one\n# two\n")
+    assert "def dqpaint_a_b_1():" in script
+    late = script.replace("0, 0, 0.01,", "0, 0, 0.02,", 1)
+    assert obeyed(late, trajectory.positions[0])[0][-1] == pytest.approx(trajectory.t[-1] + 0.01)
+
+
 def read_script(text):
     """A tiny reader: the postures, the time of each servoj, and that blocks are closed."""
     body = [line.split("#")[0].strip() for line in text.splitlines()]
@@ -139,6 +263,9 @@ def test_the_program_leads_along_the_path(by_a_universal_robot):
     made = texts(painting, "urscript")
     assert set(made) == {".script", "-cues.csv"}
     postures, times = read_script(made[".script"])
+    obeyed_times, obeyed_postures = obeyed(made[".script"], painting.track.posture[0] + 0.3)
+    np.testing.assert_allclose(obeyed_times, painting.motion.t, atol=1e-9)
+    np.testing.assert_allclose(obeyed_postures, postures, atol=1e-12)
     np.testing.assert_allclose(times, painting.motion.t, atol=1e-9)
     np.testing.assert_allclose(postures, painting.track.posture, atol=1e-8)
     reached = places(painting, postures, "ur5")
@@ -257,6 +384,24 @@ def test_refused_for_what_the_plant_did_not_mind(painting):
     said = refused(moved(painting, strong))
     assert "joint 2 needs" in said
     assert "but has 320 Nm" in said
+
+
+def test_a_run_that_was_slowed_down_can_be_asked_of_an_arm(tmp_path_factory):
+    """What is too fast is refused; with its clock slowed it is not, and the light keeps to it."""
+    text = "period 8 ms\nlaw quintic\nstart at (-120, 0) mm\n"
+    text += (
+        "line to (0, 0) mm in 0.1 s light red\nline to (120, 0) mm in 0.1 s light blue\nhold 1 s\n"
+    )
+    assert "speed" in refused(drawn(tmp_path_factory, text))
+    slow = drawn(tmp_path_factory, text, on_limit="slow")
+    files = texts(slow, "csv")
+    t = [float(row["t_s"]) for row in rows_of(files["-trajectory.csv"])]
+    assert t[-1] == pytest.approx(slow.motion.t[-1])
+    assert t[-1] > 1.3
+    blue = next(row for row in rows_of(files["-cues.csv"]) if row["blue"] == "1")
+    q = slow.track.posture[int(np.searchsorted(slow.motion.t, float(blue["t_s"])))]
+    at = places(slow, q[None])[0] - dq.translation(read_card("iiwa").canvas.pose)
+    assert np.linalg.norm(at) < 1e-3  # half way, where the line turns blue
 
 
 def test_a_recorded_run_is_not_exported(painting, tmp_path):

@@ -34,7 +34,7 @@ FILES = {  # the file, the exit code, what is said
         1,
         "error[E309]",
     ),
-    "zero": (f"{LINE}\n\0", 1, "is not a text: byte 19 is 0"),
+    "zero": (f"{LINE}\n\0", 1, "error[E307]"),
     "crlf": (f"{LINE}\r\n{LINE}\r\n", 0, "2 mm"),
     "bom": (f"\ufeff{LINE}\n", 0, "1 mm"),
     "latin": (f"{LINE} # für\n".encode("latin-1"), 1, "line 1, byte 22 is 0xfc ('ü' in Latin-1)"),
@@ -49,12 +49,8 @@ def limit() -> None:
     resource.setrlimit(resource.RLIMIT_DATA, (MOST_BYTES, MOST_BYTES))
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", FILES)
-def test_the_command_line_answers_soon(tmp_path: Path, name: str) -> None:
-    text, code, said = FILES[name]
-    path = tmp_path / f"{name}.traj"
-    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+def answer(path: Path) -> tuple[int, str, float]:
+    """The exit code of `check` within its memory, what it says, and its processor time [s]."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(
         [sys.executable, "-m", "dqpaint", "check", str(path)],
@@ -62,9 +58,36 @@ def test_the_command_line_answers_soon(tmp_path: Path, name: str) -> None:
         env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
     )  # fmt: skip
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    output = done.stdout + done.stderr
-    assert (done.returncode, said in output) == (code, True), output[:500]
+    spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return done.returncode, done.stdout + done.stderr, spent
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", FILES)
+def test_the_command_line_answers_soon(tmp_path: Path, name: str) -> None:
+    text, code, said = FILES[name]
+    path = tmp_path / f"{name}.traj"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    returned, output, spent = answer(path)
+    assert (returned, said in output) == (code, True), output[:500]
     assert "Traceback" not in output
     assert "internal error" not in output
-    spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    assert spent < MOST_SECONDS
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("rows", "size", "said"),
+    [(499_000, 90.0, "error[E302]"), (499_000, 1.0, "steps"), (999_000, 90.0, "error[E294]")],
+)
+def test_a_path_of_many_points_is_answered_soon(
+    tmp_path: Path, rows: int, size: float, said: str
+) -> None:
+    near = "".join(f"{size * (i % 97) / 97:.2f},{i % 89 / 890:.2f}\n" for i in range(rows))
+    (tmp_path / "points.csv").write_text(near)
+    (tmp_path / "path.traj").write_text('path "points.csv" unit mm in 100 s\n')
+    if said == "error[E302]":
+        (tmp_path / "path.traj").write_text('path "points.csv" unit mm speed 1 mm/s\n')
+    _, output, spent = answer(tmp_path / "path.traj")
+    assert said in output, output[:500]
     assert spent < MOST_SECONDS

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.language.test_includes import OF_FILES, write
-from tests.language.test_messages import ENTRIES, FILES
+from tests.language.test_messages import ENTRIES, FILES, LARGE
 
 BESIDES = {"E140", "W403", "W411"}  # what is true of these little texts, too
 
@@ -54,3 +54,18 @@ def test_those_of_several_files(tmp_path: Path) -> None:
         (finding,) = found[str(tmp_path / str(i) / file)]
         assert (finding["code"], finding["message"][: len(message)]) == (code, message)
         assert "{line}:{column}".format(**finding["start"]) == caret.partition(" ")[0]
+
+
+@pytest.mark.slow
+def test_the_large_ones(tmp_path: Path) -> None:
+    """The text beyond 2 MB is not even read, and so a file that can't be."""
+    paths = [tmp_path / f"{i}.traj" for i in range(len(LARGE))]
+    for path, text in zip(paths, LARGE, strict=True):
+        path.write_bytes(text.encode())
+    found = checked(paths)
+    for path, (code, message) in zip(paths, LARGE.values(), strict=True):
+        first = found[str(path)][0]
+        if code == "E305":
+            assert (first["code"], first["message"]) == ("E001", f"{path} is larger than 2 MB")
+        else:
+            assert (first["code"], first["message"][: len(message)]) == (code, message)

@@ -14,7 +14,7 @@ CASES = {
     'text "Müller" height 9 mm': ("E261", "1:8", '= help: use "Mueller"'),
     'move to (0, 0)\ntext "A" font "script" height 9 mm': ("E260", "2:15", 'mean "scripts"?'),
     'path "rows.csv" unit mm': ("E295", "1:6", "line 2: this row has 'b' where a number"),
-    'path "long.csv" unit mm': ("E294", "1:6", "more than 1,000,000 rows"),
+    'path "long.csv" unit mm': ("E294", "1:6", "more than 500,000 rows"),
     'svg "uses.svg"': ("E298", "1:5", "with every 'use' it has about 10^"),
     'svg "large.svg"': ("E298", "1:5", "its paths have 2,400,000 numbers"),
     'svg "huge.svg"': ("E294", "1:5", "larger than 10 MB"),

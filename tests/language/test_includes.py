@@ -109,7 +109,9 @@ def test_lines_stand_where_they_are_included(tmp_path: Path) -> None:
         pytest.approx(p, abs=1e-15)
         for p in [(0.012, 0, 0), (0.005, 0, 0)] * 2 + [(0.008, 0.003, 0)]
     ]
-    assert [segment.line for segment in program.segments] == [2, 3, 2, 3, 5]
+    where = [program.where(segment.line) for segment in program.segments]
+    b, c = (str(tmp_path / "in" / name) for name in ("b.traj", "c.traj"))
+    assert where == [f"{c}:2", f"{c}:3"] * 2 + [f"{b}:5"]
     words = [program.text[slice(*segment.span)] for segment in program.segments]
     assert words == ["line to (q, 0)", "line to (0, 0)"] * 2 + ["line by (a, a)"]
     assert pickle.loads(pickle.dumps(program.text)).included == program.text.included

@@ -77,6 +77,7 @@ text "Ada" font "comic" height 3 mm|E260|1:17 "comic"|there is no font "comic"||
 text "Müller" height 3 mm|E261|1:8 ü|font "futural" has no letter 'ü'|here|use "Mueller"
 text "Ada" "λ=3" height 3 mm|E261|1:13 λ|font "futural" has no letter 'λ'|here|font "greeks" has it
 text "日本" height 3 mm|E261|1:7 日|font "futural" has no letter '日'|here|take it away; the fonts have the letters of ASCII, and Greek
+stroke in 5 s~text "Ada" height 3 mm~end|E283|2:1 text|this 'text' lifts its pen between its 7 lines, and a 'stroke' does not stop||write it outside of the stroke: each of its lines runs through by itself; text … in 5 s
 text "  " height 3 mm|E262|1:6 "  "|this text has no letters||to wait, use: hold 1 s
 path "flat.csv" height 3 mm|E263|1:24 3 mm|its height is 0, so it can't be scaled to 3 mm||say its width instead
 path "points.csv" unit mm|E292|1:6 "points.csv"|a text that is no file can't read one||save it beside the other file
@@ -90,6 +91,7 @@ path "one.csv" "flat.csv" unit mm|E296|1:16 "flat.csv"|flat.csv has 2 columns||o
 svg "words.svg"|E298|1:5 "words.svg"|can't draw words.svg: there are no lines in it||in the program it was made with, convert texts to paths
 svg "bomb.svg"|E298|1:5 "bomb.svg"|can't draw bomb.svg: with every 'use' it has about 10^10 elements||draw a part of it, or make it simpler
 svg "points.csv"|E298|1:5 "points.csv"|can't draw points.csv: line 1: syntax error||it is not well-formed XML
+svg "flat.svg" height 1e8 m|E201|1:1 svg "flat.svg" height 1e8 m|this goes too far away||
 svg "passed.svg"|W421|1:5 "passed.svg"|passed over in passed.svg, as SVG says: line 3: stroke: 'blu' is no colour; line 4: there is no 'nope' to be used; line 5: a <rect> without a size|and 1 more|mend it in the file, or leave it: browsers draw it so, too
 svg "otherwise.svg"|W422|1:5 "otherwise.svg"|drawn otherwise than in otherwise.svg: 1 clip-path (line 4), 1 gradient (line 4), 2 stroke-dasharray (from line 3)||what a clip or a mask would hide is drawn, too; a gradient is drawn in its mean colour; dashes are drawn as whole lines
 svg "unread.svg"|E298|1:5 "unread.svg"|can't draw unread.svg: line 3: d of a <path>: 'nan' stands where a number of its L is expected||mend it, or save the drawing as plain SVG in the program it was made with

@@ -113,6 +113,7 @@ def test_a_gradient_s_mean() -> None:
          "translateY, scale, scaleX, scaleY, rotate, skewX, skewY"),
         (svgvalues.transform, "scale(2", "'scale(2' is no transform"),
         (svgvalues.transform, "translate(5%)", "'5%' of what is not known"),
+        (svgvalues.transform, "scale(1)" * 1001, "more than 1,000 transforms one after the other"),
         (svgvalues.paint, "blu", "'blu' is no colour"),
         (svgvalues.paint, "bad", "'bad' is no colour"),  # without its #
         (svgvalues.paint, "rgb(1, 2)", "'rgb(1, 2)' is no colour"),

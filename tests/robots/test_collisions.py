@@ -6,8 +6,10 @@ import pytest
 from dqpaint import dq
 from dqpaint.robots.card import read_card
 from dqpaint.robots.collisions import APART, LAMP, Shapes
+from dqpaint.robots.files import read_file
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.urdf import urdf_file
+from tests.robots.arm_files import arm_urdf
 
 
 def random_postures(card, n, seed=5):
@@ -135,3 +137,42 @@ def test_the_lamp_itself_hides_nothing():
     ]
     assert not hidden[2]  # along the tool's own axis
     assert LAMP < 0.02
+
+
+def in_the_last_link(tmp_path, shape):
+    """An arm whose light sits in the middle of a shape of its last link."""
+    text = arm_urdf()
+    geometry = f"<geometry>{shape}</geometry>"
+    solid = f"<visual>{geometry}</visual><collision>{geometry}</collision>"
+    (tmp_path / "arm.urdf").write_text(
+        text.replace('<link name="tip"/>', f'<link name="tip">{solid}</link>')
+    )
+    return Kinematics(read_file(f"{tmp_path / 'arm.urdf'}:tip"))
+
+
+@pytest.mark.parametrize("shape", [
+    '<sphere radius="0.05"/>', '<box size="0.1 0.1 0.1"/>',
+    '<cylinder radius="0.05" length="0.1"/>',
+])  # fmt: skip
+def test_a_plain_shape_that_the_lamp_sits_in_does_not_hide_it_but_one_before_it_does(
+    tmp_path, shape
+):
+    """As the picture's rays have it, which begin inside."""
+    arm = in_the_last_link(tmp_path, shape)
+    home = arm.card.home[None]
+    light = dq.translation(arm.pose(arm.card.home))
+    shapes = Shapes(arm)
+    away = np.array([0.3, 0.9, 0.5])
+    assert not shapes.hides(home, light[None], light + away)[0]
+    assert shapes.hides(home, light[None] - 0.2 * away, light + away)[0]
+
+
+def test_a_mesh_that_cannot_be_read_is_left_out_and_named(tmp_path):
+    (tmp_path / "broken.stl").write_bytes(b"solid nonsense")
+    arm = in_the_last_link(tmp_path, '<mesh filename="broken.stl"/>')
+    shapes = Shapes(arm)
+    assert shapes.notes == (
+        "mesh 'broken.stl' cannot be read: what it meets and hides is left out",
+    )
+    light = dq.translation(arm.pose(arm.card.home))
+    assert not shapes.hides(arm.card.home[None], light[None], light + np.array([0.3, 0.9, 0.5]))[0]

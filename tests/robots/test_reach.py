@@ -52,7 +52,7 @@ def test_a_pose_far_out_is_missed_by_about_its_distance(arm):
     assert far.index == 2
     # the shoulder is at z = 0.36, the stretched arm with its lamp ends 0.82 + 0.161 m from there
     nearest = np.hypot(0.7 + 0.9 - 0.161, 0.14) - 0.82
-    assert far.shortfall == pytest.approx(nearest, rel=0.15)
+    assert far.shortfall == pytest.approx(nearest, rel=0.01)
 
 
 def test_the_same_question_has_the_same_answer(arm):

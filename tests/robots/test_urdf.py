@@ -208,3 +208,39 @@ def test_a_range_far_from_zero_is_searched_round_its_middle(read):
     })  # fmt: skip
     low, high = _one_turn(card.model_copy(update={"limits": limits}))
     np.testing.assert_allclose(np.degrees([low[0], high[0]]), [5700, 5760])
+
+
+SLIPS = {
+    "a colour": (
+        "</robot>",
+        '<material name="a"><color rgba="1 x"/></material><material/></robot>',
+    ),
+    "a version": ("<robot ", '<robot version="7.x" '),
+    "a safety controller": ("<axis", "<safety_controller/><calibration rising='x'/><axis"),
+    "other things": ("</robot>", "<sensor/><gazebo reference='z'/><transmission/></robot>"),
+}
+
+
+@pytest.mark.parametrize("slip", SLIPS)
+def test_slips_in_what_has_no_part_in_it_are_no_matter(slip, read, capfd):
+    """Libraries refuse such files, or print of them: what they are given has none of it."""
+    plain = Kinematics(read(arm_urdf()))
+    other = Kinematics(read(arm_urdf().replace(*SLIPS[slip])))
+    q = np.array([0.1, -0.2, 0.3, 0.4, -0.5, 0.6])
+    np.testing.assert_array_equal(plain.pose(q), other.pose(q))
+    assert prepare(other.card).text == prepare(plain.card).text
+    assert capfd.readouterr() == ("", "")
+
+
+SHAPE = '<link name="l3"><visual><geometry>{}</geometry></visual>'
+
+
+@pytest.mark.parametrize(("shape", "said"), [
+    ("<cone/>", "link 'l3': visual is a cone; known: box, sphere, cylinder, capsule, mesh"),
+    ('<mesh filename="a.stl" scale="a b"/>', 'visual mesh scale="a b" is not three numbers'),
+    ('<mesh filename="a.stl" scale="1 0 1"/>', 'visual mesh scale="1 0 1" is not three numbers'),
+])  # fmt: skip
+def test_shapes_that_are_none(shape, said, read):
+    with pytest.raises(DqpaintError) as caught:
+        read(arm_urdf().replace('<link name="l3">', SHAPE.format(shape)))
+    assert said in str(caught.value)

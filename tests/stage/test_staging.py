@@ -164,6 +164,9 @@ def test_a_film_without_its_arm_can_show_it_and_the_other_way_round(drawing, tmp
     dqpaint.save(painting, f"{tmp_path}/b", "film")
     (bare,) = dqpaint.develop(tmp_path / "b-film.npz", ghost=False)
     np.testing.assert_array_equal(bare.image, dqpaint.draw(drawing, **SMALL).image)
+    (flashed,) = dqpaint.develop(tmp_path / "b-film.npz", ghost=True)
+    drawn = dqpaint.draw(drawing, ghost=True, **SMALL)
+    np.testing.assert_array_equal(flashed.image, drawn.image)
     (open_,) = dqpaint.develop(tmp_path / "b-film.npz", occlusion=False)
     assert open_.hidden is None
     assert open_.arm is not None

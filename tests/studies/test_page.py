@@ -28,7 +28,8 @@ PANELS = (
 MAP = HeatMap("a map", "k", "q", ("1", "2"), ("3", "4"), np.array([[1.0, 2.0], [np.nan, 40.0]]),
               np.array([[False, True], [False, False]]), True)  # fmt: skip
 PNG = contact.png(np.full((30, 1200, 3), 90, dtype=np.uint8))
-HOSTILE = """</script><script>document.title="owned"</script><img src=x onerror="document.title=1">
+HOSTILE = """</script <b>$x_$</script><script>document.title="owned"</script>
+<img src=x onerror="document.title=1">
 '"&amp;--><!--</pre></table></noscript>$x_$ $]]> \u2028 ümläut"""
 
 

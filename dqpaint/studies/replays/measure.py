@@ -10,6 +10,7 @@ from dqpaint.papers import Paper
 from dqpaint.registry import Registry
 from dqpaint.studies.cells import Cell
 from dqpaint.studies.claims import Numbers
+from dqpaint.studies.engine import Workers
 
 
 @dataclass(frozen=True)
@@ -19,13 +20,13 @@ class Asked:
     Attributes:
         folder: of the study.
         runs: how many of each, with the seeds that follow; None leaves it to the replay.
-        jobs: how many processes; None is one a core.
+        jobs: how many processes, None is one a core; or the address of a Dask cluster.
         settings: that take the place of the paper's, by their names.
     """
 
     folder: Path
     runs: int | None = None
-    jobs: int | None = None
+    jobs: Workers = None
     settings: Mapping[str, Any] = field(default_factory=dict)
 
     def nothing_of(self, paper: Paper, *names: str) -> None:

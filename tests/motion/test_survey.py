@@ -1,0 +1,167 @@
+"""What a survey says is what the plan says; and many strokes at once are what each is alone."""
+
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from dqpaint import dq
+from dqpaint.language import ScriptError, parse, read
+from dqpaint.language.program import Cruise, Program
+from dqpaint.motion import Motion, plan, survey
+from tests.motion.drawings import drawing
+from tests.motion.strokes import KINDS, LAWS, program, segment
+
+FOLDER = Path(__file__).parents[2] / "trajectories"
+FILES = sorted(FOLDER.glob("*.traj"))
+CANVAS = dq.pose_from([0.7, -0.1, 0.5], np.array([0.5, 0.5, 0.5, 0.5]))
+CHAINS = [
+    'text "Ada" "Wo!" font "scripts" height 9 mm at (1, 2) mm tool rpy(0, 20 deg, 30 deg)\n'
+    'text "By" width 30 mm tool look (9, 9, -99) mm in 3 s light red to blue even',
+    "blend 3 mm\nline to (50, 0) mm to (50, 50) mm to (10, 50) mm light red to blue law constant\n"
+    "line to (0, 0) light white even law constant\nhold 1 s light off to red",
+    "arc centre (30, 0) mm angle 300 deg\narc centre (30, 9) mm angle 9 deg tool follow",
+    "stroke law constant\nline by (9, 0) mm\nline by (0, 9) mm\nline by (-9, 0) mm\nend",
+]
+
+
+def same(program: Program) -> Motion | None:
+    """Compares both answers; the motion, if there is one."""
+    try:
+        with np.errstate(all="ignore"):
+            motion = plan(program, CANVAS)
+    except ScriptError as fault:
+        planned = fault.diagnostics
+        with np.errstate(all="ignore"), pytest.raises(ScriptError) as surveyed:
+            survey(program)
+        assert surveyed.value.diagnostics == planned
+        return None
+    found = survey(program)
+    assert found.notes == motion.notes
+    assert found.samples == len(motion.t)
+    assert (found.seconds, found.length) == (motion.t[-1], motion.length)
+    assert found.unevenness == motion.unevenness
+    if np.abs(motion.points).max() < 1e9:  # farther out a box is rounding alone
+        np.testing.assert_allclose(found.box, motion.box, rtol=1e-12, atol=1e-13)
+    return motion
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_a_survey_of_an_example_is_that_of_its_plan(path):
+    assert same(read(path)) is not None
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_survey_of_any_drawing_is_that_of_its_plan(seed):
+    same(parse(drawing(seed), "any.traj"))
+
+
+@pytest.mark.parametrize("text", CHAINS)
+def test_a_survey_of_letters_and_rounded_corners_is_that_of_their_plan(text):
+    assert same(parse(text, "any.traj")) is not None
+
+
+@pytest.mark.parametrize("seed", range(40, 50))
+def test_a_survey_finds_every_fault_that_the_plan_finds(seed):
+    assert same(parse(drawing(seed, faults=4), "any.traj")) is None
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("path", "tool"), KINDS)
+@pytest.mark.parametrize("huge", [1e60, 1e155, 1e300, np.inf, np.nan])
+def test_a_survey_finds_numbers_that_grow_beyond_all_numbers(path, tool, huge):
+    made = segment(path, tool)
+    for wild in (
+        replace(made, start=replace_place(made.start, huge)),
+        replace(made, timing=Cruise(0.08, 0.9), law=replace(LAWS["cubic"], rates=(huge, 0.0))),
+    ):
+        with np.errstate(all="ignore"):
+            same(program(wild))
+
+
+def replace_place(pose, x):
+    return pose._replace(position=(x, *pose.position[1:]))
+
+
+def alone(program: Program, chosen: slice) -> Motion:
+    """A part of a drawing as a drawing of its own."""
+    return plan(replace(program, segments=program.segments[chosen]), CANVAS)
+
+
+def runs(program: Program) -> list[slice]:
+    """The segments of each stroke."""
+    number = [s.run.number if s.run else -i for i, s in enumerate(program.segments, 1)]
+    starts = [i for i, n in enumerate(number) if i == 0 or n != number[i - 1]]
+    return [slice(*pair) for pair in zip(starts, [*starts[1:], len(number)], strict=True)]
+
+
+@pytest.mark.parametrize("text", [*map(drawing, (1, 3, 5, 7, 9)), *CHAINS])
+def test_many_strokes_at_once_are_what_each_is_alone(text):
+    drawn = parse(text, "any.traj")
+    motion, first = plan(drawn, CANVAS), 0
+    for own in runs(drawn):
+        single = alone(drawn, own)
+        rows = slice(first, first + len(single.t) - 1)
+        first = rows.stop
+        asked = single.pose[:-1]
+        np.testing.assert_allclose(dq.nearest(motion.pose[rows], asked), asked, atol=1e-13)
+        for name in ("twist", "acceleration", "light"):
+            theirs = getattr(single, name)[:-1]
+            scale = 1.0 + np.abs(theirs).max()
+            np.testing.assert_allclose(
+                getattr(motion, name)[rows], theirs, rtol=0, atol=1e-11 * scale
+            )
+        np.testing.assert_array_equal(motion.stroke[rows], single.stroke[:-1] + own.start)
+        np.testing.assert_array_equal(motion.line[rows], single.line[:-1])
+    assert first == len(motion.t) - 1
+
+
+def lines(count: int) -> str:
+    """Lines, colours, arcs, pauses and jumps, none in the place of another."""
+    kinds = [
+        "line to ({x}, {y}) mm",
+        "line to ({x}, {y}, {z}) mm light red to blue",
+        "light hsv({x} deg)",
+        "arc via ({y}, {z}) mm to ({x}, {y}) mm tool keep",
+        "line by ({z}, {x}) mm in 0.5 s law cubic(5 mm/s, 9 mm/s) light white even",
+        "hold 0.1 s light off",
+        "step to ({y}, {x}) mm",
+        "arc centre ({y}, {z}) mm angle {x} deg law constant",
+    ]
+    numbers = ({"x": i % 97 + 1, "y": i % 89 + 100, "z": i % 83 - 99} for i in range(count))
+    return "\n".join(kinds[i % len(kinds)].format(**n) for i, n in enumerate(numbers))
+
+
+def calls(work) -> int:
+    """How many functions a piece of work calls, those of numpy and of Python's own included."""
+    count = 0
+
+    def note(_frame, event, _what) -> None:
+        nonlocal count
+        count += event in ("call", "c_call")
+
+    sys.setprofile(note)
+    try:
+        work()
+    finally:
+        sys.setprofile(None)
+    return count
+
+
+MOST_CALLS = {"read": 600, "survey": 40, "plan": 40}  # for one more line
+
+
+def test_one_more_line_costs_few_calls():
+    """A stroke that is computed by itself takes several hundred calls of numpy."""
+    few, many = (parse(lines(count), "lines.traj") for count in (200, 400))
+    works = {
+        "read": lambda drawn: parse(drawn.text, "lines.traj"),
+        "survey": survey,
+        "plan": lambda drawn: plan(drawn, CANVAS),
+    }
+    for name, work in works.items():
+        work(few)
+        more = calls(lambda work=work: work(many)) - calls(lambda work=work: work(few))
+        assert more < MOST_CALLS[name] * 200, (name, more / 200)

@@ -183,15 +183,23 @@ RULES = (
         _position,
         "turn the tool less, or move the drawing with place",
     ),
-    _Rule("W502", lambda one: one.speed_part, _speed, "draw it slower (speed, in, samples)"),
     _Rule(
-        "W503", lambda one: one.effort_part, _effort, "a lower speed or a smoother law needs less"
+        "W502",
+        lambda one: one.speed_part,
+        _speed,
+        "draw it slower (speed, in, samples), or let --on-limit slow do it",
+    ),
+    _Rule(
+        "W503",
+        lambda one: one.effort_part,
+        _effort,
+        "a lower speed or a smoother law needs less; --on-limit slow finds one",
     ),
     _Rule(
         "W504",
         lambda one: one.jolt_part if one.effort_part <= 1 else 0.0,
         _jolt,
-        "law trapezoid and law quintic begin and end each stroke at rest",
+        "law trapezoid and law quintic begin and end each stroke at rest; or: --on-limit slow",
     ),
     _Rule(
         "W505",

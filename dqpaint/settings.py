@@ -45,7 +45,7 @@ class Settings(BaseModel):
     colour_by: str | None = None
     overlay: bool = False
     magnify: Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)] = 1.0
-    ghost: bool | Literal["motion"] = False  # the arm is in the picture: flashed, or as it moved
+    ghost: Literal[False, True, "motion"] = False  # the arm is seen: flashed, or as it moved
     occlusion: bool | None = None  # its body hides light from the camera; None: as ghost
 
     @property

@@ -6,8 +6,6 @@ from pathlib import Path
 
 import numpy as np
 
-from dqpaint.robots.chain import EXTRAS
-
 END = "<!-- end -->"
 ROOT = Path(__file__).parent.parent
 CASES = ROOT / "tests/references/cases.toml"
@@ -86,13 +84,20 @@ def robots():
 
 
 def stars():
-    """The star by every arm that needs no extra, bounds rounded away from the good side."""
+    """The star by every arm, bounds rounded away from the good side.
+
+    The row of an arm whose package is not installed stays as it is.
+    """
     import dqpaint
     from dqpaint.robots.card import card_names, read_card
 
+    before = {line.split("|")[1].strip(): line for line in README.read_text("utf-8").splitlines()
+              if line.startswith("| `") and line.count("|") == 6}  # fmt: skip
     rows = []
     for card in map(read_card, card_names()):
-        if card.urdf is not None and card.urdf.package in EXTRAS:
+        if card.missing:
+            line = before[f"`{card.name}`"]
+            rows.append([cell.strip() for cell in line.strip("|").split("|")])
             continue
         errors = []
         for plant in ("ideal", "stiff"):
@@ -106,6 +111,39 @@ def stars():
                      f"{least:.2f}"])  # fmt: skip
     heads = ["star by", "`ideal`, error below", "`stiff`", "joints off limits by", "manipulability"]
     return table(heads, rows)
+
+
+def hard():
+    """Drawings an arm cannot follow as they are: what the options make of them."""
+    import tempfile
+
+    from dqpaint import api
+    from dqpaint.language import ScriptError
+    from tests.test_slowing import BEYOND, FAST, far_out, past_a_singularity
+
+    rows = []
+    for name, text, start in (
+        ("too fast", FAST, "first"), ("1 deg beside a singularity, 300 mm/s",
+        past_a_singularity(), "first"), ("across the end of joint 7", BEYOND, "home"),
+        ("10 % out of reach", far_out(), "first"),
+    ):  # fmt: skip
+        cells = []
+        for how in ("clip", "slow", "stop"):
+            with tempfile.TemporaryDirectory() as folder:
+                file = Path(folder) / "t.traj"
+                file.write_text(text)
+                try:
+                    run = api.draw(file, on_limit=how, start=start, plant="ideal", size=(64, 36))
+                except ScriptError as problem:
+                    cells.append(problem.diagnostics[0].code)
+                    continue
+            worst = run.table["position_error_m"].max() * 1e3
+            turned = np.degrees(run.table["orientation_error_rad"].max())
+            told = f"{float(f'{worst:.2g}'):g} mm" + (f", {turned:.2g} deg" if turned > 1 else "")
+            longer = run.slowed.longer if run.slowed else 0.0
+            cells.append(told + (f", {longer:.1f} s longer" if longer else ""))
+        rows.append([name, *cells])
+    return table(["drawing", "`clip`", "`slow`", "`stop`"], rows)
 
 
 def plants():
@@ -198,7 +236,7 @@ PAGES = {
     ROOT / "trajectories/README.md": [messages, statements, parts, values],
     ROOT / "trajectories/MESSAGES.md": [rules],
 }
-SLOW_TABLES = {README: [stars]}
+SLOW_TABLES = {README: [stars, hard]}
 
 
 def renewed(page, tables=PAGES):

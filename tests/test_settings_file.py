@@ -129,6 +129,7 @@ WRONG = {
     "[gain]\nk = 3": "given.toml:1: controller 'hinf' has no gain named 'k'",
     "gain = 3": "given.toml:1: gain is a table of names, for example gain.k = 20",
     "disturb = 3": "given.toml:1: disturb is a table of names, for example disturb.twist =",
+    'ghost = "flash"': "given.toml:1: ghost 'flash' should be False, True or 'motion'",
     "ev = nan": "given.toml:1: ev nan should be a finite number",
     "view = 30": "given.toml:1: view 30 should be a valid string",
     "width = 3": "given.toml:1: width 3 should be greater than or equal to 16",

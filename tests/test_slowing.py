@@ -44,6 +44,14 @@ def past_a_singularity():
     )
 
 
+def far_out():
+    """0.7 m in front of the iiwa's shoulder, and sideways to 110 % of its reach."""
+    card = read_card("iiwa")
+    reach = 0.42 + 0.4 + 0.081 + 0.08  # upper arm, forearm, wrist to flange face, lamp
+    far = np.sqrt((1.1 * reach) ** 2 - card.canvas.at_m[0] ** 2 - (0.5 - 0.36) ** 2)
+    return f"period 8 ms\nline to ({far * 1e3:.0f}, 0) mm\n"
+
+
 @pytest.fixture
 def draw(tmp_path):
     def painted(text, on_limit, **more):
@@ -139,11 +147,7 @@ def test_one_across_a_joint_limit(draw):
 @pytest.mark.slow
 @pytest.mark.parametrize("how", ["clip", "slow", "stop"])
 def test_one_out_of_reach_is_refused_whatever_is_asked(draw, how):
-    """Ten per cent beyond: 0.7 m in front of the shoulder, and sideways to 110 % of the reach."""
-    card = read_card("iiwa")
-    reach = 0.42 + 0.4 + 0.081 + 0.08  # upper arm, forearm, wrist to flange face, lamp
-    far = np.sqrt((1.1 * reach) ** 2 - card.canvas.at_m[0] ** 2 - (0.5 - 0.36) ** 2)
-    text = f"period 8 ms\nline to ({far * 1e3:.0f}, 0) mm\n"
+    text = far_out()
     with pytest.raises(ScriptError, match=r"E310.*outside the reach of iiwa"):
         draw(text, how)
 

@@ -57,16 +57,13 @@ def figures(motion: Motion) -> dict[int, Figures]:
     here = np.array([not file_at(text, s.span.start, "")[0] for s in motion.program.segments])
     steps = np.linalg.norm(np.diff(motion.points, axis=0), axis=1)
     steps[motion.jump[:-1]] = 0.0
-    found = {}
-    for line in np.unique(motion.line[:-1]).tolist():
-        rows = (motion.line[:-1] == line) & here[motion.stroke[:-1]]
-        if not rows.any():
-            continue
-        own = steps[rows]
-        found[line] = Figures(
-            float(own.sum()),
-            len(own) * motion.period,
-            float(own.max()) / motion.period,
-            bool(motion.lit[:-1][rows].any()),
-        )
-    return found
+    rows = here[motion.stroke[:-1]]
+    lines, of = np.unique(motion.line[:-1][rows], return_inverse=True)
+    own = steps[rows]
+    length, fastest = np.bincount(of, weights=own), np.zeros(len(lines))
+    np.maximum.at(fastest, of, own)
+    seconds = np.bincount(of) * motion.period
+    lit = np.bincount(of, weights=motion.lit[:-1][rows]) > 0.0
+    columns = (length, seconds, fastest / motion.period, lit)
+    values = zip(*(column.tolist() for column in columns), strict=True)
+    return {line: Figures(*each) for line, each in zip(lines.tolist(), values, strict=True)}

@@ -45,6 +45,10 @@ hold 1|hold 1 s
 line to (10, 0) mm speed 40 mm|line to (10, 0) mm speed 40 mm/s
 screw about (0, 0) along z angle 9 deg pitch 5 mm|screw about (0, 0) along z angle 9 deg pitch 5 mm/turn
 hold 1 s light ‘red’|hold 1 s light "red"
+text “Ada” height 3 mm|text "Ada" height 3 mm
+text Ada height 3 mm|text "Ada" height 3 mm
+let café = 3 mm~line to (café, 0)|let cafe = 3 mm~line to (café, 0)
+hold 1 s light even|hold 1 s light white even
 """
 PAIRS = [line.split("|") for line in MENDED.strip().split("\n")]
 NO_FIX = {"let a = 3~line to (a*2, 1 mm)"}  # which unit is missing can't be said for sure

@@ -49,6 +49,7 @@ def file(tmp_path):
     return path
 
 
+@pytest.mark.slow
 def test_a_page_holds_all_it_needs_and_is_the_same_each_time():
     text = html(page()).decode()
     assert html(page()).decode() == text

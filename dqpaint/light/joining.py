@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cv2
 import numpy as np
 
 from dqpaint.light.arrays import Floats
@@ -46,6 +45,8 @@ def _how_many(points: Floats, camera: Camera, margin: float) -> int:
     A step dp at a depth Z and a slope s = (X, Y) / Z is seen as f / Z |dX, dY - s dZ|, which is at
     most f / Z |dp| sqrt(1 + s^2).
     """
+    import cv2  # a third of numpy's time; late, as a forecast reads this and takes no picture
+
     step = np.sqrt(3.0) * cv2.norm(points[1:], points[:-1], cv2.NORM_INF)
     depth = (camera.position - points[::MOST]) @ camera.rotation[2]
     nearest = float(depth.min()) - MOST * step

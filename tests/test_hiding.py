@@ -174,11 +174,32 @@ def test_the_brush_decides(still):
     assert 0.1 < hidden(still, view="180,0").hidden < 0.9
 
 
-def test_where_the_camera_stands_decides(still):
-    """From above and behind, the arm is in the way of a camera near by, not of one high up."""
-    near = hidden(still, view="180,62", exposure="0.7m,iso100", brush="point")
-    assert near.view == "az180-el62"
-    assert {hidden(still, view=f"180,{up}", brush="point").hidden for up in (0, 88)} == {0.0, 1.0}
+class Eyes:
+    """Shapes that note from where they are looked at."""
+
+    def __init__(self):
+        self.seen = []
+
+    def hides(self, postures, points, eye):
+        self.seen.append(eye)
+        return np.zeros(len(points), dtype=bool)
+
+
+@pytest.mark.parametrize("choices", [
+    {}, {"ghost": True}, {"exposure": "0.7m,iso100,85mm"}, {"width": 200, "height": 900},
+    {"view": "30,12,stereo", "brush": "point"},
+])  # fmt: skip
+def test_it_is_looked_at_from_where_the_picture_is_taken(still, choices):
+    from dqpaint.picture import place_camera
+    from dqpaint.scene import arrange
+
+    motion, _, start = still
+    settings, eyes = make_settings(**choices), Eyes()
+    rows = np.arange(len(motion.t))
+    hide(eyes, motion, rows, np.tile(start, (len(rows), 1)), settings)
+    scene = arrange(motion, motion.pose, settings)
+    wanted = [place_camera(scene, settings, shot).position for shot in parse_views(settings.view)]
+    assert {tuple(eye) for eye in eyes.seen} == {tuple(eye) for eye in wanted}
 
 
 def test_every_line_is_looked_at():

@@ -92,7 +92,7 @@ def test_of_many_lines_the_first_are_told_and_the_others_named():
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "at"), [
     ("iiwa", (-0.2, 0.7, 0.5)), ("panda", (-0.7, 0.3, 0.2)), ("viper850", (0.3, 0.9, 0.1)),
-    ("xarm6", (0.1, -0.7, 0.3)),
+    ("xarm6", (0.1, -0.7, 0.3)), ("meka-a2", (0.5, 0.2, 0.1)),
 ])  # fmt: skip
 def test_the_distance_is_the_least_there_is(name, at):
     """Against a search that knows nothing of Jacobians."""
@@ -121,11 +121,15 @@ def test_the_distance_is_the_least_there_is(name, at):
 
 @pytest.mark.slow
 def test_a_joint_s_end_counts_as_reach_before_the_run_as_in_it():
-    """The Viper holds the tool about any axis but as far as its wrist turns."""
-    text = "robot viper850\nstart at (0, 0) mm\nline to (10, 0) mm tool rot(y, -150 deg)\n"
+    """A wrist that would have to turn 0.4 degrees too far, or stay 3 mm away."""
+    text = (
+        "place at (0.461, 0.034, 0.732) m turned rpy(90 deg, 0 deg, 90 deg)\nstart at (0, 0) mm\n"
+        "line to (44, 52, 65) mm in 3 s\nline to (-60, 14, 23) mm in 3 s tool rot(z, 6 deg)\n"
+        "line to (-4, -41, -64) mm in 3 s tool rot(z, 1 deg)\n"
+    )
     program = parse(text, "t.traj")
     said = []
-    for look in (lambda: paint(program, SETTINGS), lambda: look_ahead(program, arm_of("viper850"))):
+    for look in (lambda: paint(program, SETTINGS), lambda: look_ahead(program, arm_of("iiwa"))):
         with pytest.raises(ScriptError) as caught:
             look()
         said.append(str(caught.value))

@@ -56,6 +56,7 @@ def test_it_overrides_the_card_and_nothing_else():
     ("", "X,Y,Z"), ("1,2", "X,Y,Z"), ("1,2,3,4", "X,Y,Z"), ("0,0,x", "'x' is not a number"),
     ("0,0,80", "write 80mm"), ("0,0,1deg", "m, cm, mm"), ("0,0,0,0,0,1mm", "deg, rad"),
     ("0,0,nan", "'nan'"), ("0,0,1e999", "inf m from"), ("0,0,", "'' is not"),
+    ("٣,0,0", "'٣' is not a number"),
 ])  # fmt: skip
 def test_slips(text, word):
     with pytest.raises(UsageError, match=None) as caught:

@@ -19,7 +19,7 @@ from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 from dqpaint.robots.built import WEIGHTLESS, write_urdf
 from dqpaint.robots.card import Card
-from dqpaint.robots.tree import Joint, Tree
+from dqpaint.robots.tree import Joint, Tree, numbers
 
 BALL = 0.05  # [m], radius of the ball that stands for a shape nobody gave
 LIGHTEST = 0.1  # [kg], of a link that moves and has no mass
@@ -82,19 +82,38 @@ def urdf_file(card: Card, change: Callable[[str], str] = str) -> Iterator[str]:
 
 
 def _strip(tree: Tree) -> None:
-    """Leave out what has no part in moving and shape: libraries stumble over slips in it."""
+    """Leave out what has no part in moving and looks: libraries stumble over slips in it."""
     tree.robot.attrib.pop("version", None)
+    _colour(tree)
     for element in list(tree.robot):
         if element.tag not in ("link", "joint"):
             tree.robot.remove(element)
-    for link in tree.links.values():
-        for visual in link.findall("visual"):
-            for material in visual.findall("material"):
-                visual.remove(material)
     for joint in tree.joints.values():
         for idle in ("safety_controller", "calibration"):
             for element in joint.element.findall(idle):
                 joint.element.remove(element)
+
+
+def _colour(tree: Tree) -> None:
+    """Give each shape that has a sound colour, or names one, a material with that colour alone."""
+    known = {one.get("name", ""): _rgba(one) for one in tree.robot.iter("material") if _rgba(one)}
+    for visual in tree.robot.iter("visual"):
+        for material in visual.findall("material"):
+            name = material.get("name", "")
+            rgba = _rgba(material) or known.get(name)
+            visual.remove(material)
+            if rgba:
+                kept = Xml.SubElement(visual, "material", {"name": name or rgba})
+                Xml.SubElement(kept, "color", {"rgba": rgba})
+
+
+def _rgba(material: Xml.Element) -> str:
+    """A material's colour as it is written; nothing if it has none, or not four shares of one."""
+    colour = material.find("color")
+    written = "" if colour is None else colour.get("rgba", "")
+    shares = numbers(written)
+    sound = len(shares) == 4 and (shares >= 0.0).all() and (shares <= 1.0).all()
+    return written if sound else ""
 
 
 def _still(tree: Tree, arm: list[Joint], card: Card) -> None:

@@ -1,5 +1,7 @@
 """What is settled in a description before the libraries read it, and what is said of it."""
 
+from xml.etree import ElementTree as Xml
+
 import numpy as np
 import pinocchio
 import pytest
@@ -229,6 +231,32 @@ def test_slips_in_what_has_no_part_in_it_are_no_matter(slip, read, capfd):
     q = np.array([0.1, -0.2, 0.3, 0.4, -0.5, 0.6])
     np.testing.assert_array_equal(plain.pose(q), other.pose(q))
     assert prepare(other.card).text == prepare(plain.card).text
+    assert capfd.readouterr() == ("", "")
+
+
+COLOURS = {  # of a shape, and of the robot beside it -> what is left
+    ('<material name="own"><color rgba="0.2 0.4 0.6 1"/></material>', ""): "0.2 0.4 0.6 1",
+    ('<material name="named"/>', '<material name="named"><color rgba="1 .5 0 1"/></material>'): (
+        "1 .5 0 1"
+    ),
+    ('<material name="nobody"/>', ""): None,
+    ('<material name="a"><color rgba="1 x 0 1"/></material>', ""): None,
+    ('<material name="a"><color rgba="1 1 0"/></material>', ""): None,
+    ('<material name="a"><color rgba="1 1 0 7"/></material>', ""): None,
+    ('<material name="a"><texture filename="wood.png"/></material>', ""): None,
+    ("<material/>", ""): None,
+}
+
+
+@pytest.mark.parametrize(("given", "left"), COLOURS.items())
+def test_colours_stay_where_they_are_sound(given, left, read, capfd):
+    own, beside = given
+    shape = f'<link name="l3"><visual><geometry><sphere radius="0.1"/></geometry>{own}</visual>'
+    text = arm_urdf().replace('<link name="l3">', shape, 1).replace("</robot>", f"{beside}</robot>")
+    tree = Xml.fromstring(prepare(read(text)).text)
+    colours = [one.get("rgba") for one in tree.find("link[@name='l3']").iter("color")]
+    assert colours == ([left] if left else [])
+    assert tree.find("material") is None
     assert capfd.readouterr() == ("", "")
 
 

@@ -4,7 +4,7 @@ import re
 from collections.abc import Sequence
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
 from dqpaint.choices import number_or_text, read_choice
 from dqpaint.errors import UsageError
@@ -48,6 +48,15 @@ class Settings(BaseModel):
     ghost: Literal[False, True, "motion"] = False  # the arm is seen: flashed, or as it moved
     occlusion: bool | None = None  # its body hides light from the camera; None: as ghost
 
+    @field_validator("place", mode="before")
+    @classmethod
+    def _place(cls, value: object) -> object:
+        if value in (None, "auto"):
+            return value
+        raise ValueError(
+            "is not auto; a place of your own is a line of the drawing: place at POINT"
+        )
+
     @property
     def traced(self) -> bool:
         """Whether what the arm hides is traced."""
@@ -74,7 +83,7 @@ def make_settings(**choices: object) -> Settings:
         if first["type"] == "extra_forbidden":
             known = ", ".join(Settings.model_fields)
             raise UsageError(f"no setting named '{name}'; known: {known}") from None
-        reason = first["msg"].removeprefix("Input ")
+        reason = first["msg"].removeprefix("Input ").removeprefix("Value error, ")
         raise UsageError(f"{name} {first['input']!r} {reason}") from None
 
 

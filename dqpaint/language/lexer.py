@@ -266,6 +266,9 @@ def _bad(
         if len(plain) >= len(word.text) and plain.isidentifier():
             cure += f": {plain}"
             fix = Fix(f"write {plain}", word.span, plain)
+    elif character.isdecimal():
+        cure = f"write the plain digit {unicodedata.decimal(character)}"
+        fix = Fix(cure, Span(start, end), str(unicodedata.decimal(character)))
     else:
         cure = "a comment begins with #, a text stands in quotes"
     problems.append(

@@ -37,7 +37,7 @@ def unknown(node: Name, scope: Scope, words: Iterable[str] = ()) -> Problem:
     cure = did_you_mean(meant) or f"name it first: let {name} = …"
     if "keep" in words and not meant:
         cure += ", or write an orientation: rot(x, 180 deg)"
-    if aliases and not meant:
+    if not meant and set(words) == set(LAWS):
         cure = f"the laws are: {listed(LAWS)}"
     fix = Fix(f"write {meant}", node.span, meant) if meant else None
     return problem("E205", f"'{name}' is not known", node.span, "", cure, fix)

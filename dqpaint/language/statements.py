@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from dqpaint.language import clauses, fits, forms
+from dqpaint.language import clauses, colours, fits, forms
 from dqpaint.language.cursor import Cursor, example_of, found, no_value
 from dqpaint.language.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.expressions import bracket, expression
@@ -251,10 +251,13 @@ def _unknown_part(cursor: Cursor, word: str) -> Problem:
     begins = token.text in STATEMENTS and token.text not in PARTS
     if begins and PART_ALIASES.get(token.text) not in known.parts:
         return problem("E110", message, token.span, "", "one statement per line")
+    if token.text.lower() in colours.NAMES:
+        cure = "a colour stands behind 'light', two of them as: light red to blue"
+        return problem("E110", message, token.span, "", cure)
     meant = closest(token.text, known.parts, PART_ALIASES)
     if meant not in known.parts:
         meant = closest(token.text, known.parts)
-    if not meant and after_number:
+    if not meant and after_number and len(token.text) > 1:  # one letter is like any other
         meant = closest(token.text, UNITS)
     cure = did_you_mean(meant) or f"its parts are: {listed(known.parts)}"
     fix = Fix(f"write {meant}", token.span, meant) if meant else None

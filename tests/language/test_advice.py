@@ -1,3 +1,4 @@
+# ruff: noqa: E501  the table is a table
 """What beginners write, and the advice that helps them on."""
 
 from pathlib import Path
@@ -26,6 +27,13 @@ line to (9, 0) mm + 5 mm|E208|1:21|a point goes with a point: (5, 0) mm
 speed 100 mm/min|E206|1:14|write: min(VALUE, VALUE); a minute is 60 s
 hold 2 min|E102|1:8|1 min is 60 s; units are mm
 line to (５, 0) mm|E101|1:10|write the plain digit 5
+line to (9, 0) mm tool look (9, 0, 50) mm up z|E252|1:1|say another direction: tool look POINT up y
+let a = b|E205|1:9|name it first: let b = …
+law b|E205|1:5|the laws are: constant
+hold 1 h|E110|1:8|its parts are: light, brush, strobe
+line to (9, 0) mm light red blue|E110|1:29|a colour stands behind 'light', two of them as: light red to blue
+repeat 3 {~line by (1, 0) mm~end|E101|1:10|no { is needed: a block ends with a line 'end'
+line to {1, 0} mm|E101|1:9|write (
 forward 100|E120|1:1|did you mean 'line by'?
 write "Ada" height 9 mm|E120|1:1|did you mean 'text'?
 """

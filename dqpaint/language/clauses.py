@@ -25,7 +25,7 @@ _COMMENTED_COLOUR = re.compile(r"[^\S\n]*(#[0-9a-fA-F]{3,8})\b")
 
 def _value(cursor: Cursor, after: str) -> Expression:
     if cursor.at_end or cursor.is_sign("="):
-        part = PARTS.get(after)
+        part = PARTS.get("tool" if after.startswith("look") else after)
         raise no_value(cursor, after, part.example if part else "")
     return expression(cursor, after)
 

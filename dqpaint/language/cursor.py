@@ -71,6 +71,8 @@ def no_value(cursor: Cursor, after: str, example: str = "") -> Problem:
         cure = f"'{token.text}' is a word of the language; it can't be used as a name"
     elif token.text == "=" and token.kind == "sign":
         cure = f"only 'let' has a '='; {cure}" if cure else "only 'let' has a '='"
+    elif token.text == after == "/":
+        cure = "a comment begins with #"
     elif token.kind == "text" or (token.kind == "sign" and token.text not in ")%,"):
         cure = "write a number, a name or a point in brackets"
     return problem(

@@ -14,6 +14,7 @@ from dqpaint.language.beside import below, is_relative
 from dqpaint.language.diagnostics import Problem, Source, problem
 from dqpaint.language.findings import Findings
 from dqpaint.language.parser import parse_statements
+from dqpaint.language.suggestions import closest, did_you_mean
 from dqpaint.language.syntax import Quoted, Statement
 
 DEEPEST = 8  # files within each other
@@ -111,7 +112,8 @@ class Loader:
         try:
             text = self._read(path)
         except DqpaintError as fault:
-            raise problem("E272", str(fault), node.span) from None
+            meant = closest(path.name, (other.name for other in path.parent.glob("*.traj")))
+            raise problem("E272", str(fault), node.span, "", did_you_mean(meant)) from None
         if "\0" in text:
             raise problem(
                 "E272", f"{name} is not a text: there is a zero character in it", node.span

@@ -50,6 +50,7 @@ TOKEN = re.compile(
 )
 _FIRST_WORD = re.compile(r"[^\S\n]*([A-Za-z_]+)(?![A-Za-z0-9_]|[^\S\n]*[,)*/+^])", re.ASCII)
 
+_BLANK = re.compile(r"[^\S\n]*(?:#|$)", re.MULTILINE)  # to the end of a line
 _WORD = re.compile(r"\w+")
 
 # Signs that come with copying from elsewhere, and the plain one that is meant.
@@ -237,7 +238,9 @@ def _bad(
         return closing.end()
     fix = None
     shown = f"'{character}'" if character.isprintable() else f"U+{ord(character):04X}"
-    if character in _LOOKALIKES:
+    if character in "{}" and not in_brackets and _BLANK.match(text, end):
+        cure = f"no {character} is needed: a block ends with a line 'end'"
+    elif character in _LOOKALIKES:
         plain = _LOOKALIKES[character]
         cure = f"write {plain}" if character in "[]{}'" else f"write the plain sign {plain}"
         fix = Fix(cure, Span(start, end), plain)
@@ -266,6 +269,9 @@ def _bad(
         if len(plain) >= len(word.text) and plain.isidentifier():
             cure += f": {plain}"
             fix = Fix(f"write {plain}", word.span, plain)
+    elif character.isdecimal():
+        cure = f"write the plain digit {unicodedata.decimal(character)}"
+        fix = Fix(cure, Span(start, end), str(unicodedata.decimal(character)))
     else:
         cure = "a comment begins with #, a text stands in quotes"
     problems.append(

@@ -12,8 +12,8 @@ from dqpaint.language.units import (
     FOREIGN_UNITS,
     PLAIN,
     SAME_UNITS,
-    UNITS,
     Dimension,
+    instead_of,
     plausible_unit,
 )
 from dqpaint.language.values import Drawing, Function, Point, Quantity, Value, describe, is_zero
@@ -24,13 +24,10 @@ def unknown(node: Name, scope: Scope, words: Iterable[str] = ()) -> Problem:
     """E205, or E206 for a function without brackets; `words` may stand there too."""
     name = node.name
     if name in FUNCTIONS:
-        return problem(
-            "E206", f"'{name}' is a function", node.span, "", f"write: {FUNCTIONS[name]}"
-        )
+        cure = f"write: {FUNCTIONS[name]}" + ("; a minute is 60 s" if name == "min" else "")
+        return problem("E206", f"'{name}' is a function", node.span, "", cure)
     if name in FOREIGN_UNITS:
-        units = f"units are {', '.join(UNITS)}"
-        cure = f"did you mean '{FOREIGN_UNITS[name]}'? {units}"
-        same = SAME_UNITS.get(name)
+        cure, same = instead_of(name), SAME_UNITS.get(name)
         fix = Fix(f"write {same}", node.span, same) if same else None
         return problem("E205", f"'{name}' is not known", node.span, "", cure, fix)
     words = list(words)
@@ -38,7 +35,9 @@ def unknown(node: Name, scope: Scope, words: Iterable[str] = ()) -> Problem:
     known = (*scope.names, *CONSTANTS, *words)
     meant = _abbreviation(name, scope) or closest(name, known, aliases)
     cure = did_you_mean(meant) or f"name it first: let {name} = …"
-    if aliases and not meant:
+    if "keep" in words and not meant:
+        cure += ", or write an orientation: rot(x, 180 deg)"
+    if not meant and set(words) == set(LAWS):
         cure = f"the laws are: {listed(LAWS)}"
     fix = Fix(f"write {meant}", node.span, meant) if meant else None
     return problem("E205", f"'{name}' is not known", node.span, "", cure, fix)
@@ -162,6 +161,8 @@ def no_sum(
         if written := with_unit(at, lacking, other.dimension, scope):
             cure = f"did you mean {written}?"
             fix = Fix(f"write {written}", at.span, written)
+    elif {type(left), type(right)} == {Point, Quantity}:
+        cure = "a point goes with a point: (5, 0) mm"
     return problem("E208", message, at.span, describe(lacking), cure, fix)
 
 

@@ -187,7 +187,8 @@ class _Parser:
         if word in PARTS:
             message = f"unknown statement '{word}'"
             cure = f"'{word}' belongs to a statement and stands on its line: {_user_of(word)}"
-            return Diagnostic("E120", message, first.span, "", cure), False
+            opens = word in STATEMENTS["with"].parts and word not in STATEMENTS
+            return Diagnostic("E120", message, first.span, "", cure), opens
         calls = self._defined or ()
         mistake, meant = unknown_statement(first.text, first.span, calls, tokens[1].text)
         if (mistake.help == _HELP and tokens[1].kind == "end") or word in calls:

@@ -249,6 +249,8 @@ def needs(node: Expression, value: Value, scope: Scope, word: str, dimension: Di
             per = "/s"
         elif dimension == per_angle == PITCH:
             per = "/turn"
+        elif kind == tuple(-n for n in dimension) and "/" in scope.written(node):
+            cure = "a unit belongs to the number before it: half of it is (1/2) mm, or 0.5 mm"
         elif kind == (1.0, 0.0, 1.0, 0.0) and dimension == LENGTH:
             cure = "an angle becomes a plain number when it is divided by rad"
         if per:

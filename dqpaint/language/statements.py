@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from dqpaint.language import clauses, fits, forms
+from dqpaint.language import clauses, colours, fits, forms
 from dqpaint.language.cursor import Cursor, example_of, found, no_value
 from dqpaint.language.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.expressions import bracket, expression
@@ -10,7 +10,7 @@ from dqpaint.language.lexer import Token, number_value
 from dqpaint.language.names import new_name
 from dqpaint.language.suggestions import closest, did_you_mean, listed
 from dqpaint.language.syntax import Expression, Part, Quoted, Statement, Word
-from dqpaint.language.units import FOREIGN_UNITS, SAME_UNITS, UNITS
+from dqpaint.language.units import FOREIGN_UNITS, SAME_UNITS, UNITS, instead_of
 from dqpaint.language.words import PART_ALIASES, PARTS, SETTINGS, STATEMENTS
 
 VERSION = 1  # of the language, for `traj 1`
@@ -247,20 +247,26 @@ def _unknown_part(cursor: Cursor, word: str) -> Problem:
         cure = "the radius is the distance from here to the centre: first move to the circle"
         message = f"'arc' has no part called '{token.text}'"
         return problem("E110", message, token.span, "", cure)
+    message = f"'{word}' has no part called '{token.text}'"
+    begins = token.text in STATEMENTS and token.text not in PARTS
+    if begins and PART_ALIASES.get(token.text) not in known.parts:
+        return problem("E110", message, token.span, "", "one statement per line")
+    if token.text.lower() in colours.NAMES:
+        cure = "a colour stands behind 'light', two of them as: light red to blue"
+        return problem("E110", message, token.span, "", cure)
     meant = closest(token.text, known.parts, PART_ALIASES)
     if meant not in known.parts:
         meant = closest(token.text, known.parts)
-    if not meant and after_number:
+    if not meant and after_number and len(token.text) > 1:  # one letter is like any other
         meant = closest(token.text, UNITS)
     cure = did_you_mean(meant) or f"its parts are: {listed(known.parts)}"
     fix = Fix(f"write {meant}", token.span, meant) if meant else None
-    message = f"'{word}' has no part called '{token.text}'"
     return problem("E110", message, token.span, "", cure, fix)
 
 
 def _foreign_unit(token: Token) -> Problem:
     unit = FOREIGN_UNITS[token.text]
-    cure = f"did you mean '{unit}'? units are {', '.join(UNITS)}"
+    cure = instead_of(token.text)
     fix = Fix(f"write {unit}", token.span, unit) if token.text in SAME_UNITS else None
     message = f"'{token.text}' is not a unit of this language"
     return problem("E102", message, token.span, "", cure, fix)
@@ -281,6 +287,10 @@ def _left_over(cursor: Cursor, word: str) -> Problem:
         cure = "only the brightness of a light is written in %"
     elif token.kind == "name" and token.text in STATEMENTS:
         cure = "one statement per line"
+    elif word == "repeat":
+        cure = "write: repeat 5, or: repeat i from 1 to 5"
+    elif word == "def" and token.kind == "name":
+        cure = f"the names it is handed stand in brackets: {example_of(word)}"
     else:
         cure = ""
     message = f"expected the end of the line but found {found(token)}"

@@ -40,7 +40,9 @@ def _look(mode: Look, position: Vector, span: Span) -> Quaternion:
     lean = space.angle_between(z, mode.up)
     if min(lean, math.pi - lean) < LEAST_LEAN:
         message = "the tool looks along 'up' here, so nothing says how it is turned about that"
-        raise here("E252", message, span, "", "say another direction: tool look POINT up z")
+        other = "y" if abs(mode.up[2]) > 0.9 else "z"
+        cure = f"say another direction: tool look POINT up {other}"
+        raise here("E252", message, span, "", cure)
     x = space.unit(space.cross(mode.up, z))
     return space.turn_of_axes(x, space.cross(z, x), z)
 

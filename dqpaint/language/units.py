@@ -70,6 +70,16 @@ SAME_UNITS = {
     for word, unit in FOREIGN_UNITS.items()
     if word not in ("min", "us", "km", "inch", "px", "pt")
 }
+_ONE_OF_THEM = {"min": "60 s", "us": "0.001 ms", "km": "1000 m", "inch": "25.4 mm"}
+
+
+def instead_of(word: str) -> str:
+    """What to write for a unit of other languages."""
+    known = f"units are {', '.join(UNITS)}"
+    if word in _ONE_OF_THEM:
+        return f"1 {word} is {_ONE_OF_THEM[word]}; {known}"
+    return f"did you mean '{FOREIGN_UNITS[word]}'? {known}"
+
 
 NAMES = {
     PLAIN: "a plain number",

@@ -271,6 +271,7 @@ STATEMENT_ALIASES = {
     "travel": "move to",
     "jump": "move to",
     "draw": "line to",
+    "forward": "line by",
     "G0": "move to",
     "G1": "line to",
     "G2": "arc centre POINT angle -90 deg",

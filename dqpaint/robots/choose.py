@@ -2,6 +2,7 @@
 
 from dqpaint.errors import UnknownNameError
 from dqpaint.language import Diagnostic, Program, ScriptError
+from dqpaint.language.suggestions import closest, did_you_mean
 from dqpaint.robots.card import DEFAULT_ROBOT, Card, read_card
 from dqpaint.robots.tooling import parse_tool
 
@@ -56,5 +57,7 @@ def _card_for(program: Program, robot: str | None) -> Card:
         return find_card(program.robot)
     except UnknownNameError as problem:
         message, _, known = str(problem).partition("; ")
-        unknown = Diagnostic("E311", message, program.robot_span, help=known)
+        names = known.removeprefix("known: ").split(", ")
+        cure = f"{did_you_mean(closest(program.robot, names))} {known}".strip()
+        unknown = Diagnostic("E311", message, program.robot_span, help=cure)
         raise ScriptError(program.name, program.text, (unknown,)) from None

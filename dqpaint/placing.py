@@ -6,8 +6,10 @@ count, both the worst along the whole path: the manipulability, and the room a j
 0 at a limit to 1 in the middle of its range. Their product is the figure of merit. Many places are
 followed at once on a few of the drawing's poses; the best is then moved in ever smaller steps; what
 comes out is looked at along the whole drawing, and has to be free of collisions and in sight.
+Places where some of the drawing would be below z = 0, on which most arms stand, are tried last.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -162,17 +164,32 @@ class _Search:
         self._seeds = np.vstack([card.home, trials[: MORE_STARTS - 1]])
         corners = motion.points
         self._centre = 0.5 * (corners.max(axis=0) + corners.min(axis=0))
+        self._lowest = float(corners[:, 2].min())
         self._origin = dq.translation(motion.canvas)
 
-    def best_places(self) -> list[Floats]:
-        """Origins (3,) of the drawing frame, the most promising first."""
-        shifts = self._grid()
+    def best_places(self) -> Iterator[Floats]:
+        """Origins (3,) of the drawing frame, the most promising first.
+
+        Those where all of the drawing is above z = 0 come before all others.
+        """
+        grid = self._grid()
+        above = self._above(grid)
+        yield from self._best(grid[above], on_floor=True)
+        yield from self._best(grid[~above], on_floor=False)
+
+    def _above(self, shifts: Floats) -> NDArray[np.bool_]:
+        return np.asarray(self._lowest + shifts[:, 2] >= 0)
+
+    def _best(self, shifts: Floats, on_floor: bool) -> Iterator[Floats]:
+        """Of some shifts (P, 3) the best, climbed from, and the most promising others."""
+        if not len(shifts):
+            return
         merits = self._merits(shifts, COARSE, STARTS)
         order = np.argsort(-merits, kind="stable")[:PROMISING]
         found = [shifts[i] for i in order if merits[i] > 0]
         if found:
-            found.insert(0, self._climb(found[0]))
-        return [self._origin + shift for shift in found]
+            yield self._origin + self._climb(found[0], on_floor)
+        yield from (self._origin + shift for shift in found)
 
     def _grid(self) -> Floats:
         """Shifts (P, 3) [m] of the drawing; none at all is the first."""
@@ -181,7 +198,7 @@ class _Search:
         ball = cube[np.linalg.norm(cube, axis=1) <= self._reach]
         return np.vstack([np.zeros(3), self._middle + ball - self._centre])
 
-    def _climb(self, shift: Floats) -> Floats:
+    def _climb(self, shift: Floats, on_floor: bool) -> Floats:
         """Up to a place that has no better neighbour, in steps that halve."""
         merit = float(self._merits(shift[None], FINE, MORE_STARTS)[0])
         step = 0.5 * self._reach / PARTS
@@ -189,6 +206,8 @@ class _Search:
         for _ in range(STEPS):
             around = shift + step * directions
             merits = self._merits(around, FINE, MORE_STARTS)
+            if on_floor:
+                merits[~self._above(around)] = 0.0
             best = int(np.argmax(merits))
             if merits[best] > merit:
                 shift, merit = around[best], float(merits[best])

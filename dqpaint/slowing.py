@@ -71,8 +71,8 @@ def slow_down(
 ) -> Slowed:
     """The motion at a pace an arm can keep, as far as slowness helps.
 
-    Position limits are not helped by it, nor is the way to the path where an arm begins off it, or
-    after a jump.
+    Position limits are not helped by it, nor is the way back to the path where an arm is off it:
+    as it begins, after a jump, or where a joint at its end has held it back.
 
     Args:
         motion: what is asked.
@@ -142,7 +142,9 @@ def _needed(
                 needed[k] = max(needed[k], slow * torques.jolt(q, rates, before))
             before = rates
         close = 1 - math.exp(-RATE * period * slow)
-        q = np.clip(q + period * (along + slow * pull) + close * back, card.lower, card.upper)
+        free = q + period * (along + slow * pull) + close * back
+        q = np.clip(free, card.lower, card.upper)
+        settled = settled and bool((q == free).all())  # a joint at its end: no pace helps it back
     return needed
 
 

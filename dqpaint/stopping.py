@@ -1,7 +1,5 @@
 """`--on-limit stop`: the first limit that is met ends the run, and is named."""
 
-import math
-
 import numpy as np
 
 from dqpaint.dq import Floats
@@ -29,13 +27,12 @@ def meets_limit(
 def limit_error(motion: Motion, clamp: Clamp) -> ScriptError:
     """The error that names a limit: joint, time, line and amount."""
     verb, unit, cure = SAYS[clamp.kind]
-    scale = 1.0 if clamp.kind == "torque" else math.degrees(1)
-    limit, wanted = clamp.limit * scale, clamp.wanted * scale
-    amount = f"more than {limit:.4g}" if clamp.wanted == clamp.limit else f"{wanted:.4g}"
+    limit, wanted = clamp.amounts
+    amount = f"more than {limit}" if limit == wanted else wanted
     problem = Diagnostic(
         "E312",
         f"at {clamp.start:.3f} s joint {clamp.joint} would have to {verb} {amount} {unit}, "
-        f"its limit is {limit:.4g} {unit}",
+        f"its limit is {limit} {unit}",
         motion.program.segments[int(motion.stroke[_row(motion, clamp)])].span,
         label="drawn at that time",
         help=f"{cure}; --on-limit clip holds the joint back and goes on",

@@ -146,6 +146,33 @@ def hard():
     return table(["drawing", "`clip`", "`slow`", "`stop`"], rows)
 
 
+def springs():
+    """The compliant arms on half a circle: error, sag, and where a gain makes them swing."""
+    from tests.plants.test_compliant_loop import ARMS, beside_its_circle, error
+
+    arms = [beside_its_circle(name) for name in ARMS]
+    rows = []
+    for values, law, gains in (
+        ("frequency=40", "p", (20,)), ("frequency=40", "pff", (20, 40, 60)),
+        ("frequency=80", "pff", (40, 60, 125)), ("frequency=40,damper=ground", "pff", (20, 30)),
+        ("frequency=80,damper=ground", "pff", (40, 60)),
+        ("frequency=40,encoder=motor", "pff", (20,)),
+        ("frequency=40,encoder=motor,gravity=0", "pff", (20,)),
+    ):  # fmt: skip
+        calm = [np.inf] * len(arms)
+        for gain in gains:
+            cells = []
+            for i, arm in enumerate(arms):
+                far, restless = error(arm, values, law, gain)
+                swings = restless > 10 * calm[i] and far > 2
+                calm[i] = min(calm[i], restless)
+                cells.append(
+                    "swings" if swings else f"{float(f'{far:.{2 if far > 1 else 1}g}'):g} mm"
+                )
+            rows.append([f"`compliant:{values}`", f"`{law}`", str(gain), *cells])
+    return table(["plant", "law", "k, 1/s", *(f"`{name}`" for name in ARMS)], rows)
+
+
 def plants():
     from dqpaint.plants import PLANTS
 
@@ -236,7 +263,7 @@ PAGES = {
     ROOT / "trajectories/README.md": [messages, statements, parts, values],
     ROOT / "trajectories/MESSAGES.md": [rules],
 }
-SLOW_TABLES = {README: [stars, hard]}
+SLOW_TABLES = {README: [stars, springs, hard]}
 
 
 def renewed(page, tables=PAGES):

@@ -58,7 +58,7 @@ def test_the_search_climbs_from_the_grid(arm):
     grid = search._grid()
     rough = search._merits(grid, placing.COARSE, placing.STARTS)
     best = grid[int(np.argmax(rough))]
-    found = search._climb(best)
+    found = search._climb(best, on_floor=False)
     before, after = search._merits(np.stack([best, found]), placing.FINE, placing.MORE_STARTS)
     assert before > 0
     assert after > 1.01 * before
@@ -105,6 +105,25 @@ def test_a_drawing_too_wide_for_the_canvas_finds_its_place(arm):
     assert begin(motion, arm).margin > 0
     assert find_place(program, arm) == first  # again the same
     np.testing.assert_array_equal(motion.front, dq.rotation(arm.card.canvas.pose))
+
+
+@pytest.mark.slow
+def test_a_drawing_stays_above_what_the_arm_stands_on_where_it_can(monkeypatch):
+    """The xArm 6 would fit one of them better lower down; another one has to go there."""
+    arm = Kinematics(read_card("xarm6"))
+
+    def lowest_and_merit(half):
+        text = f"start at (0, {half}) mm\nline to (0, -{half}) mm\n"
+        settled, placed = settle(parse(text, "t"), arm, AUTO)
+        return plan(settled, arm.card.canvas.pose).points[:, 2].min(), placed.merit
+
+    above, merit = lowest_and_merit(300)
+    assert above > -1e-4
+    assert lowest_and_merit(420)[0] < -0.1
+    monkeypatch.setattr(placing._Search, "_above", lambda _, shifts: np.ones(len(shifts), bool))
+    below, better = lowest_and_merit(300)
+    assert below < -0.05
+    assert better > merit
 
 
 def test_turned_is_kept(arm):

@@ -144,6 +144,18 @@ def test_one_across_a_joint_limit(draw):
         draw(BEYOND, "stop", start="home")
 
 
+def test_a_joint_held_at_its_end_does_not_slow_the_rest_down(draw):
+    """Far off the path, with two joints at their ends, what would bring it back is no pace's."""
+    text = (
+        "period 8 ms\nline to (60, 0) mm tool rot(z, 100 deg) in 3 s\n"
+        "line to (0, 60) mm tool rot(z, 200 deg) in 3 s\n"
+        "line to (0, 60) mm tool rot(z, 300 deg) in 3 s\n"
+    )
+    slow = draw(text, "slow", start="home")
+    assert worst(slow) > 0.05
+    assert slow.slowed.longer < 0.5
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("how", ["clip", "slow", "stop"])
 def test_one_out_of_reach_is_refused_whatever_is_asked(draw, how):

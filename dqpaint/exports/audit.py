@@ -13,6 +13,7 @@ from dqpaint.robots.kinematics import Kinematics
 SUDDEN = 10.0  # [rad/s^2] at the start or end; of a Panda's joints Franka allows 7.5 to 20
 SLACK = 1e-6  # relative, of numbers that went through a simulation
 MOST_NAMED = 6
+CURE = "--on-limit slow gives what is too fast the time it needs"
 DEG = float(np.degrees(1.0))
 
 
@@ -52,7 +53,9 @@ def check_limits(painting: Painting, kinematics: Kinematics) -> None:
     if reasons:
         more = len(reasons) - MOST_NAMED
         shown = reasons[:MOST_NAMED] + ([f"and {more} more"] if more > 0 else [])
-        raise DqpaintError(f"not exported: {card.name} could not do this:\n  " + "\n  ".join(shown))
+        fast = not painting.slowed and any(one.kind != "position" for one in painting.limits)
+        told = "\n  ".join(shown + ([f"= help: {CURE}"] if fast else []))
+        raise DqpaintError(f"not exported: {card.name} could not do this:\n  {told}")
 
 
 def _beyond(painting: Painting, card: Card, q: Floats, rates: Floats) -> list[str]:

@@ -105,7 +105,9 @@ def _before_the_canvas(card: Card, home: bool, canvas: bool, notes: list[str]) -
         x, y, z = found.at_m
         notes.append(f"no [canvas]: drawings go to ({x:g}, {y:g}, {z:g}) m, facing along x")
     degrees = np.degrees(posture).round(9).tolist()
-    notes.append(f"no home_deg: {', '.join(f'{angle:.4g}' for angle in degrees)} is taken")
+    notes.append(
+        f"no home_deg: {', '.join(f'{angle:.4g}' for angle in np.round(degrees, 9) + 0.0)} is taken"
+    )
     return card.model_copy(update={"home_deg": tuple(degrees)})
 
 

@@ -10,6 +10,7 @@ from dqpaint.dq import Floats
 from dqpaint.robots.card import Card
 
 AT_LIMIT = 1e-6  # relative: a motor this close to its largest torque is saturated
+DIGITS, MOST_DIGITS = 4, 10  # of an amount; the most where it hardly differs from its limit
 
 
 UNITS = {"position": "rad", "speed": "rad/s", "torque": "Nm"}
@@ -39,13 +40,21 @@ class Clamp:
     wanted: float
 
     def __str__(self) -> str:
-        scale, unit = (1.0, "Nm") if self.kind == "torque" else (math.degrees(1), "deg")
-        unit += "/s" if self.kind == "speed" else ""
-        asked = f", {self.wanted * scale:.4g} asked for" if self.wanted != self.limit else ""
+        limit, wanted = self.amounts
+        unit = {"position": "deg", "speed": "deg/s", "torque": "Nm"}[self.kind]
+        asked = f", {wanted} asked for" if self.wanted != self.limit else ""
         return (
             f"joint {self.joint} for {self.seconds:.3g} s from {self.start:.3f} s on "
-            f"({self.limit * scale:.4g} {unit}{asked})"
+            f"({limit} {unit}{asked})"
         )
+
+    @property
+    def amounts(self) -> tuple[str, str]:
+        """The limit and what was wanted, in deg, deg/s or Nm: with as many digits as differ."""
+        scale = 1.0 if self.kind == "torque" else math.degrees(1)
+        both = self.limit * scale, self.wanted * scale
+        shown = ((f"{both[0]:.{d}g}", f"{both[1]:.{d}g}") for d in range(DIGITS, MOST_DIGITS))
+        return next((pair for pair in shown if pair[0] != pair[1]), (f"{both[0]:.{DIGITS}g}",) * 2)
 
 
 class Bounds:

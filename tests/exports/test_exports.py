@@ -342,6 +342,7 @@ def test_refused_for_speed(tmp_path_factory):
     assert {clamp.kind for clamp in fast.limits} == {"speed"}
     said = refused(fast)
     assert "line 2: the speed limit held joint" in said
+    assert said.endswith("= help: --on-limit slow gives what is too fast the time it needs")
 
 
 def test_refused_for_a_sudden_start_and_end(tmp_path_factory):
@@ -352,6 +353,7 @@ def test_refused_for_a_sudden_start_and_end(tmp_path_factory):
     assert "line 5: a sudden start: joint" in said
     assert "a sudden end" in said
     assert "law trapezoid or quintic" in said
+    assert "--on-limit" not in said
 
 
 def moved(painting, change):

@@ -16,11 +16,16 @@ pytestmark = pytest.mark.slow
 TEXT = "period 8 ms\nstart at (60, 0) mm\narc centre (0, 0) angle 180 deg in 3 s law constant\n"
 ASIDE = 0.05  # [rad] in every joint, where it begins
 SPEED = 0.06 * np.pi / 3  # [m/s]
+ARMS = ("iiwa", "meka-a2")
 
 
-@pytest.fixture(scope="module", params=["iiwa", "meka-a2"])
+@pytest.fixture(scope="module", params=ARMS)
 def arm(request):
-    kinematics = Kinematics(read_card(request.param))
+    return beside_its_circle(request.param)
+
+
+def beside_its_circle(name):
+    kinematics = Kinematics(read_card(name))
     motion = plan(parse(TEXT, "t.traj"), kinematics.card.canvas.pose)
     return kinematics, motion, begin(motion, kinematics).posture + ASIDE
 

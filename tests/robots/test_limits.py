@@ -1,5 +1,8 @@
 """Limits: what they leave of a command, and how a run names them."""
 
+import math
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -53,5 +56,7 @@ def test_each_kind_is_named_with_joint_time_line_and_amount():
     assert (motor.kind, motor.joint, motor.start) == ("torque", 6, pytest.approx(0.07))
     assert str(speed) == "joint 4 for 0.02 s from 0.020 s on (75 deg/s, 171.9 asked for)"
     assert str(position).startswith("joint 2 for 0.01 s from 0.060 s on (120 deg, 120.2 asked for)")
+    near = replace(position, limit=math.radians(175), wanted=math.radians(175.00213))
+    assert near.amounts == ("175", "175.002")  # not: 175 asked for, limit 175
     assert motor.wanted == motor.limit == 40
     assert str(motor) == "joint 6 for 0.01 s from 0.070 s on (40 Nm)"

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
+from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
@@ -138,7 +139,7 @@ def heat_map(given: HeatMap, width: float = 7.0, height: float = 5.0) -> bytes:
     if positive.size:
         bar = figure.colorbar(image, ax=axes, format="%g")
         wide = log and positive.max() > 10 * positive.min()
-        bar.ax.yaxis.set_minor_formatter(_two_and_five if wide else "{x:g}")
+        bar.ax.yaxis.set_minor_formatter(FuncFormatter(_two_and_five) if wide else "{x:g}")
     for row, col in np.ndindex(given.values.shape):
         value, marked = given.values[row, col], bool(given.marked[row, col])
         if marked:
@@ -161,7 +162,7 @@ def heat_map(given: HeatMap, width: float = 7.0, height: float = 5.0) -> bytes:
     return _png(figure)
 
 
-def _two_and_five(value: float, _: int | None = None) -> str:
+def _two_and_five(value: float, _: float = 0.0) -> str:
     """The text at a small tick of decades: nine in each would lie over one another."""
     return f"{value:g}" if f"{value:e}"[0] in "25" else ""
 

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
+from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
@@ -133,10 +134,12 @@ def heat_map(given: HeatMap, width: float = 7.0, height: float = 5.0) -> bytes:
     good = np.ma.masked_invalid(np.where(given.marked, np.nan, given.values))
     positive = good.compressed()
     log = given.log and positive.size > 0 and positive.min() > 0
-    image = axes.imshow(good, cmap="viridis_r", norm="log" if log else None, aspect="auto")
+    norm = "log" if log else None
+    image = axes.imshow(good, cmap="viridis_r", norm=norm, aspect="auto", origin="lower")
     if positive.size:
         bar = figure.colorbar(image, ax=axes, format="%g")
-        bar.ax.yaxis.set_minor_formatter("{x:g}")
+        wide = log and positive.max() > 10 * positive.min()
+        bar.ax.yaxis.set_minor_formatter(FuncFormatter(_two_and_five) if wide else "{x:g}")
     for row, col in np.ndindex(given.values.shape):
         value, marked = given.values[row, col], bool(given.marked[row, col])
         if marked:
@@ -157,6 +160,11 @@ def heat_map(given: HeatMap, width: float = 7.0, height: float = 5.0) -> bytes:
     axes.set_xlabel(_plain(given.x_label))
     axes.set_ylabel(_plain(given.y_label))
     return _png(figure)
+
+
+def _two_and_five(value: float, _: float = 0.0) -> str:
+    """The text at a small tick of decades: nine in each would lie over one another."""
+    return f"{value:g}" if f"{value:e}"[0] in "25" else ""
 
 
 def _plain(text: str) -> str:

@@ -84,7 +84,9 @@ def compare(
     from dqpaint.settings import make_settings, parse_disturbances, parse_size
     from dqpaint.studies import compare as study
     from dqpaint.studies.axes import Axis, parse_laws, parse_list
+    from dqpaint.studies.cells import check_figure
 
+    check_figure(figure)
     axes = [Axis("controller", tuple(parse_laws(controllers)))]
     for name, values in (("plant", plants), ("robot", robots)):
         if values is not None:
@@ -140,7 +142,9 @@ def sweep(
     from dqpaint.settings import make_settings, parse_disturbances, parse_gains
     from dqpaint.studies import sweep as study
     from dqpaint.studies.axes import parse_axis
+    from dqpaint.studies.cells import check_figure
 
+    check_figure(figure)
     axes = [parse_axis(text) for text in vary]
     base = make_settings(
         controller=controller, gains=parse_gains(gain or []), plant=plant, robot=robot,
@@ -202,7 +206,10 @@ def tune(
     from dqpaint.settings import make_settings, parse_disturbances, parse_gains
     from dqpaint.studies import tradeoff
     from dqpaint.studies import tune as study
+    from dqpaint.studies.cells import check_figure
 
+    check_figure(figure)
+    check_figure(effort_figure)
     base = make_settings(
         controller=controller, gains=parse_gains(gain or []), plant=plant, robot=robot,
         disturb=parse_disturbances(disturb or []), seed=seed, start=start,

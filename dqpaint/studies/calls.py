@@ -126,6 +126,7 @@ def compare(
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.
     """
+    cells.check_figure(figure)
     axes = [
         Axis(name, tuple(_texts(name, values)))
         for name, values in (("controller", controllers), ("plant", plants), ("robot", robots))
@@ -169,6 +170,7 @@ def sweep(
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.
     """
+    cells.check_figure(figure)
     axes = [parse_axis(text) for text in ([vary] if isinstance(vary, str) else vary)]
     with _kept(folder) as place:
         made = sweeping.sweep(
@@ -215,6 +217,8 @@ def tune(
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.
     """
+    for name in (figure, effort_figure):
+        cells.check_figure(name)
     texts = [vary] if isinstance(vary, str) else vary
     with _kept(folder) as place:
         made = tuning.tune(

@@ -31,6 +31,12 @@ SHOWN = (
     Figure(("speed_integral_m",), "way [m]"),
     Figure(("acceleration_integral",), "acceleration integral [m/s]"),
 )
+KNOWN = (
+    "error_integral", "command_integral_rad", "torque_integral_Nm_s", "effort_integral",
+    "speed_integral_m", "acceleration_integral", "position_error_rms_m", "position_error_std_m",
+    "position_error_max_m", "orientation_error_rms_rad", "orientation_error_std_rad",
+    "orientation_error_max_rad",
+)  # fmt: skip
 ROUNDING = 1e-13  # of a figure's own unit: what is smaller is shown as 0
 
 
@@ -82,6 +88,16 @@ class Cell:
         chosen = self.done or [result for result in self.results if result.figures]
         rows = (result.figures for result in chosen)
         return spread([row[n] * figure.scale for row in rows for n in figure.names if n in row])
+
+
+def check_figure(name: str) -> None:
+    """Refuse a figure that no run can have, before the first begins.
+
+    Raises:
+        UsageError: there is none of that name.
+    """
+    if name not in KNOWN:
+        raise UsageError(f"no figure named '{name}'; known: {', '.join(KNOWN)}")
 
 
 def find_figure(name: str, cells: Sequence[Cell]) -> Figure:

@@ -5,6 +5,7 @@ same study again finds its runs there, and so does a larger one that shares some
 """
 
 import sys
+import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -59,6 +60,7 @@ class Study:
 
     def __init__(self, folder: Path, jobs: Workers, what: str, total: int) -> None:
         self._folder, self._total = folder, total
+        self._begin = time.monotonic()
         self._progress = Progress(f"{what}, {total} runs")
         self._crew = _crew(folder, jobs)
         try:
@@ -119,6 +121,9 @@ class Study:
         self._crew.close()
         self._progress.__exit__()
         self._record.close()
+        if kind is None and self._done and sys.stderr.isatty():
+            seconds = time.monotonic() - self._begin
+            print(f"note: {len(self._done)} runs took {seconds:.1f} s", file=sys.stderr)
         if kind is KeyboardInterrupt:
             done = len(self._known | self._done)
             print(

@@ -1,10 +1,11 @@
 """A paper's experiment again: its numbers beside ours, and what both say to its claims."""
 
 import io
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from csv import writer
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -107,6 +108,32 @@ def verdict_rows(replayed: Replayed) -> list[list[str]]:
     return rows
 
 
+def settings_rows(paper: Paper) -> list[list[str]]:
+    """What is run for each cell, and where its numbers stand; empty if nothing is run."""
+    rows = [["cell", "table", "run with"]]
+    rows += [[cell.name, cell.table or "-", _chosen(cell.settings)] for cell in paper.cells]
+    return rows if any(cell.settings for cell in paper.cells) else []
+
+
+def _chosen(settings: Mapping[str, Any]) -> str:
+    """Settings in a line: `p, k = 50, start home, disturb twist (z = -0.05)`."""
+    parts = []
+    for name, value in settings.items():
+        if name == "controller":
+            parts.append(str(value))
+        elif name == "gains":
+            parts += [f"{gain} = {_number(one)}" for gain, one in value.items()]
+        elif isinstance(value, Mapping):
+            parts += [f"{name} {key} ({_chosen({'gains': one})})" for key, one in value.items()]
+        else:
+            parts.append(f"{name} {_number(value)}")
+    return ", ".join(parts) or "-"
+
+
+def _number(value: object) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
 def summary(verdicts: Sequence[tuple[Claim, Verdict, Verdict]]) -> str:
     """How many claims hold, in a line."""
     words = [ours.word for _, _, ours in verdicts]
@@ -154,6 +181,8 @@ def markdown(replayed: Replayed) -> str:
     parts += [cells.markdown(rows) for _, rows in tables(replayed)]
     parts += [cells.markdown(verdict_rows(replayed)), f"{RULE}. {summary(replayed.verdicts)}."]
     parts += _listed("- ", replayed)
+    if run_with := settings_rows(paper):
+        parts += ["What each cell was run with:", cells.markdown(run_with)]
     return "\n\n".join(parts) + "\n"
 
 
@@ -209,6 +238,8 @@ def page(replayed: Replayed, again: str) -> Page:
         ),
         *(Words(text) for text in _listed("  - ", replayed)),
     ]
+    if run_with := settings_rows(paper):
+        blocks.append(Rows("What each cell was run with", run_with))
     return Page(f"{paper.name}: {paper.title}", blocks, again=again)
 
 

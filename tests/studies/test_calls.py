@@ -5,6 +5,7 @@ import pytest
 
 import dqpaint
 from dqpaint.errors import UsageError
+from dqpaint.studies.cells import KNOWN
 from tests.studies import guarded
 
 LINE = "period 10 ms\nspeed 60 mm/s\nstart at (0, 0) mm\nline to (40, 20) mm\n"
@@ -54,6 +55,27 @@ def test_tune_and_verify_from_python(tmp_path):
     folder = guarded.make(tmp_path / "guarded")
     (one,) = dqpaint.verify(folder, jobs=1)
     assert one.faults == ("no reference",)
+
+
+def test_a_figure_that_is_none_is_refused_before_the_first_run(tmp_path):
+    place = tmp_path / "s"
+    for study in (
+        lambda: dqpaint.compare("lag", ["p"], figure="colour", folder=place),
+        lambda: dqpaint.sweep("lag", "k=1,2", controller="p", figure="colour", folder=place),
+        lambda: dqpaint.tune("lag", "k=1..2", controller="p", figure="colour", folder=place),
+        lambda: dqpaint.tune("lag", controller="p", effort_figure="colour", folder=place),
+    ):
+        with pytest.raises(UsageError, match="no figure named 'colour'; known: error_integral"):
+            study()
+    assert not place.exists()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("law", "plant"), [("p", "ideal"), ("accel", "torque")])
+def test_every_figure_of_a_run_may_be_asked_for(tmp_path, law, plant):
+    (tmp_path / "line.traj").write_text(LINE)
+    run = dqpaint.draw(tmp_path / "line.traj", controller=law, plant=plant, size=(16, 16))
+    assert set(run.metrics.figures) <= set(KNOWN)
 
 
 def test_slips_are_told():

@@ -127,6 +127,16 @@ def test_the_timing_of_every_law_is_taken(monkeypatch, tmp_path):
     assert found.files["-histogram.png"].startswith(b"\x89PNG")
 
 
+def test_a_page_says_what_each_cell_was_run_with():
+    rows = replay.settings_rows(read_paper("thesis-square"))
+    assert rows[1] == ["V-REP: K", "3", "p, k = 50"]
+    assert rows[7] == [
+        "Meka: K", "4", "p, k = 50, start home, disturb twist (form = constant, z = -0.05), "
+        "disturb noise (rms = 2e-05)",
+    ]  # fmt: skip
+    assert replay.settings_rows(read_paper("ozgur-cost")) == []
+
+
 def test_the_grid_of_the_surfaces():
     paper = read_paper("thesis-lqr")
     cells = surfaces.grid(paper)
@@ -141,6 +151,13 @@ def test_what_a_replay_has_no_use_for_is_refused(tmp_path):
     for name in ("ozgur-cost", "pham-setpoint", "thesis-timing"):
         with pytest.raises(UsageError, match=f"replay '{name}' takes no --plant"):
             replay.replay(name, Asked(tmp_path, settings={"plant": "stiff"}))
+        for word, asked in (
+            ("runs", Asked(tmp_path, runs=3)),
+            ("jobs", Asked(tmp_path, jobs=2)),
+            ("cluster", Asked(tmp_path, jobs="tcp://127.0.0.1:1")),
+        ):
+            with pytest.raises(UsageError, match=f"replay '{name}' takes no --{word}"):
+                replay.replay(name, asked)
 
 
 @pytest.mark.slow

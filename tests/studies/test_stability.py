@@ -41,6 +41,31 @@ def test_loops_that_do_not_are_not(lines, law, product):
     assert "alternate" in instability(track(lines, product / PERIOD, controller=law))
 
 
+def late_bound(periods):
+    """The largest k T of x' = -k x heard so many periods late: roots of z^(d+1) - z^d + k T."""
+    return 2 * np.sin(np.pi / (2 * (2 * periods + 1)))
+
+
+@pytest.mark.parametrize("periods", [1, 2, 4, 8])
+def test_a_loop_that_hears_late_is_stable_below_its_bound_and_not_above(lines, periods):
+    late = {"latency": {"periods": periods}}
+    k = late_bound(periods) / PERIOD
+    assert instability(track(lines, 0.85 * k, disturb=late)) is None
+    for factor in (1.3, 2.0):
+        assert "between the arm's limits" in instability(track(lines, factor * k, disturb=late))
+
+
+def test_a_swing_that_is_asked_for_is_none(lines):
+    one = track(lines, 20.0)
+    swing = np.where(np.arange(len(one.command)) // 5 % 2, 1.0, -1.0)
+    held = (Clamp("speed", 1, 0.0, 0.5 * float(one.motion.t[-1]), 1, 1.0, 2.0),)
+    own = replace(one, command=swing[:, None] * np.ones(7), clamps=held)
+    assert "swing" in instability(own)
+    asked = replace(one.motion, twist=swing[:, None] * np.ones(6))
+    assert instability(replace(own, motion=asked)) is None
+    assert instability(replace(own, clamps=())) is None
+
+
 def test_noise_is_no_instability(lines):
     noise = {"twist": {"form": "noise", "x": 0.05, "y": 0.05, "wz": 0.2, "frequency": 50.0}}
     assert instability(track(lines, 50.0, disturb=noise)) is None

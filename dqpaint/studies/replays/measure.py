@@ -30,13 +30,16 @@ class Asked:
     settings: Mapping[str, Any] = field(default_factory=dict)
 
     def nothing_of(self, paper: Paper, *names: str) -> None:
-        """Refuse settings that a replay has no use for.
+        """Refuse settings that a replay has no use for; and runs and workers, for it has no study.
 
         Raises:
             UsageError: one of them was given.
         """
-        for name in self.settings:
-            if name in names:
+        given = set(self.settings) & set(names)
+        given |= {"runs"} if self.runs is not None else set()
+        given |= {"cluster" if isinstance(self.jobs, str) else "jobs"} if self.jobs else set()
+        for name in ("runs", "jobs", "cluster", *names):
+            if name in given:
                 raise UsageError(f"replay '{paper.name}' takes no --{name}: {paper.title}")
 
 

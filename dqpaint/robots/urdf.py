@@ -19,7 +19,7 @@ from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 from dqpaint.robots.built import WEIGHTLESS, write_urdf
 from dqpaint.robots.card import Card
-from dqpaint.robots.tree import Joint, Tree
+from dqpaint.robots.tree import Joint, Tree, numbers
 
 BALL = 0.05  # [m], radius of the ball that stands for a shape nobody gave
 LIGHTEST = 0.1  # [kg], of a link that moves and has no mass
@@ -82,19 +82,35 @@ def urdf_file(card: Card, change: Callable[[str], str] = str) -> Iterator[str]:
 
 
 def _strip(tree: Tree) -> None:
-    """Leave out what has no part in moving and shape: libraries stumble over slips in it."""
+    """Leave out what has no part in motion and looks: libraries stumble over slips in it."""
+    named = {
+        found.get("name"): rgba for found in tree.robot.iter("material") if (rgba := _rgba(found))
+    }
     tree.robot.attrib.pop("version", None)
     for element in list(tree.robot):
         if element.tag not in ("link", "joint"):
             tree.robot.remove(element)
     for link in tree.links.values():
         for visual in link.findall("visual"):
+            colours = []
             for material in visual.findall("material"):
+                colours.append(_rgba(material) or named.get(material.get("name")))
                 visual.remove(material)
+            if colours and colours[0]:
+                painted = Xml.SubElement(visual, "material", name=colours[0])
+                Xml.SubElement(painted, "color", rgba=colours[0])
     for joint in tree.joints.values():
         for idle in ("safety_controller", "calibration"):
             for element in joint.element.findall(idle):
                 joint.element.remove(element)
+
+
+def _rgba(material: Xml.Element) -> str | None:
+    """The colour of a material as a URDF has it; None where it has none, or a slip in it."""
+    colour = material.find("color")
+    values = numbers("" if colour is None else colour.get("rgba", ""))
+    sound = len(values) == 4 and (values >= 0.0).all() and (values <= 1.0).all()
+    return " ".join(map(str, values.tolist())) if sound else None
 
 
 def _still(tree: Tree, arm: list[Joint], card: Card) -> None:

@@ -179,6 +179,7 @@ def test_colours_run_from_end_to_end():
     ("bar:along=up", "along 'up' is no axis of the tool; known: x, y, z, -x, -y, -z"),
     ("bar:colours=rde", "no colour named 'rde'"),
     ("bar:leds=5000", "leds '5000' should be less than or equal to 2000"),
+    ("pixelstick:leds=1", "leds '1' should be 2 or more, or 0 for 144 a metre"),
     ("point:lobe=nan", "lobe 'nan'"),
     ("fibre:fibres=0", "fibres '0' should be greater than or equal to 1"),
 ])  # fmt: skip

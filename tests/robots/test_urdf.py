@@ -1,5 +1,7 @@
 """What is settled in a description before the libraries read it, and what is said of it."""
 
+from xml.etree import ElementTree as Xml
+
 import numpy as np
 import pinocchio
 import pytest
@@ -230,6 +232,30 @@ def test_slips_in_what_has_no_part_in_it_are_no_matter(slip, read, capfd):
     np.testing.assert_array_equal(plain.pose(q), other.pose(q))
     assert prepare(other.card).text == prepare(plain.card).text
     assert capfd.readouterr() == ("", "")
+
+
+GIVEN = '<material name="a"><color rgba="0.5 0 1 1"/></material>'
+PAINT = '<visual><geometry><sphere radius="0.1"/></geometry>{}</visual>'
+COLOURS = {
+    '<material name="b"><color rgba="0.1 0.2 0.3 1"/></material>': "0.1 0.2 0.3 1.0",
+    '<material name="a"/>': "0.5 0 1 1",
+    '<material name="a"><texture filename="none.png"/></material>': "0.5 0 1 1",
+    '<material name="a"><color rgba="2 0 0 1"/></material>': "0.5 0 1 1",
+    '<material name="z"/>': None,
+    '<material name="b"><color rgba="1 x"/></material>': None,
+    "": None,
+}
+
+
+@pytest.mark.parametrize("material", COLOURS)
+def test_colours_are_kept(material, read):
+    text = arm_urdf().replace("</robot>", GIVEN + "</robot>")
+    text = text.replace('<link name="l3">', '<link name="l3">' + PAINT.format(material))
+    robot = Xml.fromstring(prepare(read(text)).text)
+    colours = [colour.get("rgba") for colour in robot.iter("color")]
+    assert [[float(c) for c in rgba.split()] for rgba in colours] == (
+        [[float(c) for c in COLOURS[material].split()]] if COLOURS[material] else []
+    )
 
 
 SHAPE = '<link name="l3"><visual><geometry>{}</geometry></visual>'

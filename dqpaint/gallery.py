@@ -97,7 +97,7 @@ SHOTS = (
     Shot(
         "helicoid",
         "The same with its arm, lit by what it painted; the camera stands where it was put.",
-        {"brush": HELICOID, "view": "at:2.0:1.05:0.65:0.4:0.02:0.51", "ghost": True},
+        {"brush": HELICOID, "view": "at:1.85:-0.9:0.66:0.26:0.02:0.475", "ghost": True},
         "-ghost",
     ),
     Shot(

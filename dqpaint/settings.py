@@ -1,7 +1,7 @@
 """How a drawing is painted: everything besides its text, checked."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
@@ -74,9 +74,18 @@ def make_settings(**choices: object) -> Settings:
     Raises:
         UsageError: an unknown choice or a value outside its range.
     """
+    return _made(choices, strict=False)
+
+
+def settings_in_kind(choices: Mapping[str, object]) -> Settings:
+    """The same, where `true` is no number, and "yes" is not `true`."""
+    return _made(choices, strict=True)
+
+
+def _made(choices: Mapping[str, object], strict: bool) -> Settings:
     given = {name: value for name, value in choices.items() if value is not None}
     try:
-        return Settings.model_validate(given)
+        return Settings.model_validate(given, strict=strict)
     except ValidationError as problem:
         first = problem.errors()[0]
         name = ".".join(str(part) for part in first["loc"])

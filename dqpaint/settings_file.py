@@ -35,6 +35,7 @@ from dqpaint.settings import (
     parse_disturbances,
     parse_gains,
     parse_size,
+    settings_in_kind,
 )
 
 LARGEST = 1_000_000  # bytes of a file
@@ -195,7 +196,9 @@ def _field(key: str) -> str:
 def _read(name: str, value: Any) -> dict[str, Any]:
     """The fields of `Settings` that a value gives, as the command line would have them."""
     if name == "motion_ghost":
-        return {"ghost": "motion"} if value is True else {}
+        if not isinstance(value, bool):
+            raise UsageError(f"motion_ghost {value!r} should be true or false")
+        return {"ghost": "motion"} if value else {}
     if name == "size":
         return dict(zip(("width", "height"), parse_size(str(value)), strict=True))
     readers: dict[str, Callable[[list[str]], Any]] = {
@@ -209,13 +212,21 @@ def _read(name: str, value: Any) -> dict[str, Any]:
         option = "gain" if name == "gains" else name
         raise UsageError(f"{option} is a table of names, for example {option}.{EXAMPLES[name]}")
     if name == "gains":
-        return {name: value}
+        for one, gain in value.items():
+            if isinstance(gain, bool):
+                raise UsageError(f"gain '{one}' should be a number, not {str(gain).lower()}")
+        return {name: {one: _numbers(gain) for one, gain in value.items()}}
     found: dict[str, Any] = {}
     for one, values in value.items():
         found |= (
             {one: values} if isinstance(values, dict) else parse_disturbances([f"{one}={values}"])
         )
     return {name: found}
+
+
+def _numbers(gain: Any) -> Any:
+    """A diagonal is a list in a file."""
+    return tuple(gain) if isinstance(gain, list) else gain
 
 
 EXAMPLES = {"gains": "k = 20", "disturb": 'twist = "sine,x=0.02,frequency=2"'}
@@ -227,7 +238,7 @@ def _check(choices: dict[str, Any]) -> None:
     Raises:
         DqpaintError: it is at fault.
     """
-    settings = make_settings(**choices)
+    settings = settings_in_kind(choices)
     check_choices(settings)
     if "controller" in choices:
         find_controller(settings.controller)

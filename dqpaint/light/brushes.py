@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Annotated, Any, cast
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.language import colours as named
@@ -62,11 +62,17 @@ def _shades(given: object) -> object:
     return tuple(found)
 
 
+def _several(leds: int) -> int:
+    if leds == 1:
+        raise ValueError("should be 2 or more, or 0 for 144 a metre; one is a point")
+    return leds
+
+
 Length = Annotated[float, BeforeValidator(_length), Field(gt=0.0, le=10.0, allow_inf_nan=False)]
 Direction = Annotated[tuple[float, float, float], BeforeValidator(_direction)]
 Shades = Annotated[tuple[Colour, ...], BeforeValidator(_shades)]
 Lobe = Annotated[float, Field(ge=0.0, le=200.0, allow_inf_nan=False)]
-Leds = Annotated[int, Field(ge=0, le=2000)]
+Leds = Annotated[int, Field(ge=0, le=2000), AfterValidator(_several)]
 X: tuple[float, float, float] = (1.0, 0.0, 0.0)
 Z = np.array([0.0, 0.0, 1.0])
 
@@ -150,7 +156,7 @@ class Bar(Line):
 
     def emitters(self) -> Emitters:
         """LEDs and what joins them."""
-        leds = max(2, self.count(self.leds))
+        leds = self.count(self.leds)
         return self.line(leds, self.gradient(leds), self.joined)
 
 
@@ -177,7 +183,7 @@ class Pixelstick(Line):
 
     def emitters(self) -> Emitters:
         """A row of tints for each column of the image."""
-        leds = max(2, self.count(self.leds))
+        leds = self.count(self.leds)
         columns = _columns(self.image, leds) if self.image else stripes(leds)
         return self.line(
             leds, np.tile(columns, (self.times, 1, 1)) * self.gradient(leds), self.joined

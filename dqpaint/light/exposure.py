@@ -23,6 +23,8 @@ WIDE = 8.0
 """A stroke this many line widths wide is a surface; between the two it is some of both."""
 PARTS = 8
 """Parts of a bar that are metered by themselves."""
+DARK = 0.02
+"""Of a bar's brightest part: dimmer ones are the ground of an image, and are not metered."""
 
 
 def automatic_exposure(
@@ -38,7 +40,7 @@ def automatic_exposure(
     path is measured in pieces of this length, and a shorter stroke counts as one whole piece.
 
     What is wider than a line is as bright as its light over its area, counts by its area, and is
-    put the nearer to `SURFACE` the wider it is.
+    put the nearer to `SURFACE` the wider it is. What an image leaves dark does not count.
 
     Args:
         light: What was asked, so that an arm's faults do not change the exposure.
@@ -119,20 +121,22 @@ def _surface(sweep: Sweep, steps: Steps, camera: Camera, psf: PointSpread) -> tu
         area = length * np.sqrt((width**2).sum(axis=2))
     shares = _shares(e.tints)[steps.row]  # (M, PARTS, 3)
     energy = (steps.energy[:, None, :] * shares).max(axis=2)
+    given = steps.energy.max(axis=1, keepdims=True)
 
     walked = np.cumsum(length.max(axis=1))
     group = np.floor(walked / piece)[used]
     begins = np.flatnonzero(np.append(True, np.diff(group) > 0.0))
-    length, area, energy = (
-        np.add.reduceat(values[used], begins, axis=0) for values in (length, area, energy)
+    length, area, energy, given = (
+        np.add.reduceat(values[used], begins, axis=0) for values in (length, area, energy, given)
     )
+    lit = energy > DARK * given * (energy / given).max()
     path = np.maximum(length, piece)
     wide = area / path * PARTS  # of the whole brush, as seen [px]
     threads = np.inf if e.joined > 0.2 else len(e.places)
     covered = np.clip(wide, line, max(line, min(threads * line, 1e9)))
     value = energy * PARTS / (path * covered)
     aim = _aim(covered / line)
-    return (value * CORE / aim).ravel(), (path * covered / line / PARTS).ravel()
+    return (value * CORE / aim)[lit], (path * covered / line / PARTS)[lit]
 
 
 def _shares(tints: Floats) -> Floats:

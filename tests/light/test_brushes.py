@@ -9,7 +9,9 @@ from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.language.program import Bar, Point
 from dqpaint.light.brushes import BRUSHES, brush_of, read_brush, stripes
 from dqpaint.light.camera import VIEWS
+from dqpaint.light.exposure import automatic_exposure
 from dqpaint.light.film import expose
+from dqpaint.light.spread import point_spread
 from tests.light.moves import camera_for, swept
 
 ENERGY_TOLERANCE = 1e-9
@@ -126,6 +128,21 @@ def test_a_ball_is_an_even_disc_of_its_size():
     assert plane[away > 1.25 * radius].sum() < 1e-9 * plane.sum()
 
 
+@pytest.mark.parametrize("ground", [0, 20])  # black, and as a camera's file has it
+def test_the_dark_ground_of_an_image_is_not_metered(ground, tmp_path):
+    image = np.full((64, 90, 3), ground, np.uint8)
+    image[24:40, 30:60] = 255
+    cv2.imwrite(str(tmp_path / "mark.png"), image)
+    cv2.imwrite(str(tmp_path / "white.png"), np.full_like(image, 255))
+    found = []
+    for name in ("mark", "white"):
+        brush = read_brush(f"pixelstick:image={tmp_path}/{name}.png,leds=64,length=120mm")
+        sweep = swept(brush.emitters(), 200, colours=np.ones((199, 3)))
+        camera = camera_for(sweep)
+        found.append(automatic_exposure(sweep, camera, point_spread(camera.height)))
+    np.testing.assert_allclose(found[0], found[1], rtol=0.5)
+
+
 def test_an_image_goes_along_the_way_and_along_the_bar(tmp_path):
     image = np.zeros((8, 20, 3), np.uint8)
     image[:4, :10] = [0, 0, 255]  # OpenCV's order: red above at first
@@ -179,6 +196,7 @@ def test_colours_run_from_end_to_end():
     ("bar:along=up", "along 'up' is no axis of the tool; known: x, y, z, -x, -y, -z"),
     ("bar:colours=rde", "no colour named 'rde'"),
     ("bar:leds=5000", "leds '5000' should be less than or equal to 2000"),
+    ("pixelstick:leds=1", "leds '1' should be 2 or more, or 0 for 144 a metre"),
     ("point:lobe=nan", "lobe 'nan'"),
     ("fibre:fibres=0", "fibres '0' should be greater than or equal to 1"),
 ])  # fmt: skip

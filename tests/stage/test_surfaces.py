@@ -68,6 +68,14 @@ def test_links_are_where_pinocchio_puts_the_tool(rng):
 
 
 @pytest.mark.slow
+def test_the_arm_has_the_colours_of_its_file():
+    with urdf_file(read_card("iiwa")) as path, Arm(path) as arm:
+        colours = {shape.colour for shape in arm.shapes}
+    found = sorted(tuple(round(part, 2) for part in colour) for colour in colours)
+    assert found == [(0.2, 0.2, 0.2), (0.5, 0.7, 1.0), (1.0, 0.42, 0.04)]
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("robot", ["kuka_iiwa/model.urdf", "xarm/xarm6_robot.urdf", "plain"])
 def test_rays_meet_what_is_seen(robot, rng, tmp_path):
     data = read_card("iiwa").urdf.path.parents[1]

@@ -324,7 +324,7 @@ def test_check_for_programs(dqpaint, line, tmp_path):
     (["develop", "none.npz"], 1, "film 'none.npz' cannot be read: No such file"),
     (["paint", "line.traj"], 2, "No such command"),
     (["draw", "line.traj", "--tool", "0,0,80"], 2, "write 80mm"),
-    (["draw", "line.traj", "--place", "there"], 2, "place 'there' is not auto; a place of your own"),
+    (["draw", "line.traj", "--place", "there"], 2, "place 'there' is not auto; a place"),
     (["check", "line.traj", "--place", "there"], 2, "place 'there' is not auto"),
     (["check", "line.traj", "--tool", "x"], 2, "tool 'x' is not X,Y,Z"),
     (["pose", "iiwa", "--tool", "0,0,0", "--flange"], 2, "not both"),

@@ -27,7 +27,7 @@ from dqpaint.language.program import (
     Vector,
 )
 from dqpaint.motion.chains import place_chains
-from dqpaint.motion.faults import Faults, StrokeError, stroke_errors
+from dqpaint.motion.faults import Faults, StrokeError, pole, stroke_errors
 from dqpaint.motion.lengths import Extent, flow_by_length, measure
 from dqpaint.motion.orientations import orientation
 from dqpaint.motion.places import Arcs, Formula, Indices, Places, column, place_arc, place_straight
@@ -145,6 +145,8 @@ def gather(segments: tuple[Segment, ...], faults: Faults) -> Shapes:
                 else:
                     for row, number in enumerate(members):
                         extent = measure(made.of(row))
+                        if not extent.settled:
+                            raise StrokeError(pole(segments[number]))
                         length[number], angle[number] = extent.length, extent.angle
                         if not extent.even:
                             uneven[number] = extent

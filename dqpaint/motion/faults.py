@@ -43,6 +43,16 @@ def not_finite(segment: Segment) -> Diagnostic:
     )
 
 
+def pole(segment: Segment) -> Diagnostic:
+    """E327."""
+    return Diagnostic(
+        "E327",
+        "this curve has no length: somewhere it runs off beyond all bounds, or shakes too finely",
+        segment.span,
+        help="choose the ends so that they leave out where its formula divides by zero",
+    )
+
+
 def cusp(segment: Segment) -> Diagnostic:
     """E321."""
     return Diagnostic(

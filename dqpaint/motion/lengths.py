@@ -5,7 +5,7 @@ not, such as a curve or an arc that grows, is integrated by Gauss-Legendre quadr
 panel, and turned round by Newton's method; the derivatives of the way back are exact.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ from dqpaint.motion.shapes import Flow, Loose, Shape
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
 MOST_PANELS = 1024
 EXACT = 1e-13  # relative, of a length
+SETTLED = 0.01  # relative: a length that still changes by more at `MOST_PANELS` is none
 CUSP = 1e-6  # of the mean speed: a curve that is slower somewhere has a point there
 
 
@@ -29,6 +30,7 @@ class Extent:
         edges: of the panels of `f`, (M + 1,).
         lengths: from the start to each edge [m], (M + 1,).
         even: whether the point's speed over `f` is one number.
+        settled: whether finer panels say the same; beside a pole each says more than the last.
     """
 
     length: float
@@ -36,20 +38,21 @@ class Extent:
     edges: Floats
     lengths: Floats
     even: bool
+    settled: bool = True
 
 
 def measure(shape: Shape) -> Extent:
     """Length and angle of one stroke, to the last digits or to what `MOST_PANELS` give."""
-    panels = 16
+    panels, change = 16, 0.0
     before = _integrate(shape, panels)
     while panels < MOST_PANELS:
         panels *= 2
         after = _integrate(shape, panels)
-        close = abs(after.length - before.length) <= EXACT * after.length
+        change = abs(after.length - before.length)
         before = after
-        if close:
+        if change <= EXACT * after.length:
             break
-    return before
+    return replace(before, settled=bool(change <= SETTLED * before.length))
 
 
 def _integrate(shape: Shape, panels: int) -> Extent:

@@ -165,3 +165,31 @@ def test_one_more_line_costs_few_calls():
         work(few)
         more = calls(lambda work=work: work(many)) - calls(lambda work=work: work(few))
         assert more < MOST_CALLS[name] * 200, (name, more / 200)
+
+
+POLES = [
+    "(0, 1/(t - 2)) mm",  # it shows in one panel at any fineness
+    "(t, 1/(t - 2.1)) mm",
+    "(t, 1/(t - 2.3)) mm",
+    "(t, 10*tan(t*rad)) mm",
+    "(t, 1/(t - 2)^2) mm",
+]
+STEEP = ["(t, abs(t - 2.3)) mm", "(t, sqrt(abs(t - 2.3))) mm", "(t, 30*sin(200*t*rad)) mm"]
+
+
+@pytest.mark.parametrize("formula", POLES)
+def test_a_curve_through_a_pole_has_no_length(formula):
+    drawing = parse(f"curve {formula} for t from 0 to 5", "pole.traj")
+    with pytest.raises(ScriptError) as caught:
+        survey(drawing)
+    assert [found.code for found in caught.value.diagnostics] == ["E327"]
+
+
+@pytest.mark.parametrize("formula", STEEP)
+def test_a_curve_with_a_corner_or_many_bends_has_one(formula):
+    drawing = parse(f"curve {formula} for t from 0 to 5", "steep.traj")
+    t = np.linspace(0.0, 5.0, 2_000_001)
+    y = {"a": np.abs(t - 2.3), "s": np.sqrt(np.abs(t - 2.3)), "3": 30 * np.sin(200 * t)}
+    way = np.hypot(np.diff(t), np.diff(y[formula[4]])).sum() * 1e-3
+    move = np.hypot(0.0, y[formula[4]][0]) * 1e-3  # from the origin to its start
+    assert survey(drawing).length == pytest.approx(way + move, rel=2e-3)

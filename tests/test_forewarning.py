@@ -118,5 +118,5 @@ def test_place_auto_says_where(checked):
     assert "\n  place at (" in result.text
     assert "merit " in result.text
     assert as_json([result])["files"][0]["forecast"]["place"]["line"] in result.text
-    with pytest.raises(UsageError, match="place 'here' should be 'auto'"):
+    with pytest.raises(UsageError, match="place 'here' is not auto"):
         checked(FAST, place="here")

@@ -56,6 +56,5 @@ def _how_many(points: Floats, camera: Camera, margin: float) -> int:
     corner = np.maximum(camera.centre, size - camera.centre) + margin
     slope = float(np.sqrt((corner**2).sum())) / camera.focal
     seen = camera.focal / nearest * step * np.sqrt(1.0 + slope * slope)
-    return (
-        min(int(SHORT / seen), MOST, len(points) - 1) if seen > 0.0 else min(MOST, len(points) - 1)
-    )
+    most = min(MOST, len(points) - 1)
+    return min(int(SHORT / seen), most) if seen > 0.0 else most

@@ -20,7 +20,7 @@ class Figure(NamedTuple):
     scale: float = 1.0
 
 
-DEGREES = 57.29577951308232
+DEGREES = math.degrees(1.0)
 SHOWN = (
     Figure(("error_integral",), "error integral"),
     Figure(("position_error_rms_m",), "position rms [mm]", 1e3),

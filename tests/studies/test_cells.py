@@ -1,0 +1,43 @@
+"""A row of a table: each figure in the unit that its heading names."""
+
+import math
+
+import numpy as np
+import pytest
+
+from dqpaint.studies.cells import Cell, columns, rows
+from dqpaint.studies.runs import Result
+
+# What a run says in SI units, by name, and what the table says under which heading.
+SAID = {
+    "error_integral": (0.0125, "error integral", 1.0),
+    "position_error_rms_m": (0.00325, "position rms [mm]", 1e3),
+    "position_error_max_m": (0.0475, "largest [mm]", 1e3),
+    "orientation_error_rms_rad": (math.pi / 7, "orientation rms [deg]", 180 / math.pi),
+    "command_integral_rad": (3.75, "command [rad, Nm s]", 1.0),
+    "speed_integral_m": (1.25, "way [m]", 1.0),
+}
+
+
+def run(seed, factor):
+    return Result(str(seed), "done", figures={n: factor * v for n, (v, _, _) in SAID.items()})
+
+
+def test_figures_are_shown_in_the_units_of_their_headings():
+    headings, row = rows([Cell({"law": "p"}, (run(0, 1.0),))])
+    shown = dict(zip(headings, row, strict=True))
+    for value, heading, scale in SAID.values():
+        assert float(shown[heading]) == pytest.approx(value * scale, rel=5e-4)
+    assert shown["effort"] == "-"  # of which this run says nothing
+
+
+def test_several_runs_are_shown_by_mean_and_spread():
+    factors = [0.5, 1.0, 1.75]
+    cell = Cell({"law": "p"}, tuple(run(k, factor) for k, factor in enumerate(factors)))
+    headings, row = rows([cell])
+    shown = dict(zip(headings, row, strict=True))
+    for name, (value, heading, scale) in SAID.items():
+        mean, std = (float(word) for word in shown[heading].split(" ± "))
+        assert mean == pytest.approx(value * scale * np.mean(factors), rel=5e-4)
+        assert std == pytest.approx(value * scale * np.std(factors, ddof=1), rel=5e-2)
+        assert columns([cell])[f"{name}_mean"] == pytest.approx([value * np.mean(factors)])

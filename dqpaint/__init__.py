@@ -7,11 +7,13 @@ r"""Light paintings by a simulated robot arm.
 `language` reads the text, `motion` says what is asked at every sample, `controllers` turn what is
 seen into a command, `robots` know the arms, `plants` answer as an arm does, `disturbances` are what
 no law knows of, `driving` tells the plant what the law says, `tracking` closes the loop, `metrics`
-measure, `scene` says what shines and `light` takes its pictures, `stage` puts the arm before the
-camera, `paint` is the flow as one function, `sketch` the same without an arm, `negative` what is
-kept to develop again, `studies` are many paintings and what they say together, `cli` and
-`studying` the command line. `dq` holds the algebra and its conventions, `outputs` the files. Data
-moves along this line and never back: `tests/test_house.py` holds the modules to it.
+measure, `shining` and `scene` say what shines and `light` takes its pictures, `stage` puts the arm
+before the camera, `paint` is the flow as one function, `sketch` the same without an arm, `forecast`
+what the arm says beforehand, `negative` what is kept to develop again, `exports` what a real arm is
+given. `studies` are many paintings and what they say together, `papers` the published numbers to
+compare them with, `cli` and `studying` the command line. `dq` holds the algebra and its
+conventions, `outputs` the files. Data moves along this line and never back: `tests/test_house.py`
+holds the modules to it.
 """
 
 import importlib

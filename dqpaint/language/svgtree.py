@@ -12,7 +12,7 @@ from xml.parsers import expat
 
 from dqpaint.language.svgattributes import LINK, SHAPES, STYLED, Attributes
 from dqpaint.language.svgstyle import TooManyRulesError, inline, tag_of
-from dqpaint.language.svgvalues import NUMBER, SvgError
+from dqpaint.language.svgvalues import NUMBER, Commands, SvgError
 
 MOST_BYTES = 10_000_000
 MOST_ELEMENTS = 100_000  # as they are written, and as they come by `use`
@@ -49,12 +49,14 @@ class Guarded:
         left_out: texts, images ..., and the lines they stand on.
         otherwise: what is drawn, but not as SVG says, and the lines.
         passed_over: what SVG itself passes over, each with its line.
+        paths: the data of its paths and polygons, which name them by their numbers.
     """
 
     xml: bytes
     left_out: Lines = field(default_factory=dict)
     otherwise: Lines = field(default_factory=dict)
     passed_over: list[str] = field(default_factory=list)
+    paths: list[Commands] = field(default_factory=list)
 
 
 def guard(data: bytes) -> Guarded:
@@ -83,6 +85,7 @@ def guard(data: bytes) -> Guarded:
     _clean(root, lines, out.left_out)
     attributes.write(root)
     _size(root)
+    out.paths = attributes.paths
     out.xml = ElementTree.tostring(root, encoding="utf-8")
     return out
 

@@ -1,7 +1,7 @@
 """What `check` says of a drawing, for people and for programs."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from dqpaint import __version__
@@ -59,7 +59,6 @@ class Checked:
         )
 
 
-PLAIN = Settings()
 BEAD = 2.0  # times the brightness of the middle: less is no matter for a hint
 
 
@@ -79,7 +78,8 @@ def check(name: str, **choices: Any) -> Checked:
     settings = make_settings(**choices)
     try:
         program = read_input() if name == STDIN else read(find_drawing(name))
-        asked = settings != PLAIN or program.robot is not None
+        program = replace(program, most_samples=settings.max_samples)
+        asked = _of_a_run(settings) or program.robot is not None
         outlook = _look_ahead(program, settings) if asked else None
         drawing: Motion | Survey = outlook.motion if outlook else survey(program)
     except ScriptError as problem:
@@ -90,6 +90,11 @@ def check(name: str, **choices: Any) -> Checked:
         return Checked(name, "", (), None, str(problem))
     findings = drawing.notes + (outlook.warnings if outlook else ())
     return Checked(program.name, program.text, findings, drawing, outlook=outlook)
+
+
+def _of_a_run(settings: Settings) -> bool:
+    """Whether anything is chosen that only a run has."""
+    return settings != Settings(max_samples=settings.max_samples)
 
 
 def _look_ahead(program: Program, settings: Settings) -> "Outlook":

@@ -78,7 +78,8 @@ def sampled(
         for begin in range(0, len(stroke), AT_ONCE) if parted else (0,):
             own = slice(begin, begin + AT_ONCE) if parted else slice(None)
             of_segments: Faults = {}
-            flow, fraction = table.flow(stroke[own], tau[own], of_segments)
+            with np.errstate(all="ignore"):  # what is not finite is told below
+                flow, fraction = table.flow(stroke[own], tau[own], of_segments)
             if ticks is not None:
                 flow = flow.at_rates(*_paces(some))
             _note(table, stroke[own], flow, of_segments, faults)

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from dqpaint.language import blends, blocks, reading, strokes, tools
+from dqpaint.language import blends, blocks, curves, reading, strokes, tools
 from dqpaint.language.definitions import called, drawing_of, frame_of, function_of, handed
 from dqpaint.language.diagnostics import (
     Diagnostic,
@@ -262,7 +262,10 @@ class Expander:
 
     def _curve(self, statement: Statement) -> None:
         self._define(statement)
-        strokes.draw(statement, self._pen, self._scope)
+        try:
+            strokes.draw(statement, self._pen, self._scope)
+        except Problem as mistake:
+            raise curves.outside_of_formula(mistake, statement, self._text) from None
 
     def _where(self, span: Span, seen_from: Span) -> str:
         """`line:column`, and the file if it is another one."""

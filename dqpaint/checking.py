@@ -182,5 +182,5 @@ def _unread(result: Checked) -> dict[str, Any]:
 def _range(text: str, span: Span | None) -> dict[str, Any]:
     if span is None:
         return {"start": None, "end": None}
-    ends = (place(text, offset) for offset in span)
+    ends = (place(text, offset) for offset in (span.start, span.end))
     return dict(zip(("start", "end"), (at._asdict() for at in ends), strict=True))

@@ -133,7 +133,7 @@ def _radius(statement: Statement) -> None:
     _needs(statement, "to", "add where it ends: arc radius 20 mm to (10, 0) mm left")
     left, right = statement.part("left"), statement.part("right")
     if left and right:
-        span = max(left.span, right.span)
+        span = max(left.span, right.span, key=lambda span: span.start)
         raise problem("E248", "an arc turns left or right, not both", span, "", "keep one of them")
     if not left and not right:
         message = "this 'arc' does not say which way it turns"

@@ -7,11 +7,13 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from dqpaint.language.diagnostics import Diagnostic, Fix, Span
+from dqpaint.language.records import record
 from dqpaint.language.units import SAME_UNITS, UNITS
 from dqpaint.language.words import STATEMENTS
 
 
-class Token(NamedTuple):
+@record
+class Token:
     """A word, number, text or sign, and where it stands."""
 
     kind: str  # number, name, text, sign; `end` closes every line

@@ -277,7 +277,7 @@ def _not_quoted(tokens: list[Token], text: str) -> Problem:
     if span.start == span.end:
         message = "expected the name of a file but found the end of the line"
         return problem("E109", message, tokens[0].span, "", 'for example: include "f.traj"')
-    message, cure = "the name of a file stands in quotes", f'include "{text[slice(*span)]}"'
+    message, cure = "the name of a file stands in quotes", f'include "{span.of(text)}"'
     return problem("E109", message, span, "", f"write: {cure}")
 
 

@@ -1,7 +1,7 @@
 """What holds until something else is said: speed, law, tool, blend, light, brush, strobe."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from dqpaint.language import colours, reading
 from dqpaint.language.diagnostics import problem
@@ -19,6 +19,7 @@ from dqpaint.language.program import (
     Strobe,
 )
 from dqpaint.language.program import Point as Dot
+from dqpaint.language.records import record
 from dqpaint.language.scope import Scope
 from dqpaint.language.space import Frame, Y
 from dqpaint.language.syntax import (
@@ -33,7 +34,7 @@ from dqpaint.language.syntax import (
 )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Towards:
     """`tool ORIENTATION`, in the drawing frame."""
 
@@ -48,7 +49,7 @@ POINT = Dot()
 WHITE = Light(colours.WHITE, colours.WHITE)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Settings:
     """The settings at one place of the file, in SI units and the drawing frame.
 

@@ -123,7 +123,7 @@ def _repeat(cursor: Cursor) -> _Head:
     name = new_name(cursor, "repeat", example_of("repeat"))
     cursor.take()
     lower = _expression(cursor, "from")
-    written = cursor.text[lower.span.start : lower.span.end]
+    written = lower.span.of(cursor.text)
     upper = cursor.token.text if cursor.token.kind == "number" else "5"
     example = f"repeat {name.text} from {written} to {upper}"
     _expect(cursor, "to", example)

@@ -8,7 +8,7 @@ import pytest
 
 from dqpaint import language
 from dqpaint.language import ScriptError, parse, render
-from dqpaint.language.diagnostics import place
+from dqpaint.language.diagnostics import Span, place
 from tests.language.test_includes import OF_FILES
 
 # The text (~ ends a line), the code, line:column and the caret's text, message, label, help.
@@ -289,7 +289,7 @@ def test_catalogue(entry: list[str]) -> None:
     assert diagnostic.span is not None
     line, column = place(text, diagnostic.span.start)
     assert f"{line}:{column}" == at
-    assert text[slice(*diagnostic.span)] == words
+    assert diagnostic.span.of(text) == words
 
 
 @pytest.mark.slow
@@ -396,4 +396,4 @@ def test_internal_error_is_a_message(monkeypatch: pytest.MonkeyPatch) -> None:
     (diagnostic,) = found("hold 1 s")
     assert diagnostic.code == "E999"
     assert diagnostic.message == "internal error, please report (RecursionError: too deep)"
-    assert diagnostic.span == (0, 8)
+    assert diagnostic.span == Span(0, 8)

@@ -104,6 +104,8 @@ def place(text: str, offset: int) -> Place:
 def file_at(text: str, offset: int, name: str) -> tuple[int, str]:
     """Where the file of an offset begins, and its name; `name` is that of the first."""
     included = text.included if isinstance(text, Source) else ()
+    if not included:
+        return 0, name
     at = bisect_right(included, offset, key=lambda file: file[0])
     return included[at - 1] if at else (0, name)
 

@@ -16,8 +16,9 @@ _FORM_OF_ABOUT = ("along", "angle", "pitch")
 
 def check(statement: Statement, text: str) -> None:
     """Raises a `Problem` if parts are missing, doubled or contradict each other."""
-    _once(statement, text)
-    _one_time(statement.parts)
+    if len(statement.parts) > 1:
+        _once(statement, text)
+        _one_time(statement.parts)
     checks = {"arc": _arc, "screw": _screw, "with": _with, "frame": _frame}
     if statement.word in checks:
         checks[statement.word](statement)

@@ -106,14 +106,11 @@ def lines(text: str, begin: int = 0) -> Iterator[Line]:
         match = match_at(text, position)
         assert match is not None  # the pattern has an answer to every character
         kind = match.lastgroup
-        position = match.end()
         if kind is None:
             break
-        start = match.start(kind)
-        if kind == "name":
-            tokens.append(Token("name", text[start:position], start, position))
-        elif kind == "number":
-            tokens.append(Token("number", text[start:position], start, position))
+        start, position = match.span(kind)
+        if kind == "name" or kind == "number":
+            tokens.append(Token(kind, text[start:position], start, position))
         elif kind == "sign":
             token = Token("sign", text[start:position], start, position)
             if token.text == "(":

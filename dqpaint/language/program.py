@@ -167,6 +167,7 @@ class LookLine:
 
 
 Tool = Keep | Turn | Follow | Look | LookLine
+LOOKING = (Look, LookLine)  # what a tool does whose turn depends on where it is
 
 
 # How long it takes.

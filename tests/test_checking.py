@@ -1,4 +1,4 @@
-"""What `check` costs: 10,000 lines of any kind in about a second, and little to begin with."""
+"""What `check` costs: 10,000 lines of any kind in less than a second, and little to begin with."""
 
 import os
 import subprocess
@@ -10,7 +10,7 @@ import pytest
 from tests.bench.bench_language import PYTHON, kinds
 from tests.language.clock import children_time
 
-TIMES = 25.0  # as long as Python takes to compile as many lines, and to start; 8 to 11 measured
+TIMES = 15.0  # as long as Python takes to compile as many lines, and to start; 4 to 6 measured
 
 
 def spent(*arguments: str) -> float:

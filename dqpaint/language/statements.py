@@ -4,7 +4,7 @@ from dqpaint.language import clauses, colours, fits, forms
 from dqpaint.language.cursor import Cursor, example_of, found, no_value
 from dqpaint.language.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.expressions import bracket, expression
-from dqpaint.language.lexer import Token, number_value
+from dqpaint.language.lexer import Token
 from dqpaint.language.names import new_name
 from dqpaint.language.records import record
 from dqpaint.language.suggestions import closest, did_you_mean, listed
@@ -202,7 +202,7 @@ def _version(cursor: Cursor) -> None:
     if token.kind != "number":
         message = f"expected a number after 'traj' but found {found(token)}"
         raise problem("E109", message, token.span, "", f"write: traj {VERSION}")
-    if number_value(token.text) != VERSION:
+    if float(token.text) != VERSION:
         message = f"this file is written in traj {token.text}, which this dqpaint does not know"
         raise problem("E118", message, token.span, "", f"it knows: traj {VERSION}")
 

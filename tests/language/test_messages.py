@@ -17,6 +17,9 @@ move to (1, 2) mm;|E101|1:18 ;|unexpected character ';'||no ; is needed: one sta
 let π = 3|E101|1:5 π|unexpected character 'π'||write pi
 line to (2r, 0)|E102|1:10 2r|'r' straight after the number 2 is not a unit||units are mm, cm, m, s, ms, deg, °, rad, turn, turns, Hz, K; a product is written 2*r
 period 10tool ms|E102|1:8 10tool|'tool' straight after the number 10 is not a unit||put a blank between: 10 tool
+line to (2,000, 0) mm|E102|1:12 000|'000' is not a number||commas stand between the numbers of a point; a large one has none: 2000
+hold 007.5 s|E102|1:6 007.5|'007.5' is not a number||write 7.5
+line to (0,05, 2) cm|E102|1:12 05|'05' is not a number||commas stand between the numbers of a point; a decimal has a point: 0.05
 let a = 1.2.3|E102|1:9 1.2.3|'1.2.3' is not a number||write one decimal point
 line to (1, 0) inch|E102|1:16 inch|'inch' is not a unit of this language||1 inch is 25.4 mm; units are mm, cm, m, s, ms, deg, °, rad, turn, turns, Hz, K
 line to (0, 0, 70 mm|E103|1:9 (|this '(' is never closed|opened here|add ')' before the end of the line

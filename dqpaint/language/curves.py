@@ -41,7 +41,7 @@ def outside_of_formula(mistake: Problem, statement: Statement, text: str) -> Pro
     found, name = mistake.diagnostic, statement.name
     if found.code != "E205" or found.span is None or name is None:
         return mistake
-    if text[slice(*found.span)] != name.text:
+    if text[found.span.start : found.span.end] != name.text:
         return mistake
     before = [part.word for part in statement.parts if part.span.start <= found.span.start]
     message = f"'{name.text}' has a value in the formula of the curve alone"

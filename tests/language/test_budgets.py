@@ -115,7 +115,7 @@ def curves(count: int) -> Iterator[str]:
 
 LARGE = {  # the shapes, the clause, what is said, the most seconds: three times what was measured
     "dots": (dots(20_000), "", " steps of 8 ms", 8.0),
-    "curves": (curves(60_000), "speed 1 m/s", " steps of 8 ms", 6.0),
+    "curves": (curves(60_000), "speed 4 m/s", " steps of 8 ms", 6.0),
     "too-slow": (curves(60_000), "speed 0.01 mm/s", "error[E302]", 4.0),
 }
 

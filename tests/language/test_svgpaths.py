@@ -118,6 +118,19 @@ def test_shapes_run_as_svg_says() -> None:
     np.testing.assert_allclose(outline(rectangle), by_library(same)[0], atol=1e-9)
 
 
+def test_pieces_meet_to_the_last_digit() -> None:
+    """The end of an arc is found from its centre, which may be far away."""
+    pieces = svgpaths.Pieces()
+    pieces.begin()
+    svgpaths.draw_path(pieces, svgvalues.path("M0 0A1e7 1e7 0 0 0 1 1a9e6 9e6 0 0 1 1 1l3 4"))
+    ((_, line),) = pieces.lines(*UNIT)
+    at = outline(line)
+    ends, starts = at[len(G) - 1 :: len(G)][:-1], at[len(G) :: len(G)]
+    assert np.abs(ends[-1] - [2, 2]).max() > 1e-11  # of 1e7
+    np.testing.assert_allclose(ends[-1], starts[-1], rtol=0.0, atol=1e-15)
+    np.testing.assert_allclose(at[-1], [5, 6], atol=1e-12)
+
+
 def test_each_shape_has_its_own_transform() -> None:
     pieces = svgpaths.Pieces()
     for _ in range(2):

@@ -13,6 +13,8 @@ from dqpaint.language.program import Cruise, Program
 from dqpaint.motion import Motion, plan, survey
 from dqpaint.motion.families import gather
 from dqpaint.motion.lengths import measure
+from dqpaint.motion.orientations import Looking, LookingAtLine
+from dqpaint.motion.places import Lines
 from tests.motion.drawings import drawing
 from tests.motion.strokes import KINDS, LAWS, program, segment
 
@@ -191,6 +193,25 @@ def test_a_tool_that_must_turn_at_once_is_measured_too():
     assert shapes.angle[0] > 2.5
     assert shapes.angle[0] == pytest.approx(measure(shapes.shape(0)).angle, rel=1e-9)
     assert same(drawing) is not None
+
+
+def test_a_look_is_steep_where_a_line_comes_close():
+    """To the point, or to where it is looked at along `up`; there all samples are asked."""
+    point, up = np.zeros((1, 3)), np.array([[0.0, 1.0, 0.0]])
+    for start, by, steep in [
+        ((-1, 2, 0), (2, 0, 0), True),  # over the point, in the middle
+        ((-1, 2, 1e-9), (2, 1, 0), True),
+        ((-1, 2, 0), (0.5, 0, 0), False),  # it ends before
+        ((-1, 2, 1), (2, 0, 0), False),
+        ((-1, 0, 0), (2, 0, 0), True),  # through it
+    ]:
+        line = Lines(np.array([start], dtype=float), np.array([by], dtype=float))
+        with np.errstate(all="ignore"):
+            assert (Looking(point, up).steepest(line)[0] > 1e9) == steep
+    for start, steep in [((-1, 5, 0), True), ((-1, 5, 1), False)]:
+        line = Lines(np.array([start], dtype=float), np.array([[2.0, 3.0, 0.0]]))
+        with np.errstate(all="ignore"):
+            assert (LookingAtLine(point, up).steepest(line)[0] > 1e9) == steep
 
 
 def test_one_more_line_on_which_the_tool_looks_costs_few_calls():

@@ -14,7 +14,7 @@ from dqpaint.language.taylor import Floats
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
 ROUND = 1e-14  # an ellipse whose radii differ by less, in their squares, is a circle
-AT_ONCE = 10_000  # pieces whose lengths are integrated, for the sake of memory
+AT_ONCE = 10_000  # pieces, for the sake of memory
 CORNER = np.radians(60.0)  # a smooth line keeps the corners that turn by more than this
 
 Indices = NDArray[np.intp]
@@ -123,27 +123,47 @@ def smooth(points: Floats, keep: NDArray[np.bool_] | None = None, stiff: float =
     keep = keep.copy()
     if not closed:
         keep[[0, -1]] = True
+    tangent = _tangents(u, size[:, None], stiff)
+    keep |= ~tangent.any(axis=1)
+    cubic = np.empty((len(way), 4, 3))
+    cubic[:, 0] = points[:-1]
+    t0, t1, free0, free1 = tangent[:-1], tangent[1:], keep[:-1], keep[1:]
+    for begin in range(0, len(way), AT_ONCE):
+        own = slice(begin, begin + AT_ONCE)
+        turned = t0[own], t1[own], free0[own], free1[own]
+        cubic[own, 1:] = _bow(way[own], u[own], size[own], *turned)
+    return _of_cubic(cubic)
+
+
+def _tangents(u: Floats, size: Floats, stiff: float) -> Floats:
+    """The directions (N, 3) at points between lines along u (N - 1, 3); zero where none is."""
     before, after = np.roll(u, 1, axis=0), u  # at the points but the last
-    l0, l1 = np.roll(size, 1)[:, None], size[:, None]
+    l0, l1 = np.roll(size, 1), size
     tangent = before * l1 + after * l0
     tangent = np.where(l0 > stiff * l1, before, np.where(l1 > stiff * l0, after, tangent))
     tangent = np.concatenate([tangent, tangent[:1]])
     norm = np.linalg.norm(tangent, axis=1, keepdims=True)
-    keep |= norm[:, 0] == 0.0
-    tangent /= np.where(norm > 0.0, norm, 1.0)
-    t0, t1, free0, free1 = tangent[:-1], tangent[1:], keep[:-1], keep[1:]
+    return np.asarray(tangent / np.where(norm > 0.0, norm, 1.0))
+
+
+def _bow(
+    way: Floats,
+    u: Floats,
+    size: Floats,
+    t0: Floats,
+    t1: Floats,
+    free0: NDArray[np.bool_],
+    free1: NDArray[np.bool_],
+) -> Floats:
+    """c1 to c3 (N, 3, 3) of lines that are bent from t0 to t1, where those are not free."""
     mirrored0, mirrored1 = _mirrored(t1, u), _mirrored(t0, u)
     t0 = np.where(free0[:, None], np.where(free1[:, None], u, mirrored0), t0)
     t1 = np.where(free1[:, None], np.where(free0[:, None], u, mirrored1), t1)
-    h0, h1 = (size / (1.5 * (1.0 + (t * u).sum(1))) for t in (t0, t1))
-    control = np.stack(
-        [points[:-1], points[:-1] + h0[:, None] * t0, points[1:] - h1[:, None] * t1, points[1:]],
-        axis=1,
-    )
-    cubic = coefficients(control)
-    bends = np.maximum(np.abs(t0 - u).max(1), np.abs(t1 - u).max(1)) > 1e-9
-    cubic[~bends, 1], cubic[~bends, 2:] = way[~bends], 0.0
-    return _of_cubic(cubic)
+    first, last = (size[:, None] / (0.5 + 0.5 * (t * u).sum(1))[:, None] * t for t in (t0, t1))
+    out = np.stack([first, 3.0 * way - 2.0 * first - last, first + last - 2.0 * way], axis=1)
+    straight = np.maximum(np.abs(t0 - u).max(1), np.abs(t1 - u).max(1)) <= 1e-9
+    out[straight, 0], out[straight, 1:] = way[straight], 0.0
+    return out
 
 
 def _mirrored(t: Floats, u: Floats) -> Floats:

@@ -213,9 +213,7 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
         part = statement.part("tool")
         raise here("E254", message, part.value.span if part else span, "", "use: tool keep")
     pen.pieces += sum(len(trace.chain.cubic) for trace in traces)
-    if pen.pieces > MOST_PIECES:
-        pen.findings.add(_too_many(span))
-        raise EnoughError
+    check_pieces(pen.pieces, pen, span)
     if not chains.farthest([trace.chain for trace in traces]) <= FARTHEST:
         raise here("E201", "this goes too far away", span)
     ends = chains.all_ends([trace.chain for trace in traces]).tolist()
@@ -240,9 +238,13 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
         pen.draw(trace.chain, tool, times[2 * number], glows[number], end, span)
 
 
-def _too_many(span: Span) -> Diagnostic:
-    message = f"more than {MOST_PIECES:,} pieces of lines from elsewhere in all"
-    return Diagnostic("E299", message, span, "", "draw it less often, or with fewer points")
+def check_pieces(pieces: int, pen: Pen, span: Span) -> None:
+    """Ends the work if so many pieces are too many."""
+    if pieces > MOST_PIECES:
+        message = f"more than {MOST_PIECES:,} pieces of lines from elsewhere in all"
+        cure = "draw it less often, or with fewer points"
+        pen.findings.add(Diagnostic("E299", message, span, "", cure))
+        raise EnoughError
 
 
 def _pen_up(statement: Statement, count: int) -> Problem:

@@ -1,4 +1,4 @@
-"""The command line as a person meets it: in a process of its own."""
+"""The command line as a person meets it, mostly in a process of its own."""
 
 import hashlib
 import json
@@ -358,9 +358,9 @@ def test_check_for_programs(dqpaint, line, tmp_path):
     (["check"], 2, "Missing argument"),
 ])  # fmt: skip
 def test_wrong_calls_are_answered_with_what_would_be_right(
-    dqpaint, line, tmp_path, words, code, says
+    answer, line, tmp_path, words, code, says
 ):
-    done = dqpaint(*words)
+    done = answer(*words)
     assert done.returncode == code, done.stderr
     assert says in done.stderr
     assert "Traceback" not in done.stderr
@@ -385,10 +385,10 @@ BAD = {
 
 
 @pytest.mark.parametrize("name", BAD)
-def test_wrong_files_are_answered_with_the_place(dqpaint, tmp_path, name):
+def test_wrong_files_are_answered_with_the_place(answer, tmp_path, name):
     data, says = BAD[name]
     (tmp_path / "bad.traj").write_bytes(data)
-    done = dqpaint("draw", "bad.traj")
+    done = answer("draw", "bad.traj")
     assert done.returncode == 1, done.stderr
     assert says in done.stderr
     assert "bad.traj" in done.stderr
@@ -414,16 +414,16 @@ def test_limits_reached_are_told_and_the_picture_is_made(dqpaint, tmp_path):
     assert (tmp_path / "fast-hinf.png").exists()
 
 
-def test_lists(dqpaint):
-    assert all(name in dqpaint("list", "controllers").stdout for name in CONTROLLERS)
-    rows = json.loads(dqpaint("list", "controllers", "--json").stdout)
+def test_lists(answer):
+    assert all(name in answer("list", "controllers").stdout for name in CONTROLLERS)
+    rows = json.loads(answer("list", "controllers", "--json").stdout)
     assert [row["name"] for row in rows] == list(CONTROLLERS)
     assert rows[0]["gains"][0]["default"] > 0
-    assert set(json.loads(dqpaint("list", "--json").stdout)) == set(LISTS)
-    assert all(f"{name}:" in dqpaint("list").stdout for name in LISTS)
-    assert "iiwa" in dqpaint("list", "robots").stdout
-    assert "stiff" in dqpaint("list", "plants").stdout
-    assert "star" in dqpaint("list", "examples").stdout
+    assert set(json.loads(answer("list", "--json").stdout)) == set(LISTS)
+    assert all(f"{name}:" in answer("list").stdout for name in LISTS)
+    assert "iiwa" in answer("list", "robots").stdout
+    assert "stiff" in answer("list", "plants").stdout
+    assert "star" in answer("list", "examples").stdout
 
 
 @pytest.mark.parametrize(
@@ -442,8 +442,8 @@ def test_lists(dqpaint):
         ["export"],
     ],
 )
-def test_help_ends_with_two_examples(dqpaint, command):
-    done = dqpaint(*command, "--help")
+def test_help_ends_with_two_examples(answer, command):
+    done = answer(*command, "--help")
     assert done.returncode == 0
     if command:
         assert done.stdout.count(f"  dqpaint {command[0]}") == 2

@@ -24,7 +24,7 @@ MOST_INSIDE = 6  # lines whose names find room beside them
 MOST_NUMBERS = 400  # cells of a heat map that are written in
 MOST_BESIDE = 3  # panels
 MOST_TICKS = 6
-HEIGHT = 4.0  # of a row of panels [inches]
+HEIGHT = 4.2  # of a row of panels [inches]
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,7 @@
 
 const SVG = "http://www.w3.org/2000/svg";
 const MARGIN = { left: 70, right: 14, top: 10, bottom: 46 };
+const PAPER = 860; // px of a line of charts on paper
 
 function make(parent, name, attributes, text) {
   const made = parent.namespaceURI === SVG || name === "svg"
@@ -85,13 +86,22 @@ function axes(svg, width, height, x, y, panel) {
     transform: `translate(14 ${(MARGIN.top + bottom) / 2}) rotate(-90)` }, panel.y_label);
 }
 
+const redraws = [];
+let printing = false;
+
 function watch(figure, stale, draw) {
+  redraws.push(draw);
   new ResizeObserver(() => requestAnimationFrame(() => {
-    if (figure.clientWidth && stale()) draw();
+    if (figure.clientWidth && stale() && !printing) draw();
   })).observe(figure);
 }
 
+// Paper is not measured before it is printed on: charts are drawn for about the size they will have.
+for (const [kind, on] of [["beforeprint", true], ["afterprint", false]])
+  window.addEventListener(kind, () => { printing = on; redraws.forEach((draw) => draw()); });
+
 function sizeOf(figure) {
-  const width = Math.max(280, figure.clientWidth);
+  const columns = (figure.parentElement.className.match(/columns(\d)/) || [0, 1])[1];
+  const width = Math.max(280, printing ? PAPER / columns : figure.clientWidth);
   return [width, Math.round(Math.min(400, Math.max(240, 0.6 * width)))];
 }

@@ -97,7 +97,7 @@ class Map:
     def picture(self) -> bytes:
         """As a PNG file."""
         width, height = 1.0 + 0.9 * len(self.given.x), 1.2 + 0.55 * len(self.given.y)
-        return heat_map(self.given, min(max(6.0, width), 24.0), min(max(4.0, height), 18.0))
+        return heat_map(self.given, min(max(7.0, width), 24.0), min(max(5.0, height), 18.0))
 
 
 Pictured = Shot | Charts | Map

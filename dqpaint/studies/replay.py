@@ -130,7 +130,7 @@ def surfaces(replayed: Replayed) -> list[tuple[Figure, list[list[str]]]]:
             [f"{value:g}", *(_said(ours.get(name, {}).get(figure.name)) for name in line)]
             for value, line in zip(paper.axes[first], lines, strict=True)
         ]
-        if any(name in ours for line in lines for name in line):
+        if any(figure.name in ours.get(name, {}) for line in lines for name in line):
             found.append((figure, [head, *rows]))
     return found
 

@@ -1,7 +1,7 @@
 
 // Tables are sorted by the heading that is chosen: smallest first, largest first, as they were.
 
-const NUMBER = /^-?\d[\d.]*(?:e[+-]?\d+)?/;
+const NUMBER = /^(-?\d+(?:\.\d+)?(?:e[+-]?\d+)?)(?: ± .*)?$/;
 
 function sortable(table) {
   const body = table.tBodies[0], rows = [...body.rows];
@@ -10,7 +10,7 @@ function sortable(table) {
   const places = heads.map((head) => { const place = at; at += head.colSpan; return place; });
   const key = (row, place) => {
     const text = row.cells[place].textContent, found = text.match(NUMBER);
-    return found ? Number(found[0]) : text;
+    return found ? Number(found[1]) : text;
   };
   const compare = (a, b, sign) => { // what is no number comes last either way
     if (typeof a !== typeof b) return typeof a === "number" ? -1 : 1;

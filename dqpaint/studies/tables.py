@@ -12,7 +12,8 @@ BAD = "unstable", "failed", "died", "differs", "fails"  # of a row that is not a
 VERDICTS = {"holds": "good", "fails": "wrong", "in part": "open", "not shown": "open",
             "no numbers": "open"}  # fmt: skip
 VERDICT = re.compile(f"({'|'.join(VERDICTS)})(?:: (.*))?", re.DOTALL)
-NUMBER = re.compile(r"(-?\d[\d.]*(?:e[+-]?\d+)?)(?: ± (\d[\d.]*(?:e[+-]?\d+)?))?")
+DIGITS = r"\d+(?:\.\d+)?(?:e[+-]?\d+)?"
+NUMBER = re.compile(f"(-?{DIGITS})(?: ± ({DIGITS}))?")
 WIDE = 20.0  # from the least to the largest: beyond, bars could not be told apart
 LENGTH, HIGH = 90, 12  # of a bar [px]
 LEAST = 3  # rows that can be sorted
@@ -53,7 +54,7 @@ def table(lines: Sequence[Sequence[str]], bars: Sequence[int] = ()) -> str:
 
 
 def value_of(text: str) -> Value | None:
-    """The number that a cell begins with; None if it is none."""
+    """The number that a cell holds, and its spread; None if it holds something else."""
     found = NUMBER.fullmatch(text)
     return None if found is None else Value(float(found[1]), float(found[2] or 0.0))
 

@@ -4,13 +4,13 @@ import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import cycle
-from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
-from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, MaxNLocator, NullFormatter
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
@@ -24,6 +24,7 @@ MOST_INSIDE = 6  # lines whose names find room beside them
 MOST_NUMBERS = 400  # cells of a heat map that are written in
 MOST_BESIDE = 3  # panels
 MOST_TICKS = 6
+ROUND = [1, 2, 2.5, 5, 10]
 HEIGHT = 4.2  # of a row of panels [inches]
 
 
@@ -113,9 +114,7 @@ def chart(
         if panel.told and not shared:
             aside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)}
             many = len(panel.lines) > MOST_INSIDE
-            axes.legend(
-                frameon=False, fontsize=9, labelcolor="linecolor", **(aside if many else {})
-            )
+            axes.legend(frameon=False, fontsize=9, labelcolor=INK, **(aside if many else {}))
     for axes in places[len(panels) :]:
         axes.set_axis_off()
     if shared and panels[0].told:
@@ -138,28 +137,29 @@ def _draw_panel(axes: Axes, panel: Panel) -> None:
     axes.set_ylabel(_plain(panel.y_label))
     if panel.ticks is not None:
         axes.set_xticks(range(len(panel.ticks)), list(map(_plain, panel.ticks)))
-    _scale(axes, panel.log_x and panel.ticks is None, "x")
-    _scale(axes, panel.log_y, "y")
+    if panel.log_x:
+        axes.set_xscale("log")
     if panel.log_y:
+        axes.set_yscale("log")
         top = max(float(np.nanmax(line.y, initial=0.0)) for line in panel.lines)
         axes.set_ylim(bottom=max(axes.get_ylim()[0], top * 10.0**-panel.decades))
     if panel.span is not None:
         axes.set_ylim(*panel.span)
+    if panel.ticks is None:
+        _number(axes.xaxis, axes.get_xlim(), panel.log_x)
+    _number(axes.yaxis, axes.get_ylim(), panel.log_y)
     axes.grid(which="major", color="#e6e6e6", lw=0.6)
     axes.set_axisbelow(True)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
 
 
-def _scale(axes: Axes, log: bool, which: Literal["x", "y"]) -> None:
-    """A logarithmic axis, its numbers written out; less than a decade has some of its own."""
-    axis = axes.xaxis if which == "x" else axes.yaxis
+def _number(axis: Axis, ends: tuple[float, float], log: bool) -> None:
+    """A few round numbers at an axis; a logarithmic one of few decades has some within them."""
     if not log:
-        if not isinstance(axis.get_major_locator(), FixedLocator):
-            axis.set_major_locator(MaxNLocator(MOST_TICKS))
+        axis.set_major_locator(MaxNLocator(MOST_TICKS, steps=ROUND))
         return
-    (axes.set_xscale if which == "x" else axes.set_yscale)("log")
-    low, high = axes.get_xlim() if which == "x" else axes.get_ylim()
+    low, high = ends
     if high < 1e4 * low:
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(FuncFormatter(_two_and_five) if high < 30 * low else NullFormatter())

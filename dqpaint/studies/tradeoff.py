@@ -23,7 +23,7 @@ FRONT, USUAL, BEST = COLOURS[:3]
 def answer(tuned: Tuning) -> str:
     """The outcome in a few sentences."""
     sentences = [
-        f"The drawing itself needs {_said(tuned.needed)} of {tuned.effort.heading}; "
+        f"{tuned.effort.heading}: the drawing itself needs {_said(tuned.needed)}; "
         f"{tuned.factor:g} times that, {_said(tuned.bound)}, was allowed."
     ]
     best = tuned.best

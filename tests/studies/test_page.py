@@ -285,6 +285,22 @@ def test_charts_that_are_shared_are_read_together(file):
     assert said["apart"] == 2
 
 
+PRINT = """
+  const wide = () => plots[4].viewBox.baseVal.width;
+  said.wide = [wide()];
+  dispatchEvent(new Event("beforeprint")); said.wide.push(wide());
+  dispatchEvent(new Event("afterprint")); said.wide.push(wide());
+"""
+
+
+@needs_browser
+@pytest.mark.slow
+def test_charts_are_drawn_for_paper_while_it_is_printed(file):
+    wide, paper, again = answers(file, PRINT)["wide"]
+    assert paper == 430  # two beside each other
+    assert wide == again > 600
+
+
 SORTED = """
   const table = document.querySelector(".small table");
   const names = () => [...table.tBodies[0].rows].map((row) => row.cells[0].textContent).join("");

@@ -120,3 +120,14 @@ def test_a_line_leaves_out_what_is_marked_and_a_bound_is_named():
     rows = np.flatnonzero(blue.any(axis=1))
     gaps = np.diff(rows)
     assert gaps.max() > 100  # nothing between the line and the unstable point
+
+
+def test_the_ends_of_an_axis_can_be_asked_for():
+    """A level line is as high in its chart as its value is between the ends."""
+    line = Line(X, np.full(50, 2.0), "one")
+    heights = []
+    for ends in ((0.0, 4.0), (0.0, 20.0)):
+        image = drawn([Panel("a", "x", "y", [line], span=ends)], width=5)
+        blue = np.abs(image.astype(int) - [0x00, 0x6A, 0xA8]).max(axis=2) < 30
+        heights.append(np.flatnonzero(blue.any(axis=1)).mean())
+    assert heights[1] - heights[0] > 100

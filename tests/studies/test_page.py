@@ -21,9 +21,10 @@ LINES = [
 MARKED = np.array([False, False, True])
 DOTS = Line(np.array([1.0, 10.0, 100.0]), np.array([1.0, 2.0, np.nan]), "dots", None, MARKED,
             np.array([0.1, np.nan, 0.2]), width=0.0)  # fmt: skip
+JOINED = Line(np.array([1.0, 10.0, 100.0]), np.array([3.0, 2.5, 9.0]), "joined", marks=MARKED)
 PANELS = (
     Panel("over time", "time [s]", "mm", LINES, bound=1.5),
-    Panel("over k", "k", "mm", [DOTS], log_x=True, log_y=True, wall=20.0),
+    Panel("over k", "k", "mm", [DOTS, JOINED], log_x=True, log_y=True, wall=20.0),
     Panel("over laws", "law", "mm", [Line(np.arange(2.0), np.ones(2), "one")], ticks=("p", "pff")),
 )
 MAP = HeatMap("a map", "k", "q", ("1", "2"), ("3", "4"), np.array([[1.0, 2.0], [np.nan, 40.0]]),
@@ -160,6 +161,9 @@ POINT = """
   said.alone = plots[0].querySelector("[data-line]").dataset.line;
   legend(plots[0], "a sine").dispatchEvent(new Event("dblclick"));
   said.all = lines(plots[0]);
+  legend(plots[0], "a sine").click(); legend(plots[0], "a sine").click();
+  said.twice = lines(plots[0]);
+  said.joined = plots[1].querySelector("path.line:not([stroke-width='1'])").getAttribute("d");
   said.marks = [".mark", ".bound"].map((kind) => plots[1].querySelectorAll(kind).length);
   said.cells = plots[3].querySelectorAll(".cell.marked").length;
   said.fits = document.documentElement.scrollWidth <= innerWidth;
@@ -181,8 +185,10 @@ def test_the_curves_answer_to_the_pointer(file, width):
     assert said["whole"]
     assert (said["hidden"], said["quiet"], said["all"]) == (1, 0, 2)
     assert said["alone"] == "a sine"
+    assert said["twice"] == 2
+    assert said["joined"].count("L") == 1  # two points that are stable
     # no mark where there is no number; a wall; an unstable cell
-    assert said["marks"] == [0, 1]
+    assert said["marks"] == [1, 1]
     assert said["cells"] == 1
     assert said["fits"]
 
@@ -190,6 +196,8 @@ def test_the_curves_answer_to_the_pointer(file, width):
 KEYS = """
   press(plots[0], "ArrowRight");
   said.first = tip(plots[0]);
+  press(plots[0], "ArrowRight", "ArrowRight", "ArrowLeft", "ArrowLeft");
+  said.back = tip(plots[0]) === said.first;
   press(plots[0], "PageUp", "ArrowRight", "ArrowLeft");
   said.later = tip(plots[0]);
   said.spoken = plots[0].getAttribute("aria-valuetext");
@@ -214,6 +222,7 @@ KEYS = """
 def test_the_curves_answer_to_keys(file):
     said = answers(file, KEYS)
     assert said["first"].startswith("time [s] 0 ")
+    assert said["back"]
     when = float(re.match(r"time \[s\] (\S+)", said["later"])[1])
     assert 0.5 < when < 3  # ten hundredths of what is drawn
     assert said["spoken"].startswith(f"time [s] {when:g}; ")
@@ -222,7 +231,7 @@ def test_the_curves_answer_to_keys(file):
     assert when < end < 10  # of what is zoomed
     assert said["gone"] == ["", True]
     assert said["last"].startswith("time [s] 10 ")
-    assert said["dots"] == "k 10 dots: 2"  # no number is bars' nor marks'
+    assert said["dots"] == "k 10 joined: 2.5 dots: 2"
     assert said["map"] == "k 2, q 4 40"
 
 
@@ -235,9 +244,11 @@ TOUCH = """
   said.along = tip(plots[0]);
   send(plots[0], "pointerup", 0.6, finger(1)); send(plots[0], "pointerleave", 0.6, finger(1));
   said.stays = tip(plots[0]) === said.along && ticks(plots[0]) === whole;
+  send(plots[0], "pointermove", 0.4); said.below = tip(plots[0]);
   send(plots[0], "pointerdown", 0.4, finger(1)); send(plots[0], "pointerdown", 0.6, finger(2));
   send(plots[0], "pointermove", 0.3, finger(1)); send(plots[0], "pointermove", 0.7, finger(2));
   send(plots[0], "pointerup", 0.3, finger(1)); send(plots[0], "pointerup", 0.7, finger(2));
+  send(plots[0], "pointermove", 0.3); said.still = tip(plots[0]);
   said.spread = ["min", "max"].map((end) => Number(plots[0].getAttribute(`aria-value${end}`)));
 """
 
@@ -246,7 +257,11 @@ TOUCH = """
 @pytest.mark.slow
 def test_the_curves_answer_to_fingers(file):
     said = answers(file, TOUCH)
-    down, along = (float(re.match(r"time \[s\] (\S+)", said[k])[1]) for k in ("down", "along"))
+    down, along, below, still = (
+        float(re.match(r"time \[s\] (\S+)", said[k])[1])
+        for k in ("down", "along", "below", "still")
+    )
+    assert still == pytest.approx(below, abs=0.05)  # what lay below a finger lies there still
     assert 1 < down < 4 < along < 7
     assert said["stays"]
     low, high = said["spread"]

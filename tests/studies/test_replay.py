@@ -16,7 +16,8 @@ from dqpaint.papers import paper_names, read_paper
 from dqpaint.robots.card import read_card
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.parts import Mount
-from dqpaint.studies import replay
+from dqpaint.studies import replay, shown
+from dqpaint.studies.cells import Cell
 from dqpaint.studies.page import Charts
 from dqpaint.studies.replays import (
     MEASURES,
@@ -29,7 +30,7 @@ from dqpaint.studies.replays import (
     timing,
     tracking,
 )
-from dqpaint.studies.runs import Run, drawing_text, seeded
+from dqpaint.studies.runs import Result, Run, drawing_text, seeded
 from dqpaint.studies.statistics import spread
 from tests.conftest import random_poses
 
@@ -115,6 +116,25 @@ def test_the_late_integral_leaves_out_the_first_tenth(tmp_path, monkeypatch):
     assert late.late_integral(tmp_path, "key", 0.1) == pytest.approx(2.0 * 8.9)
 
 
+def test_late_replays_show_errors_over_time(tmp_path, monkeypatch):
+    t = np.arange(11) * 0.1
+    names = ("invariant_error", "position_error_m", "orientation_error_rad")
+    arrays = {"t_s": t, **{name: t for name in names}}
+    for module in (late, shown):
+        monkeypatch.setattr(module, "kept", lambda folder, key: arrays)
+    paper = read_paper("thesis-hinf")
+    cells = tuple(
+        Cell({"cell": cell.name}, (Result(cell.name, "done", "", {"effort_integral": 1.0}),))
+        for cell in paper.cells
+    )
+    monkeypatch.setattr(late, "carry_out", lambda *choices, **more: cells)
+    made = late.late(paper, Asked(tmp_path))
+    assert list(made.shown) == ["-published", "-errors"]
+    panels = made.shown["-errors"].panels
+    assert [panel.title for panel in panels[:2]] == ["HIR: position error", "HIRT: position error"]
+    assert len(panels[0].lines) == 5
+
+
 class Hours:
     """Time that passes when it is told to; a sleep is late by some."""
 
@@ -185,7 +205,7 @@ def test_how_much_of_an_order_is_found_is_counted_over_pairs():
     theirs = {cell.name: cell.published["error_integral"][0] for cell in paper.cells}
     pairs = [(a, b) for i, a in enumerate(theirs) for b in list(theirs)[:i]
              if theirs[a] != theirs[b]]  # fmt: skip
-    for change, share in ((lambda v: 7 * v, 1), (lambda v: -v, 0)):
+    for change, share in ((lambda v: 7 * v, 1), (lambda v: -v, 0), (lambda v: 3.0, 0)):
         ours = {name: {"error_integral": change(value)} for name, value in theirs.items()}
         assert replay.in_order(made_up(paper, ours), error) == (
             f"{share * len(pairs)} of {len(pairs)} pairs that differ in the paper stand in its "

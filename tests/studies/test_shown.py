@@ -126,6 +126,15 @@ def test_overlays_of_many_are_apart_and_named_below(tmp_path):
         strong, weak = int(np.argmax(hue)), int(np.argmin(hue))
         differ = overlay[..., strong].astype(int) - overlay[..., weak]
         assert (differ > 60).any()
+    below = {}
+    for name, hue in zip("12", (first, second), strict=True):
+        strong, weak = int(np.argmax(hue)), int(np.argmin(hue))
+        differ = (
+            overlay[: len(overlay) // 2, :, strong].astype(int)
+            - overlay[: len(overlay) // 2, :, weak]
+        )
+        below[name] = np.argwhere(differ > 100)[:, 0].mean()
+    assert below["1"] < below["2"]  # as they lie, each in the colour that the key names
     lone = shown.pictures(cells[:1], tmp_path, settings)
     assert contact.opened(lone["-overlay"].png).shape == (HEIGHT, WIDTH, 3)
     failed = [Cell({"cell": "x"}, (Result("x", "failed", "too far"),))]

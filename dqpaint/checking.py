@@ -12,10 +12,10 @@ from dqpaint.language import Diagnostic, Program, ScriptError, read, read_input,
 from dqpaint.language.diagnostics import Severity, Span, file_at, place
 from dqpaint.language.source import STDIN
 from dqpaint.motion import Motion, Survey, summary_line, survey
-from dqpaint.settings import Settings, make_settings
 
 if TYPE_CHECKING:
     from dqpaint.forewarning import Outlook
+    from dqpaint.settings import Settings
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,6 @@ class Checked:
         )
 
 
-PLAIN = Settings()
 BEAD = 2.0  # times the brightness of the middle: less is no matter for a hint
 
 
@@ -76,10 +75,10 @@ def check(name: str, **choices: Any) -> Checked:
     Raises:
         UsageError: no such choice.
     """
-    settings = make_settings(**choices)
+    settings = _chosen(choices)
     try:
         program = read_input() if name == STDIN else read(find_drawing(name))
-        asked = settings != PLAIN or program.robot is not None
+        asked = settings is not None or program.robot is not None
         outlook = _look_ahead(program, settings) if asked else None
         drawing: Motion | Survey = outlook.motion if outlook else survey(program)
     except ScriptError as problem:
@@ -92,7 +91,21 @@ def check(name: str, **choices: Any) -> Checked:
     return Checked(program.name, program.text, findings, drawing, outlook=outlook)
 
 
-def _look_ahead(program: Program, settings: Settings) -> "Outlook":
+def _chosen(choices: dict[str, Any]) -> "Settings | None":
+    """The settings, if anything is chosen; else they are not even imported, which takes a while.
+
+    Raises:
+        UsageError: no such choice.
+    """
+    if all(value is None for value in choices.values()):
+        return None
+    from dqpaint.settings import Settings, make_settings
+
+    settings = make_settings(**choices)
+    return settings if settings != Settings() else None
+
+
+def _look_ahead(program: Program, settings: "Settings | None") -> "Outlook":
     """What an arm says of a drawing; only this brings in the arms and their kinematics.
 
     Raises:
@@ -100,7 +113,9 @@ def _look_ahead(program: Program, settings: Settings) -> "Outlook":
         ScriptError: a fault of the drawing, or the arm does not reach all of it.
     """
     from dqpaint.robots.choose import card_for
+    from dqpaint.settings import Settings
 
+    settings = settings or Settings()
     card = card_for(program, settings.robot, settings.tool)
     survey(program)  # what is wrong with the drawing by itself goes before what an arm says
 
@@ -182,5 +197,5 @@ def _unread(result: Checked) -> dict[str, Any]:
 def _range(text: str, span: Span | None) -> dict[str, Any]:
     if span is None:
         return {"start": None, "end": None}
-    ends = (place(text, offset) for offset in span)
+    ends = (place(text, offset) for offset in (span.start, span.end))
     return dict(zip(("start", "end"), (at._asdict() for at in ends), strict=True))

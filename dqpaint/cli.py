@@ -264,6 +264,7 @@ CHECK_EXAMPLES = """Examples:
 
 @app.command(epilog=CHECK_EXAMPLES)
 def check(
+    context: typer.Context,
     files: Drawings,
     robot: Robot = None,
     tool: Tool = None,
@@ -285,16 +286,16 @@ def check(
     would hide.
     """
     from dqpaint import checking
-    from dqpaint.settings import parse_size
 
-    width, height = parse_size(size)
-    results = [
-        checking.check(
-            name, robot=robot, tool=tool, place=place, start=start, null=null, on_limit=on_limit,
-            brush=brush, view=view, width=width, height=height, exposure=exposure, ghost=ghost,
-        )
-        for name in files
-    ]  # fmt: skip
+    choices = typed(
+        context, robot=robot, tool=tool, place=place, start=start, null=null, on_limit=on_limit,
+        brush=brush, view=view, size=size, exposure=exposure, ghost=ghost,
+    )  # fmt: skip
+    if wanted := choices.pop("size"):
+        from dqpaint.settings import parse_size
+
+        choices["width"], choices["height"] = parse_size(wanted)
+    results = [checking.check(name, **choices) for name in files]
     if as_json:
         print(json.dumps(checking.as_json(results), indent=2))
     else:

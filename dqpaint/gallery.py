@@ -103,7 +103,7 @@ SHOTS = (
     Shot(
         "star",
         "The arm as a veil, in the little light of a room: it was there, and there, and there.",
-        {"view": "-30,12", "ghost": "motion"},
+        {"view": "at:1.68:-1:0.72:0.3:0.02:0.47", "ghost": "motion", "ev": 0.5},
         "-motion",
     ),
     Shot(

@@ -1,4 +1,4 @@
-"""What `check` costs: 10,000 lines of any kind in about a second, and little to begin with."""
+"""What `check` costs: 10,000 lines of any kind in less than a second, and little to begin with."""
 
 import os
 import subprocess
@@ -6,11 +6,15 @@ import sys
 from pathlib import Path
 
 import pytest
+import typer.main
+from typer.testing import CliRunner
 
+from dqpaint.errors import UsageError
+from dqpaint.studying import app
 from tests.bench.bench_language import PYTHON, kinds
 from tests.language.clock import children_time
 
-TIMES = 25.0  # as long as Python takes to compile as many lines, and to start; 8 to 11 measured
+TIMES = 15.0  # as long as Python takes to compile as many lines, and to start; 4 to 6 measured
 
 
 def spent(*arguments: str) -> float:
@@ -53,3 +57,19 @@ def test_a_drawing_without_an_arm_is_checked_without_the_arms(tmp_path: Path) ->
         "assert not {'pin', 'pinocchio', 'cv2', 'pybullet'} & {*sys.modules}"
     )
     spent("-c", code)
+
+
+OPTIONS = [
+    option.opts[0]
+    for option in typer.main.get_command(app).commands["check"].params
+    if option.param_type_name == "option" and not option.is_flag
+]
+
+
+@pytest.mark.parametrize("option", OPTIONS)
+def test_every_choice_is_heeded(option: str, tmp_path: Path) -> None:
+    path = tmp_path / "line.traj"
+    path.write_text("line by (9, 0) mm\n", encoding="utf-8")
+    fault = CliRunner().invoke(app, ["check", str(path), option, "nix"]).exception
+    assert isinstance(fault, UsageError)
+    assert "nix" in str(fault)

@@ -55,8 +55,9 @@ class _Document:
 
     def range(self, span: Span | None) -> lsp.Range:
         """Where a span is; the first line for the text as a whole, and for other files."""
-        start, end = span if span is not None and span.start <= len(self.text) else (0, 0)
-        return lsp.Range(self.position(start), self.position(end))
+        if span is None or span.start > len(self.text):
+            span = Span(0, 0)
+        return lsp.Range(self.position(span.start), self.position(span.end))
 
     def offset(self, position: lsp.Position) -> int:
         line = min(position.line, len(self._lines) - 1)

@@ -16,6 +16,7 @@ from dqpaint.language import arcs, colours, space, tools
 from dqpaint.language.diagnostics import Diagnostic
 from dqpaint.language.findings import Findings
 from dqpaint.language.program import (
+    LOOKING,
     Arc,
     Chain,
     Colour,
@@ -25,8 +26,6 @@ from dqpaint.language.program import (
     Formula,
     Lasting,
     Light,
-    Look,
-    LookLine,
     Path,
     Pose,
     Quaternion,
@@ -213,7 +212,7 @@ def _pose(segment: Segment, share: float) -> Pose:
 
 def _orientation(segment: Segment, share: float, position: Vector) -> Quaternion:
     tool, start = segment.tool, segment.start.orientation
-    if isinstance(tool, Look | LookLine):
+    if isinstance(tool, LOOKING):
         return tools.orientation_at(tool, position, segment.span)
     if isinstance(tool, Turn):
         return space.part_of_turn(start, segment.end.orientation, share)
@@ -266,7 +265,7 @@ def _bend(a: Segment, leaves: float, b: Segment, joins: float) -> Segment:
 
 def _tool(a: Tool, b: Tool, start: Pose, end: Pose) -> Tool:
     """A tool that looks goes on looking; another turns evenly from one stroke to the next."""
-    if a == b and isinstance(a, Look | LookLine):
+    if a == b and isinstance(a, LOOKING):
         return a
     return tools.turning(start.orientation, end.orientation)[0]
 

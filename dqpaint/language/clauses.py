@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dqpaint.language.cursor import Cursor, found, no_value
 from dqpaint.language.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.expressions import expression
-from dqpaint.language.lexer import number_value
 from dqpaint.language.syntax import (
     BlendWords,
     BrushWords,
@@ -40,7 +39,7 @@ def _along(cursor: Cursor, example: str) -> None:
 
 def _percent(cursor: Cursor, what: str, example: str) -> float:
     """A number and its %, as a part of 1."""
-    share = number_value(cursor.take().text) / 100.0
+    share = float(cursor.take().text) / 100.0
     if not cursor.is_sign("%"):
         message = f"expected '%' after {what} but found {found(cursor.token)}"
         raise problem("E109", message, cursor.before.span, "", f"for example: {example}")

@@ -75,6 +75,9 @@ def _collector_at_rest() -> Iterator[None]:
         yield
     finally:
         if was_on:
+            if not gc.get_freeze_count():  # what was made is old at once, so the next
+                gc.freeze()  # collection of the young does not look through it either
+                gc.unfreeze()
             gc.enable()
 
 

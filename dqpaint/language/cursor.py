@@ -32,7 +32,7 @@ class Cursor:
     @property
     def before(self) -> Token:
         """The token that was read last."""
-        return self._tokens[max(0, self._at - 1)]
+        return self._tokens[self._at - 1 if self._at else 0]
 
     def is_word(self, word: str) -> bool:
         """Whether the next token is this word."""
@@ -49,7 +49,8 @@ class Cursor:
 
     def span_from(self, start: int) -> Span:
         """From an offset to the end of what was read last."""
-        return Span(start, max(self.before.end, start))
+        end = self._tokens[self._at - 1 if self._at else 0].end
+        return Span(start, end if end > start else start)
 
 
 def found(token: Token) -> str:

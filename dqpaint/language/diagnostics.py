@@ -6,13 +6,19 @@ from enum import StrEnum
 from typing import NamedTuple
 
 from dqpaint.errors import DqpaintError
+from dqpaint.language.records import record
 
 
-class Span(NamedTuple):
+@record
+class Span:
     """A stretch of the text: code points, counted from 0, the end not included."""
 
     start: int
     end: int
+
+    def of(self, text: str) -> str:
+        """What stands there."""
+        return text[self.start : self.end]
 
 
 class Source(str):
@@ -44,7 +50,7 @@ class Severity(StrEnum):
     WARNING = "warning"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Fix:
     """An edit that would mend the text: replace `span` by `text`."""
 
@@ -53,7 +59,7 @@ class Fix:
     text: str
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Diagnostic:
     """One message.
 
@@ -98,6 +104,8 @@ def place(text: str, offset: int) -> Place:
 def file_at(text: str, offset: int, name: str) -> tuple[int, str]:
     """Where the file of an offset begins, and its name; `name` is that of the first."""
     included = text.included if isinstance(text, Source) else ()
+    if not included:
+        return 0, name
     at = bisect_right(included, offset, key=lambda file: file[0])
     return included[at - 1] if at else (0, name)
 

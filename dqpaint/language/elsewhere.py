@@ -15,13 +15,12 @@ from dqpaint.language.diagnostics import Diagnostic, Fix, Problem, Span, problem
 from dqpaint.language.findings import EnoughError
 from dqpaint.language.pen import FARTHEST, SAME_PLACE, Pen, here
 from dqpaint.language.program import (
+    LOOKING,
     Chain,
     Colour,
     Follow,
     Keep,
     Light,
-    Look,
-    LookLine,
     Pose,
     Timing,
     Vector,
@@ -232,7 +231,7 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
     for number, trace in enumerate(traces):
         _travel(pen, starts[number], span, times[2 * number - 1] if number else None)
         tools.begin(pen, mode, span)
-        if isinstance(mode, Look | LookLine):
+        if isinstance(mode, LOOKING):
             tools.check_way(mode, _places(trace.chain), span)
         tool, orientation = tools.at_end(pen, mode, stops[number], span, space.Z, 0.0)
         end = Pose(stops[number], orientation)

@@ -96,7 +96,7 @@ def _coordinates(node: Bracket, scope: Scope) -> tuple[list[Scalar], Dimension]:
     dimension = None
     coordinates: list[Quantity] = []
     for child in node.values:
-        value = evaluate(child, scope)
+        value = _EVALUATORS[type(child)](child, scope)
         if not isinstance(value, Quantity):
             message = f"a point is made of numbers, but this is {describe(value)}"
             raise problem("E204", message, child.span)

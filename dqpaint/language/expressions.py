@@ -4,7 +4,7 @@ import math
 
 from dqpaint.language.cursor import Cursor, found, no_value
 from dqpaint.language.diagnostics import Fix, Problem, Span, problem
-from dqpaint.language.lexer import number_value
+from dqpaint.language.lexer import Token
 from dqpaint.language.syntax import (
     Bracket,
     Call,
@@ -21,49 +21,55 @@ from dqpaint.language.words import RESERVED
 
 DEEPEST = 64  # brackets and signs within each other
 _SUMS, _PRODUCTS = ("+", "-"), ("*", "/")
+_OPERATORS = (*_SUMS, *_PRODUCTS, "^")
 
 
 def expression(cursor: Cursor, after: str) -> Expression:
     """A value, as far as it goes; `after` is the word before it, for a message."""
-    first = _product(cursor, after)
+    first = _number(cursor) if cursor.token.kind == "number" else _signed(cursor, after)
     token = cursor.token
-    if token.kind != "sign" or token.text not in _SUMS:
+    if token.kind != "sign" or token.text not in _OPERATORS:
         return first
+    return _sum(cursor, _product(cursor, _power(cursor, first)))
+
+
+def _sum(cursor: Cursor, first: Expression) -> Expression:
     rest: list[tuple[str, Expression]] = []
+    token = cursor.token
     while token.kind == "sign" and token.text in _SUMS:
         cursor.take()
-        rest.append((token.text, _product(cursor, token.text)))
+        rest.append((token.text, _product(cursor, _signed(cursor, token.text))))
         token = cursor.token
-    return Chain(first, tuple(rest), cursor.span_from(first.span.start))
+    return Chain(first, tuple(rest), cursor.span_from(first.span.start)) if rest else first
 
 
-def _product(cursor: Cursor, after: str) -> Expression:
-    first = _signed(cursor, after)
-    token = cursor.token
-    if token.kind != "sign" or token.text not in _PRODUCTS:
-        return first
+def _product(cursor: Cursor, first: Expression) -> Expression:
     rest: list[tuple[str, Expression]] = []
+    token = cursor.token
     while token.kind == "sign" and token.text in _PRODUCTS:
         cursor.take()
         rest.append((token.text, _signed(cursor, token.text)))
         token = cursor.token
-    return Chain(first, tuple(rest), cursor.span_from(first.span.start))
+    return Chain(first, tuple(rest), cursor.span_from(first.span.start)) if rest else first
 
 
 def _signed(cursor: Cursor, after: str) -> Expression:
     token = cursor.token
-    if token.kind == "sign" and token.text in _SUMS:
-        cursor.take()
-        _deeper(cursor, token.span)
-        value = _signed(cursor, token.text)
-        cursor.depth -= 1
-        return Sign(value, cursor.span_from(token.start)) if token.text == "-" else value
-    base = _value(cursor, after)
+    if token.kind != "sign" or token.text not in _SUMS:
+        return _power(cursor, _value(cursor, after))
+    cursor.take()
+    _deeper(cursor, token)
+    value = _signed(cursor, token.text)
+    cursor.depth -= 1
+    return Sign(value, cursor.span_from(token.start)) if token.text == "-" else value
+
+
+def _power(cursor: Cursor, base: Expression) -> Expression:
     token = cursor.token
     if token.kind != "sign" or token.text != "^":
         return base
     cursor.take()
-    _deeper(cursor, token.span)
+    _deeper(cursor, token)
     exponent = _signed(cursor, "^")
     cursor.depth -= 1
     return Power(base, exponent, cursor.span_from(base.span.start))
@@ -73,15 +79,7 @@ def _value(cursor: Cursor, after: str) -> Expression:
     token = cursor.token
     kind = token.kind
     if kind == "number":
-        cursor.take()
-        value = number_value(token.text)
-        if math.isinf(value):
-            raise problem("E201", "this number is too large", token.span)
-        unit = cursor.token
-        if unit.kind == "name" and unit.text in UNITS:
-            cursor.take()
-            return Literal(value, unit.text, Span(token.start, unit.end))
-        return Literal(value, "", Span(token.start, token.end))
+        return _number(cursor)
     if kind == "sign" and token.text == "(":
         values = bracket(cursor)
         unit = cursor.token
@@ -101,6 +99,18 @@ def _value(cursor: Cursor, after: str) -> Expression:
     raise no_value(cursor, after)
 
 
+def _number(cursor: Cursor) -> Literal:
+    token = cursor.take()
+    value = float(token.text)
+    if value == math.inf:
+        raise problem("E201", "this number is too large", token.span)
+    unit = cursor.token
+    if unit.kind == "name" and unit.text in UNITS:
+        cursor.take()
+        return Literal(value, unit.text, Span(token.start, unit.end))
+    return Literal(value, "", Span(token.start, token.end))
+
+
 def _name(cursor: Cursor, name: str, span: Span) -> Expression:
     unit = cursor.token
     if unit.kind == "name" and unit.text in UNITS and name not in UNITS:
@@ -117,15 +127,15 @@ def _name(cursor: Cursor, name: str, span: Span) -> Expression:
 def bracket(cursor: Cursor, of: str = "(") -> tuple[Expression, ...]:
     """The values in brackets, with commas between; `of` is the function's name before them."""
     opening = cursor.take()
-    _deeper(cursor, opening.span)
+    _deeper(cursor, opening)
     values: list[Expression] = []
     after = of if of == "(" else f"{of}("
-    while not (of != "(" and not values and cursor.is_sign(")")):
+    more = of == "(" or not cursor.is_sign(")")  # only a call may do without values
+    while more:
         values.append(expression(cursor, after))
         after = ","
-        if not cursor.is_sign(","):
-            break
-        cursor.take()
+        if more := cursor.is_sign(","):
+            cursor.take()
     if not cursor.is_sign(")"):
         raise _not_closed(cursor)
     cursor.take()
@@ -146,13 +156,13 @@ def _not_closed(cursor: Cursor) -> Problem:
     return problem("E109", message, token.span, "", cure, fix)
 
 
-def _deeper(cursor: Cursor, span: Span) -> None:
+def _deeper(cursor: Cursor, token: Token) -> None:
     cursor.depth += 1
     if cursor.depth > DEEPEST:
         raise problem(
             "E106",
             f"more than {DEEPEST} brackets or signs within each other",
-            span,
+            token.span,
             "",
             "give a part of it a name: let a = …",
         )

@@ -16,8 +16,9 @@ _FORM_OF_ABOUT = ("along", "angle", "pitch")
 
 def check(statement: Statement, text: str) -> None:
     """Raises a `Problem` if parts are missing, doubled or contradict each other."""
-    _once(statement, text)
-    _one_time(statement.parts)
+    if len(statement.parts) > 1:
+        _once(statement, text)
+        _one_time(statement.parts)
     checks = {"arc": _arc, "screw": _screw, "with": _with, "frame": _frame}
     if statement.word in checks:
         checks[statement.word](statement)
@@ -133,7 +134,7 @@ def _radius(statement: Statement) -> None:
     _needs(statement, "to", "add where it ends: arc radius 20 mm to (10, 0) mm left")
     left, right = statement.part("left"), statement.part("right")
     if left and right:
-        span = max(left.span, right.span)
+        span = max(left.span, right.span, key=lambda span: span.start)
         raise problem("E248", "an arc turns left or right, not both", span, "", "keep one of them")
     if not left and not right:
         message = "this 'arc' does not say which way it turns"

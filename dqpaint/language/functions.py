@@ -54,7 +54,7 @@ class Arguments:
     def written(self, i: int) -> str:
         """The text of a value."""
         span = self.nodes[i].span
-        return self._text[span.start : span.end]
+        return span.of(self._text)
 
     def number(self, i: int, dimension: Dimension = PLAIN) -> Scalar:
         """A value that must have this dimension."""

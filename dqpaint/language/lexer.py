@@ -1,17 +1,18 @@
 """Text -> lines of tokens. A line goes on while a bracket is open; comments are left out."""
 
-import math
 import re
 import unicodedata
 from collections.abc import Iterator
 from typing import NamedTuple
 
 from dqpaint.language.diagnostics import Diagnostic, Fix, Span
+from dqpaint.language.records import record
 from dqpaint.language.units import SAME_UNITS, UNITS
 from dqpaint.language.words import STATEMENTS
 
 
-class Token(NamedTuple):
+@record
+class Token:
     """A word, number, text or sign, and where it stands."""
 
     kind: str  # number, name, text, sign; `end` closes every line
@@ -34,11 +35,11 @@ class Line(NamedTuple):
 
 MOST_TOKENS = 100_000  # of one line
 
-_NUMBER = r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_NUMBER = r"(?:(?:0|[1-9]\d*)(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?"
 TOKEN = re.compile(
     rf"""[^\S\n]*(?:
       (?P<name>[A-Za-z_][A-Za-z0-9_]*|°)
-    | (?P<number>{_NUMBER})(?P<glued>[A-Za-z_°][\w°]*|\.[\d.]*)?
+    | (?P<number>{_NUMBER})(?P<glued>[A-Za-z_°][\w°]*|\.[\d.]*|\d[\d.]*)?
     | (?P<sign>[(),+\-*/^=%])
     | (?P<newline>\n)
     | (?P<comment>\#[^\n]*)
@@ -51,6 +52,10 @@ TOKEN = re.compile(
 _FIRST_WORD = re.compile(r"[^\S\n]*([A-Za-z_]+)(?![A-Za-z0-9_]|[^\S\n]*[,)*/+^])", re.ASCII)
 
 _BLANK = re.compile(r"[^\S\n]*(?:#|$)", re.MULTILINE)  # to the end of a line
+# What stands before a comma that was meant within a number: 2,000 and 0,05.
+_THOUSANDS = re.compile(r"(?<![\w.,])[1-9]\d{0,2}(?:,\d{3})*,$", re.ASCII)
+_DECIMAL = re.compile(r"(?<![\w.])(\d+),$", re.ASCII)
+_LONG_NUMBER = 40
 _WORD = re.compile(r"\w+")
 
 # Signs that come with copying from elsewhere, and the plain one that is meant.
@@ -104,14 +109,11 @@ def lines(text: str, begin: int = 0) -> Iterator[Line]:
         match = match_at(text, position)
         assert match is not None  # the pattern has an answer to every character
         kind = match.lastgroup
-        position = match.end()
         if kind is None:
             break
-        start = match.start(kind)
-        if kind == "name":
-            tokens.append(Token("name", text[start:position], start, position))
-        elif kind == "number":
-            tokens.append(Token("number", text[start:position], start, position))
+        start, position = match.span(kind)
+        if kind == "name" or kind == "number":
+            tokens.append(Token(kind, text[start:position], start, position))
         elif kind == "sign":
             token = Token("sign", text[start:position], start, position)
             if token.text == "(":
@@ -183,15 +185,17 @@ def _stray_bracket(token: Token) -> Diagnostic:
 def _glued(
     number: Token, letters: str, tokens: list[Token], problems: list[Diagnostic], text: str
 ) -> int:
-    """A number with letters straight after it: they must be a unit. Returns where to go on."""
+    """A number with more straight after it: it must be a unit. Returns where to go on."""
     end = number.end + len(letters)
     tokens.append(number)
     if letters in UNITS:
         tokens.append(Token("name", letters, number.end, end))
         return end
     span, fix = Span(number.start, end), None
-    if letters.startswith("."):
-        message, cure = f"'{text[span.start : end]}' is not a number", "write one decimal point"
+    if letters[0].isdigit():
+        message, cure, fix = _zeros_in_front(span, text)
+    elif letters.startswith("."):
+        message, cure = f"'{span.of(text)}' is not a number", "write one decimal point"
     elif letters in STATEMENTS or not re.fullmatch(r"[A-Za-z_]\w*", letters, re.ASCII):
         message = f"'{letters}' straight after the number {number.text} is not a unit"
         cure = f"put a blank between: {number.text} {letters}"
@@ -205,6 +209,25 @@ def _glued(
         cure = f"units are {', '.join(UNITS)}; a product is written {number.text}*{letters}"
     problems.append(Diagnostic("E102", message, span, "", cure, fix=fix))
     return end
+
+
+def _zeros_in_front(span: Span, text: str) -> tuple[str, str, Fix]:
+    """What to say of `05`, and of `2,000` and `0,05`, whose zeros would be numbers of their own."""
+    written = span.of(text)
+    before = text[max(0, span.start - _LONG_NUMBER) : span.start]
+    begin, rule = span.start, ""
+    if len(written.partition(".")[0]) == 3 and (found := _THOUSANDS.search(before)):
+        begin -= len(found[0])
+        number = f"{found[0].replace(',', '')}{written}"
+        rule = "commas stand between the numbers of a point; a large one has none: "
+    elif found := _DECIMAL.search(before):
+        begin -= len(found[0])
+        number = f"{found[1]}.{written}"
+        rule = "commas stand between the numbers of a point; a decimal has a point: "
+    else:
+        number = re.sub(r"^0+(?=\d)", "", written)
+    fix = Fix(f"write {number}", Span(begin, span.end), number)
+    return f"'{written}' is not a number", f"{rule or 'write '}{number}", fix
 
 
 def _bad(
@@ -300,11 +323,3 @@ def _quotes(found: re.Match[str]) -> Diagnostic:
     span = Span(found.start(), found.start() + 1)
     cure = f"a text stands in plain double quotes: {plain}"
     return Diagnostic("E101", message, span, "", cure, fix=fix)
-
-
-def number_value(text: str) -> float:
-    """The value of a number token; infinite if it is too large for a computer's number."""
-    try:
-        return float(text)
-    except (ValueError, OverflowError):  # pragma: no cover - the token's pattern rules it out
-        return math.inf

@@ -4,6 +4,7 @@ from dqpaint.language import colours, reading, space, tools
 from dqpaint.language.diagnostics import Span
 from dqpaint.language.pen import SAME_PLACE, Pen
 from dqpaint.language.program import (
+    LOOKING,
     Follow,
     Keep,
     Light,
@@ -17,7 +18,7 @@ from dqpaint.language.program import (
     Vector,
 )
 from dqpaint.language.scope import Scope
-from dqpaint.language.settings import ToolMode, Towards
+from dqpaint.language.settings import Towards
 from dqpaint.language.syntax import Statement
 from dqpaint.language.timing import shared, timing
 
@@ -89,17 +90,15 @@ def _legs(
         _on_the_spot(statement, stops[0][1], pen, whole, light)
         return
     mode = pen.settings.tool
-    for (stop, _), leg_time, (first, last) in zip(
-        legs,
-        shared(whole, [size for _, size in legs], statement.span),
-        _shares([size for _, size in legs]),
-        strict=True,
-    ):
+    sizes = [size for _, size in legs]
+    times = shared(whole, sizes, statement.span)
+    for (stop, _), leg_time, (first, last) in zip(legs, times, _shares(sizes), strict=True):
         tools.begin(pen, mode, statement.span)
         start = pen.pose.position
         tool, orientation = _tool_of_leg(pen, stop, statement.span, first, last)
         way = space.minus(stop, start)
-        tools.check_way(mode, (_nearest(mode, start, way),), statement.span)
+        if isinstance(mode, LOOKING):
+            tools.check_way(mode, (_nearest(mode, start, way),), statement.span)
         glow = light
         if light is not None and light.first != light.last and not _of_run(pen, light):
             glow = Light(
@@ -117,6 +116,8 @@ def _of_run(pen: Pen, light: Light) -> bool:
 
 def _shares(sizes: list[float]) -> list[tuple[float, float]]:
     """Where each leg begins and ends, as shares of the total; the last ends at 1 exactly."""
+    if len(sizes) == 1:
+        return [(0.0, 1.0)]
     total, ends = sum(sizes), [0.0]
     for size in sizes[:-1]:
         ends.append(ends[-1] + size / total)
@@ -136,17 +137,11 @@ def _tool_of_leg(
     return tools.at_end(pen, mode, stop, span, space.Z, 0.0)
 
 
-def _nearest(mode: ToolMode, start: Vector, way: Vector) -> Vector:
+def _nearest(mode: Look | LookLine, start: Vector, way: Vector) -> Vector:
     """The place on a straight way that is nearest to what the tool looks at."""
-    if isinstance(mode, Look):
-        to, along = space.minus(mode.point, start), way
-    elif isinstance(mode, LookLine):
-        to, along = (
-            space.across(space.minus(mode.point, start), mode.along),
-            space.across(way, mode.along),
-        )
-    else:
-        return start
+    to, along = space.minus(mode.point, start), way
+    if isinstance(mode, LookLine):
+        to, along = space.across(to, mode.along), space.across(way, mode.along)
     size = space.dot(along, along)
     share = min(1.0, max(0.0, space.dot(to, along) / size)) if size > 0.0 else 0.0
     return space.plus(start, space.times(share, way))

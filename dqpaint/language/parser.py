@@ -97,7 +97,6 @@ class _Parser:
     def _statement(self, line: Line) -> Statement:
         """One line; a mistake in it is reported, and the statement marked as broken."""
         cursor = Cursor(line.tokens, self._text)
-        needless = all(self._text[p.span.start] in _NEEDLESS for p in line.problems if p.span)
         read = statements.statement if line.tokens[0].text in STATEMENTS else statements.call
         try:
             statement = read(cursor)
@@ -105,7 +104,9 @@ class _Parser:
             if not line.problems:  # else it follows from the one that was reported
                 self._findings.add(mistake.diagnostic)
             return _broken(line.tokens)
-        return statement if needless else _broken(line.tokens)
+        if all(self._text[p.span.start] in _NEEDLESS for p in line.problems if p.span):
+            return statement
+        return _broken(line.tokens)
 
     # Blocks.
 
@@ -277,7 +278,7 @@ def _not_quoted(tokens: list[Token], text: str) -> Problem:
     if span.start == span.end:
         message = "expected the name of a file but found the end of the line"
         return problem("E109", message, tokens[0].span, "", 'for example: include "f.traj"')
-    message, cure = "the name of a file stands in quotes", f'include "{text[slice(*span)]}"'
+    message, cure = "the name of a file stands in quotes", f'include "{span.of(text)}"'
     return problem("E109", message, span, "", f"write: {cure}")
 
 

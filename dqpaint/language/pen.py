@@ -105,11 +105,9 @@ class Pen:
             self._check_goes_on(path, span)
             timing = run.timing
         law = run.law if run is not None else settings.law
+        brush, strobe, start = settings.brush, settings.strobe, self.pose
         self.segments.append(
-            Segment(
-                *(path, tool, law, timing, light, self.pose, end, words, line),
-                *(settings.brush, settings.strobe, run),
-            )
+            Segment(path, tool, law, timing, light, start, end, words, line, brush, strobe, run)
         )
         self.corners.append(settings.blend * self.frame.scale)
         self.pose = end

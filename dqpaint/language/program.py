@@ -14,6 +14,7 @@ import numpy as np
 
 from dqpaint.language.colours import Colour as Colour
 from dqpaint.language.diagnostics import LINES, Diagnostic, Span, line_named
+from dqpaint.language.records import record
 from dqpaint.language.taylor import Floats, Taylor
 
 Vector = tuple[float, float, float]
@@ -34,14 +35,14 @@ IDENTITY = Pose((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
 # Where the point of light goes.
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Straight:
     """A straight line; `by` [m] from start to end. Zero length is a turn on the spot."""
 
     by: Vector
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Arc:
     """A turn of `angle` [rad] about the line through `centre` along the unit vector `axis`.
 
@@ -56,7 +57,7 @@ class Arc:
     grow: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Curve:
     """A formula of one parameter, run from `lower` to `upper`."""
 
@@ -65,7 +66,7 @@ class Curve:
     upper: float
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Screw:
     """A rigid turn of `angle` [rad] about a line, and `advance` [m] along it; the tool goes along.
 
@@ -78,17 +79,17 @@ class Screw:
     advance: float
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ScrewTo:
     """The one screw that carries the start pose to the end pose, the short way round (ScLERP)."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Still:
     """Waiting at the start pose."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Step:
     """A jump of the set point to the end pose, within one sample."""
 
@@ -132,24 +133,24 @@ Path = Straight | Arc | Curve | Screw | ScrewTo | Still | Step | Chain
 # What the tool does meanwhile. `Screw` and `ScrewTo` say it themselves and carry `Follow`.
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Keep:
     """The orientation stays as it is."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Turn:
     """The orientation goes evenly with the path, the short way, to the end orientation."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Follow:
     """The tool turns rigidly with an arc about its axis, with a curve's heading about `axis`."""
 
     axis: Vector = (0.0, 0.0, 1.0)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Look:
     """The tool's z axis points at `point`; its y axis leans as far as it can towards `up`."""
 
@@ -157,7 +158,7 @@ class Look:
     up: Vector
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LookLine:
     """The tool's z axis points at the line through `point`, its x axis lies along `along`."""
 
@@ -166,26 +167,27 @@ class LookLine:
 
 
 Tool = Keep | Turn | Follow | Look | LookLine
+LOOKING = (Look, LookLine)  # what a tool does whose turn depends on where it is
 
 
 # How long it takes.
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Lasting:
     """`in T`: a time [s], rounded up to whole samples."""
 
     seconds: float
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Samples:
     """`samples N`: exactly that many new samples."""
 
     count: int
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Cruise:
     """The speed [m/s] of the point, or [rad/s] where only the tool turns; never exceeded."""
 
@@ -196,7 +198,7 @@ class Cruise:
 Timing = Lasting | Samples | Cruise
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Law:
     """A time law by name, with its boundary rates in SI units (m or rad; `angular` says which).
 
@@ -208,7 +210,7 @@ class Law:
     angular: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Light:
     """The colour at the first and at the last point of a stroke, and evenly between by length.
 
@@ -223,14 +225,14 @@ class Light:
 # What shines. Brushes stand in the tool frame.
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Point:
     """A single lamp at the tool's origin; `size` [m] across, 0 for a point."""
 
     size: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Bar:
     """A bar of lamps, `length` [m] long, centred on the tool, along a unit vector."""
 
@@ -241,7 +243,7 @@ class Bar:
 Brush = Point | Bar
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Strobe:
     """The light flashes: on for the part `duty` (0 to 1) of each period of the run's clock."""
 
@@ -249,7 +251,7 @@ class Strobe:
     duty: float = 0.5
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Run:
     """One time law over several segments in a row, which all carry it: no stop between them.
 
@@ -263,7 +265,7 @@ class Run:
     light: Light | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Segment:
     """One stroke or pause: what the point does, what the tool does, when, and in which light."""
 
@@ -281,7 +283,7 @@ class Segment:
     run: Run | None = None  # None: it has law and timing for itself
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Auto:
     """`place auto`: where the drawing fits the arm best, which only the arm can say."""
 
@@ -289,7 +291,7 @@ class Auto:
     span: Span | None
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Program:
     """A whole drawing."""
 

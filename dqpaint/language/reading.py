@@ -119,9 +119,10 @@ def place(node: Expression, scope: Scope, word: str) -> Vector:
     value = evaluate(node, scope)
     if isinstance(value, Point):
         if value.dimension == LENGTH or is_zero(value):
-            if max(map(abs, floats(value))) > LARGEST:
+            at = floats(value)
+            if max(map(abs, at)) > LARGEST:
                 raise problem("E201", "this point is too far away", node.span)
-            return floats(value)
+            return at
         raise needs(node, value, scope, word, LENGTH)
     message = f"'{word}' needs a point, but this is {describe(value)}"
     cure = "a point has 2 or 3 numbers in brackets: (10, 20) mm"

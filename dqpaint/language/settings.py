@@ -1,7 +1,6 @@
 """What holds until something else is said: speed, law, tool, blend, light, brush, strobe."""
 
 import math
-from dataclasses import dataclass, replace
 
 from dqpaint.language import colours, reading
 from dqpaint.language.diagnostics import problem
@@ -19,6 +18,7 @@ from dqpaint.language.program import (
     Strobe,
 )
 from dqpaint.language.program import Point as Dot
+from dqpaint.language.records import record, replaced
 from dqpaint.language.scope import Scope
 from dqpaint.language.space import Frame, Y
 from dqpaint.language.syntax import (
@@ -33,7 +33,7 @@ from dqpaint.language.syntax import (
 )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Towards:
     """`tool ORIENTATION`, in the drawing frame."""
 
@@ -48,7 +48,7 @@ POINT = Dot()
 WHITE = Light(colours.WHITE, colours.WHITE)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Settings:
     """The settings at one place of the file, in SI units and the drawing frame.
 
@@ -84,25 +84,25 @@ def changed(settings: Settings, part: Part, scope: Scope, frame: Frame) -> Setti
     """The settings after a setting line, or for a statement with this clause."""
     value = part.value
     if isinstance(value, ToolWords):
-        return replace(settings, tool=tool_mode(value, scope, frame))
+        return replaced(settings, tool=tool_mode(value, scope, frame))
     if isinstance(value, LightWords):
         light = light_of(value, settings, scope)
         named = value.first.word != "on"  # `on 40%` is 40% of what was named, however often
         shone = light if light is not None and named else settings.shone
-        return replace(settings, light=light, shone=shone)
+        return replaced(settings, light=light, shone=shone)
     if isinstance(value, BrushWords):
-        return replace(settings, brush=brush_of(value, scope))
+        return replaced(settings, brush=brush_of(value, scope))
     if isinstance(value, StrobeWords):
-        return replace(settings, strobe=strobe_of(value, scope))
+        return replaced(settings, strobe=strobe_of(value, scope))
     if isinstance(value, BlendWords):
         size = 0.0 if value.size is None else reading.positive(value.size, scope, "blend")
-        return replace(settings, blend=size)
+        return replaced(settings, blend=size)
     if part.word == "law":
-        return replace(settings, law=reading.law(value, scope))
+        return replaced(settings, law=reading.law(value, scope))
     size = reading.positive(value, scope, part.word)
     if part.word == "speed":
-        return replace(settings, speed=size)
-    return replace(settings, turnspeed=size)
+        return replaced(settings, speed=size)
+    return replaced(settings, turnspeed=size)
 
 
 def tool_mode(words: ToolWords, scope: Scope, frame: Frame) -> ToolMode:

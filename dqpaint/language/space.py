@@ -156,11 +156,11 @@ class Frame(NamedTuple):
 
     def point(self, p: Vector) -> Vector:
         """A place."""
-        return plus(self.vector(p), self.shift)
+        return p if self is WORLD else plus(self.vector(p), self.shift)
 
     def vector(self, v: Vector) -> Vector:
         """A way from one place to another."""
-        return times(self.scale, turned(self.turn, v))
+        return v if self is WORLD else times(self.scale, turned(self.turn, v))
 
     def direction(self, d: Vector) -> Vector:
         """A unit vector."""

@@ -1,13 +1,12 @@
 """One line of tokens -> one statement, as the tables of `words` say it is made."""
 
-from typing import NamedTuple
-
 from dqpaint.language import clauses, colours, fits, forms
 from dqpaint.language.cursor import Cursor, example_of, found, no_value
 from dqpaint.language.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.expressions import bracket, expression
-from dqpaint.language.lexer import Token, number_value
+from dqpaint.language.lexer import Token
 from dqpaint.language.names import new_name
+from dqpaint.language.records import record
 from dqpaint.language.suggestions import closest, did_you_mean, listed
 from dqpaint.language.syntax import Expression, Part, Quoted, Statement, Word
 from dqpaint.language.units import FOREIGN_UNITS, SAME_UNITS, UNITS, instead_of
@@ -16,7 +15,8 @@ from dqpaint.language.words import PART_ALIASES, PARTS, SETTINGS, STATEMENTS
 VERSION = 1  # of the language, for `traj 1`
 
 
-class _Head(NamedTuple):
+@record
+class _Head:
     """What stands between the first word of a line and its parts."""
 
     name: Word | None = None
@@ -24,11 +24,14 @@ class _Head(NamedTuple):
     params: tuple[Word, ...] | None = None
 
 
+_NOTHING = _Head()
+
+
 def statement(cursor: Cursor) -> Statement:
     """Reads a line whose first word is a statement's; raises a `Problem` at its first mistake."""
     first = cursor.take()
     known = STATEMENTS[first.text]
-    head = _Head()
+    head = _NOTHING
     if first.text in SETTINGS:  # a setting's line is the clause alone
         parts = [_part(cursor, first.text, first.span)]
     else:
@@ -57,7 +60,7 @@ def call(cursor: Cursor) -> Statement:
 def _head(cursor: Cursor, word: str, head: str) -> _Head:
     match head:
         case "":
-            return _Head()
+            return _NOTHING
         case "value":
             return _Head(values=(_expression(cursor, word),))
         case "let":
@@ -81,11 +84,12 @@ def _head(cursor: Cursor, word: str, head: str) -> _Head:
         case _:
             assert head == "version", head
             _version(cursor)
-            return _Head()
+            return _NOTHING
 
 
 def _expression(cursor: Cursor, after: str) -> Expression:
-    if cursor.at_end or cursor.is_sign("="):
+    token = cursor.token
+    if token.kind == "end" or (token.kind == "sign" and token.text == "="):
         part = PARTS.get(after)
         raise no_value(cursor, after, part.example if part else example_of(after))
     return expression(cursor, after)
@@ -123,7 +127,7 @@ def _repeat(cursor: Cursor) -> _Head:
     name = new_name(cursor, "repeat", example_of("repeat"))
     cursor.take()
     lower = _expression(cursor, "from")
-    written = cursor.text[lower.span.start : lower.span.end]
+    written = lower.span.of(cursor.text)
     upper = cursor.token.text if cursor.token.kind == "number" else "5"
     example = f"repeat {name.text} from {written} to {upper}"
     _expect(cursor, "to", example)
@@ -198,7 +202,7 @@ def _version(cursor: Cursor) -> None:
     if token.kind != "number":
         message = f"expected a number after 'traj' but found {found(token)}"
         raise problem("E109", message, token.span, "", f"write: traj {VERSION}")
-    if number_value(token.text) != VERSION:
+    if float(token.text) != VERSION:
         message = f"this file is written in traj {token.text}, which this dqpaint does not know"
         raise problem("E118", message, token.span, "", f"it knows: traj {VERSION}")
 
@@ -220,13 +224,12 @@ def _parts(cursor: Cursor, word: str) -> list[Part]:
     return parts
 
 
+_READERS = {**clauses.READERS, **fits.READERS}
+
+
 def _part(cursor: Cursor, word: str, span: Span) -> Part:
-    takes = PARTS[word].takes
-    if takes in clauses.READERS:
-        return Part(word, span, clauses.READERS[takes](cursor))
-    if takes in fits.READERS:
-        return Part(word, span, fits.READERS[takes](cursor))
-    return Part(word, span, _expression(cursor, word))
+    read = _READERS.get(PARTS[word].takes)
+    return Part(word, span, read(cursor) if read else _expression(cursor, word))
 
 
 ROUND = ("r", "diameter")  # what people give an arc besides its centre

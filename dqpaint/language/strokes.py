@@ -1,18 +1,15 @@
 """Movements -> segments: each function knows one statement."""
 
-from dataclasses import replace
-
 from dqpaint.language import arcs, curves, elsewhere, lines, reading, space, tools
 from dqpaint.language.diagnostics import problem
 from dqpaint.language.pen import SAME_PLACE, SAME_TURN, Pen
 from dqpaint.language.program import (
+    LOOKING,
     Arc,
     Follow,
     Keep,
     Lasting,
     Light,
-    Look,
-    LookLine,
     Pose,
     Samples,
     Screw,
@@ -22,6 +19,7 @@ from dqpaint.language.program import (
     Turn,
     Vector,
 )
+from dqpaint.language.records import replaced
 from dqpaint.language.scope import Scope
 from dqpaint.language.settings import Settings, changed, light_of, standing
 from dqpaint.language.syntax import Expression, LightWords, Statement
@@ -32,8 +30,9 @@ from dqpaint.language.words import SETTINGS
 def draw(statement: Statement, pen: Pen, scope: Scope) -> None:
     """Adds what a movement draws; its clauses hold for it alone."""
     outside = pen.settings
-    for part in statement.parts:
-        pen.check_pace(part)
+    if pen.run is not None:
+        for part in statement.parts:
+            pen.check_pace(part)
     if not lines.sets_start(statement, pen):
         pen.begin(statement.span)
     try:
@@ -42,7 +41,7 @@ def draw(statement: Statement, pen: Pen, scope: Scope) -> None:
     finally:
         # What shone last is remembered, so that `light on` finds it.
         shone = pen.settings.shone
-        pen.settings = outside if shone is outside.shone else replace(outside, shone=shone)
+        pen.settings = outside if shone is outside.shone else replaced(outside, shone=shone)
 
 
 def _with_clauses(statement: Statement, settings: Settings, pen: Pen, scope: Scope) -> Settings:
@@ -122,7 +121,7 @@ def _axis(statement: Statement, pen: Pen, scope: Scope) -> Vector:
 def _draw_arc(statement: Statement, pen: Pen, scope: Scope, arc: Arc, end: Vector) -> None:
     mode, span = pen.settings.tool, statement.span
     tools.begin(pen, mode, span)
-    if isinstance(mode, Look | LookLine) and not pen.lost:
+    if isinstance(mode, LOOKING) and not pen.lost:
         tools.check_way(mode, arcs.places(arc, pen.pose.position), span)
     tool, orientation = tools.at_end(pen, mode, end, span, arc.axis, arc.angle)
     whole = timing(statement, pen.settings, scope)
@@ -143,7 +142,7 @@ def _screw(statement: Statement, pen: Pen, scope: Scope) -> None:
         raise problem("E244", message, angle_node.span, "", "to go straight, use: line by")
     advance = frame.scale * reading.number(pitch, scope, "pitch") * angle if pitch else 0.0
     mode = pen.settings.tool
-    if isinstance(mode, Look | LookLine) and not pen.oriented:
+    if isinstance(mode, LOOKING) and not pen.oriented:
         tools.begin(pen, mode, statement.span)
     end = space.carried(pen.pose, point, axis, angle, advance)
     whole = timing(statement, pen.settings, scope)
@@ -192,7 +191,8 @@ def _curve(statement: Statement, pen: Pen, scope: Scope) -> None:
     mode, turn = pen.settings.tool, 0.0
     axis = pen.frame.direction(space.Z)
     tools.begin(pen, mode, statement.span)
-    tools.check_way(mode, places, statement.span)
+    if isinstance(mode, LOOKING):
+        tools.check_way(mode, places, statement.span)
     if isinstance(mode, Follow):
         turn = curves.heading_change(curve, axis, span)
     tool, orientation = tools.at_end(pen, mode, end, statement.span, axis, turn)

@@ -1,13 +1,14 @@
 """The syntax tree: what was written, with its place, before anything is known about its meaning."""
 
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import fields, is_dataclass
 
 from dqpaint.language.diagnostics import Span
+from dqpaint.language.records import record
 
 # Expressions.
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Literal:
     """A number, perhaps with a unit straight after it."""
 
@@ -16,7 +17,7 @@ class Literal:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Name:
     """A name, a constant, a colour, a law or a unit."""
 
@@ -24,7 +25,7 @@ class Name:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Quoted:
     """A text in quotes."""
 
@@ -32,7 +33,7 @@ class Quoted:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Bracket:
     """One value, or the two or three numbers of a point, in brackets, perhaps with a unit."""
 
@@ -41,7 +42,7 @@ class Bracket:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Call:
     """A function with its values."""
 
@@ -50,7 +51,7 @@ class Call:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Sign:
     """A value with its sign changed."""
 
@@ -58,7 +59,7 @@ class Sign:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Chain:
     """A sum or a product of any length, so that a long one is not a deep one."""
 
@@ -67,7 +68,7 @@ class Chain:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Power:
     """A base and its exponent."""
 
@@ -121,7 +122,7 @@ def _children(node: Expression) -> tuple[Expression, ...]:
 # What stands after `tool`, `light`, `brush`, `strobe` and `blend`.
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ToolWords:
     """`keep`, `follow`, `look` (point, up), `look line` (point, along) or `turn` (orientation)."""
 
@@ -130,7 +131,7 @@ class ToolWords:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Shade:
     """`on`, `off` or a colour (`word` is empty then), and its brightness."""
 
@@ -140,7 +141,7 @@ class Shade:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LightWords:
     """One shade, or one that goes over into another; `even` if it is to be equally bright."""
 
@@ -150,7 +151,7 @@ class LightWords:
     even: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class BrushWords:
     """`point` with its size, or `bar` with its length and perhaps its direction."""
 
@@ -160,7 +161,7 @@ class BrushWords:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class StrobeWords:
     """How often it flashes, None for `off`, and for what part of the time, 0 to 1."""
 
@@ -169,7 +170,7 @@ class StrobeWords:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class BlendWords:
     """The distance within which corners are rounded; None for `off`."""
 
@@ -183,7 +184,7 @@ Words = ToolWords | LightWords | BrushWords | StrobeWords | BlendWords
 # Statements.
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Word:
     """A word that names something: in `let`, `repeat`, `curve`, `robot`."""
 
@@ -191,7 +192,7 @@ class Word:
     span: Span
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Part:
     """A part of a statement: its word and its value."""
 
@@ -206,7 +207,7 @@ class Part:
         return self.value
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Statement:
     """A line.
 

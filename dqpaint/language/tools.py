@@ -10,6 +10,7 @@ from dqpaint.language import space
 from dqpaint.language.diagnostics import Span
 from dqpaint.language.pen import SAME_PLACE, SAME_TURN, Pen, here
 from dqpaint.language.program import (
+    LOOKING,
     Follow,
     Keep,
     Look,
@@ -62,14 +63,14 @@ def told(mode: ToolMode, position: Vector, span: Span) -> Quaternion | None:
     """The orientation at a place, if the mode alone says it."""
     if isinstance(mode, Towards):
         return mode.orientation
-    if isinstance(mode, Look | LookLine):
+    if isinstance(mode, LOOKING):
         return orientation_at(mode, position, span)
     return None
 
 
 def begin(pen: Pen, mode: ToolMode, span: Span) -> None:
     """Before a stroke: a tool that looks has to look already."""
-    if isinstance(mode, Look | LookLine):
+    if isinstance(mode, LOOKING):
         pen.look(mode, orientation_at(mode, pen.pose.position, span), span)
 
 
@@ -83,7 +84,7 @@ def at_end(
     now = pen.pose.orientation
     if isinstance(mode, Follow):
         return Follow(axis), space.turn_product(space.turn_about(axis, turn), now)
-    if isinstance(mode, Look | LookLine):
+    if isinstance(mode, LOOKING):
         return mode, orientation_at(mode, position, span)
     return turning(now, mode.orientation if isinstance(mode, Towards) else now)
 
@@ -95,8 +96,7 @@ def turning(now: Quaternion, end: Quaternion) -> tuple[Tool, Quaternion]:
     return Turn(), end
 
 
-def check_way(mode: ToolMode, places: Iterable[Vector], span: Span) -> None:
-    """Raises if a tool that looks could not do so on the way."""
-    if isinstance(mode, Look | LookLine):
-        for position in places:
-            orientation_at(mode, position, span)
+def check_way(mode: Look | LookLine, places: Iterable[Vector], span: Span) -> None:
+    """Raises if a tool could not look so on the way."""
+    for position in places:
+        orientation_at(mode, position, span)

@@ -1,18 +1,18 @@
 """Values of expressions, each with what it is: a sum or product of two has to make sense."""
 
 import math
-from dataclasses import dataclass
 
 from dqpaint.language import space, taylor
 from dqpaint.language.diagnostics import Span, problem
 from dqpaint.language.program import Colour, Quaternion
+from dqpaint.language.records import record
 from dqpaint.language.syntax import Expression, Statement, Word
 from dqpaint.language.taylor import Taylor
 from dqpaint.language.taylor import Value as Scalar
 from dqpaint.language.units import LARGEST_EXPONENT, LENGTH, PLAIN, Dimension, dimension_name
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Quantity:
     """A number in SI units with its dimension; in a curve, a whole series of numbers."""
 
@@ -20,7 +20,7 @@ class Quantity:
     dimension: Dimension
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Point:
     """Three numbers of one dimension: a place, a shift, or without a unit a direction."""
 
@@ -28,21 +28,21 @@ class Point:
     dimension: Dimension
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Orientation:
     """A unit quaternion, scalar first."""
 
     quaternion: Quaternion
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Tint:
     """A colour: linear RGB."""
 
     rgb: Colour
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TimeLaw:
     """A time law and its boundary rates."""
 
@@ -51,21 +51,21 @@ class TimeLaw:
     angular: bool
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Text:
     """A text in quotes."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Placement:
     """A frame with a name."""
 
     frame: space.Frame
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Function:
     """A function of the file: the names it is handed, its formula, and the names that knows.
 
@@ -80,7 +80,7 @@ class Function:
     depth: int
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Drawing:
     """A `def` of the file: the names it is handed, its lines, and the names those know.
 

@@ -2,12 +2,14 @@
 
 The parser, its messages and its suggestions all read these tables, and so does whatever is made
 from them: the reference, completion, grammars for editors. A new word is a line here first.
+
+from dqpaint.language.records import record
 """
 
-from dataclasses import dataclass
+from dqpaint.language.records import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PartWord:
     """A word within a statement that takes a value, such as `to` or `speed`.
 
@@ -25,7 +27,7 @@ class PartWord:
     example: str
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class StatementWord:
     """A word that begins a line.
 

@@ -38,8 +38,9 @@ def jumps(table: Timetable, pace: Floats | None = None) -> Iterator[Diagnostic]:
             largest = number[jump >= jump.max() * (1.0 - ALIKE)].tolist()
             segments = table.program.segments
             pairs = [(segments[n - 1], segments[n]) for n in largest]
-            corner = max(_corner(float(jump.max()), pair, within) for pair in pairs)
-            yield _jump(corner, len(jump))
+            alike = [_corner(float(jump.max()), pair, within) for pair in pairs]
+            last = max(alike, key=lambda corner: (corner.span.start, corner.round))
+            yield _jump(last, len(jump))
 
 
 def _between(table: Timetable, pace: Floats | None) -> tuple[Floats, Indices]:

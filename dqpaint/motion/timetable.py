@@ -130,7 +130,8 @@ class Timetable:
         At a joint it is the one that begins there; the outer ones for what lies beyond.
         """
         number = self.first[stroke]
-        for run in np.unique(stroke[self.size[stroke] > 1]):
+        several = stroke[self.size[stroke] > 1]
+        for run in np.unique(several) if len(several) else ():
             rows = slice(*np.searchsorted(stroke, (run, run + 1)))
             number[rows] += part_at(self.edges(run), fraction[rows])
         return np.asarray(number)

@@ -27,7 +27,7 @@ def cursor(text):
 def test_meanings(text, word, kind):
     text, at = cursor(text)
     entry, span = hints.meaning_at(text, at)
-    assert (entry.word, entry.kind, text[slice(*span)]) == (word, kind, word)
+    assert (entry.word, entry.kind, span.of(text)) == (word, kind, word)
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from dqpaint.language import ScriptError, parse, read
-from dqpaint.language.diagnostics import place
+from dqpaint.language.diagnostics import Span, place
 from dqpaint.robots.choose import card_for
 
 # The text (~ ends a line), the code, line:column, the advice or its beginning.
@@ -63,7 +63,7 @@ def test_a_digit_of_another_script_is_mended() -> None:
         parse("line by (٣, 0) mm")
     fix = caught.value.diagnostics[0].fix
     assert fix is not None
-    assert (fix.text, tuple(fix.span)) == ("3", (9, 10))
+    assert (fix.text, fix.span) == ("3", Span(9, 10))
 
 
 def test_a_robot_by_nearly_its_name() -> None:

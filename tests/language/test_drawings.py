@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from dqpaint.language import Program, ScriptError, chains, parse
+from dqpaint.language.diagnostics import Span
 from dqpaint.language.program import Chain, Light, Segment
 from tests.language.test_svgtree import nested_uses
 
@@ -312,4 +313,4 @@ def test_without_the_library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     (diagnostic,) = caught.value.diagnostics
     assert diagnostic.code == "E297"
     assert diagnostic.help == 'pip install "dqpaint[svg]"'
-    assert caught.value.text[slice(*(diagnostic.span or (0, 0)))] == '"a.svg"'
+    assert (diagnostic.span or Span(0, 0)).of(caught.value.text) == '"a.svg"'

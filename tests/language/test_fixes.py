@@ -32,6 +32,11 @@ lineto (10, 0) mm|line to (10, 0) mm
 r = 3 mm~line to (r, 0)|let r = 3 mm~line to (r, 0)
 line to (0,5, 1,0) cm|line to (0.5, 1.0) cm
 line to (0,5, 1,0, 2,25) cm|line to (0.5, 1.0, 2.25) cm
+line to (12,003,000, 7) mm|line to (12003,000, 7) mm
+line to (2,000, 7) mm|line to (2000, 7) mm
+line to (0,05, 3) cm|line to (0.05, 3) cm
+line to (-1,005.5, 3) mm|line to (-1005.5, 3) mm
+hold 007 s|hold 7 s
 line to (10 mm, 20)|line to (10, 20) mm
 line to (1.50, 20cm, 3)|line to (1.50, 20, 3) cm
 let r = 3 mm~line to (radius, 0)|let r = 3 mm~line to (r, 0)

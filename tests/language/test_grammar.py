@@ -42,7 +42,7 @@ def grammar() -> Lark:
     units = "|".join(sorted(UNITS.keys() - {"°"}, key=len, reverse=True))
     unit = rf"(?:°|(?:{units})(?![A-Za-z0-9_]))"
     not_free = "|".join(sorted({*RESERVED, *UNITS} - {"°"}, key=len, reverse=True))
-    number = r"(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
+    number = r"((0|[1-9]\d*)(\.\d*)?|\.\d+)([eE][+-]?\d+)?"
     text += rf"""
 NAME: /(?!(?:{not_free})(?![A-Za-z0-9_]))[A-Za-z_][A-Za-z0-9_]*/
 ANY: /[A-Za-z_][A-Za-z0-9_]*/

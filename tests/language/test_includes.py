@@ -90,7 +90,7 @@ def test_messages(
     assert found.span is not None
     at, _, words = caret.partition(" ")
     assert "{}:{}".format(*place(error.text, found.span.start)) == at
-    assert error.text[slice(*found.span)].startswith(words)
+    assert found.span.of(error.text).startswith(words)
     assert file_at(error.text, found.span.start, error.name)[1] == str(tmp_path / file)
     assert f"--> {tmp_path / file}:{at}\n" in render(found, error.name, error.text)
 
@@ -112,7 +112,7 @@ def test_lines_stand_where_they_are_included(tmp_path: Path) -> None:
     where = [program.where(segment.line) for segment in program.segments]
     b, c = (str(tmp_path / "in" / name) for name in ("b.traj", "c.traj"))
     assert where == [f"{c}:2", f"{c}:3"] * 2 + [f"{b}:5"]
-    words = [program.text[slice(*segment.span)] for segment in program.segments]
+    words = [segment.span.of(program.text) for segment in program.segments]
     assert words == ["line to (q, 0)", "line to (0, 0)"] * 2 + ["line by (a, a)"]
     assert pickle.loads(pickle.dumps(program.text)).included == program.text.included
 

@@ -8,7 +8,7 @@ import pytest
 
 from dqpaint import language
 from dqpaint.language import ScriptError, parse, render
-from dqpaint.language.diagnostics import place
+from dqpaint.language.diagnostics import Span, place
 from tests.language.test_includes import OF_FILES
 
 # The text (~ ends a line), the code, line:column and the caret's text, message, label, help.
@@ -17,6 +17,9 @@ move to (1, 2) mm;|E101|1:18 ;|unexpected character ';'||no ; is needed: one sta
 let π = 3|E101|1:5 π|unexpected character 'π'||write pi
 line to (2r, 0)|E102|1:10 2r|'r' straight after the number 2 is not a unit||units are mm, cm, m, s, ms, deg, °, rad, turn, turns, Hz, K; a product is written 2*r
 period 10tool ms|E102|1:8 10tool|'tool' straight after the number 10 is not a unit||put a blank between: 10 tool
+line to (2,000, 0) mm|E102|1:12 000|'000' is not a number||commas stand between the numbers of a point; a large one has none: 2000
+hold 007.5 s|E102|1:6 007.5|'007.5' is not a number||write 7.5
+line to (0,05, 2) cm|E102|1:12 05|'05' is not a number||commas stand between the numbers of a point; a decimal has a point: 0.05
 let a = 1.2.3|E102|1:9 1.2.3|'1.2.3' is not a number||write one decimal point
 line to (1, 0) inch|E102|1:16 inch|'inch' is not a unit of this language||1 inch is 25.4 mm; units are mm, cm, m, s, ms, deg, °, rad, turn, turns, Hz, K
 line to (0, 0, 70 mm|E103|1:9 (|this '(' is never closed|opened here|add ')' before the end of the line
@@ -144,6 +147,10 @@ arc via (1,2) mm to (3,0) mm angle 3 deg|E248|1:30 angle|'arc via' goes through 
 arc centre (0,0) angle 90 deg|E249|1:12 (0,0)|the centre of this arc is where the tool is now: the radius is 0||move to a point of the circle first
 start at (9,0) mm~arc centre (0,0) angle 90 deg grow -20 mm|E250|2:36 -20 mm|the radius of this arc would become less than 0|the radius is 9 mm at the start|the least is: grow -9 mm
 line by (1,0) mm tool look (0, 0)|E251|1:1 line by (1,0) mm tool look (0, 0)|the tool can't look at the point where it is||look at a point the tool does not go through
+start at (-50, 0) mm~line to (50, 0) mm tool look (0, 0)|E251|2:1 line to (50, 0) mm tool look (0, 0)|the tool can't look at the point where it is||look at a point the tool does not go through
+start at (-50, 0) mm~curve (t*mm, 0) for t from -50 to 50 tool look (0, 0)|E251|2:1 curve (t*mm, 0) for t from -50 to 50 tool look (0, 0)|the tool can't look at the point where it is||look at a point the tool does not go through
+start at (-50, 0, 10) mm~line to (50, 0, 10) mm tool look (0, 0) up z|E252|2:1 line to (50, 0, 10) mm tool look (0, 0) up z|the tool looks along 'up' here, so nothing says how it is turned about that||say another direction: tool look POINT up y
+start at (-50, 0) mm~line to (50, 0) mm tool look line (0, 0) along y|E253|2:1 line to (50, 0) mm tool look line (0, 0) along y|the tool can't look at the line it is on||look at a line the tool does not go through
 line by (1,0) mm tool look (0, 5) mm|E252|1:1 line by (1,0) mm tool look (0, 5) mm|the tool looks along 'up' here, so nothing says how it is turned about that||say another direction: tool look POINT up z
 line by (1,0) mm tool look line (0,0) along x|E253|1:1 line by (1,0) mm tool look line (0,0) along x|the tool can't look at the line it is on||look at a line the tool does not go through
 curve (0, 0, t) for t from 0 to 1 mm tool follow|E254|1:7 (0, 0, t)|the curve stands still or goes along the axis, so it has no heading to follow||use: tool keep, or tool look
@@ -289,7 +296,7 @@ def test_catalogue(entry: list[str]) -> None:
     assert diagnostic.span is not None
     line, column = place(text, diagnostic.span.start)
     assert f"{line}:{column}" == at
-    assert text[slice(*diagnostic.span)] == words
+    assert diagnostic.span.of(text) == words
 
 
 @pytest.mark.slow
@@ -396,4 +403,4 @@ def test_internal_error_is_a_message(monkeypatch: pytest.MonkeyPatch) -> None:
     (diagnostic,) = found("hold 1 s")
     assert diagnostic.code == "E999"
     assert diagnostic.message == "internal error, please report (RecursionError: too deep)"
-    assert diagnostic.span == (0, 8)
+    assert diagnostic.span == Span(0, 8)

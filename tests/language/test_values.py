@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from dqpaint.language import ScriptError, colours, parse
+from dqpaint.language.diagnostics import Span
 from dqpaint.language.program import Curve, Law, Light, Samples
 from dqpaint.language.taylor import Taylor
 from dqpaint.language.timing import apportioned
@@ -58,7 +59,7 @@ def test_numbers(expression: str, value: float) -> None:
 def test_brackets_go_over_lines_and_comments() -> None:
     text = "line by (1, # the first\n   2,\n\n 3\n) mm"
     assert only(text).end.position == pytest.approx((0.001, 0.002, 0.003))
-    assert only(text).span == (0, 23)
+    assert only(text).span == Span(0, 23)
 
 
 def test_zero_needs_no_unit() -> None:

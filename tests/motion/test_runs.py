@@ -233,10 +233,13 @@ def test_the_velocity_s_jump_at_a_corner_is_told_with_its_size():
     two = f"{text}line by (50, 0) mm\nline by (0, 50) mm"
     note = notes(two)["W403"]
     assert note.message == "the velocity jumps by 70.7 mm/s here"
-    assert two[slice(*note.span)] == "line by (0, 50) mm"
+    assert note.span.of(two) == "line by (0, 50) mm"
     assert note.help == "use law trapezoid to stop at corners, or round them: blend 5 mm"
     note = notes(f"{two}\nline by (-50, 0) mm\nline by (40, 0) mm")["W403"]
     assert note.message == "the velocity jumps by 100 mm/s here, the largest of 3 such corners"
+    alike = f"{two}\nline by (50, 0) mm\nline by (0, 50) mm"
+    note = notes(alike)["W403"]  # the last of those that are alike
+    assert (note.span.start, note.span.of(alike)) == (len(alike) - 18, "line by (0, 50) mm")
     assert "W403" not in notes(f"{text}line by (50, 0) mm\nline by (50, 0) mm")
     assert "W403" not in notes(f"{text}line by (50, 0) mm\nhold 1 s\nline by (0, 50) mm")
     assert "W403" not in notes("line by (50, 0) mm by (0, 50) mm")
@@ -248,7 +251,7 @@ def test_a_corner_within_a_stroke_is_run_through_and_told():
     note = notes(text)["W403"]
     # both corners are passed at the full speed, which rounding to whole samples lowers a little
     assert float(note.message.split()[4]) == pytest.approx(100 * math.sin(math.pi / 8), abs=0.2)
-    assert text[slice(*note.span)] == "line by (50, 50) mm"
+    assert note.span.of(text) == "line by (50, 50) mm"
     assert note.help == "end the stroke before it, or round the corner: blend 5 mm"
 
 
@@ -273,7 +276,7 @@ def test_what_can_t_be_run_by_length_is_refused(line, code):
         plan(parse(text, "a"), dq.IDENTITY)
     (found,) = caught.value.diagnostics
     assert found.code == code
-    assert text[slice(*found.span)] == line
+    assert found.span.of(text) == line
 
 
 @pytest.mark.parametrize(

@@ -213,11 +213,8 @@ def _block(block: Block, name: str) -> str:
         return f"{head}{_image(block.png, block.title)}\n"
     without = f"<noscript>{_image(block.picture, block.title)}</noscript>\n"
     if isinstance(block, Map):
-        return (
-            head
-            + _figure(block.given.title, f"heat-{name}", "heat", plots.of_map(block.given))
-            + without
-        )
+        figure = _figure(block.given.title, f"heat-{name}", "heat", plots.of_map(block.given))
+        return f'{head}<div class="map" hidden>\n{figure}</div>\n{without}'
     columns = beside(len(block.panels))
     most = plots.MOST_POINTS // (2 if columns > 2 else 1)
     figures = "".join(
@@ -227,7 +224,7 @@ def _block(block: Block, name: str) -> str:
     kind = f"beside columns{columns}"
     shared = " data-shared" if block.shared else ""
     hint = f'<p class="hint" hidden>{HINT}</p>\n'
-    charts = f'<div class="charts"{shared}>\n<div class="{kind}">\n{figures}</div>\n</div>\n'
+    charts = f'<div class="charts"{shared} hidden>\n<div class="{kind}">\n{figures}</div>\n</div>\n'
     return f"{head}{hint}{charts}{without}"
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from dqpaint.outputs import write
 from dqpaint.papers import Claim, Figure, Paper, read_paper
 from dqpaint.studies import cells
-from dqpaint.studies.claims import Numbers, Verdict, judge, lines_of, published
+from dqpaint.studies.claims import Numbers, Verdict, judge, lines_of, published, told_apart
 from dqpaint.studies.page import Block, Page, Rows, Tables, Words, files_of, html
 from dqpaint.studies.replays import MEASURES, Asked, Measured
 from dqpaint.studies.statistics import Spread
@@ -102,18 +102,25 @@ def tables(replayed: Replayed) -> list[tuple[Figure, list[list[str]]]]:
 
 
 def in_order(replayed: Replayed, figure: Figure) -> str:
-    """How much of the paper's order is found here, in a sentence; empty where there is none."""
+    """How much of the paper's order is found here, in a sentence; empty where there is none.
+
+    Means are told apart by the rule of `RULE`, theirs and ours alike.
+    """
     theirs, ours = published(replayed.paper), replayed.measured.numbers
     both = [
-        (theirs[name][figure.name].mean, ours[name][figure.name].mean)
+        (theirs[name][figure.name], ours[name][figure.name])
         for name in theirs
         if figure.name in theirs[name] and figure.name in ours.get(name, {})
     ]
     if len(both) < LEAST_ORDERED:
         return ""
-    differ = [(a[0] - b[0]) * (a[1] - b[1]) for a, b in combinations(both, 2) if a[0] != b[0]]
-    same = sum(product > 0 for product in differ)
-    return f"{same} of {len(differ)} pairs that differ in the paper stand in its order here."
+    apart = [(a, b) for a, b in combinations(both, 2) if told_apart(a[0], b[0])]
+    found = [(a, b) for a, b in apart if told_apart(a[1], b[1])]
+    same = sum((a[0].mean < b[0].mean) == (a[1].mean < b[1].mean) for a, b in found)
+    return (
+        f"Of {len(apart)} pairs that the paper tells apart, {same} stand in its order here, "
+        f"{len(found) - same} in the other, {len(apart) - len(found)} are alike."
+    )
 
 
 def surfaces(replayed: Replayed) -> list[tuple[Figure, list[list[str]]]]:

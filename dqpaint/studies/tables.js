@@ -35,6 +35,9 @@ function sortable(table) {
 
 document.querySelectorAll("table.sorted").forEach(sortable);
 
+// What is hidden is empty until a script draws it.
+document.querySelectorAll(".charts, .map").forEach((block) => { block.hidden = false; });
+
 const given = new Map([...document.querySelectorAll("script[type='application/json']")].map((data) =>
   [data.dataset.figure, JSON.parse(data.textContent)]));
 for (const block of document.querySelectorAll(".charts")) {

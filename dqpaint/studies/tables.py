@@ -15,7 +15,7 @@ VERDICT = re.compile(f"({'|'.join(VERDICTS)})(?:: (.*))?", re.DOTALL)
 DIGITS = r"\d+(?:\.\d+)?(?:e[+-]?\d+)?"
 NUMBER = re.compile(f"(-?{DIGITS})(?: ± ({DIGITS}))?")
 WIDE = 20.0  # from the least to the largest: beyond, bars could not be told apart
-LENGTH, HIGH = 90, 12  # of a bar [px]
+LENGTH, HIGH = 80, 12  # of a bar [px]
 LEAST = 3  # rows that can be sorted
 
 

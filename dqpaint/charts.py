@@ -24,6 +24,7 @@ MOST_INSIDE = 6  # lines whose names find room beside them
 MOST_NUMBERS = 400  # cells of a heat map that are written in
 MOST_BESIDE = 3  # panels
 MOST_TICKS = 6
+ROOM = 0.1  # about each of several panels [inches]
 ROUND = [1, 2, 2.5, 5, 10]
 HEIGHT = 4.2  # of a row of panels [inches]
 
@@ -108,6 +109,8 @@ def chart(
     columns = beside(len(panels))
     rows = -(-len(panels) // columns)
     figure = Figure(figsize=(width, rows * height), dpi=120, layout="constrained")
+    if rows > 1:
+        figure.set_layout_engine("constrained", h_pad=ROOM, w_pad=ROOM)
     places = figure.subplots(rows, columns, squeeze=False).ravel()
     for axes, panel in zip(places, panels, strict=False):
         _draw_panel(axes, panel)

@@ -260,6 +260,21 @@ def test_check_of_good_and_bad_files(dqpaint, line, tmp_path):
     assert dqpaint("check", line).returncode == 0
 
 
+def test_more_samples_than_usual_can_be_allowed(dqpaint, line, tmp_path):
+    (tmp_path / "long.traj").write_text("line by (10, 0) mm samples 2000000\n")
+    done = dqpaint("check", "long.traj")
+    assert (done.returncode, done.stderr) == (1, "")
+    assert "error[E302]: more than 2,000,000 samples in all" in done.stdout
+    assert "to allow more: draw --max-samples N" in done.stdout
+    done = dqpaint("check", "long.traj", "--max-samples", "2000001")
+    assert done.returncode == 0
+    assert "2000000 steps of 8 ms (2000001 poses)" in done.stdout
+    done = dqpaint("check", line, "--max-samples", "20")
+    assert done.returncode == 1
+    assert "more than 20 samples in all\n --> line.traj:3:1" in done.stdout
+    assert dqpaint("check", line, "--max-samples", "21").returncode == 0
+
+
 def test_check_for_programs(dqpaint, line, tmp_path):
     (tmp_path / "bad.traj").write_text("lin to (0, 0, 70) mm\n")
     done = dqpaint("check", "--json", line, "bad.traj", "none.traj")
@@ -336,6 +351,10 @@ def test_check_for_programs(dqpaint, line, tmp_path):
     (["export", "line.traj", "--format", "gcode"], 2, "no format named 'gcode'; known: "),
     (["export", "line.traj", "--format", "urscript"], 2, "URScript is for the arms of Universal"),
     (["export", "line.traj", "--format", "csv", "--from", "home"], 1, "not exported: iiwa could"),
+    (["draw", "line.traj", "--max-samples", "20"], 1, "more than 20 samples in all"),
+    (["preview", "line.traj", "--max-samples", "9"], 1, "to allow more: draw --max-samples N"),
+    (["export", "line.traj", "--format", "csv", "--max-samples", "9"], 1, "more than 9 samples"),
+    (["draw", "line.traj", "--max-samples", "0"], 2, "max_samples 0 should be greater than"),
     (["check"], 2, "Missing argument"),
 ])  # fmt: skip
 def test_wrong_calls_are_answered_with_what_would_be_right(

@@ -7,19 +7,26 @@ from itertools import cycle
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import FuncFormatter, MaxNLocator, NullFormatter
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
 
 INK, FAINT = "#222222", "#999999"
-COLOURS = ("#0b6fa4", "#2a9d5c", "#d1495b", "#8d5a97", "#c98a1b", "#555555")
+COLOURS = ("#006aa8", "#d77e00", "#00a880", "#8328dc", "#8f5d2a", "#4b5563")
+"""Told apart by those who see no red, no green or no blue, too, and dark enough for white paper."""
 ALARM = "#c1121f"
 LONGEST = 60  # letters of a label
 MOST_INSIDE = 6  # lines whose names find room beside them
 MOST_NUMBERS = 400  # cells of a heat map that are written in
+MOST_BESIDE = 3  # panels
+MOST_TICKS = 6
+ROOM = 0.1  # about each of several panels [inches]
+ROUND = [1, 2, 2.5, 5, 10]
+HEIGHT = 4.2  # of a row of panels [inches]
 
 
 @dataclass(frozen=True)
@@ -27,8 +34,8 @@ class Line:
     """One line of a chart: points (N,) and what is written at it.
 
     `colour` is the next of the chart's own if not said; `marks` says where (N,) a point is
-    unstable, and has all points shown; `bars` are lengths (N,) up and down. A width of 0 leaves
-    the points alone.
+    unstable, and has all points shown: the line leaves those out. `bars` are lengths (N,) up and
+    down. A width of 0 leaves the points alone.
     """
 
     x: Floats
@@ -42,7 +49,10 @@ class Line:
 
 @dataclass(frozen=True)
 class Panel:
-    """One chart: lines, bounds that are drawn dashed, and what the axes say."""
+    """One chart: lines, bounds that are drawn dashed, and what the axes say.
+
+    `span` are the ends of the y axis, so that charts beside each other have the same.
+    """
 
     title: str
     x_label: str
@@ -54,6 +64,13 @@ class Panel:
     decades: float = 300.0  # of a logarithmic y axis, from the top: the most that is shown
     ticks: Sequence[str] | None = None  # words at 0, 1, ... of an axis of choices
     wall: float | None = None  # a bound of x
+    limit: str = ""  # what a bound is
+    span: tuple[float, float] | None = None
+
+    @property
+    def told(self) -> bool:
+        """Whether there is more to tell apart than the axes say."""
+        return len(self.lines) > 1 or any(x.marks is not None and x.marks.any() for x in self.lines)
 
 
 @dataclass(frozen=True)
@@ -73,43 +90,90 @@ class HeatMap:
     log: bool = False
 
 
-def chart(panels: Sequence[Panel], width: float = 10.0, height: float = 4.0) -> bytes:
-    """Panels side by side as a PNG file; width and height in inches of 120 dots."""
-    figure = Figure(figsize=(width, height), dpi=120, layout="constrained")
-    for axes, panel in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
-        axes.set_title(_plain(panel.title), loc="left", fontsize=11, color=INK)
-        for line, following in zip(panel.lines, cycle(COLOURS), strict=False):
-            _draw(axes, line, line.colour or following)
-        if panel.bound is not None:
-            axes.axhline(panel.bound, color=INK, lw=1, ls=(0, (4, 3)))
-        if panel.wall is not None:
-            axes.axvline(panel.wall, color=INK, lw=1, ls=(0, (4, 3)))
-        axes.set_xlabel(_plain(panel.x_label))
-        axes.set_ylabel(_plain(panel.y_label))
-        if panel.log_x:
-            axes.set_xscale("log")
-        if panel.log_y:
-            axes.set_yscale("log")
-            top = max(float(line.y.max()) for line in panel.lines)
-            axes.set_ylim(bottom=max(axes.get_ylim()[0], top * 10.0**-panel.decades))
-        if panel.ticks is not None:
-            axes.set_xticks(range(len(panel.ticks)), list(map(_plain, panel.ticks)))
-        axes.grid(which="major", color="#e6e6e6", lw=0.6)
-        axes.set_axisbelow(True)
-        for side in ("top", "right"):
-            axes.spines[side].set_visible(False)
-        aside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)}
-        many = len(panel.lines) > MOST_INSIDE
-        axes.legend(frameon=False, fontsize=9, labelcolor="linecolor", **(aside if many else {}))
+def beside(count: int) -> int:
+    """How many of some panels stand beside each other."""
+    return count if count <= MOST_BESIDE else 2 if count == 4 else MOST_BESIDE
+
+
+def chart(
+    panels: Sequence[Panel], width: float = 10.0, height: float = HEIGHT, shared: bool = False
+) -> bytes:
+    """Panels as a PNG file, a few beside each other.
+
+    Args:
+        panels: from the left, row by row.
+        width: of the whole [inches of 120 dots].
+        height: of a row [inches].
+        shared: whether their lines have the same names and colours, so that one legend does.
+    """
+    columns = beside(len(panels))
+    rows = -(-len(panels) // columns)
+    figure = Figure(figsize=(width, rows * height), dpi=120, layout="constrained")
+    if rows > 1:
+        figure.set_layout_engine("constrained", h_pad=ROOM, w_pad=ROOM)
+    places = figure.subplots(rows, columns, squeeze=False).ravel()
+    for axes, panel in zip(places, panels, strict=False):
+        _draw_panel(axes, panel)
+        if panel.told and not shared:
+            aside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)}
+            many = len(panel.lines) > MOST_INSIDE
+            axes.legend(frameon=False, fontsize=9, labelcolor=INK, **(aside if many else {}))
+    for axes in places[len(panels) :]:
+        axes.set_axis_off()
+    if shared and panels[0].told:
+        handles, names = places[0].get_legend_handles_labels()
+        figure.legend(
+            handles, names, loc="outside upper left", ncols=min(len(names), MOST_INSIDE),
+            frameon=False, fontsize=10,
+        )  # fmt: skip
     return _png(figure)
 
 
+def _draw_panel(axes: Axes, panel: Panel) -> None:
+    axes.set_title(_plain(panel.title), loc="left", fontsize=11, color=INK)
+    for line, following in zip(panel.lines, cycle(COLOURS), strict=False):
+        _draw(axes, line, line.colour or following)
+    for bound, draw in ((panel.bound, axes.axhline), (panel.wall, axes.axvline)):
+        if bound is not None:
+            draw(bound, color=INK, lw=1, ls=(0, (4, 3)), label=_plain(panel.limit) or "_")
+    axes.set_xlabel(_plain(panel.x_label))
+    axes.set_ylabel(_plain(panel.y_label))
+    if panel.ticks is not None:
+        axes.set_xticks(range(len(panel.ticks)), list(map(_plain, panel.ticks)))
+    if panel.log_x:
+        axes.set_xscale("log")
+    if panel.log_y:
+        axes.set_yscale("log")
+        top = max(float(np.nanmax(line.y, initial=0.0)) for line in panel.lines)
+        axes.set_ylim(bottom=max(axes.get_ylim()[0], top * 10.0**-panel.decades))
+    if panel.span is not None:
+        axes.set_ylim(*panel.span)
+    if panel.ticks is None:
+        _number(axes.xaxis, axes.get_xlim(), panel.log_x)
+    _number(axes.yaxis, axes.get_ylim(), panel.log_y)
+    axes.grid(which="major", color="#e6e6e6", lw=0.6)
+    axes.set_axisbelow(True)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+
+
+def _number(axis: Axis, ends: tuple[float, float], log: bool) -> None:
+    """A few round numbers at an axis; a logarithmic one of few decades has some within them."""
+    if not log:
+        axis.set_major_locator(MaxNLocator(MOST_TICKS, steps=ROUND))
+        return
+    low, high = ends
+    if high < 1e4 * low:
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(FuncFormatter(_two_and_five) if high < 30 * low else NullFormatter())
+
+
 def _draw(axes: Axes, line: Line, colour: str) -> None:
-    dots = "o" if line.marks is not None else ""
+    dots = "o" if line.marks is not None or not line.width else ""
     kind = "-" if line.width else ""
     axes.plot(
         line.x,
-        line.y,
+        line.y if line.marks is None else np.where(line.marks, np.nan, line.y),
         kind,
         color=colour,
         lw=line.width,
@@ -121,6 +185,7 @@ def _draw(axes: Axes, line: Line, colour: str) -> None:
         axes.errorbar(line.x, line.y, line.bars, fmt="none", ecolor=colour, lw=1, capsize=3)
     if line.marks is not None and line.marks.any():
         at = line.marks
+        axes.plot(line.x[at], line.y[at], ls="", marker="o", ms=4, color=colour)
         axes.plot(
             line.x[at], line.y[at], ls="", marker="o", ms=9, mfc="none", mec=ALARM, mew=1.6,
             label="unstable" if "unstable" not in axes.get_legend_handles_labels()[1] else None,

@@ -288,6 +288,10 @@ def _columns() -> int:
 
 def _finish(text: str, paths: list[Path]) -> None:
     """Tell what came out; the files are there before, whoever stops listening."""
+    for path in paths:
+        report = path.with_name(f"{path.name.removesuffix('-table.csv')}-report.html")
+        if path.name.endswith("-table.csv") and report not in paths and report.exists():
+            print(f"note: {report} is of an earlier run; --report makes it anew", file=sys.stderr)
     print("\n".join([text, *(f"  written  {path}" for path in paths)]))
 
 

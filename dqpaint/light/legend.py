@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -57,18 +58,20 @@ def with_legend(picture: Picture, legend: Legend, look: str) -> Picture:
     below = top + size + gap
     if legend.amounts:
         along = np.linspace(0, len(legend.colours) - 1, width).round().astype(int)
-        strip = _developed(np.array(legend.colours)[along], look)
+        strip = inks(np.array(legend.colours)[along], look)
         shown[below : below + thick, margin : margin + width] = strip
         baseline = below + thick + gap + size - round(0.25 * size)
         write_text(shown, legend.labels[0], margin, baseline, size)
         right = margin + width - text_length(legend.labels[-1], size)
         write_text(shown, legend.labels[-1], right, baseline, size)
         return shown
-    inks = _developed(np.array(legend.colours), look)
+    drawn = inks(legend.colours, look)
     for i, label in enumerate(legend.labels[:MOST_NAMED]):
         line = below + i * (size + gap)
         middle = line + size // 2 + 1
-        shown[middle - thick // 2 : middle + (thick + 1) // 2, margin : margin + 3 * size] = inks[i]
+        shown[middle - thick // 2 : middle + (thick + 1) // 2, margin : margin + 3 * size] = drawn[
+            i
+        ]
         write_text(shown, label, margin + 4 * size, line + size, size)
     if len(legend.labels) > MOST_NAMED:
         line = below + MOST_NAMED * (size + gap)
@@ -76,9 +79,9 @@ def with_legend(picture: Picture, legend: Legend, look: str) -> Picture:
     return shown
 
 
-def _developed(colours: Floats, look: str) -> Picture:
-    """(C, 3) 8-bit sRGB of colours as lines of them look."""
-    image: Image = np.ascontiguousarray(colours[None] * RIDGE, dtype=np.float32)
+def inks(colours: Floats | Sequence[tuple[float, float, float]], look: str) -> Picture:
+    """(C, 3) 8-bit sRGB of linear RGB colours (C, 3) as lines of them look."""
+    image: Image = np.ascontiguousarray(np.array(colours)[None] * RIDGE, dtype=np.float32)
     return np.asarray(LOOKS[look](image, 1.0, 0.0)[0])
 
 

@@ -17,12 +17,15 @@ from typing import Any
 
 import numpy as np
 
+from dqpaint.controllers import find_controller
+from dqpaint.disturbances import DISTURBANCES
 from dqpaint.errors import UsageError
 from dqpaint.settings import Settings, make_settings, parse_gains
 
 MOST_VALUES = 10_000
 LAW = re.compile(r"(?P<name>[^()]+?)(\((?P<gains>[^()]*)\))?")
 SPAN = re.compile(r"(?P<low>[^:]+?)\.\.(?P<high>[^:]+?)(:(?P<kind>log|lin))?:(?P<count>\d{1,6})")
+UNIT = re.compile(r"(1/s\^2|1/s|s\^2|m/s|rad/s|rad|kg|Hz|m|s|N)(?=$|[ ,])")
 NOT_VARIED = ("gains", "disturb", "width", "height", "view", "ev", "look", "overlay", "exposure")
 
 
@@ -160,6 +163,28 @@ def settings_of(base: Settings, choice: Mapping[str, str]) -> Settings:
                 **changed["gains"], **parse_gains([f"{name.removeprefix('gain.')}={value}"])
             }  # fmt: skip
     return make_settings(**changed)
+
+
+def about(name: str, base: Settings) -> str:
+    """What is varied, its unit first: `1/s, the rate at which a small error decays`; or nothing.
+
+    Args:
+        name: of an axis.
+        base: whose law has the gain.
+    """
+    if name.startswith("disturb."):
+        _, kind, key = name.split(".")
+        fields = DISTURBANCES[kind].model_fields
+    else:
+        key = name.removeprefix("gain.")
+        fields = find_controller(base.controller).gains.model_fields
+    return (fields[key].description or "") if key in fields else ""
+
+
+def label(name: str, base: Settings) -> str:
+    """The name of an axis with its unit, if it has one: `k [1/s]`."""
+    unit = UNIT.match(about(name, base))
+    return f"{name} [{unit[0]}]" if unit else name
 
 
 def _disturb(changed: dict[str, Any], name: str, text: str) -> None:

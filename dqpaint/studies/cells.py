@@ -2,6 +2,7 @@
 
 import io
 import math
+import re
 from collections.abc import Sequence
 from csv import writer
 from dataclasses import dataclass
@@ -24,19 +25,29 @@ DEGREES = math.degrees(1.0)
 SHOWN = (
     Figure(("error_integral",), "error integral"),
     Figure(("position_error_rms_m",), "position rms [mm]", 1e3),
-    Figure(("position_error_max_m",), "largest [mm]", 1e3),
+    Figure(("position_error_max_m",), "position largest [mm]", 1e3),
     Figure(("orientation_error_rms_rad",), "orientation rms [deg]", DEGREES),
-    Figure(("command_integral_rad", "torque_integral_Nm_s"), "command [rad, Nm s]"),
-    Figure(("effort_integral",), "effort"),
+    Figure(("command_integral_rad", "torque_integral_Nm_s"), "command"),
+    Figure(("effort_integral",), "effort [rad s]"),
     Figure(("speed_integral_m",), "way [m]"),
     Figure(("acceleration_integral",), "acceleration integral [m/s]"),
 )
+ERRORS = SHOWN[:4]
+UNITS = {"command_integral_rad": "rad", "torque_integral_Nm_s": "Nm s"}  # of what a law commands
+MEANING = """The first four are errors, of which less is better; the others are what it costs.
+error integral: of the invariant error, the norm of 1 - x* x_d, over time
+position, orientation: how far, and by which angle, the light is from what is asked at the time
+command: the norm of what the joints are told, over time
+effort: how far the joints move in a step, over time
+way: how far the light goes
+acceleration integral: of the light, over time"""
 KNOWN = (
     "error_integral", "command_integral_rad", "torque_integral_Nm_s", "effort_integral",
     "speed_integral_m", "acceleration_integral", "position_error_rms_m", "position_error_std_m",
     "position_error_max_m", "orientation_error_rms_rad", "orientation_error_std_rad",
     "orientation_error_max_rad",
 )  # fmt: skip
+FAMILY = re.compile(r"(.*?)(?:(, |: )(.*))?$", re.DOTALL)
 ROUNDING = 1e-13  # of a figure's own unit: what is smaller is shown as 0
 
 
@@ -90,6 +101,15 @@ class Cell:
         return spread([row[n] * figure.scale for row in rows for n in figure.names if n in row])
 
 
+def family(label: str) -> tuple[str, str]:
+    """The first part of a cell's name, and what tells it from others of its kind.
+
+    Of `HIR, 20 %` these are `HIR` and `20 %`; of a name of one part it and nothing.
+    """
+    first, _, rest = FAMILY.match(label).groups("")  # type: ignore[union-attr]
+    return first, rest
+
+
 def check_figure(name: str) -> None:
     """Refuse a figure that no run can have, before the first begins.
 
@@ -108,11 +128,20 @@ def find_figure(name: str, cells: Sequence[Cell]) -> Figure:
     """
     for figure in SHOWN:
         if name in figure.names:
-            return figure
+            return fitted(figure, cells)
     known = names_of(cells)
     if known and name not in known:
         raise UsageError(f"no figure named '{name}'; known: {', '.join(known)}")
     return Figure((name,), name)
+
+
+def fitted(figure: Figure, cells: Sequence[Cell]) -> Figure:
+    """The figure with the unit it has in these cells: laws differ in what they command."""
+    if not set(figure.names) & set(UNITS):
+        return figure
+    there = names_of(cells)
+    units = ", ".join(unit for name, unit in UNITS.items() if name in there)
+    return figure._replace(heading=f"{figure.heading} [{units}]") if units else figure
 
 
 def names_of(cells: Sequence[Cell]) -> list[str]:
@@ -124,6 +153,7 @@ def names_of(cells: Sequence[Cell]) -> list[str]:
 def rows(cells: Sequence[Cell], figures: Sequence[Figure] = SHOWN) -> list[list[str]]:
     """Headings and rows of text; what was not done says so."""
     axes = list(cells[0].choice)
+    figures = [fitted(figure, cells) for figure in figures]
     found = [[*axes, *(figure.heading for figure in figures), "runs", "status"]]
     for cell in cells:
         texts = [said(cell.of(figure)) for figure in figures]

@@ -78,13 +78,13 @@ def _order(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) ->
     why = _said(values[0].mean)
     for sign, (_, b) in zip(signs, steps, strict=True):
         why += f" {sign} {_said(b.mean)}"
-    differ = [_differ(a, b) for a, b in steps]
+    differ = [told_apart(a, b) for a, b in steps]
     if any(sign != "<" and sure for sign, sure in zip(signs, differ, strict=True)):
         return Verdict("fails", why)
     return Verdict("holds" if all(differ) else "not shown", why)
 
 
-def _differ(a: Spread, b: Spread) -> bool:
+def told_apart(a: Spread, b: Spread) -> bool:
     """Whether two means are shown to differ; where nothing was repeated numbers stand."""
     if abs(a.mean - b.mean) <= CLOSE * max(abs(a.mean), abs(b.mean)):
         return False

@@ -1,33 +1,24 @@
 """One drawing, several laws, plants or arms: pictures alike, their overlay, errors, one table."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from itertools import combinations as pairs
 from pathlib import Path
 
 import numpy as np
 
 from dqpaint.build import Drawing
-from dqpaint.charts import Line, Panel, chart
 from dqpaint.errors import DqpaintError
-from dqpaint.light import contact
-from dqpaint.light.legend import Legend, with_legend
-from dqpaint.light.looks import LOOKS
 from dqpaint.outputs import write
 from dqpaint.settings import Settings
 from dqpaint.studies import cells
 from dqpaint.studies.axes import Axis, combinations, settings_of
 from dqpaint.studies.cells import Cell, Figure, find_figure
 from dqpaint.studies.engine import Workers, carry_out_study
-from dqpaint.studies.keeping import kept
-from dqpaint.studies.page import Block, Charts, Page, Rows, Shot, Words, html
+from dqpaint.studies.page import Block, Page, Pictured, Rows, Words, files_of, html
 from dqpaint.studies.runs import Run, drawing_text, seeded
+from dqpaint.studies.shown import pictures
 from dqpaint.studies.statistics import LEVEL, holm, welch
-
-DIM = 0.72  # of a hue on white paper
-DARKER = -2.0  # stops, so that a hue is seen and not burnt out
-DECADES = 5  # of error: one that begins at 0 would take the whole chart
-THICK, THIN = 3.6, 1.2  # lines of the chart: the last do not hide the first
 
 
 @dataclass(frozen=True)
@@ -105,12 +96,12 @@ def contents(compared: Comparison, measure: str, again: str | None = None) -> di
     """
     figure = find_figure(measure, compared.cells)
     title = f"# {compared.name}, compared\n\n"
-    shown = pictures(compared)
+    shown = pictures(compared.cells, compared.folder, compared.settings)
     parts = [cells.markdown(cells.rows(compared.cells))]
     if differences(compared.cells, figure):
         parts += [about_test(figure), cells.markdown(differences(compared.cells, figure))]
     made = {
-        **({} if shown is None else shown.files),
+        **files_of(shown),
         "-table.csv": cells.csv(compared.cells),
         "-table.md": (title + "\n\n".join(parts) + "\n").encode(),
     }
@@ -119,92 +110,18 @@ def contents(compared: Comparison, measure: str, again: str | None = None) -> di
     return made
 
 
-@dataclass(frozen=True)
-class Pictures:
-    """What a comparison shows of the first run of each choice: PNG files, and errors over time."""
-
-    sheet: bytes
-    overlay: bytes
-    panels: tuple[Panel, ...]
-
-    @property
-    def files(self) -> dict[str, bytes]:
-        """The pictures by the ends of their names."""
-        errors = chart(self.panels, width=12, height=4.5)
-        return {"-sheet.png": self.sheet, "-overlay.png": self.overlay, "-errors.png": errors}
-
-
-def page(compared: Comparison, figure: Figure, shown: Pictures | None, again: str) -> Page:
+def page(compared: Comparison, figure: Figure, shown: Mapping[str, Pictured], again: str) -> Page:
     """The comparison as a report."""
-    blocks: list[Block] = [Rows("Means and standard deviations", cells.rows(compared.cells))]
+    many = any(len(cell.results) > 1 for cell in compared.cells)
+    title = "Means and standard deviations" if many else "Figures"
+    rows = cells.rows(compared.cells)
+    bars = tuple(rows[0].index(figure.heading) for figure in cells.ERRORS)
+    blocks: list[Block] = [Rows(title, rows, bars, cells.MEANING)]
     tests = differences(compared.cells, figure)
     if tests:
         blocks += [Rows("Differences", tests), Words(about_test(figure))]
-    if shown is not None:
-        blocks += [
-            Shot("One exposure for all", shown.sheet),
-            Shot("Laid over each other: what all drew alike is white", shown.overlay),
-            Charts("Errors over time, of the first run of each", shown.panels),
-        ]
+    blocks += shown.values()
     return Page(f"{compared.name}, compared", blocks, compared.settings, compared.text, again)
-
-
-def pictures(compared: Comparison) -> Pictures | None:
-    """Contact sheet, overlay and errors over time; None if no run came to a picture."""
-    settings = compared.settings
-    arrays = [
-        kept(compared.folder, cell.results[0].key) if cell.results[0].figures else None
-        for cell in compared.cells
-    ]
-    there = [one for one in arrays if one is not None]
-    if not there:
-        return None
-    exposure = float(there[0]["exposure"])  # one for all, or they could not be compared
-    develop = LOOKS[settings.look]
-    images = [
-        contact.note(cell.why, settings.height, settings.width)
-        if one is None
-        else develop(one["light"], exposure, settings.ev)
-        for one, cell in zip(arrays, compared.cells, strict=True)
-    ]
-    labels = [_label(cell) for cell in compared.cells]
-    colours = contact.hues(len(there))
-    names = tuple(n for n, one in zip(labels, arrays, strict=True) if one is not None)
-    over = develop(contact.overlay([one["light"] for one in there]), exposure, settings.ev + DARKER)
-    over = with_legend(
-        over, Legend("laid over each other", names, tuple(colours), False), settings.look
-    )
-    widths = np.geomspace(THICK, THIN, len(there)).tolist()
-    lines = [
-        Line(one["t_s"], 1e3 * one["position_error_m"], label, _on_paper(colour), width=width)
-        for one, label, colour, width in zip(there, names, colours, widths, strict=True)
-    ]
-    turned = [
-        replace(line, y=np.degrees(one["orientation_error_rad"]))
-        for line, one in zip(lines, there, strict=True)
-    ]
-    panels = (
-        Panel("position error", "time [s]", "mm", lines, log_y=_wide(lines), decades=DECADES),
-        Panel("orientation error", "time [s]", "deg", turned, log_y=_wide(turned), decades=DECADES),
-    )
-    sheet = contact.sheet(images, labels)
-    return Pictures(contact.png(sheet), contact.png(over), panels)
-
-
-def _label(cell: Cell) -> str:
-    status = cell.results[0].status
-    return cell.label if status == "done" else f"{cell.label}: {status}"
-
-
-def _on_paper(colour: contact.Colour) -> str:
-    """A hue as it can be read on white."""
-    return "#" + "".join(f"{round(255 * DIM * part**0.6):02x}" for part in colour)
-
-
-def _wide(lines: Sequence[Line]) -> bool:
-    """Whether largest errors are so far apart that only a logarithmic axis shows all."""
-    most = [float(line.y.max()) for line in lines]
-    return min(most) > 0 and max(most) > 20 * min(most)
 
 
 def differences(found: Sequence[Cell], figure: Figure) -> list[list[str]]:

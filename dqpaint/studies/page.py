@@ -1,6 +1,6 @@
 """What a study has to show -> one HTML file: pictures, tables, curves to point at; no network.
 
-The file holds all it needs, its two scripts' worth of style and drawing code too, and says so: its
+The file holds all it needs, its style and the scripts that draw its charts too, and says so: its
 Content-Security-Policy lets no other code run and nothing be fetched. It has no date, so the same
 study makes the same file.
 """
@@ -8,35 +8,26 @@ study makes the same file.
 import base64
 import hashlib
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
-from itertools import cycle
 from typing import Any
 
-import numpy as np
-
 from dqpaint import __version__
-from dqpaint.charts import COLOURS, HeatMap, Line, Panel, chart, heat_map
-from dqpaint.dq import Floats
+from dqpaint.charts import HeatMap, Panel, beside, chart, heat_map
 from dqpaint.settings import Settings
+from dqpaint.studies import plots
 from dqpaint.studies.references import versions
+from dqpaint.studies.tables import table
 
-MOST_POINTS = 1500  # of a line: two a pixel, the least and the largest of a stretch
-DIGITS = 6
-LONGEST, LONG = 36, ' class="long"'  # letters of a cell that stays on one line
+SCRIPTS = "page.js", "curves.js", "heat.js", "tables.js"
+WIDE = (7.0, 12.0, 15.0)  # of one chart, of two and of three beside each other [inches]
 HINT = (
-    " Drag along a chart to zoom, double-click to see all again; names in a legend show and hide "
-    "their lines."
+    "To read a chart, point at it or touch it; or choose it with the Tab key and go along it with "
+    "the arrow keys. Drag along it, or spread two fingers, to zoom; a double click shows all "
+    "again. A name above it hides and shows its line, a double click on one all others."
 )
-BAD = (
-    "unstable",
-    "failed",
-    "died",
-    "differs",
-    "fails",
-)  # words of a row that is not as it should be
 
 
 @dataclass(frozen=True)
@@ -48,10 +39,20 @@ class Words:
 
 @dataclass(frozen=True)
 class Rows:
-    """A table: headings and rows of text."""
+    """A table: headings and rows of text; numbers of the columns `bars` are drawn, too."""
 
     title: str
     lines: Sequence[Sequence[str]]
+    bars: tuple[int, ...] = ()
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Tables:
+    """Small tables beside each other."""
+
+    title: str
+    tables: Sequence[Rows]
 
 
 @dataclass(frozen=True)
@@ -61,13 +62,28 @@ class Shot:
     title: str
     png: bytes
 
+    @property
+    def picture(self) -> bytes:
+        """As a PNG file."""
+        return self.png
+
 
 @dataclass(frozen=True)
 class Charts:
-    """Curves beside each other."""
+    """Curves beside each other.
+
+    If they are `shared`, lines of one name have one colour in all of them, and one legend: what is
+    hidden in one is so in all, and those that are over the same thing are read and zoomed together.
+    """
 
     title: str
     panels: Sequence[Panel]
+    shared: bool = False
+
+    @property
+    def picture(self) -> bytes:
+        """As a PNG file."""
+        return chart(self.panels, WIDE[beside(len(self.panels)) - 1], shared=self.shared)
 
 
 @dataclass(frozen=True)
@@ -77,8 +93,15 @@ class Map:
     title: str
     given: HeatMap
 
+    @property
+    def picture(self) -> bytes:
+        """As a PNG file."""
+        width, height = 1.0 + 0.9 * len(self.given.x), 1.2 + 0.55 * len(self.given.y)
+        return heat_map(self.given, min(max(7.0, width), 24.0), min(max(5.0, height), 18.0))
 
-Block = Words | Rows | Shot | Charts | Map
+
+Pictured = Shot | Charts | Map
+Block = Words | Rows | Tables | Pictured
 
 
 @dataclass(frozen=True)
@@ -100,16 +123,20 @@ class Page:
     again: str = ""
 
 
+def files_of(shown: Mapping[str, Pictured]) -> dict[str, bytes]:
+    """PNG files by the ends of their names."""
+    return {f"{end}.png": one.picture for end, one in shown.items()}
+
+
 def html(page: Page) -> bytes:
     """The page as one file."""
-    script, style = (_source(name) for name in ("page.js", "page.css"))
+    script, style = _source(*SCRIPTS), _source("page.css")
     rules = (
         "default-src 'none'; img-src data:; base-uri 'none'; form-action 'none'; "
         f"script-src {_hash(script)}; style-src {_hash(style)}"
     )
     parts = [_block(block, str(i)) for i, block in enumerate([*page.blocks, *_about(page)])]
     said = " ".join(f"{name} {value}" for name, value in versions().items())
-    hint = HINT if any(isinstance(block, Charts) for block in page.blocks) else ""
     return f"""<!doctype html>
 <html lang="en">
 <head>
@@ -122,7 +149,7 @@ def html(page: Page) -> bytes:
 <body>
 <h1>{escape(page.title)}</h1>
 {"".join(parts)}
-<footer>Made by dqpaint {escape(__version__)} with {escape(said)}.{hint}</footer>
+<footer>Made by dqpaint {escape(__version__)} with {escape(said)}.</footer>
 <script>{script}</script>
 </body>
 </html>
@@ -161,8 +188,9 @@ class _Source(Words):
     source: str
 
 
-def _source(name: str) -> str:
-    return "\n" + files("dqpaint.studies").joinpath(name).read_text("utf-8")
+def _source(*names: str) -> str:
+    folder = files("dqpaint.studies")
+    return "".join("\n" + folder.joinpath(name).read_text("utf-8") for name in names)
 
 
 def _hash(text: str) -> str:
@@ -173,52 +201,45 @@ def _block(block: Block, name: str) -> str:
     if isinstance(block, _Source):
         return f"<h2>{escape(block.text)}</h2>\n<pre>{escape(block.source)}</pre>\n"
     if isinstance(block, Words):
-        return f"<p>{escape(block.text)}</p>\n"
+        return f"<p>{escape(block.text)}</p>\n" if block.text else ""
+    head = f"<h2>{escape(block.title)}</h2>\n"
     if isinstance(block, Rows):
-        return f"<h2>{escape(block.title)}</h2>\n{_table(block.lines)}"
+        return head + table(block.lines, block.bars) + _note(block)
+    if isinstance(block, Tables):
+        made = [f"<div>{_own_title(one)}{table(one.lines, one.bars)}{_note(one)}</div>\n"
+                for one in block.tables]  # fmt: skip
+        return f'{head}<div class="small">\n{"".join(made)}</div>\n'
     if isinstance(block, Shot):
-        return f"<h2>{escape(block.title)}</h2>\n{_image(block.png, block.title)}\n"
+        return f"{head}{_image(block.png, block.title)}\n"
+    without = f"<noscript>{_image(block.picture, block.title)}</noscript>\n"
     if isinstance(block, Map):
-        figure = _figure(block.given.title, f"heat-{name}", "heat", _map_data(block.given))
-        without = _without(heat_map(block.given), block.title)
-        return f"<h2>{escape(block.title)}</h2>\n{figure}{without}"
+        figure = _figure(block.given.title, f"heat-{name}", "heat", plots.of_map(block.given))
+        return f'{head}<div class="map" hidden>\n{figure}</div>\n{without}'
+    columns = beside(len(block.panels))
+    most = plots.MOST_POINTS // (2 if columns > 2 else 1)
     figures = "".join(
-        _figure(panel.title, f"curves-{name}-{i}", "curves", _panel_data(panel))
+        _figure(panel.title, f"curves-{name}-{i}", "curves", plots.of_panel(panel, most))
         for i, panel in enumerate(block.panels)
     )
-    without = _without(chart(block.panels, 5.5 * len(block.panels), 4.2), block.title)
-    return f'<h2>{escape(block.title)}</h2>\n<div class="beside">\n{figures}</div>\n{without}'
+    kind = f"beside columns{columns}"
+    shared = " data-shared" if block.shared else ""
+    hint = f'<p class="hint" hidden>{HINT}</p>\n'
+    charts = f'<div class="charts"{shared} hidden>\n<div class="{kind}">\n{figures}</div>\n</div>\n'
+    return f"{head}{hint}{charts}{without}"
+
+
+def _own_title(rows: Rows) -> str:
+    """The title of a small table, unless its first heading says it."""
+    return "" if rows.title in rows.lines[0] else f"<h3>{escape(rows.title)}</h3>\n"
+
+
+def _note(rows: Rows) -> str:
+    return f'<p class="note">{escape(rows.note)}</p>\n' if rows.note else ""
 
 
 def _image(png: bytes, title: str) -> str:
     data = base64.b64encode(png).decode()
     return f'<img alt="{escape(title)}" src="data:image/png;base64,{data}">'
-
-
-def _without(png: bytes, title: str) -> str:
-    """What is seen where no script runs."""
-    return f"<noscript>{_image(png, title)}</noscript>\n"
-
-
-def _table(lines: Sequence[Sequence[str]]) -> str:
-    head, *rows = lines
-    kind = ' class="settings"' if not any(head) else ""
-    made = [f'<div class="wide"><table{kind}>']
-    if any(head):
-        made.append(f"<tr>{''.join(f'<th>{escape(word)}</th>' for word in head)}</tr>")
-    for row in rows:
-        cells = "".join(
-            f"<td{LONG if len(word) > LONGEST else ''}>{escape(word)}</td>" for word in row
-        )
-        made.append(f"<tr{_class(row)}>{cells}</tr>")
-    return "\n".join([*made, "</table></div>\n"])
-
-
-def _class(row: Sequence[str]) -> str:
-    if row[0] == "best":
-        return ' class="best"'
-    words = row[-1].replace(",", " ").replace(":", " ").split()
-    return ' class="bad"' if any(word in BAD for word in words) else ""
 
 
 def _figure(title: str, name: str, kind: str, data: dict[str, Any]) -> str:
@@ -229,46 +250,3 @@ def _figure(title: str, name: str, kind: str, data: dict[str, Any]) -> str:
         f'<figure class="chart" id="{name}"><h3>{escape(title)}</h3></figure>\n'
         f'<script type="application/json" data-figure="{name}">{safe}</script>\n'
     )
-
-
-def _panel_data(panel: Panel) -> dict[str, Any]:
-    colours = cycle(COLOURS)
-    lines = [_line_data(_thinned(line), next(colours)) for line in panel.lines]
-    names = ("title", "x_label", "y_label", "log_x", "log_y", "decades", "bound", "wall")
-    ticks = None if panel.ticks is None else list(panel.ticks)
-    return {**{name: getattr(panel, name) for name in names}, "ticks": ticks, "lines": lines}
-
-
-def _line_data(line: Line, following: str) -> dict[str, Any]:
-    return {
-        "label": line.label, "colour": line.colour or following, "width": line.width,
-        "x": _numbers(line.x), "y": _numbers(line.y),
-        "marks": None if line.marks is None else line.marks.tolist(),
-        "bars": None if line.bars is None else _numbers(line.bars),
-    }  # fmt: skip
-
-
-def _thinned(line: Line) -> Line:
-    """A line of few enough points; no peak is lost."""
-    count = len(line.x)
-    if count <= MOST_POINTS or line.marks is not None:
-        return line
-    edges = np.linspace(0, count, MOST_POINTS // 2 + 1).astype(int)
-    kept = {0, count - 1}
-    for low, high in zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True):
-        stretch = line.y[low:high]
-        kept |= {low + int(np.argmin(stretch)), low + int(np.argmax(stretch))}
-    at = np.array(sorted(kept))
-    return Line(line.x[at], line.y[at], line.label, line.colour, width=line.width)
-
-
-def _map_data(given: HeatMap) -> dict[str, Any]:
-    return {
-        "title": given.title, "x_label": given.x_label, "y_label": given.y_label,
-        "x": list(given.x), "y": list(given.y), "log": given.log,
-        "values": [_numbers(row) for row in given.values], "marked": given.marked.tolist(),
-    }  # fmt: skip
-
-
-def _numbers(values: Floats) -> list[float | None]:
-    return [float(f"{v:.{DIGITS}g}") if np.isfinite(v) else None for v in values.tolist()]

@@ -87,6 +87,7 @@ def picture(found: list[Curve]) -> bytes:
                 if curve.part == part
             ],
             bound=1.0,
+            limit="the promise",
             log_x=True,
         )
         for part in SMALL

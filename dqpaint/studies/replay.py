@@ -4,6 +4,7 @@ import io
 from collections.abc import Mapping, Sequence
 from csv import writer
 from dataclasses import dataclass
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -12,14 +13,20 @@ import numpy as np
 from dqpaint.outputs import write
 from dqpaint.papers import Claim, Figure, Paper, read_paper
 from dqpaint.studies import cells
-from dqpaint.studies.claims import Numbers, Verdict, judge, published
-from dqpaint.studies.page import Block, Page, Rows, Shot, Words, html
+from dqpaint.studies.claims import Numbers, Verdict, judge, lines_of, published, told_apart
+from dqpaint.studies.page import Block, Page, Rows, Tables, Words, files_of, html
 from dqpaint.studies.replays import MEASURES, Asked, Measured
 from dqpaint.studies.statistics import Spread
 
 RULE = (
     "holds, fails: as these numbers stand; not shown: they differ by less than chance explains "
     "(Welch, 5 %), or by less than 0.1 %"
+)
+LEAST_ORDERED = 3  # cells, of which an order says something
+BARS = (
+    "Bars begin at 0, each column to its own scale; a line across the end is the standard "
+    "deviation. Where numbers are more than 20 times apart, a dot stands on a logarithmic line "
+    "from the least to the largest. A click on a heading sorts its table."
 )
 PRINTED = Verdict("holds", "its own numbers")
 
@@ -71,20 +78,73 @@ def judged(paper: Paper, ours: Numbers) -> tuple[tuple[Claim, Verdict, Verdict],
 
 
 def tables(replayed: Replayed) -> list[tuple[Figure, list[list[str]]]]:
-    """A table a figure: cell, the paper's number, ours, and ours by the paper's."""
+    """A table a figure: cell, the paper's number, ours, and ours by the paper's, if it prints any.
+
+    The cells of a grid have tables of their own, see `surfaces`.
+    """
     theirs, ours = published(replayed.paper), replayed.measured.numbers
+    grid = _grid(replayed.paper)
     found = []
     for figure in replayed.paper.figures:
+        pairs = {
+            name: (theirs.get(name, {}).get(figure.name), ours.get(name, {}).get(figure.name))
+            for name in dict.fromkeys([*theirs, *ours])
+            if name not in grid
+        }
         head = [figure.says, f"paper: {figure.paper}" if figure.paper else "paper", "here",
                 "here / paper"]  # fmt: skip
-        rows = []
-        for name in dict.fromkeys([*theirs, *ours]):
-            a, b = (table.get(name, {}).get(figure.name) for table in (theirs, ours))
-            if a or b:
-                rows.append([name, _said(a), _said(b), _quotient(a, b)])
+        rows = [[n, _said(a), _said(b), _quotient(a, b)] for n, (a, b) in pairs.items() if a or b]
+        if not any(a for a, _ in pairs.values()):
+            head, rows = [head[0], head[2]], [[row[0], row[2]] for row in rows]
         if rows:
             found.append((figure, [head, *rows]))
     return found
+
+
+def in_order(replayed: Replayed, figure: Figure) -> str:
+    """How much of the paper's order is found here, in a sentence; empty where there is none.
+
+    Means are told apart by the rule of `RULE`, theirs and ours alike.
+    """
+    theirs, ours = published(replayed.paper), replayed.measured.numbers
+    both = [
+        (theirs[name][figure.name], ours[name][figure.name])
+        for name in theirs
+        if figure.name in theirs[name] and figure.name in ours.get(name, {})
+    ]
+    if len(both) < LEAST_ORDERED:
+        return ""
+    apart = [(a, b) for a, b in combinations(both, 2) if told_apart(a[0], b[0])]
+    found = [(a, b) for a, b in apart if told_apart(a[1], b[1])]
+    same = sum((a[0].mean < b[0].mean) == (a[1].mean < b[1].mean) for a, b in found)
+    return (
+        f"Of {len(apart)} pairs that the paper tells apart, {same} stand in its order here, "
+        f"{len(found) - same} in the other, {len(apart) - len(found)} are alike."
+    )
+
+
+def surfaces(replayed: Replayed) -> list[tuple[Figure, list[list[str]]]]:
+    """A table a figure of a grid: the first axis downwards, the second to the right."""
+    paper, ours = replayed.paper, replayed.measured.numbers
+    if not paper.axes:
+        return []
+    first, second = paper.axes
+    lines = lines_of(paper, second)
+    found = []
+    for figure in paper.figures:
+        head = [f"{first} \\ {second}", *(f"{value:g}" for value in paper.axes[second])]
+        rows = [
+            [f"{value:g}", *(_said(ours.get(name, {}).get(figure.name)) for name in line)]
+            for value, line in zip(paper.axes[first], lines, strict=True)
+        ]
+        if any(figure.name in ours.get(name, {}) for line in lines for name in line):
+            found.append((figure, [head, *rows]))
+    return found
+
+
+def _grid(paper: Paper) -> set[str]:
+    """The names of the cells of a grid."""
+    return {name for axis in paper.axes for line in lines_of(paper, axis) for name in line}
 
 
 def _said(value: Spread | None) -> str:
@@ -148,7 +208,9 @@ def told(replayed: Replayed, columns: int) -> str:
     paper, measured = replayed.paper, replayed.measured
     parts = [f"{paper.name}: {paper.title}\n{paper.source}\n"
              f"  theirs  {paper.theirs}\n  here    {measured.ours}"]  # fmt: skip
-    parts += [cells.text(rows) for _, rows in tables(replayed)]
+    parts += [f"{cells.text(rows)}\n{in_order(replayed, figure)}".rstrip()
+              for figure, rows in tables(replayed)]  # fmt: skip
+    parts += [f"{figure.says}\n{cells.text(rows)}" for figure, rows in surfaces(replayed)]
     rows = verdict_rows(replayed)
     if max(map(len, cells.text(rows).splitlines())) <= columns:
         parts.append(cells.text(rows))
@@ -178,7 +240,10 @@ def markdown(replayed: Replayed) -> str:
     paper, measured = replayed.paper, replayed.measured
     parts = [f"# {paper.name}: {paper.title}", paper.source,
              f"- theirs: {paper.theirs}\n- here: {measured.ours}"]  # fmt: skip
-    parts += [cells.markdown(rows) for _, rows in tables(replayed)]
+    for figure, rows in tables(replayed):
+        parts += [cells.markdown(rows), *filter(None, [in_order(replayed, figure)])]
+    for figure, rows in surfaces(replayed):
+        parts += [f"{figure.says}:", cells.markdown(rows)]
     parts += [cells.markdown(verdict_rows(replayed)), f"{RULE}. {summary(replayed.verdicts)}."]
     parts += _listed("- ", replayed)
     if run_with := settings_rows(paper):
@@ -226,18 +291,22 @@ def verdicts_csv(replayed: Replayed) -> bytes:
 def page(replayed: Replayed, again: str) -> Page:
     """The whole of it as a report."""
     paper, measured = replayed.paper, replayed.measured
+    numbers = [
+        Rows(one.says, rows, tuple(range(1, min(3, len(rows[0])))), in_order(replayed, one))
+        for one, rows in tables(replayed)
+    ]
     blocks: list[Block] = [
         Words(f"{paper.source}\nTheirs: {paper.theirs}\nHere: {measured.ours}"),
+        Words(f"{summary(replayed.verdicts)}."),
         Rows("What the paper claims", verdict_rows(replayed)),
-        Words(f"{RULE}.\n{summary(replayed.verdicts)}."),
-        *(Rows(figure.says, rows) for figure, rows in tables(replayed)),
-        *(
-            Shot(end.removeprefix("-").removesuffix(".png"), data)
-            for end, data in measured.files.items()
-            if end.endswith(".png")
-        ),
-        *(Words(text) for text in _listed("  - ", replayed)),
-    ]
+        Words(f"{RULE}."),
+        Tables("Its numbers, and ours", numbers),
+        Words(BARS),
+        *measured.shown.values(),
+    ]  # fmt: skip
+    if maps := surfaces(replayed):
+        blocks.append(Tables("The surfaces in numbers", [Rows(f.says, rows) for f, rows in maps]))
+    blocks += [Words(text) for text in _listed("  - ", replayed)]
     if run_with := settings_rows(paper):
         blocks.append(Rows("What each cell was run with", run_with))
     return Page(f"{paper.name}: {paper.title}", blocks, again=again)
@@ -255,7 +324,7 @@ def save(replayed: Replayed, again: str | None = None) -> list[Path]:
     """
     replayed.folder.mkdir(parents=True, exist_ok=True)
     contents = {
-        **replayed.measured.files,
+        **files_of(replayed.measured.shown),
         "-table.csv": numbers_csv(replayed),
         "-claims.csv": verdicts_csv(replayed),
         "-table.md": markdown(replayed).encode(),

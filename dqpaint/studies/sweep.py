@@ -8,16 +8,16 @@ from pathlib import Path
 import numpy as np
 
 from dqpaint.build import Drawing
-from dqpaint.charts import HeatMap, Line, Panel, chart, heat_map
+from dqpaint.charts import HeatMap, Line, Panel
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.outputs import write
 from dqpaint.settings import SMALLEST, Settings
 from dqpaint.studies import cells
-from dqpaint.studies.axes import Axis, combinations, settings_of
+from dqpaint.studies.axes import Axis, about, combinations, label, settings_of
 from dqpaint.studies.cells import Cell, Figure, find_figure
 from dqpaint.studies.engine import Workers, carry_out_study
-from dqpaint.studies.page import Block, Charts, Map, Page, Rows, Words, html
+from dqpaint.studies.page import Block, Charts, Map, Page, Pictured, Rows, Words, files_of, html
 from dqpaint.studies.runs import Run, drawing_text, seeded
 
 MOST_RUNS = 100_000
@@ -99,23 +99,19 @@ def contents(swept: Sweep, measure: str, again: str | None = None) -> dict[str, 
     figure = find_figure(measure, swept.cells)
     title = f"{swept.name} over {' and '.join(axis.name for axis in swept.axes)}"
     rows = cells.rows(swept.cells)
-    shown: Charts | Map
-    if len(swept.axes) == 1:
-        panels = curves(swept, figure)
-        picture = chart(panels, width=12 if len(panels) > 1 else 7)
-        shown = Charts("Over the axis", panels)
-    else:
-        given = surface(swept, figure)
-        width, height = max(6.0, 1.0 + 0.9 * len(given.x)), max(4.0, 1.2 + 0.55 * len(given.y))
-        picture = heat_map(given, min(width, 24.0), min(height, 18.0))
-        shown = Map("Over the two axes", given)
+    shown: Pictured = (
+        Charts(f"Over {swept.axes[0].name}", curves(swept, figure))
+        if len(swept.axes) == 1
+        else Map(f"Over {swept.axes[0].name} and {swept.axes[1].name}", surface(swept, figure))
+    )
     made = {
-        ".png": picture,
+        **files_of({"": shown}),
         "-table.csv": cells.csv(swept.cells),
         "-table.md": f"# {title}\n\n{cells.markdown(rows)}\n".encode(),
     }
     if again is not None:
-        blocks: list[Block] = [shown, Words("\n".join(whys(swept))), Rows("All points", rows)]
+        said = Words("\n".join([*whys(swept), *meanings(swept)]))
+        blocks: list[Block] = [shown, said, Rows("All points", rows, note=cells.MEANING)]
         made["-report.html"] = html(Page(title, blocks, swept.settings, swept.text, again))
     return made
 
@@ -141,20 +137,33 @@ def curves(swept: Sweep, figure: Figure) -> list[Panel]:
         top = np.nanmax(y) if np.isfinite(y).any() else 1.0
         shown = np.where(np.isfinite(y), y, top)
         bars = np.array([cell.of(one).std for cell in chosen])
-        line = Line(x[order], shown, one.heading.split(" [")[0], marks=marks, bars=bars)
-        positive = bool((shown > 0).all())
+        name = one.heading.split(" [")[0]
+        width = 1.8 if numbers else 0.0  # between names there is nothing
+        line = Line(x[order], shown, name, marks=marks, bars=bars, width=width)
         panels.append(
             Panel(
-                swept.name,
-                axis.name,
+                f"{name} over {axis.name}",
+                _named(axis, swept),
                 one.heading,
                 [line],
                 log_x=bool(numbers) and _spans(x),
-                log_y=positive and _spans(shown),
+                log_y=bool((shown > 0).all()) and _spans(shown),
                 ticks=None if numbers else axis.texts,
             )
         )
     return panels
+
+
+def _named(axis: Axis, swept: Sweep) -> str:
+    return axis.name if swept.settings is None else label(axis.name, swept.settings)
+
+
+def meanings(swept: Sweep) -> list[str]:
+    """What is varied, a line an axis that has a description."""
+    if swept.settings is None:
+        return []
+    told = [(axis.name, about(axis.name, swept.settings)) for axis in swept.axes]
+    return [f"{name}: {text}." for name, text in told if text]
 
 
 def surface(swept: Sweep, figure: Figure) -> HeatMap:
@@ -166,7 +175,8 @@ def surface(swept: Sweep, figure: Figure) -> HeatMap:
     good = means[~marked & np.isfinite(means)]
     log = good.size > 0 and bool((good > 0).all()) and _spans(good)
     title = f"{swept.name}: {figure.heading}"
-    return HeatMap(title, right.name, up.name, right.texts, up.texts, means, marked, log)
+    names = _named(right, swept), _named(up, swept)
+    return HeatMap(title, *names, right.texts, up.texts, means, marked, log)
 
 
 def _spans(these: Floats) -> bool:

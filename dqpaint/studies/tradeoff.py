@@ -5,23 +5,25 @@ from pathlib import Path
 
 import numpy as np
 
-from dqpaint.charts import Line, Panel, chart
+from dqpaint.charts import COLOURS, Line, Panel
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.outputs import write
 from dqpaint.studies import cells
+from dqpaint.studies.axes import label
 from dqpaint.studies.cells import Cell, Figure
-from dqpaint.studies.page import Block, Charts, Page, Rows, Words, html
+from dqpaint.studies.page import Block, Charts, Page, Rows, Words, files_of, html
 from dqpaint.studies.tune import Tuning
 
 MOST_ROWS = 12  # of the trade-off in a table; the CSV has all
-TRIED, FRONT, BEST, USUAL = "#9aa5b1", "#0b6fa4", "#2a9d5c", "#c98a1b"
+TRIED = "#9aa5b1"
+FRONT, USUAL, BEST = COLOURS[:3]
 
 
 def answer(tuned: Tuning) -> str:
     """The outcome in a few sentences."""
     sentences = [
-        f"The drawing itself needs {_said(tuned.needed)} of {tuned.effort.heading}; "
+        f"{tuned.effort.heading}: the drawing itself needs {_said(tuned.needed)}; "
         f"{tuned.factor:g} times that, {_said(tuned.bound)}, was allowed."
     ]
     best = tuned.best
@@ -66,9 +68,10 @@ def rows(tuned: Tuning) -> list[list[str]]:
         if cell is None:
             continue
         values = [cells.said(cell.of(figure)) for figure in figures]
-        part = cell.of(tuned.effort).mean / tuned.needed
-        share = f"{part:.4g}" if np.isfinite(part) else "-"
-        lines.append([what, *(cell.choice[n] for n in names), *values, share, cell.status])
+        effort = cell.of(tuned.effort).mean
+        share = f"{effort / tuned.needed:.4g}" if np.isfinite(effort) else "-"
+        status = cell.status + (", beyond the bound" if effort > tuned.bound else "")
+        lines.append([what, *(cell.choice[n] for n in names), *values, share, status])
     return lines
 
 
@@ -101,9 +104,9 @@ def contents(tuned: Tuning, again: str | None = None) -> dict[str, bytes]:
         again: the command that does it again, for a report; None for no report.
     """
     title = f"{tuned.name}, tuned"
-    shown = panels(tuned)
+    shown = Charts("What less error costs in effort", panels(tuned))
     made = {
-        ".png": chart(shown, width=6.0 * len(shown), height=4.5),
+        **files_of({"": shown}),
         "-tradeoff.csv": cells.csv(tuned.front or tuned.cells[:1]),
         "-table.csv": cells.csv(tuned.cells),
         "-table.md": f"# {title}\n\n{cells.markdown(rows(tuned))}\n\n{answer(tuned)}\n".encode(),
@@ -111,7 +114,7 @@ def contents(tuned: Tuning, again: str | None = None) -> dict[str, bytes]:
     if again is not None:
         blocks: list[Block] = [
             Words(answer(tuned)),
-            Charts("What less error costs in effort", shown),
+            shown,
             Rows("The best, the usual, and the trade-off", rows(tuned)),
         ]
         page = Page(title, blocks, tuned.settings, tuned.text, again)
@@ -132,14 +135,14 @@ def panels(tuned: Tuning) -> list[Panel]:
                 _line(tuned.front, tuned, tuned.effort),
                 *_named(tuned, tuned.effort),
             ],
-            wall=tuned.bound, log_x=_wide(_values(stable, tuned.effort)),
+            wall=tuned.bound, limit="most allowed", log_x=_wide(_values(stable, tuned.effort)),
             log_y=_wide(_values(stable, tuned.error)),
         )
     ]  # fmt: skip
     for one in tuned.ranges:
         made.append(
             Panel(
-                f"over {one.name}", one.name, error,
+                f"over {one.name}", label(one.name, tuned.settings), error,
                 [_dots(tuned, tried, "tried", one.name, TRIED), *_named(tuned, one.name)],
                 log_x=one.log, log_y=_wide(_values(tried, tuned.error)),
             )

@@ -1,5 +1,6 @@
 """Regression pictures: drawn again, compared with small stored references, gate by gate."""
 
+import math
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -123,7 +124,8 @@ def table(verdicts: Sequence[Verdict]) -> list[list[str]]:
                      if one.faults else [one.case.name, *numbers, "alike"])  # fmt: skip
     for limits, alike in (("same libraries, at most", True), ("other versions", False)):
         values = [gate.same if alike else gate.other for gate in GATES]
-        lines.append([limits, *(f"{value:.2g}" for value in values), ""])
+        shown = (f"{value:.2g}" if math.isfinite(value) else "-" for value in values)
+        lines.append([limits, *shown, ""])
     return lines
 
 

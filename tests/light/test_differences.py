@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from dqpaint.light.contact import hues, note, overlay, png, sheet
+from dqpaint.light.contact import hues, note, overlay, png, sheet, window, with_key
 from dqpaint.light.differences import (
     decode_picture,
     decode_planes,
@@ -107,3 +107,30 @@ def test_a_note_is_readable_and_fits():
     assert picture.shape == (120, 200, 3)
     assert picture.max() > 150
     assert not picture[:, -3:].any()
+
+
+def test_a_window_holds_all_that_is_lit_in_any_picture():
+    pictures = [np.zeros((100, 200, 3), np.uint8) for _ in range(2)]
+    pictures[0][40:44, 90:100] = 200
+    pictures[1][60:64, 120:150, 2] = 90
+    rows, columns = window(pictures)
+    assert rows.start < 40
+    assert 64 < rows.stop < 90
+    assert columns.start < 90
+    assert 150 < columns.stop < 180
+    pictures[1][:, 0] = 255
+    assert window(pictures)[0] == slice(0, 100)
+    assert window([np.zeros((100, 200, 3), np.uint8)]) == (slice(0, 100), slice(0, 200))
+
+
+def test_a_key_names_every_colour_on_as_many_lines_as_it_takes():
+    picture = np.full((50, 300, 3), 7, np.uint8)
+    named = [(f"a long name {i}", hue) for i, hue in enumerate(hues(4))]
+    whole = with_key(picture, named, "clip")
+    np.testing.assert_array_equal(whole[:50], picture)
+    assert whole.shape[1] == 300
+    below = whole[50:].astype(int)
+    for hue in hues(4):
+        strong, weak = int(np.argmax(hue)), int(np.argmin(hue))
+        assert (below[..., strong] - below[..., weak] > 100).any()
+    assert len(with_key(picture, named[:1], "clip")) < len(whole)

@@ -7,7 +7,9 @@ from dqpaint.errors import UsageError
 from dqpaint.settings import make_settings
 from dqpaint.studies.axes import (
     Axis,
+    about,
     combinations,
+    label,
     parse_axis,
     parse_laws,
     parse_list,
@@ -78,3 +80,16 @@ def test_the_last_axis_runs_fastest():
     axes = [parse_axis("a=1,2"), parse_axis("b=x,y")]
     found = [(c["a"], c["b"]) for c in combinations(axes)]
     assert found == [("1", "x"), ("1", "y"), ("2", "x"), ("2", "y")]
+
+
+def test_an_axis_says_its_unit():
+    base = make_settings(controller="lqr")
+    assert label("k", make_settings(controller="p")) == "k [1/s]"
+    assert label("gain.r", base) == "gain.r [s^2]"
+    assert label("q", base) == "q"  # a weight has none
+    assert label("disturb.twist.wx", base) == "disturb.twist.wx [rad/s]"
+    assert label("disturb.payload.mass", base) == "disturb.payload.mass [kg]"
+    assert label("disturb.latency.periods", base) == "disturb.latency.periods"
+    assert label("plant", base) == "plant"
+    assert about("k", make_settings(controller="p")).startswith("1/s, the rate")
+    assert about("nothing", base) == ""

@@ -5,16 +5,16 @@ import math
 import numpy as np
 import pytest
 
-from dqpaint.studies.cells import Cell, columns, rows
+from dqpaint.studies.cells import Cell, columns, find_figure, rows
 from dqpaint.studies.runs import Result
 
 # What a run says in SI units, by name, and what the table says under which heading.
 SAID = {
     "error_integral": (0.0125, "error integral", 1.0),
     "position_error_rms_m": (0.00325, "position rms [mm]", 1e3),
-    "position_error_max_m": (0.0475, "largest [mm]", 1e3),
+    "position_error_max_m": (0.0475, "position largest [mm]", 1e3),
     "orientation_error_rms_rad": (math.pi / 7, "orientation rms [deg]", 180 / math.pi),
-    "command_integral_rad": (3.75, "command [rad, Nm s]", 1.0),
+    "command_integral_rad": (3.75, "command [rad]", 1.0),
     "speed_integral_m": (1.25, "way [m]", 1.0),
 }
 
@@ -28,7 +28,7 @@ def test_figures_are_shown_in_the_units_of_their_headings():
     shown = dict(zip(headings, row, strict=True))
     for value, heading, scale in SAID.values():
         assert float(shown[heading]) == pytest.approx(value * scale, rel=5e-4)
-    assert shown["effort"] == "-"  # of which this run says nothing
+    assert shown["effort [rad s]"] == "-"  # of which this run says nothing
 
 
 def test_several_runs_are_shown_by_mean_and_spread():
@@ -41,3 +41,16 @@ def test_several_runs_are_shown_by_mean_and_spread():
         assert mean == pytest.approx(value * scale * np.mean(factors), rel=5e-4)
         assert std == pytest.approx(value * scale * np.std(factors, ddof=1), rel=5e-2)
         assert columns([cell])[f"{name}_mean"] == pytest.approx([value * np.mean(factors)])
+
+
+def test_a_command_has_the_unit_of_the_law_that_gives_it():
+    def cell(name):
+        return Cell({"law": name}, (Result("0", "done", figures={name: 1.0}),))
+
+    rates, torques = cell("command_integral_rad"), cell("torque_integral_Nm_s")
+    for found, heading in (
+        ([rates], "command [rad]"), ([torques], "command [Nm s]"),
+        ([torques, rates], "command [rad, Nm s]"),
+    ):  # fmt: skip
+        assert heading in rows(found)[0]
+        assert find_figure("torque_integral_Nm_s", found).heading == heading

@@ -1,22 +1,29 @@
 """Replays: their counts and measures against other ways, and one from the command to its files."""
 
 import csv
+import dataclasses
 import json
 import sys
+from itertools import combinations
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from dqpaint import answering, dq
+from dqpaint.charts import Line, Panel
 from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.papers import paper_names, read_paper
 from dqpaint.robots.card import read_card
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.parts import Mount
-from dqpaint.studies import replay
+from dqpaint.studies import replay, shown
+from dqpaint.studies.cells import Cell
+from dqpaint.studies.page import Charts
 from dqpaint.studies.replays import (
     MEASURES,
     Asked,
+    Measured,
     cost,
     late,
     setpoint,
@@ -24,7 +31,7 @@ from dqpaint.studies.replays import (
     timing,
     tracking,
 )
-from dqpaint.studies.runs import Run, drawing_text, seeded
+from dqpaint.studies.runs import Result, Run, drawing_text, seeded
 from dqpaint.studies.statistics import spread
 from tests.conftest import random_poses
 
@@ -110,6 +117,25 @@ def test_the_late_integral_leaves_out_the_first_tenth(tmp_path, monkeypatch):
     assert late.late_integral(tmp_path, "key", 0.1) == pytest.approx(2.0 * 8.9)
 
 
+def test_late_replays_show_errors_over_time(tmp_path, monkeypatch):
+    t = np.arange(11) * 0.1
+    names = ("invariant_error", "position_error_m", "orientation_error_rad")
+    arrays = {"t_s": t, **{name: t for name in names}}
+    for module in (late, shown):
+        monkeypatch.setattr(module, "kept", lambda folder, key: arrays)
+    paper = read_paper("thesis-hinf")
+    cells = tuple(
+        Cell({"cell": cell.name}, (Result(cell.name, "done", "", {"effort_integral": 1.0}),))
+        for cell in paper.cells
+    )
+    monkeypatch.setattr(late, "carry_out", lambda *choices, **more: cells)
+    made = late.late(paper, Asked(tmp_path))
+    assert list(made.shown) == ["-published", "-errors"]
+    panels = made.shown["-errors"].panels
+    assert [panel.title for panel in panels[:2]] == ["HIR: position error", "HIRT: position error"]
+    assert len(panels[0].lines) == 5
+
+
 class Hours:
     """Time that passes when it is told to; a sleep is late by some."""
 
@@ -141,7 +167,10 @@ def test_the_timing_of_every_law_is_taken(monkeypatch, tmp_path):
     found = timing.timing(read_paper("thesis-timing"), Asked(tmp_path))
     assert set(found.numbers) == {cell.name for cell in read_paper("thesis-timing").cells}
     assert found.numbers["K, 8 ms"]["period_s"].mean > 0.007
-    assert found.files["-histogram.png"].startswith(b"\x89PNG")
+    panels = found.shown["-histogram"].panels
+    assert [panel.title for panel in panels] == ["asked for every 8 ms", "asked for every 20 ms"]
+    for panel in panels:
+        assert all(line.y.sum() == pytest.approx(1.0) for line in panel.lines)
 
 
 def test_a_page_says_what_each_cell_was_run_with():
@@ -161,7 +190,76 @@ def test_the_grid_of_the_surfaces():
     assert cells["q = 20, r = 0.5"]["gains"] == {"s": 0.0, "q": 20, "r": 0.5}
     numbers = {name: {"effort_integral": spread([float(i)])} for i, name in enumerate(cells)}
     assert surfaces.maps(paper, {n: {f: r["effort_integral"] for f in surfaces.SURFACES}
-                                 for n, r in numbers.items()})["-effort.png"]  # fmt: skip
+                                 for n, r in numbers.items()})["-effort"]  # fmt: skip
+
+
+def made_up(paper, numbers):
+    measured = Measured(
+        {n: {f: spread([v]) for f, v in row.items()} for n, row in numbers.items()}, "x"
+    )
+    return replay.Replayed(paper, measured, replay.judged(paper, measured.numbers), Path())
+
+
+@pytest.mark.parametrize(
+    ("change", "places"),
+    [(lambda v: 7 * v, (1, 0)), (lambda v: -v, (0, 1)), (lambda v: 3 + 1e-5 * v, (0, 0))],
+)
+def test_how_much_of_an_order_is_found_is_counted_over_pairs(change, places):
+    paper = read_paper("thesis-spiral")
+    (error,) = (figure for figure in paper.figures if figure.name == "error_integral")
+    theirs = {cell.name: cell.published["error_integral"] for cell in paper.cells}
+    apart = 0
+    for (a, std_a), (b, std_b) in combinations(theirs.values(), 2):
+        t = abs(a - b) / np.hypot(std_a, std_b) * np.sqrt(50)
+        assert not 1.95 < t < 2.2  # 5 % lies between, whatever the degrees of freedom
+        apart += int(t > 2.0)
+    ours = {name: {"error_integral": change(mean)} for name, (mean, _) in theirs.items()}
+    same, other = (place * apart for place in places)
+    assert replay.in_order(made_up(paper, ours), error) == (
+        f"Of {apart} pairs that the paper tells apart, {same} stand in its order here, {other} in "
+        f"the other, {apart - same - other} are alike."
+    )
+
+
+def test_two_cells_have_no_order():
+    paper = read_paper("thesis-spiral")
+    few = {cell.name: {"error_integral": 1.0} for cell in paper.cells[:2]}
+    assert replay.in_order(made_up(paper, few), paper.figures[0]) == ""
+
+
+def test_the_cells_of_a_grid_have_a_table_of_their_own():
+    paper = read_paper("thesis-lqr")
+    names = surfaces.grid(paper)
+    replayed = made_up(paper, {name: {"error_integral": float(i)} for i, name in enumerate(names)})
+    assert all(name not in names for _, rows in replay.tables(replayed) for name, *_ in rows)
+    ((figure, rows),) = replay.surfaces(replayed)
+    assert figure.name == "error_integral"
+    assert rows[0] == ["q \\ r", "0.05", "0.1", "0.5", "1", "5", "10", "50", "100"]
+    place = list(names).index("q = 20, r = 0.5")
+    assert rows[3][:4] == ["20", *map(str, range(place - 2, place + 1))]
+    assert replay.surfaces(made_up(read_paper("thesis-circle"), {})) == []
+
+
+def test_a_table_has_no_column_for_numbers_that_no_paper_prints():
+    replayed = made_up(read_paper("ozgur-cost"), {"dual quaternion": {"storage": 8.0}})
+    heads = {figure.name: rows[0] for figure, rows in replay.tables(replayed)}
+    assert heads["storage"] == ["numbers stored", "here"]
+    assert heads["trigonometric"][1] == "paper: section 1"
+
+
+def test_the_report_of_a_replay_has_curves(tmp_path):
+    paper = read_paper("pham-setpoint")
+    lines = [Line(np.arange(3.0), np.arange(3.0), "one")]
+    replayed = made_up(paper, {"initial pose": {"w": 1.0}})
+    shown = {"-response": Charts("The way", [Panel("a", "time [s]", "deg", lines)])}
+    made = dataclasses.replace(
+        replayed, measured=dataclasses.replace(replayed.measured, shown=shown), folder=tmp_path
+    )
+    paths = {path.name for path in replay.save(made, "again")}
+    assert "pham-setpoint-response.png" in paths
+    text = (tmp_path / "pham-setpoint-report.html").read_text("utf-8")
+    assert '<figure class="chart"' in text
+    assert '"y":[0.0,1.0,2.0]' in text
 
 
 def test_what_a_replay_has_no_use_for_is_refused(tmp_path):

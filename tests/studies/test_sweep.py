@@ -196,3 +196,36 @@ def test_slips_are_told(answer, line, tmp_path, words, code, fault):
     assert fault in done.stderr
     assert "Traceback" not in done.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["line.traj"]
+
+
+def test_an_old_report_beside_new_tables_is_told(tmp_path, capsys):
+    from dqpaint.studying import _finish
+
+    report, table = tmp_path / "a-k-report.html", tmp_path / "a-k-table.csv"
+    _finish("x", [table])
+    assert capsys.readouterr().err == ""
+    report.write_text("old")
+    _finish("x", [table, report])
+    assert capsys.readouterr().err == ""
+    _finish("x", [table])
+    assert "a-k-report.html is of an earlier run; --report" in capsys.readouterr().err
+    assert report.read_text() == "old"
+
+
+def swept(*cells_of, axes):
+    return sweep.Sweep("a.traj", tuple(parse_axis(axis) for axis in axes), cells_of, Path(),
+                       make_settings(controller="p"))  # fmt: skip
+
+
+def test_a_curve_names_its_axes_and_joins_no_names():
+    found = [Cell({"k": k}, made_up(v)) for k, v in (("20", 1.0), ("5", 3.0))]
+    (panel, _) = sweep.curves(swept(*found, axes=["k=20,5"]), SHOWN[0])
+    assert (panel.title, panel.x_label) == ("error integral over k", "k [1/s]")
+    assert panel.lines[0].x.tolist() == [5.0, 20.0]
+    assert panel.lines[0].y.tolist() == [3.0, 1.0]
+    assert panel.lines[0].width > 0
+    found = [Cell({"plant": name}, made_up(1.0)) for name in ("ideal", "stiff")]
+    made = swept(*found, axes=["plant=ideal,stiff"])
+    assert sweep.curves(made, SHOWN[0])[0].lines[0].width == 0
+    assert sweep.meanings(made) == []
+    assert sweep.meanings(swept(*found, axes=["k=1,2"]))[0].startswith("k: 1/s, the rate")

@@ -11,7 +11,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from dqpaint.charts import Panel
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.settings import make_settings
 from dqpaint.studies import tradeoff
@@ -180,7 +179,12 @@ def test_what_is_told_of_made_up_results(tmp_path):
     assert [row[:2] for row in tradeoff.rows(made)[1:]] == [
         ["usual", "6"], ["best", "5"], ["trade-off", "1"], ["trade-off", "8"]
     ]  # fmt: skip
-    assert all(isinstance(panel, Panel) for panel in tradeoff.panels(made))
+    assert [row[-1] for row in tradeoff.rows(made)[1:]] == [
+        "done", "done", "done", "done, beyond the bound"
+    ]  # fmt: skip
+    trade, over = tradeoff.panels(made)
+    assert (trade.wall, trade.limit) == (4.0, "most allowed")
+    assert (trade.x_label, over.x_label) == ("command", "k [1/s]")
     lost = Cell({"k": "5"}, (Result("x", "failed", "too far"),))
     with pytest.raises(DqpaintError, match="every run failed; the first: too far"):
         tradeoff.told(replace(made, cells=(lost,), usual=None), 80)

@@ -105,6 +105,13 @@ def test_light_that_is_neither_on_the_film_nor_lost_is_told(folder):
     assert spoke(measure(one.reference, one.result, made), True) == ["balance"]
 
 
+def test_a_gate_that_is_none_is_a_dash():
+    limits = study.table([])[-1]
+    assert limits[0] == "other versions"
+    assert limits[1] == "-"
+    assert "inf" not in limits
+
+
 def test_figures_are_compared_by_their_size():
     assert changed({"a": 2.0, "b": 1e-14}, {"a": 2.02, "b": 3e-14})[1] == "a"
     assert changed({"a": 2.0}, {"a": 2.02})[0] == pytest.approx(0.01, rel=1e-6)

@@ -8,8 +8,10 @@ import numpy as np
 from dqpaint.papers import Paper
 from dqpaint.studies.cells import Cell
 from dqpaint.studies.keeping import kept
+from dqpaint.studies.page import Pictured
 from dqpaint.studies.replays.measure import MEASURES, Asked, Measured
 from dqpaint.studies.replays.tracking import beside_published, carry_out, measured
+from dqpaint.studies.shown import errors, read_drawn
 from dqpaint.studies.statistics import spread
 
 LATE = 0.1  # of the run
@@ -31,9 +33,11 @@ def late(paper: Paper, asked: Asked) -> Measured:
         for cell in found
         if cell.done
     }
-    return replace(
-        made, numbers=numbers, files={"-published.png": beside_published(paper, numbers)}
-    )
+    shown: dict[str, Pictured] = {
+        "-published": beside_published(paper, numbers),
+        "-errors": errors(read_drawn(found, asked.folder)),
+    }
+    return replace(made, numbers=numbers, shown=shown)
 
 
 def late_integral(folder: Path, key: str, period: float) -> float:

@@ -11,6 +11,7 @@ from dqpaint.registry import Registry
 from dqpaint.studies.cells import Cell
 from dqpaint.studies.claims import Numbers
 from dqpaint.studies.engine import Workers
+from dqpaint.studies.page import Pictured
 
 
 @dataclass(frozen=True)
@@ -51,14 +52,14 @@ class Measured:
         numbers: by the names of cell and figure, SI units.
         ours: on what it was measured, in words.
         lost: why a cell has no numbers, or ones that say nothing, by its name.
-        files: pictures and whatever else, by their endings.
+        shown: charts, maps and pictures, by the ends of their names.
         cells: of a study, with every run; for a table of all figures.
     """
 
     numbers: Numbers
     ours: str
     lost: Mapping[str, str] = field(default_factory=dict)
-    files: Mapping[str, bytes] = field(default_factory=dict)
+    shown: Mapping[str, Pictured] = field(default_factory=dict)
     cells: tuple[Cell, ...] = ()
 
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.charts import COLOURS, Line, Panel, chart
+from dqpaint.charts import COLOURS, Line, Panel
 from dqpaint.controllers import find_controller
 from dqpaint.controllers.pose_errors import difference_error, spatial_error
 from dqpaint.dq import Floats
@@ -17,6 +17,7 @@ from dqpaint.robots.card import read_card
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.parts import Mount
 from dqpaint.studies.claims import published
+from dqpaint.studies.page import Charts
 from dqpaint.studies.replays.measure import MEASURES, Asked, Measured
 from dqpaint.studies.statistics import Spread, spread
 from dqpaint.tracking import Track, track
@@ -57,7 +58,7 @@ def setpoint(paper: Paper, asked: Asked) -> Measured:
     lost = {name: f"limits held {len(run.clamps)} times: {run.clamps[0]}"
             for name, run in runs.items() if run.clamps}  # fmt: skip
     ours = f"{ROBOT}, plant ideal, from the printed angles, {motion.period * 1e3:g} ms"
-    return Measured(numbers, ours, lost, {"-response.png": picture(runs, motion)})
+    return Measured(numbers, ours, lost, {"-response": response_of(runs, motion)})
 
 
 def pose_numbers(x: Floats, printed: Mapping[str, Spread]) -> dict[str, float]:
@@ -97,7 +98,7 @@ def settling(t: Floats, error: Floats) -> float:
     return float(t[after]) if after < len(t) else float("nan")
 
 
-def picture(runs: dict[str, Track], motion: Motion) -> bytes:
+def response_of(runs: dict[str, Track], motion: Motion) -> Charts:
     """As Figs. 5 and 9: the eight numbers by the first law, and the angle to go by all."""
     name, run = next(iter(runs.items()))
     eight = [
@@ -106,7 +107,7 @@ def picture(runs: dict[str, Track], motion: Motion) -> bytes:
     ]
     turns = [Line(motion.t, np.degrees(angles(one)), name) for name, one in runs.items()]
     panels = [
-        Panel(name, "time [s]", "the eight numbers of the pose", eight),
-        Panel("angle to the desired pose", "time [s]", "deg", turns),
+        Panel(f"the pose, {name}", "time [s]", "w x y z, and w' x' y' z' [m]", eight),
+        Panel("angle to the desired pose", "time [s]", "angle [deg]", turns),
     ]
-    return chart(panels, width=12, height=4.5)
+    return Charts("The way to the other pose", panels)

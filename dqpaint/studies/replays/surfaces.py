@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from dqpaint.charts import HeatMap, heat_map
+from dqpaint.charts import HeatMap
 from dqpaint.papers import Paper
 from dqpaint.studies.claims import Numbers, cell_name
+from dqpaint.studies.page import Map
 from dqpaint.studies.replays.measure import MEASURES, Asked, Measured
 from dqpaint.studies.replays.tracking import carry_out, measured, numbers_of, tracking
 
@@ -22,9 +23,9 @@ def surfaces(paper: Paper, asked: Asked) -> Measured:
     choices = grid(paper)
     found = carry_out(paper, asked, choices, (), paper.grid_drawing)
     numbers = {**tables.numbers, **numbers_of(paper, found)}
-    files = {**tables.files, **maps(paper, numbers)}
+    shown = {**tables.shown, **maps(paper, numbers)}
     lost = {**tables.lost, **measured(paper, asked, found, {}).lost}
-    return replace(tables, numbers=numbers, files=files, lost=lost)
+    return replace(tables, numbers=numbers, shown=shown, lost=lost)
 
 
 def grid(paper: Paper) -> dict[str, dict[str, Any]]:
@@ -38,11 +39,11 @@ def grid(paper: Paper) -> dict[str, dict[str, Any]]:
     return found
 
 
-def maps(paper: Paper, numbers: Numbers) -> dict[str, bytes]:
+def maps(paper: Paper, numbers: Numbers) -> dict[str, Map]:
     """A heat map a figure, the first axis upwards; what has no number stays empty."""
     (up, ups), (right, rights) = paper.axes.items()
     says = {figure.name: figure.says for figure in paper.figures}
-    files = {}
+    found = {}
     for name in SURFACES:
         values = np.full((len(ups), len(rights)), np.nan)
         for (i, a), (j, b) in product(enumerate(ups), enumerate(rights)):
@@ -50,5 +51,7 @@ def maps(paper: Paper, numbers: Numbers) -> dict[str, bytes]:
             values[i, j] = cell[name].mean if name in cell else np.nan
         x, y = ([f"{value:g}" for value in axis] for axis in (rights, ups))
         given = HeatMap(says[name], right, up, x, y, values, ~np.isfinite(values), log=True)
-        files[f"-{name.split('_')[0]}.png"] = heat_map(given, 9.0, 5.5)
-    return files
+        found[f"-{name.split('_')[0]}"] = Map(
+            f"The surface over {up} and {right}: {says[name]}", given
+        )
+    return found

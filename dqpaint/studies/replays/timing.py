@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from dqpaint.charts import Line, Panel, chart
+from dqpaint.charts import Line, Panel
 from dqpaint.controllers import find_controller
 from dqpaint.dq import Floats
 from dqpaint.language import parse
@@ -18,6 +18,7 @@ from dqpaint.plants.plant import PlantMaker
 from dqpaint.robots.card import DEFAULT_ROBOT, Card
 from dqpaint.robots.choose import card_for
 from dqpaint.robots.kinematics import Kinematics
+from dqpaint.studies.page import Charts
 from dqpaint.studies.replays.measure import MEASURES, Asked, Measured
 from dqpaint.studies.statistics import spread
 from dqpaint.terminal import Progress
@@ -79,7 +80,7 @@ def timing(paper: Paper, asked: Asked) -> Measured:
     }  # fmt: skip
     robot = asked.settings.get("robot") or DEFAULT_ROBOT
     ours = f"Python and NumPy, an ideal {robot}, {SECONDS:g} s each"
-    return Measured(numbers, ours, files={"-histogram.png": histogram(clocks)})
+    return Measured(numbers, ours, shown={"-histogram": histogram(clocks)})
 
 
 def period_of(cell: Cell) -> float:
@@ -106,7 +107,7 @@ def loop(cell: Cell, settings: Mapping[str, Any]) -> Clock:
     return clock
 
 
-def histogram(clocks: Mapping[str, Clock]) -> bytes:
+def histogram(clocks: Mapping[str, Clock]) -> Charts:
     """How often which time lay between two steps, a panel a period, a line a law."""
     panels = []
     for ending in dict.fromkeys(name.split(",")[-1].strip() for name in clocks):
@@ -120,7 +121,10 @@ def histogram(clocks: Mapping[str, Clock]) -> bytes:
                 lines.append(Line(0.5 * (edges[1:] + edges[:-1]), part, name.split(",")[0]))
         panels.append(
             Panel(
-                f"asked for every {ending}", "time between steps [ms]", "part of the steps", lines
+                f"asked for every {ending}",
+                "time between steps [ms]",
+                "part of the steps [-]",
+                lines,
             )
         )
-    return chart(panels, width=12, height=4.5)
+    return Charts("The times between two steps", panels)

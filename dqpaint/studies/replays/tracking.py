@@ -1,22 +1,24 @@
 """Replays of a drawing under several laws: a run a cell, or several with seeds."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import cycle
 from typing import Any
 
 import numpy as np
 
-from dqpaint.charts import COLOURS, Line, Panel, chart
+from dqpaint.charts import COLOURS, Line, Panel
 from dqpaint.errors import DqpaintError
 from dqpaint.papers import Paper, find_paper_drawing
 from dqpaint.robots.card import DEFAULT_ROBOT
 from dqpaint.settings import Settings, make_settings
-from dqpaint.studies.cells import Cell, Figure
+from dqpaint.studies.cells import Cell, Figure, family
 from dqpaint.studies.claims import Numbers, published
-from dqpaint.studies.compare import Comparison, pictures
 from dqpaint.studies.engine import carry_out_study
+from dqpaint.studies.page import Charts, Pictured
 from dqpaint.studies.replays.measure import MEASURES, Asked, Measured
 from dqpaint.studies.runs import Run, drawing_text, seeded
+from dqpaint.studies.shown import pictures
 
 SIZE = {"width": 480, "height": 270}
 WIDE = 2.0  # from the smallest to the largest: a logarithmic axis shows ratios
@@ -28,11 +30,9 @@ def tracking(paper: Paper, asked: Asked) -> Measured:
     """Every cell of the paper's tables is run as its settings say."""
     choices = {cell.name: cell.settings for cell in paper.cells}
     found = carry_out(paper, asked, choices, KEPT)
-    files = {"-published.png": beside_published(paper, numbers_of(paper, found))}
-    base = settings_of(paper, asked, {})
-    shown = pictures(Comparison(paper.name, base, found, asked.folder))
-    files |= {} if shown is None else shown.files
-    return measured(paper, asked, found, files)
+    beside = {"-published": beside_published(paper, numbers_of(paper, found))}
+    shown = pictures(found, asked.folder, settings_of(paper, asked, {}))
+    return measured(paper, asked, found, {**beside, **shown})
 
 
 def carry_out(
@@ -80,7 +80,7 @@ def settings_of(paper: Paper, asked: Asked, choice: dict[str, Any]) -> Settings:
 
 
 def measured(
-    paper: Paper, asked: Asked, found: Sequence[Cell], files: dict[str, bytes]
+    paper: Paper, asked: Asked, found: Sequence[Cell], shown: Mapping[str, Pictured]
 ) -> Measured:
     """What cells say, in the paper's figures."""
     base = settings_of(paper, asked, {})
@@ -89,7 +89,7 @@ def measured(
         parts.append(f"{name} {', '.join(f'{k} = {v}' for k, v in values.items())}")
     parts.append(f"{asked.runs or 1} run{'s' if (asked.runs or 1) > 1 else ''} each")
     lost = {cell.label: f"{cell.status}: {cell.why}" for cell in found if not cell.stable}
-    return Measured(numbers_of(paper, found), ", ".join(parts), lost, files, tuple(found))
+    return Measured(numbers_of(paper, found), ", ".join(parts), lost, shown, tuple(found))
 
 
 def numbers_of(paper: Paper, found: Sequence[Cell]) -> Numbers:
@@ -101,27 +101,26 @@ def numbers_of(paper: Paper, found: Sequence[Cell]) -> Numbers:
     }
 
 
-def beside_published(paper: Paper, ours: Numbers) -> bytes:
+def beside_published(paper: Paper, ours: Numbers) -> Charts:
     """Ours over the paper's, a panel a figure: equal ratios lie along a diagonal."""
     theirs = published(paper)
     panels = []
     for figure in paper.figures:
         known = [n for n in theirs if figure.name in theirs[n]]
         names = [n for n in known if figure.name in ours.get(n, {})]
-        families = dict.fromkeys(name.split(",")[0] for name in names)
+        families = dict.fromkeys(family(name)[0] for name in names)
         lines = []
-        for family, colour in zip(families, [*COLOURS, *COLOURS], strict=False):
-            these = [name for name in names if name.split(",")[0] == family]
+        for first, colour in zip(families, cycle(COLOURS), strict=False):
+            these = [name for name in names if family(name)[0] == first]
             x, y = (np.array([t[n][figure.name].mean for n in these]) for t in (theirs, ours))
-            lines.append(Line(x, y, family, colour, marks=np.zeros(len(x), dtype=bool)))
+            lines.append(Line(x, y, first, colour, marks=np.zeros(len(x), dtype=bool)))
         if lines:
             wide_x, wide_y = (_spans([v for line in lines for v in getattr(line, axis)])
                               for axis in "xy")  # fmt: skip
-            panels.append(
-                Panel(figure.says, "the paper's", "here", lines, log_x=wide_x, log_y=wide_y)
-            )
-    return chart(panels[:3], width=5.0 * len(panels[:3]), height=4.5)
+            heads = f"the paper's {figure.says}", f"{figure.says} here"
+            panels.append(Panel(figure.says, *heads, lines, log_x=wide_x, log_y=wide_y))
+    return Charts("Ours over the paper's: what stands in the same order rises", panels, True)
 
 
 def _spans(values: Sequence[float]) -> bool:
-    return min(values) > 0 and max(values) > WIDE * min(values)
+    return bool(min(values) > 0 and max(values) > WIDE * min(values))

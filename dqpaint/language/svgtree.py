@@ -13,6 +13,7 @@ from xml.parsers import expat
 from dqpaint.language.svgattributes import LINK, SHAPES, STYLED, Attributes
 from dqpaint.language.svgstyle import Remark, TooManyRulesError, inline, tag_of
 from dqpaint.language.svgvalues import NUMBER, Commands, SvgError
+from dqpaint.language.svgviews import flatten
 
 MOST_BYTES = 10_000_000
 MOST_ELEMENTS = 100_000  # as they are written, and as they come by `use`
@@ -104,6 +105,7 @@ def guard(data: bytes) -> Guarded:
         raise SvgError(f"line {lines[root]}: it has no size, so SVG shows nothing of it", cure)
     _leave_out_empty(root, remark)
     _size(root)
+    flatten(root)
     out.paths = attributes.paths
     out.xml = ElementTree.tostring(root, encoding="utf-8")
     return out

@@ -78,7 +78,7 @@ def no_value(cursor: Cursor, after: str, example: str = "") -> Problem:
         cure = f"only 'let' has a '='; {cure}" if cure else "only 'let' has a '='"
     elif token.text == after == "*":
         cure = "a power is written with ^, as in t^2"
-    elif token.text == after == "/":
+    elif after == "/" and token.text in ("/", "*"):
         cure = "a comment begins with #"
     elif token.kind == "sign" and token.text in "),":
         cure = "a comma stands between two numbers, as in (10, 20) mm"

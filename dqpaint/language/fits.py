@@ -57,6 +57,7 @@ def _one_of(words: tuple[str, ...], after: str, aliases: dict[str, str]) -> "Rea
         word = {"center": "centre"}.get(token.text, token.text)
         if token.kind != "name" or word not in words:
             meant = closest(token.text, words, aliases) if token.kind == "name" else ""
+            meant = meant if meant in words else ""  # as an alias for a second
             span = token.span if not cursor.at_end else cursor.before.span
             message = f"expected {', '.join(words[:-1])} or {words[-1]} after '{after}'"
             fix = Fix(f"write {meant}", span, meant) if meant else None

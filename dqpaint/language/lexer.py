@@ -55,6 +55,7 @@ _FIRST_WORD = re.compile(r"[^\S\n]*([A-Za-z_]+)(?![A-Za-z0-9_]|[^\S\n]*[,)*/+^])
 _BLANK = re.compile(r"[^\S\n]*(?:#|$)", re.MULTILINE)  # to the end of a line
 # What stands before a comma that was meant within a number: 2,000 and 0,05.
 _THOUSANDS = re.compile(r"(?<![\w.,])[1-9]\d{0,2}(?:,\d{3})*,$", re.ASCII)
+_SPACED = re.compile(r"(?<![\w.,])[1-9]\d{0,2}(?: \d{3})* $", re.ASCII)
 _DECIMAL = re.compile(r"(?<![\w.])(\d+),$", re.ASCII)
 _LONG_NUMBER = 40
 _WORD = re.compile(r"\w+")
@@ -203,6 +204,10 @@ def _glued(
         message = f"'{letters}' straight after the number {number.text} is not a unit"
         cure = f"put a blank between: {number.text} {letters}"
         fix = Fix("put a blank between", Span(number.end, number.end), " ")
+    elif re.fullmatch(r"(_\d+)+", letters, re.ASCII):
+        message = f"'{span.of(text)}' is not a number"
+        cure = f"write {number.text}{letters.replace('_', '')}"
+        fix = Fix(cure, span, cure.removeprefix("write "))
     elif letters in SAME_UNITS:
         message = f"'{letters}' straight after the number {number.text} is not a unit"
         cure = f"write {number.text} {SAME_UNITS[letters]}"
@@ -223,6 +228,10 @@ def _zeros_in_front(span: Span, text: str) -> tuple[str, str, Fix]:
         begin -= len(found[0])
         number = f"{found[0].replace(',', '')}{written}"
         rule = "commas stand between the numbers of a point; a large one has none: "
+    elif len(written) == 3 and (found := _SPACED.search(before)):
+        begin -= len(found[0])
+        number = f"{found[0].replace(' ', '')}{written}"
+        rule = "a large number has no blanks in it: "
     elif found := _DECIMAL.search(before):
         begin -= len(found[0])
         number = f"{found[1]}.{written}"

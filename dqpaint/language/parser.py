@@ -198,6 +198,9 @@ class _Parser:
             cure = f"'{word}' belongs to a statement and stands on its line: {_user_of(word)}"
             opens = word in STATEMENTS["with"].parts and word not in STATEMENTS
             return Diagnostic("E120", message, first.span, "", cure), opens
+        if word == "even":
+            message, cure = f"unknown statement '{word}'", "it belongs to a light: light white even"
+            return Diagnostic("E120", message, first.span, "", cure), False
         calls = self._defined or ()
         mistake, meant = unknown_statement(first.text, first.span, calls, tokens[1].text)
         called = word if word in calls else tokens[1].text if tokens[1].text in calls else ""

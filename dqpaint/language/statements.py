@@ -287,7 +287,9 @@ def _left_over(cursor: Cursor, word: str) -> Problem:
     elif token.kind == "sign" and token.text == ",":
         cure = "a point stands in brackets: (50, 0) mm; parts of a line need no commas"
     elif token.kind == "sign" and token.text == "%":
-        cure = "only the brightness of a light is written in %"
+        cure = "only the brightness of a light is written in %, and it is no less than 0%"
+    elif word == "repeat" and token.text in ("step", "by"):
+        cure = "it counts by 1: repeat i from 0 to 5, and write 2*i"
     elif token.kind == "name" and token.text in STATEMENTS:
         cure = "one statement per line"
     elif word == "repeat":

@@ -19,6 +19,13 @@ def star r~line by (r, 0)~end|E112|1:10|the names it is handed stand in brackets
 line to (9, 0) mm line to (0, 0)|E110|1:19|one statement per line
 hold 1 s repeat 3|E110|1:10|one statement per line
 line to (9, 0) mm // a comment|E105|1:20|a comment begins with #
+let a = 4 /* four */|E105|1:12|a comment begins with #
+light red -5%|E112|1:13|only the brightness of a light is written in %, and it is no less than 0%
+even|E120|1:1|it belongs to a light: light white even
+path "points.csv" unit s|E109|1:24|for example: unit mm
+repeat i from 1 to 9 step 2~line by (1, 0) mm~end|E112|1:22|it counts by 1: repeat i from 0 to 5, and write 2*i
+line to (1 000, 5) mm|E102|1:12|a large number has no blanks in it: 1000
+line to (1_000, 5) mm|E102|1:10|write 1000
 line to (9, 0) mm tool look|E105|1:24|for example: tool look (0, 0, 300) mm
 line to (9, 0) mm tool look line|E105|1:29|for example: tool look (0, 0, 300) mm
 line to (9, 0) mm tool down|E205|1:24|name it first: let down = …, or write an orientation: rot(x

@@ -11,16 +11,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint import dq
 from dqpaint.dq import Floats
+from dqpaint.following import follow, jumps
 from dqpaint.hiding import LOOKS, PLAIN, Hiding, hide, looks_at
 from dqpaint.motion import Motion
-from dqpaint.nullspace import DEFAULT_NULL, Wish, make_wish
+from dqpaint.nullspace import DEFAULT_NULL, make_wish
 from dqpaint.robots.collisions import Nearest, shapes_of
 from dqpaint.robots.dynamics import Dynamics
 from dqpaint.robots.kinematics import Kinematics, manipulability
-from dqpaint.robots.reach import ON_THE_WAY, solve
-from dqpaint.robots.resolver import resolve, to_tool
+from dqpaint.robots.resolver import to_tool
 from dqpaint.settings import Settings
 from dqpaint.slowing import TAKEN_UP
 
@@ -53,6 +52,8 @@ class Forecast:
             plant `stiff` do; and as a part.
         singular: the smallest singular value of the Jacobian at the tool [rad/rad].
         manipulability: the least sqrt(det(J J')).
+        stray: how far the arm is beside the path at the most [m]: at a singularity it is damped.
+        stray_row: and in which row of the motion.
         clearance: least distance between two links [m], and which; None where none can meet.
         between: these two links.
         hidden: part of the line's light that the arm stands before, in the view where that is most;
@@ -72,6 +73,8 @@ class Forecast:
     jolt_part: float
     singular: float
     manipulability: float
+    stray: float
+    stray_row: int
     clearance: float | None
     between: tuple[str, str] | None
     hidden: float | None
@@ -116,10 +119,11 @@ class _Run:
         self.rows = np.arange(0, len(motion.t), stride)
         self.t, self.line = motion.t[self.rows], motion.line[self.rows]
         self.period = stride * motion.period
-        joined = np.add.reduceat(motion.jump, self.rows) > 0
-        self.posture, self.points, J = _follow(
-            motion, kinematics, start, self.rows, joined, make_wish(null, self.card, start)
+        joined = jumps(motion, self.rows)
+        self.posture, self.points, J = follow(
+            motion, kinematics, start, self.rows, make_wish(null, self.card, start)
         )
+        self.stray = np.linalg.norm(self.points - motion.points[self.rows], axis=1)
         self.manipulability = manipulability(J)
         at_tool = to_tool(self.points) @ J
         self.singular = np.linalg.svd(at_tool, compute_uv=False)[:, -1]
@@ -142,35 +146,6 @@ class _Run:
 def _torques(dynamics: Dynamics, postures: Floats, rates: Floats, accelerations: Floats) -> Floats:
     rows = zip(postures, rates, accelerations, strict=True)
     return np.array([dynamics.torque(*row) for row in rows])
-
-
-def _follow(
-    motion: Motion,
-    kinematics: Kinematics,
-    start: Floats,
-    rows: NDArray[np.intp],
-    jump: NDArray[np.bool_],
-    wish: Wish,
-) -> tuple[Floats, Floats, Floats]:
-    """Postures (N, n), places (N, 3) and Jacobians (N, 6, n); one Newton step leads to each row."""
-    period = motion.period * (rows[1] - rows[0] if len(rows) > 1 else 1)
-    postures, jacobians = np.empty((len(rows), len(start))), np.empty((len(rows), 6, len(start)))
-    points = np.empty((len(rows), 3))
-    still = np.zeros((1, len(start)))
-    q = solve(kinematics, motion.pose[0], start[None], still, ON_THE_WAY)[0][0]
-    for k in range(len(rows)):
-        x, J = kinematics.pose_and_jacobian(q)
-        p = dq.translation(x)
-        postures[k], jacobians[k], points[k] = q, J, p
-        if k + 1 == len(rows):
-            break
-        ahead, drawn = motion.pose[rows[k + 1]], wish.over(period, q, J, p)
-        if jump[k]:
-            q = solve(kinematics, ahead, q[None], drawn[None], ON_THE_WAY)[0][0]
-        else:
-            way = 2 * dq.log(dq.mul(dq.nearest(ahead, x), dq.conj(x)))
-            q = q + resolve(J, p, way, drawn)
-    return postures, points, jacobians
 
 
 def _of_line(
@@ -200,6 +175,8 @@ def _of_line(
         jolt_part=jolt_part,
         singular=float(run.singular[rows].min()),
         manipulability=float(run.manipulability[rows].min()),
+        stray=float(run.stray[rows].max()),
+        stray_row=int(run.rows[rows[run.stray[rows].argmax()]]),
         clearance=float(near.distance[closest]) if meets else None,
         between=near.pair[closest] if meets else None,
         hidden=hidden,

@@ -5,12 +5,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
+from dqpaint.following import WORTH_A_LOOK
 from dqpaint.forecast import Forecast, forecast
 from dqpaint.hiding import PLAIN
 from dqpaint.language.diagnostics import Diagnostic, Span
 from dqpaint.language.program import Program
 from dqpaint.motion import Motion, plan
-from dqpaint.out_of_reach import begin
+from dqpaint.out_of_reach import begin, check_row
 from dqpaint.placing import Placed, settle
 from dqpaint.robots.card import Card
 from dqpaint.robots.collisions import shapes_of
@@ -104,6 +105,9 @@ def look_ahead(program: Program, kinematics: Kinematics, settings: Settings = PL
         slowed = slow_down(motion, kinematics, start, settings.null, "sudden")
         motion = slowed.motion
     lines = forecast(motion, kinematics, start, settings)
+    farthest = max(lines, key=lambda one: one.stray)
+    if farthest.stray >= WORTH_A_LOOK:
+        check_row(motion, kinematics, farthest.stray_row, settings.null)
     return Outlook(
         motion,
         placed,
@@ -155,9 +159,10 @@ def _jolt(one: Forecast, card: Card) -> str:
 
 
 def _singular(one: Forecast, _card: Card) -> str:
+    beside = f", up to {one.stray * 1e3:.1f} mm beside" if one.stray >= WORTH_A_LOOK else ""
     return (
         f"the arm comes close to a singularity (smallest singular value {one.singular:.2g}, "
-        f"below {THRESHOLD:g}): there it follows inexactly"
+        f"below {THRESHOLD:g}): there it follows inexactly{beside}"
     )
 
 
@@ -336,6 +341,7 @@ def _figures(one: Forecast, program: Program) -> dict[str, Any]:
         },
         "smallest_singular_value": one.singular,
         "manipulability": one.manipulability,
+        "stray_m": one.stray,
         "clearance_m": one.clearance,
         "between": one.between,
         "hidden": one.hidden,

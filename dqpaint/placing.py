@@ -18,16 +18,16 @@ from numpy.typing import NDArray
 
 from dqpaint import dq
 from dqpaint.dq import Floats
+from dqpaint.following import WORTH_A_LOOK, set_out
 from dqpaint.forecast import Forecast, forecast
 from dqpaint.language import parse
 from dqpaint.language.diagnostics import Diagnostic, ScriptError
 from dqpaint.language.program import Auto, Pose, Program
 from dqpaint.motion import Motion, plan
-from dqpaint.out_of_reach import begin
 from dqpaint.robots.built import roll_pitch_yaw
 from dqpaint.robots.card import Card
 from dqpaint.robots.kinematics import Kinematics, manipulability
-from dqpaint.robots.reach import waypoints
+from dqpaint.robots.reach import Miss, waypoints
 from dqpaint.robots.resolver import PULL, resolve
 from dqpaint.settings import Settings
 
@@ -125,6 +125,22 @@ def find_place(program: Program, kinematics: Kinematics, settings: Settings = PL
     raise _nowhere(program, kinematics.card, motion)
 
 
+def has_room(motion: Motion, kinematics: Kinematics, settings: Settings = PLAIN) -> bool:
+    """Whether `place auto` finds a place for a motion, which stays turned as it is."""
+    search = _Search(motion, kinematics)
+    return any(
+        _lines_if_good(_moved(motion, origin), kinematics, settings)
+        for origin in search.best_places()
+    )
+
+
+def _moved(motion: Motion, origin: Floats) -> Motion:
+    """A motion whose drawing frame is elsewhere; its poses, not its twists."""
+    way = origin - dq.translation(motion.canvas)
+    move = dq.pose_from(way, np.array([1.0, 0, 0, 0]))
+    return replace(motion, pose=dq.mul(move, motion.pose), canvas=dq.mul(move, motion.canvas))
+
+
 def _judge(
     program: Program, kinematics: Kinematics, line: str, settings: Settings = PLAIN
 ) -> Placed | None:
@@ -132,22 +148,30 @@ def _judge(
     place = parse(f"{line}\nhold 1 s\n", "place").placement
     assert isinstance(place, Pose)
     motion = plan(replace(program, placement=place), kinematics.card.canvas.pose)
-    try:
-        start = begin(motion, kinematics, settings.null).posture
-    except ScriptError:
+    lines = _lines_if_good(motion, kinematics, settings)
+    if not lines:
         return None
-    seen = PLAIN.model_copy(update={"null": settings.null, "brush": settings.brush})
-    lines = forecast(motion, kinematics, start, seen)
     room = min(one.room for one in lines)
-    if room <= 0 or not all(_clear(one) for one in lines):
-        return None
     worst = min(one.manipulability for one in lines)
     return Placed(place, line, worst * room, worst, room)
 
 
-def _clear(one: Forecast) -> bool:
-    """Whether no links meet on a line, and its light can be seen."""
-    return (one.clearance is None or one.clearance >= 0) and (one.hidden or 0.0) <= IN_SIGHT
+def _lines_if_good(
+    motion: Motion, kinematics: Kinematics, settings: Settings
+) -> tuple[Forecast, ...]:
+    """The forecast of a motion that may stay where it is; nothing of one that may not."""
+    start = set_out(motion, kinematics, settings.null)
+    if isinstance(start, Miss) or start.margin < 0:
+        return ()
+    seen = PLAIN.model_copy(update={"null": settings.null, "brush": settings.brush})
+    lines = forecast(motion, kinematics, start.posture, seen)
+    return lines if all(_is_good(one) for one in lines) else ()
+
+
+def _is_good(one: Forecast) -> bool:
+    """Whether a line is reached, no links meet on it, and its light can be seen."""
+    apart = one.clearance is None or one.clearance >= 0
+    return one.room > 0 and one.stray < WORTH_A_LOOK and apart and (one.hidden or 0) <= IN_SIGHT
 
 
 class _Search:

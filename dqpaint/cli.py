@@ -269,6 +269,7 @@ def check(
     robot: Robot = None,
     tool: Tool = None,
     place: PlaceAt = None,
+    plant: PlantName = None,
     start: From = "first",
     null: Null = "start",
     on_limit: OnLimit = "clip",
@@ -288,8 +289,8 @@ def check(
     from dqpaint import checking
 
     choices = typed(
-        context, robot=robot, tool=tool, place=place, start=start, null=null, on_limit=on_limit,
-        brush=brush, view=view, size=size, exposure=exposure, ghost=ghost,
+        context, robot=robot, tool=tool, place=place, plant=plant, start=start, null=null,
+        on_limit=on_limit, brush=brush, view=view, size=size, exposure=exposure, ghost=ghost,
     )  # fmt: skip
     if wanted := choices.pop("size"):
         from dqpaint.settings import parse_size

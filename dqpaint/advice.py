@@ -5,25 +5,21 @@ as it takes longest, is tried only where nothing before it helps.
 """
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint import dq
-from dqpaint.dq import Floats
+from dqpaint.changes import scaled, straight
 from dqpaint.following import can_draw
 from dqpaint.motion import Motion, plan
 from dqpaint.nullspace import DEFAULT_NULL
-from dqpaint.placing import has_room
+from dqpaint.placing import FEW_SCALES, has_room
 from dqpaint.robots.card import installed_names, read_card
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.reach import ON_THE_WAY, strays
 from dqpaint.settings import Settings
 
 SCALES = np.arange(0.95, 0.05, -0.05)
-FEW_SCALES = (0.75, 0.5, 0.25)  # that are tried together with a place
-TURNED = np.radians(1.0)  # of a tool are worth holding it straight
 NOTHING = "no smaller scale, other place, straight tool or other arm helps: draw it another way"
 
 
@@ -45,17 +41,10 @@ def advise(
         said.append(f"make it smaller: with scale {scale:.2g} ... end")
     if has_room(motion, kinematics, settings):
         said.append("move it: place auto finds room")
-    straight = _straight(motion)
-    if straight is not None and _draws(straight, kinematics, rows, null):
+    held = straight(motion)
+    if held is not None and _draws(held, kinematics, rows, null):
         said.append("hold the tool straight: without 'tool' it is reached")
-    return "; or ".join(said) or next(_last(motion, straight, kinematics, rows, settings), NOTHING)
-
-
-def scaled(motion: Motion, scale: float) -> Motion:
-    """The motion's poses as `with scale` round the whole drawing leaves them; other times."""
-    local = dq.mul(dq.conj(motion.canvas), motion.pose)
-    smaller = dq.pose_from(scale * dq.translation(local), dq.rotation(local))
-    return replace(motion, pose=dq.mul(motion.canvas, smaller))
+    return "; or ".join(said) or next(_last(motion, held, kinematics, rows, settings), NOTHING)
 
 
 def _scale(
@@ -70,24 +59,9 @@ def _scale(
     return None
 
 
-def _straight(motion: Motion) -> Motion | None:
-    """The same places with the tool as it is without any `tool`; None where it is so already."""
-    still = np.tile(dq.rotation(motion.canvas), (len(motion.t), 1))
-    held = dq.pose_from(motion.points, still)
-    if _apart(held, motion.pose) < TURNED:
-        return None
-    return replace(motion, pose=held)
-
-
-def _apart(poses: Floats, others: Floats) -> float:
-    """The largest angle [rad] between poses (N, 8) and others."""
-    turns = 2 * dq.log(dq.mul(dq.nearest(poses, others), dq.conj(others)))[:, :3]
-    return float(np.linalg.norm(turns, axis=1).max())
-
-
 def _last(
     motion: Motion,
-    straight: Motion | None,
+    held: Motion | None,
     kinematics: Kinematics,
     rows: NDArray[np.intp],
     settings: Settings,
@@ -96,7 +70,7 @@ def _last(
     for scale in FEW_SCALES:
         if has_room(scaled(motion, scale), kinematics, settings):
             yield f"make it smaller and move it: with scale {scale:g} ... end, and place auto"
-    if straight is not None and has_room(straight, kinematics, settings):
+    if held is not None and has_room(held, kinematics, settings):
         yield "hold the tool straight, without 'tool', and move it: place auto finds room"
     for name in installed_names():
         if name == kinematics.card.name:

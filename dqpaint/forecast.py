@@ -54,6 +54,7 @@ class Forecast:
         jolt: the same where the speed changes at once, and as a part: motors of the plant `stiff`
             take up each new rate within a millisecond, dampers bear it where motors wind springs;
             None where it is for the law to say how soon it is taken up.
+        held_part: the largest part of a joint's torque that the arm's weight takes, at rest.
         sag: how far the light sinks as springs give way under the arm's weight, at the most [m];
             None without springs.
         singular: the smallest singular value of the Jacobian at the tool [rad/rad].
@@ -77,6 +78,7 @@ class Forecast:
     effort_part: float | None
     jolt: Worst | None
     jolt_part: float | None
+    held_part: float
     sag: float | None
     singular: float
     manipulability: float
@@ -151,7 +153,9 @@ class _Run:
         change[joined] = 0.0
         change[-1] = 0.0  # a run ends there: nothing is asked any more
         change[1:][joined[:-1]] = 0.0
-        self._bear(change, motion, Dynamics(kinematics), at_tool, plant)
+        dynamics = Dynamics(kinematics)
+        self.weight = np.array([dynamics.weight(q) for q in self.posture])
+        self._bear(change, motion, dynamics, at_tool, plant)
         self.margin = np.minimum(self.posture - self.card.lower, self.card.upper - self.posture)
         self.room = 2 * self.margin / (self.card.upper - self.card.lower)
 
@@ -180,8 +184,7 @@ class _Run:
         if springs is not None:
             # at first only the dampers answer a motor that turns at a new rate
             self.jolt = self.effort + springs.damping * (change - smooth)
-            weight = np.array([dynamics.weight(q) for q in self.posture])
-            sunk = np.matvec(at_tool, (1 - springs.share) * weight / springs.stiffness)
+            sunk = np.matvec(at_tool, (1 - springs.share) * self.weight / springs.stiffness)
             self.sag = LENGTH * np.linalg.norm(sunk[:, 3:], axis=1)
 
     def _torques(self, dynamics: Dynamics, accelerations: Floats) -> Floats:
@@ -222,6 +225,7 @@ def _of_line(
         effort_part=effort_part,
         jolt=jolt,
         jolt_part=jolt_part,
+        held_part=_worst(run, rows, run.weight, card.effort)[1],
         sag=None if run.sag is None else float(run.sag[rows].max()),
         singular=float(run.singular[rows].min()),
         manipulability=float(run.manipulability[rows].min()),

@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
-from dqpaint.advice import NOTHING, _straight, advise, scaled
+from dqpaint.advice import NOTHING, advise
+from dqpaint.changes import moved, scaled, straight
 from dqpaint.following import can_draw, set_out
 from dqpaint.language import ScriptError, parse
 from dqpaint.motion import plan
 from dqpaint.paint import prepare
-from dqpaint.placing import _moved, has_room
+from dqpaint.placing import has_room
 from dqpaint.robots.card import read_card
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.settings import make_settings
@@ -39,16 +40,16 @@ def test_the_scale_that_is_tried_is_that_of_the_language(head):
 def test_the_straight_tool_that_is_tried_is_that_of_a_drawing_without_tool():
     asked, _ = motion_of(PLACE + STROKES)
     wanted, _ = motion_of(PLACE + re.sub(r" tool rot\(.*?deg\)", "", STROKES))
-    found = _straight(asked).pose
+    found = straight(asked).pose
     apart = dq.log(dq.mul(dq.nearest(wanted.pose, found), dq.conj(found)))
     assert np.abs(apart).max() < 1e-12
-    assert _straight(wanted) is None
+    assert straight(wanted) is None
 
 
 def test_the_place_that_is_tried_is_that_of_the_language():
     asked, _ = motion_of(PLACE + STROKES)
     wanted, _ = motion_of(PLACE.replace("0.3, 0.3, 0.4", "0.5, -0.1, 0.6") + STROKES)
-    found = _moved(asked, np.array([0.5, -0.1, 0.6]))
+    found = moved(asked, np.array([0.5, -0.1, 0.6]))
     np.testing.assert_allclose(found.pose, wanted.pose, atol=1e-12)
     np.testing.assert_allclose(found.canvas, wanted.canvas, atol=1e-12)
 

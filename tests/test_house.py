@@ -47,6 +47,7 @@ ORDER = [
     "picture",
     "sketch",
     "hiding",
+    "changes",
     "following",
     "forecast",
     "placing",

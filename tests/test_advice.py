@@ -9,6 +9,7 @@ from dqpaint import dq
 from dqpaint.advice import NOTHING, advise
 from dqpaint.changes import moved, scaled, straight
 from dqpaint.following import can_draw, set_out
+from dqpaint.forewarning import look_ahead
 from dqpaint.language import ScriptError, parse
 from dqpaint.motion import plan
 from dqpaint.paint import prepare
@@ -70,8 +71,31 @@ def test_a_way_along_which_the_arm_is_beside_the_path_is_none():
     far = motion_of("period 8 ms\n" + home + out + home)
     assert set_out(*far).margin > 0  # at the poses looked at first
     assert not can_draw(*far)
+    with pytest.raises(ScriptError, match=r"E310\]: sample \d+ .* is 2 mm outside"):
+        look_ahead(far[0].program, far[1])
     near = out.replace(f"{z:.3f}", f"{z - 20:.3f}")
     assert can_draw(*motion_of("period 8 ms\n" + home + near + home))
+
+
+def test_a_way_along_which_a_joint_goes_beyond_its_end_is_none():
+    """For a moment, between the poses looked at first, farther than a short-tied wrist turns."""
+    card = read_card("viper850")
+    ends = {"lower_deg": (*card.limits.lower_deg[:-1], -100.0),
+            "upper_deg": (*card.limits.upper_deg[:-1], 100.0)}  # fmt: skip
+    tied = card.model_copy(update={"limits": card.limits.model_copy(update=ends)})
+    home = "repeat 90\n  line by (0.5, 0) mm in 0.1 s\n  line by (-0.5, 0) mm in 0.1 s\nend\n"
+
+    def turned(angle):
+        out = "".join(
+            f"line by ({way}, 0) mm tool rot(z, {to} deg) in 0.2 s\n"
+            for way, to in ((1, angle), (-1, 0), (1, -angle), (-1, 0))
+        )
+        motion = plan(parse("period 8 ms\n" + home + out + home, "t"), card.canvas.pose)
+        return motion, Kinematics(tied)
+
+    assert can_draw(*turned(8))  # it begins 10 degrees from an end, whichever way it holds itself
+    assert set_out(*turned(60)).margin > 0
+    assert not can_draw(*turned(60))
 
 
 def test_room_is_where_place_auto_finds_it():

@@ -72,6 +72,15 @@ def test_a_damper_on_the_ground_bears_no_corner():
         assert one.jolt_part == pytest.approx(part(run, card, one.line), rel=1.5 * SWING)
 
 
+@pytest.mark.parametrize("law", ["quintic", "trapezoid"])
+def test_where_no_speed_changes_at_once_dampers_bear_nothing_more(law):
+    text = f"period 8 ms\nlaw {law}\nspeed 400 mm/s\nstart at (0, 0) mm\nline to (100, 60) mm\n"
+    arm = Kinematics(read_card("iiwa"))
+    motion = plan(parse(text, "t"), arm.card.canvas.pose)
+    (one,) = forecast(motion, arm, begin(motion, arm).posture, plant=find_plant("compliant"))
+    assert one.jolt_part == pytest.approx(one.effort_part, rel=1e-6)
+
+
 SLOW = "period 8 ms\nstart at (60, 0) mm\nline to (-80, 60) mm in 3 s\nhold 0.5 s\n"
 
 

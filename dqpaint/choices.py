@@ -45,6 +45,11 @@ def number_or_text(value: str) -> float | str:
         return value
 
 
+def reason(fault: Mapping[str, Any]) -> str:
+    """What pydantic says of a value (one of its `errors()`), without its own first words."""
+    return str(fault["msg"]).removeprefix("Value error, ").removeprefix("Input ")
+
+
 def make_choice(kind: str, name: str, model: type[M], values: Values) -> M:
     """The model of a choice from the values given; one without a name is the first field's.
 
@@ -68,9 +73,9 @@ def make_choice(kind: str, name: str, model: type[M], values: Values) -> M:
         if first["type"] == "extra_forbidden":
             fault = f"has no value named '{field}'" if field else "takes no value"
         elif first["type"] == "value_error":
-            fault = f"{field} {first['msg'].removeprefix('Value error, ')}".strip()
+            fault = f"{field} {reason(first)}".strip()
         else:
-            fault = f"{field} {first['input']!r} {first['msg'].removeprefix('Input ')}"
+            fault = f"{field} {first['input']!r} {reason(first)}"
         fields = model.model_fields.items()
         known = ", ".join(f"{word} ({field.description})" for word, field in fields)
         known = f"; its values: {known}" if known else ""

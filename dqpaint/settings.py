@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
-from dqpaint.choices import number_or_text, read_choice
+from dqpaint.choices import number_or_text, read_choice, reason
 from dqpaint.errors import UsageError
 
 DEFAULT_CONTROLLER = "hinf"
@@ -92,8 +92,7 @@ def _made(choices: Mapping[str, object], strict: bool) -> Settings:
         if first["type"] == "extra_forbidden":
             known = ", ".join(Settings.model_fields)
             raise UsageError(f"no setting named '{name}'; known: {known}") from None
-        reason = first["msg"].removeprefix("Input ").removeprefix("Value error, ")
-        raise UsageError(f"{name} {first['input']!r} {reason}") from None
+        raise UsageError(f"{name} {first['input']!r} {reason(first)}") from None
 
 
 def check_recorded(settings: Settings) -> None:

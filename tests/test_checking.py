@@ -6,7 +6,11 @@ import sys
 from pathlib import Path
 
 import pytest
+import typer.main
+from typer.testing import CliRunner
 
+from dqpaint.errors import UsageError
+from dqpaint.studying import app
 from tests.bench.bench_language import PYTHON, kinds
 from tests.language.clock import children_time
 
@@ -53,3 +57,19 @@ def test_a_drawing_without_an_arm_is_checked_without_the_arms(tmp_path: Path) ->
         "assert not {'pin', 'pinocchio', 'cv2', 'pybullet'} & {*sys.modules}"
     )
     spent("-c", code)
+
+
+OPTIONS = [
+    option.opts[0]
+    for option in typer.main.get_command(app).commands["check"].params
+    if option.param_type_name == "option" and not option.is_flag
+]
+
+
+@pytest.mark.parametrize("option", OPTIONS)
+def test_every_choice_is_heeded(option: str, tmp_path: Path) -> None:
+    path = tmp_path / "line.traj"
+    path.write_text("line by (9, 0) mm\n", encoding="utf-8")
+    fault = CliRunner().invoke(app, ["check", str(path), option, "nix"]).exception
+    assert isinstance(fault, UsageError)
+    assert "nix" in str(fault)

@@ -199,6 +199,8 @@ def test_check_with_a_plant_says_what_its_springs_do(dqpaint, line):
 
 def test_check_with_a_robot_looks_at_the_reach(dqpaint, line, tmp_path):
     assert "iiwa reaches it, every joint" in dqpaint("check", line, "--robot", "iiwa").stdout
+    assert "iiwa reaches it, every joint" in dqpaint("check", line, "--size", "640x360").stdout
+    assert "height 8 should be" in dqpaint("check", line, "--size", "640x8").stderr
     (tmp_path / "far.traj").write_text("robot iiwa\nline to (2, 0) m\n")
     done = dqpaint("check", "far.traj", "--json")
     assert done.returncode == 1

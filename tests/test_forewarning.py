@@ -75,6 +75,8 @@ def test_the_numbers_for_programs(checked):
 
 
 def test_without_an_arm_nothing_is_looked_ahead(checked):
+    assert checked(FAST, None, start="first", view="front").outlook is None  # the defaults
+    assert checked(FAST, None, start="home").outlook is not None
     result = checked(FAST, None)
     assert result.outlook is None
     assert as_json([result])["files"][0]["forecast"] is None

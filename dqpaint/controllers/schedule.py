@@ -16,6 +16,7 @@ from typing import Any, Generic, NamedTuple
 import numpy as np
 from pydantic import ValidationError
 
+from dqpaint.choices import reason
 from dqpaint.controllers.gains import G, Value, list_gains
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
@@ -154,11 +155,9 @@ def _checked(model: type[G], values: Mapping[str, Value], whose: str) -> G:
     except ValidationError as problem:
         first = problem.errors()[0]
         if not first["loc"]:  # what the model itself says of several gains together
-            text = f"{whose}: {first['msg'].removeprefix('Value error, ')}"
+            text = f"{whose}: {reason(first)}"
         elif first["type"] == "value_error":
-            text = (
-                f"gain '{first['loc'][0]}' of {whose} {first['msg'].removeprefix('Value error, ')}"
-            )
+            text = f"gain '{first['loc'][0]}' of {whose} {reason(first)}"
         else:
             shown = values[str(first["loc"][0])]
             said = shown if isinstance(shown, str) else _said(shown)

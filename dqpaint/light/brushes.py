@@ -13,6 +13,7 @@ from typing import Annotated, Any, cast
 import numpy as np
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
+from dqpaint.choices import reason
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.language import colours as named
 from dqpaint.language.program import Bar as BarWords
@@ -272,9 +273,9 @@ def read_brush(text: str) -> Brush:
         key = str(first["loc"][0])
         if first["type"] == "extra_forbidden":
             raise UsageError(f"brush '{name}' has no '{key}'; {_choices(name, kind)}") from None
-        reason = first["msg"].removeprefix("Value error, ").removeprefix("Input ")
-        shown = "" if reason.startswith(("'", "no ")) else f"'{given.get(key)}' "
-        raise UsageError(f"brush '{name}': {key} {shown}{reason}") from None
+        fault = reason(first)
+        shown = "" if fault.startswith(("'", "no ")) else f"'{given.get(key)}' "
+        raise UsageError(f"brush '{name}': {key} {shown}{fault}") from None
 
 
 def _choices(name: str, kind: type[Brush]) -> str:

@@ -12,6 +12,7 @@ from typing import Any, get_args
 import numpy as np
 from pydantic import BaseModel, ValidationError
 
+from dqpaint.choices import reason
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.robots.bodies import default_body
 from dqpaint.robots.card import LEAST, Canvas, Card
@@ -165,16 +166,16 @@ def _told(problem: ValidationError, path: Path, *above: str) -> DqpaintError:
     first = problem.errors()[0]
     steps = (*above, *first["loc"])
     name = "".join(f"[{s + 1}]" if isinstance(s, int) else f".{s}" for s in steps).lstrip(".")
-    reason = str(first["msg"]).removeprefix("Value error, ").removeprefix("Input ")
+    fault = reason(first)
     if first["type"] == "missing":
-        reason = "is missing"
+        fault = "is missing"
         if name == "limits":
-            reason += f": it holds {', '.join(_fields(steps))}, one number a joint"
+            fault += f": it holds {', '.join(_fields(steps))}, one number a joint"
     elif first["type"] == "model_type":
-        reason = f"is not a table, which holds {', '.join(_fields(steps))}"
+        fault = f"is not a table, which holds {', '.join(_fields(steps))}"
     elif first["type"] == "extra_forbidden":
-        reason = f"is not known; known: {', '.join(_fields(steps[:-1]))}"
-    return DqpaintError(f"{path.name}: {name} {reason}".replace(":  ", ": "))
+        fault = f"is not known; known: {', '.join(_fields(steps[:-1]))}"
+    return DqpaintError(f"{path.name}: {name} {fault}".replace(":  ", ": "))
 
 
 def _fields(steps: tuple[str | int, ...]) -> list[str]:

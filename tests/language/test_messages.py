@@ -147,6 +147,10 @@ arc via (1,2) mm to (3,0) mm angle 3 deg|E248|1:30 angle|'arc via' goes through 
 arc centre (0,0) angle 90 deg|E249|1:12 (0,0)|the centre of this arc is where the tool is now: the radius is 0||move to a point of the circle first
 start at (9,0) mm~arc centre (0,0) angle 90 deg grow -20 mm|E250|2:36 -20 mm|the radius of this arc would become less than 0|the radius is 9 mm at the start|the least is: grow -9 mm
 line by (1,0) mm tool look (0, 0)|E251|1:1 line by (1,0) mm tool look (0, 0)|the tool can't look at the point where it is||look at a point the tool does not go through
+start at (-50, 0) mm~line to (50, 0) mm tool look (0, 0)|E251|2:1 line to (50, 0) mm tool look (0, 0)|the tool can't look at the point where it is||look at a point the tool does not go through
+start at (-50, 0) mm~curve (t*mm, 0) for t from -50 to 50 tool look (0, 0)|E251|2:1 curve (t*mm, 0) for t from -50 to 50 tool look (0, 0)|the tool can't look at the point where it is||look at a point the tool does not go through
+start at (-50, 0, 10) mm~line to (50, 0, 10) mm tool look (0, 0) up z|E252|2:1 line to (50, 0, 10) mm tool look (0, 0) up z|the tool looks along 'up' here, so nothing says how it is turned about that||say another direction: tool look POINT up y
+start at (-50, 0) mm~line to (50, 0) mm tool look line (0, 0) along y|E253|2:1 line to (50, 0) mm tool look line (0, 0) along y|the tool can't look at the line it is on||look at a line the tool does not go through
 line by (1,0) mm tool look (0, 5) mm|E252|1:1 line by (1,0) mm tool look (0, 5) mm|the tool looks along 'up' here, so nothing says how it is turned about that||say another direction: tool look POINT up z
 line by (1,0) mm tool look line (0,0) along x|E253|1:1 line by (1,0) mm tool look line (0,0) along x|the tool can't look at the line it is on||look at a line the tool does not go through
 curve (0, 0, t) for t from 0 to 1 mm tool follow|E254|1:7 (0, 0, t)|the curve stands still or goes along the axis, so it has no heading to follow||use: tool keep, or tool look

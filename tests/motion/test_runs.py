@@ -237,6 +237,9 @@ def test_the_velocity_s_jump_at_a_corner_is_told_with_its_size():
     assert note.help == "use law trapezoid to stop at corners, or round them: blend 5 mm"
     note = notes(f"{two}\nline by (-50, 0) mm\nline by (40, 0) mm")["W403"]
     assert note.message == "the velocity jumps by 100 mm/s here, the largest of 3 such corners"
+    alike = f"{two}\nline by (50, 0) mm\nline by (0, 50) mm"
+    note = notes(alike)["W403"]  # the last of those that are alike
+    assert (note.span.start, note.span.of(alike)) == (len(alike) - 18, "line by (0, 50) mm")
     assert "W403" not in notes(f"{text}line by (50, 0) mm\nline by (50, 0) mm")
     assert "W403" not in notes(f"{text}line by (50, 0) mm\nhold 1 s\nline by (0, 50) mm")
     assert "W403" not in notes("line by (50, 0) mm by (0, 50) mm")

@@ -16,6 +16,7 @@ from dqpaint.paint import prepare
 from dqpaint.placing import has_room
 from dqpaint.robots.card import read_card
 from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.reach import ON_THE_WAY, strays
 from dqpaint.settings import make_settings
 
 PLACE = "place at (0.3, 0.3, 0.4) m turned rpy(90 deg, 0 deg, 90 deg)\n"
@@ -101,6 +102,18 @@ def test_a_way_along_which_a_joint_goes_beyond_its_end_is_none():
 def test_room_is_where_place_auto_finds_it():
     assert has_room(*motion_of("start at (0, 0) mm\nline to (500, 0) mm\n"))
     assert not has_room(*motion_of("start at (0, 0) mm\nline to (3, 0) m\n"))
+
+
+def test_a_scale_at_which_only_the_farthest_point_is_reached_is_not_advised():
+    """Half as large, the line's farthest point is reached, but not what lies beyond it."""
+    strokes = "line to (-329, -227, 67) mm light red\n"
+    motion, arm = motion_of(PLACE + strokes, "viper850")
+    rows = np.array([388])  # the one that is told
+    half = scaled(motion, 0.5)
+    assert strays(arm, half.pose[rows])[0] < ON_THE_WAY
+    assert not can_draw(half, arm)
+    scale = re.search(r"with scale ([\d.]+) ... end", advise(motion, arm, rows))[1]
+    assert can_draw(*motion_of(f"{PLACE}with scale {scale}\n{strokes}end\n", "viper850"))
 
 
 def test_another_arm_is_advised_where_nothing_else_helps(monkeypatch):

@@ -1,5 +1,7 @@
 """`place auto`: reachable, better than elsewhere, the same each time, and fit to be pasted."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -131,6 +133,14 @@ def test_a_weak_arm_is_given_a_place_where_its_weight_is_less(monkeypatch):
     lines = forecast(motion, weak, begin(motion, weak).posture)
     assert found.torque > 1.5 * (1 - max(one.held_part for one in lines))
     assert found.merit > blind.merit * (1 - max(one.held_part for one in lines))
+
+
+@pytest.mark.parametrize("bad", [{"stray": 2e-3}, {"room": -0.01}, {"clearance": -1e-3}])
+def test_a_place_that_does_not_do(arm, placed, bad):
+    motion = plan(parse(f"{placed.line}\n{SMALL}", "pasted.traj"), arm.card.canvas.pose)
+    one = forecast(motion, arm, begin(motion, arm).posture)[0]
+    assert placing._is_good(one)
+    assert not placing._is_good(replace(one, **bad))
 
 
 def test_a_light_that_the_arm_hides_everywhere_is_placed_all_the_same(arm):

@@ -72,8 +72,14 @@ class CompliantOptions(Values):
         return {**self.model_dump(exclude={"stiffness"}), **found}
 
     def springs_of(self, card: Card) -> Springs:
-        """For a forecast; arguments and errors as those of `springs`."""
-        k, d = self.springs(card, np.diag(Dynamics(Kinematics(card)).inertia(card.home)))
+        """For a forecast.
+
+        Raises:
+            UsageError: springs that a run would refuse.
+        """
+        dynamics = Dynamics(Kinematics(card))
+        k, d = self.springs(card, np.diag(dynamics.inertia(card.home)))
+        _longest_step(card, dynamics, k, d)
         between = d if self.damper == "motor" else np.zeros_like(d)
         return Springs(k, between, self.gravity, self.encoder == "joint")
 

@@ -53,6 +53,7 @@ def draw(
     magnify: float | None = None,
     ghost: bool | str | None = None,
     occlusion: bool | None = None,
+    max_samples: int | None = None,
     settings: "str | PathLike[str] | Given | None" = None,
     progress: Callable[[float], None] = lambda _done: None,
 ) -> "Painting":
@@ -90,6 +91,7 @@ def draw(
         ghost: whether the arm is in the picture: True as it stood at the end, "motion" as a veil,
             as it moved.
         occlusion: whether the arm's body hides light from the camera; else as `ghost`.
+        max_samples: how many samples the drawing may have; 2,000,000, if more are not allowed.
         settings: a file of such choices, TOML, or the JSON summary of a run; what is said here
             wins.
         progress: called while the arm moves, with the part done, 0 to 1.
@@ -108,7 +110,7 @@ def draw(
         start=start, null=null, on_limit=on_limit, width=width, height=height, view=view, ev=ev,
         brush=brush, pwm=pwm, exposure=exposure, look=look, starburst=starburst, noise=noise,
         colour_by=colour_by, overlay=overlay, magnify=magnify, ghost=ghost,
-        occlusion=occlusion,
+        occlusion=occlusion, max_samples=max_samples,
     )  # fmt: skip
     chosen = make_settings(**given.under(choices))
     begin = perf_counter()
@@ -164,6 +166,7 @@ def preview(
     noise: int | None = None,
     colour_by: str | None = None,
     ghost: bool | None = None,
+    max_samples: int | None = None,
     settings: "str | PathLike[str] | Given | None" = None,
 ) -> "Preview":
     """The asked pictures of a drawing, without an arm; arguments as those of `draw`.
@@ -174,7 +177,7 @@ def preview(
     choices = dict(
         robot=robot, tool=tool, width=width, height=height, view=view, ev=ev, brush=brush, pwm=pwm,
         exposure=exposure, look=look, starburst=starburst, noise=noise, colour_by=colour_by,
-        ghost=ghost,
+        ghost=ghost, max_samples=max_samples,
     )  # fmt: skip
     chosen = make_settings(**_given(settings).under(choices))
     program = _program(drawing)

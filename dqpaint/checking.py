@@ -1,7 +1,7 @@
 """What `check` says of a drawing, for people and for programs."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from dqpaint import __version__
@@ -78,6 +78,8 @@ def check(name: str, **choices: Any) -> Checked:
     settings = _chosen(choices)
     try:
         program = read_input() if name == STDIN else read(find_drawing(name))
+        if (most := choices.get("max_samples")) is not None:
+            program = replace(program, most_samples=most)
         asked = settings is not None or program.robot is not None
         outlook = _look_ahead(program, settings) if asked else None
         drawing: Motion | Survey = outlook.motion if outlook else survey(program)
@@ -92,7 +94,9 @@ def check(name: str, **choices: Any) -> Checked:
 
 
 def _chosen(choices: dict[str, Any]) -> "Settings | None":
-    """The settings, if anything is chosen; else they are not even imported, which takes a while.
+    """The settings, if anything of a run is chosen.
+
+    Without a choice they are not even imported, which takes a while.
 
     Raises:
         UsageError: no such choice.
@@ -102,7 +106,7 @@ def _chosen(choices: dict[str, Any]) -> "Settings | None":
     from dqpaint.settings import Settings, make_settings
 
     settings = make_settings(**choices)
-    return settings if settings != Settings() else None
+    return settings if settings != Settings(max_samples=settings.max_samples) else None
 
 
 def _look_ahead(program: Program, settings: "Settings | None") -> "Outlook":

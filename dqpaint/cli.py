@@ -26,6 +26,7 @@ from dqpaint.cli_options import (
     Law,
     Look,
     Magnify,
+    MaxSamples,
     MotionGhost,
     Noise,
     Null,
@@ -116,6 +117,7 @@ def draw(
     ghost: Ghost = False,
     motion_ghost: MotionGhost = False,
     occlusion: Occlusion = None,
+    max_samples: MaxSamples = 2_000_000,
     settings: SettingsFile = None,
     out: Out = None,
     save: Save = "png,csv,json",
@@ -136,7 +138,7 @@ def draw(
         plant=plant, seed=seed, start=start, null=null, on_limit=on_limit, size=parse_size(size),
         view=view, ev=ev, brush=brush, pwm=pwm, exposure=exposure, look=look, starburst=starburst,
         noise=noise, colour_by=colour_by, overlay=overlay, magnify=magnify, ghost=ghost,
-        occlusion=occlusion,
+        occlusion=occlusion, max_samples=max_samples,
     )  # fmt: skip
     if motion_ghost:
         choices["ghost"] = "motion"
@@ -175,6 +177,7 @@ def preview(
     noise: Noise = None,
     colour_by: ColourBy = None,
     ghost: Ghost = False,
+    max_samples: MaxSamples = 2_000_000,
     settings: SettingsFile = None,
     out: Out = None,
     watch: Annotated[bool, typer.Option("--watch", help="again at each save, till Ctrl-C")] = False,
@@ -189,7 +192,7 @@ def preview(
     choices = typed(
         context, robot=robot, tool=tool, size=parse_size(size), view=view, ev=ev, brush=brush,
         pwm=pwm, exposure=exposure, look=look, starburst=starburst, noise=noise,
-        colour_by=colour_by, ghost=ghost,
+        colour_by=colour_by, ghost=ghost, max_samples=max_samples,
     )  # fmt: skip
 
     def show() -> None:
@@ -278,6 +281,7 @@ def check(
     size: Size = "1280x720",
     exposure: Exposure = None,
     ghost: Ghost = False,
+    max_samples: MaxSamples = 2_000_000,
     as_json: AsJson = False,
 ) -> None:
     """Read drawings: every error at its place, or length, time, steps and box.
@@ -291,6 +295,7 @@ def check(
     choices = typed(
         context, robot=robot, tool=tool, place=place, plant=plant, start=start, null=null,
         on_limit=on_limit, brush=brush, view=view, size=size, exposure=exposure, ghost=ghost,
+        max_samples=max_samples,
     )  # fmt: skip
     if wanted := choices.pop("size"):
         from dqpaint.settings import parse_size

@@ -11,6 +11,7 @@ from dqpaint.cli_options import (
     From,
     Gain,
     Law,
+    MaxSamples,
     Null,
     OnLimit,
     Out,
@@ -52,6 +53,7 @@ def export(
     start: From = "first",
     null: Null = "start",
     on_limit: OnLimit = "clip",
+    max_samples: MaxSamples = 2_000_000,
     out: Out = None,
 ) -> None:
     """Run a drawing as draw does; write the joint trajectory for a real arm, and light cues.
@@ -74,7 +76,8 @@ def export(
         painting = api.draw(
             path, controller=controller, gains=parse_gains(gain or []), robot=robot,
             tool=tool, place=place, plant=plant, disturb=parse_disturbances(disturb or []),
-            seed=seed, start=start, null=null, on_limit=on_limit, size=(64, 36), progress=progress,
+            seed=seed, start=start, null=null, on_limit=on_limit, size=(64, 36),
+            max_samples=max_samples, progress=progress,
         )  # fmt: skip
     written = outputs.write(stem, exports.files_of(painting, form))
 

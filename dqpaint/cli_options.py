@@ -119,6 +119,9 @@ Occlusion = Annotated[
     bool | None,
     typer.Option(help="the arm's body hides light from the camera [default: as --ghost]"),
 ]
+MaxSamples = Annotated[
+    int, typer.Option(metavar="N", help="that the drawing may have; each takes about 1 kB")
+]
 SettingsFile = Annotated[
     str | None,
     typer.Option(

@@ -3,7 +3,7 @@
 import hashlib
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from time import perf_counter
 from typing import Any
 
@@ -154,6 +154,7 @@ def prepare(
 ) -> Ready:
     """What comes before the arm moves; arguments and errors as those of `paint`."""
     clock = Stopwatch()
+    program = replace(program, most_samples=settings.max_samples)
     check_choices(settings)  # a slip there is told before anything is simulated
     check_recorded(settings)
     card = card_for(program, settings.robot, settings.tool)

@@ -47,6 +47,7 @@ class Settings(BaseModel):
     magnify: Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)] = 1.0
     ghost: Literal[False, True, "motion"] = False  # the arm is seen: flashed, or as it moved
     occlusion: bool | None = None  # its body hides light from the camera; None: as ghost
+    max_samples: Annotated[int, Field(ge=1, le=100_000_000)] = 2_000_000  # of a drawing
 
     @field_validator("place", mode="before")
     @classmethod

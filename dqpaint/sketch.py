@@ -1,6 +1,6 @@
 """The asked picture of a drawing, without an arm."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from dqpaint.language.program import Program
 from dqpaint.motion import Motion, plan
@@ -28,6 +28,7 @@ def sketch(program: Program, settings: Settings) -> Preview:
         DqpaintError: a fault in the drawing, or no light in it.
     """
     check_choices(settings)
+    program = replace(program, most_samples=settings.max_samples)
     motion = plan(program, card_for(program, settings.robot, settings.tool).canvas.pose)
     scene = arrange(motion, motion.pose, settings)
     return Preview(settings, motion, scene, tuple(photograph(scene, settings)))

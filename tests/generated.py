@@ -148,9 +148,8 @@ def hard():
 
 def springs():
     """The compliant arms on half a circle: error, sag, and where a gain makes them swing."""
-    from tests.plants.test_compliant_loop import ARMS, beside_its_circle, error
+    from tests.plants.test_compliant_loop import ARMS, error
 
-    arms = [beside_its_circle(name) for name in ARMS]
     rows = []
     for values, law, gains in (
         ("frequency=40", "p", (20,)), ("frequency=40", "pff", (20, 40, 60)),
@@ -159,10 +158,10 @@ def springs():
         ("frequency=40,encoder=motor", "pff", (20,)),
         ("frequency=40,encoder=motor,gravity=0", "pff", (20,)),
     ):  # fmt: skip
-        calm = [np.inf] * len(arms)
+        calm = [np.inf] * len(ARMS)
         for gain in gains:
             cells = []
-            for i, arm in enumerate(arms):
+            for i, arm in enumerate(ARMS):
                 far, restless = error(arm, values, law, gain)
                 swings = restless > 10 * calm[i] and far > 2
                 calm[i] = min(calm[i], restless)

@@ -15,6 +15,10 @@ from dqpaint.language.layout import formatted
 
 ALL = explanations()
 SHOWN = {code: entry for code, entry in ALL.items() if entry.wrong}
+CODES = pytest.mark.parametrize("code", [
+    pytest.param(code, marks=[pytest.mark.slow] * (entry.stage == "arm"))
+    for code, entry in SHOWN.items()
+])  # fmt: skip
 
 
 def laid_down(entry, text, folder):
@@ -39,9 +43,7 @@ def of_all(path):
     return [finding.code for finding in result.findings]
 
 
-@pytest.mark.parametrize(
-    "code", [pytest.param(code, marks=[pytest.mark.slow] * (code == "E310")) for code in SHOWN]
-)
+@CODES
 def test_the_wrong_example_leads_to_this_very_message(code, tmp_path):
     """At the stage that is told: what reading the text finds needs neither times nor an arm."""
     path = laid_down(ALL[code], ALL[code].wrong, tmp_path)
@@ -52,7 +54,7 @@ def test_the_wrong_example_leads_to_this_very_message(code, tmp_path):
     assert found == [code]
 
 
-@pytest.mark.parametrize("code", SHOWN)
+@CODES
 def test_the_right_example_leads_to_none(code, tmp_path):
     assert of_all(laid_down(ALL[code], ALL[code].right, tmp_path)) == []
     assert formatted(ALL[code].right) == ALL[code].right + "\n"

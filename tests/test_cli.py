@@ -1,4 +1,4 @@
-"""The command line as a person meets it: in a process of its own."""
+"""The command line as a person meets it, mostly in a process of its own."""
 
 import hashlib
 import json
@@ -264,6 +264,21 @@ def test_check_of_good_and_bad_files(dqpaint, line, tmp_path):
     assert dqpaint("check", line).returncode == 0
 
 
+def test_more_samples_than_usual_can_be_allowed(dqpaint, line, tmp_path):
+    (tmp_path / "long.traj").write_text("line by (10, 0) mm samples 2000000\n")
+    done = dqpaint("check", "long.traj")
+    assert (done.returncode, done.stderr) == (1, "")
+    assert "error[E302]: more than 2,000,000 samples in all" in done.stdout
+    assert "to allow more: draw --max-samples N" in done.stdout
+    done = dqpaint("check", "long.traj", "--max-samples", "2000001")
+    assert done.returncode == 0
+    assert "2000000 steps of 8 ms (2000001 poses)" in done.stdout
+    done = dqpaint("check", line, "--max-samples", "20")
+    assert done.returncode == 1
+    assert "more than 20 samples in all\n --> line.traj:3:1" in done.stdout
+    assert dqpaint("check", line, "--max-samples", "21").returncode == 0
+
+
 def test_check_for_programs(dqpaint, line, tmp_path):
     (tmp_path / "bad.traj").write_text("lin to (0, 0, 70) mm\n")
     done = dqpaint("check", "--json", line, "bad.traj", "none.traj")
@@ -341,12 +356,16 @@ def test_check_for_programs(dqpaint, line, tmp_path):
     (["export", "line.traj", "--format", "gcode"], 2, "no format named 'gcode'; known: "),
     (["export", "line.traj", "--format", "urscript"], 2, "URScript is for the arms of Universal"),
     (["export", "line.traj", "--format", "csv", "--from", "home"], 1, "not exported: iiwa could"),
+    (["draw", "line.traj", "--max-samples", "20"], 1, "more than 20 samples in all"),
+    (["preview", "line.traj", "--max-samples", "9"], 1, "to allow more: draw --max-samples N"),
+    (["export", "line.traj", "--format", "csv", "--max-samples", "9"], 1, "more than 9 samples"),
+    (["draw", "line.traj", "--max-samples", "0"], 2, "max_samples 0 should be greater than"),
     (["check"], 2, "Missing argument"),
 ])  # fmt: skip
 def test_wrong_calls_are_answered_with_what_would_be_right(
-    dqpaint, line, tmp_path, words, code, says
+    answer, line, tmp_path, words, code, says
 ):
-    done = dqpaint(*words)
+    done = answer(*words)
     assert done.returncode == code, done.stderr
     assert says in done.stderr
     assert "Traceback" not in done.stderr
@@ -371,10 +390,10 @@ BAD = {
 
 
 @pytest.mark.parametrize("name", BAD)
-def test_wrong_files_are_answered_with_the_place(dqpaint, tmp_path, name):
+def test_wrong_files_are_answered_with_the_place(answer, tmp_path, name):
     data, says = BAD[name]
     (tmp_path / "bad.traj").write_bytes(data)
-    done = dqpaint("draw", "bad.traj")
+    done = answer("draw", "bad.traj")
     assert done.returncode == 1, done.stderr
     assert says in done.stderr
     assert "bad.traj" in done.stderr
@@ -400,16 +419,16 @@ def test_limits_reached_are_told_and_the_picture_is_made(dqpaint, tmp_path):
     assert (tmp_path / "fast-hinf.png").exists()
 
 
-def test_lists(dqpaint):
-    assert all(name in dqpaint("list", "controllers").stdout for name in CONTROLLERS)
-    rows = json.loads(dqpaint("list", "controllers", "--json").stdout)
+def test_lists(answer):
+    assert all(name in answer("list", "controllers").stdout for name in CONTROLLERS)
+    rows = json.loads(answer("list", "controllers", "--json").stdout)
     assert [row["name"] for row in rows] == list(CONTROLLERS)
     assert rows[0]["gains"][0]["default"] > 0
-    assert set(json.loads(dqpaint("list", "--json").stdout)) == set(LISTS)
-    assert all(f"{name}:" in dqpaint("list").stdout for name in LISTS)
-    assert "iiwa" in dqpaint("list", "robots").stdout
-    assert "stiff" in dqpaint("list", "plants").stdout
-    assert "star" in dqpaint("list", "examples").stdout
+    assert set(json.loads(answer("list", "--json").stdout)) == set(LISTS)
+    assert all(f"{name}:" in answer("list").stdout for name in LISTS)
+    assert "iiwa" in answer("list", "robots").stdout
+    assert "stiff" in answer("list", "plants").stdout
+    assert "star" in answer("list", "examples").stdout
 
 
 @pytest.mark.parametrize(
@@ -428,8 +447,8 @@ def test_lists(dqpaint):
         ["export"],
     ],
 )
-def test_help_ends_with_two_examples(dqpaint, command):
-    done = dqpaint(*command, "--help")
+def test_help_ends_with_two_examples(answer, command):
+    done = answer(*command, "--help")
     assert done.returncode == 0
     if command:
         assert done.stdout.count(f"  dqpaint {command[0]}") == 2

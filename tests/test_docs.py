@@ -4,8 +4,6 @@ import json
 import re
 import shlex
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import cv2
@@ -41,9 +39,12 @@ def test_generated_tables_are_current(page):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("page", generated.SLOW_TABLES, ids=lambda p: p.parent.name)
-def test_generated_measurements_are_current(page):
-    renewed = generated.renewed(page, generated.SLOW_TABLES)
+@pytest.mark.parametrize(("page", "table"), [
+    (page, table) for page, tables in generated.SLOW_TABLES.items() for table in tables
+    if table is not generated.springs  # is looked at beside the tests of the compliant arm
+])  # fmt: skip
+def test_generated_measurements_are_current(page, table):
+    renewed = generated.renewed(page, {page: [table]})
     assert renewed == page.read_text("utf-8"), "python -m tests.generated"
 
 
@@ -71,12 +72,10 @@ def test_the_readme_shows_the_star_as_it_is():
 @pytest.mark.parametrize("command", [
     line.removeprefix("$ ") for block in blocks("console") for line in block.splitlines()
 ])  # fmt: skip
-def test_readme_commands_run(command, tmp_path):
-    words = shlex.split(command)
-    assert words[0] == "dqpaint"
-    done = subprocess.run(
-        [sys.executable, "-m", *words], cwd=tmp_path, capture_output=True, text=True, timeout=120
-    )
+def test_readme_commands_run(command, answer):
+    name, *words = shlex.split(command)
+    assert name == "dqpaint"
+    done = answer(*words)
     assert done.returncode == 0, done.stderr
     assert done.stdout
 

@@ -1,5 +1,7 @@
 """Each forecast against the run it speaks of: which limit, on which line, by how much."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -59,6 +61,11 @@ def look_and_run(text, plant, name="iiwa"):
     return forecast(motion, arm, start), *runs, arm.card
 
 
+@cache
+def looked_and_run(seed):
+    return look_and_run(random_drawing(seed), "stiff")
+
+
 def rows_of(track, line):
     return np.flatnonzero(track.motion.line[:-1] == line)
 
@@ -96,7 +103,7 @@ def kinds(one):
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(10))
 def test_ten_random_drawings_on_the_stiff_arm(seed):
-    found, run, free, card = look_and_run(random_drawing(seed), "stiff")
+    found, run, free, card = looked_and_run(seed)
     assert not free.clamps
     compare_amounts(found, free, card, efforts=True)
     # every forecast limit is met on its line, and speed by the joint that was named
@@ -117,13 +124,12 @@ def test_ten_random_drawings_on_the_stiff_arm(seed):
         assert not any(kinds(one) for one in found)
 
 
+@pytest.mark.slow
 def test_the_random_drawings_are_not_all_alike():
     """Else the comparison would say little: limits of speed, of torque, and none are among them."""
     seen = set()
     for seed in range(10):
-        arm = Kinematics(read_card("iiwa"))
-        motion = plan(parse(random_drawing(seed), "test.traj"), arm.card.canvas.pose)
-        for one in forecast(motion, arm, begin(motion, arm).posture):
+        for one in looked_and_run(seed)[0]:
             seen |= kinds(one) or {"none"}
     assert seen == {"speed", "torque", "none"}
 
@@ -228,7 +234,10 @@ def test_a_long_drawing_is_looked_at_in_longer_steps(monkeypatch):
     assert coarse.margin.value == pytest.approx(whole.margin.value, abs=ANGLE)
 
 
-@pytest.mark.parametrize("null", ["none", "home", "limits,gain=4", "manipulability,gain=3"])
+@pytest.mark.parametrize("null", [
+    "limits,gain=4", *(pytest.param(null, marks=pytest.mark.slow)
+                       for null in ("none", "home", "manipulability,gain=3")),
+])  # fmt: skip
 def test_the_null_space_is_that_of_the_run(null):
     """On an arm with a joint to spare other wishes lead to other postures, forecast and run."""
     text = (

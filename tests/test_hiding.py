@@ -62,6 +62,12 @@ def drawable(seed):
     return motion, arm, begin(motion, arm).posture
 
 
+@cache
+def foreseen(seed):
+    """What is forecast of it, line by line."""
+    return forecast(*drawable(seed))
+
+
 def clearances(arm, postures):
     """PyBullet's least distances (N,) of the links that the forecast looks at."""
     geometry = shapes_of(arm)._shapes
@@ -110,14 +116,13 @@ def smallest(arm, posture):
 def test_ten_random_drawings(seed):
     """Of five arms: singularities, self-collisions and hidden light, line by line."""
     motion, arm, start = drawable(seed)
-    lines = forecast(motion, arm, start)
     law = CONTROLLERS["pff"]
     free = Kinematics(lifted(arm.card))
     run = track(motion, free, start, PLANTS["ideal"], law, law.read_gains({}))
     front = dq.matrix_from_quaternion(motion.front)
     eye = stand(motion.points[:-1], front, make_settings(), parse_views("front")[0]).position
     seen = traced(arm, run, eye)
-    for one in lines:
+    for one in foreseen(seed):
         rows = np.flatnonzero(motion.line[:-1] == one.line)
         least = min(smallest(arm, q) for q in run.posture[rows])
         assert one.singular == pytest.approx(least, abs=SINGULAR)
@@ -135,7 +140,7 @@ def test_ten_random_drawings(seed):
 @pytest.mark.slow
 def test_the_wild_drawings_are_not_all_alike():
     """Else the comparison would say little."""
-    found = [line for seed in SEEDS for line in forecast(*drawable(seed))]
+    found = [line for seed in SEEDS for line in foreseen(seed)]
     assert any(line.singular < 2 * THRESHOLD for line in found)
     assert any(line.clearance < 0 for line in found)
     assert any(HIDDEN < line.hidden < 0.9 for line in found)

@@ -3,6 +3,7 @@
 import ast
 import re
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -117,22 +118,21 @@ LONGEST = 400  # lines of one file
 FILES = sorted(PACKAGE.rglob("*.py"))
 
 
+parsed = cache(ast.parse)
+
+
 def imports(path):
-    """(module, whether it happens when the file is imported) for every import of a file."""
-    tree = ast.parse(path.read_text("utf-8"))
-    late = {
-        id(node) for f in ast.walk(tree) if isinstance(f, ast.FunctionDef) for node in ast.walk(f)
-    }
-    for node in ast.walk(tree):
+    """The module of every import of a file."""
+    for node in ast.walk(parsed(path.read_text("utf-8"))):
         if isinstance(node, ast.Import):
-            yield from ((alias.name, id(node) not in late) for alias in node.names)
+            yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, f"{path}: a relative import"
             if node.module == "dqpaint":  # from dqpaint import dq
                 names = [alias.name for alias in node.names if alias.name != "__version__"]
-                yield from ((f"dqpaint.{name}", id(node) not in late) for name in names)
+                yield from (f"dqpaint.{name}" for name in names)
             else:
-                yield node.module, id(node) not in late
+                yield node.module
 
 
 def room(path):
@@ -145,7 +145,7 @@ def test_imports_go_upstream_only(path):
     if room(path) == "__init__":
         return  # the public names are loaded on first use
     here = ORDER.index(room(path))
-    for module, _ in imports(path):
+    for module in imports(path):
         if module.startswith("dqpaint."):
             there = module.split(".")[1]
             assert ORDER.index(there) <= here, f"{path.name} imports {module}"
@@ -154,7 +154,7 @@ def test_imports_go_upstream_only(path):
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(PACKAGE)))
 def test_each_library_has_its_door(path):
     name = str(path.relative_to(PACKAGE))
-    for module, _ in imports(path):
+    for module in imports(path):
         library = module.split(".")[0]
         if library in sys.stdlib_module_names or library in EVERYWHERE:
             continue
@@ -171,7 +171,7 @@ def test_the_order_names_every_room_and_no_other():
 def test_files_are_short_and_say_what_they_are(path):
     text = path.read_text("utf-8")
     assert len(text.splitlines()) <= LONGEST
-    assert ast.get_docstring(ast.parse(text)), "no docstring"
+    assert ast.get_docstring(parsed(text)), "no docstring"
 
 
 def test_a_code_means_one_thing():

@@ -73,8 +73,9 @@ def test_bounds_are_the_program_s():
     from dqpaint.language.expressions import DEEPEST
     from dqpaint.language.parser import DEEPEST as DEEPEST_BLOCK
     from dqpaint.language.pen import MOST_SEGMENTS
+    from dqpaint.language.program import MOST_SAMPLES
     from dqpaint.language.source import MOST_BYTES
-    from dqpaint.motion.timetable import MOST_SAMPLES, MOST_SECONDS
+    from dqpaint.motion.timetable import MOST_SECONDS
 
     text = " ".join(PAGE[PAGE.index("## Bounds") :].split())
     for number, after in [

@@ -81,9 +81,9 @@ def test_developing_simulates_nothing_and_is_quick(tmp_path, monkeypatch):
     dqpaint.save(painting, f"{tmp_path}/a", "film")
     monkeypatch.setattr("dqpaint.tracking.track", None)
     dqpaint.develop(tmp_path / "a-film.npz")
-    begin = time.perf_counter()
+    begin = time.process_time()
     dqpaint.develop(tmp_path / "a-film.npz", view="iso", look="clip")
-    assert time.perf_counter() - begin < 1.0
+    assert time.process_time() - begin < 1.0
 
 
 def broken(tmp_path):

@@ -4,7 +4,7 @@ A chain that comes from a file has its coordinates in the file's own unit until 
 the drawing frame. What the numbers of a piece mean is said at `program.Chain`.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,8 @@ from dqpaint.language.program import Chain, Vector
 from dqpaint.language.taylor import Floats
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
+ROUND = 1e-14  # an ellipse whose radii differ by less, in their squares, is a circle
+AT_ONCE = 10_000  # pieces, for the sake of memory
 CORNER = np.radians(60.0)  # a smooth line keeps the corners that turn by more than this
 
 Indices = NDArray[np.intp]
@@ -28,16 +30,36 @@ def derivatives(chain: Chain, piece: Indices, g: Floats) -> Floats:
         2.0 * c2 + 6.0 * h * c3,
         6.0 * c3,
     ])  # fmt: skip
-    if chain.ellipse.any():
-        u, v = chain.ellipse[piece].transpose(1, 0, 2)
-        start, turn = chain.angles[piece].T[:, :, None]
-        c, s = np.cos(start + h * turn), np.sin(start + h * turn)
+    ellipse = chain.ellipse[piece]
+    (arcs,) = np.nonzero(ellipse.any(axis=(1, 2)))
+    if len(arcs):
+        u, v = ellipse[arcs].transpose(1, 0, 2)
+        start, turn = chain.angles[piece[arcs]].T[:, :, None]
+        c, s = (wave(start + h[arcs] * turn) for wave in (np.cos, np.sin))
         outward, along = c * u + s * v, c * v - s * u
-        out[0] += outward
-        out[1] += turn * along
-        out[2] -= turn**2 * outward
-        out[3] -= turn**3 * along
+        out[0, arcs] += outward
+        out[1, arcs] += turn * along
+        out[2, arcs] -= turn**2 * outward
+        out[3, arcs] -= turn**3 * along
     return out
+
+
+def speeds(chain: Chain, piece: Indices, g: Floats) -> Floats:
+    """The lengths (N, K) of the first derivatives of pieces (N,) at parameters of theirs (N, K)."""
+    c1, c2, c3 = chain.cubic[piece, 1:].transpose(1, 2, 0)[:, :, :, None]  # (3, N, 1) each
+    u, v = chain.ellipse[piece].transpose(1, 2, 0)[:, :, :, None]
+    start, turn = chain.angles[piece].T[:, :, None]
+    (arcs,) = np.nonzero(turn[:, 0])
+    if len(arcs):
+        a = start[arcs] + g[arcs] * turn[arcs]
+        c, s = turn[arcs] * np.cos(a), turn[arcs] * np.sin(a)
+    square = np.zeros_like(g)
+    for axis in range(3):
+        way = c1[axis] + g * (2.0 * c2[axis] + 3.0 * g * c3[axis])
+        if len(arcs):
+            way[arcs] += c * v[axis, arcs] - s * u[axis, arcs]
+        square += way * way
+    return np.asarray(np.sqrt(square))
 
 
 # Made.
@@ -58,15 +80,17 @@ def straight(points: Floats) -> Chain:
 
 def bezier(points: Floats) -> Chain:
     """One Bezier curve by its 3 or 4 control points."""
-    if len(points) == 3:
-        start, handle, end = points
-        points = np.array([start, (start + 2.0 * handle) / 3.0, (2.0 * handle + end) / 3.0, end])
-    return _of_cubic(_coefficients(points[None]))
+    return _of_cubic(coefficients(points[None]))
 
 
-def _coefficients(control: Floats) -> Floats:
-    """Of cubic Bezier curves with control points (M, 4, 3)."""
-    p0, p1, p2, p3 = control.transpose(1, 0, 2)
+def coefficients(control: Floats) -> Floats:
+    """c0 to c3 (M, 4, D) of lines or Bezier curves with 2, 3 or 4 control points (M, P, D)."""
+    p0, *handles, p3 = control.transpose(1, 0, 2)
+    if not handles:
+        return np.stack([p0, p3 - p0, np.zeros_like(p0), np.zeros_like(p0)], axis=1)
+    p1, p2 = handles[0], handles[-1]
+    if len(handles) == 1:
+        p1, p2 = (p0 + 2.0 * p1) / 3.0, (2.0 * p1 + p3) / 3.0
     c1, c2 = 3.0 * (p1 - p0), 3.0 * (p2 - 2.0 * p1 + p0)
     return np.stack([p0, c1, c2, p3 - p0 - c1 - c2], axis=1)
 
@@ -99,27 +123,47 @@ def smooth(points: Floats, keep: NDArray[np.bool_] | None = None, stiff: float =
     keep = keep.copy()
     if not closed:
         keep[[0, -1]] = True
+    tangent = _tangents(u, size[:, None], stiff)
+    keep |= ~tangent.any(axis=1)
+    cubic = np.empty((len(way), 4, 3))
+    cubic[:, 0] = points[:-1]
+    t0, t1, free0, free1 = tangent[:-1], tangent[1:], keep[:-1], keep[1:]
+    for begin in range(0, len(way), AT_ONCE):
+        own = slice(begin, begin + AT_ONCE)
+        turned = t0[own], t1[own], free0[own], free1[own]
+        cubic[own, 1:] = _bow(way[own], u[own], size[own], *turned)
+    return _of_cubic(cubic)
+
+
+def _tangents(u: Floats, size: Floats, stiff: float) -> Floats:
+    """The directions (N, 3) at points between lines along u (N - 1, 3); zero where none is."""
     before, after = np.roll(u, 1, axis=0), u  # at the points but the last
-    l0, l1 = np.roll(size, 1)[:, None], size[:, None]
+    l0, l1 = np.roll(size, 1), size
     tangent = before * l1 + after * l0
     tangent = np.where(l0 > stiff * l1, before, np.where(l1 > stiff * l0, after, tangent))
     tangent = np.concatenate([tangent, tangent[:1]])
     norm = np.linalg.norm(tangent, axis=1, keepdims=True)
-    keep |= norm[:, 0] == 0.0
-    tangent /= np.where(norm > 0.0, norm, 1.0)
-    t0, t1, free0, free1 = tangent[:-1], tangent[1:], keep[:-1], keep[1:]
+    return np.asarray(tangent / np.where(norm > 0.0, norm, 1.0))
+
+
+def _bow(
+    way: Floats,
+    u: Floats,
+    size: Floats,
+    t0: Floats,
+    t1: Floats,
+    free0: NDArray[np.bool_],
+    free1: NDArray[np.bool_],
+) -> Floats:
+    """c1 to c3 (N, 3, 3) of lines that are bent from t0 to t1, where those are not free."""
     mirrored0, mirrored1 = _mirrored(t1, u), _mirrored(t0, u)
     t0 = np.where(free0[:, None], np.where(free1[:, None], u, mirrored0), t0)
     t1 = np.where(free1[:, None], np.where(free0[:, None], u, mirrored1), t1)
-    h0, h1 = (size / (1.5 * (1.0 + (t * u).sum(1))) for t in (t0, t1))
-    control = np.stack(
-        [points[:-1], points[:-1] + h0[:, None] * t0, points[1:] - h1[:, None] * t1, points[1:]],
-        axis=1,
-    )
-    cubic = _coefficients(control)
-    bends = np.maximum(np.abs(t0 - u).max(1), np.abs(t1 - u).max(1)) > 1e-9
-    cubic[~bends, 1], cubic[~bends, 2:] = way[~bends], 0.0
-    return _of_cubic(cubic)
+    first, last = (size[:, None] / (0.5 + 0.5 * (t * u).sum(1))[:, None] * t for t in (t0, t1))
+    out = np.stack([first, 3.0 * way - 2.0 * first - last, first + last - 2.0 * way], axis=1)
+    straight = np.maximum(np.abs(t0 - u).max(1), np.abs(t1 - u).max(1)) <= 1e-9
+    out[straight, 0], out[straight, 1:] = way[straight], 0.0
+    return out
 
 
 def _mirrored(t: Floats, u: Floats) -> Floats:
@@ -141,12 +185,23 @@ def turns(points: Floats) -> Floats:
 
 def joined(chains: Sequence[Chain]) -> Chain:
     """One chain of several that follow each other; a start is moved to the end before it."""
-    whole, first, last = together(chains)
-    heads = first[1:]
-    gap = _at(whole, last[:-1], 1.0) - _at(whole, heads, 0.0)
+    if len(chains) == 1:
+        return chains[0]
+    whole, first, _ = together(chains)
+    _move(whole, first[1:])
+    return whole
+
+
+def link(whole: Chain, starts: Indices) -> None:
+    """Moves the start of each piece to the end before it, but of those that start a chain."""
+    _move(whole, np.delete(np.arange(len(whole.cubic)), starts))
+
+
+def _move(whole: Chain, heads: Indices) -> None:
+    """Moves the starts of pieces to the ends before them."""
+    gap = _at(whole, heads - 1, 1.0) - _at(whole, heads, 0.0)
     whole.cubic[heads, 0] += gap
     whole.cubic[heads, 1] -= gap
-    return whole
 
 
 def reversed_(chain: Chain) -> Chain:
@@ -177,7 +232,13 @@ def farthest(chains: Sequence[Chain]) -> float:
 
 
 def _at(chain: Chain, piece: Indices, g: float) -> Floats:
-    return np.asarray(derivatives(chain, piece, np.full(len(piece), g))[0])
+    """Where pieces are (N, 3) at the same parameter of theirs."""
+    places = np.array([1.0, g, g**2, g**3]) @ chain.cubic[piece]
+    (arcs,) = np.nonzero(chain.ellipse[piece].any(axis=(1, 2)))
+    a = chain.angles[piece[arcs]] @ [1.0, g]
+    waves = np.stack([np.cos(a), np.sin(a)], axis=1)
+    places[arcs] += (waves[:, :, None] * chain.ellipse[piece[arcs]]).sum(axis=1)
+    return np.asarray(places)
 
 
 def ends(chain: Chain) -> tuple[Vector, Vector]:
@@ -217,17 +278,48 @@ def together(chains: Sequence[Chain]) -> tuple[Chain, Indices, Indices]:
     return whole, np.concatenate([[0], stop[:-1]]), stop - 1
 
 
+def parted(whole: Chain, starts: Indices) -> Iterator[Chain]:
+    """The chains that were put together, by the first piece of each; they share its arrays."""
+    ends = [*starts[1:].tolist(), len(whole.cubic)]
+    for own in map(slice, starts.tolist(), ends):
+        yield Chain(whole.cubic[own], whole.ellipse[own], whole.angles[own])
+
+
 def lengths(chains: Sequence[Chain]) -> list[float]:
     """The lengths of chains, good enough to share out time and colour by them."""
     whole, first, _ = together(chains)
-    size = np.linalg.norm(whole.cubic[:, 1], axis=1)
-    bent = whole.cubic[:, 2:].any(axis=(1, 2)) | whole.ellipse.any(axis=(1, 2))
-    (some,) = np.nonzero(bent)
-    for part in np.split(some, range(10_000, len(some), 10_000)):
-        g = np.tile(0.5 + 0.5 * NODES, len(part))
-        speed = np.linalg.norm(derivatives(whole, np.repeat(part, 10), g)[1], axis=1)
-        size[part] = 0.5 * speed.reshape(-1, 10) @ WEIGHTS
+    every = np.arange(len(whole.cubic))
+    size = stretches(whole, is_uneven(whole), every, np.zeros(len(every)), np.ones(len(every)))
     return list(np.add.reduceat(size, first).tolist())
+
+
+def is_uneven(chain: Chain) -> NDArray[np.bool_]:
+    """Which pieces (M,) do not run at one speed: all but straight lines and arcs of circles."""
+    out = np.asarray(chain.cubic[:, 2:].any(axis=(1, 2)))
+    (arcs,) = np.nonzero(chain.angles[:, 1])
+    u, v = chain.ellipse[arcs].transpose(1, 0, 2)
+    uu, vv, uv = ((a * b).sum(1) for a, b in ((u, u), (v, v), (u, v)))
+    oval = np.maximum(np.abs(uu - vv), np.abs(uv)) > ROUND * uu
+    out[arcs] |= oval | chain.cubic[arcs, 1].any(axis=1)
+    return out
+
+
+def stretches(
+    chain: Chain, uneven: NDArray[np.bool_], piece: Indices, lower: Floats, upper: Floats
+) -> Floats:
+    """The lengths (N,) of pieces (N,) between parameters (N,).
+
+    `uneven` says which of all pieces (M,) need a quadrature for it.
+    """
+    out = np.empty(len(piece))
+    for hard in (False, True):
+        (which,) = np.nonzero(uneven[piece] == hard)
+        for some in np.split(which, range(AT_ONCE, len(which), AT_ONCE)):
+            size = (upper[some] - lower[some])[:, None]
+            at = lower[some, None] + (0.5 * size * (1.0 + NODES) if hard else 0.0 * size)
+            speed = speeds(chain, piece[some], at)
+            out[some] = size[:, 0] * (speed @ (0.5 * WEIGHTS) if hard else speed[:, 0])
+    return out
 
 
 def box(chains: Sequence[Chain]) -> tuple[Floats, Floats]:

@@ -34,6 +34,10 @@ class Cursor:
         """The token that was read last."""
         return self._tokens[self._at - 1 if self._at else 0]
 
+    def before_is(self, back: int, word: str) -> bool:
+        """Whether this word was read so many tokens ago."""
+        return self._at >= back and self._tokens[self._at - back].text == word
+
     def is_word(self, word: str) -> bool:
         """Whether the next token is this word."""
         return self.token.kind == "name" and self.token.text == word
@@ -72,8 +76,12 @@ def no_value(cursor: Cursor, after: str, example: str = "") -> Problem:
         cure = f"'{token.text}' is a word of the language; it can't be used as a name"
     elif token.text == "=" and token.kind == "sign":
         cure = f"only 'let' has a '='; {cure}" if cure else "only 'let' has a '='"
+    elif token.text == after == "*":
+        cure = "a power is written with ^, as in t^2"
     elif token.text == after == "/":
         cure = "a comment begins with #"
+    elif token.kind == "sign" and token.text in "),":
+        cure = "a comma stands between two numbers, as in (10, 20) mm"
     elif token.kind == "text" or (token.kind == "sign" and token.text not in ")%,"):
         cure = "write a number, a name or a point in brackets"
     return problem(

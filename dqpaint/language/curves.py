@@ -36,6 +36,21 @@ def curve(statement: Statement, frame: Frame, scope: Scope, pen: Pen) -> tuple[C
     return Curve(formula, lower, upper), list(zip(x, y, z, strict=True))
 
 
+def outside_of_formula(mistake: Problem, statement: Statement, text: str) -> Problem:
+    """Says, if that is the mistake, that the parameter has no value outside of the formula."""
+    found, name = mistake.diagnostic, statement.name
+    if found.code != "E205" or found.span is None or name is None:
+        return mistake
+    if text[found.span.start : found.span.end] != name.text:
+        return mistake
+    before = [part.word for part in statement.parts if part.span.start <= found.span.start]
+    message = f"'{name.text}' has a value in the formula of the curve alone"
+    cure = "what stands behind the formula holds for the whole curve"
+    if before and before[-1] == "light":
+        cure += "; to change on the way, write: light red to blue"
+    return problem("E205", message, found.span, "", cure)
+
+
 def _ends(
     lower_node: Expression, upper_node: Expression, scope: Scope
 ) -> tuple[float, float, Dimension]:

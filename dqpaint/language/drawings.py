@@ -5,7 +5,7 @@ and Bezier curves Bezier curves, whatever transforms they stand under.
 """
 
 import io
-import math
+from array import array
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
@@ -13,11 +13,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from dqpaint.language import chains, colours, routes
+from dqpaint.language import chains, colours, routes, svgpaths
 from dqpaint.language.beside import contents
 from dqpaint.language.diagnostics import Problem, problem
 from dqpaint.language.pen import Pen
 from dqpaint.language.program import Chain, Colour
+from dqpaint.language.svgattributes import NUMBER
+from dqpaint.language.svgpaths import Pieces
 from dqpaint.language.svgtree import MOST_BYTES, Guarded, Lines, guard
 from dqpaint.language.svgvalues import LARGEST, SvgError
 from dqpaint.language.syntax import Quoted
@@ -99,7 +101,7 @@ def _read(data: bytes) -> Drawing:
     if not lines:
         raise SvgError("there are no lines in it", _said(guarded))
     ordered = [Line(chain, colour) for chain, colour in routes.in_order(lines)]
-    return Drawing(ordered, replace(guarded, xml=b""))
+    return Drawing(ordered, replace(guarded, xml=b"", paths=[]))
 
 
 def _said(guarded: Guarded) -> str:
@@ -119,6 +121,7 @@ def _no_library(node: Quoted) -> Problem:
 def _lines(guarded: Guarded) -> Iterator[tuple[Chain, Colour | None]]:
     import svgelements
 
+    pieces, transforms, lights = svgpaths.Pieces(), array("d"), []
     try:
         drawing = svgelements.SVG.parse(io.BytesIO(guarded.xml), reify=False, ppi=96.0)
         paper = float(drawing.width), float(drawing.height)
@@ -126,11 +129,32 @@ def _lines(guarded: Guarded) -> Iterator[tuple[Chain, Colour | None]]:
             if not isinstance(shape, svgelements.Shape):
                 continue
             if _is_seen(shape) and not _is_paper(shape, paper):
-                yield from ((chain, _colour(shape)) for chain in _chains(shape))
+                pieces.begin()
+                if isinstance(shape, svgelements.Path):
+                    svgpaths.draw_path(pieces, guarded.paths[int(shape.values[NUMBER])])
+                else:
+                    _DRAW[type(shape).__name__](pieces, shape)
+                m = shape.transform
+                transforms.extend((m.a, m.b, m.c, m.d, m.e, m.f))
+                lights.append(_colour(shape))
     except SvgError:
         raise
     except Exception as fault:  # of many kinds: the library takes much on trust
         raise SvgError("the SVG library can't read it", "save it as plain SVG") from fault
+    found = list(pieces.lines(*_in_metres(np.array(transforms).reshape(-1, 3, 2))))
+    if found and not chains.farthest([chain for _, chain in found]) <= LARGEST * PIXEL:
+        raise SvgError("a place in it is not finite, or far too large")
+    return ((chain, lights[number]) for number, chain in found)
+
+
+def _in_metres(transforms: Floats) -> tuple[Floats, Floats]:
+    """The matrices (K, 3, 3) and shifts (K, 3) of transforms (K, 3, 2), y up and in metres."""
+    matrices, shifts = np.zeros((len(transforms), 3, 3)), np.zeros((len(transforms), 3))
+    flipped = PIXEL * np.array([1.0, -1.0])
+    with np.errstate(over="ignore", invalid="ignore"):  # looked for where it is drawn
+        matrices[:, :2, :2] = transforms[:, :2].transpose(0, 2, 1) * flipped[:, None]
+        shifts[:, :2] = transforms[:, 2] * flipped
+    return matrices, shifts
 
 
 # Colours.
@@ -162,71 +186,25 @@ def _is_paper(shape: Any, paper: tuple[float, float]) -> bool:
     )
 
 
-# Lines.
+# Shapes.
 
 
-def _chains(shape: Any) -> Iterator[Chain]:
-    """The parts of a shape that are drawn without lifting the pen."""
-    m = shape.transform
-    matrix = np.array([[m.a, m.c, 0.0], [m.b, m.d, 0.0], [0.0, 0.0, 1.0]], dtype=np.float64)
-    shift = np.array([m.e, m.f, 0.0], dtype=np.float64)
-    to_metres = PIXEL * np.diag([1.0, -1.0, 1.0])
-    for pieces in _parts(shape):
-        chain = chains.mapped(chains.joined(pieces), to_metres @ matrix, to_metres @ shift)
-        if not chains.farthest([chain]) <= LARGEST * PIXEL:
-            raise SvgError("a place in it is not finite, or far too large")
-        if chain.cubic[:, 1:].any() or chain.ellipse.any():
-            yield chain
+def _draw_line(pieces: Pieces, shape: Any) -> None:
+    svgpaths.draw_line(pieces, (shape.x1, shape.y1), (shape.x2, shape.y2))
 
 
-def _parts(shape: Any) -> Iterator[list[Chain]]:
-    pieces: list[Chain] = []
-    for segment in shape.segments(transformed=False):
-        kind = type(segment).__name__
-        if kind == "Move":
-            if pieces:
-                yield pieces
-            pieces = []
-            continue
-        made = _piece(kind, segment)
-        if made is not None:
-            pieces.append(made)
-    if pieces:
-        yield pieces
+def _draw_ellipse(pieces: Pieces, shape: Any) -> None:
+    svgpaths.draw_ellipse(pieces, (shape.cx, shape.cy), shape.rx, shape.ry)
 
 
-def _piece(kind: str, segment: Any) -> Chain | None:
-    """One segment of a path; None for what has no length."""
-    names = {
-        "QuadraticBezier": ("start", "control", "end"),
-        "CubicBezier": ("start", "control1", "control2", "end"),
-    }.get(kind, ("start", "end"))
-    if segment.start is None or segment.end is None:
-        return None
-    points = np.array([_point(getattr(segment, name)) for name in names])
-    size = float(np.abs(points - points[0]).max())
-    if kind == "Arc":
-        made = _arc(segment, points)
-        if made is not None:
-            return made
-    if not size > 1e-12 * max(1.0, float(np.abs(points).max())):
-        return None if math.isfinite(size) else chains.straight(points)
-    return chains.bezier(points) if len(points) > 2 else chains.straight(points)
+def _draw_rectangle(pieces: Pieces, shape: Any) -> None:
+    size = shape.width, shape.height
+    svgpaths.draw_rectangle(pieces, shape.x, shape.y, size, shape.rx, shape.ry)
 
 
-def _point(point: Any) -> tuple[float, float, float]:
-    return float(point.x), float(point.y), 0.0
-
-
-def _arc(segment: Any, points: Floats) -> Chain | None:
-    """An arc of an ellipse; None for one without radii, which SVG draws straight."""
-    rx, ry, sweep = float(segment.rx), float(segment.ry), float(segment.sweep)
-    if not (rx > 0.0 and ry > 0.0 and sweep):
-        return None
-    turn = segment.get_rotation().as_radians
-    c, s = math.cos(turn), math.sin(turn)
-    u, v = np.array([rx * c, rx * s, 0.0]), np.array([-ry * s, ry * c, 0.0])
-    centre = np.array(_point(segment.center))
-    arm = points[0] - centre
-    start = math.atan2(float(arm @ v) / ry**2, float(arm @ u) / rx**2)
-    return chains.arc(centre, u, v, start, sweep)
+_DRAW = {
+    "SimpleLine": _draw_line,
+    "Circle": _draw_ellipse,
+    "Ellipse": _draw_ellipse,
+    "Rect": _draw_rectangle,
+}

@@ -4,6 +4,7 @@ What is drawn without lifting the pen is one stroke, a `program.Chain`: it runs 
 without a stop, and its light is even, so that nothing in it glows but what crosses.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -68,8 +69,9 @@ def text(statement: Statement, pen: Pen, scope: Scope) -> None:
     shift = pen.pose.position if at is None else pen.frame.point(reading.place(at, scope, "at"))
     if at is not None:
         pen.lost = False
-    traces = [Trace(_drawn(chain, pen, scale, shift)) for chain in made.strokes]
-    _draw(statement, pen, scope, traces)
+    _draw(
+        statement, pen, scope, _drawn([(chain, None) for chain in made.strokes], pen, scale, shift)
+    )
 
 
 def path(statement: Statement, pen: Pen, scope: Scope) -> None:
@@ -93,7 +95,7 @@ def path(statement: Statement, pen: Pen, scope: Scope) -> None:
     else:
         scale, origin = _fitted(statement, pen, scope, [chain])
     shift = _place_of(statement, pen, scope, scale * origin)
-    trace = Trace(_drawn(chain, pen, scale, shift))
+    (trace,) = _drawn([(chain, None)], pen, scale, shift)
     start = chains.ends(trace.chain)[0]
     gap = space.length(space.minus(start, pen.pose.position))
     if pen.started and gap > GAP and not statement.part("at") and not pen.amid_run:
@@ -113,12 +115,7 @@ def svg(statement: Statement, pen: Pen, scope: Scope) -> None:
     loose = [chain for chain, _ in drawing]
     scale, origin = _fitted(statement, pen, scope, loose)
     shift = _place_of(statement, pen, scope, scale * origin)
-    _draw(
-        statement,
-        pen,
-        scope,
-        [Trace(_drawn(chain, pen, scale, shift), colour) for chain, colour in drawing],
-    )
+    _draw(statement, pen, scope, _drawn(drawing, pen, scale, shift))
 
 
 # Where and how large.
@@ -189,10 +186,15 @@ def _place_of(statement: Statement, pen: Pen, scope: Scope, origin: Floats) -> V
     return pen.frame.point((x + a, y + b, z + c))
 
 
-def _drawn(chain: Chain, pen: Pen, scale: float, shift: Vector) -> Chain:
-    """A chain in the drawing frame."""
+def _drawn(
+    lines: Sequence[tuple[Chain, Colour | None]], pen: Pen, scale: float, shift: Vector
+) -> list[Trace]:
+    """Lines in the drawing frame."""
     columns = [pen.frame.vector(axis) for axis in ((1.0, 0.0, 0.0), space.Y, space.Z)]
-    return chains.mapped(chain, scale * np.array(columns).T, np.array(shift))
+    whole, starts, _ = chains.together([chain for chain, _ in lines])
+    there = chains.mapped(whole, scale * np.array(columns).T, np.array(shift))
+    colours_of = (colour for _, colour in lines)
+    return list(map(Trace, chains.parted(there, starts), colours_of))
 
 
 # The strokes.
@@ -211,9 +213,7 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
         part = statement.part("tool")
         raise here("E254", message, part.value.span if part else span, "", "use: tool keep")
     pen.pieces += sum(len(trace.chain.cubic) for trace in traces)
-    if pen.pieces > MOST_PIECES:
-        pen.findings.add(_too_many(span))
-        raise EnoughError
+    check_pieces(pen.pieces, pen, span)
     if not chains.farthest([trace.chain for trace in traces]) <= FARTHEST:
         raise here("E201", "this goes too far away", span)
     ends = chains.all_ends([trace.chain for trace in traces]).tolist()
@@ -238,9 +238,13 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
         pen.draw(trace.chain, tool, times[2 * number], glows[number], end, span)
 
 
-def _too_many(span: Span) -> Diagnostic:
-    message = f"more than {MOST_PIECES:,} pieces of lines from elsewhere in all"
-    return Diagnostic("E299", message, span, "", "draw it less often, or with fewer points")
+def check_pieces(pieces: int, pen: Pen, span: Span) -> None:
+    """Ends the work if so many pieces are too many."""
+    if pieces > MOST_PIECES:
+        message = f"more than {MOST_PIECES:,} pieces of lines from elsewhere in all"
+        cure = "draw it less often, or with fewer points"
+        pen.findings.add(Diagnostic("E299", message, span, "", cure))
+        raise EnoughError
 
 
 def _pen_up(statement: Statement, count: int) -> Problem:

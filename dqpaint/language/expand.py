@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from dqpaint.language import blends, blocks, reading, strokes, tools
+from dqpaint.language import blends, blocks, curves, elsewhere, reading, strokes, tools
 from dqpaint.language.definitions import called, drawing_of, frame_of, function_of, handed
 from dqpaint.language.diagnostics import (
     Diagnostic,
@@ -30,6 +30,7 @@ from dqpaint.language.values import Quantity, Value
 from dqpaint.language.words import SETTINGS, STATEMENTS
 
 NAMELESS = ("robot", "place", "curve", "repeat", "call")  # their name is none that they give
+ALIKE = ("text", "path", "svg", "move")  # in each pass as much as in the first
 SHORTEST_PERIOD = 1e-5  # [s]
 LONGEST_PERIOD = 10.0
 DEEPEST = 64  # blocks, calls and files within each other
@@ -215,6 +216,7 @@ class Expander:
         size = blocks.size(statement, len(passes), self._scope)
         self._check_size(statement, self._expanded + size)
         self._check_depth(statement)
+        pieces = self._pen.pieces
         for value in passes if statement.body else ():
             outside, failed = self._open_block(), self._failed
             if statement.name is not None:
@@ -225,6 +227,10 @@ class Expander:
             if self._failed > failed:  # the other passes would only say the same again
                 self._pen.lost = True
                 break
+            if value == passes[0] and all(line.word in ALIKE for line in statement.body):
+                total = pieces + len(passes) * (self._pen.pieces - pieces)
+                span = next((line.span for line in statement.body if line.word != "move"), None)
+                elsewhere.check_pieces(total, self._pen, span or statement.span)
 
     def _with(self, statement: Statement) -> None:
         pen = self._pen
@@ -262,7 +268,10 @@ class Expander:
 
     def _curve(self, statement: Statement) -> None:
         self._define(statement)
-        strokes.draw(statement, self._pen, self._scope)
+        try:
+            strokes.draw(statement, self._pen, self._scope)
+        except Problem as mistake:
+            raise curves.outside_of_formula(mistake, statement, self._text) from None
 
     def _where(self, span: Span, seen_from: Span) -> str:
         """`line:column`, and the file if it is another one."""

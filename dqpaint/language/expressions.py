@@ -17,7 +17,7 @@ from dqpaint.language.syntax import (
     Sign,
 )
 from dqpaint.language.units import UNITS
-from dqpaint.language.words import RESERVED
+from dqpaint.language.words import FUNCTIONS, RESERVED
 
 DEEPEST = 64  # brackets and signs within each other
 _SUMS, _PRODUCTS = ("+", "-"), ("*", "/")
@@ -149,6 +149,8 @@ def _not_closed(cursor: Cursor) -> Problem:
     fix = None
     if token.kind == "number" or token.kind == "name":
         cure = "put a comma between the numbers of a point, a * between the factors of a product"
+    if cursor.before.text in FUNCTIONS:
+        cure = f"write: {FUNCTIONS[cursor.before.text]}"
     if token.kind == cursor.before.kind == "number":
         end = cursor.before.end
         fix = Fix("put a comma between", Span(end, end), ",")

@@ -6,10 +6,11 @@ Each becomes a plain expression: a text `Quoted`, a word `Name`.
 from collections.abc import Callable
 
 from dqpaint.language.cursor import Cursor, example_of, found
-from dqpaint.language.diagnostics import Fix, problem
+from dqpaint.language.diagnostics import Fix, Span, problem
 from dqpaint.language.suggestions import closest, did_you_mean
 from dqpaint.language.syntax import Expression, Name, Quoted
 from dqpaint.language.units import FOREIGN_UNITS, LENGTH, UNITS
+from dqpaint.language.words import PARTS
 
 ALIGNMENTS = ("left", "centre", "right")
 LENGTHS = tuple(unit for unit, (_, kind, _) in UNITS.items() if kind == LENGTH)
@@ -26,8 +27,12 @@ def texts(cursor: Cursor, word: str) -> tuple[Expression, ...]:
         message = f"expected a text in quotes after '{word}' but found {found(cursor.token)}"
         cure, fix = f"for example: {example_of(word)}", None
         if cursor.token.kind == "name":
-            cure = f'put it in quotes: {word} "{token.text}"'
-            fix = Fix("put it in quotes", token.span, f'"{token.text}"')
+            end = token.end
+            while cursor.token.kind == "name" and cursor.token.text not in PARTS:
+                end = cursor.take().end
+            written = cursor.text[token.start : end]
+            cure = f'put it in quotes: {word} "{written}"'
+            fix = Fix("put it in quotes", Span(token.start, end), f'"{written}"')
         raise problem("E109", message, token.span, "", cure, fix)
     return tuple(found_texts)
 

@@ -2,6 +2,7 @@
 
 import re
 
+from dqpaint.language import leftovers
 from dqpaint.language.cursor import Cursor
 from dqpaint.language.diagnostics import Fix, Problem, Span, place, problem
 from dqpaint.language.lexer import Token
@@ -228,7 +229,13 @@ def misplaced(word: str, token: Token) -> Problem | None:
         ("screw", "axis"): "did you mean 'along'?",
         ("screw", "centre"): "did you mean 'about'?",
         ("with", "turned"): "did you mean 'rotate'?",
+        ("line", "from"): "a line begins where the tool is; write before it: move to (0, 0)",
+        ("arc", "from"): "an arc begins where the tool is; write before it: move to (0, 0)",
     }.get((word, token.text))
+    if token.text == "with" and STATEMENTS[word].moves:
+        cure = "parts stand there without 'with', as in: line to (10, 0) mm light red"
+    elif token.text == "per":
+        cure = "a rate is written with a slash: mm/s"
     if cure is None:
         return None
     message = f"'{word}' has no part called '{token.text}'"
@@ -244,10 +251,10 @@ def unexpected(word: str, cursor: Cursor) -> Problem | None:
     if word in ("line", "move") and is_value and cursor.before.text == word:
         return _to_or_by(word, token.span)
     if not is_value:
-        return None
+        return leftovers.advised(word, cursor)
     needed = {"arc": "centre", "screw": "about", "step": "to", "start": "at", "place": "at"}
     if word in needed and cursor.before.text == word:
         message = f"'{word}' needs '{needed[word]}' before the point"
         cure = f"for example: {STATEMENTS[word].example}"
         return problem("E111", message, token.span, "", cure)
-    return None
+    return leftovers.advised(word, cursor)

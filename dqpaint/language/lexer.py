@@ -34,6 +34,7 @@ class Line(NamedTuple):
 
 
 MOST_TOKENS = 100_000  # of one line
+MOST_WRAPPED = 20  # lines of a text whose end is looked for
 
 _NUMBER = r"(?:(?:0|[1-9]\d*)(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?"
 TOKEN = re.compile(
@@ -88,6 +89,8 @@ _LOOKALIKES = {
     "º": "°",
 }
 _QUOTES = "“”„«»'‘’"
+_POINTED = re.compile(r"<[^<>\n]*,[^<>\n]*>")
+_PART_OF_POINT = re.compile(r"(?<=\w)\.[xyz]\b")
 _QUOTED = re.compile(rf"[{_QUOTES}]([^{_QUOTES}\"\n]*)[{_QUOTES}]")
 _NAMES_OF_LETTERS = {"π": "pi", "²": "^2", "³": "^3", "√": "sqrt(…)"}
 
@@ -238,19 +241,7 @@ def _bad(
     if character.isspace():
         return end  # a blank that only Unicode calls one: it comes with copying from elsewhere
     if character == '"':
-        line_end = text.find("\n", start)
-        line_end = len(text) if line_end < 0 else line_end
-        problems.append(
-            Diagnostic(
-                "E107",
-                "this text is never closed",
-                Span(start, end),
-                "opened here",
-                'add " before the end of the line',
-            )
-        )
-        tokens.append(Token("text", text[end:line_end].rstrip(), start, line_end))
-        return line_end
+        return _never_closed(text, start, tokens, problems)
     if character.isalpha():
         end = _whole_word(text, start, tokens)
     if problems:
@@ -274,9 +265,17 @@ def _bad(
     elif character == ";" and in_brackets:
         cure = "the numbers of a point have commas between them"
         fix = Fix("write a comma", Span(start, end), ",")
+    elif character == ";" and not tokens:
+        cure = "a comment begins with #"
+    elif character == ";" and not _BLANK.match(text, end):
+        cure = "a line holds one statement; a comment begins with #"
     elif character == ";":
         cure = "no ; is needed: one statement per line"
         fix = Fix("take the ; away", Span(start, end), "")
+    elif character == "<" and _POINTED.match(text, start):
+        cure = "a point stands in round brackets: (10, 0)"
+    elif character == "<" and tokens and tokens[0].text == "curve":
+        cure = "write: for t from 0 to 360 deg"
     elif character in "<>!&|?":
         cure = ".traj has no conditions: use repeat, min/max, or write two files"
     elif character == ":":
@@ -284,6 +283,8 @@ def _bad(
         fix = Fix("take the : away", Span(start, end), "")
     elif character == "/" or text.startswith("//", start):
         cure = "a comment begins with #"
+    elif character == "." and _PART_OF_POINT.match(text, start):
+        cure = "a point has no parts with names: give its numbers names, let px = …"
     elif character == ".":
         cure = 'the name of a file stands in quotes: "points.csv"'
     elif character.isalpha():
@@ -302,6 +303,27 @@ def _bad(
             "E101", f"unexpected character {shown}", Span(start, start + 1), "", cure, fix=fix
         )
     )
+    return end
+
+
+def _never_closed(text: str, start: int, tokens: list[Token], problems: list[Diagnostic]) -> int:
+    """A text that does not end on its line; its end on a later one is no other mistake."""
+    end = text.find("\n", start) % (len(text) + 1)
+    words, cure = [text[start + 1 : end].rstrip()], 'add " before the end of the line'
+    at = end
+    while at < len(text) and len(words) < MOST_WRAPPED and not _begins_statement(text, at + 1):
+        stop = text.find("\n", at + 1) % (len(text) + 1)
+        words.append(text[at + 1 : stop].partition('"')[0].strip())
+        if '"' in text[at + 1 : stop]:
+            if text.count('"', at + 1, stop) % 2:  # the odd one is its end
+                end = text.find('"', at + 1) + 1
+                written = " ".join(f'"{line}"' for line in words if line)
+                cure = f"each line of a text has quotes of its own: {written}"
+            break
+        at = stop
+    opened = Span(start, start + 1)
+    problems.append(Diagnostic("E107", "this text is never closed", opened, "opened here", cure))
+    tokens.append(Token("text", words[0], start, end))
     return end
 
 

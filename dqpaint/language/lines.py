@@ -98,7 +98,8 @@ def _legs(
         tool, orientation = _tool_of_leg(pen, stop, statement.span, first, last)
         way = space.minus(stop, start)
         if isinstance(mode, LOOKING):
-            tools.check_way(mode, (_nearest(mode, start, way),), statement.span)
+            places = (_nearest(mode, start, way), *tools.most_leaning(mode, start, way))
+            tools.check_way(mode, places, statement.span)
         glow = light
         if light is not None and light.first != light.last and not _of_run(pen, light):
             glow = Light(

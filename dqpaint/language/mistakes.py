@@ -35,6 +35,8 @@ def unknown(node: Name, scope: Scope, words: Iterable[str] = ()) -> Problem:
     known = (*scope.names, *CONSTANTS, *words)
     meant = _abbreviation(name, scope) or closest(name, known, aliases)
     cure = did_you_mean(meant) or f"name it first: let {name} = …"
+    if scope.text[: node.span.start].rstrip().endswith("--"):
+        meant, cure = "", "a comment begins with #"
     if "keep" in words and not meant:
         cure += ", or write an orientation: rot(x, 180 deg)"
     if not meant and set(words) == set(LAWS):

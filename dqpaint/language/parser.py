@@ -150,6 +150,8 @@ class _Parser:
                 "E112",
                 f"'end' stands alone on its line, but here {found(line.tokens[1])} follows",
                 Span(line.tokens[1].start, line.tokens[-1].end),
+                "",
+                "write: end",
             )
 
     # What is no statement of ours.
@@ -164,6 +166,10 @@ class _Parser:
         return not meaning(name.text) and name.text not in STATEMENT_ALIASES
 
     def _unknown(self, line: Line) -> None:
+        if line.problems and (at := line.problems[0].span) and at.start < line.tokens[0].start:
+            self._findings.add(line.problems[0])
+            self._body.append(_broken(line.tokens))
+            return
         mistake, opens = self._unknown_statement(line.tokens)
         self._findings.add(mistake)
         broken = _broken(line.tokens)
@@ -178,6 +184,8 @@ class _Parser:
         first, word = tokens[0], tokens[0].text
         if first.kind != "name":
             cure = "a line begins with a word, such as line, arc or let"
+            if _COMMENTED.match(self._text, first.start):
+                cure = "a comment begins with #"
             message = f"expected a statement but found {found(first)}"
             return Diagnostic("E120", message, first.span, "", cure), False
         if _is_definition(tokens):
@@ -192,10 +200,12 @@ class _Parser:
             return Diagnostic("E120", message, first.span, "", cure), opens
         calls = self._defined or ()
         mistake, meant = unknown_statement(first.text, first.span, calls, tokens[1].text)
-        if (mistake.help == _HELP and tokens[1].kind == "end") or word in calls:
-            mistake = replace(
-                mistake, help=f"to draw what a 'def' names, write: {word}()", fix=None
-            )
+        called = word if word in calls else tokens[1].text if tokens[1].text in calls else ""
+        if called or (mistake.help == _HELP and tokens[1].kind == "end"):
+            given = tokens[1:] if called == word else tokens[2:]
+            values = self._text[given[0].start : tokens[-1].end].strip("() ") if given else ""
+            help_ = f"to draw what a 'def' names, write: {called or word}({values})"
+            mistake = replace(mistake, help=help_, fix=None)
         return mistake, meant in _BLOCKS
 
     def _definition(self, tokens: list[Token]) -> Diagnostic:
@@ -213,6 +223,7 @@ class _Parser:
         )
 
 
+_COMMENTED = re.compile(r"--|//|/\*|%|\*")  # as other languages begin a comment
 _HELP = "a line begins with a word such as line, arc or let, and a comment with #"
 
 
@@ -251,13 +262,26 @@ def _spare_ends(first_words: Iterable[tuple[str, str]]) -> int:
     return sum((word == "end") - (word in _BLOCKS) for word, _ in first_words)
 
 
+_OTHER_FORMS = {  # of `arc`: not the one of its example
+    "via": "arc via (10, 10) mm to (20, 0) mm",
+    "center": "arc center (30, 0) mm angle 360 deg",
+    **{part: f"arc radius 20 mm to (20, 0) mm {part}" for part in ("left", "right")},
+    **dict.fromkeys(("radius", "long"), "arc radius 20 mm to (20, 0) mm left long"),
+}
+
+
 def _user_of(part: str) -> str:
     """An example of a statement with this part."""
+    if part in _OTHER_FORMS:
+        return _OTHER_FORMS[part]
     for known in STATEMENTS.values():
         if part in known.parts:
             words = known.example.split()
             return known.example if part in words else f"{known.example} {PARTS[part].example}"
     return PARTS[part].example
+
+
+_NAMING = ("let", "repeat", "def", "frame", "for")
 
 
 def _broken(tokens: list[Token]) -> Statement:
@@ -268,7 +292,11 @@ def _broken(tokens: list[Token]) -> Statement:
         word = ""
     if _is_definition(tokens):
         name = Word(tokens[0].text, tokens[0].span)
-    elif word in ("let", "repeat", "def", "frame") and len(tokens) > 2 and tokens[1].kind == "name":
+    elif (
+        word in ("let", "repeat", "def", "frame", "for")
+        and len(tokens) > 2
+        and tokens[1].kind == "name"
+    ):
         name = Word(tokens[1].text, tokens[1].span)
     return Statement(word, span, name, broken=True)
 

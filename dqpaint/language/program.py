@@ -127,6 +127,9 @@ class Chain:
         return hash(self.cubic.tobytes())
 
 
+MOST_SAMPLES = 2_000_000  # of a drawing, if no more are allowed
+MOST_ALLOWED = 100_000_000  # of one for which more are
+
 Path = Straight | Arc | Curve | Screw | ScrewTo | Still | Step | Chain
 
 
@@ -304,6 +307,7 @@ class Program:
     start: Pose
     segments: tuple[Segment, ...]
     notes: tuple[Diagnostic, ...]  # warnings; errors are raised
+    most_samples: int = MOST_SAMPLES
 
     def where(self, line: int) -> str:
         """A line number of a segment as a person is told it: `12`, `petal.traj:3`."""

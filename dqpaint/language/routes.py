@@ -54,15 +54,15 @@ def _knots(ends: Floats, tolerance: float) -> list[tuple[int, int]]:
     """A number for the place of each end; ends that touch have the same."""
     cells: dict[tuple[int, int], list[int]] = defaultdict(list)
     flat = ends.reshape(-1, 3)[:, :2]
+    spots = flat.tolist()
     around = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
     knots: list[int] = []
-    for number, ((x, y), cell) in enumerate(
-        zip(flat.tolist(), np.floor(flat / tolerance).astype(np.int64).tolist(), strict=True)
-    ):
-        near = (k for i, j in around for k in cells[cell[0] + i, cell[1] + j])
-        same = next((k for k in near if np.hypot(*(flat[k] - (x, y))) <= tolerance), number)
+    for number, (x, y) in enumerate(np.floor(flat / tolerance).astype(np.int64).tolist()):
+        near = (k for i, j in around for k in cells.get((x + i, y + j), ()))
+        here = spots[number]
+        same = next((k for k in near if math.dist(spots[k], here) <= tolerance), number)
         if same == number:
-            cells[cell[0], cell[1]].append(number)
+            cells[x, y].append(number)
         knots.append(same)
     return list(zip(knots[::2], knots[1::2], strict=True))
 
@@ -161,6 +161,7 @@ class _Left:
 
     def __init__(self, ends: Floats) -> None:
         self._ends = ends
+        self._spots = ends.tolist()
         self._least = ends.reshape(-1, 3).min(axis=0)
         size = np.ptp(ends.reshape(-1, 3)[:, :2], axis=0)
         self._cell = max(float(size.max()) / math.sqrt(len(ends)), SAME)
@@ -183,11 +184,12 @@ class _Left:
 
     def nearest(self, point: Floats) -> tuple[int, int]:
         """The line and which of its ends; looks ring by ring, and then at all."""
-        x, y = self._cell_of(point.tolist())
+        here = point.tolist()
+        x, y = self._cell_of(here)
         best, found = math.inf, (-1, -1)
         for ring in range(RINGS):
             for line, side in self._ring(x, y, ring):
-                far = math.dist(self._ends[line, side].tolist(), point.tolist())
+                far = math.dist(self._spots[line][side], here)
                 if far < best:
                     best, found = far, (line, side)
             if best <= ring * self._cell:

@@ -6,14 +6,16 @@ nothing) is passed over so, and told.
 """
 
 from collections.abc import Callable, Mapping
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 from xml.etree.ElementTree import Element
 
 from dqpaint.language import svgvalues
 from dqpaint.language.svgstyle import Remark, tag_of
-from dqpaint.language.svgvalues import SvgError, UnreadableError
+from dqpaint.language.svgvalues import Commands, SvgError, UnreadableError
 
+NUMBER = "data-number"  # of a path in `Attributes.paths`: the library need not read it
 LINK = ("href", "{http://www.w3.org/1999/xlink}href")
+Read = TypeVar("Read")
 Reader = Callable[[str], str]
 
 _PLACE: Mapping[str, Reader] = {"x": svgvalues.length, "y": svgvalues.length}
@@ -21,10 +23,7 @@ _SIZE: Mapping[str, Reader] = dict.fromkeys(("width", "height"), svgvalues.size_
 _ROUND: Mapping[str, Reader] = {"rx": svgvalues.size_or_auto, "ry": svgvalues.size_or_auto}
 _CENTRE: Mapping[str, Reader] = {"cx": svgvalues.length, "cy": svgvalues.length}
 GEOMETRY: Mapping[str, Mapping[str, Reader]] = {
-    "path": {"d": svgvalues.path},
     "line": dict.fromkeys(("x1", "y1", "x2", "y2"), svgvalues.length),
-    "polyline": {"points": svgvalues.points},
-    "polygon": {"points": svgvalues.points},
     "rect": {**_PLACE, **_SIZE, **_ROUND},
     "circle": {**_CENTRE, "r": svgvalues.size},
     "ellipse": {**_CENTRE, **_ROUND},
@@ -32,6 +31,11 @@ GEOMETRY: Mapping[str, Mapping[str, Reader]] = {
     "svg": {**_PLACE, **_SIZE, "viewBox": svgvalues.view_box},
 }
 SHAPES = ("path", "line", "polyline", "polygon", "rect", "circle", "ellipse")
+OUTLINES: Mapping[str, tuple[str, Callable[[str], Commands]]] = {
+    "path": ("d", svgvalues.path),
+    "polyline": ("points", svgvalues.points),
+    "polygon": ("points", svgvalues.closed),
+}
 _PAINTS = ("stroke", "fill", "color")
 _OPACITIES = ("stroke-opacity", "fill-opacity", "opacity")
 _SIZES = {"rect": ("width", "height"), "circle": ("r",), "ellipse": ("rx", "ry")}
@@ -70,6 +74,7 @@ class Attributes:
     ) -> None:
         self._by_id = {e.attrib["id"]: e for e in root.iter() if "id" in e.attrib}
         self._lines, self._remark, self._not_followed = lines, remark, not_followed
+        self.paths: list[Commands] = []
 
     def write(self, element: Element, light: Opacities = OPAQUE) -> None:
         """Writes the attributes of an element and of all in it anew.
@@ -84,6 +89,9 @@ class Attributes:
         for name, reader in {**GEOMETRY.get(tag, {}), "transform": svgvalues.transform}.items():
             if name in has:
                 made[name] = self._read(element, name, reader)
+        if tag in OUTLINES:
+            name, letters = OUTLINES[tag]
+            self.paths.append(self._read(element, name, letters) if name in has else [])
         paints = self._paints(element)
         light = self._opacities(element, light)
         for name in NOT_FOLLOWED:
@@ -100,10 +108,13 @@ class Attributes:
         if tag in SHAPES:
             _shade(has, light)
         self._complete(element, tag)
+        if tag in OUTLINES:
+            has.update({"d": "", NUMBER: str(len(self.paths) - 1)})
+            element.tag = str(element.tag).replace(tag, "path")
         for child in element:
             self.write(child, light)
 
-    def _read(self, element: Element, name: str, reader: Reader) -> str:
+    def _read(self, element: Element, name: str, reader: Callable[[str], Read]) -> Read:
         try:
             return reader(element.attrib[name])
         except UnreadableError as fault:
@@ -182,7 +193,7 @@ class Attributes:
                 if one not in has and other in has:
                     has[one] = has[other]
         for name in GEOMETRY.get(tag, {}) if tag in SHAPES else ():
-            has.setdefault(name, "" if name in ("d", "points") else "0")
+            has.setdefault(name, "0")
         if any(float(has[name].rstrip("%")) == 0.0 for name in _SIZES.get(tag, ())):
             self._remark(element, f"a <{tag}> without a size")
 

@@ -11,8 +11,8 @@ from xml.etree import ElementTree
 from xml.parsers import expat
 
 from dqpaint.language.svgattributes import LINK, SHAPES, STYLED, Attributes
-from dqpaint.language.svgstyle import TooManyRulesError, inline, tag_of
-from dqpaint.language.svgvalues import NUMBER, SvgError
+from dqpaint.language.svgstyle import Remark, TooManyRulesError, inline, tag_of
+from dqpaint.language.svgvalues import NUMBER, Commands, SvgError
 
 MOST_BYTES = 10_000_000
 MOST_ELEMENTS = 100_000  # as they are written, and as they come by `use`
@@ -35,6 +35,18 @@ _NO_LINES = (
 _SAID = ("text", "image", "foreignObject", "flowRoot")  # of these a person misses the loss
 _LESS = "draw a part of it, or make it simpler"
 
+_TRACE = "trace it to paths in a drawing program, and save them as plain SVG"
+_SAVE = "save it as plain SVG in the program it was made with"
+OTHERS = (  # how files of other kinds begin, what they are, what helps
+    (b"\x1f\x8b", "compressed (.svgz)", f"unpack it, or {_SAVE}"),
+    (b"\x89PNG", "a PNG picture", _TRACE),
+    (b"\xff\xd8\xff", "a JPEG picture", _TRACE),
+    (b"GIF8", "a GIF picture", _TRACE),
+    (b"%PDF", "a PDF", _SAVE),
+    (b"%!PS", "PostScript", _SAVE),
+    (b"PK\x03\x04", "a packed file", _SAVE),
+)
+
 Element = ElementTree.Element
 Lines = dict[str, list[int]]  # of a file, where something stands
 Counts = tuple[int, int, int, int]  # elements, shapes, numbers, depth
@@ -49,12 +61,14 @@ class Guarded:
         left_out: texts, images ..., and the lines they stand on.
         otherwise: what is drawn, but not as SVG says, and the lines.
         passed_over: what SVG itself passes over, each with its line.
+        paths: the data of its paths and polygons, which name them by their numbers.
     """
 
     xml: bytes
     left_out: Lines = field(default_factory=dict)
     otherwise: Lines = field(default_factory=dict)
     passed_over: list[str] = field(default_factory=list)
+    paths: list[Commands] = field(default_factory=list)
 
 
 def guard(data: bytes) -> Guarded:
@@ -63,6 +77,9 @@ def guard(data: bytes) -> Guarded:
     Raises:
         SvgError: it is no SVG, or too much of it, or a part of it can't be read.
     """
+    for begins, what, cure in OTHERS:
+        if data.startswith(begins):
+            raise SvgError(f"it is {what}, not a plain SVG", cure)
     root, lines = _tree(data)
     if tag_of(root) != "svg" or _is_foreign(root):
         raise SvgError(f"this is no SVG: it begins with <{str(root.tag)[:60]}>")
@@ -82,7 +99,12 @@ def guard(data: bytes) -> Guarded:
     attributes = Attributes(root, lines, remark, otherwise)
     _clean(root, lines, out.left_out)
     attributes.write(root)
+    if _has_no_size(root):
+        cure = "give its viewBox the width and height of what it shows, or take it away"
+        raise SvgError(f"line {lines[root]}: it has no size, so SVG shows nothing of it", cure)
+    _leave_out_empty(root, remark)
     _size(root)
+    out.paths = attributes.paths
     out.xml = ElementTree.tostring(root, encoding="utf-8")
     return out
 
@@ -215,6 +237,23 @@ def _clean(parent: Element, lines: dict[Element, int], left_out: Lines) -> None:
     if tag_of(parent) == "switch":
         del kept[1:]
     parent[:] = kept
+
+
+def _has_no_size(element: Element) -> bool:
+    """Whether an <svg> has a width or a height of 0, in its view box or outside."""
+    sides = [element.attrib.get(key, "1") for key in ("width", "height")]
+    sides += element.attrib.get("viewBox", "").split()[2:]
+    return any(float(side.rstrip("%")) == 0.0 for side in sides)
+
+
+def _leave_out_empty(parent: Element, remark: Remark) -> None:
+    """Takes away what SVG does not show within a drawing; the library would end there."""
+    for child in list(parent):
+        if tag_of(child) == "svg" and _has_no_size(child):
+            remark(child, "an <svg> without a size")
+            parent.remove(child)
+        else:
+            _leave_out_empty(child, remark)
 
 
 def _size(root: Element) -> None:

@@ -32,7 +32,8 @@ _ARC = re.compile(
     rf"({_N}){_GAP}({_N}){_GAP}({_N}){_GAP}([01]){_GAP}([01]){_GAP}({_N}){_GAP}({_N}){_GAP}",
     re.ASCII,
 )
-_COUNTS = {"m": 2, "l": 2, "h": 1, "v": 1, "c": 6, "s": 4, "q": 4, "t": 2, "a": 7}
+Commands = list[tuple[str, list[float]]]  # the letters of a path, with their numbers
+COUNTS = {"m": 2, "l": 2, "h": 1, "v": 1, "c": 6, "s": 4, "q": 4, "t": 2, "a": 7}
 _COMMAND = re.compile(r"([MmZzLlHhVvCcSsQqTtAa])([^MmZzLlHhVvCcSsQqTtAa]*)")
 _FUNCTION = re.compile(r"[\s,]*([a-zA-Z]+)\s*\(([^()]*)\)")
 _COUNTS_OF = {  # of a transform's numbers, and whether they are angles or lengths
@@ -114,15 +115,26 @@ def numbers(text: str, what: str = "a number", after: str = "") -> list[float]:
     if end < len(text) or text.rstrip().endswith(","):
         strange = (text[end:] + after).lstrip()[:60].split(" ")[0] or ","
         raise UnreadableError(f"{shown(strange)} stands where {what} is expected")
-    return [_bounded(float(found), found) for found in NUMBER.findall(text)]
+    found = NUMBER.findall(text)
+    values = list(map(float, found))
+    if values and not max(map(abs, values)) <= LARGEST:
+        for value, written in zip(values, found, strict=True):
+            _bounded(value, written)
+    return values
 
 
-def points(text: str) -> str:
-    """The corners of a polygon."""
+def points(text: str) -> Commands:
+    """The corners of a polygon, as the letters of a path."""
     found = numbers(text)
     if len(found) % 2:
         raise UnreadableError(f"it has {len(found)} numbers, and points have two each")
-    return _joined(found)
+    return [("M", found)] if found else []
+
+
+def closed(text: str) -> Commands:
+    """The corners of a polygon, and back to the first."""
+    made = points(text)
+    return [*made, ("Z", [])] if made else []
 
 
 def view_box(text: str) -> str:
@@ -135,35 +147,33 @@ def view_box(text: str) -> str:
     return _joined(found)
 
 
-def path(text: str) -> str:
+def path(text: str) -> Commands:
     """The data of a path."""
     text = text.strip()
     if not text or text == "none":
-        return ""
+        return []
     if text[0] not in "Mm":
         raise UnreadableError(f"it begins with {shown(text[:1])}, not with M")
     parts = _COMMAND.finditer(text)
-    return " ".join(
-        _segment(part[1], part[2], text[part.end() : part.end() + 40]) for part in parts
-    )
+    return [(part[1], _segment(part[1], part[2], text, part.end())) for part in parts]
 
 
-def _segment(command: str, text: str, after: str) -> str:
-    """One letter of a path with its numbers; `after` is what comes then."""
+def _segment(command: str, text: str, whole: str, end: int) -> list[float]:
+    """The numbers of one letter of a path, which end at a place of the whole."""
     if command in "Zz":
         if text.strip():
             raise UnreadableError(f"{shown(text)} follows its {command}, which takes no numbers")
-        return "Z"
+        return []
+    after = whole[end : end + 40]
     if command in "Aa":
-        return command + _arcs(command, text, after)
-    what, count = f"a number of its {command}", _COUNTS[command.lower()]
-    found = numbers(text, what, after)
-    if not found or len(found) % count:
+        return _arcs(command, text, after)
+    found = numbers(text, f"a number of its {command}", after)
+    if not found or len(found) % COUNTS[command.lower()]:
         raise _wrong_count(command, text, len(found))
-    return command + _joined(found)
+    return found
 
 
-def _arcs(command: str, text: str, after: str) -> str:
+def _arcs(command: str, text: str, after: str) -> list[float]:
     match = _ARCS.match(text)
     end = match.end() if match else 0
     if end < len(text) or not text.strip() or text.rstrip().endswith(","):
@@ -176,11 +186,11 @@ def _arcs(command: str, text: str, after: str) -> str:
             if 0.0 < abs(size) < LEAST_RADIUS:
                 raise UnreadableError(f"the radius {shown(one)} of its {command} is far too small")
         made += [rx, ry, *others]
-    return _joined(made)
+    return made
 
 
 def _wrong_count(command: str, text: str, count: int) -> UnreadableError:
-    needed = _COUNTS[command.lower()]
+    needed = COUNTS[command.lower()]
     if command in "Aa" and count % needed == 0 and count:
         return UnreadableError(f"the flags of '{command}{shown(text)[1:]} are not 0 or 1")
     times = f"numbers by {needed}" if needed > 1 else "a number"
@@ -297,4 +307,4 @@ def mean(paints: list[str]) -> str:
 
 
 def _joined(found: list[float]) -> str:
-    return " ".join(map("{:.17g}".format, found))  # the flags of arcs must be 0 or 1, not 0.0
+    return " ".join(map(repr, found))

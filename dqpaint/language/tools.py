@@ -96,6 +96,20 @@ def turning(now: Quaternion, end: Quaternion) -> tuple[Tool, Quaternion]:
     return Turn(), end
 
 
+def most_leaning(mode: Look | LookLine, start: Vector, way: Vector) -> tuple[Vector, ...]:
+    """The place on a straight way where a look comes closest to 'up', or to its contrary.
+
+    The looks lie in one plane; there the closest is square to n x up, n being the plane's normal.
+    """
+    if not isinstance(mode, Look):
+        return ()
+    to = space.minus(mode.point, start)
+    across = space.cross(space.cross(to, way), mode.up)
+    speed = space.dot(way, across)
+    share = space.dot(to, across) / speed if speed else 0.0
+    return (space.plus(start, space.times(share, way)),) if 0.0 < share < 1.0 else ()
+
+
 def check_way(mode: Look | LookLine, places: Iterable[Vector], span: Span) -> None:
     """Raises if a tool could not look so on the way."""
     for position in places:

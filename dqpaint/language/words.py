@@ -254,11 +254,10 @@ FOREIGN_BLOCKS = ("if", "while", "for")
 
 # What people write who mean one of our words: for statements, and for parts.
 STATEMENT_ALIASES = {
-    "wait": "hold",
-    "pause": "hold",
-    "sleep": "hold",
-    "dwell": "hold",
-    "delay": "hold",
+    **dict.fromkeys(("wait", "pause", "sleep", "dwell", "delay"), "hold"),
+    "fd": "line by",
+    "penup": "move to",
+    "print": "text",
     "circle": "arc centre POINT angle 360 deg",
     "helix": "arc centre POINT angle 3 turn rise LENGTH",
     "spiral": "arc centre POINT angle 3 turn grow LENGTH",
@@ -330,6 +329,7 @@ PART_ALIASES = {
     "steps": "samples",
     "velocity": "speed",
     "height": "rise",
+    "size": "height",
     "round": "blend",
     "zone": "blend",
     "flash": "strobe",

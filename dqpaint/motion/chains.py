@@ -15,12 +15,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
-from dqpaint.language.chains import NODES, WEIGHTS, Indices, derivatives, together
+from dqpaint.language.chains import (
+    Indices,
+    derivatives,
+    is_uneven,
+    speeds,
+    stretches,
+    together,
+)
 from dqpaint.language.program import Chain
 
 EXACT = 1e-14  # of the length of the chain: what halving a panel may change
 MOST_HALVINGS = 30
-AT_ONCE = 10_000  # panels, for the sake of memory
 AT_REST = 1e-6  # of a piece's mean speed: there its formula stands still
 NEXT_TO = 1e-4  # of the way to the middle of a piece: where a direction is taken instead
 
@@ -118,7 +124,7 @@ class _Panels:
         before: all chains before each, end to end [m] (K,).
         total: the length of each chain [m] (K,).
         mean_speed: of each piece (M,): its length [m].
-        bent: whether it is no straight line that runs evenly (M,).
+        bent: whether it does not run at one speed (M,).
     """
 
     piece: Indices
@@ -146,16 +152,16 @@ class _Panels:
 
 def _measure(path: Chain, chain: Indices) -> _Panels:
     """The panels of pieces, each of a chain (M,)."""
-    bent = _is_bent(path)
+    bent = is_uneven(path)
     piece = np.arange(len(path.cubic))
     lower, upper = np.zeros(len(piece)), np.ones(len(piece))
-    size = _lengths(path, bent, piece, lower, upper)
+    size = stretches(path, bent, piece, lower, upper)
     close = EXACT * np.bincount(chain, weights=size)
     done: list[tuple[Indices, Floats, Floats, Floats]] = []
     for halving in range(MOST_HALVINGS):
         middle = 0.5 * (lower + upper)
-        first = _lengths(path, bent, piece, lower, middle)
-        second = _lengths(path, bent, piece, middle, upper)
+        first = stretches(path, bent, piece, lower, middle)
+        second = stretches(path, bent, piece, middle, upper)
         good = np.abs(first + second - size) <= close[chain[piece]]
         good |= halving == MOST_HALVINGS - 1
         done.append((piece[good], lower[good], upper[good], (first + second)[good]))
@@ -183,21 +189,6 @@ def _measure(path: Chain, chain: Indices) -> _Panels:
     )
 
 
-def _lengths(
-    path: Chain, is_bent: NDArray[np.bool_], piece: Indices, lower: Floats, upper: Floats
-) -> Floats:
-    """The lengths (N,) of pieces (N,) between parameters (N,)."""
-    out = np.linalg.norm(path.cubic[piece, 1], axis=1) * (upper - lower)
-    bent = np.flatnonzero(is_bent[piece])
-    for some in np.split(bent, range(AT_ONCE, len(bent), AT_ONCE)):
-        half = 0.5 * (upper[some] - lower[some])
-        at = 0.5 * (lower[some] + upper[some])[:, None] + half[:, None] * NODES
-        of = np.repeat(piece[some], len(NODES))
-        speed = np.linalg.norm(derivatives(path, of, at.ravel())[1], axis=1)
-        out[some] = (speed.reshape(at.shape) @ WEIGHTS) * half
-    return np.asarray(out)
-
-
 def _parameter(
     path: Chain, panels: _Panels, chain: Indices, distance: Floats
 ) -> tuple[Indices, Floats]:
@@ -216,19 +207,13 @@ def _parameter(
         if not len(bent):
             break
         now, of = g[bent], piece[bent]
-        excess = _lengths(path, panels.bent, of, start[bent], now) - wanted[bent]
+        excess = stretches(path, panels.bent, of, start[bent], now) - wanted[bent]
         upper[bent] = np.where(excess > 0.0, now, upper[bent])
         lower[bent] = np.where(excess > 0.0, lower[bent], now)
         with np.errstate(divide="ignore", invalid="ignore"):
-            new = now - excess / np.linalg.norm(derivatives(path, of, now)[1], axis=1)
+            new = now - excess / speeds(path, of, now[:, None])[:, 0]
         safe = (new >= lower[bent]) & (new <= upper[bent])
         new = np.where(safe, new, 0.5 * (lower[bent] + upper[bent]))
         g[bent] = new
         bent = bent[np.abs(new - now) > 1e-12]  # the next step would be its square
     return piece, g
-
-
-def _is_bent(path: Chain) -> NDArray[np.bool_]:
-    """Which pieces (M,) are no straight line that runs evenly."""
-    turns = path.ellipse.any(axis=(1, 2)) & (path.angles[:, 1] != 0.0)
-    return np.asarray(path.cubic[:, 2:].any(axis=(1, 2)) | turns)

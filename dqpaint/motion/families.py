@@ -28,7 +28,7 @@ from dqpaint.language.program import (
 )
 from dqpaint.motion.chains import place_chains
 from dqpaint.motion.faults import Faults, StrokeError, pole, stroke_errors
-from dqpaint.motion.lengths import Extent, flow_by_length, measure
+from dqpaint.motion.lengths import Extent, flow_by_length, measure, measure_steady
 from dqpaint.motion.orientations import orientation
 from dqpaint.motion.places import Arcs, Formula, Indices, Places, column, place_arc, place_straight
 from dqpaint.motion.shapes import Flow, Jump, Loose, Rigid, Shape
@@ -142,6 +142,8 @@ def gather(segments: tuple[Segment, ...], faults: Faults) -> Shapes:
                 made = _shape([segments[number] for number in members])
                 if made.even:
                     length[members], angle[members] = made.speeds(np.zeros(len(members)))
+                elif made.steady:
+                    length[members], angle[members] = measure_steady(made, len(members))
                 else:
                     for row, number in enumerate(members):
                         extent = measure(made.of(row))

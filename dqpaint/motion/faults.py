@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from dqpaint.language.diagnostics import Diagnostic, ScriptError
-from dqpaint.language.program import Lasting, Segment, Step
+from dqpaint.language.findings import Findings
+from dqpaint.language.program import MOST_ALLOWED, Lasting, Segment, Step
 
-MOST_SAMPLES = 2_000_000
 MOST_SECONDS = 86_400.0  # of a drawing
 ROUNDING_WORTH_SAYING = 0.01
 
@@ -96,21 +96,27 @@ def no_extent(segment: Segment) -> Diagnostic:
     )
 
 
-def too_many(segment: Segment, count: float) -> Diagnostic:
-    """E302; a stroke of so many samples is one too many."""
+def too_many(segment: Segment, count: float, most: int) -> Diagnostic:
+    """E302; a stroke of so many samples is one too many for the budget."""
     alone = f"{count:,}" if isinstance(count, int) else "endlessly many"
+    more = "; to allow more: draw --max-samples N" if most + count <= MOST_ALLOWED else ""
     return Diagnostic(
         "E302",
-        f"more than {MOST_SAMPLES:,} samples in all",
+        f"more than {most:,} samples in all",
         segment.span,
         label=f"this line alone has {alone}",
-        help="make the period longer or the path shorter or faster",
+        help=f"make the period longer or the path shorter or faster{more}",
     )
 
 
-def endless(segment: Segment) -> Diagnostic:
+def endless(segment: Segment, most: int) -> Diagnostic:
     """E302, where there is no number."""
-    return too_many(segment, math.inf)
+    return too_many(segment, math.inf, most)
+
+
+def beyond_budget(findings: Findings) -> bool:
+    """Whether a drawing is refused for its size, so that no sample of it need be computed."""
+    return any(found.code in ("E302", "E325") for found in findings.ordered())
 
 
 def too_long(segment: Segment, seconds: float) -> Diagnostic:

@@ -27,7 +27,7 @@ class Glow:
         even: whether it is dimmed where the tool is slow (M,).
         way: the length of each stroke (S,) that even light is even over; 0 where it stays. A point
             of light that turns on the spot has none, a bar has its angle.
-        peak: and its largest speed, where its law says it (S,).
+        peak: and its largest speed, where its law says it, in the time that was asked for (S,).
     """
 
     table: Timetable
@@ -122,7 +122,9 @@ def glow(table: Timetable) -> Glow:
         segment = segments[table.first[stroke]]
         turns = not isinstance(segment.path, Still | Step)
         way[stroke] = float(turns and isinstance(segment.brush, Bar))
-    return Glow(table, first, last, even, way, table.peak_rates * way / table.time)
+    # as fast as it was to be before its time was rounded up: else a short stroke is the brightest
+    fastest = table.peak_rates * way / np.minimum(table.wanted, table.time)
+    return Glow(table, first, last, even, way, fastest)
 
 
 def unevenness(table: Timetable) -> float:

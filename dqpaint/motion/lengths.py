@@ -11,10 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
+from dqpaint.motion.places import Indices
 from dqpaint.motion.shapes import Flow, Loose, Shape
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
 MOST_PANELS = 1024
+MOST_OF_ANGLES = 32  # panels, of a stroke whose length needs none
+EXACT_ANGLE = 1e-12  # relative
+AT_ONCE = 16_384  # places at which speeds are asked for
 EXACT = 1e-13  # relative, of a length
 SETTLED = 0.01  # relative: a length that still changes by more at `MOST_PANELS` is none
 CUSP = 1e-6  # of the mean speed: a curve that is slower somewhere has a point there
@@ -53,6 +57,38 @@ def measure(shape: Shape) -> Extent:
         if change <= EXACT * after.length:
             break
     return replace(before, settled=bool(change <= SETTLED * before.length))
+
+
+def measure_steady(shape: Shape, count: int) -> tuple[Floats, Floats]:
+    """The lengths [m] (K,) of strokes whose points run evenly, and the angles [rad] (K,).
+
+    Args:
+        shape: of all of them.
+        count: how many there are.
+    """
+    length = np.asarray(shape.speeds(np.zeros(count))[0])
+    angle, left = _angles(shape, np.arange(count), 1), np.arange(count)
+    panels = 1
+    while panels < MOST_OF_ANGLES and len(left):
+        panels *= 2
+        before, angle[left] = angle[left], _angles(shape, left, panels)
+        left = left[np.abs(angle[left] - before) > EXACT_ANGLE * angle[left]]
+    return length, angle
+
+
+def _angles(shape: Shape, rows: Indices, panels: int) -> Floats:
+    """The angles (N,) of some strokes, some at a time."""
+    edges = np.linspace(0.0, 1.0, panels + 1)
+    f = _nodes(edges[:-1], edges[1:]).ravel()
+    weights = np.tile(0.5 * WEIGHTS / panels, panels)
+    out = np.empty(len(rows))
+    at_once = max(1, AT_ONCE // len(f))
+    for begin in range(0, len(rows), at_once):
+        own = slice(begin, begin + at_once)
+        asked = shape.of(np.repeat(rows[own], len(f)))
+        turning = asked.speeds(np.tile(f, len(rows[own])))[1].reshape(-1, len(f))
+        out[own] = turning @ weights
+    return out
 
 
 def _integrate(shape: Shape, panels: int) -> Extent:

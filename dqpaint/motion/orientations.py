@@ -9,7 +9,7 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.language.program import Arc, Follow, Keep, Look, LookLine, Segment, Turn
-from dqpaint.motion.places import Indices, Places, Rowed, column
+from dqpaint.motion.places import Indices, Lines, Places, Rowed, column
 
 Turns = tuple[Floats, Floats, Floats]  # r (N, 4), w (N, 3) [rad per f], its derivative (N, 3)
 
@@ -24,8 +24,8 @@ class Spin(Protocol):
     def of(self, rows: Indices | int) -> Self:
         """The parameters of some strokes, one a row; or of one."""
 
-    def largest(self) -> Floats:
-        """As of `Places`."""
+    def steepest(self, places: Places, /) -> Floats:
+        """The largest of the numbers along places (K,), as `Places.largest` has it."""
 
     def __call__(self, f: Floats, at: Floats, /) -> Turns:
         """Orientation, angular velocity, and its derivative."""
@@ -62,6 +62,10 @@ class Turning(Rowed):
     turn: Floats
     even: ClassVar[bool] = True
 
+    def steepest(self, _places: Places) -> Floats:
+        """Of its own."""
+        return self.largest()
+
     def __call__(self, f: Floats, _at: Floats) -> Turns:
         """From the first orientation on."""
         half = np.concatenate([0.5 * f[:, None] * self.turn, np.zeros((len(f), 3))], axis=1)
@@ -92,7 +96,7 @@ class Heading:
         """It is one stroke alone."""
         return self
 
-    def largest(self) -> Floats:
+    def steepest(self, _places: Places) -> Floats:
         """It may leave the numbers anywhere."""
         return np.full(1, np.inf)
 
@@ -127,9 +131,16 @@ class Looking(Rowed):
     up: Floats
     even: ClassVar[bool] = False
 
-    def largest(self) -> Floats:
-        """It may leave the numbers anywhere."""
-        return np.full(1, np.inf)
+    def steepest(self, places: Places) -> Floats:
+        """A line may come close to the point, or to where it lies in the direction of `up`."""
+        if not isinstance(places, Lines):
+            return np.full(1, np.inf)
+        start, way = self.point - places.start, -places.by
+        lean = _least(dq.cross(self.up, start), dq.cross(self.up, way))
+        far = np.sqrt((start**2).sum(1)) + np.sqrt((way**2).sum(1))
+        with np.errstate(all="ignore"):  # where it goes through one of them
+            steep = (1.0 + far) ** 2 / (lean * np.minimum(1.0, _least(start, way)))
+        return np.asarray(np.maximum(self.largest(), steep**3))
 
     def __call__(self, _f: Floats, at: Floats) -> Turns:
         """From where the point is, and how it moves."""
@@ -146,9 +157,14 @@ class LookingAtLine(Rowed):
     along: Floats
     even: ClassVar[bool] = False
 
-    def largest(self) -> Floats:
-        """It may leave the numbers anywhere."""
-        return np.full(1, np.inf)
+    def steepest(self, places: Places) -> Floats:
+        """A line may come close to the line that it looks at."""
+        if not isinstance(places, Lines):
+            return np.full(1, np.inf)
+        start, way = (dq.cross(self.along, v) for v in (self.point - places.start, -places.by))
+        with np.errstate(all="ignore"):  # where it goes through it
+            steep = (1.0 + np.sqrt((way**2).sum(1))) / np.minimum(1.0, _least(start, way))
+        return np.asarray(np.maximum(self.largest(), steep**3))
 
     def __call__(self, _f: Floats, at: Floats) -> Turns:
         """From where the point is, and how it moves."""
@@ -156,6 +172,14 @@ class LookingAtLine(Rowed):
         z = _unit(towards - (towards * self.along).sum(-1, keepdims=True) * self.along)
         x = _fixed(self.along, z)
         return _spin_of_frame(x, _cross(z, x), z)
+
+
+def _least(start: Floats, way: Floats) -> Floats:
+    """The least length (K,) of vectors start + f way, 0 <= f <= 1."""
+    size = (way**2).sum(1)
+    f = np.divide(-(start * way).sum(1), size, out=np.zeros_like(size), where=size > 0.0)
+    nearest = start + np.clip(f, 0.0, 1.0)[:, None] * way
+    return np.asarray(np.sqrt((nearest**2).sum(1)))
 
 
 # Vectors that move: (3, N, 3), value and first two derivatives.

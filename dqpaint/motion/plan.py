@@ -12,7 +12,7 @@ from dqpaint.language.diagnostics import Diagnostic, ScriptError
 from dqpaint.language.findings import EnoughError, Findings
 from dqpaint.language.program import Auto, Pose, Program, Step
 from dqpaint.motion.corners import jumps, slow
-from dqpaint.motion.faults import Faults
+from dqpaint.motion.faults import Faults, beyond_budget
 from dqpaint.motion.glow import glow, unevenness
 from dqpaint.motion.pace import Pace, Ticks
 from dqpaint.motion.sampling import Rows, sampled
@@ -115,7 +115,7 @@ def plan(program: Program, canvas: Floats, pace: Pace | None = None) -> Motion:
         table = timetable(program, findings)
         ticks = _ticks(table, pace)
         sheet = _Sheet(table, ticks, _placed(program, canvas))
-        for rows in sampled(table, ticks, faults):
+        for rows in sampled(table, ticks, faults) if not beyond_budget(findings) else ():
             if not (faults or findings.errors):
                 sheet.add(rows)
         tell(faults, findings)

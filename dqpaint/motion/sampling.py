@@ -55,13 +55,16 @@ def every_sample(counts: NDArray[np.int64], strokes: Indices) -> tuple[Indices, 
     return stroke, step / counts[stroke]
 
 
-def sampled(table: Timetable, ticks: Sequence[Ticks] | None, faults: Faults) -> Iterator[Rows]:
+def sampled(
+    table: Timetable, ticks: Sequence[Ticks] | None, faults: Faults, parted: bool = False
+) -> Iterator[Rows]:
     """All rows of all strokes.
 
     Args:
         table: the strokes.
         ticks: when the samples of each are, where the clock is slowed; else at whole periods.
         faults: gets what goes wrong, by the stroke.
+        parted: whether a long stroke may come in parts; then the clock is not slowed.
     """
     counts = table.count if ticks is None else np.array([tick.count for tick in ticks])
     for strokes in blocks(counts):
@@ -71,13 +74,16 @@ def sampled(table: Timetable, ticks: Sequence[Ticks] | None, faults: Faults) -> 
             some = [ticks[number] for number in strokes]
             stroke = np.repeat(strokes, counts[strokes] + 1)
             tau = np.concatenate([tick.tau for tick in some])
-        of_segments: Faults = {}
-        flow, fraction = table.flow(stroke, tau, of_segments)
-        if ticks is not None:
-            flow = flow.at_rates(*_paces(some))
         last = np.append(stroke[1:] != stroke[:-1], True)
-        _note(table, stroke, flow, of_segments, faults)
-        yield Rows(stroke, tau, flow, fraction, last)
+        for begin in range(0, len(stroke), AT_ONCE) if parted else (0,):
+            own = slice(begin, begin + AT_ONCE) if parted else slice(None)
+            of_segments: Faults = {}
+            with np.errstate(all="ignore"):  # what is not finite is told below
+                flow, fraction = table.flow(stroke[own], tau[own], of_segments)
+            if ticks is not None:
+                flow = flow.at_rates(*_paces(some))
+            _note(table, stroke[own], flow, of_segments, faults)
+            yield Rows(stroke[own], tau[own], flow, fraction, last[own])
 
 
 def _paces(ticks: Sequence[Ticks]) -> tuple[Floats, Floats]:

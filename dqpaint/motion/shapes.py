@@ -42,6 +42,10 @@ class Shape(Protocol):
         """Whether the point and the tool's turning each have one speed over f."""
 
     @property
+    def steady(self) -> bool:
+        """Whether the point has one speed over f, whatever the tool does."""
+
+    @property
     def straight(self) -> bool:
         """Whether the point goes straight from the first place to the last."""
 
@@ -68,6 +72,7 @@ class Rigid(Rowed):
     start: Floats
     displacement: Floats
     even: ClassVar[bool] = True
+    steady: ClassVar[bool] = True
 
     @property
     def straight(self) -> bool:
@@ -101,6 +106,7 @@ class Jump(Rowed):
     start: Floats
     end: Floats
     even: ClassVar[bool] = True
+    steady: ClassVar[bool] = True
     straight: ClassVar[bool] = True
 
     def flow(self, f: Floats) -> Flow:
@@ -130,13 +136,18 @@ class Loose:
         return self.places.even and self.spin.even
 
     @property
+    def steady(self) -> bool:
+        """If the places are even."""
+        return self.places.even
+
+    @property
     def straight(self) -> bool:
         """If the places are."""
         return isinstance(self.places, Lines)
 
     def largest(self) -> Floats:
         """Of both."""
-        return np.maximum(self.places.largest(), self.spin.largest())
+        return np.maximum(self.places.largest(), self.spin.steepest(self.places))
 
     def of(self, rows: Indices | int) -> Self:
         """Of both."""

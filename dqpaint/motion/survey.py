@@ -16,7 +16,7 @@ from dqpaint.language.findings import EnoughError, Findings
 from dqpaint.language.program import Program
 from dqpaint.motion.corners import jumps, slow
 from dqpaint.motion.families import Flags
-from dqpaint.motion.faults import Faults
+from dqpaint.motion.faults import Faults, beyond_budget
 from dqpaint.motion.glow import unevenness
 from dqpaint.motion.places import Indices
 from dqpaint.motion.sampling import blocks, every_sample, sampled
@@ -64,8 +64,8 @@ def survey(program: Program) -> Survey:
     box = _Box()
     try:
         table = timetable(program, findings)
-        doubtful = _doubtful(table)
-        for rows in sampled(table.of(doubtful), None, faults):
+        doubtful = _doubtful(table) & (not beyond_budget(findings))
+        for rows in sampled(table.of(doubtful), None, faults, parted=True):
             box.add(dq.translation(rows.flow.pose))
         tell(faults, findings)
     except EnoughError:

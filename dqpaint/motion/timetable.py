@@ -18,7 +18,7 @@ from dqpaint.language.findings import Findings
 from dqpaint.language.program import Cruise, Program, Samples, Segment, Step, Still
 from dqpaint.motion import faults as told
 from dqpaint.motion.families import Flags, Shapes, gather
-from dqpaint.motion.faults import MOST_SAMPLES, MOST_SECONDS, Faults
+from dqpaint.motion.faults import MOST_SECONDS, Faults
 from dqpaint.motion.laws import LAWS, PEAK, Progress, Rates, cruise_time, peak_rate, scale_rates
 from dqpaint.motion.lengths import has_cusp, length_fraction
 from dqpaint.motion.places import Indices
@@ -198,7 +198,7 @@ def timetable(program: Program, findings: Findings) -> Timetable:
     Raises:
         EnoughError: the list of errors is full.
     """
-    segments, period = program.segments, program.period
+    segments = program.segments
     faults: Faults = {}  # of segments
     shapes = gather(segments, faults)
     first, size = _strokes(segments)
@@ -212,7 +212,7 @@ def timetable(program: Program, findings: Findings) -> Timetable:
     wrong = _of_strokes(faults, first)
     law, rates = _laws(draft, wrong)
     wanted = _seconds(replace(draft, law=law, rates=rates), wrong)
-    count = _counts(draft.firsts, wanted, period)
+    count = _counts(draft.firsts, wanted, program)
     table = replace(draft, law=law, rates=rates, count=count, wanted=wanted)
     return table.of(_told(table, wrong, findings))
 
@@ -296,7 +296,7 @@ def _seconds(table: Timetable, wrong: Faults) -> Floats:
     seconds = np.where(cruising, np.where(least == 0, period, peak * least), seconds)
     endless = ~(seconds / period < ENDLESS) | (cruising & ~(least < ENDLESS * period))
     for stroke in np.flatnonzero(endless).tolist():
-        wrong.setdefault(stroke, (told.endless(firsts[stroke]),))
+        wrong.setdefault(stroke, (told.endless(firsts[stroke], table.program.most_samples),))
     good = np.array([stroke not in wrong for stroke in range(len(table))])
     for name, with_rates, strokes in table.laws():
         own = strokes[(cruising & (least > 0) & good)[strokes]]
@@ -316,25 +316,26 @@ def _asked(segment: Segment, period: float) -> tuple[float, float, float]:
     return timing.count * period if isinstance(timing, Samples) else timing.seconds, 0.0, 1.0
 
 
-def _counts(firsts: Sequence[Segment], seconds: Floats, period: float) -> NDArray[np.int64]:
+def _counts(firsts: Sequence[Segment], seconds: Floats, program: Program) -> NDArray[np.int64]:
     """How many new samples each stroke has (S,); far too many are one more than the budget."""
-    wanted = np.minimum(np.nan_to_num(seconds / period), 2.0 * MOST_SAMPLES)
+    most = 2 * program.most_samples
+    wanted = np.minimum(np.nan_to_num(seconds / program.period), float(most))
     # the next whole number, at least 1; the noise of a division is not another one
     count = np.maximum(1, np.ceil(wanted - 1e-9 - 1e-12 * wanted)).astype(np.int64)
     for stroke, segment in enumerate(firsts):
         if isinstance(segment.path, Step):
             count[stroke] = 1
         elif isinstance(segment.timing, Samples):
-            count[stroke] = min(segment.timing.count, 2 * MOST_SAMPLES)
+            count[stroke] = min(segment.timing.count, most)
     return count
 
 
 def _told(table: Timetable, wrong: Faults, findings: Findings) -> Flags:
     """Says what is wrong, and what is rounded by much; gives which strokes (S,) are left."""
-    period, firsts = table.program.period, table.firsts
+    period, most, firsts = table.program.period, table.program.most_samples, table.firsts
     good = np.array([stroke not in wrong for stroke in range(len(table))])
     total = 1 + np.cumsum(np.where(good, table.count, 0))
-    over = np.flatnonzero(good & ((total > MOST_SAMPLES) | (total * period > MOST_SECONDS)))
+    over = np.flatnonzero(good & ((total > most) | (total * period > MOST_SECONDS)))
     end = int(over[0]) if len(over) else len(table)
     longer = table.time - table.wanted > told.ROUNDING_WORTH_SAYING * table.wanted
     for stroke in sorted({*wrong, *np.flatnonzero(longer & good).tolist()}):
@@ -344,15 +345,18 @@ def _told(table: Timetable, wrong: Faults, findings: Findings) -> Flags:
         for diagnostic in wrong.get(stroke, (note,) if note else ()):
             findings.add(diagnostic)
     if end < len(table):
-        findings.add(_too_much(firsts[end], table, end, bool(total[end] > MOST_SAMPLES)))
+        findings.add(_too_much(firsts[end], table, end, bool(total[end] > most)))
     return good & (np.arange(len(table)) < end)
 
 
 def _too_much(segment: Segment, table: Timetable, stroke: int, samples: bool) -> Diagnostic:
     count, period = int(table.count[stroke]), table.program.period
-    if count >= 2 * MOST_SAMPLES:
+    most = table.program.most_samples
+    if count >= 2 * most:
         wanted = float(table.wanted[stroke]) / period
         count = math.ceil(wanted - 1e-9 - 1e-12 * wanted)
     if isinstance(segment.timing, Samples):
         count = segment.timing.count
-    return told.too_many(segment, count) if samples else told.too_long(segment, count * period)
+    return (
+        told.too_many(segment, count, most) if samples else told.too_long(segment, count * period)
+    )

@@ -191,14 +191,16 @@ class Tree:
         roots = [name for name in self.links if name not in self.joints]
         if len(roots) > 1:
             raise self.fault(f"links {some(roots)} are not joined to each other")
+        rooted: set[str] = set()
         for start in self.links:
-            seen = {start}
+            way = {start}
             link = start
-            while link in self.joints:
+            while link in self.joints and link not in rooted:
                 link = self.joints[link].parent
-                if link in seen:
+                if link in way:
                     raise self.fault(f"link '{link}' carries itself: a loop of links is no arm")
-                seen.add(link)
+                way.add(link)
+            rooted |= way
         if not roots:
             raise self.fault("it has no links")
         return roots[0]

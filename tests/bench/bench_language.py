@@ -69,6 +69,7 @@ def kinds() -> dict[str, str]:
         "rates": "law cubic(5 mm/s, 5 mm/s)\n" + lines(LINE, count=LINES - 1),
         "stroke": "stroke light white\n" + lines("  " + LINE, count=LINES - 2) + "end\n",
         "mixed": lines(*MIXED),
+        "looks": lines("line to ({x:.1f}, {y:.1f}) mm tool look (0, 0, 500) mm"),
         "arcs": "move to (0, 0)\n" + _arcs(LINES - 1),
     }
 

@@ -16,7 +16,10 @@ from tests.conftest import random_poses
 from tests.controllers.seeing import ARM, STILL, ahead_of, body_sees, law, seen_by
 
 LAWS = pytest.mark.parametrize("name", CONTROLLERS)
-ROBOTS = pytest.mark.parametrize("robot", installed_names())
+DAILY = ("iiwa", "viper850")  # of seven joints and of six; the others take their time
+ROBOTS = pytest.mark.parametrize("robot", [
+    pytest.param(name, marks=[pytest.mark.slow] * (name not in DAILY)) for name in installed_names()
+])  # fmt: skip
 SHAPES = {"twist": 6, "acceleration": 6, "rates": 7, "torque": 7}
 
 

@@ -7,6 +7,9 @@ import pytest
 
 from dqpaint.language import ScriptError, parse, read
 from dqpaint.language.diagnostics import Span, place
+from dqpaint.language.findings import Findings
+from dqpaint.language.parser import parse_statements
+from dqpaint.language.words import PARTS, STATEMENTS
 from dqpaint.robots.choose import card_for
 
 # The text (~ ends a line), the code, line:column, the advice or its beginning.
@@ -36,6 +39,33 @@ repeat 3 {~line by (1, 0) mm~end|E101|1:10|no { is needed: a block ends with a l
 line to {1, 0} mm|E101|1:9|write (
 forward 100|E120|1:1|did you mean 'line by'?
 write "Ada" height 9 mm|E120|1:1|did you mean 'text'?
+print("Ada")|E120|1:1|did you mean 'text'?
+right 90|E120|1:1|'right' belongs to a statement and stands on its line: arc radius 20 mm
+for i in range(5):~  line to (i, 0)|E121|1:1|write: repeat i from 1 to 5
+for i = 1 to 5~line to (i, 0) mm~end|E121|1:1|write: repeat i from 1 to 5
+repeat 5~line by (1, 0) mm~end repeat|E112|3:5|write: end
+repeat i = 1 to 10~line by (i*mm, 0)~end|E112|1:10|write: repeat i from 1 to 5
+let r = 5 mm, s = 3 mm|E112|1:13|each value has a 'let' and a line of its own
+let a = 3 mm~let b = 2 a|E112|2:11|a product is written 2*a
+let a = (1, 2) mm~line by (a.x, 0)|E101|2:11|a point has no parts with names
+light dark blue|E112|1:12|did you mean 'darkblue'?
+light 0.5 red|E112|1:11|the brightness follows the colour: light red 50%
+line by (1, 0) mm light 40 red|E110|1:28|a colour stands behind 'light'
+strobe 50% 10 Hz|E112|1:10|the frequency comes first: strobe 10 Hz 30%
+text "Ada" 20 mm|E112|1:12|say what the number is: height 20 mm
+text "Ada" size 20 mm|E110|1:12|did you mean 'height'?
+text Ada Lovelace height 9 mm|E109|1:6|put it in quotes: text "Ada Lovelace"
+place at 0.5 0 0.3 m|E112|1:14|a point stands in brackets, with commas
+line from (0, 0) to (9, 0) mm|E110|1:6|a line begins where the tool is; write before it: move to
+line to (9, 0) mm with light red|E110|1:19|parts stand there without 'with'
+line to (9, 0) mm speed 10 mm per s|E110|1:31|a rate is written with a slash: mm/s
+line to <9, 0> mm|E101|1:9|a point stands in round brackets: (10, 0)
+curve (t, t) for 0 < t < 9 mm|E101|1:20|write: for t from 0 to 360 deg
+curve (t, t**2) for t from 0 to 9 mm|E105|1:13|a power is written with ^, as in t^2
+curve (t, abs t) for t from 0 to 9 mm|E109|1:15|write: abs(VALUE)
+def star(r)~line by (r, 0)~end~star 5 mm|E120|4:1|to draw what a 'def' names, write: star(5 mm)
+def star(r)~line by (r, 0)~end~call star(5 mm)|E120|4:1|to draw what a 'def' names, write: star(5 mm)
+def star~line by (9, 0) mm~end~star|E120|4:1|to draw what a 'def' names, write: star()
 """
 
 
@@ -50,6 +80,19 @@ def test_advice(case: str) -> None:
     where = place(text, finding.span.start)
     assert (finding.code, f"{where.line}:{where.column}") == (code, at)
     assert finding.help.startswith(advice)
+
+
+@pytest.mark.parametrize("part", sorted(set(PARTS) - set(STATEMENTS)))
+def test_a_part_s_example_is_one(part: str) -> None:
+    """What a line that begins with a part is shown instead has no mistake of its own."""
+    with pytest.raises(ScriptError) as caught:
+        parse(f"{part} 5")
+    example = caught.value.diagnostics[0].help.partition("stands on its line: ")[2]
+    assert example
+    findings = Findings()
+    end = "\nend" if STATEMENTS[example.split()[0]].block else ""
+    parse_statements(example + end, findings)
+    assert not findings.ordered(), example
 
 
 def test_a_block_without_its_with_is_one_mistake() -> None:

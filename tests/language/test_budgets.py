@@ -4,6 +4,7 @@ import os
 import resource
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -77,17 +78,57 @@ def test_the_command_line_answers_soon(tmp_path: Path, name: str) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("rows", "size", "said"),
-    [(499_000, 90.0, "error[E302]"), (499_000, 1.0, "steps"), (999_000, 90.0, "error[E294]")],
+    ("rows", "size", "clause", "said"),
+    [
+        (499_000, 90.0, "speed 1 mm/s", "error[E302]"),
+        (499_000, 1.0, "in 100 s", "steps"),
+        (499_000, 1.0, "smooth in 100 s", "steps"),
+        (999_000, 90.0, "in 100 s", "error[E294]"),
+    ],
 )
 def test_a_path_of_many_points_is_answered_soon(
-    tmp_path: Path, rows: int, size: float, said: str
+    tmp_path: Path, rows: int, size: float, clause: str, said: str
 ) -> None:
     near = "".join(f"{size * (i % 97) / 97:.2f},{i % 89 / 890:.2f}\n" for i in range(rows))
     (tmp_path / "points.csv").write_text(near)
-    (tmp_path / "path.traj").write_text('path "points.csv" unit mm in 100 s\n')
-    if said == "error[E302]":
-        (tmp_path / "path.traj").write_text('path "points.csv" unit mm speed 1 mm/s\n')
+    (tmp_path / "path.traj").write_text(f'path "points.csv" unit mm {clause}\n')
     _, output, spent = answer(tmp_path / "path.traj")
     assert said in output, output[:500]
     assert spent < MOST_SECONDS
+
+
+def drawing_of(shapes: Iterator[str]) -> str:
+    """An SVG of 1000 by 1000 pixels."""
+    root = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1000 1000" stroke="red">'
+    return f"{root}{''.join(shapes)}</svg>"
+
+
+def dots(count: int) -> Iterator[str]:
+    for i in range(count):
+        yield f'<circle cx="{i * 7919 % 1000}" cy="{i * 104729 % 997}" r="1"/>'
+
+
+def curves(count: int) -> Iterator[str]:
+    yield '<path fill="none" d="M500 500'
+    for i in range(count):
+        end = f"{i * 7919 % 31 - 15} {i * 104729 % 29 - 14}"
+        yield f"c{i % 7}.5 {i % 5}.25 {i % 3}.5 {i % 11} {end}"
+    yield '"/>'
+
+
+LARGE = {  # the shapes, the clause, what is said, the most seconds: three times what was measured
+    "dots": (dots(20_000), "", " steps of 8 ms", 8.0),
+    "curves": (curves(60_000), "speed 4 m/s", " steps of 8 ms", 6.0),
+    "too-slow": (curves(60_000), "speed 0.01 mm/s", "error[E302]", 4.0),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", LARGE)
+def test_a_large_svg_is_answered_soon(tmp_path: Path, name: str) -> None:
+    shapes, clause, said, most = LARGE[name]
+    (tmp_path / "a.svg").write_text(drawing_of(shapes))
+    (tmp_path / "a.traj").write_text(f'svg "a.svg" height 200 mm {clause}\n')
+    _, output, spent = answer(tmp_path / "a.traj")
+    assert said in output, output[:500]
+    assert spent < most

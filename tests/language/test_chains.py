@@ -145,3 +145,23 @@ def test_a_stem_stays_straight_where_a_bow_begins() -> None:
     stem = chains.smooth(points, stiff=2.2).cubic[0]
     assert not stem[2:].any()
     assert chains.smooth(points).cubic[0, 2:].any()
+
+
+def test_the_length_of_an_ellipse_is_its_integral_and_that_of_a_circle_its_radius() -> None:
+    """Against the perimeter by the arithmetic-geometric mean (Abramowitz & Stegun 17.6)."""
+    a, b = 3.0, 1.0
+    x, y, total, power = a, b, a * a, 0.5
+    while abs(x - y) > 1e-15:
+        total -= power * (x * x - y * y)
+        x, y, power = (x + y) / 2, np.sqrt(x * y), 2 * power
+    perimeter = 2 * np.pi * total / x
+    axes = np.array([a, 0.0, 0.0]), np.array([0.0, b, 0.0])
+    for quarter in range(4):
+        arc = chains.arc(np.ones(3), *axes, 0.5 * np.pi * quarter, 0.5 * np.pi)
+        assert chains.is_uneven(arc).all()
+        assert chains.lengths([arc])[0] == pytest.approx(perimeter / 4, rel=1e-6)
+    circle = chains.arc(np.ones(3), 2 * axes[0], 6 * axes[1], 0.3, -2.0)
+    assert not chains.is_uneven(circle).any()
+    assert chains.lengths([circle])[0] == pytest.approx(12.0, rel=1e-15)
+    skewed = chains.arc(np.ones(3), axes[0], np.array([0.1, 3.0, 0.0]), 0.3, -2.0)
+    assert chains.is_uneven(skewed).all()

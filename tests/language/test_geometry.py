@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from dqpaint.language import space
+from dqpaint.language import ScriptError, space
 from dqpaint.language.program import (
     Arc,
     Follow,
@@ -211,6 +211,26 @@ def test_look_line(rng: np.random.Generator) -> None:
             z /= np.linalg.norm(z)
             expected = np.column_stack([x, np.cross(z, x), z])
             assert matrix(pose.orientation) == pytest.approx(expected, abs=1e-12)
+
+
+def test_a_look_along_up_is_found_wherever_it_is_on_the_way() -> None:
+    """Not where it is nearest to the point; in the middle of a line; `up` is y."""
+    for end, up, wrong in (
+        ("(10, 25, 0)", "y", True),
+        ("(10, 25, 0.02)", "y", True),  # within a degree
+        ("(10, 25, 2)", "y", False),
+        ("(10, 25, 0)", "z", False),
+        ("(10, -45, 0)", "y", True),  # it looks up there, not down
+        ("(-1, 14, 0)", "y", False),  # it ends before
+    ):
+        look = f"tool look (0, 0, 0) up {up}"
+        text = f"start at (-10, 5, 0) mm {look}\nline to {end} mm {look}"
+        if not wrong:
+            drawn(text)
+            continue
+        with pytest.raises(ScriptError, match=r"E252.*\n --> test.traj:2:1"):
+            drawn(text)
+    assert only("line by (1, 0) mm tool look (0, 0, -50) mm").tool == Look((0, 0, -0.05), (0, 1, 0))
 
 
 def test_a_look_that_begins_elsewhere_turns_in_the_dark_first() -> None:

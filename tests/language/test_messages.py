@@ -133,7 +133,23 @@ hold 0 s|E220|1:6 0 s|'hold' needs a time greater than 0|this is 0|
 line by (1,0) mm samples 2.5|E221|1:26 2.5|'samples' needs a whole number, this is 2.5||
 repeat i from 5 to 1~end|E222|1:20 1|'repeat' counts up, but 1 is less than 5||write: repeat i from 1 to 5, and count down with -i
 let r = 1 mm~let r = 2 mm|E230|2:5 r|'r' already has a value|(first: 1:5)|values never change; choose another name
-curve polar(t*mm, t*rad) for t from 0 to 1 light hsv(t)|E205|1:54 t|'t' is not known||name it first: let t = …
+curve polar(t*mm, t*rad) for t from 0 to 1 light hsv(t)|E205|1:54 t|'t' has a value in the formula of the curve alone||what stands behind the formula holds for the whole curve; to change on the way, write: light red to blue
+curve polar(t*mm, t*rad) for t from 0 to 1 light red in t*1 s|E205|1:57 t|'t' has a value in the formula of the curve alone||what stands behind the formula holds for the whole curve
+line to () mm|E105|1:10 )|expected a value after '(' but found ')'||a comma stands between two numbers, as in (10, 20) mm
+line to (1,) mm|E105|1:12 )|expected a value after ',' but found ')'||a comma stands between two numbers, as in (10, 20) mm
+line to (1,,2) mm|E105|1:12 ,|expected a value after ',' but found ','||a comma stands between two numbers, as in (10, 20) mm
+text "Hello~  world" height 20 mm|E107|1:6 "|this text is never closed|opened here|each line of a text has quotes of its own: "Hello" "world"
+text "Hello~world~again" height 20 mm|E107|1:6 "|this text is never closed|opened here|each line of a text has quotes of its own: "Hello" "world" "again"
+text "Hello" font "scripts~text "world" height 20 mm|E107|1:19 "|this text is never closed|opened here|add " before the end of the line
+-- a comment|E120|1:1 -|expected a statement but found '-'||a comment begins with #
+// a comment|E120|1:1 /|expected a statement but found '/'||a comment begins with #
+% a comment|E120|1:1 %|expected a statement but found '%'||a comment begins with #
+; a comment|E101|1:1 ;|unexpected character ';'||a comment begins with #
+line by (1, 0) mm ; a comment|E101|1:19 ;|unexpected character ';'||a line holds one statement; a comment begins with #
+line by (1, 0) mm -- comment|E205|1:22 comment|'comment' is not known||a comment begins with #
+svg "packed.svgz"|E298|1:5 "packed.svgz"|can't draw packed.svgz: it is compressed (.svgz), not a plain SVG||unpack it, or save it as plain SVG in the program it was made with
+svg "nosize.svg"|E298|1:5 "nosize.svg"|can't draw nosize.svg: line 1: it has no size, so SVG shows nothing of it||give its viewBox the width and height of what it shows, or take it away
+svg "inner.svg"|W421|1:5 "inner.svg"|passed over in inner.svg, as SVG says: line 2: an <svg> without a size||mend it in the file, or leave it: browsers draw it so, too
 curve (hsv(t), 0) for t from 0 to 1 turn|E231|1:12 t|hsv can't change along a curve||for a tool that turns on the way, use: tool follow, or tool look
 line to (9,0) mm in 2 s samples 30|E241|1:25 samples|the time is given twice|second|use one of: in TIME, samples N, speed V
 curve (t, t) for t from 3 mm to 3 mm|E242|1:33 3 mm|this curve ends at the same value where it starts||

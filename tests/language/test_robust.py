@@ -124,8 +124,7 @@ def test_mutants() -> None:
     for text in texts:
         check(text)
         assert parse(text, "whole.traj", HERE).segments
-    begin = time.perf_counter()
-    while time.perf_counter() - begin < 3.0:
+    for _ in range(2000):
         words = TOKEN.findall(chance.choice(texts))
         for _ in range(chance.randint(1, 3)):
             i, scrap = chance.randrange(len(words)), chance.choice(SCRAPS)

@@ -102,4 +102,5 @@ def test_gradients_become_their_mean() -> None:
 
 def test_notes_of_other_programs_are_no_shapes() -> None:
     body = '<x:path xmlns:x="http://example.org" d="nan"/><path d="M0 0"/>'
-    assert attributes(body)["d"] == "M0 0"
+    out = guard(f"{OPEN}{body}</svg>".encode())
+    assert out.paths == [[("M", [0.0, 0.0])]]

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from dqpaint.language import Program, ScriptError, chains, parse
+from dqpaint.language import Program, ScriptError, chains, elsewhere, parse
 from dqpaint.language.program import Chain, Cruise, Lasting, Samples, Straight
 from tests.language.clock import children_time
 
@@ -200,6 +200,28 @@ def test_in_a_repeat_the_pieces_are_counted(tmp_path: Path) -> None:
     with pytest.raises(ScriptError, match=r"E299.*more than 2,000,000 pieces"):
         made(tmp_path, line.format(9999))
     assert time.process_time() - begin < 4
+
+
+def test_what_will_be_too_many_pieces_is_drawn_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each of 700 passes took as long as the first before they were too many."""
+    drawn = 0
+    inner = elsewhere._draw
+
+    def draw(*given: object) -> None:
+        nonlocal drawn
+        drawn += 1
+        inner(*given)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(elsewhere, "_draw", draw)
+    rows = "".join(f"{i % 7},{i % 11}\n" for i in range(3000))
+    text = 'repeat {}\nmove to (0, 0)\npath "p.csv" unit mm speed 1 m/s\nend'
+    with pytest.raises(ScriptError, match=r"E299.*\n --> [^:]*:3:1") as caught:
+        made(tmp_path, text.format(668), p_csv=rows)
+    assert (drawn, len(caught.value.diagnostics)) == (1, 1)
+    made(tmp_path, text.format(30))
+    assert drawn == 31
 
 
 SCRAPS = st.sampled_from(

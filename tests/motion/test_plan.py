@@ -7,8 +7,11 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
+from dqpaint.errors import UsageError
 from dqpaint.language.diagnostics import ScriptError
 from dqpaint.language.program import (
+    MOST_ALLOWED,
+    MOST_SAMPLES,
     Arc,
     Cruise,
     Curve,
@@ -24,7 +27,10 @@ from dqpaint.language.program import (
     Still,
     Straight,
 )  # fmt: skip
-from dqpaint.motion import plan
+from dqpaint.motion import plan, survey
+from dqpaint.motion.sampling import AT_ONCE
+from dqpaint.motion.timetable import Timetable
+from dqpaint.settings import Settings, make_settings
 from tests.motion.strokes import AXIS, START, program, segment
 
 CANVAS = dq.pose_from([0.7, -0.1, 0.5], np.array([0.5, 0.5, 0.5, 0.5]))
@@ -205,6 +211,46 @@ def test_the_sample_budget_is_checked_before_anything_is_made():
     with pytest.raises(ScriptError) as caught:
         plan(program(many, many), CANVAS)
     assert codes(caught) == ["E302"]
+
+
+def test_a_drawing_s_own_budget():
+    """Of samples, the first included; what is refused for its size is not sampled at all."""
+    lines = [stroke(Still(), timing=Samples(10)) for _ in range(3)]
+    drawing = replace(program(*lines), most_samples=31)
+    assert plan(drawing, CANVAS).samples == survey(drawing).samples == 31
+    asked = []
+    formula = Curve(lambda t: asked.append(t) or (t * 0.1, t * 0.0, t * 0.0), 0.0, 1.0)
+    drawing = replace(program(stroke(formula, timing=Samples(10)), *lines), most_samples=40)
+    for look in (survey, lambda one: plan(one, CANVAS)):
+        asked.clear()
+        with pytest.raises(ScriptError, match="more than 40 samples in all") as caught:
+            look(drawing)
+        assert codes(caught) == ["E302"]
+        measured = len(asked)
+        with pytest.raises(ScriptError):
+            survey(replace(drawing, most_samples=11))
+        assert len(asked) == 2 * measured  # measured, but not sampled
+    assert Settings().max_samples == MOST_SAMPLES
+    with pytest.raises(UsageError, match="100000000"):
+        make_settings(max_samples=MOST_ALLOWED + 1)
+
+
+def test_a_long_stroke_is_surveyed_in_parts(monkeypatch):
+    """As many rows at once as `AT_ONCE` says: a million of one curve took 700 MB."""
+    rows = []
+    inner = Timetable.flow
+
+    def flow(self, stroke, tau, faults):
+        rows.append(len(tau))
+        return inner(self, stroke, tau, faults)
+
+    monkeypatch.setattr(Timetable, "flow", flow)
+    curve = Curve(lambda t: (t * t * 0.1, t * 0.2, t * 0.0), 0.0, 1.0)
+    drawing = program(stroke(curve, timing=Samples(40_000)), stroke(curve, timing=Samples(7)))
+    found = survey(drawing)
+    assert max(rows) == AT_ONCE
+    assert sum(rows) > 40_000  # all of it
+    np.testing.assert_allclose(found.box, plan(drawing, CANVAS).box, atol=1e-15)
 
 
 def test_faults_of_strokes_are_all_reported():

@@ -8,6 +8,7 @@ import pytest
 from dqpaint import dq
 from dqpaint.language import ScriptError, parse
 from dqpaint.motion import plan
+from dqpaint.motion.families import gather
 from tests.motion import strokes
 
 PERIOD = 0.008
@@ -198,6 +199,28 @@ def test_even_light_gives_every_millimetre_the_same(path, time, law):
     # the brightness at the cruise is that of a light that is not even
     speed = np.linalg.norm(dq.point_velocity(motion.twist, motion.points), axis=1).max()
     assert per_length.mean() == pytest.approx(1 / speed, rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        'text "line.traj" font "gothiceng" height 5 mm light white even',
+        "line by (0.9, 0) mm light white even\nline by (0.83, 0) mm light white even\n"
+        "line by (40, 0) mm light white even law constant",
+        "line by (3, 0) mm by (0, 90) mm by (1, 0) mm in 0.94 s light white even",
+    ],
+)
+def test_even_light_is_the_same_on_short_strokes_as_on_long(text):
+    """Times are rounded up to whole samples: a stroke of 4 mm was by 1.8 times the brightest."""
+    motion = plan(parse(text, "a"), dq.IDENTITY)
+    given = []
+    for number, segment in enumerate(motion.program.segments):
+        if segment.light is not None:
+            light = motion.light[:-1, 0][motion.stroke[:-1] == number].sum() * motion.period
+            given.append(light / gather((segment,), {}).length[0])
+    assert len(given) > 2
+    fastest = 0.125 if "0.94" in text else 0.1  # [m/s]
+    np.testing.assert_allclose(given, 1 / fastest, rtol=1e-6)
 
 
 def test_even_light_of_a_stroke_of_several_lines_and_of_a_part_of_it():

@@ -11,6 +11,10 @@ from dqpaint import dq
 from dqpaint.language import ScriptError, parse, read
 from dqpaint.language.program import Cruise, Program
 from dqpaint.motion import Motion, plan, survey
+from dqpaint.motion.families import gather
+from dqpaint.motion.lengths import measure
+from dqpaint.motion.orientations import Looking, LookingAtLine
+from dqpaint.motion.places import Lines
 from tests.motion.drawings import drawing
 from tests.motion.strokes import KINDS, LAWS, program, segment
 
@@ -150,6 +154,73 @@ def calls(work) -> int:
     return count
 
 
+LOOKS = [
+    "line to ({x}, {y}) mm tool look (0, 0, 500) mm",
+    "line to ({x}, {y}) mm tool look line (900, 0, 90) mm along (1, 2, 3)",
+    "arc centre ({x}, {z}) mm angle {x} deg tool look (0, 0, 500) mm",
+    'text "Il" height 9 mm tool look (0, 0, 500) mm',
+]
+
+
+def looks(*forms: str, count: int) -> Program:
+    """Strokes on which the tool looks at something."""
+    numbers = ({"x": i % 97 + 1, "y": i % 89 + 100, "z": i % 83 - 99} for i in range(count))
+    forms = ("start at (0, 0) mm", *(forms[i % len(forms)] for i in range(count)))
+    return parse(
+        "\n".join(form.format(**n) for form, n in zip(forms, numbers, strict=False)), "l.traj"
+    )
+
+
+def test_the_angles_of_many_tools_at_once_are_those_of_each_alone():
+    """Against panels ever finer, which took 0.3 ms a line; and so are the timetables."""
+    drawing = looks(*LOOKS, count=80)
+    shapes = gather(drawing.segments, {})
+    for number in range(len(drawing.segments)):
+        form = shapes.shape(number)
+        if not form.even:
+            assert form.steady
+            alone = measure(form)
+            assert shapes.length[number] == pytest.approx(alone.length, rel=1e-14)
+            assert shapes.angle[number] == pytest.approx(alone.angle, rel=1e-11)
+    assert same(drawing) is not None
+
+
+def test_a_tool_that_must_turn_at_once_is_measured_too():
+    """It passes 0.3 mm beside the line of 'up': there it turns by nearly half a turn."""
+    look = "tool look (0, 0, 0) up y"
+    drawing = parse(f"start at (-10, 5, 0) mm {look}\nline to (10, 25, 1) mm {look}", "up.traj")
+    shapes = gather(drawing.segments, {})
+    assert shapes.angle[0] > 2.5
+    assert shapes.angle[0] == pytest.approx(measure(shapes.shape(0)).angle, rel=1e-9)
+    assert same(drawing) is not None
+
+
+def test_a_look_is_steep_where_a_line_comes_close():
+    """To the point, or to where it is looked at along `up`; there all samples are asked."""
+    point, up = np.zeros((1, 3)), np.array([[0.0, 1.0, 0.0]])
+    for start, by, steep in [
+        ((-1, 2, 0), (2, 0, 0), True),  # over the point, in the middle
+        ((-1, 2, 1e-9), (2, 1, 0), True),
+        ((-1, 2, 0), (0.5, 0, 0), False),  # it ends before
+        ((-1, 2, 1), (2, 0, 0), False),
+        ((-1, 0, 0), (2, 0, 0), True),  # through it
+    ]:
+        line = Lines(np.array([start], dtype=float), np.array([by], dtype=float))
+        with np.errstate(all="ignore"):
+            assert (Looking(point, up).steepest(line)[0] > 1e9) == steep
+    for start, steep in [((-1, 5, 0), True), ((-1, 5, 1), False)]:
+        line = Lines(np.array([start], dtype=float), np.array([[2.0, 3.0, 0.0]]))
+        with np.errstate(all="ignore"):
+            assert (LookingAtLine(point, up).steepest(line)[0] > 1e9) == steep
+
+
+def test_one_more_line_on_which_the_tool_looks_costs_few_calls():
+    few, many = (looks(*LOOKS[:2], count=count) for count in (200, 400))
+    survey(few)
+    more = calls(lambda: survey(many)) - calls(lambda: survey(few))
+    assert more < MOST_CALLS["survey"] * 200, more / 200
+
+
 MOST_CALLS = {"read": 600, "survey": 40, "plan": 40}  # for one more line
 
 
@@ -174,7 +245,12 @@ POLES = [
     "(t, 10*tan(t*rad)) mm",
     "(t, 1/(t - 2)^2) mm",
 ]
-STEEP = ["(t, abs(t - 2.3)) mm", "(t, sqrt(abs(t - 2.3))) mm", "(t, 30*sin(200*t*rad)) mm"]
+STEEP = {
+    "abs(t - 2.3)": lambda t: np.abs(t - 2.3),
+    "sqrt(abs(t - 2.3))": lambda t: np.sqrt(np.abs(t - 2.3)),
+    "30*sin(50*t*rad)": lambda t: 30 * np.sin(50 * t),
+    "30*sin(200*t*rad)": lambda t: 30 * np.sin(200 * t),
+}
 
 
 @pytest.mark.parametrize("formula", POLES)
@@ -185,11 +261,13 @@ def test_a_curve_through_a_pole_has_no_length(formula):
     assert [found.code for found in caught.value.diagnostics] == ["E327"]
 
 
-@pytest.mark.parametrize("formula", STEEP)
+@pytest.mark.parametrize(
+    "formula", [pytest.param(f, marks=[pytest.mark.slow] * ("200" in f)) for f in STEEP]
+)
 def test_a_curve_with_a_corner_or_many_bends_has_one(formula):
-    drawing = parse(f"curve {formula} for t from 0 to 5", "steep.traj")
+    drawing = parse(f"curve (t, {formula}) mm for t from 0 to 5", "steep.traj")
     t = np.linspace(0.0, 5.0, 2_000_001)
-    y = {"a": np.abs(t - 2.3), "s": np.sqrt(np.abs(t - 2.3)), "3": 30 * np.sin(200 * t)}
-    way = np.hypot(np.diff(t), np.diff(y[formula[4]])).sum() * 1e-3
-    move = np.hypot(0.0, y[formula[4]][0]) * 1e-3  # from the origin to its start
+    y = STEEP[formula](t)
+    way = np.hypot(np.diff(t), np.diff(y)).sum() * 1e-3
+    move = np.hypot(0.0, y[0]) * 1e-3  # from the origin to its start
     assert survey(drawing).length == pytest.approx(way + move, rel=2e-3)

@@ -1,5 +1,7 @@
 """The compliant arm under a law: lag, sag, and the gain at which it begins to swing."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,7 @@ from dqpaint.plants import choose_plant
 from dqpaint.robots.card import read_card
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.tracking import track
+from tests import generated
 
 pytestmark = pytest.mark.slow
 TEXT = "period 8 ms\nstart at (60, 0) mm\narc centre (0, 0) angle 180 deg in 3 s law constant\n"
@@ -19,11 +22,10 @@ SPEED = 0.06 * np.pi / 3  # [m/s]
 ARMS = ("iiwa", "meka-a2")
 
 
-@pytest.fixture(scope="module", params=ARMS)
-def arm(request):
-    return beside_its_circle(request.param)
+every_arm = pytest.mark.parametrize("arm", ARMS)
 
 
+@cache
 def beside_its_circle(name):
     kinematics = Kinematics(read_card(name))
     motion = plan(parse(TEXT, "t.traj"), kinematics.card.canvas.pose)
@@ -31,8 +33,13 @@ def beside_its_circle(name):
 
 
 def error(arm, values, law="pff", k=20.0):
+    return _error(arm, values, law, k)
+
+
+@cache
+def _error(arm, values, law, k):
     """The rms position error [mm] after a second, and the rms change of the commands [rad/s]."""
-    kinematics, motion, start = arm
+    kinematics, motion, start = beside_its_circle(arm)
     chosen = CONTROLLERS[law]
     plant = choose_plant(f"compliant:{values}", "rates")
     run = track(motion, kinematics, start, plant, chosen, chosen.read_gains({"k": k}))
@@ -42,6 +49,7 @@ def error(arm, values, law="pff", k=20.0):
     return 1e3 * np.sqrt((far**2).mean()), np.sqrt((restless**2).mean())
 
 
+@every_arm
 @pytest.mark.parametrize(("values", "quiet", "swings"), [
     ("frequency=40", 40.0, 60.0), ("frequency=80", 60.0, 125.0),
     ("frequency=40,damper=ground", 20.0, 30.0), ("frequency=80,damper=ground", 40.0, 60.0),
@@ -55,6 +63,7 @@ def test_a_gain_too_high_makes_it_swing(arm, values, quiet, swings):
     assert restless > 10 * calm
 
 
+@every_arm
 def test_feed_forward_takes_the_lag_away(arm):
     """As on the stiff arm. (Pereira 2016 saw no difference between the two on the Meka.)"""
     lag, _ = error(arm, "frequency=80", "p")
@@ -63,6 +72,7 @@ def test_feed_forward_takes_the_lag_away(arm):
     assert none < 0.1 * lag
 
 
+@every_arm
 def test_sag_shows_where_encoders_sit_at_the_motors(arm):
     """With them at the joints the loop takes it up: its motors wind until the joint is there."""
     sags = [
@@ -73,6 +83,13 @@ def test_sag_shows_where_encoders_sit_at_the_motors(arm):
     assert abs(sags[0] - sags[1]) < 0.2
     assert sags[3] > 4
     assert sags[2] == pytest.approx(sags[3] / 0.3, rel=0.3)
+
+
+def test_the_readme_s_table_is_current():
+    """Here, where most of its runs have been made."""
+    page = generated.README
+    renewed = generated.renewed(page, {page: [generated.springs]})
+    assert renewed == page.read_text("utf-8"), "python -m tests.generated"
 
 
 def test_a_motor_that_saturates_is_counted():

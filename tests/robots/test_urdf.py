@@ -22,11 +22,18 @@ INERTIAL = (
 )
 
 
+CARD = """home_deg = [0, -60, 120, 0, -60, 0]
+urdf = { file = "arm.urdf", link = "tip" }
+canvas = { at_m = [0.6, 0, 0.4], right = [0, 1, 0], up = [0, 0, 1] }
+"""  # what would take a quarter of a second to find
+
+
 @pytest.fixture
 def read(tmp_path):
-    def make(text, link="tip"):
+    def make(text):
         (tmp_path / "arm.urdf").write_text(text)
-        return read_file(f"{tmp_path / 'arm.urdf'}:{link}")
+        (tmp_path / "arm.toml").write_text(CARD)
+        return read_file(str(tmp_path / "arm.toml"))
 
     return make
 

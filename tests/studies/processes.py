@@ -1,6 +1,7 @@
 """Commands in processes of their own, to be killed."""
 
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -10,6 +11,7 @@ def start(folder, *words):
     return subprocess.Popen(
         [sys.executable, "-m", "dqpaint", *words], cwd=folder, text=True,
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # a parent may ignore it
     )  # fmt: skip
 
 

@@ -188,8 +188,23 @@ def test_what_is_kept_is_there_or_is_made_again(tmp_path):
 
 SLOW = "period 5 ms\nspeed 20 mm/s\nstart at (0, 0) mm\nline to (60, 20) mm\n"
 POINTS = 7
-SWEEP = ("sweep", "line.traj", "--controller", "p", "--plant", "ideal",
+SWEEP = ("sweep", "line.traj", "--controller", "held.py", "--plant", "ideal",
          "--vary", f"k=2..300:log:{POINTS}", "--jobs", "2")  # fmt: skip
+HELD = """import os, time
+from dqpaint import dq
+
+
+def held(seen, k=20.0):
+    if k > 2 and not os.path.exists("go"):  # all but the first run take seconds
+        time.sleep(0.01)
+    error = dq.mul(seen.pose_d, dq.conj(dq.nearest(seen.pose, seen.pose_d)))
+    return seen.twist_d + 2 * k * dq.log(error)
+"""
+
+
+def laid_down(folder):
+    (folder / "line.traj").write_text(SLOW)
+    (folder / "held.py").write_text(HELD)
 
 
 def tables(folder):
@@ -200,14 +215,15 @@ def tables(folder):
 def whole(tmp_path_factory):
     """The tables of the sweep, done at once."""
     folder = tmp_path_factory.mktemp("whole")
-    (folder / "line.traj").write_text(SLOW)
+    laid_down(folder)
+    (folder / "go").touch()
     assert start(folder, *SWEEP, "--out", "study").communicate(timeout=100)[1] == ""
     return tables(folder / "study")
 
 
 @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT])
 def test_a_sweep_that_was_stopped_goes_on(tmp_path, how, whole):
-    (tmp_path / "line.traj").write_text(SLOW)
+    laid_down(tmp_path)
     sweep = start(tmp_path, *SWEEP, "--out", "study")
     record = tmp_path / "study" / NAME
     wait_for_lines(record, 1)
@@ -223,6 +239,7 @@ def test_a_sweep_that_was_stopped_goes_on(tmp_path, how, whole):
     assert 1 <= before.count(b"\n") < POINTS
     assert not (tmp_path / "study" / "line-k.png").exists()
 
+    (tmp_path / "go").touch()
     record.write_bytes(before + b'{"key": "cut o')  # as a failing disk would leave it
     again = start(tmp_path, *SWEEP, "--out", "study")
     count = before.count(b"\n")

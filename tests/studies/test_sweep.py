@@ -1,7 +1,6 @@
 """compare and sweep as a person calls them: tables that agree with draw, pictures, messages."""
 
 import csv
-import sys
 from pathlib import Path
 
 import cv2
@@ -9,7 +8,6 @@ import numpy as np
 import pytest
 
 import dqpaint as package
-from dqpaint import answering
 from dqpaint.charts import ALARM
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.light.contact import hues
@@ -192,13 +190,9 @@ def test_tables_of_text():
         (("verify", "nowhere"), 1, "no folder 'nowhere'"),
     ],
 )  # fmt: skip
-def test_slips_are_told(line, tmp_path, words, code, fault, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(sys, "argv", ["dqpaint", *words])
-    with pytest.raises(SystemExit) as stop:
-        answering.run()
-    out, err = capsys.readouterr()
-    assert (stop.value.code, out) == (code, "")
-    assert fault in err
-    assert "Traceback" not in err
+def test_slips_are_told(answer, line, tmp_path, words, code, fault):
+    done = answer(*words)
+    assert (done.returncode, done.stdout) == (code, "")
+    assert fault in done.stderr
+    assert "Traceback" not in done.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["line.traj"]

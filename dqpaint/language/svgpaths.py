@@ -16,6 +16,7 @@ from dqpaint.language.svgvalues import COUNTS, Commands
 from dqpaint.language.taylor import Floats
 
 NO_LENGTH = 1e-12  # of the coordinates: what is smaller is no piece
+STRAIGHT = 1e-8  # chord of an arc, in diameters: it bends by half of that
 ARC = 8  # numbers: centre, u, v, start, turn; of lines and curves 2 for each of 2 to 4 points
 
 Spot = tuple[float, float]
@@ -215,14 +216,18 @@ def _arc_to(pieces: Pieces, numbers: Sequence[float], end: Spot) -> None:
     # in units of the radii and along them, where the ellipse is a circle of radius 1
     half = (c * dx + s * dy) / rx, (c * dy - s * dx) / ry
     size = math.hypot(*half)
+    if not size or (size < STRAIGHT and not large):
+        pieces.curve(end)
+        return
     if size > 1.0:  # radii that do not reach are made larger
         rx, ry, half, size = rx * size, ry * size, (half[0] / size, half[1] / size), 1.0
-    far = math.sqrt(max(0.0, 1.0 - size * size)) / size * (-1 if large == sweep else 1)
+    root = math.sqrt((1.0 - size) * (1.0 + size))
+    far = root / size * (-1 if large == sweep else 1)
     middle = far * half[1], -far * half[0]
     first = math.atan2(half[1] - middle[1], half[0] - middle[0])
-    last = math.atan2(-half[1] - middle[1], -half[0] - middle[0])
-    turn = (last - first) % math.tau
-    turn = turn if sweep else turn - math.tau
+    # by the chord, not between two directions, which are the same where it is short
+    turn = 2.0 * math.atan2(size, root)
+    turn = (math.tau - turn if large else turn) * (1 if sweep else -1)
     u, v = (rx * c, rx * s), (-ry * s, ry * c)
     centre = tuple(
         (a + b) / 2 + middle[0] * p + middle[1] * q

@@ -87,6 +87,22 @@ def test_paths_that_mean_the_same(data: str, plainly: str) -> None:
     np.testing.assert_allclose(one, other, atol=1e-12)
 
 
+@pytest.mark.parametrize("large", [0, 1])
+@pytest.mark.parametrize("sweep", [0, 1])
+@pytest.mark.parametrize("size", [1e-7, 1e-10, 1e-14, 6e-17])
+def test_an_arc_to_almost_its_start_is_all_round_or_nothing(
+    large: int, sweep: int, size: float
+) -> None:
+    """As programs write a circle as one arc, whose end differs by rounding alone."""
+    (line,) = read(f"M{size} -50A50 50 0 {large} {sweep} {-size} -50L9 9")
+    length = np.linalg.norm(np.diff(line, axis=0), axis=1).sum()
+    chords = 8 * 100 * np.sin(np.pi / 8) if large else 0.0
+    assert length - np.hypot(9, 59) == pytest.approx(chords, abs=1e-5)
+    if large:  # to the right first, round below if clockwise, as y goes down
+        wanted = [50, 0 if sweep else -100]
+        np.testing.assert_allclose(line[2], wanted, atol=1e-5)
+
+
 def test_random_paths_too() -> None:
     chance = random.Random(3)
     for _ in range(60):

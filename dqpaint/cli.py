@@ -272,6 +272,7 @@ def check(
     robot: Robot = None,
     tool: Tool = None,
     place: PlaceAt = None,
+    plant: PlantName = None,
     start: From = "first",
     null: Null = "start",
     on_limit: OnLimit = "clip",
@@ -292,8 +293,8 @@ def check(
     from dqpaint import checking
 
     choices = typed(
-        context, robot=robot, tool=tool, place=place, start=start, null=null, on_limit=on_limit,
-        brush=brush, view=view, size=size, exposure=exposure, ghost=ghost,
+        context, robot=robot, tool=tool, place=place, plant=plant, start=start, null=null,
+        on_limit=on_limit, brush=brush, view=view, size=size, exposure=exposure, ghost=ghost,
         max_samples=max_samples,
     )  # fmt: skip
     if wanted := choices.pop("size"):

@@ -21,6 +21,7 @@ from dqpaint.cli_options import (
     Seed,
     Tool,
 )
+from dqpaint.errors import UsageError
 
 
 def add_to(app: typer.Typer) -> None:
@@ -38,7 +39,9 @@ EXPORT_EXAMPLES = """Examples:
 
 def export(
     file: Drawing,
-    form: Annotated[str, typer.Option("--format", metavar="csv|ros2|urscript", help="for whom")],
+    form: Annotated[
+        str | None, typer.Option("--format", metavar="csv|ros2|urscript", help="for whom; needed")
+    ] = None,
     controller: Law = "hinf",
     gain: Gain = None,
     robot: Robot = None,
@@ -64,6 +67,8 @@ def export(
     from dqpaint.settings import parse_disturbances, parse_gains
     from dqpaint.terminal import Progress
 
+    if form is None:
+        raise UsageError(f"export needs a --format: {', '.join(exports.FORMATS)}")
     exports.FORMATS[form]  # an unknown one is told before anything is simulated
     path = find_drawing(file)
     stem = outputs.stem_for(out, f"{path.stem}-{short_name(controller)}")

@@ -2,8 +2,9 @@
 
 The arm follows what was asked without error and without limits, through the same resolver and with
 the same wish in its null space as a run. So where nothing is beyond a limit, a run goes the same
-way; where something is, the forecast says what would have been needed. Disturbances are what nobody
-foresees, and how an arm that begins elsewhere comes to the drawing is its law's own.
+way; where something is, the forecast says what would have been needed. Of a plant it is foreseen
+what its motors bear, and how far springs give way. Disturbances are what nobody foresees, and how
+an arm that begins elsewhere comes to the drawing is its law's own.
 """
 
 from dataclasses import dataclass
@@ -11,16 +12,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint import dq
 from dqpaint.dq import Floats
+from dqpaint.following import follow, jumps
 from dqpaint.hiding import LOOKS, PLAIN, Hiding, hide, looks_at
 from dqpaint.motion import Motion
-from dqpaint.nullspace import DEFAULT_NULL, Wish, make_wish
+from dqpaint.nullspace import DEFAULT_NULL, make_wish
+from dqpaint.plants.plant import Chosen
 from dqpaint.robots.collisions import Nearest, shapes_of
 from dqpaint.robots.dynamics import Dynamics
 from dqpaint.robots.kinematics import Kinematics, manipulability
-from dqpaint.robots.reach import ON_THE_WAY, solve
-from dqpaint.robots.resolver import resolve, to_tool
+from dqpaint.robots.resolver import LENGTH, to_tool
 from dqpaint.settings import Settings
 from dqpaint.slowing import TAKEN_UP
 
@@ -47,12 +48,19 @@ class Forecast:
         room: the same as a part of half the joint's range: 0 at a limit, 1 in the middle.
         speed: largest joint rate [rad/s].
         speed_part: and as a part of the joint's limit; both of the joint nearest to its own.
-        effort: largest torque of the motion itself, of the joint nearest to its limit [Nm].
+        effort: largest torque of the motion itself, of the joint nearest to its limit [Nm]; None
+            on a plant without masses.
         effort_part: and as a part of that limit.
-        jolt: the same where motors take up each new rate within a millisecond, as those of the
-            plant `stiff` do; and as a part.
+        jolt: the same where the speed changes at once, and as a part: motors of the plant `stiff`
+            take up each new rate within a millisecond, dampers bear it where motors wind springs;
+            None where it is for the law to say how soon it is taken up.
+        held_part: the largest part of a joint's torque that the arm's weight takes, at rest.
+        sag: how far the light sinks as springs give way under the arm's weight, at the most [m];
+            None without springs.
         singular: the smallest singular value of the Jacobian at the tool [rad/rad].
         manipulability: the least sqrt(det(J J')).
+        stray: how far the arm is beside the path at the most [m]: at a singularity it is damped.
+        stray_row: and in which row of the motion.
         clearance: least distance between two links [m], and which; None where none can meet.
         between: these two links.
         hidden: part of the line's light that the arm stands before, in the view where that is most;
@@ -66,12 +74,16 @@ class Forecast:
     room: float
     speed: Worst
     speed_part: float
-    effort: Worst
-    effort_part: float
-    jolt: Worst
-    jolt_part: float
+    effort: Worst | None
+    effort_part: float | None
+    jolt: Worst | None
+    jolt_part: float | None
+    held_part: float
+    sag: float | None
     singular: float
     manipulability: float
+    stray: float
+    stray_row: int
     clearance: float | None
     between: tuple[str, str] | None
     hidden: float | None
@@ -79,7 +91,11 @@ class Forecast:
 
 
 def forecast(
-    motion: Motion, kinematics: Kinematics, start: Floats, settings: Settings = PLAIN
+    motion: Motion,
+    kinematics: Kinematics,
+    start: Floats,
+    settings: Settings = PLAIN,
+    plant: Chosen | None = None,
 ) -> tuple[Forecast, ...]:
     """Look ahead along a drawing.
 
@@ -89,11 +105,12 @@ def forecast(
         start: posture (n,) [rad] it begins in.
         settings: of the run: what the arm does with its freedom, what shines, and from where it is
             looked at.
+        plant: whose motors bear it; None is `stiff`.
 
     Returns:
         One entry for each line of the file that moves, in the order they are first drawn.
     """
-    run = _Run(motion, kinematics, start, settings.null)
+    run = _Run(motion, kinematics, start, settings.null, plant)
     shapes = shapes_of(kinematics)
     looks = looks_at(run.line, LOOKS)
     near = shapes.nearest(run.posture[looks])
@@ -109,17 +126,23 @@ class _Run:
     """
 
     def __init__(
-        self, motion: Motion, kinematics: Kinematics, start: Floats, null: str = DEFAULT_NULL
+        self,
+        motion: Motion,
+        kinematics: Kinematics,
+        start: Floats,
+        null: str = DEFAULT_NULL,
+        plant: Chosen | None = None,
     ) -> None:
         self.card = kinematics.card
         stride = -(-len(motion.t) // MOST_ROWS)
         self.rows = np.arange(0, len(motion.t), stride)
         self.t, self.line = motion.t[self.rows], motion.line[self.rows]
         self.period = stride * motion.period
-        joined = np.add.reduceat(motion.jump, self.rows) > 0
-        self.posture, self.points, J = _follow(
-            motion, kinematics, start, self.rows, joined, make_wish(null, self.card, start)
+        joined = jumps(motion, self.rows)
+        self.posture, self.points, J = follow(
+            motion, kinematics, start, self.rows, make_wish(null, self.card, start)
         )
+        self.stray = np.linalg.norm(self.points - motion.points[self.rows], axis=1)
         self.manipulability = manipulability(J)
         at_tool = to_tool(self.points) @ J
         self.singular = np.linalg.svd(at_tool, compute_uv=False)[:, -1]
@@ -131,46 +154,50 @@ class _Run:
         change[-1] = 0.0  # a run ends there: nothing is asked any more
         change[1:][joined[:-1]] = 0.0
         dynamics = Dynamics(kinematics)
-        self.effort = _torques(dynamics, self.posture, self.rates, change / self.period)
-        self.jolt = _torques(
-            dynamics, self.posture, self.rates, change / min(self.period, TAKEN_UP)
-        )
+        self.weight = np.array([dynamics.weight(q) for q in self.posture])
+        self._bear(change, motion, dynamics, at_tool, plant)
         self.margin = np.minimum(self.posture - self.card.lower, self.card.upper - self.posture)
         self.room = 2 * self.margin / (self.card.upper - self.card.lower)
 
+    def _bear(
+        self,
+        change: Floats,
+        motion: Motion,
+        dynamics: Dynamics,
+        at_tool: Floats,
+        plant: Chosen | None,
+    ) -> None:
+        """What the motors bear (N, n) [Nm], where there are any, as rates change by (N, n)."""
+        self.effort: Floats | None = None
+        self.jolt: Floats | None = None
+        self.sag: Floats | None = None
+        motors = plant.motors if plant else "sudden"
+        if motors == "none":
+            return
+        if motors == "sudden":
+            self.effort = self._torques(dynamics, change / self.period)
+            self.jolt = self._torques(dynamics, change / min(self.period, TAKEN_UP))
+            return
+        smooth = _without_corners(change, motion.stroke[self.rows])
+        self.effort = self._torques(dynamics, smooth / self.period)
+        springs = plant.springs_of(self.card) if plant else None
+        if springs is not None:
+            # at first only the dampers answer a motor that turns at a new rate
+            self.jolt = self.effort + springs.damping * (change - smooth)
+            sunk = np.matvec(at_tool, (1 - springs.share) * self.weight / springs.stiffness)
+            self.sag = LENGTH * np.linalg.norm(sunk[:, 3:], axis=1)
 
-def _torques(dynamics: Dynamics, postures: Floats, rates: Floats, accelerations: Floats) -> Floats:
-    rows = zip(postures, rates, accelerations, strict=True)
-    return np.array([dynamics.torque(*row) for row in rows])
+    def _torques(self, dynamics: Dynamics, accelerations: Floats) -> Floats:
+        rows = zip(self.posture, self.rates, accelerations, strict=True)
+        return np.array([dynamics.torque(*row) for row in rows])
 
 
-def _follow(
-    motion: Motion,
-    kinematics: Kinematics,
-    start: Floats,
-    rows: NDArray[np.intp],
-    jump: NDArray[np.bool_],
-    wish: Wish,
-) -> tuple[Floats, Floats, Floats]:
-    """Postures (N, n), places (N, 3) and Jacobians (N, 6, n); one Newton step leads to each row."""
-    period = motion.period * (rows[1] - rows[0] if len(rows) > 1 else 1)
-    postures, jacobians = np.empty((len(rows), len(start))), np.empty((len(rows), 6, len(start)))
-    points = np.empty((len(rows), 3))
-    still = np.zeros((1, len(start)))
-    q = solve(kinematics, motion.pose[0], start[None], still, ON_THE_WAY)[0][0]
-    for k in range(len(rows)):
-        x, J = kinematics.pose_and_jacobian(q)
-        p = dq.translation(x)
-        postures[k], jacobians[k], points[k] = q, J, p
-        if k + 1 == len(rows):
-            break
-        ahead, drawn = motion.pose[rows[k + 1]], wish.over(period, q, J, p)
-        if jump[k]:
-            q = solve(kinematics, ahead, q[None], drawn[None], ON_THE_WAY)[0][0]
-        else:
-            way = 2 * dq.log(dq.mul(dq.nearest(ahead, x), dq.conj(x)))
-            q = q + resolve(J, p, way, drawn)
-    return postures, points, jacobians
+def _without_corners(change: Floats, stroke: NDArray[np.int64]) -> Floats:
+    """Changes of rates (N, n) without those at once: there they are taken as in the next row."""
+    first = np.flatnonzero(np.diff(stroke, prepend=-1))
+    smooth = change.copy()
+    smooth[first] = change[np.minimum(first + 1, len(change) - 1)]
+    return smooth
 
 
 def _of_line(
@@ -179,8 +206,8 @@ def _of_line(
     rows = np.flatnonzero(run.line == line)
     card = run.card
     speed, speed_part = _worst(run, rows, run.rates, card.speed)
-    effort, effort_part = _worst(run, rows, run.effort, card.effort)
-    jolt, jolt_part = _worst(run, rows, run.jolt, card.effort)
+    effort, effort_part = _worst_if_any(run, rows, run.effort, card.effort)
+    jolt, jolt_part = _worst_if_any(run, rows, run.jolt, card.effort)
     k, joint = np.unravel_index(run.margin[rows].argmin(), (len(rows), card.joints))
     margin = Worst(float(run.margin[rows[k], joint]), int(joint) + 1, float(run.t[rows[k]]))
     looked = np.flatnonzero(np.isin(looks, rows))
@@ -198,8 +225,12 @@ def _of_line(
         effort_part=effort_part,
         jolt=jolt,
         jolt_part=jolt_part,
+        held_part=_worst(run, rows, run.weight, card.effort)[1],
+        sag=None if run.sag is None else float(run.sag[rows].max()),
         singular=float(run.singular[rows].min()),
         manipulability=float(run.manipulability[rows].min()),
+        stray=float(run.stray[rows].max()),
+        stray_row=int(run.rows[rows[run.stray[rows].argmax()]]),
         clearance=float(near.distance[closest]) if meets else None,
         between=near.pair[closest] if meets else None,
         hidden=hidden,
@@ -214,3 +245,9 @@ def _worst(run: _Run, rows: NDArray[np.intp], values: Floats, limit: Floats) -> 
     row = rows[k]
     worst = Worst(float(abs(values[row, joint])), int(joint) + 1, float(run.t[row]))
     return worst, float(parts[k, joint])
+
+
+def _worst_if_any(
+    run: _Run, rows: NDArray[np.intp], values: Floats | None, limit: Floats
+) -> tuple[Worst | None, float | None]:
+    return (None, None) if values is None else _worst(run, rows, values, limit)

@@ -5,13 +5,15 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
-from dqpaint.forecast import Forecast, forecast
+from dqpaint.following import WORTH_A_LOOK
+from dqpaint.forecast import Forecast, Worst, forecast
 from dqpaint.hiding import PLAIN
 from dqpaint.language.diagnostics import Diagnostic, Span
 from dqpaint.language.program import Program
 from dqpaint.motion import Motion, plan
-from dqpaint.out_of_reach import begin
+from dqpaint.out_of_reach import begin, check_row
 from dqpaint.placing import Placed, settle
+from dqpaint.plants.plant import DEFAULT_PLANTS, find_plant
 from dqpaint.robots.card import Card
 from dqpaint.robots.collisions import shapes_of
 from dqpaint.robots.kinematics import Kinematics
@@ -40,6 +42,8 @@ class Outlook:
         placed: where `place auto` put it.
         slowed: how it was slowed down, where it may be.
         robot: its name.
+        plant: the name of the plant whose motors were asked.
+        seen: whether its encoders see how far springs give way, where it has any.
         start: the posture it begins in [rad].
         lines: the forecast of each line.
         warnings: for the limits it would run into.
@@ -50,6 +54,8 @@ class Outlook:
     placed: Placed | None
     slowed: Slowed | None
     robot: str
+    plant: str
+    seen: bool
     start: tuple[float, ...]
     lines: tuple[Forecast, ...]
     warnings: tuple[Diagnostic, ...]
@@ -69,7 +75,7 @@ class Outlook:
         placed = f"  {self.placed.line}\n  {self.placed.figures}\n" if self.placed else ""
         slowed = f"  pace: {self.slowed}\n" if self.slowed else ""
         program = self.motion.program
-        figures = f"{_extremes(self.lines, program)}{_table(self.lines, program)}"
+        figures = f"{_extremes(self.lines, program, self.seen)}{_table(self.lines, program)}"
         return f"; {self.robot} reaches it, {said}\n{placed}{slowed}{figures}{notes}"
 
     @property
@@ -77,6 +83,7 @@ class Outlook:
         """All figures of all lines, in SI units."""
         return {
             "robot": self.robot,
+            "plant": self.plant,
             "place": self.placed and self.placed.as_json,
             "pace": self.slowed and self.slowed.as_json,
             "start_rad": list(self.start),
@@ -94,21 +101,30 @@ def look_ahead(program: Program, kinematics: Kinematics, settings: Settings = PL
 
     Raises:
         ScriptError: the drawing leaves the arm's reach.
+        UsageError: an unknown plant, or values it does not take.
     """
     program, placed = settle(program, kinematics, settings)
     motion = plan(program, kinematics.card.canvas.pose)
+    plant = find_plant(settings.plant) if settings.plant else None
+    springs = plant.springs_of(kinematics.card) if plant else None
     best = begin(motion, kinematics, settings.null).posture
     start = kinematics.card.home if settings.start == "home" else best
     slowed = None
     if settings.on_limit == "slow":
-        slowed = slow_down(motion, kinematics, start, settings.null, "sudden")
+        motors = plant.motors if plant else "sudden"
+        slowed = slow_down(motion, kinematics, start, settings.null, motors)
         motion = slowed.motion
-    lines = forecast(motion, kinematics, start, settings)
+    lines = forecast(motion, kinematics, start, settings, plant)
+    farthest = max(lines, key=lambda one: one.stray)
+    if farthest.stray >= WORTH_A_LOOK:
+        check_row(motion, kinematics, farthest.stray_row, settings.null)
     return Outlook(
         motion,
         placed,
         slowed,
         kinematics.card.name,
+        plant.name if plant else DEFAULT_PLANTS["rates"],
+        springs is None or springs.seen,
         tuple(start.tolist()),
         lines,
         tuple(_warnings(motion, kinematics.card, lines)),
@@ -141,23 +157,29 @@ def _speed(one: Forecast, card: Card) -> str:
 
 def _effort(one: Forecast, card: Card) -> str:
     at = one.effort
-    most = card.effort[at.joint - 1]
-    return f"joint {at.joint} needs {at.value:.4g} Nm{_when(at.time)}, but has {most:.4g} Nm"
+    assert at is not None
+    return f"joint {at.joint} needs {at.value:.4g} Nm{_when(at.time)}, but {_has(at, card)}"
 
 
 def _jolt(one: Forecast, card: Card) -> str:
     at = one.jolt
-    most = card.effort[at.joint - 1]
+    assert at is not None
+    how = "to follow within 1 ms" if one.sag is None else "with its spring's damper"
     return (
-        f"the speed changes at once{_when(at.time)}: to follow within 1 ms joint {at.joint} needs "
-        f"{at.value:.4g} Nm, but has {most:.4g} Nm"
+        f"the speed changes at once{_when(at.time)}: {how} joint {at.joint} needs "
+        f"{at.value:.4g} Nm, but {_has(at, card)}"
     )
 
 
+def _has(at: Worst, card: Card) -> str:
+    return f"has {card.effort[at.joint - 1]:.4g} Nm"
+
+
 def _singular(one: Forecast, _card: Card) -> str:
+    beside = f", up to {one.stray * 1e3:.1f} mm beside" if one.stray >= WORTH_A_LOOK else ""
     return (
         f"the arm comes close to a singularity (smallest singular value {one.singular:.2g}, "
-        f"below {THRESHOLD:g}): there it follows inexactly"
+        f"below {THRESHOLD:g}): there it follows inexactly{beside}"
     )
 
 
@@ -191,15 +213,15 @@ RULES = (
     ),
     _Rule(
         "W503",
-        lambda one: one.effort_part,
+        lambda one: one.effort_part or 0.0,
         _effort,
         "a lower speed or a smoother law needs less; --on-limit slow finds one",
     ),
     _Rule(
         "W504",
-        lambda one: one.jolt_part if one.effort_part <= 1 else 0.0,
+        lambda one: (one.jolt_part or 0.0) if (one.effort_part or 0.0) <= 1 else 0.0,
         _jolt,
-        "law trapezoid and law quintic begin and end each stroke at rest; or: --on-limit slow",
+        "law trapezoid and law quintic begin and end each stroke at rest; a lower speed helps, too",
     ),
     _Rule(
         "W505",
@@ -257,16 +279,14 @@ def _named(lines: Sequence[str]) -> str:
     return f"line{'s' if len(lines) > 1 else ''} {listed}{more}"
 
 
-def _extremes(lines: Sequence[Forecast], program: Program) -> str:
+def _extremes(lines: Sequence[Forecast], program: Program, seen: bool) -> str:
     """The worst of the whole drawing in a sentence."""
     speed = max(lines, key=lambda one: one.speed_part)
-    effort = max(lines, key=lambda one: one.effort_part)
     least = min(lines, key=lambda one: one.manipulability)
     parts = [
         f"joint {speed.speed.joint} at {speed.speed_part:.0%} of its speed "
         f"(line {program.where(speed.line)})",
-        f"joint {effort.effort.joint} at {effort.effort_part:.0%} of its torque "
-        f"(line {program.where(effort.line)})",
+        *_bearing(lines, program, seen),
         f"manipulability {least.manipulability:.2g} (line {program.where(least.line)})",
     ]
     clear = [one for one in lines if one.clearance is not None]
@@ -276,6 +296,21 @@ def _extremes(lines: Sequence[Forecast], program: Program) -> str:
     return f"  at most: {', '.join(parts)}"
 
 
+def _bearing(lines: Sequence[Forecast], program: Program, seen: bool) -> list[str]:
+    """What motors and springs bear, where a plant has them."""
+    parts = []
+    most = max(lines, key=lambda one: one.effort_part or 0.0)
+    if most.effort is not None:
+        part, line = most.effort_part or 0.0, program.where(most.line)
+        parts.append(f"joint {most.effort.joint} at {part:.0%} of its torque (line {line})")
+    sunk = max(lines, key=lambda one: one.sag or 0.0)
+    if sunk.sag is not None:
+        how = "" if seen else ", which no encoder sees"
+        millimetres, line = sunk.sag * 1e3, program.where(sunk.line)
+        parts.append(f"springs give way by {millimetres:.2g} mm{how} (line {line})")
+    return parts
+
+
 def _cells(one: Forecast) -> dict[str, str]:
     """What of a line is close to a limit, or beyond it."""
     cells: dict[str, str] = {}
@@ -283,10 +318,11 @@ def _cells(one: Forecast) -> dict[str, str]:
         cells["off limits"] = f"{one.margin.value * DEG:.1f} deg (joint {one.margin.joint})"
     if one.speed_part > CLOSE:
         cells["speed"] = f"{one.speed_part:.0%} (joint {one.speed.joint})"
-    if one.effort_part > CLOSE:
+    if one.effort is not None and (one.effort_part or 0.0) > CLOSE:
         cells["torque"] = f"{one.effort_part:.0%} (joint {one.effort.joint})"
-    if one.jolt_part > CLOSE:
-        cells["torque within 1 ms"] = f"{one.jolt_part:.0%} (joint {one.jolt.joint})"
+    if one.jolt is not None and (one.jolt_part or 0.0) > CLOSE:
+        head = "torque within 1 ms" if one.sag is None else "torque at once"
+        cells[head] = f"{one.jolt_part:.0%} (joint {one.jolt.joint})"
     if one.singular < CLOSE_SINGULAR:
         cells["singular value"] = f"{one.singular:.2g}"
     if one.clearance is not None and one.clearance < CLOSE_LINKS:
@@ -319,23 +355,25 @@ def _table(lines: Sequence[Forecast], program: Program) -> str:
 
 def _figures(one: Forecast, program: Program) -> dict[str, Any]:
     """One line, each figure with its unit; nothing in it is infinite."""
+    sudden = "effort_within_1_ms_Nm" if one.sag is None else "effort_at_once_Nm"
     worst = {
-        "margin_rad": one.margin,
-        "speed_rad_s": one.speed,
-        "effort_Nm": one.effort,
-        "effort_within_1_ms_Nm": one.jolt,
+        "margin_rad": (one.margin, None),
+        "speed_rad_s": (one.speed, one.speed_part),
+        "effort_Nm": (one.effort, one.effort_part),
+        sudden: (one.jolt, one.jolt_part),
     }
-    parts = (None, one.speed_part, one.effort_part, one.jolt_part)
     return {
         "line": program.told(one.line),
         "room": one.room,
         "start_s": one.start,
         **{
-            name: asdict(value) | ({} if part is None else {"part_of_limit": part})
-            for (name, value), part in zip(worst.items(), parts, strict=True)
+            name: value and asdict(value) | ({} if part is None else {"part_of_limit": part})
+            for name, (value, part) in worst.items()
         },
+        "sag_m": one.sag,
         "smallest_singular_value": one.singular,
         "manipulability": one.manipulability,
+        "stray_m": one.stray,
         "clearance_m": one.clearance,
         "between": one.between,
         "hidden": one.hidden,

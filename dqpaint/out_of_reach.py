@@ -6,32 +6,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint import dq
-from dqpaint.dq import Floats
+from dqpaint.advice import advise
+from dqpaint.following import WORTH_A_LOOK, set_out
 from dqpaint.language.diagnostics import Diagnostic, ScriptError
 from dqpaint.motion import Motion
-from dqpaint.nullspace import DEFAULT_NULL, make_pull
+from dqpaint.nullspace import DEFAULT_NULL
 from dqpaint.robots.kinematics import Kinematics
-from dqpaint.robots.reach import (
-    ON_THE_WAY,
-    Miss,
-    Start,
-    find_start,
-    shortfall,
-    strays,
-    to_start,
-    waypoints,
-)
+from dqpaint.robots.reach import ON_THE_WAY, Miss, Start, shortfall, strays, waypoints
 
 if TYPE_CHECKING:
     from dqpaint.tracking import Track  # brings in the simulator, and a forecast needs none
 
-WORTH_A_LOOK = 1e-3  # [m]
 LOOKS, MOST_LOOKS = 9, 96  # at a stroke, for its farthest point; at a drawing
 MOST_TOLD, MOST_NAMED = 5, 6  # lines with a message of their own; further ones by their numbers
 WORTH_SAYING = np.radians(0.5)
-MOVE = "place auto looks for room"
-SCALES = np.arange(0.95, 0.05, -0.05)
 
 
 @dataclass(frozen=True)
@@ -58,21 +46,20 @@ def begin(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL) -> S
     Raises:
         ScriptError: the drawing leaves the arm's reach, wherever it begins.
     """
-    rows = waypoints(motion.stroke)
-    pull = to_start if null == DEFAULT_NULL else make_pull(null, kinematics)
-    found = find_start(kinematics, motion.pose[rows], motion.t[rows], pull)
+    found = set_out(motion, kinematics, null)
     if isinstance(found, Start) and found.margin >= 0:
         return found
+    rows = waypoints(motion.stroke)
     outside = _outside(motion, kinematics, rows)
     if outside:
-        raise out_of_reach(motion, kinematics, outside)
+        raise out_of_reach(motion, kinematics, outside, null)
     if isinstance(found, Miss):
-        at = Outside(int(rows[found.index]), found, alone=False)
-        raise out_of_reach(motion, kinematics, [at])
+        at = Outside(int(rows[found.index]), found, alone=found.index == 0)
+        raise out_of_reach(motion, kinematics, [at], null)
     return found
 
 
-def check_worst(track: "Track", kinematics: Kinematics) -> None:
+def check_worst(track: "Track", kinematics: Kinematics, null: str = DEFAULT_NULL) -> None:
     """Look again where a run strayed most: the forecast sees a drawing at some of its rows alone.
 
     A pose that is out of reach keeps the arm at least as far away as its shortfall.
@@ -82,7 +69,7 @@ def check_worst(track: "Track", kinematics: Kinematics) -> None:
     """
     row = worst_row(track)
     if row is not None:
-        check_row(track.motion, kinematics, row)
+        check_row(track.motion, kinematics, row, null)
 
 
 def worst_row(track: "Track") -> int | None:
@@ -92,7 +79,7 @@ def worst_row(track: "Track") -> int | None:
     return row if stray[row] >= WORTH_A_LOOK else None
 
 
-def check_row(motion: Motion, kinematics: Kinematics, row: int) -> None:
+def check_row(motion: Motion, kinematics: Kinematics, row: int, null: str = DEFAULT_NULL) -> None:
     """See that the arm reaches the pose of a row.
 
     Raises:
@@ -102,7 +89,7 @@ def check_row(motion: Motion, kinematics: Kinematics, row: int) -> None:
         rows = np.unique(np.append(waypoints(motion.stroke), row))
         outside = _outside(motion, kinematics, rows)
         if outside:
-            raise out_of_reach(motion, kinematics, outside)
+            raise out_of_reach(motion, kinematics, outside, null)
 
 
 def _outside(motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp]) -> list[Outside]:
@@ -130,11 +117,13 @@ def _outside(motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp]) -> 
     return found
 
 
-def out_of_reach(motion: Motion, kinematics: Kinematics, outside: list[Outside]) -> ScriptError:
+def out_of_reach(
+    motion: Motion, kinematics: Kinematics, outside: list[Outside], null: str = DEFAULT_NULL
+) -> ScriptError:
     """The error for lines of a motion, some of whose rows no posture reaches."""
     program = motion.program
     told, others = outside[:MOST_TOLD], outside[MOST_TOLD:]
-    advice = _advice(motion, kinematics, told)
+    advice = advise(motion, kinematics, np.array([one.row for one in told]), null)
     problems = []
     for one in told:
         last = one is told[-1]
@@ -168,21 +157,3 @@ def _fault(one: Outside, name: str) -> str:
         return f"can be reached by {name} only with the tool turned by {angle:.0f} deg"
     amount = f"{far:.0f} mm" if far >= 1 else f"{far:.1f} mm"
     return f"is {amount}{f' and {angle:.0f} deg' if turned else ''} outside the reach of {name}"
-
-
-def _advice(motion: Motion, kinematics: Kinematics, outside: list[Outside]) -> str:
-    """A scale about the drawing's origin at which the arm reaches all of it, if there is one."""
-    local = dq.mul(dq.conj(motion.canvas), motion.pose)
-    places, turns = dq.translation(local), dq.rotation(local)
-
-    def scaled(scale: float, rows: NDArray[np.intp]) -> Floats:
-        return dq.mul(motion.canvas, dq.pose_from(scale * places[rows], turns[rows]))
-
-    worst = np.array([one.row for one in outside])
-    tried = np.concatenate([scaled(scale, worst) for scale in SCALES])
-    reached = (strays(kinematics, tried) < ON_THE_WAY).reshape(len(SCALES), len(worst))
-    rows = np.unique(np.append(waypoints(motion.stroke), worst))
-    for scale in SCALES[reached.all(axis=1)]:
-        if isinstance(find_start(kinematics, scaled(scale, rows), motion.t[rows]), Start):
-            return f"make it smaller: with scale {scale:.2g} ... end; or move it: {MOVE}"
-    return f"move it: {MOVE}; or turn the tool another way"

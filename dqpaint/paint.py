@@ -145,7 +145,7 @@ class Ready:
             self.motion, self.kinematics, self.start, self.plant, self.controller, self.gains,
             progress, self.disturbances, settings.seed, settings.null, settings.on_limit == "stop",
         )  # fmt: skip
-        check_worst(run, self.kinematics)
+        check_worst(run, self.kinematics, settings.null)
         return run
 
 

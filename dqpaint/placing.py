@@ -1,9 +1,10 @@
 """`place auto`: where a drawing fits an arm best.
 
 The drawing is tried all over the arm's reach, always facing the way it faces on the robot's canvas
-(or as `place auto turned` says), so that the picture stays the same. Of each place two things
-count, both the worst along the whole path: the manipulability, and the room a joint has left, from
-0 at a limit to 1 in the middle of its range. Their product is the figure of merit. Many places are
+(or as `place auto turned` says), so that the picture stays the same. Of each place three
+things count, each the worst along the whole path: the manipulability, the room a joint has left,
+from 0 at a limit to 1 in the middle of its range, and the part of a joint's torque that the arm's
+own weight leaves. Their product is the figure of merit. Many places are
 followed at once on a few of the drawing's poses; the best is then moved in ever smaller steps; what
 comes out is looked at along the whole drawing, and has to be free of collisions and in sight.
 Places where some of the drawing would be below z = 0, on which most arms stand, are tried last.
@@ -17,17 +18,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint import dq
+from dqpaint.changes import moved, scaled, straight
 from dqpaint.dq import Floats
+from dqpaint.following import WORTH_A_LOOK, set_out
 from dqpaint.forecast import Forecast, forecast
 from dqpaint.language import parse
 from dqpaint.language.diagnostics import Diagnostic, ScriptError
 from dqpaint.language.program import Auto, Pose, Program
 from dqpaint.motion import Motion, plan
-from dqpaint.out_of_reach import begin
 from dqpaint.robots.built import roll_pitch_yaw
-from dqpaint.robots.card import Card
+from dqpaint.robots.dynamics import Dynamics
 from dqpaint.robots.kinematics import Kinematics, manipulability
-from dqpaint.robots.reach import waypoints
+from dqpaint.robots.reach import Miss, waypoints
 from dqpaint.robots.resolver import PULL, resolve
 from dqpaint.settings import Settings
 
@@ -39,6 +41,8 @@ COARSE, FINE = 10, 32  # poses of the drawing that are looked at
 STEPS = 6  # times the search halves its step
 PROMISING = 8  # places that are looked at along the whole drawing, at the most
 NEWTON, STRIDE = 12, 0.6  # iterations, and the largest move of a joint in one [rad]
+FEEBLE = 0.01  # of a torque counts as left where an arm can't bear its weight: these come last
+FEW_SCALES = (0.75, 0.5, 0.25)  # that are tried where there is no room
 CLOSE = 1e-3  # [rad, m] counts as reached
 IN_SIGHT = 0.01  # of the light may be hidden
 PLAIN = Settings()
@@ -51,9 +55,11 @@ class Placed:
     Attributes:
         place: the drawing frame in the base frame.
         line: the same as a line of the language, fit to be pasted: exactly this place.
-        merit: `manipulability` times `room`.
+        merit: `manipulability` times `room` times `torque`.
         manipulability: the least along the drawing.
         room: the least of any joint, from 0 at a limit to 1 in the middle of its range.
+        torque: the least part of any joint's torque that the arm's weight leaves.
+        hidden: the largest part of a line's light that the arm hides, seen from the front.
     """
 
     place: Pose
@@ -61,6 +67,8 @@ class Placed:
     merit: float
     manipulability: float
     room: float
+    torque: float
+    hidden: float
 
     @property
     def as_json(self) -> dict[str, Any]:
@@ -72,6 +80,7 @@ class Placed:
             "merit": self.merit,
             "manipulability": self.manipulability,
             "room": self.room,
+            "torque": self.torque,
         }
 
     @property
@@ -79,7 +88,8 @@ class Placed:
         """How well it fits there, in words."""
         return (
             f"merit {self.merit:.3g}: manipulability {self.manipulability:.3g} or more, "
-            f"times {self.room:.2g} of a joint's room to its limits"
+            f"times {self.room:.2g} of a joint's room to its limits, "
+            f"times {self.torque:.2g} of its torque"
         )
 
 
@@ -109,20 +119,32 @@ def settle(
 def find_place(program: Program, kinematics: Kinematics, settings: Settings = PLAIN) -> Placed:
     """Where a drawing fits an arm best; the same answer each time.
 
-    It is to be in sight from the front, from wherever it is looked at: pictures of two views are of
-    one run.
+    It is to be in sight from the front, as far as can be, from wherever it is looked at: pictures
+    of two views are of one run, as those of two plants are of one drawing.
 
     Raises:
         ScriptError: the arm can draw it nowhere.
     """
     motion = plan(program, kinematics.card.canvas.pose)
-    search = _Search(motion, kinematics)
-    for origin in search.best_places():
+    found = []
+    for origin in _Search(motion, kinematics).best_places():
         place = _write(origin, dq.rotation(motion.canvas))
         placed = _judge(program, kinematics, place, settings)
-        if placed is not None:
+        if placed is not None and placed.hidden <= IN_SIGHT:
             return placed
-    raise _nowhere(program, kinematics.card, motion)
+        found += [placed] if placed is not None else []
+    if found:  # a tool that is turned away stands before its light everywhere
+        return min(found, key=lambda one: one.hidden)
+    raise _nowhere(program, kinematics, motion, settings)
+
+
+def has_room(motion: Motion, kinematics: Kinematics, settings: Settings = PLAIN) -> bool:
+    """Whether `place auto` finds a place for a motion, which stays turned as it is."""
+    search = _Search(motion, kinematics)
+    return any(
+        _lines_if_good(moved(motion, origin), kinematics, settings)
+        for origin in search.best_places()
+    )
 
 
 def _judge(
@@ -132,22 +154,37 @@ def _judge(
     place = parse(f"{line}\nhold 1 s\n", "place").placement
     assert isinstance(place, Pose)
     motion = plan(replace(program, placement=place), kinematics.card.canvas.pose)
-    try:
-        start = begin(motion, kinematics, settings.null).posture
-    except ScriptError:
+    lines = _lines_if_good(motion, kinematics, settings)
+    if not lines:
         return None
-    seen = PLAIN.model_copy(update={"null": settings.null, "brush": settings.brush})
-    lines = forecast(motion, kinematics, start, seen)
     room = min(one.room for one in lines)
-    if room <= 0 or not all(_clear(one) for one in lines):
-        return None
     worst = min(one.manipulability for one in lines)
-    return Placed(place, line, worst * room, worst, room)
+    torque = min(_left(one.held_part) for one in lines)
+    hidden = max(one.hidden or 0.0 for one in lines)
+    return Placed(place, line, worst * room * torque, worst, room, torque, hidden)
 
 
-def _clear(one: Forecast) -> bool:
-    """Whether no links meet on a line, and its light can be seen."""
-    return (one.clearance is None or one.clearance >= 0) and (one.hidden or 0.0) <= IN_SIGHT
+def _lines_if_good(
+    motion: Motion, kinematics: Kinematics, settings: Settings
+) -> tuple[Forecast, ...]:
+    """The forecast of a motion that may stay where it is; nothing of one that may not."""
+    start = set_out(motion, kinematics, settings.null)
+    if isinstance(start, Miss) or start.margin < 0:
+        return ()
+    seen = PLAIN.model_copy(update={"null": settings.null, "brush": settings.brush})
+    lines = forecast(motion, kinematics, start.posture, seen)
+    return lines if all(_is_good(one) for one in lines) else ()
+
+
+def _is_good(one: Forecast) -> bool:
+    """Whether a line is reached, and no links meet on it."""
+    apart = one.clearance is None or one.clearance >= 0
+    return one.room > 0 and one.stray < WORTH_A_LOOK and apart
+
+
+def _left(part: float) -> float:
+    """What a part of a torque leaves, or hardly anything: an arm may be run without masses."""
+    return max(1.0 - part, FEEBLE)
 
 
 class _Search:
@@ -241,12 +278,14 @@ class _Follow:
         self._half = 0.5 * (self._card.upper - self._card.lower)
         self._worst = np.full(len(postures), np.inf)
         self._room = np.ones(len(postures))
+        self._torque = np.ones(len(postures))
+        self._dynamics = Dynamics(kinematics)
         self.alive = np.arange(len(postures))
 
     @property
     def merit(self) -> Floats:
-        """Least manipulability times least room so far (M,)."""
-        return self._worst * self._room
+        """Least manipulability, room and torque so far, multiplied (M,)."""
+        return self._worst * self._room * self._torque
 
     def go(self, poses: Floats, pause: float | None) -> None:
         """On to the next poses (M, 8), after a time [s]; None leads to the first ones."""
@@ -261,7 +300,11 @@ class _Follow:
         self._q[alive] = q
         self._worst[alive] = np.minimum(self._worst[alive], measure)
         self._room[alive] = np.minimum(self._room[alive], room.min(axis=1))
-        self.alive = alive[reached & (self._room[alive] > 0)]
+        good = reached & (self._room[alive] > 0)
+        self.alive = alive[good]
+        for one, posture in zip(self.alive, q[good], strict=True):
+            part = float(np.abs(self._dynamics.weight(posture) / self._card.effort).max())
+            self._torque[one] = min(self._torque[one], _left(part))
         if pause is None:
             self._start = self._q.copy()
 
@@ -296,13 +339,24 @@ def _write(origin: Floats, orientation: Floats) -> str:
     return f"place at ({at}) m turned rpy({turned})"
 
 
-def _nowhere(program: Program, card: Card, motion: Motion) -> ScriptError:
+def _nowhere(
+    program: Program, kinematics: Kinematics, motion: Motion, settings: Settings
+) -> ScriptError:
+    """The error, with advice that was tried."""
     assert isinstance(program.placement, Auto)
     box = " x ".join(f"{side * 1e3:.0f}" for side in motion.box)
+    held = straight(motion)
+    said = [
+        f"make it smaller: with scale {scale:g} ... end"
+        for scale in FEW_SCALES
+        if has_room(scaled(motion, scale), kinematics, settings)
+    ][:1]
+    if held is not None and has_room(held, kinematics, settings):
+        said.append("hold the tool straight: without 'tool' there is room")
     problem = Diagnostic(
         "E313",
-        f"nowhere in the reach of {card.name} is there room for this drawing ({box} mm)",
+        f"nowhere in the reach of {kinematics.card.name} is there room for this drawing ({box} mm)",
         program.placement.span,
-        help="make it smaller: with scale 0.5 ... end; turn the tool less; or take a larger arm",
+        help="; or ".join(said) or "make it much smaller, or take a larger arm",
     )
     return ScriptError(program.name, program.text, (problem,))

@@ -193,6 +193,10 @@ def test_a_view_that_is_unknown_is_told_before_anything_is_simulated(monkeypatch
         package.draw("rose", view="back")
 
 
+def test_check_with_a_plant_says_what_its_springs_do(dqpaint, line):
+    assert "springs give way" in dqpaint("check", line, "--plant", "compliant").stdout
+
+
 def test_check_with_a_robot_looks_at_the_reach(dqpaint, line, tmp_path):
     assert "iiwa reaches it, every joint" in dqpaint("check", line, "--robot", "iiwa").stdout
     assert "iiwa reaches it, every joint" in dqpaint("check", line, "--size", "640x360").stdout
@@ -344,10 +348,11 @@ def test_check_for_programs(dqpaint, line, tmp_path):
     (["draw", "line.traj", "--place", "there"], 2, "place 'there' is not auto; a place"),
     (["check", "line.traj", "--place", "there"], 2, "place 'there' is not auto"),
     (["check", "line.traj", "--tool", "x"], 2, "tool 'x' is not X,Y,Z"),
+    (["check", "line.traj", "--plant", "rubber"], 2, "no plant named 'rubber'; known: compliant,"),
+    (["export", "line.traj"], 2, "export needs a --format: csv, ros2, urscript"),
     (["pose", "iiwa", "--tool", "0,0,0", "--flange"], 2, "not both"),
     (["draw", "line.traj", "--recorded", "no.csv"], 2, "'no.csv' cannot be read"),
     (["draw", "line.traj", "--recorded", "line.traj"], 1, "line.traj has no column 't_s'"),
-    (["export", "line.traj"], 2, "Missing option '--format'"),
     (["export", "line.traj", "--format", "gcode"], 2, "no format named 'gcode'; known: "),
     (["export", "line.traj", "--format", "urscript"], 2, "URScript is for the arms of Universal"),
     (["export", "line.traj", "--format", "csv", "--from", "home"], 1, "not exported: iiwa could"),

@@ -8,6 +8,8 @@ import pytest
 
 from dqpaint.checking import as_json, check
 from dqpaint.errors import UsageError
+from dqpaint.forewarning import _warnings
+from dqpaint.robots.card import read_card
 
 FAST = (
     "period 8 ms\nstart at (0, 0) mm\nline to (40, 0) mm\n"
@@ -90,9 +92,6 @@ def test_a_light_that_is_turned_away_is_hidden(checked):
 
 def test_links_that_meet_are_named(checked):
     """test_collisions looks at which postures collide; here, what is said of one."""
-    from dqpaint.forewarning import _warnings
-    from dqpaint.robots.card import read_card
-
     outlook = checked("start at (0, 0) mm\nline to (40, 0) mm\n").outlook
     assert not outlook.warnings
     meeting = replace(outlook.lines[0], clearance=-0.0123, between=("wrist", "base"))
@@ -112,7 +111,14 @@ def test_near_a_singularity(checked):
     worst = min(line.singular for line in result.outlook.lines)
     assert worst < 0.04
     assert "W505" in {d.code for d in result.findings}
-    assert "below 0.04): there it follows inexactly" in result.text
+    assert "below 0.04): there it follows inexactly\n" in result.text
+
+
+def test_a_millimetre_beside_a_singularity_is_told(checked):
+    outlook = checked("start at (0, 0) mm\nline to (40, 0) mm\n").outlook
+    beside = replace(outlook.lines[0], singular=0.01, stray=0.0031)
+    (warning,) = _warnings(outlook.motion, read_card("iiwa"), [beside])
+    assert warning.message.endswith("there it follows inexactly, up to 3.1 mm beside")
 
 
 def test_place_auto_says_where(checked):

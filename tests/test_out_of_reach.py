@@ -54,7 +54,7 @@ def test_the_advised_scale_is_reached_and_a_larger_one_is_not():
 def test_a_tool_that_cannot_turn_so_is_told_apart_from_a_distance():
     message = refused("line to (0, 0) mm tool rpy(180 deg, 0, 0)\n")
     assert re.search(r"and \d+ deg outside the reach|only with the tool turned", message)
-    assert "turn the tool another way" in message
+    assert "hold the tool straight: without 'tool' it is reached" in message
 
 
 REACH = 0.82  # [m] of the iiwa's wrist about its shoulder, with a straight elbow
@@ -78,7 +78,7 @@ def test_each_line_is_told_with_its_own_distance():
     for (found, _), wanted in zip(told, (far, far, other, other), strict=True):
         assert float(found) == pytest.approx(wanted, rel=0.05)
     assert message.count("= help:") == 1
-    assert "place auto looks for room" in message
+    assert "make it smaller: with scale 0.55 ... end; or move it: place auto finds room" in message
 
 
 @pytest.mark.slow
@@ -138,3 +138,20 @@ def test_a_joint_s_end_counts_as_reach_before_the_run_as_in_it():
 
 def arm_of(name):
     return Kinematics(read_card(name))
+
+
+@pytest.mark.parametrize("beyond_mm", [0.4, 1.2])
+def test_a_first_place_hardly_out_of_reach_has_no_strokes_before_it(beyond_mm):
+    z = 1e3 * (REACH - 0.539) + beyond_mm
+    message = refused(f"start at (0, -140, {z:.3f}) mm\nline to (0, -100, 0) mm\n")
+    assert f"sample 0 (0.00 s) is {beyond_mm:.1g} mm outside the reach of iiwa" in message
+
+
+@pytest.mark.parametrize("inside_mm", [0.0, 0.1, 3.0])
+def test_what_the_stretched_arm_just_reaches_is_drawn(inside_mm):
+    """The elbow is straight there, which is a singularity; forecast and run say the same."""
+    z = 1e3 * (REACH - 0.539) - inside_mm
+    program = parse(f"start at (0, -100, 0) mm\nline to (0, -140, {z:.3f}) mm\n", "t")
+    outlook = look_ahead(program, arm_of("iiwa"))
+    assert max(line.stray for line in outlook.lines) < 3e-4
+    paint(program, SETTINGS)

@@ -1,9 +1,12 @@
 """`place auto`: reachable, better than elsewhere, the same each time, and fit to be pasted."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from dqpaint import dq, placing
+from dqpaint.forecast import forecast
 from dqpaint.language import ScriptError, parse
 from dqpaint.motion import plan
 from dqpaint.out_of_reach import begin
@@ -92,7 +95,59 @@ def test_the_figures_are_those_of_the_drawing_at_that_place(arm, placed):
         room = min(room, left.min())
     assert placed.manipulability == pytest.approx(worst, rel=0.05)
     assert placed.room == pytest.approx(room, rel=0.05)
-    assert placed.merit == pytest.approx(placed.manipulability * placed.room)
+    assert placed.merit == pytest.approx(placed.manipulability * placed.room * placed.torque)
+
+
+def test_the_torque_that_the_weight_leaves_is_that_of_lifting_it(arm, placed):
+    """By what the potential energy gains where a joint turns a little."""
+    import pinocchio
+
+    motion = plan(parse(f"{placed.line}\n{SMALL}", "pasted.traj"), arm.card.canvas.pose)
+    q, model = begin(motion, arm).posture, arm.model
+    data, left, step = model.createData(), 1.0, 1e-5
+    for x_d in motion.pose[::8]:
+        for _ in range(4):
+            x, J = arm.pose_and_jacobian(q)
+            q = q + np.linalg.pinv(J) @ (2 * dq.log(dq.mul(dq.nearest(x_d, x), dq.conj(x))))
+        for j, most in enumerate(arm.card.effort):
+            turn = step * np.eye(7)[j]
+            gained = pinocchio.computePotentialEnergy(model, data, q + turn)
+            gained -= pinocchio.computePotentialEnergy(model, data, q - turn)
+            left = min(left, 1 - abs(gained) / (2 * step) / most)
+    assert placed.torque == pytest.approx(left, abs=0.01)
+    assert left < 0.9
+
+
+def test_a_weak_arm_is_given_a_place_where_its_weight_is_less(monkeypatch):
+    """An iiwa whose shoulder could hardly hold it where the merit without torque puts it."""
+    card = read_card("iiwa")
+    effort = (*card.limits.effort_Nm[:1], 55.0, *card.limits.effort_Nm[2:])
+    weak = Kinematics(card.model_copy(update={
+        "limits": card.limits.model_copy(update={"effort_Nm": effort})
+    }))  # fmt: skip
+    found = settle(parse(SMALL, "small.traj"), weak, AUTO)[1]
+    with monkeypatch.context() as patched:
+        patched.setattr(placing, "_left", lambda _part: 1.0)
+        blind = settle(parse(SMALL, "small.traj"), weak, AUTO)[1]
+    motion = plan(parse(f"{blind.line}\n{SMALL}", "t"), weak.card.canvas.pose)
+    lines = forecast(motion, weak, begin(motion, weak).posture)
+    assert found.torque > 1.5 * (1 - max(one.held_part for one in lines))
+    assert found.merit > blind.merit * (1 - max(one.held_part for one in lines))
+
+
+@pytest.mark.parametrize("bad", [{"stray": 2e-3}, {"room": -0.01}, {"clearance": -1e-3}])
+def test_a_place_that_does_not_do(arm, placed, bad):
+    motion = plan(parse(f"{placed.line}\n{SMALL}", "pasted.traj"), arm.card.canvas.pose)
+    one = forecast(motion, arm, begin(motion, arm).posture)[0]
+    assert placing._is_good(one)
+    assert not placing._is_good(replace(one, **bad))
+
+
+def test_a_light_that_the_arm_hides_everywhere_is_placed_all_the_same(arm):
+    text = "start at (0, 0) mm tool rpy(0 deg, 150 deg, 0 deg)\nline to (30, 0) mm light red\n"
+    placed = settle(parse(text, "t"), arm, AUTO)[1]
+    assert placed.hidden > placing.IN_SIGHT
+    assert placed.room > 0
 
 
 @pytest.mark.slow
@@ -148,6 +203,17 @@ def test_nowhere(arm):
     assert "E313" in text
     assert "long.traj:1:1" in text
     assert "3000 x 0 x 0 mm" in text
+    assert "make it smaller: with scale 0.25 ... end" in text
+    settle(parse("place auto\nwith scale 0.25\nline to (3, 0) m\nend\n", "long.traj"), arm)
+
+
+def test_nowhere_with_the_tool_turned_so(arm):
+    """A straight tool has room, a smaller drawing has not."""
+    turns = "line to (60, 0) mm tool rot(x, 100 deg)\nline to (0, 0) mm tool rot(x, -100 deg)\n"
+    turns += "line to (60, 0) mm tool rot(y, 150 deg)\nline to (0, 0) mm tool rot(y, -150 deg)\n"
+    with pytest.raises(ScriptError) as caught:
+        settle(parse(f"place auto\n{turns}", "turns.traj"), arm)
+    assert "= help: hold the tool straight: without 'tool' there is room" in str(caught.value)
 
 
 @pytest.mark.parametrize(("line", "code"), [

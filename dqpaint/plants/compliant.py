@@ -17,7 +17,7 @@ from pydantic import Field, field_validator
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 from dqpaint.plants.bullet import bullet
-from dqpaint.plants.plant import PLANTS, Options, Takes, Trait, Values
+from dqpaint.plants.plant import PLANTS, Options, Springs, Takes, Trait, Values
 from dqpaint.plants.rigid import LONGEST_STEP, RigidArm, some_postures
 from dqpaint.plants.world import UNDISTURBED, World
 from dqpaint.robots.card import Card
@@ -70,6 +70,18 @@ class CompliantOptions(Values):
         k, d = self.springs(card, inertia)
         found = {"stiffness_Nm_rad": k.tolist(), "damping_Nm_s_rad": d.tolist()}
         return {**self.model_dump(exclude={"stiffness"}), **found}
+
+    def springs_of(self, card: Card) -> Springs:
+        """For a forecast.
+
+        Raises:
+            UsageError: springs that a run would refuse.
+        """
+        dynamics = Dynamics(Kinematics(card))
+        k, d = self.springs(card, np.diag(dynamics.inertia(card.home)))
+        _longest_step(card, dynamics, k, d)
+        between = d if self.damper == "motor" else np.zeros_like(d)
+        return Springs(k, between, self.gravity, self.encoder == "joint")
 
     def springs(self, card: Card, inertia: Floats) -> tuple[Floats, Floats]:
         """Stiffness (n,) [Nm/rad] and damping (n,) [Nm s/rad].

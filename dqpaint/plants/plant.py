@@ -16,6 +16,23 @@ Takes = Literal["rates", "torque"]
 Trait = Literal["masses", "a model of gravity", "sudden motors"]
 
 
+@dataclass(frozen=True)
+class Springs:
+    """What stands between motors and joints, where something does.
+
+    Attributes:
+        stiffness: (n,) [Nm/rad].
+        damping: between motor and joint (n,) [Nm s/rad].
+        share: of the weight that is compensated, 0 to 1.
+        seen: whether the encoders see how far the springs give way.
+    """
+
+    stiffness: Floats
+    damping: Floats
+    share: float
+    seen: bool
+
+
 class Values(BaseModel):
     """What a plant takes besides its name; each field's description says the unit."""
 
@@ -24,6 +41,10 @@ class Values(BaseModel):
     def shown(self, card: Card) -> dict[str, Any]:
         """The values as a summary shows them, with what follows from them for an arm."""
         return self.model_dump()
+
+    def springs_of(self, card: Card) -> Springs | None:
+        """What stands between an arm's motors and joints; None where they are one."""
+        return None
 
 
 Options = type[Values] | None
@@ -121,6 +142,10 @@ class Chosen:
         """The plant's values, for an arm."""
         return self.options.shown(card) if self.options else {}
 
+    def springs_of(self, card: Card) -> Springs | None:
+        """What stands between an arm's motors and joints; None where they are one."""
+        return self.options.springs_of(card) if self.options else None
+
     def need(self, trait: Trait | None, disturbance: str) -> None:
         """See that a disturbance can show.
 
@@ -142,16 +167,26 @@ def choose_plant(text: str | None, takes: Takes) -> Chosen:
     Raises:
         UsageError: an unknown plant or value, or one that takes other commands.
     """
-    name, values = read_choice("plant", text or DEFAULT_PLANTS[takes], "compliant:frequency=60")
-    plant = PLANTS[name]
-    if plant.takes != takes:
+    plant = find_plant(text or DEFAULT_PLANTS[takes])
+    if plant.make.takes != takes:
         suited = [other for other, one in PLANTS.items() if one.takes == takes]
         words = {"rates": "joint rates", "torque": "torques"}
         raise UsageError(
-            f"plant '{name}' takes {words[plant.takes]}, but this controller commands "
+            f"plant '{plant.name}' takes {words[plant.make.takes]}, but this controller commands "
             f"{words[takes]}; plants for it: {', '.join(suited)}"
         )
+    return plant
+
+
+def find_plant(text: str) -> Chosen:
+    """The plant that was asked for, whatever commands it takes.
+
+    Raises:
+        UsageError: an unknown plant or value.
+    """
+    name, values = read_choice("plant", text, "compliant:frequency=60")
+    plant = PLANTS[name]
     if plant.options is None and values:
         raise UsageError(f"plant '{name}' takes no values")
     options = make_choice("plant", name, plant.options, values) if plant.options else None
-    return Chosen((text or name).strip(), plant, options)
+    return Chosen(text.strip(), plant, options)

@@ -155,6 +155,8 @@ class Card(Part):
             raise ValueError("an arm of rows or axes needs the table [body]")
         assert self.axes is not None
         count = len(self.axes.axes)
+        if len(self.limits.lower_deg) != count:
+            raise ValueError(f"limits need one number for each of the {count} joints")
         if count != self.joints:
             raise ValueError(f"home_deg needs one number for each of the {count} joints")
         if (len(self.body.mass_kg), len(self.body.radius_m)) != (count, count + 1):

@@ -1,6 +1,8 @@
 """Which arm a drawing is for."""
 
-from dqpaint.errors import UnknownNameError
+from pathlib import Path
+
+from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.language import Diagnostic, Program, ScriptError
 from dqpaint.language.suggestions import closest, did_you_mean
 from dqpaint.robots.card import DEFAULT_ROBOT, Card, read_card
@@ -12,13 +14,22 @@ def find_card(robot: str) -> Card:
 
     Raises:
         UnknownNameError: no card has that name.
+        UsageError: but a file has it.
         DqpaintError: the file is not there, or no arm.
     """
     if robot.endswith((".toml", ".urdf")) or ".urdf:" in robot:
         from dqpaint.robots.files import read_file  # brings what reads a URDF
 
         return read_file(robot)
-    return read_card(robot)
+    try:
+        return read_card(robot)
+    except UnknownNameError:
+        for file in (f"{robot}.toml", f"{robot}.urdf"):
+            if Path(file).is_file():
+                raise UsageError(
+                    f"no robot named '{robot}'; a file is named whole: {file}"
+                ) from None
+        raise
 
 
 def with_tool(card: Card, tool: str | None) -> Card:

@@ -76,7 +76,10 @@ def _complete(raw: dict[str, Any], path: Path) -> Card:
             raw["limits"] = _limits(tree, urdf["link"])
     if "tool" not in raw:
         raw["tool"] = {}
-        notes.append("no [tool]: the light sits on the last frame itself, its z axis is the lamp's")
+        notes.append(
+            f"{_lacks(path, '[tool]')}the light sits on the last frame itself, its z axis is the "
+            f"lamp's{_or(path, '--tool puts it elsewhere')}"
+        )
     _derive_body(raw, path, notes)
     limits = raw.get("limits")
     home, canvas = "home_deg" in raw, "canvas" in raw
@@ -86,11 +89,21 @@ def _complete(raw: dict[str, Any], path: Path) -> Card:
         raw["canvas"] = ANYWHERE
     card = _validate(raw, path)
     if not (home and canvas):
-        card = _before_the_canvas(card, home, canvas, notes)
+        card = _before_the_canvas(card, home, canvas, path, notes)
     return card.model_copy(update={"notes": (*card.notes, *notes)})
 
 
-def _before_the_canvas(card: Card, home: bool, canvas: bool, notes: list[str]) -> Card:
+def _lacks(path: Path, what: str) -> str:
+    """How a note begins of what a card leaves out; a URDF has no word for it."""
+    return "" if path.suffix == ".urdf" else f"no {what}: "
+
+
+def _or(path: Path, cure: str) -> str:
+    """How a note ends where a URDF is all there is."""
+    return f"; {cure}" if path.suffix == ".urdf" else ""
+
+
+def _before_the_canvas(card: Card, home: bool, canvas: bool, path: Path, notes: list[str]) -> Card:
     """Find the home posture, the canvas, or both."""
     from dqpaint.robots import derive  # needs the kinematics
 
@@ -104,10 +117,17 @@ def _before_the_canvas(card: Card, home: bool, canvas: bool, notes: list[str]) -
         found, posture = derive.find_canvas(card)
         card = card.model_copy(update={"canvas": found})
         x, y, z = found.at_m
-        notes.append(f"no [canvas]: drawings go to ({x:g}, {y:g}, {z:g}) m, facing along x")
+        notes.append(
+            f"{_lacks(path, '[canvas]')}drawings go to ({x:g}, {y:g}, {z:g}) m, facing along x"
+            f"{_or(path, 'place puts them elsewhere')}"
+        )
     degrees = np.degrees(posture).round(9).tolist()
+    taken = ", ".join(f"{angle:.4g}" for angle in np.round(degrees, 9) + 0.0)
+    cure = "a card can say all this, see README"
     notes.append(
-        f"no home_deg: {', '.join(f'{angle:.4g}' for angle in np.round(degrees, 9) + 0.0)} is taken"
+        f"no home_deg: {taken} is taken"
+        if path.suffix != ".urdf"
+        else f"the home posture is {taken} deg; {cure}"
     )
     return card.model_copy(update={"home_deg": tuple(degrees)})
 
@@ -151,6 +171,8 @@ def _told(problem: ValidationError, path: Path, *above: str) -> DqpaintError:
         fault = "is missing"
         if name == "limits":
             fault += f": it holds {', '.join(_fields(steps))}, one number a joint"
+    elif first["type"] == "model_type":
+        fault = f"is not a table, which holds {', '.join(_fields(steps))}"
     elif first["type"] == "extra_forbidden":
         fault = f"is not known; known: {', '.join(_fields(steps[:-1]))}"
     return DqpaintError(f"{path.name}: {name} {fault}".replace(":  ", ": "))

@@ -98,7 +98,7 @@ def _result(
     try:
         row = worst_row(track)
         if row is not None and row not in seen:
-            check_row(ready.motion, ready.kinematics, row)
+            check_row(ready.motion, ready.kinematics, row, ready.settings.null)
             seen.add(row)
         if run.keep:
             painting = finish(ready, track)

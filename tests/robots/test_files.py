@@ -1,6 +1,7 @@
 """Arms from files of one's own: what they leave out, and what is wrong with them."""
 
 import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -130,7 +131,9 @@ def test_a_urdf_brings_its_limits(write):
     np.testing.assert_allclose(card.speed, 2)
     np.testing.assert_allclose(card.effort, 400)
     assert Kinematics(card).model.nv == 6
-    assert len(card.notes) == 3  # tool, canvas, home
+    assert len(card.notes) == 3  # tool, canvas, home; in words that a URDF's owner can act upon
+    assert not any("no [" in note or "home_deg" in note for note in card.notes)
+    assert card.notes[0].endswith("--tool puts it elsewhere")
 
 
 def test_a_card_may_lean_on_a_urdf_beside_it(write):
@@ -177,14 +180,17 @@ def test_a_round_joint_turns_either_way(write):
      r"limits.effort_Nm\[6\] should be greater than 0"),
     (VIPER + LIMITS.replace("25, 25, 12]", "25]"), "every limit needs one number for each joint"),
     (VIPER + LIMITS.replace("-170, ", "-170, 3, "), "every limit needs one number"),
-    (VIPER.replace("    { d_m = 0.080 },\n", "") + LIMITS, "each of the 5 joints"),
+    (VIPER.replace("    { d_m = 0.080 },\n", "") + LIMITS, "limits need .* of the 5 joints"),
+    ("home_deg = [0, 0]\n" + VIPER + LIMITS, "home_deg needs one number for each of the 6 joints"),
     ("colour = 'red'\n" + VIPER + LIMITS, "colour is not known; known: name, title"),
     (VIPER + LIMITS + "[canvas]\nat_m = [1, 2]\n", r"canvas.at_m\[3\] is missing"),
     ("home_deg = [0, 90, 0, 0, 0, 0]\n" + VIPER + LIMITS, "home_deg must lie inside the limits"),
     ("[denavit_hartenberg\n", "mine.toml is no TOML: "),
     ('[urdf]\nfile = "not-there.urdf"\n', "not-there.urdf' cannot be read: No such file"),
     ("[urdf]\nlink = 'l6'\n", "urdf.file is missing"),
-    ("urdf = 3\n", "urdf should be a valid dictionary"),
+    ("urdf = 3\n", "mine.toml: urdf is not a table, which holds package, file, link"),
+    (VIPER.replace("    { d_m = 0.080 },\n", "    [0.080],\n") + LIMITS,
+     r"rows\[6\] is not a table, which holds theta_deg, d_m, a_m, alpha_deg"),
 ])  # fmt: skip
 def test_faults_of_a_card_are_told_by_their_field(write, text, message):
     tomllib.loads(text) if "no TOML" not in message else None
@@ -243,3 +249,11 @@ def test_faults_of_a_urdf_are_told_by_their_place(write, old, new, link, message
 def test_an_arm_of_five_joints_is_told_so(write):
     with pytest.raises(DqpaintError, match=r"holds no arm of 6 or more joints that turn; .* has 5"):
         read_file(write("arm.urdf", arm_urdf(5)))
+
+
+def test_a_file_without_its_ending_is_asked_for_whole(write, monkeypatch):
+    monkeypatch.chdir(Path(write("mine.toml", VIPER + LIMITS)).parent)
+    with pytest.raises(UsageError, match=r"no robot named 'mine'; .*: mine.toml"):
+        find_card("mine")
+    with pytest.raises(UnknownNameError, match="known: "):
+        find_card("yours")

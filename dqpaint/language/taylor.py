@@ -16,11 +16,15 @@ from numpy.typing import NDArray
 
 ORDER = 3  # a tool that follows a curve's heading needs three derivatives for its acceleration
 Floats = NDArray[np.float64]
+FACTORIALS = np.array([[1.0], [1.0], [2.0], [6.0]])
 Scalar = int | float
 
 
 class Taylor:
-    """A function of one parameter about N points: `coefficients` (4, N), c_k = f^(k) / k!."""
+    """A function of one parameter about N points: `coefficients` (K + 1, N), c_k = f^(k) / k!.
+
+    K is 3, or less where no more is asked.
+    """
 
     __slots__ = ("coefficients",)
     __array_ufunc__ = None  # numpy leaves the operators to this class
@@ -29,17 +33,16 @@ class Taylor:
         self.coefficients = coefficients
 
     @classmethod
-    def variable(cls, at: Floats) -> Taylor:
-        """The parameter itself at the values `at` (N,)."""
-        c = np.zeros((ORDER + 1, len(at)))
+    def variable(cls, at: Floats, order: int = ORDER) -> Taylor:
+        """The parameter itself at the values `at` (N,), with so many derivatives."""
+        c = np.zeros((order + 1, len(at)))
         c[0], c[1] = at, 1.0
         return cls(c)
 
     @property
     def derivatives(self) -> Floats:
-        """(4, N): f, f', f'', f'''."""
-        factorials = np.array([[1.0], [1.0], [2.0], [6.0]])
-        return np.asarray(self.coefficients * factorials)
+        """(K + 1, N): f, f', f'', f'''."""
+        return np.asarray(self.coefficients * FACTORIALS[: len(self.coefficients)])
 
     def _constant(self, value: Scalar) -> Taylor:
         c = np.zeros_like(self.coefficients)
@@ -68,9 +71,7 @@ class Taylor:
         if not isinstance(other, Taylor):
             return Taylor(self.coefficients * other)
         a, b = self.coefficients, other.coefficients
-        return Taylor(
-            np.stack([sum(a[j] * b[k - j] for j in range(k + 1)) for k in range(ORDER + 1)])
-        )
+        return Taylor(np.stack([sum(a[j] * b[k - j] for j in range(k + 1)) for k in range(len(a))]))
 
     __rmul__ = __mul__
 
@@ -79,7 +80,7 @@ class Taylor:
             return Taylor(self.coefficients / other)
         a, b = self.coefficients, other.coefficients
         q = np.zeros_like(a)
-        for k in range(ORDER + 1):
+        for k in range(len(a)):
             q[k] = (a[k] - sum(q[j] * b[k - j] for j in range(k))) / b[0]
         return Taylor(q)
 
@@ -94,7 +95,7 @@ def _integrate(first: Floats, slope: Callable[[Floats, int], Floats], like: Floa
     """The series with c_0 = `first` and k c_k = `slope(c, k)`, each term from those before it."""
     c = np.zeros_like(like)
     c[0] = first
-    for k in range(1, ORDER + 1):
+    for k in range(1, len(c)):
         c[k] = slope(c, k) / k
     return Taylor(c)
 
@@ -119,7 +120,7 @@ def ln(x: Value) -> Value:
 def _from_slope(first: Floats, outer: Taylor | Scalar, x: Taylor) -> Taylor:
     """The series f(x) with value `first`, where f'(x) is the series `outer`."""
     a = x.coefficients
-    slope = Taylor(np.vstack([a[1:] * np.arange(1, ORDER + 1)[:, None], np.zeros_like(a[:1])]))
+    slope = Taylor(np.vstack([a[1:] * np.arange(1, len(a))[:, None], np.zeros_like(a[:1])]))
     product = (slope * outer).coefficients
     return _integrate(first, lambda _c, k: product[k - 1], a)
 
@@ -128,7 +129,7 @@ def _sin_cos(x: Taylor) -> tuple[Taylor, Taylor]:
     a = x.coefficients
     s, c = np.zeros_like(a), np.zeros_like(a)
     s[0], c[0] = np.sin(a[0]), np.cos(a[0])
-    for k in range(1, ORDER + 1):
+    for k in range(1, len(a)):
         s[k] = sum(j * a[j] * c[k - j] for j in range(1, k + 1)) / k
         c[k] = -sum(j * a[j] * s[k - j] for j in range(1, k + 1)) / k
     return Taylor(s), Taylor(c)
@@ -159,7 +160,7 @@ def sqrt(x: Value) -> Value:
     a = x.coefficients
     r = np.zeros_like(a)
     r[0] = np.sqrt(a[0])
-    for k in range(1, ORDER + 1):
+    for k in range(1, len(a)):
         r[k] = (a[k] - sum(r[j] * r[k - j] for j in range(1, k))) / (2 * r[0])
     return Taylor(r)
 

@@ -69,6 +69,10 @@ class Pieces:
         """The place."""
         return np.asarray(self(f)[0])
 
+    def velocity(self, f: Floats) -> Floats:
+        """The first derivative."""
+        return np.asarray(self(f)[1])
+
     def __call__(self, f: Floats) -> Floats:
         """With its derivatives."""
         panels = self.panels

@@ -19,8 +19,10 @@ MOST_PANELS = 1024
 MOST_OF_ANGLES = 32  # panels, of a stroke whose length needs none
 EXACT_ANGLE = 1e-12  # relative
 AT_ONCE = 16_384  # places at which speeds are asked for
+IN_CACHE = 512  # places whose parameters are sought together: ten nodes each
 EXACT = 1e-13  # relative, of a length
 SETTLED = 0.01  # relative: a length that still changes by more at `MOST_PANELS` is none
+LAST_STEP = 1e-10  # of Newton's method: the next would be about the square of it
 CUSP = 1e-6  # of the mean speed: a curve that is slower somewhere has a point there
 
 
@@ -111,13 +113,13 @@ def has_cusp(shape: Shape, extent: Extent) -> bool:
     for _ in range(8):
         around = np.clip(np.linspace(least - width, least + width, 17), 0.0, 1.0)
         least, width = _slowest(shape, around)
-    speed = shape.speeds(np.array([least]))[0][0]
+    speed = shape.speed(np.array([least]))[0]
     return bool(speed < CUSP * extent.length)
 
 
 def _slowest(shape: Shape, f: Floats) -> tuple[float, float]:
     """Where among f (N,) the point is slowest, and the distance to its neighbours."""
-    return float(f[np.argmin(shape.speeds(f)[0])]), float(np.diff(f).max())
+    return float(f[np.argmin(shape.speed(f))]), float(np.diff(f).max())
 
 
 def _nodes(lower: Floats, upper: Floats) -> Floats:
@@ -127,16 +129,24 @@ def _nodes(lower: Floats, upper: Floats) -> Floats:
 
 def parameter_at(shape: Shape, extent: Extent, distance: Floats) -> Floats:
     """The parameter f (N,) at distances (N,) along the path; beyond its ends it goes on."""
-    before, beyond = distance < 0, distance > extent.length
     f = np.interp(distance, extent.lengths, extent.edges)
+    for begin in range(0, len(f), IN_CACHE):
+        own = slice(begin, begin + IN_CACHE)
+        f[own] = _newton(shape, extent, distance[own], f[own])
+    return f
+
+
+def _newton(shape: Shape, extent: Extent, distance: Floats, f: Floats) -> Floats:
+    """From estimates f (N,) to what `parameter_at` promises."""
+    before, beyond = distance < 0, distance > extent.length
     panel = _panel(distance, extent.lengths)
     start = extent.edges[panel]
     lower, upper = np.where(before, -np.inf, 0.0), np.where(beyond, np.inf, 1.0)
     for _ in range(20):
         so_far = extent.lengths[panel] + _length(shape, start, f)
-        step = (so_far - distance) / shape.speeds(f)[0]
+        step = (so_far - distance) / shape.speed(f)
         f = np.clip(f - step, lower, upper)
-        if np.abs(step).max(initial=0.0) < 1e-14:
+        if np.abs(step).max(initial=0.0) < LAST_STEP:
             break
     return f
 
@@ -150,7 +160,7 @@ def _panel(values: Floats, edges: Floats) -> NDArray[np.intp]:
 def _length(shape: Shape, start: Floats, end: Floats) -> Floats:
     """The length (N,) from parameters to parameters within a panel or close to one."""
     at = _nodes(start, end)
-    speed = shape.speeds(at.ravel())[0].reshape(at.shape)
+    speed = shape.speed(at.ravel()).reshape(at.shape)
     return np.asarray((speed @ WEIGHTS) * 0.5 * (end - start))
 
 

@@ -37,6 +37,9 @@ class Places(Protocol):
     def point(self, f: Floats) -> Floats:
         """Its place (N, 3) [m]."""
 
+    def velocity(self, f: Floats) -> Floats:
+        """Its first derivative (N, 3) [m] alone."""
+
     def __call__(self, f: Floats) -> Floats:
         """Its place and three derivatives (4, N, 3)."""
 
@@ -70,6 +73,10 @@ class Lines(Rowed):
     def point(self, f: Floats) -> Floats:
         """The place."""
         return np.asarray(self.start + f[:, None] * self.by)
+
+    def velocity(self, f: Floats) -> Floats:
+        """The first derivative."""
+        return np.asarray(self(f)[1])
 
     def __call__(self, f: Floats) -> Floats:
         """With its derivatives."""
@@ -108,6 +115,10 @@ class Arcs(Rowed):
         f = f[:, None]
         outward = np.cos(f * self.angle) * self.e1 + np.sin(f * self.angle) * self.e2
         return np.asarray(self.foot + f * self.rise + (self.radius + f * self.grow) * outward)
+
+    def velocity(self, f: Floats) -> Floats:
+        """The first derivative."""
+        return np.asarray(self(f)[1])
 
     def __call__(self, f: Floats) -> Floats:
         """With its derivatives."""
@@ -178,13 +189,20 @@ class Formula:
         """The place."""
         return np.asarray(self(f)[0])
 
+    def velocity(self, f: Floats) -> Floats:
+        """The first derivative, without the work for the others."""
+        return np.asarray(self._derivatives(f, 1)[1])
+
     def __call__(self, f: Floats) -> Floats:
         """With its derivatives."""
+        return self._derivatives(f, 3)
+
+    def _derivatives(self, f: Floats, order: int) -> Floats:
         path = self.path
         span = path.upper - path.lower
-        scale = np.array([1.0, span, span**2, span**3])[:, None, None]
+        scale = np.array([1.0, span, span**2, span**3])[: order + 1, None, None]
         with np.errstate(all="ignore"):
-            point = path.formula(Taylor.variable(path.lower + f * span))
+            point = path.formula(Taylor.variable(path.lower + f * span, order))
             derivatives: Floats = np.stack([c.derivatives for c in point], axis=-1) * scale
         if not np.isfinite(derivatives[:3]).all():
             raise FloatingPointError("a formula, or one of its derivatives, is not finite")

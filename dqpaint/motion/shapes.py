@@ -13,7 +13,7 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.language.program import Pose
-from dqpaint.motion.orientations import Spin
+from dqpaint.motion.orientations import Spin, Turning
 from dqpaint.motion.places import Indices, Lines, Places, Rowed
 
 
@@ -58,6 +58,9 @@ class Shape(Protocol):
     def flow(self, f: Floats) -> Flow:
         """Pose, twist per unit of f and its derivative at f (N,), in the drawing frame."""
 
+    def speed(self, f: Floats) -> Floats:
+        """Of the point alone [m] (N,), which is sooner known than both."""
+
     def speeds(self, f: Floats) -> tuple[Floats, Floats]:
         """Speed of the point [m] and of the tool's turning [rad] per unit of f (N,)."""
 
@@ -84,6 +87,10 @@ class Rigid(Rowed):
         pose = dq.mul(dq.exp(0.5 * f[:, None] * self.displacement), self.start)
         twist = np.broadcast_to(self.displacement, (len(f), 6))
         return Flow(pose, twist, np.zeros((len(f), 6)))
+
+    def speed(self, f: Floats) -> Floats:
+        """Of both."""
+        return self.speeds(f)[0]
 
     def speeds(self, f: Floats) -> tuple[Floats, Floats]:
         """A screw runs evenly."""
@@ -113,6 +120,10 @@ class Jump(Rowed):
         """The end pose at f = 1 alone, and no twist."""
         still = np.zeros((len(f), 6))
         return Flow(np.where(f[:, None] < 1, self.start, self.end), still, still)
+
+    def speed(self, f: Floats) -> Floats:
+        """Of both."""
+        return self.speeds(f)[0]
 
     def speeds(self, f: Floats) -> tuple[Floats, Floats]:
         """None."""
@@ -161,11 +172,16 @@ class Loose:
         slope = dq.acceleration_from_point(w, w_slope, p[1], p[2], p[0])
         return Flow(dq.pose_from(p[0], r), twist, slope)
 
+    def speed(self, f: Floats) -> Floats:
+        """Of the point alone, which is sooner known than both."""
+        return _size(self.places.velocity(f))
+
     def speeds(self, f: Floats) -> tuple[Floats, Floats]:
         """Of the two functions."""
         p = self.places(f)
-        w = self.spin(f, p)[1]
-        return _size(p[1]), _size(w)
+        if isinstance(self.spin, Turning):
+            return _size(p[1]), _size(np.broadcast_to(self.spin.turn, (len(f), 3)))
+        return _size(p[1]), _size(self.spin(f, p)[1])
 
     def points(self, f: Floats) -> Floats:
         """Whatever the tool does."""

@@ -1,6 +1,7 @@
 """The whole way from a file or a text to a Program."""
 
 import gc
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -11,6 +12,8 @@ from dqpaint.language.findings import EnoughError, Findings
 from dqpaint.language.includes import MOST_LINES, Loader
 from dqpaint.language.program import Program
 from dqpaint.language.source import MOST_BYTES, STDIN_NAME, decoded, load, load_input
+
+_SVG = re.compile(r"\s*(<\?xml|<svg|<!DOCTYPE svg|<!--)", re.IGNORECASE)
 
 
 def read(path: str | Path) -> Program:
@@ -92,6 +95,10 @@ def _fits(text: str, findings: Findings) -> bool:
         message = "this is not a text: there is a zero character in it"
         cure = "a picture perhaps, or a text in UTF-16; save it as UTF-8"
         findings.add(Diagnostic("E307", message, Span(at, at + 1), "", cure))
+    elif found := _SVG.match(text):
+        message = "this is a drawing in SVG, not a .traj text"
+        cure = 'a .traj file draws it with one line: svg "drawing.svg" height 80 mm'
+        findings.add(Diagnostic("E307", message, Span(*found.span(1)), "", cure))
     return not findings.errors
 
 

@@ -15,6 +15,7 @@ from dqpaint.dq import Floats
 from dqpaint.language.program import (
     Arc,
     Chain,
+    Cruise,
     Curve,
     Follow,
     Keep,
@@ -126,8 +127,12 @@ class Shapes:
                 yield inner, int(number[inner][0]), bool(of >= 0)
 
 
-def gather(segments: tuple[Segment, ...], faults: Faults) -> Shapes:
-    """The shapes of segments, and how long they are; what goes wrong is noted by the segment."""
+def gather(segments: tuple[Segment, ...], faults: Faults, most: float = np.inf) -> Shapes:
+    """The shapes of segments, and how long they are; what goes wrong is noted by the segment.
+
+    Curves are measured one by one, which takes a while: not those that come after `most` seconds
+    of curves, with which the drawing is too long.
+    """
     kinds: dict[Kind, list[int]] = {}
     for number, segment in enumerate(segments):
         kinds.setdefault(_kind(number, segment), []).append(number)
@@ -136,6 +141,7 @@ def gather(segments: tuple[Segment, ...], faults: Faults) -> Shapes:
     family, member = np.full(n, -1, dtype=np.intp), np.zeros(n, dtype=np.intp)
     length, angle = np.zeros(n), np.zeros(n)
     uneven: dict[int, Extent] = {}
+    spent = 0.0  # seconds of curves, at least
     for members in kinds.values():
         try:
             with stroke_errors(segments[members[0]]):
@@ -144,9 +150,10 @@ def gather(segments: tuple[Segment, ...], faults: Faults) -> Shapes:
                     length[members], angle[members] = made.speeds(np.zeros(len(members)))
                 elif made.steady:
                     length[members], angle[members] = measure_steady(made, len(members))
-                else:
+                elif spent <= most:
                     for row, number in enumerate(members):
                         extent = measure(made.of(row))
+                        spent += _least_seconds(segments[number], extent)
                         if not extent.settled:
                             raise StrokeError(pole(segments[number]))
                         length[number], angle[number] = extent.length, extent.angle
@@ -158,6 +165,14 @@ def gather(segments: tuple[Segment, ...], faults: Faults) -> Shapes:
         family[members], member[members] = len(families), np.arange(len(members))
         families.append(made)
     return Shapes(segments, families, family, member, length, angle, uneven)
+
+
+def _least_seconds(segment: Segment, extent: Extent) -> float:
+    """What a segment takes at least, as far as that is a matter of its length."""
+    timing = segment.timing
+    if segment.run is not None or not isinstance(timing, Cruise):
+        return 0.0
+    return extent.length / timing.speed
 
 
 def _kind(number: int, segment: Segment) -> Kind:

@@ -178,9 +178,9 @@ class Loose:
 
     def speeds(self, f: Floats) -> tuple[Floats, Floats]:
         """Of the two functions."""
-        p = self.places(f)
         if isinstance(self.spin, Turning):
-            return _size(p[1]), _size(np.broadcast_to(self.spin.turn, (len(f), 3)))
+            return self.speed(f), _size(np.broadcast_to(self.spin.turn, (len(f), 3)))
+        p = self.places(f)
         return _size(p[1]), _size(self.spin(f, p)[1])
 
     def points(self, f: Floats) -> Floats:

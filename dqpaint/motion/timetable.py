@@ -200,7 +200,7 @@ def timetable(program: Program, findings: Findings) -> Timetable:
     """
     segments = program.segments
     faults: Faults = {}  # of segments
-    shapes = gather(segments, faults)
+    shapes = gather(segments, faults, program.most_samples * program.period)
     first, size = _strokes(segments)
     by_length = _by_length(shapes, faults)
     begin, end, length = _joined(shapes, first, size)

@@ -271,6 +271,8 @@ LARGE = {  # texts too long for the table, the code, the beginning of the messag
     " " * 2_000_001: ("E305", "this file is larger than 2 MB"),
     "\n" * 100_001: ("E306", "this file has more than 100,000 lines"),
     "line by\0(1,0) mm": ("E307", "this is not a text"),
+    '\n<svg width="9">': ("E307", "this is a drawing in SVG, not a .traj text"),
+    '<?xml version="1.0"?>': ("E307", "this is a drawing in SVG, not a .traj text"),
     "let a = 1" + "+1" * 60_000: ("E314", "this line has more than 100,000 words"),
     f'text "{"A" * 1001}" height 3 mm': ("E262", "a text has at most 1,000 letters"),
     "def d0\nhold 1 s\nend\n"

@@ -15,6 +15,7 @@ from dqpaint.motion.families import gather
 from dqpaint.motion.lengths import measure
 from dqpaint.motion.orientations import Looking, LookingAtLine
 from dqpaint.motion.places import Lines
+from dqpaint.motion.shapes import Loose
 from tests.motion.drawings import drawing
 from tests.motion.strokes import KINDS, LAWS, program, segment
 
@@ -271,3 +272,50 @@ def test_a_curve_with_a_corner_or_many_bends_has_one(formula):
     way = np.hypot(np.diff(t), np.diff(y)).sum() * 1e-3
     move = np.hypot(0.0, y[0]) * 1e-3  # from the origin to its start
     assert survey(drawing).length == pytest.approx(way + move, rel=2e-3)
+
+
+def shapes(text: str):
+    return gather(parse(text, "a").segments, {}).families
+
+
+ANY = """line by (30, 10, 5) mm tool rpy(0, 20 deg, 30 deg)
+arc centre (20, 9) mm angle 200 deg rise 9 mm grow 5 mm
+arc centre (20, 19) mm angle 100 deg rise 9 mm
+move to (9, 2) mm
+curve (exp(t/9)*9 mm*cos(t*1 rad) + ln(t)*1 mm, atan(t)/rad*1 mm + sqrt(t)*2 mm,
+  asin(t/9)/rad*1 mm + max(t, 3 - t)^3*1 mm + 1 mm/(1 + t)) for t from 1 to 4
+text "S" height 20 mm at (0, 0)
+"""
+
+
+def test_the_velocity_alone_is_the_one_of_all_derivatives() -> None:
+    f = np.linspace(0.03, 0.98, 57)
+    loose = [form.places for form in shapes(ANY) if isinstance(form, Loose)]
+    assert len({type(places) for places in loose}) >= 4
+    for places in loose:
+        one = places.of(0)
+        assert np.array_equal(one.velocity(f), one(f)[1])
+
+
+def test_curves_that_come_after_too_many_samples_are_not_measured(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    measured = []
+    monkeypatch.setattr(
+        "dqpaint.motion.families.measure", lambda shape: measured.append(shape) or measure(shape)
+    )
+    text = (
+        "repeat 60\ncurve (t*t*1 mm, t*1 mm) for t from 0 to 9 speed 1 mm/s\nend\nline by (9, 0) mm"
+    )
+    few = replace(parse(text, "a"), most_samples=50_000)  # each takes 11,000 or so
+    with pytest.raises(ScriptError) as refused:
+        survey(few)
+    assert len(measured) == 5
+    monkeypatch.setattr(
+        "dqpaint.motion.timetable.gather", lambda segments, faults, _: gather(segments, faults)
+    )
+    with pytest.raises(ScriptError) as told:
+        survey(few)
+    assert len(measured) == 65
+    assert refused.value.diagnostics == told.value.diagnostics
+    assert [found.code for found in refused.value.diagnostics] == ["E302"]

@@ -64,6 +64,7 @@ def test_what_an_arm_can_draw(text, fits):
     assert can_draw(*motion_of(f"start at (0, 0) mm\n{text}\n")) is fits
 
 
+@pytest.mark.slow
 def test_a_way_along_which_the_arm_is_beside_the_path_is_none():
     """For a moment, between the poses looked at first, 2 mm beyond the stretched arm."""
     z = 1e3 * (0.82 - 0.539) + 2.0
@@ -99,11 +100,13 @@ def test_a_way_along_which_a_joint_goes_beyond_its_end_is_none():
     assert not can_draw(*turned(60))
 
 
+@pytest.mark.slow
 def test_room_is_where_place_auto_finds_it():
     assert has_room(*motion_of("start at (0, 0) mm\nline to (500, 0) mm\n"))
     assert not has_room(*motion_of("start at (0, 0) mm\nline to (3, 0) m\n"))
 
 
+@pytest.mark.slow
 def test_a_scale_at_which_only_the_farthest_point_is_reached_is_not_advised():
     """Half as large, the line's farthest point is reached, but not what lies beyond it."""
     strokes = "line to (-329, -227, 67) mm light red\n"

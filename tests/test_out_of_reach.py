@@ -141,6 +141,7 @@ def arm_of(name):
 
 
 @pytest.mark.parametrize("beyond_mm", [0.4, 1.2])
+@pytest.mark.slow
 def test_a_first_place_hardly_out_of_reach_has_no_strokes_before_it(beyond_mm):
     z = 1e3 * (REACH - 0.539) + beyond_mm
     message = refused(f"start at (0, -140, {z:.3f}) mm\nline to (0, -100, 0) mm\n")

@@ -118,6 +118,7 @@ def test_the_torque_that_the_weight_leaves_is_that_of_lifting_it(arm, placed):
     assert left < 0.9
 
 
+@pytest.mark.slow
 def test_a_weak_arm_is_given_a_place_where_its_weight_is_less(monkeypatch):
     """An iiwa whose shoulder could hardly hold it where the merit without torque puts it."""
     card = read_card("iiwa")
@@ -143,6 +144,7 @@ def test_a_place_that_does_not_do(arm, placed, bad):
     assert not placing._is_good(replace(one, **bad))
 
 
+@pytest.mark.slow
 def test_a_light_that_the_arm_hides_everywhere_is_placed_all_the_same(arm):
     text = "start at (0, 0) mm tool rpy(0 deg, 150 deg, 0 deg)\nline to (30, 0) mm light red\n"
     placed = settle(parse(text, "t"), arm, AUTO)[1]
@@ -196,6 +198,7 @@ def test_a_place_of_the_file_stays_unless_auto_is_asked_for(arm):
     assert settle(program, arm, AUTO)[1].merit > 0
 
 
+@pytest.mark.slow
 def test_nowhere(arm):
     with pytest.raises(ScriptError) as caught:
         settle(parse("place auto\nline to (3, 0) m\n", "long.traj"), arm)
@@ -207,6 +210,7 @@ def test_nowhere(arm):
     settle(parse("place auto\nwith scale 0.25\nline to (3, 0) m\nend\n", "long.traj"), arm)
 
 
+@pytest.mark.slow
 def test_nowhere_with_the_tool_turned_so(arm):
     """A straight tool has room, a smaller drawing has not."""
     turns = "line to (60, 0) mm tool rot(x, 100 deg)\nline to (0, 0) mm tool rot(x, -100 deg)\n"

@@ -162,6 +162,7 @@ def test_the_clock_ticks_at_its_rate(monkeypatch):
     np.testing.assert_allclose(np.multiply(clock.computed, 1e3), [1, 3.5, 2, 11, 1, 1], atol=1e-9)
 
 
+@pytest.mark.slow
 def test_the_timing_of_every_law_is_taken(monkeypatch, tmp_path):
     monkeypatch.setattr(timing, "SECONDS", 0.08)
     found = timing.timing(read_paper("thesis-timing"), Asked(tmp_path))

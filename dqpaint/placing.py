@@ -12,6 +12,7 @@ Places where some of the drawing would be below z = 0, on which most arms stand,
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -346,11 +347,8 @@ def _nowhere(
     assert isinstance(program.placement, Auto)
     box = " x ".join(f"{side * 1e3:.0f}" for side in motion.box)
     held = straight(motion)
-    said = [
-        f"make it smaller: with scale {scale:g} ... end"
-        for scale in FEW_SCALES
-        if has_room(scaled(motion, scale), kinematics, settings)
-    ][:1]
+    fits = (s for s in FEW_SCALES if has_room(scaled(motion, s), kinematics, settings))
+    said = [f"make it smaller: with scale {scale:g} ... end" for scale in islice(fits, 1)]
     if held is not None and has_room(held, kinematics, settings):
         said.append("hold the tool straight: without 'tool' there is room")
     problem = Diagnostic(

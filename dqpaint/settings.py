@@ -8,6 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_valida
 
 from dqpaint.choices import number_or_text, read_choice, reason
 from dqpaint.errors import UsageError
+from dqpaint.language.program import MOST_ALLOWED, MOST_SAMPLES
 
 DEFAULT_CONTROLLER = "hinf"
 LARGEST = 8192  # columns or rows of a picture
@@ -47,7 +48,7 @@ class Settings(BaseModel):
     magnify: Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)] = 1.0
     ghost: Literal[False, True, "motion"] = False  # the arm is seen: flashed, or as it moved
     occlusion: bool | None = None  # its body hides light from the camera; None: as ghost
-    max_samples: Annotated[int, Field(ge=1, le=100_000_000)] = 2_000_000  # of a drawing
+    max_samples: Annotated[int, Field(ge=1, le=MOST_ALLOWED)] = MOST_SAMPLES  # of a drawing
 
     @field_validator("place", mode="before")
     @classmethod

@@ -8,8 +8,9 @@ from typing import ClassVar
 from pygments.lexer import RegexLexer, bygroups
 from pygments.token import Comment, Keyword, Name, Number, Operator, Punctuation, String, Text
 
-from dqpaint.editors.textmate import COMMENT, NUMBER, TEXT, alternatives
+from dqpaint.editors.textmate import COMMENT, TEXT, alternatives
 from dqpaint.editors.vocabulary import words
+from dqpaint.language.lexer import NUMBER
 
 _KINDS = {
     "part": Keyword.Declaration,

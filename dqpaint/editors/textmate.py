@@ -4,9 +4,9 @@ import re
 from typing import Any
 
 from dqpaint.editors.vocabulary import words
+from dqpaint.language.lexer import NUMBER
 
 SCOPE = "source.traj"
-NUMBER = r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 TEXT = r'"[^"\n]*"?'
 COMMENT = r"#.*"
 

@@ -36,11 +36,11 @@ class Line(NamedTuple):
 MOST_TOKENS = 100_000  # of one line
 MOST_WRAPPED = 20  # lines of a text whose end is looked for
 
-_NUMBER = r"(?:(?:0|[1-9]\d*)(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?"
+NUMBER = r"(?:(?:0|[1-9]\d*)(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?"
 TOKEN = re.compile(
     rf"""[^\S\n]*(?:
       (?P<name>[A-Za-z_][A-Za-z0-9_]*|°)
-    | (?P<number>{_NUMBER})(?P<glued>[A-Za-z_°][\w°]*|\.[\d.]*|\d[\d.]*)?
+    | (?P<number>{NUMBER})(?P<glued>[A-Za-z_°][\w°]*|\.[\d.]*|\d[\d.]*)?
     | (?P<sign>[(),+\-*/^=%])
     | (?P<newline>\n)
     | (?P<comment>\#[^\n]*)

@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
+from dqpaint.language.chains import NODES, WEIGHTS
 from dqpaint.motion.places import Indices
 from dqpaint.motion.shapes import Flow, Loose, Shape
 
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
 MOST_PANELS = 1024
 MOST_OF_ANGLES = 32  # panels, of a stroke whose length needs none
 EXACT_ANGLE = 1e-12  # relative
@@ -80,9 +80,7 @@ def measure_steady(shape: Shape, count: int) -> tuple[Floats, Floats]:
 
 def _angles(shape: Shape, rows: Indices, panels: int) -> Floats:
     """The angles (N,) of some strokes, some at a time."""
-    edges = np.linspace(0.0, 1.0, panels + 1)
-    f = _nodes(edges[:-1], edges[1:]).ravel()
-    weights = np.tile(0.5 * WEIGHTS / panels, panels)
+    _, f, weights = _quadrature(panels)
     out = np.empty(len(rows))
     at_once = max(1, AT_ONCE // len(f))
     for begin in range(0, len(rows), at_once):
@@ -93,10 +91,16 @@ def _angles(shape: Shape, rows: Indices, panels: int) -> Floats:
     return out
 
 
-def _integrate(shape: Shape, panels: int) -> Extent:
+def _quadrature(panels: int) -> tuple[Floats, Floats, Floats]:
+    """Edges (M + 1,) of panels of 0 to 1, and the nodes (10 M,) with their weights."""
     edges = np.linspace(0.0, 1.0, panels + 1)
-    speed, turning = shape.speeds(_nodes(edges[:-1], edges[1:]).ravel())
     weights = np.tile(0.5 * WEIGHTS / panels, panels)
+    return edges, _nodes(edges[:-1], edges[1:]).ravel(), weights
+
+
+def _integrate(shape: Shape, panels: int) -> Extent:
+    edges, f, weights = _quadrature(panels)
+    speed, turning = shape.speeds(f)
     parts = (speed * weights).reshape(panels, -1).sum(1)
     length = float(parts.sum())
     even = bool(np.ptp(speed) <= 1e-12 * length)

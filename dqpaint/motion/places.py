@@ -198,6 +198,7 @@ class Formula:
         return self._derivatives(f, 3)
 
     def _derivatives(self, f: Floats, order: int) -> Floats:
+        """The place and its derivatives up to an order (order + 1, N, 3)."""
         path = self.path
         span = path.upper - path.lower
         scale = np.array([1.0, span, span**2, span**3])[: order + 1, None, None]

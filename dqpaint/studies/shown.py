@@ -27,11 +27,8 @@ MOST_TOGETHER = 6  # cells of one overlay and one chart
 DIM = 0.72  # of a hue on white paper
 DARKER = -2.0  # stops, so that a hue is seen and not burnt out
 DECADES = 5  # of error: one that begins at 0 would take the whole chart
-THICK, THICKER, THIN = (
-    3.6,
-    2.6,
-    1.2,
-)  # lines of a chart, of a small one: the last do not hide the first
+# Lines of a chart, the first of a small one, and the last, which do not hide the first.
+THICK, THICKER, THIN = 3.6, 2.6, 1.2
 WIDE = 20.0  # from a usual error to the largest: on an axis from 0 it could not be seen
 ROOM = 1.3  # of an axis, above the largest error
 ALIKE = "what all drew alike is white"

@@ -23,9 +23,9 @@ from dqpaint.errors import DqpaintError
 
 if TYPE_CHECKING:
     from dqpaint.api import develop, draw, preview, save
-    from dqpaint.build import Drawing
-    from dqpaint.paint import Painting
-    from dqpaint.studies.calls import compare, sweep, tune, verify
+    from dqpaint.language.writing.builder import Drawing
+    from dqpaint.painting.paint import Painting
+    from dqpaint.studies.api import compare, sweep, tune, verify
 
 __version__ = "0.1.0"
 
@@ -45,13 +45,13 @@ __all__ = [
 
 
 _ROOMS = {
-    "Drawing": "dqpaint.build",
-    "Painting": "dqpaint.paint",
+    "Drawing": "dqpaint.language.writing.builder",
+    "Painting": "dqpaint.painting.paint",
     "develop": "dqpaint.api",
     "draw": "dqpaint.api",
     "preview": "dqpaint.api",
     "save": "dqpaint.api",
-    **dict.fromkeys(("compare", "sweep", "tune", "verify"), "dqpaint.studies.calls"),
+    **dict.fromkeys(("compare", "sweep", "tune", "verify"), "dqpaint.studies.api"),
 }
 
 

@@ -11,7 +11,7 @@ def main() -> None:
     """Run the command line: exit code 0 done, 1 a fault, 2 wrong usage, 130 interrupted."""
     gc.disable()  # one short run makes no rubbish worth looking for; start-up is 20 ms faster
     try:
-        from dqpaint.answering import run  # takes a moment, in which a Ctrl-C may come
+        from dqpaint.cli.main import run
 
         run()
     except KeyboardInterrupt:

@@ -9,19 +9,19 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, TypeGuard
 
-from dqpaint import outputs
+from dqpaint.core.examples import find_drawing
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.examples import find_drawing
 from dqpaint.language import Program, read
-from dqpaint.settings import Settings, make_settings
+from dqpaint.outputs import files
+from dqpaint.settings.model import Settings, make_settings
 
 if TYPE_CHECKING:
-    from dqpaint.build import Drawing
-    from dqpaint.paint import Painting
-    from dqpaint.picture import Picture
-    from dqpaint.settings_file import Given
-    from dqpaint.sketch import Preview
-    from dqpaint.stage.staging import Cast, Staging
+    from dqpaint.language.writing.builder import Drawing
+    from dqpaint.painting.paint import Painting
+    from dqpaint.painting.picture import Picture
+    from dqpaint.painting.preview import Preview
+    from dqpaint.render.scene_arm import Cast, Staging
+    from dqpaint.settings.file import Given
 
 
 def draw(
@@ -60,7 +60,7 @@ def draw(
     """Paint a drawing with a simulated arm, as `dqpaint draw` does; nothing is written.
 
     Args:
-        drawing: a .traj file, the name of an example, or a `dqpaint.build.Drawing`.
+        drawing: a .traj file, the name of an example, or a `dqpaint.Drawing`.
         controller: the control law: a name, a file `mylaw.py[:NAME]`, or a function of one's own.
         gains: of the law, in SI units; the others keep their defaults. A text such as
             "5..20@10%" changes on the way.
@@ -118,8 +118,8 @@ def draw(
     seconds = perf_counter() - begin
 
     # a fault in the text is told before the simulator is loaded
-    from dqpaint.controllers.own import make_controller
-    from dqpaint.paint import paint
+    from dqpaint.controllers.base.user_controller import make_controller
+    from dqpaint.painting.paint import paint
 
     law = make_controller(own, str(name)) if own else None
     with _places(drawing):
@@ -145,9 +145,9 @@ def save(
         DqpaintError: the place cannot be written; nothing was changed.
     """
     name = f"{Path(painting.motion.program.name).stem}-{painting.controller.name}"
-    names = outputs.choose(what)
-    stem = outputs.stem_for(str(out), name)
-    return outputs.write(stem, outputs.make(names, painting))
+    names = files.choose(what)
+    stem = files.stem_for(str(out), name)
+    return files.write(stem, files.make(names, painting))
 
 
 def preview(
@@ -182,14 +182,14 @@ def preview(
     chosen = make_settings(**_given(settings).under(choices))
     program = _program(drawing)
 
-    from dqpaint.sketch import sketch
+    from dqpaint.painting.preview import sketch
 
     with _places(drawing):
         return sketch(program, chosen)
 
 
 def _given(settings: "str | PathLike[str] | Given | None") -> "Given":
-    from dqpaint.settings_file import Given, read_given
+    from dqpaint.settings.file import Given, read_given
 
     if settings is None:
         return Given()
@@ -207,7 +207,7 @@ def _places(drawing: "str | PathLike[str] | Drawing") -> AbstractContextManager[
 
 def _is_built(drawing: object) -> "TypeGuard[Drawing]":
     """Whether it is a `Drawing`: where nobody has made one, their class need not be read."""
-    build = sys.modules.get("dqpaint.build")
+    build = sys.modules.get("dqpaint.language.writing.builder")
     return build is not None and isinstance(drawing, build.Drawing)
 
 
@@ -241,11 +241,11 @@ def develop(
     Raises:
         DqpaintError: no film, or a choice that is none.
     """
-    from dqpaint import negative
-    from dqpaint.picture import photograph
-    from dqpaint.scene import check_choices
+    from dqpaint.painting import film_file
+    from dqpaint.painting.picture import photograph
+    from dqpaint.painting.scene import check_choices
 
-    scene, before, cast, worked = negative.read(str(film))
+    scene, before, cast, worked = film_file.read(str(film))
     width, height = _width_and_height(size)
     choices = {
         "width": width, "height": height, "view": view, "ev": ev, "exposure": exposure,
@@ -267,9 +267,9 @@ def _stage(
     """The arm of a film, if it is to be seen and is still there; and else what there is to say."""
     if not settings.staged:
         return nullcontext(), ()
-    from dqpaint.robots.choose import find_card
-    from dqpaint.robots.urdf import prepare
-    from dqpaint.stage.staging import on_stage
+    from dqpaint.render.scene_arm import on_stage
+    from dqpaint.robots.loading.lookup import find_card
+    from dqpaint.robots.urdf.prepare import prepare
 
     try:
         if cast is None:

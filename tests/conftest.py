@@ -33,13 +33,13 @@ def answer(tmp_path, monkeypatch, capfd):
     """What a command answers, in this process: as one of its own would, without its start."""
 
     def call(*words):
-        from dqpaint import answering
+        from dqpaint.cli import main
 
         monkeypatch.chdir(tmp_path)
         monkeypatch.setattr(sys, "argv", ["dqpaint", *words])
         capfd.readouterr()
         with pytest.raises(SystemExit) as stop:
-            answering.run()
+            main.run()
         return subprocess.CompletedProcess(words, stop.value.code or 0, *capfd.readouterr())
 
     return call

@@ -9,7 +9,7 @@ from pydantic import Field
 from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance
 from dqpaint.plants.plant import Trait
 from dqpaint.plants.world import World
-from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.kinematics.kinematics import Kinematics
 
 
 @DISTURBANCES.add("gravity")

@@ -16,12 +16,12 @@ from pygls.lsp.server import LanguageServer
 from pygls.workspace import PositionCodec
 
 from dqpaint import __version__
-from dqpaint.editors import hints
-from dqpaint.editors.strokes import Understood, understand
+from dqpaint.diagnostics.diagnostic import Severity, Span, file_at, place
+from dqpaint.editors import completion
+from dqpaint.editors.analysis import Understood, understand
 from dqpaint.language import Diagnostic, ScriptError
-from dqpaint.language.diagnostics import Severity, Span, file_at, place
-from dqpaint.language.layout import formatted
-from dqpaint.language.words import STATEMENTS
+from dqpaint.language.vocabulary.words import STATEMENTS
+from dqpaint.language.writing.formatter import formatted
 
 _SEVERITIES = {
     Severity.ERROR: lsp.DiagnosticSeverity.Error,
@@ -156,7 +156,7 @@ def make_server() -> LanguageServer:
     @server.feature(lsp.TEXT_DOCUMENT_COMPLETION)
     def complete(params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
         document = server.document(params.text_document.uri)
-        found = hints.completions(document.text, document.offset(params.position))
+        found = completion.completions(document.text, document.offset(params.position))
         return [
             lsp.CompletionItem(e.word, kind=_KINDS[e.kind], detail=e.says, documentation=e.example)
             for e in found
@@ -184,7 +184,7 @@ def make_server() -> LanguageServer:
 def _hover(server: _Server, uri: str, position: lsp.Position) -> lsp.Hover | None:
     """What the word means; for a line that moves the tool also how long it is and takes."""
     document = server.document(uri)
-    found = hints.meaning_at(document.text, document.offset(position))
+    found = completion.meaning_at(document.text, document.offset(position))
     if found is None:
         return None
     entry, span = found
@@ -194,7 +194,7 @@ def _hover(server: _Server, uri: str, position: lsp.Position) -> lsp.Hover | Non
     if figures is not None:
         parts.insert(0, str(figures))
     if entry.kind == "statement" and STATEMENTS[entry.word].parts:
-        parts.append(hints.listed(STATEMENTS[entry.word].parts))
+        parts.append(completion.listed(STATEMENTS[entry.word].parts))
     content = lsp.MarkupContent(lsp.MarkupKind.Markdown, "\n\n".join(parts))
     return lsp.Hover(content, document.range(span))
 

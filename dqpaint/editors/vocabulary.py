@@ -3,9 +3,16 @@
 from functools import cache
 from typing import NamedTuple
 
-from dqpaint.language import colours
-from dqpaint.language.units import UNITS
-from dqpaint.language.words import CONSTANTS, FUNCTIONS, LAWS, LITTLE_WORDS, PARTS, STATEMENTS
+from dqpaint.language.vocabulary.units import UNITS
+from dqpaint.language.vocabulary.words import (
+    CONSTANTS,
+    FUNCTIONS,
+    LAWS,
+    LITTLE_WORDS,
+    PARTS,
+    STATEMENTS,
+)
+from dqpaint.program import colours
 
 
 class Entry(NamedTuple):

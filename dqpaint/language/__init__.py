@@ -16,16 +16,16 @@ in `functions.TABLE`.
 import importlib
 from typing import TYPE_CHECKING, Any
 
-from dqpaint.language.diagnostics import Diagnostic, ScriptError, render
+from dqpaint.diagnostics.diagnostic import Diagnostic, ScriptError, render
 
 if TYPE_CHECKING:
     from dqpaint.language.compile import parse, read, read_input
-    from dqpaint.language.program import Program
+    from dqpaint.program.program import Program
 
 __all__ = ["Diagnostic", "Program", "ScriptError", "parse", "read", "read_input", "render"]
 
 _ROOMS = {
-    "Program": "dqpaint.language.program",
+    "Program": "dqpaint.program.program",
     "parse": "dqpaint.language.compile",
     "read": "dqpaint.language.compile",
     "read_input": "dqpaint.language.compile",

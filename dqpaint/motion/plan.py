@@ -7,18 +7,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint import dq
+from dqpaint.diagnostics.collector import EnoughError, Findings
+from dqpaint.diagnostics.diagnostic import Diagnostic, ScriptError
 from dqpaint.dq import Floats
-from dqpaint.language.diagnostics import Diagnostic, ScriptError
-from dqpaint.language.findings import EnoughError, Findings
-from dqpaint.language.program import Auto, Pose, Program, Step
-from dqpaint.motion.corners import jumps, slow
-from dqpaint.motion.faults import Faults, beyond_budget
-from dqpaint.motion.glow import glow, unevenness
-from dqpaint.motion.pace import Pace, Ticks
+from dqpaint.motion.corner_warnings import jumps, slow
+from dqpaint.motion.light_profile import glow, unevenness
 from dqpaint.motion.sampling import Rows, sampled
+from dqpaint.motion.schedule import Timetable, timetable
 from dqpaint.motion.shapes import pose_array
+from dqpaint.motion.stroke_errors import Faults, beyond_budget
 from dqpaint.motion.survey import tell
-from dqpaint.motion.timetable import Timetable, timetable
+from dqpaint.motion.time_scaling import Pace, Ticks
+from dqpaint.program.program import Auto, Pose, Program, Step
 
 
 @dataclass(frozen=True)

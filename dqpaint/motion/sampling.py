@@ -7,11 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
-from dqpaint.motion.faults import Faults, not_finite
-from dqpaint.motion.pace import Ticks
-from dqpaint.motion.places import Indices
+from dqpaint.motion.paths import Indices
+from dqpaint.motion.schedule import Timetable
 from dqpaint.motion.shapes import Flow
-from dqpaint.motion.timetable import Timetable
+from dqpaint.motion.stroke_errors import Faults, not_finite
+from dqpaint.motion.time_scaling import Ticks
 
 AT_ONCE = 16_384  # rows, unless one stroke alone has more
 

@@ -10,17 +10,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from dqpaint import dq
+from dqpaint.diagnostics.collector import EnoughError, Findings
+from dqpaint.diagnostics.diagnostic import Diagnostic, ScriptError
 from dqpaint.dq import Floats
-from dqpaint.language.diagnostics import Diagnostic, ScriptError
-from dqpaint.language.findings import EnoughError, Findings
-from dqpaint.language.program import Program
-from dqpaint.motion.corners import jumps, slow
-from dqpaint.motion.families import Flags
-from dqpaint.motion.faults import Faults, beyond_budget
-from dqpaint.motion.glow import unevenness
-from dqpaint.motion.places import Indices
+from dqpaint.motion.batched_shapes import Flags
+from dqpaint.motion.corner_warnings import jumps, slow
+from dqpaint.motion.light_profile import unevenness
+from dqpaint.motion.paths import Indices
 from dqpaint.motion.sampling import blocks, every_sample, sampled
-from dqpaint.motion.timetable import Timetable, timetable
+from dqpaint.motion.schedule import Timetable, timetable
+from dqpaint.motion.stroke_errors import Faults, beyond_budget
+from dqpaint.program.program import Program
 
 HARMLESS = 1e40  # numbers below that stay finite in all the products of a stroke
 

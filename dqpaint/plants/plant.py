@@ -5,12 +5,12 @@ from typing import Any, Literal, Protocol
 
 from pydantic import BaseModel, ConfigDict
 
-from dqpaint.choices import make_choice, read_choice
+from dqpaint.core.named_values import make_choice, read_choice
+from dqpaint.core.registry import Folder, Registry
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.registry import Folder, Registry
-from dqpaint.robots.card import Card
+from dqpaint.robots.model.card import Card
 
 Takes = Literal["rates", "torque"]
 Trait = Literal["masses", "a model of gravity", "sudden motors"]

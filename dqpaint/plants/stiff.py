@@ -5,11 +5,11 @@ from typing import ClassVar
 import numpy as np
 
 from dqpaint.dq import Floats
-from dqpaint.plants.bullet import bullet
+from dqpaint.plants.bullet_arm import RigidArm
 from dqpaint.plants.plant import PLANTS, Takes, Trait
-from dqpaint.plants.rigid import RigidArm
 from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.robots.card import Card
+from dqpaint.robots.kinematics.bullet import bullet
+from dqpaint.robots.model.card import Card
 
 
 @PLANTS.add("stiff")

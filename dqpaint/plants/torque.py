@@ -3,13 +3,13 @@
 from typing import ClassVar
 
 from dqpaint.dq import Floats
-from dqpaint.plants.bullet import bullet
+from dqpaint.plants.bullet_arm import LONGEST_STEP, RigidArm, some_postures
 from dqpaint.plants.plant import PLANTS, Takes, Trait
-from dqpaint.plants.rigid import LONGEST_STEP, RigidArm, some_postures
 from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.robots.card import Card
-from dqpaint.robots.dynamics import Dynamics
-from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.kinematics.bullet import bullet
+from dqpaint.robots.kinematics.dynamics import Dynamics
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.model.card import Card
 
 
 @PLANTS.add("torque")

@@ -14,13 +14,13 @@ import tempfile
 import time
 from pathlib import Path
 
-from dqpaint.papers import read_paper
-from dqpaint.settings import make_settings
-from dqpaint.studies.batches import carry_out_batch
-from dqpaint.studies.engine import carry_out_study
-from dqpaint.studies.pool import ONE_THREAD, all_cores
-from dqpaint.studies.runs import Run, drawing_text, seeded
-from dqpaint.studies.worker import carry_out
+from dqpaint.settings.model import make_settings
+from dqpaint.studies.replay.papers import read_paper
+from dqpaint.studies.runner.batches import carry_out_batch
+from dqpaint.studies.runner.engine import carry_out_study
+from dqpaint.studies.runner.process_pool import ONE_THREAD, all_cores
+from dqpaint.studies.runner.run import Run, drawing_text, seeded
+from dqpaint.studies.runner.worker import carry_out
 
 RUNS = 50
 OF_PHYSICS = 3  # of these as many are timed a round

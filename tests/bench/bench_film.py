@@ -9,14 +9,14 @@ import cv2
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.light.brushes import read_brush
-from dqpaint.light.camera import Camera, frame, parse_view
-from dqpaint.light.develop import develop
-from dqpaint.light.exposure import automatic_exposure
-from dqpaint.light.film import Film, expose
-from dqpaint.light.light import Light, shine
-from dqpaint.light.spread import point_spread, spread
-from dqpaint.light.sweep import Sweep
+from dqpaint.light.camera.camera import Camera, frame, parse_view
+from dqpaint.light.film.auto_exposure import automatic_exposure
+from dqpaint.light.film.develop import develop
+from dqpaint.light.film.film import Film, expose
+from dqpaint.light.film.point_spread import point_spread, spread
+from dqpaint.light.sources.brushes import read_brush
+from dqpaint.light.sources.emission import Light, shine
+from dqpaint.light.sources.sweep import Sweep
 
 SECONDS = 24.0
 

@@ -9,9 +9,9 @@ import time
 from functools import partial
 
 import dqpaint
-from dqpaint.picture import lights_of
-from dqpaint.robots.card import read_card
-from dqpaint.stage.staging import on_stage
+from dqpaint.painting.picture import lights_of
+from dqpaint.render.scene_arm import on_stage
+from dqpaint.robots.model.card import read_card
 
 SIZE = (1920, 1080)
 

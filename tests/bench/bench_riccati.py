@@ -12,10 +12,10 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
-from dqpaint.controllers.lqr8 import PLACES
+from dqpaint.controllers.laws.lqr8 import PLACES
 from dqpaint.language import parse
 from dqpaint.motion import plan
-from dqpaint.robots.card import read_card
+from dqpaint.robots.model.card import read_card
 
 TEXT = "period 8 ms\narc centre (50, 0) mm angle 3 turn in 24 s law constant tool rpy(30 deg, 0 deg, 60 deg)\n"  # noqa: E501
 

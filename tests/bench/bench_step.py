@@ -18,10 +18,10 @@ from dqrobotics.robot_modeling import DQ_SerialManipulatorDH
 
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS, Seen
-from dqpaint.driving import make_drive
-from dqpaint.nullspace import make_wish
-from dqpaint.robots.card import read_card
-from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.kinematics.nullspace import make_wish
+from dqpaint.robots.model.card import read_card
+from dqpaint.simulation.drives import make_drive
 
 STEPS = 400
 K = 20.0

@@ -15,10 +15,10 @@ import tempfile
 import time
 from pathlib import Path
 
-from dqpaint.settings import make_settings
-from dqpaint.studies.engine import carry_out_study
-from dqpaint.studies.pool import all_cores
-from dqpaint.studies.runs import Run, drawing_text, seeded
+from dqpaint.settings.model import make_settings
+from dqpaint.studies.runner.engine import carry_out_study
+from dqpaint.studies.runner.process_pool import all_cores
+from dqpaint.studies.runner.run import Run, drawing_text, seeded
 
 RUNS = int(sys.argv[2]) if len(sys.argv) > 2 else 48
 BUSY = "n = 0\nfor i in range(60_000_000): n += i\n"

@@ -5,15 +5,15 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS, Seen
-from dqpaint.driving import make_drive
 from dqpaint.errors import UnknownNameError, UsageError
-from dqpaint.nullspace import make_wish
 from dqpaint.plants import PLANTS
-from dqpaint.robots.card import installed_names, read_card
-from dqpaint.robots.jacobians import pose_map
-from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.kinematics.jacobians import pose_map
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.kinematics.nullspace import make_wish
+from dqpaint.robots.model.card import installed_names, read_card
+from dqpaint.simulation.drives import make_drive
 from tests.conftest import random_poses
-from tests.controllers.seeing import ARM, STILL, ahead_of, body_sees, law, seen_by
+from tests.support.control import ARM, STILL, ahead_of, body_sees, law, seen_by
 
 LAWS = pytest.mark.parametrize("name", CONTROLLERS)
 DAILY = ("iiwa", "viper850")  # of seven joints and of six; the others take their time

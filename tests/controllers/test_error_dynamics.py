@@ -5,10 +5,10 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
-from dqpaint.controllers.pose_errors import difference_error, spatial_error
-from dqpaint.robots.jacobians import pose_map
+from dqpaint.controllers.base.pose_errors import difference_error, spatial_error
+from dqpaint.robots.kinematics.jacobians import pose_map
 from tests.conftest import random_poses, random_rotations
-from tests.controllers.seeing import ARM, STILL, ahead_of, body_sees, law, seen_by, states
+from tests.support.control import ARM, STILL, ahead_of, body_sees, law, seen_by, states
 
 RATE_TOLERANCE = 0.01  # of the rates the laws state, for small errors
 

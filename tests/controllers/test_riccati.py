@@ -5,12 +5,12 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
-from dqpaint.controllers.lqr8 import BLOCK, PLACES, body_rates
-from dqpaint.controllers.riccati import GAUSS
+from dqpaint.controllers.base.riccati import GAUSS
+from dqpaint.controllers.laws.lqr8 import BLOCK, PLACES, body_rates
 from dqpaint.language import parse
 from dqpaint.motion import plan
-from tests.controllers.seeing import ARM
-from tests.motion.strokes import strokes_of
+from tests.support.control import ARM
+from tests.support.strokes import strokes_of
 
 ACCURACY = 1e-6  # of P and g, relative to their largest
 SMOOTH = (

@@ -6,23 +6,24 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from dqpaint import api, dq, outputs
+from dqpaint import api, dq
+from dqpaint.cli.report import of_painting
 from dqpaint.controllers import CONTROLLERS
-from dqpaint.controllers.law import Controller
-from dqpaint.controllers.p import RateGains
+from dqpaint.controllers.base.controller import Controller
+from dqpaint.controllers.laws.p import RateGains
 from dqpaint.disturbances import DISTURBANCES, make_disturbances
 from dqpaint.errors import UsageError
 from dqpaint.language import parse
-from dqpaint.metrics import measure
+from dqpaint.metrics.run_metrics import measure
 from dqpaint.motion import plan
-from dqpaint.out_of_reach import begin
+from dqpaint.outputs import files
+from dqpaint.planning.reachability import begin
 from dqpaint.plants import choose_plant
 from dqpaint.plants.plant import PLANTS
-from dqpaint.report import of_painting
-from dqpaint.robots.card import read_card
-from dqpaint.robots.dynamics import Dynamics
-from dqpaint.robots.kinematics import Kinematics
-from dqpaint.tracking import track
+from dqpaint.robots.kinematics.dynamics import Dynamics
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.model.card import read_card
+from dqpaint.simulation.closed_loop import track
 
 CARD = read_card("iiwa")
 ARM = Kinematics(CARD)
@@ -113,7 +114,7 @@ def test_it_is_told_in_the_summary(name, tmp_path):
     painting = api.draw(
         file, plant=plant_for(name), disturb={name: SIZES[name]}, seed=3, size=(64, 48)
     )
-    told = json.loads(outputs.summary(painting))
+    told = json.loads(files.summary(painting))
     assert SIZES[name].items() <= told["disturbances"][name].items()
     assert told["seed"] == 3
     assert f"disturbed by       {name}  " in of_painting(painting, [])

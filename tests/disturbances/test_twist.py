@@ -5,16 +5,16 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
-from dqpaint.controllers.law import Controller
-from dqpaint.controllers.p import RateGains
+from dqpaint.controllers.base.controller import Controller
+from dqpaint.controllers.laws.p import RateGains
 from dqpaint.disturbances import DISTURBANCES, make_disturbances
 from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.language import parse
 from dqpaint.motion import plan
 from dqpaint.plants import PLANTS
-from dqpaint.robots.card import read_card
-from dqpaint.robots.kinematics import Kinematics
-from dqpaint.tracking import track
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.model.card import read_card
+from dqpaint.simulation.closed_loop import track
 
 CARD = read_card("iiwa")
 ARM = Kinematics(CARD)

@@ -6,19 +6,26 @@ from importlib.metadata import entry_points
 
 import pytest
 
+from dqpaint.core.examples import example_names, find_drawing
 from dqpaint.editors import textmate
 from dqpaint.editors.vocabulary import vocabulary, words
-from dqpaint.examples import example_names, find_drawing
-from dqpaint.language import colours
-from dqpaint.language.lexer import lines
-from dqpaint.language.units import UNITS
-from dqpaint.language.words import CONSTANTS, FUNCTIONS, LAWS, LITTLE_WORDS, PARTS, STATEMENTS
+from dqpaint.language.syntax.lexer import lines
+from dqpaint.language.vocabulary.units import UNITS
+from dqpaint.language.vocabulary.words import (
+    CONSTANTS,
+    FUNCTIONS,
+    LAWS,
+    LITTLE_WORDS,
+    PARTS,
+    STATEMENTS,
+)
+from dqpaint.program import colours
 from tests.language.test_robust import MIXED
 
 pygments = pytest.importorskip("pygments")
 from pygments.token import Comment, Error, Keyword, Name, Number, String  # noqa: E402
 
-from dqpaint.editors.highlighting import TrajLexer  # noqa: E402
+from dqpaint.editors.pygments_lexer import TrajLexer  # noqa: E402
 
 TABLES = {
     "statement": STATEMENTS, "part": PARTS, "word": LITTLE_WORDS, "unit": UNITS,

@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
+from dqpaint.diagnostics.collector import Findings
+from dqpaint.diagnostics.diagnostic import Span, place
 from dqpaint.language import ScriptError, parse, read
-from dqpaint.language.diagnostics import Span, place
-from dqpaint.language.findings import Findings
-from dqpaint.language.parser import parse_statements
-from dqpaint.language.words import PARTS, STATEMENTS
-from dqpaint.robots.choose import card_for
+from dqpaint.language.syntax.parser import parse_statements
+from dqpaint.language.vocabulary.words import PARTS, STATEMENTS
+from dqpaint.robots.loading.lookup import card_for
 
 # The text (~ ends a line), the code, line:column, the advice or its beginning.
 ADVICE = """

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from dqpaint.language import ScriptError, parse
-from dqpaint.language.taylor import Taylor
-from tests.language.drawing import drawn, last, only
+from dqpaint.program.taylor import Taylor
 from tests.language.test_messages import found
+from tests.support.drawn import drawn, last, only
 
 
 def place(text):

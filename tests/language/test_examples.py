@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from dqpaint.language.program import (
+from dqpaint.program.program import (
     Arc,
     Cruise,
     Curve,
@@ -21,8 +21,8 @@ from dqpaint.language.program import (
     Straight,
     Turn,
 )
-from dqpaint.language.taylor import Taylor
-from tests.language.drawing import drawn, matrix, rotation
+from dqpaint.program.taylor import Taylor
+from tests.support.drawn import drawn, matrix, rotation
 
 STAR = """# star.traj - a five-pointed star, one colour per edge
 period 10 ms

@@ -3,7 +3,7 @@
 
 import pytest
 
-from dqpaint.catalogue import explanations
+from dqpaint.diagnostics.catalogue import explanations
 from dqpaint.language import ScriptError, parse
 from tests.language.test_messages import ENTRIES
 

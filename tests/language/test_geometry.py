@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from dqpaint.language import ScriptError, space
-from dqpaint.language.program import (
+from dqpaint.language import ScriptError
+from dqpaint.language.values import vectors
+from dqpaint.program.program import (
     Arc,
     Follow,
     Keep,
@@ -20,7 +21,7 @@ from dqpaint.language.program import (
     Straight,
     Turn,
 )
-from tests.language.drawing import drawn, last, matrix, only, rotation
+from tests.support.drawn import drawn, last, matrix, only, rotation
 
 Z = (0.0, 0.0, 1.0)
 
@@ -366,13 +367,13 @@ def test_lights() -> None:
 
 
 def test_unit_helpers_are_exact_at_the_edges() -> None:
-    assert space.turn_between((1, 0, 0, 0), (-1, 0, 0, 0)) == 0
-    assert space.turn_between((1, 0, 0, 0), (0, 1, 0, 0)) == pytest.approx(math.pi)
-    tiny = space.turn_about(Z, 1e-9)
-    assert space.turn_between((1, 0, 0, 0), tiny) == pytest.approx(1e-9)
-    assert space.unit((1e-300, 0, 0)) == (1, 0, 0)
+    assert vectors.turn_between((1, 0, 0, 0), (-1, 0, 0, 0)) == 0
+    assert vectors.turn_between((1, 0, 0, 0), (0, 1, 0, 0)) == pytest.approx(math.pi)
+    tiny = vectors.turn_about(Z, 1e-9)
+    assert vectors.turn_between((1, 0, 0, 0), tiny) == pytest.approx(1e-9)
+    assert vectors.unit((1e-300, 0, 0)) == (1, 0, 0)
     for degrees in (0, 90, 179.999, 180, -120):
         for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1), (1, -1, 1)):
             r = rotation(axis, degrees)
             columns = [tuple(r[:, i]) for i in range(3)]
-            assert matrix(space.turn_of_axes(*columns)) == pytest.approx(r, abs=1e-12)
+            assert matrix(vectors.turn_of_axes(*columns)) == pytest.approx(r, abs=1e-12)

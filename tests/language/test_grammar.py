@@ -9,10 +9,10 @@ import pytest
 from lark import Lark
 from lark.exceptions import LarkError
 
-from dqpaint.language.findings import EnoughError, Findings
-from dqpaint.language.parser import parse_statements
-from dqpaint.language.units import UNITS
-from dqpaint.language.words import RESERVED
+from dqpaint.diagnostics.collector import EnoughError, Findings
+from dqpaint.language.syntax.parser import parse_statements
+from dqpaint.language.vocabulary.units import UNITS
+from dqpaint.language.vocabulary.words import RESERVED
 from tests.language.test_messages import ENTRIES
 from tests.language.test_robust import FILES, MIXED, SCRAPS, TOKEN, WHOLE
 

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from dqpaint.diagnostics.diagnostic import file_at, place
 from dqpaint.language import Program, ScriptError, read, render
-from dqpaint.language.diagnostics import file_at, place
-from dqpaint.language.program import Straight
+from dqpaint.program.program import Straight
 
 CHAIN = {f"{i}.traj": f'include "{i + 1}.traj"' for i in range(12)} | {"12.traj": "hold 1 s"}
 

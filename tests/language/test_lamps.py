@@ -2,8 +2,8 @@
 
 import pytest
 
-from dqpaint.language.program import Bar, Light, Point, Strobe
-from tests.language.drawing import drawn, last, only
+from dqpaint.program.program import Bar, Light, Point, Strobe
+from tests.support.drawn import drawn, last, only
 
 RED, BLUE, WHITE = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (1.0, 1.0, 1.0)
 

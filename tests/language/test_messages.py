@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from dqpaint import language
+from dqpaint.diagnostics.diagnostic import Span, place
 from dqpaint.language import ScriptError, parse, render
-from dqpaint.language.diagnostics import Span, place
 from tests.language.test_includes import OF_FILES
 
 # The text (~ ends a line), the code, line:column and the caret's text, message, label, help.
@@ -327,7 +327,7 @@ def test_large(text: str, expected: tuple[str, str]) -> None:
 
 def test_catalogue_is_complete() -> None:
     folder = Path(language.__file__).parent
-    source = "".join(path.read_text("utf-8") for path in folder.glob("*.py"))
+    source = "".join(path.read_text("utf-8") for path in folder.rglob("*.py"))
     codes = set(re.findall(r'"([EW]\d{3})"', source))
     shown = {entry[1] for entry in ENTRIES} | {code for code, _ in LARGE.values()}
     elsewhere = {"E294", "E297", "E299"}  # large files, a missing package: test_tables, _drawings
@@ -417,7 +417,7 @@ def test_internal_error_is_a_message(monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(*_: object) -> None:
         raise RecursionError("too deep")
 
-    monkeypatch.setattr("dqpaint.language.strokes.draw", broken)
+    monkeypatch.setattr("dqpaint.language.strokes.strokes.draw", broken)
     (diagnostic,) = found("hold 1 s")
     assert diagnostic.code == "E999"
     assert diagnostic.message == "internal error, please report (RecursionError: too deep)"

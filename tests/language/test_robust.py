@@ -12,8 +12,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from dqpaint.language import Program, ScriptError, parse
-from dqpaint.language.units import UNITS
-from dqpaint.language.words import FUNCTIONS, LAWS, LITTLE_WORDS, PARTS, STATEMENTS
+from dqpaint.language.vocabulary.units import UNITS
+from dqpaint.language.vocabulary.words import FUNCTIONS, LAWS, LITTLE_WORDS, PARTS, STATEMENTS
 from tests.language.test_examples import ROSE, STAR
 
 FOLDER = Path(__file__).parents[2] / "trajectories"

@@ -11,8 +11,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from dqpaint.language import ScriptError, drawings, parse
-from dqpaint.language.program import Chain
+from dqpaint.language import ScriptError, parse
+from dqpaint.language.imports.svg import reader
+from dqpaint.program.program import Chain
 
 FILES = [
     *sorted((Path(__file__).parent / "files").glob("*.svg")),
@@ -28,7 +29,7 @@ def told(error: ScriptError) -> None:
 
 def sound(folder: Path) -> bool:
     """Compiles the drawing; whether it could be drawn. Warnings of numpy are errors here."""
-    drawings._read.cache_clear()
+    reader._read.cache_clear()
     begin = time.process_time()
     try:
         program = parse('svg "f.svg" height 9 mm', "a.traj", folder / "a.traj")

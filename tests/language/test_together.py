@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from dqpaint.build import Drawing, DrawingError
-from dqpaint.editors.strokes import understand
-from dqpaint.examples import examples_folder
+from dqpaint.core.examples import examples_folder
+from dqpaint.diagnostics.diagnostic import file_at
+from dqpaint.editors.analysis import understand
 from dqpaint.language import ScriptError, parse, read
-from dqpaint.language.diagnostics import file_at
-from dqpaint.language.program import Chain
+from dqpaint.language.writing.builder import Drawing, DrawingError
 from dqpaint.motion import plan
-from dqpaint.robots.card import read_card
+from dqpaint.program.program import Chain
+from dqpaint.robots.model.card import read_card
 from tests.language.test_messages import FILES
 
 CANVAS = read_card("iiwa").canvas.pose

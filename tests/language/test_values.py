@@ -6,13 +6,14 @@ import math
 import numpy as np
 import pytest
 
-from dqpaint.language import ScriptError, colours, parse
-from dqpaint.language.diagnostics import Span
-from dqpaint.language.program import Curve, Law, Light, Samples
-from dqpaint.language.taylor import Taylor
-from dqpaint.language.timing import apportioned
-from dqpaint.language.units import NAMES, dimension_name
-from tests.language.drawing import last, matrix, only, rotation
+from dqpaint.diagnostics.diagnostic import Span
+from dqpaint.language import ScriptError, parse
+from dqpaint.language.pen.durations import apportioned
+from dqpaint.language.vocabulary.units import NAMES, dimension_name
+from dqpaint.program import colours
+from dqpaint.program.program import Curve, Law, Light, Samples
+from dqpaint.program.taylor import Taylor
+from tests.support.drawn import last, matrix, only, rotation
 
 
 def length(expression: str) -> float:

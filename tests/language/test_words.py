@@ -5,11 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from dqpaint.examples import examples_folder
-from dqpaint.language import parse, strokes
-from dqpaint.language.functions import TABLE
-from dqpaint.language.suggestions import closest
-from dqpaint.language.words import (
+from dqpaint.core.examples import examples_folder
+from dqpaint.diagnostics.did_you_mean import closest
+from dqpaint.language import parse
+from dqpaint.language.strokes import strokes
+from dqpaint.language.values.functions import TABLE
+from dqpaint.language.vocabulary.words import (
     FUNCTION_ALIASES,
     FUNCTIONS,
     LAWS,

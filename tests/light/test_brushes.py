@@ -6,13 +6,13 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.language.program import Bar, Point
-from dqpaint.light.brushes import BRUSHES, brush_of, read_brush, stripes
-from dqpaint.light.camera import VIEWS
-from dqpaint.light.exposure import automatic_exposure
-from dqpaint.light.film import expose
-from dqpaint.light.spread import point_spread
-from tests.light.moves import camera_for, swept
+from dqpaint.light.camera.camera import VIEWS
+from dqpaint.light.film.auto_exposure import automatic_exposure
+from dqpaint.light.film.film import expose
+from dqpaint.light.film.point_spread import point_spread
+from dqpaint.light.sources.brushes import BRUSHES, brush_of, read_brush, stripes
+from dqpaint.program.program import Bar, Point
+from tests.support.camera_motion import camera_for, swept
 
 ENERGY_TOLERANCE = 1e-9
 STROBES = {"steady": {}, "strobe": {"strobe": (37.0, 0.3)}, "pwm": {"pwm": 210.0}}

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.light.camera import FILL, LENS, VIEWS, Camera, View, frame, parse_view
+from dqpaint.light.camera.camera import FILL, LENS, VIEWS, Camera, View, frame, parse_view
 
 SIZES = [(1280, 720), (500, 500), (360, 640)]
 ANGLES = [*VIEWS.values(), View(-37.0, 12.0), View(200.0, -64.0), View(10.0, 89.9)]

@@ -4,9 +4,9 @@ import cv2
 import numpy as np
 import pytest
 
-from dqpaint.light.colour_maps import amounts, colour_amounts, colour_kinds
-from dqpaint.light.legend import Legend, with_legend
-from dqpaint.light.looks import LOOKS
+from dqpaint.light.film.looks import LOOKS
+from dqpaint.light.images.colour_maps import amounts, colour_amounts, colour_kinds
+from dqpaint.light.images.legend import Legend, with_legend
 
 
 def oklab(rgb):

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from dqpaint.errors import DqpaintError
-from dqpaint.light.develop import LEAK, SPILL, TOE, develop
+from dqpaint.light.film.develop import LEAK, SPILL, TOE, develop
 
 
 def ramp(colour, steps=2000):

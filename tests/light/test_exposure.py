@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
 
-from dqpaint.light.exposure import CORE, _weighted_median, automatic_exposure
-from dqpaint.light.film import expose
-from dqpaint.light.light import Light
-from dqpaint.light.spread import point_spread, spread
-from tests.light.scene import at_pixels, drawn, flat_camera, line
+from dqpaint.light.film.auto_exposure import CORE, _weighted_median, automatic_exposure
+from dqpaint.light.film.film import expose
+from dqpaint.light.film.point_spread import point_spread, spread
+from dqpaint.light.sources.emission import Light
+from tests.support.film_scene import at_pixels, drawn, flat_camera, line
 
 CAMERA = flat_camera(480, 360)
 PSF = point_spread(360)

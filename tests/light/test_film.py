@@ -3,10 +3,10 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from dqpaint.light.camera import NEAR
-from dqpaint.light.film import PAD, expose
-from dqpaint.light.light import Light
-from tests.light.scene import HEIGHT, WIDTH, at_pixels, drawn, flat_camera, line
+from dqpaint.light.camera.camera import NEAR
+from dqpaint.light.film.film import PAD, expose
+from dqpaint.light.sources.emission import Light
+from tests.support.film_scene import HEIGHT, WIDTH, at_pixels, drawn, flat_camera, line
 
 ENERGY_TOLERANCE = 1e-9  # relative
 CAMERA = flat_camera()

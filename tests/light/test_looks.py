@@ -3,9 +3,9 @@ import numpy as np
 import pytest
 
 from dqpaint.errors import DqpaintError
-from dqpaint.light.develop import develop
-from dqpaint.light.looks import LOOKS, with_noise
-from dqpaint.light.starburst import SHARE, with_starburst
+from dqpaint.light.film.develop import develop
+from dqpaint.light.film.looks import LOOKS, with_noise
+from dqpaint.light.film.starburst import SHARE, with_starburst
 
 
 def flat(value, shape=(64, 64)):

@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 
 from dqpaint.errors import UsageError
-from dqpaint.light.camera import FILL, VIEWS, View, frame
-from dqpaint.light.views import EYES, camera_of, parse_views
-from tests.light.moves import FRONT
+from dqpaint.light.camera.camera import FILL, VIEWS, View, frame
+from dqpaint.light.camera.views import EYES, camera_of, parse_views
+from tests.support.camera_motion import FRONT
 
 POINTS = np.random.default_rng(4).uniform(-0.2, 0.2, (200, 3)) * [1.0, 0.5, 0.3] + [0.5, 0, 0.4]
 SIZE = (640, 360)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
-from dqpaint.language.program import Lasting, Law
-from tests.motion.strokes import KINDS, LAWS, program, segment, strokes_of
+from dqpaint.program.program import Lasting, Law
+from tests.support.strokes import KINDS, LAWS, program, segment, strokes_of
 
 BREAKPOINTS = np.array([0.0, 0.2, 0.8, 1.0])
 STEP = 0.002  # of the stroke's time; halved once

@@ -7,9 +7,12 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
+from dqpaint.diagnostics.diagnostic import ScriptError
 from dqpaint.errors import UsageError
-from dqpaint.language.diagnostics import ScriptError
-from dqpaint.language.program import (
+from dqpaint.motion import plan, survey
+from dqpaint.motion.sampling import AT_ONCE
+from dqpaint.motion.schedule import Timetable
+from dqpaint.program.program import (
     MOST_ALLOWED,
     MOST_SAMPLES,
     Arc,
@@ -26,12 +29,9 @@ from dqpaint.language.program import (
     Step,
     Still,
     Straight,
-)  # fmt: skip
-from dqpaint.motion import plan, survey
-from dqpaint.motion.sampling import AT_ONCE
-from dqpaint.motion.timetable import Timetable
-from dqpaint.settings import Settings, make_settings
-from tests.motion.strokes import AXIS, START, program, segment
+)
+from dqpaint.settings.model import Settings, make_settings
+from tests.support.strokes import AXIS, START, program, segment
 
 CANVAS = dq.pose_from([0.7, -0.1, 0.5], np.array([0.5, 0.5, 0.5, 0.5]))
 
@@ -271,19 +271,19 @@ def test_faults_of_strokes_are_all_reported():
 
 
 def _sqrt(t):
-    from dqpaint.language.taylor import sqrt
+    from dqpaint.program.taylor import sqrt
 
     return sqrt(t)
 
 
 def _span(i):
-    from dqpaint.language.diagnostics import Span
+    from dqpaint.diagnostics.diagnostic import Span
 
     return Span(i, i + 1)
 
 
 def test_a_screw_to_the_antipodal_orientation_goes_the_short_way():
-    from dqpaint.language.program import ScrewTo
+    from dqpaint.program.program import ScrewTo
 
     q = np.array(START.orientation)
     end = Pose((0.2, 0.0, 0.1), tuple(-q))

@@ -8,8 +8,8 @@ import pytest
 from dqpaint import dq
 from dqpaint.language import ScriptError, parse
 from dqpaint.motion import plan
-from dqpaint.motion.families import gather
-from tests.motion import strokes
+from dqpaint.motion.batched_shapes import gather
+from tests.support import strokes
 
 PERIOD = 0.008
 START = "start at (110, -70, 50) mm tool rpy(20 deg, 30 deg, 40 deg)\n"

@@ -9,15 +9,15 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.language import ScriptError, parse, read
-from dqpaint.language.program import Cruise, Program
 from dqpaint.motion import Motion, plan, survey
-from dqpaint.motion.families import gather
-from dqpaint.motion.lengths import measure
+from dqpaint.motion.arc_length import measure
+from dqpaint.motion.batched_shapes import gather
 from dqpaint.motion.orientations import Looking, LookingAtLine
-from dqpaint.motion.places import Lines
+from dqpaint.motion.paths import Lines
 from dqpaint.motion.shapes import Loose
-from tests.motion.drawings import drawing
-from tests.motion.strokes import KINDS, LAWS, program, segment
+from dqpaint.program.program import Cruise, Program
+from tests.support.drawings import drawing
+from tests.support.strokes import KINDS, LAWS, program, segment
 
 FOLDER = Path(__file__).parents[2] / "trajectories"
 FILES = sorted(FOLDER.glob("*.traj"))
@@ -302,7 +302,8 @@ def test_curves_that_come_after_too_many_samples_are_not_measured(
 ) -> None:
     measured = []
     monkeypatch.setattr(
-        "dqpaint.motion.families.measure", lambda shape: measured.append(shape) or measure(shape)
+        "dqpaint.motion.batched_shapes.measure",
+        lambda shape: measured.append(shape) or measure(shape),
     )
     text = (
         "repeat 60\ncurve (t*t*1 mm, t*1 mm) for t from 0 to 9 speed 1 mm/s\nend\nline by (9, 0) mm"
@@ -312,7 +313,7 @@ def test_curves_that_come_after_too_many_samples_are_not_measured(
         survey(few)
     assert len(measured) == 5
     monkeypatch.setattr(
-        "dqpaint.motion.timetable.gather", lambda segments, faults, _: gather(segments, faults)
+        "dqpaint.motion.schedule.gather", lambda segments, faults, _: gather(segments, faults)
     )
     with pytest.raises(ScriptError) as told:
         survey(few)

@@ -4,9 +4,9 @@ from xml.etree import ElementTree as Xml
 
 import pytest
 
-from dqpaint.robots.card import Card, read_card
-from dqpaint.robots.chain import UrdfFile
-from dqpaint.robots.urdf import prepare
+from dqpaint.robots.model.card import Card, read_card
+from dqpaint.robots.model.chain import UrdfFile
+from dqpaint.robots.urdf.prepare import prepare
 
 IIWA = read_card("iiwa")
 

@@ -8,9 +8,9 @@ from dqpaint.errors import UsageError
 from dqpaint.plants import PLANTS, choose_plant, compliant
 from dqpaint.plants.compliant import CompliantOptions
 from dqpaint.plants.world import Payload, World
-from dqpaint.robots.card import read_card
-from dqpaint.robots.dynamics import Dynamics
-from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.kinematics.dynamics import Dynamics
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.model.card import read_card
 
 pytestmark = pytest.mark.slow
 PERIOD = 0.008

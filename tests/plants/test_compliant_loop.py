@@ -8,12 +8,12 @@ import pytest
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.language import parse
 from dqpaint.motion import plan
-from dqpaint.out_of_reach import begin
+from dqpaint.planning.reachability import begin
 from dqpaint.plants import choose_plant
-from dqpaint.robots.card import read_card
-from dqpaint.robots.kinematics import Kinematics
-from dqpaint.tracking import track
-from tests import generated
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.model.card import read_card
+from dqpaint.simulation.closed_loop import track
+from tests.tools import generated
 
 pytestmark = pytest.mark.slow
 TEXT = "period 8 ms\nstart at (60, 0) mm\narc centre (0, 0) angle 180 deg in 3 s law constant\n"
@@ -89,7 +89,7 @@ def test_the_readme_s_table_is_current():
     """Here, where most of its runs have been made."""
     page = generated.README
     renewed = generated.renewed(page, {page: [generated.springs]})
-    assert renewed == page.read_text("utf-8"), "python -m tests.generated"
+    assert renewed == page.read_text("utf-8"), "python -m tests.tools.generated"
 
 
 def test_a_motor_that_saturates_is_counted():

@@ -8,10 +8,10 @@ import pytest
 
 from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.plants import PLANTS, choose_plant, stiff
-from dqpaint.plants.rigid import LONGEST_STEP
+from dqpaint.plants.bullet_arm import LONGEST_STEP
 from dqpaint.plants.world import GRAVITY, Payload, World
-from dqpaint.robots.card import installed_names, read_card
-from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.model.card import installed_names, read_card
 
 pytestmark = pytest.mark.slow
 CARD = read_card("iiwa")

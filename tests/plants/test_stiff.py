@@ -1,8 +1,8 @@
 import numpy as np
 
-from dqpaint.plants.bullet import bullet
 from dqpaint.plants.stiff import Stiff
-from dqpaint.robots.card import read_card
+from dqpaint.robots.kinematics.bullet import bullet
+from dqpaint.robots.model.card import read_card
 
 
 def test_the_effort_of_a_period_is_the_larger_of_its_first_and_its_last_step():

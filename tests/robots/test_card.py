@@ -7,11 +7,11 @@ import pytest
 from pydantic import ValidationError
 
 from dqpaint import dq
+from dqpaint.cli.listing import lists
 from dqpaint.errors import UnknownNameError, UsageError
-from dqpaint.listing import lists
-from dqpaint.robots.card import Canvas, Card, Mount, card_names, installed_names, read_card
-from dqpaint.robots.kinematics import Kinematics
-from dqpaint.robots.reach import Start, find_start
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.kinematics.start_posture import Start, find_start
+from dqpaint.robots.model.card import Canvas, Card, Mount, card_names, installed_names, read_card
 
 
 @pytest.mark.parametrize("name", installed_names())

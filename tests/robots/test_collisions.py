@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
-from dqpaint.robots.card import read_card
-from dqpaint.robots.collisions import APART, LAMP, Shapes
-from dqpaint.robots.files import read_file
-from dqpaint.robots.kinematics import Kinematics
-from dqpaint.robots.urdf import urdf_file
-from tests.robots.arm_files import arm_urdf
+from dqpaint.robots.kinematics.collisions import APART, LAMP, Shapes
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.loading.load_file import read_file
+from dqpaint.robots.model.card import read_card
+from dqpaint.robots.urdf.prepare import urdf_file
+from tests.support.arm_files import arm_urdf
 
 
 def random_postures(card, n, seed=5):
@@ -19,7 +19,7 @@ def random_postures(card, n, seed=5):
 @pytest.mark.slow
 def test_distances_are_those_of_pybullet():
     """PyBullet reads meshes as convex hulls, too; its hulls have margins of a millimetre."""
-    from dqpaint.plants.bullet import bullet, joint_indices, quiet
+    from dqpaint.robots.kinematics.bullet import bullet, joint_indices, quiet
 
     card = read_card("iiwa")
     shapes = Shapes(Kinematics(card))
@@ -63,7 +63,7 @@ def segment_distance(a, b, c, d):
 
 def test_distances_of_capsules():
     """The arm of rows is made of capsules: distance of their lines less their radii."""
-    from dqpaint.robots.bodies import build_links
+    from dqpaint.robots.urdf.capsules import build_links
 
     card = read_card("meka-a2")
     arm = Kinematics(card)

@@ -6,9 +6,9 @@ import pytest
 from dqrobotics.robot_modeling import DQ_SerialManipulatorDH, DQ_SerialManipulatorMDH
 
 from dqpaint import dq
-from dqpaint.robots.card import read_card
-from dqpaint.robots.jacobians import jacobian8, jacobian8_rate
-from tests.robots.chains import IIWA, PANDA
+from dqpaint.robots.kinematics.jacobians import jacobian8, jacobian8_rate
+from dqpaint.robots.model.card import read_card
+from tests.support.robot_cards import IIWA, PANDA
 
 ROWS = {
     "iiwa": IIWA,

@@ -5,10 +5,10 @@ import pinocchio
 import pytest
 
 from dqpaint import dq
-from dqpaint.robots.card import installed_names, read_card
-from dqpaint.robots.jacobians import jacobian8, jacobian8_rate, jacobian_rate
-from dqpaint.robots.kinematics import Kinematics
-from tests.robots.chains import CARDS
+from dqpaint.robots.kinematics.jacobians import jacobian8, jacobian8_rate, jacobian_rate
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.model.card import installed_names, read_card
+from tests.support.robot_cards import CARDS
 
 
 @pytest.fixture(params=installed_names())

@@ -5,10 +5,10 @@ import pinocchio
 import pytest
 
 from dqpaint import dq
-from dqpaint.plants.bullet import bullet, joint_indices, quiet
-from dqpaint.robots.card import installed_names, read_card
-from dqpaint.robots.kinematics import Kinematics, manipulability
-from dqpaint.robots.urdf import possible, urdf_file
+from dqpaint.robots.kinematics.bullet import bullet, joint_indices, quiet
+from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability
+from dqpaint.robots.model.card import installed_names, read_card
+from dqpaint.robots.urdf.prepare import possible, urdf_file
 
 AGREES = 1e-9  # [m, rad] between pinocchio and PyBullet
 

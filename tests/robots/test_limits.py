@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from dqpaint.robots.card import read_card
-from dqpaint.robots.limits import Bounds, clamps
+from dqpaint.robots.kinematics.limits import Bounds, clamps
+from dqpaint.robots.model.card import read_card
 
 CARD = read_card("iiwa")
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
-from dqpaint.robots.card import installed_names, read_card
-from dqpaint.robots.kinematics import Kinematics
-from dqpaint.robots.parts import Mount
-from dqpaint.robots.screws import Screws
-from tests.robots.chains import CARDS
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.model.card import installed_names, read_card
+from dqpaint.robots.model.fields import Mount
+from dqpaint.robots.model.screws import Screws
+from tests.support.robot_cards import CARDS
 
 AGREES = 1e-12
 

@@ -9,12 +9,12 @@ import pytest
 from dqpaint import dq
 from dqpaint.errors import DqpaintError
 from dqpaint.plants import PLANTS
-from dqpaint.plants.bullet import bullet, joint_indices, quiet
-from dqpaint.robots.card import read_card
-from dqpaint.robots.files import read_file
-from dqpaint.robots.kinematics import Kinematics
-from dqpaint.robots.urdf import possible, prepare, urdf_file
-from tests.robots.arm_files import arm_urdf
+from dqpaint.robots.kinematics.bullet import bullet, joint_indices, quiet
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.loading.load_file import read_file
+from dqpaint.robots.model.card import read_card
+from dqpaint.robots.urdf.prepare import possible, prepare, urdf_file
+from tests.support.arm_files import arm_urdf
 
 INERTIAL = (
     '<inertial><origin xyz="0.05 0 0.02"/><mass value="4"/>'
@@ -206,7 +206,7 @@ def test_an_arm_with_a_slide_is_refused_for_it(tmp_path):
 
 
 def test_a_range_far_from_zero_is_searched_round_its_middle(read):
-    from dqpaint.robots.derive import _one_turn
+    from dqpaint.robots.loading.defaults import _one_turn
 
     card = read(arm_urdf())
     low, high = _one_turn(card)

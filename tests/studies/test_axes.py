@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from dqpaint.errors import UsageError
-from dqpaint.settings import make_settings
-from dqpaint.studies.axes import (
+from dqpaint.settings.model import make_settings
+from dqpaint.studies.experiment.axes import (
     Axis,
     about,
     combinations,

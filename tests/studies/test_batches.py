@@ -10,21 +10,21 @@ from dqpaint.controllers import CONTROLLERS
 from dqpaint.disturbances import make_disturbances
 from dqpaint.language import parse
 from dqpaint.motion import plan
-from dqpaint.nullspace import OBJECTIVES, make_wish
-from dqpaint.out_of_reach import begin
+from dqpaint.planning.reachability import begin
 from dqpaint.plants import PLANTS
-from dqpaint.robots.card import installed_names, read_card
-from dqpaint.robots.kinematics import Kinematics
-from dqpaint.robots.many import ManyKinematics
-from dqpaint.robots.resolver import resolve
-from dqpaint.sensing import ModelsDifferError
-from dqpaint.settings import make_settings
-from dqpaint.studies.batches import MOST, carry_out_batch, goes_in_batches, groups
-from dqpaint.studies.engine import carry_out_study
-from dqpaint.studies.record import NAME
-from dqpaint.studies.runs import Run, seeded
-from dqpaint.studies.worker import carry_out, carry_out_all
-from dqpaint.tracking import track, track_many
+from dqpaint.robots.kinematics.batched import ManyKinematics
+from dqpaint.robots.kinematics.differential_ik import resolve
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.kinematics.nullspace import OBJECTIVES, make_wish
+from dqpaint.robots.model.card import installed_names, read_card
+from dqpaint.settings.model import make_settings
+from dqpaint.simulation.closed_loop import track, track_many
+from dqpaint.simulation.sensors import ModelsDifferError
+from dqpaint.studies.runner.batches import MOST, carry_out_batch, goes_in_batches, groups
+from dqpaint.studies.runner.engine import carry_out_study
+from dqpaint.studies.runner.journal import NAME
+from dqpaint.studies.runner.run import Run, seeded
+from dqpaint.studies.runner.worker import carry_out, carry_out_all
 
 ARC = (
     "period 8 ms\nstart at (0, 70) mm tool rpy(20 deg, 10 deg, 0)\n"

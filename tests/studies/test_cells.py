@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from dqpaint.studies.cells import Cell, columns, find_figure, rows
-from dqpaint.studies.runs import Result
+from dqpaint.studies.experiment.cells import Cell, columns, find_figure, rows
+from dqpaint.studies.runner.run import Result
 
 # What a run says in SI units, by name, and what the table says under which heading.
 SAID = {

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from dqpaint.papers import Claim, Paper, paper_names, read_paper
-from dqpaint.studies.claims import RULES, cell_name, judge, published
-from dqpaint.studies.replay import judged
-from dqpaint.studies.statistics import Spread, spread
+from dqpaint.studies.experiment.statistics import Spread, spread
+from dqpaint.studies.kinds.replay import judged
+from dqpaint.studies.replay.claims import RULES, cell_name, judge, published
+from dqpaint.studies.replay.papers import Claim, Paper, paper_names, read_paper
 
 FIGURES = ({"name": "e", "says": "error"},)
 

@@ -10,13 +10,13 @@ import pytest
 
 import dqpaint
 from dqpaint.errors import DqpaintError, OutputError, UsageError
-from dqpaint.settings import make_settings
-from dqpaint.studies import pool
-from dqpaint.studies.engine import carry_out_study
-from dqpaint.studies.keeping import kept, place
-from dqpaint.studies.record import NAME, Record
-from dqpaint.studies.runs import Result, Run, drawing_text, result_of, run_of, seeded
-from tests.studies.processes import start, wait_for_lines, wait_for_the_end
+from dqpaint.settings.model import make_settings
+from dqpaint.studies.runner import process_pool
+from dqpaint.studies.runner.engine import carry_out_study
+from dqpaint.studies.runner.journal import NAME, Record
+from dqpaint.studies.runner.run import Result, Run, drawing_text, result_of, run_of, seeded
+from dqpaint.studies.runner.run_arrays import kept, place
+from tests.support.processes import start, wait_for_lines, wait_for_the_end
 
 pytestmark = pytest.mark.slow
 LINE = "period 10 ms\nspeed 60 mm/s\nstart at (0, 0) mm\nline to (40, 20) mm\n"
@@ -77,7 +77,7 @@ def test_one_failed_run_does_not_lose_the_rest(tmp_path, monkeypatch):
     assert "outside the reach" in results[0].message
     assert "returned an array of shape (1,)" in results[2].message
     assert "its process ended with signal 9" in results[3].message
-    monkeypatch.setattr(pool, "TRIES", 1)
+    monkeypatch.setattr(process_pool, "TRIES", 1)
     again = carry_out_study([far, *own], tmp_path / "study", 1)
     lines = (tmp_path / "study" / NAME).read_text().splitlines()
     tries = Counter(json.loads(line)["key"] for line in lines)

@@ -7,11 +7,11 @@ from html import unescape
 import numpy as np
 import pytest
 
-from dqpaint.charts import HeatMap, Line, Panel
-from dqpaint.light import contact
-from dqpaint.settings import make_settings
-from dqpaint.studies.page import Charts, Map, Page, Rows, Shot, Tables, Words, html
-from tests.studies.browser import needs_browser, opened, printed, screenshot, with_script
+from dqpaint.light.images import contact_sheet
+from dqpaint.settings.model import make_settings
+from dqpaint.studies.report.charts import HeatMap, Line, Panel
+from dqpaint.studies.report.page import Charts, Map, Page, Rows, Shot, Tables, Words, html
+from tests.support.browser import needs_browser, opened, printed, screenshot, with_script
 
 T = np.linspace(0, 10, 4000)
 LINES = [
@@ -37,7 +37,7 @@ SMALL = [
 TABLES = [Rows("error", [["error", "paper", "here"], ["a", "3 ± 0.5", "0.1"], ["b", "1.5", "-"],
           ["c", "2", "40"]], (1, 2), "2 of 3 pairs."),
           Rows("w", [["pose", "here"], ["first", "1"]])]  # fmt: skip
-PNG = contact.png(np.full((30, 1200, 3), 90, dtype=np.uint8))
+PNG = contact_sheet.png(np.full((30, 1200, 3), 90, dtype=np.uint8))
 HOSTILE = """</script <b>$x_$</script><script>document.title="owned"</script>
 <img src=x onerror="document.title=1">
 '"&amp;--><!--</pre></table></noscript>$x_$ $]]> \u2028 ümläut"""

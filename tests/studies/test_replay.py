@@ -10,29 +10,31 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from dqpaint import answering, dq
-from dqpaint.charts import Line, Panel
+from dqpaint import dq
+from dqpaint.cli import main
 from dqpaint.errors import UnknownNameError, UsageError
-from dqpaint.papers import paper_names, read_paper
-from dqpaint.robots.card import read_card
-from dqpaint.robots.kinematics import Kinematics
-from dqpaint.robots.parts import Mount
-from dqpaint.studies import replay, shown
-from dqpaint.studies.cells import Cell
-from dqpaint.studies.page import Charts
-from dqpaint.studies.replays import (
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.model.card import read_card
+from dqpaint.robots.model.fields import Mount
+from dqpaint.studies.experiment.cells import Cell
+from dqpaint.studies.experiment.statistics import spread
+from dqpaint.studies.kinds import pictures as shown
+from dqpaint.studies.kinds import replay
+from dqpaint.studies.replay.measures import (
     MEASURES,
     Asked,
     Measured,
     cost,
-    late,
+    gain_grid,
     setpoint,
-    surfaces,
     timing,
     tracking,
 )
-from dqpaint.studies.runs import Result, Run, drawing_text, seeded
-from dqpaint.studies.statistics import spread
+from dqpaint.studies.replay.measures import late_error as late
+from dqpaint.studies.replay.papers import paper_names, read_paper
+from dqpaint.studies.report.charts import Line, Panel
+from dqpaint.studies.report.page import Charts
+from dqpaint.studies.runner.run import Result, Run, drawing_text, seeded
 from tests.conftest import random_poses
 
 
@@ -186,11 +188,11 @@ def test_a_page_says_what_each_cell_was_run_with():
 
 def test_the_grid_of_the_surfaces():
     paper = read_paper("thesis-lqr")
-    cells = surfaces.grid(paper)
+    cells = gain_grid.grid(paper)
     assert len(cells) == 64
     assert cells["q = 20, r = 0.5"]["gains"] == {"s": 0.0, "q": 20, "r": 0.5}
     numbers = {name: {"effort_integral": spread([float(i)])} for i, name in enumerate(cells)}
-    assert surfaces.maps(paper, {n: {f: r["effort_integral"] for f in surfaces.SURFACES}
+    assert gain_grid.maps(paper, {n: {f: r["effort_integral"] for f in gain_grid.SURFACES}
                                  for n, r in numbers.items()})["-effort"]  # fmt: skip
 
 
@@ -230,7 +232,7 @@ def test_two_cells_have_no_order():
 
 def test_the_cells_of_a_grid_have_a_table_of_their_own():
     paper = read_paper("thesis-lqr")
-    names = surfaces.grid(paper)
+    names = gain_grid.grid(paper)
     replayed = made_up(paper, {name: {"error_integral": float(i)} for i, name in enumerate(names)})
     assert all(name not in names for _, rows in replay.tables(replayed) for name, *_ in rows)
     ((figure, rows),) = replay.surfaces(replayed)
@@ -282,7 +284,7 @@ def test_a_replay_from_the_command_to_its_files(tmp_path, monkeypatch, capsys):
     words = ["replay", "thesis-circle", "--plant", "ideal", "--runs", "2", "--out", str(study)]
     monkeypatch.setattr(sys, "argv", ["dqpaint", *words])
     with pytest.raises(SystemExit) as stop:
-        answering.run()
+        main.run()
     assert not stop.value.code
     said = capsys.readouterr().out
     assert "plant ideal, from home" in said

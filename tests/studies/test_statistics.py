@@ -5,7 +5,14 @@ import math
 import numpy as np
 import pytest
 
-from dqpaint.studies.statistics import Spread, holm, incomplete_beta, spread, two_sided, welch
+from dqpaint.studies.experiment.statistics import (
+    Spread,
+    holm,
+    incomplete_beta,
+    spread,
+    two_sided,
+    welch,
+)
 
 # Percentage points of Student's t, two-sided 5 % and 1 %: Abramowitz and Stegun, Table 26.10.
 TABLE = {

@@ -8,14 +8,15 @@ import numpy as np
 import pytest
 
 import dqpaint as package
-from dqpaint.charts import ALARM
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.light.contact import hues
-from dqpaint.settings import make_settings
-from dqpaint.studies import cells, compare, sweep
-from dqpaint.studies.axes import parse_axis, parse_laws
-from dqpaint.studies.cells import SHOWN, Cell
-from dqpaint.studies.runs import Result
+from dqpaint.light.images.contact_sheet import hues
+from dqpaint.settings.model import make_settings
+from dqpaint.studies.experiment import cells
+from dqpaint.studies.experiment.axes import parse_axis, parse_laws
+from dqpaint.studies.experiment.cells import SHOWN, Cell
+from dqpaint.studies.kinds import compare, sweep
+from dqpaint.studies.report.charts import ALARM
+from dqpaint.studies.runner.run import Result
 
 LINE = "period 10 ms\nspeed 60 mm/s\nstart at (0, 0) mm\nline to (40, 20) mm\n"
 NOISE = {"twist": {"form": "noise", "x": 0.02, "y": 0.02, "frequency": 5.0}}
@@ -199,7 +200,7 @@ def test_slips_are_told(answer, line, tmp_path, words, code, fault):
 
 
 def test_an_old_report_beside_new_tables_is_told(tmp_path, capsys):
-    from dqpaint.studying import _finish
+    from dqpaint.cli.studies import _finish
 
     report, table = tmp_path / "a-k-report.html", tmp_path / "a-k-table.csv"
     _finish("x", [table])

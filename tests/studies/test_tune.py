@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.settings import make_settings
-from dqpaint.studies import tradeoff
-from dqpaint.studies.cells import Cell
-from dqpaint.studies.record import NAME
-from dqpaint.studies.runs import Result
-from dqpaint.studies.tune import Range, generation, read_range, tune
-from tests.studies.processes import start, wait_for_lines, wait_for_the_end
+from dqpaint.settings.model import make_settings
+from dqpaint.studies.experiment.cells import Cell
+from dqpaint.studies.kinds import tune_report
+from dqpaint.studies.kinds.tune import Range, generation, read_range, tune
+from dqpaint.studies.runner.journal import NAME
+from dqpaint.studies.runner.run import Result
+from tests.support.processes import start, wait_for_lines, wait_for_the_end
 
 STEP = "period 20 ms\nstart at (0, 0) mm\nhold 40 ms\nstep to (10, 0) mm\nhold 300 ms\n"
 RING = """period 20 ms
@@ -65,7 +65,7 @@ def test_an_optimum_within_is_found(tmp_path):
     rings = [c for c in found.cells if float(c.choice["k"]) > 2 / 0.02]
     assert all(not cell.stable for cell in rings)
     assert rings
-    table = list(csv.DictReader(tradeoff.save(found)[2].read_text().splitlines()))
+    table = list(csv.DictReader(tune_report.save(found)[2].read_text().splitlines()))
     errors = [float(row["error_integral_mean"]) for row in table if row["status"] == "done"]
     assert found.best.of(found.error).mean == min(errors)
 
@@ -97,7 +97,7 @@ def test_an_optimum_at_the_bound_is_found_and_a_search_that_was_killed_finds_it_
 
     whole = tune(str(tmp_path / "ring.traj"), ["k=4..30"], base(), tmp_path / "whole",
                  factor=bound, effort="speed_integral_m", budget=50, jobs=2)  # fmt: skip
-    for path in tradeoff.save(whole):
+    for path in tune_report.save(whole):
         assert (tmp_path / "killed" / path.name).read_bytes() == path.read_bytes()
     k = float(whole.best.choice["k"])
     assert k == pytest.approx(gain_of(bound), rel=2e-3)
@@ -119,7 +119,7 @@ def test_a_bound_that_nothing_keeps_is_told(tmp_path):
     choices = {"factor": 0.1, "budget": 25, "jobs": 1}
     found = tune(str(tmp_path / "step.traj"), ["k=20..49"], base(), given, **choices)
     assert found.best is None
-    assert "No gains that were tried keep to it: the least was" in tradeoff.answer(found)
+    assert "No gains that were tried keep to it: the least was" in tune_report.answer(found)
     other = tune(str(tmp_path / "step.traj"), ["k=20..49"], base(seed=1), given, **choices)
     assert {c.label for c in other.cells} != {c.label for c in found.cells}  # seeded
 
@@ -164,8 +164,8 @@ def test_what_is_told_of_made_up_results(tmp_path):
         figures = {"error_integral": error, "command_integral_rad": effort}
         return Cell({"k": str(k)}, (Result(str(k), status, "why", figures),))
 
-    from dqpaint.studies.cells import SHOWN
-    from dqpaint.studies.tune import Tuning
+    from dqpaint.studies.experiment.cells import SHOWN
+    from dqpaint.studies.kinds.tune import Tuning
 
     tried = (cell(1, 9.0, 2.0), cell(5, 4.0, 3.0), cell(6, 5.0, 3.5), cell(8, 2.0, 4.5),
              cell(9, 0.1, 3.0, "unstable"))  # fmt: skip
@@ -173,18 +173,18 @@ def test_what_is_told_of_made_up_results(tmp_path):
                   2.0, 2.0, False, tmp_path)  # fmt: skip
     assert made.best is tried[1]  # the unstable one does not count
     assert made.front == [tried[0], tried[1], tried[3]]
-    told = tradeoff.told(made, 200)
+    told = tune_report.told(made, 200)
     assert "Best: --gain k=5\nk lies at the end of its range, 5" in told
     assert "The budget was spent" in told
-    assert [row[:2] for row in tradeoff.rows(made)[1:]] == [
+    assert [row[:2] for row in tune_report.rows(made)[1:]] == [
         ["usual", "6"], ["best", "5"], ["trade-off", "1"], ["trade-off", "8"]
     ]  # fmt: skip
-    assert [row[-1] for row in tradeoff.rows(made)[1:]] == [
+    assert [row[-1] for row in tune_report.rows(made)[1:]] == [
         "done", "done", "done", "done, beyond the bound"
     ]  # fmt: skip
-    trade, over = tradeoff.panels(made)
+    trade, over = tune_report.panels(made)
     assert (trade.wall, trade.limit) == (4.0, "most allowed")
     assert (trade.x_label, over.x_label) == ("command", "k [1/s]")
     lost = Cell({"k": "5"}, (Result("x", "failed", "too far"),))
     with pytest.raises(DqpaintError, match="every run failed; the first: too far"):
-        tradeoff.told(replace(made, cells=(lost,), usual=None), 80)
+        tune_report.told(replace(made, cells=(lost,), usual=None), 80)

@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.studies import verify as study
-from dqpaint.studies.gates import GATES, changed, measure, spoke
-from dqpaint.studies.references import read_cases, read_reference, versions
-from tests.studies import guarded
+from dqpaint.studies.kinds import verify as study
+from dqpaint.studies.verify.gates import GATES, changed, measure, spoke
+from dqpaint.studies.verify.references import read_cases, read_reference, versions
+from tests.support import guarded
 
 pytestmark = pytest.mark.slow
 OTHER_CPU = {"OPENBLAS_CORETYPE": "Prescott", "OPENCV_CPU_DISABLE": "AVX2",

@@ -1,0 +1,128 @@
+"""The commands round the language: arguments in, calls, text out. `cli` adds them to its own."""
+
+import json
+import sys
+from collections.abc import Callable, Sequence
+from typing import Annotated, Any
+
+import typer
+
+from dqpaint.errors import DqpaintError
+
+_COMMANDS: list[tuple[Callable[..., None], dict[str, Any]]] = []
+
+
+def add_to(app: typer.Typer) -> None:
+    """Make the commands known."""
+    for function, options in _COMMANDS:
+        app.command(**options)(function)
+
+
+def tell(problem: DqpaintError) -> None:
+    """Say what is wrong, on standard error."""
+    text = str(problem)
+    print(text if text.startswith(("error[", "warning[")) else f"error: {text}", file=sys.stderr)
+
+
+def point_at(codes: Sequence[str], stream: Any) -> None:
+    """Say to a person who has met an error where its rule is explained."""
+    if codes and stream.isatty():
+        print(f"\ndqpaint explain {codes[0]} tells more", file=sys.stderr)
+
+
+def _command(**options: Any) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    def add(function: Callable[..., None]) -> Callable[..., None]:
+        _COMMANDS.append((function, options))
+        return function
+
+    return add
+
+
+@_command(epilog="Examples:\n\n  dqpaint fmt star.traj\n\n  dqpaint fmt --check drawings/*.traj")
+def fmt(
+    files: Annotated[list[str], typer.Argument(metavar="FILE...", help="drawings; - reads stdin")],
+    check: Annotated[
+        bool, typer.Option("--check", help="write nothing; name the files that are not laid out so")
+    ] = False,
+) -> None:
+    """Lay drawings out as all drawings are: blanks and blocks, nothing that has a meaning."""
+    from dqpaint.language.syntax.source import STDIN
+    from dqpaint.language.writing import format_files
+
+    failed = False
+    for name in files:
+        try:
+            if name == STDIN:
+                made, changed = format_files.format_input()
+                if not check:
+                    sys.stdout.buffer.write(made)
+            else:
+                changed = format_files.format_file(name, write=not check)
+                if not check:
+                    print(f"{name}: {'laid out anew' if changed else 'unchanged'}")
+        except DqpaintError as problem:
+            tell(problem)
+            failed = True
+            continue
+        if check and changed:
+            print(name)
+            failed = True
+    if failed:
+        raise typer.Exit(1)
+
+
+@_command(epilog="Examples:\n\n  dqpaint explain E245\n\n  dqpaint explain")
+def explain(
+    code: Annotated[
+        str | None, typer.Argument(metavar="[CODE]", help="all messages, if not said")
+    ] = None,
+) -> None:
+    """Tell what a message means, with a drawing that leads to it and one that does not."""
+    from dqpaint.diagnostics import catalogue
+
+    print(catalogue.listed() if code is None else catalogue.told(catalogue.explanation(code)))
+
+
+@_command(epilog="Examples:\n\n  dqpaint new flower\n\n  dqpaint new drawings/flower.traj")
+def new(name: Annotated[str, typer.Argument(help="of the drawing")]) -> None:
+    """Write a commented drawing to begin with."""
+    from dqpaint.language.writing.template import start
+
+    path = start(name)
+    print(path)
+    if sys.stderr.isatty():
+        print(f"now: dqpaint preview {path} --watch", file=sys.stderr)
+
+
+@_command(
+    epilog="Examples:\n\n  dqpaint grammar\n\n  dqpaint grammar textmate > traj.tmLanguage.json"
+)
+def grammar(
+    kind: Annotated[
+        str, typer.Argument(metavar="[textmate]", help="for which editors")
+    ] = "textmate",
+) -> None:
+    """Print the language's grammar for editors, made from its own tables."""
+    from dqpaint.editors import textmate
+    from dqpaint.errors import UnknownNameError
+
+    if kind != "textmate":
+        raise UnknownNameError("grammar", kind, ["textmate"])
+    print(json.dumps(textmate.grammar(), indent=2, ensure_ascii=False))
+
+
+@_command(
+    epilog="Examples:\n\n  dqpaint lsp\n\n  dqpaint lsp --help", short_help="Serve an editor."
+)
+def lsp() -> None:
+    """Serve an editor: messages, meanings, completion and mending, over stdin and stdout.
+
+    An editor starts this by itself. It needs the extra: pip install 'dqpaint[lsp]'
+    """
+    try:
+        from dqpaint.editors.server import serve
+    except ModuleNotFoundError as missing:
+        if (missing.name or "").partition(".")[0] not in ("pygls", "lsprotocol"):
+            raise
+        raise DqpaintError("the language server needs: pip install 'dqpaint[lsp]'") from None
+    serve()

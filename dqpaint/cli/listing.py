@@ -1,0 +1,221 @@
+"""What there is to choose from, read off the registries."""
+
+from collections.abc import Callable
+from typing import Any
+
+from dqpaint.cli.terminal import table
+from dqpaint.errors import UnknownNameError
+
+
+def _robots() -> list[dict[str, Any]]:
+    from dqpaint.robots.model.card import DEFAULT_ROBOT, card_names, read_card
+
+    cards = [read_card(name) for name in card_names()]
+    return [
+        {
+            "name": c.name,
+            "about": f"{c.title}, {c.joints} joints"
+            + (f" (not installed: {c.missing})" if c.missing else ""),
+            "missing": c.missing,
+            "default": c.name == DEFAULT_ROBOT,
+            "source": c.source,
+        }
+        for c in cards
+    ]
+
+
+def _controllers() -> list[dict[str, Any]]:
+    from dqpaint.controllers import CONTROLLERS
+    from dqpaint.settings.model import DEFAULT_CONTROLLER
+
+    return [
+        {
+            "name": c.name,
+            "about": c.summary,
+            "default": c.name == DEFAULT_CONTROLLER,
+            "source": c.source,
+            "gains": [
+                {"name": name, "default": f.default, "about": f.description}
+                for name, f in c.gains.model_fields.items()
+            ],
+        }
+        for c in CONTROLLERS.values()
+    ]
+
+
+def _plants() -> list[dict[str, Any]]:
+    from dqpaint.plants import PLANTS
+    from dqpaint.plants.plant import DEFAULT_PLANTS
+
+    return [
+        {
+            "name": name,
+            "about": (plant.__doc__ or "").splitlines()[0],
+            "default": name == DEFAULT_PLANTS["rates"],
+            "takes": plant.takes,
+            "values": _values(plant.options) if plant.options else [],
+        }
+        for name, plant in PLANTS.items()
+    ]
+
+
+def _fonts() -> list[dict[str, Any]]:
+    from dqpaint.language.imports import lettering
+
+    return [
+        {
+            "name": name,
+            "about": lettering.read_font(name).about,
+            "default": name == lettering.PLAINEST,
+        }
+        for name in lettering.font_names()
+    ]
+
+
+def _disturbances() -> list[dict[str, Any]]:
+    from dqpaint.disturbances import DISTURBANCES
+
+    return [
+        {
+            "name": name,
+            "about": (model.__doc__ or "").splitlines()[0],
+            "values": _values(model),
+        }
+        for name, model in DISTURBANCES.items()
+    ]
+
+
+def _values(model: Any) -> list[dict[str, Any]]:
+    return [
+        {"name": name, "default": f.default, "about": f.description}
+        for name, f in model.model_fields.items()
+    ]
+
+
+def _null() -> list[dict[str, Any]]:
+    from dqpaint.robots.kinematics.nullspace import DEFAULT_NULL, OBJECTIVES
+
+    return [
+        {
+            "name": name,
+            "about": (objective.__doc__ or "").splitlines()[0],
+            "default": name == DEFAULT_NULL,
+            "values": [{"name": "gain", "default": objective.usual, "about": objective.unit}]
+            if objective.usual
+            else [],
+        }
+        for name, objective in OBJECTIVES.items()
+    ]
+
+
+def _brushes() -> list[dict[str, Any]]:
+    from dqpaint.light.sources.brushes import BRUSHES, choices_of
+
+    return [
+        {"name": name, "about": (kind.__doc__ or "").splitlines()[0], "choices": choices_of(kind)}
+        for name, kind in BRUSHES.items()
+    ]
+
+
+def _looks() -> list[dict[str, Any]]:
+    from dqpaint.light.film.looks import LOOKS
+    from dqpaint.settings.model import Settings
+
+    usual = Settings.model_fields["look"].default
+    return [
+        {"name": name, "about": (look.__doc__ or "").splitlines()[0], "default": name == usual}
+        for name, look in LOOKS.items()
+    ]
+
+
+def _examples() -> list[dict[str, Any]]:
+    from dqpaint.core.examples import example_names, examples_folder
+
+    def about(name: str) -> str:
+        first = (examples_folder() / f"{name}.traj").read_text("utf-8").splitlines()[0]
+        return first.removeprefix(f"# {name}.traj - ")
+
+    return [{"name": name, "about": about(name)} for name in example_names()]
+
+
+def _replays() -> list[dict[str, Any]]:
+    from dqpaint.studies.replay.papers import paper_names, read_paper
+
+    papers = [read_paper(name) for name in paper_names()]
+    return [{"name": p.name, "about": f"{p.source}: {p.title}", "source": p.source} for p in papers]
+
+
+def _statements() -> list[dict[str, Any]]:
+    from dqpaint.language.vocabulary.words import STATEMENTS
+
+    return [
+        {"name": s.word, "about": s.says, "example": s.example, "parts": list(s.parts)}
+        for s in STATEMENTS.values()
+    ]
+
+
+def _functions() -> list[dict[str, Any]]:
+    from dqpaint.editors.vocabulary import vocabulary
+
+    kinds = ("function", "law", "constant", "unit")
+    return [{"name": e.example, "about": e.says} for e in vocabulary() if e.kind in kinds]
+
+
+LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {
+    "robots": _robots,
+    "controllers": _controllers,
+    "plants": _plants,
+    "disturbances": _disturbances,
+    "null": _null,
+    "brushes": _brushes,
+    "looks": _looks,
+    "fonts": _fonts,
+    "examples": _examples,
+    "replays": _replays,
+    "statements": _statements,
+    "functions": _functions,
+}
+
+
+def lists(what: str) -> dict[str, list[dict[str, Any]]]:
+    """The entries of one list by its name, or of `all`.
+
+    Raises:
+        UnknownNameError: no such list.
+    """
+    if what == "all":
+        return {name: make() for name, make in LISTS.items()}
+    if what not in LISTS:
+        raise UnknownNameError("list", what, list(LISTS))
+    return {what: LISTS[what]()}
+
+
+def text(found: dict[str, list[dict[str, Any]]]) -> str:
+    """Entries as a person reads them: a line each, what belongs to it below."""
+    parts = []
+    for name, rows in found.items():
+        lines: list[tuple[str, str]] = []
+        for row in rows:
+            usual = " (default)" if row.get("default") else ""
+            lines.append((row["name"] + usual, row["about"]))
+            lines += [("", f"  {choice}") for choice in row.get("choices", [])]
+            numbers = [*row.get("gains", []), *row.get("values", [])]
+            lines += [("", f"  {value_line(number)}") for number in numbers]
+            if "example" in row:
+                lines.append(("", f"  {row['example']}"))
+            if row.get("parts"):
+                lines.append(("", f"  parts: {' '.join(row['parts'])}"))
+            if "gains" in row:
+                lines.append(("", f"  from {row['source']}"))
+        heading = [f"{name}:"] if len(found) > 1 else []
+        parts.append("\n".join([*heading, table(lines)]))
+    return "\n\n".join(parts)
+
+
+def value_line(value: dict[str, Any]) -> str:
+    """A gain, or a value of a disturbance, in words."""
+    usual = value["default"]
+    if usual is None:
+        return f"{value['name']}  {value['about']}"
+    shown = f"{usual:g}" if isinstance(usual, float) else usual
+    return f"{value['name']} = {shown}  {value['about']}"

@@ -1,0 +1,400 @@
+"""The command line: arguments in, calls, tables out. No arithmetic, and no early imports.
+
+`--help` and `check` start without the simulator, the kinematics and the image library: each
+command imports what it needs.
+"""
+
+import json
+import os
+import shutil
+import sys
+from typing import Annotated, Any
+
+import typer
+
+from dqpaint import __version__
+from dqpaint.cli import export, language
+from dqpaint.cli.language import point_at
+from dqpaint.cli.options import (
+    Brush,
+    ColourBy,
+    Disturb,
+    Drawing,
+    Ev,
+    Exposure,
+    From,
+    Gain,
+    Ghost,
+    Law,
+    Look,
+    Magnify,
+    MaxSamples,
+    MotionGhost,
+    Noise,
+    Null,
+    Occlusion,
+    OnLimit,
+    Out,
+    Overlay,
+    PlaceAt,
+    PlantName,
+    Pwm,
+    Recorded,
+    Robot,
+    Save,
+    Seed,
+    SettingsFile,
+    Size,
+    Starburst,
+    Tool,
+    View,
+    typed,
+)
+from dqpaint.errors import UsageError
+
+app = typer.Typer(
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    no_args_is_help=True,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+Drawings = Annotated[
+    list[str], typer.Argument(metavar="FILE...", help="drawings, or examples; - reads stdin")
+]
+AsJson = Annotated[bool, typer.Option("--json", help="for a program to read")]
+
+DRAW_EXAMPLES = """Examples:
+
+  dqpaint draw star
+
+  dqpaint draw trajectories/lag.traj --controller p --gain k=15 --out pictures/
+"""
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        print(f"dqpaint {__version__}")
+        raise typer.Exit()
+
+
+@app.callback()
+def common(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="print it and end")
+    ] = False,
+) -> None:
+    """Light paintings by a simulated robot arm: a short text, a control law, a long exposure."""
+
+
+@app.command(epilog=DRAW_EXAMPLES)
+def draw(
+    context: typer.Context,
+    file: Drawing,
+    controller: Law = "hinf",
+    gain: Gain = None,
+    robot: Robot = None,
+    tool: Tool = None,
+    place: PlaceAt = None,
+    recorded: Recorded = None,
+    plant: PlantName = None,
+    disturb: Disturb = None,
+    seed: Seed = 0,
+    start: From = "first",
+    null: Null = "start",
+    on_limit: OnLimit = "clip",
+    size: Size = "1280x720",
+    view: View = "front",
+    ev: Ev = 0.0,
+    brush: Brush = None,
+    pwm: Pwm = 0.0,
+    exposure: Exposure = None,
+    look: Look = "film",
+    starburst: Starburst = 0,
+    noise: Noise = None,
+    colour_by: ColourBy = None,
+    overlay: Overlay = False,
+    magnify: Magnify = 1.0,
+    ghost: Ghost = False,
+    motion_ghost: MotionGhost = False,
+    occlusion: Occlusion = None,
+    max_samples: MaxSamples = 2_000_000,
+    settings: SettingsFile = None,
+    out: Out = None,
+    save: Save = "png,csv,json",
+) -> None:
+    """Paint a drawing with an arm: picture, per-step CSV and summary."""
+    from dqpaint import api
+    from dqpaint.cli.terminal import Progress
+    from dqpaint.controllers.base.user_controller import short_name
+    from dqpaint.core.examples import find_drawing
+    from dqpaint.outputs import files as outputs
+    from dqpaint.settings.file import read_given
+    from dqpaint.settings.model import parse_disturbances, parse_gains, parse_size
+
+    names = outputs.choose(save)
+    path = find_drawing(file)
+    given = read_given(settings) if settings else None
+    choices = typed(
+        context, controller=controller, robot=robot, tool=tool, place=place, recorded=recorded,
+        plant=plant, seed=seed, start=start, null=null, on_limit=on_limit, size=parse_size(size),
+        view=view, ev=ev, brush=brush, pwm=pwm, exposure=exposure, look=look, starburst=starburst,
+        noise=noise, colour_by=colour_by, overlay=overlay, magnify=magnify, ghost=ghost,
+        occlusion=occlusion, max_samples=max_samples,
+    )  # fmt: skip
+    if motion_ghost:
+        choices["ghost"] = "motion"
+    both = given.under(choices) if given else choices
+    law = "recorded" if both.get("recorded") else short_name(both.get("controller") or controller)
+    stem = outputs.stem_for(out, f"{path.stem}-{law}")
+    with Progress(path.name) as progress:
+        painting = api.draw(
+            path, **choices, gains=parse_gains(gain or []),
+            disturb=parse_disturbances(disturb or []), settings=given, progress=progress,
+        )  # fmt: skip
+    with Progress("movie") as progress:
+        written = outputs.write(stem, outputs.make(names, painting, progress))
+
+    from dqpaint.cli import report
+
+    _finish(report.remarks(painting), report.of_painting(painting, written), painting.image)
+
+
+@app.command(
+    epilog="Examples:\n\n  dqpaint preview star\n\n  dqpaint preview helix.traj --view iso --watch"
+)
+def preview(
+    context: typer.Context,
+    file: Drawing,
+    robot: Robot = None,
+    tool: Tool = None,
+    size: Size = "1280x720",
+    view: View = "front",
+    ev: Ev = 0.0,
+    brush: Brush = None,
+    pwm: Pwm = 0.0,
+    exposure: Exposure = None,
+    look: Look = "film",
+    starburst: Starburst = 0,
+    noise: Noise = None,
+    colour_by: ColourBy = None,
+    ghost: Ghost = False,
+    max_samples: MaxSamples = 2_000_000,
+    settings: SettingsFile = None,
+    out: Out = None,
+    watch: Annotated[bool, typer.Option("--watch", help="again at each save, till Ctrl-C")] = False,
+) -> None:
+    """Take the asked picture, without an arm, at once; with length, time and brightness."""
+    from dqpaint import api
+    from dqpaint.core.examples import find_drawing
+    from dqpaint.outputs import files as outputs
+    from dqpaint.settings.model import parse_size
+
+    path = find_drawing(file)
+    stem = outputs.stem_for(out, f"{path.stem}-preview")
+    choices = typed(
+        context, robot=robot, tool=tool, size=parse_size(size), view=view, ev=ev, brush=brush,
+        pwm=pwm, exposure=exposure, look=look, starburst=starburst, noise=noise,
+        colour_by=colour_by, ghost=ghost, max_samples=max_samples,
+    )  # fmt: skip
+
+    def show() -> None:
+        preview = api.preview(path, **choices, settings=settings)
+        written = outputs.write_pictures(stem, preview.pictures)
+
+        from dqpaint.cli import report
+
+        _finish(report.notes(preview.motion), report.of_preview(preview, written), preview.image)
+
+    if not watch:
+        show()
+        return
+    from pathlib import Path
+
+    from dqpaint.cli import watch as watching
+
+    watching.watch(path, show, others=[Path(settings)] if settings else ())
+
+
+@app.command(
+    epilog="Examples:\n\n  dqpaint develop star-hinf-film.npz --look aces --ev 1\n\n"
+    "  dqpaint develop star-hinf-film.npz --view iso,orbit:8 --size 640x360 --out round/"
+)
+def develop(
+    film: Annotated[str, typer.Argument(metavar="FILM", help="from: dqpaint draw --save film")],
+    size: Annotated[str | None, typer.Option(metavar="WxH", help="of the picture")] = None,
+    view: Annotated[str | None, typer.Option(metavar="VIEW", help="as for draw")] = None,
+    ev: Annotated[float | None, typer.Option(help="exposure in stops")] = None,
+    exposure: Annotated[
+        str | None, typer.Option(metavar="SETTINGS", help="as for draw, or auto")
+    ] = None,
+    look: Annotated[
+        str | None, typer.Option(metavar="NAME", help="see: dqpaint list looks")
+    ] = None,
+    starburst: Annotated[int | None, typer.Option(metavar="BLADES", help="0: none")] = None,
+    noise: Noise = None,
+    ghost: Annotated[bool | None, typer.Option(help="the arm in the picture")] = None,
+    motion_ghost: MotionGhost = False,
+    occlusion: Annotated[
+        bool | None, typer.Option(help="the arm's body hides light from the camera")
+    ] = None,
+    out: Out = None,
+) -> None:
+    """Take other pictures of a finished painting, at once; what is not said is as it was."""
+    from pathlib import Path
+
+    from dqpaint import api
+    from dqpaint.outputs import files as outputs
+    from dqpaint.settings.model import parse_size
+
+    name = Path(film).stem.removesuffix("-film")
+    stem = outputs.stem_for(out, f"{name}-developed")
+    pictures = api.develop(
+        film, size=parse_size(size) if size else None, view=view, ev=ev, exposure=exposure,
+        look=look, starburst=starburst, noise=noise, ghost="motion" if motion_ghost else ghost,
+        occlusion=occlusion,
+    )  # fmt: skip
+    written = outputs.write_pictures(stem, pictures)
+
+    from dqpaint.cli import report
+
+    _finish(report.of_arm(pictures), report.of_developed(pictures, written), pictures[0].image)
+
+
+CHECK_EXAMPLES = """Examples:
+
+  dqpaint check drawings/*.traj --json
+
+  dqpaint check star --robot panda --place auto --view iso
+"""
+
+
+@app.command(epilog=CHECK_EXAMPLES)
+def check(
+    context: typer.Context,
+    files: Drawings,
+    robot: Robot = None,
+    tool: Tool = None,
+    place: PlaceAt = None,
+    plant: PlantName = None,
+    start: From = "first",
+    null: Null = "start",
+    on_limit: OnLimit = "clip",
+    brush: Brush = None,
+    view: View = "front",
+    size: Size = "1280x720",
+    exposure: Exposure = None,
+    ghost: Ghost = False,
+    max_samples: MaxSamples = 2_000_000,
+    as_json: AsJson = False,
+) -> None:
+    """Read drawings: every error at its place, or length, time, steps and box.
+
+    With --robot or any other choice of a run, or a robot line in the file, it also looks ahead,
+    line by line: reach, joint limits, speeds, torques, singularities, collisions, and light the arm
+    would hide.
+    """
+    # Read when numpy is: no matrix here is large enough for threads, and waiting for work they
+    # take a tenth of the time of a long file.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    from dqpaint.planning import check as checking
+
+    choices = typed(
+        context, robot=robot, tool=tool, place=place, plant=plant, start=start, null=null,
+        on_limit=on_limit, brush=brush, view=view, size=size, exposure=exposure, ghost=ghost,
+        max_samples=max_samples,
+    )  # fmt: skip
+    if wanted := choices.pop("size"):
+        from dqpaint.settings.model import parse_size
+
+        choices["width"], choices["height"] = parse_size(wanted)
+    results = [checking.check(name, **choices) for name in files]
+    if as_json:
+        print(json.dumps(checking.as_json(results), indent=2))
+    else:
+        print("\n".join(result.text for result in results))
+        point_at([finding.code for result in results for finding in result.findings], sys.stdout)
+    if any(result.errors for result in results):
+        raise typer.Exit(1)
+
+
+@app.command(
+    "list", epilog="Examples:\n\n  dqpaint list controllers\n\n  dqpaint list robots --json"
+)
+def list_(
+    what: Annotated[
+        str, typer.Argument(metavar="[robots|controllers|...]", help="which list; all, if not said")
+    ] = "all",
+    as_json: AsJson = False,
+) -> None:
+    """Tell what there is to choose from."""
+    from dqpaint.cli import listing
+
+    lists = listing.lists(what)
+    if as_json:
+        found = lists if what == "all" else lists[what]
+        print(json.dumps(found, indent=2))
+    else:
+        print(listing.text(lists))
+
+
+POSE_EXAMPLES = """Examples:
+
+  dqpaint pose iiwa --deg=0,26,0,-93,0,-29,90
+
+  dqpaint pose viper850 --deg=20,-110,190,25,45,20 --flange --json
+"""
+
+
+@app.command(epilog=POSE_EXAMPLES)
+def pose(
+    robot: Annotated[str, typer.Argument(metavar="ROBOT", help="its name, or its .urdf or .toml")],
+    deg: Annotated[
+        str | None, typer.Option(metavar="A,B,...", help="the joints in degrees [default: home]")
+    ] = None,
+    rad: Annotated[
+        str | None, typer.Option(metavar="A,B,...", help="the joints in radians")
+    ] = None,
+    flange: Annotated[bool, typer.Option("--flange", help="the bare last link, no tool")] = False,
+    tool: Tool = None,
+    as_json: AsJson = False,
+) -> None:
+    """Tell where an arm's tool is: dual quaternion, matrix, screw, Jacobian, manipulability."""
+    from dqpaint.robots import pose_query
+    from dqpaint.robots.loading.lookup import find_card, with_tool
+
+    if flange and tool is not None:
+        raise UsageError("--flange leaves the tool out: give it or --tool, not both")
+    card = with_tool(find_card(robot), tool)
+    posed = pose_query.pose_arm(card, pose_query.read_posture(card, deg, rad), flange)
+    for kind, sentences in (("note", posed.notes), ("warning", posed.beyond)):
+        for sentence in sentences:
+            print(f"{kind}: {sentence}", file=sys.stderr)
+    print(json.dumps(pose_query.as_json(posed), indent=2) if as_json else pose_query.text(posed))
+
+
+@app.command(epilog="Examples:\n\n  dqpaint gallery\n\n  dqpaint gallery --out pictures")
+def gallery(
+    out: Annotated[str, typer.Option(metavar="FOLDER", help="where the pictures go")] = "gallery",
+) -> None:
+    """Make every picture of the gallery again."""
+    from dqpaint.studies.gallery import make_gallery
+
+    for path in make_gallery(out):
+        print(path)
+
+
+export.add_to(app)
+language.add_to(app)
+
+
+def _finish(remarks: list[str], table: str, image: Any) -> None:
+    """Say what there is to say, and show the picture to who can see it."""
+    from dqpaint.cli.terminal import blocks, shows_pictures
+
+    for text in remarks:
+        print(text, file=sys.stderr)
+    print(table)
+    if shows_pictures(sys.stdout):
+        print(blocks(image, shutil.get_terminal_size().columns))

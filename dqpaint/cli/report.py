@@ -1,0 +1,264 @@
+"""The figures a person wants to see after a command."""
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from dqpaint.cli.terminal import table
+from dqpaint.diagnostics.diagnostic import line_named
+from dqpaint.language import render
+from dqpaint.motion import Motion, summary_line
+from dqpaint.painting.paint import Painting
+from dqpaint.painting.picture import Picture
+from dqpaint.robots.kinematics.limits import Clamp
+
+if TYPE_CHECKING:
+    from dqpaint.painting.preview import Preview
+
+WHITE = 250  # of 255
+MOST_NAMED = 3  # limits in the table; all of them are in the warnings
+LONGEST_TORQUE_PERIOD = 5e-3  # [s], the 200 Hz of Chandra 2020
+WORTH_A_WARNING = 0.01  # of the light
+NOTHING = 1e-9  # [mm, deg] is shown as 0
+
+
+def of_painting(painting: Painting, written: Sequence[Path]) -> str:
+    """The table that follows `draw`."""
+    figures = painting.metrics.figures
+    gains = ", ".join(f"{name} = {_gain(value)}" for name, value in painting.gains.items())
+    rows = [
+        ("drawing", summary_line(painting.motion)),
+        *([("placed", one.line), ("", one.figures)] if (one := painting.placed) else []),
+        ("arm", f"{painting.robot}, {painting.plant}"),
+        ("controller", f"{painting.controller.name}  {gains}".rstrip()),
+        *_disturbed(painting),
+        ("position error", _spread(figures, "position_error", "m", 1e3, "mm")),
+        ("", f"largest at {_worst(painting)}"),
+        ("orientation error", _spread(figures, "orientation_error", "rad", math.degrees(1), "deg")),
+        *_commanded(figures),
+        *_came_through(painting),
+        *_steps(painting),
+        *_pace(painting),
+        ("limits", _limits_line(painting)),
+        *_pictures(painting.pictures),
+        *_files(written),
+    ]
+    return table(rows)
+
+
+def _disturbed(painting: Painting) -> list[tuple[str, str]]:
+    """What no law knew of, each with the values that were given."""
+    rows: list[tuple[str, str]] = []
+    for name, one in painting.disturbances.items():
+        given = one.model_dump(exclude_defaults=True)
+        values = ", ".join(f"{key} = {_gain(value)}" for key, value in given.items())
+        rows.append(("" if rows else "disturbed by", f"{name}  {values or 'nothing'}"))
+    return rows
+
+
+def _came_through(painting: Painting) -> list[tuple[str, str]]:
+    """An unmodelled twist beside the promise of the gains."""
+    rows: list[tuple[str, str]] = []
+    for part, one in painting.attenuation.items():
+        said = f"{part} {one.ratio:.3g} s"
+        if one.bound is not None:
+            kept = "kept" if one.kept else f"broken, {one.ratio / one.bound:.3g} times as much"
+            if not one.kept and one.bound < painting.motion.period:
+                kept += ", as the gain is above 1 a period"
+            if not one.kept and painting.limits:
+                kept += "; limits held joints meanwhile"
+            if not one.kept and len(painting.disturbances) > 1:
+                kept += "; other disturbances took part"
+            said += f", promised at most {one.bound:.3g} s: {kept}"
+        rows.append(("" if rows else "disturbance", said))
+    return rows
+
+
+def _pace(painting: Painting) -> list[tuple[str, str]]:
+    """How much longer it takes, where a drawing may be slowed down."""
+    slowed = painting.slowed
+    if slowed is None:
+        return []
+    return [("pace", str(slowed))]
+
+
+def _steps(painting: Painting) -> list[tuple[str, str]]:
+    """How each jump of the set point was taken."""
+    rows: list[tuple[str, str]] = []
+    where = painting.motion.program.where
+    for jump in painting.set_points[:MOST_NAMED]:
+        parts = ((jump.translation, 1e3, "mm"), (jump.rotation, math.degrees(1), "deg"))
+        for part, scale, unit in parts:
+            if not part.size:
+                continue
+            settled = (
+                "never settles" if part.settling is None else f"settles in {part.settling:.3g} s"
+            )
+            steady = 0.0 if part.steady * scale < NOTHING else part.steady * scale
+            rows.append((
+                "" if rows else "set points",
+                f"line {where(jump.line)}: {part.size * scale:.3g} {unit}, {settled}, overshoot "
+                f"{part.overshoot:.1%}, steady error {steady:.2g} {unit}",
+            ))  # fmt: skip
+    return rows
+
+
+def _commanded(figures: dict[str, float]) -> list[tuple[str, str]]:
+    """What the joints were given in all, where they are known."""
+    for name, unit in (("torque_integral_Nm_s", "Nm s"), ("command_integral_rad", "rad")):
+        if name in figures:
+            return [("commanded", f"{figures[name]:.3g} {unit} in all joints together")]
+    return []
+
+
+def _gain(value: float | tuple[float, ...] | str) -> str:
+    if isinstance(value, tuple):
+        return f"({', '.join(f'{part:.4g}' for part in value)})"
+    return value if isinstance(value, str) else f"{value:.4g}"
+
+
+def of_export(painting: Painting, written: Sequence[Path]) -> str:
+    """The table that follows `export`."""
+    points = f"{len(painting.motion.t)} points, one every {painting.motion.period * 1e3:g} ms"
+    rows = [
+        ("drawing", summary_line(painting.motion)),
+        *([("placed", one.line), ("", one.figures)] if (one := painting.placed) else []),
+        ("arm", f"{painting.robot}, {painting.plant}, {painting.controller.name}"),
+        *_pace(painting),
+        ("trajectory", f"{points}; from rest to rest, within the arm's limits"),
+        *_files(written),
+    ]
+    return table(rows)
+
+
+def of_preview(preview: "Preview", written: Sequence[Path]) -> str:
+    """The table that follows `preview`."""
+    rows = [("drawing", summary_line(preview.motion)), *_pictures(preview.pictures)]
+    return table([*rows, *_files(written)])
+
+
+def of_developed(pictures: Sequence[Picture], written: Sequence[Path]) -> str:
+    """The table that follows `develop`."""
+    return table([*_pictures(pictures), *_files(written)])
+
+
+def _pictures(pictures: Sequence[Picture]) -> list[tuple[str, str]]:
+    """What the light and the exposure of the first picture are; the others are of the same run."""
+    return [("light", light_line(pictures[0])), ("exposure", pictures[0].told)]
+
+
+def light_line(picture: Picture) -> str:
+    """What of the light fell on the film, and how bright the picture came out."""
+    film, hidden = picture.film, picture.hidden
+    emitted = picture.emitted.sum()
+    red, green, blue = (picture.image[..., i] >= WHITE for i in range(3))
+    white = float((red & green & blue).mean())
+    if emitted == 0.0:
+        return "none: no lamp shone this way"
+    behind = f", {hidden.energy.sum() / emitted:.1%} hidden by the arm" if hidden else ""
+    return (
+        f"{film.on_film.sum() / emitted:.1%} on film, {film.lost.sum() / emitted:.1%} lost"
+        f"{behind}; {white:.2%} of the picture is white"
+    )
+
+
+def notes(motion: Motion) -> list[str]:
+    """Warnings about a drawing."""
+    return [render(note, motion.program.name, motion.program.text) for note in motion.notes]
+
+
+def remarks(painting: Painting) -> list[str]:
+    """Warnings about a drawing and its run."""
+    texts = [f"note: {note}" for note in painting.notes]
+    texts += notes(painting.motion)
+    for (kind, line), held in _grouped(painting).items():
+        joints = "".join(f"\n    {clamp}" for clamp in held)
+        where = painting.motion.program.where(line)
+        texts.append(f"warning: line {where} runs into {kind} limits:{joints}{CURES[kind]}")
+    period = painting.motion.period
+    if painting.track.torques and period > LONGEST_TORQUE_PERIOD * (1 + 1e-9):
+        texts.append(
+            f"warning: torques are held for {period * 1e3:g} ms; laws that command them are made "
+            f"for {LONGEST_TORQUE_PERIOD * 1e3:g} ms (200 Hz) or less"
+            "\n  = help: write period 5 ms in the drawing"
+        )
+    picture = painting.picture
+    lost, emitted = picture.film.lost.sum(), picture.emitted.sum()
+    if lost > WORTH_A_WARNING * emitted:
+        texts.append(f"warning: {lost / emitted:.0%} of the light fell outside the picture")
+    return [*texts, *of_arm(painting.pictures, painting.motion.program.text)]
+
+
+def of_arm(pictures: Sequence[Picture], source: str = "") -> list[str]:
+    """Warnings about what the arm hides, and what of it could not be shown or traced.
+
+    `source` is the text of the drawing, if it is known: it names the files that it includes.
+    """
+    texts: list[str] = []
+    for picture in pictures:
+        seen = f" in {picture.name}" if len(pictures) > 1 else ""
+        texts += _hidden(picture, seen, source)
+    return [*texts, *dict.fromkeys(remark for one in pictures for remark in one.remarks)]
+
+
+def _hidden(picture: Picture, where: str, source: str) -> list[str]:
+    """A warning where much of the light was behind the arm."""
+    if picture.hidden is None:
+        return []
+    share = picture.hidden.energy.sum() / (picture.emitted.sum() or 1.0)
+    if share <= WORTH_A_WARNING:
+        return []
+    lines = picture.hidden.lines
+    named = ", ".join(
+        f"{line_named(source, line)} ({part:.0%})" for line, part in lines[:MOST_NAMED]
+    )
+    more = f" and {len(lines) - MOST_NAMED} more" if len(lines) > MOST_NAMED else ""
+    word = "lines" if len(lines) > 1 else "line"
+    return [
+        f"warning: the arm stood before {share:.0%} of its light{where}: {word} {named}{more}"
+        "\n  = help: look from another side (--view), or let it shine through (--no-occlusion)"
+    ]
+
+
+CURES = {
+    "position": "\n  = help: turn the tool less, or move the drawing with place",
+    "speed": "\n  = help: draw it slower (speed, in, samples), or lower the gains",
+    "torque": "\n  = help: a lower speed, a smoother law or lower gains need less torque",
+}
+
+
+def _grouped(painting: Painting) -> dict[tuple[str, int], list[Clamp]]:
+    """The limits that were reached, by kind and line, in the order of time."""
+    groups: dict[tuple[str, int], list[Clamp]] = {}
+    for clamp in painting.limits:
+        groups.setdefault((clamp.kind, clamp.line), []).append(clamp)
+    return groups
+
+
+def _limits_line(painting: Painting) -> str:
+    groups = _grouped(painting)
+    if painting.recording is not None:
+        return "not known of a recorded run"
+    if not groups:
+        return "none reached"
+    where = painting.motion.program.where
+    parts = (f"{kind} (line {where(line)})" for kind, line in list(groups)[:MOST_NAMED])
+    more = f" and {len(groups) - MOST_NAMED} more" if len(groups) > MOST_NAMED else ""
+    return f"{', '.join(parts)}{more} reached: there the arm could not follow"
+
+
+def _spread(figures: dict[str, float], name: str, unit: str, scale: float, shown: str) -> str:
+    rms, most = (figures[f"{name}_{kind}_{unit}"] * scale for kind in ("rms", "max"))
+    rms, most = (0.0 if value < NOTHING else value for value in (rms, most))
+    return f"rms {rms:.3g} {shown}, largest {most:.3g} {shown}"
+
+
+def _worst(painting: Painting) -> str:
+    motion = painting.motion
+    row = int(painting.table["position_error_m"].argmax())
+    return f"{motion.t[row]:.3f} s, line {motion.program.where(int(motion.line[row]))}"
+
+
+def _files(written: Sequence[Path]) -> list[tuple[str, str]]:
+    return [("written" if i == 0 else "", str(path)) for i, path in enumerate(written)]

@@ -1,0 +1,326 @@
+"""The commands of studies: arguments in, calls, tables out; nothing heavy at start."""
+
+import shlex
+import shutil
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from dqpaint.cli.options import (
+    Brush,
+    Disturb,
+    Drawing,
+    Ev,
+    Exposure,
+    From,
+    Gain,
+    Law,
+    Look,
+    PlantName,
+    Robot,
+    Seed,
+    Size,
+    View,
+)
+from dqpaint.cli.painting import app
+from dqpaint.errors import UsageError
+
+__all__ = ["app"]
+
+Runs = Annotated[int, typer.Option(metavar="N", help="of each, with the seeds that follow --seed")]
+Jobs = Annotated[int | None, typer.Option(metavar="N", help="processes [default: all cores]")]
+Address = Annotated[
+    str | None,
+    typer.Option("--cluster", metavar="ADDRESS", help="of a Dask scheduler, instead of --jobs"),
+]
+Folder = Annotated[
+    str | None,
+    typer.Option("--out", metavar="FOLDER", help="of the study; one that was stopped goes on"),
+]
+Measure = Annotated[
+    str, typer.Option("--figure", metavar="NAME", help="that is tested and drawn, as in the JSON")
+]
+
+Report = Annotated[bool, typer.Option("--report", help="one HTML page of it all, as well")]
+
+COMPARE_EXAMPLES = """Examples:
+
+  dqpaint compare lag --controllers "hinf,p,p(k=5)"
+
+  dqpaint compare lag --controllers hinf,pff --runs 10 --disturb twist=noise,x=0.02,frequency=5
+"""
+
+
+@app.command(epilog=COMPARE_EXAMPLES)
+def compare(
+    file: Drawing,
+    controllers: Annotated[
+        str, typer.Option(metavar="A,B(GAIN=VALUE),...", help="the laws, with gains of their own")
+    ] = "hinf",
+    plants: Annotated[str | None, typer.Option(metavar="A,B,...", help="the plants")] = None,
+    robots: Annotated[str | None, typer.Option(metavar="A,B,...", help="the arms")] = None,
+    runs: Runs = 1,
+    figure: Measure = "error_integral",
+    disturb: Disturb = None,
+    seed: Seed = 0,
+    start: From = "first",
+    size: Size = "640x360",
+    view: View = "front",
+    ev: Ev = 0.0,
+    brush: Brush = None,
+    exposure: Exposure = None,
+    look: Look = "film",
+    jobs: Jobs = None,
+    cluster: Address = None,
+    out: Folder = None,
+    report: Report = False,
+) -> None:
+    """Paint one drawing by several laws, plants or arms: pictures, overlay, errors, one table.
+
+    With --runs each is done with several seeds, and the table has means and standard deviations.
+    """
+    from dqpaint.settings.model import make_settings, parse_disturbances, parse_size
+    from dqpaint.studies.experiment.axes import Axis, parse_laws, parse_list
+    from dqpaint.studies.experiment.cells import check_figure
+    from dqpaint.studies.kinds import compare as study
+
+    check_figure(figure)
+    axes = [Axis("controller", tuple(parse_laws(controllers)))]
+    for name, values in (("plant", plants), ("robot", robots)):
+        if values is not None:
+            axes.append(Axis(name, tuple(parse_list(values))))
+    width, height = parse_size(size)
+    base = make_settings(
+        disturb=parse_disturbances(disturb or []), seed=seed, start=start, width=width,
+        height=height, view=view, ev=ev, brush=brush, exposure=exposure, look=look,
+    )  # fmt: skip
+    compared = study.compare(
+        file, axes, base, _folder(out, file, "compare"), runs, _workers(jobs, cluster)
+    )
+    _finish(study.told(compared, figure, _columns()), study.save(compared, figure, _again(report)))
+
+
+SWEEP_EXAMPLES = """Examples:
+
+  dqpaint sweep star --controller p --vary k=5..400:log:9
+
+  dqpaint sweep star --vary gamma_T=0.01..1:log:5 --vary disturb.twist.x=0,0.01,0.02
+"""
+
+
+@app.command(epilog=SWEEP_EXAMPLES)
+def sweep(
+    file: Drawing,
+    vary: Annotated[
+        list[str],
+        typer.Option(
+            metavar="NAME=VALUES",
+            help="a gain, plant, robot, disturb.NAME.VALUE ...: k=5,10,20 or k=1..100:log:9; "
+            "once or twice",
+        ),
+    ],
+    controller: Law = "hinf",
+    gain: Gain = None,
+    plant: PlantName = None,
+    robot: Robot = None,
+    disturb: Disturb = None,
+    seed: Seed = 0,
+    start: From = "first",
+    runs: Runs = 1,
+    figure: Measure = "position_error_rms_m",
+    jobs: Jobs = None,
+    cluster: Address = None,
+    out: Folder = None,
+    report: Report = False,
+) -> None:
+    """Run a drawing over one or two axes of values: table, and a curve or a heat map.
+
+    Unstable points are marked. A sweep that was stopped goes on where it was.
+    """
+    from dqpaint.settings.model import make_settings, parse_disturbances, parse_gains
+    from dqpaint.studies.experiment.axes import parse_axis
+    from dqpaint.studies.experiment.cells import check_figure
+    from dqpaint.studies.kinds import sweep as study
+
+    check_figure(figure)
+    axes = [parse_axis(text) for text in vary]
+    base = make_settings(
+        controller=controller, gains=parse_gains(gain or []), plant=plant, robot=robot,
+        disturb=parse_disturbances(disturb or []), seed=seed, start=start,
+    )  # fmt: skip
+    swept = study.sweep(
+        file, axes, base, _folder(out, file, "sweep"), runs, _workers(jobs, cluster)
+    )
+    _finish(study.told(swept, figure, _columns()), study.save(swept, figure, _again(report)))
+
+
+TUNE_EXAMPLES = """Examples:
+
+  dqpaint tune circle --controller p --vary k=2..200 --effort 1.05
+
+  dqpaint tune star --controller hinf --plant compliant --runs 3 --disturb noise=0.0005
+"""
+
+
+@app.command(epilog=TUNE_EXAMPLES)
+def tune(
+    file: Drawing,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="GAIN=LOW..HIGH[:lin]",
+            help="where a gain is sought, repeatable "
+            "[default: all of the law's, from a tenth to ten times the usual value]",
+        ),
+    ] = None,
+    controller: Law = "hinf",
+    effort: Annotated[
+        float, typer.Option(metavar="X", help="at most, times what the drawing itself needs")
+    ] = 1.1,
+    gain: Gain = None,
+    plant: PlantName = None,
+    robot: Robot = None,
+    disturb: Disturb = None,
+    seed: Seed = 0,
+    start: From = "first",
+    runs: Runs = 1,
+    figure: Annotated[
+        str, typer.Option("--figure", metavar="NAME", help="that is to be small, as in the JSON")
+    ] = "error_integral",
+    effort_figure: Annotated[
+        str, typer.Option(metavar="NAME", help="that is bounded")
+    ] = "command_integral_rad",
+    budget: Annotated[int, typer.Option(metavar="N", help="the most runs")] = 300,
+    jobs: Jobs = None,
+    cluster: Address = None,
+    out: Folder = None,
+    report: Report = False,
+) -> None:
+    """Seek the gains with the least error within an effort bound, and what error costs in effort.
+
+    The bound is 1 for the effort of an arm that does exactly what the drawing asks. Seeded; a
+    search that was stopped goes on where it was.
+    """
+    from dqpaint.settings.model import make_settings, parse_disturbances, parse_gains
+    from dqpaint.studies.experiment.cells import check_figure
+    from dqpaint.studies.kinds import tune as study
+    from dqpaint.studies.kinds import tune_report
+
+    check_figure(figure)
+    check_figure(effort_figure)
+    base = make_settings(
+        controller=controller, gains=parse_gains(gain or []), plant=plant, robot=robot,
+        disturb=parse_disturbances(disturb or []), seed=seed, start=start,
+    )  # fmt: skip
+    tuned = study.tune(
+        file, vary or [], base, _folder(out, file, "tune"), factor=effort, error=figure,
+        effort=effort_figure, count=runs, budget=budget,
+        jobs=_workers(jobs, cluster),
+    )  # fmt: skip
+    _finish(tune_report.told(tuned, _columns()), tune_report.save(tuned, _again(report)))
+    if tuned.best is None:
+        raise typer.Exit(1)
+
+
+REPLAY_EXAMPLES = """Examples:
+
+  dqpaint replay thesis-spiral --runs 10
+
+  dqpaint replay ozgur-cost
+"""
+
+
+@app.command(epilog=REPLAY_EXAMPLES)
+def replay(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="see: dqpaint list replays")],
+    runs: Annotated[
+        int | None, typer.Option(metavar="N", help="of each, with the seeds that follow --seed")
+    ] = None,
+    plant: PlantName = None,
+    robot: Robot = None,
+    disturb: Disturb = None,
+    seed: Annotated[int | None, typer.Option(metavar="N", help="of everything random")] = None,
+    jobs: Jobs = None,
+    cluster: Address = None,
+    out: Folder = None,
+    report: Report = False,
+) -> None:
+    """Do a paper's experiment again: its numbers beside ours, and which of its claims hold.
+
+    Every verdict follows from the numbers of this run; the paper's own are judged alike.
+    """
+    from dqpaint.settings.model import parse_disturbances
+    from dqpaint.studies.kinds import replay as study
+    from dqpaint.studies.replay.measures import Asked
+
+    given = {
+        "plant": plant, "robot": robot, "seed": seed,
+        "disturb": parse_disturbances(disturb) if disturb else None,
+    }  # fmt: skip
+    changed = {key: value for key, value in given.items() if value is not None}
+    folder = Path(out) if out else Path(f"{name}-replay")
+    replayed = study.replay(name, Asked(folder, runs, _workers(jobs, cluster), changed))
+    _finish(study.told(replayed, _columns()), study.save(replayed, _again(report)))
+
+
+def _folder(out: str | None, file: str, what: str) -> Path:
+    return Path(out) if out else Path(f"{Path(file).stem}-{what}")
+
+
+def _workers(jobs: int | None, cluster: str | None) -> int | str | None:
+    """How many processes, or a cluster's address."""
+    if jobs is not None and cluster is not None:
+        raise UsageError("--jobs is how many processes here, --cluster asks others: not both")
+    return jobs if cluster is None else cluster
+
+
+def _again(report: bool) -> str | None:
+    """The command, as a report says it."""
+    return shlex.join(["dqpaint", *sys.argv[1:]]) if report else None
+
+
+def _columns() -> int:
+    """How wide the terminal is; a file or a pipe takes any table."""
+    return shutil.get_terminal_size((100_000, 24)).columns
+
+
+def _finish(text: str, paths: list[Path]) -> None:
+    """Tell what came out; the files are there before, whoever stops listening."""
+    for path in paths:
+        report = path.with_name(f"{path.name.removesuffix('-table.csv')}-report.html")
+        if path.name.endswith("-table.csv") and report not in paths and report.exists():
+            print(f"note: {report} is of an earlier run; --report makes it anew", file=sys.stderr)
+    print("\n".join([text, *(f"  written  {path}" for path in paths)]))
+
+
+@app.command(
+    epilog="Examples:\n\n  dqpaint verify drawings/\n\n  dqpaint verify drawings/ --update"
+)
+def verify(
+    folder: Annotated[
+        str, typer.Argument(metavar="FOLDER", help="of drawings (or a cases.toml) and references")
+    ] = ".",
+    update: Annotated[
+        bool, typer.Option("--update", help="make new references, and say what changed")
+    ] = False,
+    jobs: Jobs = None,
+    cluster: Address = None,
+    out: Annotated[
+        str, typer.Option(metavar="FOLDER", help="where pictures of what differs go")
+    ] = "verify-differences",
+    report: Report = False,
+) -> None:
+    """Draw a folder again and compare it with its references, gate by gate."""
+    from dqpaint.studies.kinds import verify as study
+
+    verdicts = study.verify(Path(folder), _workers(jobs, cluster), lenient=update)
+    for text in study.remarks(verdicts):
+        print(text, file=sys.stderr)
+    if update:
+        print("\n".join(study.update(verdicts, Path(folder))))
+        return
+    _finish(study.told(verdicts), study.save_differences(verdicts, Path(out), _again(report)))
+    if any(verdict.faults for verdict in verdicts):
+        raise typer.Exit(1)

@@ -1,0 +1,225 @@
+"""Gains over a drawing: any gain of any law is a number, or changes on the way.
+
+    20                     a number
+    1,1,1,4,4,4            a diagonal, where the law takes one
+    2.8..5.3@10%           from 2.8 evenly to 5.3 over the first 10 % of the drawing, then 5.3
+    220..220@30%..270@30%  220 for the first 30 %, then 270: two values at one time are a jump
+
+In general VALUE@PERCENT are points joined by straight lines; before the first and after the last
+point the gain stays. Pereira 2016, (5.9) and Tables 5.11 and 5.12, are of this kind.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Generic, NamedTuple
+
+import numpy as np
+from pydantic import ValidationError
+
+from dqpaint.controllers.base.gains import G, Value, list_gains
+from dqpaint.core.named_values import reason
+from dqpaint.dq import Floats
+from dqpaint.errors import UsageError
+
+GainText = Value | str
+MOST_KNOTS = 1000
+FORM = (
+    "write a number without a unit, or a ramp such as 5..20@10% (from 5 to 20 over the first 10 %)"
+)
+
+
+class Knot(NamedTuple):
+    """A value of a gain at a part of the drawing, 0 at its start and 1 at its end."""
+
+    part: float
+    value: Value
+
+
+@dataclass(frozen=True)
+class Schedule(Generic[G]):
+    """The gains of a law over a drawing.
+
+    Attributes:
+        first: the gains at the start, checked.
+        knots: of the gains that change, by name, in the order of time; every value was checked.
+        texts: how these were written.
+    """
+
+    first: G
+    knots: Mapping[str, tuple[Knot, ...]] = field(default_factory=dict)
+    texts: Mapping[str, str] = field(default_factory=dict)
+
+    def at(self, part: float) -> G:
+        """The gains at a part of the drawing, 0 to 1."""
+        return self.over(np.array([part]))[0]
+
+    def over(self, parts: Floats) -> list[G]:
+        """The gains at parts (N,) of the drawing, each from 0 to 1."""
+        if not self.knots:
+            return [self.first] * len(parts)
+        columns = {name: self._rows(name, parts) for name in self.knots}
+        model, fixed = type(self.first), dict(self.first)
+        return [  # between values that are allowed all are: nothing to check again
+            model.model_construct(**{**fixed, **dict(zip(columns, row, strict=True))})
+            for row in zip(*columns.values(), strict=True)
+        ]
+
+    def promise(self) -> tuple[float, float] | None:
+        """What the gains promise of disturbances all along: the weakest on the way."""
+        ends = [self.first.promise(), self.at(1.0).promise()]
+        for name, knots in self.knots.items():
+            rows = self.over(np.array([knot.part for knot in knots]))
+            for knot, row in zip(knots, rows, strict=True):  # at a jump both values count
+                ends.append(row.model_copy(update={name: knot.value}).promise())
+        bounds = [end for end in ends if end is not None]
+        return (max(b[0] for b in bounds), max(b[1] for b in bounds)) if bounds else None
+
+    def column(self, name: str, parts: Floats) -> Floats:
+        """One gain at parts (N,) of the drawing: numbers (N,), or diagonals (N, m)."""
+        if name in self.knots:
+            return _along(self.knots[name], parts)
+        value = np.asarray(getattr(self.first, name), dtype=np.float64)
+        return np.broadcast_to(value, (len(parts), *value.shape))
+
+    def _rows(self, name: str, parts: Floats) -> list[Value]:
+        rows = _along(self.knots[name], parts).tolist()
+        return [tuple(row) if isinstance(row, list) else row for row in rows]
+
+    def shown(self) -> dict[str, Any]:
+        """The gains as a summary shows them: one that changes as it was written."""
+        parts = sorted({0.0, *(knot.part for knots in self.knots.values() for knot in knots)})
+        rows = [gains.shown() for gains in self.over(np.array(parts))]
+        shown: dict[str, Any] = dict(rows[0])
+        for name in shown:
+            values = [row[name] for row in rows]
+            if name in self.texts:
+                shown[name] = self.texts[name]
+            elif any(value != values[0] for value in values):  # it follows from one that changes
+                later = zip(parts[1:], values[1:], strict=True)
+                points = (f"{_said(value)}@{100 * part:g}%" for part, value in later)
+                shown[name] = "..".join([_said(values[0]), *points])
+        return shown
+
+
+def _along(knots: tuple[Knot, ...], parts: Floats) -> Floats:
+    """The values at parts (N,): straight from knot to knot, the later one where two coincide."""
+    at = np.array([knot.part for knot in knots])
+    values = np.array([knot.value for knot in knots], dtype=np.float64)
+    if at[0] > 0:  # before its first point a gain is what it is there
+        at, values = np.append(0.0, at), np.concatenate([values[:1], values])
+    inside = np.clip(parts, at[0], at[-1])
+    i = np.clip(np.searchsorted(at, inside, side="right") - 1, 0, len(at) - 2)
+    width = at[i + 1] - at[i]
+    share = np.where(width > 0, (inside - at[i]) / np.where(width > 0, width, 1.0), 1.0)
+    if values.ndim > 1:
+        share = share[:, None]
+    return np.asarray((1 - share) * values[i] + share * values[i + 1])
+
+
+def read_schedule(model: type[G], given: Mapping[str, GainText], whose: str) -> Schedule[G]:
+    """The gains of a model with the given ones replaced, each checked at every knot.
+
+    Args:
+        model: of the gains.
+        given: numbers, diagonals or texts (see above) by the names of the gains.
+        whose: how messages name the law.
+
+    Raises:
+        UsageError: an unknown name, no value, or one outside its range; lists the law's own.
+    """
+    fixed: dict[str, Value] = {}
+    knots: dict[str, tuple[Knot, ...]] = {}
+    texts: dict[str, str] = {}
+    for name, value in given.items():
+        if name not in model.model_fields:
+            raise UsageError(f"{whose} has no gain named '{name}'; its gains: {list_gains(model)}")
+        points = _read(name, value, whose, model) if isinstance(value, str) else (Knot(0.0, value),)
+        fixed[name] = points[0].value
+        if len(points) > 1 and name in model.constant:
+            raise UsageError(
+                f"gain '{name}' of {whose} is '{str(value)[:60]}', but can't change on the way: "
+                f"{model.constant[name]}; its gains: {list_gains(model)}"
+            )
+        if len(points) > 1:
+            knots[name], texts[name] = points, str(value)
+    first = _checked(model, fixed, whose)
+    for name, points in knots.items():
+        for knot in points[1:]:
+            _checked(model, {**fixed, name: knot.value}, whose)
+    return Schedule(first, knots, texts)
+
+
+def _checked(model: type[G], values: Mapping[str, Value], whose: str) -> G:
+    try:
+        return model(**dict(values))
+    except ValidationError as problem:
+        first = problem.errors()[0]
+        if not first["loc"]:  # what the model itself says of several gains together
+            text = f"{whose}: {reason(first)}"
+        elif first["type"] == "value_error":
+            text = f"gain '{first['loc'][0]}' of {whose} {reason(first)}"
+        else:
+            shown = values[str(first["loc"][0])]
+            said = shown if isinstance(shown, str) else _said(shown)
+            text = (
+                f"gain '{first['loc'][0]}' of {whose} is {said}; {_range(model, first['loc'][0])}"
+            )
+        raise UsageError(f"{text}; its gains: {list_gains(model)}") from None
+
+
+def _range(model: type[G], name: Any) -> str:
+    """What a gain may be, read off its model."""
+    limits = model.model_fields[str(name)].metadata
+    low = next((limit.ge for limit in limits if hasattr(limit, "ge")), None)
+    high = next((limit.le for limit in limits if hasattr(limit, "le")), None)
+    if low is None or high is None:
+        return "a gain is a finite number"
+    return f"a gain is a number from {low:g} to {high:g}"
+
+
+def _read(name: str, text: str, whose: str, model: type[G]) -> tuple[Knot, ...]:
+    """The knots of a text; one alone is a value that does not change."""
+    pieces = text.split("..")
+    if len(pieces) > MOST_KNOTS:
+        raise UsageError(
+            f"gain '{name}' of {whose} has {len(pieces)} points; a ramp has at most {MOST_KNOTS}"
+        )
+    try:
+        points = [_knot(piece, i, len(pieces)) for i, piece in enumerate(pieces)]
+        parts = [point.part for point in points]
+        if parts != sorted(parts):
+            raise ValueError
+        size = max(len(p.value) if isinstance(p.value, tuple) else 1 for p in points)
+        if size == 1:
+            return tuple(points)
+        return tuple(Knot(p.part, _widened(p.value, size)) for p in points)
+    except ValueError:
+        raise UsageError(
+            f"gain '{name}' of {whose} is '{text[:60]}'; {FORM}; its gains: {list_gains(model)}"
+        ) from None
+
+
+def _knot(text: str, i: int, count: int) -> Knot:
+    value, sign, percent = text.partition("@")
+    numbers = tuple(float(number) for number in value.split(","))
+    if not sign:
+        if 0 < i < count - 1:
+            raise ValueError
+        return Knot(float(i > 0), numbers[0] if len(numbers) == 1 else numbers)
+    part = float(percent.strip().removesuffix("%")) / 100
+    if not (percent.strip().endswith("%") and 0 <= part <= 1 and count > 1):
+        raise ValueError
+    return Knot(part, numbers[0] if len(numbers) == 1 else numbers)
+
+
+def _widened(value: Value, size: int) -> tuple[float, ...]:
+    """A diagonal of some size; a number stands for all of its elements."""
+    wide = value if isinstance(value, tuple) else (value,) * size
+    if len(wide) != size:
+        raise ValueError
+    return wide
+
+
+def _said(value: Value) -> str:
+    """A gain as it is written."""
+    return ",".join(f"{part:.6g}" for part in value) if isinstance(value, tuple) else f"{value:.6g}"

@@ -1,0 +1,36 @@
+"""Proportional law on place and orientation apart, after Pereira."""
+
+import numpy as np
+from pydantic import Field
+
+from dqpaint import dq
+from dqpaint.controllers.base.controller import Seen, controller
+from dqpaint.controllers.base.gains import Gain, Gains
+from dqpaint.controllers.base.pose_errors import spatial_error
+from dqpaint.dq import Floats
+
+
+class ApartGains(Gains):
+    """A rate for translation and one for rotation."""
+
+    k_t: Gain = Field(20.0, description="1/s, the rate at which a translation error decays")
+    k_r: Gain = Field(20.0, description="1/s, the rate at which a small rotation error decays")
+
+
+@controller("decoupled", source="Pereira 2016, section 3.1.1", gains=ApartGains)
+def decoupled(seen: Seen, gains: ApartGains) -> Floats:
+    """Proportional, place and orientation apart: each goes its straight way; lags when moving.
+
+    q_dot = [J_t; N_r]^+ [k_t (t_d - t); k_r vec(1 - r* r_d)],
+    with t_dot = J_t q_dot and vec(r_dot* r_d) = N_r q_dot.
+
+    J_t and N_r are linear in the twist u = [w; v0]: t_dot = v0 + w x t and r_dot* r_d =
+    -1/2 r* w r_d. The first is met exactly; the nearest w for the second is -2 k_r Im(r r_d*).
+    At a set point t_d - t decays at k_t, and d(1 - eta)/dt = -k_r |Im r_e|^2, with eta the scalar
+    part of r_e = r r_d*: neither needs the other.
+    """
+    r_e = spatial_error(seen.pose, seen.pose_d)[..., :4]
+    t = dq.translation(seen.pose)
+    w = -2.0 * gains.k_r * r_e[..., 1:]
+    t_dot = gains.k_t * (dq.translation(seen.pose_d) - t)
+    return np.asarray(dq.twist_from_point(w, t_dot, t))

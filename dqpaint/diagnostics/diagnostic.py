@@ -1,0 +1,223 @@
+"""The one kind of message about a drawing: what, where, which rule, and what would help."""
+
+from bisect import bisect_right
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from typing import NamedTuple
+
+from dqpaint.core.records import record
+from dqpaint.errors import DqpaintError
+
+
+@record
+class Span:
+    """A stretch of the text: code points, counted from 0, the end not included."""
+
+    start: int
+    end: int
+
+    def of(self, text: str) -> str:
+        """What stands there."""
+        return text[self.start : self.end]
+
+
+class Source(str):
+    """The text of a drawing, and after it those of the files it includes.
+
+    So an offset alone says which file it is in.
+
+    Attributes:
+        included: where each further file begins, and its name; in order.
+    """
+
+    __slots__ = ("included",)
+    included: tuple[tuple[int, str], ...]
+
+    def __new__(cls, text: str, included: tuple[tuple[int, str], ...] = ()) -> "Source":
+        """The whole text, one file behind the other, each on lines of its own."""
+        source = super().__new__(cls, text)
+        source.included = included
+        return source
+
+    def __reduce__(self) -> tuple[type, tuple[object, ...]]:
+        return Source, (str(self), self.included)
+
+
+class Severity(StrEnum):
+    """An error stops the drawing; a warning says what was assumed."""
+
+    ERROR = "error"
+    WARNING = "warning"
+
+
+@record
+class Fix:
+    """An edit that would mend the text: replace `span` by `text`."""
+
+    title: str
+    span: Span
+    text: str
+
+
+@record
+class Diagnostic:
+    """One message.
+
+    Attributes:
+        code: its name in the catalogue, such as `E218`; `W…` for warnings.
+        message: what is wrong, lower case, no full stop.
+        span: where; None for the file as a whole.
+        label: a few words at the caret, or nothing.
+        help: what would mend it, if possible text that can be pasted.
+        related: other places that matter, each with its own label.
+        fix: the same as `help`, for a program.
+    """
+
+    code: str
+    message: str
+    span: Span | None
+    label: str = ""
+    help: str = ""
+    related: tuple[tuple[Span, str], ...] = ()
+    fix: Fix | None = None
+
+    @property
+    def severity(self) -> Severity:
+        """Warnings are the codes that begin with W."""
+        return Severity.WARNING if self.code.startswith("W") else Severity.ERROR
+
+
+class Place(NamedTuple):
+    """A line and a column, counted from 1."""
+
+    line: int
+    column: int
+
+
+def place(text: str, offset: int) -> Place:
+    """Line and column of an offset, in its own file."""
+    line_start = text.rfind("\n", 0, offset) + 1
+    first = file_at(text, offset, "")[0]
+    return Place(text.count("\n", first, offset) + 1, offset - line_start + 1)
+
+
+def file_at(text: str, offset: int, name: str) -> tuple[int, str]:
+    """Where the file of an offset begins, and its name; `name` is that of the first."""
+    included = text.included if isinstance(text, Source) else ()
+    if not included:
+        return 0, name
+    at = bisect_right(included, offset, key=lambda file: file[0])
+    return included[at - 1] if at else (0, name)
+
+
+LINES = 1_000_000  # more than all files together have
+
+
+def first_number(text: str, begin: int) -> int:
+    """The number of the first line of the file that begins at an offset.
+
+    Lines of the main file have their own number; those of the k-th file that it includes have k
+    times `LINES` more, so that a number alone says which file it is of.
+    """
+    included = text.included if isinstance(text, Source) else ()
+    return LINES * bisect_right(included, begin, key=lambda file: file[0]) + 1
+
+
+def line_named(text: str, number: int) -> str:
+    """A line as a person is told it: `12`, or `petal.traj:3` of an included file."""
+    file, line = divmod(number, LINES)
+    if not file:
+        return str(line)
+    included = text.included if isinstance(text, Source) else ()
+    name = included[file - 1][1] if file <= len(included) else f"included file {file}"
+    return f"{name}:{line}"
+
+
+def render(diagnostic: Diagnostic, name: str, text: str) -> str:
+    """The message as a person reads it in a terminal, with the line it speaks of and a caret."""
+    head = f"{diagnostic.severity}[{diagnostic.code}]: {diagnostic.message}"
+    if diagnostic.span is None:
+        lines = [head, f" --> {name}"]
+        margin = " "
+    else:
+        at = place(text, diagnostic.span.start)
+        margin = " " * (len(str(at.line)) + 1)
+        file = file_at(text, diagnostic.span.start, name)[1]
+        lines = [head, f"{margin[:-1]}--> {file}:{at.line}:{at.column}"]
+        lines += _excerpt(diagnostic, text, at, margin)
+    for span, label in diagnostic.related:
+        there = place(text, span.start)
+        file = file_at(text, span.start, name)[1]
+        lines.append(f"{margin}= {label}: {file}:{there.line}:{there.column}")
+    if diagnostic.help:
+        lines.append(f"{margin}= help: {diagnostic.help}")
+    return "\n".join(lines)
+
+
+WIDEST_LINE = 160  # of the source, as it is shown; a longer one is cut round the caret
+
+
+def _excerpt(diagnostic: Diagnostic, text: str, at: Place, margin: str) -> list[str]:
+    assert diagnostic.span is not None
+    start = diagnostic.span.start - (at.column - 1)
+    end = text.find("\n", start)
+    source = text[start : end if end >= 0 else len(text)].rstrip("\r")
+    width = max(1, min(diagnostic.span.end - diagnostic.span.start, len(source) - at.column + 1))
+    column = at.column
+    if len(source) > WIDEST_LINE:
+        cut = max(0, column - WIDEST_LINE // 2)
+        source, column = source[cut : cut + WIDEST_LINE], column - cut
+        width = min(width, len(source) - column + 1)
+    source = "".join(c if c.isprintable() else " " for c in source)
+    caret = " " * (column - 1) + "^" * max(1, width)
+    label = f" {diagnostic.label}" if diagnostic.label else ""
+    return [f"{margin}|", f"{at.line} | {source}", f"{margin}| {caret}{label}"]
+
+
+@dataclass(eq=False)  # an exception stays hashable
+class ScriptError(DqpaintError):
+    """A drawing that cannot be drawn, with every reason that was found in one pass."""
+
+    name: str
+    text: str
+    diagnostics: tuple[Diagnostic, ...] = field(default_factory=tuple)
+
+    def __str__(self) -> str:
+        return "\n\n".join(render(d, self.name, self.text) for d in self.diagnostics)
+
+
+class Problem(Exception):  # noqa: N818  a message on its way to the list, not an error of ours
+    """A statement that cannot be understood: carries the message that says why."""
+
+    def __init__(self, diagnostic: Diagnostic) -> None:
+        super().__init__(diagnostic.message)
+        self.diagnostic = diagnostic
+
+
+class PlaceProblem(Problem):
+    """The same, where it depends on where the tool is: not worth a word if that is not known."""
+
+
+def called_here(mistake: Problem, span: Span) -> Problem:
+    """The same mistake, which came out because of a call from elsewhere."""
+    diagnostic = mistake.diagnostic
+    if len(diagnostic.related) < MOST_CALLS_SHOWN:
+        related = (*diagnostic.related, (span, "called from"))
+        mistake.diagnostic = replace(diagnostic, related=related)
+    return mistake
+
+
+MOST_CALLS_SHOWN = 3
+
+
+def problem(
+    code: str,
+    message: str,
+    span: Span | None,
+    label: str = "",
+    help: str = "",
+    fix: Fix | None = None,
+    related: tuple[tuple[Span, str], ...] = (),
+) -> Problem:
+    """A message, ready to be raised."""
+    return Problem(Diagnostic(code, message, span, label, help, related, fix))

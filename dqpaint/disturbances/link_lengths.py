@@ -1,0 +1,30 @@
+"""A model whose links have the wrong lengths."""
+
+from typing import Annotated
+
+import numpy as np
+from pydantic import Field
+
+from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance
+from dqpaint.robots.kinematics.kinematics import Kinematics
+
+
+@DISTURBANCES.add("links")
+class WrongLengths(Disturbance):
+    """The law's model has links of wrong lengths; the tool's place on the last one, too."""
+
+    part: Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)] = Field(
+        0.0, description="rms error of each length as a part of it; 0.01 is 1 %"
+    )
+    offset: Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)] = Field(
+        0.0, description="m, rms error of each joint's place along each axis"
+    )
+
+    def belief(self, kinematics: Kinematics, rng: np.random.Generator) -> Kinematics:
+        """Every length errs by a random number of its own."""
+        if not (self.part or self.offset):
+            return kinematics
+        lengths = kinematics.lengths
+        stretched = self.part * rng.standard_normal((len(lengths), 1)) * lengths
+        moved = self.offset * rng.standard_normal(lengths.shape)
+        return kinematics.changed(lengths=stretched + moved)

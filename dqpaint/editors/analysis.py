@@ -1,0 +1,69 @@
+"""Text -> what is found in it, and how long each of its lines is and takes."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from dqpaint.diagnostics.diagnostic import file_at
+from dqpaint.language import Diagnostic, ScriptError, parse
+from dqpaint.motion import Motion, plan
+from dqpaint.robots.loading.lookup import card_for
+
+
+@dataclass(frozen=True)
+class Figures:
+    """Of one line of a drawing, all its passes together."""
+
+    length: float  # [m]
+    seconds: float
+    fastest: float  # [m/s]
+    lit: bool
+
+    def __str__(self) -> str:
+        dark = "" if self.lit else ", in the dark"
+        return (
+            f"{self.length * 1e3:.4g} mm in {self.seconds:.4g} s, "
+            f"at most {self.fastest * 1e3:.3g} mm/s{dark}"
+        )
+
+
+@dataclass(frozen=True)
+class Understood:
+    """A drawing as far as it can be understood."""
+
+    text: str
+    source: str  # the text, and those of the files it includes
+    planned: bool  # its times were looked at, too
+    findings: tuple[Diagnostic, ...]
+    figures: dict[int, Figures] = field(default_factory=dict)  # by the line, from 1
+
+
+def understand(text: str, name: str, planned: bool) -> Understood:
+    """What there is to say about a text; `planned` also has its times looked at."""
+    try:
+        program = parse(text, name, Path(name))
+        if not planned:
+            return Understood(text, program.text, False, program.notes)
+        motion = plan(program, card_for(program, None).canvas.pose)
+    except ScriptError as problem:
+        return Understood(text, problem.text, planned, problem.diagnostics)
+    return Understood(text, program.text, True, motion.notes, figures(motion))
+
+
+def figures(motion: Motion) -> dict[int, Figures]:
+    """How long each line is and takes; of the main file alone."""
+    text = motion.program.text
+    here = np.array([not file_at(text, s.span.start, "")[0] for s in motion.program.segments])
+    steps = np.linalg.norm(np.diff(motion.points, axis=0), axis=1)
+    steps[motion.jump[:-1]] = 0.0
+    rows = here[motion.stroke[:-1]]
+    lines, of = np.unique(motion.line[:-1][rows], return_inverse=True)
+    own = steps[rows]
+    length, fastest = np.bincount(of, weights=own), np.zeros(len(lines))
+    np.maximum.at(fastest, of, own)
+    seconds = np.bincount(of) * motion.period
+    lit = np.bincount(of, weights=motion.lit[:-1][rows]) > 0.0
+    columns = (length, seconds, fastest / motion.period, lit)
+    values = zip(*(column.tolist() for column in columns), strict=True)
+    return {line: Figures(*each) for line, each in zip(lines.tolist(), values, strict=True)}

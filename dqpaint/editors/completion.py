@@ -1,0 +1,97 @@
+"""What a word of a drawing means, and what may be written at a place. Offsets are code points."""
+
+import re
+from collections.abc import Iterable
+
+from dqpaint.diagnostics.diagnostic import Span
+from dqpaint.editors.vocabulary import Entry, vocabulary
+from dqpaint.language.vocabulary.words import PARTS, STATEMENTS
+
+_WORD = re.compile(r"[A-Za-z_°][A-Za-z0-9_]*", re.ASCII)
+_TOKEN = re.compile(r'"[^"\n]*"?|#.*|[A-Za-z_°][A-Za-z0-9_]*|[\d.]+|\S', re.ASCII)
+_NAMED = re.compile(r"^\s*(?:let|repeat|def|frame)\s+([A-Za-z_][A-Za-z0-9_]*)", re.MULTILINE)
+
+
+def word_at(text: str, offset: int) -> Span | None:
+    """The word an offset lies in or at the end of, if it is none of a comment or a text."""
+    start, end = _line(text, offset)
+    for match in _TOKEN.finditer(text, start, end):
+        if match.start() <= offset <= match.end() and _WORD.fullmatch(match[0]):
+            return Span(*match.span())
+    return None
+
+
+def meaning_at(text: str, offset: int) -> tuple[Entry, Span] | None:
+    """What the language says of the word at an offset."""
+    span = word_at(text, offset)
+    if span is None:
+        return None
+    start, _ = _line(text, offset)
+    first = not text[start : span.start].strip()
+    known = [entry for entry in vocabulary() if entry.word == span.of(text)]
+    if not known:
+        return None
+    return next((e for e in known if (e.kind == "statement") is first), known[0]), span
+
+
+def completions(text: str, offset: int) -> list[Entry]:
+    """The words that may stand at an offset, of which the first letters may be written already."""
+    start, _ = _line(text, offset)
+    written = _WORD.search(text[start:offset].rpartition(" ")[2].rpartition("(")[2])
+    begun = offset - (len(written[0]) if written and text[:offset].endswith(written[0]) else 0)
+    tokens = _TOKEN.findall(text[start:begun])
+    if tokens and (tokens[-1].startswith("#") or _open_text(tokens[-1])):
+        return []
+    if not tokens:
+        return _of("statement")
+    last = tokens[-1]
+    units = _of("unit")
+    if re.fullmatch(r"[\d.]+", last):
+        return units
+    if last == "law":
+        return _of("law")
+    if last == "light" or (last == "to" and "light" in tokens):
+        return [*_of("colour", "function"), *_little("on", "off")]
+    if last == "tool":
+        return [*_little("keep", "follow", "look"), *_of("function")]
+    found = [*(_little("auto") if last == "place" else ()), *_next_parts(tokens)]
+    if last == ")":
+        found += units
+    return [*found, *_values(text)]
+
+
+def _next_parts(tokens: list[str]) -> list[Entry]:
+    """The parts that the statement may still have."""
+    known = STATEMENTS.get(tokens[0])
+    if known is None:
+        return []
+    free = {p for p in known.parts if p in known.many or p not in tokens[1:]}
+    return [entry for entry in _of("part") if entry.word in free]
+
+
+def _values(text: str) -> list[Entry]:
+    named = (Entry(name, "name", "a name of this drawing", name) for name in _NAMED.findall(text))
+    return [*dict.fromkeys(named), *_of("function", "constant")]
+
+
+def _of(*kinds: str) -> list[Entry]:
+    return [entry for entry in vocabulary() if entry.kind in kinds]
+
+
+def _little(*words: str) -> list[Entry]:
+    return [entry for entry in vocabulary() if entry.kind == "word" and entry.word in words]
+
+
+def _open_text(token: str) -> bool:
+    return token.startswith('"') and (len(token) == 1 or not token.endswith('"'))
+
+
+def _line(text: str, offset: int) -> tuple[int, int]:
+    start = text.rfind("\n", 0, offset) + 1
+    end = text.find("\n", offset)
+    return start, len(text) if end < 0 else end
+
+
+def listed(parts: Iterable[str]) -> str:
+    """Parts with their examples, for a hover."""
+    return "\n".join(f"- `{PARTS[word].example}`: {PARTS[word].says}" for word in parts)

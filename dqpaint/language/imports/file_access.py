@@ -1,0 +1,87 @@
+"""Files that a drawing names: found beside it or below, and read only so far as is allowed.
+
+A name is seen from the folder of the file it stands in, an included one too; what is named lies in
+the folder of the main file or below, so that a drawing from elsewhere reads nothing else.
+"""
+
+from pathlib import Path, PurePosixPath
+
+from dqpaint.diagnostics.diagnostic import Problem, file_at, problem
+from dqpaint.language.pen.pen import Pen
+from dqpaint.language.syntax.tree import Quoted
+
+
+def is_relative(written: str) -> bool:
+    """Whether a name is one that is seen from a folder, on every system."""
+    strange = any(letter in written for letter in "\\:\0")
+    return not strange and not PurePosixPath(written).is_absolute()
+
+
+def below(root: Path, folder: Path, written: str) -> Path | None:
+    """The path of a file named from a folder; None if it is not in `root`, links followed."""
+    parts = list(folder.relative_to(root).parts)
+    for part in PurePosixPath(written).parts:
+        if part != "..":
+            parts.append(part)
+        elif parts:
+            parts.pop()
+        else:
+            return None
+    path = root.joinpath(*parts)
+    try:
+        inside = path.resolve().is_relative_to(root.resolve())
+    except (OSError, RuntimeError):  # links that go in a circle
+        inside = False
+    return path if inside else None
+
+
+def path_of(node: Quoted, pen: Pen) -> Path:
+    """The path of a file that the drawing may read."""
+    if pen.path is None:
+        message = "a text that is no file can't read one"
+        raise problem("E292", message, node.span, "", "save it beside the other file")
+    if not node.text.strip() or "\0" in node.text:
+        raise problem("E292", "a file has a name", node.span, "", 'for example: "points.csv"')
+    if not is_relative(node.text):
+        message = "a file is named from the folder of the drawing, with / between"
+        raise problem("E292", message, node.span, "", f'for example: "{_last(node.text)}"')
+    here = Path(file_at(pen.text, node.span.start, str(pen.path))[1])
+    path = below(pen.path.parent, here.parent, node.text)
+    if path is None:
+        message = "this file is outside of the drawing's folder"
+        cure = "only files beside the drawing or below can be read; copy it there"
+        raise problem("E292", message, node.span, "", cure)
+    return path
+
+
+def _last(text: str) -> str:
+    return text.replace("\\", "/").rstrip("/").rpartition("/")[2] or "points.csv"
+
+
+def contents(node: Quoted, pen: Pen, most_bytes: int) -> bytes:
+    """What is in a file; refused, before it is read, if it is too large."""
+    path = path_of(node, pen)
+    try:
+        if path.stat().st_size > most_bytes:
+            raise too_large(node, f"larger than {most_bytes // 1_000_000} MB")
+        with path.open("rb") as file:
+            data = file.read(most_bytes + 1)
+    except (OSError, ValueError) as fault:
+        raise _unread(node, path, fault) from None
+    if len(data) > most_bytes:
+        raise too_large(node, f"larger than {most_bytes // 1_000_000} MB")
+    return data
+
+
+def _unread(node: Quoted, path: Path, fault: Exception) -> Problem:
+    reason = (fault.strerror if isinstance(fault, OSError) else None) or str(fault)
+    cure = ""
+    if isinstance(fault, FileNotFoundError):
+        there = sorted(p.name for p in path.parent.glob(f"*{path.suffix}"))[:6]
+        cure = f"there are: {', '.join(there)}" if there and path.suffix else ""
+    return problem("E293", f"can't read {node.text}: {reason.lower()}", node.span, "", cure)
+
+
+def too_large(node: Quoted, how: str, cure: str = "") -> Problem:
+    """E294."""
+    return problem("E294", f"{node.text} is {how}", node.span, "", cure)

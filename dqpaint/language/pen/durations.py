@@ -1,0 +1,43 @@
+"""How long a stroke takes, and how the legs of one statement share it."""
+
+from dqpaint.diagnostics.diagnostic import Span, problem
+from dqpaint.language.pen.stroke_state import Settings
+from dqpaint.language.syntax.tree import Statement
+from dqpaint.language.values import typed_values
+from dqpaint.language.values.scope import Scope
+from dqpaint.program.program import Cruise, Lasting, Samples, Timing
+
+
+def timing(statement: Statement, settings: Settings, scope: Scope) -> Timing:
+    """The time that a statement asks for; `settings` include its own clauses."""
+    for part in statement.parts:
+        if part.word not in ("in", "samples"):
+            continue
+        if part.word == "in":
+            return Lasting(typed_values.positive(part.expression, scope, "in"))
+        return Samples(typed_values.count(part.expression, scope, "samples", least=1))
+    return Cruise(settings.speed, settings.turnspeed)
+
+
+def shared(whole: Timing, shares: list[float], span: Span) -> list[Timing]:
+    """The time of each leg: `shares` [any unit] are the legs' lengths."""
+    if len(shares) == 1 or isinstance(whole, Cruise):
+        return [whole] * len(shares)
+    total = sum(shares)
+    if isinstance(whole, Lasting):
+        return [Lasting(whole.seconds * share / total) for share in shares]
+    if whole.count < len(shares):
+        message = f"{len(shares)} legs need at least {len(shares)} samples"
+        raise problem("E256", message, span, "", f"write: samples {len(shares)}")
+    return [Samples(count) for count in apportioned(whole.count, shares)]
+
+
+def apportioned(count: int, shares: list[float]) -> list[int]:
+    """Whole numbers in about these shares, each at least 1, that add up to `count` exactly."""
+    spare, total = count - len(shares), sum(shares)
+    exact = [spare * share / total for share in shares]
+    counts = [1 + int(part) for part in exact]
+    most_left = sorted(range(len(shares)), key=lambda i: int(exact[i]) - exact[i])
+    for i in most_left[: count - sum(counts)]:
+        counts[i] += 1
+    return counts

@@ -1,0 +1,235 @@
+"""Where the tool is, and the strokes it has made so far."""
+
+import math
+from dataclasses import replace
+from pathlib import Path as FilePath
+
+from dqpaint.diagnostics.collector import EnoughError, Findings
+from dqpaint.diagnostics.diagnostic import (
+    Diagnostic,
+    PlaceProblem,
+    Span,
+    file_at,
+    first_number,
+    problem,
+)
+from dqpaint.language.pen.stroke_state import REST_TO_REST, Settings, Towards
+from dqpaint.language.syntax.tree import Part
+from dqpaint.language.values import vectors
+from dqpaint.language.vocabulary.words import PACE, PARTS
+from dqpaint.program.program import (
+    IDENTITY,
+    Cruise,
+    Keep,
+    Light,
+    Look,
+    LookLine,
+    Path,
+    Pose,
+    Quaternion,
+    Run,
+    Segment,
+    Step,
+    Still,
+    Straight,
+    Timing,
+    Tool,
+    Turn,
+    Vector,
+)
+
+MOST_SEGMENTS = 50_000
+FARTHEST = 1e9  # [m]
+SAME_PLACE = 1e-12  # [m] below this two points are one
+SAME_TURN = 1e-12  # [rad] below this two orientations are one
+LOOKS_ALREADY = 1e-9  # [rad] what rounding may leave between a look and the stroke before
+
+
+class Pen:
+    """The state of the drawing: `settings` and `frame` are changed from outside."""
+
+    def __init__(
+        self, name: str, text: str, findings: Findings, path: FilePath | None = None
+    ) -> None:
+        self.file = name, text
+        self.path = path  # of the main file, if the text is one
+        self.text = text
+        self.findings = findings
+        self.settings = Settings()
+        self.frame = vectors.WORLD
+        self.pose = IDENTITY
+        self.start = IDENTITY
+        self.segments: list[Segment] = []
+        self.corners: list[float] = []  # within what distance [m] the end of each is rounded
+        self.run: Run | None = None  # of the `stroke` that is being drawn
+        self._runs = 0
+        self.pieces = 0  # of chains
+        self.placed = False  # the file has said where the drawing starts
+        self.started = False  # something has moved
+        self.oriented = False  # the file has said how the tool is held at the start
+        self.moved = Span(0, 0)  # the first movement
+        self.lost = False  # after a mistake in a movement nobody knows where the tool is
+        self._lines = _LineCounter(text)
+
+    def begin(self, span: Span) -> None:
+        """A movement comes: the start is settled."""
+        if self.started:
+            return
+        self.started, self.moved = True, span
+        mode = self.settings.tool
+        if isinstance(mode, Towards) and not self.oriented:
+            self._adopt(mode.orientation)
+
+    def start_at(self, position: Vector, orientation: Quaternion | None) -> None:
+        """Says where the drawing starts, and perhaps how the tool is held."""
+        self.placed = True
+        self.pose = self.start = Pose(position, orientation or self.pose.orientation)
+        self.oriented = self.oriented or orientation is not None
+
+    def _adopt(self, orientation: Quaternion) -> None:
+        self.pose = self.start = Pose(self.pose.position, orientation)
+        self.oriented = True
+
+    def draw(
+        self, path: Path, tool: Tool, timing: Timing, light: Light | None, end: Pose, span: Span
+    ) -> None:
+        """Adds a stroke from where the tool is to `end`."""
+        if len(self.segments) >= MOST_SEGMENTS:
+            self.findings.add(_too_many(span))
+            raise EnoughError
+        if max(map(abs, end.position)) > FARTHEST:
+            raise here("E201", "this ends too far away", span)
+        line, words = self._lines.line(span), first_line(self.text, span)
+        settings, run = self.settings, self.run
+        if run is not None:
+            self._check_goes_on(path, span)
+            timing = run.timing
+        law = run.law if run is not None else settings.law
+        brush, strobe, start = settings.brush, settings.strobe, self.pose
+        self.segments.append(
+            Segment(path, tool, law, timing, light, start, end, words, line, brush, strobe, run)
+        )
+        self.corners.append(settings.blend * self.frame.scale)
+        self.pose = end
+        self.oriented = True
+
+    # Strokes of several lines.
+
+    @property
+    def amid_run(self) -> bool:
+        """Whether a `stroke` has begun to move."""
+        segments = self.segments
+        return self.run is not None and bool(segments) and segments[-1].run is self.run
+
+    def check_no_stop(self, span: Span) -> None:
+        """Raises if a way or a turn of our own would come into the middle of a `stroke`."""
+        if self.amid_run:
+            message = "the tool would have to stop within this stroke"
+            cure = "let this line begin where the one before it ends, and the tool look there"
+            raise here("E283", message, span, "", cure)
+
+    def begin_run(self, timing: Timing, light: Light | None) -> None:
+        """The segments that follow share a time law, and `light` if it is a gradient."""
+        self._runs += 1
+        self.run = Run(self._runs, self.settings.law, timing, light)
+
+    def check_pace(self, part: Part) -> None:
+        """Raises if a line within a `stroke` has a time of its own."""
+        if self.run is not None and part.word in PACE:
+            message = f"'{part.word}' belongs to the whole stroke"
+            cure = f"write it on its first line: stroke {PARTS[part.word].example}"
+            raise problem("E281", message, part.span, "", cure)
+
+    def _check_goes_on(self, path: Path, span: Span) -> None:
+        """Raises if the point stands still within a `stroke`."""
+        if isinstance(path, Still | Step) or path == Straight(vectors.ZERO):
+            what = {Still: "a pause", Step: "a jump"}.get(type(path), "a turn on the spot")
+            message = f"{what} can't be part of a stroke, which does not stop"
+            raise problem("E282", message, span, "", "end the stroke before it")
+
+    def warn(self, code: str, message: str, span: Span, label: str = "", cure: str = "") -> None:
+        """Says what is assumed, unless it only follows from a mistake."""
+        if not self.lost:
+            self.findings.add(Diagnostic(code, message, span, label, cure))
+
+    def travel(
+        self,
+        to: Vector,
+        span: Span,
+        tool: Tool | None = None,
+        orientation: Quaternion | None = None,
+        timing: Timing | None = None,
+    ) -> None:
+        """A way in the dark that the file did not ask for; the tool keeps, if nothing is said."""
+        by = vectors.minus(to, self.pose.position)
+        timing = timing or Cruise(self.settings.speed, self.settings.turnspeed)
+        end = Pose(to, orientation or self.pose.orientation)
+        self._assumed(Straight(by), tool or Keep(), timing, end, span)
+
+    def look(self, mode: Look | LookLine, orientation: Quaternion, span: Span) -> None:
+        """Turns the tool to where a stroke needs it at its start, in the dark, if it is not."""
+        angle = vectors.turn_between(self.pose.orientation, orientation)
+        if angle <= LOOKS_ALREADY:
+            return
+        if not self.oriented or self.lost:
+            self._adopt(orientation)
+            return
+        self.check_no_stop(span)
+        what, how = ("point", "look") if isinstance(mode, Look) else ("line", "look line")
+        degrees = math.degrees(angle)
+        message = f"the tool turns by {degrees:.3g} deg before this, to look at the {what}"
+        cure = f"a light-off turn is added; to avoid it, write: start at (…) tool {how} …"
+        self.warn("W404", message, span, "", cure)
+        speed = Cruise(self.settings.speed, self.settings.turnspeed)
+        end = Pose(self.pose.position, orientation)
+        self._assumed(Straight(vectors.ZERO), Turn(), speed, end, span)
+
+    def _assumed(self, path: Path, tool: Tool, timing: Timing, end: Pose, span: Span) -> None:
+        """A stroke of our own, rest to rest whatever law the file's strokes have."""
+        settings, run = self.settings, self.run
+        self.settings, self.run = replace(settings, law=REST_TO_REST, blend=0.0), None
+        self.draw(path, tool, timing, None, end, span)
+        self.settings, self.run = settings, run
+
+
+def first_line(text: str, span: Span) -> Span:
+    """The part of a span that stands on its first line."""
+    newline = text.find("\n", span.start, span.end)
+    return span if newline < 0 else Span(span.start, newline)
+
+
+class _LineCounter:
+    """Line numbers of ever later places, without counting from the top each time."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self._known: dict[int, int] = {}
+        self._last = (0, 1)
+
+    def line(self, span: Span) -> int:
+        known = self._known.get(span.start)
+        if known is not None:
+            return known
+        offset, line = self._last
+        begin, _ = file_at(self._text, span.start, "")
+        if not begin <= offset <= span.start:
+            offset, line = begin, first_number(self._text, begin)
+        line += self._text.count("\n", offset, span.start)
+        self._last = (span.start, line)
+        self._known[span.start] = line
+        return line
+
+
+def _too_many(span: Span) -> Diagnostic:
+    return Diagnostic(
+        "E301",
+        f"more than {MOST_SEGMENTS:,} strokes in all",
+        span,
+        "",
+        "draw less, or draw a formula: curve … for t from … to …",
+    )
+
+
+def here(code: str, message: str, span: Span, label: str = "", cure: str = "") -> PlaceProblem:
+    """A mistake that depends on where the tool is."""
+    return PlaceProblem(problem(code, message, span, label, cure).diagnostic)

@@ -1,0 +1,116 @@
+"""How the tool is held: the orientation a mode asks for, and where it can't be had.
+
+The tool's z axis looks; see `program.Look` and `program.LookLine` for the other two.
+"""
+
+import math
+from collections.abc import Iterable
+
+from dqpaint.diagnostics.diagnostic import Span
+from dqpaint.language.pen.pen import SAME_PLACE, SAME_TURN, Pen, here
+from dqpaint.language.pen.stroke_state import ToolMode, Towards
+from dqpaint.language.values import vectors
+from dqpaint.program.program import (
+    LOOKING,
+    Follow,
+    Keep,
+    Look,
+    LookLine,
+    Quaternion,
+    Tool,
+    Turn,
+    Vector,
+)
+
+LEAST_LEAN = math.radians(1.0)  # between the direction of a look and `up`
+
+
+def orientation_at(mode: Look | LookLine, position: Vector, span: Span) -> Quaternion:
+    """The orientation of a tool at `position` that looks."""
+    if isinstance(mode, Look):
+        return _look(mode, position, span)
+    return _look_line(mode, position, span)
+
+
+def _look(mode: Look, position: Vector, span: Span) -> Quaternion:
+    way = vectors.minus(mode.point, position)
+    if vectors.length(way) <= SAME_PLACE:
+        cure = "look at a point the tool does not go through"
+        raise here("E251", "the tool can't look at the point where it is", span, "", cure)
+    z = vectors.unit(way)
+    lean = vectors.angle_between(z, mode.up)
+    if min(lean, math.pi - lean) < LEAST_LEAN:
+        message = "the tool looks along 'up' here, so nothing says how it is turned about that"
+        other = "y" if abs(mode.up[2]) > 0.9 else "z"
+        cure = f"say another direction: tool look POINT up {other}"
+        raise here("E252", message, span, "", cure)
+    x = vectors.unit(vectors.cross(mode.up, z))
+    return vectors.turn_of_axes(x, vectors.cross(z, x), z)
+
+
+def _look_line(mode: LookLine, position: Vector, span: Span) -> Quaternion:
+    x = mode.along
+    way = vectors.minus(mode.point, position)
+    across = vectors.across(way, x)
+    if vectors.length(across) <= SAME_PLACE + 1e-12 * vectors.length(way):
+        cure = "look at a line the tool does not go through"
+        raise here("E253", "the tool can't look at the line it is on", span, "", cure)
+    z = vectors.unit(across)
+    return vectors.turn_of_axes(x, vectors.cross(z, x), z)
+
+
+def told(mode: ToolMode, position: Vector, span: Span) -> Quaternion | None:
+    """The orientation at a place, if the mode alone says it."""
+    if isinstance(mode, Towards):
+        return mode.orientation
+    if isinstance(mode, LOOKING):
+        return orientation_at(mode, position, span)
+    return None
+
+
+def begin(pen: Pen, mode: ToolMode, span: Span) -> None:
+    """Before a stroke: a tool that looks has to look already."""
+    if isinstance(mode, LOOKING):
+        pen.look(mode, orientation_at(mode, pen.pose.position, span), span)
+
+
+def at_end(
+    pen: Pen, mode: ToolMode, position: Vector, span: Span, axis: Vector, turn: float
+) -> tuple[Tool, Quaternion]:
+    """What the tool does on a stroke to `position`, and its orientation there.
+
+    `axis` and `turn` [rad] are the turn of a tool that follows.
+    """
+    now = pen.pose.orientation
+    if isinstance(mode, Follow):
+        return Follow(axis), vectors.turn_product(vectors.turn_about(axis, turn), now)
+    if isinstance(mode, LOOKING):
+        return mode, orientation_at(mode, position, span)
+    return turning(now, mode.orientation if isinstance(mode, Towards) else now)
+
+
+def turning(now: Quaternion, end: Quaternion) -> tuple[Tool, Quaternion]:
+    """Turn, or Keep where there is nothing to turn."""
+    if end == now or vectors.turn_between(now, end) <= SAME_TURN:
+        return Keep(), now
+    return Turn(), end
+
+
+def most_leaning(mode: Look | LookLine, start: Vector, way: Vector) -> tuple[Vector, ...]:
+    """The place on a straight way where a look comes closest to 'up', or to its contrary.
+
+    The looks lie in one plane; there the closest is square to n x up, n being the plane's normal.
+    """
+    if not isinstance(mode, Look):
+        return ()
+    to = vectors.minus(mode.point, start)
+    across = vectors.cross(vectors.cross(to, way), mode.up)
+    speed = vectors.dot(way, across)
+    share = vectors.dot(to, across) / speed if speed else 0.0
+    return (vectors.plus(start, vectors.times(share, way)),) if 0.0 < share < 1.0 else ()
+
+
+def check_way(mode: Look | LookLine, places: Iterable[Vector], span: Span) -> None:
+    """Raises if a tool could not look so on the way."""
+    for position in places:
+        orientation_at(mode, position, span)

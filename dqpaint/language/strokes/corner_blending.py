@@ -1,0 +1,340 @@
+"""Rounded corners: `blend L` leaves a stroke L before its end, and joins the next L from there.
+
+Two straight lines are joined by the arc of a circle that touches both; where an arc or a helix is
+one of the two, by the cubic Bezier curve that touches both and would be nearest to an arc between
+lines. Strokes that are joined become one run: there is one time law over all of them. A stroke
+that is too short for its corners is an error; nothing is ever rounded less than was asked.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import NamedTuple
+
+from dqpaint.diagnostics.collector import Findings
+from dqpaint.diagnostics.diagnostic import Diagnostic
+from dqpaint.language.pen import tool_orientation
+from dqpaint.language.strokes import arcs
+from dqpaint.language.values import vectors
+from dqpaint.program import colours
+from dqpaint.program.program import (
+    LOOKING,
+    Arc,
+    Chain,
+    Colour,
+    Cruise,
+    Curve,
+    Follow,
+    Formula,
+    Lasting,
+    Light,
+    Path,
+    Pose,
+    Quaternion,
+    Run,
+    Samples,
+    Segment,
+    Step,
+    Still,
+    Straight,
+    Timing,
+    Tool,
+    Turn,
+    Vector,
+)
+from dqpaint.program.taylor import Taylor
+
+SMOOTH = 1e-6  # [rad]: less than this is no corner
+CLOSE = 1e-12  # of a stroke's length: what rounding may leave of it
+
+
+class _Joint(NamedTuple):
+    """What happens between two segments."""
+
+    joined: bool  # the second goes on without a stop
+    cut: float  # so much of the first one's end and of the second one's start is left out [m]
+
+
+_NO_JOINT = _Joint(joined=False, cut=0.0)
+
+
+def rounded(
+    segments: Sequence[Segment], corners: Sequence[float], findings: Findings
+) -> list[Segment]:
+    """The segments with rounded corners.
+
+    Args:
+        segments: as they were drawn.
+        corners: within what distance [m] the end of each is to be rounded; 0 for not at all.
+        findings: takes what can't be done.
+    """
+    joints = [
+        _joint(a, b, size, findings)
+        for (a, b), size in zip(pairwise(segments), corners[:-1], strict=True)
+    ]
+    shares = [
+        _shares(segment, before.cut, after.cut, findings)
+        for segment, before, after in zip(
+            segments, [_NO_JOINT, *joints], [*joints, _NO_JOINT], strict=True
+        )
+    ]
+    if findings.errors:
+        return list(segments)
+    out: list[Segment] = []
+    number = max((s.run.number for s in segments if s.run is not None), default=0)
+    first = 0
+    for last, joint in enumerate([*joints, _NO_JOINT]):
+        if not joint.joined:
+            group = slice(first, last + 1)
+            pieces = _pieces(segments[group], shares[group], joints[first:last])
+            number += 1
+            out += _as_run(segments[group], pieces, number, findings)
+            first = last + 1
+    return out
+
+
+def _pieces(
+    segments: Sequence[Segment],
+    shares: Sequence[tuple[float, float]],
+    joints: Sequence[_Joint],
+) -> list[Segment]:
+    """What is left of segments in a row, and between them the ways round the corners."""
+    pieces = []
+    for i, (segment, (lower, upper)) in enumerate(zip(segments, shares, strict=True)):
+        if lower < upper:
+            pieces.append(_part(segment, lower, upper))
+        if i < len(joints) and joints[i].cut:
+            pieces.append(_bend(segment, upper, segments[i + 1], shares[i + 1][0]))
+    return pieces
+
+
+def _joint(a: Segment, b: Segment, size: float, findings: Findings) -> _Joint:
+    """Whether and how a corner is rounded: not where the pen is lifted, nor at a pause.
+
+    What comes from elsewhere begins and ends where it says.
+    """
+    if isinstance(a.path, Chain) or isinstance(b.path, Chain):
+        return _NO_JOINT
+    lifted = (a.light is None) != (b.light is None)
+    if not size or lifted or a.run != b.run or _rests(a) or _rests(b):
+        return _NO_JOINT
+    if not (_is_known(a.path) and _is_known(b.path)):
+        return _told(findings, a, "E285", "this corner can't be rounded: only those between lines "
+                     "and arcs can", "switch it off before: blend off")  # fmt: skip
+    turn = vectors.angle_between(_direction(a, 1.0), _direction(b, 0.0))
+    if turn > math.pi - SMOOTH:
+        cure = "switch it off before: blend off"
+        return _told(findings, a, "E286", "the way turns back here, which no arc rounds", cure)
+    return _Joint(joined=True, cut=size if turn > SMOOTH else 0.0)
+
+
+def _told(findings: Findings, segment: Segment, code: str, message: str, cure: str) -> _Joint:
+    findings.add(Diagnostic(code, message, segment.span, "", cure))
+    return _NO_JOINT
+
+
+def _rests(segment: Segment) -> bool:
+    path = segment.path
+    return isinstance(path, Still | Step) or path == Straight(vectors.ZERO)
+
+
+def _is_known(path: Path) -> bool:
+    return isinstance(path, Straight) or (isinstance(path, Arc) and path.grow == 0.0)
+
+
+def _shares(segment: Segment, first: float, last: float, findings: Findings) -> tuple[float, float]:
+    """What is left of a segment without so much of its start and of its end [m]."""
+    if not first and not last:
+        return 0.0, 1.0
+    length = _length(segment)
+    lower, upper = first / length, 1.0 - last / length
+    if lower <= upper - CLOSE:
+        return lower, upper
+    if lower <= upper + CLOSE:
+        return lower, lower  # nothing
+    ends = "each end" if first and last else "its start" if first else "its end"
+    findings.add(
+        Diagnostic(
+            "E284",
+            f"this stroke is too short for its rounded corners: it is {_mm(length)} long",
+            segment.span,
+            f"blend {_mm(last or first)} takes that much from {ends}",
+            f"at most: blend {_mm(_floor(length / (2.0 if first and last else 1.0)))}",
+        )
+    )
+    return 0.0, 1.0
+
+
+def _mm(size: float) -> str:
+    return f"{1e3 * size:.4g} mm"
+
+
+def _floor(size: float) -> float:
+    """Down to three digits, so that what is advised works."""
+    unit = 10.0 ** (math.floor(math.log10(size)) - 2)
+    return math.floor(size / unit * (1.0 + CLOSE)) * unit
+
+
+# The geometry of a line or an arc, by the share of its length.
+
+
+def _length(segment: Segment) -> float:
+    path = segment.path
+    if isinstance(path, Arc):
+        radius = vectors.length(
+            vectors.across(vectors.minus(segment.start.position, path.centre), path.axis)
+        )
+        return math.hypot(radius * path.angle, path.rise)
+    return vectors.length(vectors.minus(segment.end.position, segment.start.position))
+
+
+def _direction(segment: Segment, share: float) -> Vector:
+    path = segment.path
+    if not isinstance(path, Arc):
+        assert isinstance(path, Straight)
+        return vectors.unit(path.by)
+    arm = vectors.minus(arcs.place_at(path, segment.start.position, share), path.centre)
+    round_ = vectors.times(path.angle, vectors.cross(path.axis, arm))
+    return vectors.unit(vectors.plus(round_, vectors.times(path.rise, path.axis)))
+
+
+def _pose(segment: Segment, share: float) -> Pose:
+    if share <= 0.0:
+        return segment.start
+    if share >= 1.0:
+        return segment.end
+    path, start = segment.path, segment.start
+    if isinstance(path, Arc):
+        position = arcs.place_at(path, start.position, share)
+    else:
+        assert isinstance(path, Straight)
+        position = vectors.plus(start.position, vectors.times(share, path.by))
+    return Pose(position, _orientation(segment, share, position))
+
+
+def _orientation(segment: Segment, share: float, position: Vector) -> Quaternion:
+    tool, start = segment.tool, segment.start.orientation
+    if isinstance(tool, LOOKING):
+        return tool_orientation.orientation_at(tool, position, segment.span)
+    if isinstance(tool, Turn):
+        return vectors.part_of_turn(start, segment.end.orientation, share)
+    if isinstance(tool, Follow) and isinstance(segment.path, Arc):
+        turn = vectors.turn_about(segment.path.axis, share * segment.path.angle)
+        return vectors.turn_product(turn, start)
+    return start
+
+
+def _part(segment: Segment, lower: float, upper: float) -> Segment:
+    """A segment from one share of its length to another."""
+    if (lower, upper) == (0.0, 1.0):
+        return segment
+    share, path = upper - lower, segment.path
+    if isinstance(path, Arc):
+        path = replace(path, angle=share * path.angle, rise=share * path.rise)
+    else:
+        assert isinstance(path, Straight)
+        path = Straight(vectors.times(share, path.by))
+    light = segment.light
+    if light is not None and not _of_run(segment):
+        light = replace(light, first=_shade(light, lower), last=_shade(light, upper))
+    start, end = _pose(segment, lower), _pose(segment, upper)
+    return replace(segment, path=path, light=light, start=start, end=end)
+
+
+def _shade(light: Light, share: float) -> Colour:
+    if light.first == light.last:
+        return light.first
+    return colours.mixed(light.first, light.last, share)
+
+
+def _of_run(segment: Segment) -> bool:
+    return segment.run is not None and segment.light == segment.run.light
+
+
+# The piece that goes round the corner.
+
+
+def _bend(a: Segment, leaves: float, b: Segment, joins: float) -> Segment:
+    """From a share of one segment's length to a share of the next one's."""
+    start, end = _pose(a, leaves), _pose(b, joins)
+    light = a.light
+    if light is not None and b.light is not None and not (_of_run(a) and _of_run(b)):
+        light = Light(_shade(light, leaves), _shade(b.light, joins), light.even)
+    path = _way(a, b, _direction(a, leaves), _direction(b, joins), start.position, end.position)
+    tool = _tool(a.tool, b.tool, start, end)
+    return replace(a, path=path, tool=tool, light=light, start=start, end=end)
+
+
+def _tool(a: Tool, b: Tool, start: Pose, end: Pose) -> Tool:
+    """A tool that looks goes on looking; another turns evenly from one stroke to the next."""
+    if a == b and isinstance(a, LOOKING):
+        return a
+    return tool_orientation.turning(start.orientation, end.orientation)[0]
+
+
+def _way(a: Segment, b: Segment, out: Vector, into: Vector, start: Vector, end: Vector) -> Path:
+    turn = vectors.angle_between(out, into)
+    chord = vectors.length(vectors.minus(end, start))
+    if isinstance(a.path, Straight) and isinstance(b.path, Straight):
+        axis = vectors.unit(vectors.cross(out, into))
+        radius = 0.5 * chord / math.sin(0.5 * turn)
+        return Arc(vectors.plus(start, vectors.times(radius, vectors.cross(axis, out))), axis, turn)
+    handle = chord / (3.0 * math.cos(0.25 * turn) ** 2)
+    near = vectors.plus(start, vectors.times(handle, out))
+    far = vectors.minus(end, vectors.times(handle, into))
+    return Curve(bezier(start, near, far, end), 0.0, 1.0)
+
+
+def bezier(*points: Vector) -> Formula:
+    """The cubic Bezier curve with these four control points, over 0 to 1."""
+    p0, p1, p2, p3 = points
+    c1 = vectors.times(3.0, vectors.minus(p1, p0))
+    c2 = vectors.times(3.0, vectors.plus(vectors.minus(p2, p1), vectors.minus(p0, p1)))
+    c3 = vectors.minus(vectors.minus(p3, p0), vectors.times(3.0, vectors.minus(p2, p1)))
+
+    def formula(t: Taylor) -> tuple[Taylor, Taylor, Taylor]:
+        x, y, z = (
+            d0 + t * (d1 + t * (d2 + t * d3)) for d0, d1, d2, d3 in zip(p0, c1, c2, c3, strict=True)
+        )
+        return x, y, z
+
+    return formula
+
+
+# Time: one law over what has been joined.
+
+
+def _as_run(
+    segments: Sequence[Segment], pieces: list[Segment], number: int, findings: Findings
+) -> list[Segment]:
+    """The pieces of segments that were joined, with the time of all of them."""
+    if len(segments) == 1 or segments[0].run is not None:
+        return pieces
+    law, timing = segments[0].law, _whole(segments)
+    other = next((s for s in segments if s.law != law), None)
+    if timing is None:
+        other = next((s for s in segments if s.timing != segments[0].timing), segments[-1])
+    if timing is None or other is not None:
+        assert other is not None
+        what = "times" if timing is None else "laws"
+        message = f"a rounded corner joins two strokes with different {what}"
+        cure = "say it once for both: stroke … end, or switch it off before: blend off"
+        findings.add(Diagnostic("E287", message, other.span, "", cure))
+        return pieces
+    run = Run(number, law, timing)
+    return [replace(piece, timing=timing, run=run) for piece in pieces]
+
+
+def _whole(segments: Sequence[Segment]) -> Timing | None:
+    """The time of segments in a row: their speed, or that of one statement's legs together."""
+    timings = [segment.timing for segment in segments]
+    if isinstance(timings[0], Cruise):
+        return timings[0] if all(timing == timings[0] for timing in timings) else None
+    if any(segment.span != segments[0].span for segment in segments):
+        return None
+    seconds = [timing.seconds for timing in timings if isinstance(timing, Lasting)]
+    if len(seconds) == len(timings):
+        return Lasting(math.fsum(seconds))
+    counts = [timing.count for timing in timings if isinstance(timing, Samples)]
+    return Samples(sum(counts)) if len(counts) == len(timings) else None

@@ -1,0 +1,326 @@
+"""Letters and drawings from elsewhere -> segments: `text`, `path` and `svg`.
+
+What is drawn without lifting the pen is one stroke, a `program.Chain`: it runs through its corners
+without a stop, and its light is even, so that nothing in it glows but what crosses.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from dqpaint.diagnostics.collector import EnoughError
+from dqpaint.diagnostics.diagnostic import Diagnostic, Fix, Problem, Span, problem
+from dqpaint.diagnostics.did_you_mean import closest
+from dqpaint.language.imports import lettering
+from dqpaint.language.pen import tool_orientation
+from dqpaint.language.pen.durations import shared, timing
+from dqpaint.language.pen.pen import FARTHEST, SAME_PLACE, Pen, here
+from dqpaint.language.pen.stroke_state import Towards
+from dqpaint.language.strokes.curves import GAP
+from dqpaint.language.syntax.tree import Name, Quoted, Statement
+from dqpaint.language.values import typed_values, vectors
+from dqpaint.language.values.scope import Scope
+from dqpaint.language.vocabulary.units import UNITS
+from dqpaint.program import colours, piecewise
+from dqpaint.program.program import (
+    LOOKING,
+    Chain,
+    Colour,
+    Follow,
+    Keep,
+    Light,
+    Pose,
+    Timing,
+    Vector,
+)
+from dqpaint.program.taylor import Floats
+
+MOST_PIECES = 2_000_000  # lines, curves and arcs, of all statements
+LOOKED_AT = 20_000  # places of a stroke, where a tool that looks is looked at
+
+
+class Trace(NamedTuple):
+    """What is drawn without lifting the pen, and its own colour, if it has one."""
+
+    chain: Chain
+    colour: Colour | None = None
+
+
+# The three statements.
+
+
+def text(statement: Statement, pen: Pen, scope: Scope) -> None:
+    """`text`: each given text is a line; `height` is that of a capital."""
+    nodes = [node for node in statement.values if isinstance(node, Quoted)]
+    lines = tuple(node.text for node in nodes)
+    font = _font(statement)
+    if sum(map(len, lines)) > lettering.LONGEST:
+        message = f"a text has at most {lettering.LONGEST:,} letters"
+        label = f"this has {sum(map(len, lines)):,}"
+        raise problem("E262", message, nodes[0].span, label, "write it in several statements")
+    for number, place in lettering.missing(lines, font):
+        raise _no_letter(nodes[number], place, font)
+    align = statement.value("align")
+    made = lettering.lay_out(lines, font.name, align.name if isinstance(align, Name) else "left")
+    if not made.strokes:
+        cure = "to wait, use: hold 1 s"
+        raise problem("E262", "this text has no letters", nodes[0].span, "", cure)
+    scale = _scale(statement, pen, scope, (made.width, font.cap))
+    at = statement.value("at")
+    shift = (
+        pen.pose.position if at is None else pen.frame.point(typed_values.place(at, scope, "at"))
+    )
+    if at is not None:
+        pen.lost = False
+    _draw(
+        statement, pen, scope, _drawn([(chain, None) for chain in made.strokes], pen, scale, shift)
+    )
+
+
+def path(statement: Statement, pen: Pen, scope: Scope) -> None:
+    """`path`: a line through the points of a file, at its own place or fitted."""
+    nodes = [node for node in statement.values if isinstance(node, Quoted)]
+    from dqpaint.language.imports import point_files
+
+    points = point_files.read(nodes, pen)
+    new = np.concatenate([[True], np.any(np.diff(points, axis=0) != 0.0, axis=1)])
+    points = points[new]
+    if len(points) < 2:
+        cure = "to wait, use: hold 1 s"
+        pen.warn("W401", "this path has no length", nodes[0].span, "", cure)
+        return
+    chain = piecewise.straight(points)
+    if statement.part("smooth"):
+        chain = piecewise.smooth(points)
+    unit = statement.value("unit")
+    if isinstance(unit, Name):
+        scale, origin = UNITS[unit.name][0], np.zeros(3)
+    else:
+        scale, origin = _fitted(statement, pen, scope, [chain])
+    shift = _place_of(statement, pen, scope, scale * origin)
+    (trace,) = _drawn([(chain, None)], pen, scale, shift)
+    start = piecewise.ends(trace.chain)[0]
+    gap = vectors.length(vectors.minus(start, pen.pose.position))
+    if pen.started and gap > GAP and not statement.part("at") and not pen.amid_run:
+        message = f"the path starts {1e3 * gap:.3g} mm away from where the tool is"
+        cure = "a light-off move is added; write a move to choose its speed"
+        pen.warn("W402", message, nodes[0].span, "", cure)
+    _draw(statement, pen, scope, [trace])
+
+
+def svg(statement: Statement, pen: Pen, scope: Scope) -> None:
+    """`svg`: a drawing's lines in its own colours, its middle at `at`."""
+    (node,) = statement.values
+    assert isinstance(node, Quoted)
+    from dqpaint.language.imports.svg import reader
+
+    drawing = reader.read(node, pen)
+    loose = [chain for chain, _ in drawing]
+    scale, origin = _fitted(statement, pen, scope, loose)
+    shift = _place_of(statement, pen, scope, scale * origin)
+    _draw(statement, pen, scope, _drawn(drawing, pen, scale, shift))
+
+
+# Where and how large.
+
+
+def _font(statement: Statement) -> lettering.Font:
+    node = statement.value("font")
+    if not isinstance(node, Quoted):
+        return lettering.read_font(lettering.PLAINEST)
+    known = lettering.font_names()
+    if node.text not in known:
+        meant = closest(node.text, known)
+        question = f'did you mean "{meant}"?' if meant else f"the fonts are: {', '.join(known)}"
+        fix = Fix(f'write "{meant}"', node.span, f'"{meant}"') if meant else None
+        cure = f"{question} (dqpaint list fonts shows all)" if meant else question
+        raise problem("E260", f'there is no font "{node.text}"', node.span, "", cure, fix)
+    return lettering.read_font(node.text)
+
+
+def _no_letter(node: Quoted, place: int, font: lettering.Font) -> Problem:
+    letter = node.text[place]
+    span = Span(node.span.start + 1 + place, node.span.start + 2 + place)
+    shown = f"'{letter}'" if letter.isprintable() else f"U+{ord(letter):04X}"
+    instead, others = lettering.replaced(node.text, font), lettering.fonts_with(letter)
+    cures = []
+    if instead.strip():
+        cures.append(f'use "{instead}"')
+    if others:
+        cures.append(f'font "{others[0]}" has it')
+    cure = ", or: ".join(cures) or "take it away; the fonts have the letters of ASCII, and Greek"
+    fix = Fix(f'write "{instead}"', node.span, f'"{instead}"') if instead.strip() else None
+    message = f'font "{font.name}" has no letter {shown}'
+    return problem("E261", message, span, "here", cure, fix)
+
+
+def _scale(statement: Statement, pen: Pen, scope: Scope, size: tuple[float, float]) -> float:
+    """The largest scale with which (width, height) is no wider and no higher than was said."""
+    scales = []
+    for word, extent in zip(("width", "height"), size, strict=True):
+        node = statement.value(word)
+        if node is None:
+            continue
+        wanted = typed_values.positive(node, scope, word)
+        if extent > 0.0:
+            scales.append(wanted / extent)
+        elif not statement.value("height" if word == "width" else "width"):
+            message = f"its {word} is 0, so it can't be scaled to {scope.written(node)}"
+            other = "height" if word == "width" else "width"
+            raise problem("E263", message, node.span, "", f"say its {other} instead")
+    return min(scales, default=1.0)
+
+
+def _fitted(
+    statement: Statement, pen: Pen, scope: Scope, loose: list[Chain]
+) -> tuple[float, Floats]:
+    """The scale of a drawing, and minus the middle of its box."""
+    least, most = piecewise.box(loose)
+    width, height, _ = (most - least).tolist()
+    return _scale(statement, pen, scope, (width, height)), -0.5 * (least + most)
+
+
+def _place_of(statement: Statement, pen: Pen, scope: Scope, origin: Floats) -> Vector:
+    """Where the file's own origin comes, in the drawing frame."""
+    at = statement.value("at")
+    x, y, z = typed_values.place(at, scope, "at") if at is not None else vectors.ZERO
+    pen.lost = False
+    a, b, c = origin.tolist()
+    return pen.frame.point((x + a, y + b, z + c))
+
+
+def _drawn(
+    lines: Sequence[tuple[Chain, Colour | None]], pen: Pen, scale: float, shift: Vector
+) -> list[Trace]:
+    """Lines in the drawing frame."""
+    columns = [pen.frame.vector(axis) for axis in ((1.0, 0.0, 0.0), vectors.Y, vectors.Z)]
+    whole, starts, _ = piecewise.together([chain for chain, _ in lines])
+    there = piecewise.mapped(whole, scale * np.array(columns).T, np.array(shift))
+    colours_of = (colour for _, colour in lines)
+    return list(map(Trace, piecewise.parted(there, starts), colours_of))
+
+
+# The strokes.
+
+
+def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> None:
+    """The strokes one after the other, and the dark ways between them.
+
+    Time and a gradient of the light are spread over all by their lengths: the time over the ways
+    between the strokes, too, but not over the way to the first.
+    """
+    pen.settings = replace(pen.settings, blend=0.0)  # corners are meant, and no stroke ends there
+    mode, span = pen.settings.tool, statement.span
+    if isinstance(mode, Follow):
+        message = f"the tool can't follow a '{statement.word}': it would jump at every corner"
+        part = statement.part("tool")
+        raise here("E254", message, part.value.span if part else span, "", "use: tool keep")
+    pen.pieces += sum(len(trace.chain.cubic) for trace in traces)
+    check_pieces(pen.pieces, pen, span)
+    if not piecewise.farthest([trace.chain for trace in traces]) <= FARTHEST:
+        raise here("E201", "this goes too far away", span)
+    ends = piecewise.all_ends([trace.chain for trace in traces]).tolist()
+    starts, stops = ([_vector(pair[side]) for pair in ends] for side in (0, 1))
+    if pen.run is not None and len(traces) > 1:
+        raise _pen_up(statement, len(traces))
+    _begin(pen, starts[0], span)
+    lengths = piecewise.lengths([trace.chain for trace in traces])
+    ways = [
+        vectors.length(vectors.minus(b, a))
+        for a, b in zip(stops, (*starts[1:], stops[-1]), strict=True)
+    ]
+    times = _times(timing(statement, pen.settings, scope), lengths, ways, span)
+    glows = _glows(statement, pen, traces, lengths)
+    for number, trace in enumerate(traces):
+        _travel(pen, starts[number], span, times[2 * number - 1] if number else None)
+        tool_orientation.begin(pen, mode, span)
+        if isinstance(mode, LOOKING):
+            tool_orientation.check_way(mode, _places(trace.chain), span)
+        tool, orientation = tool_orientation.at_end(pen, mode, stops[number], span, vectors.Z, 0.0)
+        end = Pose(stops[number], orientation)
+        pen.draw(trace.chain, tool, times[2 * number], glows[number], end, span)
+
+
+def check_pieces(pieces: int, pen: Pen, span: Span) -> None:
+    """Ends the work if so many pieces are too many."""
+    if pieces > MOST_PIECES:
+        message = f"more than {MOST_PIECES:,} pieces of lines from elsewhere in all"
+        cure = "draw it less often, or with fewer points"
+        pen.findings.add(Diagnostic("E299", message, span, "", cure))
+        raise EnoughError
+
+
+def _pen_up(statement: Statement, count: int) -> Problem:
+    """What lifts its pen can't be part of a `stroke`, which goes on without a stop."""
+    word = statement.word
+    message = f"this '{word}' lifts its pen between its {count} lines, and a 'stroke' does not stop"
+    span = Span(statement.span.start, statement.span.start + len(word))
+    cure = (
+        f"write it outside of the stroke: each of its lines runs through by itself; {word} … in 5 s"
+    )
+    return problem("E283", message, span, "", cure)
+
+
+def _begin(pen: Pen, start: Vector, span: Span) -> None:
+    """If nothing was said yet about where the drawing starts: it starts here."""
+    if pen.started:
+        return
+    pen.started, pen.moved = True, span
+    pen.start_at(start, tool_orientation.told(pen.settings.tool, start, span))
+
+
+def _times(whole: Timing, lengths: list[float], ways: list[float], span: Span) -> list[Timing]:
+    """The time of each stroke and of the way after it, in turn."""
+    both = [size for pair in zip(lengths, ways, strict=True) for size in pair]
+    there = [i for i, size in enumerate(both) if size > SAME_PLACE]
+    given = iter(shared(whole, [both[i] for i in there], span))
+    return [next(given) if size > SAME_PLACE else whole for size in both]
+
+
+def _glows(
+    statement: Statement, pen: Pen, traces: list[Trace], lengths: list[float]
+) -> list[Light | None]:
+    """The light of each stroke: the clause's, else its own colour, else the one that holds."""
+    light = pen.settings.light
+    done = np.concatenate([[0.0], np.cumsum(lengths)]) / sum(lengths)
+    out: list[Light | None] = []
+    for number, trace in enumerate(traces):
+        if trace.colour is not None and statement.part("light") is None:
+            out.append(Light(trace.colour, trace.colour, even=True))
+        elif light is None:
+            out.append(None)
+        else:
+            first, last = (
+                colours.mixed(light.first, light.last, float(done[number + i])) for i in (0, 1)
+            )
+            out.append(Light(first, last, even=True))
+    return out
+
+
+def _travel(pen: Pen, to: Vector, span: Span, time: Timing | None) -> None:
+    """The dark way to a stroke; a tool that is to be turned turns on it, and looks if it looks."""
+    mode = pen.settings.tool
+    far = vectors.length(vectors.minus(to, pen.pose.position)) > SAME_PLACE
+    wanted = mode.orientation if isinstance(mode, Towards) else pen.pose.orientation
+    tool, orientation = tool_orientation.turning(pen.pose.orientation, wanted)
+    if far and not isinstance(mode, Keep | Towards):
+        tool_orientation.begin(pen, mode, span)
+        tool, orientation = tool_orientation.at_end(pen, mode, to, span, vectors.Z, 0.0)
+    if far or not isinstance(tool, Keep):
+        pen.check_no_stop(span)
+        pen.travel(to, span, tool, orientation, time)
+
+
+def _vector(numbers: list[float]) -> Vector:
+    x, y, z = numbers
+    return x, y, z
+
+
+def _places(chain: Chain) -> list[Vector]:
+    """Places all along a chain."""
+    count = len(chain.cubic)
+    whole = np.linspace(0.0, count, min(16 * count, LOOKED_AT), endpoint=False)
+    at = piecewise.derivatives(chain, whole.astype(np.intp), whole % 1.0)[0]
+    return [(x, y, z) for x, y, z in at.tolist()]

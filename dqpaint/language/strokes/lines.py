@@ -1,0 +1,170 @@
+"""Lines and moves -> segments: one for each leg, and a turn on the spot where there is no way."""
+
+from dqpaint.diagnostics.diagnostic import Span
+from dqpaint.language.pen import tool_orientation
+from dqpaint.language.pen.durations import shared, timing
+from dqpaint.language.pen.pen import SAME_PLACE, Pen
+from dqpaint.language.pen.stroke_state import Towards
+from dqpaint.language.syntax.tree import Statement
+from dqpaint.language.values import typed_values, vectors
+from dqpaint.language.values.scope import Scope
+from dqpaint.program import colours
+from dqpaint.program.program import (
+    LOOKING,
+    Follow,
+    Keep,
+    Light,
+    Look,
+    LookLine,
+    Pose,
+    Quaternion,
+    Straight,
+    Timing,
+    Tool,
+    Vector,
+)
+
+
+def sets_start(statement: Statement, pen: Pen) -> bool:
+    """Whether a movement that names its own first point is the first to say where the tool is."""
+    return statement.word in ("move", "text", "path", "svg") and not (pen.started or pen.placed)
+
+
+def _stops(statement: Statement, pen: Pen, scope: Scope) -> list[tuple[Vector, Span]]:
+    """The points of a line, and where each is written."""
+    at, stops = pen.pose.position, []
+    for part in statement.parts:
+        if part.word in ("to", "by"):
+            given = typed_values.place(part.expression, scope, part.word)
+            if part.word == "to":
+                at, pen.lost = pen.frame.point(given), False
+            else:
+                at = vectors.plus(at, pen.frame.vector(given))
+            stops.append((at, part.value.span))
+    return stops
+
+
+def move(statement: Statement, pen: Pen, scope: Scope) -> None:
+    """`move`: a line in the dark; the first one says where the drawing starts."""
+    if not sets_start(statement, pen):
+        _legs(statement, _stops(statement, pen, scope), pen, scope, light=None)
+        return
+    pen.started, pen.moved = True, statement.span
+    (first, span), *rest = _stops(statement, pen, scope)
+    mode = pen.settings.tool
+    pen.start_at(first, tool_orientation.told(mode, first, span))
+    if rest:
+        _legs(statement, rest, pen, scope, light=None)
+        return
+    timing(statement, pen.settings, scope)
+    for part in statement.parts:
+        if part.word not in ("to", "by", "tool"):
+            message = (
+                f"the first 'move' only says where the drawing starts; '{part.word}' does nothing"
+            )
+            pen.warn("W405", message, part.span, "", "take it away")
+            break
+
+
+def line(statement: Statement, pen: Pen, scope: Scope) -> None:
+    """`line`: one stroke, or several."""
+    _legs(statement, _stops(statement, pen, scope), pen, scope, pen.settings.light)
+
+
+def _legs(
+    statement: Statement,
+    stops: list[tuple[Vector, Span]],
+    pen: Pen,
+    scope: Scope,
+    light: Light | None,
+) -> None:
+    """One segment for each leg; turn, light and time are spread over all by their lengths."""
+    legs, at = [], pen.pose.position
+    for stop, span in stops:
+        size = vectors.length(vectors.minus(stop, at))
+        if size > SAME_PLACE:
+            legs.append((stop, size))
+            at = stop
+        elif len(stops) > 1:
+            _no_length(statement.word, span, pen)
+    whole = timing(statement, pen.settings, scope)
+    if not legs:
+        _on_the_spot(statement, stops[0][1], pen, whole, light)
+        return
+    mode = pen.settings.tool
+    sizes = [size for _, size in legs]
+    times = shared(whole, sizes, statement.span)
+    for (stop, _), leg_time, (first, last) in zip(legs, times, _shares(sizes), strict=True):
+        tool_orientation.begin(pen, mode, statement.span)
+        start = pen.pose.position
+        tool, orientation = _tool_of_leg(pen, stop, statement.span, first, last)
+        way = vectors.minus(stop, start)
+        if isinstance(mode, LOOKING):
+            places = (_nearest(mode, start, way), *tool_orientation.most_leaning(mode, start, way))
+            tool_orientation.check_way(mode, places, statement.span)
+        glow = light
+        if light is not None and light.first != light.last and not _of_run(pen, light):
+            glow = Light(
+                colours.mixed(light.first, light.last, first),
+                colours.mixed(light.first, light.last, last),
+                light.even,
+            )
+        pen.draw(Straight(way), tool, leg_time, glow, Pose(stop, orientation), statement.span)
+
+
+def _of_run(pen: Pen, light: Light) -> bool:
+    """Whether a gradient goes over a whole `stroke`."""
+    return pen.run is not None and light is pen.run.light
+
+
+def _shares(sizes: list[float]) -> list[tuple[float, float]]:
+    """Where each leg begins and ends, as shares of the total; the last ends at 1 exactly."""
+    if len(sizes) == 1:
+        return [(0.0, 1.0)]
+    total, ends = sum(sizes), [0.0]
+    for size in sizes[:-1]:
+        ends.append(ends[-1] + size / total)
+    return list(zip(ends, [*ends[1:], 1.0], strict=True))
+
+
+def _tool_of_leg(
+    pen: Pen, stop: Vector, span: Span, first: float, last: float
+) -> tuple[Tool, Quaternion]:
+    """The turn of a leg that runs from one share of the whole way to another."""
+    mode, now = pen.settings.tool, pen.pose.orientation
+    if isinstance(mode, Follow):
+        return Keep(), now
+    if isinstance(mode, Towards) and last < 1.0:
+        share = (last - first) / (1.0 - first)  # of what is left to turn
+        return tool_orientation.turning(now, vectors.part_of_turn(now, mode.orientation, share))
+    return tool_orientation.at_end(pen, mode, stop, span, vectors.Z, 0.0)
+
+
+def _nearest(mode: Look | LookLine, start: Vector, way: Vector) -> Vector:
+    """The place on a straight way that is nearest to what the tool looks at."""
+    to, along = vectors.minus(mode.point, start), way
+    if isinstance(mode, LookLine):
+        to, along = vectors.across(to, mode.along), vectors.across(way, mode.along)
+    size = vectors.dot(along, along)
+    share = min(1.0, max(0.0, vectors.dot(to, along) / size)) if size > 0.0 else 0.0
+    return vectors.plus(start, vectors.times(share, way))
+
+
+def _on_the_spot(
+    statement: Statement, span: Span, pen: Pen, whole: Timing, light: Light | None
+) -> None:
+    """A line that goes nowhere: a turn, if its tool asks for one."""
+    mode, now = pen.settings.tool, pen.pose.orientation
+    wanted = tool_orientation.told(mode, pen.pose.position, span)
+    tool, orientation = tool_orientation.turning(now, wanted if wanted is not None else now)
+    if isinstance(tool, Keep):
+        _no_length(statement.word, span, pen)
+        return
+    end = Pose(pen.pose.position, orientation)
+    pen.draw(Straight(vectors.ZERO), tool, whole, light, end, statement.span)
+
+
+def _no_length(word: str, span: Span, pen: Pen) -> None:
+    if word == "line":  # a `move` to where one is harms nobody, as in a loop
+        message = "this line has no length"
+        pen.warn("W401", message, span, "already here", "to wait, use: hold 1 s")

@@ -1,0 +1,255 @@
+"""Movements -> segments: each function knows one statement."""
+
+from dqpaint.core.records import replaced
+from dqpaint.diagnostics.diagnostic import problem
+from dqpaint.language.pen import tool_orientation
+from dqpaint.language.pen.durations import timing
+from dqpaint.language.pen.pen import SAME_PLACE, SAME_TURN, Pen
+from dqpaint.language.pen.stroke_state import Settings, changed, light_of, standing
+from dqpaint.language.strokes import arcs, curves, imported_strokes, lines
+from dqpaint.language.syntax.tree import Expression, LightWords, Statement
+from dqpaint.language.values import typed_values, vectors
+from dqpaint.language.values.scope import Scope
+from dqpaint.language.vocabulary.words import SETTINGS
+from dqpaint.program.program import (
+    LOOKING,
+    Arc,
+    Follow,
+    Keep,
+    Lasting,
+    Light,
+    Pose,
+    Samples,
+    Screw,
+    ScrewTo,
+    Step,
+    Still,
+    Turn,
+    Vector,
+)
+
+
+def draw(statement: Statement, pen: Pen, scope: Scope) -> None:
+    """Adds what a movement draws; its clauses hold for it alone."""
+    outside = pen.settings
+    if pen.run is not None:
+        for part in statement.parts:
+            pen.check_pace(part)
+    if not lines.sets_start(statement, pen):
+        pen.begin(statement.span)
+    try:
+        pen.settings = _with_clauses(statement, outside, pen, scope)
+        _DRAW[statement.word](statement, pen, scope)
+    finally:
+        # What shone last is remembered, so that `light on` finds it.
+        shone = pen.settings.shone
+        pen.settings = outside if shone is outside.shone else replaced(outside, shone=shone)
+
+
+def _with_clauses(statement: Statement, settings: Settings, pen: Pen, scope: Scope) -> Settings:
+    for part in statement.parts:
+        if part.word in SETTINGS and not _own_light(statement, part.word):
+            settings = changed(settings, part, scope, pen.frame)
+    return settings
+
+
+def _own_light(statement: Statement, word: str) -> bool:
+    return word == "light" and statement.word in ("hold", "step")
+
+
+def _place(node: Expression, pen: Pen, scope: Scope, word: str) -> Vector:
+    return pen.frame.point(typed_values.place(node, scope, word))
+
+
+# Round.
+
+
+def _arc(statement: Statement, pen: Pen, scope: Scope) -> None:
+    start = pen.pose.position
+    if statement.part("via") is not None:
+        via, to = statement.given("via"), statement.given("to")
+        through, end = _place(via, pen, scope, "via"), _place(to, pen, scope, "to")
+        if pen.lost:
+            pen.pose, pen.lost = Pose(end, pen.pose.orientation), False
+            return
+        arc = arcs.through(start, through, end, via.span, to.span)
+    elif statement.part("radius") is not None:
+        to = statement.given("to")
+        end = _place(to, pen, scope, "to")
+        radius = pen.frame.scale * typed_values.positive(statement.given("radius"), scope, "radius")
+        axis = _axis(statement, pen, scope)
+        if pen.lost:
+            pen.pose, pen.lost = Pose(end, pen.pose.orientation), False
+            return
+        side = 1.0 if statement.part("left") else -1.0
+        long, spans = statement.part("long") is not None, (statement.given("radius").span, to.span)
+        arc = arcs.of_radius(start, end, radius, vectors.times(side, axis), long, *spans)
+    else:
+        arc = _turn_about_centre(statement, pen, scope)
+        end = arcs.end_of(arc, start)
+    _draw_arc(statement, pen, scope, arc, end)
+
+
+def _turn_about_centre(statement: Statement, pen: Pen, scope: Scope) -> Arc:
+    node = statement.value("centre") or statement.given("center")
+    frame = pen.frame
+    centre = _place(node, pen, scope, "centre")
+    axis = _axis(statement, pen, scope)
+    angle_node = statement.given("angle")
+    angle = typed_values.number(angle_node, scope, "angle")
+    if angle == 0.0:
+        message = "an arc of 0 deg goes nowhere"
+        raise problem(
+            "E244", message, angle_node.span, "", "for a full circle write: angle 360 deg"
+        )
+    rise, grow = (
+        frame.scale * typed_values.number(part, scope, word) if part else 0.0
+        for word in ("rise", "grow")
+        for part in (statement.value(word),)
+    )
+    arc = Arc(centre, axis, angle, rise, grow)
+    if not pen.lost:
+        grow_node = statement.value("grow")
+        arcs.check(arc, pen.pose.position, node.span, grow_node.span if grow_node else node.span)
+    return arc
+
+
+def _axis(statement: Statement, pen: Pen, scope: Scope) -> Vector:
+    """What an arc turns about, in the drawing frame."""
+    node = statement.value("axis")
+    return pen.frame.direction(typed_values.direction(node, scope, "axis") if node else vectors.Z)
+
+
+def _draw_arc(statement: Statement, pen: Pen, scope: Scope, arc: Arc, end: Vector) -> None:
+    mode, span = pen.settings.tool, statement.span
+    tool_orientation.begin(pen, mode, span)
+    if isinstance(mode, LOOKING) and not pen.lost:
+        tool_orientation.check_way(mode, arcs.places(arc, pen.pose.position), span)
+    tool, orientation = tool_orientation.at_end(pen, mode, end, span, arc.axis, arc.angle)
+    whole = timing(statement, pen.settings, scope)
+    pen.draw(arc, tool, whole, pen.settings.light, Pose(end, orientation), span)
+
+
+def _screw(statement: Statement, pen: Pen, scope: Scope) -> None:
+    if statement.part("to") is not None:
+        _screw_to(statement, pen, scope)
+        return
+    frame = pen.frame
+    point = _place(statement.given("about"), pen, scope, "about")
+    axis = frame.direction(typed_values.direction(statement.given("along"), scope, "along"))
+    angle_node, pitch = statement.given("angle"), statement.value("pitch")
+    angle = typed_values.number(angle_node, scope, "angle")
+    if angle == 0.0:
+        message = "a screw of 0 deg goes nowhere"
+        raise problem("E244", message, angle_node.span, "", "to go straight, use: line by")
+    advance = frame.scale * typed_values.number(pitch, scope, "pitch") * angle if pitch else 0.0
+    mode = pen.settings.tool
+    if isinstance(mode, LOOKING) and not pen.oriented:
+        tool_orientation.begin(pen, mode, statement.span)
+    end = vectors.carried(pen.pose, point, axis, angle, advance)
+    whole = timing(statement, pen.settings, scope)
+    path = Screw(point, axis, angle, advance)
+    pen.draw(path, Follow(axis), whole, pen.settings.light, end, statement.span)
+
+
+def _screw_to(statement: Statement, pen: Pen, scope: Scope) -> None:
+    node = statement.given("to")
+    end = _place(node, pen, scope, "to")
+    pen.lost = False
+    orientation = tool_orientation.told(pen.settings.tool, end, statement.span)
+    if orientation is None:
+        message = "'screw to' needs to know how the tool is held at the end"
+        cure = "add: tool rpy(0 deg, 0 deg, 90 deg); to keep the tool as it is, use: line to"
+        raise problem("E255", message, node.span, "", cure)
+    way = vectors.length(vectors.minus(end, pen.pose.position))
+    if way <= SAME_PLACE and vectors.turn_between(pen.pose.orientation, orientation) <= SAME_TURN:
+        pen.warn(
+            "W401", "this screw has no length", node.span, "already here", "to wait, use: hold 1 s"
+        )
+        return
+    whole = timing(statement, pen.settings, scope)
+    light, span = pen.settings.light, statement.span
+    pen.draw(ScrewTo(), Follow(), whole, light, Pose(end, orientation), span)
+
+
+# Formulas.
+
+
+def _curve(statement: Statement, pen: Pen, scope: Scope) -> None:
+    curve, places = curves.curve(statement, pen.frame, scope, pen)
+    span, start, end = statement.values[0].span, places[0], places[-1]
+    gap = vectors.length(vectors.minus(start, pen.pose.position))
+    if all(vectors.length(vectors.minus(p, start)) <= SAME_PLACE for p in places):
+        pen.warn("W401", "this curve has no length", span, "", "to wait, use: hold 1 s")
+        return
+    if pen.lost:
+        pen.pose, pen.lost = Pose(start, pen.pose.orientation), False
+    elif gap > curves.GAP:
+        pen.check_no_stop(statement.span)
+        message = f"the curve starts {_millimetres(gap)} away from where the tool is"
+        cure = "a light-off move is added; write a move to choose its speed"
+        pen.warn("W402", message, span, "", cure)
+        pen.travel(start, statement.span)
+    mode, turn = pen.settings.tool, 0.0
+    axis = pen.frame.direction(vectors.Z)
+    tool_orientation.begin(pen, mode, statement.span)
+    if isinstance(mode, LOOKING):
+        tool_orientation.check_way(mode, places, statement.span)
+    if isinstance(mode, Follow):
+        turn = curves.heading_change(curve, axis, span)
+    tool, orientation = tool_orientation.at_end(pen, mode, end, statement.span, axis, turn)
+    whole = timing(statement, pen.settings, scope)
+    pen.draw(curve, tool, whole, pen.settings.light, Pose(end, orientation), statement.span)
+
+
+def _millimetres(size: float) -> str:
+    return f"{1e3 * size:.3g} mm" if size < 1e3 else f"{size:.3g} m"
+
+
+# At one place.
+
+
+def _step(statement: Statement, pen: Pen, scope: Scope) -> None:
+    to = statement.given("to")
+    end = _place(to, pen, scope, "to")
+    pen.lost = False
+    wanted = tool_orientation.told(pen.settings.tool, end, statement.span)
+    now = pen.pose.orientation
+    tool, orientation = tool_orientation.turning(now, wanted if wanted is not None else now)
+    way = vectors.length(vectors.minus(end, pen.pose.position))
+    if way <= SAME_PLACE and not isinstance(tool, Turn):
+        pen.warn(
+            "W401", "this step goes nowhere", to.span, "already here", "to wait, use: hold 1 s"
+        )
+        return
+    light = _standing_light(statement, pen, scope)
+    pen.draw(Step(), tool, Samples(1), light, Pose(end, orientation), statement.span)
+
+
+def _hold(statement: Statement, pen: Pen, scope: Scope) -> None:
+    seconds = typed_values.positive(statement.values[0], scope, "hold")
+    light = _standing_light(statement, pen, scope)
+    pen.draw(Still(), Keep(), Lasting(seconds), light, pen.pose, statement.span)
+
+
+def _standing_light(statement: Statement, pen: Pen, scope: Scope) -> Light | None:
+    """A pause's own light may change over its time; another's gradient ended before it."""
+    part = statement.part("light")
+    if part is None:
+        return standing(pen.settings.light)
+    assert isinstance(part.value, LightWords)
+    return light_of(part.value, pen.settings, scope)
+
+
+_DRAW = {
+    "line": lines.line,
+    "move": lines.move,
+    "arc": _arc,
+    "screw": _screw,
+    "curve": _curve,
+    "step": _step,
+    "hold": _hold,
+    "text": imported_strokes.text,
+    "path": imported_strokes.path,
+    "svg": imported_strokes.svg,
+}

@@ -1,0 +1,183 @@
+"""The little grammars of their own: what stands after tool, light, brush, strobe and blend."""
+
+import re
+from collections.abc import Callable
+
+from dqpaint.diagnostics.diagnostic import Fix, Problem, Span, problem
+from dqpaint.language.syntax.cursor import Cursor, found, no_value
+from dqpaint.language.syntax.expressions import expression
+from dqpaint.language.syntax.tree import (
+    BlendWords,
+    BrushWords,
+    Expression,
+    LightWords,
+    Shade,
+    StrobeWords,
+    ToolWords,
+    Words,
+)
+from dqpaint.language.vocabulary.words import PARTS, RESERVED
+
+# A colour that has become a comment for want of quotes.
+_COMMENTED_COLOUR = re.compile(r"[^\S\n]*(#[0-9a-fA-F]{3,8})\b")
+
+
+def _value(cursor: Cursor, after: str) -> Expression:
+    if cursor.at_end or cursor.is_sign("="):
+        part = PARTS.get("tool" if after.startswith("look") else after)
+        raise no_value(cursor, after, part.example if part else "")
+    return expression(cursor, after)
+
+
+def _along(cursor: Cursor, example: str) -> None:
+    if not cursor.is_word("along"):
+        span = cursor.token.span if not cursor.at_end else cursor.before.span
+        message = f"expected 'along' but found {found(cursor.token)}"
+        raise problem("E116", message, span, "", f"write: {example}")
+    cursor.take()
+
+
+def _percent(cursor: Cursor, what: str, example: str) -> float:
+    """A number and its %, as a part of 1."""
+    share = float(cursor.take().text) / 100.0
+    if not cursor.is_sign("%"):
+        message = f"expected '%' after {what} but found {found(cursor.token)}"
+        raise problem("E109", message, cursor.before.span, "", f"for example: {example}")
+    cursor.take()
+    return share
+
+
+def _tool(cursor: Cursor) -> ToolWords:
+    start = cursor.token.start
+    values: tuple[Expression, ...] = ()
+    if cursor.is_word("keep") or cursor.is_word("follow"):
+        mode = cursor.take().text
+    elif cursor.is_word("look"):
+        cursor.take()
+        if cursor.is_word("line"):
+            cursor.take()
+            mode = "look line"
+            point = _value(cursor, "look line")
+            _along(cursor, "tool look line POINT along DIRECTION")
+            values = (point, _value(cursor, "along"))
+        else:
+            mode = "look"
+            values = (_value(cursor, "look"),)
+            if cursor.is_word("up"):
+                cursor.take()
+                values = (*values, _value(cursor, "up"))
+    else:
+        mode = "turn"
+        values = (_value(cursor, "tool"),)
+    return ToolWords(mode, values, cursor.span_from(start))
+
+
+def _light(cursor: Cursor) -> LightWords:
+    start = cursor.token.start
+    first = _shade(cursor)
+    last = None
+    if cursor.is_word("to"):
+        cursor.take()
+        last = _shade(cursor, "light … to")
+    even = cursor.is_word("even")
+    if even:
+        cursor.take()
+    return LightWords(first, last, cursor.span_from(start), even)
+
+
+def _shade(cursor: Cursor, after: str = "light") -> Shade:
+    start, word, value = cursor.token.start, "", None
+    percent = cursor.peek().kind == "sign" and cursor.peek().text == "%"
+    if cursor.is_word("on") or cursor.is_word("off"):
+        word = cursor.take().text
+    elif cursor.at_end or cursor.is_word("even") or (cursor.token.kind == "number" and percent):
+        raise _no_colour(cursor)
+    else:
+        value = expression(cursor, after)
+    brightness = 1.0
+    if cursor.token.kind == "number":
+        at = cursor.token.start
+        brightness = _percent(cursor, "the brightness", "light red 40%")
+        if brightness > 1.0:
+            span = cursor.span_from(at)
+            message = "the brightness goes from 0% to 100%"
+            raise problem("E217", message, span, "", "for a brighter picture expose it longer")
+    return Shade(word, value, brightness, cursor.span_from(start))
+
+
+def _no_colour(cursor: Cursor) -> Problem:
+    """E108. A comment swallowed `#ff8800`, or the brightness stands without its colour."""
+    cure = 'for example: light red, light hsv(30 deg), light "#ff8800", light off'
+    span, fix = cursor.before.span, None
+    if cursor.is_word("even"):
+        span, cure = cursor.token.span, "the colour comes before it: light white even"
+        fix = Fix("write white even", span, "white even")
+    elif cursor.token.kind == "number":
+        cure = f"the brightness follows the colour: light white {cursor.token.text}%"
+        span = cursor.token.span
+    elif comment := _COMMENTED_COLOUR.match(cursor.text, span.end):
+        cure = f'a # starts a comment; put the colour in quotes: light "{comment[1]}"'
+        fix = Fix("put the colour in quotes", Span(*comment.span(1)), f'"{comment[1]}"')
+    return problem("E108", "'light' needs a colour", span, "", cure, fix)
+
+
+def _brush(cursor: Cursor) -> BrushWords:
+    token = cursor.take()
+    along = None
+    if token.text == "point" and token.kind == "name":
+        size = None if _ends_here(cursor) else _value(cursor, "brush point")
+    elif token.text == "bar" and token.kind == "name":
+        if _ends_here(cursor):
+            message, cure = "'brush bar' needs its length", f"for example: {_EXAMPLE}"
+            raise problem("E105", message, token.span, "nothing follows", cure)
+        size = _value(cursor, "brush bar")
+        if cursor.is_word("along"):
+            cursor.take()
+            along = _value(cursor, "along")
+    else:
+        message = f"expected a kind of brush but found {found(token)}"
+        cure = f"write: brush point, or {_EXAMPLE}"
+        span = token.span if token.kind != "end" else cursor.before.span
+        raise problem("E109", message, span, "", cure)
+    return BrushWords(token.text, size, along, cursor.span_from(token.start))
+
+
+_EXAMPLE = PARTS["brush"].example
+
+
+def _ends_here(cursor: Cursor) -> bool:
+    """Whether the line ends, or another part begins."""
+    return cursor.at_end or (cursor.token.kind == "name" and cursor.token.text in RESERVED)
+
+
+def _strobe(cursor: Cursor) -> StrobeWords:
+    start = cursor.token.start
+    if cursor.is_word("off"):
+        return StrobeWords(None, 1.0, cursor.take().span)
+    frequency, duty = _value(cursor, "strobe"), 0.5
+    if cursor.token.kind == "number":
+        at = cursor.token.start
+        duty = _percent(cursor, "the part of the time", PARTS["strobe"].example)
+        if not 0.0 < duty <= 1.0:
+            message = "a strobe shines for more than 0% and at most 100% of the time"
+            cure = "to turn the light off, write: light off"
+            if duty > 0.0:
+                cure = f"for a steady light write: strobe off; else {PARTS['strobe'].example}"
+            raise problem("E217", message, cursor.span_from(at), "", cure)
+    return StrobeWords(frequency, duty, cursor.span_from(start))
+
+
+def _blend(cursor: Cursor) -> BlendWords:
+    start = cursor.token.start
+    if cursor.is_word("off"):
+        return BlendWords(None, cursor.take().span)
+    return BlendWords(_value(cursor, "blend"), cursor.span_from(start))
+
+
+READERS: dict[str, Callable[[Cursor], Words]] = {
+    "tool": _tool,
+    "light": _light,
+    "brush": _brush,
+    "strobe": _strobe,
+    "blend": _blend,
+}

@@ -1,0 +1,99 @@
+"""A reading head over the tokens of one line."""
+
+from dqpaint.diagnostics.diagnostic import Problem, Span, problem
+from dqpaint.language.syntax.lexer import Token
+from dqpaint.language.vocabulary.words import RESERVED, STATEMENTS
+
+
+class Cursor:
+    """The tokens of a line, and how far they are read."""
+
+    __slots__ = ("_at", "_tokens", "depth", "text", "token")
+
+    def __init__(self, tokens: list[Token], text: str) -> None:
+        self.text = text  # of the whole file
+        self._tokens = tokens
+        self._at = 0
+        self.token = tokens[0]  # the next one to be read
+        self.depth = 0  # of brackets within each other
+
+    def take(self) -> Token:
+        """Reads a token."""
+        token = self.token
+        if token.kind != "end":
+            self._at += 1
+            self.token = self._tokens[self._at]
+        return token
+
+    def peek(self) -> Token:
+        """The token after the next."""
+        return self._tokens[min(self._at + 1, len(self._tokens) - 1)]
+
+    @property
+    def before(self) -> Token:
+        """The token that was read last."""
+        return self._tokens[self._at - 1 if self._at else 0]
+
+    def before_is(self, back: int, word: str) -> bool:
+        """Whether this word was read so many tokens ago."""
+        return self._at >= back and self._tokens[self._at - back].text == word
+
+    def is_word(self, word: str) -> bool:
+        """Whether the next token is this word."""
+        return self.token.kind == "name" and self.token.text == word
+
+    def is_sign(self, sign: str) -> bool:
+        """Whether the next token is this sign."""
+        return self.token.kind == "sign" and self.token.text == sign
+
+    @property
+    def at_end(self) -> bool:
+        """Whether the line is read."""
+        return self.token.kind == "end"
+
+    def span_from(self, start: int) -> Span:
+        """From an offset to the end of what was read last."""
+        end = self._tokens[self._at - 1 if self._at else 0].end
+        return Span(start, end if end > start else start)
+
+
+def found(token: Token) -> str:
+    """A token as a message names it: never by its kind alone."""
+    if token.kind == "end":
+        return "the end of the line"
+    if token.kind == "number":
+        return f"the number {token.text.rstrip('.')}"
+    if token.kind == "text":
+        return f'the text "{token.text}"'
+    return f"'{token.text}'"
+
+
+def no_value(cursor: Cursor, after: str, example: str = "") -> Problem:
+    """There is no value where one must be: E105."""
+    token = cursor.token
+    cure = f"for example: {example}" if example else ""
+    if token.kind == "name" and token.text in RESERVED:
+        cure = f"'{token.text}' is a word of the language; it can't be used as a name"
+    elif token.text == "=" and token.kind == "sign":
+        cure = f"only 'let' has a '='; {cure}" if cure else "only 'let' has a '='"
+    elif token.text == after == "*":
+        cure = "a power is written with ^, as in t^2"
+    elif after == "/" and token.text in ("/", "*"):
+        cure = "a comment begins with #"
+    elif token.kind == "sign" and token.text in "),":
+        cure = "a comma stands between two numbers, as in (10, 20) mm"
+    elif token.kind == "text" or (token.kind == "sign" and token.text not in ")%,"):
+        cure = "write a number, a name or a point in brackets"
+    return problem(
+        "E105",
+        f"expected a value after '{after}' but found {found(token)}",
+        token.span if token.kind != "end" else cursor.before.span,
+        "nothing follows" if token.kind == "end" else "",
+        cure,
+    )
+
+
+def example_of(word: str) -> str:
+    """A whole line that begins with this word."""
+    statement = STATEMENTS.get(word)
+    return statement.example if statement else ""

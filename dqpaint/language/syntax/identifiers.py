@@ -1,0 +1,56 @@
+"""What may be a name, and what a word already means."""
+
+from dqpaint.diagnostics.diagnostic import Problem, problem
+from dqpaint.language.syntax.cursor import Cursor, found
+from dqpaint.language.syntax.lexer import Token
+from dqpaint.language.syntax.tree import Word
+from dqpaint.language.vocabulary.units import UNITS
+from dqpaint.language.vocabulary.words import CONSTANTS, FUNCTIONS, LAWS, RESERVED
+from dqpaint.program import colours
+
+
+def meaning(word: str) -> str:
+    """What a word means in the language already: `the unit metre`; empty if it is free."""
+    if word in UNITS:
+        return f"the unit {UNITS[word][2]}"
+    if word in RESERVED:
+        return "a word of the language"
+    if word in FUNCTIONS:
+        return "a function"
+    if word in LAWS:
+        return "a time law"
+    if word in CONSTANTS:
+        return "a number" if word == "pi" else f"the direction of the {word} axis"
+    return "a colour" if word in colours.NAMES else ""
+
+
+def new_name(cursor: Cursor, after: str, example: str, handed: bool = False) -> Word:
+    """Reads a name that is about to get a meaning.
+
+    What a function is `handed` may be called x, y or z.
+    """
+    token = cursor.token
+    if token.kind != "name" or token.text == "°":
+        raise problem(
+            "E109",
+            f"expected a name after '{after}' but found {found(token)}",
+            token.span if token.kind != "end" else cursor.before.span,
+            "",
+            f"for example: {example}",
+        )
+    taken = meaning(token.text)
+    if taken and not (handed and token.text in ("x", "y", "z")):
+        raise taken_name(token, taken)
+    cursor.take()
+    return Word(token.text, token.span)
+
+
+def taken_name(token: Token, taken: str) -> Problem:
+    """A word that has a meaning already: E114."""
+    return problem(
+        "E114",
+        f"'{token.text}' can't be used as a name",
+        token.span,
+        f"'{token.text}' is {taken}",
+        f"choose another name, for example '{token.text}1'",
+    )

@@ -1,0 +1,260 @@
+"""Which parts go together in a statement: the two forms of an arc, of a screw, one time only."""
+
+import re
+
+from dqpaint.diagnostics.diagnostic import Fix, Problem, Span, place, problem
+from dqpaint.language.syntax import trailing_tokens
+from dqpaint.language.syntax.cursor import Cursor
+from dqpaint.language.syntax.lexer import Token
+from dqpaint.language.syntax.tree import Part, Statement
+from dqpaint.language.vocabulary.words import STATEMENTS, TIMES
+
+_FORM_OF_CENTRE = ("axis", "angle", "rise", "grow")
+_QUESTION = re.compile(r"did you mean '(\w+)'\?")
+_FORM_OF_RADIUS = ("radius", "left", "right", "long")
+_FORM_OF_ABOUT = ("along", "angle", "pitch")
+
+
+def check(statement: Statement, text: str) -> None:
+    """Raises a `Problem` if parts are missing, doubled or contradict each other."""
+    if len(statement.parts) > 1:
+        _once(statement, text)
+        _one_time(statement.parts)
+    checks = {"arc": _arc, "screw": _screw, "with": _with, "frame": _frame}
+    if statement.word in checks:
+        checks[statement.word](statement)
+    elif statement.word in ("line", "move"):
+        if not statement.part("to") and not statement.part("by"):
+            raise _to_or_by(statement.word, _first_word(statement))
+    elif statement.word in ("text", "path", "svg"):
+        _from_elsewhere(statement)
+    elif statement.word == "place" and statement.name is not None:
+        _place_auto(statement)
+    elif statement.word in ("step", "start", "place"):
+        _needs(statement, "to" if statement.word == "step" else "at")
+
+
+def _first_word(statement: Statement) -> Span:
+    return Span(statement.span.start, statement.span.start + len(statement.word))
+
+
+def _once(statement: Statement, text: str) -> None:
+    many = STATEMENTS[statement.word].many
+    seen: dict[str, Part] = {}
+    for part in statement.parts:
+        word = "centre" if part.word == "center" else part.word
+        if word in seen and word not in many:
+            line, column = place(text, seen[word].span.start)
+            raise problem(
+                "E113",
+                f"'{word}' is given twice",
+                part.span,
+                f"second (first: {line}:{column})",
+                "keep one of them",
+            )
+        seen[word] = part
+
+
+def _one_time(parts: tuple[Part, ...]) -> None:
+    times = [part for part in parts if part.word in TIMES]
+    speeds = [part for part in parts if part.word in ("speed", "turnspeed")]
+    if len(times) + bool(speeds) > 1:
+        given = sorted(times + speeds[:1], key=lambda part: part.span.start)
+        raise problem(
+            "E241",
+            "the time is given twice",
+            given[1].span,
+            "second",
+            "use one of: in TIME, samples N, speed V",
+        )
+
+
+def _to_or_by(word: str, span: Span) -> Problem:
+    return problem(
+        "E111",
+        f"'{word}' needs 'to' or 'by' before the point",
+        span,
+        "",
+        f"{word} to (…) goes to that point; {word} by (…) goes that far from here",
+    )
+
+
+def _needs(statement: Statement, part: str, cure: str = "") -> None:
+    if statement.part(part) is None:
+        cure = cure or f"for example: {STATEMENTS[statement.word].example}"
+        message = f"this '{statement.word}' has no '{part}'"
+        raise problem("E115", message, _first_word(statement), "", cure)
+
+
+def _arc(statement: Statement) -> None:
+    via = statement.part("via")
+    centre = statement.part("centre") or statement.part("center")
+    if via is not None:
+        for word in ("centre", "center", *_FORM_OF_CENTRE, *_FORM_OF_RADIUS):
+            if part := statement.part(word):
+                message = f"'arc via' goes through two points; it takes no '{word}'"
+                cure = "write: arc via POINT to POINT, or: arc centre POINT angle ANGLE"
+                raise problem("E248", message, part.span, "", cure)
+        _needs(statement, "to", "an arc through three points ends at the last: via POINT to POINT")
+        return
+    if statement.part("radius") is not None:
+        _radius(statement)
+        return
+    for word in ("left", "right", "long"):
+        if part := statement.part(word):
+            message = f"'{word}' belongs to an arc with a radius"
+            cure = "write: arc radius 20 mm to (10, 0) mm left"
+            raise problem("E248", message, part.span, "", cure)
+    if to := statement.part("to"):
+        if centre is None and not any(statement.part(word) for word in _FORM_OF_CENTRE):
+            cure = "write: arc via POINT to POINT, or: arc centre POINT angle ANGLE"
+            _needs(statement, "via", cure)
+        raise problem(
+            "E247",
+            "'arc centre' takes an angle, not an end point",
+            to.span,
+            "",
+            "centre and end point could contradict each other; write: angle 90 deg",
+        )
+    if centre is None:
+        _needs(statement, "centre", "write: arc centre POINT angle ANGLE")
+    _needs(statement, "angle", "add how far it turns: angle 360 deg")
+
+
+def _radius(statement: Statement) -> None:
+    if statement.part("centre") or statement.part("center"):
+        part = statement.part("radius")
+        assert part is not None
+        cure = "the radius is the distance from here to the centre: first move to the circle"
+        raise problem("E248", "'arc centre' takes no 'radius'", part.span, "", cure)
+    for word in ("angle", "rise", "grow"):
+        if part := statement.part(word):
+            message = f"'arc radius' goes from here to a point; it takes no '{word}'"
+            cure = "with a centre, the radius is the distance from here to it"
+            raise problem("E248", message, part.span, "", cure)
+    _needs(statement, "to", "add where it ends: arc radius 20 mm to (10, 0) mm left")
+    left, right = statement.part("left"), statement.part("right")
+    if left and right:
+        span = max(left.span, right.span, key=lambda span: span.start)
+        raise problem("E248", "an arc turns left or right, not both", span, "", "keep one of them")
+    if not left and not right:
+        message = "this 'arc' does not say which way it turns"
+        cure = "add left (against the clock) or right"
+        raise problem("E115", message, _first_word(statement), "", cure)
+
+
+def _frame(statement: Statement) -> None:
+    if not statement.parts:
+        _needs(statement, "at")
+
+
+def _screw(statement: Statement) -> None:
+    to = statement.part("to")
+    if to is not None:
+        for word in ("about", *_FORM_OF_ABOUT):
+            if part := statement.part(word):
+                message = f"'screw to' finds its own axis; it takes no '{word}'"
+                cure = "write: screw to POINT tool ORIENTATION, or: screw about POINT along …"
+                raise problem("E248", message, part.span, "", cure)
+        return
+    for word in ("about", "along", "angle"):
+        _needs(statement, word)
+    if tool := statement.part("tool"):
+        message = "'screw about' moves the tool rigidly; it takes no 'tool'"
+        cure = "turn the tool before, or write: screw to POINT tool ORIENTATION"
+        raise problem("E248", message, tool.span, "", cure)
+
+
+def _place_auto(statement: Statement) -> None:
+    if at := statement.part("at"):
+        message = "'place auto' finds the place itself; it takes no 'at'"
+        cure = "write: place auto, or: place at POINT turned ORIENTATION"
+        raise problem("E248", message, at.span, "", cure)
+
+
+def _with(statement: Statement) -> None:
+    if not statement.parts:
+        cure = f"for example: {STATEMENTS['with'].example}"
+        raise problem("E115", "this 'with' changes nothing", statement.span, "", cure)
+    before = ""
+    for part in statement.parts:
+        if part.word == "about" and before != "rotate":
+            cure = "write: with rotate 30 deg about (10, 0) mm"
+            raise problem("E248", "'about' says what 'rotate' turns about", part.span, "", cure)
+        before = part.word
+
+
+def _from_elsewhere(statement: Statement) -> None:
+    """A size for what has none of its own; one file for a drawing, at most three for a path."""
+    word, fitted = statement.word, statement.part("height") or statement.part("width")
+    unit = statement.part("unit")
+    if word == "text" and not fitted:
+        _needs(statement, "height", "say how high its capitals are: height 30 mm")
+    if word == "path" and not fitted and not unit:
+        _needs(statement, "unit", "numbers in a file have no unit; write: unit mm, or height 80 mm")
+    if fitted and unit:
+        message = f"'unit' and '{fitted.word}' both say how large it is"
+        raise problem("E248", message, unit.span, "", "keep one of them")
+    most = {"svg": 1, "path": 3}.get(word)
+    if most and len(statement.values) > most:
+        cure = "one drawing to a line" if most == 1 else "one file, or one for each of x, y and z"
+        message = f"'{word}' takes {'one file' if most == 1 else 'at most 3 files'}"
+        raise problem("E248", message, statement.values[most].span, "", cure)
+
+
+def misplaced(word: str, token: Token) -> Problem | None:
+    """A part that other statements have: a message of its own, or None."""
+    if token.text == "period":
+        message = "'period' stands on a line of its own, before the first movement"
+        return problem("E123", message, token.span, "", "for example: period 8 ms")
+    if word == "move" and token.text == "light":
+        message = "'move' is always dark, so it has no 'light'"
+        return problem("E110", message, token.span, "", "to shine on the way, use: line to …")
+    cure = {
+        ("hold", "tool"): "to turn on the spot, use: line by (0, 0) tool …",
+        ("hold", "in"): "write the time straight after it: hold 1 s",
+        ("hold", "samples"): "write the time straight after it: hold 1 s",
+        ("step", "in"): "a step takes one sample; to wait after it, use: hold 1 s",
+        ("step", "samples"): "a step takes one sample; to wait after it, use: hold 1 s",
+        ("step", "speed"): "a step takes one sample; to go there evenly, use: line to",
+        ("step", "law"): "a step takes one sample; to go there evenly, use: line to",
+        ("step", "by"): "a step says where to: step to (50, 0) mm",
+        ("start", "turned"): "write: start at (0, 0, 0) tool …",
+        ("place", "tool"): "write: place at (0, 0, 0) turned …",
+        ("screw", "rise"): "a screw advances by its pitch: pitch 50 mm/turn",
+        ("arc", "pitch"): "an arc advances by its rise in all: rise 50 mm",
+        ("arc", "by"): "an arc names its points: arc via POINT to POINT",
+        ("arc", "along"): "did you mean 'axis'?",
+        ("arc", "about"): "did you mean 'centre'?",
+        ("screw", "axis"): "did you mean 'along'?",
+        ("screw", "centre"): "did you mean 'about'?",
+        ("with", "turned"): "did you mean 'rotate'?",
+        ("line", "from"): "a line begins where the tool is; write before it: move to (0, 0)",
+        ("arc", "from"): "an arc begins where the tool is; write before it: move to (0, 0)",
+    }.get((word, token.text))
+    if token.text == "with" and STATEMENTS[word].moves:
+        cure = "parts stand there without 'with', as in: line to (10, 0) mm light red"
+    elif token.text == "per":
+        cure = "a rate is written with a slash: mm/s"
+    if cure is None:
+        return None
+    message = f"'{word}' has no part called '{token.text}'"
+    meant = _QUESTION.fullmatch(cure)
+    fix = Fix(f"write {meant[1]}", token.span, meant[1]) if meant else None
+    return problem("E110", message, token.span, "", cure, fix)
+
+
+def unexpected(word: str, cursor: Cursor) -> Problem | None:
+    """Something that is no part at all: a message of its own, or None."""
+    token = cursor.token
+    is_value = token.kind == "number" or (token.kind == "sign" and token.text in "(-")
+    if word in ("line", "move") and is_value and cursor.before.text == word:
+        return _to_or_by(word, token.span)
+    if not is_value:
+        return trailing_tokens.advised(word, cursor)
+    needed = {"arc": "centre", "screw": "about", "step": "to", "start": "at", "place": "at"}
+    if word in needed and cursor.before.text == word:
+        message = f"'{word}' needs '{needed[word]}' before the point"
+        cure = f"for example: {STATEMENTS[word].example}"
+        return problem("E111", message, token.span, "", cure)
+    return trailing_tokens.advised(word, cursor)

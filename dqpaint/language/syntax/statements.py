@@ -1,0 +1,303 @@
+"""One line of tokens -> one statement, as the tables of `words` say it is made."""
+
+from dqpaint.core.records import record
+from dqpaint.diagnostics.diagnostic import Fix, Problem, Span, problem
+from dqpaint.diagnostics.did_you_mean import closest, did_you_mean, listed
+from dqpaint.language.syntax import clauses, import_clauses, statement_rules
+from dqpaint.language.syntax.cursor import Cursor, example_of, found, no_value
+from dqpaint.language.syntax.expressions import bracket, expression
+from dqpaint.language.syntax.identifiers import new_name
+from dqpaint.language.syntax.lexer import Token
+from dqpaint.language.syntax.tree import Expression, Part, Quoted, Statement, Word
+from dqpaint.language.vocabulary.units import FOREIGN_UNITS, SAME_UNITS, UNITS, instead_of
+from dqpaint.language.vocabulary.words import PART_ALIASES, PARTS, SETTINGS, STATEMENTS
+from dqpaint.program import colours
+
+VERSION = 1  # of the language, for `traj 1`
+
+
+@record
+class _Head:
+    """What stands between the first word of a line and its parts."""
+
+    name: Word | None = None
+    values: tuple[Expression, ...] = ()
+    params: tuple[Word, ...] | None = None
+
+
+_NOTHING = _Head()
+
+
+def statement(cursor: Cursor) -> Statement:
+    """Reads a line whose first word is a statement's; raises a `Problem` at its first mistake."""
+    first = cursor.take()
+    known = STATEMENTS[first.text]
+    head = _NOTHING
+    if first.text in SETTINGS:  # a setting's line is the clause alone
+        parts = [_part(cursor, first.text, first.span)]
+    else:
+        head = _head(cursor, first.text, known.head)
+        parts = _parts(cursor, first.text)
+    if not cursor.at_end:
+        raise _left_over(cursor, first.text)
+    span = cursor.span_from(first.start)
+    whole = Statement(first.text, span, head.name, head.values, tuple(parts), params=head.params)
+    statement_rules.check(whole, cursor.text)
+    return whole
+
+
+def call(cursor: Cursor) -> Statement:
+    """Reads a line that calls a `def`: `star(20 mm)`."""
+    name = cursor.take()
+    values = bracket(cursor, of=name.text)
+    if not cursor.at_end:
+        raise _left_over(cursor, name.text)
+    return Statement("call", cursor.span_from(name.start), Word(name.text, name.span), values)
+
+
+# What stands between the first word and the parts.
+
+
+def _head(cursor: Cursor, word: str, head: str) -> _Head:
+    match head:
+        case "":
+            return _NOTHING
+        case "value":
+            return _Head(values=(_expression(cursor, word),))
+        case "let":
+            return _let(cursor)
+        case "formula":
+            return _formula(cursor)
+        case "repeat":
+            return _repeat(cursor)
+        case "robot":
+            return _Head(_robot(cursor))
+        case "place":
+            return _Head(_word(cursor) if cursor.is_word("auto") else None)
+        case "include":
+            return _include(cursor)
+        case "def":
+            return _def(cursor)
+        case "frame":
+            return _Head(new_name(cursor, "frame", example_of("frame")))
+        case "texts":
+            return _Head(values=import_clauses.texts(cursor, word))
+        case _:
+            assert head == "version", head
+            _version(cursor)
+            return _NOTHING
+
+
+def _expression(cursor: Cursor, after: str) -> Expression:
+    token = cursor.token
+    if token.kind == "end" or (token.kind == "sign" and token.text == "="):
+        part = PARTS.get(after)
+        raise no_value(cursor, after, part.example if part else example_of(after))
+    return expression(cursor, after)
+
+
+def _let(cursor: Cursor) -> _Head:
+    name = new_name(cursor, "let", example_of("let"))
+    params = _params(cursor, "let") if cursor.is_sign("(") else None
+    if not cursor.is_sign("="):
+        message = f"expected '=' but found {found(cursor.token)}"
+        raise problem("E109", message, cursor.token.span, "", f"write: let {name.text} = …")
+    cursor.take()
+    return _Head(name, (_expression(cursor, "="),), params)
+
+
+def _formula(cursor: Cursor) -> _Head:
+    formula = _expression(cursor, "curve")
+    example = "curve … for t from 0 to 360 deg"
+    _expect(cursor, "for", example)
+    name = new_name(cursor, "for", example)
+    _expect(cursor, "from", example)
+    lower = _expression(cursor, "from")
+    _expect(cursor, "to", example)
+    return _Head(name, (formula, lower, _expression(cursor, "to")))
+
+
+def _repeat(cursor: Cursor) -> _Head:
+    after = cursor.peek()
+    if cursor.token.kind != "name" or after.kind != "name" or after.text != "from":
+        count = _expression(cursor, "repeat")
+        if cursor.is_word("from"):
+            message = "expected a name before 'from'"
+            raise problem("E109", message, count.span, "", "for example: repeat i from 1 to 5")
+        return _Head(values=(count,))
+    name = new_name(cursor, "repeat", example_of("repeat"))
+    cursor.take()
+    lower = _expression(cursor, "from")
+    written = lower.span.of(cursor.text)
+    upper = cursor.token.text if cursor.token.kind == "number" else "5"
+    example = f"repeat {name.text} from {written} to {upper}"
+    _expect(cursor, "to", example)
+    return _Head(name, (lower, _expression(cursor, "to")))
+
+
+def _expect(cursor: Cursor, word: str, example: str) -> None:
+    if not cursor.is_word(word):
+        span = cursor.token.span if not cursor.at_end else cursor.before.span
+        message = f"expected '{word}' but found {found(cursor.token)}"
+        at = cursor.token.start if not cursor.at_end else cursor.before.end
+        opens = cursor.token.kind == "number" or cursor.is_sign("(")
+        fix = Fix(f"write {word}", Span(at, at), f"{word} ") if opens else None
+        raise problem("E116", message, span, "", f"write: {example}", fix)
+    cursor.take()
+
+
+def _word(cursor: Cursor) -> Word:
+    token = cursor.take()
+    return Word(token.text, token.span)
+
+
+def _robot(cursor: Cursor) -> Word:
+    token = cursor.take()
+    if token.kind not in ("name", "text") or not token.text.strip():
+        message = f"expected the name of a robot but found {found(token)}"
+        raise problem("E109", message, token.span, "", "for example: robot iiwa")
+    if token.kind == "name" and not cursor.at_end:
+        message = f"expected the end of the line but found {found(cursor.token)}"
+        cure = 'a name with other signs than letters, digits and _ stands in quotes: robot "…"'
+        raise problem("E112", message, cursor.token.span, "", cure)
+    return Word(token.text, token.span)
+
+
+def _include(cursor: Cursor) -> _Head:
+    token = cursor.take()  # a text, as the parser saw to
+    if not token.text.strip():
+        message = "this text has no name of a file in it"
+        raise problem("E109", message, token.span, "", f"write: {example_of('include')}")
+    return _Head(values=(Quoted(token.text, token.span),))
+
+
+def _def(cursor: Cursor) -> _Head:
+    name = new_name(cursor, "def", example_of("def"))
+    return _Head(name, params=_params(cursor, "def") if cursor.is_sign("(") else ())
+
+
+def _params(cursor: Cursor, after: str) -> tuple[Word, ...]:
+    """The names in brackets behind the name of a function or a `def`."""
+    cursor.take()
+    example = "let f(x) = 2*x" if after == "let" else example_of(after)
+    params: dict[str, Word] = {}
+    while not (cursor.is_sign(")") and not params):
+        name = new_name(cursor, "(" if not params else ",", example, handed=True)
+        if name.text in params:
+            message = f"'{name.text}' comes twice in these brackets"
+            raise problem("E230", message, name.span, "second", "choose another name")
+        params[name.text] = name
+        if not cursor.is_sign(","):
+            break
+        cursor.take()
+    if not cursor.is_sign(")"):
+        message = f"expected ',' or ')' but found {found(cursor.token)}"
+        cure = "in these brackets stand names alone; values follow where it is called"
+        raise problem("E109", message, cursor.token.span, "", cure)
+    cursor.take()
+    return tuple(params.values())
+
+
+def _version(cursor: Cursor) -> None:
+    token = cursor.take()
+    if token.kind != "number":
+        message = f"expected a number after 'traj' but found {found(token)}"
+        raise problem("E109", message, token.span, "", f"write: traj {VERSION}")
+    if float(token.text) != VERSION:
+        message = f"this file is written in traj {token.text}, which this dqpaint does not know"
+        raise problem("E118", message, token.span, "", f"it knows: traj {VERSION}")
+
+
+# Parts.
+
+
+def _parts(cursor: Cursor, word: str) -> list[Part]:
+    known = STATEMENTS[word]
+    parts: list[Part] = []
+    while cursor.token.kind == "name":
+        token = cursor.token
+        if token.text not in known.parts:
+            if not known.parts:
+                break
+            raise _unknown_part(cursor, word)
+        cursor.take()
+        parts.append(_part(cursor, token.text, token.span))
+    return parts
+
+
+_READERS = {**clauses.READERS, **import_clauses.READERS}
+
+
+def _part(cursor: Cursor, word: str, span: Span) -> Part:
+    read = _READERS.get(PARTS[word].takes)
+    return Part(word, span, read(cursor) if read else _expression(cursor, word))
+
+
+ROUND = ("r", "diameter")  # what people give an arc besides its centre
+
+
+def _unknown_part(cursor: Cursor, word: str) -> Problem:
+    token, known = cursor.token, STATEMENTS[word]
+    after_number = cursor.before.kind == "number" or cursor.before.text == ")"
+    if token.text in FOREIGN_UNITS and after_number:
+        return _foreign_unit(token)
+    special = statement_rules.misplaced(word, token)
+    if special is not None:
+        return special
+    if token.text == "even" and "light" in known.parts:
+        message = "'even' belongs to a light, behind its colour"
+        return problem("E110", message, token.span, "", "write: light white even")
+    if word == "arc" and token.text in ROUND:
+        cure = "the radius is the distance from here to the centre: first move to the circle"
+        message = f"'arc' has no part called '{token.text}'"
+        return problem("E110", message, token.span, "", cure)
+    message = f"'{word}' has no part called '{token.text}'"
+    begins = token.text in STATEMENTS and token.text not in PARTS
+    if begins and PART_ALIASES.get(token.text) not in known.parts:
+        return problem("E110", message, token.span, "", "one statement per line")
+    if token.text.lower() in colours.NAMES:
+        cure = "a colour stands behind 'light', two of them as: light red to blue"
+        return problem("E110", message, token.span, "", cure)
+    meant = closest(token.text, known.parts, PART_ALIASES)
+    if meant not in known.parts:
+        meant = closest(token.text, known.parts)
+    if not meant and after_number and len(token.text) > 1:  # one letter is like any other
+        meant = closest(token.text, UNITS)
+    cure = did_you_mean(meant) or f"its parts are: {listed(known.parts)}"
+    fix = Fix(f"write {meant}", token.span, meant) if meant else None
+    return problem("E110", message, token.span, "", cure, fix)
+
+
+def _foreign_unit(token: Token) -> Problem:
+    unit = FOREIGN_UNITS[token.text]
+    cure = instead_of(token.text)
+    fix = Fix(f"write {unit}", token.span, unit) if token.text in SAME_UNITS else None
+    message = f"'{token.text}' is not a unit of this language"
+    return problem("E102", message, token.span, "", cure, fix)
+
+
+def _left_over(cursor: Cursor, word: str) -> Problem:
+    token = cursor.token
+    if token.text in FOREIGN_UNITS and cursor.before.kind == "number":
+        return _foreign_unit(token)
+    special = statement_rules.unexpected(word, cursor)
+    if special is not None:
+        return special
+    if token.kind == "sign" and token.text == "=":
+        cure = "only 'let' has a '='"
+    elif token.kind == "sign" and token.text == ",":
+        cure = "a point stands in brackets: (50, 0) mm; parts of a line need no commas"
+    elif token.kind == "sign" and token.text == "%":
+        cure = "only the brightness of a light is written in %, and it is no less than 0%"
+    elif word == "repeat" and token.text in ("step", "by"):
+        cure = "it counts by 1: repeat i from 0 to 5, and write 2*i"
+    elif token.kind == "name" and token.text in STATEMENTS:
+        cure = "one statement per line"
+    elif word == "repeat":
+        cure = "write: repeat 5, or: repeat i from 1 to 5"
+    elif word == "def" and token.kind == "name":
+        cure = f"the names it is handed stand in brackets: {example_of(word)}"
+    else:
+        cure = ""
+    message = f"expected the end of the line but found {found(token)}"
+    return problem("E112", message, token.span, "", cure)

@@ -1,0 +1,73 @@
+"""What to say of what stands behind the last part of a line, by what people mean by it."""
+
+from collections.abc import Callable, Iterator
+
+from dqpaint.diagnostics.diagnostic import Fix, Problem, Span, problem
+from dqpaint.language.syntax.cursor import Cursor, found
+from dqpaint.language.vocabulary.words import STATEMENTS
+from dqpaint.program import colours
+
+Advice = tuple[str, Fix | None]
+
+
+def advised(word: str, cursor: Cursor) -> Problem | None:
+    """E112 with an advice for what is left over of a line of this word; None without one."""
+    for advise in _ADVISERS:
+        for cure, fix in advise(word, cursor):
+            message = f"expected the end of the line but found {found(cursor.token)}"
+            return problem("E112", message, cursor.token.span, "", cure, fix)
+    return None
+
+
+def _repeat(word: str, cursor: Cursor) -> Iterator[Advice]:
+    if word == "repeat" and cursor.is_sign("=") and cursor.before.kind == "name":
+        yield f"write: repeat {cursor.before.text} from 1 to 5", None
+
+
+def _let(word: str, cursor: Cursor) -> Iterator[Advice]:
+    if word == "let" and cursor.is_sign(","):
+        yield "each value has a 'let' and a line of its own", None
+
+
+def _strobe(_word: str, cursor: Cursor) -> Iterator[Advice]:
+    if cursor.is_sign("%") and cursor.before_is(2, "strobe"):
+        yield "the frequency comes first: strobe 10 Hz 30%", None
+
+
+def _colour(_word: str, cursor: Cursor) -> Iterator[Advice]:
+    before, token = cursor.before, cursor.token
+    if token.kind != "name":
+        return
+    both = (before.text + token.text).lower()
+    if before.kind == "name" and both in colours.NAMES:
+        fix = Fix(f"write {both}", Span(before.start, token.end), both)
+        yield f"did you mean '{both}'?", fix
+    elif before.kind == "number" and token.text in colours.NAMES:
+        share = float(before.text) * (100.0 if float(before.text) <= 1.0 else 1.0)
+        yield f"the brightness follows the colour: light {token.text} {share:g}%", None
+
+
+def _text(word: str, cursor: Cursor) -> Iterator[Advice]:
+    if word == "text" and cursor.before.kind == "text" and cursor.token.kind == "number":
+        yield "say what the number is: height 20 mm", None
+
+
+def _point(word: str, cursor: Cursor) -> Iterator[Advice]:
+    moves = word in STATEMENTS and (STATEMENTS[word].moves or word in ("start", "place"))
+    if moves and cursor.before.kind == "number" and cursor.token.kind == "number":
+        yield "a point stands in brackets, with commas: (50, 0, 30) mm", None
+
+
+def _product(word: str, cursor: Cursor) -> Iterator[Advice]:
+    before, token = cursor.before, cursor.token
+    if word == "repeat" or token.text in STATEMENTS:
+        return
+    if before.kind == "number" and token.kind == "name":
+        written = f"{before.text}*{token.text}"
+        fix = Fix(f"write {written}", Span(before.start, token.end), written)
+        yield f"a product is written {written}", fix
+
+
+_ADVISERS: tuple[Callable[[str, Cursor], Iterator[Advice]], ...] = (
+    *(_repeat, _let, _strobe, _colour, _text, _point, _product),
+)

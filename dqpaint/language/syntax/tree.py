@@ -1,0 +1,252 @@
+"""The syntax tree: what was written, with its place, before anything is known about its meaning."""
+
+from dataclasses import fields, is_dataclass
+
+from dqpaint.core.records import record
+from dqpaint.diagnostics.diagnostic import Span
+
+# Expressions.
+
+
+@record
+class Literal:
+    """A number, perhaps with a unit straight after it."""
+
+    value: float
+    unit: str
+    span: Span
+
+
+@record
+class Name:
+    """A name, a constant, a colour, a law or a unit."""
+
+    name: str
+    span: Span
+
+
+@record
+class Quoted:
+    """A text in quotes."""
+
+    text: str
+    span: Span
+
+
+@record
+class Bracket:
+    """One value, or the two or three numbers of a point, in brackets, perhaps with a unit."""
+
+    values: tuple["Expression", ...]
+    unit: str
+    span: Span
+
+
+@record
+class Call:
+    """A function with its values."""
+
+    name: str
+    values: tuple["Expression", ...]
+    span: Span
+
+
+@record
+class Sign:
+    """A value with its sign changed."""
+
+    value: "Expression"
+    span: Span
+
+
+@record
+class Chain:
+    """A sum or a product of any length, so that a long one is not a deep one."""
+
+    first: "Expression"
+    rest: tuple[tuple[str, "Expression"], ...]
+    span: Span
+
+
+@record
+class Power:
+    """A base and its exponent."""
+
+    base: "Expression"
+    exponent: "Expression"
+    span: Span
+
+
+Expression = Literal | Name | Quoted | Bracket | Call | Sign | Chain | Power
+
+
+def names_in(tree: object) -> set[str]:
+    """The names, functions and calls that an expression uses, or a statement with all its lines."""
+    names, left = set(), [tree]
+    while left:  # no recursion: a tree may be deep
+        node = left.pop()
+        if isinstance(node, tuple):
+            left.extend(node)
+        elif isinstance(node, Name | Call):
+            names.add(node.name)
+        elif isinstance(node, Statement) and node.word == "call" and node.name is not None:
+            names.add(node.name.text)
+        if is_dataclass(node):
+            left.extend(getattr(node, field.name) for field in fields(node))
+    return names
+
+
+def size_of(node: Expression) -> tuple[int, int]:
+    """How many nodes an expression has, and how many of them within each other."""
+    size, deepest, left = 0, 0, [(node, 1)]
+    while left:
+        inner, depth = left.pop()
+        size, deepest = size + 1, max(deepest, depth)
+        left.extend((child, depth + 1) for child in _children(inner))
+    return size, deepest
+
+
+def _children(node: Expression) -> tuple[Expression, ...]:
+    match node:
+        case Bracket(values) | Call(_, values):
+            return values
+        case Sign(value):
+            return (value,)
+        case Chain(first, rest):
+            return (first, *(value for _, value in rest))
+        case Power(base, exponent):
+            return base, exponent
+    return ()
+
+
+# What stands after `tool`, `light`, `brush`, `strobe` and `blend`.
+
+
+@record
+class ToolWords:
+    """`keep`, `follow`, `look` (point, up), `look line` (point, along) or `turn` (orientation)."""
+
+    mode: str
+    values: tuple[Expression, ...]
+    span: Span
+
+
+@record
+class Shade:
+    """`on`, `off` or a colour (`word` is empty then), and its brightness."""
+
+    word: str
+    value: Expression | None
+    brightness: float
+    span: Span
+
+
+@record
+class LightWords:
+    """One shade, or one that goes over into another; `even` if it is to be equally bright."""
+
+    first: Shade
+    last: Shade | None
+    span: Span
+    even: bool = False
+
+
+@record
+class BrushWords:
+    """`point` with its size, or `bar` with its length and perhaps its direction."""
+
+    kind: str
+    size: Expression | None
+    along: Expression | None
+    span: Span
+
+
+@record
+class StrobeWords:
+    """How often it flashes, None for `off`, and for what part of the time, 0 to 1."""
+
+    frequency: Expression | None
+    duty: float
+    span: Span
+
+
+@record
+class BlendWords:
+    """The distance within which corners are rounded; None for `off`."""
+
+    size: Expression | None
+    span: Span
+
+
+Words = ToolWords | LightWords | BrushWords | StrobeWords | BlendWords
+
+
+# Statements.
+
+
+@record
+class Word:
+    """A word that names something: in `let`, `repeat`, `curve`, `robot`."""
+
+    text: str
+    span: Span
+
+
+@record
+class Part:
+    """A part of a statement: its word and its value."""
+
+    word: str
+    span: Span  # of the word alone
+    value: Expression | Words
+
+    @property
+    def expression(self) -> Expression:
+        """The value of a part that has no little grammar of its own; a flag's is its own word."""
+        assert not isinstance(self.value, Words)
+        return self.value
+
+
+@record
+class Statement:
+    """A line.
+
+    Attributes:
+        word: its first word, as in `words.STATEMENTS`; `call` for the call of a `def`.
+        span: all of it.
+        name: what it gives a name to, or the robot's; the `def` that is called.
+        values: the values before its parts: of a `let`, a `hold`; the formula and the two ends of
+            a `curve`; the count of a `repeat`, or its two ends; what a call hands over; the file
+            of an `include`.
+        parts: the parts, as they come.
+        body: the lines of a block, or of the file that is included.
+        broken: a mistake in it was reported; only its name and its body are to be trusted.
+        params: the names of what a function or a `def` is handed; None for a `let` of a value.
+    """
+
+    word: str
+    span: Span
+    name: Word | None = None
+    values: tuple[Expression, ...] = ()
+    parts: tuple[Part, ...] = ()
+    body: tuple["Statement", ...] = ()
+    broken: bool = False
+    params: tuple[Word, ...] | None = None
+
+    def part(self, word: str) -> Part | None:
+        """The first part of this name."""
+        for part in self.parts:
+            if part.word == word:
+                return part
+        return None
+
+    def value(self, word: str) -> Expression | None:
+        """The value of the part of this name, one that takes a plain expression."""
+        part = self.part(word)
+        return part.expression if part is not None else None
+
+    def given(self, word: str) -> Expression:
+        """The value of a part that is there, as `forms` saw to."""
+        value = self.value(word)
+        assert value is not None, word
+        return value

@@ -1,0 +1,210 @@
+"""What to say about an expression that has no value."""
+
+from collections.abc import Iterable
+
+from dqpaint.diagnostics.diagnostic import Fix, Problem, Span, problem
+from dqpaint.diagnostics.did_you_mean import closest, did_you_mean, listed
+from dqpaint.language.syntax.tree import Bracket, Call, Expression, Literal, Name, Sign
+from dqpaint.language.values import functions
+from dqpaint.language.values.scope import BUILTINS, Scope
+from dqpaint.language.values.values import (
+    Drawing,
+    Function,
+    Point,
+    Quantity,
+    Value,
+    describe,
+    is_zero,
+)
+from dqpaint.language.vocabulary.units import (
+    FOREIGN_UNITS,
+    PLAIN,
+    SAME_UNITS,
+    Dimension,
+    instead_of,
+    plausible_unit,
+)
+from dqpaint.language.vocabulary.words import (
+    CONSTANTS,
+    FUNCTION_ALIASES,
+    FUNCTIONS,
+    LAW_ALIASES,
+    LAWS,
+)
+from dqpaint.program.taylor import Taylor
+
+
+def unknown(node: Name, scope: Scope, words: Iterable[str] = ()) -> Problem:
+    """E205, or E206 for a function without brackets; `words` may stand there too."""
+    name = node.name
+    if name in FUNCTIONS:
+        cure = f"write: {FUNCTIONS[name]}" + ("; a minute is 60 s" if name == "min" else "")
+        return problem("E206", f"'{name}' is a function", node.span, "", cure)
+    if name in FOREIGN_UNITS:
+        cure, same = instead_of(name), SAME_UNITS.get(name)
+        fix = Fix(f"write {same}", node.span, same) if same else None
+        return problem("E205", f"'{name}' is not known", node.span, "", cure, fix)
+    words = list(words)
+    aliases = LAW_ALIASES if set(LAWS) <= set(words) else {}
+    known = (*scope.names, *CONSTANTS, *words)
+    meant = _abbreviation(name, scope) or closest(name, known, aliases)
+    cure = did_you_mean(meant) or f"name it first: let {name} = …"
+    if scope.text[: node.span.start].rstrip().endswith("--"):
+        meant, cure = "", "a comment begins with #"
+    if "keep" in words and not meant:
+        cure += ", or write an orientation: rot(x, 180 deg)"
+    if not meant and set(words) == set(LAWS):
+        cure = f"the laws are: {listed(LAWS)}"
+    fix = Fix(f"write {meant}", node.span, meant) if meant else None
+    return problem("E205", f"'{name}' is not known", node.span, "", cure, fix)
+
+
+def _abbreviation(name: str, scope: Scope) -> str:
+    """`r` for `radius`: a name of the file that is the beginning of the unknown one."""
+    short = [known for known in scope.names if len(known) <= 3 and name.startswith(known)]
+    return max(short, key=len) if short else ""
+
+
+def no_value_of(node: Name, value: Function | Drawing) -> Problem:
+    """E206: the name of a function or of a `def`, alone."""
+    if isinstance(value, Function):
+        cure = f"write: {value.name}({', '.join(value.params)})"
+        return problem("E206", f"'{node.name}' is a function", node.span, "", cure)
+    return problem("E206", f"'{node.name}' is drawn, it has no value", node.span, "", _CALLED)
+
+
+_CALLED = "a call of it is a line of its own"
+
+
+def wrong_count(function: Function, node: Call) -> Problem:
+    """E207."""
+    count = len(function.params)
+    noun = "value" if count == 1 else "values"
+    message = f"{function.name} takes {count or 'no'} {noun}, not {len(node.values)}"
+    cure = f"write: {function.name}({', '.join(function.params)})"
+    return problem("E207", message, node.span, "", cure)
+
+
+def too_many(node: Bracket, scope: Scope) -> Problem:
+    """E202."""
+    count, cure = len(node.values), "write decimals with a point, not a comma: 0.5"
+    fix, written = None, [scope.written(value) for value in node.values]
+    if count in (4, 6) and all(isinstance(value, Literal) for value in node.values):
+        pairs = zip(written[::2], written[1::2], strict=True)
+        decimals = [f"{whole}.{part}" for whole, part in pairs]
+        if all(text.isdigit() for text in written):
+            cure = f"write decimals with a point, not a comma: {decimals[0]}"
+            unit = f" {node.unit}" if node.unit else ""
+            fix = Fix("write decimal points", node.span, f"({', '.join(decimals)}){unit}")
+    message = f"a point has 2 or 3 numbers, this has {count}"
+    return problem("E202", message, node.span, "", cure, fix)
+
+
+def mixed(node: Bracket, coordinates: list[Quantity], scope: Scope) -> Problem:
+    """E204: the caret goes to the number without a unit, else to the first that differs."""
+    plain = [i for i, q in enumerate(coordinates) if q.dimension == PLAIN and not is_zero(q)]
+    first = next(q.dimension for q in coordinates if not is_zero(q))
+    others = [i for i, q in enumerate(coordinates) if q.dimension != first and not is_zero(q)]
+    at = (plain or others)[0]
+    literals = [child for child in node.values if isinstance(child, Literal)]
+    units = {child.unit for child in literals if child.unit}
+    cure, fix = "give each of them a unit of the same kind", None
+    if len(literals) == len(node.values) and len(units) == 1:
+        numbers = ", ".join(
+            scope.written(child).removesuffix(child.unit).rstrip() for child in literals
+        )
+        mended = f"({numbers}) {units.pop()}"
+        cure = f"one unit after the bracket is enough: {mended}"
+        fix = Fix(f"write {mended}", node.span, mended)
+    elif plain:
+        cure = f"{scope.written(node.values[at])} needs a unit too"
+    return problem(
+        "E204",
+        "the numbers of one point must have the same unit",
+        node.values[at].span,
+        f"{scope.written(node.values[at])} is {describe(coordinates[at])}",
+        cure,
+        fix,
+    )
+
+
+def second_unit(node: Bracket, what: str) -> Problem:
+    """E210."""
+    message = f"'{node.unit}' can't follow here: the value in the brackets is {what}"
+    span = Span(node.span.end - len(node.unit), node.span.end)
+    return problem("E210", message, span, "", "give the unit once: to each number, or here")
+
+
+def unknown_function(node: Call, scope: Scope) -> Problem:
+    """E206."""
+    span = Span(node.span.start, node.span.start + len(node.name))
+    if isinstance(scope.names.get(node.name), Drawing):
+        message = f"'{node.name}' is drawn, it has no value"
+        return problem("E206", message, span, "", _CALLED)
+    if node.name in scope.names or node.name in BUILTINS:
+        message = f"'{node.name}' is not a function"
+        cure = f"a product is written {node.name}*(…)"
+        return problem("E206", message, span, "", cure)
+    if node.name in ("rgb", "RGB", "rgba"):
+        message, cure = (
+            f"there is no function '{node.name}'",
+            'write the colour in quotes: "#ff8800"',
+        )
+        return problem("E206", message, span, "", cure)
+    own = [name for name, value in scope.names.items() if isinstance(value, Function)]
+    known = (*own, *functions.TABLE)
+    meant = closest(node.name, known, FUNCTION_ALIASES)
+    fix = Fix(f"write {meant}", span, meant) if meant in known else None
+    message = f"there is no function '{node.name}'"
+    return problem("E206", message, span, "", did_you_mean(meant), fix)
+
+
+def no_sum(
+    left: Value, right: Value, sign: str, first: Expression, child: Expression, scope: Scope
+) -> Problem:
+    """E208. The caret goes to the number without a unit, if one of the two has none."""
+    if sign == "+":
+        message = f"can't add {describe(left)} and {describe(right)}"
+    else:
+        message = f"can't subtract {describe(right)} from {describe(left)}"
+    at, lacking, other = child, right, left
+    if isinstance(left, Quantity | Point) and left.dimension == PLAIN:
+        at, lacking, other = first, left, right
+    cure, fix = "", None
+    alike = isinstance(lacking, Quantity | Point) and type(lacking) is type(other)
+    if alike and isinstance(lacking, Quantity | Point) and lacking.dimension == PLAIN:
+        assert isinstance(other, Quantity | Point)
+        if written := with_unit(at, lacking, other.dimension, scope):
+            cure = f"did you mean {written}?"
+            fix = Fix(f"write {written}", at.span, written)
+    elif {type(left), type(right)} == {Point, Quantity}:
+        cure = "a point goes with a point: (5, 0) mm"
+    return problem("E208", message, at.span, describe(lacking), cure, fix)
+
+
+def with_unit(
+    node: Expression, value: Quantity | Point, dimension: Dimension, scope: Scope, word: str = ""
+) -> str:
+    """A value without a unit as it would be written with the one that is most likely."""
+    numbers = (value.value,) if isinstance(value, Quantity) else value.xyz
+    sizes = [abs(number) for number in numbers if not isinstance(number, Taylor)]
+    unit = plausible_unit(max(sizes, default=1.0), dimension, word)
+    written = scope.written(node)
+    if not unit or len(written) > 60:
+        return ""
+    if isinstance(node, Literal | Bracket) or (
+        isinstance(node, Sign) and isinstance(node.value, Literal | Bracket)
+    ):
+        return f"{written} {unit}"
+    if isinstance(node, Name | Call):
+        return f"{written}*{unit}"
+    return f"({written}) {unit}"
+
+
+def no_product(left: Value, right: Value, verb: str, by: str, child: Expression) -> Problem:
+    """E209."""
+    message = f"can't {verb} {describe(left)} {by} {describe(right)}"
+    cure = ""
+    if isinstance(left, Point) and isinstance(right, Point):
+        cure = "a point can be multiplied by a number; for one of its parts, write that part"
+    return problem("E209", message, child.span, describe(right), cure)

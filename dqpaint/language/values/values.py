@@ -1,0 +1,251 @@
+"""Values of expressions, each with what it is: a sum or product of two has to make sense."""
+
+import math
+
+from dqpaint.core.records import record
+from dqpaint.diagnostics.diagnostic import Span, problem
+from dqpaint.language.syntax.tree import Expression, Statement, Word
+from dqpaint.language.values import vectors
+from dqpaint.language.vocabulary.units import (
+    LARGEST_EXPONENT,
+    LENGTH,
+    PLAIN,
+    Dimension,
+    dimension_name,
+)
+from dqpaint.program import taylor
+from dqpaint.program.program import Colour, Quaternion
+from dqpaint.program.taylor import Taylor
+from dqpaint.program.taylor import Value as Scalar
+
+
+@record
+class Quantity:
+    """A number in SI units with its dimension; in a curve, a whole series of numbers."""
+
+    value: Scalar
+    dimension: Dimension
+
+
+@record
+class Point:
+    """Three numbers of one dimension: a place, a shift, or without a unit a direction."""
+
+    xyz: tuple[Scalar, Scalar, Scalar]
+    dimension: Dimension
+
+
+@record
+class Orientation:
+    """A unit quaternion, scalar first."""
+
+    quaternion: Quaternion
+
+
+@record
+class Tint:
+    """A colour: linear RGB."""
+
+    rgb: Colour
+
+
+@record
+class TimeLaw:
+    """A time law and its boundary rates."""
+
+    name: str
+    rates: tuple[float, ...]
+    angular: bool
+
+
+@record
+class Text:
+    """A text in quotes."""
+
+    text: str
+
+
+@record
+class Placement:
+    """A frame with a name."""
+
+    frame: vectors.Frame
+
+
+@record
+class Function:
+    """A function of the file: the names it is handed, its formula, and the names that knows.
+
+    `size` and `depth` are those of the formula, as `syntax.size_of` counts them.
+    """
+
+    name: str
+    params: tuple[str, ...]
+    body: Expression
+    known: dict[str, "Value | None"]
+    size: int
+    depth: int
+
+
+@record
+class Drawing:
+    """A `def` of the file: the names it is handed, its lines, and the names those know.
+
+    `size` is how many statements a call of it is at least.
+    """
+
+    name: str
+    params: tuple[Word, ...]
+    body: tuple[Statement, ...]
+    known: dict[str, "Value | None"]
+    size: int
+
+
+Value = Quantity | Point | Orientation | Tint | TimeLaw | Text | Placement | Function | Drawing
+
+
+def describe(value: Value) -> str:
+    """What a value is, with its article."""
+    match value:
+        case Quantity(_, dimension):
+            return dimension_name(dimension)
+        case Point(_, dimension):
+            if dimension == LENGTH:
+                return "a point"
+            if dimension == PLAIN:
+                return "a point without a unit"
+            return f"a point whose numbers are each {dimension_name(dimension)}"
+        case Orientation():
+            return "an orientation"
+        case Tint():
+            return "a colour"
+        case TimeLaw():
+            return "a time law"
+        case Text():
+            return "a text"
+        case Placement():
+            return "a frame"
+        case Function():
+            return "a function"
+        case Drawing():
+            return "a def"
+
+
+def is_zero(value: Value) -> bool:
+    """A plain 0, or a point of plain zeros: it needs no unit."""
+    if isinstance(value, Quantity):
+        return value.dimension == PLAIN and _none(value.value)
+    if isinstance(value, Point):
+        return value.dimension == PLAIN and all(map(_none, value.xyz))
+    return False
+
+
+def _none(number: Scalar) -> bool:
+    return not isinstance(number, Taylor) and number == 0.0
+
+
+def finite(number: Scalar, span: Span) -> Scalar:
+    """Lets pass what a computer's number can hold. A series is looked at when it is used."""
+    if isinstance(number, Taylor) or math.isfinite(number):
+        return number
+    if math.isnan(number):
+        raise problem("E201", "this has no value", span)
+    raise problem("E201", "this number is too large", span)
+
+
+def gated(value: Value, span: Span) -> Value:
+    """Lets a value pass if all its numbers are finite."""
+    if isinstance(value, Quantity):
+        finite(value.value, span)
+    elif isinstance(value, Point):
+        for number in value.xyz:
+            finite(number, span)
+    return value
+
+
+def sum_of(left: Value, right: Value, sign: str) -> Value | None:
+    """Their sum or difference; None if these two have none."""
+    if isinstance(left, Quantity) and isinstance(right, Quantity):
+        if left.dimension != right.dimension:
+            if is_zero(right):
+                return left
+            if not is_zero(left):
+                return None
+            return right if sign == "+" else negative(right)
+        if sign == "+":
+            return Quantity(left.value + right.value, left.dimension)
+        return Quantity(left.value - right.value, left.dimension)
+    if isinstance(left, Point) and isinstance(right, Point):
+        if left.dimension != right.dimension:
+            if is_zero(right):
+                return left
+            if not is_zero(left):
+                return None
+            return right if sign == "+" else negative(right)
+        (a, b, c), (d, e, f) = left.xyz, right.xyz
+        if sign == "+":
+            return Point((a + d, b + e, c + f), left.dimension)
+        return Point((a - d, b - e, c - f), left.dimension)
+    return None
+
+
+def product_of(left: Value, right: Value) -> Value | None:
+    """Their product; None if these two have none."""
+    if isinstance(left, Quantity):
+        if isinstance(right, Quantity):
+            return Quantity(left.value * right.value, _times(left.dimension, right.dimension, 1.0))
+        if isinstance(right, Point):
+            k, (a, b, c) = left.value, right.xyz
+            return Point((k * a, k * b, k * c), _times(left.dimension, right.dimension, 1.0))
+        return None
+    if isinstance(left, Point) and isinstance(right, Quantity):
+        return product_of(right, left)
+    if isinstance(left, Orientation) and isinstance(right, Orientation):
+        return Orientation(vectors.turn_product(left.quaternion, right.quaternion))
+    return None
+
+
+def quotient_of(left: Value, right: Value, span: Span) -> Value | None:
+    """Their quotient; None if these two have none. `span` is the divisor's place."""
+    if not isinstance(right, Quantity):
+        return None
+    k = right.value
+    if not isinstance(k, Taylor) and k == 0.0:
+        raise problem("E203", "division by zero", span, "this is 0")
+    if isinstance(left, Quantity):
+        return Quantity(left.value / k, _times(left.dimension, right.dimension, -1.0))
+    if isinstance(left, Point):
+        a, b, c = left.xyz
+        return Point((a / k, b / k, c / k), _times(left.dimension, right.dimension, -1.0))
+    return None
+
+
+def negative(value: Value) -> Value | None:
+    """With the other sign; None if it has no sign."""
+    if isinstance(value, Quantity):
+        return Quantity(-value.value, value.dimension)
+    if isinstance(value, Point):
+        a, b, c = value.xyz
+        return Point((-a, -b, -c), value.dimension)
+    return None
+
+
+def power_of(base: Quantity, exponent: Quantity) -> Quantity | None:
+    """A power; None if the base's unit does not allow it."""
+    if base.dimension == PLAIN:
+        return Quantity(taylor.power(base.value, exponent.value), PLAIN)
+    if isinstance(exponent.value, Taylor):
+        return None
+    dimension = _times(PLAIN, base.dimension, exponent.value)
+    if max(map(abs, dimension)) > LARGEST_EXPONENT:
+        return None
+    return Quantity(taylor.power(base.value, exponent.value), dimension)
+
+
+def _times(left: Dimension, right: Dimension, exponent: float) -> Dimension:
+    return (
+        left[0] + exponent * right[0],
+        left[1] + exponent * right[1],
+        left[2] + exponent * right[2],
+        left[3] + exponent * right[3],
+    )

@@ -1,0 +1,399 @@
+"""The words of the language, as tables.
+
+The parser, its messages and its suggestions all read these tables, and so does whatever is made
+from them: the reference, completion, grammars for editors. A new word is a line here first.
+
+from dqpaint.language.records import record
+"""
+
+from dqpaint.core.records import record
+
+
+@record
+class PartWord:
+    """A word within a statement that takes a value, such as `to` or `speed`.
+
+    Attributes:
+        word: as it is written.
+        takes: the kind of value: a dimension or a kind of value; or `tool`, `light`, `brush`,
+            `strobe`, `blend`, which have a little grammar of their own; or `flag`, for none.
+        says: its meaning in a line.
+        example: the word with a value, fit to be pasted.
+    """
+
+    word: str
+    takes: str
+    says: str
+    example: str
+
+
+@record
+class StatementWord:
+    """A word that begins a line.
+
+    Attributes:
+        word: as it is written.
+        says: its meaning in a line.
+        example: a whole line, fit to be pasted.
+        head: what stands between the word and its parts; empty for nothing.
+        parts: the parts it may have.
+        many: the parts that it may have several times.
+        block: whether it holds the lines up to an `end`.
+        moves: whether the tool moves, or time passes.
+    """
+
+    word: str
+    says: str
+    example: str
+    head: str = ""
+    parts: tuple[str, ...] = ()
+    many: tuple[str, ...] = ()
+    block: bool = False
+    moves: bool = False
+
+
+LAMP = ("light", "brush", "strobe")  # what shines, and how
+SETTINGS = ("speed", "turnspeed", "law", "tool", "blend", *LAMP)
+TIMES = ("in", "samples")
+PACE = (*TIMES, "speed", "turnspeed", "law")  # what a `stroke` says for all of its lines
+CLAUSES = (*TIMES, *SETTINGS)
+OWN_CORNERS = tuple(word for word in CLAUSES if word != "blend")  # of what comes from elsewhere
+DARK_CLAUSES = tuple(word for word in CLAUSES if word not in LAMP)
+
+PARTS = {
+    part.word: part
+    for part in (
+        PartWord("to", "place", "the point to go to", "to (10, 0) mm"),
+        PartWord("by", "shift", "how far to go from here", "by (10, 0) mm"),
+        PartWord("via", "place", "a point the arc goes through", "via (10, 10) mm"),
+        PartWord("at", "place", "where", "at (0, 0) mm"),
+        PartWord("centre", "place", "the centre of the arc", "centre (0, 0)"),
+        PartWord("center", "place", "the same as centre", "center (0, 0)"),
+        PartWord("axis", "direction", "what the arc turns about; z if not said", "axis z"),
+        PartWord("angle", "angle", "how far it turns, by the right-hand rule", "angle 360 deg"),
+        PartWord("radius", "length", "the radius of an arc to a point", "radius 20 mm"),
+        PartWord("left", "flag", "the arc turns left, against the clock", "left"),
+        PartWord("right", "flag", "the arc turns right, with the clock", "right"),
+        PartWord("long", "flag", "the longer of two arcs: more than half a turn", "long"),
+        PartWord("rise", "length", "how far it advances along the axis in all", "rise 7 cm"),
+        PartWord("grow", "length", "how much the radius grows in all", "grow -3 cm"),
+        PartWord("about", "place", "a point of the axis", "about (0, 0, 0)"),
+        PartWord("along", "direction", "the direction of the axis", "along z"),
+        PartWord("pitch", "pitch", "the advance for each turn", "pitch 150 mm/turn"),
+        PartWord("rotate", "rotation", "the block, turned", "rotate 30 deg"),
+        PartWord("shift", "shift", "the block, moved", "shift (80, 0) mm"),
+        PartWord("scale", "number", "the block, larger or smaller", "scale 0.5"),
+        PartWord("frame", "frame", "the block, in a frame that has a name", "frame leaf"),
+        PartWord("turned", "rotation", "which way round", "turned rpy(0 deg, 0 deg, 90 deg)"),
+        PartWord("in", "time", "how long it takes", "in 2 s"),
+        PartWord("samples", "count", "how many samples it takes", "samples 300"),
+        PartWord("speed", "speed", "the speed the tool cruises at", "speed 40 mm/s"),
+        PartWord("turnspeed", "turnspeed", "the speed of a turn on the spot", "turnspeed 60 deg/s"),
+        PartWord("law", "law", "how the speed goes along a stroke", "law trapezoid"),
+        PartWord("tool", "tool", "what the tool does meanwhile", "tool look (0, 0, 300) mm"),
+        PartWord("blend", "blend", "corners rounded within this distance", "blend 5 mm"),
+        PartWord("light", "light", "the colour, or from one colour to another", "light red"),
+        PartWord("font", "font", "which letters; see: dqpaint list fonts", 'font "scripts"'),
+        PartWord("height", "length", "how high: a capital letter, a whole drawing", "height 30 mm"),
+        PartWord("width", "length", "how wide: the longest line, a whole drawing", "width 90 mm"),
+        PartWord("align", "alignment", "which end of each line stands at `at`", "align centre"),
+        PartWord("unit", "unit", "of the numbers in a file", "unit mm"),
+        PartWord("smooth", "flag", "bends from point to point, but for sharp corners", "smooth"),
+        PartWord("brush", "brush", "what shines: a point, or a bar", "brush bar 120 mm along x"),
+        PartWord(
+            "strobe", "strobe", "the light flashes, for a part of the time", "strobe 10 Hz 30%"
+        ),
+    )
+}
+
+STATEMENTS = {
+    statement.word: statement
+    for statement in (
+        StatementWord("traj", "the version of the language", "traj 1", head="version"),
+        StatementWord("robot", "the arm the drawing is for", "robot iiwa", head="robot"),
+        StatementWord("include", "the lines of another file", 'include "f.traj"', head="include"),
+        StatementWord("let", "a name for a value, or a function", "let r = 70 mm", head="let"),
+        StatementWord(
+            "frame",
+            "a name for a place and a turn, for 'with frame'",
+            "frame leaf at (30, 0) mm turned 45 deg",
+            head="frame",
+            parts=("at", "turned"),
+        ),
+        StatementWord(
+            "place",
+            "the drawing frame in the robot's base frame, or auto: where it fits best",
+            "place at (600, 0, 500) mm",
+            head="place",
+            parts=("at", "turned"),
+        ),
+        StatementWord(
+            "start",
+            "where the drawing begins",
+            "start at (0, 0, 0) tool rpy(0 deg, 0 deg, 0 deg)",
+            parts=("at", "tool"),
+        ),
+        StatementWord("period", "the time between two samples", "period 8 ms", head="value"),
+        *(
+            StatementWord(word, f"{PARTS[word].says}, from here on", PARTS[word].example, word)
+            for word in SETTINGS
+        ),
+        StatementWord(
+            "line",
+            "a straight stroke, or several",
+            "line to (10, 0) mm",
+            parts=("to", "by", *CLAUSES),
+            many=("to", "by"),
+            moves=True,
+        ),
+        StatementWord(
+            "move",
+            "a straight way in the dark",
+            "move to (10, 0) mm",
+            parts=("to", "by", *DARK_CLAUSES),
+            many=("to", "by"),
+            moves=True,
+        ),
+        StatementWord(
+            "arc",
+            "an arc, circle, helix or flat spiral",
+            "arc centre (30, 0) mm angle 360 deg",
+            parts=(
+                *("via", "to", "centre", "center", "axis", "angle", "rise", "grow"),
+                *("radius", "left", "right", "long"),
+                *CLAUSES,
+            ),
+            moves=True,
+        ),
+        StatementWord(
+            "screw",
+            "a screw motion of the whole tool",
+            "screw about (0, 0, 0) along z angle 90 deg pitch 50 mm/turn",
+            parts=("about", "along", "angle", "pitch", "to", *CLAUSES),
+            moves=True,
+        ),
+        StatementWord(
+            "curve",
+            "any formula",
+            "curve polar(40 mm, t) for t from 0 to 360 deg",
+            head="formula",
+            parts=CLAUSES,
+            moves=True,
+        ),
+        StatementWord(
+            "step",
+            "a jump of the set point",
+            "step to (50, 50, -20) mm",
+            parts=("to", "tool", *LAMP),
+            moves=True,
+        ),
+        StatementWord(
+            "text",
+            "lettering; a further string in quotes is a further line",
+            'text "Ada" height 30 mm',
+            head="texts",
+            parts=("font", "height", "width", "at", "align", *OWN_CORNERS),
+            moves=True,
+        ),
+        StatementWord(
+            "path",
+            "a line through the points in a file, or in a file for each axis",
+            'path "orbit.csv" unit cm',
+            head="texts",
+            parts=("unit", "height", "width", "at", "smooth", *OWN_CORNERS),
+            moves=True,
+        ),
+        StatementWord(
+            "svg",
+            "the lines of an SVG drawing, in its own colours",
+            'svg "logo.svg" height 80 mm',
+            head="texts",
+            parts=("height", "width", "at", *OWN_CORNERS),
+            moves=True,
+        ),
+        StatementWord("hold", "a pause", "hold 1 s", head="value", parts=LAMP, moves=True),
+        StatementWord(
+            "repeat", "its lines, several times", "repeat i from 1 to 5", head="repeat", block=True
+        ),
+        StatementWord(
+            "with",
+            "its lines, turned, moved, scaled or set differently",
+            "with rotate 30 deg shift (80, 0) mm",
+            parts=("rotate", "about", "shift", "scale", "frame", *SETTINGS),
+            many=("rotate", "about", "shift", "scale", "frame"),
+            block=True,
+        ),
+        StatementWord(
+            "stroke",
+            "its lines in one go, without a stop between them",
+            "stroke in 5 s",
+            parts=CLAUSES,
+            block=True,
+        ),
+        StatementWord(
+            "def",
+            "lines with a name, drawn where it is called: star(20 mm)",
+            "def star(r)",
+            head="def",
+            block=True,
+        ),
+        StatementWord("end", "closes a block", "end"),
+    )
+}
+
+# Statements of other languages: the word, the sentence, what to do.
+FOREIGN = {
+    "if": (".traj has no conditions", "use repeat, min/max, or write two files"),
+    "else": (".traj has no conditions", "use repeat, min/max, or write two files"),
+    "while": (".traj has no conditions", "use repeat, min/max, or write two files"),
+    "for": ("a loop is written with 'repeat'", "write: repeat i from 1 to 5"),
+}
+
+# Words that begin a block in languages people come from, so that their `end` is theirs.
+FOREIGN_BLOCKS = ("if", "while", "for")
+
+# What people write who mean one of our words: for statements, and for parts.
+STATEMENT_ALIASES = {
+    **dict.fromkeys(("wait", "pause", "sleep", "dwell", "delay"), "hold"),
+    "fd": "line by",
+    "penup": "move to",
+    "print": "text",
+    "circle": "arc centre POINT angle 360 deg",
+    "helix": "arc centre POINT angle 3 turn rise LENGTH",
+    "spiral": "arc centre POINT angle 3 turn grow LENGTH",
+    "color": "light",
+    "colour": "light",
+    "led": "light",
+    "pen": "light",
+    "goto": "move to",
+    "go": "line to",
+    "lineto": "line to",
+    "moveto": "move to",
+    "travel": "move to",
+    "jump": "move to",
+    "draw": "line to",
+    "forward": "line by",
+    "G0": "move to",
+    "G1": "line to",
+    "G2": "arc centre POINT angle -90 deg",
+    "G3": "arc centre POINT angle 90 deg",
+    "G4": "hold",
+    "LIN": "line to",
+    "PTP": "move to",
+    "CIRC": "arc via POINT to POINT",
+    "MoveL": "line to",
+    "MoveJ": "move to",
+    "MoveC": "arc via POINT to POINT",
+    "movel": "line to",
+    "movej": "move to",
+    "movec": "arc via POINT to POINT",
+    "velocity": "speed",
+    "rate": "period",
+    "dt": "period",
+    "set": "let",
+    "var": "let",
+    "const": "let",
+    "loop": "repeat",
+    "function": "def",
+    "define": "def",
+    "proc": "def",
+    "import": "include",
+    "use": "include",
+    "round": "blend",
+    "flash": "strobe",
+    "pulse": "strobe",
+    "begin": "start",
+    "origin": "place",
+    "translate": "with shift POINT",
+    "shift": "with shift POINT",
+    "rotate": "with rotate ANGLE",
+    "scale": "with scale NUMBER",
+    "parametric": "curve",
+    "spline": "curve",
+    "write": "text",
+    "csv": "path",
+    "jumpto": "step to",
+    "turn": "line by (0, 0) tool ORIENTATION",
+    "orient": "tool",
+}
+PART_ALIASES = {
+    "origin": "centre",
+    "middle": "centre",
+    "through": "via",
+    "color": "light",
+    "colour": "light",
+    "time": "in",
+    "during": "in",
+    "for": "in",
+    "points": "samples",
+    "steps": "samples",
+    "velocity": "speed",
+    "height": "rise",
+    "size": "height",
+    "round": "blend",
+    "zone": "blend",
+    "flash": "strobe",
+    "ccw": "left",
+    "cw": "right",
+    "lead": "pitch",
+    "turns": "angle",
+    "orientation": "tool",
+    "translate": "shift",
+    "move": "shift",
+    "turn": "rotate",
+    "direction": "along",
+    "from": "at",
+    "position": "at",
+}
+
+LITTLE_WORDS = (
+    *("from", "for", "on", "off", "even", "keep", "follow", "look", "up", "point", "bar", "auto"),
+)
+
+CONSTANTS = ("pi", "x", "y", "z")
+LAWS = {"constant": (0,), "trapezoid": (0,), "cubic": (0, 2), "quintic": (0, 4)}
+
+# How each function is called, for messages and completion.
+FUNCTIONS = {
+    "sin": "sin(ANGLE)",
+    "cos": "cos(ANGLE)",
+    "tan": "tan(ANGLE)",
+    "asin": "asin(NUMBER)",
+    "acos": "acos(NUMBER)",
+    "atan": "atan(NUMBER)",
+    "sqrt": "sqrt(VALUE)",
+    "abs": "abs(VALUE)",
+    "min": "min(VALUE, VALUE)",
+    "max": "max(VALUE, VALUE)",
+    "exp": "exp(NUMBER)",
+    "ln": "ln(NUMBER)",
+    "polar": "polar(RADIUS, ANGLE)",
+    "hsv": "hsv(HUE) or hsv(HUE, SATURATION, VALUE)",
+    "rpy": "rpy(ANGLE, ANGLE, ANGLE)",
+    "rot": "rot(AXIS, ANGLE)",
+    "quat": "quat(W, X, Y, Z)",
+}
+LAW_ALIASES = {
+    "linear": "constant",
+    "uniform": "constant",
+    "trapezoidal": "trapezoid",
+    "ramp": "trapezoid",
+    "smooth": "quintic",
+    "ease": "cubic",
+}
+FUNCTION_ALIASES = {
+    "arcsin": "asin",
+    "arccos": "acos",
+    "arctan": "atan",
+    "log": "ln",
+    "hsl": "hsv",
+    "rotate": "rot",
+    "euler": "rpy",
+    "quaternion": "quat",
+    "pow": "^",
+}
+
+# Never part of an expression: a value was forgotten if one of them is found there.
+# But these say something in a few statements alone, and `let radius = …` is what people write.
+FREE = ("radius", "left", "right", "long", "height", "width", "unit")
+RESERVED = frozenset((*STATEMENTS, *PARTS, *LITTLE_WORDS, "if", "else", "while")).difference(FREE)

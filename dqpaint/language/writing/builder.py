@@ -1,0 +1,220 @@
+"""Calls -> a drawing: the language from Python, for what is easier computed than written.
+
+    d = Drawing(period=0.008)
+    d.speed(0.06)
+    d.move(to=(0.08, 0))
+    for i in range(1, 6):
+        with d.block(rotate=i, light="cyan"):
+            d.line(to=(0.08, 0), in_=1.5)
+    print(d)
+
+Every statement is a method and every part a keyword, as the tables of the language have them; words
+that Python keeps for itself end with an underscore (`in_`), and `with` is `block`. Numbers are in
+SI units: metres, radians, seconds. A string is text of the language: `angle="90 deg"`.
+"""
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from keyword import iskeyword
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from dqpaint.diagnostics.diagnostic import file_at
+from dqpaint.errors import UsageError
+from dqpaint.language import Program, ScriptError, parse, render
+from dqpaint.language.vocabulary.words import STATEMENTS
+from dqpaint.language.writing.formatter import STEP, formatted
+from dqpaint.language.writing.values_to_text import (
+    Unwritable,
+    called,
+    quoted,
+    written_head,
+    written_part,
+)
+
+_BLOCKS = {"with": "block", "def": "define"}  # as methods
+_METHODS = {
+    _BLOCKS.get(word, f"{word}_" if iskeyword(word) else word): word
+    for word in STATEMENTS
+    if word != "end"
+}
+
+
+_OF_FORM = "E1"  # what the codes begin with that are about a form that is not kept
+
+
+def _form(word: str) -> str:
+    """How a statement is called, as it would be typed."""
+    method = next(method for method, known in _METHODS.items() if known == word)
+    return f"d.{called(word, method)}"
+
+
+class Call(NamedTuple):
+    """Where in a Python file a statement was asked for."""
+
+    file: str
+    line: int
+    function: str
+
+    def __str__(self) -> str:
+        inside = f", in {self.function}" if self.function != "<module>" else ""
+        return f"{Path(self.file).name}:{self.line}{inside}"
+
+
+class DrawingError(ScriptError):
+    """A drawing made of calls that cannot be drawn: each message says which call it is about."""
+
+    def __init__(self, problem: ScriptError, calls: dict[int, Call]) -> None:
+        super().__init__(problem.name, problem.text, problem.diagnostics)
+        self.calls = calls  # by the line of the text, from 1
+
+    def __str__(self) -> str:
+        texts = []
+        for diagnostic in self.diagnostics:
+            shown = render(diagnostic, self.name, self.text)
+            if diagnostic.span is not None and not file_at(self.text, diagnostic.span.start, "")[0]:
+                line = self.text.count("\n", 0, diagnostic.span.start) + 1
+                margin = " " * (len(str(line)) + 1)
+                shown += self._call(line, margin, diagnostic.code)
+            texts.append(shown)
+        return "\n\n".join(texts)
+
+    def _call(self, line: int, margin: str, code: str) -> str:
+        """Which call a message is about, and how it is called where something is missing."""
+        if line not in self.calls:
+            return ""
+        word = self.text.split("\n")[line - 1].split()[0]
+        form = (
+            f"; for example: {_form(word)}"
+            if code.startswith(_OF_FORM) and word in STATEMENTS
+            else ""
+        )
+        return f"\n{margin}= call: {self.calls[line]}{form}"
+
+
+class Drawing:
+    """A drawing made by calls: printed it is a .traj file; `program` is what it means.
+
+    Args:
+        name: what messages and files are called after it.
+        folder: where the files lie that it names (`include`, `path`, `svg`).
+        settings: first statements with one value, such as `period=0.008`.
+    """
+
+    def __init__(self, name: str = "drawing", folder: str | Path = ".", **settings: Any) -> None:
+        self.name = name
+        self.folder = Path(folder)
+        self._lines: list[str] = []
+        self._calls: dict[int, Call] = {}
+        self._depth = 0
+        for method, value in settings.items():
+            self._add(_word(method), (value,), {})
+
+    def __getattr__(self, method: str) -> Callable[..., Any]:
+        if method not in _METHODS:
+            raise AttributeError(self._no_method(method))
+        word = _METHODS[method]
+        known = STATEMENTS[word]
+
+        def statement(*values: Any, **parts: Any) -> AbstractContextManager[None] | None:
+            self._add(word, values, parts)
+            return self._block() if known.block else None
+
+        statement.__name__ = method
+        statement.__doc__ = f"{known.says.capitalize()}: `{known.example}`."
+        return statement
+
+    def _no_method(self, method: str) -> str:
+        if f"def {method}(" in "\n".join(self._lines):
+            return f"'{method}' is drawn by a line of the language: d.write(\"{method}(...)\")"
+        return f"a drawing has no '{method}'; it has: {', '.join(_METHODS)}"
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *_METHODS})
+
+    def write(self, line: str) -> None:
+        """A line of the language as it stands, such as the call of a `def`."""
+        if len(line.splitlines()) > 1:
+            raise UsageError(f"{_caller()}: one line at a time")
+        self._line(line)
+
+    def comment(self, text: str) -> None:
+        """A comment on lines of its own."""
+        for line in text.splitlines():
+            self._lines.append(f"{STEP * self._depth}# {line}".rstrip())
+
+    def source(self) -> str:
+        """The drawing as a .traj file, in the layout of `dqpaint fmt`; blocks that are open end.
+
+        Raises:
+            DrawingError: a string of a call is no text of the language.
+        """
+        text = "\n".join([*self._lines, *["end"] * self._depth, ""])
+        with self.places():
+            return formatted(text, self.name)
+
+    def __str__(self) -> str:
+        return self.source()
+
+    def program(self) -> Program:
+        """The drawing, understood and checked, as if it had been read from a file.
+
+        Raises:
+            DrawingError: with every mistake, and the call that made it.
+        """
+        with self.places():
+            return parse(self.source(), self.name, self.folder / "drawing.traj")
+
+    @contextmanager
+    def places(self) -> Iterator[None]:
+        """Errors about this drawing from what is done inside say which call they are about."""
+        try:
+            yield
+        except DrawingError:
+            raise
+        except ScriptError as problem:
+            raise DrawingError(problem, self._calls) from None
+
+    def _add(self, word: str, values: tuple[Any, ...], parts: dict[str, Any]) -> None:
+        try:
+            line = " ".join([word, *written_head(word, values), *_parts(word, parts)])
+        except Unwritable as problem:
+            example = "" if "for example" in str(problem) else f"; for example: {_form(word)}"
+            raise UsageError(f"{_caller()}: {word}: {problem}{example}") from None
+        self._line(line)
+
+    def _line(self, line: str) -> None:
+        self._lines.append(STEP * self._depth + line)
+        self._calls[len(self._lines)] = _caller()
+
+    @contextmanager
+    def _block(self) -> Iterator[None]:
+        self._depth += 1
+        try:
+            yield
+        finally:
+            self._depth -= 1
+            self._lines.append(f"{STEP * self._depth}end")
+
+
+def _word(method: str) -> str:
+    if method not in _METHODS:
+        raise UsageError(f"no statement named '{method}'; known: {', '.join(_METHODS)}")
+    return _METHODS[method]
+
+
+def _parts(word: str, parts: dict[str, Any]) -> Iterator[str]:
+    for name, value in parts.items():
+        yield from written_part(word, name.removesuffix("_"), value)
+
+
+def _caller() -> Call:
+    """The first place outside of this file."""
+    frame = sys._getframe(1)
+    while frame.f_back is not None and frame.f_code.co_filename == __file__:
+        frame = frame.f_back
+    return Call(frame.f_code.co_filename, frame.f_lineno, frame.f_code.co_name)
+
+
+__all__ = ["Call", "Drawing", "DrawingError", "quoted"]

@@ -1,0 +1,141 @@
+"""Real camera settings: from candela, f-number and ISO to what saturates the sensor."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+
+from dqpaint.errors import UsageError
+from dqpaint.light.camera.camera import LENS, Camera
+
+SENSOR = 0.036
+"""Long side of the sensor: full frame [m]."""
+SATURATION = 78.0
+"""Exposure times speed that saturates: H = 78 / S lux s (ISO 12232:2019)."""
+TRANSMISSION = 0.9
+"""Of the glass of a usual lens."""
+
+
+@dataclass(frozen=True)
+class Exposure:
+    """What a photographer sets.
+
+    Attributes:
+        f_number: Focal length over the diameter of the aperture.
+        iso: Speed of the sensor.
+        focal: Focal length [m], on a sensor 36 mm wide.
+        nd: Stops a neutral-density filter takes.
+        candela: Luminous intensity of a lamp of full brightness, of all its LEDs together [cd].
+        distance: From the camera to the middle of the drawing [m]; None frames the drawing.
+    """
+
+    f_number: float = 8.0
+    iso: float = 100.0
+    focal: float = LENS * SENSOR
+    nd: float = 0.0
+    candela: float = 1.0
+    distance: float | None = None
+
+    @property
+    def lens(self) -> float:
+        """Focal length over the long side of the sensor."""
+        return self.focal / SENSOR
+
+    def factor(self, camera: Camera) -> float:
+        """From lamp s / (m^2 px^2), light over its distance squared, to sensor saturation.
+
+            dH / H_sat = I dt (pi/4) (f/N)^2 T 2^-ND / (r^2 p^2) S / 78
+
+        Illuminance on the sensor is what the aperture catches of the lamp's flux, over the area of
+        a pixel; I [cd], r [m], pixel pitch p [m].
+        """
+        pitch = SENSOR / max(camera.width, camera.height)
+        aperture = math.pi / 4.0 * (self.focal / self.f_number) ** 2
+        caught = self.candela * aperture * TRANSMISSION * 2.0**-self.nd
+        return float(caught / pitch**2 * self.iso / SATURATION)
+
+    def __str__(self) -> str:
+        parts = [f"f/{self.f_number:g}", f"ISO {self.iso:g}", f"{1e3 * self.focal:g} mm"]
+        if self.nd:
+            parts.append(f"ND {self.nd:g} stops")
+        return f"{', '.join(parts)}, LED of {brightness(self.candela)}"
+
+
+@dataclass(frozen=True)
+class _Part:
+    """A part of an exposure's text: how it is written, what it sets, its bounds and unit."""
+
+    pattern: str
+    field: str
+    least: float
+    most: float
+    scale: float
+    example: str
+
+
+NUMBER = r"(\d+(?:\.\d+)?|\.\d+)"
+PARTS = (
+    _Part(rf"f/{NUMBER}", "f_number", 0.5, 128.0, 1.0, "f/8"),
+    _Part(rf"iso{NUMBER}", "iso", 1.0, 1e6, 1.0, "iso100"),
+    _Part(rf"{NUMBER}mm", "focal", 4.0, 2000.0, 1e-3, "35mm"),
+    _Part(rf"nd{NUMBER}", "nd", 0.0, 30.0, 1.0, "nd3"),
+    _Part(rf"{NUMBER}cd", "candela", 1e-6, 1e6, 1.0, "0.1cd"),
+    _Part(rf"{NUMBER}m", "distance", 0.01, 100.0, 1.0, "2.2m"),
+)
+MEANINGS = (
+    "f/8 (aperture), iso100, 35mm (focal length), nd3 (filter, in stops), "
+    "0.1cd (the lamp), 2.2m (distance)"
+)
+
+
+def parse_exposure(text: str) -> Exposure | None:
+    """The settings of a text such as `f/8,iso100,35mm,nd3,1cd,2.2m`, in any order; None for `auto`.
+
+    Raises:
+        UsageError: a part that is none, is given twice or is out of bounds.
+    """
+    if text.strip() == "auto":
+        return None
+    given: dict[str, float] = {}
+    for word in text.split(","):
+        part, number = _read(text, word.strip())
+        if part.field in given:
+            raise UsageError(f"exposure '{text}': {part.example}'s kind of part is given twice")
+        if not part.least <= number <= part.most:
+            bounds = f"from {part.least:g} to {part.most:g}, as in {part.example}"
+            raise UsageError(f"exposure '{text}': '{word.strip()}' must be {bounds}")
+        given[part.field] = number * part.scale
+    return Exposure(**given)
+
+
+def _read(text: str, word: str) -> tuple[_Part, float]:
+    for part in PARTS:
+        found = re.fullmatch(part.pattern, word, re.IGNORECASE)
+        if found is not None:
+            return part, float(found[1])
+    raise UsageError(
+        f"exposure '{text[:60]}': '{word[:20]}' is no part of one; its parts: {MEANINGS}"
+    )
+
+
+def advice(factor: float, camera: Camera, distance: float) -> str:
+    """An exposure by the camera's automatic, in a photographer's terms.
+
+    Args:
+        factor: From lamp s / px^2 to sensor saturation.
+        camera: That took the picture.
+        distance: From it to the drawing [m].
+    """
+    lens = camera.focal / max(camera.width, camera.height)
+    one = Exposure(focal=lens * SENSOR)
+    candela = factor * distance**2 / one.factor(camera)
+    return (
+        f"as f/8, ISO 100, {1e3 * one.focal:.0f} mm at {distance:.2g} m "
+        f"with an LED of {brightness(candela)}"
+    )
+
+
+def brightness(candela: float) -> str:
+    """Luminous intensity in the unit that suits it."""
+    return f"{1e3 * candela:.2g} mcd" if candela < 0.1 else f"{candela:.3g} cd"

@@ -1,0 +1,229 @@
+"""Views: several pictures of one painting, from one simulation."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import count
+
+import numpy as np
+
+from dqpaint.errors import UsageError
+from dqpaint.light.arrays import Floats, kept
+from dqpaint.light.camera.camera import FILL, LENS, NEAR, VIEWS, Camera, View, frame, look
+
+EYES = 1.0 / 30.0
+"""Distance of the eyes of a stereo pair over that to the drawing: the rule of photographers."""
+ROUND = 12
+"""Views of an orbit where no number is said."""
+MOST = 360
+CLOSEST = 0.01
+"""A camera is at least so far from what it looks at [m]."""
+FARTHEST = 100.0
+"""And at most so far from anything [m]."""
+RAISED = 15.0
+"""Elevation of an orbit where none is said [deg]."""
+
+
+@dataclass(frozen=True)
+class Shot:
+    """One picture to take.
+
+    Attributes:
+        name: Of the view, as it goes into the name of its file.
+        view: From where.
+        eye: Half the distance of the eyes, with its sign, over that to the drawing.
+        orbit: Whether all of it must be seen from the same distance as from all round.
+        series: Shots of one series have one exposure; 0 is by itself.
+        place: Of the camera, base frame [m]; None: where the drawing fills the picture.
+        target: What is in the middle of the picture then, likewise; None: the drawing's middle.
+    """
+
+    name: str
+    view: View
+    eye: float = 0.0
+    orbit: bool = False
+    series: int = 0
+    place: tuple[float, float, float] | None = None
+    target: tuple[float, float, float] | None = None
+
+
+def parse_views(text: str) -> tuple[Shot, ...]:
+    """The pictures of a text: names with commas, such as `front,iso,20,30,stereo:side,orbit:12`.
+
+    Two numbers that follow each other are azimuth and elevation in degrees; `at:X:Y:Z[:X:Y:Z]` are
+    the camera's place and what it looks at, in metres from the robot's base.
+
+    Raises:
+        UsageError: an unknown view, an elevation beyond a pole, or one view twice.
+    """
+    words = [word.strip() for word in text.split(",")]
+    shots: list[Shot] = []
+    series = count(1)
+    while words:
+        word = words.pop(0)
+        kind, *choices = word.split(":")
+        if kind == "stereo":
+            shots += _stereo(text, word, choices, next(series))
+        elif kind == "orbit":
+            shots += _orbit(text, word, choices, next(series))
+        elif kind == "at":
+            shots.append(_placed(word, choices))
+        elif word in VIEWS:
+            shots.append(Shot(word, VIEWS[word]))
+        else:
+            view = _angles(text, word, words.pop(0) if words else "")
+            shots.append(Shot(_name(view), view))
+    names = [shot.name for shot in shots]
+    for name in names:
+        if names.count(name) > 1:
+            raise UsageError(f"view '{text}': {name} is given twice")
+    return tuple(shots)
+
+
+def _name(view: View) -> str:
+    return f"az{view.azimuth:g}-el{view.elevation:g}"
+
+
+def _number(word: str) -> float | None:
+    try:
+        value = float(word)
+    except ValueError:
+        return None
+    return value if math.isfinite(value) else None
+
+
+def _angles(text: str, first: str, second: str) -> View:
+    azimuth, elevation = _number(first), _number(second)
+    if azimuth is None or elevation is None:
+        shown = first if azimuth is None else text
+        known = f"{', '.join(VIEWS)}, AZ,EL in degrees, stereo[:VIEW], orbit[:N[:EL]], at:X:Y:Z"
+        raise UsageError(f"no view named '{shown}'; known: {known}")
+    return View(azimuth, _elevation(elevation))
+
+
+def _placed(word: str, choices: list[str]) -> Shot:
+    numbers = [_number(choice) for choice in choices]
+    known = [number for number in numbers if number is not None and abs(number) <= FARTHEST]
+    if len(numbers) not in (3, 6) or len(known) != len(numbers):
+        raise UsageError(
+            f"view '{word[:60]}' is not at:X:Y:Z or at:X:Y:Z:X:Y:Z, the camera's place and what it "
+            f"looks at, in metres from the robot's base, {FARTHEST:g} at most"
+        )
+    place, target = (known[0], known[1], known[2]), None
+    if len(known) == 6:
+        target = (known[3], known[4], known[5])
+        if math.dist(place, target) < CLOSEST:
+            raise UsageError(f"view '{word}': the camera stands in what it looks at")
+    name = "_".join(["at", *(f"{number:g}" for number in known)])
+    return Shot(name, VIEWS["front"], place=place, target=target)
+
+
+def _elevation(value: float) -> float:
+    if not -90.0 <= value <= 90.0:
+        raise UsageError(f"view elevation {value:g} deg must be from -90 to 90")
+    return value
+
+
+def _stereo(text: str, word: str, choices: list[str], series: int) -> list[Shot]:
+    name = choices[0] if choices else "front"
+    if len(choices) == 2:
+        view = _angles(text, *choices)
+    elif len(choices) < 2 and name in VIEWS:
+        view = VIEWS[name]
+    else:
+        raise UsageError(f"view '{word}' is not stereo, stereo:NAME or stereo:AZ:EL")
+    eyes = (("left", -0.5 * EYES), ("right", 0.5 * EYES))
+    return [Shot(f"stereo-{side}", view, eye, series=series) for side, eye in eyes]
+
+
+def _orbit(text: str, word: str, choices: list[str], series: int) -> list[Shot]:
+    numbers = [_number(choice) for choice in choices]
+    around, raised = (*numbers, *((float(ROUND), RAISED)[len(numbers) :]))[:2]
+    if len(choices) > 2 or around is None or raised is None or around != int(around):
+        raise UsageError(f"view '{word}' is not orbit, orbit:N or orbit:N:EL")
+    if not 2 <= around <= MOST:
+        raise UsageError(f"view '{word}': an orbit has 2 to {MOST} views")
+    n, elevation = int(around), _elevation(raised)
+    digits = len(str(n - 1))
+    return [
+        Shot(f"orbit-{i:0{digits}}", View(360.0 * i / n, elevation), 0.0, True, series)
+        for i in range(n)
+    ]
+
+
+def camera_of(
+    shot: Shot,
+    points: Floats,
+    canvas_rotation: Floats,
+    size: tuple[int, int],
+    lens: float = LENS,
+    distance: float | None = None,
+    fill: float = FILL,
+) -> Camera:
+    """The camera of a shot that sees all points; arguments as those of `frame`."""
+    if shot.place is not None:
+        return _standing(shot, points, canvas_rotation, size, lens)
+    if shot.orbit and distance is None:
+        return _circling(shot, points, canvas_rotation, size, lens, fill)
+    camera = frame(points, canvas_rotation, shot.view, size, lens, distance, fill)
+    if shot.eye == 0.0:
+        return camera
+    away = distance_to(camera, points)
+    shift = shot.eye * away
+    position = camera.position + shift * camera.rotation[0]
+    # shifted lenses instead of turned ones: the middle of the drawing is where it was, and
+    # nothing is higher in one eye than in the other
+    centre = camera.centre + np.array([camera.focal * shift / away, 0.0])
+    return Camera(position, camera.rotation, camera.focal, centre, camera.width, camera.height)
+
+
+def _standing(
+    shot: Shot, points: Floats, canvas_rotation: Floats, size: tuple[int, int], lens: float
+) -> Camera:
+    """A camera that stands where it was put, upright as the canvas is."""
+    axes = kept("canvas rotation", canvas_rotation, (3, 3))
+    place = np.array(shot.place)
+    if shot.target is None:
+        local = points @ axes
+        target = axes @ (0.5 * (local.min(axis=0) + local.max(axis=0)))
+    else:
+        target = np.array(shot.target)
+    away = float(np.linalg.norm(place - target))
+    if away < CLOSEST:
+        raise UsageError(f"view '{shot.name}': the camera stands in what it looks at")
+    right, up, back = axes.T @ (place - target) / away
+    azimuth = math.degrees(math.atan2(right, back)) if math.hypot(right, back) > 1e-9 else 0.0
+    view = View(azimuth, math.degrees(math.asin(np.clip(up, -1.0, 1.0))))
+    centre = 0.5 * np.array([size[0] - 1.0, size[1] - 1.0])
+    camera = Camera(place, look(view) @ axes.T, lens * max(size), centre, *size)
+    if camera.project(points)[1].max() <= NEAR:
+        raise UsageError(f"view '{shot.name}': the camera looks away from the drawing")
+    return camera
+
+
+def _circling(
+    shot: Shot,
+    points: Floats,
+    canvas_rotation: Floats,
+    size: tuple[int, int],
+    lens: float,
+    fill: float,
+) -> Camera:
+    """A camera on a circle round the middle, far enough to see a ball round all points."""
+    axes = kept("canvas rotation", canvas_rotation, (3, 3))
+    local = points @ axes
+    middle = 0.5 * (local.min(axis=0) + local.max(axis=0))
+    radius = max(float(np.sqrt(((local - middle) ** 2).sum(axis=1)).max()), 1e-3)
+    focal = lens * max(size)
+    away = radius / math.sin(math.atan(fill * 0.5 * min(size) / focal))
+    rotation = look(shot.view)
+    position = axes @ (middle + away * rotation[2])
+    centre = 0.5 * np.array([size[0] - 1.0, size[1] - 1.0])
+    return Camera(position, rotation @ axes.T, focal, centre, *size)
+
+
+def distance_to(camera: Camera, points: Floats) -> float:
+    """How far in front of the camera the middle of some points is [m]."""
+    _, depth = camera.project(points)
+    return float(0.5 * (depth.min() + depth.max()))

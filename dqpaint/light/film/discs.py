@@ -1,0 +1,72 @@
+"""Lamps with a size: seen from anywhere a diffuse ball is an even disc, smaller where it is far.
+
+The light is sorted into layers by the diameter of its disc on the picture, and each layer is
+spread at once: a point of it becomes a disc with the same energy.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import cache
+from typing import TYPE_CHECKING, cast
+
+import cv2
+import numpy as np
+
+from dqpaint.light.arrays import Floats
+from dqpaint.light.camera.camera import NEAR, Camera
+
+if TYPE_CHECKING:
+    from dqpaint.light.sources.emission import Light
+
+RATIO = 1.15
+"""From the diameter of one layer to the next."""
+SMALLEST = 1.0
+"""A smaller disc is a point [px]."""
+LARGEST = 2000.0
+"""No disc is larger [px]."""
+FINE = 8
+"""Parts of a pixel that the rim of a disc is drawn with."""
+
+
+def layers(light: Light, camera: Camera) -> Iterator[tuple[int | None, Floats]]:
+    """The layers (None: points) a light falls on, with the share (N-1,) of each step in them.
+
+    A step between two layers goes to both, such that the mean diameter is its own.
+    """
+    _, depth = camera.project(0.5 * (light.points[1:] + light.points[:-1]))
+    diameter = light.size * camera.focal / np.maximum(depth, NEAR)
+    diameter = np.minimum(diameter, LARGEST)
+    small = diameter < SMALLEST
+    nearest = np.floor(np.log(np.maximum(diameter, SMALLEST)) / math.log(RATIO))
+    lower = nearest.astype(np.int64)
+    above = (diameter / RATIO**nearest - 1.0) / (RATIO - 1.0)
+    above = np.clip(above, 0.0, 1.0)
+    if small.any():
+        yield None, small.astype(np.float64)
+    for layer in np.unique(np.concatenate([lower[~small], lower[~small] + 1])):
+        share = np.where(lower == layer, 1.0 - above, np.where(lower == layer - 1, above, 0.0))
+        share[small] = 0.0
+        if share.any():
+            yield int(layer), share
+
+
+def spread(planes: Floats, layer: int) -> Floats:
+    """(3, H, W) planes with a disc of the layer's diameter for every point."""
+    kernel = _disc(layer)
+    spread = [
+        cv2.filter2D(plane, cv2.CV_64F, kernel, borderType=cv2.BORDER_CONSTANT) for plane in planes
+    ]
+    return np.maximum(np.stack(cast(list[Floats], spread)), 0.0)  # a transform leaves -1e-20
+
+
+@cache
+def _disc(layer: int) -> Floats:
+    """An even disc, its rim by the area in each pixel; it adds up to 1."""
+    radius = 0.5 * RATIO**layer
+    half = math.ceil(radius)
+    fine = (np.arange((2 * half + 1) * FINE) + 0.5) / FINE - (half + 0.5)
+    inside = (fine[:, None] ** 2 + fine[None, :] ** 2 <= radius**2).astype(np.float64)
+    kernel = inside.reshape(2 * half + 1, FINE, 2 * half + 1, FINE).mean(axis=(1, 3))
+    return np.asarray(kernel / kernel.sum())

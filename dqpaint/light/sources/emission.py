@@ -1,0 +1,101 @@
+"""What lamps emit on their way: the straight steps that a camera is shown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dqpaint.errors import DqpaintError
+from dqpaint.light.arrays import Floats, kept
+from dqpaint.light.camera.camera import Camera
+from dqpaint.light.sources.sheet import Sheet
+
+
+class Emission(Protocol):
+    """Anything that shines: asked for a camera, it says what that camera is sent."""
+
+    def towards(self, camera: Camera, falloff: bool = False) -> Iterator[Light | Sheet]:
+        """What goes to the camera, piece by piece in the order of time.
+
+        Args:
+            camera: Who is looking.
+            falloff: Whether energies are divided by the square of the distance [m^2], for an
+                exposure by a camera's real settings.
+        """
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class Light:
+    """What one lamp emitted on its way through N instants.
+
+    Between two instants the lamp moves straight and evenly. Arrays are copied and read-only.
+
+    Attributes:
+        points: (N, 3) where the lamp is at each instant, base frame [m].
+        energy: (N-1, 3) what it emits from one instant to the next, linear RGB [lamp s]: a lamp
+            of colour 1 that burns for a second emits 1.
+        size: Diameter of the lamp, which looks like an even disc from everywhere; 0 is a point [m].
+    """
+
+    points: Floats
+    energy: Floats
+    size: float = 0.0
+
+    def __post_init__(self) -> None:
+        points = kept("lamp position", self.points, (None, 3))
+        if len(points) == 0:
+            raise ValueError("lamp position has no instant; at least one is needed")
+        energy = kept("lamp energy", self.energy, (len(points) - 1, 3))
+        if energy.min(initial=0.0) < 0.0:
+            raise DqpaintError(f"lamp energy {energy.min()} is negative")
+        object.__setattr__(self, "points", points)
+        object.__setattr__(self, "energy", energy)
+
+    @property
+    def lit_points(self) -> Floats:
+        """(K, 3) the points at either end of a step in which the lamp burns [m]."""
+        return self.points[lit_instants(self.energy)]
+
+    def towards(self, camera: Camera, falloff: bool = False) -> Iterator[Light | Sheet]:
+        """See `Emission`."""
+        if not falloff:
+            yield self
+            return
+        middle = 0.5 * (self.points[1:] + self.points[:-1])
+        yield Light(self.points, self.energy * inverse_square(middle, camera)[:, None], self.size)
+
+
+def lit_instants(energy: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    """Whether each of N instants is an end of a step, of energy (N-1, 3), that is lit."""
+    burning = energy.any(axis=1)
+    lit = np.zeros(len(energy) + 1, dtype=bool)
+    lit[:-1] |= burning
+    lit[1:] |= burning
+    return lit
+
+
+def inverse_square(points: Floats, camera: Camera) -> Floats:
+    """1 / r^2 (...) of points (..., 3) seen from the camera [1/m^2]; none is nearer than 1 mm."""
+    away = points - camera.position
+    return np.asarray(1.0 / np.maximum((away * away).sum(axis=-1), 1e-6))
+
+
+def shine(positions: ArrayLike, colours: ArrayLike, period: float) -> Light:
+    """The light of one LED at the tool's tip.
+
+    Args:
+        positions: (N, 3) of the tip at instants a period apart, base frame [m].
+        colours: (N, 3) linear RGB, not negative; row k is the mean from instant k to k+1, and
+            zero is dark. The last row has no such interval and is not used.
+        period: Time from one instant to the next [s].
+    """
+    if not (np.isfinite(period) and period > 0.0):
+        raise DqpaintError(f"period {period} s must be positive")
+    points = kept("lamp position", positions, (None, 3))
+    rgb = kept("lamp colour", colours, (len(points), 3))
+    return Light(points, rgb[:-1] * period)

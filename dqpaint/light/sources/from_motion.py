@@ -1,0 +1,97 @@
+"""What shines as a drawing is drawn, and from where a camera looks at it.
+
+Of the light alone, and without the image library: a forecast needs it as a picture does.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from dqpaint.dq import Floats
+from dqpaint.errors import DqpaintError
+from dqpaint.light.camera.camera import FILL, LENS, Camera
+from dqpaint.light.camera.exposure_settings import parse_exposure
+from dqpaint.light.camera.views import Shot, camera_of
+from dqpaint.light.sources.brushes import brush_of, read_brush
+from dqpaint.light.sources.emitters import Emitters
+from dqpaint.light.sources.sweep import Sweep
+from dqpaint.motion import Motion
+from dqpaint.program.program import Brush as BrushWords
+from dqpaint.settings.model import Settings
+
+MOST_FLASHES = 2_000_000
+FLOOR = 0.02  # of the usual speed: light that tells shows what stands still, too
+BESIDE_ARM = 0.45  # of the limiting dimension a drawing takes that leaves room for the arm
+
+
+def stand(points: Floats, front: Floats, settings: Settings, shot: Shot) -> Camera:
+    """The camera of one view.
+
+    Args:
+        points: (K, 3) what must be in the picture [m].
+        front: (3, 3) columns: right, up and towards the viewer, base frame.
+        settings: Size, exposure, and whether there is to be room for the arm.
+        shot: From where.
+    """
+    real = parse_exposure(settings.exposure or "auto")
+    lens, distance = (LENS, None) if real is None else (real.lens, real.distance)
+    size = (settings.width, settings.height)
+    fill = BESIDE_ARM if settings.ghost else FILL
+    return camera_of(shot, points, front, size, lens, distance, fill)
+
+
+def sweeps(
+    motion: Motion, pose: Floats, colours: Floats, settings: Settings, even: bool = False
+) -> tuple[Sweep, ...]:
+    """One sweep for each brush of the drawing; the others are dark in it.
+
+    Args:
+        motion: What was asked.
+        pose: (N, 8) of the tool, base frame.
+        colours: (N, 3) linear, of the time from each row to the next.
+        settings: Brush, and how the lamps are dimmed.
+        even: Whether every millimetre is to be equally bright.
+
+    Raises:
+        DqpaintError: A lamp that flashes too often.
+    """
+    segments = motion.program.segments
+    rates = [(s.strobe.frequency, s.strobe.duty) if s.strobe else (0.0, 1.0) for s in segments]
+    strobe = np.array(rates)[motion.stroke[:-1]] if any(s.strobe for s in segments) else None
+    fastest = max(settings.pwm, max(rate for rate, _ in rates))
+    if fastest * motion.t[-1] > MOST_FLASHES:
+        raise DqpaintError(
+            f"{motion.program.name}: {fastest:g} Hz for {motion.t[-1]:.0f} s are more than "
+            f"{MOST_FLASHES:,} flashes; so fast they are not seen: leave them out"
+        )
+    found = []
+    for emitters, used in _brushes(motion, settings):
+        shone = colours[:-1] if used is None else colours[:-1] * used[:, None]
+        if used is not None and not shone.any():
+            continue
+        sweep = Sweep(motion.period, pose, shone, emitters, strobe, settings.pwm)
+        found.append(evened(sweep) if even else sweep)
+    return tuple(found)
+
+
+def _brushes(motion: Motion, settings: Settings) -> list[tuple[Emitters, Floats | None]]:
+    """The brushes of a drawing with where (N-1,) each is used; None: everywhere."""
+    if settings.brush is not None:
+        return [(read_brush(settings.brush).emitters(), None)]
+    words: list[BrushWords] = [segment.brush for segment in motion.program.segments]
+    kinds = list(dict.fromkeys(words))
+    if len(kinds) == 1:
+        return [(brush_of(kinds[0]).emitters(), None)]
+    of = np.array([kinds.index(word) for word in words])[motion.stroke[:-1]]
+    return [
+        (brush_of(kind).emitters(), (of == i).astype(np.float64)) for i, kind in enumerate(kinds)
+    ]
+
+
+def evened(sweep: Sweep) -> Sweep:
+    """The sweep with every millimetre equally bright: its light goes by way, not by time."""
+    lit = sweep.colours.any(axis=1)
+    rates = sweep.walked / sweep.period
+    moving = rates[lit & (rates > 0.0)]
+    usual = float(np.median(moving)) if len(moving) else 1.0
+    return replace(sweep, colours=sweep.colours * (rates / usual + FLOOR)[:, None])

@@ -1,0 +1,250 @@
+"""The shapes of all segments of a drawing; those of one kind are computed at once.
+
+A drawing of ten thousand lines holds a handful of kinds: their parameters stand in arrays, one row
+a segment, and a formula is asked for all rows in one call. A curve is a kind for itself.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.motion.arc_length import Extent, flow_by_length, measure, measure_steady
+from dqpaint.motion.orientations import orientation
+from dqpaint.motion.paths import Arcs, Formula, Indices, Places, column, place_arc, place_straight
+from dqpaint.motion.piecewise_paths import place_chains
+from dqpaint.motion.shapes import Flow, Jump, Loose, Rigid, Shape
+from dqpaint.motion.stroke_errors import Faults, StrokeError, pole, stroke_errors
+from dqpaint.program.program import (
+    Arc,
+    Chain,
+    Cruise,
+    Curve,
+    Follow,
+    Keep,
+    Screw,
+    ScrewTo,
+    Segment,
+    Step,
+    Still,
+    Straight,
+    Vector,
+)
+
+Kind = tuple[object, ...]
+Flags = NDArray[np.bool_]
+Rows = Indices | slice
+
+
+def shape(segment: Segment) -> Shape:
+    """The stroke of one segment."""
+    return _shape((segment,)).of(0)
+
+
+@dataclass(frozen=True, eq=False)
+class Shapes:
+    """What the segments of a drawing are as motion.
+
+    Attributes:
+        segments: all of them (M).
+        families: the shapes of those of one kind.
+        family: which of these each segment belongs to (M,); -1 where it has no shape.
+        member: and its row there (M,).
+        length: of each path [m] (M,).
+        angle: that each tool turns through [rad] (M,).
+        uneven: the extents of those whose point does not run at one speed, by their number.
+    """
+
+    segments: tuple[Segment, ...]
+    families: list[Shape]
+    family: Indices
+    member: Indices
+    length: Floats
+    angle: Floats
+    uneven: dict[int, Extent]
+
+    def shape(self, number: int) -> Shape:
+        """The shape of one segment."""
+        family: Shape = self.families[self.family[number]]
+        return family.of(int(self.member[number]))
+
+    def flow(self, number: Indices, f: Floats, by_length: Flags, faults: Faults) -> Flow:
+        """Segments at fractions f (N,), per unit of f.
+
+        Args:
+            number: which segment each row asks for (N,).
+            f: of its parameter.
+            by_length: of which segments (M,) it is the fraction of their length instead.
+            faults: gets what goes wrong, by the segment; there the rows are not finite.
+        """
+        pose, twist, slope = np.empty((len(f), 8)), np.empty((len(f), 6)), np.empty((len(f), 6))
+        for rows, first, whole in self._groups(number, by_length):
+            try:
+                with stroke_errors(self.segments[first]):
+                    if whole:
+                        flow = flow_by_length(self.shape(first), self.uneven[first], f[rows])
+                    else:
+                        family = self.families[self.family[first]]
+                        flow = family.of(self.member[number[rows]]).flow(f[rows])
+            except StrokeError as fault:
+                faults.setdefault(first, fault.diagnostics)
+                pose[rows] = twist[rows] = slope[rows] = np.nan
+            else:
+                pose[rows], twist[rows], slope[rows] = flow.pose, flow.twist, flow.slope
+        return Flow(pose, twist, slope)
+
+    def points(self, number: Indices, f: Floats) -> Floats:
+        """The places (N, 3) [m] of segments that are even."""
+        out = np.empty((len(f), 3))
+        for family, rows in _alike(self.family[number]):
+            out[rows] = self.families[family].of(self.member[number[rows]]).points(f[rows])
+        return out
+
+    def may_leave(self, number: Indices, least: Floats, most: Floats) -> Flags:
+        """Which segments (N,) may go out of a box that their ends lie in, on their way."""
+        out = np.ones(len(number), dtype=bool)
+        for family, rows in _alike(self.family[number]):
+            form = self.families[family]
+            if form.straight:
+                out[rows] = False
+            elif isinstance(form, Loose) and isinstance(form.places, Arcs):
+                lower, upper = form.places.of(self.member[number[rows]]).bounds()
+                out[rows] = ((lower < least) | (upper > most)).any(axis=1)
+        return out
+
+    def _groups(self, number: Indices, by_length: Flags) -> Iterator[tuple[Rows, int, bool]]:
+        """Rows that are computed at once, the first of their segments, whether by its length."""
+        for family, rows in _alike(self.family[number]):
+            some = number[rows]
+            if self.families[family].even or not by_length[some].any():
+                yield rows, int(some[0]), False
+                continue
+            for of, part in _alike(np.where(by_length[some], some, -1)):
+                inner = np.arange(len(number))[rows][part]
+                yield inner, int(number[inner][0]), bool(of >= 0)
+
+
+def gather(segments: tuple[Segment, ...], faults: Faults, most: float = np.inf) -> Shapes:
+    """The shapes of segments, and how long they are; what goes wrong is noted by the segment.
+
+    Curves are measured one by one, which takes a while: not those that come after `most` seconds
+    of curves, with which the drawing is too long.
+    """
+    kinds: dict[Kind, list[int]] = {}
+    for number, segment in enumerate(segments):
+        kinds.setdefault(_kind(number, segment), []).append(number)
+    n = len(segments)
+    families: list[Shape] = []
+    family, member = np.full(n, -1, dtype=np.intp), np.zeros(n, dtype=np.intp)
+    length, angle = np.zeros(n), np.zeros(n)
+    uneven: dict[int, Extent] = {}
+    spent = 0.0  # seconds of curves, at least
+    for members in kinds.values():
+        try:
+            with stroke_errors(segments[members[0]]):
+                made = _shape([segments[number] for number in members])
+                if made.even:
+                    length[members], angle[members] = made.speeds(np.zeros(len(members)))
+                elif made.steady:
+                    length[members], angle[members] = measure_steady(made, len(members))
+                elif spent <= most:
+                    for row, number in enumerate(members):
+                        extent = measure(made.of(row))
+                        spent += _least_seconds(segments[number], extent)
+                        if not extent.settled:
+                            raise StrokeError(pole(segments[number]))
+                        length[number], angle[number] = extent.length, extent.angle
+                        if not extent.even:
+                            uneven[number] = extent
+        except StrokeError as fault:
+            faults[members[0]] = fault.diagnostics
+            continue
+        family[members], member[members] = len(families), np.arange(len(members))
+        families.append(made)
+    return Shapes(segments, families, family, member, length, angle, uneven)
+
+
+def _least_seconds(segment: Segment, extent: Extent) -> float:
+    """What a segment takes at least, as far as that is a matter of its length."""
+    timing = segment.timing
+    if segment.run is not None or not isinstance(timing, Cruise):
+        return 0.0
+    return extent.length / timing.speed
+
+
+def _kind(number: int, segment: Segment) -> Kind:
+    path = segment.path
+    if isinstance(path, Curve):
+        return (number,)
+    if isinstance(path, Straight | Arc | Chain):
+        return type(path), type(segment.tool), isinstance(path, Arc) and path.grow != 0
+    return (type(path),)
+
+
+def _shape(segments: Sequence[Segment]) -> Shape:
+    """The shape of segments of one kind, one a row."""
+    path, tool = segments[0].path, segments[0].tool
+    start = dq.pose_from(
+        column([s.start.position for s in segments]),
+        column([s.start.orientation for s in segments]),
+    )
+    if isinstance(path, Still):
+        return Rigid(start, np.zeros((len(segments), 6)))
+    if isinstance(path, ScrewTo):
+        return Rigid(start, 2 * dq.log(dq.mul(_ends(segments), dq.conj(start))))
+    if isinstance(path, Step):
+        return Jump(start, _ends(segments))
+    if isinstance(path, Straight) and isinstance(tool, Keep | Follow):
+        by = column([s.path.by for s in segments if isinstance(s.path, Straight)])
+        return Rigid(start, np.concatenate([np.zeros_like(by), by], axis=1))
+    if isinstance(path, Screw):
+        screws = [s.path for s in segments if isinstance(s.path, Screw)]
+        lines = [(s.point, s.axis, s.angle, s.advance) for s in screws]
+        return Rigid(start, _screws(lines))
+    if isinstance(path, Arc) and isinstance(tool, Follow) and path.grow == 0:
+        arcs = [s.path for s in segments if isinstance(s.path, Arc)]
+        return Rigid(start, _screws([(a.centre, a.axis, a.angle, a.rise) for a in arcs]))
+    places = _places(segments)
+    return Loose(places, orientation(segments, places))
+
+
+def _ends(segments: Sequence[Segment]) -> Floats:
+    return dq.pose_from(
+        column([s.end.position for s in segments]), column([s.end.orientation for s in segments])
+    )
+
+
+def _screws(lines: Sequence[tuple[Vector, Vector, float, float]]) -> Floats:
+    """The displacements (K, 6) of a turn and an advance along one line; an angle may be zero."""
+    points, axes, angles, advances = (column(values) for values in zip(*lines, strict=True))
+    turn = angles[:, None] * dq.twist_from_screw(axes, points)
+    return np.asarray(
+        turn + advances[:, None] * np.concatenate([np.zeros_like(axes), axes], axis=1)
+    )
+
+
+def _places(segments: Sequence[Segment]) -> Places:
+    path = segments[0].path
+    if isinstance(path, Arc):
+        return place_arc(segments)
+    if isinstance(path, Curve):
+        return Formula(path)
+    if isinstance(path, Chain):
+        return place_chains([s.path for s in segments if isinstance(s.path, Chain)])
+    return place_straight(segments)
+
+
+def _alike(values: Indices) -> Iterator[tuple[int, Rows]]:
+    """Each value that occurs, and the rows where it does, in order."""
+    if not len(values):
+        return
+    if (values == values[0]).all():
+        yield int(values[0]), slice(None)
+        return
+    order = np.argsort(values, kind="stable")
+    found, begins = np.unique(values[order], return_index=True)
+    for value, rows in zip(found, np.split(order, begins[1:]), strict=True):
+        yield int(value), rows

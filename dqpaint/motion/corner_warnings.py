@@ -1,0 +1,138 @@
+"""Warnings with numbers: where the velocity jumps, where a stroke does not reach its speed."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.diagnostics.diagnostic import Diagnostic, Span
+from dqpaint.dq import Floats
+from dqpaint.motion.paths import Indices
+from dqpaint.motion.schedule import Timetable
+from dqpaint.program.program import Arc, Chain, Cruise, Segment, Straight
+
+LEAST_JUMP = 1e-4  # [m/s] worth a word,
+LEAST_PART = 0.01  # and of the speed
+ALIKE = 1e-9  # of a jump: rounding is not to say which corner is the largest
+REACHED = 0.9  # of its speed: a stroke that comes to that needs no word
+
+
+class _Corner(NamedTuple):
+    jump: float  # [m/s]
+    span: Span
+    within: bool  # a `stroke`
+    round: bool  # it can be rounded
+
+
+def jumps(table: Timetable, pace: Floats | None = None) -> Iterator[Diagnostic]:
+    """W403: the largest jump of the velocity between strokes, and the largest within one.
+
+    Args:
+        table: the strokes (S).
+        pace: how fast the drawing's clock runs where each begins and ends (S, 2); None is as asked.
+    """
+    for within, found in ((False, _between(table, pace)), (True, _within(table))):
+        jump, number = found
+        if len(jump):
+            largest = number[jump >= jump.max() * (1.0 - ALIKE)].tolist()
+            segments = table.program.segments
+            pairs = [(segments[n - 1], segments[n]) for n in largest]
+            alike = [_corner(float(jump.max()), pair, within) for pair in pairs]
+            last = max(alike, key=lambda corner: (corner.span.start, corner.round))
+            yield _jump(last, len(jump))
+
+
+def _between(table: Timetable, pace: Floats | None) -> tuple[Floats, Indices]:
+    """The jumps worth a word (K,) [m/s], and the segments they begin (K,)."""
+    number = np.arange(len(table))
+    velocity = np.empty((2, len(table), 3))
+    for end in (0, 1):
+        flow, _ = table.flow(number, np.full(len(table), float(end)), {})
+        velocity[end] = dq.point_velocity(flow.twist, dq.translation(flow.pose))
+        if pace is not None:
+            velocity[end] *= pace[:, end, None]
+    moves = table.length > 0.0
+    after = np.flatnonzero(moves[1:] & moves[:-1]) + 1
+    jump, told = _worth(velocity[1, after - 1], velocity[0, after])
+    return jump, table.first[after[told]]
+
+
+def _within(table: Timetable) -> tuple[Floats, Indices]:
+    """The same at the joints of strokes of several lines."""
+    runs = np.flatnonzero(table.size > 1)
+    if not len(runs):
+        return np.empty(0), np.empty(0, dtype=np.intp)
+    stroke = np.repeat(runs, table.size[runs])
+    number = np.concatenate(
+        [np.arange(n, n + m) for n, m in zip(table.first[runs], table.size[runs], strict=True)]
+    )
+    velocity = np.empty((2, len(number), 3))
+    for end in (0, 1):
+        at = np.full(len(number), float(end))
+        flow = table.shapes.flow(number, at, table.by_length, {})
+        velocity[end] = dq.point_velocity(flow.twist, dq.translation(flow.pose))
+        velocity[end] /= (table.end - table.begin)[number, None]
+    joint = np.flatnonzero(stroke[1:] == stroke[:-1]) + 1
+    rate = np.concatenate([_rates_at_joints(table, run) for run in runs.tolist()])[:, None]
+    jump, told = _worth(rate * velocity[1, joint - 1], rate * velocity[0, joint])
+    return jump, number[joint[told]]
+
+
+def _rates_at_joints(table: Timetable, run: int) -> Floats:
+    """How fast a stroke runs where its segments meet (M - 1,), in fractions of it per second."""
+    tau = np.linspace(0.0, 1.0, 4 * int(table.count[run]) + 1)
+    progress = table.progress(np.full(len(tau), run), tau)
+    return np.interp(table.edges(run)[1:-1], progress.value, np.abs(progress.rate))
+
+
+def _worth(before: Floats, after: Floats) -> tuple[Floats, Indices]:
+    """Jumps of velocities (K, 3) that are worth a word (L,), and which these are (L,)."""
+    jump = np.linalg.norm(after - before, axis=1)
+    speed = np.maximum(np.linalg.norm(before, axis=1), np.linalg.norm(after, axis=1))
+    told = np.flatnonzero(jump > np.maximum(LEAST_JUMP, LEAST_PART * speed))
+    return jump[told], told
+
+
+def _corner(jump: float, segments: tuple[Segment, Segment], within: bool) -> _Corner:
+    lifted = (segments[0].light is None) != (segments[1].light is None)
+    round_ = not lifted and all(isinstance(s.path, Straight | Arc) for s in segments)
+    return _Corner(jump, segments[1].span, within, round_)
+
+
+def _jump(corner: _Corner, count: int) -> Diagnostic:
+    others = f", the largest of {count} such corners" if count > 1 else ""
+    ways = ["end the stroke before it" if corner.within else "use law trapezoid to stop at corners"]
+    if corner.round:
+        ways.append("round the corner: blend 5 mm" if corner.within else "round them: blend 5 mm")
+    message = f"the velocity jumps by {1e3 * corner.jump:.3g} mm/s here{others}"
+    return Diagnostic("W403", message, corner.span, "corner where this begins", ", or ".join(ways))
+
+
+def slow(table: Timetable) -> Iterator[Diagnostic]:
+    """W411: the stroke that stays most below the speed it is to cruise at."""
+    firsts = table.firsts
+    speed = np.array([s.timing.speed if isinstance(s.timing, Cruise) else 0.0 for s in firsts])
+    lit = np.array([segment.light is not None for segment in table.program.segments])
+    lit_strokes = np.logical_or.reduceat(lit, table.first)
+    chains = np.array([isinstance(segment.path, Chain) for segment in firsts])
+    peak, time = table.peak_rates, table.time
+    reached = peak * table.length / time
+    below = (speed > 0.0) & (table.length > 0.0) & lit_strokes & (reached < REACHED * speed)
+    least = np.divide(peak * table.length, speed, out=np.zeros_like(time), where=speed > 0.0)
+    rounded = time - table.wanted > 0.5 * (time - least)
+    found = np.flatnonzero(below & ~(rounded & chains))  # the dot of an i can't help it
+    if len(found):
+        worst = found[np.argmin(reached[found] / speed[found])]
+        yield _slow(firsts[worst], float(reached[worst]), bool(rounded[worst]), len(found))
+
+
+def _slow(segment: Segment, reached: float, rounded: bool, count: int) -> Diagnostic:
+    assert isinstance(segment.timing, Cruise)
+    others = f", the slowest of {count} such strokes" if count > 1 else ""
+    asked = f"{1e3 * segment.timing.speed:.3g} mm/s"
+    message = f"this reaches {1e3 * reached:.3g} mm/s, not {asked}{others}"
+    label, cure = "the tool turns as fast as it may", "raise turnspeed, or lower speed"
+    if rounded:
+        label, cure = "its time is rounded up to whole periods", "a shorter period comes closer"
+    return Diagnostic("W411", message, segment.span, label, cure)

@@ -1,0 +1,146 @@
+"""The light of strokes, row by row: gradients over their length, and light that is even."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.motion.batched_shapes import Flags
+from dqpaint.motion.paths import Indices
+from dqpaint.motion.profiles import Rates, rate_at, turns_back
+from dqpaint.motion.sampling import Rows
+from dqpaint.motion.schedule import Timetable, part_at
+from dqpaint.program.program import Bar, Light, Step, Still
+
+NEAR_END = 0.01  # of the length: how bright the ends of a stroke are is told there
+DARK = Light((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+
+
+@dataclass(frozen=True, eq=False)
+class Glow:
+    """The light of each segment (M) of a drawing.
+
+    Attributes:
+        first: linear RGB at the first point (M, 3).
+        last: and at the last (M, 3).
+        even: whether it is dimmed where the tool is slow (M,).
+        way: the length of each stroke (S,) that even light is even over; 0 where it stays. A point
+            of light that turns on the spot has none, a bar has its angle.
+        peak: and its largest speed, where its law says it, in the time that was asked for (S,).
+    """
+
+    table: Timetable
+    first: Floats
+    last: Floats
+    even: Flags
+    way: Floats
+    peak: Floats
+
+    def along(self, rows: Rows) -> Floats:
+        """Mean linear RGB (K, 3) from each row to the next, but from those that are the last."""
+        table = self.table
+        at = np.flatnonzero(~rows.last)
+        stroke = rows.stroke[at]
+        # a law may run beyond the ends of a stroke; its colours do not
+        inside = np.clip(rows.fraction, 0.0, 1.0)
+        middle = 0.5 * (inside[at + 1] + inside[at])
+        part, share = table.inside(stroke, middle)
+        share = share[:, None]
+        light = (1 - share) * self.first[part] + share * self.last[part]
+        for run in np.unique(stroke[table.size[stroke] > 1]).tolist():
+            own = slice(*np.searchsorted(rows.stroke, (run, run + 1)))
+            steps = slice(*np.searchsorted(stroke, (run, run + 1)))
+            self._over_joints(run, inside[own], light[steps])
+        if self.even[part].any():
+            dimmed = np.where(self.even[part], self._share_of_peak(rows, at), 1.0)
+            light *= dimmed[:, None]
+        return light
+
+    def _over_joints(self, run: int, at: Floats, means: Floats) -> None:
+        """The mean colours over joints: there each is a difference of the integral.
+
+        Args:
+            run: which stroke.
+            at: the fractions of its length at its rows (N + 1,).
+            means: of the colours between them (N, 3), each that in the middle.
+        """
+        edges = self.table.edges(run)
+        begin = self.table.first[run]
+        own = slice(begin, begin + self.table.size[run])
+        first, last, width = self.first[own], self.last[own], np.diff(edges)[:, None]
+        before = np.concatenate([np.zeros((1, 3)), np.cumsum(width * 0.5 * (first + last), axis=0)])
+        parts = part_at(edges, at)
+        u = (at - edges[parts])[:, None] / width[parts]
+        gathered = width[parts] * u * first[parts]
+        gathered += width[parts] * 0.5 * u**2 * (last - first)[parts]
+        total = before[parts] + gathered
+        step = np.diff(at)[:, None]
+        over = (np.diff(parts) != 0) & (np.abs(step[:, 0]) > 1e-9)
+        means[over] = np.clip(np.diff(total, axis=0)[over] / step[over], 0.0, 1.0)
+
+    def _share_of_peak(self, rows: Rows, at: Indices) -> Floats:
+        """How fast the point is from rows `at` (K,) to the next, as a share of its fastest."""
+        table = self.table
+        stroke = rows.stroke[at]
+        speed = np.abs(rows.fraction[at + 1] - rows.fraction[at]) * self.way[stroke]
+        speed /= table.program.period
+        peak = np.where(self.way > 0.0, self.peak, np.inf)[stroke]
+        for of in self._by_formula(stroke):
+            own = slice(*np.searchsorted(rows.stroke, (of, of + 1)))
+            steps = slice(*np.searchsorted(stroke, (of, of + 1)))
+            point = dq.translation(rows.flow.pose[own])
+            velocity = dq.point_velocity(rows.flow.twist[own], point)
+            peak[steps] = max(np.linalg.norm(velocity, axis=1).max(), speed[steps].max())
+        return np.asarray(np.minimum(speed / peak, 1.0))
+
+    def _by_formula(self, stroke: Indices) -> list[int]:
+        """Those of some strokes that are run neither by their length nor evenly."""
+        table = self.table
+        return [
+            of
+            for of in np.unique(stroke[table.size[stroke] == 1]).tolist()
+            if table.first[of] in table.shapes.uneven
+            and not table.by_length[table.first[of]]
+            and table.length[of] > 0.0
+        ]
+
+
+def glow(table: Timetable) -> Glow:
+    """The light of a drawing."""
+    segments = table.program.segments
+    lights = [segment.light or DARK for segment in segments]
+    first, last = np.array([light.first for light in lights]), np.array([x.last for x in lights])
+    shared = [s.run is not None and (s.light or DARK) == s.run.light for s in segments]
+    of = np.flatnonzero(shared)  # they have their parts of a gradient over the whole stroke
+    start, end = table.begin[of, None], table.end[of, None]
+    a, b = first[of], last[of]
+    first[of], last[of] = (1 - start) * a + start * b, (1 - end) * a + end * b
+    even = np.array([light.even for light in lights])
+    way = table.length.copy()
+    for stroke in np.flatnonzero(way == 0.0).tolist():
+        segment = segments[table.first[stroke]]
+        turns = not isinstance(segment.path, Still | Step)
+        way[stroke] = float(turns and isinstance(segment.brush, Bar))
+    # as fast as it was to be before its time was rounded up: else a short stroke is the brightest
+    fastest = table.peak_rates * way / np.minimum(table.wanted, table.time)
+    return Glow(table, first, last, even, way, fastest)
+
+
+def unevenness(table: Timetable) -> float:
+    """How much brighter strokes are at 1 % of their length than in the middle; 1 for even light."""
+    lit = np.array([s.light is not None and not s.light.even for s in table.program.segments])
+    matters = np.logical_or.reduceat(lit, table.first) & (table.length > 0.0)
+    found = [] if matters.all() else [1.0]
+    for name, with_rates, strokes in table.laws():
+        some = strokes[matters[strokes]]
+        if len(some):
+            found.append(_over_middle(name, table.end_rates(name, some) if with_rates else ()))
+    return max(found)
+
+
+def _over_middle(law: str, rates: Rates) -> float:
+    """The largest of some strokes with one law. Brightness is time per length."""
+    start, middle, end = (rate_at(law, rates, f) for f in (NEAR_END, 0.5, 1.0 - NEAR_END))
+    times = middle / np.minimum(start, end)
+    return float(np.where(turns_back(law, rates), 1.0, times).max())

@@ -1,0 +1,216 @@
+"""Where the point is along a chain of smooth pieces: by the fraction of the whole length.
+
+A chain has no parameter of its own that could be slow or fast somewhere, so the point runs evenly:
+speed over the fraction is the length of the chain, everywhere. Each piece is integrated by
+Gauss-Legendre quadrature on panels that are halved until halving changes nothing, which also
+closes in on the tip of a cusp; from a length back to the piece's parameter leads Newton's method,
+kept within a bracket.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.dq import Floats
+from dqpaint.program.piecewise import Indices, derivatives, is_uneven, speeds, stretches, together
+from dqpaint.program.program import Chain
+
+EXACT = 1e-14  # of the length of the chain: what halving a panel may change
+MOST_HALVINGS = 30
+AT_REST = 1e-6  # of a piece's mean speed: there its formula stands still
+NEXT_TO = 1e-4  # of the way to the middle of a piece: where a direction is taken instead
+
+
+def place_chains(paths: Sequence[Chain]) -> "Pieces":
+    """The places of chains, by the fraction of their length."""
+    whole, first, _ = together(paths)
+    chain = np.repeat(np.arange(len(paths)), np.diff(np.append(first, len(whole.cubic))))
+    return Pieces(whole, _measure(whole, chain), np.arange(len(paths)))
+
+
+@dataclass(frozen=True)
+class Pieces:
+    """Place and derivatives over the fraction of the length, by the chain rule.
+
+    With s the length and p(g) a piece: ds/dg = |p'|, and the inverse's derivatives are
+    g1 = 1 / |p'|, g2 = -(p'.p'') g1^4, g3 = -(p''.p'' + p'.p''') g1^5 + 4 (p'.p'')^2 g1^7.
+    Beyond its ends a chain goes on straight.
+
+    Attributes:
+        path: the pieces of all chains.
+        panels: their lengths.
+        chain: which of the chains each row is.
+    """
+
+    path: Chain
+    panels: "_Panels"
+    chain: Indices
+    even: ClassVar[bool] = True
+
+    def of(self, rows: Indices | int) -> Self:
+        """The same pieces, for other rows."""
+        return replace(self, chain=np.asarray(self.chain[rows]))
+
+    def largest(self) -> Floats:
+        """It may leave the numbers anywhere."""
+        return np.full(1, np.inf)
+
+    def point(self, f: Floats) -> Floats:
+        """The place."""
+        return np.asarray(self(f)[0])
+
+    def velocity(self, f: Floats) -> Floats:
+        """The first derivative."""
+        return np.asarray(self(f)[1])
+
+    def __call__(self, f: Floats) -> Floats:
+        """With its derivatives."""
+        panels = self.panels
+        chain = np.broadcast_to(self.chain, f.shape)
+        total = panels.total[chain]
+        distance = f * total
+        inside = np.clip(distance, 0.0, total)
+        piece, g = _parameter(self.path, panels, chain, inside)
+        out = _by_length(self.path, piece, g, panels.mean_speed[piece])
+        beyond = distance - inside
+        out[0] += beyond[:, None] * out[1]
+        out[2:, beyond != 0] = 0.0
+        for order in (1, 2, 3):
+            out[order] *= total[:, None] ** order
+        return out
+
+
+def _by_length(path: Chain, piece: Indices, g: Floats, mean_speed: Floats) -> Floats:
+    """Place (4, N, 3) and its derivatives over the length.
+
+    Where a piece's formula stands still, as at the end of a Bezier curve whose handle has no
+    length, the direction is the one next to it; the curvature may have no bound there and is left
+    out, as the jump of the direction is at a vertex.
+    """
+    p = derivatives(path, piece, g)
+    rest = np.linalg.norm(p[1], axis=1) <= AT_REST * mean_speed
+    if rest.any():
+        beside = g[rest] + NEXT_TO * (0.5 - g[rest])
+        p[1, rest] = derivatives(path, piece[rest], beside)[1]
+        p[2:, rest] = 0.0
+    g1 = 1.0 / np.linalg.norm(p[1], axis=1)[:, None]
+    p12 = (p[1] * p[2]).sum(1)[:, None]
+    p22_13 = (p[2] ** 2 + p[1] * p[3]).sum(1)[:, None]
+    g2 = -p12 * g1**4
+    g3 = -p22_13 * g1**5 + 4.0 * p12**2 * g1**7
+    first, second = p[1] * g1, p[2] * g1**2 + p[1] * g2
+    third = p[3] * g1**3 + 3.0 * p[2] * g1 * g2 + p[1] * g3
+    return np.stack([p[0], first, second, third])
+
+
+@dataclass(frozen=True)
+class _Panels:
+    """Stretches of pieces, in order.
+
+    Attributes:
+        piece: the piece of each (P,).
+        lower: its parameter where the panel begins (P,).
+        upper: and where it ends (P,).
+        begin: from the start of its chain to where each begins [m] (P,).
+        end: and to where it ends [m] (P,).
+        first: of each chain (K,).
+        last: of each chain (K,).
+        before: all chains before each, end to end [m] (K,).
+        total: the length of each chain [m] (K,).
+        mean_speed: of each piece (M,): its length [m].
+        bent: whether it does not run at one speed (M,).
+    """
+
+    piece: Indices
+    lower: Floats
+    upper: Floats
+    begin: Floats
+    end: Floats
+    first: Indices
+    last: Indices
+    before: Floats
+    total: Floats
+    mean_speed: Floats
+    bent: NDArray[np.bool_]
+
+    def at(self, chain: Indices, distance: Floats) -> Indices:
+        """The panels at distances (N,) along chains (N,); at a joint the one that begins there."""
+        every = self.before[np.repeat(np.arange(len(self.first)), self.last - self.first + 1)]
+        near = np.searchsorted(every + self.begin, self.before[chain] + distance, side="right") - 1
+        first, last = self.first[chain], self.last[chain]
+        panel = np.clip(near, first, last)
+        # all chains in a row have more digits before the point than one by itself
+        panel = np.clip(panel - (distance < self.begin[panel]), first, last)
+        return np.clip(panel + (distance >= self.end[panel]), first, last)
+
+
+def _measure(path: Chain, chain: Indices) -> _Panels:
+    """The panels of pieces, each of a chain (M,)."""
+    bent = is_uneven(path)
+    piece = np.arange(len(path.cubic))
+    lower, upper = np.zeros(len(piece)), np.ones(len(piece))
+    size = stretches(path, bent, piece, lower, upper)
+    close = EXACT * np.bincount(chain, weights=size)
+    done: list[tuple[Indices, Floats, Floats, Floats]] = []
+    for halving in range(MOST_HALVINGS):
+        middle = 0.5 * (lower + upper)
+        first = stretches(path, bent, piece, lower, middle)
+        second = stretches(path, bent, piece, middle, upper)
+        good = np.abs(first + second - size) <= close[chain[piece]]
+        good |= halving == MOST_HALVINGS - 1
+        done.append((piece[good], lower[good], upper[good], (first + second)[good]))
+        left = ~good
+        piece = np.concatenate([piece[left], piece[left]])
+        lower, upper = (
+            np.concatenate([lower[left], middle[left]]),
+            np.concatenate([middle[left], upper[left]]),
+        )
+        size = np.concatenate([first[left], second[left]])
+        if not left.any():
+            break
+    piece, lower, upper, size = (np.concatenate(part) for part in zip(*done, strict=True))
+    order = np.lexsort((lower, piece))
+    piece, lower, upper, size = piece[order], lower[order], upper[order], size[order]
+    starts = np.searchsorted(chain[piece], np.arange(chain[-1] + 2))
+    end = np.concatenate([np.cumsum(own) for own in np.split(size, starts[1:-1])])
+    begin = np.concatenate([[0.0], end[:-1]])
+    begin[starts[:-1]] = 0.0
+    total = end[starts[1:] - 1]
+    mean_speed = np.bincount(piece, weights=size).astype(np.float64)
+    return _Panels(
+        *(piece, lower, upper, begin, end, starts[:-1], starts[1:] - 1),
+        *(np.cumsum(total) - total, total, mean_speed, bent),
+    )
+
+
+def _parameter(
+    path: Chain, panels: _Panels, chain: Indices, distance: Floats
+) -> tuple[Indices, Floats]:
+    """The piece (N,) and its parameter (N,) at distances (N,) along chains (N,).
+
+    At a joint it is the piece that begins there.
+    """
+    panel = panels.at(chain, distance)
+    piece, start = panels.piece[panel], panels.lower[panel]
+    lower, upper = start.copy(), panels.upper[panel]
+    wanted = distance - panels.begin[panel]
+    size = panels.end[panel] - panels.begin[panel]
+    g = np.clip(lower + (upper - lower) * wanted / size, lower, upper)
+    bent = np.flatnonzero(panels.bent[piece])
+    for _ in range(60):
+        if not len(bent):
+            break
+        now, of = g[bent], piece[bent]
+        excess = stretches(path, panels.bent, of, start[bent], now) - wanted[bent]
+        upper[bent] = np.where(excess > 0.0, now, upper[bent])
+        lower[bent] = np.where(excess > 0.0, lower[bent], now)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            new = now - excess / speeds(path, of, now[:, None])[:, 0]
+        safe = (new >= lower[bent]) & (new <= upper[bent])
+        new = np.where(safe, new, 0.5 * (lower[bent] + upper[bent]))
+        g[bent] = new
+        bent = bent[np.abs(new - now) > 1e-12]  # the next step would be its square
+    return piece, g

@@ -1,0 +1,192 @@
+"""Time laws: how far along its path a stroke is at a time, with the two derivatives.
+
+A law runs over the fraction tau in [0, 1] of a stroke's time and gives the fraction of its path.
+`PEAK` is the largest rate d progress / d tau of a law from rest to rest: a stroke of length L that
+never exceeds a speed V takes PEAK L / V.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.core.registry import Registry
+from dqpaint.dq import Floats
+
+
+class Progress(NamedTuple):
+    """The fraction of the path (N,), and its first and second derivative."""
+
+    value: Floats
+    rate: Floats
+    slope: Floats
+
+
+# Boundary rates and accelerations, in fractions of path per tau: one number each, or one a row.
+Rates = tuple[float | Floats, ...]
+TimeLaw = Callable[[Floats, Rates], Progress]
+
+LAWS: Registry[TimeLaw] = Registry("time law")
+HALVINGS = 26  # of an interval in which the fastest moment lies: its rate is stationary there
+BACKWARDS = 1e-9  # a rate below that, the other way, is the noise of one that is none
+RAMP = 0.2  # of a trapezoid's time, at each end
+
+
+@LAWS.add("constant")
+def constant(tau: Floats, _rates: Rates = ()) -> Progress:
+    """One speed throughout; corners are velocity jumps."""
+    return Progress(tau, np.ones_like(tau), np.zeros_like(tau))
+
+
+@LAWS.add("trapezoid")
+def trapezoid(tau: Floats, _rates: Rates = ()) -> Progress:
+    """Constant acceleration over the first fifth of the time, braking over the last.
+
+    At the two inner breakpoints the acceleration is the one of the part that begins there.
+    """
+    peak = 1.0 / (1.0 - RAMP)
+    gain = peak / RAMP
+    left = 1.0 - tau
+    start, end = tau < RAMP, tau >= 1.0 - RAMP
+    value = np.where(start, 0.5 * gain * tau**2, peak * (tau - 0.5 * RAMP))
+    value = np.where(end, 1.0 - 0.5 * gain * left**2, value)
+    rate = np.where(start, gain * tau, np.where(end, gain * left, peak))
+    slope = np.where(start, gain, np.where(end, -gain, 0.0))
+    return Progress(value, rate, slope)
+
+
+@LAWS.add("cubic")
+def cubic(tau: Floats, rates: Rates = ()) -> Progress:
+    """The polynomial of degree 3 with the given rates (v0, v1) at its ends."""
+    return _polynomial(cubic_coefficients(rates), tau)
+
+
+@LAWS.add("quintic")
+def quintic(tau: Floats, rates: Rates = ()) -> Progress:
+    """The polynomial of degree 5 with the given rates and accelerations (v0, v1, a0, a1)."""
+    return _polynomial(quintic_coefficients(rates), tau)
+
+
+def cubic_coefficients(rates: Rates) -> Rates:
+    """Of 1, tau, ... tau^3: 0 at 0, 1 at 1, slopes v0 and v1."""
+    v0, v1 = rates or (0.0, 0.0)
+    return 0.0, v0, 3 - 2 * v0 - v1, v0 + v1 - 2
+
+
+def quintic_coefficients(rates: Rates) -> Rates:
+    """Of 1, tau, ... tau^5: 0 at 0, 1 at 1, slopes v0, v1 and second derivatives a0, a1."""
+    v0, v1, a0, a1 = rates or (0.0, 0.0, 0.0, 0.0)
+    c3 = 10 - 6 * v0 - 4 * v1 - 1.5 * a0 + 0.5 * a1
+    c4 = -15 + 8 * v0 + 7 * v1 + 1.5 * a0 - a1
+    c5 = 6 - 3 * v0 - 3 * v1 - 0.5 * a0 + 0.5 * a1
+    return 0.0, v0, 0.5 * a0, c3, c4, c5
+
+
+def _polynomial(coefficients: Rates, tau: Floats) -> Progress:
+    rate = derivative(coefficients)
+    return Progress(*(horner(c, tau) for c in (coefficients, rate, derivative(rate))))
+
+
+def derivative(coefficients: Rates) -> Rates:
+    """Of a polynomial: its coefficients, from that of 1 on."""
+    return tuple(power * c for power, c in enumerate(coefficients[1:], start=1))
+
+
+def horner(coefficients: Rates, tau: Floats) -> Floats:
+    """A polynomial's values (N,)."""
+    value: Floats = coefficients[-1] + 0.0 * tau
+    for c in reversed(coefficients[:-1]):
+        value = c + value * tau
+    return value
+
+
+PEAK = {"constant": 1.0, "trapezoid": 1.0 / (1.0 - RAMP), "cubic": 1.5, "quintic": 1.875}
+
+
+def peak_rate(name: str, rates: Rates) -> Floats:
+    """The largest |d progress / d tau| of a law with boundary rates; of many, one a row (K,)."""
+    if not rates:
+        return np.array(PEAK[name])
+    coefficients = cubic_coefficients(rates) if name == "cubic" else quintic_coefficients(rates)
+    slope = derivative(coefficients)
+    return np.asarray(np.abs(horner(slope, _stationary(slope))).max(axis=0))
+
+
+def turns_back(name: str, rates: Rates) -> NDArray[np.bool_]:
+    """Whether a law with boundary rates goes backwards on its way; of many, one a row (K,)."""
+    if not rates:
+        return np.zeros((), dtype=bool)
+    coefficients = cubic_coefficients(rates) if name == "cubic" else quintic_coefficients(rates)
+    slope = derivative(coefficients)
+    return np.asarray(horner(slope, _stationary(slope)).min(axis=0) < -BACKWARDS)
+
+
+def rate_at(name: str, rates: Rates, fraction: float) -> Floats:
+    """The rate of a law that does not turn back, where it has come so far; of many (K,)."""
+    lower = np.zeros(np.shape(rates[0]) if rates else ())
+    upper = np.ones_like(lower)
+    for _ in range(60):
+        middle = 0.5 * (lower + upper)
+        beyond = LAWS[name](middle, rates).value > fraction
+        lower, upper = np.where(beyond, lower, middle), np.where(beyond, middle, upper)
+    return LAWS[name](lower, rates).rate
+
+
+def _stationary(slope: Rates) -> Floats:
+    """0, 1, and between them where the derivative of a polynomial is zero (R, K).
+
+    It has degree 1, or 3: then it goes one way from one of its turning points to the next, and
+    bisection finds the zero, if there is one.
+    """
+    bend = derivative(slope)
+    edges = np.stack(np.broadcast_arrays(0.0 * sum(bend), 1.0))
+    if len(bend) == 2:
+        return np.concatenate([edges, _inside(-bend[0], bend[1])[None]])
+    c, b, a = derivative(bend)
+    t = -0.5 * (b + np.copysign(np.sqrt(np.maximum(b**2 - 4 * a * c, 0.0)), b))
+    edges = np.sort(np.stack([*edges, _inside(t, a), _inside(c, t)]), axis=0)
+    lower, upper = edges[:-1], edges[1:]
+    rising = horner(bend, upper) > horner(bend, lower)
+    for _ in range(HALVINGS):
+        middle = 0.5 * (lower + upper)
+        beyond = (horner(bend, middle) > 0.0) == rising
+        lower, upper = np.where(beyond, lower, middle), np.where(beyond, middle, upper)
+    return np.concatenate([edges, lower])
+
+
+def _inside(a: float | Floats, b: float | Floats) -> Floats:
+    """Quotients as far as they lie between 0 and 1, else one of these."""
+    a, b = np.broadcast_arrays(np.asarray(a, np.float64), b)
+    return np.clip(np.divide(a, b, out=np.zeros(a.shape), where=b != 0.0), 0.0, 1.0)
+
+
+def cruise_time(name: str, end_rates: Rates, least: Floats) -> Floats:
+    """The shortest times (K,) [s] in which a law with boundary rates never exceeds its speed.
+
+    `least` (K,) is the path over the cruising speed [s]; `end_rates` are fractions of path per
+    second (v0, v1) and per second squared (a0, a1), each (K,). Not a number where no time is long
+    enough: an end is faster than the cruising speed.
+    """
+
+    def too_fast(time: Floats) -> NDArray[np.bool_]:
+        peak = peak_rate(name, scale_rates(end_rates, time))
+        return np.asarray(peak > time / least * (1 + 1e-12))
+
+    if not end_rates:
+        return np.asarray(PEAK[name] * least)
+    long = np.array(least, dtype=np.float64)
+    while (still := too_fast(long) & (long <= 1e3 * least)).any():
+        long[still] *= 1.25
+    short = long / 1.25
+    for _ in range(60):
+        middle = 0.5 * (short + long)
+        fast = too_fast(middle)
+        short, long = np.where(fast, middle, short), np.where(fast, long, middle)
+    return np.where(long > 1e3 * least, np.nan, long)
+
+
+def scale_rates(end_rates: Rates, time: float | Floats) -> Rates:
+    """Rates per second as rates per tau, for a stroke that takes `time` [s]."""
+    v, a = end_rates[:2], end_rates[2:]
+    return (*(x * time for x in v), *(x * time**2 for x in a))

@@ -1,0 +1,362 @@
+"""When each stroke runs: whole samples, the time law over them, and the budget.
+
+Durations are rounded up, so that every corner is itself a sample and no speed is exceeded. What
+belongs to the strokes stands in arrays, one row a stroke: a drawing may have many.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.diagnostics.collector import Findings
+from dqpaint.diagnostics.diagnostic import Diagnostic
+from dqpaint.dq import Floats
+from dqpaint.motion import stroke_errors as told
+from dqpaint.motion.arc_length import has_cusp, length_fraction
+from dqpaint.motion.batched_shapes import Flags, Shapes, gather
+from dqpaint.motion.paths import Indices
+from dqpaint.motion.profiles import LAWS, PEAK, Progress, Rates, cruise_time, peak_rate, scale_rates
+from dqpaint.motion.shapes import Flow
+from dqpaint.motion.stroke_errors import MOST_SECONDS, Faults
+from dqpaint.program.program import Cruise, Program, Samples, Segment, Step, Still
+
+ENDLESS = 1e15  # samples
+NAMES = tuple(LAWS)
+RATES = {"cubic": 2, "quintic": 4}  # how many a law may have
+
+
+@dataclass(frozen=True, eq=False)
+class Timetable:
+    """The strokes of a drawing (S): a segment each, or several of one run.
+
+    Attributes:
+        program: what is drawn.
+        shapes: of its segments (M).
+        first: the number of each stroke's first segment (S,).
+        size: and how many it has (S,).
+        begin: where each segment begins, as a fraction of its stroke's length (M,).
+        end: and where it ends (M,).
+        by_length: which segments (M,) the law runs over by the length of their path, not by the
+            parameter of their formula.
+        length: of each stroke's path [m] (S,).
+        law: which of `NAMES` each time law is (S,).
+        rates: v0, v1, a0, a1 of each law (S, 4): fractions of the path per second, and per second
+            squared.
+        count: of new samples (S,).
+        wanted: the times [s] they would take if those were not rounded up to whole samples (S,).
+    """
+
+    program: Program
+    shapes: Shapes
+    first: Indices
+    size: Indices
+    begin: Floats
+    end: Floats
+    by_length: Flags
+    length: Floats
+    law: Indices
+    rates: Floats
+    count: NDArray[np.int64]
+    wanted: Floats
+
+    def __len__(self) -> int:
+        return len(self.first)
+
+    @cached_property
+    def time(self) -> Floats:
+        """How long each stroke takes (S,) [s]."""
+        return np.asarray(self.count * self.program.period)
+
+    @cached_property
+    def firsts(self) -> list[Segment]:
+        """The first segment of each stroke; its law and timing are those of all."""
+        return [self.program.segments[number] for number in self.first]
+
+    def of(self, strokes: Flags | Indices) -> "Timetable":
+        """Some of the strokes."""
+        names = ("first", "size", "length", "law", "rates", "count", "wanted")
+        return replace(self, **{name: getattr(self, name)[strokes] for name in names})
+
+    def edges(self, stroke: int) -> Floats:
+        """The fractions of a stroke's length where its segments begin, and the end."""
+        first = self.first[stroke]
+        return np.append(self.begin[first : first + self.size[stroke]], 1.0)
+
+    def laws(self) -> Iterator[tuple[str, bool, Indices]]:
+        """The strokes of each time law that occurs, those from rest to rest apart."""
+        rated = self.rates.any(axis=1)
+        for number, name in enumerate(NAMES):
+            for with_rates in (False, True):
+                strokes = np.flatnonzero((self.law == number) & (rated == with_rates))
+                if len(strokes):
+                    yield name, with_rates, strokes
+
+    def end_rates(self, name: str, strokes: Indices | int) -> Rates:
+        """The rates of strokes of one law, or of one stroke, per tau, as `laws` takes them."""
+        columns = self.rates[strokes].T[: RATES[name]]
+        return scale_rates(tuple(columns), self.time[strokes])
+
+    @cached_property
+    def peak_rates(self) -> Floats:
+        """The largest rates of the laws (S,), in fractions of the path per tau."""
+        peak = np.empty(len(self))
+        for name, with_rates, strokes in self.laws():
+            rates = self.end_rates(name, strokes) if with_rates else ()
+            peak[strokes] = peak_rate(name, rates)
+        return peak
+
+    def progress(self, stroke: Indices, tau: Floats) -> Progress:
+        """Fractions of the paths at fractions tau (N,) of the times of strokes (N,), per second."""
+        value, rate, slope = np.empty((3, len(tau)))
+        kind = np.empty(len(self), dtype=np.intp)
+        laws = list(self.laws())
+        for number, (_, _, strokes) in enumerate(laws):
+            kind[strokes] = number
+        for number, (name, with_rates, _) in enumerate(laws):
+            rows = slice(None) if len(laws) == 1 else np.flatnonzero(kind[stroke] == number)
+            rates = self.end_rates(name, stroke[rows]) if with_rates else ()
+            law = LAWS[name](tau[rows], rates)
+            value[rows], rate[rows], slope[rows] = law.value, law.rate, law.slope
+        time = self.time[stroke]
+        return Progress(value, rate / time, slope / time**2)
+
+    def parts(self, stroke: Indices, fraction: Floats) -> Indices:
+        """The segments that strokes (N,), in order, are on at fractions (N,) of their length.
+
+        At a joint it is the one that begins there; the outer ones for what lies beyond.
+        """
+        number = self.first[stroke]
+        several = stroke[self.size[stroke] > 1]
+        for run in np.unique(several) if len(several) else ():
+            rows = slice(*np.searchsorted(stroke, (run, run + 1)))
+            number[rows] += part_at(self.edges(run), fraction[rows])
+        return np.asarray(number)
+
+    def flow(self, stroke: Indices, tau: Floats, faults: Faults) -> tuple[Flow, Floats]:
+        """Strokes (N,), in order, at fractions tau (N,) of their time, in the drawing frame.
+
+        Args:
+            stroke: which.
+            tau: when.
+            faults: gets what goes wrong, by the segment; there the rows are not finite.
+
+        Returns:
+            The flow per second, and the fraction of the length, which is exact where the light
+            needs it: in a gradient, and where it is even.
+        """
+        progress = self.progress(stroke, tau)
+        number, f = self.inside(stroke, progress.value)
+        flow = self.shapes.flow(number, f, self.by_length, faults)
+        if (self.size[stroke] > 1).any():
+            flow = flow.at_rates(1.0 / (self.end - self.begin)[number], np.zeros(len(tau)))
+        fraction = self._by_length(stroke, progress.value, faults)
+        return flow.at_rates(progress.rate, progress.slope), fraction
+
+    def _by_length(self, stroke: Indices, fraction: Floats, faults: Faults) -> Floats:
+        """Fractions of the parameter as those of the length, where the light changes over it."""
+        out = fraction
+        for number in self._changing():
+            rows = slice(*np.searchsorted(stroke, (number, number + 1)))
+            if rows.start < rows.stop and int(self.first[number]) not in faults:
+                out = out.copy() if out is fraction else out
+                first = int(self.first[number])
+                form, extent = self.shapes.shape(first), self.shapes.uneven[first]
+                out[rows] = length_fraction(form, extent, fraction[rows])
+        return out
+
+    def _changing(self) -> list[int]:
+        """The strokes that are not run by their length, but whose light is a matter of it."""
+        found = []
+        for first in self.shapes.uneven:
+            light = self.program.segments[first].light
+            changes = light is not None and (light.first != light.last or light.even)
+            if changes and not self.by_length[first]:
+                found += np.flatnonzero(self.first == first).tolist()
+        return found
+
+    def inside(self, stroke: Indices, fraction: Floats) -> tuple[Indices, Floats]:
+        """The segments as in `parts`, and the fractions of their own."""
+        number = self.parts(stroke, fraction)
+        begin = self.begin[number]
+        return number, (fraction - begin) / (self.end[number] - begin)
+
+
+def part_at(edges: Floats, f: Floats) -> Indices:
+    """Which part (N,) fractions lie in; the outer ones for what lies beyond."""
+    return np.clip(np.searchsorted(edges, f, side="right") - 1, 0, len(edges) - 2)
+
+
+def timetable(program: Program, findings: Findings) -> Timetable:
+    """The strokes of a program; what is wrong or worth saying about their times is added.
+
+    Strokes that are wrong are left out.
+
+    Raises:
+        EnoughError: the list of errors is full.
+    """
+    segments = program.segments
+    faults: Faults = {}  # of segments
+    shapes = gather(segments, faults, program.most_samples * program.period)
+    first, size = _strokes(segments)
+    by_length = _by_length(shapes, faults)
+    begin, end, length = _joined(shapes, first, size)
+    draft = Timetable(
+        *(program, shapes, first, size, begin, end, by_length, length),
+        *(np.zeros(len(first), np.intp), np.zeros((len(first), 4))),
+        *(np.ones(len(first), np.int64), np.ones(len(first))),
+    )
+    wrong = _of_strokes(faults, first)
+    law, rates = _laws(draft, wrong)
+    wanted = _seconds(replace(draft, law=law, rates=rates), wrong)
+    count = _counts(draft.firsts, wanted, program)
+    table = replace(draft, law=law, rates=rates, count=count, wanted=wanted)
+    return table.of(_told(table, wrong, findings))
+
+
+def _strokes(segments: Sequence[Segment]) -> tuple[Indices, Indices]:
+    """The first segment of each stroke (S,), and how many each has."""
+    run = np.array([s.run.number if s.run else 0 for s in segments])
+    goes_on = (run[1:] == run[:-1]) & (run[1:] != 0)
+    first = np.flatnonzero(np.concatenate([[True], ~goes_on]))
+    return first, np.diff(np.append(first, len(segments)))
+
+
+def _by_length(shapes: Shapes, faults: Faults) -> Flags:
+    """Which segments (M,) are run by their length; not one may come to a point on its way."""
+    out = np.zeros(len(shapes.segments), dtype=bool)
+    for number, extent in shapes.uneven.items():
+        segment = shapes.segments[number]
+        law = segment.law
+        cruises = segment.run is not None or isinstance(segment.timing, Cruise)
+        out[number] = cruises or (any(law.rates) and not law.angular)
+        if out[number] and has_cusp(shapes.shape(number), extent):
+            faults.setdefault(number, (told.cusp(segment),))
+    for number in np.flatnonzero(shapes.length == 0.0).tolist():
+        if shapes.segments[number].run is not None:
+            faults.setdefault(number, (told.on_the_spot(shapes.segments[number]),))
+    return out
+
+
+def _joined(shapes: Shapes, first: Indices, size: Indices) -> tuple[Floats, Floats, Floats]:
+    """Where segments begin and end (M,), as fractions of their strokes, and the lengths (S,)."""
+    begin, end = np.zeros(len(shapes.segments)), np.ones(len(shapes.segments))
+    length = shapes.length[first]
+    for stroke in np.flatnonzero(size > 1).tolist():
+        own = slice(first[stroke], first[stroke] + size[stroke])
+        ends = np.concatenate([[0.0], np.cumsum(shapes.length[own])])
+        length[stroke] = ends[-1]
+        if ends[-1] > 0.0:
+            edges = ends / ends[-1]
+            begin[own], end[own] = edges[:-1], edges[1:]
+    return begin, end, length
+
+
+def _of_strokes(faults: Faults, first: Indices) -> Faults:
+    """The faults of segments as those of their strokes: of each stroke the first."""
+    wrong: Faults = {}
+    for number in sorted(faults):
+        stroke = int(np.searchsorted(first, number, side="right")) - 1
+        wrong.setdefault(stroke, faults[number])
+    return wrong
+
+
+def _laws(table: Timetable, wrong: Faults) -> tuple[Indices, Floats]:
+    """Which law each stroke has (S,), and its rates as fractions of the path (S, 4)."""
+    firsts = table.firsts
+    law = np.array([NAMES.index(segment.law.name) for segment in firsts])
+    rates = np.zeros((len(firsts), 4))
+    for stroke, segment in enumerate(firsts):
+        given = segment.law.rates
+        if not any(given) or stroke in wrong:
+            continue
+        angles = table.shapes.angle[table.first[stroke] :][: table.size[stroke]]
+        extent = sum(angles.tolist()) if segment.law.angular else float(table.length[stroke])
+        if extent != 0:
+            rates[stroke, : len(given)] = np.array(given) / extent
+        elif not isinstance(segment.path, Still | Step):
+            wrong[stroke] = (told.no_extent(segment),)
+    return law, rates
+
+
+def _seconds(table: Timetable, wrong: Faults) -> Floats:
+    """How long each stroke is to take (S,) [s]."""
+    period, firsts = table.program.period, table.firsts
+    seconds, speed, turnspeed = np.array([_asked(s, period) for s in firsts]).T
+    cruising = speed > 0.0
+    total = np.repeat(table.length, table.size)
+    share = np.divide(table.shapes.length, total, out=np.ones_like(total), where=total > 0.0)
+    with np.errstate(all="ignore"):  # of strokes that are wrong already
+        turns = np.maximum.reduceat(table.shapes.angle / share, table.first)
+        least = np.maximum(table.length / speed, turns / turnspeed)  # nowhere too fast
+    peak = np.array([PEAK[name] for name in NAMES])[table.law]
+    seconds = np.where(cruising, np.where(least == 0, period, peak * least), seconds)
+    endless = ~(seconds / period < ENDLESS) | (cruising & ~(least < ENDLESS * period))
+    for stroke in np.flatnonzero(endless).tolist():
+        wrong.setdefault(stroke, (told.endless(firsts[stroke], table.program.most_samples),))
+    good = np.array([stroke not in wrong for stroke in range(len(table))])
+    for name, with_rates, strokes in table.laws():
+        own = strokes[(cruising & (least > 0) & good)[strokes]]
+        if with_rates and len(own):
+            rates = tuple(table.rates[own].T[: RATES[name]])
+            seconds[own] = cruise_time(name, rates, least[own])
+    for stroke in np.flatnonzero(np.isnan(seconds) & good).tolist():
+        wrong[stroke] = (told.fast_end(firsts[stroke]),)
+    return seconds
+
+
+def _asked(segment: Segment, period: float) -> tuple[float, float, float]:
+    """The time [s] of a stroke, or its speed [m/s] and turnspeed [rad/s]."""
+    timing = segment.timing
+    if isinstance(timing, Cruise):
+        return 0.0, timing.speed, timing.turnspeed
+    return timing.count * period if isinstance(timing, Samples) else timing.seconds, 0.0, 1.0
+
+
+def _counts(firsts: Sequence[Segment], seconds: Floats, program: Program) -> NDArray[np.int64]:
+    """How many new samples each stroke has (S,); far too many are one more than the budget."""
+    most = 2 * program.most_samples
+    wanted = np.minimum(np.nan_to_num(seconds / program.period), float(most))
+    # the next whole number, at least 1; the noise of a division is not another one
+    count = np.maximum(1, np.ceil(wanted - 1e-9 - 1e-12 * wanted)).astype(np.int64)
+    for stroke, segment in enumerate(firsts):
+        if isinstance(segment.path, Step):
+            count[stroke] = 1
+        elif isinstance(segment.timing, Samples):
+            count[stroke] = min(segment.timing.count, most)
+    return count
+
+
+def _told(table: Timetable, wrong: Faults, findings: Findings) -> Flags:
+    """Says what is wrong, and what is rounded by much; gives which strokes (S,) are left."""
+    period, most, firsts = table.program.period, table.program.most_samples, table.firsts
+    good = np.array([stroke not in wrong for stroke in range(len(table))])
+    total = 1 + np.cumsum(np.where(good, table.count, 0))
+    over = np.flatnonzero(good & ((total > most) | (total * period > MOST_SECONDS)))
+    end = int(over[0]) if len(over) else len(table)
+    longer = table.time - table.wanted > told.ROUNDING_WORTH_SAYING * table.wanted
+    for stroke in sorted({*wrong, *np.flatnonzero(longer & good).tolist()}):
+        if stroke >= end:
+            break
+        note = told.rounding(firsts[stroke], float(table.wanted[stroke]), float(table.time[stroke]))
+        for diagnostic in wrong.get(stroke, (note,) if note else ()):
+            findings.add(diagnostic)
+    if end < len(table):
+        findings.add(_too_much(firsts[end], table, end, bool(total[end] > most)))
+    return good & (np.arange(len(table)) < end)
+
+
+def _too_much(segment: Segment, table: Timetable, stroke: int, samples: bool) -> Diagnostic:
+    count, period = int(table.count[stroke]), table.program.period
+    most = table.program.most_samples
+    if count >= 2 * most:
+        wanted = float(table.wanted[stroke]) / period
+        count = math.ceil(wanted - 1e-9 - 1e-12 * wanted)
+    if isinstance(segment.timing, Samples):
+        count = segment.timing.count
+    return (
+        told.too_many(segment, count, most) if samples else told.too_long(segment, count * period)
+    )

@@ -1,0 +1,42 @@
+"""The light beside the trajectory: when which colour begins, for a controller of the lamp."""
+
+import numpy as np
+
+from dqpaint.diagnostics.diagnostic import LINES
+from dqpaint.motion import Motion
+from dqpaint.outputs.files import encode_csv
+from dqpaint.outputs.robot.trajectory import commented
+
+DIGITS = 6  # of a colour: what changes less is one cue
+HEADS = ("t_s", "red", "green", "blue", "strobe_Hz", "strobe_duty", "line")
+
+
+def cue_sheet(motion: Motion, about: tuple[str, ...]) -> str:
+    """A CSV with a row wherever the light changes; each holds until the next.
+
+    Args:
+        motion: what was asked.
+        about: what the file is, a line each.
+
+    Colours are linear, 1 is full brightness. A gradient is a row a sample. Of a lamp that flashes
+    the frequency and the part of the time that it is on are named, from t = 0 on; 0 Hz is steady.
+    """
+    segments = motion.program.segments
+    strobes = [segments[stroke].strobe for stroke in motion.stroke.tolist()]
+    file, line = np.divmod(motion.line, LINES)
+    heads = (*HEADS, "file") if file.any() else HEADS
+    rows = np.column_stack([
+        np.round(motion.light, DIGITS),
+        [strobe.frequency if strobe else 0.0 for strobe in strobes],
+        [strobe.duty if strobe else 1.0 for strobe in strobes],
+        line,
+        *([file] if file.any() else []),
+    ])  # fmt: skip
+    changes = np.append(True, (np.diff(rows, axis=0) != 0).any(axis=1))
+    values = np.column_stack([motion.t, rows])[changes]
+    head = commented((
+        *about,
+        "Light cues: each holds until the next; linear colours from 0 to 1; t = 0 is the first "
+        "point of the trajectory.",
+    ))  # fmt: skip
+    return head + encode_csv(dict(zip(heads, values.T, strict=True))).decode()

@@ -1,0 +1,59 @@
+"""The trajectory as a program of a Universal Robots arm: `servoj`, point by point.
+
+servoj takes the posture to be in a given time, which keeps the drawing's clock; movej, movel and
+movep have time laws of their own, and the light would come too early or too late.
+"""
+
+import re
+
+from dqpaint.errors import UsageError
+from dqpaint.outputs.robot.trajectory import FORMATS, Exported, Trajectory, commented
+
+JOINTS = ("shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3")
+SHORTEST = 0.002  # [s] of a servoj
+LOOKAHEAD = 0.03  # [s], the least: a longer one smooths corners away
+GAIN = 300
+APPROACH = "a=0.3, v=0.25"  # [rad/s^2, rad/s] to the first posture
+END = "  stopj(1.0)\nend\n"
+
+
+@FORMATS.add("urscript")
+def urscript(trajectory: Trajectory) -> Exported:
+    """A program for a Universal Robots arm: movej to the first posture, then servoj.
+
+    Raises:
+        UsageError: the arm is not one of theirs, or its steps are shorter than they can be.
+    """
+    if not is_universal(trajectory.joints):
+        raise UsageError(
+            f"URScript is for the arms of Universal Robots, and {trajectory.robot} is none; "
+            "known formats for it: csv, ros2"
+        )
+    if trajectory.period < SHORTEST:
+        raise UsageError(
+            f"URScript's servoj takes steps of {SHORTEST * 1e3:g} ms or more, the drawing's are "
+            f"{trajectory.period * 1e3:g} ms: write a longer period"
+        )
+    name = "dqpaint_" + re.sub(r"\W", "_", trajectory.name, flags=re.ASCII)
+    notes = ("servoj: joints [rad], a and v unused, time [s], lookahead [s], gain.",)
+    step = f"0, 0, {trajectory.period:.9g}, {LOOKAHEAD}, {GAIN}"
+    postures = [
+        "[" + ", ".join(f"{angle + 0.0:.8f}" for angle in row) + "]"
+        for row in trajectory.positions.tolist()
+    ]
+    lines = [
+        f"def {name}():",
+        f"  movej({postures[0]}, {APPROACH})",
+        '  textmsg("dqpaint: t = 0")  # the light cues count from here',
+        *(f"  servoj({posture}, {step})" for posture in postures[1:]),
+    ]
+    text = commented((*trajectory.about, *notes)) + "\n".join(lines) + "\n" + END + f"{name}()\n"
+    return Exported(".script", text)
+
+
+def is_universal(joints: tuple[str, ...]) -> bool:
+    """Whether joints are named as those of every Universal Robots arm."""
+    return len(joints) == len(JOINTS) and all(
+        given.removesuffix("_joint").endswith(own)
+        for given, own in zip(joints, JOINTS, strict=True)
+    )

@@ -1,0 +1,254 @@
+"""A finished painting's light as a file, to be developed again without simulating.
+
+It is NumPy's .npz: arrays that can be read with `numpy.load`, and the rest as JSON under `about`.
+"""
+
+import io
+import json
+import zipfile
+import zlib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Any, Literal, NamedTuple
+
+import cv2
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from dqpaint import __version__
+from dqpaint.dq import Floats
+from dqpaint.errors import DqpaintError
+from dqpaint.light.images.legend import Legend
+from dqpaint.light.sources.emitters import Emitters
+from dqpaint.light.sources.sweep import Sweep
+from dqpaint.painting.picture import Picture, Worked, linear
+from dqpaint.painting.scene import Scene
+from dqpaint.render.scene_arm import Cast
+from dqpaint.settings.model import Settings
+
+SCHEMA = "dqpaint-film-1"
+GROUPS = ("light", "asked", "under")
+UNIT = 1e-6  # how far a rotation may be from one
+FARTHEST = 1e6  # of any number of an array
+Number = Annotated[float, Field(ge=0, le=FARTHEST, allow_inf_nan=False)]
+Part = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
+Shade = tuple[Number, Number, Number]
+
+
+class Facts(BaseModel):
+    """What a film says of one sweep besides its arrays."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+    period: Annotated[float, Field(ge=1e-6, le=FARTHEST, allow_inf_nan=False)]
+    pwm: Number
+    size: Number
+    joined: Part
+    lobe: Number
+    strobe: bool
+
+
+class Key(BaseModel):
+    """The legend of a film."""
+
+    model_config = ConfigDict(extra="forbid")
+    title: str
+    labels: Annotated[tuple[str, ...], Field(min_length=1)]
+    colours: Annotated[tuple[Shade, ...], Field(min_length=1)]
+    amounts: bool
+
+
+class Arm(BaseModel):
+    """What a film says of the arm that may be shown in it."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+    robot: str
+    period: Annotated[float, Field(ge=1e-6, le=FARTHEST, allow_inf_nan=False)]
+
+
+class Shown(BaseModel):
+    """What a film says of the picture of the arm that is in it, and of what the arm hid."""
+
+    model_config = ConfigDict(extra="forbid")
+    shares: Annotated[int, Field(ge=0)]
+    remarks: tuple[str, ...]
+
+
+class About(BaseModel):
+    """What a film says besides its arrays."""
+
+    model_config = ConfigDict(extra="forbid", populate_by_name=True)
+    schema_: Literal["dqpaint-film-1"] = Field(alias="schema")
+    version: str
+    name: str
+    settings: Settings
+    dimmer: Annotated[float, Field(ge=0, le=FARTHEST, allow_inf_nan=False)]
+    legend: Key | None
+    light: tuple[Facts, ...]
+    asked: tuple[Facts, ...]
+    under: tuple[Facts, ...]
+    arm: Arm | None = None
+    shown: Shown | None = None
+
+
+TIFF = [cv2.IMWRITE_TIFF_COMPRESSION, 8]  # deflate
+
+
+class Negative(NamedTuple):
+    """What a film holds: what shone, how it was photographed, the arm, and how that was seen."""
+
+    scene: Scene
+    settings: Settings
+    cast: Cast | None = None
+    worked: Worked | None = None
+
+
+def encode(
+    scene: Scene, settings: Settings, cast: Cast | None = None, worked: Worked | None = None
+) -> bytes:
+    """A scene and how it was photographed, as a file; with the arm, if it is known how it moved."""
+    arrays: dict[str, Any] = {"front": scene.front}
+    about: dict[str, Any] = {
+        "schema": SCHEMA,
+        "version": __version__,
+        "name": scene.name,
+        "settings": settings.model_dump(),
+        "dimmer": scene.dimmer,
+        "legend": None if scene.legend is None else vars(scene.legend),
+    }
+    for group in GROUPS:
+        about[group] = []
+        for i, sweep in enumerate(getattr(scene, group)):
+            key, e = f"{group}{i}", sweep.emitters
+            about[group].append(
+                {
+                    "period": sweep.period, "pwm": sweep.pwm, "size": e.size, "joined": e.joined,
+                    "lobe": e.lobe, "strobe": sweep.strobe is not None,
+                }
+            )  # fmt: skip
+            parts = {
+                "pose": sweep.pose, "colours": sweep.colours, "places": e.places,
+                "tints": e.tints, "normal": e.normal,
+            }  # fmt: skip
+            if sweep.strobe is not None:
+                parts["strobe"] = sweep.strobe
+            arrays.update({f"{key}-{name}": array for name, array in parts.items()})
+    if cast is not None and cast.known:
+        about["arm"] = {"robot": cast.robot, "period": cast.period}
+        arrays.update({"arm-posture": cast.posture, "arm-line": cast.line})
+    if worked is not None and settings.staged:
+        about["shown"] = {"shares": len(worked.shares), "remarks": worked.remarks}
+        arrays["shown-key"] = worked.key
+        arrays.update({f"shown-share{i}": share for i, share in enumerate(worked.shares)})
+        if worked.arm is not None:
+            arrays["shown-arm"] = worked.arm
+    arrays["about"] = np.array(json.dumps(about))
+    file = io.BytesIO()
+    np.savez_compressed(file, **arrays)
+    return file.getvalue()
+
+
+def read(path: str) -> Negative:
+    """What is in a file that `encode` made.
+
+    Raises:
+        DqpaintError: There is none, or it is something else.
+    """
+    place = Path(path)
+    if place.suffix in (".tiff", ".hdr"):  # the pictures that lie beside it
+        place = place.with_suffix(".npz")
+    try:
+        with np.load(io.BytesIO(place.read_bytes()), allow_pickle=False) as arrays:
+            about = About.model_validate(json.loads(str(arrays["about"])))
+            light, asked, under = (
+                tuple(_sweeps(arrays, group, getattr(about, group))) for group in GROUPS
+            )
+            legend = None if about.legend is None else Legend(**dict(about.legend))
+            front = _numbers(arrays, "front")
+            if front.shape != (3, 3) or np.abs(front @ front.T - np.eye(3)).max() > UNIT:
+                raise ValueError("front")
+            scene = Scene(about.name, light, asked, under, front, legend, about.dimmer)
+            cast = _cast(arrays, about.arm, light[0])
+            return Negative(scene, about.settings, cast, _worked(arrays, about, light))
+    except OSError as problem:
+        reason = problem.strerror or "it is not a film"
+        raise DqpaintError(f"film '{path[:60]}' cannot be read: {reason}") from None
+    except (
+        ValueError, KeyError, IndexError, TypeError, AttributeError, EOFError, OverflowError,
+        RecursionError, MemoryError, NotImplementedError, zipfile.BadZipFile, zlib.error,
+        ValidationError, DqpaintError,
+    ):  # fmt: skip
+        raise DqpaintError(
+            f"'{path[:60]}' is not a film of dqpaint; draw with --save film makes one"
+        ) from None
+
+
+def _cast(arrays: Any, facts: Arm | None, sweep: Sweep) -> Cast | None:
+    if facts is None:
+        return None
+    posture = _numbers(arrays, "arm-posture")
+    line = np.asarray(arrays["arm-line"])
+    if posture.ndim != 2 or line.shape != sweep.time.shape or len(posture) != len(line):
+        raise ValueError("arm")
+    if line.dtype.kind != "i":
+        raise ValueError("arm")
+    return Cast(facts.robot, posture, line.astype(np.int64), facts.period)
+
+
+def _worked(arrays: Any, about: About, light: tuple[Sweep, ...]) -> Worked | None:
+    if about.shown is None:
+        return None
+    key = _numbers(arrays, "shown-key")
+    arm = _numbers(arrays, "shown-arm") if "shown-arm" in arrays else None
+    shares = tuple(_numbers(arrays, f"shown-share{i}") for i in range(about.shown.shares))
+    size = (about.settings.height, about.settings.width, 3)
+    if key.shape != (18,) or (arm is not None and (arm.shape != size or arm.min() < 0.0)):
+        raise ValueError("shown")
+    if shares and len(shares) != len(light):
+        raise ValueError("shown")
+    for share, sweep in zip(shares, light, strict=False):
+        if share.ndim != 2 or len(share) != len(sweep.colours) or not share.shape[1]:
+            raise ValueError("share")
+        if share.min() < 0.0 or share.max() > 1.0:
+            raise ValueError("share")
+    seen = None if arm is None else arm.astype(np.float32)
+    return Worked(key, about.settings.ghost, seen, shares, about.shown.remarks)
+
+
+def _numbers(arrays: Any, name: str) -> Floats:
+    """An array of a file as floats, each of which a picture can come from."""
+    array = np.asarray(arrays[name])
+    if array.dtype.kind != "f" or not (np.abs(array) <= FARTHEST).all():
+        raise ValueError(name)
+    return np.asarray(array, dtype=np.float64)
+
+
+def _sweeps(arrays: Any, group: str, sweeps: tuple[Facts, ...]) -> Iterator[Sweep]:
+    for i, facts in enumerate(sweeps):
+
+        def array(name: str, key: str = f"{group}{i}") -> Floats:
+            return _numbers(arrays, f"{key}-{name}")
+
+        emitters = Emitters(
+            array("places"), array("tints"), facts.size, facts.joined, array("normal"),
+            facts.lobe,
+        )  # fmt: skip
+        strobe = array("strobe") if facts.strobe else None
+        pose = array("pose")
+        if (np.abs(np.linalg.norm(pose[:, :4], axis=1) - 1) > UNIT).any():
+            raise ValueError("pose")
+        yield Sweep(facts.period, pose, array("colours"), emitters, strobe, facts.pwm)
+
+
+def encode_linear(scene: Scene, picture: Picture, settings: Settings, ending: str) -> bytes:
+    """The linear light on the sensor as a picture file: .tiff (float, exact) or .hdr (Radiance).
+
+    It is brought near to 1 for saturation by a power of two, which loses nothing.
+    """
+    image = linear(scene, picture.film, picture.exposure, picture.camera, settings, arm=picture.arm)
+    stops = round(np.log2(picture.exposure) + settings.ev)
+    image = image * np.float32(2.0**stops)
+    options = TIFF if ending == ".tiff" else []
+    done, data = cv2.imencode(ending, np.ascontiguousarray(image[..., ::-1]), options)
+    if not done:
+        raise DqpaintError(f"the film could not be encoded as {ending}")
+    return bytes(data.tobytes())

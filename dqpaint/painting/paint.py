@@ -1,0 +1,227 @@
+"""The whole flow, from a drawing's text to its painting, to be read in a minute."""
+
+import hashlib
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass, field, replace
+from time import perf_counter
+from typing import Any
+
+from dqpaint.controllers import Controller, Schedule, find_controller
+from dqpaint.disturbances import Disturbance, make_disturbances
+from dqpaint.dq import Floats
+from dqpaint.light.film.film import Film
+from dqpaint.metrics.attenuation import Attenuation, attenuation
+from dqpaint.metrics.run_metrics import Metrics, Table, measure
+from dqpaint.metrics.step_response import SetPoint, set_points
+from dqpaint.motion import Motion, plan
+from dqpaint.painting.picture import Picture, Shown, photograph
+from dqpaint.painting.scene import Scene, arrange, check_choices
+from dqpaint.planning.placement import Placed, settle
+from dqpaint.planning.reachability import begin, check_worst
+from dqpaint.planning.retiming import Slowed, slow_down
+from dqpaint.plants import choose_plant
+from dqpaint.plants.plant import Chosen, Takes
+from dqpaint.program.program import Program
+from dqpaint.render.scene_arm import Cast, Staging, on_stage
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.kinematics.limits import Clamp
+from dqpaint.robots.kinematics.nullspace import read_null
+from dqpaint.robots.loading.lookup import card_for, find_card
+from dqpaint.robots.model.card import DEFAULT_ROBOT
+from dqpaint.settings.model import Settings, check_recorded
+from dqpaint.simulation.closed_loop import Track, track
+from dqpaint.simulation.recorded_run import RECORDED, Recording, read_recording, replay
+
+UNSEEN = "poses alone say nothing of the joints: the arm and what it hides are left out"
+
+
+@dataclass(frozen=True, repr=False)
+class Painting(Shown):
+    """A finished painting: what was asked, what the arm did, the pictures and the numbers."""
+
+    settings: Settings
+    controller: Controller[Any]
+    robot: str
+    plant: str
+    plant_values: dict[str, Any]  # with what follows from them for this arm
+    disturbances: dict[str, Disturbance]
+    gains: dict[str, Any]  # all of the law's, and what follows from them
+    motion: Motion
+    track: Track
+    metrics: Metrics
+    attenuation: dict[str, Attenuation]  # of an unmodelled twist, in rotation and translation
+    set_points: tuple[SetPoint, ...]
+    scene: Scene
+    cast: Cast
+    pictures: tuple[Picture, ...]  # one a view
+    slowed: Slowed | None = None  # where the drawing's clock may slow down
+    seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
+    notes: tuple[str, ...] = ()  # what was assumed of the arm
+    placed: Placed | None = None  # where `place auto` put the drawing
+    recording: Recording | None = None  # what was painted instead of a simulated run
+
+    @property
+    def film(self) -> Film:
+        """The linear film the picture was developed from."""
+        return self.picture.film
+
+    @property
+    def table(self) -> Table:
+        """The columns of the CSV, each (N,)."""
+        return self.metrics.table
+
+    @property
+    def sha256(self) -> str:
+        """Of the drawing's text."""
+        return hashlib.sha256(self.motion.program.text.encode()).hexdigest()
+
+    @property
+    def limits(self) -> tuple[Clamp, ...]:
+        """Every limit of the arm that held a joint back."""
+        return self.track.clamps
+
+    def staged(self) -> AbstractContextManager[Staging | None]:
+        """The arm as it moved, if the settings show it or let it hide light."""
+        return on_stage(self.settings, find_card(self.cast.robot), self.cast)
+
+    def __repr__(self) -> str:
+        name, rms = self.motion.program.name, self.metrics.figures["position_error_rms_m"]
+        return (
+            f"<Painting of {name} by {self.controller.name} on {self.robot}: "
+            f"{self.motion.t[-1]:.2f} s, rms {rms * 1e3:.3g} mm>"
+        )
+
+
+def paint(
+    program: Program,
+    settings: Settings,
+    progress: Callable[[float], None] = lambda _done: None,
+    controller: Controller[Any] | None = None,
+) -> Painting:
+    """Paint a drawing with a simulated arm.
+
+    Args:
+        program: from `dqpaint.language`.
+        settings: everything besides the text.
+        progress: called while the arm moves, with the part done, 0 to 1.
+        controller: a law of one's own, instead of the one the settings name.
+
+    Raises:
+        UsageError: an unknown robot, plant, controller, gain or view.
+        ScriptError: the drawing has no timetable or leaves the arm's reach.
+        DqpaintError: the run or the light came to nothing.
+    """
+    ready = prepare(program, settings, controller)
+    with ready.clock("arm"):
+        run = ready.follow(progress)
+    return finish(ready, run)
+
+
+@dataclass(frozen=True)
+class Ready:
+    """A drawing and everything that its run needs, checked and worked out."""
+
+    program: Program
+    settings: Settings
+    clock: "Stopwatch"
+    controller: Controller[Any]
+    gains: Schedule[Any]
+    plant: Chosen
+    disturbances: dict[str, Disturbance]
+    kinematics: Kinematics
+    motion: Motion
+    start: Floats  # posture (n,) [rad]
+    slowed: Slowed | None
+    placed: Placed | None
+    recording: Recording | None
+
+    def follow(self, progress: Callable[[float], None] = lambda _done: None) -> Track:
+        """The run."""
+        if self.recording is not None:
+            return replay(self.recording, self.motion, self.kinematics)
+        settings = self.settings
+        run = track(
+            self.motion, self.kinematics, self.start, self.plant, self.controller, self.gains,
+            progress, self.disturbances, settings.seed, settings.null, settings.on_limit == "stop",
+        )  # fmt: skip
+        check_worst(run, self.kinematics, settings.null)
+        return run
+
+
+def prepare(
+    program: Program, settings: Settings, controller: Controller[Any] | None = None
+) -> Ready:
+    """What comes before the arm moves; arguments and errors as those of `paint`."""
+    clock = Stopwatch()
+    program = replace(program, most_samples=settings.max_samples)
+    check_choices(settings)  # a slip there is told before anything is simulated
+    check_recorded(settings)
+    card = card_for(program, settings.robot, settings.tool)
+    recording = None
+    if settings.recorded is not None:
+        recording, controller = read_recording(settings.recorded, card.joints), RECORDED
+    controller = controller or find_controller(settings.controller)
+    gains = controller.read_gains(settings.gains)
+    takes: Takes = "torque" if controller.drives_torque else "rates"
+    plant = choose_plant(settings.plant, takes)
+    disturbances = make_disturbances(settings.disturb)
+    for name, one in disturbances.items():
+        plant.need(one.needs, name)
+    read_null(settings.null)
+    with clock("place"):
+        kinematics = Kinematics(card)
+        program, placed = settle(program, kinematics, settings)
+    with clock("motion"):
+        motion = plan(program, card.canvas.pose)
+    slowed, start = None, card.home
+    if recording is None:
+        with clock("start"):
+            best = begin(motion, kinematics, settings.null).posture
+            start = card.home if settings.start == "home" else best
+            if settings.on_limit == "slow":
+                slowed = slow_down(motion, kinematics, start, settings.null, plant.motors)
+                motion = slowed.motion
+    return Ready(
+        program, settings, clock, controller, gains, plant, disturbances, kinematics, motion,
+        start, slowed, placed, recording,
+    )  # fmt: skip
+
+
+def finish(ready: Ready, run: Track) -> Painting:
+    """What comes after the arm has moved: numbers and pictures."""
+    settings, motion, clock = ready.settings, ready.motion, ready.clock
+    card, recording = ready.kinematics.card, ready.recording
+    notes = ready.kinematics.notes + (recording.notes(motion) if recording else ())
+    with clock("metrics"):
+        metrics = measure(run)
+        came_through = attenuation(run, ready.gains.promise())
+        steps = set_points(run)
+    robot = settings.robot or ready.program.robot or DEFAULT_ROBOT
+    cast = Cast(robot, run.posture, motion.line, motion.period)
+    if settings.staged and not cast.known:
+        notes += (UNSEEN,)
+    with clock("light"), on_stage(settings, card, cast) as staging:
+        scene = arrange(motion, run.pose, settings, metrics.table)
+        pictures = tuple(photograph(scene, settings, staging))
+    return Painting(
+        settings, ready.controller, card.name,
+        "recorded" if recording else ready.plant.name,
+        {} if recording else ready.plant.shown(card),
+        ready.disturbances, ready.gains.shown(), motion, run, metrics, came_through, steps, scene,
+        cast, pictures, ready.slowed, clock.seconds, notes, ready.placed, recording,
+    )  # fmt: skip
+
+
+class Stopwatch:
+    """Wall time of named stages [s]."""
+
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+
+    @contextmanager
+    def __call__(self, stage: str) -> Iterator[None]:
+        """Time what happens inside."""
+        begin = perf_counter()
+        yield
+        self.seconds[stage] = perf_counter() - begin

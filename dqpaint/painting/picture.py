@@ -1,0 +1,310 @@
+"""Scene -> Picture: one way to the film, for what was asked and for what was reached."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.dq import Floats
+from dqpaint.errors import DqpaintError
+from dqpaint.light.arrays import Image
+from dqpaint.light.camera.camera import Camera
+from dqpaint.light.camera.exposure_settings import advice, parse_exposure
+from dqpaint.light.camera.views import Shot, distance_to, parse_views
+from dqpaint.light.film.auto_exposure import CORE, automatic_exposure
+from dqpaint.light.film.film import Film, expose
+from dqpaint.light.film.looks import LOOKS, with_noise
+from dqpaint.light.film.point_spread import point_spread, spread
+from dqpaint.light.film.starburst import with_starburst
+from dqpaint.light.images.legend import with_legend
+from dqpaint.light.sources.from_motion import stand
+from dqpaint.light.sources.occlusion import Shade, shade_of
+from dqpaint.light.sources.sweep import ALL, Sweep
+from dqpaint.motion import Motion
+from dqpaint.painting.scene import Scene, arrange
+from dqpaint.render.scene_arm import Hidden, Staging, account
+from dqpaint.settings.model import Settings
+
+# run lengths suit black ground with dithered halos: smaller and faster than the default search
+PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
+FAINT = 0.25  # what the lines of the asked drawing under the reached one are exposed to
+KEPT = 1  # pictures of one painting whose films are kept; of the others only the sums are
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Picture:
+    """A developed picture and the film it came from.
+
+    Attributes:
+        image: (H, W, 3) 8-bit sRGB.
+        film: the light that fell on it, linear.
+        exposure: the factor that was applied to the film, `ev` not included.
+        camera: where it was taken from.
+        name: of the view.
+        told: the exposure in a photographer's terms.
+        light: what shone, as this camera saw it.
+        hidden: what the arm's own body kept from the film; None if that was not traced.
+        arm: (H, W, 3) linear light of the arm and the floor, if they are shown.
+        remarks: what of the arm could not be shown or traced.
+    """
+
+    image: NDArray[np.uint8]
+    film: Film
+    exposure: float
+    camera: Camera
+    name: str
+    told: str
+    light: tuple[Sweep, ...] = ()
+    hidden: Hidden | None = None
+    arm: Image | None = None
+    remarks: tuple[str, ...] = ()
+
+    @property
+    def emitted(self) -> Floats:
+        """(3,) what the light gave off: on the film, lost and hidden, in the film's unit."""
+        return self.film.emitted + (0.0 if self.hidden is None else self.hidden.energy)
+
+    def worked(self, ghost: bool | str) -> "Worked":
+        """What of the arm was worked out for it, where it was shown like this."""
+        shades = [sweep.shade for sweep in self.light if sweep.shade is not None]
+        shares = tuple(shade.share for shade in shades)
+        return Worked(key_of(self.camera, self.exposure), ghost, self.arm, shares, self.remarks)
+
+    @property
+    def png(self) -> bytes:
+        """The image as a PNG file."""
+        done, data = cv2.imencode(".png", self.image[..., ::-1], PNG)
+        if not done:
+            raise DqpaintError("the picture could not be encoded as PNG")
+        return data.tobytes()
+
+    def _repr_png_(self) -> bytes:
+        return self.png
+
+
+def take(motion: Motion, pose: Floats, settings: Settings) -> Picture:
+    """The first picture of a motion's light carried through poses (N, 8)."""
+    return next(photograph(arrange(motion, pose, settings), settings))
+
+
+class Shown:
+    """What is shown by its pictures, one a view: the first stands for it, in a notebook, too."""
+
+    pictures: tuple[Picture, ...]
+
+    @property
+    def picture(self) -> Picture:
+        """The picture of the first view."""
+        return self.pictures[0]
+
+    @property
+    def image(self) -> NDArray[np.uint8]:
+        """The picture (H, W, 3), sRGB."""
+        return self.picture.image
+
+    def _repr_png_(self) -> bytes:
+        return self.picture.png
+
+
+@dataclass(frozen=True, eq=False)
+class Worked:
+    """What of the arm was worked out for one picture, to be used again where that fits.
+
+    Attributes:
+        key: (18,) the picture's camera and exposure, see `key_of`.
+        ghost: how the arm is shown in it.
+        arm: (H, W, 3) linear light of the arm and the floor, if they are shown.
+        shares: (N-1, P) of each sweep what the arm let through; none if that was not traced.
+        remarks: what could not be shown or traced.
+    """
+
+    key: Floats
+    ghost: bool | str
+    arm: Image | None
+    shares: tuple[Floats, ...]
+    remarks: tuple[str, ...]
+
+    def shows(self, key: Floats, settings: Settings) -> bool:
+        """Whether the arm looks like this in another picture."""
+        same = self.arm is not None and self.ghost == settings.ghost
+        return same and bool(np.array_equal(key, self.key))
+
+    def hides(self, key: Floats) -> bool:
+        """Whether it hides the same from another camera."""
+        return bool(self.shares) and bool(np.array_equal(key[:3], self.key[:3]))
+
+    def shaded(self, light: tuple[Sweep, ...]) -> tuple[Sweep, ...]:
+        """Light with what is hidden of it."""
+        return tuple(
+            replace(sweep, shade=Shade(sweep.period, share))
+            for sweep, share in zip(light, self.shares, strict=True)
+        )
+
+
+def key_of(camera: Camera, exposure: float) -> Floats:
+    """(18,) all that a picture of the arm depends on besides arm and light; first the eye."""
+    numbers = (camera.focal, *camera.centre, camera.width, camera.height, exposure)
+    return np.concatenate([camera.position, camera.rotation.ravel(), numbers])
+
+
+def photograph(
+    scene: Scene,
+    settings: Settings,
+    staging: Staging | None = None,
+    worked: Worked | None = None,
+) -> Iterator[Picture]:
+    """The pictures of a scene: one for each view of the settings, all of one run.
+
+    The views of a series (a stereo pair, an orbit) have the exposure of its first.
+
+    Args:
+        scene: what is photographed.
+        settings: views, size, exposure, look, and whether the arm is seen and hides light.
+        staging: the arm; None is a picture without one, that hides nothing.
+        worked: what of the arm is known already.
+    """
+    series: dict[int, float] = {}
+    for i, shot in enumerate(parse_views(settings.view)):
+        picture = _shoot(scene, settings, shot, series.get(shot.series), staging, worked)
+        if shot.series:
+            series.setdefault(shot.series, picture.exposure)
+        if i >= KEPT:
+            sums = picture.film.on_film[:, None, None]
+            picture = replace(picture, film=replace(picture.film, planes=sums), light=(), arm=None)
+        yield picture
+
+
+def place_camera(scene: Scene, settings: Settings, shot: Shot) -> Camera:
+    """The camera of one view."""
+    return stand(scene.shown_points, scene.front, settings, shot)
+
+
+def _shoot(
+    scene: Scene,
+    settings: Settings,
+    shot: Shot,
+    given: float | None,
+    staging: Staging | None,
+    worked: Worked | None,
+) -> Picture:
+    camera = place_camera(scene, settings, shot)
+    exposure, told = _exposure(scene, settings, camera, given)
+    staged = Worked(key_of(camera, exposure), False, None, (), ())
+    if staging is not None:
+        staged = _stage(scene, settings, camera, exposure, staging, worked)
+    light = staged.shaded(scene.light) if staged.shares else scene.light
+    film = expose(light, camera, _by_settings(settings))
+    hidden = _hidden(light, staging.line) if staging is not None and staged.shares else None
+    image = linear(scene, film, exposure, camera, settings, arm=staged.arm)
+    return Picture(
+        finish(scene, image, exposure, settings), film, exposure, camera, shot.name, told, light,
+        hidden, staged.arm, staged.remarks,
+    )  # fmt: skip
+
+
+def _stage(
+    scene: Scene,
+    settings: Settings,
+    camera: Camera,
+    exposure: float,
+    staging: Staging,
+    worked: Worked | None,
+) -> Worked:
+    """What of the arm is to be seen, and what it hides; what is known already is not asked."""
+    key, fresh = key_of(camera, exposure), False
+    arm: Image | None = None
+    shares: tuple[Floats, ...] = ()
+    if settings.traced and worked is not None and worked.hides(key):
+        shares = worked.shares
+    elif settings.traced:
+        fresh = True
+        if staging.solid:
+            shares = tuple(shade_of(sweep, staging, camera.position).share for sweep in scene.light)
+    if settings.ghost and worked is not None and worked.shows(key, settings):
+        arm = worked.arm
+    elif settings.ghost:
+        fresh = True
+        take = staging.blur if settings.ghost == "motion" else staging.photograph
+        arm = take(camera, partial(lights_of, scene), exposure, _by_settings(settings))
+    remarks = tuple(staging.remarks) if fresh or worked is None else worked.remarks
+    return Worked(key, settings.ghost, arm, shares, remarks)
+
+
+def lights_of(scene: Scene, samples: slice = ALL) -> list[tuple[Floats, Floats]]:
+    """The paths (N, 3) and energies (N-1, 3) of a scene's lamps, of some steps between samples."""
+    return [lamp for sweep in scene.light for lamp in sweep.lights(samples)]
+
+
+def _hidden(light: Sequence[Sweep], line: NDArray[np.int64]) -> Hidden:
+    """What of some sweeps their shades kept from the film, by the lines (N,) of the source."""
+    shades = [sweep.shade for sweep in light if sweep.shade is not None]
+    hidden = np.sum([shade.hidden for shade in shades], axis=0)
+    emitted = np.sum([shade.emitted for shade in shades], axis=0)
+    return account(hidden, emitted, line[:-1])
+
+
+def _by_settings(settings: Settings) -> bool:
+    return parse_exposure(settings.exposure or "auto") is not None
+
+
+def _exposure(
+    scene: Scene, settings: Settings, camera: Camera, given: float | None
+) -> tuple[float, str]:
+    """The factor from film to saturation, and how a photographer would say it."""
+    real = parse_exposure(settings.exposure or "auto")
+    if real is not None:
+        return real.factor(camera), str(real)
+    if given is None:
+        psf = point_spread(settings.height)
+        given = automatic_exposure(scene.asked, camera, psf) * scene.dimmer
+    shown = given * 2.0**settings.ev
+    return given, f"automatic, {advice(shown, camera, distance_to(camera, scene.shown_points))}"
+
+
+def linear(
+    scene: Scene,
+    film: Film,
+    exposure: float,
+    camera: Camera,
+    settings: Settings,
+    under: Image | None = None,
+    arm: Image | None = None,
+) -> Image:
+    """(H, W, 3) linear light on the sensor, before it is developed.
+
+    Args:
+        scene: What is photographed.
+        film: What fell on the film.
+        exposure: Of the picture.
+        camera: Where it was taken from.
+        settings: Of the picture.
+        under: From `beneath`, where it is already there.
+        arm: Light of the arm and the floor, where they are shown.
+    """
+    image = spread(film, point_spread(settings.height))
+    if scene.under:
+        image += beneath(scene, exposure, camera, settings) if under is None else under
+    if arm is not None:
+        image += arm
+    if settings.starburst:
+        image = with_starburst(image, settings.starburst)
+    return image
+
+
+def beneath(scene: Scene, exposure: float, camera: Camera, settings: Settings) -> Image:
+    """(H, W, 3) the faint lines of the asked drawing, on the same scale as the film's light."""
+    psf = point_spread(settings.height)
+    ridge = automatic_exposure(scene.under, camera, psf) / CORE
+    faint = np.float32(FAINT * ridge / (exposure * 2.0**settings.ev))
+    return spread(expose(scene.under, camera), psf) * faint
+
+
+def finish(scene: Scene, image: Image, exposure: float, settings: Settings) -> NDArray[np.uint8]:
+    """The picture of linear light: noise, look, legend."""
+    if settings.noise is not None:
+        image = with_noise(image, exposure * 2.0**settings.ev, settings.noise)
+    shown = LOOKS[settings.look](image, exposure, settings.ev)
+    return shown if scene.legend is None else with_legend(shown, scene.legend, settings.look)

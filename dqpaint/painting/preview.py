@@ -1,0 +1,34 @@
+"""The asked picture of a drawing, without an arm."""
+
+from dataclasses import dataclass, replace
+
+from dqpaint.motion import Motion, plan
+from dqpaint.painting.picture import Picture, Shown, photograph
+from dqpaint.painting.scene import Scene, arrange, check_choices
+from dqpaint.program.program import Program
+from dqpaint.robots.loading.lookup import card_for
+from dqpaint.settings.model import Settings
+
+
+@dataclass(frozen=True, repr=False)
+class Preview(Shown):
+    """What was asked, and its pictures, one a view."""
+
+    settings: Settings
+    motion: Motion
+    scene: Scene
+    pictures: tuple[Picture, ...]
+
+
+def sketch(program: Program, settings: Settings) -> Preview:
+    """Take the asked pictures of a program.
+
+    Raises:
+        UsageError: an unknown robot, view, brush or look.
+        DqpaintError: a fault in the drawing, or no light in it.
+    """
+    check_choices(settings)
+    program = replace(program, most_samples=settings.max_samples)
+    motion = plan(program, card_for(program, settings.robot, settings.tool).canvas.pose)
+    scene = arrange(motion, motion.pose, settings)
+    return Preview(settings, motion, scene, tuple(photograph(scene, settings)))

@@ -1,0 +1,143 @@
+"""What is photographed: every light of a painting, and what a camera is chosen by.
+
+A scene knows no robot and no drawing's text, only light: it is what `--save film` keeps, and all
+that another view, size, look or exposure needs.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.light.camera.exposure_settings import parse_exposure
+from dqpaint.light.camera.views import parse_views
+from dqpaint.light.film.auto_exposure import CORE
+from dqpaint.light.film.looks import LOOKS
+from dqpaint.light.film.starburst import BLADES
+from dqpaint.light.images.legend import RIDGE, Legend
+from dqpaint.light.sources.brushes import read_brush
+from dqpaint.light.sources.emitters import Emitters
+from dqpaint.light.sources.from_motion import evened, sweeps
+from dqpaint.light.sources.sweep import Sweep
+from dqpaint.metrics.run_metrics import Table
+from dqpaint.motion import Motion
+from dqpaint.painting.colour_by import asked_table, colours_of, magnified, read_telling
+from dqpaint.settings.model import Settings
+
+SETTLING = 0.25  # [s] in which a jump of the set point counts as drawn
+UNDER = (0.62, 0.8, 1.0)  # the colour of the asked drawing under the reached one
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Lights, and what camera and exposure are chosen by.
+
+    Attributes:
+        name: Of the drawing.
+        light: What shines, one sweep a brush.
+        asked: The same as it was asked: it alone chooses camera and exposure, so that pictures of
+            two control laws can be laid over each other.
+        under: What is drawn beneath, as faint lines.
+        front: (3, 3) columns: right, up and towards the viewer, base frame.
+        legend: What the colours say, if they do.
+        dimmer: Factor on the automatic exposure.
+    """
+
+    name: str
+    light: tuple[Sweep, ...]
+    asked: tuple[Sweep, ...]
+    under: tuple[Sweep, ...]
+    front: Floats
+    legend: Legend | None = None
+    dimmer: float = 1.0
+
+    @property
+    def shown_points(self) -> Floats:
+        """(K, 3) what must be in the picture [m]."""
+        return np.concatenate([sweep.lit_points for sweep in self.asked])
+
+    @property
+    def seconds(self) -> float:
+        """How long the painting takes [s]."""
+        return max(float(sweep.time[-1]) for sweep in self.light)
+
+
+def check_choices(settings: Settings) -> None:
+    """Raise a UsageError for a slip in what concerns light, before anything is simulated."""
+    shots = parse_views(settings.view)
+    LOOKS[settings.look]
+    if settings.starburst and not BLADES[0] <= settings.starburst <= BLADES[1]:
+        bounds = f"{BLADES[0]} to {BLADES[1]} blades; 0 is a round one"
+        raise UsageError(f"starburst {settings.starburst}: an aperture has {bounds}")
+    if settings.brush is not None:
+        read_brush(settings.brush).emitters()
+    if settings.exposure is not None:
+        exposure = parse_exposure(settings.exposure)
+        if exposure and exposure.distance is not None and any(shot.place for shot in shots):
+            raise UsageError(
+                f"view '{settings.view}' says where the camera stands: leave the distance out of "
+                f"exposure '{settings.exposure}'"
+            )
+    if settings.colour_by is not None:
+        read_telling(settings.colour_by)
+
+
+def arrange(motion: Motion, pose: Floats, settings: Settings, table: Table | None = None) -> Scene:
+    """The scene of a motion's light carried through poses (N, 8), base frame.
+
+    Args:
+        motion: What was asked.
+        pose: Of the tool, measured or asked.
+        settings: Brush, dimming and what colours are to tell.
+        table: Columns of the run, for colours that tell; None is a run without an arm.
+
+    Raises:
+        DqpaintError: No light is on anywhere.
+    """
+    if not motion.lit.any():
+        raise DqpaintError(
+            f"{motion.program.name}: no light is on anywhere, so the picture would be black"
+        )
+    colours, legend, dimmer = motion.light, None, 1.0
+    metered = colours
+    if settings.colour_by is not None:
+        columns = asked_table(motion) if table is None else table
+        colours, legend = colours_of(motion, columns, settings.colour_by)
+        dimmer = RIDGE / CORE
+        metered = np.where(motion.lit[:, None], np.ones(3), 0.0)  # as bright as the legend's strip
+    even = settings.colour_by is not None
+    shown = pose if settings.magnify == 1.0 else magnified(motion, pose, settings.magnify)
+    under = _thin(sweeps(motion, motion.pose, np.where(motion.lit[:, None], UNDER, 0.0), settings))
+    return Scene(
+        motion.program.name,
+        sweeps(motion, shown, colours, settings, even),
+        sweeps(motion, motion.pose, _metered(motion, metered), settings, even),
+        under if settings.overlay else (),
+        dq.matrix_from_quaternion(motion.front),
+        legend,
+        dimmer,
+    )
+
+
+def _metered(motion: Motion, colours: Floats) -> Floats:
+    """The colours (N, 3) the exposure is chosen from.
+
+    A set point that jumps leaves no line, but the arm that follows it does: the jump counts as a
+    line drawn in `SETTLING`.
+    """
+    weight = np.where(motion.jump, SETTLING / motion.period, 1.0)
+    return np.asarray(colours * weight[:, None])
+
+
+def _thin(sweeps: tuple[Sweep, ...]) -> tuple[Sweep, ...]:
+    """The same as lines, of the tool's point or the ends of its bar, equally bright all along."""
+    thin = []
+    for sweep in sweeps:
+        places = sweep.emitters.extent
+        if len(sweep.emitters.places) == 1 or not sweep.emitters.straight:
+            places = np.zeros((1, 3))
+        lines = Emitters(places, np.ones((1, len(places), 3)))
+        thin.append(evened(replace(sweep, emitters=lines, strobe=None, pwm=0.0)))
+    return tuple(thin)

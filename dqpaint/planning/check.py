@@ -1,0 +1,205 @@
+"""What `check` says of a drawing, for people and for programs."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from dqpaint import __version__
+from dqpaint.core.examples import find_drawing
+from dqpaint.diagnostics.catalogue import url
+from dqpaint.diagnostics.diagnostic import Severity, Span, file_at, place
+from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.language import Diagnostic, Program, ScriptError, read, read_input, render
+from dqpaint.language.syntax.source import STDIN
+from dqpaint.motion import Motion, Survey, summary_line, survey
+
+if TYPE_CHECKING:
+    from dqpaint.planning.forecast_report import Outlook
+    from dqpaint.settings.model import Settings
+
+
+@dataclass(frozen=True)
+class Checked:
+    """One drawing, read: what was found, and its figures where it can be drawn."""
+
+    file: str
+    source: str
+    findings: tuple[Diagnostic, ...]
+    drawing: Motion | Survey | None
+    fault: str = ""  # of a file that could not even be read
+    outlook: "Outlook | None" = None  # what the arm says of it, where an arm was asked
+
+    @property
+    def errors(self) -> int:
+        """How many things stop this drawing."""
+        stopping = sum(d.severity is Severity.ERROR for d in self.findings)
+        return stopping + bool(self.fault)
+
+    @property
+    def text(self) -> str:
+        """As a person reads it."""
+        if self.fault:
+            return f"error: {self.fault}"
+        parts = [render(finding, self.file, self.source) for finding in self.findings]
+        if self.drawing is not None:
+            said = self.outlook.text if self.outlook else ""
+            parts.append(summary_line(self.drawing) + said + self._hint)
+        return "\n\n".join(parts)
+
+    @property
+    def _hint(self) -> str:
+        """Of beads at the ends of strokes, which a light painter sees first."""
+        assert self.drawing is not None
+        times = self.drawing.unevenness
+        if times <= BEAD:
+            return ""
+        return (
+            f"\nhint: near their ends strokes are {times:.2g} times as bright as in the middle, "
+            "where the tool is fast; for an even line write: light white even"
+        )
+
+
+BEAD = 2.0  # times the brightness of the middle: less is no matter for a hint
+
+
+def check(name: str, **choices: Any) -> Checked:
+    """Read one drawing and survey its motion; nothing is simulated.
+
+    Where anything of the run is chosen, or an arm named in the file, it looks ahead, too: reach,
+    limits, speeds, torques, singularities, collisions, hidden light.
+
+    Args:
+        name: of the drawing's file, or of an example; `-` is standard input.
+        choices: of the run, as those of `dqpaint.draw`.
+
+    Raises:
+        UsageError: no such choice.
+    """
+    settings = _chosen(choices)
+    try:
+        program = read_input() if name == STDIN else read(find_drawing(name))
+        if (most := choices.get("max_samples")) is not None:
+            program = replace(program, most_samples=most)
+        asked = settings is not None or program.robot is not None
+        outlook = _look_ahead(program, settings) if asked else None
+        drawing: Motion | Survey = outlook.motion if outlook else survey(program)
+    except ScriptError as problem:
+        return Checked(problem.name, problem.text, problem.diagnostics, None)
+    except UsageError:
+        raise
+    except DqpaintError as problem:
+        return Checked(name, "", (), None, str(problem))
+    findings = drawing.notes + (outlook.warnings if outlook else ())
+    return Checked(program.name, program.text, findings, drawing, outlook=outlook)
+
+
+def _chosen(choices: dict[str, Any]) -> "Settings | None":
+    """The settings, if anything of a run is chosen.
+
+    Without a choice they are not even imported, which takes a while.
+
+    Raises:
+        UsageError: no such choice.
+    """
+    if all(value is None for value in choices.values()):
+        return None
+    from dqpaint.settings.model import Settings, make_settings
+
+    settings = make_settings(**choices)
+    return settings if settings != Settings(max_samples=settings.max_samples) else None
+
+
+def _look_ahead(program: Program, settings: "Settings | None") -> "Outlook":
+    """What an arm says of a drawing; only this brings in the arms and their kinematics.
+
+    Raises:
+        UsageError: no such robot, or no such tool.
+        ScriptError: a fault of the drawing, or the arm does not reach all of it.
+    """
+    from dqpaint.robots.loading.lookup import card_for
+    from dqpaint.settings.model import Settings
+
+    settings = settings or Settings()
+    card = card_for(program, settings.robot, settings.tool)
+    survey(program)  # what is wrong with the drawing by itself goes before what an arm says
+
+    from dqpaint.planning.forecast_report import look_ahead
+    from dqpaint.robots.kinematics.kinematics import Kinematics
+
+    return look_ahead(program, Kinematics(card), settings)
+
+
+def as_json(results: Sequence[Checked]) -> dict[str, Any]:
+    """The findings of several drawings: 1-based, columns in code points, ends not included."""
+    findings = [(result, finding) for result in results for finding in result.findings]
+    warnings = sum(d.severity is Severity.WARNING for _, d in findings)
+    surveyed = [result.drawing for result in results if result.drawing is not None]
+    return {
+        "version": 1,
+        "tool": f"dqpaint {__version__}",
+        "files": [_file(result) for result in results if result.drawing is not None],
+        "diagnostics": [_as_json(result, finding) for result, finding in findings]
+        + [_unread(result) for result in results if result.fault],
+        "summary": {
+            "errors": sum(result.errors for result in results),
+            "warnings": warnings,
+            "samples": sum(drawing.samples for drawing in surveyed),
+            "seconds": sum(drawing.seconds for drawing in surveyed),
+        },
+    }
+
+
+def _as_json(result: Checked, finding: Diagnostic) -> dict[str, Any]:
+    fix = finding.fix
+    return {
+        "file": file_at(result.source, finding.span.start, result.file)[1]
+        if finding.span is not None
+        else result.file,
+        "severity": finding.severity.value,
+        "code": finding.code,
+        "message": finding.message,
+        **_range(result.source, finding.span),
+        "label": finding.label,
+        "help": finding.help,
+        "explain": f"dqpaint explain {finding.code}",
+        "url": url(finding.code),
+        "related": [
+            {
+                "file": file_at(result.source, span.start, result.file)[1],
+                **_range(result.source, span),
+                "label": label,
+            }
+            for span, label in finding.related
+        ],
+        "fix": fix
+        and {
+            "title": fix.title,
+            "edits": [{**_range(result.source, fix.span), "text": fix.text}],
+        },
+    }
+
+
+def _file(result: Checked) -> dict[str, Any]:
+    drawing = result.drawing
+    assert drawing is not None
+    return {
+        "file": result.file,
+        "samples": drawing.samples,
+        "seconds": drawing.seconds,
+        "length_m": drawing.length,
+        "ends_over_middle": drawing.unevenness,
+        "box_m": drawing.box.tolist(),
+        "forecast": result.outlook.as_json if result.outlook else None,
+    }
+
+
+def _unread(result: Checked) -> dict[str, Any]:
+    empty = Diagnostic("E001", result.fault, None)
+    return _as_json(result, empty)
+
+
+def _range(text: str, span: Span | None) -> dict[str, Any]:
+    if span is None:
+        return {"start": None, "end": None}
+    ends = (place(text, offset) for offset in (span.start, span.end))
+    return dict(zip(("start", "end"), (at._asdict() for at in ends), strict=True))

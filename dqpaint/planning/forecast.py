@@ -1,0 +1,253 @@
+"""Motion x arm -> Forecast: what a drawing asks of an arm, line by line, before it is simulated.
+
+The arm follows what was asked without error and without limits, through the same resolver and with
+the same wish in its null space as a run. So where nothing is beyond a limit, a run goes the same
+way; where something is, the forecast says what would have been needed. Of a plant it is foreseen
+what its motors bear, and how far springs give way. Disturbances are what nobody foresees, and how
+an arm that begins elsewhere comes to the drawing is its law's own.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.dq import Floats
+from dqpaint.motion import Motion
+from dqpaint.planning.ideal_run import follow, jumps
+from dqpaint.planning.occlusion import LOOKS, PLAIN, Hiding, hide, looks_at
+from dqpaint.planning.retiming import TAKEN_UP
+from dqpaint.plants.plant import Chosen
+from dqpaint.robots.kinematics.collisions import Nearest, shapes_of
+from dqpaint.robots.kinematics.differential_ik import LENGTH, to_tool
+from dqpaint.robots.kinematics.dynamics import Dynamics
+from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability
+from dqpaint.robots.kinematics.nullspace import DEFAULT_NULL, make_wish
+from dqpaint.settings.model import Settings
+
+MOST_ROWS = 20_000  # that are followed; of a longer drawing every second, third ... one
+
+
+@dataclass(frozen=True)
+class Worst:
+    """The worst of something on a line: its value, the joint (from 1) and the time [s]."""
+
+    value: float
+    joint: int
+    time: float
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """What one line of a drawing asks of an arm.
+
+    Attributes:
+        line: of the file.
+        start: time of its first row [s].
+        margin: least distance of a joint to its limits [rad]; negative beyond them.
+        room: the same as a part of half the joint's range: 0 at a limit, 1 in the middle.
+        speed: largest joint rate [rad/s].
+        speed_part: and as a part of the joint's limit; both of the joint nearest to its own.
+        effort: largest torque of the motion itself, of the joint nearest to its limit [Nm]; None
+            on a plant without masses.
+        effort_part: and as a part of that limit.
+        jolt: the same where the speed changes at once, and as a part: motors of the plant `stiff`
+            take up each new rate within a millisecond, dampers bear it where motors wind springs;
+            None where it is for the law to say how soon it is taken up.
+        held_part: the largest part of a joint's torque that the arm's weight takes, at rest.
+        sag: how far the light sinks as springs give way under the arm's weight, at the most [m];
+            None without springs.
+        singular: the smallest singular value of the Jacobian at the tool [rad/rad].
+        manipulability: the least sqrt(det(J J')).
+        stray: how far the arm is beside the path at the most [m]: at a singularity it is damped.
+        stray_row: and in which row of the motion.
+        clearance: least distance between two links [m], and which; None where none can meet.
+        between: these two links.
+        hidden: part of the line's light that the arm stands before, in the view where that is most;
+            None for a dark line.
+        view: that view.
+    """
+
+    line: int
+    start: float
+    margin: Worst
+    room: float
+    speed: Worst
+    speed_part: float
+    effort: Worst | None
+    effort_part: float | None
+    jolt: Worst | None
+    jolt_part: float | None
+    held_part: float
+    sag: float | None
+    singular: float
+    manipulability: float
+    stray: float
+    stray_row: int
+    clearance: float | None
+    between: tuple[str, str] | None
+    hidden: float | None
+    view: str
+
+
+def forecast(
+    motion: Motion,
+    kinematics: Kinematics,
+    start: Floats,
+    settings: Settings = PLAIN,
+    plant: Chosen | None = None,
+) -> tuple[Forecast, ...]:
+    """Look ahead along a drawing.
+
+    Args:
+        motion: what is asked.
+        kinematics: of the arm.
+        start: posture (n,) [rad] it begins in.
+        settings: of the run: what the arm does with its freedom, what shines, and from where it is
+            looked at.
+        plant: whose motors bear it; None is `stiff`.
+
+    Returns:
+        One entry for each line of the file that moves, in the order they are first drawn.
+    """
+    run = _Run(motion, kinematics, start, settings.null, plant)
+    shapes = shapes_of(kinematics)
+    looks = looks_at(run.line, LOOKS)
+    near = shapes.nearest(run.posture[looks])
+    hiding = hide(shapes, motion, run.rows, run.posture, settings)
+    lines, first = np.unique(run.line, return_index=True)
+    return tuple(_of_line(run, int(line), looks, near, hiding) for line in lines[np.argsort(first)])
+
+
+class _Run:
+    """The arm along the drawing: rows of the motion, and arrays with one entry for each.
+
+    The speed and the torque of a jump of the set point are a law's own: they count as none.
+    """
+
+    def __init__(
+        self,
+        motion: Motion,
+        kinematics: Kinematics,
+        start: Floats,
+        null: str = DEFAULT_NULL,
+        plant: Chosen | None = None,
+    ) -> None:
+        self.card = kinematics.card
+        stride = -(-len(motion.t) // MOST_ROWS)
+        self.rows = np.arange(0, len(motion.t), stride)
+        self.t, self.line = motion.t[self.rows], motion.line[self.rows]
+        self.period = stride * motion.period
+        joined = jumps(motion, self.rows)
+        self.posture, self.points, J = follow(
+            motion, kinematics, start, self.rows, make_wish(null, self.card, start)
+        )
+        self.stray = np.linalg.norm(self.points - motion.points[self.rows], axis=1)
+        self.manipulability = manipulability(J)
+        at_tool = to_tool(self.points) @ J
+        self.singular = np.linalg.svd(at_tool, compute_uv=False)[:, -1]
+        self.rates = np.zeros_like(self.posture)
+        self.rates[:-1] = np.diff(self.posture, axis=0) / self.period
+        self.rates[joined] = 0.0
+        change = np.diff(self.rates, axis=0, prepend=0.0)
+        change[joined] = 0.0
+        change[-1] = 0.0  # a run ends there: nothing is asked any more
+        change[1:][joined[:-1]] = 0.0
+        dynamics = Dynamics(kinematics)
+        self.weight = np.array([dynamics.weight(q) for q in self.posture])
+        self._bear(change, motion, dynamics, at_tool, plant)
+        self.margin = np.minimum(self.posture - self.card.lower, self.card.upper - self.posture)
+        self.room = 2 * self.margin / (self.card.upper - self.card.lower)
+
+    def _bear(
+        self,
+        change: Floats,
+        motion: Motion,
+        dynamics: Dynamics,
+        at_tool: Floats,
+        plant: Chosen | None,
+    ) -> None:
+        """What the motors bear (N, n) [Nm], where there are any, as rates change by (N, n)."""
+        self.effort: Floats | None = None
+        self.jolt: Floats | None = None
+        self.sag: Floats | None = None
+        motors = plant.motors if plant else "sudden"
+        if motors == "none":
+            return
+        if motors == "sudden":
+            self.effort = self._torques(dynamics, change / self.period)
+            self.jolt = self._torques(dynamics, change / min(self.period, TAKEN_UP))
+            return
+        smooth = _without_corners(change, motion.stroke[self.rows])
+        self.effort = self._torques(dynamics, smooth / self.period)
+        springs = plant.springs_of(self.card) if plant else None
+        if springs is not None:
+            # at first only the dampers answer a motor that turns at a new rate
+            self.jolt = self.effort + springs.damping * (change - smooth)
+            sunk = np.matvec(at_tool, (1 - springs.share) * self.weight / springs.stiffness)
+            self.sag = LENGTH * np.linalg.norm(sunk[:, 3:], axis=1)
+
+    def _torques(self, dynamics: Dynamics, accelerations: Floats) -> Floats:
+        rows = zip(self.posture, self.rates, accelerations, strict=True)
+        return np.array([dynamics.torque(*row) for row in rows])
+
+
+def _without_corners(change: Floats, stroke: NDArray[np.int64]) -> Floats:
+    """Changes of rates (N, n) without those at once: there they are taken as in the next row."""
+    first = np.flatnonzero(np.diff(stroke, prepend=-1))
+    smooth = change.copy()
+    smooth[first] = change[np.minimum(first + 1, len(change) - 1)]
+    return smooth
+
+
+def _of_line(
+    run: _Run, line: int, looks: NDArray[np.intp], near: Nearest, hiding: Hiding
+) -> Forecast:
+    rows = np.flatnonzero(run.line == line)
+    card = run.card
+    speed, speed_part = _worst(run, rows, run.rates, card.speed)
+    effort, effort_part = _worst_if_any(run, rows, run.effort, card.effort)
+    jolt, jolt_part = _worst_if_any(run, rows, run.jolt, card.effort)
+    k, joint = np.unravel_index(run.margin[rows].argmin(), (len(rows), card.joints))
+    margin = Worst(float(run.margin[rows[k], joint]), int(joint) + 1, float(run.t[rows[k]]))
+    looked = np.flatnonzero(np.isin(looks, rows))
+    closest = looked[near.distance[looked].argmin()]
+    meets = bool(np.isfinite(near.distance[closest]))
+    hidden, view = hiding.of(rows)
+    return Forecast(
+        line=line,
+        start=float(run.t[rows[0]]),
+        margin=margin,
+        room=float(run.room[rows].min()),
+        speed=speed,
+        speed_part=speed_part,
+        effort=effort,
+        effort_part=effort_part,
+        jolt=jolt,
+        jolt_part=jolt_part,
+        held_part=_worst(run, rows, run.weight, card.effort)[1],
+        sag=None if run.sag is None else float(run.sag[rows].max()),
+        singular=float(run.singular[rows].min()),
+        manipulability=float(run.manipulability[rows].min()),
+        stray=float(run.stray[rows].max()),
+        stray_row=int(run.rows[rows[run.stray[rows].argmax()]]),
+        clearance=float(near.distance[closest]) if meets else None,
+        between=near.pair[closest] if meets else None,
+        hidden=hidden,
+        view=view,
+    )
+
+
+def _worst(run: _Run, rows: NDArray[np.intp], values: Floats, limit: Floats) -> tuple[Worst, float]:
+    """Where some values come nearest to their limits, and that as a part of the limit."""
+    parts = np.abs(values[rows]) / limit
+    k, joint = np.unravel_index(parts.argmax(), parts.shape)
+    row = rows[k]
+    worst = Worst(float(abs(values[row, joint])), int(joint) + 1, float(run.t[row]))
+    return worst, float(parts[k, joint])
+
+
+def _worst_if_any(
+    run: _Run, rows: NDArray[np.intp], values: Floats | None, limit: Floats
+) -> tuple[Worst | None, float | None]:
+    return (None, None) if values is None else _worst(run, rows, values, limit)

@@ -1,0 +1,380 @@
+"""What is said of a forecast: warnings at their places, a table of what is close to a limit."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any, NamedTuple
+
+from dqpaint.diagnostics.diagnostic import Diagnostic, Span
+from dqpaint.motion import Motion, plan
+from dqpaint.planning.forecast import Forecast, Worst, forecast
+from dqpaint.planning.ideal_run import WORTH_A_LOOK
+from dqpaint.planning.occlusion import PLAIN
+from dqpaint.planning.placement import Placed, settle
+from dqpaint.planning.reachability import begin, check_row
+from dqpaint.planning.retiming import Slowed, slow_down
+from dqpaint.plants.plant import DEFAULT_PLANTS, find_plant
+from dqpaint.program.program import Program
+from dqpaint.robots.kinematics.collisions import shapes_of
+from dqpaint.robots.kinematics.differential_ik import THRESHOLD
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.model.card import Card
+from dqpaint.settings.model import Settings
+
+CLOSE = 0.9  # of a limit
+CLOSE_ANGLE = math.radians(5.0)
+CLOSE_SINGULAR = 2 * THRESHOLD
+CLOSE_LINKS = 5e-3  # [m]
+CLOSE_HIDDEN = 0.005  # of a line's light
+HIDDEN = 0.01
+MOST_LINES = 12  # of the table
+MOST_NAMED = 6  # lines in a warning
+FROM = ("front", "side", "top")  # where an eye may be said to be
+DEG = math.degrees(1)
+
+
+@dataclass(frozen=True)
+class Outlook:
+    """What an arm says of a drawing it has not drawn yet.
+
+    Attributes:
+        motion: what was asked, at its place.
+        placed: where `place auto` put it.
+        slowed: how it was slowed down, where it may be.
+        robot: its name.
+        plant: the name of the plant whose motors were asked.
+        seen: whether its encoders see how far springs give way, where it has any.
+        start: the posture it begins in [rad].
+        lines: the forecast of each line.
+        warnings: for the limits it would run into.
+        notes: what was assumed of the arm.
+    """
+
+    motion: Motion
+    placed: Placed | None
+    slowed: Slowed | None
+    robot: str
+    plant: str
+    seen: bool
+    start: tuple[float, ...]
+    lines: tuple[Forecast, ...]
+    warnings: tuple[Diagnostic, ...]
+    notes: tuple[str, ...]
+
+    @property
+    def text(self) -> str:
+        """As it follows the drawing's figures."""
+        worst = min(self.lines, key=lambda line: line.margin.value)
+        margin = worst.margin.value * DEG
+        said = (
+            f"but a joint has to go {-margin:.0f} deg beyond its limit"
+            if margin < 0
+            else f"every joint {margin:.0f} deg or more from its limits"
+        )
+        notes = "".join(f"\nnote: {note}" for note in self.notes)
+        placed = f"  {self.placed.line}\n  {self.placed.figures}\n" if self.placed else ""
+        slowed = f"  pace: {self.slowed}\n" if self.slowed else ""
+        program = self.motion.program
+        figures = f"{_extremes(self.lines, program, self.seen)}{_table(self.lines, program)}"
+        return f"; {self.robot} reaches it, {said}\n{placed}{slowed}{figures}{notes}"
+
+    @property
+    def as_json(self) -> dict[str, Any]:
+        """All figures of all lines, in SI units."""
+        return {
+            "robot": self.robot,
+            "plant": self.plant,
+            "place": self.placed and self.placed.as_json,
+            "pace": self.slowed and self.slowed.as_json,
+            "start_rad": list(self.start),
+            "lines": [_figures(line, self.motion.program) for line in self.lines],
+        }
+
+
+def look_ahead(program: Program, kinematics: Kinematics, settings: Settings = PLAIN) -> Outlook:
+    """The outlook of a drawing for an arm.
+
+    Args:
+        program: the drawing.
+        kinematics: of the arm.
+        settings: of the run that is looked ahead to.
+
+    Raises:
+        ScriptError: the drawing leaves the arm's reach.
+        UsageError: an unknown plant, or values it does not take.
+    """
+    program, placed = settle(program, kinematics, settings)
+    motion = plan(program, kinematics.card.canvas.pose)
+    plant = find_plant(settings.plant) if settings.plant else None
+    springs = plant.springs_of(kinematics.card) if plant else None
+    best = begin(motion, kinematics, settings.null).posture
+    start = kinematics.card.home if settings.start == "home" else best
+    slowed = None
+    if settings.on_limit == "slow":
+        motors = plant.motors if plant else "sudden"
+        slowed = slow_down(motion, kinematics, start, settings.null, motors)
+        motion = slowed.motion
+    lines = forecast(motion, kinematics, start, settings, plant)
+    farthest = max(lines, key=lambda one: one.stray)
+    if farthest.stray >= WORTH_A_LOOK:
+        check_row(motion, kinematics, farthest.stray_row, settings.null)
+    return Outlook(
+        motion,
+        placed,
+        slowed,
+        kinematics.card.name,
+        plant.name if plant else DEFAULT_PLANTS["rates"],
+        springs is None or springs.seen,
+        tuple(start.tolist()),
+        lines,
+        tuple(_warnings(motion, kinematics.card, lines)),
+        kinematics.notes + shapes_of(kinematics).notes,
+    )
+
+
+class _Rule(NamedTuple):
+    """A limit: its warning, how bad a line is (1 is at the limit), and what is said of it."""
+
+    code: str
+    badness: Callable[[Forecast], float]
+    message: Callable[[Forecast, Card], str]
+    help: str
+
+
+def _position(one: Forecast, _card: Card) -> str:
+    at = one.margin
+    return f"joint {at.joint} has to go {-at.value * DEG:.3g} deg beyond its limit{_when(at.time)}"
+
+
+def _speed(one: Forecast, card: Card) -> str:
+    at = one.speed
+    most = card.speed[at.joint - 1] * DEG
+    return (
+        f"joint {at.joint} has to turn at {at.value * DEG:.4g} deg/s{_when(at.time)}, "
+        f"but goes to {most:.4g} deg/s"
+    )
+
+
+def _effort(one: Forecast, card: Card) -> str:
+    at = one.effort
+    assert at is not None
+    return f"joint {at.joint} needs {at.value:.4g} Nm{_when(at.time)}, but {_has(at, card)}"
+
+
+def _jolt(one: Forecast, card: Card) -> str:
+    at = one.jolt
+    assert at is not None
+    how = "to follow within 1 ms" if one.sag is None else "with its spring's damper"
+    return (
+        f"the speed changes at once{_when(at.time)}: {how} joint {at.joint} needs "
+        f"{at.value:.4g} Nm, but {_has(at, card)}"
+    )
+
+
+def _has(at: Worst, card: Card) -> str:
+    return f"has {card.effort[at.joint - 1]:.4g} Nm"
+
+
+def _singular(one: Forecast, _card: Card) -> str:
+    beside = f", up to {one.stray * 1e3:.1f} mm beside" if one.stray >= WORTH_A_LOOK else ""
+    return (
+        f"the arm comes close to a singularity (smallest singular value {one.singular:.2g}, "
+        f"below {THRESHOLD:g}): there it follows inexactly{beside}"
+    )
+
+
+def _collision(one: Forecast, _card: Card) -> str:
+    first, second = one.between or ("", "")
+    depth = -(one.clearance or 0.0) * 1e3
+    return f"link '{first}' runs into link '{second}' (by {depth:.0f} mm)"
+
+
+def _hidden(one: Forecast, _card: Card) -> str:
+    where = f"from the {one.view}" if one.view in FROM else f"in the view {one.view}"
+    return f"the arm stands before {one.hidden or 0:.0%} of the light, seen {where}"
+
+
+def _when(time: float) -> str:
+    return f" at {time:.2f} s"
+
+
+RULES = (
+    _Rule(
+        "W501",
+        lambda one: 1.0 - one.margin.value,
+        _position,
+        "turn the tool less, or move the drawing with place",
+    ),
+    _Rule(
+        "W502",
+        lambda one: one.speed_part,
+        _speed,
+        "draw it slower (speed, in, samples), or let --on-limit slow do it",
+    ),
+    _Rule(
+        "W503",
+        lambda one: one.effort_part or 0.0,
+        _effort,
+        "a lower speed or a smoother law needs less; --on-limit slow finds one",
+    ),
+    _Rule(
+        "W504",
+        lambda one: (one.jolt_part or 0.0) if (one.effort_part or 0.0) <= 1 else 0.0,
+        _jolt,
+        "law trapezoid and law quintic begin and end each stroke at rest; a lower speed helps, too",
+    ),
+    _Rule(
+        "W505",
+        lambda one: 2.0 - one.singular / THRESHOLD,
+        _singular,
+        "move the drawing with place, or hold the tool another way",
+    ),
+    _Rule(
+        "W506",
+        lambda one: 1.0 if one.clearance is None else 1.0 - one.clearance,
+        _collision,
+        "move the drawing with place, or hold the tool another way",
+    ),
+    _Rule(
+        "W507",
+        lambda one: (one.hidden or 0.0) / HIDDEN,
+        _hidden,
+        "point the tool's z axis at the viewer, or move the drawing with place",
+    ),
+)
+
+
+def _warnings(motion: Motion, card: Card, lines: Sequence[Forecast]) -> list[Diagnostic]:
+    """One warning for each limit, at the line that is worst; the others are named."""
+    spans = _spans(motion)
+    found = []
+    for rule in RULES:
+        bad = [one for one in lines if rule.badness(one) > 1.0]
+        if not bad:
+            continue
+        worst = max(bad, key=rule.badness)
+        others = [motion.program.where(one.line) for one in bad if one is not worst]
+        found.append(
+            Diagnostic(
+                rule.code,
+                rule.message(worst, card),
+                spans.get(worst.line),
+                label=f"likewise {_named(others)}" if others else "",
+                help=rule.help,
+            )
+        )
+    return found
+
+
+def _spans(motion: Motion) -> dict[int, Span]:
+    spans: dict[int, Span] = {}
+    for segment in motion.program.segments:
+        spans.setdefault(segment.line, segment.span)
+    return spans
+
+
+def _named(lines: Sequence[str]) -> str:
+    listed = ", ".join(lines[:MOST_NAMED])
+    more = f" and {len(lines) - MOST_NAMED} more" if len(lines) > MOST_NAMED else ""
+    return f"line{'s' if len(lines) > 1 else ''} {listed}{more}"
+
+
+def _extremes(lines: Sequence[Forecast], program: Program, seen: bool) -> str:
+    """The worst of the whole drawing in a sentence."""
+    speed = max(lines, key=lambda one: one.speed_part)
+    least = min(lines, key=lambda one: one.manipulability)
+    parts = [
+        f"joint {speed.speed.joint} at {speed.speed_part:.0%} of its speed "
+        f"(line {program.where(speed.line)})",
+        *_bearing(lines, program, seen),
+        f"manipulability {least.manipulability:.2g} (line {program.where(least.line)})",
+    ]
+    clear = [one for one in lines if one.clearance is not None]
+    if clear:
+        near = min(clear, key=lambda one: one.clearance or 0.0)
+        parts.append(f"links {max(near.clearance or 0.0, 0.0) * 1e3:.0f} mm apart")
+    return f"  at most: {', '.join(parts)}"
+
+
+def _bearing(lines: Sequence[Forecast], program: Program, seen: bool) -> list[str]:
+    """What motors and springs bear, where a plant has them."""
+    parts = []
+    most = max(lines, key=lambda one: one.effort_part or 0.0)
+    if most.effort is not None:
+        part, line = most.effort_part or 0.0, program.where(most.line)
+        parts.append(f"joint {most.effort.joint} at {part:.0%} of its torque (line {line})")
+    sunk = max(lines, key=lambda one: one.sag or 0.0)
+    if sunk.sag is not None:
+        how = "" if seen else ", which no encoder sees"
+        millimetres, line = sunk.sag * 1e3, program.where(sunk.line)
+        parts.append(f"springs give way by {millimetres:.2g} mm{how} (line {line})")
+    return parts
+
+
+def _cells(one: Forecast) -> dict[str, str]:
+    """What of a line is close to a limit, or beyond it."""
+    cells: dict[str, str] = {}
+    if one.margin.value < CLOSE_ANGLE:
+        cells["off limits"] = f"{one.margin.value * DEG:.1f} deg (joint {one.margin.joint})"
+    if one.speed_part > CLOSE:
+        cells["speed"] = f"{one.speed_part:.0%} (joint {one.speed.joint})"
+    if one.effort is not None and (one.effort_part or 0.0) > CLOSE:
+        cells["torque"] = f"{one.effort_part:.0%} (joint {one.effort.joint})"
+    if one.jolt is not None and (one.jolt_part or 0.0) > CLOSE:
+        head = "torque within 1 ms" if one.sag is None else "torque at once"
+        cells[head] = f"{one.jolt_part:.0%} (joint {one.jolt.joint})"
+    if one.singular < CLOSE_SINGULAR:
+        cells["singular value"] = f"{one.singular:.2g}"
+    if one.clearance is not None and one.clearance < CLOSE_LINKS:
+        cells["links apart"] = f"{one.clearance * 1e3:.0f} mm"
+    if one.hidden is not None and one.hidden > CLOSE_HIDDEN:
+        cells["hidden"] = f"{one.hidden:.1%}"
+    return cells
+
+
+def _table(lines: Sequence[Forecast], program: Program) -> str:
+    """The lines that come close to a limit, and the limits that any of them comes close to."""
+    close = {one.line: cells for one in lines if (cells := _cells(one))}
+    if not close:
+        return ""
+    heads = list(dict.fromkeys(head for cells in close.values() for head in cells))
+    rows = [["line", *heads]]
+    rows += [
+        [program.where(line), *(cells.get(head, "") for head in heads)]
+        for line, cells in list(close.items())[:MOST_LINES]
+    ]
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    text = "".join(
+        "\n  "
+        + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+        for row in rows
+    )
+    more = len(close) - MOST_LINES
+    return text + (f"\n  and {more} more lines: --json has them all" if more > 0 else "")
+
+
+def _figures(one: Forecast, program: Program) -> dict[str, Any]:
+    """One line, each figure with its unit; nothing in it is infinite."""
+    sudden = "effort_within_1_ms_Nm" if one.sag is None else "effort_at_once_Nm"
+    worst = {
+        "margin_rad": (one.margin, None),
+        "speed_rad_s": (one.speed, one.speed_part),
+        "effort_Nm": (one.effort, one.effort_part),
+        sudden: (one.jolt, one.jolt_part),
+    }
+    return {
+        "line": program.told(one.line),
+        "room": one.room,
+        "start_s": one.start,
+        **{
+            name: value and asdict(value) | ({} if part is None else {"part_of_limit": part})
+            for name, (value, part) in worst.items()
+        },
+        "sag_m": one.sag,
+        "smallest_singular_value": one.singular,
+        "manipulability": one.manipulability,
+        "stray_m": one.stray,
+        "clearance_m": one.clearance,
+        "between": one.between,
+        "hidden": one.hidden,
+    }

@@ -1,0 +1,91 @@
+"""Motion x arm -> postures: where an arm begins a drawing, and how it goes along it without error.
+
+No limit holds it back, and no law errs. Singularities it meets as a run does, through the same
+resolver and with the same wish in its null space.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.motion import Motion
+from dqpaint.robots.kinematics.differential_ik import resolve
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.kinematics.nullspace import DEFAULT_NULL, Wish, make_pull, make_wish
+from dqpaint.robots.kinematics.start_posture import (
+    ON_THE_WAY,
+    Miss,
+    Start,
+    find_start,
+    solve,
+    to_start,
+    waypoints,
+)
+
+WORTH_A_LOOK = 1e-3  # [m] from the path
+MOST_ROWS = 1500  # that are gone along to see whether an arm can draw something
+BEYOND = np.radians(0.05)  # of a joint's end count as its end
+
+
+def set_out(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL) -> Start | Miss:
+    """The posture that leaves the most margin over a drawing, or the pose that is not reached.
+
+    Args:
+        motion: what is asked.
+        kinematics: of the arm.
+        null: what the arm does with its freedom.
+    """
+    rows = waypoints(motion.stroke)
+    pull = to_start if null == DEFAULT_NULL else make_pull(null, kinematics)
+    return find_start(kinematics, motion.pose[rows], motion.t[rows], pull)
+
+
+def can_draw(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL) -> bool:
+    """Whether an arm gets along a drawing, no joint beyond its end and no millimetre beside it.
+
+    Arguments as those of `set_out`.
+    """
+    start = set_out(motion, kinematics, null)
+    if isinstance(start, Miss) or start.margin < 0:
+        return False
+    rows = np.arange(0, len(motion.t), -(-len(motion.t) // MOST_ROWS))
+    wish = make_wish(null, kinematics.card, start.posture)
+    postures, points, _ = follow(motion, kinematics, start.posture, rows, wish)
+    card = kinematics.card
+    inside = (postures >= card.lower - BEYOND) & (postures <= card.upper + BEYOND)
+    off = np.linalg.norm(points - motion.points[rows], axis=1)
+    return bool(inside.all() and off.max() < WORTH_A_LOOK)
+
+
+def jumps(motion: Motion, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Whether the set point jumps between each of some rows (N,) and the next."""
+    return np.asarray(np.add.reduceat(motion.jump, rows) > 0)
+
+
+def follow(
+    motion: Motion, kinematics: Kinematics, start: Floats, rows: NDArray[np.intp], wish: Wish
+) -> tuple[Floats, Floats, Floats]:
+    """Along some rows (N,) of a motion, evenly spread; one Newton step leads to each.
+
+    Returns:
+        Postures (N, n), places (N, 3) and Jacobians (N, 6, n).
+    """
+    period = motion.period * (rows[1] - rows[0] if len(rows) > 1 else 1)
+    postures, jacobians = np.empty((len(rows), len(start))), np.empty((len(rows), 6, len(start)))
+    points = np.empty((len(rows), 3))
+    still, jump = np.zeros((1, len(start))), jumps(motion, rows)
+    q = solve(kinematics, motion.pose[0], start[None], still, ON_THE_WAY)[0][0]
+    for k in range(len(rows)):
+        x, J = kinematics.pose_and_jacobian(q)
+        p = dq.translation(x)
+        postures[k], jacobians[k], points[k] = q, J, p
+        if k + 1 == len(rows):
+            break
+        ahead, drawn = motion.pose[rows[k + 1]], wish.over(period, q, J, p)
+        if jump[k]:
+            q = solve(kinematics, ahead, q[None], drawn[None], ON_THE_WAY)[0][0]
+        else:
+            way = 2 * dq.log(dq.mul(dq.nearest(ahead, x), dq.conj(x)))
+            q = q + resolve(J, p, way, drawn)
+    return postures, points, jacobians

@@ -1,0 +1,96 @@
+"""What of a drawing's light its arm will stand before, seen by the cameras of a run.
+
+A few places along a brush are asked, now and then: a forecast, where `stage.shadow` traces.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.light.camera.views import parse_views
+from dqpaint.light.sources.from_motion import stand, sweeps
+from dqpaint.motion import Motion
+from dqpaint.robots.kinematics.collisions import Shapes
+from dqpaint.settings.model import Settings
+
+LOOKS = 400  # at the arm's shapes in a whole drawing
+LEAST_LOOKS = 40  # in each view, where there are many
+LAMPS, APART = 5, 0.03  # places along a brush, at the most, and how far apart at least [m]
+PLAIN = Settings()
+
+
+class Hiding(NamedTuple):
+    """What is hidden at some of a forecast's rows.
+
+    Attributes:
+        rows: of the forecast (S,).
+        sent: light that is sent at each (S,), in any unit.
+        hidden: and what of it each view does not get (V, S).
+        views: their names, V.
+    """
+
+    rows: NDArray[np.intp]
+    sent: Floats
+    hidden: Floats
+    views: tuple[str, ...]
+
+    def of(self, rows: NDArray[np.intp]) -> tuple[float | None, str]:
+        """The largest share that a view does not get of the light at some rows, and that view."""
+        these = np.isin(self.rows, rows)
+        sent = float(self.sent[these].sum())
+        if not sent:
+            return None, ""
+        shares = self.hidden[:, these].sum(axis=1) / sent
+        worst = int(shares.argmax())
+        return float(shares[worst]), self.views[worst]
+
+
+def looks_at(line: NDArray[np.int64], most: int) -> NDArray[np.intp]:
+    """Rows (of N) to look at: spread evenly, and the middle of every run of a line."""
+    n = len(line)
+    ends = np.flatnonzero(np.diff(line)) + 1
+    middles = (np.append(0, ends) + np.append(ends, n)) // 2
+    return np.unique(np.concatenate([np.linspace(0, n - 1, min(n, most)).astype(int), middles]))
+
+
+def hide(
+    shapes: Shapes, motion: Motion, rows: NDArray[np.intp], postures: Floats, settings: Settings
+) -> Hiding:
+    """Which of a motion's light an arm hides that follows it.
+
+    Args:
+        shapes: of the arm.
+        motion: what is asked.
+        rows: of the motion that were followed (N,).
+        postures: the arm's at these (N, n) [rad].
+        settings: brush, views and camera.
+    """
+    shots = parse_views(settings.view)
+    lit = np.append(motion.light[:-1].any(axis=1), False)[rows]
+    looks = looks_at(motion.line[rows], max(LOOKS // len(shots), LEAST_LOOKS))
+    looks = looks[lit[looks]]
+    names = tuple(shot.name for shot in shots)
+    sent, hidden = np.zeros(len(looks)), np.zeros((len(shots), len(looks)))
+    if not len(looks):
+        return Hiding(looks, sent, hidden, names)
+    light = sweeps(motion, motion.pose, motion.light, settings)
+    points = np.concatenate([sweep.lit_points for sweep in light])
+    front = dq.matrix_from_quaternion(motion.front)
+    cameras = [stand(points, front, settings, shot) for shot in shots]
+    for sweep in light:
+        energy = sweep.colours[np.minimum(rows[looks], len(sweep.colours) - 1)].sum(axis=1)
+        shone = np.flatnonzero(energy)
+        if not len(shone):
+            continue
+        at = rows[looks[shone]]
+        lamps = sweep.emitters.along(max(APART, 2 * sweep.emitters.reach / (LAMPS - 1)))
+        places = sweep.places(sweep.points[at], sweep.turns[at], lamps)
+        sent[shone] += energy[shone]
+        for view, camera in enumerate(cameras):
+            for k in range(len(lamps)):
+                behind = shapes.hides(postures[looks[shone]], places[:, k], camera.position)
+                hidden[view, shone] += energy[shone] * behind / len(lamps)
+    return Hiding(looks, sent, hidden, names)

@@ -1,0 +1,166 @@
+"""Where the arm begins a drawing; what is said of one that leaves its reach."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.diagnostics.diagnostic import Diagnostic, ScriptError
+from dqpaint.motion import Motion
+from dqpaint.planning.ideal_run import WORTH_A_LOOK, set_out
+from dqpaint.planning.suggestions import advise
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.kinematics.nullspace import DEFAULT_NULL
+from dqpaint.robots.kinematics.start_posture import (
+    ON_THE_WAY,
+    Miss,
+    Start,
+    shortfall,
+    strays,
+    waypoints,
+)
+
+if TYPE_CHECKING:
+    from dqpaint.simulation.closed_loop import Track
+
+LOOKS, MOST_LOOKS = 9, 96  # at a stroke, for its farthest point; at a drawing
+MOST_TOLD, MOST_NAMED = 5, 6  # lines with a message of their own; further ones by their numbers
+WORTH_SAYING = np.radians(0.5)
+
+
+@dataclass(frozen=True)
+class Outside:
+    """A point of a line that leaves the reach: its row of the motion, and by how much.
+
+    `miss` is None where it was not worked out; `alone` is whether no posture reaches the point at
+    all, or only none on the way of the drawing.
+    """
+
+    row: int
+    miss: Miss | None = None
+    alone: bool = True
+
+
+def begin(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL) -> Start:
+    """The posture that leaves the most margin over the whole drawing.
+
+    Args:
+        motion: what is asked.
+        kinematics: of the arm.
+        null: what the arm does with its freedom.
+
+    Raises:
+        ScriptError: the drawing leaves the arm's reach, wherever it begins.
+    """
+    found = set_out(motion, kinematics, null)
+    if isinstance(found, Start) and found.margin >= 0:
+        return found
+    rows = waypoints(motion.stroke)
+    outside = _outside(motion, kinematics, rows)
+    if outside:
+        raise out_of_reach(motion, kinematics, outside, null)
+    if isinstance(found, Miss):
+        at = Outside(int(rows[found.index]), found, alone=found.index == 0)
+        raise out_of_reach(motion, kinematics, [at], null)
+    return found
+
+
+def check_worst(track: "Track", kinematics: Kinematics, null: str = DEFAULT_NULL) -> None:
+    """Look again where a run strayed most: the forecast sees a drawing at some of its rows alone.
+
+    A pose that is out of reach keeps the arm at least as far away as its shortfall.
+
+    Raises:
+        ScriptError: no posture reaches the pose of that row.
+    """
+    row = worst_row(track)
+    if row is not None:
+        check_row(track.motion, kinematics, row, null)
+
+
+def worst_row(track: "Track") -> int | None:
+    """Where a run strayed most; None if that is not worth a look."""
+    stray = np.linalg.norm(track.points - track.motion.points, axis=1)
+    row = int(np.argmax(stray))
+    return row if stray[row] >= WORTH_A_LOOK else None
+
+
+def check_row(motion: Motion, kinematics: Kinematics, row: int, null: str = DEFAULT_NULL) -> None:
+    """See that the arm reaches the pose of a row.
+
+    Raises:
+        ScriptError: no posture does; it tells all lines that are out of reach.
+    """
+    if strays(kinematics, motion.pose[row : row + 1])[0] >= ON_THE_WAY:
+        rows = np.unique(np.append(waypoints(motion.stroke), row))
+        outside = _outside(motion, kinematics, rows)
+        if outside:
+            raise out_of_reach(motion, kinematics, outside, null)
+
+
+def _outside(motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp]) -> list[Outside]:
+    """The lines of which no posture reaches all, in order; looked at in some rows and between."""
+    strokes = np.unique(motion.stroke[rows])
+    looks = min(LOOKS, max(2, MOST_LOOKS // len(strokes)))
+    for stroke in strokes:
+        its = np.flatnonzero(motion.stroke == stroke)
+        rows = np.append(rows, its[np.linspace(0, len(its) - 1, looks).astype(int)])
+    rows = np.unique(rows)
+    left = strays(kinematics, motion.pose[rows])
+    beyond = np.flatnonzero(left >= ON_THE_WAY)
+    found: list[Outside] = []
+    for line in np.unique(motion.line[rows[beyond]]):
+        its = beyond[motion.line[rows[beyond]] == line]
+        worst = its[left[its].argmax()]
+        if len(found) >= MOST_TOLD:
+            found.append(Outside(int(rows[worst])))
+            continue
+        few = rows[np.unique([its[0], worst, its[-1]])].tolist()
+        misses = [(shortfall(kinematics, motion.pose[row]), row) for row in few]
+        miss, row = max(misses, key=lambda pair: pair[0].badness)
+        if miss.badness >= ON_THE_WAY:
+            found.append(Outside(row, miss))
+    return found
+
+
+def out_of_reach(
+    motion: Motion, kinematics: Kinematics, outside: list[Outside], null: str = DEFAULT_NULL
+) -> ScriptError:
+    """The error for lines of a motion, some of whose rows no posture reaches."""
+    program = motion.program
+    told, others = outside[:MOST_TOLD], outside[MOST_TOLD:]
+    advice = advise(motion, kinematics, np.array([one.row for one in told]), null)
+    problems = []
+    for one in told:
+        last = one is told[-1]
+        label = "farthest point of this line"
+        if last and others:
+            lines = [int(motion.line[other.row]) for other in others]
+            more = f" and {len(lines) - MOST_NAMED} more" if len(lines) > MOST_NAMED else ""
+            label += f"; likewise line{'s' if len(lines) > 1 else ''} "
+            label += ", ".join(str(line) for line in lines[:MOST_NAMED]) + more
+        problems.append(
+            Diagnostic(
+                "E310",
+                f"sample {one.row} ({motion.t[one.row]:.2f} s) {_fault(one, kinematics.card.name)}",
+                program.segments[int(motion.stroke[one.row])].span,
+                label=label,
+                help=advice if last else "",
+            )
+        )
+    return ScriptError(program.name, program.text, tuple(problems))
+
+
+def _fault(one: Outside, name: str) -> str:
+    """How far it is away, in words."""
+    assert one.miss is not None
+    far, angle = one.miss.shortfall * 1e3, np.degrees(one.miss.turned)
+    turned = one.miss.turned > WORTH_SAYING
+    if not one.alone:
+        away = f"{far:.0f} mm" + (f" and {angle:.0f} deg" if turned else "")
+        return f"is not reached by {name} from the strokes before it: it stays {away} away"
+    if far < 0.5 and turned:
+        return f"can be reached by {name} only with the tool turned by {angle:.0f} deg"
+    amount = f"{far:.0f} mm" if far >= 1 else f"{far:.1f} mm"
+    return f"is {amount}{f' and {angle:.0f} deg' if turned else ''} outside the reach of {name}"

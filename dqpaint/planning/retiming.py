@@ -1,0 +1,176 @@
+"""`--on-limit slow`: the drawing's clock slows where a joint could not keep up.
+
+The kinematic arm goes along the drawing first. What its joints would need is split into the part
+that shrinks with the clock, a = J^+ xi_d, and the part that does not, the pull of the null space
+and what brings the arm back to the path: q_dot = a s_dot + b. On a plant with masses the
+motors' share is looked at as well, the weight of the arm being the part that does not shrink.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.motion import Motion, plan
+from dqpaint.motion.time_scaling import Pace, smooth
+from dqpaint.robots.kinematics.differential_ik import resolve
+from dqpaint.robots.kinematics.dynamics import Dynamics
+from dqpaint.robots.kinematics.jacobians import drift_acceleration
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.kinematics.nullspace import make_wish
+
+SHARE = 0.9  # of a limit is planned with; the rest is for what a law adds
+LEAST = 0.3  # of that at least is taken for the drawing, whatever the rest takes
+SLOWEST = 50.0  # times
+PASSES = 6
+ENOUGH = 1e-3
+RATE = 20.0  # [1/s] at which the arm comes back to the path, as every law does by itself
+MOST_NAMED = 3  # lines
+TAKEN_UP = 1e-3  # [s] in which the motors of the plant `stiff` take up a new rate
+SETTLED = 1e-3  # [rad, m] from the path: it has arrived there, and what it needs now counts
+
+Motors = Literal["none", "smooth", "sudden"]
+
+
+@dataclass(frozen=True)
+class Slowed:
+    """A drawing that was slowed down.
+
+    Attributes:
+        motion: re-timed.
+        longer: how much longer it takes [s].
+        slowest: the least pace, as a part of the asked one.
+        lines: of the file that were slowed.
+    """
+
+    motion: Motion
+    longer: float
+    slowest: float
+    lines: tuple[int, ...]
+
+    @property
+    def as_json(self) -> dict[str, Any]:
+        """For a summary."""
+        lines = [self.motion.program.told(line) for line in self.lines]
+        return {"longer_s": self.longer, "slowest": self.slowest, "lines": lines}
+
+    def __str__(self) -> str:
+        if not self.lines:
+            return "as asked: no joint needs more time"
+        where = ", ".join(map(self.motion.program.where, self.lines[:MOST_NAMED]))
+        more = f" and {len(self.lines) - MOST_NAMED} more" if len(self.lines) > MOST_NAMED else ""
+        said = f"{self.longer:.3g} s longer, down to {self.slowest:.2g} of the asked speed"
+        return f"{said} (line{'s' if len(self.lines) > 1 else ''} {where}{more})"
+
+
+def slow_down(
+    motion: Motion, kinematics: Kinematics, start: Floats, null: str, motors: Motors
+) -> Slowed:
+    """The motion at a pace an arm can keep, as far as slowness helps.
+
+    Position limits are not helped by it, nor is the way back to the path where an arm is off it:
+    as it begins, after a jump, or where a joint at its end has held it back.
+
+    Args:
+        motion: what is asked.
+        kinematics: of the arm.
+        start: posture (n,) [rad] to begin from.
+        null: what the arm does with its freedom.
+        motors: what of their torques counts: nothing; what smooth motion needs; or also what new
+            rates need that are taken up at once.
+    """
+    slowness = np.ones(len(motion.t))
+    for turn in range(PASSES):
+        needed = _needed(motion, kinematics, start, null, motors, slowness, turn > 0)
+        needed = np.clip(needed, 1, SLOWEST)
+        if turn and (needed <= slowness * (1 + ENOUGH)).all():
+            break
+        slowness = np.maximum(slowness, smooth(needed, motion.period))
+    if (slowness == 1).all():
+        return Slowed(motion, 0.0, 1.0, ())
+    placed = plan(motion.program, kinematics.card.canvas.pose, Pace(slowness, motion.period))
+    lines = sorted({int(line) for line in motion.line[slowness > 1 + ENOUGH]})
+    longer = float(placed.t[-1] - motion.t[-1])
+    return Slowed(placed, longer, float(1 / slowness.max()), tuple(lines))
+
+
+def _needed(
+    motion: Motion,
+    kinematics: Kinematics,
+    start: Floats,
+    null: str,
+    motors: Motors,
+    slowness: Floats,
+    returning: bool,
+) -> Floats:
+    """The slowness (N,) each row needs by itself, when the clock is as slow as given.
+
+    What brings the arm back to the path is counted only if it is `returning`: at full speed it
+    would be too much.
+    """
+    card, period = kinematics.card, motion.period
+    wish, zero = make_wish(null, card, start), np.zeros(card.joints)
+    speed = SHARE * card.speed
+    torques = _Torques(kinematics) if motors != "none" else None
+    growth = np.gradient(slowness, period) if len(slowness) > 1 else np.zeros(1)
+    needed = np.empty(len(motion.t))
+    q, before = start, zero
+    settled = False
+    rows = zip(
+        motion.pose, motion.twist, motion.acceleration, motion.jump, slowness, growth, strict=True
+    )
+    for k, (pose, twist, slope, jump, slow, grow) in enumerate(rows):
+        x, J = kinematics.pose_and_jacobian(q)
+        point = dq.translation(x)
+        error = 2 * dq.log(dq.mul(dq.nearest(pose, x), dq.conj(x)))
+        settled = (settled or float(np.abs(error).max()) < SETTLED) and not jump
+        back = resolve(J, point, error, zero)
+        along = resolve(J, point, twist, zero)
+        pull = resolve(J, point, np.zeros(6), wish(q, J, point))
+        room = np.maximum(speed - np.abs(pull), LEAST * speed)
+        needed[k] = (np.abs(along) / room).max()
+        if settled and returning:
+            needed[k] = max(needed[k], (np.abs(along + slow * (pull + RATE * back)) / speed).max())
+        if torques is not None:
+            acceleration = slope / slow**2 - twist * (grow / slow**3)
+            rates = along / slow + pull
+            needed[k] = max(needed[k], slow * torques.excess(q, rates, J, point, acceleration))
+            if motors == "sudden" and not jump:
+                needed[k] = max(needed[k], slow * torques.jolt(q, rates, before))
+            before = rates
+        close = 1 - math.exp(-RATE * period * slow)
+        free = q + period * (along + slow * pull) + close * back
+        q = np.clip(free, card.lower, card.upper)
+        settled = settled and bool((q == free).all())  # a joint at its end: no pace helps it back
+    return needed
+
+
+class _Torques:
+    """How much slower a motion has to be for the motors' torques."""
+
+    def __init__(self, kinematics: Kinematics) -> None:
+        self._dynamics = Dynamics(kinematics)
+        self._most = SHARE * kinematics.card.effort
+
+    def excess(self, q: Floats, rates: Floats, J: Floats, point: Floats, slope: Floats) -> float:
+        """By which factor, from joint rates (n,) and the tool's acceleration (6,)."""
+        wanted = slope - drift_acceleration(J, rates)
+        return self._slower(q, rates, resolve(J, point, wanted, np.zeros_like(q)))
+
+    def jolt(self, q: Floats, rates: Floats, before: Floats) -> float:
+        """The same, where motors take up rates (n,) that follow on others at once.
+
+        The factor is that of a smooth motion, whose rates change with the square of the pace. At a
+        corner they change with the pace itself, and it takes a few passes to get there.
+        """
+        return self._slower(q, rates, (rates - before) / TAKEN_UP)
+
+    def _slower(self, q: Floats, rates: Floats, bend: Floats) -> float:
+        weight = self._dynamics.weight(q)
+        moving = np.abs(self._dynamics.torque(q, rates, bend) - weight)
+        room = self._most - np.abs(weight)
+        over = room > LEAST * self._most  # no pace helps a motor that can hardly bear the weight
+        return float(np.sqrt(np.max(moving[over] / room[over], initial=0.0)))

@@ -1,0 +1,86 @@
+"""What would help a drawing that leaves an arm's reach: nothing is advised that was not tried.
+
+Each change is made to the poses that were asked, and the arm is led along them. What is tried last,
+as it takes longest, is tried only where nothing before it helps.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.motion import Motion, plan
+from dqpaint.motion.transform import scaled, straight
+from dqpaint.planning.ideal_run import can_draw
+from dqpaint.planning.placement import FEW_SCALES, has_room
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.kinematics.nullspace import DEFAULT_NULL
+from dqpaint.robots.kinematics.start_posture import ON_THE_WAY, strays
+from dqpaint.robots.model.card import installed_names, read_card
+from dqpaint.settings.model import Settings
+
+SCALES = np.arange(0.95, 0.05, -0.05)
+NOTHING = "no smaller scale, other place, straight tool or other arm helps: draw it another way"
+
+
+def advise(
+    motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp], null: str = DEFAULT_NULL
+) -> str:
+    """What to change, each of which takes the error away.
+
+    Args:
+        motion: that leaves the reach.
+        kinematics: of the arm.
+        rows: of the motion that are out of reach.
+        null: what the arm does with its freedom.
+    """
+    settings = Settings(null=null)
+    said = []
+    scale = _scale(motion, kinematics, rows, null)
+    if scale is not None:
+        said.append(f"make it smaller: with scale {scale:.2g} ... end")
+    if has_room(motion, kinematics, settings):
+        said.append("move it: place auto finds room")
+    held = straight(motion)
+    if held is not None and _draws(held, kinematics, rows, null):
+        said.append("hold the tool straight: without 'tool' it is reached")
+    return "; or ".join(said) or next(_last(motion, held, kinematics, rows, settings), NOTHING)
+
+
+def _scale(
+    motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp], null: str
+) -> float | None:
+    """The largest scale about the drawing's origin at which the arm draws all of it."""
+    poses = np.concatenate([scaled(motion, scale).pose[rows] for scale in SCALES])
+    reached = (strays(kinematics, poses) < ON_THE_WAY).reshape(len(SCALES), len(rows))
+    for scale in SCALES[reached.all(axis=1)]:
+        if can_draw(scaled(motion, scale), kinematics, null):
+            return float(scale)
+    return None
+
+
+def _last(
+    motion: Motion,
+    held: Motion | None,
+    kinematics: Kinematics,
+    rows: NDArray[np.intp],
+    settings: Settings,
+) -> Iterator[str]:
+    """What is tried where nothing simple helps: two changes at once, or another arm."""
+    for scale in FEW_SCALES:
+        if has_room(scaled(motion, scale), kinematics, settings):
+            yield f"make it smaller and move it: with scale {scale:g} ... end, and place auto"
+    if held is not None and has_room(held, kinematics, settings):
+        yield "hold the tool straight, without 'tool', and move it: place auto finds room"
+    for name in installed_names():
+        if name == kinematics.card.name:
+            continue
+        arm = Kinematics(read_card(name))
+        if _draws(plan(motion.program, arm.card.canvas.pose), arm, rows, settings.null):
+            yield f"take another arm: {name} reaches it"
+
+
+def _draws(motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp], null: str) -> bool:
+    """Whether an arm can draw a motion; a few rows are looked at first, which is quicker."""
+    reached = strays(kinematics, motion.pose[rows]) < ON_THE_WAY
+    return bool(reached.all()) and can_draw(motion, kinematics, null)

@@ -1,0 +1,136 @@
+"""What the plants of PyBullet share: the arm as rigid bodies on joints with mechanical stops."""
+
+import math
+from collections.abc import Callable
+from functools import partial
+from typing import Any, ClassVar
+
+import numpy as np
+
+from dqpaint.dq import Floats
+from dqpaint.plants.bullet_loads import Pushing, check_pushes, loaded
+from dqpaint.plants.plant import Options, Trait
+from dqpaint.plants.world import UNDISTURBED, World
+from dqpaint.robots.kinematics.bullet import Client, bullet, joint_indices, quiet
+from dqpaint.robots.model.card import Card
+from dqpaint.robots.urdf.prepare import urdf_file
+
+LONGEST_STEP = 1e-3  # [s] of physics
+UNBOUND = 1e9  # [rad/s]
+STOP = 0.02  # [rad] of the mechanical stop beyond a joint's limit: commands end at the limit
+POSTURES, SEED = 64, 1988  # that stand for all of an arm's
+
+
+def some_postures(card: Card) -> Floats:
+    """Postures (65, n) [rad]: home, and others all over the arm's range."""
+    rng = np.random.default_rng(SEED)
+    others = rng.uniform(card.lower, card.upper, (POSTURES, card.joints))
+    return np.vstack([card.home, others])
+
+
+class RigidArm(Client):
+    """The bodies of a card's arm, at rest in a posture, in a world of their own.
+
+    Masses and inertias are the file's own. Shapes are left out: nothing touches anything in a
+    light painting, and loading their meshes costs twenty times the rest. Physics steps are the
+    period divided into equal parts of at most 1 ms. The Dantzig solver comes 45 times closer to
+    commanded rates than the default one, and is faster.
+
+    Attributes:
+        steps: of physics in a period.
+        step: the length of one [s].
+        advance: makes one of them.
+        posture: as `Plant` says, likewise `rates` and `effort`.
+
+    Raises:
+        UsageError: a push on a link the arm does not have.
+    """
+
+    traits: ClassVar[frozenset[Trait]] = frozenset({"masses"})
+    options: ClassVar[Options] = None
+
+    def __init__(
+        self,
+        card: Card,
+        posture: Floats,
+        period: float,
+        world: World = UNDISTURBED,
+        longest: float = LONGEST_STEP,
+    ) -> None:
+        check_pushes(world, card)
+        self.card = card
+        self.steps = max(1, math.ceil(period / longest - 1e-9))
+        self.step = period / self.steps  # [s]
+        super().__init__()
+        with quiet():
+            self.body = self._build(card, world)
+        self.joints = joint_indices(self.body, self.client)
+        for joint, angle, lower, upper in zip(
+            self.joints, posture.tolist(), card.lower.tolist(), card.upper.tolist(), strict=True
+        ):
+            bullet.changeDynamics(
+                self.body,
+                joint,
+                jointLowerLimit=lower - STOP,
+                jointUpperLimit=upper + STOP,
+                physicsClientId=self.client,
+            )
+            bullet.resetJointState(self.body, joint, angle, 0.0, self.client)
+        self.posture = posture.copy()
+        self.rates = np.zeros(card.joints)
+        self.effort = np.zeros(card.joints)
+        self.advance: Callable[[], object] = partial(bullet.stepSimulation, self.client)
+        if world.pushes:
+            self.advance = Pushing(self, world)
+
+    @property
+    def encoder(self) -> Floats:
+        """Joint angles (n,) [rad]."""
+        return self.posture
+
+    @property
+    def encoder_rates(self) -> Floats:
+        """Joint rates (n,) [rad/s]."""
+        return self.rates
+
+    def _build(self, card: Card, world: World) -> int:
+        here = {"physicsClientId": self.client}
+        solver = bullet.CONSTRAINT_SOLVER_LCP_DANTZIG
+        bullet.setPhysicsEngineParameter(
+            fixedTimeStep=self.step, constraintSolverType=solver, **here
+        )
+        bullet.setGravity(*world.gravity.tolist(), **here)
+        flags = (
+            bullet.URDF_USE_INERTIA_FROM_FILE
+            | bullet.URDF_IGNORE_VISUAL_SHAPES
+            | bullet.URDF_IGNORE_COLLISION_SHAPES
+        )
+        with urdf_file(card, partial(loaded, card=card, payloads=world.payloads)) as path:
+            body: int = bullet.loadURDF(path, useFixedBase=True, flags=flags, **here)
+        return body
+
+    def measure(self) -> Any:
+        """Read the joints; of each its angle [rad], rate, forces, motor torque [Nm]."""
+        states = bullet.getJointStates(self.body, self.joints, self.client)
+        self.posture = np.array([state[0] for state in states])
+        self.rates = np.array([state[1] for state in states])
+        return states
+
+    def free(self) -> None:
+        """Leave the joints to torques: no motors, and no damping but the file's own friction."""
+        here = {"physicsClientId": self.client}
+        for link in range(-1, bullet.getNumJoints(self.body, **here)):
+            bullet.changeDynamics(self.body, link, linearDamping=0, angularDamping=0, **here)
+        for joint in self.joints:  # PyBullet would end every rate at 100 rad/s
+            bullet.changeDynamics(self.body, joint, maxJointVelocity=UNBOUND, **here)
+        idle = [0.0] * len(self.joints)
+        bullet.setJointMotorControlArray(
+            self.body, self.joints, bullet.VELOCITY_CONTROL, forces=idle, **here
+        )
+
+    def displace(self, way: Floats) -> None:
+        """Carry the joints along by some angles (n,) [rad], their rates kept."""
+        self.measure()
+        moved = (self.posture + way).tolist()
+        for joint, angle, rate in zip(self.joints, moved, self.rates.tolist(), strict=True):
+            bullet.resetJointState(self.body, joint, angle, rate, self.client)

@@ -1,0 +1,359 @@
+"""Chains of smooth pieces: made from points, Bezier curves and arcs; joined, turned round, fitted.
+
+A chain that comes from a file has its coordinates in the file's own unit until it is mapped into
+the drawing frame. What the numbers of a piece mean is said at `program.Chain`.
+"""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.program.program import Chain, Vector
+from dqpaint.program.taylor import Floats
+
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
+ROUND = 1e-14  # an ellipse whose radii differ by less, in their squares, is a circle
+AT_ONCE = 10_000  # pieces, for the sake of memory
+CORNER = np.radians(60.0)  # a smooth line keeps the corners that turn by more than this
+
+Indices = NDArray[np.intp]
+
+
+def derivatives(chain: Chain, piece: Indices, g: Floats) -> Floats:
+    """Places (4, N, 3) and derivatives over g, of pieces (N,) at their own parameters (N,)."""
+    c0, c1, c2, c3 = chain.cubic[piece].transpose(1, 0, 2)
+    h = g[:, None]
+    out = np.stack([
+        c0 + h * (c1 + h * (c2 + h * c3)),
+        c1 + h * (2.0 * c2 + 3.0 * h * c3),
+        2.0 * c2 + 6.0 * h * c3,
+        6.0 * c3,
+    ])  # fmt: skip
+    ellipse = chain.ellipse[piece]
+    (arcs,) = np.nonzero(ellipse.any(axis=(1, 2)))
+    if len(arcs):
+        u, v = ellipse[arcs].transpose(1, 0, 2)
+        start, turn = chain.angles[piece[arcs]].T[:, :, None]
+        c, s = (wave(start + h[arcs] * turn) for wave in (np.cos, np.sin))
+        outward, along = c * u + s * v, c * v - s * u
+        out[0, arcs] += outward
+        out[1, arcs] += turn * along
+        out[2, arcs] -= turn**2 * outward
+        out[3, arcs] -= turn**3 * along
+    return out
+
+
+def speeds(chain: Chain, piece: Indices, g: Floats) -> Floats:
+    """The lengths (N, K) of the first derivatives of pieces (N,) at parameters of theirs (N, K)."""
+    c1, c2, c3 = chain.cubic[piece, 1:].transpose(1, 2, 0)[:, :, :, None]  # (3, N, 1) each
+    u, v = chain.ellipse[piece].transpose(1, 2, 0)[:, :, :, None]
+    start, turn = chain.angles[piece].T[:, :, None]
+    (arcs,) = np.nonzero(turn[:, 0])
+    if len(arcs):
+        a = start[arcs] + g[arcs] * turn[arcs]
+        c, s = turn[arcs] * np.cos(a), turn[arcs] * np.sin(a)
+    square = np.zeros_like(g)
+    for axis in range(3):
+        way = c1[axis] + g * (2.0 * c2[axis] + 3.0 * g * c3[axis])
+        if len(arcs):
+            way[arcs] += c * v[axis, arcs] - s * u[axis, arcs]
+        square += way * way
+    return np.asarray(np.sqrt(square))
+
+
+# Made.
+
+
+def _of_cubic(cubic: Floats) -> Chain:
+    none = np.zeros(())  # no arcs, without room for each
+    count = len(cubic)
+    return Chain(cubic, np.broadcast_to(none, (count, 2, 3)), np.broadcast_to(none, (count, 2)))
+
+
+def straight(points: Floats) -> Chain:
+    """Straight lines from each point (N, 3) to the next; none of them has no length."""
+    cubic = np.zeros((len(points) - 1, 4, 3))
+    cubic[:, 0], cubic[:, 1] = points[:-1], np.diff(points, axis=0)
+    return _of_cubic(cubic)
+
+
+def bezier(points: Floats) -> Chain:
+    """One Bezier curve by its 3 or 4 control points."""
+    return _of_cubic(coefficients(points[None]))
+
+
+def coefficients(control: Floats) -> Floats:
+    """c0 to c3 (M, 4, D) of lines or Bezier curves with 2, 3 or 4 control points (M, P, D)."""
+    p0, *handles, p3 = control.transpose(1, 0, 2)
+    if not handles:
+        return np.stack([p0, p3 - p0, np.zeros_like(p0), np.zeros_like(p0)], axis=1)
+    p1, p2 = handles[0], handles[-1]
+    if len(handles) == 1:
+        p1, p2 = (p0 + 2.0 * p1) / 3.0, (2.0 * p1 + p3) / 3.0
+    c1, c2 = 3.0 * (p1 - p0), 3.0 * (p2 - 2.0 * p1 + p0)
+    return np.stack([p0, c1, c2, p3 - p0 - c1 - c2], axis=1)
+
+
+def arc(centre: Floats, u: Floats, v: Floats, start: float, turn: float) -> Chain:
+    """An arc of the ellipse centre + u cos(a) + v sin(a), from a = start over `turn` [rad]."""
+    cubic = np.zeros((1, 4, 3))
+    cubic[0, 0] = centre
+    return Chain(cubic, np.array([[u, v]]), np.array([[start, turn]]))
+
+
+def smooth(points: Floats, keep: NDArray[np.bool_] | None = None, stiff: float = np.inf) -> Chain:
+    """A line through points (N, 3), without corners but where it turns sharply.
+
+    The direction at a point is that of the circle through it and its neighbours; between two
+    points runs the Bezier curve that is next to a circular arc. Lines to a point that keeps its
+    corner, and to the ends, are bent as the other end asks.
+
+    Args:
+        points: (N, 3), N at least 2, none of them the same as the next.
+        keep: which of them (N,) keep their corner; else those that turn by more than `CORNER`.
+        stiff: a line so many times longer than its neighbour stays straight.
+    """
+    way = np.diff(points, axis=0)
+    size = np.linalg.norm(way, axis=1)
+    u = way / size[:, None]
+    closed = len(points) > 3 and bool((points[0] == points[-1]).all())
+    if keep is None:
+        keep = turns(points) > CORNER
+    keep = keep.copy()
+    if not closed:
+        keep[[0, -1]] = True
+    tangent = _tangents(u, size[:, None], stiff)
+    keep |= ~tangent.any(axis=1)
+    cubic = np.empty((len(way), 4, 3))
+    cubic[:, 0] = points[:-1]
+    t0, t1, free0, free1 = tangent[:-1], tangent[1:], keep[:-1], keep[1:]
+    for begin in range(0, len(way), AT_ONCE):
+        own = slice(begin, begin + AT_ONCE)
+        turned = t0[own], t1[own], free0[own], free1[own]
+        cubic[own, 1:] = _bow(way[own], u[own], size[own], *turned)
+    return _of_cubic(cubic)
+
+
+def _tangents(u: Floats, size: Floats, stiff: float) -> Floats:
+    """The directions (N, 3) at points between lines along u (N - 1, 3); zero where none is."""
+    before, after = np.roll(u, 1, axis=0), u  # at the points but the last
+    l0, l1 = np.roll(size, 1), size
+    tangent = before * l1 + after * l0
+    tangent = np.where(l0 > stiff * l1, before, np.where(l1 > stiff * l0, after, tangent))
+    tangent = np.concatenate([tangent, tangent[:1]])
+    norm = np.linalg.norm(tangent, axis=1, keepdims=True)
+    return np.asarray(tangent / np.where(norm > 0.0, norm, 1.0))
+
+
+def _bow(
+    way: Floats,
+    u: Floats,
+    size: Floats,
+    t0: Floats,
+    t1: Floats,
+    free0: NDArray[np.bool_],
+    free1: NDArray[np.bool_],
+) -> Floats:
+    """c1 to c3 (N, 3, 3) of lines that are bent from t0 to t1, where those are not free."""
+    mirrored0, mirrored1 = _mirrored(t1, u), _mirrored(t0, u)
+    t0 = np.where(free0[:, None], np.where(free1[:, None], u, mirrored0), t0)
+    t1 = np.where(free1[:, None], np.where(free0[:, None], u, mirrored1), t1)
+    first, last = (size[:, None] / (0.5 + 0.5 * (t * u).sum(1))[:, None] * t for t in (t0, t1))
+    out = np.stack([first, 3.0 * way - 2.0 * first - last, first + last - 2.0 * way], axis=1)
+    straight = np.maximum(np.abs(t0 - u).max(1), np.abs(t1 - u).max(1)) <= 1e-9
+    out[straight, 0], out[straight, 1:] = way[straight], 0.0
+    return out
+
+
+def _mirrored(t: Floats, u: Floats) -> Floats:
+    """The direction at the other end of a circular arc with the chord's direction u."""
+    return np.asarray(2.0 * (t * u).sum(1, keepdims=True) * u - t)
+
+
+def turns(points: Floats) -> Floats:
+    """The angle [rad] by which a line turns at each point (N,); of the ends, if it is closed."""
+    u = np.diff(points, axis=0)
+    u = u / np.linalg.norm(u, axis=1, keepdims=True)
+    before = np.roll(u, 1, axis=0)
+    angle = np.arctan2(np.linalg.norm(np.cross(before, u), axis=1), (before * u).sum(1))
+    return np.concatenate([angle, angle[:1]])
+
+
+# Changed.
+
+
+def joined(chains: Sequence[Chain]) -> Chain:
+    """One chain of several that follow each other; a start is moved to the end before it."""
+    if len(chains) == 1:
+        return chains[0]
+    whole, first, _ = together(chains)
+    _move(whole, first[1:])
+    return whole
+
+
+def link(whole: Chain, starts: Indices) -> None:
+    """Moves the start of each piece to the end before it, but of those that start a chain."""
+    _move(whole, np.delete(np.arange(len(whole.cubic)), starts))
+
+
+def _move(whole: Chain, heads: Indices) -> None:
+    """Moves the starts of pieces to the ends before them."""
+    gap = _at(whole, heads - 1, 1.0) - _at(whole, heads, 0.0)
+    whole.cubic[heads, 0] += gap
+    whole.cubic[heads, 1] -= gap
+
+
+def reversed_(chain: Chain) -> Chain:
+    """The same way, from its end to its start."""
+    c0, c1, c2, c3 = chain.cubic[::-1].transpose(1, 0, 2)
+    cubic = np.stack([c0 + c1 + c2 + c3, -(c1 + 2.0 * c2 + 3.0 * c3), c2 + 3.0 * c3, -c3], axis=1)
+    start, turn = chain.angles[::-1].T
+    return Chain(cubic, chain.ellipse[::-1].copy(), np.stack([start + turn, -turn], axis=1))
+
+
+def mapped(chain: Chain, matrix: Floats, shift: Floats) -> Chain:
+    """Every point p goes to matrix (3, 3) p + shift (3,); too far for a number is infinite."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        cubic = chain.cubic @ matrix.T
+        cubic[:, 0] += shift
+        arcs = chain.ellipse.any()
+        return Chain(cubic, chain.ellipse @ matrix.T if arcs else chain.ellipse, chain.angles)
+
+
+def farthest(chains: Sequence[Chain]) -> float:
+    """The largest number of all pieces [m]; NaN if one of them is none."""
+    whole = together(chains)[0]
+    parts = whole.cubic, whole.ellipse
+    return float(max(max(part.max(), -part.min()) for part in parts))
+
+
+# Measured.
+
+
+def _at(chain: Chain, piece: Indices, g: float) -> Floats:
+    """Where pieces are (N, 3) at the same parameter of theirs."""
+    places = np.array([1.0, g, g**2, g**3]) @ chain.cubic[piece]
+    (arcs,) = np.nonzero(chain.ellipse[piece].any(axis=(1, 2)))
+    a = chain.angles[piece[arcs]] @ [1.0, g]
+    waves = np.stack([np.cos(a), np.sin(a)], axis=1)
+    places[arcs] += (waves[:, :, None] * chain.ellipse[piece[arcs]]).sum(axis=1)
+    return np.asarray(places)
+
+
+def ends(chain: Chain) -> tuple[Vector, Vector]:
+    """The first and the last point."""
+    first, last = all_ends([chain])[0].tolist()
+    return (first[0], first[1], first[2]), (last[0], last[1], last[2])
+
+
+def all_ends(chains: Sequence[Chain]) -> Floats:
+    """The first and the last points (N, 2, 3) of many chains."""
+    whole, first, last = together(chains)
+    return np.stack([_at(whole, first, 0.0), _at(whole, last, 1.0)], axis=1)
+
+
+def directions(chains: Sequence[Chain]) -> Floats:
+    """Unit vectors (N, 2, 3) into each chain from its start and from its end."""
+    whole, *pieces = together(chains)
+    ways = [
+        sign * derivatives(whole, piece, np.full(len(piece), g))[1]
+        for piece, g, sign in zip(pieces, (1e-3, 1.0 - 1e-3), (1.0, -1.0), strict=True)
+    ]
+    out = np.stack(ways, axis=1)
+    norm = np.linalg.norm(out, axis=2, keepdims=True)
+    return np.asarray(out / np.where(norm > 0.0, norm, 1.0))
+
+
+def together(chains: Sequence[Chain]) -> tuple[Chain, Indices, Indices]:
+    """All pieces of many chains, and which are the first and the last of each."""
+    whole = chains[0]
+    if len(chains) > 1:  # else it is there already, and may be long
+        whole = Chain(
+            np.concatenate([chain.cubic for chain in chains]),
+            np.concatenate([chain.ellipse for chain in chains]),
+            np.concatenate([chain.angles for chain in chains]),
+        )
+    stop = np.cumsum([len(chain.cubic) for chain in chains])
+    return whole, np.concatenate([[0], stop[:-1]]), stop - 1
+
+
+def parted(whole: Chain, starts: Indices) -> Iterator[Chain]:
+    """The chains that were put together, by the first piece of each; they share its arrays."""
+    ends = [*starts[1:].tolist(), len(whole.cubic)]
+    for own in map(slice, starts.tolist(), ends):
+        yield Chain(whole.cubic[own], whole.ellipse[own], whole.angles[own])
+
+
+def lengths(chains: Sequence[Chain]) -> list[float]:
+    """The lengths of chains, good enough to share out time and colour by them."""
+    whole, first, _ = together(chains)
+    every = np.arange(len(whole.cubic))
+    size = stretches(whole, is_uneven(whole), every, np.zeros(len(every)), np.ones(len(every)))
+    return list(np.add.reduceat(size, first).tolist())
+
+
+def is_uneven(chain: Chain) -> NDArray[np.bool_]:
+    """Which pieces (M,) do not run at one speed: all but straight lines and arcs of circles."""
+    out = np.asarray(chain.cubic[:, 2:].any(axis=(1, 2)))
+    (arcs,) = np.nonzero(chain.angles[:, 1])
+    u, v = chain.ellipse[arcs].transpose(1, 0, 2)
+    uu, vv, uv = ((a * b).sum(1) for a, b in ((u, u), (v, v), (u, v)))
+    oval = np.maximum(np.abs(uu - vv), np.abs(uv)) > ROUND * uu
+    out[arcs] |= oval | chain.cubic[arcs, 1].any(axis=1)
+    return out
+
+
+def stretches(
+    chain: Chain, uneven: NDArray[np.bool_], piece: Indices, lower: Floats, upper: Floats
+) -> Floats:
+    """The lengths (N,) of pieces (N,) between parameters (N,).
+
+    `uneven` says which of all pieces (M,) need a quadrature for it.
+    """
+    out = np.empty(len(piece))
+    for hard in (False, True):
+        (which,) = np.nonzero(uneven[piece] == hard)
+        for some in np.split(which, range(AT_ONCE, len(which), AT_ONCE)):
+            size = (upper[some] - lower[some])[:, None]
+            at = lower[some, None] + (0.5 * size * (1.0 + NODES) if hard else 0.0 * size)
+            speed = speeds(chain, piece[some], at)
+            out[some] = size[:, 0] * (speed @ (0.5 * WEIGHTS) if hard else speed[:, 0])
+    return out
+
+
+def box(chains: Sequence[Chain]) -> tuple[Floats, Floats]:
+    """The least and the greatest coordinates (3,), exact where a curve bulges out as well."""
+    whole = together(chains)[0]
+    every = np.arange(len(whole.cubic))
+    found = [_at(whole, every, 0.0), _at(whole, every, 1.0)]
+    for axis in range(3):
+        for piece, g in (_still_cubic(whole, axis), _still_arc(whole, axis)):
+            inside = (g > 0.0) & (g < 1.0)
+            if inside.any():
+                found.append(derivatives(whole, piece[inside], g[inside])[0])
+    points = np.concatenate(found)
+    return points.min(axis=0), points.max(axis=0)
+
+
+def _still_cubic(chain: Chain, axis: int) -> tuple[Indices, Floats]:
+    """Where a coordinate of the cubic stands still: the roots of c1 + 2 c2 g + 3 c3 g^2."""
+    (piece,) = np.nonzero(chain.cubic[:, 2:, axis].any(axis=1))
+    c, b, a = (k * chain.cubic[piece, k, axis] for k in (1, 2, 3))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        root = np.sqrt(np.maximum(b * b - 4.0 * a * c, 0.0))
+        q = -0.5 * (b + np.copysign(root, b))  # the form that loses no digits
+        g = np.concatenate([q / a, c / q])
+    return np.concatenate([piece, piece]), np.where(np.isfinite(g), g, 0.0)
+
+
+def _still_arc(chain: Chain, axis: int) -> tuple[Indices, Floats]:
+    """Where a coordinate of the ellipse stands still: tan a = v / u."""
+    (piece,) = np.nonzero(chain.ellipse[:, :, axis].any(axis=1) & (chain.angles[:, 1] != 0.0))
+    u, v = chain.ellipse[piece, :, axis].T
+    start, turn = chain.angles[piece].T
+    half_turns = np.arange(-4, 5)[:, None] * np.pi  # arcs are at most one turn
+    base = np.arctan2(v, u)
+    base = base + np.pi * np.round((start + 0.5 * turn - base) / np.pi)
+    g = (base + half_turns - start) / turn
+    return np.tile(piece, len(half_turns)), g.ravel()

@@ -1,0 +1,318 @@
+"""What the language hands on: a drawing as plain data in SI units.
+
+Every point, direction and orientation stands in the drawing frame (x to the right of the picture,
+y up, z towards the viewer); `with` blocks are already worked in. Lengths are metres, angles
+radians, times seconds, colours linear RGB with 1 for full brightness. What the strokes mean as
+motion is said in `dqpaint.motion`.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from dqpaint.core.records import record
+from dqpaint.diagnostics.diagnostic import LINES, Diagnostic, Span, line_named
+from dqpaint.program.colours import Colour as Colour
+from dqpaint.program.taylor import Floats, Taylor
+
+Vector = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+Formula = Callable[[Taylor], tuple[Taylor, Taylor, Taylor]]
+
+
+class Pose(NamedTuple):
+    """A place [m] and an orientation (unit quaternion, scalar first)."""
+
+    position: Vector
+    orientation: Quaternion
+
+
+IDENTITY = Pose((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
+
+
+# Where the point of light goes.
+
+
+@record
+class Straight:
+    """A straight line; `by` [m] from start to end. Zero length is a turn on the spot."""
+
+    by: Vector
+
+
+@record
+class Arc:
+    """A turn of `angle` [rad] about the line through `centre` along the unit vector `axis`.
+
+    Evenly with the angle the point advances by `rise` [m] in all along the axis, and its distance
+    from the axis changes by `grow` [m] in all: circle, helix, flat spiral, cone.
+    """
+
+    centre: Vector
+    axis: Vector
+    angle: float
+    rise: float = 0.0
+    grow: float = 0.0
+
+
+@record
+class Curve:
+    """A formula of one parameter, run from `lower` to `upper`."""
+
+    formula: Formula
+    lower: float
+    upper: float
+
+
+@record
+class Screw:
+    """A rigid turn of `angle` [rad] about a line, and `advance` [m] along it; the tool goes along.
+
+    The line goes through `point` along the unit vector `axis`.
+    """
+
+    point: Vector
+    axis: Vector
+    angle: float
+    advance: float
+
+
+@record
+class ScrewTo:
+    """The one screw that carries the start pose to the end pose, the short way round (ScLERP)."""
+
+
+@record
+class Still:
+    """Waiting at the start pose."""
+
+
+@record
+class Step:
+    """A jump of the set point to the end pose, within one sample."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Chain:
+    """Smooth pieces end to end: one time law over all, no stop where one passes into the next.
+
+    Over its own g in [0, 1] a piece is at  c0 + c1 g + c2 g^2 + c3 g^3 + u cos(a) + v sin(a)  with
+    a = a0 + g a1: a straight line, a Bezier curve, an arc of a circle or of any ellipse. Where the
+    direction changes between two pieces it jumps, as at the corner of a letter. The tool keeps,
+    turns evenly or looks; it can't follow corners.
+
+    Attributes:
+        cubic: c0 to c3 of each piece (M, 4, 3) [m], in the drawing frame.
+        ellipse: u and v of each piece (M, 2, 3) [m]; zero for what is no arc.
+        angles: a0 and a1 of each piece (M, 2) [rad].
+    """
+
+    cubic: Floats
+    ellipse: Floats
+    angles: Floats
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Chain) and all(
+            np.array_equal(mine, theirs)
+            for mine, theirs in (
+                (self.cubic, other.cubic),
+                (self.ellipse, other.ellipse),
+                (self.angles, other.angles),
+            )
+        )
+
+    def __hash__(self) -> int:
+        return hash(self.cubic.tobytes())
+
+
+MOST_SAMPLES = 2_000_000  # of a drawing, if no more are allowed
+MOST_ALLOWED = 100_000_000  # of one for which more are
+
+Path = Straight | Arc | Curve | Screw | ScrewTo | Still | Step | Chain
+
+
+# What the tool does meanwhile. `Screw` and `ScrewTo` say it themselves and carry `Follow`.
+
+
+@record
+class Keep:
+    """The orientation stays as it is."""
+
+
+@record
+class Turn:
+    """The orientation goes evenly with the path, the short way, to the end orientation."""
+
+
+@record
+class Follow:
+    """The tool turns rigidly with an arc about its axis, with a curve's heading about `axis`."""
+
+    axis: Vector = (0.0, 0.0, 1.0)
+
+
+@record
+class Look:
+    """The tool's z axis points at `point`; its y axis leans as far as it can towards `up`."""
+
+    point: Vector
+    up: Vector
+
+
+@record
+class LookLine:
+    """The tool's z axis points at the line through `point`, its x axis lies along `along`."""
+
+    point: Vector
+    along: Vector
+
+
+Tool = Keep | Turn | Follow | Look | LookLine
+LOOKING = (Look, LookLine)  # what a tool does whose turn depends on where it is
+
+
+# How long it takes.
+
+
+@record
+class Lasting:
+    """`in T`: a time [s], rounded up to whole samples."""
+
+    seconds: float
+
+
+@record
+class Samples:
+    """`samples N`: exactly that many new samples."""
+
+    count: int
+
+
+@record
+class Cruise:
+    """The speed [m/s] of the point, or [rad/s] where only the tool turns; never exceeded."""
+
+    speed: float
+    turnspeed: float
+
+
+Timing = Lasting | Samples | Cruise
+
+
+@record
+class Law:
+    """A time law by name, with its boundary rates in SI units (m or rad; `angular` says which).
+
+    `rates` is empty (rest to rest), (v0, v1) for cubic, (v0, v1, a0, a1) for quintic.
+    """
+
+    name: str
+    rates: tuple[float, ...] = ()
+    angular: bool = False
+
+
+@record
+class Light:
+    """The colour at the first and at the last point of a stroke, and evenly between by length.
+
+    `even` dims the light where the tool is slow, so that the line is equally bright all along.
+    """
+
+    first: Colour
+    last: Colour
+    even: bool = False
+
+
+# What shines. Brushes stand in the tool frame.
+
+
+@record
+class Point:
+    """A single lamp at the tool's origin; `size` [m] across, 0 for a point."""
+
+    size: float = 0.0
+
+
+@record
+class Bar:
+    """A bar of lamps, `length` [m] long, centred on the tool, along a unit vector."""
+
+    length: float
+    along: Vector = (1.0, 0.0, 0.0)
+
+
+Brush = Point | Bar
+
+
+@record
+class Strobe:
+    """The light flashes: on for the part `duty` (0 to 1) of each period of the run's clock."""
+
+    frequency: float  # [Hz]
+    duty: float = 0.5
+
+
+@record
+class Run:
+    """One time law over several segments in a row, which all carry it: no stop between them.
+
+    Law and timing are those of the whole. A segment whose light is `light` has its part of that
+    gradient, which goes over the whole length.
+    """
+
+    number: int  # which of the drawing's runs
+    law: Law
+    timing: Timing
+    light: Light | None = None
+
+
+@record
+class Segment:
+    """One stroke or pause: what the point does, what the tool does, when, and in which light."""
+
+    path: Path
+    tool: Tool
+    law: Law
+    timing: Timing
+    light: Light | None  # None: dark
+    start: Pose
+    end: Pose
+    span: Span  # the words of the file that asked for it
+    line: int  # of the file, from 1; of an included one as `diagnostics.first_number` has it
+    brush: Brush = Point()
+    strobe: Strobe | None = None  # None: it burns steadily
+    run: Run | None = None  # None: it has law and timing for itself
+
+
+@record
+class Auto:
+    """`place auto`: where the drawing fits the arm best, which only the arm can say."""
+
+    orientation: Quaternion | None  # of the drawing in the base frame; None: the robot's canvas'
+    span: Span | None
+
+
+@record
+class Program:
+    """A whole drawing."""
+
+    name: str  # as it is shown in messages: usually the path that was given
+    text: str
+    period: float  # [s]
+    robot: str | None  # the file's own `robot` line
+    robot_span: Span | None  # and the name in it
+    placement: Pose | Auto | None  # the drawing in the robot's base frame; None: on its canvas
+    start: Pose
+    segments: tuple[Segment, ...]
+    notes: tuple[Diagnostic, ...]  # warnings; errors are raised
+    most_samples: int = MOST_SAMPLES
+
+    def where(self, line: int) -> str:
+        """A line number of a segment as a person is told it: `12`, `petal.traj:3`."""
+        return line_named(self.text, line)
+
+    def told(self, line: int) -> int | str:
+        """The same for a program: a number for a line of the main file."""
+        return line if line < LINES else self.where(line)

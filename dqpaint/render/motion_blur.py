@@ -1,0 +1,94 @@
+"""The arm as a motion ghost: seen all through the exposure, and so a veil where it moved.
+
+It is what a photographer gets who leaves a little light on in the room. At each of some moments
+the arm is looked at once. It is lit by what its lamp emitted meanwhile, and by the room for as long
+as the moment lasts; and as long it hides the floor. So what stands still is seen well, what moves
+is faint, and the lit wrist leaves a haze along the strokes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.dq import Floats
+from dqpaint.light.arrays import Image
+from dqpaint.light.camera.camera import Camera
+from dqpaint.render.arm_shapes import Arm
+from dqpaint.render.geometry_buffer import glance
+from dqpaint.render.still import Lights, finished, floor, glow, lit
+
+MOMENTS = 48
+"""Moments at which the arm is looked at, at most."""
+SIDE = 512
+"""Pixels of the longer side that a moment is worked out on: a veil is soft."""
+LAMPS = 4
+"""Lamps that what was painted in one moment is gathered into."""
+BY_TIME = 0.25
+"""Share of the moments that are spread over time; the others are spread over the motion."""
+SPREAD = (0.7548776662466927, 0.5698402909980532)
+"""Multiples of these are spread evenly over a pixel: outlines come out smooth (Roberts 2018)."""
+
+
+def blurred(
+    arm: Arm,
+    postures: Floats,
+    camera: Camera,
+    shine: Callable[[slice], Lights],
+    exposure: float,
+    falloff: bool = False,
+) -> Image:
+    """(H, W, 3) linear light of arm and floor, to be added before the picture is developed.
+
+    Args:
+        arm: white.
+        postures: (N, n) at instants a period apart [rad].
+        camera: that of the picture.
+        shine: of some steps between these instants, of each lamp its points (M, 3) [m] and the
+            energy (M-1, 3) between them [lamp s].
+        exposure: of the picture: factor from its own unit [lamp s / px^2] to saturation.
+        falloff: whether that unit is divided by the distance squared [lamp s / (m px)^2].
+    """
+    scale = min(1.0, SIDE / max(camera.width, camera.height))
+    coarse = camera.coarser(scale)
+    whole = glow(shine(slice(None)))
+    veil = np.zeros((coarse.height, coarse.width, 4), np.float32)  # light, and what is hidden
+    edges = moments(postures)
+    for i, (first, last) in enumerate(pairwise(edges.tolist())):
+        arm.stand(postures[(first + last) // 2])
+        across, down = ((i * step) % 1.0 - 0.5 for step in SPREAD)
+        surfaces = glance(arm, coarse, (across, down))
+        if surfaces is None:
+            continue
+        share = (last - first) / edges[-1]
+        light = whole.part(shine(slice(first, last)), LAMPS)
+        layer = np.full((len(surfaces.place), 4), share, np.float32)
+        layer[:, :3] = lit(arm, surfaces, coarse, light, share)
+        surfaces.box.of(veil)[surfaces.sure] += layer
+    ground = floor(camera, whole, exposure, falloff)
+    size = (round(coarse.width / scale), round(coarse.height / scale))
+    over = cv2.resize(veil, size, interpolation=cv2.INTER_LINEAR)
+    over = np.asarray(over[: camera.height, : camera.width], np.float32)
+    ground *= 1.0 - over[..., 3:]
+    ground += over[..., :3]
+    return finished(ground, camera, exposure)
+
+
+def moments(postures: Floats) -> NDArray[np.int64]:
+    """(K+1,) rows of postures (N, n) at which moments begin and end.
+
+    In each the arm moves about as far, and where it stands still it is looked at, too.
+    """
+    steps = max(len(postures) - 1, 1)
+    moved = np.abs(np.diff(postures, axis=0)).sum(axis=1)
+    total = float(moved.sum())
+    weight = np.full(steps, 1.0 / steps)
+    if total > 0.0:
+        weight = BY_TIME * weight + (1.0 - BY_TIME) * moved / total
+    gone = np.cumsum(weight)
+    inner = np.searchsorted(gone, np.arange(1, MOMENTS) / MOMENTS * gone[-1]) + 1
+    return np.unique(np.concatenate([[0], inner, [steps]]))

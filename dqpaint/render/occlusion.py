@@ -1,0 +1,88 @@
+"""What the arm's own body hides of its light from a camera, at each instant.
+
+At each of some instants the arm's twins take the posture it had, and a ray from each lamp says
+whether the camera sees it. The instants are so close that neither lamp nor links get far between
+them; where a lamp is hidden at one and seen at the next, instants between them are tried until the
+moment is known to a sample. Between equal answers nothing is asked: what is thinner than the way
+between two instants can be missed.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.dq import Floats
+from dqpaint.render.ray_casting import Twins
+
+STEP = 0.004
+"""Farthest that a lamp goes between two instants that are tried [m]."""
+TURN = np.radians(1.0)
+"""Farthest that the joints turn meanwhile, all together [rad]."""
+CLEARANCE = 0.01
+"""A ray begins so far from its lamp: what holds the lamp does not hide it [m]."""
+
+
+def visible(
+    twins: Twins, postures: Floats, places: Floats, eye: Floats, lit: NDArray[np.bool_]
+) -> Floats:
+    """The share (M, K) of the light of K lamps that reaches the eye at each of M instants, 0 to 1.
+
+    Args:
+        twins: of the arm.
+        postures: (M, n) at these instants [rad].
+        places: (M, K, 3) of the lamps, base frame [m].
+        eye: (3,) of the camera [m].
+        lit: (M,) when any lamp burns. Else nothing is asked, and the share is 1.
+    """
+    seen = np.ones(places.shape[:2])
+    rows = np.flatnonzero(lit)
+    if len(rows) == 0:
+        return seen
+    tried = np.zeros(len(lit), dtype=bool)
+
+    def ask(rows: NDArray[np.int64]) -> None:
+        start, end = _rays(places[rows], eye)
+        for i in twins.stands(postures[rows]):
+            seen[rows[i]] = ~twins.blocked(start[i], end[i])
+        tried[rows] = True
+
+    ask(_instants(postures, places, rows))
+    while True:
+        known = np.flatnonzero(tried)
+        apart = np.diff(known) > 1
+        differ = (seen[known[1:]] != seen[known[:-1]]).any(axis=1)
+        middle = ((known[1:] + known[:-1]) // 2)[apart & differ]
+        middle = middle[lit[middle]]
+        if len(middle) == 0:
+            break
+        ask(middle)
+    return _filled(seen, tried, lit)
+
+
+def _instants(postures: Floats, places: Floats, rows: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The rows to try: both ends of each lit run, and steps within it that are short enough."""
+    way = np.sqrt((np.diff(places, axis=0) ** 2).sum(axis=2)).max(axis=1) / STEP
+    turn = np.abs(np.diff(postures, axis=0)).sum(axis=1) / TURN
+    gone = np.concatenate([[0.0], np.cumsum(np.maximum(way, turn))])[rows]
+    begins = np.diff(rows, prepend=-2) > 1
+    ends = np.append(begins[1:], True)
+    first = np.flatnonzero(begins)[np.cumsum(begins) - 1]  # of the run each row is in
+    cell = np.floor(gone - gone[first])
+    short = np.diff(cell, prepend=-1.0) > 0.0
+    return np.asarray(rows[begins | ends | short])
+
+
+def _rays(places: Floats, eye: Floats) -> tuple[Floats, Floats]:
+    """From places (..., K, 3), a little way off, to the eye."""
+    way = eye - places
+    length = np.sqrt((way * way).sum(axis=-1, keepdims=True))
+    start = places + way * (CLEARANCE / np.maximum(length, CLEARANCE))
+    return start, np.broadcast_to(eye, places.shape)
+
+
+def _filled(seen: Floats, tried: NDArray[np.bool_], lit: NDArray[np.bool_]) -> Floats:
+    """Rows that were not tried get what lies between their neighbours in the same lit run."""
+    known = np.flatnonzero(tried)
+    rows = np.arange(len(tried))
+    filled = np.stack([np.interp(rows, known, column[known]) for column in seen.T], axis=1)
+    filled[~lit] = 1.0
+    return filled

@@ -1,0 +1,108 @@
+"""Twins of an arm's shapes that rays can hit, in a world of their own."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.render.arm_shapes import Arm, Shape
+from dqpaint.robots.kinematics.bullet import Client, bullet, quiet
+from dqpaint.robots.kinematics.collisions import read_mesh
+
+MOST_RAYS = 16_000
+"""Rays of one call: PyBullet loses one of 16,384 and refuses more."""
+WORTH_THREADS = 500
+"""With fewer rays it costs more to wake a second thread than it saves."""
+
+
+class Twins(Client):
+    """Immovable bodies in the shape of an arm's links, as the file draws them.
+
+    Meshes are taken as they are. The convex hulls that the physics would make of them stand proud
+    by some millimetres, and rays against them take eight times as long.
+
+    Args:
+        arm: whose visual shapes they copy.
+
+    Attributes:
+        unread: the shapes that have no twin, as their files cannot be read.
+    """
+
+    def __init__(self, arm: Arm) -> None:
+        super().__init__()
+        self._arm = arm
+        with quiet():
+            built = [(shape, self._build(shape)) for shape in arm.shapes]
+        solid = [(shape, body) for shape, body in built if body is not None]
+        self.unread = [shape for shape, body in built if body is None]
+        self._bodies = [body for _, body in solid]
+        self._links = [shape.link + 1 for shape, _ in solid]
+        self._frames = np.array([shape.frame for shape, _ in solid]).reshape(-1, 8)
+
+    def _build(self, shape: Shape) -> int | None:
+        here = {"physicsClientId": self.client}
+        try:
+            made = bullet.createCollisionShape(shape.kind, **_dimensions(shape), **here)
+        except bullet.error:  # of Collada files it can only make pictures
+            try:
+                made = bullet.createCollisionShape(shape.kind, **_triangles(shape), **here)
+            except (ValueError, bullet.error):
+                return None
+        body: int = bullet.createMultiBody(0, made, **here)
+        return body
+
+    def stand(self, posture: Floats) -> None:
+        """Take a posture (n,) [rad], the arm along with it."""
+        for _ in self.stands(posture[None]):
+            pass
+
+    def stands(self, postures: Floats) -> Iterator[int]:
+        """Take postures (M, n) [rad], one after the other; says which it is in."""
+        poses = dq.mul(self._arm.frames(postures)[:, self._links], self._frames)
+        places = dq.translation(poses).tolist()
+        turns = np.roll(dq.rotation(poses), -1, axis=-1).tolist()  # PyBullet has w last
+        for row, at in enumerate(zip(places, turns, strict=True)):
+            for body, place, turn in zip(self._bodies, *at, strict=True):
+                bullet.resetBasePositionAndOrientation(body, place, turn, self.client)
+            yield row
+
+    def blocked(self, start: Floats, end: Floats) -> NDArray[np.bool_]:
+        """Which (R,) of the straight ways from start (R, 3) to end (R, 3) meet the arm."""
+        hit = np.empty(len(start), dtype=bool)
+        for first in range(0, len(start), MOST_RAYS):
+            rows = slice(first, first + MOST_RAYS)
+            rays: Any = bullet.rayTestBatch(
+                start[rows].tolist(),
+                end[rows].tolist(),
+                numThreads=1 if len(hit[rows]) <= WORTH_THREADS else 0,
+                physicsClientId=self.client,
+            )
+            hit[rows] = [ray[0] >= 0 for ray in rays]
+        return hit
+
+
+def _triangles(shape: Shape) -> dict[str, Any]:
+    """A mesh by its corners.
+
+    Raises:
+        ValueError: it cannot be read, or is none.
+    """
+    corners, triangles = read_mesh(shape.mesh, shape.size)
+    concave = bullet.GEOM_FORCE_CONCAVE_TRIMESH
+    return {"vertices": corners.tolist(), "indices": triangles.ravel().tolist(), "flags": concave}
+
+
+def _dimensions(shape: Shape) -> dict[str, Any]:
+    """A shape's size in the words of PyBullet."""
+    size = shape.size
+    if shape.kind == bullet.GEOM_MESH:
+        concave = bullet.GEOM_FORCE_CONCAVE_TRIMESH
+        return {"fileName": shape.mesh, "meshScale": size, "flags": concave}
+    if shape.kind == bullet.GEOM_BOX:
+        return {"halfExtents": [0.5 * side for side in size]}
+    if shape.kind == bullet.GEOM_SPHERE:
+        return {"radius": size[0]}
+    return {"height": size[0], "radius": size[1]}

@@ -1,0 +1,223 @@
+"""An arm on the stage of one painting: what it hides, and how it looks at the end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.dq import Floats
+from dqpaint.light.arrays import Image
+from dqpaint.light.camera.camera import Camera
+from dqpaint.robots.model.card import Card
+from dqpaint.robots.urdf.prepare import prepare, urdf_file
+from dqpaint.settings.model import Settings
+
+if TYPE_CHECKING:
+    from dqpaint.render.arm_shapes import Arm
+    from dqpaint.render.ray_casting import Twins
+
+
+Shine = Callable[[slice], Sequence[tuple[Floats, Floats]]]
+MOVING = 480
+"""Pixels of the longer side that the arm is worked out on in a moving picture."""
+FEW = 32
+"""Lamps that stand for what was painted, there."""
+
+
+@dataclass(frozen=True, eq=False)
+class Hidden:
+    """Light that the arm's own body kept from the camera.
+
+    Attributes:
+        energy: (3,) of it, linear RGB [lamp s].
+        lines: (line, share of all light) of the source lines it comes from, the most first.
+    """
+
+    energy: Floats
+    lines: tuple[tuple[int, float], ...]
+
+
+def account(hidden: Floats, emitted: Floats, line: NDArray[np.int64]) -> Hidden:
+    """What was hidden, by the source lines it comes from.
+
+    Args:
+        hidden: (M, 3) of each step, linear RGB [lamp s].
+        emitted: (M, 3) of each step, hidden or not.
+        line: (M,) of the source.
+    """
+    lines, which = np.unique(line, return_inverse=True)
+    share = np.bincount(which, hidden.sum(axis=1), len(lines)) / max(float(emitted.sum()), 1e-300)
+    order = np.argsort(-share, kind="stable")
+    found = tuple((int(lines[i]), float(share[i])) for i in order if share[i] > 0.0)
+    return Hidden(hidden.sum(axis=0), found)
+
+
+class Staging(ExitStack):
+    """An arm with the postures of a run. Its shapes are loaded when first needed, till the end.
+
+    Args:
+        urdf: its description.
+        posture: (N, n) at instants a period apart, from time 0 on [rad].
+        period: [s].
+        line: (N,) of the source at these instants; None: they are not known.
+        whole: whether the description has all shapes that its arm should have.
+
+    Attributes:
+        line: as given; 0 stands for what is not known.
+    """
+
+    def __init__(
+        self,
+        urdf: str | PathLike[str],
+        posture: Floats,
+        period: float,
+        line: NDArray[np.int64] | None = None,
+        whole: bool = True,
+    ) -> None:
+        super().__init__()
+        self._urdf = urdf
+        self._whole = whole
+        self._posture = posture
+        self.line = np.zeros(len(posture), np.int64) if line is None else line
+        self._period = period
+
+    @cached_property
+    def arm(self) -> Arm:
+        """The arm, white."""
+        from dqpaint.render.arm_shapes import Arm
+
+        arm = self.enter_context(Arm(self._urdf))
+        arm.whiten()
+        return arm
+
+    @cached_property
+    def twins(self) -> Twins:
+        """What rays hit."""
+        from dqpaint.render.ray_casting import Twins
+
+        return self.enter_context(Twins(self.arm))
+
+    @property
+    def solid(self) -> bool:
+        """Whether every shape of the arm can be asked what it hides, and there is one."""
+        return self._complete and bool(self.arm.shapes) and not self.twins.unread
+
+    @property
+    def _complete(self) -> bool:
+        return self._whole and self.arm.whole
+
+    @property
+    def remarks(self) -> list[str]:
+        """What of the arm cannot be shown, a sentence each."""
+        untraced = "and what it hides is not traced"
+        if not self._complete:
+            return [f"warning: a mesh of the arm cannot be read: it is shown without, {untraced}"]
+        if not self.arm.shapes:
+            return [f"warning: the arm's file gives it no shape: it cannot be shown, {untraced}"]
+        names = sorted({Path(shape.mesh).name for shape in self.twins.unread})
+        return [f"warning: {name} cannot be read: it is not shown, {untraced}" for name in names]
+
+    def visible(self, time: Floats, places: Floats, lit: NDArray[np.bool_], eye: Floats) -> Floats:
+        """The share (M, K) of the light of K lamps that reaches the eye, 0 to 1.
+
+        Args:
+            time: (M,) of the run's clock, in order [s].
+            places: (M, K, 3) of the lamps then, base frame [m].
+            lit: (M,) whether any of them burns.
+            eye: (3,) of the camera [m].
+        """
+        from dqpaint.render.occlusion import visible
+
+        clock = np.arange(len(self._posture)) * self._period
+        posture = np.stack([np.interp(time, clock, joint) for joint in self._posture.T], axis=1)
+        return visible(self.twins, posture, places, eye, lit)
+
+    def photograph(
+        self, camera: Camera, shine: Shine, exposure: float, falloff: bool = False
+    ) -> Image:
+        """(H, W, 3) linear light of arm and floor, to be added before the picture is developed.
+
+        The arm is flashed at the end.
+
+        Args:
+            camera: that of the picture.
+            shine: of some steps between samples, of each lamp its points (N, 3) [m] and the energy
+                (N-1, 3) between them.
+            exposure: of the picture: factor from its own unit [lamp s / px^2] to saturation.
+            falloff: whether that unit is divided by the distance squared [lamp s / (m px)^2].
+        """
+        from dqpaint.render.still import glow, photograph
+
+        self.arm.stand(self._posture[-1])
+        return photograph(self.arm, camera, glow(shine(slice(None))), exposure, falloff)
+
+    def blur(self, camera: Camera, shine: Shine, exposure: float, falloff: bool = False) -> Image:
+        """The same of an arm that is not flashed, but seen all the time as it moves."""
+        from dqpaint.render.motion_blur import blurred
+
+        return blurred(self.arm, self._posture, camera, shine, exposure, falloff)
+
+    def frames(
+        self, camera: Camera, shine: Shine, exposure: float, falloff: bool, rows: Sequence[int]
+    ) -> Iterator[Image]:
+        """The same at some instants of the run, each lit by what was painted until then.
+
+        They are coarser, for a moving picture.
+        """
+        from dqpaint.render.still import glow, photograph
+
+        whole = glow(shine(slice(None)))
+        scale = min(1.0, MOVING / max(camera.width, camera.height))
+        for row in rows:
+            self.arm.stand(self._posture[row])
+            light = whole.part(shine(slice(0, row)), FEW)
+            yield photograph(self.arm, camera, light, exposure, falloff, scale)
+
+
+@dataclass(frozen=True, eq=False)
+class Cast:
+    """How an arm moved in a run: all that is needed, beside its card, to put it on the stage.
+
+    Attributes:
+        robot: what `find_card` finds its card by.
+        posture: (N, n) at instants a period apart, from time 0 on [rad]; (N, 0) where the run was
+            recorded as poses.
+        line: (N,) of the source at these instants.
+        period: [s].
+    """
+
+    robot: str
+    posture: Floats
+    line: NDArray[np.int64]
+    period: float
+
+    @property
+    def known(self) -> bool:
+        """Whether it is known how the joints moved."""
+        return len(self.posture.T) > 0
+
+
+@contextmanager
+def on_stage(settings: Settings, card: Card, cast: Cast) -> Iterator[Staging | None]:
+    """The arm of a run, if the settings have a use for it, and the run has its joints.
+
+    Raises:
+        DqpaintError: the arm's description is not there, or cannot be read.
+    """
+    if not (settings.staged and cast.known):
+        yield None
+        return
+    whole = prepare(card).whole
+    with (
+        urdf_file(card) as path,
+        Staging(path, cast.posture, cast.period, cast.line, whole) as staging,
+    ):
+        yield staging

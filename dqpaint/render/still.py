@@ -1,0 +1,207 @@
+"""The arm in its own painting: lit by the light it carried, seen as it stood at the end.
+
+A long exposure of a dark room shows no arm: it moves, and nothing shines on it but its lamp. So a
+photographer flashes it once, when the light is out (rear-curtain flash). Here the flash is faint,
+two lamps behind the arm draw its outline in the colours of the painting's own left and right ends,
+and all that was painted shines on arm and floor as a cloud of lamps. Light adds: strokes drawn
+while the arm was elsewhere stay in front of it. How bright the arm is against the strokes is taste;
+everything else is optics.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.dq import Floats
+from dqpaint.light.arrays import Image
+from dqpaint.light.camera.camera import Camera
+from dqpaint.render.arm_shapes import Arm
+from dqpaint.render.floor import light_of_floor
+from dqpaint.render.geometry_buffer import Numbers, Surfaces, measure
+from dqpaint.render.lamps import Lamps, gather
+from dqpaint.render.shading import by_lamp, by_lamps, fresnel, seen_from
+
+KEY = 0.6
+"""What all of a painting's light makes of a white surface at its own distance; 1 saturates."""
+ROOM = 0.15
+"""That distance, on top of how far the light is spread: about a flange and a lamp's stub [m]."""
+BLACK, DARK = 0.04, 0.22
+"""Albedo of a black body, and how much of its colour's brightness another has on top."""
+FADED = 0.7
+"""Share of the colour in a file that goes grey."""
+GLOSS = 64
+"""Sharpness of the coat's highlights."""
+FLASH, FLASH_COLOUR = 0.012, (1.0, 0.95, 0.88)
+FROM_ABOVE = (-0.4, 0.8, 0.6)
+"""Whence the flash comes: right, up, back towards the viewer."""
+FLASH_GLINT = 40.0
+RIM, RIM_DULL, RIM_GLINT, RIM_GLOSS = 0.33, 0.6, 4.0, 4
+BEHIND = (0.8, 0.3, -0.75)
+"""Whence the right lamp behind the arm comes; the left one is its mirror image."""
+APART = 8
+"""How much the rims' colours are those of the painting's outermost light."""
+SOFT = 0.7
+"""Blur of the arm, less than the lens does to a line [px]."""
+REACH = (5, 5)
+"""Pixels around an outline that lend it their colour."""
+PALE = 0.28
+"""Least luminance of a rim's colour."""
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+PATH = 4096
+"""Points that stand for the painting in the floor's mirror."""
+
+Lights = Sequence[tuple[Floats, Floats]]
+
+
+@dataclass(frozen=True, eq=False)
+class Glow:
+    """A painting's light, as it falls on what is near.
+
+    Attributes:
+        lamps: few, for what is lit.
+        path: many, for what mirrors.
+        gain: factor from what lamps send [lamp s / m^2] to saturation.
+        whole: all of the painting, where this is a part of it; its ends colour the rims.
+    """
+
+    lamps: Lamps
+    path: Lamps
+    gain: float
+    whole: Lamps
+
+    def part(self, lights: Lights, most: int) -> Glow:
+        """A part of this light, as strong as it is in it, in so many lamps."""
+        return Glow(gather(lights, most), gather(lights, PATH), self.gain, self.whole)
+
+
+def glow(lights: Lights) -> Glow:
+    """The light of lamps on their ways.
+
+    Its gain does not depend on a camera: several views of one painting show one arm.
+
+    Args:
+        lights: of each lamp its points (N, 3) [m] and the energy (N-1, 3) between them [lamp s].
+    """
+    lamps = gather(lights)
+    total = float(lamps.total.max(initial=0.0))
+    if total == 0.0:
+        return Glow(lamps, lamps, 0.0, lamps)
+    spread = ((lamps.place - lamps.middle) ** 2).sum(axis=1).mean()
+    return Glow(lamps, gather(lights, PATH), KEY * np.pi * (spread + ROOM**2) / total, lamps)
+
+
+def photograph(
+    arm: Arm,
+    camera: Camera,
+    light: Glow,
+    exposure: float,
+    falloff: bool = False,
+    scale: float = 1.0,
+) -> Image:
+    """(H, W, 3) linear light of arm and floor, to be added to the picture before it is developed.
+
+    Args:
+        arm: in its posture, white.
+        camera: that of the picture.
+        light: what was painted.
+        exposure: of the picture: factor from its own unit [lamp s / px^2] to saturation.
+        falloff: whether that unit is divided by the distance squared [lamp s / (m px)^2].
+        scale: 1 / width of the pixels that are worked on, for a picture in a moving one.
+    """
+    seen = camera if scale == 1.0 else camera.coarser(scale)
+    shown = floor(seen, light, exposure * scale**2, falloff)
+    surfaces = measure(arm, seen)
+    if surfaces is not None:
+        part = surfaces.box.of(shown)
+        cover = surfaces.cover[..., None]
+        part *= 1.0 - cover
+        part += cover * _spread(lit(arm, surfaces, seen, light), surfaces.sure)
+    return finished(shown, camera, exposure, scale)
+
+
+def floor(camera: Camera, light: Glow, exposure: float, falloff: bool) -> Image:
+    """(H, W, 3) what the floor sends to the camera; 1 saturates it. Arguments as above."""
+    shown = light_of_floor(camera, light.lamps, light.path, light.gain, exposure, falloff)
+    return np.zeros((camera.height, camera.width, 3), np.float32) if shown is None else shown
+
+
+def finished(shown: Image, camera: Camera, exposure: float, scale: float = 1.0) -> Image:
+    """Light of arm and floor in the picture's unit and size, as sharp as a lens would have it."""
+    soft = cv2.GaussianBlur(shown, (0, 0), SOFT)
+    if scale != 1.0:
+        whole = cv2.resize(soft, None, fx=1 / scale, fy=1 / scale, interpolation=cv2.INTER_LINEAR)
+        soft = whole[: camera.height, : camera.width]
+    return np.asarray(soft * np.float32(1.0 / exposure), np.float32)
+
+
+def lit(arm: Arm, surfaces: Surfaces, camera: Camera, light: Glow, room: float = 1.0) -> Numbers:
+    """(P, 3) what the arm's surfaces send to the camera; 1 saturates it.
+
+    Args:
+        arm: in its posture.
+        surfaces: of it that are seen.
+        camera: by which they are.
+        light: that is painted meanwhile.
+        room: how strong the other lamps are: those behind the arm, and the flash.
+    """
+    points = seen_from(camera.position, surfaces.place, surfaces.normal)
+    body, coat = _albedo(arm)[surfaces.link + 1], fresnel(points.facing)[:, None]
+    dull, glossy = by_lamps(points, light.lamps, GLOSS)
+    shown = (body * dull + coat * glossy) * np.float32(light.gain)
+    sides = np.stack([camera.rotation.T @ np.multiply(BEHIND, (sign, 1, 1)) for sign in (1, -1)])
+    for way, colour in zip(sides, _rims(light.whole, camera), strict=True):
+        dull, glossy = by_lamp(points, way, RIM_GLOSS)
+        edge = np.float32(RIM_DULL) * body * dull + np.float32(RIM_GLINT) * coat * glossy
+        shown += np.float32(room * RIM) * colour * edge
+    dull, glossy = by_lamp(points, camera.rotation.T @ FROM_ABOVE, GLOSS)
+    flash = np.float32(room * FLASH) * np.array(FLASH_COLOUR, np.float32)
+    shown += flash * (dull + np.float32(FLASH_GLINT) * coat * glossy)
+    return np.asarray(shown, np.float32)
+
+
+def _spread(colours: Numbers, sure: NDArray[np.bool_]) -> Image:
+    """(h, w, 3) of colours (P, 3) where they are sure, and between and beside them their mean."""
+    image = np.zeros((*sure.shape, 3), np.float32)
+    image[sure] = colours
+    weight = cv2.blur(sure.astype(np.float32), REACH, borderType=cv2.BORDER_CONSTANT)
+    around = np.asarray(cv2.blur(image, REACH, borderType=cv2.BORDER_CONSTANT), np.float32)
+    around /= np.maximum(weight, np.float32(1e-6))[..., None]
+    around[sure] = colours
+    return around
+
+
+def _rims(lamps: Lamps, camera: Camera) -> tuple[Numbers, Numbers]:
+    """The colours (3,) of the painting's right and left ends, as bright as a colour can be."""
+    if len(lamps.place) == 0:
+        return np.ones(3, np.float32), np.ones(3, np.float32)
+    side = (lamps.place - lamps.middle) @ camera.rotation[0]
+    reach = max(float(np.abs(side).max()), 1e-9)
+    found = []
+    for sign in (1.0, -1.0):
+        weight = (0.5 + 0.5 * sign * side / reach) ** APART
+        colour = (weight[:, None] * lamps.energy).sum(axis=0)
+        found.append(_clear(colour / colour.max()))
+    return found[0], found[1]
+
+
+def _clear(colour: Floats) -> Numbers:
+    """A colour (3,) that draws an outline: a deep blue gets some white, and more strength."""
+    luminance = float(LUMINANCE @ colour)
+    white = max(0.0, PALE - luminance) / (1.0 - luminance + 1e-9)
+    pale = colour + white * (1.0 - colour)
+    return np.asarray(pale * np.sqrt(0.5 / max(luminance, PALE)), np.float32)
+
+
+def _albedo(arm: Arm) -> Numbers:
+    """(L + 1, 3) of each link: its file's colour, faded and dark."""
+    found = np.full((len(arm.links) + 1, 3), 0.5, np.float32)
+    for shape in arm.shapes:
+        linear = np.asarray(shape.colour, np.float32) ** 2.2
+        grey = linear @ LUMINANCE.astype(np.float32)
+        found[shape.link + 1] = linear + np.float32(FADED) * (grey - linear)
+    return np.float32(BLACK) + np.float32(DARK) * found

@@ -1,0 +1,246 @@
+"""An arm's solid shapes: how near its links come to each other, and what they hide.
+
+What may collide are the collision shapes of the arm's description; what hides light are the visual
+ones, as in a picture. Both are looked at with Coal, which comes with pinocchio: it reads the model
+the kinematics has already, so a posture is said once.
+"""
+
+from collections.abc import Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import NamedTuple
+from xml.etree import ElementTree as Xml
+
+import coal
+import numpy as np
+import pinocchio
+from numpy.typing import NDArray
+
+from dqpaint.dq import Floats
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.model.card import Card
+from dqpaint.robots.urdf.prepare import prepare
+
+APART = 2  # joints between two links that may collide: neighbours touch by design
+TRIALS, MOSTLY, SEED = 32, 0.5, 1988  # postures in which two links show whether they always touch
+SIGHT = 1e-5  # [m] half the width of a line of sight, as thin as a ray
+POINT = coal.Sphere(SIGHT)
+LAMP = 0.010  # [m] round the light that hide nothing: what holds a lamp, as `stage.shadow` has it
+
+
+class Nearest(NamedTuple):
+    """How near links come to each other, a row a posture.
+
+    Attributes:
+        distance: of the nearest two (N,) [m]; negative where they collide, zero where only the
+            hulls of their meshes do.
+        pair: the names of these two links, N of them.
+    """
+
+    distance: Floats
+    pair: list[tuple[str, str]]
+
+
+@lru_cache(maxsize=1)
+def shapes_of(kinematics: Kinematics) -> "Shapes":
+    """The shapes of an arm; of the last one that was asked for they are kept."""
+    return Shapes(kinematics)
+
+
+class Shapes:
+    """The solid shapes of an arm.
+
+    For distances a mesh counts as its convex hull, which is a hundred times faster.
+
+    Links that touch in the home posture, or in most postures, are not looked at: their shapes are
+    coarser than the arm itself.
+
+    Attributes:
+        notes: what of the arm had to be left out, a sentence each.
+    """
+
+    def __init__(self, kinematics: Kinematics) -> None:
+        self._model, self._data = kinematics.model, kinematics.model.createData()
+        self._text, unread = prepare(kinematics.card).text, dict[str, None]()
+        self._shapes = self._read(pinocchio.GeometryType.COLLISION, unread)
+        self._visual = self._read(pinocchio.GeometryType.VISUAL, unread)
+        self.notes = tuple(
+            f"mesh '{Path(mesh).name}' cannot be read: what it meets and hides is left out"
+            for mesh in unread
+        )
+        self._solids = [shape.geometry for shape in self._shapes.geometryObjects]
+        for shape in self._shapes.geometryObjects:
+            if isinstance(shape.geometry, coal.BVHModelBase):
+                shape.geometry.buildConvexHull(True, "Qt")
+                shape.geometry = shape.geometry.convex
+        self._names = [
+            self._model.frames[shape.parentFrame].name for shape in self._shapes.geometryObjects
+        ]
+        self._choose_pairs(kinematics.card)
+
+    def _read(
+        self, kind: pinocchio.GeometryType, unread: dict[str, None]
+    ) -> pinocchio.GeometryModel:
+        """The shapes of one kind, without the meshes that cannot be read; these are named."""
+        try:
+            return pinocchio.buildGeomFromUrdfString(self._model, self._text, kind)
+        except ValueError:
+            self._text = without_broken_meshes(self._text, unread)
+        return pinocchio.buildGeomFromUrdfString(self._model, self._text, kind)
+
+    def nearest(self, postures: Floats) -> Nearest:
+        """The nearest links in postures (N, n) [rad]; infinity where no two can meet."""
+        known = self._shapes.createData()
+        distance = np.full(len(postures), np.inf)
+        pair = [("", "")] * len(postures)
+        for k, posture in enumerate(postures):
+            pinocchio.computeDistances(self._model, self._data, self._shapes, known, posture)
+            far = [result.min_distance for result in known.distanceResults]
+            for i, hulls in enumerate(far):
+                if hulls <= 0 and not self._collide(i, known.oMg):
+                    far[i] = 0.0
+            if far:
+                closest = int(np.argmin(far))
+                distance[k], pair[k] = far[closest], self._pair_names(closest)
+        return Nearest(distance, pair)
+
+    def hides(self, postures: Floats, points: Floats, eye: Floats) -> NDArray[np.bool_]:
+        """Whether the arm stands between an eye and a light (N,).
+
+        Args:
+            postures: of the arm (N, n) [rad].
+            points: the light in each (N, 3) [m].
+            eye: where it is looked at from (3,) [m].
+        """
+        known = self._visual.createData()
+        hidden = np.zeros(len(postures), dtype=bool)
+        for k, (posture, point) in enumerate(zip(postures, points, strict=True)):
+            pinocchio.updateGeometryPlacements(
+                self._model, self._data, self._visual, known, posture
+            )
+            sight = _line_of_sight(point, eye)
+            hidden[k] = any(
+                _blocks(shape.geometry, _transform(where), *sight)
+                for shape, where in zip(self._visual.geometryObjects, known.oMg, strict=True)
+            )
+        return hidden
+
+    def _choose_pairs(self, card: Card) -> None:
+        """Look at every two links that are apart, by their joints and as postures show them."""
+        joints = [shape.parentJoint for shape in self._shapes.geometryObjects]
+        apart = [
+            (i, j)
+            for i, first in enumerate(joints)
+            for j in range(i + 1, len(joints))
+            if abs(first - joints[j]) >= APART
+        ]
+        for i, j in apart:
+            self._shapes.addCollisionPair(pinocchio.CollisionPair(i, j))
+        trials = np.random.default_rng(SEED).uniform(card.lower, card.upper, (TRIALS, card.joints))
+        at_home = self._touching(card.home[None])[0]
+        often = self._touching(trials).mean(axis=0) > MOSTLY
+        touching = {
+            (joints[i], joints[j])
+            for (i, j), touch in zip(apart, at_home | often, strict=True)
+            if touch
+        }
+        self._shapes.removeAllCollisionPairs()
+        for i, j in apart:
+            if (joints[i], joints[j]) not in touching:
+                self._shapes.addCollisionPair(pinocchio.CollisionPair(i, j))
+
+    def _touching(self, postures: Floats) -> NDArray[np.bool_]:
+        """Which pairs touch, (N, pairs)."""
+        known = self._shapes.createData()
+        touch = np.zeros((len(postures), len(known.distanceResults)), dtype=bool)
+        for k, posture in enumerate(postures):
+            pinocchio.computeDistances(self._model, self._data, self._shapes, known, posture)
+            touch[k] = [result.min_distance <= 0 for result in known.distanceResults]
+        return touch
+
+    def _collide(self, index: int, places: Sequence[pinocchio.SE3]) -> bool:
+        """Whether the two of a pair collide as they are, hulls apart."""
+        pair = self._shapes.collisionPairs[index]
+        one, other = pair.first, pair.second
+        return _meet(
+            self._solids[one], _transform(places[one]), self._solids[other],
+            _transform(places[other]),
+        )  # fmt: skip
+
+    def _pair_names(self, index: int) -> tuple[str, str]:
+        pair = self._shapes.collisionPairs[index]
+        return self._names[pair.first], self._names[pair.second]
+
+
+Sight = tuple[coal.Capsule, coal.Transform3s, coal.Transform3s]
+
+
+def _line_of_sight(point: Floats, eye: Floats) -> Sight:
+    """From the eye to where the lamp begins: a thin capsule, its place, and that end's."""
+    way = point - eye
+    length = float(np.linalg.norm(way))
+    along = way / length
+    side = np.cross(along, np.eye(3)[np.argmin(np.abs(along))])
+    side /= np.linalg.norm(side)
+    rotation = np.stack([side, np.cross(along, side), along], axis=1)
+    seen = max(length - LAMP, SIGHT)
+    middle, end = (eye + part * seen * along for part in (0.5, 1.0))
+    place = coal.Transform3s(rotation, middle)
+    return coal.Capsule(SIGHT, seen), place, coal.Transform3s(rotation, end)
+
+
+def _blocks(
+    solid: coal.CollisionGeometry,
+    where: coal.Transform3s,
+    line: coal.Capsule,
+    place: coal.Transform3s,
+    end: coal.Transform3s,
+) -> bool:
+    """Whether a shape is in the way; a plain one that the lamp sits in is not, as for a ray."""
+    if not _meet(line, place, solid, where):
+        return False
+    return isinstance(solid, coal.BVHModelBase) or not _meet(POINT, end, solid, where)
+
+
+def without_broken_meshes(text: str, broken: dict[str, None]) -> str:
+    """A description without the shapes whose meshes cannot be read; their files are noted."""
+    robot = Xml.fromstring(text)
+    loader = coal.MeshLoader()
+    for link in robot.iter("link"):
+        for shape in [*link.findall("visual"), *link.findall("collision")]:
+            mesh = shape.find("geometry/mesh")
+            if mesh is None:
+                continue
+            name = mesh.get("filename", "")
+            try:
+                loader.load(name, np.ones(3))
+            except ValueError:
+                link.remove(shape)
+                broken[name] = None
+    return Xml.tostring(robot, encoding="unicode")
+
+
+def read_mesh(path: str, scale: Sequence[float]) -> tuple[Floats, NDArray[np.int64]]:
+    """The corners (V, 3) [m] and triangles (T, 3) of a mesh file.
+
+    Raises:
+        ValueError: it cannot be read.
+    """
+    mesh = coal.MeshLoader().load(path, np.array(scale, dtype=np.float64))
+    corners = [mesh.tri_indices(i) for i in range(mesh.num_tris)]
+    triangles = np.array([[one[0], one[1], one[2]] for one in corners], dtype=np.int64)
+    return np.array(mesh.vertices()), triangles.reshape(-1, 3)
+
+
+def _transform(placement: pinocchio.SE3) -> coal.Transform3s:
+    return coal.Transform3s(placement.rotation, placement.translation)
+
+
+def _meet(
+    one: coal.CollisionGeometry,
+    here: coal.Transform3s,
+    other: coal.CollisionGeometry,
+    there: coal.Transform3s,
+) -> bool:
+    result = coal.CollisionResult()
+    return bool(coal.collide(one, here, other, there, coal.CollisionRequest(), result))

@@ -1,0 +1,175 @@
+"""What an arm's limits do to a command, and how a run says so."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.dq import Floats
+from dqpaint.robots.model.card import Card
+
+AT_LIMIT = 1e-6  # relative: a motor this close to its largest torque is saturated
+DIGITS, MOST_DIGITS = 4, 10  # of an amount; the most where it hardly differs from its limit
+
+
+UNITS = {"position": "rad", "speed": "rad/s", "torque": "Nm"}
+
+
+@dataclass(frozen=True)
+class Clamp:
+    """A limit that held a joint back for a while.
+
+    Attributes:
+        kind: `position`, `speed` or `torque`.
+        joint: its number, from 1.
+        start: when it began [s].
+        seconds: for how long, gaps left out.
+        line: the line of the file that was being drawn.
+        limit: [rad], [rad/s] or [Nm].
+        wanted: the most that was asked for, in the same unit; the limit itself where a motor
+            that is told rates saturates, as it asks for no number.
+    """
+
+    kind: str
+    joint: int
+    start: float
+    seconds: float
+    line: int
+    limit: float
+    wanted: float
+
+    def __str__(self) -> str:
+        limit, wanted = self.amounts
+        unit = {"position": "deg", "speed": "deg/s", "torque": "Nm"}[self.kind]
+        asked = f", {wanted} asked for" if self.wanted != self.limit else ""
+        return (
+            f"joint {self.joint} for {self.seconds:.3g} s from {self.start:.3f} s on "
+            f"({limit} {unit}{asked})"
+        )
+
+    @property
+    def amounts(self) -> tuple[str, str]:
+        """The limit and what was wanted, in deg, deg/s or Nm: with as many digits as differ."""
+        scale = 1.0 if self.kind == "torque" else math.degrees(1)
+        both = self.limit * scale, self.wanted * scale
+        shown = ((f"{both[0]:.{d}g}", f"{both[1]:.{d}g}") for d in range(DIGITS, MOST_DIGITS))
+        return next((pair for pair in shown if pair[0] != pair[1]), (f"{both[0]:.{DIGITS}g}",) * 2)
+
+
+class Bounds:
+    """The largest and least joint rates an arm can be given, from a posture, for one period."""
+
+    def __init__(self, card: Card, period: float) -> None:
+        self._lower, self._upper, self._speed = card.lower, card.upper, card.speed
+        self._period = period
+
+    def clip(self, rates: Floats, posture: Floats) -> Floats:
+        """Rates (..., n) [rad/s] within the speed limits that end within the position limits.
+
+        A joint that is beyond a limit already may only come back.
+        """
+        low = np.maximum(-self._speed, (self._lower - posture) / self._period)
+        high = np.minimum(
+            self._speed, np.maximum((self._upper - posture) / self._period, -self._speed)
+        )
+        # `high` comes last: where `low` asks a joint to come back faster than it can, speed wins
+        return np.asarray(np.minimum(np.maximum(rates, low), high))
+
+
+def clamps(
+    card: Card,
+    t: Floats,
+    line: NDArray[np.int64],
+    posture: Floats,
+    wanted: Floats,
+    command: Floats,
+    effort: Floats,
+    torques: bool,
+    period: float | None = None,
+) -> tuple[Clamp, ...]:
+    """Every limit that held a joint during a run, one entry for each joint, kind and line.
+
+    Args:
+        card: with the limits.
+        t: (N,) [s].
+        line: (N,) of the file.
+        posture: (N, n) [rad], as the encoders read it where the commands are rates.
+        wanted: what the law asked for (N, n), rates [rad/s] or torques [Nm].
+        command: what the arm was given (N, n).
+        effort: motor torques (N, n) [Nm], the largest seen in the period before each row.
+        torques: whether the commands are torques.
+        period: of the control [s], where the times do not show it.
+    """
+    period = period or (float(t[1] - t[0]) if len(t) > 1 else 0.0)
+    found: list[Clamp] = []
+    for kind, where, asked, most in (
+        _torque_clamps(card, posture, wanted, command)
+        if torques
+        else _rate_clamps(card, period, posture, wanted, command, effort)
+    ):
+        for joint in range(where.shape[1]):
+            found += _by_line(
+                kind, joint, where[:, joint], asked[:, joint], most[:, joint], t, line, period
+            )
+    return tuple(sorted(found, key=lambda clamp: clamp.start))
+
+
+Held = tuple[str, NDArray[np.bool_], Floats, Floats]  # kind; where, what was asked, limit (N, n)
+
+
+def _rate_clamps(
+    card: Card, period: float, posture: Floats, wanted: Floats, command: Floats, effort: Floats
+) -> list[Held]:
+    held = wanted != command
+    fast = held & (np.abs(command) >= card.speed * (1 - AT_LIMIT))
+    ahead = posture + period * wanted
+    limit = np.where(wanted > command, card.upper, card.lower)
+    saturated = np.zeros_like(held)
+    saturated[:-1] = np.abs(effort[1:]) >= card.effort * (1 - AT_LIMIT)  # of the step from row k
+    torque = np.broadcast_to(card.effort, held.shape)
+    return [
+        ("position", held & ~fast, ahead, limit),
+        ("speed", fast, np.abs(wanted), np.broadcast_to(card.speed, held.shape)),
+        ("torque", saturated, torque, torque),
+    ]
+
+
+def _torque_clamps(card: Card, posture: Floats, wanted: Floats, command: Floats) -> list[Held]:
+    """An arm that is told torques meets its position limits as stops; nothing limits its speed."""
+    limit = np.where(posture > card.upper, card.upper, card.lower)
+    beyond = (posture > card.upper) | (posture < card.lower)
+    most = np.broadcast_to(card.effort, wanted.shape)
+    return [
+        ("position", beyond, posture, limit),
+        ("torque", wanted != command, np.abs(wanted), most),
+    ]
+
+
+def _by_line(
+    kind: str,
+    joint: int,
+    where: NDArray[np.bool_],
+    asked: Floats,
+    most: Floats,
+    t: Floats,
+    line: NDArray[np.int64],
+    period: float,
+) -> list[Clamp]:
+    out = []
+    rows = np.flatnonzero(where)
+    for number in sorted(set(line[rows].tolist())):
+        here = rows[line[rows] == number]
+        worst = here[np.argmax(np.abs(asked[here]))]
+        out.append(
+            Clamp(
+                kind=kind,
+                joint=joint + 1,
+                start=float(t[here[0]]),
+                seconds=float(len(here) * period),
+                line=number,
+                limit=float(most[worst]),
+                wanted=float(asked[worst]),
+            )
+        )
+    return out

@@ -1,0 +1,236 @@
+"""What a redundant arm does with the freedom a drawing leaves it: `--null NAME[,gain=VALUE]`.
+
+Each objective is a number h(q) that should become small; the null space is given its negative
+gradient, z = -gain dh/dq. A new objective is a class here under `@OBJECTIVES.add(name)`.
+"""
+
+import math
+from collections.abc import Callable
+from typing import ClassVar, Protocol
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field
+
+from dqpaint import dq
+from dqpaint.core.named_values import make_choice, read_choice
+from dqpaint.core.registry import Registry
+from dqpaint.dq import Floats
+from dqpaint.errors import UsageError
+from dqpaint.robots.kinematics.differential_ik import PULL, to_tool
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.model.card import Card
+
+DEFAULT_NULL = "start"
+MOST = 20.0  # times the period must stay below 1, or the null space swings
+
+
+class Objective(Protocol):
+    """One objective, for one arm and start posture; its slope takes arrays of any leading shape.
+
+    Attributes:
+        usual: its gain where none is given.
+        unit: of the gain.
+    """
+
+    usual: ClassVar[float]
+    unit: ClassVar[str]
+
+    def __init__(self, card: Card, start: Floats) -> None: ...
+
+    def value(self, posture: Floats, jacobian: Floats, point: Floats) -> float:
+        """What should become small, at a posture (n,) [rad].
+
+        Given are J_w (6, n) and the tool's place (3,) [m] there.
+        """
+
+    def slope(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
+        """dh/dq (n,)."""
+
+
+OBJECTIVES: Registry[type[Objective]] = Registry("null-space objective")
+
+
+@OBJECTIVES.add("start")
+class Start:
+    """Back to the posture it began with, so that a closed drawing closes in the joints."""
+
+    usual: ClassVar[float] = PULL
+    unit: ClassVar[str] = "1/s"
+
+    def __init__(self, card: Card, start: Floats) -> None:
+        self._goal = start
+
+    def value(self, posture: Floats, jacobian: Floats, point: Floats) -> float:
+        """Half the squared distance [rad^2]."""
+        return float(0.5 * ((posture - self._goal) ** 2).sum())
+
+    def slope(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
+        """The way from there (n,) [rad]."""
+        return posture - self._goal
+
+
+@OBJECTIVES.add("home")
+class Home(Start):
+    """Towards the arm's home posture."""
+
+    def __init__(self, card: Card, start: Floats) -> None:
+        super().__init__(card, card.home)
+
+
+@OBJECTIVES.add("limits")
+class Limits:
+    """Away from the joint limits.
+
+    h = 1/4 sum r^2 u^4, with r half a joint's range and u its place in it from -1 to 1: flat in the
+    middle, steep near a limit (after Liegeois 1977, who has u^2).
+    """
+
+    usual: ClassVar[float] = 2.0
+    unit: ClassVar[str] = "1/s"
+
+    def __init__(self, card: Card, start: Floats) -> None:
+        self._middle, self._half = (card.upper + card.lower) / 2, (card.upper - card.lower) / 2
+
+    def value(self, posture: Floats, jacobian: Floats, point: Floats) -> float:
+        """The sum [rad^2]."""
+        u = (posture - self._middle) / self._half
+        return float(0.25 * (self._half**2 * u**4).sum())
+
+    def slope(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
+        """Of each joint r u^3 (n,) [rad]."""
+        u = (posture - self._middle) / self._half
+        return np.asarray(self._half * u**3)
+
+
+@OBJECTIVES.add("manipulability")
+class Manipulability:
+    """Towards postures that can move well in every direction, away from singularities.
+
+    h = -sqrt(det(J J')), J at the tool with lengths in units of 0.3 m (Yoshikawa 1985).
+    """
+
+    usual: ClassVar[float] = 1.0
+    unit: ClassVar[str] = "rad^2/s"
+
+    def __init__(self, card: Card, start: Floats) -> None:
+        pass
+
+    def value(self, posture: Floats, jacobian: Floats, point: Floats) -> float:
+        """-w, without unit."""
+        J = to_tool(point) @ jacobian
+        return -float(np.sqrt(max(np.linalg.det(J @ J.T), 0.0)))
+
+    def slope(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
+        """-w tr((J J')^-1 dJ/dq_k J') for each k (n,); zero in a singular posture.
+
+        The determinant is the same about every point, and column j of J_w changes with a joint k
+        before it by s_k x s_j.
+        """
+        shift = to_tool(point)
+        J = shift @ jacobian
+        square = J @ J.mT
+        volume = np.linalg.det(square)
+        singular = volume < 1e-18
+        if singular.any():
+            square = np.where(singular[..., None, None], np.eye(6), square)
+            volume = np.where(singular, 0.0, volume)
+        inverse = np.linalg.solve(square, J)  # (..., 6, n)
+        columns, n = jacobian.mT, jacobian.shape[-1]
+        change = dq.spatial_cross(columns[..., :, None, :], columns[..., None, :, :])
+        change *= _BEFORE[:n, :n, None]  # (..., k, j, 6)
+        along = change @ shift.mT[..., None, :, :]
+        trace = (along * inverse.mT[..., None, :, :]).sum(axis=(-2, -1))
+        return np.asarray(-np.sqrt(volume)[..., None] * trace)
+
+
+@OBJECTIVES.add("none")
+class Nothing:
+    """The least motion alone: nothing is wished for, and the joints may drift."""
+
+    usual: ClassVar[float] = 0.0
+    unit: ClassVar[str] = "1/s"
+
+    def __init__(self, card: Card, start: Floats) -> None:
+        self._zero = np.zeros(card.joints)
+
+    def value(self, posture: Floats, jacobian: Floats, point: Floats) -> float:
+        """Always zero."""
+        return 0.0
+
+    def slope(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
+        """Zero (n,)."""
+        return self._zero
+
+
+_BEFORE = np.triu(np.ones((64, 64)), 1)
+
+
+class Wish:
+    """An objective with its gain: what the null space is asked for."""
+
+    def __init__(self, objective: Objective, gain: float) -> None:
+        self._objective, self._gain = objective, -gain
+
+    def __call__(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
+        """The wished joint rates -gain dh/dq (n,) [rad/s]."""
+        return self._gain * self._objective.slope(posture, jacobian, point)
+
+    def over(self, seconds: float, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
+        """How far it moves the joints (n,) [rad] in a time, left to itself.
+
+        As though h were half a squared distance, which it is for pulls towards a posture: however
+        long the time, none goes too far.
+        """
+        part = math.expm1(self._gain * seconds)
+        return part * self._objective.slope(posture, jacobian, point)
+
+
+class _Gain(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    gain: float | None = Field(
+        None, ge=0, le=MOST, allow_inf_nan=False, description="how strongly, 0 to 20"
+    )
+
+
+def read_null(text: str) -> tuple[str, float]:
+    """Name and gain of a text like `limits` or `limits,gain=3`.
+
+    Raises:
+        UsageError: an unknown objective, or no such gain.
+    """
+    name, values = read_choice("null-space objective", text, "limits,gain=3")
+    usual = OBJECTIVES[name].usual
+    if values and name == "none":
+        raise UsageError("null-space objective 'none' takes no gain")
+    given = make_choice("null-space objective", name, _Gain, values).gain
+    return name, usual if given is None else given
+
+
+def make_wish(text: str, card: Card, start: Floats) -> Wish:
+    """The wish of an arm that begins in a posture (n,) [rad].
+
+    Raises:
+        UsageError: as `read_null`.
+    """
+    name, gain = read_null(text)
+    return Wish(OBJECTIVES[name](card, start), gain)
+
+
+def make_pull(text: str, kinematics: Kinematics) -> Callable[[Floats, Floats, float], Floats]:
+    """The wish of many arms at once, as `robots.reach.find_start` takes it.
+
+    Raises:
+        UsageError: as `read_null`.
+    """
+    name, gain = read_null(text)
+    card = kinematics.card
+
+    def pull(postures: Floats, starts: Floats, seconds: float) -> Floats:
+        ways = []
+        for posture, start in zip(postures, starts, strict=True):
+            x, J = kinematics.pose_and_jacobian(posture)
+            wish = Wish(OBJECTIVES[name](card, start), gain)
+            ways.append(wish.over(seconds, posture, J, dq.translation(x)))
+        return np.array(ways)
+
+    return pull

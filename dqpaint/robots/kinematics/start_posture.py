@@ -1,0 +1,279 @@
+"""From poses to postures: where an arm can begin a drawing so that it can go on to the end.
+
+A redundant arm has many postures for the first pose. Each candidate follows the whole path on the
+kinematic arm; the one that stays farthest from its joint limits is chosen.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.robots.kinematics.differential_ik import LENGTH, PULL, resolve, to_tool
+from dqpaint.robots.kinematics.kinematics import Kinematics
+
+CANDIDATES = 16
+MORE_CANDIDATES = 160
+FEW, MANY = 4, 32  # postures from which a single pose is tried at first, and in the end
+WAYPOINTS = 32
+EXACT = 1e-9  # [rad, m] from the pose where the arm begins, if it can be had
+GOOD = 1e-5  # [rad, m] is good enough to begin there: the law takes up the rest
+ON_THE_WAY = 1e-3  # [rad, m] is close enough for a forecast; farther off, a pose is missed
+ITERATIONS = 16
+DESCENT = 40  # steps towards a pose out of reach, with each of these weights
+KEPT_TURN, KEPT_PLACE = (0.3, 1.0, 3.0, 10.0), (0.3, 0.1, 0.03, 0.01)  # [m/rad] of its orientation
+NEAR = 0.05  # [m] ahead it is aimed: a place far off would be taken to lie where it does not
+DAMPING = 0.02  # [m/rad] of these steps
+HELD = 3  # times a step is worked out again with joints held at their limits
+TURN = 0.3  # [m] that count as much as a radian
+EQUAL = np.radians(1.0)  # margins that differ by less count as equal
+STEP = 0.6  # [rad] a joint moves at the most in one iteration
+SEED = 1988
+
+
+@dataclass(frozen=True)
+class Start:
+    """Where to begin, and what the forecast along the path says.
+
+    Attributes:
+        posture: (n,) [rad].
+        margin: least distance to a joint limit along the path [rad]; negative beyond one.
+    """
+
+    posture: Floats
+    margin: float
+
+
+@dataclass(frozen=True)
+class Miss:
+    """A pose of the path for which no posture was found.
+
+    Attributes:
+        index: which of the asked poses.
+        shortfall: how far the closest posture stays from it [m].
+        turned: and by which angle [rad].
+    """
+
+    index: int
+    shortfall: float
+    turned: float
+
+    @property
+    def badness(self) -> float:
+        """Distance and turn as one length [m]."""
+        return self.shortfall + TURN * self.turned
+
+
+Pull = Callable[[Floats, Floats, float], Floats]
+
+
+def to_start(postures: Floats, starts: Floats, seconds: float) -> Floats:
+    """How far a null space is pulled (M, n) [rad] in a time, from postures to where they began."""
+    return np.asarray((1.0 - np.exp(-PULL * seconds)) * (starts - postures))
+
+
+def find_start(
+    kinematics: Kinematics, poses: Floats, seconds: Floats, pull: Pull = to_start
+) -> Start | Miss:
+    """The posture to begin with, for poses (N, 8) asked at times (N,) [s].
+
+    A second, larger crowd of candidates is tried where the first one does not reach, or would
+    end beyond a joint limit.
+
+    Args:
+        kinematics: of the arm.
+        poses: to be reached one after another.
+        seconds: when.
+        pull: what the null space does meanwhile.
+    """
+    found = _find_start(kinematics, poses, seconds, CANDIDATES, pull)
+    if isinstance(found, Start) and found.margin >= 0:
+        return found
+    again = _find_start(kinematics, poses, seconds, MORE_CANDIDATES, pull)
+    if isinstance(again, Miss) and isinstance(found, Miss):
+        return max(found, again, key=lambda miss: miss.index)
+    return again if isinstance(again, Start) else found
+
+
+def _find_start(
+    kinematics: Kinematics, poses: Floats, seconds: Floats, candidates: int, pull: Pull
+) -> Start | Miss:
+    card = kinematics.card
+    rng = np.random.default_rng(SEED)
+    seeds = rng.uniform(card.lower, card.upper, (candidates - 1, card.joints))
+    seeds = np.vstack([card.home, seeds])
+    wish = np.zeros_like(seeds)
+    inside = (card.lower, card.upper)
+    postures, errors = solve(kinematics, poses[0], seeds, wish, EXACT, inside)
+    reached = (errors < GOOD) & (_margins(kinematics, postures) >= 0)
+    if reached.any():
+        return _follow(kinematics, poses, seconds, postures[reached], pull)
+    # close to a limit Newton's steps are cut short; a patient descent may still arrive
+    miss, posture = closest(kinematics, poses[0], postures)
+    if miss.badness < GOOD:
+        return _follow(kinematics, poses, seconds, posture[None], pull)
+    return miss
+
+
+def waypoints(strokes: NDArray[np.int64]) -> NDArray[np.intp]:
+    """Rows that stand for a path: evenly spread ones, and every first and last of a stroke."""
+    n = len(strokes)
+    even = np.linspace(0, n - 1, min(n, WAYPOINTS)).astype(np.intp)
+    corners = np.flatnonzero(np.diff(strokes)) + 1
+    if len(corners) > WAYPOINTS:
+        corners = corners[np.linspace(0, len(corners) - 1, WAYPOINTS).astype(np.intp)]
+    return np.array(sorted({*even.tolist(), *corners.tolist()}), dtype=np.intp)
+
+
+def _follow(
+    kinematics: Kinematics, poses: Floats, seconds: Floats, starts: Floats, pull: Pull
+) -> Start | Miss:
+    """The best of the starts (M, n) by its least margin over the path."""
+    postures, margin = starts.copy(), _margins(kinematics, starts)
+    alive = np.arange(len(starts))
+    before = seconds[0]
+    for index in range(1, len(poses)):
+        wish = pull(postures[alive], starts[alive], float(seconds[index] - before))
+        before = seconds[index]
+        moved, errors = solve(kinematics, poses[index], postures[alive], wish, ON_THE_WAY)
+        reached = errors < ON_THE_WAY
+        if not reached.any():
+            return replace(closest(kinematics, poses[index], postures[alive])[0], index=index)
+        alive = alive[reached]
+        postures[alive] = moved[reached]
+        margin[alive] = np.minimum(margin[alive], _margins(kinematics, postures[alive]))
+    # an elbow limit is the same for all the postures of a redundant arm: of equals, the homeliest
+    good = alive[margin[alive] >= margin[alive].max() - EQUAL]
+    best = good[np.argmin(np.linalg.norm(starts[good] - kinematics.card.home, axis=1))]
+    return Start(starts[best], float(margin[best]))
+
+
+def _margins(kinematics: Kinematics, postures: Floats) -> Floats:
+    card = kinematics.card
+    return np.asarray(np.minimum(postures - card.lower, card.upper - postures).min(axis=-1))
+
+
+def solve(
+    kinematics: Kinematics,
+    pose: Floats,
+    postures: Floats,
+    wish: Floats,
+    close: float,
+    within: tuple[Floats, Floats] | None = None,
+) -> tuple[Floats, Floats]:
+    """Newton's method from many postures (M, n) to one pose (8,), or to one each (M, 8).
+
+    Returns the postures, and how far off each ended (M,).
+
+    The first step takes the null-space motion `wish` (M, n) [rad] along; the last one ends when
+    all are as `close` [rad, m] as asked, or after `ITERATIONS`. `within` are joint limits that no
+    step may leave.
+    """
+    q = postures.copy()
+    for iteration in range(ITERATIONS):
+        x, J = kinematics.poses_and_jacobians(q)
+        error = _error(pose, x)
+        largest = np.abs(error).max(axis=1)
+        if iteration and largest.max() < close:
+            break
+        step = resolve(J, dq.translation(x), error, wish)
+        q += step * np.minimum(1.0, STEP / np.maximum(np.abs(step).max(axis=1), 1e-12))[:, None]
+        if within is not None:
+            q = np.clip(q, *within)
+        wish = np.zeros_like(q)
+    return q, largest
+
+
+def _error(pose: Floats, x: Floats) -> Floats:
+    """The displacement (M, 6) from poses x (M, 8) to one pose."""
+    return 2 * dq.log(dq.mul(pose, dq.conj(x)))
+
+
+def strays(kinematics: Kinematics, poses: Floats) -> Floats:
+    """How far off poses (N, 8) the arm stays by itself, inside its limits.
+
+    Each pose is tried from many postures, those that nothing reaches from more.
+
+    Returns:
+        The least remaining error (N,) [rad, m], below `ON_THE_WAY` where the pose is reached.
+    """
+    card = kinematics.card
+    left = np.full(len(poses), np.inf)
+    rng = np.random.default_rng(SEED)
+    for crowd in (FEW, CANDIDATES, MANY):
+        rows = np.flatnonzero(left >= ON_THE_WAY)
+        if not len(rows):
+            break
+        seeds = rng.uniform(card.lower, card.upper, (crowd, card.joints))
+        seeds[0] = card.home
+        whose = np.repeat(rows, crowd)
+        errors = solve(
+            kinematics, poses[whose], np.tile(seeds, (len(rows), 1)),
+            np.zeros((len(whose), card.joints)), ON_THE_WAY, (card.lower, card.upper),
+        )[1]  # fmt: skip
+        left[rows] = np.minimum(left[rows], errors.reshape(-1, crowd).min(axis=1))
+    return left
+
+
+def shortfall(kinematics: Kinematics, pose: Floats) -> Miss:
+    """How close the arm comes to a pose (8,) that nothing reaches."""
+    card = kinematics.card
+    seeds = np.random.default_rng(SEED).uniform(card.lower, card.upper, (MANY, card.joints))
+    still, inside = np.zeros_like(seeds), (card.lower, card.upper)
+    return closest(kinematics, pose, solve(kinematics, pose, seeds, still, EXACT, inside)[0])[0]
+
+
+def closest(kinematics: Kinematics, pose: Floats, postures: Floats) -> tuple[Miss, Floats]:
+    """How close the arm comes to a pose (8,) inside its limits, and in which posture (n,).
+
+    From the best few of some postures (M, n), once with the orientation kept, once with the place;
+    what comes closer counts. The miss has the index 0.
+    """
+    card = kinematics.card
+    errors = np.abs(_error(pose, kinematics.poses_and_jacobians(postures)[0])).max(axis=1)
+    few = np.clip(postures[np.argsort(errors)[:CANDIDATES]], card.lower, card.upper)
+    best, posture = Miss(0, np.inf, 0.0), few[0]
+    for weights in KEPT_TURN, KEPT_PLACE:
+        q = few
+        for weight in np.repeat(weights, DESCENT):
+            x, J = kinematics.poses_and_jacobians(q)
+            error = _at_tool(pose, x)
+            far, turned = np.linalg.norm(error[:, 3:], axis=1), np.linalg.norm(error[:, :3], axis=1)
+            i = int(np.argmin(far + TURN * turned))
+            here = Miss(0, float(far[i]), float(turned[i]))
+            if here.badness < best.badness:
+                best, posture = here, q[i]
+            scale = np.array([weight] * 3 + [1.0] * 3)
+            shift = to_tool(dq.translation(x))
+            shift[:, 3:] *= LENGTH
+            aim = error.copy()
+            aim[:, 3:] *= np.minimum(1.0, NEAR / np.maximum(far, 1e-12))[:, None]
+            q = _step(scale[:, None] * (shift @ J), scale * aim, q, card.lower, card.upper)
+    return best, posture
+
+
+def _at_tool(pose: Floats, x: Floats) -> Floats:
+    """From poses x (M, 8) to one pose: the turn [rad], and the way of the tool's point [m]."""
+    turn = _error(pose, x)[:, :3]
+    return np.concatenate([turn, dq.translation(pose) - dq.translation(x)], axis=1)
+
+
+def _step(J: Floats, error: Floats, q: Floats, lower: Floats, upper: Floats) -> Floats:
+    """Postures (M, n) after a step of Levenberg and Marquardt's method inside the limits.
+
+    Joints that would leave their range are held, and the others make up for them.
+    """
+    free = np.ones_like(q)
+    for _ in range(HELD):
+        columns = J * free[:, None, :]
+        square = columns @ columns.mT + DAMPING**2 * np.eye(6)
+        step = np.vecmat(np.linalg.solve(square, error[..., None])[..., 0], columns)
+        step = np.clip(step, -STEP, STEP)
+        out = ((q <= lower) & (step < 0)) | ((q >= upper) & (step > 0))
+        if not out.any():
+            break
+        free = np.where(out, 0.0, free)
+    return np.clip(q + np.where(out, 0.0, step), lower, upper)

@@ -1,0 +1,143 @@
+"""What an arm's file may leave out: where its drawings go, and the posture it has before them."""
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.errors import DqpaintError
+from dqpaint.robots.kinematics.differential_ik import to_tool
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.kinematics.start_posture import Miss, find_start, solve
+from dqpaint.robots.model.card import Canvas, Card
+
+SAMPLES = 20000  # postures that are looked at
+SEEDS = 8  # of them, the nearest to each place
+AHEAD = (0.65, 0.5, 0.8, 0.35)  # where a canvas may be, in parts of the arm's reach
+AROUND = (0.0, 90.0, -90.0, 180.0)  # [deg] to its left, where there is none before it
+ABOVE = (0.0, 0.2, -0.2, 0.4, -0.4)
+TRIES = 6  # places that are asked for a hand around them
+MIDDLE = 0.8  # of each joint's range
+ROOM = np.radians(30)  # margin that is as good as any
+HEALTHY = 0.15  # and singular value
+HAND = 0.1  # [m] to be reached around the canvas, or a sixth of the arm's reach
+GOOD = 0.6  # room, of 1, that a canvas should leave all around
+FAVOUR = 0.02  # for each place further down in AHEAD and ABOVE
+SEED = 1873
+
+
+def find_canvas(card: Card) -> tuple[Canvas, Floats]:
+    """A canvas that faces along x, and the posture (n,) [rad] with the tool on it.
+
+    Of a few places before the arm, else beside or behind it, the one with the most room to its
+    joint limits and to its singularities; the same arm always gets the same one.
+
+    Raises:
+        DqpaintError: it reaches none of them.
+    """
+    arm = Kinematics(card)
+    rng = np.random.default_rng(SEED)
+    low, high = _one_turn(card)
+    middle, half = 0.5 * (low + high), 0.5 * MIDDLE * (high - low)
+    q = rng.uniform(middle - half, middle + half, (SAMPLES, card.joints))
+    poses = arm.screws().pose(q)
+    points = dq.translation(poses)
+    centre = points.mean(axis=0)
+    reach = float(np.linalg.norm(points - centre, axis=1).max())
+    facing = dq.rotation(_canvas(np.zeros(3)).pose)
+    turned = 2 * np.arccos(np.minimum(1.0, np.abs((dq.rotation(poses) * facing).sum(-1))))
+    for azimuth in np.radians(AROUND):
+        way = np.array([np.cos(azimuth), np.sin(azimuth), 0])
+        found = []
+        for i, ahead in enumerate(AHEAD):
+            for j, above in enumerate(ABOVE):
+                place = np.round(centre + reach * (ahead * way + [0, 0, above]), 2)
+                far = np.linalg.norm(points - place, axis=1) / reach + turned / np.pi
+                seeds = q[np.argsort(far)[:SEEDS]]
+                room = _room_at(arm, dq.pose_from(place, facing), seeds) - FAVOUR * (i + j)
+                found.append((room, _canvas(place)))
+        found.sort(key=lambda pair: -pair[0])
+        canvas = _first_with_room(
+            arm, [canvas for _, canvas in found[:TRIES]], min(HAND, reach / 6)
+        )
+        if canvas is not None:
+            return canvas, find_home(card, canvas)
+    raise DqpaintError(
+        f"no place for a canvas was found around {card.name}: give [canvas] in a .toml file"
+    )
+
+
+def _first_with_room(arm: Kinematics, canvases: list[Canvas], hand: float) -> Canvas | None:
+    """The first with good room for a hand around it, else the best that has any."""
+    best, most = None, 0.0
+    for canvas in canvases:
+        room = _room_around(arm, canvas, hand)
+        if room > most:
+            best, most = canvas, room
+        if room > GOOD:
+            break
+    return best
+
+
+def find_home(card: Card, canvas: Canvas) -> Floats:
+    """The posture (n,) [rad] with the tool on a canvas and the most room to the joint limits.
+
+    Raises:
+        DqpaintError: the arm does not reach it.
+    """
+    found = find_start(Kinematics(card), canvas.pose[None], np.zeros(1))
+    if isinstance(found, Miss):
+        raise DqpaintError(
+            f"{card.name} does not reach its canvas: it stays {found.shortfall * 1e3:.0f} mm away"
+        )
+    return np.clip(np.radians(np.round(np.degrees(found.posture), 1)), card.lower, card.upper)
+
+
+def canvas_at(card: Card) -> Canvas:
+    """The canvas at the tool of the home posture, turned as the tool is."""
+    T = dq.matrix_from_pose(Kinematics(card).pose(card.home))
+    at, right, up = (tuple(T[:3, i].tolist()) for i in (3, 0, 1))
+    return Canvas(at_m=at, right=right, up=up)
+
+
+def _canvas(place: Floats) -> Canvas:
+    x, y, z = place.tolist()
+    return Canvas(at_m=(x, y, z), right=(0, 1, 0), up=(0, 0, 1))
+
+
+def _one_turn(card: Card) -> tuple[Floats, Floats]:
+    """At most one turn (n,) of every joint [rad]: round zero, or the middle of a range far off."""
+    low, high = np.maximum(card.lower, -np.pi), np.minimum(card.upper, np.pi)
+    middle = 0.5 * (card.lower + card.upper)
+    half = np.minimum(0.5 * (card.upper - card.lower), np.pi)
+    far = high - low < half
+    return np.where(far, middle - half, low), np.where(far, middle + half, high)
+
+
+def _room(arm: Kinematics, postures: Floats) -> Floats:
+    """How far postures (M, n) are from limits and singularities: 1 is far, negative is beyond."""
+    card = arm.card
+    margin = np.minimum(postures - card.lower, card.upper - postures).min(axis=-1)
+    poses, jacobians = arm.poses_and_jacobians(postures)
+    shifted = to_tool(dq.translation(poses)) @ jacobians
+    least = np.linalg.svd(shifted, compute_uv=False).min(axis=-1)
+    return np.asarray(np.minimum(1.0, np.minimum(margin / ROOM, least / HEALTHY)))
+
+
+def _room_at(arm: Kinematics, pose: Floats, seeds: Floats) -> float:
+    """The room of the best posture for a pose (8,), from seeds (M, n); negative if none."""
+    within = (arm.card.lower, arm.card.upper)
+    postures, errors = solve(arm, pose, seeds, np.zeros_like(seeds), 1e-9, within)
+    return float(np.where(errors < 1e-6, _room(arm, postures), -1.0).max())
+
+
+def _room_around(arm: Kinematics, canvas: Canvas, hand: float) -> float:
+    """The least room on a way around a hand's breadth of a canvas; negative if there is none."""
+    corners = hand * np.array(
+        [[0, 0, 0], [1, 1, 0], [-1, 1, 0.5], [-1, -1, -0.5], [1, -1, 0], [1, 1, 0]], dtype=float
+    )
+    local = dq.pose_from(corners, np.array([1.0, 0, 0, 0]))
+    seconds = np.arange(len(corners), dtype=np.float64)
+    found = find_start(arm, dq.mul(canvas.pose, local), 3.0 * seconds)
+    if isinstance(found, Miss):
+        return -1.0
+    return min(found.margin / float(ROOM), float(_room(arm, found.posture[None])[0]))

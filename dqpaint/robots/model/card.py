@@ -1,0 +1,201 @@
+"""A robot card: one arm as data, read from a TOML file and checked."""
+
+import tomllib
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from typing import Self
+
+import numpy as np
+from pydantic import model_validator
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.errors import UnknownNameError
+from dqpaint.robots.model.chain import Axes, Body, Rows, UrdfFile
+from dqpaint.robots.model.fields import Finite, Mount, Part, Positive, Three
+from dqpaint.robots.model.screws import Screws
+
+DEFAULT_ROBOT = "iiwa"
+LEAST = 6  # joints: a pose has as many freedoms
+FLANGE = "flange"  # the last link of the arms we build ourselves
+
+
+class Canvas(Part):
+    """The drawing's frame in the base frame: origin [m], and where its x and y axes point."""
+
+    at_m: Three
+    right: Three
+    up: Three
+
+    @property
+    def pose(self) -> Floats:
+        """As a dual quaternion (8,); z = right x up points to the viewer."""
+        right, up = np.array(self.right), np.array(self.up)
+        R = np.stack([right, up, dq.cross(right, up)], axis=1)
+        return dq.pose_from(self.at_m, dq.quaternion_from_matrix(R))
+
+    @model_validator(mode="after")
+    def _axes_are_square(self) -> Self:
+        right, up = np.array(self.right), np.array(self.up)
+        gram = np.array([right @ right - 1, up @ up - 1, right @ up])
+        if np.abs(gram).max() > 1e-9:
+            raise ValueError("right and up must be unit vectors, square to each other")
+        return self
+
+
+class Limits(Part):
+    """What the joints can do: one number a joint."""
+
+    lower_deg: tuple[Finite, ...]
+    upper_deg: tuple[Finite, ...]
+    speed_deg_s: tuple[Positive, ...]
+    effort_Nm: tuple[Positive, ...]
+
+    @model_validator(mode="after")
+    def _one_number_a_joint(self) -> Self:
+        sizes = {len(v) for v in (self.lower_deg, self.upper_deg, self.speed_deg_s, self.effort_Nm)}
+        if len(sizes) > 1:
+            raise ValueError("every limit needs one number for each joint")
+        if not all(low < high for low, high in zip(self.lower_deg, self.upper_deg, strict=True)):
+            raise ValueError("each lower limit must be below its upper limit")
+        return self
+
+
+class Card(Part):
+    """One arm: chain, tool, canvas, home posture, limits, and where the numbers come from.
+
+    The chain is said in one of three ways: `urdf`, `denavit_hartenberg` or `screws`. An arm of the
+    last two is built from them, with the masses and radii of `body`.
+    """
+
+    name: str
+    title: str
+    source: str
+    licence: str
+    urdf: UrdfFile | None = None
+    denavit_hartenberg: Rows | None = None
+    screws: Axes | None = None
+    body: Body | None = None
+    home_deg: tuple[Finite, ...]
+    tool: Mount
+    canvas: Canvas
+    limits: Limits
+    notes: tuple[str, ...] = ()  # what was assumed where a file says nothing, a sentence each
+
+    @property
+    def joints(self) -> int:
+        """How many joints move."""
+        return len(self.home_deg)
+
+    @property
+    def home(self) -> Floats:
+        """The home posture (n,) [rad]."""
+        return np.radians(self.home_deg)
+
+    @property
+    def lower(self) -> Floats:
+        """Lower joint limits (n,) [rad]."""
+        return np.radians(self.limits.lower_deg)
+
+    @property
+    def upper(self) -> Floats:
+        """Upper joint limits (n,) [rad]."""
+        return np.radians(self.limits.upper_deg)
+
+    @property
+    def speed(self) -> Floats:
+        """Joint speed limits (n,) [rad/s]."""
+        return np.radians(self.limits.speed_deg_s)
+
+    @property
+    def effort(self) -> Floats:
+        """Joint torque limits (n,) [Nm]."""
+        return np.array(self.limits.effort_Nm)
+
+    @property
+    def link(self) -> str:
+        """The link that carries the tool."""
+        return self.urdf.link if self.urdf else FLANGE
+
+    @property
+    def axes(self) -> Screws | None:
+        """The chain as screw axes, of a card that has rows or axes."""
+        if self.denavit_hartenberg is not None:
+            return self.denavit_hartenberg.chain.screws()
+        return self.screws.chain if self.screws is not None else None
+
+    @property
+    def missing(self) -> str:
+        """What to type before this arm can be used; empty where nothing is missing."""
+        if self.urdf is None or self.urdf.find() is not None:
+            return ""
+        return self.urdf.cure
+
+    @property
+    def origin(self) -> str:
+        """Where the arm's description comes from, in a few words."""
+        if self.urdf is None:
+            rows = "Denavit-Hartenberg rows" if self.denavit_hartenberg else "screw axes"
+            return f"built from its {rows}"
+        return self.urdf.package or self.urdf.file
+
+    @model_validator(mode="after")
+    def _one_chain_of_one_length(self) -> Self:
+        chains = [self.urdf, self.denavit_hartenberg, self.screws]
+        if sum(chain is not None for chain in chains) != 1:
+            raise ValueError(
+                "an arm needs one of the tables [urdf], [denavit_hartenberg] and [screws]"
+            )
+        if self.urdf is not None:
+            if self.body is not None:
+                raise ValueError("the table [body] is for rows and axes: a URDF has its own masses")
+            return self
+        if self.body is None:
+            raise ValueError("an arm of rows or axes needs the table [body]")
+        assert self.axes is not None
+        count = len(self.axes.axes)
+        if len(self.limits.lower_deg) != count:
+            raise ValueError(f"limits need one number for each of the {count} joints")
+        if count != self.joints:
+            raise ValueError(f"home_deg needs one number for each of the {count} joints")
+        if (len(self.body.mass_kg), len(self.body.radius_m)) != (count, count + 1):
+            raise ValueError("mass_kg needs one number for each joint, radius_m one more")
+        return self
+
+    @model_validator(mode="after")
+    def _home_is_allowed(self) -> Self:
+        if self.joints < LEAST:
+            count = "1 joint" if self.joints == 1 else f"{self.joints} joints"
+            raise ValueError(
+                f"{count} cannot hold a place and an orientation: at least {LEAST} are needed"
+            )
+        if len(self.limits.lower_deg) != self.joints:
+            raise ValueError("home_deg needs one number for each joint of the limits")
+        if not ((self.lower <= self.home) & (self.home <= self.upper)).all():
+            raise ValueError("home_deg must lie inside the limits")
+        return self
+
+
+def installed_names() -> list[str]:
+    """The names of the robots whose files are there."""
+    return [name for name in card_names() if not read_card(name).missing]
+
+
+def card_names() -> list[str]:
+    """The names of the robots that have a card."""
+    folder = resources.files("dqpaint.robots") / "cards"
+    return sorted(Path(f.name).stem for f in folder.iterdir() if f.name.endswith(".toml"))
+
+
+@cache
+def read_card(name: str) -> Card:
+    """The card of a robot.
+
+    Raises:
+        UnknownNameError: no card has that name.
+    """
+    if name not in card_names():
+        raise UnknownNameError("robot", name, card_names())
+    text = (resources.files("dqpaint.robots") / "cards" / f"{name}.toml").read_text("utf-8")
+    return Card(name=name, **tomllib.loads(text))

@@ -1,0 +1,160 @@
+"""What an arm of rows or axes looks like, and what it weighs: solid capsules along its links.
+
+A joint sits on its axis halfway between the two feet of the common normals to its neighbours: so a
+long offset along an axis is shared by the link before and the link after it, as in real arms. Each
+link goes from its joint along its axis, over the common normal, and along the next axis.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.robots.model.screws import Screws
+
+PARALLEL = 0.02  # sine of an angle between axes below which they count as parallel
+SHORTEST = 1e-6  # [m] of a rod
+HUB = 1.08  # a joint's hub is thicker than its link by this factor
+HUB_HALF = 0.6  # and reaches this part of the link's radius to either side, and its round ends
+SLENDER = (0.07, 0.035)  # a guessed arm's radii at base and flange, as parts of its length
+DENSITY = 900.0  # [kg/m^3] of a guessed arm: aluminium, motors and air
+
+
+@dataclass(frozen=True)
+class Capsule:
+    """A rod with round ends, from `start` to `end` (3,) [m]; its `radius` [m] goes beyond both."""
+
+    start: Floats
+    end: Floats
+    radius: float
+    hub: bool = False
+
+    @property
+    def volume(self) -> float:
+        """Of the solid [m^3]."""
+        length = float(np.linalg.norm(self.end - self.start))
+        return np.pi * self.radius**2 * (length + 4 / 3 * self.radius)
+
+    @property
+    def centre(self) -> Floats:
+        """Of its mass (3,) [m]."""
+        return 0.5 * (self.start + self.end)
+
+    def inertia(self, mass: float) -> Floats:
+        """About its centre (3, 3) [kg m^2], of a uniform solid."""
+        along, r = self.end - self.start, self.radius
+        length = float(np.linalg.norm(along))
+        rod = mass * length / (length + 4 / 3 * r)
+        ends = mass - rod
+        axial = rod * r**2 / 2 + ends * 2 / 5 * r**2
+        across = rod * (length**2 / 12 + r**2 / 4)
+        across += ends * (2 / 5 * r**2 + length**2 / 4 + 3 / 8 * length * r)
+        unit = along / length if length > 0 else np.zeros(3)
+        return np.asarray(across * np.eye(3) + (axial - across) * np.outer(unit, unit))
+
+
+@dataclass(frozen=True)
+class Link:
+    """A rigid body at q = 0, in the base frame.
+
+    Attributes:
+        place: of its joint (3,) [m]; the base's own is the origin.
+        solids: its shape.
+        mass: [kg].
+        centre: of mass (3,) [m].
+        inertia: about the centre (3, 3) [kg m^2].
+    """
+
+    place: Floats
+    solids: tuple[Capsule, ...]
+    mass: float
+    centre: Floats
+    inertia: Floats
+
+
+def build_links(screws: Screws, masses: Sequence[float], radii: Sequence[float]) -> list[Link]:
+    """The base and the n links of an arm.
+
+    Args:
+        screws: the arm's axes.
+        masses: of the links (n,) [kg]. The base stands still: any mass will do.
+        radii: of the base and the links (n + 1,) [m].
+    """
+    places, paths = _paths(screws)
+    links = []
+    for i, (place, path) in enumerate(zip(places, paths, strict=True)):
+        solids = [
+            Capsule(a, b, radii[i]) for a, b in pairwise(path) if np.linalg.norm(b - a) > SHORTEST
+        ]
+        if i > 0:
+            half = HUB_HALF * radii[i] * screws.axes[i - 1, :3]
+            solids.append(Capsule(place - half, place + half, HUB * radii[i], hub=True))
+        elif not solids:  # the first axis goes through the origin
+            solids.append(Capsule(place, place, radii[i]))
+        links.append(_weigh(place, solids, masses[i - 1] if i else masses[0]))
+    return links
+
+
+def default_body(screws: Screws) -> dict[str, list[float]]:
+    """Masses and radii, as a card has them, of an arm of which nothing but its axes is known."""
+    places, paths = _paths(screws)
+    lengths = [sum(float(np.linalg.norm(b - a)) for a, b in pairwise(path)) for path in paths]
+    reach = max(sum(lengths), SHORTEST)
+    radii = (reach * np.linspace(*SLENDER, len(places))).tolist()
+    weightless = build_links(screws, [1.0] * (len(places) - 1), radii)
+    masses = [DENSITY * sum(s.volume for s in link.solids) for link in weightless[1:]]
+    return {"mass_kg": masses, "radius_m": radii}
+
+
+def _weigh(place: Floats, solids: list[Capsule], mass: float) -> Link:
+    """One body of several solids, as if they did not overlap."""
+    volumes = np.array([solid.volume for solid in solids])
+    shares = mass * volumes / volumes.sum()
+    centre = sum((m * s.centre for m, s in zip(shares, solids, strict=True)), np.zeros(3)) / mass
+    inertia = np.zeros((3, 3))
+    for m, solid in zip(shares, solids, strict=True):
+        gap = solid.centre - centre
+        inertia += solid.inertia(m) + m * (gap @ gap * np.eye(3) - np.outer(gap, gap))
+    return Link(place, tuple(solids), mass, centre, inertia)
+
+
+def _paths(screws: Screws) -> tuple[list[Floats], list[list[Floats]]]:
+    """Where each joint sits (the base's first), and the corners each link goes through."""
+    directions = screws.axes[:, :3]
+    points = dq.cross(directions, screws.axes[:, 3:])  # of each axis the nearest to the origin
+    end = dq.translation(screws.home)
+    arrive = [_foot(np.zeros(3), points[0], directions[0])]  # on each axis, from the one before
+    leave = []
+    for i in range(len(points) - 1):
+        here, there = _common_normal(
+            arrive[i], points[i], directions[i], points[i + 1], directions[i + 1]
+        )
+        leave.append(here)
+        arrive.append(there)
+    leave.append(_foot(end, points[-1], directions[-1]))
+    joints = [0.5 * (a + b) for a, b in zip(arrive, leave, strict=True)]
+    paths = [[np.zeros(3), arrive[0], joints[0]]]
+    for i in range(len(joints) - 1):
+        paths.append([joints[i], leave[i], arrive[i + 1], joints[i + 1]])
+    paths.append([joints[-1], leave[-1], end])
+    return [np.zeros(3), *joints], paths
+
+
+def _foot(point: Floats, on: Floats, direction: Floats) -> Floats:
+    """The point of a line nearest to another point."""
+    return np.asarray(on + direction * ((point - on) @ direction))
+
+
+def _common_normal(
+    arrived: Floats, p: Floats, u: Floats, q: Floats, v: Floats
+) -> tuple[Floats, Floats]:
+    """The nearest points of two lines; of parallel ones those across from where we arrived."""
+    normal = dq.cross(u, v)
+    sine = float(np.linalg.norm(normal))
+    if sine < PARALLEL:
+        return arrived, _foot(arrived, q, v)
+    here = p + u * (dq.cross(q - p, v) @ normal) / sine**2
+    return here, _foot(here, q, v)

@@ -1,0 +1,297 @@
+"""An arm's description as the libraries read it: whole, checked, and the same for all of them.
+
+PyBullet and pinocchio read one text. What they would answer differently, or with a guess of their
+own, is settled in it: joints off the arm stand still, every link has a mass, every mesh its path.
+"""
+
+import math
+import os
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import NamedTuple
+from xml.etree import ElementTree as Xml
+
+import numpy as np
+
+from dqpaint.dq import Floats
+from dqpaint.errors import UsageError
+from dqpaint.robots.model.card import Card
+from dqpaint.robots.urdf.tree import Joint, Tree, numbers
+from dqpaint.robots.urdf.write import WEIGHTLESS, write_urdf
+
+BALL = 0.05  # [m], radius of the ball that stands for a shape nobody gave
+LIGHTEST = 0.1  # [kg], of a link that moves and has no mass
+
+
+class Prepared(NamedTuple):
+    """A description, and what had to be assumed for it, a sentence each."""
+
+    text: str
+    notes: tuple[str, ...]
+    whole: bool = True  # whether every mesh is there
+
+
+def prepare(card: Card) -> Prepared:
+    """The description of a card's arm.
+
+    Raises:
+        UsageError: its package is not installed, its file is not there, or it has no such link.
+        DqpaintError: the file is no tree of links, or the arm has joints that do not turn.
+    """
+    if card.urdf is None:
+        return Prepared(write_urdf(card), ())
+    tree = Tree(card.urdf.path)
+    arm = tree.arm(card.link)
+    if len(arm) != card.joints:
+        raise UsageError(
+            f"robot '{card.name}' has {len(arm)} joints that move, "
+            f"its card gives limits for {card.joints}"
+        )
+    _strip(tree)
+    _still(tree, arm, card)
+    if card.urdf.products_negated:
+        _negate_products(tree)
+    if card.urdf.frictionless:
+        for joint in tree.joints.values():
+            for dynamics in joint.element.findall("dynamics"):
+                joint.element.remove(dynamics)
+    weighed, missing = list(_weigh(tree)), list(_find_meshes(tree))
+    text = Xml.tostring(tree.robot, encoding="unicode")
+    return Prepared(text, (*weighed, *missing), not missing)
+
+
+@contextmanager
+def urdf_file(card: Card, change: Callable[[str], str] = str) -> Iterator[str]:
+    """The description as a file of its own, for libraries that read nothing else; gone afterwards.
+
+    Its name is new each time: PyBullet remembers files by their names.
+
+    Args:
+        card: of the arm.
+        change: what is done to the description first.
+    """
+    handle, path = tempfile.mkstemp(prefix="dqpaint-", suffix=".urdf")
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8") as file:
+            file.write(change(prepare(card).text))
+        yield path
+    finally:
+        os.unlink(path)
+
+
+def _strip(tree: Tree) -> None:
+    """Leave out what has no part in moving and looks: libraries stumble over slips in it."""
+    tree.robot.attrib.pop("version", None)
+    _colour(tree)
+    for element in list(tree.robot):
+        if element.tag not in ("link", "joint"):
+            tree.robot.remove(element)
+    for joint in tree.joints.values():
+        for idle in ("safety_controller", "calibration"):
+            for element in joint.element.findall(idle):
+                joint.element.remove(element)
+
+
+def _colour(tree: Tree) -> None:
+    """Give each shape that has a sound colour, or names one, a material with that colour alone."""
+    known = {one.get("name", ""): _rgba(one) for one in tree.robot.iter("material") if _rgba(one)}
+    for visual in tree.robot.iter("visual"):
+        for material in visual.findall("material"):
+            name = material.get("name", "")
+            rgba = _rgba(material) or known.get(name)
+            visual.remove(material)
+            if rgba:
+                kept = Xml.SubElement(visual, "material", {"name": name or rgba})
+                Xml.SubElement(kept, "color", {"rgba": rgba})
+
+
+def _rgba(material: Xml.Element) -> str:
+    """A material's colour as it is written; nothing if it has none, or not four shares of one."""
+    colour = material.find("color")
+    written = "" if colour is None else colour.get("rgba", "")
+    shares = numbers(written)
+    sound = len(shares) == 4 and (shares >= 0.0).all() and (shares <= 1.0).all()
+    return written if sound else ""
+
+
+def _still(tree: Tree, arm: list[Joint], card: Card) -> None:
+    """Fix every joint that is not of the arm; those that are turn within the card's limits."""
+    for joint in tree.joints.values():
+        mimic = joint.element.find("mimic")
+        if mimic is not None:
+            joint.element.remove(mimic)
+        if joint not in arm:
+            joint.element.set("type", "fixed")
+    limits = {
+        "lower": card.lower, "upper": card.upper, "velocity": card.speed, "effort": card.effort
+    }  # fmt: skip
+    for i, joint in enumerate(arm):
+        joint.element.set("type", "revolute")
+        element = joint.element.find("limit")
+        if element is None:
+            element = Xml.SubElement(joint.element, "limit")
+        for name, values in limits.items():
+            element.set(name, repr(float(values[i])))
+
+
+def _negate_products(tree: Tree) -> None:
+    for inertia in tree.robot.iter("inertia"):
+        for name in ("ixy", "ixz", "iyz"):
+            value = inertia.get(name, "0")
+            inertia.set(name, value[1:] if value.startswith("-") else f"-{value}")
+
+
+def _weigh(tree: Tree) -> Iterator[str]:
+    """Give every link a mass, and say which ones of it are guesses."""
+    for body in _bodies(tree):
+        weights = {name: _mass(tree, name) for name in body}
+        moving = tree.root not in body
+        for name in body:
+            element = tree.links[name]
+            inertial = element.find("inertial")
+            if inertial is None:
+                _set_inertial(element, 0.0, WEIGHTLESS)
+            elif weights[name] == 0 and (
+                inertial.find("mass") is None or inertial.find("inertia") is None
+            ):
+                _set_inertial(element, 0.0, WEIGHTLESS, keep_origin=True)
+            elif weights[name] > 0 and (moving or inertial.find("inertia") is None):
+                yield from _judge(tree, name, weights[name])
+        if moving and sum(weights.values()) == 0:
+            ball = 0.4 * LIGHTEST * BALL**2
+            _set_inertial(tree.links[body[0]], LIGHTEST, ball)
+            yield (
+                f"link '{body[0]}' moves and has no mass: "
+                f"{LIGHTEST} kg in a ball of {BALL * 1e3:.0f} mm is assumed"
+            )
+
+
+def _judge(tree: Tree, name: str, mass: float) -> Iterator[str]:
+    """Whether a link's inertia can be that of a body; if not, PyBullet would invent one."""
+    moments = _moments(tree.links[name])
+    if not np.isfinite(moments).all():
+        raise tree.fault(f"the inertia of link '{name}' is not six numbers")
+    if not moments.any():
+        _set_inertial(tree.links[name], mass, 0.4 * mass * BALL**2, keep_origin=True)
+        yield (
+            f"link '{name}' has a mass and no inertia: "
+            f"that of a ball of {BALL * 1e3:.0f} mm is assumed"
+        )
+    elif not possible(moments):
+        moment = float(np.abs(np.trace(moments))) / 3
+        _set_inertial(tree.links[name], mass, moment, keep_origin=True)
+        yield (
+            f"the inertia of link '{name}' is not that of any body: "
+            "that of a ball with the same sum of moments is assumed"
+        )
+
+
+def _bodies(tree: Tree) -> list[list[str]]:
+    """The links that move as one, the first of each being the one its joint carries."""
+    heads: dict[str, str] = {}
+
+    for name in tree.links:
+        way = [name]
+        while way[-1] not in heads:
+            joint = tree.joints.get(way[-1])
+            if joint is None or joint.element.get("type") != "fixed":
+                heads[way[-1]] = way[-1]
+            else:
+                way.append(joint.parent)
+        heads.update(dict.fromkeys(way, heads[way[-1]]))
+    bodies: dict[str, list[str]] = {name: [name] for name in heads.values()}
+    for name, first in heads.items():
+        if name != first:
+            bodies[first].append(name)
+    return list(bodies.values())
+
+
+def _mass(tree: Tree, name: str) -> float:
+    """Of a link [kg]; 0 where the file does not say."""
+    element = tree.links[name].find("inertial/mass")
+    text = "0" if element is None else element.get("value", "")
+    try:
+        mass = float(text)
+    except ValueError:
+        mass = math.nan
+    if not (math.isfinite(mass) and mass >= 0):
+        raise tree.fault(f"the mass of link '{name}' is '{text}', not a number of kg")
+    return mass
+
+
+def _find_meshes(tree: Tree) -> Iterator[str]:
+    """Give each mesh its full path; leave out, and name, those that are not there."""
+    missing = []
+    for link in tree.links.values():
+        for shape in [*link.findall("visual"), *link.findall("collision")]:
+            mesh = shape.find("geometry/mesh")
+            if mesh is None:
+                continue
+            name = mesh.get("filename", "")
+            found = _find(tree, name.removeprefix("package://").removeprefix("file://"))
+            if found is None:
+                missing.append(name)
+                link.remove(shape)
+            else:
+                mesh.set("filename", str(found))
+    if missing:
+        others = len(set(missing)) - 1
+        them = f" and {others} more are" if others else " is"
+        yield f"mesh '{missing[0]}'{them} not there: the arm is drawn without"
+
+
+def _find(tree: Tree, name: str) -> Path | None:
+    path = Path(name)
+    if path.is_absolute():
+        return path if _is_file(path) else None
+    inner = Path(*path.parts[1:])  # without the name of a ROS package
+    for folder in tree.path.resolve().parents:
+        for candidate in (folder / path, folder / inner):
+            if _is_file(candidate):
+                return candidate
+    return None
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):  # a name no file can have
+        return False
+
+
+def possible(moments: Floats) -> bool:
+    """Whether an inertia (3, 3) can be a body's.
+
+    Its principal moments are positive, and none exceeds the sum of the others.
+    """
+    small, middle, large = np.linalg.eigvalsh(moments)
+    return bool(small > 0 and small + middle >= large * (1 - 1e-9))
+
+
+def _moments(link: Xml.Element) -> Floats:
+    element = link.find("inertial/inertia")
+    values = []
+    for name in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"):
+        try:
+            values.append(float(element.get(name, "0")) if element is not None else 0.0)
+        except ValueError:
+            values.append(math.nan)
+    xx, xy, xz, yy, yz, zz = values
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+def _set_inertial(link: Xml.Element, mass: float, moment: float, keep_origin: bool = False) -> None:
+    """Replace what a link weighs by a ball's mass [kg] and moment [kg m^2]."""
+    old = link.find("inertial")
+    new = Xml.Element("inertial")
+    if old is not None:
+        origin = old.find("origin")
+        if keep_origin and origin is not None:
+            new.append(origin)
+        link.remove(old)
+    Xml.SubElement(new, "mass", value=repr(mass))
+    diagonal = dict.fromkeys(("ixx", "iyy", "izz"), repr(moment))
+    Xml.SubElement(new, "inertia", {**diagonal, **dict.fromkeys(("ixy", "ixz", "iyz"), "0")})
+    link.append(new)

@@ -1,0 +1,128 @@
+"""The URDF of an arm that is given as rows or screw axes: its links are those of `bodies`.
+
+Every frame stands as the base does at q = 0, so each joint is a place and the direction of its
+axis; only the flange is turned.
+"""
+
+from collections.abc import Iterable
+from xml.etree import ElementTree as Xml
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.dq import Floats
+from dqpaint.robots.model.card import FLANGE, Card
+from dqpaint.robots.urdf.capsules import Capsule, Link, build_links
+
+WEIGHTLESS = 1e-12  # [kg m^2]: PyBullet takes a link of nothing at all to weigh 1 kg
+COLOURS = {"shell": "0.86 0.87 0.88 1", "hub": "0.16 0.42 0.62 1"}
+
+
+def write_urdf(card: Card) -> str:
+    """The description of a card that has rows or axes; the same card gives the same text."""
+    assert card.axes is not None
+    assert card.body is not None
+    screws = card.axes
+    links = build_links(screws, card.body.mass_kg, card.body.radius_m)
+    robot = Xml.Element("robot", name=card.name)
+    for name, colour in COLOURS.items():
+        material = Xml.SubElement(robot, "material", name=name)
+        Xml.SubElement(material, "color", rgba=colour)
+    names = ["base", *(f"link{i}" for i in range(1, len(links)))]
+    for name, link in zip(names, links, strict=True):
+        _link(robot, name, link)
+    for i in range(1, len(links)):
+        joint = _joint(robot, f"joint{i}", "revolute", names[i - 1], names[i])
+        _origin(joint, links[i].place - links[i - 1].place)
+        Xml.SubElement(joint, "axis", xyz=_text(screws.axes[i - 1, :3]))
+        lower, upper, speed, effort = (
+            repr(float(values[i - 1]))
+            for values in (card.lower, card.upper, card.speed, card.effort)
+        )
+        Xml.SubElement(joint, "limit", lower=lower, upper=upper, velocity=speed, effort=effort)
+    flange = Xml.SubElement(robot, "link", name=FLANGE)
+    _inertial(flange, np.zeros(3), 0.0, WEIGHTLESS * np.eye(3))
+    T = dq.matrix_from_pose(screws.home)
+    joint = _joint(robot, FLANGE, "fixed", names[-1], FLANGE)
+    _origin(joint, T[:3, 3] - links[-1].place, T[:3, :3])
+    Xml.indent(robot)
+    return Xml.tostring(robot, encoding="unicode")
+
+
+def _joint(robot: Xml.Element, name: str, kind: str, parent: str, child: str) -> Xml.Element:
+    joint = Xml.SubElement(robot, "joint", name=name, type=kind)
+    Xml.SubElement(joint, "parent", link=parent)
+    Xml.SubElement(joint, "child", link=child)
+    return joint
+
+
+def _link(robot: Xml.Element, name: str, link: Link) -> None:
+    element = Xml.SubElement(robot, "link", name=name)
+    _inertial(element, link.centre - link.place, link.mass, link.inertia)
+    for solid in link.solids:
+        _capsule(element, solid, link.place)
+
+
+def _inertial(link: Xml.Element, centre: Floats, mass: float, inertia: Floats) -> None:
+    element = Xml.SubElement(link, "inertial")
+    _origin(element, centre)
+    Xml.SubElement(element, "mass", value=repr(float(mass)))
+    moments = {f"i{'xyz'[i]}{'xyz'[j]}": inertia[i, j] for i in range(3) for j in range(i, 3)}
+    Xml.SubElement(
+        element, "inertia", {name: repr(float(value)) for name, value in moments.items()}
+    )
+
+
+def _capsule(link: Xml.Element, solid: Capsule, place: Floats) -> None:
+    """A cylinder and two balls: URDF itself knows no capsules."""
+    along = solid.end - solid.start
+    length, radius = float(np.linalg.norm(along)), repr(float(solid.radius))
+    kinds = ("visual", "collision")
+    material = "hub" if solid.hub else "shell"
+    if length > 0:
+        rotation = _towards(along / length)
+        for shape in _shapes(link, kinds, solid.centre - place, rotation, material):
+            Xml.SubElement(shape, "cylinder", radius=radius, length=repr(length))
+    for end in (solid.start, solid.end):
+        for shape in _shapes(link, kinds, end - place, np.eye(3), material):
+            Xml.SubElement(shape, "sphere", radius=radius)
+
+
+def _shapes(
+    link: Xml.Element, kinds: Iterable[str], place: Floats, rotation: Floats, material: str
+) -> Iterable[Xml.Element]:
+    for kind in kinds:
+        element = Xml.SubElement(link, kind)
+        _origin(element, place, rotation)
+        yield Xml.SubElement(element, "geometry")
+        if kind == "visual":
+            Xml.SubElement(element, "material", name=material)
+
+
+def _towards(direction: Floats) -> Floats:
+    """A rotation (3, 3) whose z axis is a unit vector."""
+    side = np.eye(3)[np.argmin(np.abs(direction))]
+    x = dq.cross(side, direction)
+    x = x / np.linalg.norm(x)
+    return np.stack([x, dq.cross(direction, x), direction], axis=1)
+
+
+def _origin(element: Xml.Element, place: Floats, rotation: Floats | None = None) -> None:
+    turn = np.zeros(3) if rotation is None else roll_pitch_yaw(rotation)
+    Xml.SubElement(element, "origin", xyz=_text(place), rpy=_text(turn))
+
+
+def roll_pitch_yaw(R: Floats) -> Floats:
+    """The fixed-axis angles (3,) [rad] of R = Rz Ry Rx; exact at pitch +-90 degrees, too.
+
+    Roll is measured after yaw is undone: where the two cannot be told apart any yaw will do.
+    """
+    yaw = np.arctan2(R[1, 0], R[0, 0])
+    s, c = np.sin(yaw), np.cos(yaw)
+    pitch = np.arctan2(-R[2, 0], np.hypot(R[0, 0], R[1, 0]))
+    roll = np.arctan2(s * R[0, 2] - c * R[1, 2], c * R[1, 1] - s * R[0, 1])
+    return np.array([roll, pitch, yaw])
+
+
+def _text(numbers: Floats) -> str:
+    return " ".join(repr(float(x) + 0.0) for x in numbers)

@@ -1,0 +1,271 @@
+"""Settings from a file: a TOML of the options, or the JSON summary of a run, to draw it again.
+
+    view = "iso"
+    exposure = "f/8,iso100,35mm,0.05cd"
+    gain.k = 20
+    disturb.twist = "sine,x=0.02,frequency=2"
+
+Keys are the options of `draw` without their dashes, or the fields of `Settings`, which is how a
+summary has them. A file that a value names is looked for beside the settings first.
+"""
+
+import json
+import re
+import tomllib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from dqpaint import __version__
+from dqpaint.controllers import find_controller
+from dqpaint.core.named_values import read_choice
+from dqpaint.diagnostics.did_you_mean import closest
+from dqpaint.disturbances import make_disturbances
+from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.painting.scene import check_choices
+from dqpaint.plants import PLANTS, choose_plant
+from dqpaint.robots.kinematics.nullspace import read_null
+from dqpaint.robots.loading.lookup import find_card
+from dqpaint.robots.model.tool_mount import parse_tool
+from dqpaint.settings.model import (
+    DEFAULT_CONTROLLER,
+    Settings,
+    make_settings,
+    parse_disturbances,
+    parse_gains,
+    parse_size,
+    settings_in_kind,
+)
+
+LARGEST = 1_000_000  # bytes of a file
+SUMMARY = "dqpaint-run-1"
+OPTIONS = {"gain": "gains", "from": "start"}  # options that are called otherwise among the settings
+SPECIAL = ("size", "motion_ghost")  # options that are no fields of the settings
+MEANT = {
+    "camera": "view", "color-by": "colour-by", "colour": "colour-by", "law": "controller",
+    "arm": "robot", "lens": "exposure", "f-number": "exposure", "iso": "exposure",
+    "distance": "exposure", "shutter": "exposure", "azimuth": "view", "elevation": "view",
+}  # fmt: skip
+NOT_OF_THE_PICTURE = ("out", "save", "settings", "watch", "jobs")
+NAMES_FILES = ("controller", "robot", "recorded")
+
+
+@dataclass(frozen=True)
+class Given:
+    """What a file says.
+
+    Attributes:
+        name: of the file; empty where there is none.
+        choices: by the fields of `Settings`.
+        version: of the dqpaint that it is for; None where it does not say.
+        sha256: of the drawing that it was made with, likewise.
+    """
+
+    name: str = ""
+    choices: Mapping[str, Any] = field(default_factory=dict)
+    version: str | None = None
+    sha256: str | None = None
+
+    def under(self, typed: Mapping[str, Any]) -> dict[str, Any]:
+        """All choices: what was typed wins; gains and disturbances one by one.
+
+        The gains of a file are those of its law, and go with it.
+        """
+        given = dict(self.choices)
+        said = {name: value for name, value in typed.items() if value is not None}
+        law = given.get("controller", DEFAULT_CONTROLLER)
+        if said.get("controller", law) != law:
+            given.pop("gains", None)
+        for name in ("gains", "disturb"):
+            if name in given:
+                said[name] = {**given[name], **said.get(name, {})}
+        return {**given, **said}
+
+    def remarks(self, sha256: str) -> tuple[str, ...]:
+        """Why the picture may be another than the one the file is for.
+
+        Args:
+            sha256: of the drawing as it is.
+        """
+        found: tuple[str, ...] = ()
+        if self.version not in (None, __version__):
+            found += (f"{self.name} is for dqpaint {self.version}, this is {__version__}",)
+        if self.sha256 not in (None, sha256):
+            found += (f"{self.name} was made with another text of this drawing",)
+        return found
+
+
+def read_given(path: str) -> Given:
+    """What a file says, looked through key by key.
+
+    Raises:
+        DqpaintError: it cannot be read, or a key or value is at fault; says the line.
+    """
+    place = Path(path)
+    text = _text(place)
+    raw, given = _parsed(place, text)
+    choices: dict[str, Any] = {}
+    spelt: dict[str, str] = {}
+    for key, value in raw.items():
+        try:
+            for name, read in _read(_field(key), _beside_all(place.parent, value)).items():
+                if name in choices:
+                    raise UsageError(f"{key} says again what {spelt[name]} said")
+                choices[name], spelt[name] = read, key
+            _check({name: choices[name] for name in choices if spelt[name] == key})
+        except DqpaintError as problem:
+            raise DqpaintError(f"{_where(place, text, key)}: {_told(problem)}") from None
+    if "gains" in choices:
+        try:
+            find_controller(make_settings(**choices).controller).read_gains(choices["gains"])
+        except DqpaintError as problem:
+            raise DqpaintError(f"{_where(place, text, spelt['gains'])}: {problem}") from None
+    return Given(place.name, choices, *given)
+
+
+def beside(folder: Path, value: object) -> object:
+    """A file of the folder as such, with what follows a colon; anything else as it is."""
+    if not isinstance(value, str):
+        return value
+    head, sign, rest = value.partition(":")
+    try:
+        known = bool(head) and (folder / head).is_file()
+    except (OSError, ValueError):
+        known = False
+    return f"{folder / head}{sign}{rest}" if known else value
+
+
+def _beside_all(folder: Path, value: Any) -> Any:
+    if isinstance(value, str) and "image=" in value:
+        return re.sub(r"(?<=image=)[^,]+", lambda found: str(beside(folder, found[0])), value)
+    return beside(folder, value)
+
+
+def _text(place: Path) -> str:
+    try:
+        with place.open("rb") as file:
+            data = file.read(LARGEST + 1)
+        if len(data) > LARGEST:
+            raise DqpaintError(f"settings '{place}' are more than {LARGEST // 1_000_000} MB")
+        return data.decode("utf-8")
+    except (OSError, ValueError) as problem:
+        reason = problem.strerror if isinstance(problem, OSError) else str(problem)
+        raise DqpaintError(f"settings '{str(place)[:60]}' cannot be read: {reason}") from None
+
+
+def _parsed(place: Path, text: str) -> tuple[dict[str, Any], tuple[str | None, str | None]]:
+    """The settings of a file, the version it is for, and the hash of its drawing."""
+    kind = "JSON" if place.suffix == ".json" else "TOML"
+    try:
+        raw = json.loads(text) if kind == "JSON" else tomllib.loads(text)
+    except (ValueError, RecursionError) as problem:
+        reason = "it is nested too deep" if isinstance(problem, RecursionError) else problem
+        raise DqpaintError(f"{place.name} is no {kind}: {reason}") from None
+    if kind == "TOML":
+        version = raw.pop("dqpaint", None)
+        if not isinstance(version, str | None):
+            where = _where(place, text, "dqpaint")
+            raise DqpaintError(f'{where}: dqpaint is a version, for example "{__version__}"')
+        return raw, (version, None)
+    if not (isinstance(raw, dict) and raw.get("schema") == SUMMARY):
+        raise DqpaintError(f"{place.name} is not the summary of a run: draw --save json makes one")
+    settings, versions = raw.get("settings"), raw.get("versions")
+    if not (isinstance(settings, dict) and isinstance(versions, dict)):
+        raise DqpaintError(f"{place.name} is damaged: a summary has settings and versions")
+    said = {name: value for name, value in settings.items() if value is not None}
+    return said, (str(versions.get("dqpaint")), str(raw.get("sha256")))
+
+
+def _field(key: str) -> str:
+    """The field of `Settings` that a key is for, or one of `SPECIAL`."""
+    option = key.replace("_", "-")
+    name = OPTIONS.get(option, option.replace("-", "_"))
+    if name in (*Settings.model_fields, *SPECIAL):
+        return name
+    if option in NOT_OF_THE_PICTURE:
+        raise UsageError(f"'{option}' is no part of a picture: say it on the command line")
+    fields = (field.replace("_", "-") for field in Settings.model_fields)
+    special = (name.replace("_", "-") for name in SPECIAL)
+    known = sorted({*special, *OPTIONS, *fields} - {"width", "height", *OPTIONS.values()})
+    meant = closest(option, known, MEANT)
+    cure = f"did you mean '{meant}'?" if meant else f"known: {', '.join(known)}"
+    raise UsageError(f"no setting named '{key[:60]}'; {cure}")
+
+
+def _read(name: str, value: Any) -> dict[str, Any]:
+    """The fields of `Settings` that a value gives, as the command line would have them."""
+    if name == "motion_ghost":
+        if not isinstance(value, bool):
+            raise UsageError(f"motion_ghost {value!r} should be true or false")
+        return {"ghost": "motion"} if value else {}
+    if name == "size":
+        return dict(zip(("width", "height"), parse_size(str(value)), strict=True))
+    readers: dict[str, Callable[[list[str]], Any]] = {
+        "gains": parse_gains, "disturb": parse_disturbances,
+    }  # fmt: skip
+    if name not in readers:
+        return {name: value}
+    if isinstance(value, list):
+        return {name: readers[name]([str(text) for text in value])}
+    if not isinstance(value, dict):
+        option = "gain" if name == "gains" else name
+        raise UsageError(f"{option} is a table of names, for example {option}.{EXAMPLES[name]}")
+    if name == "gains":
+        for one, gain in value.items():
+            if isinstance(gain, bool):
+                raise UsageError(f"gain '{one}' should be a number, not {str(gain).lower()}")
+        return {name: {one: _numbers(gain) for one, gain in value.items()}}
+    found: dict[str, Any] = {}
+    for one, values in value.items():
+        found |= (
+            {one: values} if isinstance(values, dict) else parse_disturbances([f"{one}={values}"])
+        )
+    return {name: found}
+
+
+def _numbers(gain: Any) -> Any:
+    """A diagonal is a list in a file."""
+    return tuple(gain) if isinstance(gain, list) else gain
+
+
+EXAMPLES = {"gains": "k = 20", "disturb": 'twist = "sine,x=0.02,frequency=2"'}
+
+
+def _check(choices: dict[str, Any]) -> None:
+    """Look through what one key gives as far as it can be understood by itself.
+
+    Raises:
+        DqpaintError: it is at fault.
+    """
+    settings = settings_in_kind(choices)
+    check_choices(settings)
+    if "controller" in choices:
+        find_controller(settings.controller)
+    if settings.robot is not None and "." not in settings.robot:  # files are read in their turn
+        find_card(settings.robot)
+    if settings.tool is not None:
+        parse_tool(settings.tool)
+    if settings.plant is not None:
+        name, _ = read_choice("plant", settings.plant, "compliant:frequency=60")
+        choose_plant(settings.plant, PLANTS[name].takes)
+    read_null(settings.null)
+    make_disturbances(settings.disturb)
+
+
+def _where(place: Path, text: str, key: str) -> str:
+    """The file and, where it can be found, the line of a key."""
+    word = rf"[\"']?{re.escape(key)}[\"']?"
+    found = re.search(rf"^\s*(?:\[\s*)?{word}\s*(?=[=.:\]])", text, re.MULTILINE)
+    if found is None:
+        return f"{place.name}, {key[:60]}"
+    return f"{place.name}:{text.count(chr(10), 0, found.end()) + 1}"
+
+
+def _told(problem: DqpaintError) -> str:
+    """What is wrong, with the name that was meant if one is like it."""
+    unknown = re.match(r"(no [\w -]+ named '(.*?)'); (known: (.*))", str(problem), re.DOTALL)
+    meant = closest(unknown[2], unknown[4].split(", ")) if unknown else ""
+    return (
+        f"{unknown[1]}; did you mean '{meant}'? {unknown[3]}" if unknown and meant else str(problem)
+    )

@@ -1,0 +1,328 @@
+"""Motion x robot x plant x law -> Track: what the arm did."""
+
+from collections.abc import Callable, Mapping, Sequence
+from copy import copy
+from dataclasses import dataclass
+from functools import partial
+from types import MappingProxyType
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint import dq
+from dqpaint.controllers import Controller, Schedule, Seen
+from dqpaint.disturbances import Disturbance
+from dqpaint.dq import Floats
+from dqpaint.errors import UnstableError
+from dqpaint.motion import Motion
+from dqpaint.plants.plant import Chosen, Plant, PlantMaker
+from dqpaint.robots.kinematics.differential_ik import resolve
+from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability
+from dqpaint.robots.kinematics.limits import Clamp, clamps
+from dqpaint.robots.kinematics.nullspace import DEFAULT_NULL, make_wish
+from dqpaint.robots.model.card import Card
+from dqpaint.simulation.drives import make_drive
+from dqpaint.simulation.sensors import Late, ManySenses, Senses, Told, chance, delay
+from dqpaint.simulation.stop_on_limit import limit_error, meets_limit
+
+REPORT_EVERY = 50  # rows
+BLOCK = 512  # rows whose Jacobians are kept
+
+
+@dataclass(frozen=True)
+class Track:
+    """A run, one row a control step; the arrays are read-only.
+
+    A row is a time t_k, what was asked at t_k (in `motion`), where the arm and its light truly were
+    at t_k, what the law was told of it, and the command then given.
+
+    Attributes:
+        motion: what was asked.
+        posture: true joint angles (N, n) [rad].
+        pose: true tool poses (N, 8) in the base frame, signs continuous.
+        read: joint angles (N, n) [rad] as the encoders read them.
+        believed: tool poses (N, 8) as the law's model has them at these.
+        manipulability: sqrt(det(J J')) (N,) at the true postures.
+        command: what the arm was given (N, n): joint rates [rad/s], or torques [Nm].
+        torques: whether the commands are torques.
+        effort: motor torques (N, n) [Nm], the largest seen in the period before the row.
+        clamps: limits that held a joint back.
+        disturbance: spatial twist (N, 6) [rad/s, m/s] that came on top of the arm's own from t_k to
+            t_k+1, unknown to the law; the last row is zero.
+    """
+
+    motion: Motion
+    posture: Floats
+    pose: Floats
+    read: Floats
+    believed: Floats
+    manipulability: Floats
+    command: Floats
+    torques: bool
+    effort: Floats
+    clamps: tuple[Clamp, ...]
+    disturbance: Floats
+
+    def __post_init__(self) -> None:
+        for array in (
+            self.posture,
+            self.pose,
+            self.read,
+            self.believed,
+            self.manipulability,
+            self.command,
+            self.effort,
+            self.disturbance,
+        ):
+            array.setflags(write=False)
+
+    @property
+    def points(self) -> Floats:
+        """The reached places of the light (N, 3) [m]."""
+        return dq.translation(self.pose)
+
+
+def track(
+    motion: Motion,
+    kinematics: Kinematics,
+    start: Floats,
+    make_plant: PlantMaker | Chosen,
+    controller: Controller[Any],
+    gains: Schedule[Any],
+    progress: Callable[[float], None] = lambda _done: None,
+    disturbances: Mapping[str, Disturbance] = MappingProxyType({}),
+    seed: int = 0,
+    null: str = DEFAULT_NULL,
+    stop: bool = False,
+) -> Track:
+    """Drive the arm along a motion.
+
+    Args:
+        motion: what is asked.
+        kinematics: of the arm, and its card.
+        start: posture (n,) [rad] to begin from, at rest.
+        make_plant: how the arm answers.
+        controller: the law.
+        gains: of the law, over the drawing.
+        progress: called now and then with the part done, 0 to 1.
+        disturbances: by their names.
+        seed: of everything random.
+        null: what a redundant arm does with its freedom.
+        stop: whether the first limit that is met ends the run.
+
+    Raises:
+        UsageError: a disturbance that does not go with the period or the arm, an unknown `null`.
+        ScriptError: a limit was met, and `stop`.
+        DqpaintError: the simulation left the numbers, or a law of one's own has a fault.
+    """
+    senses = Senses(kinematics, motion.t, motion.period, disturbances, seed)
+    carried = _carried(motion, disturbances, [seed])
+    log = _Log(len(motion.t), (), kinematics.card.joints)
+    see_limits = partial(log.see_limits, kinematics.card, motion, controller.drives_torque)
+
+    def at_row(k: int) -> None:
+        if stop:
+            see_limits(k)
+        if k % REPORT_EVERY == 0:
+            progress(k / len(motion.t))
+
+    _follow(
+        motion, senses, start, make_plant, controller, gains, disturbances, null, log,
+        None if carried is None else carried[:, 0], at_row,
+    )  # fmt: skip
+    if not log.finite.all():
+        raise _lost(float(motion.t[-1]))
+    return _finished(log, motion, kinematics.card, controller.drives_torque)
+
+
+def track_many(
+    motion: Motion,
+    kinematics: Kinematics,
+    start: Floats,
+    make_plant: PlantMaker | Chosen,
+    controller: Controller[Any],
+    gains: Schedule[Any],
+    disturbances: Mapping[str, Disturbance],
+    seeds: Sequence[int],
+    null: str = DEFAULT_NULL,
+    progress: Callable[[float], None] = lambda _done: None,
+) -> list[Track | None]:
+    """The same run with several seeds at once, as arrays (B, ...) through the same laws.
+
+    Each is, to rounding, what `track` gives. For a plant, a law and an objective of the null space
+    that take arrays of any leading shape: the ideal arm and the laws that command rates do.
+
+    Args:
+        motion: what is asked.
+        kinematics: of the arm, and its card.
+        start: posture (n,) [rad] of all of them.
+        make_plant: how the arms answer.
+        controller: the law.
+        gains: of the law, over the drawing.
+        disturbances: by their names; none that changes the law's model of the arm.
+        seeds: one a run.
+        null: what a redundant arm does with its freedom.
+        progress: called now and then with the part done, 0 to 1.
+
+    Returns:
+        A track a seed; None for one that left the numbers.
+    """
+    senses = ManySenses(kinematics, motion.t, motion.period, disturbances, seeds)
+    log = _Log(len(motion.t), (len(seeds),), kinematics.card.joints)
+    _follow(
+        motion, senses, np.tile(start, (len(seeds), 1)), make_plant, controller, gains,
+        disturbances, null, log, _carried(motion, disturbances, seeds),
+        lambda k: progress(k / len(motion.t)) if k % REPORT_EVERY == 0 else None,
+    )  # fmt: skip
+    return [
+        _finished(log.one(i), motion, kinematics.card, controller.drives_torque) if good else None
+        for i, good in enumerate(log.finite.tolist())
+    ]
+
+
+def _follow(
+    motion: Motion,
+    senses: Senses,
+    start: Floats,
+    make_plant: PlantMaker | Chosen,
+    controller: Controller[Any],
+    gains: Schedule[Any],
+    disturbances: Mapping[str, Disturbance],
+    null: str,
+    log: "_Log",
+    carried: Floats | None,
+    at_row: Callable[[int], None],
+) -> None:
+    """The loop itself, for one arm (n,) or for many (B, n); what comes of it is in `log`."""
+    n, card = len(motion.t), senses.believed.card
+    ahead = controller.prepare(motion, gains) if controller.prepare else np.zeros((n, 0))
+    wish = make_wish(null, card, start)
+    drive = make_drive(controller, senses.believed, wish, motion.period)
+    late = Late(delay(disturbances), drive.hold(start))
+    parts = motion.clock / motion.clock[-1] if n > 1 else motion.clock
+    plant = make_plant(card, start, motion.period, senses.world)
+    asked = zip(
+        motion.pose, motion.twist, motion.acceleration, motion.t.tolist(), ahead,
+        gains.over(parts), strict=True,
+    )  # fmt: skip
+    try:
+        for k, (pose_d, twist_d, acceleration_d, t, known, now) in enumerate(asked):
+            told = senses.tell(k, plant)
+            q, rates, x, J = told
+            seen = Seen(x, pose_d, twist_d, acceleration_d, J, q, t, motion.period, rates, known)
+            wanted = drive.ask(seen, now)
+            given = drive.within(wanted, q)
+            log.keep(k, plant, told, senses.truth(plant, told), wanted, given)
+            at_row(k)
+            if k < n - 1:
+                plant.run(late(given), log.drift(k, carried))
+    except np.linalg.LinAlgError:  # a posture that is no number any more has no singular values
+        raise _lost(t) from None
+    finally:
+        plant.close()
+
+
+class _Log:
+    """What a run leaves, row by row; what `shape` (B,) runs leave, if there are several."""
+
+    def __init__(self, n: int, shape: tuple[int, ...], joints: int) -> None:
+        of_joints = (n, *shape, joints)
+        self.posture, self.effort = np.empty(of_joints), np.zeros(of_joints)
+        self.read, self.believed = np.empty(of_joints), np.empty((n, *shape, 8))
+        self.wanted, self.command = np.empty(of_joints), np.empty(of_joints)
+        self.pose, self.manipulability = np.empty((n, *shape, 8)), np.empty((n, *shape))
+        self.disturbance = np.zeros((n, *shape, 6))
+        self._jacobian = np.empty((BLOCK, *shape, 6, joints))
+
+    @property
+    def finite(self) -> NDArray[np.bool_]:
+        """Whether all postures and commands of a run are numbers, for each of several."""
+        found = np.isfinite(self.posture).all(axis=(0, -1))
+        return np.asarray(found & np.isfinite(self.command).all(axis=(0, -1)))
+
+    def one(self, i: int) -> Self:
+        """Of several runs the i-th alone."""
+        other = copy(self)
+        for name, array in vars(self).items():
+            setattr(other, name, np.ascontiguousarray(array[:, i]))
+        return other
+
+    def keep(
+        self,
+        k: int,
+        plant: Plant,
+        told: Told,
+        truth: tuple[Floats, Floats],
+        wanted: Floats,
+        given: Floats,
+    ) -> None:
+        """Note row k; manipulabilities are worked out a block at a time, which costs less."""
+        self.posture[k], self.effort[k] = plant.posture, plant.effort
+        self.read[k], self.believed[k] = told.posture, told.pose
+        self.pose[k], self._jacobian[k % BLOCK] = truth
+        self.wanted[k], self.command[k] = wanted, given
+        if k % BLOCK == BLOCK - 1 or k == len(self.pose) - 1:
+            first = k - k % BLOCK
+            self.manipulability[first : k + 1] = manipulability(self._jacobian[: k + 1 - first])
+
+    def see_limits(self, card: Card, motion: Motion, torques: bool, k: int) -> None:
+        """End the run where row k, or the period before it, met a limit.
+
+        Raises:
+            ScriptError: it did.
+        """
+        row = self.posture[k], self.wanted[k], self.command[k], self.effort[k]
+        if meets_limit(card, *row, torques):
+            held = self.clamps(slice(max(k - 1, 0), k + 1), card, motion, torques)
+            raise limit_error(motion, held[0])
+
+    def clamps(self, rows: slice, card: Card, motion: Motion, torques: bool) -> tuple[Clamp, ...]:
+        """The limits that held a joint in some rows."""
+        return clamps(
+            card, motion.t[rows], motion.line[rows],
+            (self.posture if torques else self.read)[rows], self.wanted[rows], self.command[rows],
+            self.effort[rows], torques, motion.period,
+        )  # fmt: skip
+
+    def drift(self, k: int, carried: Floats | None) -> Floats | None:
+        """The joint rates (n,) of an unmodelled velocity (N, 6) of the tool at row k."""
+        if carried is None:
+            return None
+        point, J = dq.translation(self.pose[k]), self._jacobian[k % BLOCK]
+        self.disturbance[k] = dq.twist_from_point(carried[k, ..., :3], carried[k, ..., 3:], point)
+        return resolve(J, point, self.disturbance[k], None)
+
+
+def _carried(
+    motion: Motion, disturbances: Mapping[str, Disturbance], seeds: Sequence[int]
+) -> Floats | None:
+    """Unmodelled velocities (N, B, 6) of the tool; each disturbance has its own random numbers."""
+    if not disturbances:
+        return None
+    found = np.stack([
+        sum(
+            one.twist(motion.t, motion.period, chance(seed, name))
+            for name, one in disturbances.items()
+        )
+        for seed in seeds
+    ], axis=1)  # fmt: skip
+    return found if found.any() else None
+
+
+def _finished(log: _Log, motion: Motion, card: Card, torques: bool) -> Track:
+    log.wanted[-1] = log.command[-1]  # the last command is never carried out
+    held = log.clamps(slice(None), card, motion, torques)
+    for poses in (log.pose, log.believed):
+        poses[0] = dq.nearest(poses[0], motion.pose[0])
+    return Track(
+        motion, log.posture, dq.continuous(log.pose), log.read, dq.continuous(log.believed),
+        log.manipulability, log.command, torques, log.effort, held, log.disturbance,
+    )  # fmt: skip
+
+
+def _lost(time: float) -> UnstableError:
+    return UnstableError(
+        f"the run left the numbers before {time:.3f} s: the loop is unstable; "
+        "lower the gains or shorten the period"
+    )

@@ -1,0 +1,123 @@
+"""What a law says -> what a plant is told, within the arm's limits."""
+
+from typing import Any, Protocol
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.controllers import Controller, Seen
+from dqpaint.dq import Floats
+from dqpaint.robots.kinematics.differential_ik import PULL, resolve
+from dqpaint.robots.kinematics.dynamics import Dynamics
+from dqpaint.robots.kinematics.jacobians import drift_acceleration
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.kinematics.limits import Bounds
+from dqpaint.robots.kinematics.nullspace import Wish
+
+STILL = np.zeros(6)  # the twist of a tool that stays
+
+
+class Drive(Protocol):
+    """Turns what a law sees into a command."""
+
+    def ask(self, seen: Seen, gains: Any) -> Floats:
+        """What the law wants: joint rates (n,) [rad/s] or torques (n,) [Nm]."""
+
+    def hold(self, posture: Floats) -> Floats:
+        """The command that holds the arm still in a posture (n,) [rad]."""
+
+    def within(self, wanted: Floats, posture: Floats) -> Floats:
+        """What of it the limits allow in a posture (n,) [rad]."""
+
+
+def make_drive(
+    controller: Controller[Any], kinematics: Kinematics, wish: Wish, period: float
+) -> Drive:
+    """The drive a law needs.
+
+    Args:
+        controller: the law.
+        kinematics: of the arm, as the law's model has it.
+        wish: what a redundant arm does with its freedom.
+        period: of the control [s].
+    """
+    if controller.drives_torque:
+        return TorqueDrive(controller, kinematics, wish, period)
+    return RateDrive(controller, kinematics, wish, period)
+
+
+class RateDrive:
+    """For laws that command a twist or joint rates.
+
+    q_dot = J^+ u + (I - J^+ J) z with z the wish. Joint rates pass as they are, but for those of a
+    law that leaves the null space free: they gain (I - J^+ J) z.
+    """
+
+    def __init__(
+        self, controller: Controller[Any], kinematics: Kinematics, wish: Wish, period: float
+    ) -> None:
+        self._law = controller.law
+        self._resolved = controller.commands == "twist"
+        self._leaves_null = controller.leaves_null
+        self._wish = wish
+        self._bounds = Bounds(kinematics.card, period)
+
+    def ask(self, seen: Seen, gains: Any) -> Floats:
+        """Joint rates (n,) [rad/s]."""
+        said: Floats = self._law(seen, gains)
+        if not (self._resolved or self._leaves_null):
+            return said
+        point = dq.translation(seen.pose)
+        wish = self._wish(seen.posture, seen.jacobian, point)
+        if self._resolved:
+            return resolve(seen.jacobian, point, said, wish)
+        return said + resolve(seen.jacobian, point, STILL, wish)
+
+    def hold(self, posture: Floats) -> Floats:
+        """No rates (n,)."""
+        return np.zeros_like(posture)
+
+    def within(self, wanted: Floats, posture: Floats) -> Floats:
+        """Within the speed limits, and ending within the position limits."""
+        return self._bounds.clip(wanted, posture)
+
+
+class TorqueDrive:
+    """For laws that command a spatial acceleration or joint torques.
+
+    An acceleration a becomes tau = H q_ddot + C q_dot + G + friction with
+    q_ddot = J^+ (a - J_dot q_dot) + (I - J^+ J) z (Chandra 2020 [35]). In the null space
+    z = PULL (wish - 2 q_dot): damped, or a redundant arm would drift; critically where the wish is
+    PULL (start - q).
+    """
+
+    def __init__(
+        self, controller: Controller[Any], kinematics: Kinematics, wish: Wish, period: float
+    ) -> None:
+        self._law = controller.law
+        self._resolved = controller.commands == "acceleration"
+        self._period = period
+        self._wish = wish
+        self._dynamics = Dynamics(kinematics)
+        self._effort = kinematics.card.effort
+
+    def ask(self, seen: Seen, gains: Any) -> Floats:
+        """Joint torques (n,) [Nm]."""
+        q, rates = seen.posture, seen.rates
+        if not self._resolved:
+            inertia, bias = self._dynamics.inertia_and_bias(q, rates)
+            torque: Floats = self._law(seen._replace(inertia=inertia, bias=bias), gains)
+            return torque
+        wanted = self._law(seen, gains) - drift_acceleration(seen.jacobian, rates)
+        point = dq.translation(seen.pose)
+        wish = PULL * self._wish(q, seen.jacobian, point) - 2 * PULL * rates
+        bend = resolve(seen.jacobian, point, wanted, wish)
+        return self._dynamics.torque(q, rates, bend, self._period)
+
+    def hold(self, posture: Floats) -> Floats:
+        """What the arm weighs (n,) [Nm], by the law's model."""
+        return self.within(self._dynamics.weight(posture), posture)
+
+    def within(self, wanted: Floats, posture: Floats) -> Floats:
+        """Within the motors' torques."""
+        return np.asarray(np.clip(wanted, -self._effort, self._effort))

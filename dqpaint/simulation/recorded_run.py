@@ -1,0 +1,331 @@
+"""A run of one's own: a CSV of a real arm's joints or poses -> Track, on the drawing's own clock.
+
+Between two rows a joint goes along a monotone cubic (Fritsch and Butland 1984): smooth, through
+every row, and never beyond the two it lies between. A pose goes along the one screw from row to row
+(ScLERP). Before the first row and after the last the arm stands still. Nothing else is made up, and
+what had to be assumed is said.
+"""
+
+import hashlib
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.controllers import Controller, Gains, Seen
+from dqpaint.dq import Floats
+from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.motion import Motion
+from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability
+from dqpaint.simulation.closed_loop import Track
+
+LARGEST = 100_000_000  # bytes of a file
+POSE = ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz")
+UNIT = 1e-3  # a quaternion's norm may be off 1 by this: it was printed with few digits
+LONG_GAP = 0.05  # [s] between two rows that is worth a word, if it is several periods
+SAME_TIME = 1e-9  # [s]
+SHORTEST = 1e-6  # [s] between two rows
+MOST = {"_s": 1e13, "_rad": 1e4, "_deg": 1e6, "_m": 1e3}  # more is a slip, by a column's unit
+LARGEST_NUMBER = 1e9  # of the others
+MOST_NAMED = 8
+
+
+@dataclass(frozen=True, repr=False)
+class Recording:
+    """What a file says an arm did; times strictly increase.
+
+    Attributes:
+        name: of the file.
+        sha256: of its bytes.
+        t: times (M,) [s] since the drawing began.
+        postures: joint angles (M, n) [rad]; None where the file has poses instead.
+        poses: of the light (M, 8) in the base frame, signs continuous; None where it has joints.
+        commands: what the joints were given at each row (M, n): rates [rad/s] or torques [Nm];
+            None where the file does not say.
+        torques: whether the commands are torques.
+    """
+
+    name: str
+    sha256: str
+    t: Floats
+    postures: Floats | None
+    poses: Floats | None
+    commands: Floats | None
+    torques: bool
+
+    @property
+    def as_json(self) -> dict[str, Any]:
+        """For a summary."""
+        return {
+            "file": self.name,
+            "sha256": self.sha256,
+            "rows": len(self.t),
+            "start_s": float(self.t[0]),
+            "end_s": float(self.t[-1]),
+            "of": "joints" if self.poses is None else "poses",
+        }
+
+    def notes(self, motion: Motion) -> tuple[str, ...]:
+        """What was assumed to bring it onto a drawing's clock, a sentence each."""
+        way = "joints on monotone cubics" if self.poses is None else "poses on screws"
+        found = [f"{self.name}: {len(self.t)} rows, between them {way}"]
+        end = float(motion.t[-1])
+        for held, when in (
+            (self.t[0], "before the first row"),
+            (end - self.t[-1], "after its end"),
+        ):
+            if held > motion.period:
+                found.append(f"{self.name} lacks {held:.3g} s {when}: the arm stands still there")
+        if self.t[-1] - end > motion.period:
+            found.append(
+                f"{self.name} goes on for {self.t[-1] - end:.3g} s after the drawing's end"
+            )
+        gaps = np.diff(self.t)
+        if len(gaps) and gaps.max() > max(LONG_GAP, 3 * motion.period):
+            at = int(gaps.argmax())
+            found.append(f"{self.name} has a gap of {gaps[at]:.3g} s, at {self.t[at]:.3f} s")
+        return tuple(found)
+
+
+def _no_law(_seen: Seen, _gains: Gains) -> Floats:
+    """The law is not known: the arm was driven elsewhere."""
+    raise UsageError("a recorded run has no law")
+
+
+RECORDED: Controller[Gains] = Controller("recorded", "a recorded run", Gains, _no_law, "rates")
+
+
+def read_recording(path: str, joints: int) -> Recording:
+    """The run in a CSV file.
+
+    The first row that is not empty and does not begin with # names the columns: `t_s`, and all of
+    `q1_rad ...` (or `q1_deg ...`) or all of `x_m y_m z_m qw qx qy qz`; joints are taken where it
+    has both. `command1_rad_s ...` or `torque1_Nm ...` are taken too; other columns are left alone.
+
+    Args:
+        path: of the file.
+        joints: how many the arm has.
+
+    Raises:
+        UsageError: the file cannot be read.
+        DqpaintError: it is no such table; file, row and column are named.
+    """
+    file = Path(path)
+    try:
+        if file.stat().st_size > LARGEST:
+            raise DqpaintError(f"{file.name} is larger than {LARGEST // 10**6} MB")
+        data = file.read_bytes()
+    except OSError as problem:
+        raise UsageError(f"recorded run '{path}' cannot be read: {problem.strerror}") from None
+    table = _Table(file.name, data)
+    t = table.columns(["t_s"])[:, 0]
+    _check_times(table, t)
+    postures = _joints(table, joints)
+    poses = None if postures is not None else _poses(table)
+    commands, torques = _commands(table, joints) if postures is not None else (None, False)
+    digest = hashlib.sha256(data).hexdigest()
+    return Recording(file.name, digest, t, postures, poses, commands, torques)
+
+
+class _Table:
+    """Rows of numbers under their names."""
+
+    def __init__(self, name: str, data: bytes) -> None:
+        self.name = name
+        try:
+            text = data.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            raise DqpaintError(f"{name} is no text in UTF-8") from None
+        lines = [
+            (number, line)
+            for number, line in enumerate(text.splitlines(), 1)
+            if line.strip() and not line.lstrip().startswith("#")
+        ]
+        if not lines:
+            raise DqpaintError(f"{name} is empty: it needs a row of names, and rows of numbers")
+        head = lines[0][1]
+        self._separator = max(",;\t", key=head.count)
+        self.names = [word.strip().strip('"') for word in head.split(self._separator)]
+        twice = next((n for n in self.names if n and self.names.count(n) > 1), None)
+        if twice is not None:
+            raise DqpaintError(f"{name}, row {lines[0][0]}: column '{twice}' is there twice")
+        self._lines = lines[1:]
+        if not self._lines:
+            raise DqpaintError(f"{name} has names, but no rows of numbers")
+        self.rows = [number for number, _ in self._lines]
+
+    def columns(self, wanted: Sequence[str]) -> Floats:
+        """The numbers (M, k) of some columns."""
+        missing = [name for name in wanted if name not in self.names]
+        if missing:
+            has = ", ".join(self.names[:MOST_NAMED]) + (" ..." * (len(self.names) > MOST_NAMED))
+            raise DqpaintError(f"{self.name} has no column '{missing[0]}'; it has: {has}")
+        places = [self.names.index(name) for name in wanted]
+        values = np.empty((len(self._lines), len(wanted)))
+        for k, (row, line) in enumerate(self._lines):
+            cells = line.split(self._separator)
+            if len(cells) != len(self.names):
+                raise DqpaintError(
+                    f"{self.name}, row {row}: {len(cells)} values, but {len(self.names)} columns"
+                )
+            for i, place in enumerate(places):
+                values[k, i] = self._number(cells[place], row, wanted[i])
+        return values
+
+    def _number(self, text: str, row: int, column: str) -> float:
+        try:
+            value = float(text)
+        except ValueError:
+            value = np.nan
+        if not np.isfinite(value):
+            raise self.fault(row, column, f"'{text.strip()[:40]}' is not a number")
+        most = MOST.get(column[column.rfind("_") :], LARGEST_NUMBER)
+        if abs(value) > most:
+            raise self.fault(row, column, f"{value:.6g} is more than any arm does (up to {most:g})")
+        return value
+
+    def fault(self, row: int, column: str, text: str) -> DqpaintError:
+        """An error about one value."""
+        return DqpaintError(f"{self.name}, row {row}, column {column}: {text}")
+
+
+def _check_times(table: _Table, t: Floats) -> None:
+    back = np.flatnonzero(np.diff(t) < SHORTEST)
+    if len(back):
+        k = int(back[0])
+        text = f"{t[k + 1]:.9g} s does not come after {t[k]:.9g} s"
+        if t[k + 1] > t[k]:
+            text = f"{t[k + 1]:.9g} s comes less than a microsecond after {t[k]:.9g} s"
+        raise table.fault(table.rows[k + 1], "t_s", text)
+
+
+def _joints(table: _Table, joints: int) -> Floats | None:
+    """Joint angles (M, n) [rad], where the file has them."""
+    found = [name for name in table.names if re.fullmatch(r"q\d+_(rad|deg)", name)]
+    if not found:
+        return None
+    units = {name.rpartition("_")[2] for name in found}
+    if len(units) > 1:
+        raise DqpaintError(f"{table.name} has joints in rad and in deg: use one of them")
+    if len(found) != joints:
+        raise DqpaintError(
+            f"{table.name} has {len(found)} joints ({found[0]} ... {found[-1]}), "
+            f"but this arm has {joints}; choose another with --robot"
+        )
+    unit = units.pop()
+    angles = table.columns([f"q{i + 1}_{unit}" for i in range(joints)])
+    return np.radians(angles) if unit == "deg" else angles
+
+
+def _poses(table: _Table) -> Floats:
+    """Poses (M, 8) of the light."""
+    if not any(name in table.names for name in POSE):
+        raise DqpaintError(
+            f"{table.name} has neither joints (q1_rad ... or q1_deg ...) nor poses "
+            f"({', '.join(POSE)})"
+        )
+    values = table.columns(POSE)
+    length = np.linalg.norm(values[:, 3:], axis=1)
+    off = np.flatnonzero(np.abs(length - 1) > UNIT)
+    if len(off):
+        text = f"the quaternion has the length {length[off[0]]:.6g}, not 1"
+        raise table.fault(table.rows[int(off[0])], "qw", text)
+    return dq.continuous(dq.pose_from(values[:, :3], values[:, 3:] / length[:, None]))
+
+
+def _commands(table: _Table, joints: int) -> tuple[Floats | None, bool]:
+    """What the joints were given (M, n), where the file says so of all; whether it is torques."""
+    for form, torques in (("command{}_rad_s", False), ("torque{}_Nm", True)):
+        names = [form.format(i + 1) for i in range(joints)]
+        if all(name in table.names for name in names):
+            return table.columns(names), torques
+    return None, False
+
+
+def replay(recording: Recording, motion: Motion, kinematics: Kinematics) -> Track:
+    """A recorded run as a track of the drawing, measured like a simulated one.
+
+    A recording of poses has no joints: the track's arrays of joints then have none.
+
+    Raises:
+        DqpaintError: it has nothing of the drawing's time.
+    """
+    t, end = recording.t, float(motion.t[-1])
+    if t[0] > end or t[-1] < 0:
+        raise DqpaintError(
+            f"{recording.name} goes from {t[0]:.9g} s to {t[-1]:.9g} s, but the drawing from 0 s "
+            f"to {end:.6g} s: t_s counts from the drawing's beginning"
+        )
+    now = np.clip(motion.t, t[0], t[-1])
+    n = len(motion.t)
+    if recording.postures is None:
+        assert recording.poses is not None
+        posture = command = np.zeros((n, 0))
+        pose, measure = along_screws(t, recording.poses, now), np.zeros(n)
+    else:
+        posture = along_cubics(t, recording.postures, now)
+        pose, J = kinematics.poses_and_jacobians(posture)
+        measure = manipulability(J)
+        command = _given(recording, posture, motion)
+    pose[0] = dq.nearest(pose[0], motion.pose[0])
+    pose = dq.continuous(pose)
+    return Track(
+        motion=motion,
+        posture=posture,
+        pose=pose,
+        read=posture,
+        believed=pose,
+        manipulability=measure,
+        command=command,
+        torques=recording.torques,
+        effort=np.zeros_like(posture),
+        clamps=(),
+        disturbance=np.zeros((n, 6)),
+    )
+
+
+def _given(recording: Recording, posture: Floats, motion: Motion) -> Floats:
+    """What the joints were given at each row (N, n): what is recorded, else how they moved."""
+    if recording.commands is None:
+        rates = np.diff(posture, axis=0, append=posture[-1:]) / motion.period
+        return np.asarray(rates)
+    row = np.searchsorted(recording.t, motion.t + SAME_TIME, side="right") - 1
+    return np.asarray(recording.commands[np.clip(row, 0, len(recording.t) - 1)])
+
+
+def along_cubics(t: Floats, values: Floats, at: Floats) -> Floats:
+    """Values (K, n) at times (K,) between rows (M, n), by monotone cubics.
+
+    Slopes are the weighted harmonic means of the neighbouring secants, and zero where these have
+    different signs: Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984).
+    """
+    if len(t) == 1:
+        return np.repeat(values, len(at), axis=0)
+    h = np.diff(t)[:, None]
+    secant = np.diff(values, axis=0) / h
+    slope = np.concatenate([secant[:1], np.zeros_like(values[2:]), secant[-1:]])
+    before, after = secant[:-1], secant[1:]
+    w = (h[:-1] + 2 * h[1:]) / (3 * (h[:-1] + h[1:]))
+    same = before * after > 0
+    mean = np.where(same, (1 - w) * before + w * after, 1.0)
+    slope[1:-1] = np.where(same, before * after / mean, 0.0)
+    k = np.clip(np.searchsorted(t, at, side="right") - 1, 0, len(t) - 2)
+    h = h[k]
+    s = ((at - t[k])[:, None]) / h
+    left, right = 1 - s, s
+    return np.asarray(
+        left**2 * ((1 + 2 * s) * values[k] + s * h * slope[k])
+        + right**2 * ((1 + 2 * left) * values[k + 1] - left * h * slope[k + 1])
+    )
+
+
+def along_screws(t: Floats, poses: Floats, at: Floats) -> Floats:
+    """Poses (K, 8) at times (K,) between rows (M, 8), along the screw from each to the next."""
+    if len(t) == 1:
+        return np.repeat(poses, len(at), axis=0)
+    k = np.clip(np.searchsorted(t, at, side="right") - 1, 0, len(t) - 2)
+    return dq.sclerp(poses[k], poses[k + 1], (at - t[k]) / (t[k + 1] - t[k]))

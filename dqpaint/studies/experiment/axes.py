@@ -1,0 +1,202 @@
+"""What a study varies, read from a line: axes of values, and laws with gains of their own.
+
+k=5,10,20                     a gain of the law
+k=1..100:log:9                nine values from 1 to 100, each the same factor apart
+k=0..10:6                     six, the same step apart
+plant=ideal,stiff             a choice, by the name of its setting
+disturb.twist.x=0,0.01        a value of a disturbance
+gain.seed=...                 a gain whose name is that of a setting
+"""
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from dqpaint.controllers import find_controller
+from dqpaint.disturbances import DISTURBANCES
+from dqpaint.errors import UsageError
+from dqpaint.settings.model import Settings, make_settings, parse_gains
+
+MOST_VALUES = 10_000
+LAW = re.compile(r"(?P<name>[^()]+?)(\((?P<gains>[^()]*)\))?")
+SPAN = re.compile(r"(?P<low>[^:]+?)\.\.(?P<high>[^:]+?)(:(?P<kind>log|lin))?:(?P<count>\d{1,6})")
+UNIT = re.compile(r"(1/s\^2|1/s|s\^2|m/s|rad/s|rad|kg|Hz|m|s|N)(?=$|[ ,])")
+NOT_VARIED = ("gains", "disturb", "width", "height", "view", "ev", "look", "overlay", "exposure")
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A thing that is varied, and its values as they were written."""
+
+    name: str
+    texts: tuple[str, ...]
+
+    @property
+    def numbers(self) -> list[float] | None:
+        """The values, if all are numbers."""
+        try:
+            found = [float(text) for text in self.texts]
+        except ValueError:
+            return None
+        return found if all(map(math.isfinite, found)) else None
+
+
+def parse_axis(text: str) -> Axis:
+    """An axis from `NAME=VALUE,VALUE,...` or `NAME=LOW..HIGH[:log]:COUNT`.
+
+    Raises:
+        UsageError: anything else.
+    """
+    name, sign, values = (part.strip() for part in text.partition("="))
+    if not (name and sign and values):
+        raise UsageError(f"'{text}' is not NAME=VALUES, for example k=5,10,20 or k=1..100:log:9")
+    span = SPAN.fullmatch(values)
+    texts = _span(text, span) if span else [value.strip() for value in _parts(values)]
+    if "" in texts:
+        raise UsageError(f"'{text}': there is an empty value")
+    if len(set(texts)) < len(texts):
+        raise UsageError(f"'{text}': a value is there twice")
+    return Axis(name, tuple(texts))
+
+
+def _span(text: str, span: re.Match[str]) -> list[str]:
+    try:
+        low, high = float(span["low"]), float(span["high"])
+    except ValueError:
+        raise UsageError(f"'{text}': the ends of a range are numbers, as in 1..100:log:9") from None
+    count = int(span["count"])
+    if not (2 <= count <= MOST_VALUES and math.isfinite(low) and math.isfinite(high)):
+        raise UsageError(f"'{text}': a range has two finite ends and 2 to {MOST_VALUES} values")
+    if span["kind"] == "log":
+        if min(low, high) <= 0:
+            raise UsageError(f"'{text}': both ends of a logarithmic range are above 0")
+        values = np.geomspace(low, high, count)
+    else:
+        values = np.linspace(low, high, count)
+    for digits in (4, 7, 17):  # as few as tell them apart: they are what is run, and are written
+        texts = [f"{value:.{digits}g}" for value in values.tolist()]
+        if len(set(texts)) == count:
+            break
+    return texts
+
+
+def _parts(text: str) -> list[str]:
+    """What commas part, outside of brackets: `p(k=5),hinf`; a diagonal is written `[1,1,4]`."""
+    parts, depth = [""], 0
+    for letter in text:
+        depth += (letter in "([") - (letter in ")]")
+        if letter == "," and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += letter
+    return parts
+
+
+def parse_laws(text: str) -> list[str]:
+    """The laws of a list such as `hinf,p(k=5),p(k=20)`.
+
+    Raises:
+        UsageError: anything else.
+    """
+    laws = [part.strip() for part in _parts(text)]
+    if len(set(laws)) < len(laws):
+        raise UsageError(f"'{text}': a law is there twice")
+    for law in laws:
+        split_law(law)
+    return laws
+
+
+def parse_list(text: str) -> list[str]:
+    """The names of a list with commas.
+
+    Raises:
+        UsageError: one is empty or there twice.
+    """
+    names = [part.strip() for part in text.split(",")]
+    if "" in names or len(set(names)) < len(names):
+        raise UsageError(f"'{text}': a list has names with commas between, each once")
+    return names
+
+
+def split_law(text: str) -> tuple[str, dict[str, float | str]]:
+    """Name and gains of `p(k=5)`; several gains are parted by commas.
+
+    Raises:
+        UsageError: anything else.
+    """
+    found = LAW.fullmatch(text.strip())
+    if found is None:
+        raise UsageError(f"law '{text}' is not NAME or NAME(GAIN=VALUE,...), for example p(k=20)")
+    gains = re.split(r",(?=\s*\w+\s*=)", found["gains"]) if found["gains"] else []
+    return found["name"].strip(), parse_gains(gains)
+
+
+def combinations(axes: Sequence[Axis]) -> list[dict[str, str]]:
+    """Every choice of one value an axis; the last axis runs fastest."""
+    names = [axis.name for axis in axes]
+    return [dict(zip(names, values, strict=True)) for values in product(*(a.texts for a in axes))]
+
+
+def settings_of(base: Settings, choice: Mapping[str, str]) -> Settings:
+    """Settings with a choice of the axes made.
+
+    Raises:
+        UsageError: an unknown name, or a value that is none.
+    """
+    changed: dict[str, Any] = base.model_dump()
+    for name, text in choice.items():
+        if name == "controller":
+            changed["controller"], gains = split_law(text)
+            changed["gains"] = {**changed["gains"], **gains}
+        elif name.startswith("disturb."):
+            _disturb(changed, name, text)
+        elif name in Settings.model_fields and name not in NOT_VARIED:
+            changed[name] = text
+        else:
+            value = text[1:-1] if text.startswith("[") and text.endswith("]") else text
+            changed["gains"] = {
+                **changed["gains"], **parse_gains([f"{name.removeprefix('gain.')}={value}"])
+            }  # fmt: skip
+    return make_settings(**changed)
+
+
+def about(name: str, base: Settings) -> str:
+    """What is varied, its unit first: `1/s, the rate at which a small error decays`; or nothing.
+
+    Args:
+        name: of an axis.
+        base: whose law has the gain.
+    """
+    if name.startswith("disturb."):
+        _, kind, key = name.split(".")
+        fields = DISTURBANCES[kind].model_fields
+    else:
+        key = name.removeprefix("gain.")
+        fields = find_controller(base.controller).gains.model_fields
+    return (fields[key].description or "") if key in fields else ""
+
+
+def label(name: str, base: Settings) -> str:
+    """The name of an axis with its unit, if it has one: `k [1/s]`."""
+    unit = UNIT.match(about(name, base))
+    return f"{name} [{unit[0]}]" if unit else name
+
+
+def _disturb(changed: dict[str, Any], name: str, text: str) -> None:
+    parts = name.split(".")
+    if len(parts) != 3 or not all(parts):
+        raise UsageError(f"'{name}' is not disturb.NAME.VALUE, for example disturb.twist.x")
+    _, kind, key = parts
+    try:
+        value: float | str = float(text)
+    except ValueError:
+        value = text
+    others = {name: v for name, v in changed["disturb"].items() if name != kind}
+    values = {**changed["disturb"].get(kind, {}), key: value}
+    # 0 of something that has no other value is how one asks for a run without it
+    changed["disturb"] = others if values == {key: 0.0} else {**others, kind: values}

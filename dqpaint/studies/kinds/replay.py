@@ -1,0 +1,334 @@
+"""A paper's experiment again: its numbers beside ours, and what both say to its claims."""
+
+import io
+from collections.abc import Mapping, Sequence
+from csv import writer
+from dataclasses import dataclass
+from itertools import combinations
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from dqpaint.outputs.files import write
+from dqpaint.studies.experiment import cells
+from dqpaint.studies.experiment.statistics import Spread
+from dqpaint.studies.replay.claims import Numbers, Verdict, judge, lines_of, published, told_apart
+from dqpaint.studies.replay.measures import MEASURES, Asked, Measured
+from dqpaint.studies.replay.papers import Claim, Figure, Paper, read_paper
+from dqpaint.studies.report.page import Block, Page, Rows, Tables, Words, files_of, html
+
+RULE = (
+    "holds, fails: as these numbers stand; not shown: they differ by less than chance explains "
+    "(Welch, 5 %), or by less than 0.1 %"
+)
+LEAST_ORDERED = 3  # cells, of which an order says something
+BARS = (
+    "Bars begin at 0, each column to its own scale; a line across the end is the standard "
+    "deviation. Where numbers are more than 20 times apart, a dot stands on a logarithmic line "
+    "from the least to the largest. A click on a heading sorts its table."
+)
+PRINTED = Verdict("holds", "its own numbers")
+
+
+@dataclass(frozen=True)
+class Replayed:
+    """What came of a replay.
+
+    Attributes:
+        paper: the experiment.
+        measured: here.
+        verdicts: of each of its claims: the claim, by the paper's numbers, by ours.
+        folder: where files go.
+    """
+
+    paper: Paper
+    measured: Measured
+    verdicts: tuple[tuple[Claim, Verdict, Verdict], ...]
+    folder: Path
+
+
+def replay(name: str, asked: Asked) -> Replayed:
+    """Do a paper's experiment again.
+
+    Args:
+        name: of the replay.
+        asked: how often, where, and what is to be different.
+
+    Raises:
+        UnknownNameError: there is none of that name.
+        DqpaintError: a fault in the choices or the folder, or nothing could be run.
+    """
+    paper = read_paper(name)
+    found = MEASURES[paper.measure](paper, asked)
+    return Replayed(paper, found, judged(paper, found.numbers), asked.folder)
+
+
+def judged(paper: Paper, ours: Numbers) -> tuple[tuple[Claim, Verdict, Verdict], ...]:
+    """Every claim, by the paper's numbers and by ours."""
+    theirs = published(paper)
+    return tuple(
+        (
+            claim,
+            PRINTED if claim.kind == "equals" else judge(claim, paper, theirs),
+            judge(claim, paper, ours),
+        )
+        for claim in paper.claims
+    )
+
+
+def tables(replayed: Replayed) -> list[tuple[Figure, list[list[str]]]]:
+    """A table a figure: cell, the paper's number, ours, and ours by the paper's, if it prints any.
+
+    The cells of a grid have tables of their own, see `surfaces`.
+    """
+    theirs, ours = published(replayed.paper), replayed.measured.numbers
+    grid = _grid(replayed.paper)
+    found = []
+    for figure in replayed.paper.figures:
+        pairs = {
+            name: (theirs.get(name, {}).get(figure.name), ours.get(name, {}).get(figure.name))
+            for name in dict.fromkeys([*theirs, *ours])
+            if name not in grid
+        }
+        head = [figure.says, f"paper: {figure.paper}" if figure.paper else "paper", "here",
+                "here / paper"]  # fmt: skip
+        rows = [[n, _said(a), _said(b), _quotient(a, b)] for n, (a, b) in pairs.items() if a or b]
+        if not any(a for a, _ in pairs.values()):
+            head, rows = [head[0], head[2]], [[row[0], row[2]] for row in rows]
+        if rows:
+            found.append((figure, [head, *rows]))
+    return found
+
+
+def in_order(replayed: Replayed, figure: Figure) -> str:
+    """How much of the paper's order is found here, in a sentence; empty where there is none.
+
+    Means are told apart by the rule of `RULE`, theirs and ours alike.
+    """
+    theirs, ours = published(replayed.paper), replayed.measured.numbers
+    both = [
+        (theirs[name][figure.name], ours[name][figure.name])
+        for name in theirs
+        if figure.name in theirs[name] and figure.name in ours.get(name, {})
+    ]
+    if len(both) < LEAST_ORDERED:
+        return ""
+    apart = [(a, b) for a, b in combinations(both, 2) if told_apart(a[0], b[0])]
+    found = [(a, b) for a, b in apart if told_apart(a[1], b[1])]
+    same = sum((a[0].mean < b[0].mean) == (a[1].mean < b[1].mean) for a, b in found)
+    return (
+        f"Of {len(apart)} pairs that the paper tells apart, {same} stand in its order here, "
+        f"{len(found) - same} in the other, {len(apart) - len(found)} are alike."
+    )
+
+
+def surfaces(replayed: Replayed) -> list[tuple[Figure, list[list[str]]]]:
+    """A table a figure of a grid: the first axis downwards, the second to the right."""
+    paper, ours = replayed.paper, replayed.measured.numbers
+    if not paper.axes:
+        return []
+    first, second = paper.axes
+    lines = lines_of(paper, second)
+    found = []
+    for figure in paper.figures:
+        head = [f"{first} \\ {second}", *(f"{value:g}" for value in paper.axes[second])]
+        rows = [
+            [f"{value:g}", *(_said(ours.get(name, {}).get(figure.name)) for name in line)]
+            for value, line in zip(paper.axes[first], lines, strict=True)
+        ]
+        if any(figure.name in ours.get(name, {}) for line in lines for name in line):
+            found.append((figure, [head, *rows]))
+    return found
+
+
+def _grid(paper: Paper) -> set[str]:
+    """The names of the cells of a grid."""
+    return {name for axis in paper.axes for line in lines_of(paper, axis) for name in line}
+
+
+def _said(value: Spread | None) -> str:
+    if value is None or not np.isfinite(value.mean):
+        return "-"
+    known = value if np.isfinite(value.std) else Spread(1, value.mean, value.std)
+    return cells.said(known)
+
+
+def _quotient(theirs: Spread | None, ours: Spread | None) -> str:
+    if theirs is None or ours is None or not theirs.mean or not np.isfinite(ours.mean):
+        return "-"
+    return f"{ours.mean / theirs.mean:.3g}"
+
+
+def verdict_rows(replayed: Replayed) -> list[list[str]]:
+    """The claims: what is said, where, by the paper's numbers, by ours."""
+    rows = [["claim", "in", "by the paper's numbers", "here"]]
+    for claim, theirs, ours in replayed.verdicts:
+        rows.append([claim.says, claim.where or "-", str(theirs), str(ours)])
+    return rows
+
+
+def settings_rows(paper: Paper) -> list[list[str]]:
+    """What is run for each cell, and where its numbers stand; empty if nothing is run."""
+    rows = [["cell", "table", "run with"]]
+    rows += [[cell.name, cell.table or "-", _chosen(cell.settings)] for cell in paper.cells]
+    return rows if any(cell.settings for cell in paper.cells) else []
+
+
+def _chosen(settings: Mapping[str, Any]) -> str:
+    """Settings in a line: `p, k = 50, start home, disturb twist (z = -0.05)`."""
+    parts = []
+    for name, value in settings.items():
+        if name == "controller":
+            parts.append(str(value))
+        elif name == "gains":
+            parts += [f"{gain} = {_number(one)}" for gain, one in value.items()]
+        elif isinstance(value, Mapping):
+            parts += [f"{name} {key} ({_chosen({'gains': one})})" for key, one in value.items()]
+        else:
+            parts.append(f"{name} {_number(value)}")
+    return ", ".join(parts) or "-"
+
+
+def _number(value: object) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def summary(verdicts: Sequence[tuple[Claim, Verdict, Verdict]]) -> str:
+    """How many claims hold, in a line."""
+    words = [ours.word for _, _, ours in verdicts]
+    same = sum(theirs.word == ours.word for _, theirs, ours in verdicts)
+    known = sum(theirs.word != "no numbers" for _, theirs, _ in verdicts)
+    text = f"{words.count('holds')} of {len(words)} claims hold here"
+    return f"{text}; {same} of {known} as by the paper's own numbers" if known else text
+
+
+def told(replayed: Replayed, columns: int) -> str:
+    """The whole of it for a terminal."""
+    paper, measured = replayed.paper, replayed.measured
+    parts = [f"{paper.name}: {paper.title}\n{paper.source}\n"
+             f"  theirs  {paper.theirs}\n  here    {measured.ours}"]  # fmt: skip
+    parts += [f"{cells.text(rows)}\n{in_order(replayed, figure)}".rstrip()
+              for figure, rows in tables(replayed)]  # fmt: skip
+    parts += [f"{figure.says}\n{cells.text(rows)}" for figure, rows in surfaces(replayed)]
+    rows = verdict_rows(replayed)
+    if max(map(len, cells.text(rows).splitlines())) <= columns:
+        parts.append(cells.text(rows))
+    else:
+        parts.append("\n".join(
+            f"{claim.says}{f' ({claim.where})' if claim.where else ''}\n"
+            f"  paper  {theirs}\n  here   {ours}" for claim, theirs, ours in replayed.verdicts
+        ))  # fmt: skip
+    parts[-1] += f"\n{RULE}\n{summary(replayed.verdicts)}"
+    parts += _listed("  - ", replayed)
+    return "\n\n".join(parts)
+
+
+def _listed(bullet: str, replayed: Replayed) -> list[str]:
+    """What has no numbers, and what cannot be tested."""
+    lost = [f"{bullet}{name}: {why}" for name, why in replayed.measured.lost.items()]
+    parts = [
+        ("To be known of some runs:", lost),
+        ("Not tested, for it cannot be:", [f"{bullet}{one}" for one in replayed.paper.open]),
+    ]
+    gap = "\n" if bullet.startswith(" ") else "\n\n"
+    return [gap.join([head, "\n".join(lines)]) for head, lines in parts if lines]
+
+
+def markdown(replayed: Replayed) -> str:
+    """The whole of it as a page."""
+    paper, measured = replayed.paper, replayed.measured
+    parts = [f"# {paper.name}: {paper.title}", paper.source,
+             f"- theirs: {paper.theirs}\n- here: {measured.ours}"]  # fmt: skip
+    for figure, rows in tables(replayed):
+        parts += [cells.markdown(rows), *filter(None, [in_order(replayed, figure)])]
+    for figure, rows in surfaces(replayed):
+        parts += [f"{figure.says}:", cells.markdown(rows)]
+    parts += [cells.markdown(verdict_rows(replayed)), f"{RULE}. {summary(replayed.verdicts)}."]
+    parts += _listed("- ", replayed)
+    if run_with := settings_rows(paper):
+        parts += ["What each cell was run with:", cells.markdown(run_with)]
+    return "\n\n".join(parts) + "\n"
+
+
+def numbers_csv(replayed: Replayed) -> bytes:
+    """Every number, all digits: cell, figure, table, the paper's, ours."""
+    theirs, ours = published(replayed.paper), replayed.measured.numbers
+    where = {cell.name: cell.table for cell in replayed.paper.cells}
+    file = io.StringIO()
+    out = writer(file, lineterminator="\n")
+    names = ("runs", "mean", "std")
+    out.writerow(
+        ["cell", "figure", "table", *(f"paper_{n}" for n in names), *(f"here_{n}" for n in names)]
+    )
+    for cell in dict.fromkeys([*theirs, *ours]):
+        for figure in replayed.paper.figures:
+            pair = [table.get(cell, {}).get(figure.name) for table in (theirs, ours)]
+            if any(pair):
+                out.writerow(
+                    [cell, figure.name, where.get(cell, ""), *_row(pair[0]), *_row(pair[1])]
+                )
+    return file.getvalue().encode()
+
+
+def _row(value: Spread | None) -> list[object]:
+    if value is None or not np.isfinite(value.mean):
+        return ["", "", ""]
+    return [value.n, value.mean, value.std if np.isfinite(value.std) else ""]
+
+
+def verdicts_csv(replayed: Replayed) -> bytes:
+    """The claims and both verdicts."""
+    file = io.StringIO()
+    out = writer(file, lineterminator="\n")
+    out.writerow(["claim", "kind", "figure", "where", "paper", "paper_why", "here", "here_why"])
+    for claim, theirs, ours in replayed.verdicts:
+        facts = [claim.says, claim.kind, claim.figure, claim.where]
+        out.writerow([*facts, theirs.word, theirs.why, ours.word, ours.why])
+    return file.getvalue().encode()
+
+
+def page(replayed: Replayed, again: str) -> Page:
+    """The whole of it as a report."""
+    paper, measured = replayed.paper, replayed.measured
+    numbers = [
+        Rows(one.says, rows, tuple(range(1, min(3, len(rows[0])))), in_order(replayed, one))
+        for one, rows in tables(replayed)
+    ]
+    blocks: list[Block] = [
+        Words(f"{paper.source}\nTheirs: {paper.theirs}\nHere: {measured.ours}"),
+        Words(f"{summary(replayed.verdicts)}."),
+        Rows("What the paper claims", verdict_rows(replayed)),
+        Words(f"{RULE}."),
+        Tables("Its numbers, and ours", numbers),
+        Words(BARS),
+        *measured.shown.values(),
+    ]  # fmt: skip
+    if maps := surfaces(replayed):
+        blocks.append(Tables("The surfaces in numbers", [Rows(f.says, rows) for f, rows in maps]))
+    blocks += [Words(text) for text in _listed("  - ", replayed)]
+    if run_with := settings_rows(paper):
+        blocks.append(Rows("What each cell was run with", run_with))
+    return Page(f"{paper.name}: {paper.title}", blocks, again=again)
+
+
+def save(replayed: Replayed, again: str | None = None) -> list[Path]:
+    """Write tables, verdicts and pictures; returns the paths.
+
+    Args:
+        replayed: from `replay`.
+        again: the command that does it again, for a report; None for no report.
+
+    Raises:
+        DqpaintError: the folder cannot be written.
+    """
+    replayed.folder.mkdir(parents=True, exist_ok=True)
+    contents = {
+        **files_of(replayed.measured.shown),
+        "-table.csv": numbers_csv(replayed),
+        "-claims.csv": verdicts_csv(replayed),
+        "-table.md": markdown(replayed).encode(),
+    }
+    if again is not None:
+        contents["-report.html"] = html(page(replayed, again))
+    return write(replayed.folder / replayed.paper.name, contents)

@@ -1,0 +1,182 @@
+"""What a tuning found, told: the best gains, and what less error costs in effort."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from dqpaint.dq import Floats
+from dqpaint.errors import DqpaintError
+from dqpaint.outputs.files import write
+from dqpaint.studies.experiment import cells
+from dqpaint.studies.experiment.axes import label
+from dqpaint.studies.experiment.cells import Cell, Figure
+from dqpaint.studies.kinds.tune import Tuning
+from dqpaint.studies.report.charts import COLOURS, Line, Panel
+from dqpaint.studies.report.page import Block, Charts, Page, Rows, Words, files_of, html
+
+MOST_ROWS = 12  # of the trade-off in a table; the CSV has all
+TRIED = "#9aa5b1"
+FRONT, USUAL, BEST = COLOURS[:3]
+
+
+def answer(tuned: Tuning) -> str:
+    """The outcome in a few sentences."""
+    sentences = [
+        f"{tuned.effort.heading}: the drawing itself needs {_said(tuned.needed)}; "
+        f"{tuned.factor:g} times that, {_said(tuned.bound)}, was allowed."
+    ]
+    best = tuned.best
+    if best is None:
+        stable = [cell.of(tuned.effort).mean for cell in tuned.cells if cell.stable]
+        least = f"the least was {_said(min(stable))}" if stable else "none was stable"
+        sentences.append(f"No gains that were tried keep to it: {least}.")
+    else:
+        gains = " ".join(f"--gain {name}={value}" for name, value in best.choice.items())
+        sentences.append(f"Best: {gains}")
+        sentences += _edges(tuned, best)
+    if not tuned.settled:
+        sentences.append(
+            "The budget was spent before the search settled; the same with a larger --budget "
+            "goes on from there."
+        )
+    return "\n".join(sentences)
+
+
+def _edges(tuned: Tuning, best: Cell) -> list[str]:
+    """A best value at an end of its range may not be the best there is."""
+    found = []
+    for one in tuned.ranges:
+        part = one.part(float(best.choice[one.name]))
+        if min(part, 1 - part) < 0.01:
+            end = one.low if part < 0.5 else one.high
+            found.append(f"{one.name} lies at the end of its range, {end:g}: try a wider one.")
+    return found
+
+
+def rows(tuned: Tuning) -> list[list[str]]:
+    """Headings and rows: the usual gains, the best ones, and the trade-off between."""
+    front = tuned.front
+    picked = sorted(set(np.linspace(0, len(front) - 1, min(MOST_ROWS, len(front))).astype(int)))
+    named = [("usual", tuned.usual), ("best", tuned.best)]
+    named += [("trade-off", front[i]) for i in picked if front[i] is not tuned.best]
+    figures = tuned.error, tuned.effort
+    names = [one.name for one in tuned.ranges]
+    heads = ["", *names, *(f.heading for f in figures), "of what is needed", "status"]
+    lines = [heads]
+    for what, cell in named:
+        if cell is None:
+            continue
+        values = [cells.said(cell.of(figure)) for figure in figures]
+        effort = cell.of(tuned.effort).mean
+        share = f"{effort / tuned.needed:.4g}" if np.isfinite(effort) else "-"
+        status = cell.status + (", beyond the bound" if effort > tuned.bound else "")
+        lines.append([what, *(cell.choice[n] for n in names), *values, share, status])
+    return lines
+
+
+def told(tuned: Tuning, columns: int) -> str:
+    """The outcome for a terminal.
+
+    Raises:
+        DqpaintError: every run failed.
+    """
+    if all(cell.status in ("failed", "died") for cell in tuned.cells):
+        raise DqpaintError(f"every run failed; the first: {tuned.cells[0].results[0].message}")
+    return "\n\n".join([cells.narrow(rows(tuned), columns), answer(tuned)])
+
+
+def save(tuned: Tuning, again: str | None = None) -> list[Path]:
+    """Write the files; returns their paths. Arguments as those of `contents`."""
+    return write(tuned.folder / stem(tuned), contents(tuned, again))
+
+
+def stem(tuned: Tuning) -> str:
+    """What the files of a tuning begin with."""
+    return f"{Path(tuned.name).stem}-{'-'.join(one.name for one in tuned.ranges)}-tuned"
+
+
+def contents(tuned: Tuning, again: str | None = None) -> dict[str, bytes]:
+    """The chart, the trade-off and all that was tried, by the ends of their names.
+
+    Args:
+        tuned: from `tune`.
+        again: the command that does it again, for a report; None for no report.
+    """
+    title = f"{tuned.name}, tuned"
+    shown = Charts("What less error costs in effort", panels(tuned))
+    made = {
+        **files_of({"": shown}),
+        "-tradeoff.csv": cells.csv(tuned.front or tuned.cells[:1]),
+        "-table.csv": cells.csv(tuned.cells),
+        "-table.md": f"# {title}\n\n{cells.markdown(rows(tuned))}\n\n{answer(tuned)}\n".encode(),
+    }
+    if again is not None:
+        blocks: list[Block] = [
+            Words(answer(tuned)),
+            shown,
+            Rows("The best, the usual, and the trade-off", rows(tuned)),
+        ]
+        page = Page(title, blocks, tuned.settings, tuned.text, again)
+        made["-report.html"] = html(page)
+    return made
+
+
+def panels(tuned: Tuning) -> list[Panel]:
+    """Error over effort, and error over each gain."""
+    tried = [cell for cell in tuned.cells if np.isfinite(cell.of(tuned.error).mean)]
+    stable = [cell for cell in tried if cell.stable]  # of the others effort says nothing
+    error = tuned.error.heading
+    made = [
+        Panel(
+            "the trade-off", tuned.effort.heading, error,
+            [
+                _dots(tuned, stable, "tried", tuned.effort, TRIED),
+                _line(tuned.front, tuned, tuned.effort),
+                *_named(tuned, tuned.effort),
+            ],
+            wall=tuned.bound, limit="most allowed", log_x=_wide(_values(stable, tuned.effort)),
+            log_y=_wide(_values(stable, tuned.error)),
+        )
+    ]  # fmt: skip
+    for one in tuned.ranges:
+        made.append(
+            Panel(
+                f"over {one.name}", label(one.name, tuned.settings), error,
+                [_dots(tuned, tried, "tried", one.name, TRIED), *_named(tuned, one.name)],
+                log_x=one.log, log_y=_wide(_values(tried, tuned.error)),
+            )
+        )  # fmt: skip
+    return made
+
+
+def _values(found: Sequence[Cell], of: Figure | str) -> Floats:
+    if isinstance(of, str):
+        return np.array([float(cell.choice[of]) for cell in found])
+    return np.array([cell.of(of).mean for cell in found])
+
+
+def _dots(tuned: Tuning, found: Sequence[Cell], label: str, x: Figure | str, colour: str) -> Line:
+    marks = np.array([not cell.stable for cell in found], dtype=bool)
+    return Line(_values(found, x), _values(found, tuned.error), label, colour, marks, width=0.0)
+
+
+def _line(front: Sequence[Cell], tuned: Tuning, x: Figure | str) -> Line:
+    return Line(_values(front, x), _values(front, tuned.error), "least error for an effort", FRONT)
+
+
+def _named(tuned: Tuning, x: Figure | str) -> list[Line]:
+    """The usual gains and the best ones."""
+    return [
+        _dots(tuned, [cell], label, x, colour)
+        for label, cell, colour in (("usual", tuned.usual, USUAL), ("best", tuned.best, BEST))
+        if cell is not None and np.isfinite(cell.of(tuned.error).mean)
+    ]
+
+
+def _wide(values: Floats) -> bool:
+    return bool(values.size and values.min() > 0 and values.max() >= 20 * values.min())
+
+
+def _said(value: float) -> str:
+    return f"{value:.4g}"

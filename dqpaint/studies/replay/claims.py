@@ -1,0 +1,175 @@
+"""Claims x numbers -> verdicts; the paper's numbers and ours are judged by the same rules.
+
+Nothing here knows whose numbers they are. A verdict follows from the numbers alone, so two laws
+that change places change it.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Literal
+
+import numpy as np
+
+from dqpaint.core.registry import Registry
+from dqpaint.studies.experiment.statistics import LEVEL, Spread, welch
+from dqpaint.studies.replay.papers import Claim, Paper
+
+Numbers = Mapping[str, Mapping[str, Spread]]
+"""Mean and spread, by the names of cell and figure; a cell without numbers may be missing."""
+Word = Literal["holds", "fails", "in part", "not shown", "no numbers"]
+PART = 0.5  # of a trend's steps that go its way, beyond which it holds in part
+CLOSE = 1e-3  # of two means: a smaller difference is none, however well it is known
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What a table of numbers says to a claim, and the numbers that decide it.
+
+    `not shown`: the means differ by less than chance explains, or by less than 0.1 %.
+    """
+
+    word: Word
+    why: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.word}: {self.why}" if self.why else self.word
+
+
+Rule = Callable[[Claim, Sequence[Spread], Sequence[Spread]], Verdict]
+RULES: Registry[Rule] = Registry("kind of claim")
+
+
+def published(paper: Paper) -> Numbers:
+    """The paper's own numbers; a standard deviation that is not printed is unknown."""
+    found: dict[str, dict[str, Spread]] = {}
+    for cell in paper.cells:
+        row = found.setdefault(cell.name, {})
+        for name, value in cell.published.items():
+            mean, std = value if isinstance(value, tuple) else (value, float("nan"))
+            row[name] = Spread(paper.runs if isinstance(value, tuple) else 1, mean, std)
+    return found
+
+
+def judge(claim: Claim, paper: Paper, numbers: Numbers) -> Verdict:
+    """What numbers say to a claim.
+
+    Args:
+        claim: of the paper.
+        paper: for its grid, and for the numbers that `equals` compares with.
+        numbers: the paper's, or ours.
+    """
+    if claim.kind == "trend":
+        return _trend(claim, paper, numbers)
+    values = [numbers.get(name, {}).get(claim.figure) for name in claim.cells]
+    known = [value for value in values if value is not None and np.isfinite(value.mean)]
+    if len(known) < len(values):
+        lost = [n for n, v in zip(claim.cells, values, strict=True) if v not in known]
+        return Verdict("no numbers", "" if len(lost) == len(values) else f"of {', '.join(lost)}")
+    theirs = published(paper)
+    printed = [theirs[name][claim.figure] for name in claim.cells if claim.figure in theirs[name]]
+    return RULES[claim.kind](claim, known, printed)
+
+
+@RULES.add("order")
+def _order(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> Verdict:
+    steps = list(pairwise(values))
+    signs = ["<" if a.mean < b.mean else ">" if a.mean > b.mean else "=" for a, b in steps]
+    why = _said(values[0].mean)
+    for sign, (_, b) in zip(signs, steps, strict=True):
+        why += f" {sign} {_said(b.mean)}"
+    differ = [told_apart(a, b) for a, b in steps]
+    if any(sign != "<" and sure for sign, sure in zip(signs, differ, strict=True)):
+        return Verdict("fails", why)
+    return Verdict("holds" if all(differ) else "not shown", why)
+
+
+def told_apart(a: Spread, b: Spread) -> bool:
+    """Whether two means are shown to differ; where nothing was repeated numbers stand."""
+    if abs(a.mean - b.mean) <= CLOSE * max(abs(a.mean), abs(b.mean)):
+        return False
+    test = welch(a, b) if np.isfinite([a.std, b.std]).all() else None
+    return test is None or test.p < LEVEL
+
+
+@RULES.add("spread")
+def _spread(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> Verdict:
+    stds = [value.std for value in values]
+    if not np.isfinite(stds).all():
+        return Verdict("no numbers", "needs several runs")
+    rises = all(a < b for a, b in pairwise(stds))
+    return Verdict("holds" if rises else "fails", "deviations " + ", ".join(map(_said, stds)))
+
+
+@RULES.add("ratio")
+def _ratio(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> Verdict:
+    first, second = values
+    if second.mean == 0:
+        return Verdict("no numbers", "divided by 0")
+    found = first.mean / second.mean
+    good = abs(found / claim.value - 1) <= claim.tolerance
+    why = f"{_said(found)} for {_said(claim.value)} ± {claim.tolerance:.0%}"
+    return Verdict("holds" if good else "fails", why)
+
+
+@RULES.add("alike")
+def _alike(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> Verdict:
+    first = values[0].mean
+    if first == 0:
+        good = all(value.mean == 0 for value in values)
+        return Verdict("holds" if good else "fails", "beside 0")
+    ratios = [value.mean / first for value in values[1:]]
+    good = all(abs(ratio - 1) <= claim.tolerance for ratio in ratios)
+    why = f"{', '.join(f'{ratio:.3g}' for ratio in ratios)} times for 1 ± {claim.tolerance:.2g}"
+    return Verdict("holds" if good else "fails", why)
+
+
+@RULES.add("equals")
+def _equals(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> Verdict:
+    if len(printed) < len(values):
+        return Verdict("no numbers", "the paper prints none")
+    gaps = [abs(a.mean - b.mean) for a, b in zip(values, printed, strict=True)]
+    good = max(gaps) <= claim.tolerance
+    why = f"{_said(max(gaps))} apart at the most, for {_said(claim.tolerance)}"
+    return Verdict("holds" if good else "fails", why)
+
+
+@RULES.add("below")
+def _below(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> Verdict:
+    most = max(value.mean for value in values)
+    return Verdict("holds" if most <= claim.value else "fails",
+                   f"{_said(most)} for at most {_said(claim.value)}")  # fmt: skip
+
+
+def _trend(claim: Claim, paper: Paper, numbers: Numbers) -> Verdict:
+    """Every step along an axis of the grid, the other one held, goes the claimed way."""
+    steps = []
+    for line in lines_of(paper, claim.axis):
+        means = [numbers[n][claim.figure].mean for n in line if claim.figure in numbers.get(n, {})]
+        steps += [b - a for a, b in pairwise(means)] if len(means) == len(line) else []
+    if not steps:
+        return Verdict("no numbers")
+    sign = 1 if claim.way == "rises" else -1
+    good = sum(sign * step > 0 for step in steps)
+    why = f"{good} of {len(steps)} steps"
+    if good == len(steps):
+        return Verdict("holds", why)
+    return Verdict("in part" if good > PART * len(steps) else "fails", why)
+
+
+def cell_name(place: Mapping[str, float]) -> str:
+    """The name of a cell of a grid."""
+    return ", ".join(f"{name} = {value:g}" for name, value in place.items())
+
+
+def lines_of(paper: Paper, axis: str) -> list[list[str]]:
+    """The names of a grid's cells in lines along one of its two axes."""
+    (other,) = (name for name in paper.axes if name != axis)
+    return [
+        [cell_name({n: (a if n == axis else b) for n in paper.axes}) for a in paper.axes[axis]]
+        for b in paper.axes[other]
+    ]
+
+
+def _said(value: float) -> str:
+    return f"{value:.4g}"

@@ -1,0 +1,67 @@
+"""What a kind of replay takes and gives."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from dqpaint.core.registry import Registry
+from dqpaint.errors import UsageError
+from dqpaint.studies.experiment.cells import Cell
+from dqpaint.studies.replay.claims import Numbers
+from dqpaint.studies.replay.papers import Paper
+from dqpaint.studies.report.page import Pictured
+from dqpaint.studies.runner.engine import Workers
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a person asked for.
+
+    Attributes:
+        folder: of the study.
+        runs: how many of each, with the seeds that follow; None leaves it to the replay.
+        jobs: how many processes, None is one a core; or the address of a Dask cluster.
+        settings: that take the place of the paper's, by their names.
+    """
+
+    folder: Path
+    runs: int | None = None
+    jobs: Workers = None
+    settings: Mapping[str, Any] = field(default_factory=dict)
+
+    def nothing_of(self, paper: Paper, *names: str) -> None:
+        """Refuse settings that a replay has no use for; and runs and workers, for it has no study.
+
+        Raises:
+            UsageError: one of them was given.
+        """
+        given = set(self.settings) & set(names)
+        given |= {"runs"} if self.runs is not None else set()
+        given |= {"cluster" if isinstance(self.jobs, str) else "jobs"} if self.jobs else set()
+        for name in ("runs", "jobs", "cluster", *names):
+            if name in given:
+                raise UsageError(f"replay '{paper.name}' takes no --{name}: {paper.title}")
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What came out here.
+
+    Attributes:
+        numbers: by the names of cell and figure, SI units.
+        ours: on what it was measured, in words.
+        lost: why a cell has no numbers, or ones that say nothing, by its name.
+        shown: charts, maps and pictures, by the ends of their names.
+        cells: of a study, with every run; for a table of all figures.
+    """
+
+    numbers: Numbers
+    ours: str
+    lost: Mapping[str, str] = field(default_factory=dict)
+    shown: Mapping[str, Pictured] = field(default_factory=dict)
+    cells: tuple[Cell, ...] = ()
+
+
+Measure = Callable[[Paper, Asked], Measured]
+MEASURES: Registry[Measure] = Registry("kind of replay")

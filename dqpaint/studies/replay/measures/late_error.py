@@ -1,0 +1,51 @@
+"""Replays whose error counts from the tenth part of a run on, when its gains no longer change."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from dqpaint.studies.experiment.cells import Cell
+from dqpaint.studies.experiment.statistics import spread
+from dqpaint.studies.kinds.pictures import errors, read_drawn
+from dqpaint.studies.replay.measure import MEASURES, Asked, Measured
+from dqpaint.studies.replay.measures.tracking import beside_published, carry_out, measured
+from dqpaint.studies.replay.papers import Paper
+from dqpaint.studies.report.page import Pictured
+from dqpaint.studies.runner.run_arrays import kept
+
+LATE = 0.1  # of the run
+FIGURE = "late_error_integral"
+
+
+@MEASURES.add("late")
+def late(paper: Paper, asked: Asked) -> Measured:
+    """Every cell is run; the error integral is taken over the last nine tenths."""
+    choices = {cell.name: cell.settings for cell in paper.cells}
+    found = carry_out(paper, asked, choices, (), always=("series",))
+    period = _period(found[0], asked.folder)
+    made = measured(paper, asked, found, {})
+    numbers = {
+        cell.label: {
+            **made.numbers[cell.label],
+            FIGURE: spread([late_integral(asked.folder, r.key, period) for r in cell.done]),
+        }
+        for cell in found
+        if cell.done
+    }
+    shown: dict[str, Pictured] = {
+        "-published": beside_published(paper, numbers),
+        "-errors": errors(read_drawn(found, asked.folder)),
+    }
+    return replace(made, numbers=numbers, shown=shown)
+
+
+def late_integral(folder: Path, key: str, period: float) -> float:
+    """The integral of the invariant error of a run that is kept, over its last nine tenths."""
+    arrays = kept(folder, key)
+    t, error = arrays["t_s"][:-1], arrays["invariant_error"][:-1]
+    return float(error[t > LATE * arrays["t_s"][-1]].sum() * period)
+
+
+def _period(cell: Cell, folder: Path) -> float:
+    return float(np.diff(kept(folder, cell.done[0].key)["t_s"][:2])[0])

@@ -1,0 +1,113 @@
+"""Pham's two poses: where our arm is at the printed angles, and how it goes to the other pose."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from dqpaint import dq
+from dqpaint.controllers import find_controller
+from dqpaint.controllers.base.pose_errors import difference_error, spatial_error
+from dqpaint.dq import Floats
+from dqpaint.language import read
+from dqpaint.motion import Motion, plan
+from dqpaint.plants import PLANTS
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.model.card import read_card
+from dqpaint.robots.model.fields import Mount
+from dqpaint.simulation.closed_loop import Track, track
+from dqpaint.studies.experiment.statistics import Spread, spread
+from dqpaint.studies.replay.claims import published
+from dqpaint.studies.replay.measure import MEASURES, Asked, Measured
+from dqpaint.studies.replay.papers import Paper, find_paper_drawing
+from dqpaint.studies.report.charts import COLOURS, Line, Panel
+from dqpaint.studies.report.page import Charts
+
+ROBOT = "viper850"
+INITIAL_DEG = (20.0, -110.0, 190.0, 25.0, 45.0, 20.0)
+POSE = ("w", "x", "y", "z", "w_dual", "x_dual", "y_dual", "z_dual")
+PLACE = ("x_m", "y_m", "z_m")
+MORE = ("#7a9a01", "#d98cb3")  # colours, for eight lines
+SETTLED = 0.02  # of the step
+
+
+@MEASURES.add("setpoint")
+def setpoint(paper: Paper, asked: Asked) -> Measured:
+    """Both poses, and the way between them by each law."""
+    asked.nothing_of(paper, "plant", "robot", "disturb", "seed")
+    card = read_card(ROBOT).model_copy(
+        update={"tool": Mount()}
+    )  # the paper's poses are its flange's
+    kinematics = Kinematics(card)
+    motion = plan(read(find_paper_drawing(paper.drawing)), card.canvas.pose)
+    start = np.radians(INITIAL_DEG)
+    first, last = kinematics.pose(start), motion.pose[0]
+    theirs = published(paper)
+    numbers = {
+        name: {k: spread([v]) for k, v in pose_numbers(x, theirs[name]).items()}
+        for name, x in (("initial pose", first), ("desired pose", last))
+    }
+    numbers["the way between"] = {"turn_deg": spread([float(np.degrees(turn(first, last)))])}
+    runs = {}
+    for cell in paper.cells:
+        if "controller" in cell.settings:
+            law = find_controller(cell.settings["controller"])
+            gains = law.read_gains(cell.settings["gains"])
+            run = track(motion, kinematics, start, PLANTS["ideal"], law, gains)
+            runs[cell.name] = run
+            numbers[cell.name] = {k: spread([v]) for k, v in response(run).items()}
+    lost = {name: f"limits held {len(run.clamps)} times: {run.clamps[0]}"
+            for name, run in runs.items() if run.clamps}  # fmt: skip
+    ours = f"{ROBOT}, plant ideal, from the printed angles, {motion.period * 1e3:g} ms"
+    return Measured(numbers, ours, lost, {"-response": response_of(runs, motion)})
+
+
+def pose_numbers(x: Floats, printed: Mapping[str, Spread]) -> dict[str, float]:
+    """The eight numbers of a pose (8,), with the sign of the printed ones, and its place [m]."""
+    x = dq.nearest(x, np.array([printed[name].mean for name in POSE]))
+    return dict(zip((*POSE, *PLACE), [*x.tolist(), *dq.translation(x).tolist()], strict=True))
+
+
+def turn(x: Floats, y: Floats) -> float:
+    """The angle [rad] between the orientations of two poses (8,)."""
+    return 2 * float(np.linalg.norm(dq.log(spatial_error(x, y))[:3]))
+
+
+def response(run: Track) -> dict[str, float]:
+    """Times [s] until errors stay within 2 % of the step, and what is left at the end."""
+    errors = np.abs(difference_error(run.pose, run.motion.pose))
+    all_eight = settling(run.motion.t, errors.max(axis=1))
+    angle = settling(run.motion.t, angles(run))
+    return {
+        "settling_s": all_eight,
+        "turn_settling_s": angle,
+        "unevenness": all_eight / angle,
+        "left_over": float(errors[-1].max()),
+    }
+
+
+def angles(run: Track) -> Floats:
+    """The angle (N,) [rad] to the desired orientation."""
+    turned = dq.log(spatial_error(run.pose, run.motion.pose))[:, :3]
+    return np.asarray(2 * np.linalg.norm(turned, axis=1))
+
+
+def settling(t: Floats, error: Floats) -> float:
+    """The time [s] from which an error (N,) stays within 2 % of its first value; nan if never."""
+    outside = np.flatnonzero(error > SETTLED * error[0])
+    after = int(outside[-1]) + 1 if len(outside) else 0
+    return float(t[after]) if after < len(t) else float("nan")
+
+
+def response_of(runs: dict[str, Track], motion: Motion) -> Charts:
+    """As Figs. 5 and 9: the eight numbers by the first law, and the angle to go by all."""
+    name, run = next(iter(runs.items()))
+    eight = [
+        Line(motion.t, run.pose[:, i], POSE[i].replace("_dual", "'"), [*COLOURS, *MORE][i])
+        for i in range(8)
+    ]
+    turns = [Line(motion.t, np.degrees(angles(one)), name) for name, one in runs.items()]
+    panels = [
+        Panel(f"the pose, {name}", "time [s]", "w x y z, and w' x' y' z' [m]", eight),
+        Panel("angle to the desired pose", "time [s]", "angle [deg]", turns),
+    ]
+    return Charts("The way to the other pose", panels)

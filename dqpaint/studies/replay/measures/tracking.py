@@ -1,0 +1,126 @@
+"""Replays of a drawing under several laws: a run a cell, or several with seeds."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from itertools import cycle
+from typing import Any
+
+import numpy as np
+
+from dqpaint.errors import DqpaintError
+from dqpaint.robots.model.card import DEFAULT_ROBOT
+from dqpaint.settings.model import Settings, make_settings
+from dqpaint.studies.experiment.cells import Cell, Figure, family
+from dqpaint.studies.kinds.pictures import pictures
+from dqpaint.studies.replay.claims import Numbers, published
+from dqpaint.studies.replay.measure import MEASURES, Asked, Measured
+from dqpaint.studies.replay.papers import Paper, find_paper_drawing
+from dqpaint.studies.report.charts import COLOURS, Line, Panel
+from dqpaint.studies.report.page import Charts, Pictured
+from dqpaint.studies.runner.engine import carry_out_study
+from dqpaint.studies.runner.run import Run, drawing_text, seeded
+
+SIZE = {"width": 480, "height": 270}
+WIDE = 2.0  # from the smallest to the largest: a logarithmic axis shows ratios
+KEPT = ("series", "light")  # of the first run of each cell
+
+
+@MEASURES.add("tracking")
+def tracking(paper: Paper, asked: Asked) -> Measured:
+    """Every cell of the paper's tables is run as its settings say."""
+    choices = {cell.name: cell.settings for cell in paper.cells}
+    found = carry_out(paper, asked, choices, KEPT)
+    beside = {"-published": beside_published(paper, numbers_of(paper, found))}
+    shown = pictures(found, asked.folder, settings_of(paper, asked, {}))
+    return measured(paper, asked, found, {**beside, **shown})
+
+
+def carry_out(
+    paper: Paper,
+    asked: Asked,
+    choices: dict[str, dict[str, Any]],
+    keep: tuple[str, ...],
+    drawing: str = "",
+    always: tuple[str, ...] = (),
+) -> tuple[Cell, ...]:
+    """Run a drawing with each of some choices of settings.
+
+    Args:
+        paper: the experiment.
+        asked: what a person asked for.
+        choices: settings by the names of the cells.
+        keep: what is kept of the first run of each.
+        drawing: its name, if it is not the paper's.
+        always: what is kept of every run.
+
+    Raises:
+        DqpaintError: every run failed.
+    """
+    name, text = drawing_text(str(find_paper_drawing(drawing or paper.drawing)))
+    rows = []
+    for choice in choices.values():
+        settings = settings_of(paper, asked, choice)
+        count = (asked.runs or 1) if settings.disturb else 1
+        row = seeded(Run(name, text, settings, (*always, *keep)), count)
+        rows.append([replace(run, keep=run.keep or always) for run in row])
+    runs = [run for row in rows for run in row]
+    results = iter(carry_out_study(runs, asked.folder, asked.jobs, paper.name))
+    found = tuple(
+        Cell({"cell": name}, tuple(next(results) for _ in row))
+        for name, row in zip(choices, rows, strict=True)
+    )
+    if all(not result.figures for cell in found for result in cell.results):
+        raise DqpaintError(f"every run failed; the first: {found[0].results[0].message}")
+    return found
+
+
+def settings_of(paper: Paper, asked: Asked, choice: dict[str, Any]) -> Settings:
+    """What all runs have in common, then what a cell says, then what a person asked for."""
+    return make_settings(**{**SIZE, **paper.settings, **choice, **asked.settings})
+
+
+def measured(
+    paper: Paper, asked: Asked, found: Sequence[Cell], shown: Mapping[str, Pictured]
+) -> Measured:
+    """What cells say, in the paper's figures."""
+    base = settings_of(paper, asked, {})
+    parts = [base.robot or DEFAULT_ROBOT, f"plant {base.plant or 'usual'}", f"from {base.start}"]
+    for name, values in base.disturb.items():
+        parts.append(f"{name} {', '.join(f'{k} = {v}' for k, v in values.items())}")
+    parts.append(f"{asked.runs or 1} run{'s' if (asked.runs or 1) > 1 else ''} each")
+    lost = {cell.label: f"{cell.status}: {cell.why}" for cell in found if not cell.stable}
+    return Measured(numbers_of(paper, found), ", ".join(parts), lost, shown, tuple(found))
+
+
+def numbers_of(paper: Paper, found: Sequence[Cell]) -> Numbers:
+    """Mean and spread of the paper's figures, of the runs that were done as they should."""
+    return {
+        cell.label: {f.name: cell.of(Figure((f.name,), f.name)) for f in paper.figures}
+        for cell in found
+        if cell.done
+    }
+
+
+def beside_published(paper: Paper, ours: Numbers) -> Charts:
+    """Ours over the paper's, a panel a figure: equal ratios lie along a diagonal."""
+    theirs = published(paper)
+    panels = []
+    for figure in paper.figures:
+        known = [n for n in theirs if figure.name in theirs[n]]
+        names = [n for n in known if figure.name in ours.get(n, {})]
+        families = dict.fromkeys(family(name)[0] for name in names)
+        lines = []
+        for first, colour in zip(families, cycle(COLOURS), strict=False):
+            these = [name for name in names if family(name)[0] == first]
+            x, y = (np.array([t[n][figure.name].mean for n in these]) for t in (theirs, ours))
+            lines.append(Line(x, y, first, colour, marks=np.zeros(len(x), dtype=bool)))
+        if lines:
+            wide_x, wide_y = (_spans([v for line in lines for v in getattr(line, axis)])
+                              for axis in "xy")  # fmt: skip
+            heads = f"the paper's {figure.says}", f"{figure.says} here"
+            panels.append(Panel(figure.says, *heads, lines, log_x=wide_x, log_y=wide_y))
+    return Charts("Ours over the paper's: what stands in the same order rises", panels, True)
+
+
+def _spans(values: Sequence[float]) -> bool:
+    return bool(min(values) > 0 and max(values) > WIDE * min(values))

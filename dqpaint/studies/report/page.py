@@ -1,0 +1,252 @@
+"""What a study has to show -> one HTML file: pictures, tables, curves to point at; no network.
+
+The file holds all it needs, its style and the scripts that draw its charts too, and says so: its
+Content-Security-Policy lets no other code run and nothing be fetched. It has no date, so the same
+study makes the same file.
+"""
+
+import base64
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from html import escape
+from importlib.resources import files
+from typing import Any
+
+from dqpaint import __version__
+from dqpaint.settings.model import Settings
+from dqpaint.studies.report import chart_data
+from dqpaint.studies.report.charts import HeatMap, Panel, beside, chart, heat_map
+from dqpaint.studies.report.html_tables import table
+from dqpaint.studies.verify.references import versions
+
+SCRIPTS = "page.js", "curves.js", "heat.js", "tables.js"
+WIDE = (7.0, 12.0, 15.0)  # of one chart, of two and of three beside each other [inches]
+HINT = (
+    "To read a chart, point at it or touch it; or choose it with the Tab key and go along it with "
+    "the arrow keys. Drag along it, or spread two fingers, to zoom; a double click shows all "
+    "again. A name above it hides and shows its line, a double click on one all others."
+)
+
+
+@dataclass(frozen=True)
+class Words:
+    """A paragraph."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Rows:
+    """A table: headings and rows of text; numbers of the columns `bars` are drawn, too."""
+
+    title: str
+    lines: Sequence[Sequence[str]]
+    bars: tuple[int, ...] = ()
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Tables:
+    """Small tables beside each other."""
+
+    title: str
+    tables: Sequence[Rows]
+
+
+@dataclass(frozen=True)
+class Shot:
+    """A picture, a PNG file, and what it shows."""
+
+    title: str
+    png: bytes
+
+    @property
+    def picture(self) -> bytes:
+        """As a PNG file."""
+        return self.png
+
+
+@dataclass(frozen=True)
+class Charts:
+    """Curves beside each other.
+
+    If they are `shared`, lines of one name have one colour in all of them, and one legend: what is
+    hidden in one is so in all, and those that are over the same thing are read and zoomed together.
+    """
+
+    title: str
+    panels: Sequence[Panel]
+    shared: bool = False
+
+    @property
+    def picture(self) -> bytes:
+        """As a PNG file."""
+        return chart(self.panels, WIDE[beside(len(self.panels)) - 1], shared=self.shared)
+
+
+@dataclass(frozen=True)
+class Map:
+    """A heat map."""
+
+    title: str
+    given: HeatMap
+
+    @property
+    def picture(self) -> bytes:
+        """As a PNG file."""
+        width, height = 1.0 + 0.9 * len(self.given.x), 1.2 + 0.55 * len(self.given.y)
+        return heat_map(self.given, min(max(7.0, width), 24.0), min(max(5.0, height), 18.0))
+
+
+Pictured = Shot | Charts | Map
+Block = Words | Rows | Tables | Pictured
+
+
+@dataclass(frozen=True)
+class Page:
+    """A study as it is told.
+
+    Attributes:
+        title: of the page.
+        blocks: what it shows, from the top.
+        settings: what all runs have in common.
+        text: of the drawing; empty where there are several.
+        again: the command or call that makes it again.
+    """
+
+    title: str
+    blocks: Sequence[Block]
+    settings: Settings | None = None
+    text: str = ""
+    again: str = ""
+
+
+def files_of(shown: Mapping[str, Pictured]) -> dict[str, bytes]:
+    """PNG files by the ends of their names."""
+    return {f"{end}.png": one.picture for end, one in shown.items()}
+
+
+def html(page: Page) -> bytes:
+    """The page as one file."""
+    script, style = _source(*SCRIPTS), _source("page.css")
+    rules = (
+        "default-src 'none'; img-src data:; base-uri 'none'; form-action 'none'; "
+        f"script-src {_hash(script)}; style-src {_hash(style)}"
+    )
+    parts = [_block(block, str(i)) for i, block in enumerate([*page.blocks, *_about(page)])]
+    said = " ".join(f"{name} {value}" for name, value in versions().items())
+    return f"""<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="{rules}">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{escape(page.title)}</title>
+<style>{style}</style>
+</head>
+<body>
+<h1>{escape(page.title)}</h1>
+{"".join(parts)}
+<footer>Made by dqpaint {escape(__version__)} with {escape(said)}.</footer>
+<script>{script}</script>
+</body>
+</html>
+""".encode()
+
+
+def _about(page: Page) -> list[Block]:
+    """The drawing, the settings, and how to run it again."""
+    blocks: list[Block] = []
+    if page.settings is not None:
+        chosen = json.loads(page.settings.model_dump_json(exclude_defaults=True))
+        rows = [[name, _said(value)] for name, value in chosen.items()]
+        blocks.append(Rows("Settings of all runs; the others as usual", [["", ""], *rows]))
+    if page.text:
+        blocks.append(_Source("The drawing", page.text))
+    if page.again:
+        blocks.append(_Source("To run it again", page.again))
+    return blocks
+
+
+def _said(value: object) -> str:
+    """A setting about as the command line has it: gains, and disturbances by their names."""
+    if not isinstance(value, dict):
+        return value if isinstance(value, str) else json.dumps(value)
+    parts = {
+        name: ",".join(f"{k}={v}" if k else f"{v}" for k, v in one.items())
+        if isinstance(one, dict)
+        else _said(one)
+        for name, one in value.items()
+    }
+    return "  ".join(f"{name}={said}" for name, said in parts.items())
+
+
+@dataclass(frozen=True)
+class _Source(Words):
+    source: str
+
+
+def _source(*names: str) -> str:
+    folder = files("dqpaint.studies.report")
+    return "".join("\n" + folder.joinpath(name).read_text("utf-8") for name in names)
+
+
+def _hash(text: str) -> str:
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
+
+
+def _block(block: Block, name: str) -> str:
+    if isinstance(block, _Source):
+        return f"<h2>{escape(block.text)}</h2>\n<pre>{escape(block.source)}</pre>\n"
+    if isinstance(block, Words):
+        return f"<p>{escape(block.text)}</p>\n" if block.text else ""
+    head = f"<h2>{escape(block.title)}</h2>\n"
+    if isinstance(block, Rows):
+        return head + table(block.lines, block.bars) + _note(block)
+    if isinstance(block, Tables):
+        made = [f"<div>{_own_title(one)}{table(one.lines, one.bars)}{_note(one)}</div>\n"
+                for one in block.tables]  # fmt: skip
+        return f'{head}<div class="small">\n{"".join(made)}</div>\n'
+    if isinstance(block, Shot):
+        return f"{head}{_image(block.png, block.title)}\n"
+    without = f"<noscript>{_image(block.picture, block.title)}</noscript>\n"
+    if isinstance(block, Map):
+        figure = _figure(block.given.title, f"heat-{name}", "heat", chart_data.of_map(block.given))
+        return f'{head}<div class="map" hidden>\n{figure}</div>\n{without}'
+    columns = beside(len(block.panels))
+    most = chart_data.MOST_POINTS // (2 if columns > 2 else 1)
+    figures = "".join(
+        _figure(panel.title, f"curves-{name}-{i}", "curves", chart_data.of_panel(panel, most))
+        for i, panel in enumerate(block.panels)
+    )
+    kind = f"beside columns{columns}"
+    shared = " data-shared" if block.shared else ""
+    hint = f'<p class="hint" hidden>{HINT}</p>\n'
+    charts = f'<div class="charts"{shared} hidden>\n<div class="{kind}">\n{figures}</div>\n</div>\n'
+    return f"{head}{hint}{charts}{without}"
+
+
+def _own_title(rows: Rows) -> str:
+    """The title of a small table, unless its first heading says it."""
+    return "" if rows.title in rows.lines[0] else f"<h3>{escape(rows.title)}</h3>\n"
+
+
+def _note(rows: Rows) -> str:
+    return f'<p class="note">{escape(rows.note)}</p>\n' if rows.note else ""
+
+
+def _image(png: bytes, title: str) -> str:
+    data = base64.b64encode(png).decode()
+    return f'<img alt="{escape(title)}" src="data:image/png;base64,{data}">'
+
+
+def _figure(title: str, name: str, kind: str, data: dict[str, Any]) -> str:
+    text = json.dumps({"kind": kind, **data}, allow_nan=False, separators=(",", ":"))
+    # within a script only these could end it, or begin another
+    safe = text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+    return (
+        f'<figure class="chart" id="{name}"><h3>{escape(title)}</h3></figure>\n'
+        f'<script type="application/json" data-figure="{name}">{safe}</script>\n'
+    )

@@ -1,0 +1,112 @@
+"""Runs on ideal arms that differ in their seeds go as one batch in numpy, through the same laws.
+
+Fifty cost about as much as four by themselves. Which runs can go together follows from the runs
+alone, and each result from its run alone, whatever else is in the batch: so results are the same
+for any number of workers, and in a study that was stopped and goes on.
+"""
+
+import json
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from dqpaint.controllers import CONTROLLERS
+from dqpaint.errors import DqpaintError
+from dqpaint.metrics.run_metrics import measure
+from dqpaint.metrics.stability import instability
+from dqpaint.painting.paint import Ready, finish, prepare
+from dqpaint.planning.reachability import check_row, worst_row
+from dqpaint.simulation.closed_loop import Track, track_many
+from dqpaint.simulation.sensors import ModelsDifferError
+from dqpaint.studies.runner.run import Result, Run
+from dqpaint.studies.runner.run_arrays import keep
+
+MOST = 64  # runs of a batch: what more would gain, memory takes
+
+Task = tuple[str, Run]
+"""The key of a run, and the run."""
+
+
+def groups(tasks: Sequence[Task]) -> list[list[Task]]:
+    """Tasks in the order in which the first of each group stands; most are by themselves."""
+    found: dict[str, list[list[Task]]] = {}
+    for key, run in tasks:
+        same = _likeness(run) if goes_in_batches(run) else key
+        mine = found.setdefault(same, [[]])
+        if len(mine[-1]) == MOST:
+            mine.append([])
+        mine[-1].append((key, run))
+    return [group for mine in found.values() for group in mine]
+
+
+def goes_in_batches(run: Run) -> bool:
+    """Whether a run is on an ideal arm, random, and by a law of ours, which takes arrays."""
+    settings = run.settings
+    return bool(
+        settings.plant == "ideal"
+        and settings.disturb
+        and settings.recorded is None
+        and settings.on_limit != "stop"
+        and settings.controller in CONTROLLERS
+    )
+
+
+def _likeness(run: Run) -> str:
+    """What all runs of a batch have in common."""
+    alike = replace(run, settings=run.settings.model_copy(update={"seed": 0}), keep=())
+    return json.dumps(alike.data, sort_keys=True)
+
+
+def carry_out_batch(
+    tasks: Sequence[Task], folder: Path, progress: Callable[[float], None] = lambda _done: None
+) -> list[Result] | None:
+    """The results of runs that differ in their seeds; None if they must go by themselves.
+
+    Args:
+        tasks: with their keys.
+        folder: of the study, for what is to be kept.
+        progress: called while the arms move, with the part done, 0 to 1.
+    """
+    begin = time.perf_counter()
+    first = tasks[0][1]
+    ready = prepare(first.program(), first.settings)
+    seeds = [run.settings.seed for _, run in tasks]
+    try:
+        tracks = track_many(
+            ready.motion, ready.kinematics, ready.start, ready.plant, ready.controller,
+            ready.gains, ready.disturbances, seeds, ready.settings.null, progress,
+        )  # fmt: skip
+    except ModelsDifferError:
+        return None
+    if any(track is None for track in tracks):  # by itself each can say when it was lost
+        return None
+    results = []
+    seen: set[int | None] = {None}  # rows of the motion that are known to be within reach
+    for (key, run), track in zip(tasks, tracks, strict=True):
+        assert track is not None
+        mine = replace(ready, settings=run.settings)
+        results.append(_result(key, run, mine, track, folder, seen))
+    each = (time.perf_counter() - begin) / len(tasks)
+    return [replace(result, wall=each) for result in results]
+
+
+def _result(
+    key: str, run: Run, ready: Ready, track: Track, folder: Path, seen: set[int | None]
+) -> Result:
+    """Figures of one track, and what is kept of it; pictures only where they are kept."""
+    try:
+        row = worst_row(track)
+        if row is not None and row not in seen:
+            check_row(ready.motion, ready.kinematics, row, ready.settings.null)
+            seen.add(row)
+        if run.keep:
+            painting = finish(ready, track)
+            keep(painting, run.keep, folder, key)
+            figures = painting.metrics.figures
+        else:
+            figures = measure(track).figures
+    except DqpaintError as problem:
+        return Result(key, "failed", str(problem))
+    why = instability(track)
+    return Result(key, "unstable" if why else "done", why or "", figures, len(track.clamps))

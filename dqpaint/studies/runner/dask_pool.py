@@ -1,0 +1,206 @@
+"""Runs on a Dask cluster: the only door to distributed. Results are kept where the study is.
+
+The workers need the same dqpaint, Python and libraries, and the files a run names (a law or an arm
+of one's own, what a drawing includes) where they lie here; drawings travel with their runs, and
+what is to be kept comes back. Each worker process carries out one run at a time, whatever the
+number of its threads.
+"""
+
+import hashlib
+import logging
+import platform
+import queue
+import re
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator, Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.studies.runner.batches import Task, groups
+from dqpaint.studies.runner.run import Result, Run, code, run_of
+from dqpaint.studies.runner.run_arrays import place, write_kept
+
+PATIENCE = 10.0  # [s] for a scheduler to answer and a first worker to come
+FORSAKEN = 30.0  # [s] without any worker, after which nothing more is expected
+GLANCE = 0.2  # [s] after which a Ctrl-C is noticed at the latest
+START = "dask scheduler, and dask worker ADDRESS --nthreads 1 on each machine"
+ADDRESS = re.compile(r"((tcp|tls|ws|wss|ucx)://)?[^/\s]+:\d{1,5}")
+_one_at_a_time = threading.Lock()
+
+
+class Cluster:
+    """Workers elsewhere, as `pool.Pool` has them here.
+
+    Args:
+        folder: of the study, for what is to be kept.
+        address: of the scheduler, as in tcp://10.0.0.1:8786.
+
+    Raises:
+        UsageError: that is no address.
+        DqpaintError: the extra is not installed, nobody answers, or the workers are not alike.
+    """
+
+    def __init__(self, folder: Path, address: str) -> None:
+        if not ADDRESS.fullmatch(address):
+            raise UsageError(
+                f"'{address}' is no address of a Dask scheduler, such as tcp://10.0.0.1:8786"
+            )
+        try:
+            from distributed import Client
+        except ImportError:
+            raise DqpaintError(
+                "a study on a cluster needs Dask: pip install 'dqpaint[cluster]'"
+            ) from None
+        self._folder, self._address = folder, address
+        for name in [n for n in logging.root.manager.loggerDict if n.startswith("distributed")]:
+            logging.getLogger(name).setLevel(logging.CRITICAL)  # what matters is told by us
+        try:
+            self._client: Any = Client(address, timeout=PATIENCE, set_as_default=False)
+        except (OSError, ValueError, TypeError) as problem:
+            said = str(problem).splitlines()[0] if str(problem) else type(problem).__name__
+            raise DqpaintError(
+                f"no Dask scheduler answers at '{address}': {said}; to start one: {START}"
+            ) from None
+        try:
+            self._check_workers()
+        except BaseException:
+            self._client.close()
+            raise
+
+    def _check_workers(self) -> None:
+        try:
+            self._client.wait_for_workers(1, timeout=PATIENCE)
+        except TimeoutError:
+            raise DqpaintError(
+                f"the cluster at '{self._address}' has no workers; to start one: {START}"
+            ) from None
+        ours = facts()
+        for worker, theirs in self._client.run(facts, on_error="return").items():
+            if isinstance(theirs, Exception):
+                raise DqpaintError(
+                    f"the worker {worker} cannot load this dqpaint: {theirs}; install it there"
+                )
+            for name, wanted in ours.items():
+                if theirs.get(name) != wanted:
+                    raise DqpaintError(
+                        f"the worker {worker} has {name} {theirs.get(name, 'not at all')}, here is "
+                        f"{wanted}: results could differ; install the same there"
+                    )
+
+    def carry_out(
+        self, tasks: Sequence[Task], progress: Callable[[float], None]
+    ) -> Iterator[Result]:
+        """The results of runs, each as soon as it is there.
+
+        Args:
+            tasks: runs with their keys.
+            progress: called with how many are done.
+
+        Raises:
+            DqpaintError: the cluster was lost, or a worker's files are not those here.
+        """
+        done: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        asked: dict[str, list[str]] = {}  # keys of runs, by Dask's own
+        for group in groups(tasks):
+            keys = [key for key, _ in group]
+            given = [(key, run.data) for key, run in group]
+            future: Any = self._client.submit(carry_out_there, given, key=_name(keys))
+            asked[future.key] = keys
+            future.add_done_callback(done.put)
+        since = time.monotonic()
+        count = 0
+        while count < len(tasks):
+            try:
+                future = done.get(timeout=GLANCE)
+            except queue.Empty:
+                if self._client.status != "running":
+                    raise self._lost("its scheduler is gone") from None
+                if self._client.scheduler_info()["workers"]:
+                    since = time.monotonic()
+                elif time.monotonic() - since > FORSAKEN:
+                    raise self._lost("it has no workers any more") from None
+                continue
+            since = time.monotonic()
+            for result in self._results(asked[future.key], future):
+                count += 1
+                yield result
+                progress(count)
+
+    def _results(self, keys: Sequence[str], future: Any) -> list[Result]:
+        from distributed import KilledWorker
+
+        if future.status in ("cancelled", "lost"):
+            raise self._lost("its scheduler is gone")
+        if future.status == "error":
+            fault = future.exception()
+            if isinstance(fault, KilledWorker):
+                return [Result(key, "died", "the workers that tried it ended") for key in keys]
+            if isinstance(fault, DqpaintError):
+                raise fault
+            raise DqpaintError(f"a worker of the cluster failed: {fault!r}")
+        results = []
+        for given, kept in future.result():
+            result = Result(**given)
+            if kept is not None:
+                write_kept(self._folder, result.key, kept)
+            results.append(result)
+        return results
+
+    def _lost(self, why: str) -> DqpaintError:
+        return DqpaintError(
+            f"the cluster at '{self._address}' is lost: {why}; what was done is kept in "
+            f"'{self._folder}', and the same command goes on from there"
+        )
+
+    def close(self) -> None:
+        """Leave the cluster; it drops what was under way."""
+        self._client.close()
+
+
+def facts() -> dict[str, str]:
+    """What has to be alike here and there."""
+    return {"Python": platform.python_version(), "distributed": version("distributed"), **code()}
+
+
+def _name(keys: Sequence[str]) -> str:
+    """Of runs that go together, for Dask."""
+    return f"dqpaint-{hashlib.sha256(' '.join(keys).encode()).hexdigest()}"
+
+
+def carry_out_there(
+    given: Sequence[tuple[str, dict[str, Any]]],
+) -> list[tuple[dict[str, Any], bytes | None]]:
+    """Runs that go together at a worker, each with its key: results, and files of what is kept.
+
+    Raises:
+        DqpaintError: the files that a run names are not the same here.
+    """
+    from dqpaint.studies.runner.worker import carry_out_all
+
+    tasks = [(key, run_of(data)) for key, data in given]
+    for key, run in tasks:
+        _check_files(key, run)
+    with _one_at_a_time, tempfile.TemporaryDirectory(prefix="dqpaint-") as scratch:
+        results = list(carry_out_all(tasks, Path(scratch)))
+        kept = [place(Path(scratch), result.key) for result in results]
+        return [
+            (vars(result), path.read_bytes() if path.is_file() else None)
+            for result, path in zip(results, kept, strict=True)
+        ]
+
+
+def _check_files(key: str, run: Run) -> None:
+    try:
+        same = run.key == key
+    except DqpaintError as problem:
+        raise DqpaintError(f"on a worker of the cluster: {problem}") from None
+    if not same:
+        names = ", ".join(name for name, value in run.files().items() if value) or "none"
+        raise DqpaintError(
+            f"on a worker of the cluster the files of {Path(run.name).name} are not those here; "
+            f"they have to lie in the same places (there: {names})"
+        )

@@ -1,0 +1,175 @@
+"""Runs -> results, whatever the number of workers; a study that was stopped goes on.
+
+What is done lies in the study's folder (see `record`), by the key of the run (see `runs`). So the
+same study again finds its runs there, and so does a larger one that shares some of them.
+"""
+
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Protocol, Self
+
+from dqpaint.cli.terminal import Progress
+from dqpaint.studies.runner.batches import Task
+from dqpaint.studies.runner.journal import Record
+from dqpaint.studies.runner.process_pool import Pool, check_jobs
+from dqpaint.studies.runner.run import Result, Run
+from dqpaint.studies.runner.run_arrays import place
+
+Workers = int | str | None
+"""How many processes, None for one a core; or the address of a Dask cluster."""
+
+
+def carry_out_study(
+    runs: Sequence[Run], folder: Path, jobs: Workers = None, what: str = "study"
+) -> list[Result]:
+    """The results of runs, in their order.
+
+    Args:
+        runs: what to paint; all are checked before the first begins.
+        folder: where the record lies; made if it is not there.
+        jobs: how many processes, None is one a core; or the address of a Dask cluster.
+        what: is being done, for the progress bar.
+
+    Raises:
+        UsageError: a choice that is none; nothing has been run.
+        DqpaintError: the folder cannot be written, or the workers do not start.
+        KeyboardInterrupt: a Ctrl-C; what was done is on disk.
+    """
+    if not isinstance(jobs, str):
+        check_jobs(jobs)
+    check(runs)
+    with Study(folder, jobs, what, len(runs)) as study:
+        return study.results(runs, tell_known=True)
+
+
+class Study:
+    """A study at work: runs in, results out, as often as one likes; with one progress bar.
+
+    Args:
+        folder: where the record lies; made if it is not there.
+        jobs: how many processes, None is one a core; or the address of a Dask cluster.
+        what: is being done, for the progress bar.
+        total: how many runs it will be at most.
+
+    Raises:
+        DqpaintError: the folder cannot be written.
+    """
+
+    def __init__(self, folder: Path, jobs: Workers, what: str, total: int) -> None:
+        self._folder, self._total = folder, total
+        self._begin = time.monotonic()
+        self._progress = Progress(f"{what}, {total} runs")
+        self._crew = _crew(folder, jobs)
+        try:
+            self._record = Record(folder)
+        except BaseException:
+            self._crew.close()
+            raise
+        self._known: set[str] = set()  # keys of runs that were done before
+        self._done: set[str] = set()
+
+    def results(self, runs: Sequence[Run], tell_known: bool = False) -> list[Result]:
+        """The results of runs, in their order; what is on record is not run again.
+
+        Args:
+            runs: what to paint.
+            tell_known: say beforehand how many are on record.
+
+        Raises:
+            DqpaintError: the folder cannot be written, or the workers do not start.
+        """
+        keys = [run.key for run in runs]
+        found = self._record.results
+        tasks = {
+            key: run
+            for key, run in zip(keys, runs, strict=True)
+            if not _is_done(found.get(key), run, self._folder)
+        }
+        known = set(keys) - tasks.keys() - self._done - self._known
+        self._known |= known
+        self._total -= len(known)
+        if known and tell_known:
+            print(f"note: {len(known)} of {len(set(keys))} runs were done before", file=sys.stderr)
+        before = len(self._done)
+
+        def tell(count: float) -> None:
+            self._progress(min(1.0, (before + count) / max(1, self._total)))
+
+        for result in self._crew.carry_out(list(tasks.items()), tell):
+            self._record.add(result)
+            self._done.add(result.key)
+        return [found[key] for key in keys]
+
+    @property
+    def known(self) -> int:
+        """How many of the runs so far were done before."""
+        return len(self._known)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        fault: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """End the workers; after a Ctrl-C, say what is kept."""
+        self._crew.close()
+        self._progress.__exit__()
+        self._record.close()
+        if kind is None and self._done and sys.stderr.isatty():
+            seconds = time.monotonic() - self._begin
+            print(f"note: {len(self._done)} runs took {seconds:.1f} s", file=sys.stderr)
+        if kind is KeyboardInterrupt:
+            done = len(self._known | self._done)
+            print(
+                f"note: {done} runs are done and kept in '{self._folder}'; "
+                "the same command goes on from there",
+                file=sys.stderr,
+            )
+
+
+class Crew(Protocol):
+    """Who carries out runs: processes here, or a cluster."""
+
+    def carry_out(
+        self, tasks: Sequence[Task], progress: Callable[[float], None]
+    ) -> Iterator[Result]:
+        """The results, each as soon as it is there."""
+
+    def close(self) -> None:
+        """End what is under way."""
+
+
+def _crew(folder: Path, jobs: Workers) -> Crew:
+    if isinstance(jobs, str):
+        from dqpaint.studies.runner.dask_pool import Cluster
+
+        return Cluster(folder, jobs)
+    return Pool(folder, check_jobs(jobs))
+
+
+def check(runs: Sequence[Run]) -> None:
+    """Check each choice once; seeds make no difference.
+
+    Raises:
+        UsageError: an unknown name or a value out of its range.
+        ScriptError: a mistake in the drawing.
+    """
+    seen = set()
+    for run in runs:
+        alike = run.settings.model_copy(update={"seed": 0}).model_dump_json(), run.text
+        if alike not in seen:
+            seen.add(alike)
+            run.check()
+
+
+def _is_done(result: Result | None, run: Run, folder: Path) -> bool:
+    if result is None or result.status == "died":
+        return False
+    kept = run.keep and result.figures  # a run that failed has nothing to keep
+    return not kept or place(folder, result.key).is_file()

@@ -1,0 +1,212 @@
+"""A run of a study as plain data, and what comes of it: both are lines of JSON.
+
+A run has a key, the hash of everything that decides its result: the drawing's text, the settings,
+the files both name, this package's own code and the versions of its libraries. So a result that is
+kept can be trusted to be what the run would give again, and a study that was stopped goes on.
+"""
+
+import hashlib
+import json
+from dataclasses import dataclass, field, replace
+from functools import cache, lru_cache
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, Literal
+
+from dqpaint import __version__
+from dqpaint.controllers import find_controller
+from dqpaint.core.examples import find_drawing
+from dqpaint.disturbances import make_disturbances
+from dqpaint.errors import UsageError
+from dqpaint.language import parse, read
+from dqpaint.language.imports.dependencies import files_of
+from dqpaint.language.writing.builder import Drawing
+from dqpaint.light.sources.brushes import read_brush
+from dqpaint.outputs.files import LIBRARIES
+from dqpaint.painting.scene import check_choices
+from dqpaint.plants import choose_plant
+from dqpaint.program.program import Program
+from dqpaint.robots.loading.lookup import card_for
+from dqpaint.settings.model import Settings
+
+Status = Literal["done", "unstable", "failed", "died"]
+"""`died`: the process that carried it out ended; unlike the others it is tried again."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """One painting to be made.
+
+    Attributes:
+        name: the drawing's path, or what messages call its text.
+        text: of the drawing.
+        settings: everything besides the text.
+        keep: what is kept besides figures, by the names in `keeping.KEEPERS`.
+    """
+
+    name: str
+    text: str
+    settings: Settings
+    keep: tuple[str, ...] = ()
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The run as JSON would hold it."""
+        settings = self.settings.model_dump(mode="json")
+        return {"name": self.name, "text": self.text, "settings": settings, "keep": self.keep}
+
+    @property
+    def key(self) -> str:
+        """The hash of all that decides the result."""
+        data = {**self.data, "name": Path(self.name).name, "files": self.files(), "code": code()}
+        return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()
+
+    def files(self) -> dict[str, str]:
+        """The hashes of files: those the drawing names, a law, an arm or an image of one's own."""
+        law = getattr(find_controller(self.settings.controller).law, "sha256", "")
+        arm = Path(self.settings.robot or "")
+        known = arm.suffix in (".urdf", ".toml")
+        brush = read_brush(self.settings.brush) if self.settings.brush else None
+        image = getattr(brush, "image", "")
+        found = {name: _sha256(path) for name, path in _named(self.name, self.text)}
+        found |= {"law": law, "arm": _sha256(arm) if known else ""}
+        recorded = self.settings.recorded
+        found |= {"recorded": _sha256(Path(recorded)) if recorded else ""}
+        return {**found, "image": _sha256(Path(image)) if image else ""}
+
+    def program(self) -> Program:
+        """The drawing, understood; from its file where that still says the same."""
+        return _program(self.name, self.text)
+
+    def check(self) -> None:
+        """Raise what is wrong with the choices, before anything is simulated.
+
+        Raises:
+            UsageError: an unknown name or a value out of its range.
+            ScriptError: a mistake in the drawing.
+        """
+        settings = self.settings
+        check_choices(settings)
+        law = find_controller(settings.controller)
+        law.read_gains(settings.gains)
+        choose_plant(settings.plant, "torque" if law.drives_torque else "rates")
+        make_disturbances(settings.disturb)
+        card_for(self.program(), settings.robot, settings.tool)
+
+
+def run_of(data: dict[str, Any]) -> Run:
+    """The run that `Run.data` wrote."""
+    settings = Settings.model_validate(data["settings"])
+    return Run(data["name"], data["text"], settings, tuple(data["keep"]))
+
+
+def drawing_text(drawing: str | Drawing) -> tuple[str, str]:
+    """Path and text of a drawing: a file, an example's name, or one made by calls."""
+    if isinstance(drawing, Drawing):
+        return str(drawing.folder / f"{drawing.name}.traj"), str(drawing)
+    path = find_drawing(drawing)
+    return str(path), read(path).text
+
+
+@dataclass(frozen=True)
+class Result:
+    """What came of a run.
+
+    Attributes:
+        key: of the run.
+        status: how it ended.
+        message: why it was not done.
+        figures: of the summary, in SI units; none where it failed.
+        held: how many limits held a joint.
+        wall: the seconds it took; not a part of any table.
+    """
+
+    key: str
+    status: Status
+    message: str = ""
+    figures: dict[str, float] = field(default_factory=dict)
+    held: int = 0
+    wall: float = 0.0
+
+    @property
+    def line(self) -> str:
+        """One line of JSON; numbers are read back bit for bit."""
+        return json.dumps(vars(self), allow_nan=False) + "\n"
+
+
+def result_of(line: str) -> Result:
+    """The result that `Result.line` wrote.
+
+    Raises:
+        ValueError: it is something else.
+    """
+    try:
+        return Result(**json.loads(line))
+    except TypeError as problem:
+        raise ValueError(str(problem)) from None
+
+
+def seeded(run: Run, count: int) -> list[Run]:
+    """Repetitions of a run with the seeds that follow its own; the first alone keeps its picture.
+
+    Raises:
+        UsageError: there is nothing random in it.
+    """
+    if count < 1:
+        raise UsageError(f"{count} runs; at least 1 is needed")
+    if count > 1 and not run.settings.disturb:
+        raise UsageError(
+            f"{count} runs would all be the same: nothing in them is random; "
+            "add a disturbance, for example --disturb twist=noise,x=0.01,y=0.01,frequency=5"
+        )
+    first = run.settings.seed
+    return [
+        replace(
+            run,
+            settings=run.settings.model_copy(update={"seed": first + i}),
+            keep=run.keep if i == 0 else (),
+        )
+        for i in range(count)
+    ]
+
+
+@lru_cache(maxsize=8)
+def _program(name: str, text: str) -> Program:
+    path = Path(name)
+    if path.is_file():
+        found = read(path)
+        if found.text == text:
+            return found
+    return parse(text, name)
+
+
+@lru_cache(maxsize=8)
+def _named(name: str, text: str) -> list[tuple[str, Path]]:
+    """What a drawing may read, seen from its folder; the text holds those of included files."""
+    path = Path(name)
+    others = sorted(files_of(path) - {path}) if text else []
+    return [
+        (f"./{one.relative_to(path.parent).as_posix()}", one)
+        for one in others
+        if one.is_relative_to(path.parent)
+    ]
+
+
+@cache
+def code() -> dict[str, str]:
+    """The hash of this package's code, and the versions of its libraries."""
+    package = Path(__file__).parent.parent.parent
+    whole = hashlib.sha256()
+    for path in sorted(package.rglob("*")):
+        if path.is_file() and path.suffix != ".pyc":
+            whole.update(path.relative_to(package).as_posix().encode())
+            whole.update(path.read_bytes())
+    return {"dqpaint": f"{__version__} {whole.hexdigest()}", **{n: version(n) for n in LIBRARIES}}
+
+
+def _sha256(path: Path) -> str:
+    """Of a file; empty where there is none, for what stands in quotes need not be a file."""
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except (OSError, ValueError):
+        return ""

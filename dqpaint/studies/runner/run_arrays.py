@@ -1,0 +1,82 @@
+"""What a study keeps of a run besides its figures: arrays in one file, by the run's key."""
+
+import io
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.core.registry import Registry
+from dqpaint.outputs.files import write
+from dqpaint.painting.paint import Painting
+from dqpaint.painting.picture import linear
+
+Arrays = dict[str, NDArray[Any]]
+KEEPERS: Registry[Callable[[Painting], Arrays]] = Registry("thing to keep")
+
+
+@KEEPERS.add("series")
+def series(painting: Painting) -> Arrays:
+    """Time and errors of every control step (N,)."""
+    names = ("t_s", "position_error_m", "orientation_error_rad", "invariant_error")
+    return {name: np.asarray(painting.table[name]) for name in names}
+
+
+@KEEPERS.add("light")
+def light(painting: Painting) -> Arrays:
+    """The linear light on the sensor (H, W, 3) and the exposure, to be developed together."""
+    picture = painting.picture
+    image = linear(
+        painting.scene, picture.film, picture.exposure, picture.camera, painting.settings
+    )
+    return {"light": image, "exposure": np.array(picture.exposure)}
+
+
+@KEEPERS.add("film")
+def film(painting: Painting) -> Arrays:
+    """The bare film (3, H, W) with its guard band, what was emitted and lost, and the picture.
+
+    `balance` is what is neither on the film nor lost, by what was emitted.
+    """
+    picture, film = painting.picture, painting.picture.film
+    gap = np.abs(film.on_film + film.lost - film.emitted).max() / film.emitted.max()
+    sums = {"emitted": film.emitted, "lost": film.lost, "balance": np.array(gap)}
+    return {"planes": film.planes.astype(np.float32), "picture": picture.image, **sums}
+
+
+def place(folder: Path, key: str) -> Path:
+    """Where the arrays of a run lie."""
+    return folder / "kept" / f"{key[:24]}.npz"
+
+
+def keep(painting: Painting, names: tuple[str, ...], folder: Path, key: str) -> None:
+    """Write what is to be kept of a run, whole or not at all.
+
+    Raises:
+        OutputError: the folder cannot be written.
+    """
+    arrays: Arrays = {}
+    for name in names:
+        arrays.update(KEEPERS[name](painting))
+    file = io.BytesIO()
+    np.savez(file, allow_pickle=False, **arrays)
+    write_kept(folder, key, file.getvalue())
+
+
+def write_kept(folder: Path, key: str, data: bytes) -> None:
+    """Write the file of a run's arrays.
+
+    Raises:
+        OutputError: the folder cannot be written.
+    """
+    path = place(folder, key)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write(path.with_suffix(""), {".npz": data})
+
+
+def kept(folder: Path, key: str) -> Mapping[str, NDArray[Any]]:
+    """The arrays of a run by their names."""
+    with np.load(place(folder, key), allow_pickle=False) as arrays:
+        return {name: arrays[name] for name in arrays.files}

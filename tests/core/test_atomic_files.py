@@ -1,0 +1,57 @@
+"""Files come whole or not at all."""
+
+import os
+import stat
+
+import pytest
+
+from dqpaint.core.atomic_files import rewrite, write_new
+from dqpaint.errors import OutputError
+
+
+def names(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_a_new_file_has_the_usual_permissions(tmp_path):
+    write_new(tmp_path / "a", b"1")
+    mask = os.umask(0)
+    os.umask(mask)
+    assert stat.S_IMODE((tmp_path / "a").stat().st_mode) == 0o666 & ~mask
+    with pytest.raises(OutputError, match="is there already"):
+        write_new(tmp_path / "a", b"2")
+    assert (tmp_path / "a").read_bytes() == b"1"
+    assert names(tmp_path) == ["a"]
+
+
+def test_a_link_to_nowhere_is_something(tmp_path):
+    (tmp_path / "a").symlink_to(tmp_path / "gone")
+    with pytest.raises(OutputError, match="is there already"):
+        write_new(tmp_path / "a", b"2")
+    with pytest.raises(OutputError, match="cannot be written"):
+        rewrite(tmp_path / "a", b"2")
+    assert names(tmp_path) == ["a"]
+
+
+@pytest.mark.parametrize("call", [write_new, rewrite])
+def test_places_that_cannot_be_written(tmp_path, call):
+    for path in (tmp_path / "no" / "a", tmp_path / ("x" * 300), tmp_path / "a\0b"):
+        with pytest.raises(OutputError, match="cannot be written"):
+            call(path, b"1")
+    assert names(tmp_path) == []
+
+
+@pytest.mark.parametrize("call", [write_new, rewrite])
+def test_a_full_disk_leaves_nothing(tmp_path, call, monkeypatch):
+    if call is rewrite:
+        (tmp_path / "a").write_bytes(b"old")
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.chmod", full)
+    with pytest.raises(OutputError, match="No space left"):
+        call(tmp_path / "a", b"new")
+    assert names(tmp_path) == (["a"] if call is rewrite else [])
+    if call is rewrite:
+        assert (tmp_path / "a").read_bytes() == b"old"

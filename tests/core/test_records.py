@@ -1,0 +1,32 @@
+"""Records: as data classes, and copied as `dataclasses.replace` copies them."""
+
+from dataclasses import replace
+
+import pytest
+
+from dqpaint.core.records import replaced
+from dqpaint.diagnostics.diagnostic import Span
+from dqpaint.language.pen.stroke_state import Settings
+from dqpaint.program.program import Law
+
+SETTINGS = Settings(speed=0.3, law=Law("cubic", (0.1, 0.2)), blend=0.01)
+
+
+def test_alike_records_are_equal_and_have_one_hash() -> None:
+    assert Span(3, 7) == Span(3, 7) != Span(3, 8)
+    assert len({Span(3, 7), Span(3, 7), Law("cubic"), Law("cubic")}) == 2
+    assert Law("cubic") != Span(3, 7)
+
+
+def test_a_copy_is_another_record_with_the_changes_alone() -> None:
+    copy = replaced(SETTINGS, speed=0.5, blend=0.0)
+    assert copy == replace(SETTINGS, speed=0.5, blend=0.0)
+    assert (SETTINGS.speed, SETTINGS.blend) == (0.3, 0.01)
+    assert copy.law is SETTINGS.law
+
+
+def test_a_record_has_no_other_values() -> None:
+    with pytest.raises(AttributeError):
+        replaced(SETTINGS, sped=0.5)
+    with pytest.raises(AttributeError):
+        SETTINGS.sped = 0.5  # type: ignore[attr-defined]

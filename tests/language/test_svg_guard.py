@@ -1,0 +1,131 @@
+"""The guard before the SVG library: each refusal, before anything is expanded."""
+
+import time
+
+import pytest
+
+from dqpaint.language.imports.svg.guard import DEEPEST, MOST_ELEMENTS, SvgError, guard
+
+OPEN = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink">'
+
+
+def refused(text: str) -> str:
+    begin = time.process_time()
+    with pytest.raises(SvgError) as caught:
+        guard(text.encode())
+    assert time.process_time() - begin < 2
+    return caught.value.message
+
+
+def nested_uses(levels: int) -> str:
+    """Each group uses the one before it twice: 2^levels circles."""
+    groups = "".join(
+        f'<g id="a{i}"><use href="#a{i - 1}"/><use xlink:href="#a{i - 1}"/></g>'
+        for i in range(1, levels + 1)
+    )
+    return f'{OPEN}<circle id="a0" r="1"/>{groups}</svg>'
+
+
+def test_nested_uses() -> None:
+    assert refused(nested_uses(30)).startswith("with every 'use' it has about 10^9 elements")
+    assert refused(nested_uses(90)).startswith("with every 'use' it has about 10^27 elements")
+    assert len(nested_uses(30)) < 2_500
+
+
+@pytest.mark.slow
+def test_uses_are_counted_exactly() -> None:
+    """A file with as many instances as allowed passes, with one more it does not."""
+    # svg, g, uses: each use counts itself and its g
+    uses = (MOST_ELEMENTS - 2) // 2
+    text = f'{OPEN}<g id="p"/>{{}}<use href="#p"/></svg>'
+    assert guard(text.format('<use href="#p"/>' * (uses - 1)).encode()).xml
+    assert refused(text.format('<use href="#p"/>' * uses)).startswith(
+        "with every 'use' it has 100,"
+    )
+
+
+def test_shapes_are_counted_with_uses() -> None:
+    uses = '<use href="#p"/>' * 25_000
+    message = refused(f'{OPEN}<circle id="p"/>{uses}</svg>')
+    assert message == "it has 25,001 shapes, more than 25,000"
+
+
+def test_numbers_are_counted_with_uses() -> None:
+    path = f'<path id="p" d="M{"1 1 " * 600}"/>'
+    uses = '<use href="#p"/>' * 900
+    message = refused(f"{OPEN}{path}{uses}</svg>")
+    assert message == "with every 'use' its paths have 1,081,200 numbers"
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        '<use id="a" href="#a"/>',
+        '<g id="a"><use href="#a"/></g>',
+        '<g id="a"><use href="#b"/></g><g id="b"><g><use href="#a"/></g></g>',
+    ],
+)
+def test_circles(body: str) -> None:
+    assert refused(f"{OPEN}{body}</svg>") in ("'a' uses itself", "'b' uses itself")
+
+
+def test_depth() -> None:
+    deep = DEEPEST - 2
+    assert guard(f"{OPEN}{'<g>' * deep}<path/>{'</g>' * deep}</svg>".encode()).xml
+    assert refused(f"{OPEN}{'<g>' * 9999}{'</g>' * 9999}</svg>").startswith(
+        "more than 200 elements"
+    )
+    chain = "".join(f'<g id="a{i}"><use href="#a{i + 1}"/></g>' for i in range(5000))
+    wanted = "more than 200 elements within each other by 'use'"
+    assert refused(f"{OPEN}{chain}</svg>") == wanted
+    back = "".join(f'<g id="a{i}"><use href="#a{i - 1}"/></g>' for i in range(1, 5000))
+    assert refused(f'{OPEN}<g id="a0"/>{back}</svg>') == wanted
+
+
+def test_size() -> None:
+    assert refused(f"{OPEN}{'<g/>' * MOST_ELEMENTS}</svg>") == "more than 100,000 elements"
+
+
+def test_entities() -> None:
+    head = '<!DOCTYPE svg [<!ENTITY a "aaaa">]>'
+    assert refused(f"{head}{OPEN}&a;</svg>").startswith("it declares entities of its own")
+    outside = '<!DOCTYPE svg [<!ENTITY a SYSTEM "file:///etc/passwd">]>'
+    assert refused(f"{outside}{OPEN}&a;</svg>").startswith("it declares entities of its own")
+    parameter = '<!DOCTYPE svg [<!ENTITY % a SYSTEM "http://example.org/x">%a;]>'
+    assert refused(f"{parameter}{OPEN}</svg>").startswith("it declares entities of its own")
+    doctype = '<!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" "http://www.w3.org/svg11.dtd">'
+    assert guard(f"{doctype}{OPEN}</svg>".encode()).xml
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "line 1: no element found"),
+        ("hello", "line 1: syntax error"),
+        (f"{OPEN}<g>", "line 1: no element found"),
+        (f"{OPEN}\n<g></svg>", "line 2: mismatched tag"),
+        ("<html/>", "this is no SVG: it begins with <html>"),
+        ("<svg>&nbsp;</svg>", "line 1: undefined entity"),
+        ('<?xml version="1.0" encoding="none"?><svg/>', "unknown encoding: none"),
+    ],
+)
+def test_no_svg(text: str, message: str) -> None:
+    assert refused(text) == message
+
+
+def test_what_is_no_line_is_left_out_and_told() -> None:
+    body = (
+        '<text>a<tspan>b</tspan></text><g><text>c</text><image href="file:///etc/passwd"/></g>'
+        '<g display="none"><text/><path d="M1 1"/></g><path style="fill:red; display : none"/>'
+        "<script>alert()</script>"
+    )
+    out = guard(f"{OPEN}{body}</svg>".encode())
+    assert out.left_out == {"text": [1, 1], "image": [1]}
+    for word in (b"path", b"text", b"image", b"passwd", b"alert"):
+        assert word not in out.xml
+
+
+def test_what_is_shown_by_reference_alone_goes_into_defs() -> None:
+    for name in ("symbol", "mask", "clipPath", "pattern", "marker"):
+        xml = guard(f"{OPEN}<{name} id='a'><path/></{name}></svg>".encode()).xml.decode()
+        assert xml.index("defs") < xml.index(name) < xml.index("path")

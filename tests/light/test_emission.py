@@ -1,0 +1,55 @@
+import numpy as np
+import pytest
+
+from dqpaint.errors import DqpaintError
+from dqpaint.light.sources.emission import Light, shine
+
+
+def test_a_step_emits_its_colour_for_a_period():
+    colours = [[1.0, 0.5, 0.0], [0.0, 0.0, 2.0], [9.0, 9.0, 9.0]]
+    light = shine(np.eye(3), colours, 0.1)
+    np.testing.assert_allclose(light.energy, [[0.1, 0.05, 0.0], [0.0, 0.0, 0.2]])
+
+
+def test_light_keeps_its_own_read_only_arrays():
+    points = np.zeros((2, 3))
+    light = Light(points, np.ones((1, 3)))
+    points[0] = 7.0
+    assert not light.points.any()
+    with pytest.raises(ValueError, match="read-only"):
+        light.energy[0] = 0.0
+
+
+def test_lit_points_are_the_ends_of_lit_steps():
+    points = np.arange(15.0).reshape(5, 3)
+    light = Light(points, [[0, 0, 0], [0, 1, 0], [0, 0, 0], [0, 0, 0]])
+    np.testing.assert_array_equal(light.lit_points, points[1:3])
+
+
+def test_one_instant_emits_nothing():
+    light = shine([[0.0, 0.0, 0.0]], [[1.0, 1.0, 1.0]], 0.1)
+    assert light.energy.shape == (0, 3)
+    assert light.lit_points.shape == (0, 3)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_numbers_that_are_none_are_refused(bad):
+    points, colours = np.zeros((3, 3)), np.ones((3, 3))
+    points[1, 2] = bad
+    with pytest.raises(DqpaintError, match=r"lamp position (nan|inf) at \(1, 2\) is not finite"):
+        shine(points, colours, 0.1)
+    with pytest.raises(DqpaintError, match="lamp colour"):
+        shine(colours, points, 0.1)
+    with pytest.raises(DqpaintError, match="period"):
+        shine(colours, colours, bad)
+
+
+def test_wrong_shapes_and_negative_light_are_refused():
+    with pytest.raises(DqpaintError, match=r"lamp energy -1.0 is negative"):
+        shine(np.zeros((2, 3)), [[0, -1, 0], [0, 0, 0]], 1.0)
+    with pytest.raises(ValueError, match="shape"):
+        shine(np.zeros((2, 3)), np.zeros((3, 3)), 1.0)
+    with pytest.raises(ValueError, match="no instant"):
+        Light(np.zeros((0, 3)), np.zeros((0, 3)))
+    with pytest.raises(DqpaintError, match="period"):
+        shine(np.zeros((2, 3)), np.zeros((2, 3)), 0.0)

@@ -1,0 +1,122 @@
+"""Real exposure settings against the photometry they come from."""
+
+import math
+
+import numpy as np
+import pytest
+
+from dqpaint import dq
+from dqpaint.errors import UsageError
+from dqpaint.light.camera.camera import frame, parse_view
+from dqpaint.light.camera.exposure_settings import Exposure, advice, parse_exposure
+from dqpaint.light.film.film import expose
+from dqpaint.light.film.point_spread import point_spread, spread
+from dqpaint.light.sources.brushes import read_brush
+from dqpaint.light.sources.sweep import Sweep
+
+
+def line(metres=0.4, speed=0.23, samples=400):
+    x = np.linspace(-metres / 2, metres / 2, samples)
+    pose = dq.pose_from(np.column_stack([x, 0 * x, 0 * x]), np.tile([1.0, 0, 0, 0], (samples, 1)))
+    period = metres / speed / (samples - 1)
+    return Sweep(period, pose, np.ones((samples - 1, 3)), read_brush("point").emitters())
+
+
+def ridge(text, size=(1920, 1081), view="front"):  # the line lies on a row
+    real, sweep = parse_exposure(text), line()
+    camera = frame(sweep.lit_points, np.eye(3), parse_view(view), size, real.lens, real.distance)
+    image = spread(expose(sweep, camera, falloff=True), point_spread(size[1]))
+    return float(image[size[1] // 2 - 3 : size[1] // 2 + 3, size[0] // 2, 0].max()) * real.factor(
+        camera
+    )
+
+
+def test_a_led_at_photographers_settings_is_four_stops_over():
+    """1 cd at 0.23 m/s from 2.2 m, 35 mm, f/8, ISO 100, 1920 px: 18 times saturation or so.
+
+    That is with a core of 1 px, of which a line's ridge is 0.35; ours is a little wider.
+    """
+    sharper = 0.35 / point_spread(1081).of_line
+    assert ridge("f/8,iso100,35mm,1cd,2.2m") * sharper == pytest.approx(18.0, rel=0.1)
+    # and by hand: illuminance on the sensor times time, over H = 78 / S, times the core's ridge
+    pitch, r = 0.036 / 1920, 2.2
+    lux_seconds = math.pi / 4 * (0.035 / 8) ** 2 * 0.9 / r**2 / pitch**2
+    seconds_a_pixel = 1 / (0.23 * 0.035 / 0.036 * 1920 / r)
+    by_hand = lux_seconds * seconds_a_pixel * 100 / 78 * point_spread(1081).of_line
+    assert ridge("35mm,2.2m") == pytest.approx(by_hand, rel=0.01)
+
+
+def test_stops_are_stops():
+    base = ridge("f/8,iso100,35mm,2.2m")
+    for text, factor in {
+        "f/16,35mm,2.2m": 1 / 4, "iso400,35mm,2.2m": 4.0, "nd3,35mm,2.2m": 1 / 8,
+        "0.05cd,35mm,2.2m": 0.05,
+    }.items():  # fmt: skip
+        assert ridge(text) == pytest.approx(base * factor, rel=1e-6), text
+
+
+def test_twice_as_far_a_line_is_half_as_bright():
+    """A quarter of the light, but half as many pixels a second."""
+    near, far = ridge("35mm,1m"), ridge("35mm,2m")
+    assert far / near == pytest.approx(0.5, rel=0.01)
+
+
+def test_a_step_nearer_to_the_camera_is_brighter_by_its_distance_squared():
+    sweep = line()
+    camera = frame(sweep.lit_points, np.eye(3), parse_view("60,0"), (640, 360))
+    plain, real = ([p.energy for p in sweep.towards(camera, falloff)] for falloff in (False, True))
+    middle = 0.5 * (sweep.points[1:] + sweep.points[:-1])
+    r = np.linalg.norm(middle - camera.position, axis=1)
+    np.testing.assert_allclose(real[0][:, 0], plain[0][:, 0] / r**2, rtol=1e-12)
+    assert r.max() > 1.3 * r.min()
+
+
+def test_distance_and_focal_length_are_those_of_the_camera():
+    sweep = line()
+    real = parse_exposure("50mm,1.5m")
+    camera = frame(
+        sweep.lit_points, np.eye(3), parse_view("front"), (900, 600), real.lens, real.distance
+    )
+    assert camera.focal == pytest.approx(50 / 36 * 900)
+    np.testing.assert_allclose(camera.position, [0, 0, 1.5], atol=1e-12)
+    left, right = camera.project([[-0.2, 0, 0], [0.2, 0, 0]])[0][:, 0]
+    assert (right - left) / 900 * 36 == pytest.approx(0.4 / 1.5 * 50)  # mm on the sensor
+
+
+def test_advice_gives_back_what_it_was_asked():
+    """The automatic's factor, taken as real settings, is the same picture."""
+    real = Exposure(candela=0.13)
+    sweep = line()
+    camera = frame(sweep.lit_points, np.eye(3), parse_view("front"), (1280, 720))
+    distance = float(camera.position[2])
+    factor = real.factor(camera) / distance**2
+    assert advice(factor, camera, distance) == (
+        f"as f/8, ISO 100, 40 mm at {distance:.2g} m with an LED of 0.13 cd"
+    )
+    assert "13 mcd" in advice(0.1 * factor, camera, distance)
+
+
+def test_settings_read_as_they_are_written():
+    assert parse_exposure("auto") is None
+    assert parse_exposure(" F/5.6 , ISO200,50mm,nd1.5,.2cd,3m") == Exposure(
+        5.6, 200.0, 0.05, 1.5, 0.2, 3.0
+    )
+    assert str(parse_exposure("nd3,1cd")) == "f/8, ISO 100, 40 mm, ND 3 stops, LED of 1 cd"
+
+
+@pytest.mark.parametrize(("text", "says"), [
+    ("", "'' is no part of one; its parts: f/8 (aperture), iso100, 35mm (focal length), nd3"),
+    ("f8", "'f8' is no part of one"),
+    ("f/8,,iso100", "'' is no part of one"),
+    ("f/8,f/11", "f/8's kind of part is given twice"),
+    ("f/0", "'f/0' must be from 0.5 to 128, as in f/8"),
+    ("iso0", "'iso0' must be from 1 to 1e+06"),
+    ("f/8,2200mm", "'2200mm' must be from 4 to 2000"),
+    ("f/-8", "'f/-8' is no part"),
+    ("infcd", "'infcd' is no part"),
+    ("nd99", "'nd99' must be from 0 to 30"),
+])  # fmt: skip
+def test_wrong_settings_name_the_part(text, says):
+    with pytest.raises(UsageError) as caught:
+        parse_exposure(text)
+    assert says in str(caught.value)

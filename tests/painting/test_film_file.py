@@ -1,0 +1,236 @@
+"""Films that are kept: developed again they are what they were, and files of others are refused."""
+
+import io
+import json
+import time
+import zipfile
+
+import cv2
+import numpy as np
+import pytest
+
+import dqpaint
+from dqpaint.cli import report
+from dqpaint.errors import DqpaintError
+from dqpaint.outputs import files as outputs
+from dqpaint.painting import film_file, video
+from dqpaint.painting.picture import linear
+from dqpaint.painting.scene import Scene
+
+TEXT = "period 20 ms\nline to (30, 10) mm in 1 s\nline by (0, -20) mm light red to blue\n"
+CHOICES = {
+    "plain": {},
+    "bar": {"brush": "bar:length=100mm,leds=9", "view": "iso,front"},
+    "told": {"colour_by": "position-error", "overlay": True, "magnify": 3.0, "ev": -1.0},
+    "real": {"exposure": "f/8,iso100,50mm,0.05cd", "pwm": 100.0, "look": "aces", "noise": 3},
+    "pixels": {"brush": "pixelstick:length=40mm,along=y", "starburst": 6},
+}
+
+
+@pytest.fixture(scope="module", params=CHOICES)
+def painting(request, tmp_path_factory):
+    path = tmp_path_factory.mktemp("drawing") / "corner.traj"
+    path.write_text(TEXT)
+    return dqpaint.draw(
+        path, controller="p", plant="ideal", size=(160, 90), **CHOICES[request.param]
+    )
+
+
+def test_a_film_developed_again_is_the_same_to_the_bit(painting, tmp_path):
+    dqpaint.save(painting, f"{tmp_path}/a", "film")
+    again = dqpaint.develop(tmp_path / "a-film.npz")
+    assert len(again) == len(painting.pictures)
+    for new, old in zip(again, painting.pictures, strict=True):
+        assert np.array_equal(new.image, old.image)
+        assert new.told == old.told
+
+
+def test_the_tiff_is_the_linear_film_exactly(painting, tmp_path):
+    dqpaint.save(painting, f"{tmp_path}/a", "film,hdr")
+    read = cv2.imread(f"{tmp_path}/a-film.tiff", cv2.IMREAD_UNCHANGED)[..., ::-1]
+    assert read.dtype == np.float32
+    picture = painting.picture
+    image = linear(
+        painting.scene, picture.film, picture.exposure, picture.camera, painting.settings
+    )
+    ratio = read[image > 0] / image[image > 0]
+    assert np.ptp(ratio) == 0
+    assert np.log2(ratio[0]) == round(np.log2(ratio[0]))
+    assert 0.7 < ratio[0] / (picture.exposure * 2.0**painting.settings.ev) < 1.42
+    hdr = cv2.imread(f"{tmp_path}/a.hdr", cv2.IMREAD_UNCHANGED)[..., ::-1]
+    scale = read.max(axis=2, keepdims=True)
+    assert (np.abs(hdr - read) <= 0.01 * scale + 1e-6).all()
+
+
+def test_what_is_asked_for_anew_is_as_if_it_had_been_drawn_so(tmp_path):
+    (tmp_path / "corner.traj").write_text(TEXT)
+    drawing = tmp_path / "corner.traj"
+    first = dqpaint.draw(drawing, plant="ideal", size=(160, 90), brush="ribbon:length=30mm,along=y")
+    dqpaint.save(first, f"{tmp_path}/a", "film")
+    choices = {"size": (240, 135), "view": "20,30,orbit:3", "look": "agx", "ev": 0.5}
+    again = dqpaint.develop(tmp_path / "a-film.tiff", **choices)  # the name of its picture will do
+    drawn = dqpaint.draw(drawing, plant="ideal", brush="ribbon:length=30mm,along=y", **choices)
+    for new, old in zip(again, drawn.pictures, strict=True):
+        assert np.array_equal(new.image, old.image)
+    real = dqpaint.develop(tmp_path / "a-film.npz", exposure="f/8,35mm,0.1cd")[0]
+    assert real.told == "f/8, ISO 100, 35 mm, LED of 0.1 cd"
+    auto = dqpaint.develop(tmp_path / "a-film.npz", exposure="auto")[0]
+    assert np.array_equal(auto.image, first.image)
+
+
+def test_developing_simulates_nothing_and_is_quick(tmp_path, monkeypatch):
+    painting = dqpaint.draw("star", plant="ideal", size=(1280, 720))
+    dqpaint.save(painting, f"{tmp_path}/a", "film")
+    monkeypatch.setattr("dqpaint.simulation.closed_loop.track", None)
+    dqpaint.develop(tmp_path / "a-film.npz")
+    begin = time.process_time()
+    dqpaint.develop(tmp_path / "a-film.npz", view="iso", look="clip")
+    assert time.process_time() - begin < 1.0
+
+
+def broken(tmp_path):
+    painting = dqpaint.draw("star", plant="ideal", size=(64, 36))
+    whole = film_file.encode(painting.scene, painting.settings)
+    arrays = dict(np.load(io.BytesIO(whole)))
+
+    def again(**changed):
+        file = io.BytesIO()
+        np.savez(file, **{k: v for k, v in {**arrays, **changed}.items() if v is not None})
+        return file.getvalue()
+
+    about = str(arrays["about"])
+    yield "empty", b""
+    yield "text", b"line to (0, 0) mm\n"
+    yield "cut", whole[: len(whole) // 2]
+    yield "no arrays", again(front=None)
+    yield "no about", again(about=None)
+    yield "other schema", again(about=np.array(about.replace("dqpaint-film-1", "dqpaint-film-9")))
+    yield "no json", again(about=np.array("{"))
+    yield "wrong shape", again(**{"light0-pose": np.zeros((3, 7))})
+    far = arrays["light0-pose"].copy()
+    for fault in (np.nan, np.inf, 1e200, 0.0):
+        yield f"pose {fault}", again(**{"light0-pose": far * fault})
+    yield "complex", again(**{"light0-pose": far * (1 + 1j)})
+    yield "text array", again(**{"light0-pose": far.astype(str)})
+    yield "one number", again(**{"light0-pose": np.array(1.0)})
+    yield "front nan", again(front=arrays["front"] * np.nan)
+    yield "front short", again(front=arrays["front"][:2])
+    yield "deep", again(about=np.array("[" * 100_000))
+    yield "list", again(about=np.array("[1]"))
+    facts = json.loads(about)
+    for name, value in (("period", 1e300), ("size", -1), ("lobe", "q"), ("pwm", -5), ("joined", 2)):
+        one = {**facts["light"][0], name: value}
+        yield name, again(about=np.array(json.dumps({**facts, "light": [one]})))
+    for name, value in (("dimmer", -5), ("name", 5), ("light", {"a": 1}), ("legend", "x")):
+        yield name, again(about=np.array(json.dumps({**facts, name: value})))
+    header = io.BytesIO()
+    form = {"descr": "<f8", "fortran_order": False, "shape": (10**12, 8)}
+    np.lib.format.write_array_header_1_0(header, form)
+    huge = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(whole)) as old, zipfile.ZipFile(huge, "w") as new:
+        for name in old.namelist():
+            is_pose = name == "light0-pose.npy"
+            new.writestr(name, header.getvalue() if is_pose else old.read(name))
+    yield "huge header", huge.getvalue()
+    yield "pickle", again(**{"light0-pose": np.array([{}], dtype=object)})
+
+
+def test_files_that_are_no_films_are_refused_in_a_sentence(tmp_path):
+    for name, data in broken(tmp_path):
+        (tmp_path / "bad.npz").write_bytes(data)
+        with pytest.raises(DqpaintError) as caught:
+            dqpaint.develop(tmp_path / "bad.npz")
+        assert "film" in str(caught.value), name
+    with pytest.raises(DqpaintError, match="cannot be read: No such file"):
+        dqpaint.develop(tmp_path / "none.npz")
+
+
+def test_a_film_without_light_is_told_without_a_share(tmp_path):
+    painting = dqpaint.draw("star", plant="ideal", size=(64, 36))
+    arrays = dict(np.load(io.BytesIO(film_file.encode(painting.scene, painting.settings))))
+    dark = {k: v * 0 if k == "light0-colours" else v for k, v in arrays.items()}
+    np.savez(tmp_path / "dark.npz", **dark)
+    pictures = dqpaint.develop(tmp_path / "dark.npz")
+    assert report.light_line(pictures[0]) == "none: no lamp shone this way"
+
+
+def test_a_device_is_no_place_for_a_picture():
+    with pytest.raises(DqpaintError, match="'/dev/null' is neither a folder nor a file"):
+        outputs.stem_for("/dev/null", "star")
+
+
+def test_choices_are_checked(tmp_path):
+    painting = dqpaint.draw("star", plant="ideal", size=(64, 36))
+    dqpaint.save(painting, f"{tmp_path}/a", "film")
+    for choice, says in [({"look": "x"}, "no look named"), ({"view": "x"}, "no view named"),
+                         ({"starburst": 1}, "starburst 1"), ({"ev": 99.0}, "ev")]:  # fmt: skip
+        with pytest.raises(DqpaintError, match=says):
+            dqpaint.develop(tmp_path / "a-film.npz", **choice)
+
+
+def test_a_video_grows_to_the_picture(monkeypatch):
+    painting = dqpaint.draw("star", plant="ideal", size=(161, 90), overlay=True)
+    monkeypatch.setattr(video, "LONGEST", 1.0)
+    monkeypatch.setattr(video, "LEAST", 0.5)
+    told = []
+    frames = list(
+        video.frames(painting.scene, painting.picture, painting.settings, 12, told.append)
+    )
+    assert len(frames) == 12
+    assert told == sorted(told)
+    assert told[-1] <= 1.0
+    light = [frame.astype(float).sum() for frame in frames]
+    assert (np.diff(light) > -0.001 * light[-1]).all()
+    assert np.array_equal(frames[-1], painting.image)
+    assert (
+        np.abs(frames[-2].astype(int) - frames[-1]).mean()
+        < np.abs(frames[0].astype(int) - frames[-1]).mean()
+    )
+
+
+def test_what_has_shone_by_the_last_frame_is_the_film(monkeypatch):
+    """The pieces of a video add up to the whole film, whatever the brush."""
+    from dqpaint.light.film.film import Exposing
+
+    for brush in ("point", "ball:size=5mm", "bar:length=50mm", "pixelstick:length=40mm,along=y"):
+        painting = dqpaint.draw("star", plant="ideal", size=(160, 90), brush=brush)
+        exposing = Exposing(painting.picture.camera)
+        for sweep in painting.scene.light:
+            n = len(sweep.colours)
+            for i in range(7):
+                for piece in sweep.towards(
+                    painting.picture.camera, False, slice(n * i // 7, n * (i + 1) // 7)
+                ):
+                    exposing.add(piece)
+        film = exposing.film()
+        np.testing.assert_allclose(film.on_film, painting.film.on_film, rtol=1e-9)
+        off = np.abs(film.planes - painting.film.planes).sum()  # bins end where frames do
+        assert off < 0.03 * painting.film.planes.sum(), brush
+
+
+@pytest.mark.slow
+def test_movies_are_written_in_formats_that_play(tmp_path, monkeypatch):
+    monkeypatch.setattr(video, "LONGEST", 1.0)
+    painting = dqpaint.draw("star", plant="ideal", size=(161, 91))
+    told = []
+    files = outputs.make(["video", "webp"], painting, told.append)
+    assert list(files) == [".webm", ".webp"]
+    assert len(told) > 20
+    assert files[".webm"][:4] == b"\x1a\x45\xdf\xa3"  # EBML
+    (tmp_path / "a.webm").write_bytes(files[".webm"])
+    film = cv2.VideoCapture(str(tmp_path / "a.webm"))
+    assert int(film.get(cv2.CAP_PROP_FOURCC)).to_bytes(4, "little") in (b"VP90", b"vp09")
+    frames = []
+    while (read := film.read())[0]:
+        frames.append(read[1])
+    assert len(frames) == 25 + round(video.REST * 25)
+    assert frames[-1].shape == (90, 160, 3)
+    assert np.abs(frames[-1][..., ::-1].astype(int) - painting.image[:90, :160]).mean() < 4
+    assert files[".webp"][8:12] == b"WEBP"
+    done, animation = cv2.imdecodeanimation(np.frombuffer(files[".webp"], np.uint8))
+    assert done
+    assert len(animation.frames) == 12
+
+
+def test_a_scene_is_plain_data():
+    assert Scene.__dataclass_params__.frozen

@@ -1,0 +1,153 @@
+"""Rays against the twins of plain shapes, whose answers are known in closed form."""
+
+import numpy as np
+import pytest
+
+from dqpaint import dq
+from dqpaint.light.camera.camera import View, frame
+from dqpaint.render.arm_shapes import Arm
+from dqpaint.render.geometry_buffer import measure
+from dqpaint.render.ray_casting import Twins
+from dqpaint.robots.model.card import read_card
+from dqpaint.robots.urdf.prepare import urdf_file
+from tests.support.urdf_shapes import BALL, BOX, urdf
+
+pytestmark = pytest.mark.slow
+EDGE = 0.003  # [m] nearer to an outline the answer may be either
+
+
+def through_ball(start, end, centre, radius):
+    """How far (R,) inside the ball the nearest point of each way is [m]."""
+    way = end - start
+    t = np.clip(((centre - start) * way).sum(1) / (way * way).sum(1), 0, 1)
+    return radius - np.linalg.norm(start + t[:, None] * way - centre, axis=1)
+
+
+def through_box(start, end, half):
+    """Whether each way meets the box of half sides about the origin: slabs."""
+    way = end - start
+    a, b = (-half - start) / way, (half - start) / way
+    enter, leave = np.minimum(a, b).max(axis=1), np.maximum(a, b).min(axis=1)
+    return (enter <= leave) & (leave >= 0) & (enter <= 1)
+
+
+def many_rays(rng, n, around):
+    return around + rng.normal(size=(n, 3)), around + 0.1 * rng.normal(size=(n, 3))
+
+
+def test_a_ball_on_a_link_blocks_what_goes_through_it(rng, tmp_path):
+    with Arm(urdf(tmp_path, base="", first="", second=BALL)) as arm, Twins(arm) as twins:
+        for posture in rng.uniform(-1, 1, (4, 2)):
+            twins.stand(posture)
+            centre = dq.translation(dq.mul(arm.frames(posture[None])[0, 2], arm.shapes[0].frame))
+            start, end = many_rays(rng, 2000, centre)
+            deep = through_ball(start, end, centre, 0.06)
+            clear = np.abs(deep) > EDGE
+            clear &= np.linalg.norm(end - centre, axis=1) > 0.06  # none ends inside
+            hit = twins.blocked(start, end)
+            assert clear.sum() > 500
+            assert 0.05 < hit[clear].mean() < 0.95
+            np.testing.assert_array_equal(hit[clear], deep[clear] > 0)
+
+
+def test_a_base_whose_weight_is_elsewhere_blocks_where_it_is_drawn(rng, tmp_path):
+    with Arm(urdf(tmp_path, base=BOX, first="", second="")) as arm, Twins(arm) as twins:
+        twins.stand(np.zeros(2))
+        turn = np.array([np.cos(0.2), 0, 0, np.sin(0.2)])
+        start, near = many_rays(rng, 4000, [0, 0, 0.1])
+        end = 3 * near - 2 * start  # well outside
+        own = [dq.rotate(turn * [1, -1, -1, -1], p - [0, 0, 0.1]) for p in (start, end)]
+        half = np.array([0.1, 0.05, 0.15])
+        sure = through_box(*own, half + EDGE) == through_box(*own, half - EDGE)
+        outside = (np.abs(own[0]) > half + EDGE).any(axis=1)
+        hit = twins.blocked(start, end)
+        assert 0.005 < hit[sure & outside].mean() < 0.9
+        np.testing.assert_array_equal(hit[sure & outside], through_box(*own, half)[sure & outside])
+
+
+@pytest.mark.parametrize("name", ["iiwa", "ur5"])
+def test_rays_and_the_depth_buffer_agree(name, rng):
+    """Of 4,000 places round the arm those hide from rays that lie deeper than what is drawn.
+
+    The UR5's meshes are Collada, whose twins are made of their triangles.
+    """
+    card = read_card(name)
+    if card.missing:
+        pytest.skip(f"{name} needs {card.origin}")
+    wrong = total = 0
+    with urdf_file(card) as path, Arm(path) as arm, Twins(arm) as twins:
+        arm.whiten()
+        for view in (View(30, 15), View(-70, 40)):
+            place = rng.uniform([-0.4, -0.4, 0], [0.8, 0.4, 1.2], (2000, 3))
+            camera = frame(place, np.eye(3)[[1, 2, 0]].T, view, (640, 360), 0.9)
+            twins.stand(card.home + 0.3 * rng.normal(size=card.joints))
+            found = measure(arm, camera)
+            pixels, depth = camera.project(place)
+            x, y = np.rint(pixels).astype(int).T - np.array([[found.box.left], [found.box.top]])
+            height, width = found.sure.shape
+            inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)
+            drawn = np.full(found.sure.shape, np.inf)
+            drawn[found.sure] = found.depth
+            hidden = np.zeros(len(place), bool)
+            hidden[inside] = drawn[y[inside], x[inside]] < depth[inside]
+            hit = twins.blocked(place, np.broadcast_to(camera.position, place.shape))
+            wrong, total = wrong + (hit != hidden).sum(), total + len(place)
+            assert 0.02 < hit.mean() < 0.95
+    assert wrong < 0.006 * total  # outlines
+
+
+def test_more_rays_than_one_call_takes_and_as_many_answers(rng, tmp_path):
+    with Arm(urdf(tmp_path)) as arm, Twins(arm) as twins:
+        twins.stand(np.array([0.3, -0.2]))
+        start, end = many_rays(rng, 33_000, [0, 0, 0.3])
+        whole = twins.blocked(start, end)
+        parts = [twins.blocked(start[i : i + 400], end[i : i + 400]) for i in range(0, 33_000, 400)]
+        assert 0.05 < whole.mean() < 0.95
+        np.testing.assert_array_equal(whole, np.concatenate(parts))  # one thread or more
+
+
+COLLADA = """<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit meter="1" name="meter"/><up_axis>Z_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="12">{corners}</float_array><technique_common>
+<accessor source="#a" count="4" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="4"><input semantic="VERTEX" source="#v" offset="0"/>
+<p>0 2 1 0 1 3 1 2 3 2 0 3</p></triangles></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node>
+</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>
+"""
+CORNERS = np.array([[0.02, -0.05, 0.0], [0.12, 0.0, 0.02], [0.0, 0.1, 0.01], [0.03, 0.02, 0.15]])
+
+
+def test_a_collada_mesh_blocks_where_its_triangles_are(rng, tmp_path):
+    """A tetrahedron, scaled: a way meets it where it crosses one of its four faces."""
+    text = COLLADA.format(corners=" ".join(str(x) for x in CORNERS.ravel()))
+    (tmp_path / "a.dae").write_text(text)
+    mesh = '<visual><geometry><mesh filename="a.dae" scale="2 1.5 1"/></geometry></visual>'
+    with Arm(urdf(tmp_path, base="", first="", second=mesh)) as arm, Twins(arm) as twins:
+        assert not twins.unread
+        twins.stand(np.array([0.4, -0.7]))
+        frame_of = dq.mul(arm.frames(np.array([[0.4, -0.7]]))[0, 2], arm.shapes[0].frame)
+        corners = dq.rotate(dq.rotation(frame_of), CORNERS * [2, 1.5, 1])
+        corners = corners + dq.translation(frame_of)
+        start, end = many_rays(rng, 3000, corners.mean(axis=0))
+        end = 2 * end - start
+        met = np.zeros(len(start), dtype=bool)
+        for a, b, c in corners[[(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)]]:
+            edges = np.stack(np.broadcast_arrays(b - a, c - a, start - end), axis=2)
+            u, v, t = np.linalg.solve(edges, (start - a)[..., None])[..., 0].T
+            met |= (u >= 0) & (v >= 0) & (u + v <= 1) & (t >= 0) & (t <= 1)
+        hit = twins.blocked(start, end)
+        assert 0.02 < met.mean() < 0.9
+        assert (hit != met).mean() < 0.003  # rays in an edge
+
+
+def test_a_file_that_is_no_mesh_has_no_twin(tmp_path):
+    (tmp_path / "junk.stl").write_text("junk")
+    mesh = '<visual><geometry><mesh filename="junk.stl"/></geometry></visual>'
+    with Arm(urdf(tmp_path, second=mesh)) as arm, Twins(arm) as twins:
+        assert [shape.link for shape in twins.unread] == [1]
+        twins.stand(np.zeros(2))

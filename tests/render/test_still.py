@@ -1,0 +1,111 @@
+"""The picture of an arm: it adds light, always the same, where the arm is."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from dqpaint.light.camera.camera import View, frame
+from dqpaint.render import still
+from dqpaint.render.arm_shapes import Arm
+from dqpaint.render.geometry_buffer import measure
+from dqpaint.render.still import glow, photograph
+from tests.support.urdf_shapes import BALL, urdf
+
+slow = pytest.mark.slow
+
+
+def ring(colour=(1.0, 0.2, 0.1), n=200):
+    angle = np.linspace(0, 2 * np.pi, n + 1)
+    points = np.stack([0.2 * np.cos(angle), np.full(n + 1, -0.3), 0.5 + 0.2 * np.sin(angle)], 1)
+    return points, np.tile(np.array(colour) / n, (n, 1))
+
+
+def seen(fill=0.3, size=(240, 180)):
+    front = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
+    return frame(ring()[0], front, View(15, 20), size, fill)
+
+
+def test_twice_the_light_with_half_the_exposure_is_the_same_glow():
+    points, energy = ring()
+    one, two = glow([(points, energy)]), glow([(points, 2 * energy)])
+    np.testing.assert_allclose(two.lamps.total * two.gain, one.lamps.total * one.gain)
+
+
+def test_darkness_has_no_glow():
+    points, energy = ring()
+    assert glow([(points, 0 * energy)]).gain == 0.0
+
+
+def test_rims_take_the_colours_of_either_end(rng):
+    points, energy = ring()
+    energy = np.where(points[:-1, :1] > 0, [1.0, 0.1, 0.0], [0.0, 0.3, 1.0])
+    camera = seen()
+    right, left = still._rims(glow([(points, energy)]).lamps, camera)
+    assert right[0] > right[2]
+    assert left[2] > left[0]
+
+
+@slow
+def test_the_arm_adds_light_where_it_is_and_the_same_every_time(tmp_path):
+    camera, light = seen(), glow([ring()])
+    pictures = []
+    for _ in range(2):
+        with Arm(urdf(tmp_path)) as arm:
+            arm.whiten()
+            arm.stand(np.array([0.3, -0.4]))
+            pictures.append(photograph(arm, camera, light, 2.0))
+            cover = np.zeros((camera.height, camera.width))
+            found = measure(arm, camera)
+            box = found.box
+            cover[box.top : box.bottom, box.left : box.right] = found.cover
+    np.testing.assert_array_equal(*pictures)
+    image = pictures[0]
+    assert image.dtype == np.float32
+    assert np.isfinite(image).all()
+    assert image.min() >= 0.0
+    assert image[cover == 1].mean() > 10 * np.median(image[cover == 0])
+
+
+@slow
+def test_each_side_of_the_arm_has_the_colour_of_its_side(tmp_path):
+    points, energy = ring()
+    energy = np.where(points[:-1, :1] > 0, [1.0, 0.1, 0.0], [0.0, 0.1, 1.0]) * energy[:, :1]
+    camera = seen()
+    with Arm(urdf(tmp_path, "", "", BALL)) as arm:
+        arm.whiten()
+        arm.stand(np.array([-0.3, 0.0]))
+        found = measure(arm, camera)
+        light = glow([(points, energy)])
+        colours = still.lit(arm, found, camera, replace(light, gain=0.0))
+    side = found.normal @ camera.rotation[0]
+    right, left = (colours[side * sign > 0.7].mean(axis=0) for sign in (1, -1))
+    assert right[0] > 1.5 * right[2]
+    assert left[2] > 1.5 * left[0]
+
+
+@slow
+def test_what_is_added_depends_on_the_exposure_as_developing_does(tmp_path):
+    camera = seen()
+    points, energy = ring()
+    with Arm(urdf(tmp_path)) as arm:
+        arm.whiten()
+        one = photograph(arm, camera, glow([(points, energy)]), 2.0)
+        two = photograph(arm, camera, glow([(points, 4 * energy)]), 0.5)
+    np.testing.assert_allclose(0.5 * two, 2.0 * one, rtol=1e-4, atol=1e-7)
+
+
+@slow
+def test_an_arm_without_shapes_leaves_the_floor(tmp_path):
+    with Arm(urdf(tmp_path, "", "", "")) as arm:
+        image = photograph(arm, seen(), glow([ring()]), 2.0)
+    assert np.isfinite(image).all()
+    assert image.max() > 0.0
+
+
+@slow
+def test_outlines_have_quarters(tmp_path):
+    with Arm(urdf(tmp_path)) as arm:
+        arm.whiten()
+        cover = measure(arm, seen()).cover
+    np.testing.assert_array_equal(np.unique(cover), [0, 0.25, 0.5, 0.75, 1])

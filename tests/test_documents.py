@@ -1,0 +1,184 @@
+"""Documents cannot lie: README's commands, tables and links, the examples and the gallery."""
+
+import json
+import re
+import shlex
+import shutil
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+import dqpaint
+from dqpaint.core.examples import example_names, examples_folder, find_drawing
+from dqpaint.language import parse, read
+from dqpaint.language.vocabulary.words import STATEMENTS
+from dqpaint.motion import plan
+from dqpaint.outputs.files import summarise
+from dqpaint.planning.reachability import begin
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.model.card import read_card
+from dqpaint.studies.gallery import SHOTS, page
+from dqpaint.studies.kinds.verify import told, verify
+from tests.tools import generated
+
+ROOT = Path(__file__).parent.parent
+README = (ROOT / "README.md").read_text("utf-8")
+PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("*/*.md")])
+NUMERIC_NOISE = 2  # of 255: what another processor or build of a library may change in a pixel
+
+
+def blocks(kind):
+    return re.findall(rf"^```{kind}\n(.*?)^```$", README, re.DOTALL | re.MULTILINE)
+
+
+@pytest.mark.parametrize("page", generated.PAGES, ids=lambda p: p.parent.name)
+def test_generated_tables_are_current(page):
+    assert generated.renewed(page) == page.read_text("utf-8"), "python -m tests.tools.generated"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("page", "table"), [
+    (page, table) for page, tables in generated.SLOW_TABLES.items() for table in tables
+    if table is not generated.springs  # is looked at beside the tests of the compliant arm
+])  # fmt: skip
+def test_generated_measurements_are_current(page, table):
+    renewed = generated.renewed(page, {page: [table]})
+    assert renewed == page.read_text("utf-8"), "python -m tests.tools.generated"
+
+
+def test_the_column_table_knows_every_kind_of_column(tmp_path):
+    (tmp_path / "hold.traj").write_text("hold 50 ms\n")
+    (tmp_path / "dot.traj").write_text('include "hold.traj"\n')
+    columns = list(dqpaint.draw(tmp_path / "dot.traj", plant="ideal", size=(64, 36)).table)
+    described = ", ".join(generated.COLUMNS).replace(" ...", "").split(", ")
+    kinds = {re.sub(r"^(q|command)\d", r"\g<1>1", column) for column in columns}
+    assert kinds == set(described)
+
+
+@pytest.mark.parametrize("path", PAGES, ids=lambda p: p.name)
+def test_links_lead_somewhere(path):
+    for target in re.findall(r"\]\(([^)#\s]+)\)", path.read_text("utf-8")):
+        if not target.startswith("https://"):
+            assert (path.parent / target).exists(), target
+
+
+def test_the_readme_shows_the_star_as_it_is():
+    assert blocks("")[0] == (examples_folder() / "star.traj").read_text("utf-8")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("command", [
+    line.removeprefix("$ ") for block in blocks("console") for line in block.splitlines()
+])  # fmt: skip
+def test_readme_commands_run(command, answer):
+    name, *words = shlex.split(command)
+    assert name == "dqpaint"
+    done = answer(*words)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout
+
+
+@pytest.mark.slow
+def test_readme_python_runs(tmp_path, monkeypatch):
+    scope = {}
+    monkeypatch.chdir(tmp_path)
+    exec(blocks("python")[0], scope)
+    assert (tmp_path / "pictures/star-hinf.png").is_file()
+    assert scope["painting"].image.shape == (720, 1280, 3)
+
+
+@pytest.mark.slow
+def test_readme_studies_from_python_run(tmp_path, monkeypatch):
+    scope = {}
+    monkeypatch.chdir(tmp_path)
+    exec(blocks("python")[2], scope)
+    assert scope["compared"].pictures["overlay"].shape == (360, 640, 3)
+    assert (tmp_path / "pictures/lag-report.html").is_file()
+
+
+def test_the_readme_shows_the_law_as_it_is():
+    assert blocks("python")[1] == (examples_folder() / "mylaw.py").read_text("utf-8")
+
+
+def test_the_readme_shows_the_message_as_it_is():
+    from dqpaint.language import ScriptError
+
+    with pytest.raises(ScriptError) as caught:
+        parse("speed 40 mm/s\nline to (0, 0, 70)\n", "lines.traj")
+    assert str(caught.value) + "\n" in blocks("")
+
+
+def test_readme_lines_are_single_and_ci_runs_them():
+    lines = [block.strip() for block in blocks("sh")]
+    assert len(lines) == 2
+    assert all("\n" not in line and "-c constraints.txt" in line for line in lines)
+    script = (ROOT / ".ci/run").read_text("utf-8")
+    for text in re.findall(r"readme_line '(.*?)'", script):
+        assert sum(text in line for line in README.splitlines()) == 1, text
+
+
+@pytest.mark.parametrize("name", example_names())
+def test_every_example_is_planned_and_says_what_it_shows(name):
+    path = find_drawing(name)
+    text = path.read_text("utf-8")
+    assert text.startswith(f"# {name}.traj - ")
+    motion = plan(read(path), read_card("iiwa").canvas.pose)
+    assert {note.code for note in motion.notes} <= {"W403"}  # a paper's corners stay corners
+    assert motion.lit.any()
+
+
+@pytest.mark.parametrize("word", STATEMENTS)
+def test_every_statement_s_example_is_one(word, tmp_path):
+    """The example lines of the words' own table, pasted, and drawn within the arm's reach."""
+    example = STATEMENTS[word].example
+    before = {"end": "repeat 2\nline by (1, 0) mm\n"}
+    after = "\nline by (1, 0) mm\n" if word != "end" else "\n"
+    if STATEMENTS[word].block:
+        after += "end\nline by (1, 0) mm\n"
+    (tmp_path / "f.traj").write_text("line by (5, 0) mm\n")
+    for name in ("orbit.csv", "logo.svg"):
+        shutil.copy(examples_folder() / name, tmp_path)
+    text = before.get(word, "") + example + after
+    here = tmp_path / "example.traj"
+    program = parse(text, str(here), here)
+    motion = plan(program, read_card("iiwa").canvas.pose)
+    begin(motion, Kinematics(read_card("iiwa")))
+
+
+def test_the_gallery_s_page_is_current():
+    assert (ROOT / "gallery/README.md").read_text("utf-8") == page()
+    assert {shot.example for shot in SHOTS} == set(example_names())
+
+
+def test_the_gallery_s_cases_are_current_and_small():
+    assert generated.CASES.read_text("utf-8") == generated.cases()
+    files = list(generated.CASES.parent.iterdir())
+    assert {path.stem for path in files} == {"cases", *(shot.name for shot in SHOTS)}
+    assert sum(path.stat().st_size for path in files) < 3.5e6
+
+
+@pytest.mark.slow
+def test_the_gallery_is_what_its_references_guard():
+    verdicts = verify(generated.CASES.parent)
+    assert not [one for one in verdicts if one.faults], told(verdicts)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("shot", SHOTS, ids=lambda shot: shot.name)
+def test_the_gallery_is_what_its_commands_paint(shot):
+    painting = dqpaint.draw(shot.example, **shot.choices)
+    kept = cv2.imread(str(ROOT / f"gallery/{shot.name}.png"))[..., ::-1].astype(int)
+    assert np.abs(kept - painting.image).max() <= NUMERIC_NOISE, "dqpaint gallery"
+    facts = json.loads((ROOT / f"gallery/{shot.name}.json").read_text("utf-8"))
+    now = summarise(painting)
+    assert facts["sha256"] == now["sha256"]
+    assert facts["settings"] == now["settings"]
+    for name in ("error_integral", "position_error_rms_m", "speed_integral_m"):
+        assert facts[name] == pytest.approx(now[name], rel=1e-6)
+
+
+def test_the_repository_names_no_package_index():
+    for path in [*ROOT.glob("*.toml"), *ROOT.glob("*.txt"), ROOT / ".ci/run", ROOT / "README.md"]:
+        assert not re.search(r"index.url|find.links|/simple/", path.read_text("utf-8")), path

@@ -1,0 +1,295 @@
+"""The generated tables of the pages: `python -m tests.tools.generated` writes them."""
+
+import json
+from math import ceil, floor
+from pathlib import Path
+
+import numpy as np
+
+END = "<!-- end -->"
+ROOT = Path(__file__).parents[2]
+CASES = ROOT / "tests/references/cases.toml"
+CASE_SIZE = {"width": 400, "height": 225}  # all of them stay below 3.5 MB
+
+COLUMNS = {
+    "t_s": "time",
+    "line": "the line of the drawing that asks for what follows",
+    "file": "which file `line` is of, where the drawing includes others: 0 is the main one",
+    "lit": "1 while the light shines until the next row",
+    "desired_x_m, desired_y_m, desired_z_m": "asked place",
+    "desired_qw, desired_qx, desired_qy, desired_qz": "asked orientation, scalar first",
+    "x_m, y_m, z_m": "place of the light, the true one",
+    "qw, qx, qy, qz": "true orientation",
+    "position_error_m": "distance from the asked place",
+    "orientation_error_rad": "angle from the asked orientation",
+    "invariant_error": "norm of 1 - x* x_d",
+    "speed_m_s": "of the light, until the next row",
+    "acceleration_m_s2": "of the light",
+    "effort_rad": "how far the joints move until the next row",
+    "manipulability": "square root of det(J J')",
+    "q1_rad ...": "joint angles, the true ones",
+    "command1_rad_s ...": "joint rates the arm is given",
+}
+
+
+def table(heads, rows):
+    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def statements():
+    from dqpaint.language.vocabulary.words import STATEMENTS
+
+    rows = [
+        [f"`{s.word}`", s.says, " ".join(s.parts), f"`{s.example}`"] for s in STATEMENTS.values()
+    ]
+    return table(["statement", "what it says", "its parts", "for example"], rows)
+
+
+def parts():
+    from dqpaint.language.vocabulary.words import PARTS
+
+    rows = [[f"`{p.word}`", p.says, f"`{p.example}`"] for p in PARTS.values()]
+    return table(["part", "what it says", "for example"], rows)
+
+
+def values():
+    from dqpaint.language.vocabulary.units import UNITS
+    from dqpaint.language.vocabulary.words import CONSTANTS, FUNCTIONS, LAWS
+
+    ends = {0: "", 2: "(v0, v1)", 4: "(v0, v1, a0, a1)"}  # rates and accelerations at the ends
+    laws = [f"{name}{ends[count]}" for name, counts in LAWS.items() for count in counts]
+    kinds = {
+        "units": [f"`{u}`" for u in UNITS],
+        "constants": [f"`{c}`" for c in CONSTANTS],
+        "laws": [f"`{law}`" for law in laws],
+        "functions": [f"`{call}`" for call in FUNCTIONS.values()],
+    }
+    return table(["", ""], [[kind, " ".join(words)] for kind, words in kinds.items()])
+
+
+def controllers():
+    from dqpaint.controllers import CONTROLLERS
+
+    rows = [[f"`{c.name}`", c.summary, c.list_gains(), c.source] for c in CONTROLLERS.values()]
+    return table(["name", "what it does", "gains", "from"], rows)
+
+
+def robots():
+    from dqpaint.robots.model.card import card_names, read_card
+
+    cards = [read_card(name) for name in card_names()]
+    rows = [[f"`{c.name}`", c.title, str(c.joints), c.origin] for c in cards]
+    return table(["robot", "", "joints", "from"], rows)
+
+
+def stars():
+    """The star by every arm, bounds rounded away from the good side.
+
+    The row of an arm whose package is not installed stays as it is.
+    """
+    import dqpaint
+    from dqpaint.robots.model.card import card_names, read_card
+
+    before = {line.split("|")[1].strip(): line for line in README.read_text("utf-8").splitlines()
+              if line.startswith("| `") and line.count("|") == 6}  # fmt: skip
+    rows = []
+    for card in map(read_card, card_names()):
+        if card.missing:
+            line = before[f"`{card.name}`"]
+            rows.append([cell.strip() for cell in line.strip("|").split("|")])
+            continue
+        errors = []
+        for plant in ("ideal", "stiff"):
+            run = dqpaint.draw("star", robot=card.name, plant=plant, size=(64, 36))
+            assert not run.limits
+            errors.append(ceil(run.table["position_error_m"].max() * 1e5) / 100)
+        joints = run.track.posture
+        margin = np.degrees(np.minimum(joints - card.lower, card.upper - joints).min())
+        least = floor(100 * run.track.manipulability.min()) / 100
+        rows.append([f"`{card.name}`", *(f"{e:.2f} mm" for e in errors), f"{floor(margin)} deg",
+                     f"{least:.2f}"])  # fmt: skip
+    heads = ["star by", "`ideal`, error below", "`stiff`", "joints off limits by", "manipulability"]
+    return table(heads, rows)
+
+
+def hard():
+    """Drawings an arm cannot follow as they are: what the options make of them."""
+    import tempfile
+
+    from dqpaint import api
+    from dqpaint.language import ScriptError
+    from tests.planning.test_retiming import BEYOND, FAST, far_out, past_a_singularity
+
+    rows = []
+    for name, text, start in (
+        ("too fast", FAST, "first"), ("1 deg beside a singularity, 300 mm/s",
+        past_a_singularity(), "first"), ("across the end of joint 7", BEYOND, "home"),
+        ("10 % out of reach", far_out(), "first"),
+    ):  # fmt: skip
+        cells = []
+        for how in ("clip", "slow", "stop"):
+            with tempfile.TemporaryDirectory() as folder:
+                file = Path(folder) / "t.traj"
+                file.write_text(text)
+                try:
+                    run = api.draw(file, on_limit=how, start=start, plant="ideal", size=(64, 36))
+                except ScriptError as problem:
+                    cells.append(problem.diagnostics[0].code)
+                    continue
+            worst = run.table["position_error_m"].max() * 1e3
+            turned = np.degrees(run.table["orientation_error_rad"].max())
+            told = f"{float(f'{worst:.2g}'):g} mm" + (f", {turned:.2g} deg" if turned > 1 else "")
+            longer = run.slowed.longer if run.slowed else 0.0
+            cells.append(told + (f", {longer:.1f} s longer" if longer else ""))
+        rows.append([name, *cells])
+    return table(["drawing", "`clip`", "`slow`", "`stop`"], rows)
+
+
+def springs():
+    """The compliant arms on half a circle: error, sag, and where a gain makes them swing."""
+    from tests.plants.test_compliant_loop import ARMS, error
+
+    rows = []
+    for values, law, gains in (
+        ("frequency=40", "p", (20,)), ("frequency=40", "pff", (20, 40, 60)),
+        ("frequency=80", "pff", (40, 60, 125)), ("frequency=40,damper=ground", "pff", (20, 30)),
+        ("frequency=80,damper=ground", "pff", (40, 60)),
+        ("frequency=40,encoder=motor", "pff", (20,)),
+        ("frequency=40,encoder=motor,gravity=0", "pff", (20,)),
+    ):  # fmt: skip
+        calm = [np.inf] * len(ARMS)
+        for gain in gains:
+            cells = []
+            for i, arm in enumerate(ARMS):
+                far, restless = error(arm, values, law, gain)
+                swings = restless > 10 * calm[i] and far > 2
+                calm[i] = min(calm[i], restless)
+                cells.append(
+                    "swings" if swings else f"{float(f'{far:.{2 if far > 1 else 1}g}'):g} mm"
+                )
+            rows.append([f"`compliant:{values}`", f"`{law}`", str(gain), *cells])
+    return table(["plant", "law", "k, 1/s", *(f"`{name}`" for name in ARMS)], rows)
+
+
+def plants():
+    from dqpaint.plants import PLANTS
+
+    rows = [
+        [f"`{name}`", plant.__doc__.splitlines()[0], _values(plant.options)]
+        for name, plant in PLANTS.items()
+    ]
+    return table(["plant", "", "values"], rows)
+
+
+def disturbances():
+    from dqpaint.disturbances import DISTURBANCES
+
+    rows = [
+        [f"`{name}`", model.__doc__.splitlines()[0], _values(model)]
+        for name, model in DISTURBANCES.items()
+    ]
+    return table(["disturbance", "", "values"], rows)
+
+
+def null():
+    from dqpaint.robots.kinematics.nullspace import OBJECTIVES
+
+    rows = [
+        [f"`{name}`", one.__doc__.splitlines()[0], f"{one.usual:g} {one.unit}" if one.usual else ""]
+        for name, one in OBJECTIVES.items()
+    ]
+    return table(["`--null`", "", "gain"], rows)
+
+
+def _values(model):
+    fields = model.model_fields.items() if model else ()
+    return ", ".join(f"`{name}` ({field.description})" for name, field in fields)
+
+
+def brushes():
+    from dqpaint.light.sources.brushes import BRUSHES
+
+    rows = [
+        [
+            f"`{name}`",
+            kind.__doc__.splitlines()[0],
+            " ".join(f"`{key}`" for key in kind.model_fields),
+        ]
+        for name, kind in BRUSHES.items()
+    ]
+    return table(["brush", "", "its choices"], rows)
+
+
+def looks():
+    from dqpaint.light.film.looks import LOOKS
+
+    return table(["look", ""], [[f"`{n}`", k.__doc__.splitlines()[0]] for n, k in LOOKS.items()])
+
+
+def columns():
+    return table(["column", ""], [[f"`{name}`", about] for name, about in COLUMNS.items()])
+
+
+def messages():
+    from dqpaint.diagnostics.catalogue import explanations
+
+    rows = [
+        [f"[`{e.code}`](MESSAGES.md#{e.code.lower()})", e.title] for e in explanations().values()
+    ]
+    return table(["code", "what it is about"], rows)
+
+
+def rules():
+    from dqpaint.diagnostics.catalogue import explanations
+
+    return "\n".join(rule(e) for e in explanations().values())
+
+
+def rule(explanation):
+    """One message as its part of the page, under its code alone, so that it can be linked."""
+    parts = [f"## {explanation.code}", f"**{explanation.title}**", explanation.says]
+    for title, text in (("Wrong:", explanation.wrong), ("Right:", explanation.right)):
+        parts += [title, f"```text\n{text}\n```"] if text else []
+    for name, text in explanation.files.items():
+        parts.append(f"with `{name}` beside it:\n\n```text\n{text.strip()}\n```")
+    return "\n\n".join(parts) + "\n"
+
+
+README = ROOT / "README.md"
+PAGES = {
+    README: [controllers, robots, plants, disturbances, null, brushes, looks, columns],
+    ROOT / "trajectories/README.md": [messages, statements, parts, values],
+    ROOT / "trajectories/MESSAGES.md": [rules],
+}
+SLOW_TABLES = {README: [stars, springs, hard]}
+
+
+def renewed(page, tables=PAGES):
+    text = page.read_text("utf-8")
+    for make in tables[page]:
+        mark = f"<!-- {make.__name__} -->"
+        before, found, rest = text.partition(mark)
+        assert found, mark
+        after = rest[rest.index(END) :]
+        text = f"{before}{mark}\n{make()}\n{after}"
+    return text
+
+
+def cases():
+    """The gallery as cases of `dqpaint verify tests/references`."""
+    from dqpaint.studies.gallery import SHOTS
+
+    lines = ["# The pictures of the gallery, small. Written by python -m tests.tools.generated."]
+    for shot in SHOTS:
+        lines += ["", f"[{shot.name}]", f"drawing = {json.dumps(shot.example)}"]
+        choices = {**shot.choices, **CASE_SIZE}
+        lines += [f"{name} = {json.dumps(value)}" for name, value in choices.items()]
+    return "\n".join(lines) + "\n"
+
+
+if __name__ == "__main__":
+    CASES.write_text(cases(), "utf-8")
+    for tables in (PAGES, SLOW_TABLES):
+        for page in tables:
+            page.write_text(renewed(page, tables), "utf-8")

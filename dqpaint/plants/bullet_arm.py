@@ -11,7 +11,7 @@ from dqpaint.dq import Floats
 from dqpaint.plants.bullet_loads import Pushing, check_pushes, loaded
 from dqpaint.plants.plant import Options, Trait
 from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.robots.kinematics.bullet import Client, bullet, joint_indices, quiet
+from dqpaint.robots.bullet.client import Client, bullet, joint_indices, quiet
 from dqpaint.robots.model.card import Card
 from dqpaint.robots.urdf.prepare import urdf_file
 

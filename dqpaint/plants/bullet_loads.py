@@ -8,7 +8,7 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.errors import UsageError
 from dqpaint.plants.world import Payload, Push, World
-from dqpaint.robots.kinematics.bullet import bullet
+from dqpaint.robots.bullet.client import bullet
 from dqpaint.robots.model.card import Card
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from dqpaint.dq import Floats
 from dqpaint.plants.bullet_arm import RigidArm
 from dqpaint.plants.plant import PLANTS, Takes, Trait
 from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.robots.kinematics.bullet import bullet
+from dqpaint.robots.bullet.client import bullet
 from dqpaint.robots.model.card import Card
 
 

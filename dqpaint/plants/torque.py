@@ -6,7 +6,7 @@ from dqpaint.dq import Floats
 from dqpaint.plants.bullet_arm import LONGEST_STEP, RigidArm, some_postures
 from dqpaint.plants.plant import PLANTS, Takes, Trait
 from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.robots.kinematics.bullet import bullet
+from dqpaint.robots.bullet.client import bullet
 from dqpaint.robots.kinematics.dynamics import Dynamics
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import Card

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.render.arm_shapes import Arm, Shape
-from dqpaint.robots.kinematics.bullet import Client, bullet, quiet
+from dqpaint.robots.bullet.client import Client, bullet, quiet
 from dqpaint.robots.kinematics.collisions import read_mesh
 
 MOST_RAYS = 16_000

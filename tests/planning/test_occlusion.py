@@ -17,7 +17,7 @@ from dqpaint.planning.occlusion import hide, looks_at
 from dqpaint.planning.reachability import begin
 from dqpaint.plants import PLANTS
 from dqpaint.render.scene_arm import Staging
-from dqpaint.robots.kinematics.bullet import bullet, joint_indices, quiet
+from dqpaint.robots.bullet.client import bullet, joint_indices, quiet
 from dqpaint.robots.kinematics.collisions import shapes_of
 from dqpaint.robots.kinematics.differential_ik import LENGTH, THRESHOLD
 from dqpaint.robots.kinematics.kinematics import Kinematics

@@ -1,7 +1,7 @@
 import numpy as np
 
 from dqpaint.plants.stiff import Stiff
-from dqpaint.robots.kinematics.bullet import bullet
+from dqpaint.robots.bullet.client import bullet
 from dqpaint.robots.model.card import read_card
 
 

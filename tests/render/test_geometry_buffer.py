@@ -9,7 +9,7 @@ from dqpaint.render import geometry_buffer
 from dqpaint.render.arm_shapes import Arm
 from dqpaint.render.geometry_buffer import Box, measure, projection_matrix, view_matrix
 from dqpaint.render.ray_casting import Twins
-from dqpaint.robots.kinematics.bullet import bullet
+from dqpaint.robots.bullet.client import bullet
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
 from dqpaint.robots.urdf.prepare import urdf_file

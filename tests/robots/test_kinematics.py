@@ -5,7 +5,7 @@ import pinocchio
 import pytest
 
 from dqpaint import dq
-from dqpaint.robots.kinematics.bullet import bullet, joint_indices, quiet
+from dqpaint.robots.bullet.client import bullet, joint_indices, quiet
 from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability
 from dqpaint.robots.model.card import installed_names, read_card
 from dqpaint.robots.urdf.prepare import possible, urdf_file

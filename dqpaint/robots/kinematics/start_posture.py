@@ -107,7 +107,7 @@ def _find_start(
     seeds = np.vstack([card.home, seeds])
     wish = np.zeros_like(seeds)
     inside = (card.lower, card.upper)
-    postures, errors = solve(kinematics, poses[0], seeds, wish, EXACT, inside)
+    postures, errors = solve_posture(kinematics, poses[0], seeds, wish, EXACT, inside)
     reached = (errors < GOOD) & (_margins(kinematics, postures) >= 0)
     if reached.any():
         return _follow(kinematics, poses, seconds, postures[reached], pull)
@@ -138,7 +138,7 @@ def _follow(
     for index in range(1, len(poses)):
         wish = pull(postures[alive], starts[alive], float(seconds[index] - before))
         before = seconds[index]
-        moved, errors = solve(kinematics, poses[index], postures[alive], wish, ON_THE_WAY)
+        moved, errors = solve_posture(kinematics, poses[index], postures[alive], wish, ON_THE_WAY)
         reached = errors < ON_THE_WAY
         if not reached.any():
             return replace(closest(kinematics, poses[index], postures[alive])[0], index=index)
@@ -156,7 +156,7 @@ def _margins(kinematics: Kinematics, postures: Floats) -> Floats:
     return np.asarray(np.minimum(postures - card.lower, card.upper - postures).min(axis=-1))
 
 
-def solve(
+def solve_posture(
     kinematics: Kinematics,
     pose: Floats,
     postures: Floats,
@@ -210,7 +210,7 @@ def strays(kinematics: Kinematics, poses: Floats) -> Floats:
         seeds = rng.uniform(card.lower, card.upper, (crowd, card.joints))
         seeds[0] = card.home
         whose = np.repeat(rows, crowd)
-        errors = solve(
+        errors = solve_posture(
             kinematics, poses[whose], np.tile(seeds, (len(rows), 1)),
             np.zeros((len(whose), card.joints)), ON_THE_WAY, (card.lower, card.upper),
         )[1]  # fmt: skip
@@ -223,7 +223,7 @@ def shortfall(kinematics: Kinematics, pose: Floats) -> Miss:
     card = kinematics.card
     seeds = np.random.default_rng(SEED).uniform(card.lower, card.upper, (MANY, card.joints))
     still, inside = np.zeros_like(seeds), (card.lower, card.upper)
-    return closest(kinematics, pose, solve(kinematics, pose, seeds, still, EXACT, inside)[0])[0]
+    return closest(kinematics, pose, solve_posture(kinematics, pose, seeds, still, EXACT, inside)[0])[0]
 
 
 def closest(kinematics: Kinematics, pose: Floats, postures: Floats) -> tuple[Miss, Floats]:

@@ -7,7 +7,7 @@ from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.robots.kinematics.differential_ik import to_tool
 from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.kinematics.start_posture import Miss, find_start, solve
+from dqpaint.robots.kinematics.start_posture import Miss, find_start, solve_posture
 from dqpaint.robots.model.card import Canvas, Card
 
 SAMPLES = 20000  # postures that are looked at
@@ -126,7 +126,7 @@ def _room(arm: Kinematics, postures: Floats) -> Floats:
 def _room_at(arm: Kinematics, pose: Floats, seeds: Floats) -> float:
     """The room of the best posture for a pose (8,), from seeds (M, n); negative if none."""
     within = (arm.card.lower, arm.card.upper)
-    postures, errors = solve(arm, pose, seeds, np.zeros_like(seeds), 1e-9, within)
+    postures, errors = solve_posture(arm, pose, seeds, np.zeros_like(seeds), 1e-9, within)
     return float(np.where(errors < 1e-6, _room(arm, postures), -1.0).max())
 
 

@@ -1,19 +1,23 @@
 r"""Light paintings by a simulated robot arm.
 
-    text -parse-> Program -plan-> Motion -track-> Track -shine-> Light -expose-> Film -develop-> png
-                                     |               \-measure-> Metrics -> csv, json
-                                     \-shine-> the asked picture, without an arm
+    text -language-> Program -motion-> Motion -simulation-> Track -painting-> Film -> png
+                                          |                   \-metrics-> csv, json
+                                          \-painting-> the reference picture, without an arm
 
-`language` reads the text, `motion` says what is asked at every sample, `controllers` turn what is
-seen into a command, `robots` know the arms, `plants` answer as an arm does, `disturbances` are what
-no law knows of, `driving` tells the plant what the law says, `tracking` closes the loop, `metrics`
-measure, `shining` and `scene` say what shines and `light` takes its pictures, `stage` puts the arm
-before the camera, `paint` is the flow as one function, `sketch` the same without an arm, `forecast`
-what the arm says beforehand, `negative` what is kept to develop again, `exports` what a real arm is
-given. `studies` are many paintings and what they say together, `papers` the published numbers to
-compare them with, `cli` and `studying` the command line. `dq` holds the algebra and its
-conventions, `outputs` the files. Data moves along this line and never back: `tests/test_house.py`
-holds the modules to it.
+The rooms, in the order in which data moves through them:
+
+`dq` is the algebra and its conventions, `errors` what is raised, `core` registries and files.
+`diagnostics` are messages at their place in a text. `language` compiles a text to a `program`,
+`settings` hold every other choice, `motion` is the reference at every sample in closed form.
+`robots` are the arms, `plants` how they answer a command, `disturbances` what no law knows of,
+`controllers` the laws, and `simulation` closes the loop. `light` integrates emitted light to a
+picture and knows no robot; `render` puts the arm before the camera. `planning` says beforehand what
+an arm will meet, `metrics` measure a run. `painting` is the whole flow as one function, `outputs`
+are the files, also for real arms. `api` is all of it from Python; `studies` are many paintings and
+what they show together, `editors` the language in editors, `cli` the command line.
+
+Data moves along this line and never back; each room is entered by what its `__init__` names. The
+contracts in pyproject.toml and `tests/test_architecture.py` hold the code to both.
 """
 
 import importlib

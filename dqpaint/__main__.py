@@ -11,9 +11,9 @@ def main() -> None:
     """Run the command line: exit code 0 done, 1 a fault, 2 wrong usage, 130 interrupted."""
     gc.disable()  # one short run makes no rubbish worth looking for; start-up is 20 ms faster
     try:
-        from dqpaint.cli.main import run
+        from dqpaint.cli import main
 
-        run()
+        main.run()
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
         sys.exit(INTERRUPTED)

@@ -9,23 +9,22 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any, TypeGuard
 
-from dqpaint.core.examples import find_drawing
+from dqpaint.core import find_drawing
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.language import Program, read
 from dqpaint.outputs import files
-from dqpaint.settings.model import Settings, make_settings
+from dqpaint.settings import Settings, make_settings
 
 if TYPE_CHECKING:
-    from dqpaint.language.writing.builder import Drawing
-    from dqpaint.painting.paint import Painting
-    from dqpaint.painting.picture import Picture
-    from dqpaint.painting.preview import Preview
-    from dqpaint.render.scene_arm import Cast, Staging
-    from dqpaint.settings.file import Given
+    from dqpaint.language.writing import builder
+    from dqpaint.painting import paint, picture
+    from dqpaint.painting import preview as previews
+    from dqpaint.render import Cast, Staging
+    from dqpaint.settings import Given
 
 
 def draw(
-    drawing: "str | PathLike[str] | Drawing",
+    drawing: "str | PathLike[str] | builder.Drawing",
     *,
     controller: str | Callable[..., Any] | None = None,
     gains: Mapping[str, float | tuple[float, ...] | str] | None = None,
@@ -56,7 +55,7 @@ def draw(
     max_samples: int | None = None,
     settings: "str | PathLike[str] | Given | None" = None,
     progress: Callable[[float], None] = lambda _done: None,
-) -> "Painting":
+) -> "paint.Painting":
     """Paint a drawing with a simulated arm, as `dqpaint draw` does; nothing is written.
 
     Args:
@@ -118,18 +117,18 @@ def draw(
     seconds = perf_counter() - begin
 
     # a fault in the text is told before the simulator is loaded
-    from dqpaint.controllers.base.user_controller import make_controller
-    from dqpaint.painting.paint import paint
+    from dqpaint.controllers.base import make_controller
+    from dqpaint.painting import paint
 
     law = make_controller(own, str(name)) if own else None
     with _places(drawing):
-        painting = paint(program, chosen, progress, law)
+        painting = paint.paint(program, chosen, progress, law)
     notes = given.remarks(painting.sha256) + painting.notes
     return replace(painting, seconds={"language": seconds, **painting.seconds}, notes=notes)
 
 
 def save(
-    painting: "Painting", out: str | PathLike[str] = ".", what: str = "png,csv,json"
+    painting: "paint.Painting", out: str | PathLike[str] = ".", what: str = "png,csv,json"
 ) -> list[Path]:
     """Write the files of a painting, as `dqpaint draw` does.
 
@@ -151,7 +150,7 @@ def save(
 
 
 def preview(
-    drawing: "str | PathLike[str] | Drawing",
+    drawing: "str | PathLike[str] | builder.Drawing",
     *,
     robot: str | None = None,
     tool: str | None = None,
@@ -168,7 +167,7 @@ def preview(
     ghost: bool | None = None,
     max_samples: int | None = None,
     settings: "str | PathLike[str] | Given | None" = None,
-) -> "Preview":
+) -> "previews.Preview":
     """The asked pictures of a drawing, without an arm; arguments as those of `draw`.
 
     With `ghost` the camera leaves room for the arm, as that of `draw` does.
@@ -182,30 +181,33 @@ def preview(
     chosen = make_settings(**_given(settings).under(choices))
     program = _program(drawing)
 
-    from dqpaint.painting.preview import sketch
+    from dqpaint.painting import preview as previews
 
     with _places(drawing):
-        return sketch(program, chosen)
+        return previews.sketch(program, chosen)
 
 
 def _given(settings: "str | PathLike[str] | Given | None") -> "Given":
-    from dqpaint.settings.file import Given, read_given
+    from dqpaint.painting import validate
+    from dqpaint.settings import Given, read_given
 
     if settings is None:
         return Given()
-    return settings if isinstance(settings, Given) else read_given(str(settings))
+    return (
+        settings if isinstance(settings, Given) else read_given(str(settings), validate.check_each)
+    )
 
 
-def _program(drawing: "str | PathLike[str] | Drawing") -> Program:
+def _program(drawing: "str | PathLike[str] | builder.Drawing") -> Program:
     return drawing.program() if _is_built(drawing) else read(find_drawing(str(drawing)))
 
 
-def _places(drawing: "str | PathLike[str] | Drawing") -> AbstractContextManager[None]:
+def _places(drawing: "str | PathLike[str] | builder.Drawing") -> AbstractContextManager[None]:
     """What is wrong with a drawing made by calls is told with the call."""
     return drawing.places() if _is_built(drawing) else nullcontext()
 
 
-def _is_built(drawing: object) -> "TypeGuard[Drawing]":
+def _is_built(drawing: object) -> "TypeGuard[builder.Drawing]":
     """Whether it is a `Drawing`: where nobody has made one, their class need not be read."""
     build = sys.modules.get("dqpaint.language.writing.builder")
     return build is not None and isinstance(drawing, build.Drawing)
@@ -223,7 +225,7 @@ def develop(
     noise: int | None = None,
     ghost: bool | str | None = None,
     occlusion: bool | None = None,
-) -> "list[Picture]":
+) -> "list[picture.Picture]":
     """Other pictures of a painting that was saved with `film`, without simulating it.
 
     Args:
@@ -241,9 +243,8 @@ def develop(
     Raises:
         DqpaintError: no film, or a choice that is none.
     """
-    from dqpaint.painting import film_file
-    from dqpaint.painting.picture import photograph
-    from dqpaint.painting.scene import check_choices
+    from dqpaint.painting import film_file, picture
+    from dqpaint.painting import scene as scenes
 
     scene, before, cast, worked = film_file.read(str(film))
     width, height = _width_and_height(size)
@@ -254,10 +255,10 @@ def develop(
     }  # fmt: skip
     given = {name: value for name, value in choices.items() if value is not None}
     settings = make_settings(**{**before.model_dump(), **given})
-    check_choices(settings)
+    scenes.check_choices(settings)
     staged, remark = _stage(settings, cast)
     with staged as staging:
-        pictures = list(photograph(scene, settings, staging, worked))
+        pictures = list(picture.photograph(scene, settings, staging, worked))
     return [replace(one, remarks=(*remark, *one.remarks)) for one in pictures]
 
 
@@ -267,9 +268,9 @@ def _stage(
     """The arm of a film, if it is to be seen and is still there; and else what there is to say."""
     if not settings.staged:
         return nullcontext(), ()
-    from dqpaint.render.scene_arm import on_stage
-    from dqpaint.robots.loading.lookup import find_card
-    from dqpaint.robots.urdf.prepare import prepare
+    from dqpaint.render import on_stage
+    from dqpaint.robots.loading import find_card
+    from dqpaint.robots.urdf import prepare
 
     try:
         if cast is None:

@@ -63,15 +63,15 @@ def export(
     """
     from dqpaint import api
     from dqpaint.cli.terminal import Progress
-    from dqpaint.controllers.base.user_controller import short_name
-    from dqpaint.core.examples import find_drawing
+    from dqpaint.controllers.base import short_name
+    from dqpaint.core import find_drawing
     from dqpaint.outputs import files
-    from dqpaint.outputs import robot as exports
-    from dqpaint.settings.model import parse_disturbances, parse_gains
+    from dqpaint.outputs.robot import FORMATS, files_of
+    from dqpaint.settings import parse_disturbances, parse_gains
 
     if form is None:
-        raise UsageError(f"export needs a --format: {', '.join(exports.FORMATS)}")
-    exports.FORMATS[form]  # an unknown one is told before anything is simulated
+        raise UsageError(f"export needs a --format: {', '.join(FORMATS)}")
+    FORMATS[form]  # an unknown one is told before anything is simulated
     path = find_drawing(file)
     stem = files.stem_for(out, f"{path.stem}-{short_name(controller)}")
     with Progress(path.name) as progress:
@@ -81,7 +81,7 @@ def export(
             seed=seed, start=start, null=null, on_limit=on_limit, size=(64, 36),
             max_samples=max_samples, progress=progress,
         )  # fmt: skip
-    written = files.write(stem, exports.files_of(painting, form))
+    written = files.write(stem, files_of(painting, form))
 
     from dqpaint.cli import report
 

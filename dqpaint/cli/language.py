@@ -46,7 +46,7 @@ def fmt(
     ] = False,
 ) -> None:
     """Lay drawings out as all drawings are: blanks and blocks, nothing that has a meaning."""
-    from dqpaint.language.syntax.source import STDIN
+    from dqpaint.language.syntax import STDIN
     from dqpaint.language.writing import format_files
 
     failed = False
@@ -86,9 +86,9 @@ def explain(
 @_command(epilog="Examples:\n\n  dqpaint new flower\n\n  dqpaint new drawings/flower.traj")
 def new(name: Annotated[str, typer.Argument(help="of the drawing")]) -> None:
     """Write a commented drawing to begin with."""
-    from dqpaint.language.writing.template import start
+    from dqpaint.language.writing import template
 
-    path = start(name)
+    path = template.start(name)
     print(path)
     if sys.stderr.isatty():
         print(f"now: dqpaint preview {path} --watch", file=sys.stderr)
@@ -120,9 +120,9 @@ def lsp() -> None:
     An editor starts this by itself. It needs the extra: pip install 'dqpaint[lsp]'
     """
     try:
-        from dqpaint.editors.server import serve
+        from dqpaint.editors import server
     except ModuleNotFoundError as missing:
         if (missing.name or "").partition(".")[0] not in ("pygls", "lsprotocol"):
             raise
         raise DqpaintError("the language server needs: pip install 'dqpaint[lsp]'") from None
-    serve()
+    server.serve()

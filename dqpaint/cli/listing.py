@@ -8,7 +8,7 @@ from dqpaint.errors import UnknownNameError
 
 
 def _robots() -> list[dict[str, Any]]:
-    from dqpaint.robots.model.card import DEFAULT_ROBOT, card_names, read_card
+    from dqpaint.robots.model import DEFAULT_ROBOT, card_names, read_card
 
     cards = [read_card(name) for name in card_names()]
     return [
@@ -26,7 +26,7 @@ def _robots() -> list[dict[str, Any]]:
 
 def _controllers() -> list[dict[str, Any]]:
     from dqpaint.controllers import CONTROLLERS
-    from dqpaint.settings.model import DEFAULT_CONTROLLER
+    from dqpaint.settings import DEFAULT_CONTROLLER
 
     return [
         {
@@ -44,8 +44,7 @@ def _controllers() -> list[dict[str, Any]]:
 
 
 def _plants() -> list[dict[str, Any]]:
-    from dqpaint.plants import PLANTS
-    from dqpaint.plants.plant import DEFAULT_PLANTS
+    from dqpaint.plants import DEFAULT_PLANTS, PLANTS
 
     return [
         {
@@ -93,7 +92,7 @@ def _values(model: Any) -> list[dict[str, Any]]:
 
 
 def _null() -> list[dict[str, Any]]:
-    from dqpaint.robots.kinematics.nullspace import DEFAULT_NULL, OBJECTIVES
+    from dqpaint.robots.kinematics import DEFAULT_NULL, OBJECTIVES
 
     return [
         {
@@ -109,7 +108,7 @@ def _null() -> list[dict[str, Any]]:
 
 
 def _brushes() -> list[dict[str, Any]]:
-    from dqpaint.light.sources.brushes import BRUSHES, choices_of
+    from dqpaint.light.sources import BRUSHES, choices_of
 
     return [
         {"name": name, "about": (kind.__doc__ or "").splitlines()[0], "choices": choices_of(kind)}
@@ -118,8 +117,8 @@ def _brushes() -> list[dict[str, Any]]:
 
 
 def _looks() -> list[dict[str, Any]]:
-    from dqpaint.light.film.looks import LOOKS
-    from dqpaint.settings.model import Settings
+    from dqpaint.light.film import LOOKS
+    from dqpaint.settings import Settings
 
     usual = Settings.model_fields["look"].default
     return [
@@ -129,7 +128,7 @@ def _looks() -> list[dict[str, Any]]:
 
 
 def _examples() -> list[dict[str, Any]]:
-    from dqpaint.core.examples import example_names, examples_folder
+    from dqpaint.core import example_names, examples_folder
 
     def about(name: str) -> str:
         first = (examples_folder() / f"{name}.traj").read_text("utf-8").splitlines()[0]
@@ -146,7 +145,7 @@ def _replays() -> list[dict[str, Any]]:
 
 
 def _statements() -> list[dict[str, Any]]:
-    from dqpaint.language.vocabulary.words import STATEMENTS
+    from dqpaint.language.vocabulary import STATEMENTS
 
     return [
         {"name": s.word, "about": s.says, "example": s.example, "parts": list(s.parts)}
@@ -155,10 +154,12 @@ def _statements() -> list[dict[str, Any]]:
 
 
 def _functions() -> list[dict[str, Any]]:
-    from dqpaint.editors.vocabulary import vocabulary
+    from dqpaint.editors import vocabulary
 
     kinds = ("function", "law", "constant", "unit")
-    return [{"name": e.example, "about": e.says} for e in vocabulary() if e.kind in kinds]
+    return [
+        {"name": e.example, "about": e.says} for e in vocabulary.vocabulary() if e.kind in kinds
+    ]
 
 
 LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {

@@ -127,15 +127,15 @@ def draw(
     """Paint a drawing with an arm: picture, per-step CSV and summary."""
     from dqpaint import api
     from dqpaint.cli.terminal import Progress
-    from dqpaint.controllers.base.user_controller import short_name
-    from dqpaint.core.examples import find_drawing
+    from dqpaint.controllers.base import short_name
+    from dqpaint.core import find_drawing
     from dqpaint.outputs import files as outputs
-    from dqpaint.settings.file import read_given
-    from dqpaint.settings.model import parse_disturbances, parse_gains, parse_size
+    from dqpaint.painting import validate
+    from dqpaint.settings import parse_disturbances, parse_gains, parse_size, read_given
 
     names = outputs.choose(save)
     path = find_drawing(file)
-    given = read_given(settings) if settings else None
+    given = read_given(settings, validate.check_each) if settings else None
     choices = typed(
         context, controller=controller, robot=robot, tool=tool, place=place, recorded=recorded,
         plant=plant, seed=seed, start=start, null=null, on_limit=on_limit, size=parse_size(size),
@@ -187,9 +187,9 @@ def preview(
 ) -> None:
     """Take the asked picture, without an arm, at once; with length, time and brightness."""
     from dqpaint import api
-    from dqpaint.core.examples import find_drawing
+    from dqpaint.core import find_drawing
     from dqpaint.outputs import files as outputs
-    from dqpaint.settings.model import parse_size
+    from dqpaint.settings import parse_size
 
     path = find_drawing(file)
     stem = outputs.stem_for(out, f"{path.stem}-preview")
@@ -246,7 +246,7 @@ def develop(
 
     from dqpaint import api
     from dqpaint.outputs import files as outputs
-    from dqpaint.settings.model import parse_size
+    from dqpaint.settings import parse_size
 
     name = Path(film).stem.removesuffix("-film")
     stem = outputs.stem_for(out, f"{name}-developed")
@@ -306,7 +306,7 @@ def check(
         max_samples=max_samples,
     )  # fmt: skip
     if wanted := choices.pop("size"):
-        from dqpaint.settings.model import parse_size
+        from dqpaint.settings import parse_size
 
         choices["width"], choices["height"] = parse_size(wanted)
     results = [checking.check(name, **choices) for name in files]
@@ -361,8 +361,9 @@ def pose(
     as_json: AsJson = False,
 ) -> None:
     """Tell where an arm's tool is: dual quaternion, matrix, screw, Jacobian, manipulability."""
+    from dqpaint.cli import pose as pose_text
     from dqpaint.robots import pose_query
-    from dqpaint.robots.loading.lookup import find_card, with_tool
+    from dqpaint.robots.loading import find_card, with_tool
 
     if flange and tool is not None:
         raise UsageError("--flange leaves the tool out: give it or --tool, not both")
@@ -371,7 +372,7 @@ def pose(
     for kind, sentences in (("note", posed.notes), ("warning", posed.beyond)):
         for sentence in sentences:
             print(f"{kind}: {sentence}", file=sys.stderr)
-    print(json.dumps(pose_query.as_json(posed), indent=2) if as_json else pose_query.text(posed))
+    print(json.dumps(pose_query.as_json(posed), indent=2) if as_json else pose_text.text(posed))
 
 
 @app.command(epilog="Examples:\n\n  dqpaint gallery\n\n  dqpaint gallery --out pictures")
@@ -379,9 +380,9 @@ def gallery(
     out: Annotated[str, typer.Option(metavar="FOLDER", help="where the pictures go")] = "gallery",
 ) -> None:
     """Make every picture of the gallery again."""
-    from dqpaint.studies.gallery import make_gallery
+    from dqpaint.studies import gallery
 
-    for path in make_gallery(out):
+    for path in gallery.make_gallery(out):
         print(path)
 
 

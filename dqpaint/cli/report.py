@@ -6,15 +6,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from dqpaint.cli.terminal import table
-from dqpaint.diagnostics.diagnostic import line_named
+from dqpaint.diagnostics import line_named
 from dqpaint.language import render
 from dqpaint.motion import Motion, summary_line
-from dqpaint.painting.paint import Painting
-from dqpaint.painting.picture import Picture
-from dqpaint.robots.kinematics.limits import Clamp
+from dqpaint.painting import paint, picture
+from dqpaint.robots.kinematics import Clamp
 
 if TYPE_CHECKING:
-    from dqpaint.painting.preview import Preview
+    from dqpaint.painting import preview as previews
 
 WHITE = 250  # of 255
 MOST_NAMED = 3  # limits in the table; all of them are in the warnings
@@ -23,7 +22,7 @@ WORTH_A_WARNING = 0.01  # of the light
 NOTHING = 1e-9  # [mm, deg] is shown as 0
 
 
-def of_painting(painting: Painting, written: Sequence[Path]) -> str:
+def of_painting(painting: paint.Painting, written: Sequence[Path]) -> str:
     """The table that follows `draw`."""
     figures = painting.metrics.figures
     gains = ", ".join(f"{name} = {_gain(value)}" for name, value in painting.gains.items())
@@ -47,7 +46,7 @@ def of_painting(painting: Painting, written: Sequence[Path]) -> str:
     return table(rows)
 
 
-def _disturbed(painting: Painting) -> list[tuple[str, str]]:
+def _disturbed(painting: paint.Painting) -> list[tuple[str, str]]:
     """What no law knew of, each with the values that were given."""
     rows: list[tuple[str, str]] = []
     for name, one in painting.disturbances.items():
@@ -57,7 +56,7 @@ def _disturbed(painting: Painting) -> list[tuple[str, str]]:
     return rows
 
 
-def _came_through(painting: Painting) -> list[tuple[str, str]]:
+def _came_through(painting: paint.Painting) -> list[tuple[str, str]]:
     """An unmodelled twist beside the promise of the gains."""
     rows: list[tuple[str, str]] = []
     for part, one in painting.attenuation.items():
@@ -75,7 +74,7 @@ def _came_through(painting: Painting) -> list[tuple[str, str]]:
     return rows
 
 
-def _pace(painting: Painting) -> list[tuple[str, str]]:
+def _pace(painting: paint.Painting) -> list[tuple[str, str]]:
     """How much longer it takes, where a drawing may be slowed down."""
     slowed = painting.slowed
     if slowed is None:
@@ -83,7 +82,7 @@ def _pace(painting: Painting) -> list[tuple[str, str]]:
     return [("pace", str(slowed))]
 
 
-def _steps(painting: Painting) -> list[tuple[str, str]]:
+def _steps(painting: paint.Painting) -> list[tuple[str, str]]:
     """How each jump of the set point was taken."""
     rows: list[tuple[str, str]] = []
     where = painting.motion.program.where
@@ -118,7 +117,7 @@ def _gain(value: float | tuple[float, ...] | str) -> str:
     return value if isinstance(value, str) else f"{value:.4g}"
 
 
-def of_export(painting: Painting, written: Sequence[Path]) -> str:
+def of_export(painting: paint.Painting, written: Sequence[Path]) -> str:
     """The table that follows `export`."""
     points = f"{len(painting.motion.t)} points, one every {painting.motion.period * 1e3:g} ms"
     rows = [
@@ -132,27 +131,27 @@ def of_export(painting: Painting, written: Sequence[Path]) -> str:
     return table(rows)
 
 
-def of_preview(preview: "Preview", written: Sequence[Path]) -> str:
+def of_preview(preview: "previews.Preview", written: Sequence[Path]) -> str:
     """The table that follows `preview`."""
     rows = [("drawing", summary_line(preview.motion)), *_pictures(preview.pictures)]
     return table([*rows, *_files(written)])
 
 
-def of_developed(pictures: Sequence[Picture], written: Sequence[Path]) -> str:
+def of_developed(pictures: Sequence[picture.Picture], written: Sequence[Path]) -> str:
     """The table that follows `develop`."""
     return table([*_pictures(pictures), *_files(written)])
 
 
-def _pictures(pictures: Sequence[Picture]) -> list[tuple[str, str]]:
+def _pictures(pictures: Sequence[picture.Picture]) -> list[tuple[str, str]]:
     """What the light and the exposure of the first picture are; the others are of the same run."""
     return [("light", light_line(pictures[0])), ("exposure", pictures[0].told)]
 
 
-def light_line(picture: Picture) -> str:
+def light_line(shot: picture.Picture) -> str:
     """What of the light fell on the film, and how bright the picture came out."""
-    film, hidden = picture.film, picture.hidden
-    emitted = picture.emitted.sum()
-    red, green, blue = (picture.image[..., i] >= WHITE for i in range(3))
+    film, hidden = shot.film, shot.hidden
+    emitted = shot.emitted.sum()
+    red, green, blue = (shot.image[..., i] >= WHITE for i in range(3))
     white = float((red & green & blue).mean())
     if emitted == 0.0:
         return "none: no lamp shone this way"
@@ -168,7 +167,7 @@ def notes(motion: Motion) -> list[str]:
     return [render(note, motion.program.name, motion.program.text) for note in motion.notes]
 
 
-def remarks(painting: Painting) -> list[str]:
+def remarks(painting: paint.Painting) -> list[str]:
     """Warnings about a drawing and its run."""
     texts = [f"note: {note}" for note in painting.notes]
     texts += notes(painting.motion)
@@ -183,33 +182,33 @@ def remarks(painting: Painting) -> list[str]:
             f"for {LONGEST_TORQUE_PERIOD * 1e3:g} ms (200 Hz) or less"
             "\n  = help: write period 5 ms in the drawing"
         )
-    picture = painting.picture
-    lost, emitted = picture.film.lost.sum(), picture.emitted.sum()
+    film = painting.picture.film
+    lost, emitted = film.lost.sum(), painting.picture.emitted.sum()
     if lost > WORTH_A_WARNING * emitted:
         texts.append(f"warning: {lost / emitted:.0%} of the light fell outside the picture")
     return [*texts, *of_arm(painting.pictures, painting.motion.program.text)]
 
 
-def of_arm(pictures: Sequence[Picture], source: str = "") -> list[str]:
+def of_arm(pictures: Sequence[picture.Picture], source: str = "") -> list[str]:
     """Warnings about what the arm hides, and what of it could not be shown or traced.
 
     `source` is the text of the drawing, if it is known: it names the files that it includes.
     """
     texts: list[str] = []
-    for picture in pictures:
-        seen = f" in {picture.name}" if len(pictures) > 1 else ""
-        texts += _hidden(picture, seen, source)
+    for one in pictures:
+        seen = f" in {one.name}" if len(pictures) > 1 else ""
+        texts += _hidden(one, seen, source)
     return [*texts, *dict.fromkeys(remark for one in pictures for remark in one.remarks)]
 
 
-def _hidden(picture: Picture, where: str, source: str) -> list[str]:
+def _hidden(shot: picture.Picture, where: str, source: str) -> list[str]:
     """A warning where much of the light was behind the arm."""
-    if picture.hidden is None:
+    if shot.hidden is None:
         return []
-    share = picture.hidden.energy.sum() / (picture.emitted.sum() or 1.0)
+    share = shot.hidden.energy.sum() / (shot.emitted.sum() or 1.0)
     if share <= WORTH_A_WARNING:
         return []
-    lines = picture.hidden.lines
+    lines = shot.hidden.lines
     named = ", ".join(
         f"{line_named(source, line)} ({part:.0%})" for line, part in lines[:MOST_NAMED]
     )
@@ -228,7 +227,7 @@ CURES = {
 }
 
 
-def _grouped(painting: Painting) -> dict[tuple[str, int], list[Clamp]]:
+def _grouped(painting: paint.Painting) -> dict[tuple[str, int], list[Clamp]]:
     """The limits that were reached, by kind and line, in the order of time."""
     groups: dict[tuple[str, int], list[Clamp]] = {}
     for clamp in painting.limits:
@@ -236,7 +235,7 @@ def _grouped(painting: Painting) -> dict[tuple[str, int], list[Clamp]]:
     return groups
 
 
-def _limits_line(painting: Painting) -> str:
+def _limits_line(painting: paint.Painting) -> str:
     groups = _grouped(painting)
     if painting.recording is not None:
         return "not known of a recorded run"
@@ -254,7 +253,7 @@ def _spread(figures: dict[str, float], name: str, unit: str, scale: float, shown
     return f"rms {rms:.3g} {shown}, largest {most:.3g} {shown}"
 
 
-def _worst(painting: Painting) -> str:
+def _worst(painting: paint.Painting) -> str:
     motion = painting.motion
     row = int(painting.table["position_error_m"].argmax())
     return f"{motion.t[row]:.3f} s, line {motion.program.where(int(motion.line[row]))}"

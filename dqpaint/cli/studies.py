@@ -81,9 +81,8 @@ def compare(
 
     With --runs each is done with several seeds, and the table has means and standard deviations.
     """
-    from dqpaint.settings.model import make_settings, parse_disturbances, parse_size
-    from dqpaint.studies.experiment.axes import Axis, parse_laws, parse_list
-    from dqpaint.studies.experiment.cells import check_figure
+    from dqpaint.settings import make_settings, parse_disturbances, parse_size
+    from dqpaint.studies.experiment import Axis, check_figure, parse_laws, parse_list
     from dqpaint.studies.kinds import compare as study
 
     check_figure(figure)
@@ -139,9 +138,8 @@ def sweep(
 
     Unstable points are marked. A sweep that was stopped goes on where it was.
     """
-    from dqpaint.settings.model import make_settings, parse_disturbances, parse_gains
-    from dqpaint.studies.experiment.axes import parse_axis
-    from dqpaint.studies.experiment.cells import check_figure
+    from dqpaint.settings import make_settings, parse_disturbances, parse_gains
+    from dqpaint.studies.experiment import check_figure, parse_axis
     from dqpaint.studies.kinds import sweep as study
 
     check_figure(figure)
@@ -203,8 +201,8 @@ def tune(
     The bound is 1 for the effort of an arm that does exactly what the drawing asks. Seeded; a
     search that was stopped goes on where it was.
     """
-    from dqpaint.settings.model import make_settings, parse_disturbances, parse_gains
-    from dqpaint.studies.experiment.cells import check_figure
+    from dqpaint.settings import make_settings, parse_disturbances, parse_gains
+    from dqpaint.studies.experiment import check_figure
     from dqpaint.studies.kinds import tune as study
     from dqpaint.studies.kinds import tune_report
 
@@ -251,7 +249,7 @@ def replay(
 
     Every verdict follows from the numbers of this run; the paper's own are judged alike.
     """
-    from dqpaint.settings.model import parse_disturbances
+    from dqpaint.settings import parse_disturbances
     from dqpaint.studies.kinds import replay as study
     from dqpaint.studies.replay.measures import Asked
 

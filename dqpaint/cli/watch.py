@@ -10,7 +10,7 @@ from typing import NoReturn
 
 from dqpaint.cli.language import tell
 from dqpaint.errors import DqpaintError
-from dqpaint.language.imports.dependencies import files_of
+from dqpaint.language.imports import files_of
 
 INTERVAL = 0.1  # [s] between two looks
 SETTLED = 0.03  # [s] without a change: the editor has written all of it

@@ -1,1 +1,30 @@
-"""Room."""
+"""Text of a choice -> a registered thing and its values; files written as a whole; versions.
+
+Nothing here knows of robots, light or the language.
+"""
+
+from dqpaint.core.atomic_files import rewrite, stage, write_new
+from dqpaint.core.examples import example_names, examples_folder, find_drawing
+from dqpaint.core.named_values import Values, make_choice, number_or_text, read_choice, reason
+from dqpaint.core.records import record, replaced
+from dqpaint.core.registry import Folder, Registry
+from dqpaint.core.version import library_versions
+
+__all__ = [
+    "Folder",
+    "Registry",
+    "Values",
+    "example_names",
+    "examples_folder",
+    "find_drawing",
+    "library_versions",
+    "make_choice",
+    "number_or_text",
+    "read_choice",
+    "reason",
+    "record",
+    "replaced",
+    "rewrite",
+    "stage",
+    "write_new",
+]

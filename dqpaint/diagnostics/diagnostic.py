@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import NamedTuple
 
-from dqpaint.core.records import record
+from dqpaint.core import record
 from dqpaint.errors import DqpaintError
 
 

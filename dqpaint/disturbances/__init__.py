@@ -1,9 +1,10 @@
-"""What a run meets that no law knows of; all off by default, all repeatable by the seed.
+"""Values and a seed -> what a run meets that its law does not know: errors of arm and world.
 
-A new disturbance is a model in a new file of this folder under `@DISTURBANCES.add(name)`; it is
-found by itself. It brings what `disturbance.Disturbance` lists.
+All are off by default and repeatable by their seed. A new disturbance is a model in a new file of
+this folder under `@DISTURBANCES.add(name)`; it is found by itself and brings what
+`disturbance.Disturbance` lists.
 """
 
-from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance, make_disturbances
+from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance, Encoder, make_disturbances
 
-__all__ = ["DISTURBANCES", "Disturbance", "make_disturbances"]
+__all__ = ["DISTURBANCES", "Disturbance", "Encoder", "make_disturbances"]

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from dqpaint import dq
 from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance
-from dqpaint.plants.world import World
+from dqpaint.plants import World
 
 Number = Annotated[float, Field(ge=-10, le=10, allow_inf_nan=False)]
 

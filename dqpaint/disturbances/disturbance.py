@@ -7,12 +7,10 @@ from typing import ClassVar
 import numpy as np
 from pydantic import BaseModel, ConfigDict
 
-from dqpaint.core.named_values import Values, make_choice
-from dqpaint.core.registry import Folder, Registry
+from dqpaint.core import Folder, Registry, Values, make_choice
 from dqpaint.dq import Floats
-from dqpaint.plants.plant import Trait
-from dqpaint.plants.world import World
-from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.plants import Trait, World
+from dqpaint.robots.kinematics import Kinematics
 
 
 @dataclass(frozen=True)

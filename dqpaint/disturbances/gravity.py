@@ -7,9 +7,8 @@ import numpy as np
 from pydantic import Field
 
 from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance
-from dqpaint.plants.plant import Trait
-from dqpaint.plants.world import World
-from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.plants import Trait, World
+from dqpaint.robots.kinematics import Kinematics
 
 
 @DISTURBANCES.add("gravity")

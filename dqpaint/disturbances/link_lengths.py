@@ -6,7 +6,7 @@ import numpy as np
 from pydantic import Field
 
 from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance
-from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.kinematics import Kinematics
 
 
 @DISTURBANCES.add("links")

@@ -6,8 +6,7 @@ from typing import Annotated, ClassVar
 from pydantic import Field
 
 from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance
-from dqpaint.plants.plant import Trait
-from dqpaint.plants.world import Payload, World
+from dqpaint.plants import Payload, Trait, World
 
 
 @DISTURBANCES.add("payload")

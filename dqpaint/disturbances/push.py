@@ -8,8 +8,7 @@ from pydantic import Field
 from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
-from dqpaint.plants.plant import Trait
-from dqpaint.plants.world import Push, World
+from dqpaint.plants import Push, Trait, World
 
 Force = Annotated[float, Field(ge=-1e5, le=1e5, allow_inf_nan=False)]
 Time = Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)]

@@ -1,7 +1,9 @@
-"""The language in editors: colours, completion, messages while one types.
+"""The language for editors: text -> colours, completion, hints and messages while one types.
 
-`vocabulary` reads the words off the language's tables; `textmate` and `highlighting` (Pygments)
-make grammars of them, `hints` say what a word means and what may come next, `strokes` how long
-each line is, `server` speaks the language server protocol. A new word of the language needs no line
+`vocabulary` reads the words from the language's tables; `textmate` and `pygments_lexer` make
+grammars of them, `completion` says what a word means and what may follow, `analysis` how long each
+line takes, `server` speaks the language server protocol. A new word of the language needs no line
 here.
 """
+
+__all__ = ["server", "textmate", "vocabulary"]

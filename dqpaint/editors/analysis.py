@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 
-from dqpaint.diagnostics.diagnostic import file_at
+from dqpaint.diagnostics import file_at
 from dqpaint.language import Diagnostic, ScriptError, parse
 from dqpaint.motion import Motion, plan
-from dqpaint.robots.loading.lookup import card_for
+from dqpaint.robots.loading import card_for
 
 
 @dataclass(frozen=True)

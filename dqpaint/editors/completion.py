@@ -3,9 +3,9 @@
 import re
 from collections.abc import Iterable
 
-from dqpaint.diagnostics.diagnostic import Span
+from dqpaint.diagnostics import Span
 from dqpaint.editors.vocabulary import Entry, vocabulary
-from dqpaint.language.vocabulary.words import PARTS, STATEMENTS
+from dqpaint.language.vocabulary import PARTS, STATEMENTS
 
 _WORD = re.compile(r"[A-Za-z_°][A-Za-z0-9_]*", re.ASCII)
 _TOKEN = re.compile(r'"[^"\n]*"?|#.*|[A-Za-z_°][A-Za-z0-9_]*|[\d.]+|\S', re.ASCII)

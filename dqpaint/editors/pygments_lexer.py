@@ -10,7 +10,7 @@ from pygments.token import Comment, Keyword, Name, Number, Operator, Punctuation
 
 from dqpaint.editors.textmate import COMMENT, TEXT, alternatives
 from dqpaint.editors.vocabulary import words
-from dqpaint.language.syntax.lexer import NUMBER
+from dqpaint.language.syntax import NUMBER
 
 _KINDS = {
     "part": Keyword.Declaration,

@@ -16,12 +16,12 @@ from pygls.lsp.server import LanguageServer
 from pygls.workspace import PositionCodec
 
 from dqpaint import __version__
-from dqpaint.diagnostics.diagnostic import Severity, Span, file_at, place
+from dqpaint.diagnostics import Severity, Span, file_at, place
 from dqpaint.editors import completion
 from dqpaint.editors.analysis import Understood, understand
 from dqpaint.language import Diagnostic, ScriptError
-from dqpaint.language.vocabulary.words import STATEMENTS
-from dqpaint.language.writing.formatter import formatted
+from dqpaint.language.vocabulary import STATEMENTS
+from dqpaint.language.writing import formatter
 
 _SEVERITIES = {
     Severity.ERROR: lsp.DiagnosticSeverity.Error,
@@ -173,7 +173,7 @@ def make_server() -> LanguageServer:
     def layout(params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
         document = server.document(params.text_document.uri)
         try:
-            made = formatted(document.text)
+            made = formatter.formatted(document.text)
         except ScriptError:  # its mistakes are shown already
             return []
         return [lsp.TextEdit(document.range(Span(0, len(document.text))), made)]

@@ -4,7 +4,7 @@ import re
 from typing import Any
 
 from dqpaint.editors.vocabulary import words
-from dqpaint.language.syntax.lexer import NUMBER
+from dqpaint.language.syntax import NUMBER
 
 SCOPE = "source.traj"
 TEXT = r'"[^"\n]*"?'

@@ -3,14 +3,14 @@
 from functools import cache
 from typing import NamedTuple
 
-from dqpaint.language.vocabulary.units import UNITS
-from dqpaint.language.vocabulary.words import (
+from dqpaint.language.vocabulary import (
     CONSTANTS,
     FUNCTIONS,
     LAWS,
     LITTLE_WORDS,
     PARTS,
     STATEMENTS,
+    UNITS,
 )
 from dqpaint.program import colours
 

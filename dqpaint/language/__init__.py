@@ -16,11 +16,11 @@ in `functions.TABLE`.
 import importlib
 from typing import TYPE_CHECKING, Any
 
-from dqpaint.diagnostics.diagnostic import Diagnostic, ScriptError, render
+from dqpaint.diagnostics import Diagnostic, ScriptError, render
 
 if TYPE_CHECKING:
     from dqpaint.language.compile import parse, read, read_input
-    from dqpaint.program.program import Program
+    from dqpaint.program import Program
 
 __all__ = ["Diagnostic", "Program", "ScriptError", "parse", "read", "read_input", "render"]
 

@@ -6,12 +6,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from dqpaint.diagnostics.collector import EnoughError, Findings
-from dqpaint.diagnostics.diagnostic import Diagnostic, ScriptError, Span
+from dqpaint.diagnostics import Diagnostic, EnoughError, Findings, ScriptError, Span
 from dqpaint.language.expansion.expander import Expander
 from dqpaint.language.expansion.includes import MOST_LINES, Loader
 from dqpaint.language.syntax.source import MOST_BYTES, STDIN_NAME, decoded, load, load_input
-from dqpaint.program.program import Program
+from dqpaint.program import Program
 
 _SVG = re.compile(r"\s*(<\?xml|<svg|<!DOCTYPE svg|<!--)", re.IGNORECASE)
 

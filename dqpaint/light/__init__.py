@@ -14,3 +14,7 @@ says which share of it goes to the camera.
 
 Nothing here knows of robots: the light may come from what was asked or from what an arm achieved.
 """
+
+from dqpaint.light.arrays import Image, Picture
+
+__all__ = ["Image", "Picture"]

@@ -1,4 +1,4 @@
-"""The array types of this folder, and the one way to take an array in for keeps."""
+"""Array types of the light and the size of its batches; any array -> a checked, read-only copy."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ Image = NDArray[np.float32]
 Picture = NDArray[np.uint8]
 """(H, W, 3) sRGB."""
 TOGETHER = 64  # short rows that are added as one
+BATCH = 1 << 15
+"""How many steps, or pieces, are worked on at once: what fits the cache. It is fixed, so that sums
+are made in the same order whatever machine they are made on."""
 
 
 def kept(name: str, values: ArrayLike, shape: tuple[int | None, ...]) -> Floats:

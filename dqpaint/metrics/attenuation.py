@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.controllers.base.pose_errors import spatial_error
+from dqpaint.controllers.base import spatial_error
 from dqpaint.dq import Floats
-from dqpaint.simulation.closed_loop import Track
+from dqpaint.simulation import Track
 
 
 @dataclass(frozen=True)

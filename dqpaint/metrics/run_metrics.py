@@ -10,11 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.controllers.base.pose_errors import invariant_error
-from dqpaint.diagnostics.diagnostic import LINES
+from dqpaint.controllers.base import invariant_error
+from dqpaint.diagnostics import LINES
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
-from dqpaint.simulation.closed_loop import Track
+from dqpaint.simulation import Track
 
 Table = dict[str, Floats]  # columns (N,) by their header, unit in the name
 

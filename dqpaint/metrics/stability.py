@@ -9,7 +9,7 @@ does the same more slowly: between the limits for some periods one way, then for
 import numpy as np
 
 from dqpaint.dq import Floats
-from dqpaint.simulation.closed_loop import Track
+from dqpaint.simulation import Track
 
 OPPOSED = -0.6  # correlation of successive changes; of white noise it is -0.5
 GROWING = 1.5  # from the third quarter of a run to the last, of the rms change

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.simulation.closed_loop import Track
+from dqpaint.simulation import Track
 
 SETTLED = 0.02  # of the step: an error that stays below it has settled
 TAIL = 0.1  # of the time at the set point, at its end, counts for the steady error

@@ -11,5 +11,18 @@ language.
 from dqpaint.motion.plan import Motion, plan
 from dqpaint.motion.summary import summary_line
 from dqpaint.motion.survey import Survey, survey
+from dqpaint.motion.time_scaling import Pace, smooth
+from dqpaint.motion.transform import moved, scaled, straight
 
-__all__ = ["Motion", "Survey", "plan", "summary_line", "survey"]
+__all__ = [
+    "Motion",
+    "Pace",
+    "Survey",
+    "moved",
+    "plan",
+    "scaled",
+    "smooth",
+    "straight",
+    "summary_line",
+    "survey",
+]

@@ -6,11 +6,11 @@ from typing import NamedTuple
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.diagnostics.diagnostic import Diagnostic, Span
+from dqpaint.diagnostics import Diagnostic, Span
 from dqpaint.dq import Floats
-from dqpaint.motion.paths import Indices
+from dqpaint.motion.geometry.paths import Indices
 from dqpaint.motion.schedule import Timetable
-from dqpaint.program.program import Arc, Chain, Cruise, Segment, Straight
+from dqpaint.program import Arc, Chain, Cruise, Segment, Straight
 
 LEAST_JUMP = 1e-4  # [m/s] worth a word,
 LEAST_PART = 0.01  # and of the speed

@@ -6,12 +6,12 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.motion.batched_shapes import Flags
-from dqpaint.motion.paths import Indices
+from dqpaint.motion.geometry.batched_shapes import Flags
+from dqpaint.motion.geometry.paths import Indices
 from dqpaint.motion.profiles import Rates, rate_at, turns_back
 from dqpaint.motion.sampling import Rows
 from dqpaint.motion.schedule import Timetable, part_at
-from dqpaint.program.program import Bar, Light, Step, Still
+from dqpaint.program import Bar, Light, Step, Still
 
 NEAR_END = 0.01  # of the length: how bright the ends of a stroke are is told there
 DARK = Light((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))

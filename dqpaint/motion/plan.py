@@ -7,18 +7,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint import dq
-from dqpaint.diagnostics.collector import EnoughError, Findings
-from dqpaint.diagnostics.diagnostic import Diagnostic, ScriptError
+from dqpaint.diagnostics import Diagnostic, EnoughError, Findings, ScriptError
 from dqpaint.dq import Floats
 from dqpaint.motion.corner_warnings import jumps, slow
+from dqpaint.motion.geometry.shapes import pose_array
 from dqpaint.motion.light_profile import glow, unevenness
 from dqpaint.motion.sampling import Rows, sampled
 from dqpaint.motion.schedule import Timetable, timetable
-from dqpaint.motion.shapes import pose_array
 from dqpaint.motion.stroke_errors import Faults, beyond_budget
 from dqpaint.motion.survey import tell
 from dqpaint.motion.time_scaling import Pace, Ticks
-from dqpaint.program.program import Auto, Pose, Program, Step
+from dqpaint.program import Auto, Pose, Program, Step
 
 
 @dataclass(frozen=True)

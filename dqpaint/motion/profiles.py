@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.core.registry import Registry
+from dqpaint.core import Registry
 from dqpaint.dq import Floats
 
 

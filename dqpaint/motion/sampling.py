@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
-from dqpaint.motion.paths import Indices
+from dqpaint.motion.geometry.paths import Indices
+from dqpaint.motion.geometry.shapes import Flow
 from dqpaint.motion.schedule import Timetable
-from dqpaint.motion.shapes import Flow
 from dqpaint.motion.stroke_errors import Faults, not_finite
 from dqpaint.motion.time_scaling import Ticks
 

@@ -12,17 +12,16 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.diagnostics.collector import Findings
-from dqpaint.diagnostics.diagnostic import Diagnostic
+from dqpaint.diagnostics import Diagnostic, Findings
 from dqpaint.dq import Floats
 from dqpaint.motion import stroke_errors as told
-from dqpaint.motion.arc_length import has_cusp, length_fraction
-from dqpaint.motion.batched_shapes import Flags, Shapes, gather
-from dqpaint.motion.paths import Indices
+from dqpaint.motion.geometry.arc_length import has_cusp, length_fraction
+from dqpaint.motion.geometry.batched_shapes import Flags, Shapes, gather
+from dqpaint.motion.geometry.paths import Indices
+from dqpaint.motion.geometry.shapes import Flow
 from dqpaint.motion.profiles import LAWS, PEAK, Progress, Rates, cruise_time, peak_rate, scale_rates
-from dqpaint.motion.shapes import Flow
 from dqpaint.motion.stroke_errors import MOST_SECONDS, Faults
-from dqpaint.program.program import Cruise, Program, Samples, Segment, Step, Still
+from dqpaint.program import Cruise, Program, Samples, Segment, Step, Still
 
 ENDLESS = 1e15  # samples
 NAMES = tuple(LAWS)

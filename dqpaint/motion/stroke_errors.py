@@ -4,9 +4,8 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from dqpaint.diagnostics.collector import Findings
-from dqpaint.diagnostics.diagnostic import Diagnostic, ScriptError
-from dqpaint.program.program import MOST_ALLOWED, Lasting, Segment, Step
+from dqpaint.diagnostics import Diagnostic, Findings, ScriptError
+from dqpaint.program import MOST_ALLOWED, Lasting, Segment, Step
 
 MOST_SECONDS = 86_400.0  # of a drawing
 ROUNDING_WORTH_SAYING = 0.01

@@ -10,17 +10,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.diagnostics.collector import EnoughError, Findings
-from dqpaint.diagnostics.diagnostic import Diagnostic, ScriptError
+from dqpaint.diagnostics import Diagnostic, EnoughError, Findings, ScriptError
 from dqpaint.dq import Floats
-from dqpaint.motion.batched_shapes import Flags
 from dqpaint.motion.corner_warnings import jumps, slow
+from dqpaint.motion.geometry.batched_shapes import Flags
+from dqpaint.motion.geometry.paths import Indices
 from dqpaint.motion.light_profile import unevenness
-from dqpaint.motion.paths import Indices
 from dqpaint.motion.sampling import blocks, every_sample, sampled
 from dqpaint.motion.schedule import Timetable, timetable
 from dqpaint.motion.stroke_errors import Faults, beyond_budget
-from dqpaint.program.program import Program
+from dqpaint.program import Program
 
 HARMLESS = 1e40  # numbers below that stay finite in all the products of a stroke
 

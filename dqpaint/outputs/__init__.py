@@ -1,1 +1,3 @@
-"""Room."""
+"""A painting -> files, written as a whole or not at all: pictures, tables, summaries, movies."""
+
+__all__ = ["files"]

@@ -5,73 +5,67 @@ import os
 import platform
 import tempfile
 from collections.abc import Callable, Sequence
-from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from dqpaint import __version__
-from dqpaint.core.atomic_files import stage
-from dqpaint.core.registry import Registry
+from dqpaint.core import Registry, library_versions, stage
 from dqpaint.errors import OutputError, UnknownNameError, UsageError
-from dqpaint.robots.kinematics.limits import UNITS
-from dqpaint.robots.kinematics.nullspace import read_null
+from dqpaint.robots.kinematics import UNITS, read_null
 
 if TYPE_CHECKING:
-    from dqpaint.metrics.run_metrics import Table
-    from dqpaint.metrics.step_response import Response
-    from dqpaint.painting.paint import Painting
-    from dqpaint.painting.picture import Picture
+    from dqpaint.metrics import Response, Table
+    from dqpaint.painting import paint, picture
 
 SCHEMA = "dqpaint-run-1"
-LIBRARIES = ("numpy", "opencv-python-headless", "pin", "pybullet")
 
 Files = bytes | dict[str, bytes]
 """One file with the output's own ending, or several by their endings."""
-Output = Callable[["Painting"], Files]
+Output = Callable[["paint.Painting"], Files]
 OUTPUTS: Registry[Output] = Registry("output")
 Told = Callable[[float], None]
-Movie = Callable[["Painting", Told], bytes]
+Movie = Callable[["paint.Painting", Told], bytes]
 MOVIES: Registry[Movie] = Registry("output")
 """Outputs that take so long that they tell how far they are."""
 
 
 @OUTPUTS.add("png")
-def png(painting: "Painting") -> Files:
+def png(painting: "paint.Painting") -> Files:
     """The pictures, one a view."""
     return pictures(painting.pictures)
 
 
-def pictures(taken: "Sequence[Picture]") -> Files:
+def pictures(taken: "Sequence[picture.Picture]") -> Files:
     """Pictures as PNG; if there are several, each with the name of its view."""
     if len(taken) == 1:
         return taken[0].png
-    return {f"-{picture.name}.png": picture.png for picture in taken}
+    return {f"-{shot.name}.png": shot.png for shot in taken}
 
 
 @OUTPUTS.add("csv")
-def csv(painting: "Painting") -> bytes:
+def csv(painting: "paint.Painting") -> bytes:
     """One row a control step: what was asked, what was measured, the command then given."""
     return encode_csv(painting.table)
 
 
 @OUTPUTS.add("json")
-def summary(painting: "Painting") -> bytes:
+def summary(painting: "paint.Painting") -> bytes:
     """What was run and what came out, in figures."""
     return (json.dumps(summarise(painting), indent=2, allow_nan=False) + "\n").encode()
 
 
 @OUTPUTS.add("motion")
-def motion(painting: "Painting") -> bytes:
+def motion(painting: "paint.Painting") -> bytes:
     """What was asked, with twist and acceleration: a CSV."""
-    from dqpaint.metrics.run_metrics import motion_columns
+    from dqpaint.metrics import motion_columns
 
     return encode_csv(motion_columns(painting.motion))
 
 
 @OUTPUTS.add("film")
-def film(painting: "Painting") -> Files:
+def film(painting: "paint.Painting") -> Files:
     """The light, camera and settings, to develop again, and the linear film as a float TIFF."""
     from dqpaint.painting import film_file
 
@@ -83,7 +77,7 @@ def film(painting: "Painting") -> Files:
 
 
 @OUTPUTS.add("hdr")
-def hdr(painting: "Painting") -> bytes:
+def hdr(painting: "paint.Painting") -> bytes:
     """The linear film as Radiance HDR, which picture editors open."""
     from dqpaint.painting import film_file
 
@@ -91,21 +85,21 @@ def hdr(painting: "Painting") -> bytes:
 
 
 @MOVIES.add("video")
-def video(painting: "Painting", progress: Told) -> bytes:
+def video(painting: "paint.Painting", progress: Told) -> bytes:
     """The painting as it grows: VP9 in WebM."""
-    from dqpaint.painting.video import webm
+    from dqpaint.painting import video as movies
 
     with painting.staged() as staging:
-        return webm(painting.scene, painting.picture, painting.settings, progress, staging)
+        return movies.webm(painting.scene, painting.picture, painting.settings, progress, staging)
 
 
 @MOVIES.add("webp")
-def webp(painting: "Painting", progress: Told) -> bytes:
+def webp(painting: "paint.Painting", progress: Told) -> bytes:
     """The same as an animation for a page."""
-    from dqpaint.painting.video import webp as animation
+    from dqpaint.painting import video as movies
 
     with painting.staged() as staging:
-        return animation(painting.scene, painting.picture, painting.settings, progress, staging)
+        return movies.webp(painting.scene, painting.picture, painting.settings, progress, staging)
 
 
 CHUNK = 8192  # rows of a table that are written at once
@@ -129,7 +123,7 @@ def choose(what: str) -> list[str]:
 
 
 def make(
-    names: Sequence[str], painting: "Painting", progress: Told = lambda _done: None
+    names: Sequence[str], painting: "paint.Painting", progress: Told = lambda _done: None
 ) -> dict[str, bytes]:
     """The files of some outputs by their endings.
 
@@ -161,7 +155,7 @@ def encode_csv(table: "Table") -> bytes:
     return "".join(parts).encode()
 
 
-def summarise(painting: "Painting") -> dict[str, Any]:
+def summarise(painting: "paint.Painting") -> dict[str, Any]:
     """The JSON summary: what was run, what came out."""
     motion, film = painting.motion, painting.picture.film
     program, settings, hidden = motion.program, painting.settings, painting.picture.hidden
@@ -173,7 +167,7 @@ def summarise(painting: "Painting") -> dict[str, Any]:
         "versions": {
             "dqpaint": __version__,
             "python": platform.python_version(),
-            **{name: version(name) for name in LIBRARIES},
+            **library_versions(),
         },
         "robot": painting.robot,
         "plant": painting.plant,
@@ -234,7 +228,7 @@ def _response(part: "Response", unit: str) -> dict[str, float | None]:
     }
 
 
-def _law(painting: "Painting") -> dict[str, str | None]:
+def _law(painting: "paint.Painting") -> dict[str, str | None]:
     """Where a law comes from: a paper, or a file and its hash."""
     law = painting.controller
     return {
@@ -244,7 +238,7 @@ def _law(painting: "Painting") -> dict[str, str | None]:
     }
 
 
-def _pace(painting: "Painting") -> dict[str, Any] | None:
+def _pace(painting: "paint.Painting") -> dict[str, Any] | None:
     """How the drawing was slowed down; None where its clock ran as asked, come what may."""
     return None if painting.slowed is None else painting.slowed.as_json
 
@@ -316,7 +310,7 @@ def write(stem: Path, contents: dict[str, bytes]) -> list[Path]:
     return [path for _, path in made]
 
 
-def write_pictures(stem: Path, taken: "Sequence[Picture]") -> list[Path]:
+def write_pictures(stem: Path, taken: "Sequence[picture.Picture]") -> list[Path]:
     """Write pictures alone, as `write` does."""
     made = pictures(taken)
     return write(stem, made if isinstance(made, dict) else {".png": made})

@@ -9,12 +9,11 @@ from typing import NamedTuple
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.core.registry import Registry
+from dqpaint.core import Registry
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.light.images.colour_maps import amounts, colour_amounts, colour_kinds
-from dqpaint.light.images.legend import Legend
-from dqpaint.metrics.run_metrics import Table, asked_columns
+from dqpaint.light.images import Legend, amounts, colour_amounts, colour_kinds
+from dqpaint.metrics import Table, asked_columns
 from dqpaint.motion import Motion
 
 

@@ -18,13 +18,12 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from dqpaint import __version__
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
-from dqpaint.light.images.legend import Legend
-from dqpaint.light.sources.emitters import Emitters
-from dqpaint.light.sources.sweep import Sweep
+from dqpaint.light.images import Legend
+from dqpaint.light.sources import Emitters, Sweep
 from dqpaint.painting.picture import Picture, Worked, linear
 from dqpaint.painting.scene import Scene
-from dqpaint.render.scene_arm import Cast
-from dqpaint.settings.model import Settings
+from dqpaint.render import Cast
+from dqpaint.settings import Settings
 
 SCHEMA = "dqpaint-film-1"
 GROUPS = ("light", "asked", "under")

@@ -10,28 +10,20 @@ from typing import Any
 from dqpaint.controllers import Controller, Schedule, find_controller
 from dqpaint.disturbances import Disturbance, make_disturbances
 from dqpaint.dq import Floats
-from dqpaint.light.film.film import Film
-from dqpaint.metrics.attenuation import Attenuation, attenuation
-from dqpaint.metrics.run_metrics import Metrics, Table, measure
-from dqpaint.metrics.step_response import SetPoint, set_points
+from dqpaint.light.film import Film
+from dqpaint.metrics import Attenuation, Metrics, SetPoint, Table, attenuation, measure, set_points
 from dqpaint.motion import Motion, plan
 from dqpaint.painting.picture import Picture, Shown, photograph
 from dqpaint.painting.scene import Scene, arrange, check_choices
-from dqpaint.planning.placement import Placed, settle
-from dqpaint.planning.reachability import begin, check_worst
-from dqpaint.planning.retiming import Slowed, slow_down
-from dqpaint.plants import choose_plant
-from dqpaint.plants.plant import Chosen, Takes
-from dqpaint.program.program import Program
-from dqpaint.render.scene_arm import Cast, Staging, on_stage
-from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.kinematics.limits import Clamp
-from dqpaint.robots.kinematics.nullspace import read_null
-from dqpaint.robots.loading.lookup import card_for, find_card
-from dqpaint.robots.model.card import DEFAULT_ROBOT
-from dqpaint.settings.model import Settings, check_recorded
-from dqpaint.simulation.closed_loop import Track, track
-from dqpaint.simulation.recorded_run import RECORDED, Recording, read_recording, replay
+from dqpaint.planning import placement, reachability, retiming
+from dqpaint.plants import Chosen, Takes, choose_plant
+from dqpaint.program import Program
+from dqpaint.render import Cast, Staging, on_stage
+from dqpaint.robots.kinematics import Clamp, Kinematics, read_null
+from dqpaint.robots.loading import card_for, find_card
+from dqpaint.robots.model import DEFAULT_ROBOT
+from dqpaint.settings import Settings, check_recorded
+from dqpaint.simulation import RECORDED, Recording, Track, read_recording, replay, track
 
 UNSEEN = "poses alone say nothing of the joints: the arm and what it hides are left out"
 
@@ -55,10 +47,10 @@ class Painting(Shown):
     scene: Scene
     cast: Cast
     pictures: tuple[Picture, ...]  # one a view
-    slowed: Slowed | None = None  # where the drawing's clock may slow down
+    slowed: retiming.Slowed | None = None  # where the drawing's clock may slow down
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
     notes: tuple[str, ...] = ()  # what was assumed of the arm
-    placed: Placed | None = None  # where `place auto` put the drawing
+    placed: placement.Placed | None = None  # where `place auto` put the drawing
     recording: Recording | None = None  # what was painted instead of a simulated run
 
     @property
@@ -132,8 +124,8 @@ class Ready:
     kinematics: Kinematics
     motion: Motion
     start: Floats  # posture (n,) [rad]
-    slowed: Slowed | None
-    placed: Placed | None
+    slowed: retiming.Slowed | None
+    placed: placement.Placed | None
     recording: Recording | None
 
     def follow(self, progress: Callable[[float], None] = lambda _done: None) -> Track:
@@ -145,7 +137,7 @@ class Ready:
             self.motion, self.kinematics, self.start, self.plant, self.controller, self.gains,
             progress, self.disturbances, settings.seed, settings.null, settings.on_limit == "stop",
         )  # fmt: skip
-        check_worst(run, self.kinematics, settings.null)
+        reachability.check_worst(run, self.kinematics, settings.null)
         return run
 
 
@@ -171,16 +163,16 @@ def prepare(
     read_null(settings.null)
     with clock("place"):
         kinematics = Kinematics(card)
-        program, placed = settle(program, kinematics, settings)
+        program, placed = placement.settle(program, kinematics, settings)
     with clock("motion"):
         motion = plan(program, card.canvas.pose)
     slowed, start = None, card.home
     if recording is None:
         with clock("start"):
-            best = begin(motion, kinematics, settings.null).posture
+            best = reachability.begin(motion, kinematics, settings.null).posture
             start = card.home if settings.start == "home" else best
             if settings.on_limit == "slow":
-                slowed = slow_down(motion, kinematics, start, settings.null, plant.motors)
+                slowed = retiming.slow_down(motion, kinematics, start, settings.null, plant.motors)
                 motion = slowed.motion
     return Ready(
         program, settings, clock, controller, gains, plant, disturbances, kinematics, motion,

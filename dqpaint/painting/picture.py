@@ -10,23 +10,25 @@ from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
-from dqpaint.light.arrays import Image
-from dqpaint.light.camera.camera import Camera
-from dqpaint.light.camera.exposure_settings import advice, parse_exposure
-from dqpaint.light.camera.views import Shot, distance_to, parse_views
-from dqpaint.light.film.auto_exposure import CORE, automatic_exposure
-from dqpaint.light.film.film import Film, expose
-from dqpaint.light.film.looks import LOOKS, with_noise
-from dqpaint.light.film.point_spread import point_spread, spread
-from dqpaint.light.film.starburst import with_starburst
-from dqpaint.light.images.legend import with_legend
-from dqpaint.light.sources.from_motion import stand
-from dqpaint.light.sources.occlusion import Shade, shade_of
-from dqpaint.light.sources.sweep import ALL, Sweep
+from dqpaint.light import Image
+from dqpaint.light.camera import Camera, Shot, advice, distance_to, parse_exposure, parse_views
+from dqpaint.light.film import (
+    CORE,
+    LOOKS,
+    Film,
+    automatic_exposure,
+    expose,
+    point_spread,
+    spread,
+    with_noise,
+    with_starburst,
+)
+from dqpaint.light.images import with_legend
+from dqpaint.light.sources import ALL, Shade, Sweep, shade_of, stand
 from dqpaint.motion import Motion
 from dqpaint.painting.scene import Scene, arrange
-from dqpaint.render.scene_arm import Hidden, Staging, account
-from dqpaint.settings.model import Settings
+from dqpaint.render import Hidden, Staging, account
+from dqpaint.settings import Settings
 
 # run lengths suit black ground with dithered halos: smaller and faster than the default search
 PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]

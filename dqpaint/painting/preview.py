@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from dqpaint.motion import Motion, plan
 from dqpaint.painting.picture import Picture, Shown, photograph
 from dqpaint.painting.scene import Scene, arrange, check_choices
-from dqpaint.program.program import Program
-from dqpaint.robots.loading.lookup import card_for
-from dqpaint.settings.model import Settings
+from dqpaint.program import Program
+from dqpaint.robots.loading import card_for
+from dqpaint.settings import Settings
 
 
 @dataclass(frozen=True, repr=False)

@@ -11,20 +11,14 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.light.camera.exposure_settings import parse_exposure
-from dqpaint.light.camera.views import parse_views
-from dqpaint.light.film.auto_exposure import CORE
-from dqpaint.light.film.looks import LOOKS
-from dqpaint.light.film.starburst import BLADES
-from dqpaint.light.images.legend import RIDGE, Legend
-from dqpaint.light.sources.brushes import read_brush
-from dqpaint.light.sources.emitters import Emitters
-from dqpaint.light.sources.from_motion import evened, sweeps
-from dqpaint.light.sources.sweep import Sweep
-from dqpaint.metrics.run_metrics import Table
+from dqpaint.light.camera import parse_exposure, parse_views
+from dqpaint.light.film import BLADES, CORE, LOOKS
+from dqpaint.light.images import RIDGE, Legend
+from dqpaint.light.sources import Emitters, Sweep, evened, read_brush, sweeps
+from dqpaint.metrics import Table
 from dqpaint.motion import Motion
 from dqpaint.painting.colour_by import asked_table, colours_of, magnified, read_telling
-from dqpaint.settings.model import Settings
+from dqpaint.settings import Settings
 
 SETTLING = 0.25  # [s] in which a jump of the set point counts as drawn
 UNDER = (0.62, 0.8, 1.0)  # the colour of the asked drawing under the reached one

@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.errors import DqpaintError
-from dqpaint.light.arrays import Image
-from dqpaint.light.camera.exposure_settings import parse_exposure
-from dqpaint.light.film.film import Exposing
+from dqpaint.light import Image
+from dqpaint.light.camera import parse_exposure
+from dqpaint.light.film import Exposing
 from dqpaint.painting.picture import Picture, beneath, finish, lights_of, linear
 from dqpaint.painting.scene import Scene
-from dqpaint.render.scene_arm import Staging
-from dqpaint.settings.model import Settings
+from dqpaint.render import Staging
+from dqpaint.settings import Settings
 
 RATE = 25  # frames a second
 LONGEST = 10.0  # [s]: a longer painting is shown faster

@@ -5,17 +5,16 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from dqpaint import __version__
-from dqpaint.core.examples import find_drawing
-from dqpaint.diagnostics.catalogue import url
-from dqpaint.diagnostics.diagnostic import Severity, Span, file_at, place
+from dqpaint.core import find_drawing
+from dqpaint.diagnostics import Severity, Span, file_at, place, url
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.language import Diagnostic, Program, ScriptError, read, read_input, render
-from dqpaint.language.syntax.source import STDIN
+from dqpaint.language.syntax import STDIN
 from dqpaint.motion import Motion, Survey, summary_line, survey
 
 if TYPE_CHECKING:
     from dqpaint.planning.forecast_report import Outlook
-    from dqpaint.settings.model import Settings
+    from dqpaint.settings import Settings
 
 
 @dataclass(frozen=True)
@@ -103,7 +102,7 @@ def _chosen(choices: dict[str, Any]) -> "Settings | None":
     """
     if all(value is None for value in choices.values()):
         return None
-    from dqpaint.settings.model import Settings, make_settings
+    from dqpaint.settings import Settings, make_settings
 
     settings = make_settings(**choices)
     return settings if settings != Settings(max_samples=settings.max_samples) else None
@@ -116,15 +115,15 @@ def _look_ahead(program: Program, settings: "Settings | None") -> "Outlook":
         UsageError: no such robot, or no such tool.
         ScriptError: a fault of the drawing, or the arm does not reach all of it.
     """
-    from dqpaint.robots.loading.lookup import card_for
-    from dqpaint.settings.model import Settings
+    from dqpaint.robots.loading import card_for
+    from dqpaint.settings import Settings
 
     settings = settings or Settings()
     card = card_for(program, settings.robot, settings.tool)
     survey(program)  # what is wrong with the drawing by itself goes before what an arm says
 
     from dqpaint.planning.forecast_report import look_ahead
-    from dqpaint.robots.kinematics.kinematics import Kinematics
+    from dqpaint.robots.kinematics import Kinematics
 
     return look_ahead(program, Kinematics(card), settings)
 

@@ -17,13 +17,19 @@ from dqpaint.motion import Motion
 from dqpaint.planning.ideal_run import follow, jumps
 from dqpaint.planning.occlusion import LOOKS, PLAIN, Hiding, hide, looks_at
 from dqpaint.planning.retiming import TAKEN_UP
-from dqpaint.plants.plant import Chosen
-from dqpaint.robots.kinematics.collisions import Nearest, shapes_of
-from dqpaint.robots.kinematics.differential_ik import LENGTH, to_tool
-from dqpaint.robots.kinematics.dynamics import Dynamics
-from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability
-from dqpaint.robots.kinematics.nullspace import DEFAULT_NULL, make_wish
-from dqpaint.settings.model import Settings
+from dqpaint.plants import Chosen
+from dqpaint.robots.kinematics import (
+    DEFAULT_NULL,
+    LENGTH,
+    Dynamics,
+    Kinematics,
+    Nearest,
+    make_wish,
+    manipulability,
+    shapes_of,
+    to_tool,
+)
+from dqpaint.settings import Settings
 
 MOST_ROWS = 20_000  # that are followed; of a longer drawing every second, third ... one
 

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
-from dqpaint.diagnostics.diagnostic import Diagnostic, Span
+from dqpaint.diagnostics import Diagnostic, Span
 from dqpaint.motion import Motion, plan
 from dqpaint.planning.forecast import Forecast, Worst, forecast
 from dqpaint.planning.ideal_run import WORTH_A_LOOK
@@ -13,13 +13,11 @@ from dqpaint.planning.occlusion import PLAIN
 from dqpaint.planning.placement import Placed, settle
 from dqpaint.planning.reachability import begin, check_row
 from dqpaint.planning.retiming import Slowed, slow_down
-from dqpaint.plants.plant import DEFAULT_PLANTS, find_plant
-from dqpaint.program.program import Program
-from dqpaint.robots.kinematics.collisions import shapes_of
-from dqpaint.robots.kinematics.differential_ik import THRESHOLD
-from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.model.card import Card
-from dqpaint.settings.model import Settings
+from dqpaint.plants import DEFAULT_PLANTS, find_plant
+from dqpaint.program import Program
+from dqpaint.robots.kinematics import THRESHOLD, Kinematics, shapes_of
+from dqpaint.robots.model import Card
+from dqpaint.settings import Settings
 
 CLOSE = 0.9  # of a limit
 CLOSE_ANGLE = math.radians(5.0)

@@ -10,15 +10,18 @@ from numpy.typing import NDArray
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
-from dqpaint.robots.kinematics.differential_ik import resolve
-from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.kinematics.nullspace import DEFAULT_NULL, Wish, make_pull, make_wish
-from dqpaint.robots.kinematics.start_posture import (
+from dqpaint.robots.kinematics import (
+    DEFAULT_NULL,
     ON_THE_WAY,
+    Kinematics,
     Miss,
     Start,
+    Wish,
     find_start,
-    solve,
+    make_pull,
+    make_wish,
+    resolve,
+    solve_posture,
     to_start,
     waypoints,
 )
@@ -75,7 +78,7 @@ def follow(
     postures, jacobians = np.empty((len(rows), len(start))), np.empty((len(rows), 6, len(start)))
     points = np.empty((len(rows), 3))
     still, jump = np.zeros((1, len(start))), jumps(motion, rows)
-    q = solve(kinematics, motion.pose[0], start[None], still, ON_THE_WAY)[0][0]
+    q = solve_posture(kinematics, motion.pose[0], start[None], still, ON_THE_WAY)[0][0]
     for k in range(len(rows)):
         x, J = kinematics.pose_and_jacobian(q)
         p = dq.translation(x)
@@ -84,7 +87,7 @@ def follow(
             break
         ahead, drawn = motion.pose[rows[k + 1]], wish.over(period, q, J, p)
         if jump[k]:
-            q = solve(kinematics, ahead, q[None], drawn[None], ON_THE_WAY)[0][0]
+            q = solve_posture(kinematics, ahead, q[None], drawn[None], ON_THE_WAY)[0][0]
         else:
             way = 2 * dq.log(dq.mul(dq.nearest(ahead, x), dq.conj(x)))
             q = q + resolve(J, p, way, drawn)

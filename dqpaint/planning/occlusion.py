@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.light.camera.views import parse_views
-from dqpaint.light.sources.from_motion import stand, sweeps
+from dqpaint.light.camera import parse_views
+from dqpaint.light.sources import stand, sweeps
 from dqpaint.motion import Motion
-from dqpaint.robots.kinematics.collisions import Shapes
-from dqpaint.settings.model import Settings
+from dqpaint.robots.kinematics import Shapes
+from dqpaint.settings import Settings
 
 LOOKS = 400  # at the arm's shapes in a whole drawing
 LEAST_LOOKS = 40  # in each view, where there are many

@@ -19,20 +19,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint import dq
-from dqpaint.diagnostics.diagnostic import Diagnostic, ScriptError
+from dqpaint.diagnostics import Diagnostic, ScriptError
 from dqpaint.dq import Floats
 from dqpaint.language import parse
-from dqpaint.motion import Motion, plan
-from dqpaint.motion.transform import moved, scaled, straight
+from dqpaint.motion import Motion, moved, plan, scaled, straight
 from dqpaint.planning.forecast import Forecast, forecast
 from dqpaint.planning.ideal_run import WORTH_A_LOOK, set_out
-from dqpaint.program.program import Auto, Pose, Program
-from dqpaint.robots.kinematics.differential_ik import PULL, resolve
-from dqpaint.robots.kinematics.dynamics import Dynamics
-from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability
-from dqpaint.robots.kinematics.start_posture import Miss, waypoints
-from dqpaint.robots.urdf.write import roll_pitch_yaw
-from dqpaint.settings.model import Settings
+from dqpaint.program import Auto, Pose, Program
+from dqpaint.robots.kinematics import (
+    PULL,
+    Dynamics,
+    Kinematics,
+    Miss,
+    manipulability,
+    resolve,
+    waypoints,
+)
+from dqpaint.robots.urdf import roll_pitch_yaw
+from dqpaint.settings import Settings
 
 SEED = 1988
 TRIALS = 400  # random postures that tell how far the arm reaches

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.diagnostics.diagnostic import Diagnostic, ScriptError
+from dqpaint.diagnostics import Diagnostic, ScriptError
 from dqpaint.motion import Motion
 from dqpaint.planning.ideal_run import WORTH_A_LOOK, set_out
 from dqpaint.planning.suggestions import advise
-from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.kinematics.nullspace import DEFAULT_NULL
-from dqpaint.robots.kinematics.start_posture import (
+from dqpaint.robots.kinematics import (
+    DEFAULT_NULL,
     ON_THE_WAY,
+    Kinematics,
     Miss,
     Start,
     shortfall,
@@ -22,7 +22,7 @@ from dqpaint.robots.kinematics.start_posture import (
 )
 
 if TYPE_CHECKING:
-    from dqpaint.simulation.closed_loop import Track
+    from dqpaint.simulation import Track
 
 LOOKS, MOST_LOOKS = 9, 96  # at a stroke, for its farthest point; at a drawing
 MOST_TOLD, MOST_NAMED = 5, 6  # lines with a message of their own; further ones by their numbers

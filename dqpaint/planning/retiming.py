@@ -14,13 +14,8 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.motion import Motion, plan
-from dqpaint.motion.time_scaling import Pace, smooth
-from dqpaint.robots.kinematics.differential_ik import resolve
-from dqpaint.robots.kinematics.dynamics import Dynamics
-from dqpaint.robots.kinematics.jacobians import drift_acceleration
-from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.kinematics.nullspace import make_wish
+from dqpaint.motion import Motion, Pace, plan, smooth
+from dqpaint.robots.kinematics import Dynamics, Kinematics, drift_acceleration, make_wish, resolve
 
 SHARE = 0.9  # of a limit is planned with; the rest is for what a law adds
 LEAST = 0.3  # of that at least is taken for the drawing, whatever the rest takes

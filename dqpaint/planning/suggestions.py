@@ -9,15 +9,12 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.motion import Motion, plan
-from dqpaint.motion.transform import scaled, straight
+from dqpaint.motion import Motion, plan, scaled, straight
 from dqpaint.planning.ideal_run import can_draw
 from dqpaint.planning.placement import FEW_SCALES, has_room
-from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.kinematics.nullspace import DEFAULT_NULL
-from dqpaint.robots.kinematics.start_posture import ON_THE_WAY, strays
-from dqpaint.robots.model.card import installed_names, read_card
-from dqpaint.settings.model import Settings
+from dqpaint.robots.kinematics import DEFAULT_NULL, ON_THE_WAY, Kinematics, strays
+from dqpaint.robots.model import installed_names, read_card
+from dqpaint.settings import Settings
 
 SCALES = np.arange(0.95, 0.05, -0.05)
 NOTHING = "no smaller scale, other place, straight tool or other arm helps: draw it another way"

@@ -1,9 +1,36 @@
-"""How an arm answers a command. PyBullet is met here and nowhere else.
+"""A command -> how the arm answers: joint angles, rates and torques after each control period.
 
 A new plant is a class in a new file of this folder under `@PLANTS.add(name)`; it is found by
-itself. It brings what `plant.Plant` lists.
+itself and brings what `plant.Plant` lists.
 """
 
-from dqpaint.plants.plant import PLANTS, Plant, choose_plant
+from dqpaint.plants.ideal import Ideal
+from dqpaint.plants.plant import (
+    DEFAULT_PLANTS,
+    PLANTS,
+    Chosen,
+    Plant,
+    PlantMaker,
+    Takes,
+    Trait,
+    choose_plant,
+    find_plant,
+)
+from dqpaint.plants.world import UNDISTURBED, Payload, Push, World
 
-__all__ = ["PLANTS", "Plant", "choose_plant"]
+__all__ = [
+    "DEFAULT_PLANTS",
+    "PLANTS",
+    "UNDISTURBED",
+    "Chosen",
+    "Ideal",
+    "Payload",
+    "Plant",
+    "PlantMaker",
+    "Push",
+    "Takes",
+    "Trait",
+    "World",
+    "choose_plant",
+    "find_plant",
+]

@@ -11,9 +11,9 @@ from dqpaint.dq import Floats
 from dqpaint.plants.bullet_loads import Pushing, check_pushes, loaded
 from dqpaint.plants.plant import Options, Trait
 from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.robots.bullet.client import Client, bullet, joint_indices, quiet
-from dqpaint.robots.model.card import Card
-from dqpaint.robots.urdf.prepare import urdf_file
+from dqpaint.robots.bullet import Client, bullet, joint_indices, quiet
+from dqpaint.robots.model import Card
+from dqpaint.robots.urdf import urdf_file
 
 LONGEST_STEP = 1e-3  # [s] of physics
 UNBOUND = 1e9  # [rad/s]

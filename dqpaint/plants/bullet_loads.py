@@ -8,8 +8,8 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.errors import UsageError
 from dqpaint.plants.world import Payload, Push, World
-from dqpaint.robots.bullet.client import bullet
-from dqpaint.robots.model.card import Card
+from dqpaint.robots.bullet import bullet
+from dqpaint.robots.model import Card
 
 if TYPE_CHECKING:
     from dqpaint.plants.bullet_arm import RigidArm

@@ -19,10 +19,9 @@ from dqpaint.errors import UsageError
 from dqpaint.plants.bullet_arm import LONGEST_STEP, RigidArm, some_postures
 from dqpaint.plants.plant import PLANTS, Options, Springs, Takes, Trait, Values
 from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.robots.bullet.client import bullet
-from dqpaint.robots.kinematics.dynamics import Dynamics
-from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.model.card import Card
+from dqpaint.robots.bullet import bullet
+from dqpaint.robots.kinematics import Dynamics, Kinematics
+from dqpaint.robots.model import Card
 
 FINE = 0.02  # of a joint's own swing, in radians of its phase, fits one physics step
 STABLE = 0.5  # of the longest step that is stable, for the quickest mode of any posture

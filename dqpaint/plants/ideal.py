@@ -7,7 +7,7 @@ import numpy as np
 from dqpaint.dq import Floats
 from dqpaint.plants.plant import PLANTS, Options, Takes, Trait
 from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.robots.model.card import Card
+from dqpaint.robots.model import Card
 
 
 @PLANTS.add("ideal")

@@ -5,12 +5,11 @@ from typing import Any, Literal, Protocol
 
 from pydantic import BaseModel, ConfigDict
 
-from dqpaint.core.named_values import make_choice, read_choice
-from dqpaint.core.registry import Folder, Registry
+from dqpaint.core import Folder, Registry, make_choice, read_choice
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.robots.model.card import Card
+from dqpaint.robots.model import Card
 
 Takes = Literal["rates", "torque"]
 Trait = Literal["masses", "a model of gravity", "sudden motors"]

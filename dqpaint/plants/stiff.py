@@ -8,8 +8,8 @@ from dqpaint.dq import Floats
 from dqpaint.plants.bullet_arm import RigidArm
 from dqpaint.plants.plant import PLANTS, Takes, Trait
 from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.robots.bullet.client import bullet
-from dqpaint.robots.model.card import Card
+from dqpaint.robots.bullet import bullet
+from dqpaint.robots.model import Card
 
 
 @PLANTS.add("stiff")

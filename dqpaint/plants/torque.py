@@ -6,10 +6,9 @@ from dqpaint.dq import Floats
 from dqpaint.plants.bullet_arm import LONGEST_STEP, RigidArm, some_postures
 from dqpaint.plants.plant import PLANTS, Takes, Trait
 from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.robots.bullet.client import bullet
-from dqpaint.robots.kinematics.dynamics import Dynamics
-from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.model.card import Card
+from dqpaint.robots.bullet import bullet
+from dqpaint.robots.kinematics import Dynamics, Kinematics
+from dqpaint.robots.model import Card
 
 
 @PLANTS.add("torque")

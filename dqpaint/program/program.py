@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dqpaint.core.records import record
-from dqpaint.diagnostics.diagnostic import LINES, Diagnostic, Span, line_named
+from dqpaint.core import record
+from dqpaint.diagnostics import LINES, Diagnostic, Span, line_named
 from dqpaint.program.colours import Colour as Colour
 from dqpaint.program.taylor import Floats, Taylor
 

@@ -12,7 +12,7 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.render.meshes import rounded
-from dqpaint.robots.bullet.client import Client, bullet, joint_indices, quiet
+from dqpaint.robots.bullet import Client, bullet, joint_indices, quiet
 
 WHITE = [1.0, 1.0, 1.0, 1.0]
 

@@ -3,9 +3,9 @@
 import cv2
 import numpy as np
 
-from dqpaint.light.arrays import Image
-from dqpaint.light.camera.camera import Camera
-from dqpaint.light.sources.emission import inverse_square
+from dqpaint.light import Image
+from dqpaint.light.camera import Camera
+from dqpaint.light.sources import inverse_square
 from dqpaint.render.lamps import Lamps
 from dqpaint.render.shading import by_lamps, fresnel, seen_from
 

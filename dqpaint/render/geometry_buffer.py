@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
-from dqpaint.light.camera.camera import Camera
+from dqpaint.light.camera import Camera
 from dqpaint.render.arm_shapes import Arm
-from dqpaint.robots.bullet.client import bullet
+from dqpaint.robots.bullet import bullet
 
 NEAR, FAR = 0.02, 50.0
 """Nearer or farther than this from the camera nothing is seen [m]."""

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
-from dqpaint.light.arrays import Image
-from dqpaint.light.camera.camera import Camera
+from dqpaint.light import Image
+from dqpaint.light.camera import Camera
 from dqpaint.render.arm_shapes import Arm
 from dqpaint.render.geometry_buffer import glance
 from dqpaint.render.still import Lights, finished, floor, glow, lit

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.render.arm_shapes import Arm, Shape
-from dqpaint.robots.bullet.client import Client, bullet, quiet
-from dqpaint.robots.kinematics.collisions import read_mesh
+from dqpaint.robots.bullet import Client, bullet, quiet
+from dqpaint.robots.kinematics import read_mesh
 
 MOST_RAYS = 16_000
 """Rays of one call: PyBullet loses one of 16,384 and refuses more."""

@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
-from dqpaint.light.arrays import Image
-from dqpaint.light.camera.camera import Camera
-from dqpaint.robots.model.card import Card
-from dqpaint.robots.urdf.prepare import prepare, urdf_file
-from dqpaint.settings.model import Settings
+from dqpaint.light import Image
+from dqpaint.light.camera import Camera
+from dqpaint.robots.model import Card
+from dqpaint.robots.urdf import prepare, urdf_file
+from dqpaint.settings import Settings
 
 if TYPE_CHECKING:
     from dqpaint.render.arm_shapes import Arm

@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
-from dqpaint.light.arrays import Image
-from dqpaint.light.camera.camera import Camera
+from dqpaint.light import Image
+from dqpaint.light.camera import Camera
 from dqpaint.render.arm_shapes import Arm
 from dqpaint.render.floor import light_of_floor
 from dqpaint.render.geometry_buffer import Numbers, Surfaces, measure

@@ -18,16 +18,8 @@ from pathlib import Path
 from typing import Any
 
 from dqpaint import __version__
-from dqpaint.controllers import find_controller
-from dqpaint.core.named_values import read_choice
-from dqpaint.diagnostics.did_you_mean import closest
-from dqpaint.disturbances import make_disturbances
+from dqpaint.diagnostics import closest
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.painting.scene import check_choices
-from dqpaint.plants import PLANTS, choose_plant
-from dqpaint.robots.kinematics.nullspace import read_null
-from dqpaint.robots.loading.lookup import find_card
-from dqpaint.robots.model.tool_mount import parse_tool
 from dqpaint.settings.model import (
     DEFAULT_CONTROLLER,
     Settings,
@@ -49,6 +41,8 @@ MEANT = {
 }  # fmt: skip
 NOT_OF_THE_PICTURE = ("out", "save", "settings", "watch", "jobs")
 NAMES_FILES = ("controller", "robot", "recorded")
+
+Check = Callable[[Settings], None]
 
 
 @dataclass(frozen=True)
@@ -96,8 +90,12 @@ class Given:
         return found
 
 
-def read_given(path: str) -> Given:
+def read_given(path: str, check: Check) -> Given:
     """What a file says, looked through key by key.
+
+    Args:
+        path: of the file.
+        check: raises a DqpaintError for what is wrong with the settings that one key gives.
 
     Raises:
         DqpaintError: it cannot be read, or a key or value is at fault; says the line.
@@ -113,12 +111,17 @@ def read_given(path: str) -> Given:
                 if name in choices:
                     raise UsageError(f"{key} says again what {spelt[name]} said")
                 choices[name], spelt[name] = read, key
-            _check({name: choices[name] for name in choices if spelt[name] == key})
+            of_key = {name: choices[name] for name in choices if spelt[name] == key}
+            gains = of_key.pop("gains", None)  # of a law that another key may name
+            check(settings_in_kind(of_key))
+            if gains is not None:
+                settings_in_kind({"gains": gains})
         except DqpaintError as problem:
             raise DqpaintError(f"{_where(place, text, key)}: {_told(problem)}") from None
     if "gains" in choices:
         try:
-            find_controller(make_settings(**choices).controller).read_gains(choices["gains"])
+            law = {name: choices[name] for name in ("controller", "gains") if name in choices}
+            check(make_settings(**law))
         except DqpaintError as problem:
             raise DqpaintError(f"{_where(place, text, spelt['gains'])}: {problem}") from None
     return Given(place.name, choices, *given)
@@ -230,27 +233,6 @@ def _numbers(gain: Any) -> Any:
 
 
 EXAMPLES = {"gains": "k = 20", "disturb": 'twist = "sine,x=0.02,frequency=2"'}
-
-
-def _check(choices: dict[str, Any]) -> None:
-    """Look through what one key gives as far as it can be understood by itself.
-
-    Raises:
-        DqpaintError: it is at fault.
-    """
-    settings = settings_in_kind(choices)
-    check_choices(settings)
-    if "controller" in choices:
-        find_controller(settings.controller)
-    if settings.robot is not None and "." not in settings.robot:  # files are read in their turn
-        find_card(settings.robot)
-    if settings.tool is not None:
-        parse_tool(settings.tool)
-    if settings.plant is not None:
-        name, _ = read_choice("plant", settings.plant, "compliant:frequency=60")
-        choose_plant(settings.plant, PLANTS[name].takes)
-    read_null(settings.null)
-    make_disturbances(settings.disturb)
 
 
 def _where(place: Path, text: str, key: str) -> str:

@@ -6,9 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
-from dqpaint.core.named_values import number_or_text, read_choice, reason
+from dqpaint.core import number_or_text, read_choice, reason
 from dqpaint.errors import UsageError
-from dqpaint.program.program import MOST_ALLOWED, MOST_SAMPLES
+from dqpaint.program import MOST_ALLOWED, MOST_SAMPLES
 
 DEFAULT_CONTROLLER = "hinf"
 LARGEST = 8192  # columns or rows of a picture

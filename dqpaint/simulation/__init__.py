@@ -1,1 +1,16 @@
-"""Room."""
+"""A motion, an arm, a law and a plant -> the recorded run: control loop, sensors, drives."""
+
+from dqpaint.simulation.closed_loop import Track, track, track_many
+from dqpaint.simulation.recorded_run import RECORDED, Recording, read_recording, replay
+from dqpaint.simulation.sensors import ModelsDifferError
+
+__all__ = [
+    "RECORDED",
+    "ModelsDifferError",
+    "Recording",
+    "Track",
+    "read_recording",
+    "replay",
+    "track",
+    "track_many",
+]

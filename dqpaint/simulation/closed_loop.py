@@ -16,12 +16,17 @@ from dqpaint.disturbances import Disturbance
 from dqpaint.dq import Floats
 from dqpaint.errors import UnstableError
 from dqpaint.motion import Motion
-from dqpaint.plants.plant import Chosen, Plant, PlantMaker
-from dqpaint.robots.kinematics.differential_ik import resolve
-from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability
-from dqpaint.robots.kinematics.limits import Clamp, clamps
-from dqpaint.robots.kinematics.nullspace import DEFAULT_NULL, make_wish
-from dqpaint.robots.model.card import Card
+from dqpaint.plants import Chosen, Plant, PlantMaker
+from dqpaint.robots.kinematics import (
+    DEFAULT_NULL,
+    Clamp,
+    Kinematics,
+    clamps,
+    make_wish,
+    manipulability,
+    resolve,
+)
+from dqpaint.robots.model import Card
 from dqpaint.simulation.drives import make_drive
 from dqpaint.simulation.sensors import Late, ManySenses, Senses, Told, chance, delay
 from dqpaint.simulation.stop_on_limit import limit_error, meets_limit

@@ -7,12 +7,15 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.controllers import Controller, Seen
 from dqpaint.dq import Floats
-from dqpaint.robots.kinematics.differential_ik import PULL, resolve
-from dqpaint.robots.kinematics.dynamics import Dynamics
-from dqpaint.robots.kinematics.jacobians import drift_acceleration
-from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.kinematics.limits import Bounds
-from dqpaint.robots.kinematics.nullspace import Wish
+from dqpaint.robots.kinematics import (
+    PULL,
+    Bounds,
+    Dynamics,
+    Kinematics,
+    Wish,
+    drift_acceleration,
+    resolve,
+)
 
 STILL = np.zeros(6)  # the twist of a tool that stays
 

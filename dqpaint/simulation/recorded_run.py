@@ -20,7 +20,7 @@ from dqpaint.controllers import Controller, Gains, Seen
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.motion import Motion
-from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability
+from dqpaint.robots.kinematics import Kinematics, manipulability
 from dqpaint.simulation.closed_loop import Track
 
 LARGEST = 100_000_000  # bytes of a file

@@ -9,13 +9,10 @@ import numpy as np
 from typing_extensions import override
 
 from dqpaint import dq
-from dqpaint.disturbances import Disturbance
-from dqpaint.disturbances.disturbance import Encoder
+from dqpaint.disturbances import Disturbance, Encoder
 from dqpaint.dq import Floats
-from dqpaint.plants.plant import Plant
-from dqpaint.plants.world import UNDISTURBED
-from dqpaint.robots.kinematics.batched import ManyKinematics
-from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.plants import UNDISTURBED, Plant
+from dqpaint.robots.kinematics import Kinematics, ManyKinematics
 
 Disturbances = Mapping[str, Disturbance]
 

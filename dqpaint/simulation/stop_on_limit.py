@@ -5,8 +5,8 @@ import numpy as np
 from dqpaint.dq import Floats
 from dqpaint.language import Diagnostic, ScriptError
 from dqpaint.motion import Motion
-from dqpaint.robots.kinematics.limits import AT_LIMIT, Clamp
-from dqpaint.robots.model.card import Card
+from dqpaint.robots.kinematics import AT_LIMIT, Clamp
+from dqpaint.robots.model import Card
 
 SAYS = {
     "position": ("go to", "deg", "turn the tool less, or move the drawing with place"),

@@ -1,14 +1,15 @@
-"""Many paintings of one question: drawings and choices in, tables and pictures out.
+"""Drawings and choices -> many paintings -> tables, pictures, verdicts.
 
-    axes -> runs -> engine (record, pool -> worker) -> results -> cells -> compare, sweep
-                                                              -> claims -> replay (replays)
-                                                              -> gates  -> verify (references)
+    axes -> runs -> engine (journal, pool -> worker) -> results -> cells -> compare, sweep, tune
+                                                               -> claims -> replay (measures)
+                                                               -> gates  -> verify (references)
 
 A run is plain data with a key, carried out by a worker process; its result is a line of the study's
-record. A new study says which runs it wants, hands them to `engine.carry_out_study`, and reads the
-results that come back in their order; what it needs beside figures is a line in
-`keeping.KEEPERS`. One that asks again after it has seen results, as `tune` does, opens an
-`engine.Study`. Runs that differ in their seeds alone may go as one of `batches`. `page` makes a
-report of what a study shows, `calls` are the studies from Python, `cluster` is a pool of workers
-elsewhere. `promise` stands apart: it needs no pictures, only tracks.
+journal. A new study says which runs it wants, hands them to `engine.carry_out_study`, and reads the
+results in their order; what it keeps beside figures is a line in `run_arrays.KEEPERS`. One that
+asks again after it has seen results, as `tune` does, opens an `engine.Study`. Runs that differ only
+in their seeds may go as one of `batches`. `page` makes a report, `api` are the studies from Python,
+`dask_pool` is a pool of workers elsewhere.
 """
+
+__all__ = ["api", "gallery"]

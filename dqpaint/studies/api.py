@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.errors import UsageError
-from dqpaint.language.writing.builder import Drawing
-from dqpaint.light.images.contact_sheet import opened
-from dqpaint.outputs.files import write
-from dqpaint.settings.model import Settings, make_settings
+from dqpaint.language.writing import builder
+from dqpaint.light.images import opened
+from dqpaint.outputs import files
+from dqpaint.settings import Settings, make_settings
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.axes import Axis, parse_axis
 from dqpaint.studies.kinds import compare as comparing
@@ -83,7 +83,7 @@ class Studied(Generic[S]):
         """
         place = Path(folder)
         place.mkdir(parents=True, exist_ok=True)
-        return write(place / self.stem, self.files)
+        return files.write(place / self.stem, self.files)
 
     def __repr__(self) -> str:
         return f"<{type(self.study).__name__} of {self.study.name}: {len(self.study.cells)} cells>"
@@ -96,7 +96,7 @@ class Studied(Generic[S]):
 
 
 def compare(
-    drawing: Where | Drawing,
+    drawing: Where | builder.Drawing,
     controllers: Sequence[str] = ("hinf",),
     *,
     plants: Sequence[str] | None = None,
@@ -146,7 +146,7 @@ def compare(
 
 
 def sweep(
-    drawing: Where | Drawing,
+    drawing: Where | builder.Drawing,
     vary: Sequence[str] | str,
     *,
     runs: int = 1,
@@ -184,7 +184,7 @@ def sweep(
 
 
 def tune(
-    drawing: Where | Drawing,
+    drawing: Where | builder.Drawing,
     vary: Sequence[str] | str = (),
     *,
     effort: float = 1.1,
@@ -265,13 +265,13 @@ def verify(
 def _call(name: str, *given: Any, **choices: Any) -> str:
     """The call, as a report says it; what was left as usual is left out."""
     shown = [str(one) if isinstance(one, Path) else one for one in given]
-    words = ["drawing" if isinstance(one, Drawing) else repr(one) for one in shown]
+    words = ["drawing" if isinstance(one, builder.Drawing) else repr(one) for one in shown]
     words += [f"{key}={value!r}" for key, value in choices.items() if value is not None]
     return f"dqpaint.{name}({', '.join(words)})"
 
 
-def _name(drawing: Where | Drawing) -> str | Drawing:
-    return drawing if isinstance(drawing, Drawing) else str(drawing)
+def _name(drawing: Where | builder.Drawing) -> str | builder.Drawing:
+    return drawing if isinstance(drawing, builder.Drawing) else str(drawing)
 
 
 def _texts(name: str, values: Sequence[str]) -> list[str]:

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from dqpaint.api import draw
-from dqpaint.controllers.base.user_controller import short_name
-from dqpaint.outputs.files import stem_for, summarise, write
-from dqpaint.settings.model import DEFAULT_CONTROLLER
+from dqpaint.controllers.base import short_name
+from dqpaint.outputs import files
+from dqpaint.settings import DEFAULT_CONTROLLER
 from dqpaint.studies.kinds import hinf_bound
 
 
@@ -119,17 +119,17 @@ def make_gallery(folder: str) -> Iterator[Path]:
     """Paint every shot into a folder, with its summary, and pages that show them all."""
     for shot in SHOTS:
         painting = draw(shot.example, **shot.choices)
-        facts = summarise(painting)
+        facts = files.summarise(painting)
         del facts["wall_s"]  # the only part that differs from run to run
         contents = {
             ".png": painting.picture.png,
             ".json": (json.dumps(facts, indent=2) + "\n").encode(),
         }
-        yield from write(stem_for(f"{folder or '.'}/", shot.name), contents)
-    yield from write(stem_for(f"{folder or '.'}/", "README"), {".md": page().encode()})
+        yield from files.write(files.stem_for(f"{folder or '.'}/", shot.name), contents)
+    yield from files.write(files.stem_for(f"{folder or '.'}/", "README"), {".md": page().encode()})
     found = hinf_bound.curves()
     contents = {".png": hinf_bound.picture(found), ".md": hinf_bound.page(found).encode()}
-    yield from write(stem_for(f"{folder or '.'}/", "promise"), contents)
+    yield from files.write(files.stem_for(f"{folder or '.'}/", "promise"), contents)
 
 
 def page() -> str:

@@ -7,7 +7,7 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.language import parse
-from dqpaint.motion.batched_shapes import shape
+from dqpaint.motion.geometry.batched_shapes import shape
 from dqpaint.program.program import Arc, Cruise, Curve, Keep, Lasting, Look, Samples, Straight, Turn
 from tests.support.drawn import drawn
 

@@ -5,7 +5,7 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.language import parse
-from dqpaint.motion.batched_shapes import shape
+from dqpaint.motion.geometry.batched_shapes import shape
 
 MOVES = {
     "line": "line by (20, -30, 10) mm",

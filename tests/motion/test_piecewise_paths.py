@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from dqpaint.motion.piecewise_paths import place_chains
+from dqpaint.motion.geometry.piecewise_paths import place_chains
 from dqpaint.program import piecewise
 from dqpaint.program.program import Chain
 from tests.support.strokes import BEZIER, HALF_AXES

@@ -8,7 +8,7 @@ import pytest
 from dqpaint import dq
 from dqpaint.language import ScriptError, parse
 from dqpaint.motion import plan
-from dqpaint.motion.batched_shapes import gather
+from dqpaint.motion.geometry.batched_shapes import gather
 from tests.support import strokes
 
 PERIOD = 0.008

@@ -10,11 +10,11 @@ import pytest
 from dqpaint import dq
 from dqpaint.language import ScriptError, parse, read
 from dqpaint.motion import Motion, plan, survey
-from dqpaint.motion.arc_length import measure
-from dqpaint.motion.batched_shapes import gather
-from dqpaint.motion.orientations import Looking, LookingAtLine
-from dqpaint.motion.paths import Lines
-from dqpaint.motion.shapes import Loose
+from dqpaint.motion.geometry.arc_length import measure
+from dqpaint.motion.geometry.batched_shapes import gather
+from dqpaint.motion.geometry.orientations import Looking, LookingAtLine
+from dqpaint.motion.geometry.paths import Lines
+from dqpaint.motion.geometry.shapes import Loose
 from dqpaint.program.program import Cruise, Program
 from tests.support.drawings import drawing
 from tests.support.strokes import KINDS, LAWS, program, segment
@@ -302,7 +302,7 @@ def test_curves_that_come_after_too_many_samples_are_not_measured(
 ) -> None:
     measured = []
     monkeypatch.setattr(
-        "dqpaint.motion.batched_shapes.measure",
+        "dqpaint.motion.geometry.batched_shapes.measure",
         lambda shape: measured.append(shape) or measure(shape),
     )
     text = (

@@ -12,6 +12,7 @@ import pytest
 
 import dqpaint
 from dqpaint.core import atomic_files
+from dqpaint.core.version import LIBRARIES
 from dqpaint.errors import OutputError
 from dqpaint.outputs import files as outputs
 from dqpaint.robots.model.card import read_card
@@ -58,7 +59,7 @@ def test_summary_says_what_was_run_and_what_came_out(painting):
     assert facts["controller"] == "hinf"
     assert facts["gains"]["K_O"] == pytest.approx(40)
     assert facts["settings"]["width"] == 160
-    assert set(facts["versions"]) == {"dqpaint", "python", *outputs.LIBRARIES}
+    assert set(facts["versions"]) == {"dqpaint", "python", *LIBRARIES}
     for figure in ("error_integral", "command_integral_rad", "effort_integral", "speed_integral_m",
                    "acceleration_integral", "position_error_rms_m", "position_error_std_m",
                    "position_error_max_m", "orientation_error_rms_rad"):  # fmt: skip

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
+from dqpaint.cli import pose as pose_text
 from dqpaint.errors import UsageError
 from dqpaint.robots import pose_query
 from dqpaint.robots.model.card import read_card
@@ -23,7 +24,7 @@ def test_pham_s_pose_is_shown_to_its_four_decimals():
     np.testing.assert_allclose(facts["matrix"][2], [-0.5661, 0.6489, -0.5083, 0.7963], atol=6e-5)
     assert facts["frame"] == "flange"
     assert facts["warnings"] == []
-    shown = pose_query.text(posed)
+    shown = pose_text.text(posed)
     assert "0.353016   0.065085   0.865985   0.348157" in shown
     assert "-0.000000" not in shown
 
@@ -62,7 +63,7 @@ def test_a_pure_translation_is_told_as_one():
     still = pose_query.Posed(
         card, False, card.home, dq.pose_from([0, 0, 0.5], [1.0, 0, 0, 0]), posed.jacobian, ()
     )
-    assert "a translation, no turn" in pose_query.text(still)
+    assert "a translation, no turn" in pose_text.text(still)
     assert pose_query.as_json(still)["screw"]["pitch_m_rad"] is None
     json.dumps(pose_query.as_json(still), allow_nan=False)
 

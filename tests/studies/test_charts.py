@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from dqpaint.light.images.contact_sheet import hues
-from dqpaint.studies.kinds.pictures import on_paper
 from dqpaint.studies.report.charts import COLOURS, HeatMap, Line, Panel, chart, heat_map
+from dqpaint.studies.report.pictures import on_paper
 
 X = np.linspace(1, 10, 50)
 

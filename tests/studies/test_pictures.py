@@ -6,8 +6,8 @@ import pytest
 from dqpaint.light.images import contact_sheet
 from dqpaint.settings.model import make_settings
 from dqpaint.studies.experiment.cells import Cell, family
-from dqpaint.studies.kinds import pictures
 from dqpaint.studies.replay.papers import read_paper
+from dqpaint.studies.report import pictures
 from dqpaint.studies.runner.run import Result
 from dqpaint.studies.runner.run_arrays import place
 

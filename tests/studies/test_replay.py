@@ -18,7 +18,6 @@ from dqpaint.robots.model.card import read_card
 from dqpaint.robots.model.fields import Mount
 from dqpaint.studies.experiment.cells import Cell
 from dqpaint.studies.experiment.statistics import spread
-from dqpaint.studies.kinds import pictures as shown
 from dqpaint.studies.kinds import replay
 from dqpaint.studies.replay.measures import (
     MEASURES,
@@ -32,6 +31,7 @@ from dqpaint.studies.replay.measures import (
 )
 from dqpaint.studies.replay.measures import late_error as late
 from dqpaint.studies.replay.papers import paper_names, read_paper
+from dqpaint.studies.report import pictures as shown
 from dqpaint.studies.report.charts import Line, Panel
 from dqpaint.studies.report.page import Charts
 from dqpaint.studies.runner.run import Result, Run, drawing_text, seeded

@@ -11,10 +11,11 @@ import cv2
 import numpy as np
 import pytest
 
+from dqpaint.core import library_versions
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.studies.kinds import verify as study
 from dqpaint.studies.verify.gates import GATES, changed, measure, spoke
-from dqpaint.studies.verify.references import read_cases, read_reference, versions
+from dqpaint.studies.verify.references import read_cases, read_reference
 from tests.support import guarded
 
 pytestmark = pytest.mark.slow
@@ -142,7 +143,7 @@ def test_remarks_tell_of_other_versions_and_texts(folder):
     assert not one.faults
     assert any("wider gates" in text for text in one.remarks)
     assert any("text has changed" in text for text in one.remarks)
-    assert versions().keys() == facts["versions"].keys()
+    assert library_versions().keys() == facts["versions"].keys()
 
 
 def test_a_run_that_fails_is_a_fault_and_no_reference(folder):

@@ -8,10 +8,10 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.diagnostics.collector import Findings
 from dqpaint.diagnostics.diagnostic import Span
-from dqpaint.motion.batched_shapes import shape
+from dqpaint.motion.geometry.batched_shapes import shape
+from dqpaint.motion.geometry.shapes import Flow
 from dqpaint.motion.profiles import Progress
 from dqpaint.motion.schedule import Timetable, timetable
-from dqpaint.motion.shapes import Flow
 from dqpaint.program import piecewise, taylor
 from dqpaint.program.program import (
     Arc,

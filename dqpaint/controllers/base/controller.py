@@ -8,7 +8,7 @@ import numpy as np
 
 from dqpaint.controllers.base.gain_schedule import GainText, Schedule, read_schedule
 from dqpaint.controllers.base.gains import G, list_gains
-from dqpaint.core.registry import Folder, Registry
+from dqpaint.core import Folder, Registry
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
 

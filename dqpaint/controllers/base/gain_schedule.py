@@ -17,7 +17,7 @@ import numpy as np
 from pydantic import ValidationError
 
 from dqpaint.controllers.base.gains import G, Value, list_gains
-from dqpaint.core.named_values import reason
+from dqpaint.core import reason
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 

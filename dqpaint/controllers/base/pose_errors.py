@@ -9,8 +9,7 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.robots.kinematics.jacobians import pose_map
-from dqpaint.robots.kinematics.small_matrices import inverse
+from dqpaint.robots.kinematics import inverse, pose_map
 
 
 def invariant_error(pose: Floats, pose_d: Floats) -> Floats:

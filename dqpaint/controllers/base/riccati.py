@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dqpaint.dq import Floats
-from dqpaint.robots.kinematics.small_matrices import solve
+from dqpaint.robots.kinematics import solve
 
 GAUSS = np.array([0.5 - np.sqrt(3) / 6, 0.5 + np.sqrt(3) / 6])  # of an interval
 SMALL = 0.5  # norm of an exponent whose exponential is a short series

@@ -26,7 +26,7 @@ from pydantic import Field, create_model
 
 from dqpaint.controllers.base.controller import CONTROLLERS, Commands, Controller, Seen
 from dqpaint.controllers.base.gains import Gains
-from dqpaint.core.examples import examples_folder
+from dqpaint.core import examples_folder
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 

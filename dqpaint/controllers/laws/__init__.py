@@ -1,1 +1,4 @@
-"""Room."""
+"""The control laws, one a file: controller input and gains -> a command.
+
+A new law is a function in a new file here under `@controller(name, source, gains)`.
+"""

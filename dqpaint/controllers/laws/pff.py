@@ -7,7 +7,7 @@ from dqpaint.controllers.base.controller import Seen, controller
 from dqpaint.controllers.base.pose_errors import twist_of_invariant_rate
 from dqpaint.controllers.laws.p import RateGains
 from dqpaint.dq import Floats
-from dqpaint.robots.kinematics.jacobians import pose_map
+from dqpaint.robots.kinematics import pose_map
 
 
 @controller("pff", source="Pereira 2016, K+FF [3.12]", gains=RateGains)

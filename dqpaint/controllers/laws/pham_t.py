@@ -7,7 +7,7 @@ from dqpaint.controllers.base.controller import Seen, controller
 from dqpaint.controllers.base.gains import Gain, Gains
 from dqpaint.controllers.base.pose_errors import difference_error
 from dqpaint.dq import Floats
-from dqpaint.robots.kinematics.jacobians import pose_map
+from dqpaint.robots.kinematics import pose_map
 
 
 class TransposeGains(Gains):

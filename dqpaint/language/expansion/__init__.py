@@ -1,1 +1,1 @@
-"""Room."""
+"""Syntax tree -> strokes in order: repeats, definitions and includes expanded, names evaluated."""

@@ -1,6 +1,6 @@
 """Blocks: how often the lines of a `repeat` come, and the frame of those in a `with`."""
 
-from dqpaint.diagnostics.diagnostic import Diagnostic, Problem, Span, problem
+from dqpaint.diagnostics import Diagnostic, Problem, Span, problem
 from dqpaint.language.syntax.tree import Part, Statement
 from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.evaluate import evaluate

@@ -1,6 +1,6 @@
 """What a file gives a name to besides values: functions, lines to be drawn, frames; and calls."""
 
-from dqpaint.diagnostics.diagnostic import Problem, problem
+from dqpaint.diagnostics import Problem, problem
 from dqpaint.language.expansion import blocks
 from dqpaint.language.syntax.parser import unknown_statement
 from dqpaint.language.syntax.tree import Statement, names_in, size_of

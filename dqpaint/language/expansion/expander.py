@@ -4,9 +4,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from dqpaint.diagnostics.collector import EnoughError, Findings
-from dqpaint.diagnostics.diagnostic import (
+from dqpaint.diagnostics import (
     Diagnostic,
+    EnoughError,
+    Findings,
     PlaceProblem,
     Problem,
     Span,
@@ -30,7 +31,7 @@ from dqpaint.language.values.values import Quantity, Value
 from dqpaint.language.values.vectors import Frame
 from dqpaint.language.vocabulary.units import PLAIN
 from dqpaint.language.vocabulary.words import SETTINGS, STATEMENTS
-from dqpaint.program.program import Auto, Pose, Program, Segment
+from dqpaint.program import Auto, Pose, Program, Segment
 
 NAMELESS = ("robot", "place", "curve", "repeat", "call")  # their name is none that they give
 ALIKE = ("text", "path", "svg", "move")  # in each pass as much as in the first

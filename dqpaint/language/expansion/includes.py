@@ -9,9 +9,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
-from dqpaint.diagnostics.collector import Findings
-from dqpaint.diagnostics.diagnostic import Problem, Source, problem
-from dqpaint.diagnostics.did_you_mean import closest, did_you_mean
+from dqpaint.diagnostics import Findings, Problem, Source, closest, did_you_mean, problem
 from dqpaint.errors import DqpaintError
 from dqpaint.language.imports.file_access import below, is_relative
 from dqpaint.language.syntax.parser import parse_statements

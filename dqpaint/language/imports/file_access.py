@@ -6,7 +6,7 @@ the folder of the main file or below, so that a drawing from elsewhere reads not
 
 from pathlib import Path, PurePosixPath
 
-from dqpaint.diagnostics.diagnostic import Problem, file_at, problem
+from dqpaint.diagnostics import Problem, file_at, problem
 from dqpaint.language.pen.pen import Pen
 from dqpaint.language.syntax.tree import Quoted
 

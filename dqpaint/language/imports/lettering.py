@@ -14,9 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.program import piecewise
-from dqpaint.program.program import Chain
-from dqpaint.program.taylor import Floats
+from dqpaint.program import Chain, Floats, piecewise
 
 FONTS = Path(__file__).parent / "fonts"
 PLAINEST = "futural"

@@ -11,11 +11,11 @@ from functools import lru_cache
 
 import numpy as np
 
-from dqpaint.diagnostics.diagnostic import Problem, Span, problem
+from dqpaint.diagnostics import Problem, Span, problem
 from dqpaint.language.imports.file_access import contents, too_large
 from dqpaint.language.pen.pen import Pen
 from dqpaint.language.syntax.tree import Quoted
-from dqpaint.program.taylor import Floats
+from dqpaint.program import Floats
 
 MOST_ROWS = 500_000
 MOST_BYTES = 100_000_000

@@ -12,9 +12,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.program import piecewise
-from dqpaint.program.program import Chain, Colour
-from dqpaint.program.taylor import Floats
+from dqpaint.program import Chain, Colour, Floats, piecewise
 
 Line = tuple[Chain, Colour | None]
 

@@ -1,1 +1,1 @@
-"""Room."""
+"""The state between statements: pose of the pen, settings of strokes -> times and orientations."""

@@ -1,11 +1,11 @@
 """How long a stroke takes, and how the legs of one statement share it."""
 
-from dqpaint.diagnostics.diagnostic import Span, problem
+from dqpaint.diagnostics import Span, problem
 from dqpaint.language.pen.stroke_state import Settings
 from dqpaint.language.syntax.tree import Statement
 from dqpaint.language.values import typed_values
 from dqpaint.language.values.scope import Scope
-from dqpaint.program.program import Cruise, Lasting, Samples, Timing
+from dqpaint.program import Cruise, Lasting, Samples, Timing
 
 
 def timing(statement: Statement, settings: Settings, scope: Scope) -> Timing:

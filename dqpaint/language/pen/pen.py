@@ -4,9 +4,10 @@ import math
 from dataclasses import replace
 from pathlib import Path as FilePath
 
-from dqpaint.diagnostics.collector import EnoughError, Findings
-from dqpaint.diagnostics.diagnostic import (
+from dqpaint.diagnostics import (
     Diagnostic,
+    EnoughError,
+    Findings,
     PlaceProblem,
     Span,
     file_at,
@@ -17,7 +18,7 @@ from dqpaint.language.pen.stroke_state import REST_TO_REST, Settings, Towards
 from dqpaint.language.syntax.tree import Part
 from dqpaint.language.values import vectors
 from dqpaint.language.vocabulary.words import PACE, PARTS
-from dqpaint.program.program import (
+from dqpaint.program import (
     IDENTITY,
     Cruise,
     Keep,

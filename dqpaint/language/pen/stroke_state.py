@@ -2,8 +2,8 @@
 
 import math
 
-from dqpaint.core.records import record, replaced
-from dqpaint.diagnostics.diagnostic import problem
+from dqpaint.core import record, replaced
+from dqpaint.diagnostics import problem
 from dqpaint.language.syntax.tree import (
     BlendWords,
     BrushWords,
@@ -17,8 +17,7 @@ from dqpaint.language.syntax.tree import (
 from dqpaint.language.values import typed_values
 from dqpaint.language.values.scope import Scope
 from dqpaint.language.values.vectors import Frame, Y
-from dqpaint.program import colours
-from dqpaint.program.program import (
+from dqpaint.program import (
     Bar,
     Brush,
     Colour,
@@ -30,8 +29,9 @@ from dqpaint.program.program import (
     LookLine,
     Quaternion,
     Strobe,
+    colours,
 )
-from dqpaint.program.program import Point as Dot
+from dqpaint.program import Point as Dot
 
 
 @record

@@ -6,21 +6,11 @@ The tool's z axis looks; see `program.Look` and `program.LookLine` for the other
 import math
 from collections.abc import Iterable
 
-from dqpaint.diagnostics.diagnostic import Span
+from dqpaint.diagnostics import Span
 from dqpaint.language.pen.pen import SAME_PLACE, SAME_TURN, Pen, here
 from dqpaint.language.pen.stroke_state import ToolMode, Towards
 from dqpaint.language.values import vectors
-from dqpaint.program.program import (
-    LOOKING,
-    Follow,
-    Keep,
-    Look,
-    LookLine,
-    Quaternion,
-    Tool,
-    Turn,
-    Vector,
-)
+from dqpaint.program import LOOKING, Follow, Keep, Look, LookLine, Quaternion, Tool, Turn, Vector
 
 LEAST_LEAN = math.radians(1.0)  # between the direction of a look and `up`
 

@@ -1,1 +1,4 @@
-"""Room."""
+"""A statement and the pen's state -> segments of the program.
+
+A new stroke is a row in `vocabulary.words` and a function here.
+"""

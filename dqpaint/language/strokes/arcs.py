@@ -3,10 +3,10 @@
 import math
 from collections.abc import Iterator
 
-from dqpaint.diagnostics.diagnostic import Span
+from dqpaint.diagnostics import Span
 from dqpaint.language.pen.pen import SAME_PLACE, here
 from dqpaint.language.values import vectors
-from dqpaint.program.program import Arc, Vector
+from dqpaint.program import Arc, Vector
 
 # Both are relative to the size of the arc, so that one of a millimetre is as good as one of a
 # metre. A flatter arc than this has its centre too far away to be found with enough digits.

@@ -12,13 +12,11 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
-from dqpaint.diagnostics.collector import Findings
-from dqpaint.diagnostics.diagnostic import Diagnostic
+from dqpaint.diagnostics import Diagnostic, Findings
 from dqpaint.language.pen import tool_orientation
 from dqpaint.language.strokes import arcs
 from dqpaint.language.values import vectors
-from dqpaint.program import colours
-from dqpaint.program.program import (
+from dqpaint.program import (
     LOOKING,
     Arc,
     Chain,
@@ -38,12 +36,13 @@ from dqpaint.program.program import (
     Step,
     Still,
     Straight,
+    Taylor,
     Timing,
     Tool,
     Turn,
     Vector,
+    colours,
 )
-from dqpaint.program.taylor import Taylor
 
 SMOOTH = 1e-6  # [rad]: less than this is no corner
 CLOSE = 1e-12  # of a stroke's length: what rounding may leave of it

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from dqpaint.diagnostics.diagnostic import Problem, ScriptError, Span, problem
+from dqpaint.diagnostics import Problem, ScriptError, Span, problem
 from dqpaint.language.pen.pen import Pen, here
 from dqpaint.language.syntax.tree import Expression, Statement, names_in, size_of
 from dqpaint.language.values import typed_values, vectors
@@ -11,8 +11,7 @@ from dqpaint.language.values.scope import MOST_CURVE_STEPS, Budget, Scope
 from dqpaint.language.values.values import Point, Quantity, Value, describe, is_zero
 from dqpaint.language.values.vectors import Frame
 from dqpaint.language.vocabulary.units import ANGLE, LENGTH, TIME, Dimension
-from dqpaint.program.program import Curve, Formula, Vector
-from dqpaint.program.taylor import Floats, Taylor
+from dqpaint.program import Curve, Floats, Formula, Taylor, Vector
 
 GAP = 1e-9  # [m] within which a curve starts where the tool is
 PIECES = 64  # a curve is looked at in so many places before it is believed

@@ -10,9 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dqpaint.diagnostics.collector import EnoughError
-from dqpaint.diagnostics.diagnostic import Diagnostic, Fix, Problem, Span, problem
-from dqpaint.diagnostics.did_you_mean import closest
+from dqpaint.diagnostics import Diagnostic, EnoughError, Fix, Problem, Span, closest, problem
 from dqpaint.language.imports import lettering
 from dqpaint.language.pen import tool_orientation
 from dqpaint.language.pen.durations import shared, timing
@@ -23,19 +21,20 @@ from dqpaint.language.syntax.tree import Name, Quoted, Statement
 from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.scope import Scope
 from dqpaint.language.vocabulary.units import UNITS
-from dqpaint.program import colours, piecewise
-from dqpaint.program.program import (
+from dqpaint.program import (
     LOOKING,
     Chain,
     Colour,
+    Floats,
     Follow,
     Keep,
     Light,
     Pose,
     Timing,
     Vector,
+    colours,
+    piecewise,
 )
-from dqpaint.program.taylor import Floats
 
 MOST_PIECES = 2_000_000  # lines, curves and arcs, of all statements
 LOOKED_AT = 20_000  # places of a stroke, where a tool that looks is looked at

@@ -1,6 +1,6 @@
 """Lines and moves -> segments: one for each leg, and a turn on the spot where there is no way."""
 
-from dqpaint.diagnostics.diagnostic import Span
+from dqpaint.diagnostics import Span
 from dqpaint.language.pen import tool_orientation
 from dqpaint.language.pen.durations import shared, timing
 from dqpaint.language.pen.pen import SAME_PLACE, Pen
@@ -8,8 +8,7 @@ from dqpaint.language.pen.stroke_state import Towards
 from dqpaint.language.syntax.tree import Statement
 from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.scope import Scope
-from dqpaint.program import colours
-from dqpaint.program.program import (
+from dqpaint.program import (
     LOOKING,
     Follow,
     Keep,
@@ -22,6 +21,7 @@ from dqpaint.program.program import (
     Timing,
     Tool,
     Vector,
+    colours,
 )
 
 

@@ -1,7 +1,7 @@
 """Movements -> segments: each function knows one statement."""
 
-from dqpaint.core.records import replaced
-from dqpaint.diagnostics.diagnostic import problem
+from dqpaint.core import replaced
+from dqpaint.diagnostics import problem
 from dqpaint.language.pen import tool_orientation
 from dqpaint.language.pen.durations import timing
 from dqpaint.language.pen.pen import SAME_PLACE, SAME_TURN, Pen
@@ -11,7 +11,7 @@ from dqpaint.language.syntax.tree import Expression, LightWords, Statement
 from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.scope import Scope
 from dqpaint.language.vocabulary.words import SETTINGS
-from dqpaint.program.program import (
+from dqpaint.program import (
     LOOKING,
     Arc,
     Follow,

@@ -1,1 +1,9 @@
-"""Room."""
+"""Text -> tokens -> syntax tree, each node with its span.
+
+`statement_rules` says which clauses a statement takes.
+"""
+
+from dqpaint.language.syntax.lexer import NUMBER
+from dqpaint.language.syntax.source import STDIN
+
+__all__ = ["NUMBER", "STDIN"]

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 
-from dqpaint.diagnostics.diagnostic import Fix, Problem, Span, problem
+from dqpaint.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.syntax.cursor import Cursor, found, no_value
 from dqpaint.language.syntax.expressions import expression
 from dqpaint.language.syntax.tree import (

@@ -1,6 +1,6 @@
 """A reading head over the tokens of one line."""
 
-from dqpaint.diagnostics.diagnostic import Problem, Span, problem
+from dqpaint.diagnostics import Problem, Span, problem
 from dqpaint.language.syntax.lexer import Token
 from dqpaint.language.vocabulary.words import RESERVED, STATEMENTS
 

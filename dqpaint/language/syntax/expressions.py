@@ -2,7 +2,7 @@
 
 import math
 
-from dqpaint.diagnostics.diagnostic import Fix, Problem, Span, problem
+from dqpaint.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.syntax.cursor import Cursor, found, no_value
 from dqpaint.language.syntax.lexer import Token
 from dqpaint.language.syntax.tree import (

@@ -1,6 +1,6 @@
 """What may be a name, and what a word already means."""
 
-from dqpaint.diagnostics.diagnostic import Problem, problem
+from dqpaint.diagnostics import Problem, problem
 from dqpaint.language.syntax.cursor import Cursor, found
 from dqpaint.language.syntax.lexer import Token
 from dqpaint.language.syntax.tree import Word

@@ -5,8 +5,7 @@ Each becomes a plain expression: a text `Quoted`, a word `Name`.
 
 from collections.abc import Callable
 
-from dqpaint.diagnostics.diagnostic import Fix, Span, problem
-from dqpaint.diagnostics.did_you_mean import closest, did_you_mean
+from dqpaint.diagnostics import Fix, Span, closest, did_you_mean, problem
 from dqpaint.language.syntax.cursor import Cursor, example_of, found
 from dqpaint.language.syntax.tree import Expression, Name, Quoted
 from dqpaint.language.vocabulary.units import FOREIGN_UNITS, LENGTH, UNITS

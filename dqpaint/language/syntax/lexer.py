@@ -5,8 +5,8 @@ import unicodedata
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from dqpaint.core.records import record
-from dqpaint.diagnostics.diagnostic import Diagnostic, Fix, Span
+from dqpaint.core import record
+from dqpaint.diagnostics import Diagnostic, Fix, Span
 from dqpaint.language.vocabulary.units import SAME_UNITS, UNITS
 from dqpaint.language.vocabulary.words import STATEMENTS
 

@@ -4,9 +4,16 @@ import re
 from collections.abc import Iterable
 from dataclasses import replace
 
-from dqpaint.diagnostics.collector import Findings
-from dqpaint.diagnostics.diagnostic import Diagnostic, Fix, Problem, Span, problem
-from dqpaint.diagnostics.did_you_mean import closest, did_you_mean
+from dqpaint.diagnostics import (
+    Diagnostic,
+    Findings,
+    Fix,
+    Problem,
+    Span,
+    closest,
+    did_you_mean,
+    problem,
+)
 from dqpaint.language.syntax import statements
 from dqpaint.language.syntax.cursor import Cursor, found
 from dqpaint.language.syntax.identifiers import meaning

@@ -2,7 +2,7 @@
 
 import re
 
-from dqpaint.diagnostics.diagnostic import Fix, Problem, Span, place, problem
+from dqpaint.diagnostics import Fix, Problem, Span, place, problem
 from dqpaint.language.syntax import trailing_tokens
 from dqpaint.language.syntax.cursor import Cursor
 from dqpaint.language.syntax.lexer import Token

@@ -1,8 +1,7 @@
 """One line of tokens -> one statement, as the tables of `words` say it is made."""
 
-from dqpaint.core.records import record
-from dqpaint.diagnostics.diagnostic import Fix, Problem, Span, problem
-from dqpaint.diagnostics.did_you_mean import closest, did_you_mean, listed
+from dqpaint.core import record
+from dqpaint.diagnostics import Fix, Problem, Span, closest, did_you_mean, listed, problem
 from dqpaint.language.syntax import clauses, import_clauses, statement_rules
 from dqpaint.language.syntax.cursor import Cursor, example_of, found, no_value
 from dqpaint.language.syntax.expressions import bracket, expression

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 
-from dqpaint.diagnostics.diagnostic import Fix, Problem, Span, problem
+from dqpaint.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.syntax.cursor import Cursor, found
 from dqpaint.language.vocabulary.words import STATEMENTS
 from dqpaint.program import colours

@@ -2,8 +2,8 @@
 
 from dataclasses import fields, is_dataclass
 
-from dqpaint.core.records import record
-from dqpaint.diagnostics.diagnostic import Span
+from dqpaint.core import record
+from dqpaint.diagnostics import Span
 
 # Expressions.
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable
 
-from dqpaint.diagnostics.diagnostic import Problem, Span, called_here, problem
+from dqpaint.diagnostics import Problem, Span, called_here, problem
 from dqpaint.language.syntax.tree import (
     Bracket,
     Call,
@@ -28,8 +28,8 @@ from dqpaint.language.values.values import (
     is_zero,
 )
 from dqpaint.language.vocabulary.units import PLAIN, UNITS, Dimension, dimension_name
-from dqpaint.program.taylor import Taylor
-from dqpaint.program.taylor import Value as Scalar
+from dqpaint.program import Taylor
+from dqpaint.program import Value as Scalar
 
 
 def evaluate(node: Expression, scope: Scope, words: Iterable[str] = ()) -> Value:

@@ -2,8 +2,7 @@
 
 from collections.abc import Iterable
 
-from dqpaint.diagnostics.diagnostic import Fix, Problem, Span, problem
-from dqpaint.diagnostics.did_you_mean import closest, did_you_mean, listed
+from dqpaint.diagnostics import Fix, Problem, Span, closest, did_you_mean, listed, problem
 from dqpaint.language.syntax.tree import Bracket, Call, Expression, Literal, Name, Sign
 from dqpaint.language.values import functions
 from dqpaint.language.values.scope import BUILTINS, Scope
@@ -31,7 +30,7 @@ from dqpaint.language.vocabulary.words import (
     LAW_ALIASES,
     LAWS,
 )
-from dqpaint.program.taylor import Taylor
+from dqpaint.program import Taylor
 
 
 def unknown(node: Name, scope: Scope, words: Iterable[str] = ()) -> Problem:

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 
-from dqpaint.diagnostics.diagnostic import Problem, Span, problem
+from dqpaint.diagnostics import Problem, Span, problem
 from dqpaint.language.syntax.tree import Expression, Literal
 from dqpaint.language.values import vectors
 from dqpaint.language.values.values import (
@@ -28,9 +28,8 @@ from dqpaint.language.vocabulary.units import (
     plausible_unit,
 )
 from dqpaint.language.vocabulary.words import FUNCTIONS
-from dqpaint.program import colours, taylor
-from dqpaint.program.taylor import Taylor
-from dqpaint.program.taylor import Value as Scalar
+from dqpaint.program import Taylor, colours, taylor
+from dqpaint.program import Value as Scalar
 
 
 class Arguments:

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable
 
-from dqpaint.diagnostics.diagnostic import Span
+from dqpaint.diagnostics import Span
 from dqpaint.language.syntax.tree import Expression
 from dqpaint.language.values.values import Point, Quantity, TimeLaw, Tint, Value
 from dqpaint.language.vocabulary.units import PLAIN, UNITS

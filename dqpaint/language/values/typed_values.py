@@ -2,8 +2,7 @@
 
 import math
 
-from dqpaint.diagnostics.diagnostic import Fix, Problem, problem
-from dqpaint.diagnostics.did_you_mean import closest, did_you_mean
+from dqpaint.diagnostics import Fix, Problem, closest, did_you_mean, problem
 from dqpaint.language.syntax.tree import Call, Expression, Literal, Name
 from dqpaint.language.values import vectors
 from dqpaint.language.values.evaluate import evaluate
@@ -36,9 +35,7 @@ from dqpaint.language.vocabulary.units import (
     dimension_name,
 )
 from dqpaint.language.vocabulary.words import LAWS, PARTS, STATEMENTS
-from dqpaint.program import colours
-from dqpaint.program.program import Colour, Law, Quaternion, Vector
-from dqpaint.program.taylor import Taylor
+from dqpaint.program import Colour, Law, Quaternion, Taylor, Vector, colours
 
 # The dimension of each part that takes one number.
 _DIMENSIONS = {

@@ -2,8 +2,8 @@
 
 import math
 
-from dqpaint.core.records import record
-from dqpaint.diagnostics.diagnostic import Span, problem
+from dqpaint.core import record
+from dqpaint.diagnostics import Span, problem
 from dqpaint.language.syntax.tree import Expression, Statement, Word
 from dqpaint.language.values import vectors
 from dqpaint.language.vocabulary.units import (
@@ -13,10 +13,8 @@ from dqpaint.language.vocabulary.units import (
     Dimension,
     dimension_name,
 )
-from dqpaint.program import taylor
-from dqpaint.program.program import Colour, Quaternion
-from dqpaint.program.taylor import Taylor
-from dqpaint.program.taylor import Value as Scalar
+from dqpaint.program import Colour, Quaternion, Taylor, taylor
+from dqpaint.program import Value as Scalar
 
 
 @record

@@ -6,7 +6,7 @@ Orientations are unit quaternions, scalar first. `Frame` maps p to scale * R(p) 
 import math
 from typing import NamedTuple
 
-from dqpaint.program.program import Pose, Quaternion, Vector
+from dqpaint.program import Pose, Quaternion, Vector
 
 ZERO: Vector = (0.0, 0.0, 0.0)
 Y: Vector = (0.0, 1.0, 0.0)

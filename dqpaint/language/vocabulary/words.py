@@ -6,7 +6,7 @@ from them: the reference, completion, grammars for editors. A new word is a line
 from dqpaint.language.records import record
 """
 
-from dqpaint.core.records import record
+from dqpaint.core import record
 
 
 @record

@@ -20,7 +20,7 @@ from keyword import iskeyword
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from dqpaint.diagnostics.diagnostic import file_at
+from dqpaint.diagnostics import file_at
 from dqpaint.errors import UsageError
 from dqpaint.language import Program, ScriptError, parse, render
 from dqpaint.language.vocabulary.words import STATEMENTS

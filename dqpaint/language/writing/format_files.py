@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from dqpaint.core.atomic_files import rewrite
+from dqpaint.core import rewrite
 from dqpaint.language.syntax.source import STDIN_NAME, decoded, load, load_input
 from dqpaint.language.writing.formatter import formatted
 

@@ -8,8 +8,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import NamedTuple
 
-from dqpaint.diagnostics.collector import EnoughError, Findings
-from dqpaint.diagnostics.diagnostic import ScriptError
+from dqpaint.diagnostics import EnoughError, Findings, ScriptError
 from dqpaint.language.syntax.lexer import TOKEN, Token, lines
 from dqpaint.language.syntax.parser import parse_statements
 from dqpaint.language.vocabulary.words import RESERVED, STATEMENTS

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from dqpaint.core.atomic_files import write_new
+from dqpaint.core import write_new
 from dqpaint.errors import DqpaintError
 
 _TEXT = """\

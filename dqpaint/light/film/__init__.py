@@ -1,1 +1,25 @@
-"""Room."""
+"""Light on its way to a camera -> linear film -> spread by the lens -> developed picture.
+
+A new look is a function in `looks` under `@LOOKS.add(name)`.
+"""
+
+from dqpaint.light.film.auto_exposure import CORE, automatic_exposure
+from dqpaint.light.film.film import PAD, Exposing, Film, expose
+from dqpaint.light.film.looks import LOOKS, with_noise
+from dqpaint.light.film.point_spread import point_spread, spread
+from dqpaint.light.film.starburst import BLADES, with_starburst
+
+__all__ = [
+    "BLADES",
+    "CORE",
+    "LOOKS",
+    "PAD",
+    "Exposing",
+    "Film",
+    "automatic_exposure",
+    "expose",
+    "point_spread",
+    "spread",
+    "with_noise",
+    "with_starburst",
+]

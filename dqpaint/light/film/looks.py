@@ -12,7 +12,7 @@ from typing import cast
 import cv2
 import numpy as np
 
-from dqpaint.core.registry import Registry
+from dqpaint.core import Registry
 from dqpaint.errors import DqpaintError
 from dqpaint.light.arrays import Image, Picture
 from dqpaint.light.film.develop import STRIP, develop, encode

@@ -10,14 +10,11 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.light.arrays import Floats
+from dqpaint.light.arrays import BATCH, Floats
 from dqpaint.light.camera.camera import NEAR, Camera
 from dqpaint.light.film.merge_steps import joined
 from dqpaint.light.sources.emission import Light
 
-BATCH = 1 << 15
-"""How many steps, or pieces, are worked on at once: what fits the cache. It is fixed, so that sums
-are made in the same order whatever machine they are made on."""
 READ = 2 * BATCH
 """How many steps are looked through at once for whether they can be joined. With twice as many
 matrix products would be spread over threads, for more than they take."""

@@ -13,15 +13,14 @@ from typing import Annotated, Any, cast
 import numpy as np
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
-from dqpaint.core.named_values import reason
-from dqpaint.core.registry import Registry
+from dqpaint.core import Registry, reason
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.light.arrays import Floats
 from dqpaint.light.sources.emitters import Emitters
+from dqpaint.program import Bar as BarWords
+from dqpaint.program import Brush as BrushWords
+from dqpaint.program import Colour
 from dqpaint.program import colours as named
-from dqpaint.program.program import Bar as BarWords
-from dqpaint.program.program import Brush as BrushWords
-from dqpaint.program.program import Colour
 
 LEDS_PER_METRE = 144.0
 """Of the densest common LED strips."""

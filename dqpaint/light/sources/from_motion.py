@@ -16,8 +16,8 @@ from dqpaint.light.sources.brushes import brush_of, read_brush
 from dqpaint.light.sources.emitters import Emitters
 from dqpaint.light.sources.sweep import Sweep
 from dqpaint.motion import Motion
-from dqpaint.program.program import Brush as BrushWords
-from dqpaint.settings.model import Settings
+from dqpaint.program import Brush as BrushWords
+from dqpaint.settings import Settings
 
 MOST_FLASHES = 2_000_000
 FLOOR = 0.02  # of the usual speed: light that tells shows what stands still, too

@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 
 from dqpaint import dq
 from dqpaint.errors import DqpaintError
-from dqpaint.light.arrays import Floats, kept
+from dqpaint.light.arrays import BATCH, Floats, kept
 from dqpaint.light.camera.camera import NEAR, Camera
-from dqpaint.light.film.projection import BATCH
 from dqpaint.light.sources import interpolation
 from dqpaint.light.sources import strobe as gates
 from dqpaint.light.sources.emission import Light, inverse_square, lit_instants

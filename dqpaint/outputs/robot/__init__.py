@@ -1,7 +1,7 @@
-"""To a real arm: what was executed, as a time-stamped joint trajectory, and the light beside it.
+"""A painting -> programs for a real arm: joint trajectory, light cues, checked against its limits.
 
-A painting comes in, files go out. A new format is a function in a new file of this folder under
-`@FORMATS.add(name)`: a `Trajectory` in, the ending of its file and its text out.
+A new format is a function in a new file of this folder under `@FORMATS.add(name)`: a `Trajectory`
+in, the ending of its file and its text out.
 """
 
 from dqpaint.outputs.robot.export import files_of

@@ -4,12 +4,12 @@ from dqpaint.errors import UsageError
 from dqpaint.outputs.robot.light_cues import cue_sheet
 from dqpaint.outputs.robot.limit_check import check_limits
 from dqpaint.outputs.robot.trajectory import FORMATS, trajectory_of
-from dqpaint.painting.paint import Painting
-from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.loading.lookup import card_for
+from dqpaint.painting import paint
+from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.loading import card_for
 
 
-def files_of(painting: Painting, form: str) -> dict[str, bytes]:
+def files_of(painting: paint.Painting, form: str) -> dict[str, bytes]:
     """The trajectory of a run in a format, and the cue sheet of its light.
 
     Raises:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from dqpaint.diagnostics.diagnostic import LINES
+from dqpaint.diagnostics import LINES
 from dqpaint.motion import Motion
 from dqpaint.outputs.files import encode_csv
 from dqpaint.outputs.robot.trajectory import commented

@@ -5,10 +5,9 @@ import numpy as np
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.motion import Motion
-from dqpaint.painting.paint import Painting
-from dqpaint.robots.kinematics.dynamics import Dynamics
-from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.model.card import Card
+from dqpaint.painting import paint
+from dqpaint.robots.kinematics import Dynamics, Kinematics
+from dqpaint.robots.model import Card
 
 SUDDEN = 10.0  # [rad/s^2] at the start or end; of a Panda's joints Franka allows 7.5 to 20
 SLACK = 1e-6  # relative, of numbers that went through a simulation
@@ -17,7 +16,7 @@ CURE = "--on-limit slow gives what is too fast the time it needs"
 DEG = float(np.degrees(1.0))
 
 
-def check_limits(painting: Painting, kinematics: Kinematics) -> None:
+def check_limits(painting: paint.Painting, kinematics: Kinematics) -> None:
     """Look at a run with the eyes of the arm that is to repeat it.
 
     The limits that were met while it ran count, and, whatever the plant made of them, positions,
@@ -58,7 +57,7 @@ def check_limits(painting: Painting, kinematics: Kinematics) -> None:
         raise DqpaintError(f"not exported: {card.name} could not do this:\n  {told}")
 
 
-def _beyond(painting: Painting, card: Card, q: Floats, rates: Floats) -> list[str]:
+def _beyond(painting: paint.Painting, card: Card, q: Floats, rates: Floats) -> list[str]:
     """The worst position and the worst speed beyond a limit; rates (N, n) after each row."""
     motion = painting.motion
     found = []

@@ -9,10 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from dqpaint import __version__
-from dqpaint.core.registry import Folder, Registry
+from dqpaint.core import Folder, Registry
 from dqpaint.dq import Floats
-from dqpaint.painting.paint import Painting
-from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.painting import paint
+from dqpaint.robots.kinematics import Kinematics
 
 
 @dataclass(frozen=True, repr=False)
@@ -59,7 +59,7 @@ CAUTION = (
 )
 
 
-def trajectory_of(painting: Painting, kinematics: Kinematics) -> Trajectory:
+def trajectory_of(painting: paint.Painting, kinematics: Kinematics) -> Trajectory:
     """What the arm of a painting did.
 
     Args:

@@ -12,8 +12,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from dqpaint import dq
-from dqpaint.core.named_values import make_choice, read_choice
-from dqpaint.core.registry import Registry
+from dqpaint.core import Registry, make_choice, read_choice
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 from dqpaint.robots.kinematics.differential_ik import PULL, to_tool

@@ -223,7 +223,9 @@ def shortfall(kinematics: Kinematics, pose: Floats) -> Miss:
     card = kinematics.card
     seeds = np.random.default_rng(SEED).uniform(card.lower, card.upper, (MANY, card.joints))
     still, inside = np.zeros_like(seeds), (card.lower, card.upper)
-    return closest(kinematics, pose, solve_posture(kinematics, pose, seeds, still, EXACT, inside)[0])[0]
+    return closest(
+        kinematics, pose, solve_posture(kinematics, pose, seeds, still, EXACT, inside)[0]
+    )[0]
 
 
 def closest(kinematics: Kinematics, pose: Floats, postures: Floats) -> tuple[Miss, Floats]:

@@ -12,7 +12,7 @@ from typing import Any, get_args
 import numpy as np
 from pydantic import BaseModel, ValidationError
 
-from dqpaint.core.named_values import reason
+from dqpaint.core import reason
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.robots.model.card import LEAST, Canvas, Card
 from dqpaint.robots.model.chain import Axes, Rows

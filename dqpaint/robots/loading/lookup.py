@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from dqpaint.diagnostics.did_you_mean import closest, did_you_mean
+from dqpaint.diagnostics import closest, did_you_mean
 from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.language import Diagnostic, Program, ScriptError
 from dqpaint.robots.model.card import DEFAULT_ROBOT, Card, read_card

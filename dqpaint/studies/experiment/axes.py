@@ -20,7 +20,7 @@ import numpy as np
 from dqpaint.controllers import find_controller
 from dqpaint.disturbances import DISTURBANCES
 from dqpaint.errors import UsageError
-from dqpaint.settings.model import Settings, make_settings, parse_gains
+from dqpaint.settings import Settings, make_settings, parse_gains
 
 MOST_VALUES = 10_000
 LAW = re.compile(r"(?P<name>[^()]+?)(\((?P<gains>[^()]*)\))?")

@@ -8,15 +8,15 @@ from pathlib import Path
 import numpy as np
 
 from dqpaint.errors import DqpaintError
-from dqpaint.language.writing.builder import Drawing
-from dqpaint.outputs.files import write
-from dqpaint.settings.model import Settings
+from dqpaint.language.writing import builder
+from dqpaint.outputs import files
+from dqpaint.settings import Settings
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.axes import Axis, combinations, settings_of
 from dqpaint.studies.experiment.cells import Cell, Figure, find_figure
 from dqpaint.studies.experiment.statistics import LEVEL, holm, welch
-from dqpaint.studies.kinds.pictures import pictures
 from dqpaint.studies.report.page import Block, Page, Pictured, Rows, Words, files_of, html
+from dqpaint.studies.report.pictures import pictures
 from dqpaint.studies.runner.engine import Workers, carry_out_study
 from dqpaint.studies.runner.run import Run, drawing_text, seeded
 
@@ -41,7 +41,7 @@ class Comparison:
 
 
 def compare(
-    drawing: str | Drawing,
+    drawing: str | builder.Drawing,
     axes: Sequence[Axis],
     base: Settings,
     folder: Path,
@@ -78,7 +78,7 @@ def compare(
 
 def save(compared: Comparison, measure: str, again: str | None = None) -> list[Path]:
     """Write the files; returns their paths. Arguments as those of `contents`."""
-    return write(compared.folder / stem(compared), contents(compared, measure, again))
+    return files.write(compared.folder / stem(compared), contents(compared, measure, again))
 
 
 def stem(compared: Comparison) -> str:

@@ -14,13 +14,13 @@ from dqpaint.controllers import CONTROLLERS
 from dqpaint.disturbances import DISTURBANCES
 from dqpaint.dq import Floats
 from dqpaint.language import parse
-from dqpaint.metrics.attenuation import attenuation
+from dqpaint.metrics import attenuation
 from dqpaint.motion import plan
-from dqpaint.planning.reachability import begin
+from dqpaint.planning import reachability
 from dqpaint.plants import PLANTS
-from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.model.card import DEFAULT_ROBOT, read_card
-from dqpaint.simulation.closed_loop import track
+from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.model import DEFAULT_ROBOT, read_card
+from dqpaint.simulation import track
 from dqpaint.studies.report.charts import Line, Panel, chart
 
 PERIOD = 0.008  # [s]
@@ -55,7 +55,7 @@ def curves(hertz: Floats = HERTZ, products: tuple[float, ...] = PRODUCTS) -> lis
     """
     kinematics = Kinematics(read_card(DEFAULT_ROBOT))
     motion = plan(parse(DRAWING, "still.traj"), kinematics.card.canvas.pose)
-    start = begin(motion, kinematics).posture
+    start = reachability.begin(motion, kinematics).posture
     law = CONTROLLERS["hinf"]
     found = []
     for part, (axis, size) in SMALL.items():

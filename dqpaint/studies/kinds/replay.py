@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from dqpaint.outputs.files import write
+from dqpaint.outputs import files
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.statistics import Spread
 from dqpaint.studies.replay.claims import Numbers, Verdict, judge, lines_of, published, told_apart
@@ -331,4 +331,4 @@ def save(replayed: Replayed, again: str | None = None) -> list[Path]:
     }
     if again is not None:
         contents["-report.html"] = html(page(replayed, again))
-    return write(replayed.folder / replayed.paper.name, contents)
+    return files.write(replayed.folder / replayed.paper.name, contents)

@@ -9,9 +9,9 @@ import numpy as np
 
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.language.writing.builder import Drawing
-from dqpaint.outputs.files import write
-from dqpaint.settings.model import SMALLEST, Settings
+from dqpaint.language.writing import builder
+from dqpaint.outputs import files
+from dqpaint.settings import SMALLEST, Settings
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.axes import Axis, about, combinations, label, settings_of
 from dqpaint.studies.experiment.cells import Cell, Figure, find_figure
@@ -47,7 +47,7 @@ class Sweep:
 
 
 def sweep(
-    drawing: str | Drawing,
+    drawing: str | builder.Drawing,
     axes: Sequence[Axis],
     base: Settings,
     folder: Path,
@@ -87,7 +87,7 @@ def sweep(
 
 def save(swept: Sweep, measure: str, again: str | None = None) -> list[Path]:
     """Write the files; returns their paths. Arguments as those of `contents`."""
-    return write(swept.folder / stem(swept), contents(swept, measure, again))
+    return files.write(swept.folder / stem(swept), contents(swept, measure, again))
 
 
 def stem(swept: Sweep) -> str:

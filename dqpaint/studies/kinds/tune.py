@@ -31,8 +31,8 @@ from scipy.optimize import (
 from dqpaint.controllers import find_controller
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.language.writing.builder import Drawing
-from dqpaint.settings.model import SMALLEST, Settings
+from dqpaint.language.writing import builder
+from dqpaint.settings import SMALLEST, Settings
 from dqpaint.studies.experiment.axes import settings_of
 from dqpaint.studies.experiment.cells import Cell, Figure, find_figure
 from dqpaint.studies.runner.engine import Study, Workers, check
@@ -135,7 +135,7 @@ class Tuning:
 
 
 def tune(
-    drawing: str | Drawing,
+    drawing: str | builder.Drawing,
     texts: Sequence[str],
     base: Settings,
     folder: Path,

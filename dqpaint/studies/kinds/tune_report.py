@@ -7,7 +7,7 @@ import numpy as np
 
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
-from dqpaint.outputs.files import write
+from dqpaint.outputs import files
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.axes import label
 from dqpaint.studies.experiment.cells import Cell, Figure
@@ -88,7 +88,7 @@ def told(tuned: Tuning, columns: int) -> str:
 
 def save(tuned: Tuning, again: str | None = None) -> list[Path]:
     """Write the files; returns their paths. Arguments as those of `contents`."""
-    return write(tuned.folder / stem(tuned), contents(tuned, again))
+    return files.write(tuned.folder / stem(tuned), contents(tuned, again))
 
 
 def stem(tuned: Tuning) -> str:

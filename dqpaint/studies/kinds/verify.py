@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from dqpaint.errors import DqpaintError, OutputError
-from dqpaint.light.images import contact_sheet
-from dqpaint.light.images.image_difference import where_they_differ
-from dqpaint.outputs.files import write
+from dqpaint.light.images import contact_sheet, where_they_differ
+from dqpaint.outputs import files
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.report.page import Page, Rows, Shot, Words, html
 from dqpaint.studies.runner.engine import Workers, carry_out_study
@@ -159,11 +158,11 @@ def save_differences(
         pictures = [one.reference.picture, one.made["picture"], gap]
         data = contact_sheet.png(contact_sheet.sheet(pictures, labels, columns=3))
         _make(out)
-        written += write(out / one.case.name, {"-differs.png": data})
+        written += files.write(out / one.case.name, {"-differs.png": data})
         shots.append(Shot(f"{one.case.name}: reference, new, and where they differ", data))
     if again is not None:
         _make(out)
-        written += write(out / "verify", {"-report.html": html(page(verdicts, shots, again))})
+        written += files.write(out / "verify", {"-report.html": html(page(verdicts, shots, again))})
     return written
 
 
@@ -201,7 +200,7 @@ def update(verdicts: Sequence[Verdict], folder: Path) -> list[str]:
             lines.append(f"{one.case.name}: unchanged")
             continue
         png = contact_sheet.png(one.made["picture"])
-        write(folder / one.case.name, encode_reference(one.case, one.result, one.made, png))
+        files.write(folder / one.case.name, encode_reference(one.case, one.result, one.made, png))
         lines.append(f"{one.case.name}: {_change(one)}")
     return lines
 

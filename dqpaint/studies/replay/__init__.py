@@ -1,1 +1,1 @@
-"""Room."""
+"""A paper's numbers and our runs -> claims, each with how it was measured and whether it holds."""

@@ -11,7 +11,7 @@ from typing import Literal
 
 import numpy as np
 
-from dqpaint.core.registry import Registry
+from dqpaint.core import Registry
 from dqpaint.studies.experiment.statistics import LEVEL, Spread, welch
 from dqpaint.studies.replay.papers import Claim, Paper
 

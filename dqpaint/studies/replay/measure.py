@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from dqpaint.core.registry import Registry
+from dqpaint.core import Registry
 from dqpaint.errors import UsageError
 from dqpaint.studies.experiment.cells import Cell
 from dqpaint.studies.replay.claims import Numbers

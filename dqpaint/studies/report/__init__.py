@@ -1,1 +1,1 @@
-"""Room."""
+"""Tables, curves and pictures of a study -> one HTML page, charts, contact sheets."""

@@ -15,11 +15,11 @@ from importlib.resources import files
 from typing import Any
 
 from dqpaint import __version__
-from dqpaint.settings.model import Settings
+from dqpaint.core import library_versions
+from dqpaint.settings import Settings
 from dqpaint.studies.report import chart_data
 from dqpaint.studies.report.charts import HeatMap, Panel, beside, chart, heat_map
 from dqpaint.studies.report.html_tables import table
-from dqpaint.studies.verify.references import versions
 
 SCRIPTS = "page.js", "curves.js", "heat.js", "tables.js"
 WIDE = (7.0, 12.0, 15.0)  # of one chart, of two and of three beside each other [inches]
@@ -136,7 +136,7 @@ def html(page: Page) -> bytes:
         f"script-src {_hash(script)}; style-src {_hash(style)}"
     )
     parts = [_block(block, str(i)) for i, block in enumerate([*page.blocks, *_about(page)])]
-    said = " ".join(f"{name} {value}" for name, value in versions().items())
+    said = " ".join(f"{name} {value}" for name, value in library_versions().items())
     return f"""<!doctype html>
 <html lang="en">
 <head>

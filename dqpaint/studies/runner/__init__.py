@@ -1,1 +1,1 @@
-"""Room."""
+"""Runs -> results, kept in a journal: worker processes, batches of seeds, a Dask cluster."""

@@ -13,12 +13,10 @@ from pathlib import Path
 
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.errors import DqpaintError
-from dqpaint.metrics.run_metrics import measure
-from dqpaint.metrics.stability import instability
-from dqpaint.painting.paint import Ready, finish, prepare
-from dqpaint.planning.reachability import check_row, worst_row
-from dqpaint.simulation.closed_loop import Track, track_many
-from dqpaint.simulation.sensors import ModelsDifferError
+from dqpaint.metrics import instability, measure
+from dqpaint.painting import paint
+from dqpaint.planning import reachability
+from dqpaint.simulation import ModelsDifferError, Track, track_many
 from dqpaint.studies.runner.run import Result, Run
 from dqpaint.studies.runner.run_arrays import keep
 
@@ -70,7 +68,7 @@ def carry_out_batch(
     """
     begin = time.perf_counter()
     first = tasks[0][1]
-    ready = prepare(first.program(), first.settings)
+    ready = paint.prepare(first.program(), first.settings)
     seeds = [run.settings.seed for _, run in tasks]
     try:
         tracks = track_many(
@@ -92,16 +90,16 @@ def carry_out_batch(
 
 
 def _result(
-    key: str, run: Run, ready: Ready, track: Track, folder: Path, seen: set[int | None]
+    key: str, run: Run, ready: paint.Ready, track: Track, folder: Path, seen: set[int | None]
 ) -> Result:
     """Figures of one track, and what is kept of it; pictures only where they are kept."""
     try:
-        row = worst_row(track)
+        row = reachability.worst_row(track)
         if row is not None and row not in seen:
-            check_row(ready.motion, ready.kinematics, row, ready.settings.null)
+            reachability.check_row(ready.motion, ready.kinematics, row, ready.settings.null)
             seen.add(row)
         if run.keep:
-            painting = finish(ready, track)
+            painting = paint.finish(ready, track)
             keep(painting, run.keep, folder, key)
             figures = painting.metrics.figures
         else:

@@ -11,7 +11,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Protocol, Self
 
-from dqpaint.cli.terminal import Progress
+from dqpaint.cli import terminal
 from dqpaint.studies.runner.batches import Task
 from dqpaint.studies.runner.journal import Record
 from dqpaint.studies.runner.process_pool import Pool, check_jobs
@@ -61,7 +61,7 @@ class Study:
     def __init__(self, folder: Path, jobs: Workers, what: str, total: int) -> None:
         self._folder, self._total = folder, total
         self._begin = time.monotonic()
-        self._progress = Progress(f"{what}, {total} runs")
+        self._progress = terminal.Progress(f"{what}, {total} runs")
         self._crew = _crew(folder, jobs)
         try:
             self._record = Record(folder)

@@ -9,25 +9,23 @@ import hashlib
 import json
 from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Literal
 
 from dqpaint import __version__
 from dqpaint.controllers import find_controller
-from dqpaint.core.examples import find_drawing
+from dqpaint.core import find_drawing, library_versions
 from dqpaint.disturbances import make_disturbances
 from dqpaint.errors import UsageError
 from dqpaint.language import parse, read
-from dqpaint.language.imports.dependencies import files_of
-from dqpaint.language.writing.builder import Drawing
-from dqpaint.light.sources.brushes import read_brush
-from dqpaint.outputs.files import LIBRARIES
-from dqpaint.painting.scene import check_choices
+from dqpaint.language.imports import files_of
+from dqpaint.language.writing import builder
+from dqpaint.light.sources import read_brush
+from dqpaint.painting import scene
 from dqpaint.plants import choose_plant
-from dqpaint.program.program import Program
-from dqpaint.robots.loading.lookup import card_for
-from dqpaint.settings.model import Settings
+from dqpaint.program import Program
+from dqpaint.robots.loading import card_for
+from dqpaint.settings import Settings
 
 Status = Literal["done", "unstable", "failed", "died"]
 """`died`: the process that carried it out ended; unlike the others it is tried again."""
@@ -86,7 +84,7 @@ class Run:
             ScriptError: a mistake in the drawing.
         """
         settings = self.settings
-        check_choices(settings)
+        scene.check_choices(settings)
         law = find_controller(settings.controller)
         law.read_gains(settings.gains)
         choose_plant(settings.plant, "torque" if law.drives_torque else "rates")
@@ -100,9 +98,9 @@ def run_of(data: dict[str, Any]) -> Run:
     return Run(data["name"], data["text"], settings, tuple(data["keep"]))
 
 
-def drawing_text(drawing: str | Drawing) -> tuple[str, str]:
+def drawing_text(drawing: str | builder.Drawing) -> tuple[str, str]:
     """Path and text of a drawing: a file, an example's name, or one made by calls."""
-    if isinstance(drawing, Drawing):
+    if isinstance(drawing, builder.Drawing):
         return str(drawing.folder / f"{drawing.name}.traj"), str(drawing)
     path = find_drawing(drawing)
     return str(path), read(path).text
@@ -201,7 +199,10 @@ def code() -> dict[str, str]:
         if path.is_file() and path.suffix != ".pyc":
             whole.update(path.relative_to(package).as_posix().encode())
             whole.update(path.read_bytes())
-    return {"dqpaint": f"{__version__} {whole.hexdigest()}", **{n: version(n) for n in LIBRARIES}}
+    return {
+        "dqpaint": f"{__version__} {whole.hexdigest()}",
+        **library_versions(),
+    }
 
 
 def _sha256(path: Path) -> str:

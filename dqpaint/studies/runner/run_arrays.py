@@ -8,34 +8,31 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.core.registry import Registry
-from dqpaint.outputs.files import write
-from dqpaint.painting.paint import Painting
-from dqpaint.painting.picture import linear
+from dqpaint.core import Registry
+from dqpaint.outputs import files
+from dqpaint.painting import paint, picture
 
 Arrays = dict[str, NDArray[Any]]
-KEEPERS: Registry[Callable[[Painting], Arrays]] = Registry("thing to keep")
+KEEPERS: Registry[Callable[[paint.Painting], Arrays]] = Registry("thing to keep")
 
 
 @KEEPERS.add("series")
-def series(painting: Painting) -> Arrays:
+def series(painting: paint.Painting) -> Arrays:
     """Time and errors of every control step (N,)."""
     names = ("t_s", "position_error_m", "orientation_error_rad", "invariant_error")
     return {name: np.asarray(painting.table[name]) for name in names}
 
 
 @KEEPERS.add("light")
-def light(painting: Painting) -> Arrays:
+def light(painting: paint.Painting) -> Arrays:
     """The linear light on the sensor (H, W, 3) and the exposure, to be developed together."""
-    picture = painting.picture
-    image = linear(
-        painting.scene, picture.film, picture.exposure, picture.camera, painting.settings
-    )
-    return {"light": image, "exposure": np.array(picture.exposure)}
+    shot = painting.picture
+    image = picture.linear(painting.scene, shot.film, shot.exposure, shot.camera, painting.settings)
+    return {"light": image, "exposure": np.array(shot.exposure)}
 
 
 @KEEPERS.add("film")
-def film(painting: Painting) -> Arrays:
+def film(painting: paint.Painting) -> Arrays:
     """The bare film (3, H, W) with its guard band, what was emitted and lost, and the picture.
 
     `balance` is what is neither on the film nor lost, by what was emitted.
@@ -51,7 +48,7 @@ def place(folder: Path, key: str) -> Path:
     return folder / "kept" / f"{key[:24]}.npz"
 
 
-def keep(painting: Painting, names: tuple[str, ...], folder: Path, key: str) -> None:
+def keep(painting: paint.Painting, names: tuple[str, ...], folder: Path, key: str) -> None:
     """Write what is to be kept of a run, whole or not at all.
 
     Raises:
@@ -73,7 +70,7 @@ def write_kept(folder: Path, key: str, data: bytes) -> None:
     """
     path = place(folder, key)
     path.parent.mkdir(parents=True, exist_ok=True)
-    write(path.with_suffix(""), {".npz": data})
+    files.write(path.with_suffix(""), {".npz": data})
 
 
 def kept(folder: Path, key: str) -> Mapping[str, NDArray[Any]]:

@@ -17,8 +17,8 @@ from pathlib import Path
 from typing import Any
 
 from dqpaint.errors import DqpaintError, UnstableError
-from dqpaint.metrics.stability import instability
-from dqpaint.painting.paint import paint
+from dqpaint.metrics import instability
+from dqpaint.painting import paint
 from dqpaint.studies.runner.batches import Task, carry_out_batch, goes_in_batches
 from dqpaint.studies.runner.run import Result, Run, run_of
 from dqpaint.studies.runner.run_arrays import keep
@@ -39,7 +39,7 @@ def carry_out(
     """
     begin = time.perf_counter()
     try:
-        painting = paint(run.program(), run.settings, progress)
+        painting = paint.paint(run.program(), run.settings, progress)
         if run.keep:
             keep(painting, run.keep, folder, key)
     except UnstableError as problem:

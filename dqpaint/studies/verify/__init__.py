@@ -1,1 +1,1 @@
-"""Room."""
+"""A folder of references and new runs -> gates: alike, or where and by how much they differ."""

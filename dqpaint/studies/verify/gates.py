@@ -10,9 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dqpaint.light.film.film import PAD, Film
-from dqpaint.light.film.point_spread import point_spread, spread
-from dqpaint.light.images.image_difference import Difference, differ
+from dqpaint.light.film import PAD, Film, point_spread, spread
+from dqpaint.light.images import Difference, differ
 from dqpaint.studies.runner.run import Result
 from dqpaint.studies.verify.references import Arrays, Reference
 

@@ -14,19 +14,17 @@ import json
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from dqpaint.core import library_versions
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.light.film.film import PAD
-from dqpaint.light.images.image_difference import decode_picture, decode_planes, encode_planes
-from dqpaint.outputs.files import LIBRARIES
-from dqpaint.settings.file import beside
-from dqpaint.settings.model import make_settings
+from dqpaint.light.film import PAD
+from dqpaint.light.images import decode_picture, decode_planes, encode_planes
+from dqpaint.settings import beside, make_settings
 from dqpaint.studies.runner.run import Result, Run, drawing_text
 
 SCHEMA = "dqpaint-reference-1"
@@ -60,12 +58,7 @@ class Reference:
     @property
     def alike(self) -> bool:
         """Whether it was made by the same versions of the libraries as are here."""
-        return bool(self.facts["versions"] == versions())
-
-
-def versions() -> dict[str, str]:
-    """Of the libraries that a picture depends on."""
-    return {name: version(name) for name in LIBRARIES}
+        return bool(self.facts["versions"] == library_versions())
 
 
 def read_cases(folder: Path) -> list[Case]:
@@ -144,7 +137,7 @@ def encode_reference(case: Case, result: Result, made: Arrays, png: bytes) -> di
         "file": Path(case.run.name).name,
         "sha256": sha256(case.run),
         "settings": settings_of(case.run),
-        "versions": versions(),
+        "versions": library_versions(),
         "status": result.status,
         "figures": result.figures,
         "light": {name: made[name].tolist() for name in ("emitted", "lost")},

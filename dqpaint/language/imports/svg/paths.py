@@ -11,9 +11,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from dqpaint.language.imports.svg.values import COUNTS, Commands
-from dqpaint.program import piecewise
-from dqpaint.program.program import Chain
-from dqpaint.program.taylor import Floats
+from dqpaint.program import Chain, Floats, piecewise
 
 NO_LENGTH = 1e-12  # of the coordinates: what is smaller is no piece
 STRAIGHT = 1e-8  # chord of an arc, in diameters: it bends by half of that

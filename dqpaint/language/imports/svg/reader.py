@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from dqpaint.diagnostics.diagnostic import Problem, problem
+from dqpaint.diagnostics import Problem, problem
 from dqpaint.language.imports import stroke_order
 from dqpaint.language.imports.file_access import contents
 from dqpaint.language.imports.svg import paths
@@ -23,9 +23,7 @@ from dqpaint.language.imports.svg.paths import Pieces
 from dqpaint.language.imports.svg.values import LARGEST, SvgError
 from dqpaint.language.pen.pen import Pen
 from dqpaint.language.syntax.tree import Quoted
-from dqpaint.program import colours, piecewise
-from dqpaint.program.program import Chain, Colour
-from dqpaint.program.taylor import Floats
+from dqpaint.program import Chain, Colour, Floats, colours, piecewise
 
 PIXEL = 0.0254 / 96.0  # [m] as CSS has it
 DARKEST = 0.02  # of linear light: what is darker is ink, not a colour of light

@@ -1,8 +1,8 @@
-"""How a replay's numbers come about here: one function a kind, in a file of its own.
+"""A paper's experiment -> its numbers here; one measure a file.
 
-What comes in is a paper's experiment (`dqpaint.studies.replay.papers`) and what a person asked
-for; what goes out is `Measured`: numbers by the names of cell and figure, and files. A new kind
-registers under `@MEASURES.add(name)`; a paper's TOML says which one it needs.
+What comes in is an experiment (`studies.replay.papers`) and what was asked for; what goes out is
+`Measured`: numbers by the names of cell and figure, and files. A new measure registers under
+`@MEASURES.add(name)`; a paper's TOML says which one it needs.
 """
 
 import importlib

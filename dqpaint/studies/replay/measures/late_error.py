@@ -7,11 +7,11 @@ import numpy as np
 
 from dqpaint.studies.experiment.cells import Cell
 from dqpaint.studies.experiment.statistics import spread
-from dqpaint.studies.kinds.pictures import errors, read_drawn
 from dqpaint.studies.replay.measure import MEASURES, Asked, Measured
 from dqpaint.studies.replay.measures.tracking import beside_published, carry_out, measured
 from dqpaint.studies.replay.papers import Paper
 from dqpaint.studies.report.page import Pictured
+from dqpaint.studies.report.pictures import errors, read_drawn
 from dqpaint.studies.runner.run_arrays import kept
 
 LATE = 0.1  # of the run

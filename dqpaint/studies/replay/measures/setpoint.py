@@ -6,15 +6,14 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.controllers import find_controller
-from dqpaint.controllers.base.pose_errors import difference_error, spatial_error
+from dqpaint.controllers.base import difference_error, spatial_error
 from dqpaint.dq import Floats
 from dqpaint.language import read
 from dqpaint.motion import Motion, plan
 from dqpaint.plants import PLANTS
-from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.model.card import read_card
-from dqpaint.robots.model.fields import Mount
-from dqpaint.simulation.closed_loop import Track, track
+from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.model import Mount, read_card
+from dqpaint.simulation import Track, track
 from dqpaint.studies.experiment.statistics import Spread, spread
 from dqpaint.studies.replay.claims import published
 from dqpaint.studies.replay.measure import MEASURES, Asked, Measured

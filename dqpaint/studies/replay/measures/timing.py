@@ -6,18 +6,17 @@ from typing import Any
 
 import numpy as np
 
-from dqpaint.cli.terminal import Progress
+from dqpaint.cli import terminal
 from dqpaint.controllers import find_controller
 from dqpaint.dq import Floats
 from dqpaint.language import parse
 from dqpaint.motion import plan
-from dqpaint.planning.reachability import begin
-from dqpaint.plants.ideal import Ideal
-from dqpaint.plants.plant import PlantMaker
-from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.loading.lookup import card_for
-from dqpaint.robots.model.card import DEFAULT_ROBOT, Card
-from dqpaint.simulation.closed_loop import track
+from dqpaint.planning import reachability
+from dqpaint.plants import Ideal, PlantMaker
+from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.loading import card_for
+from dqpaint.robots.model import DEFAULT_ROBOT, Card
+from dqpaint.simulation import track
 from dqpaint.studies.experiment.statistics import spread
 from dqpaint.studies.replay.measure import MEASURES, Asked, Measured
 from dqpaint.studies.replay.papers import Cell, Paper
@@ -69,7 +68,7 @@ def timing(paper: Paper, asked: Asked) -> Measured:
     """Each law for a while at each period, in real time."""
     asked.nothing_of(paper, "plant", "disturb", "seed")
     clocks = {}
-    with Progress(paper.name) as progress:
+    with terminal.Progress(paper.name) as progress:
         for i, cell in enumerate(paper.cells):
             clocks[cell.name] = loop(cell, asked.settings)
             progress((i + 1) / len(paper.cells))
@@ -102,7 +101,7 @@ def loop(cell: Cell, settings: Mapping[str, Any]) -> Clock:
     motion = plan(program, card.canvas.pose)
     law = find_controller(cell.settings["controller"])
     clock = Clock(period)
-    start = begin(motion, kinematics).posture
+    start = reachability.begin(motion, kinematics).posture
     track(motion, kinematics, start, paced(clock), law, law.read_gains({}))
     return clock
 

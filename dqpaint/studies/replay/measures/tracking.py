@@ -8,15 +8,15 @@ from typing import Any
 import numpy as np
 
 from dqpaint.errors import DqpaintError
-from dqpaint.robots.model.card import DEFAULT_ROBOT
-from dqpaint.settings.model import Settings, make_settings
+from dqpaint.robots.model import DEFAULT_ROBOT
+from dqpaint.settings import Settings, make_settings
 from dqpaint.studies.experiment.cells import Cell, Figure, family
-from dqpaint.studies.kinds.pictures import pictures
 from dqpaint.studies.replay.claims import Numbers, published
 from dqpaint.studies.replay.measure import MEASURES, Asked, Measured
 from dqpaint.studies.replay.papers import Paper, find_paper_drawing
 from dqpaint.studies.report.charts import COLOURS, Line, Panel
 from dqpaint.studies.report.page import Charts, Pictured
+from dqpaint.studies.report.pictures import pictures
 from dqpaint.studies.runner.engine import carry_out_study
 from dqpaint.studies.runner.run import Run, drawing_text, seeded
 

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
-from dqpaint.motion.paths import Indices
-from dqpaint.motion.shapes import Flow, Loose, Shape
-from dqpaint.program.piecewise import NODES, WEIGHTS
+from dqpaint.motion.geometry.paths import Indices
+from dqpaint.motion.geometry.shapes import Flow, Loose, Shape
+from dqpaint.program import NODES, WEIGHTS
 
 MOST_PANELS = 1024
 MOST_OF_ANGLES = 32  # panels, of a stroke whose length needs none

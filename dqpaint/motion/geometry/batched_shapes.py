@@ -12,13 +12,21 @@ from numpy.typing import NDArray
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.motion.arc_length import Extent, flow_by_length, measure, measure_steady
-from dqpaint.motion.orientations import orientation
-from dqpaint.motion.paths import Arcs, Formula, Indices, Places, column, place_arc, place_straight
-from dqpaint.motion.piecewise_paths import place_chains
-from dqpaint.motion.shapes import Flow, Jump, Loose, Rigid, Shape
+from dqpaint.motion.geometry.arc_length import Extent, flow_by_length, measure, measure_steady
+from dqpaint.motion.geometry.orientations import orientation
+from dqpaint.motion.geometry.paths import (
+    Arcs,
+    Formula,
+    Indices,
+    Places,
+    column,
+    place_arc,
+    place_straight,
+)
+from dqpaint.motion.geometry.piecewise_paths import place_chains
+from dqpaint.motion.geometry.shapes import Flow, Jump, Loose, Rigid, Shape
 from dqpaint.motion.stroke_errors import Faults, StrokeError, pole, stroke_errors
-from dqpaint.program.program import (
+from dqpaint.program import (
     Arc,
     Chain,
     Cruise,

@@ -12,9 +12,8 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.program.piecewise import Indices as Indices
-from dqpaint.program.program import Arc, Curve, Segment, Straight
-from dqpaint.program.taylor import Taylor
+from dqpaint.program import Arc, Curve, Segment, Straight, Taylor
+from dqpaint.program import Indices as Indices
 
 
 class Places(Protocol):

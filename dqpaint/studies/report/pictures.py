@@ -13,11 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
-from dqpaint.light.arrays import Picture
-from dqpaint.light.film.looks import LOOKS
-from dqpaint.light.images import contact_sheet
-from dqpaint.light.images.legend import Legend, with_legend
-from dqpaint.settings.model import Settings
+from dqpaint.light import Picture
+from dqpaint.light.film import LOOKS
+from dqpaint.light.images import Legend, contact_sheet, with_legend
+from dqpaint.settings import Settings
 from dqpaint.studies.experiment.cells import Cell, family
 from dqpaint.studies.report.charts import Line, Panel
 from dqpaint.studies.report.page import Charts, Pictured, Shot

@@ -12,9 +12,9 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.motion.orientations import Spin, Turning
-from dqpaint.motion.paths import Indices, Lines, Places, Rowed
-from dqpaint.program.program import Pose
+from dqpaint.motion.geometry.orientations import Spin, Turning
+from dqpaint.motion.geometry.paths import Indices, Lines, Places, Rowed
+from dqpaint.program import Pose
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.motion.paths import Indices, Lines, Places, Rowed, column
-from dqpaint.program.program import Arc, Follow, Keep, Look, LookLine, Segment, Turn
+from dqpaint.motion.geometry.paths import Indices, Lines, Places, Rowed, column
+from dqpaint.program import Arc, Follow, Keep, Look, LookLine, Segment, Turn
 
 Turns = tuple[Floats, Floats, Floats]  # r (N, 4), w (N, 3) [rad per f], its derivative (N, 3)
 

@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
-from dqpaint.program.piecewise import Indices, derivatives, is_uneven, speeds, stretches, together
-from dqpaint.program.program import Chain
+from dqpaint.program import Chain, Indices, derivatives, is_uneven, speeds, stretches, together
 
 EXACT = 1e-14  # of the length of the chain: what halving a panel may change
 MOST_HALVINGS = 30

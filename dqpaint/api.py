@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from dqpaint.language.writing import builder
     from dqpaint.painting import paint, picture
     from dqpaint.painting import preview as previews
-    from dqpaint.render import Cast, Staging
-    from dqpaint.settings import Given
+    from dqpaint.render import ArmMotion, SceneArm
+    from dqpaint.settings import SettingsFile
 
 
 def draw(
@@ -53,7 +53,7 @@ def draw(
     ghost: bool | str | None = None,
     occlusion: bool | None = None,
     max_samples: int | None = None,
-    settings: "str | PathLike[str] | Given | None" = None,
+    settings: "str | PathLike[str] | SettingsFile | None" = None,
     progress: Callable[[float], None] = lambda _done: None,
 ) -> "paint.Painting":
     """Paint a drawing with a simulated arm, as `dqpaint draw` does; nothing is written.
@@ -166,7 +166,7 @@ def preview(
     colour_by: str | None = None,
     ghost: bool | None = None,
     max_samples: int | None = None,
-    settings: "str | PathLike[str] | Given | None" = None,
+    settings: "str | PathLike[str] | SettingsFile | None" = None,
 ) -> "previews.Preview":
     """The asked pictures of a drawing, without an arm; arguments as those of `draw`.
 
@@ -187,14 +187,16 @@ def preview(
         return previews.sketch(program, chosen)
 
 
-def _given(settings: "str | PathLike[str] | Given | None") -> "Given":
+def _given(settings: "str | PathLike[str] | SettingsFile | None") -> "SettingsFile":
     from dqpaint.painting import validate
-    from dqpaint.settings import Given, read_given
+    from dqpaint.settings import SettingsFile, read_given
 
     if settings is None:
-        return Given()
+        return SettingsFile()
     return (
-        settings if isinstance(settings, Given) else read_given(str(settings), validate.check_each)
+        settings
+        if isinstance(settings, SettingsFile)
+        else read_given(str(settings), validate.check_each)
     )
 
 
@@ -263,8 +265,8 @@ def develop(
 
 
 def _stage(
-    settings: Settings, cast: "Cast | None"
-) -> "tuple[AbstractContextManager[Staging | None], tuple[str, ...]]":
+    settings: Settings, cast: "ArmMotion | None"
+) -> "tuple[AbstractContextManager[SceneArm | None], tuple[str, ...]]":
     """The arm of a film, if it is to be seen and is still there; and else what there is to say."""
     if not settings.staged:
         return nullcontext(), ()

@@ -11,7 +11,7 @@ from dqpaint.robots import pose_query
 from dqpaint.robots.kinematics import manipulability
 
 
-def text(posed: pose_query.Posed) -> str:
+def text(posed: pose_query.PoseReport) -> str:
     """As a person reads it: degrees, and six decimals."""
     screw = pose_query.screw_of(posed.pose)
     joints = [f"q{i}" for i in range(1, len(posed.posture) + 1)]

@@ -251,7 +251,7 @@ def replay(
     """
     from dqpaint.settings import parse_disturbances
     from dqpaint.studies.kinds import replay as study
-    from dqpaint.studies.replay.measures import Asked
+    from dqpaint.studies.replay.measures import MeasureRequest
 
     given = {
         "plant": plant, "robot": robot, "seed": seed,
@@ -259,7 +259,7 @@ def replay(
     }  # fmt: skip
     changed = {key: value for key, value in given.items() if value is not None}
     folder = Path(out) if out else Path(f"{name}-replay")
-    replayed = study.replay(name, Asked(folder, runs, _workers(jobs, cluster), changed))
+    replayed = study.replay(name, MeasureRequest(folder, runs, _workers(jobs, cluster), changed))
     _finish(study.told(replayed, _columns()), study.save(replayed, _again(report)))
 
 

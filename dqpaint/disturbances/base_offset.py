@@ -14,7 +14,7 @@ Number = Annotated[float, Field(ge=-10, le=10, allow_inf_nan=False)]
 
 
 @DISTURBANCES.add("base")
-class DisplacedBase(Disturbance):
+class BaseOffset(Disturbance):
     """The arm's base is displaced and turned; everything else stays where it was."""
 
     x: Number = Field(0.0, description="m along the x axis of the base the law believes in")

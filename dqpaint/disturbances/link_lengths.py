@@ -10,7 +10,7 @@ from dqpaint.robots.kinematics import Kinematics
 
 
 @DISTURBANCES.add("links")
-class WrongLengths(Disturbance):
+class LinkLengths(Disturbance):
     """The law's model has links of wrong lengths; the tool's place on the last one, too."""
 
     part: Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)] = Field(

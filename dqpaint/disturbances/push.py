@@ -15,7 +15,7 @@ Time = Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)]
 
 
 @DISTURBANCES.add("push")
-class ForceForAWhile(Disturbance):
+class TimedForce(Disturbance):
     """A force pushes the tool, or a link."""
 
     needs: ClassVar[Trait | None] = "masses"

@@ -29,7 +29,7 @@ class Figures:
 
 
 @dataclass(frozen=True)
-class Understood:
+class Analysis:
     """A drawing as far as it can be understood."""
 
     text: str
@@ -39,16 +39,16 @@ class Understood:
     figures: dict[int, Figures] = field(default_factory=dict)  # by the line, from 1
 
 
-def understand(text: str, name: str, planned: bool) -> Understood:
+def understand(text: str, name: str, planned: bool) -> Analysis:
     """What there is to say about a text; `planned` also has its times looked at."""
     try:
         program = parse(text, name, Path(name))
         if not planned:
-            return Understood(text, program.text, False, program.notes)
+            return Analysis(text, program.text, False, program.notes)
         motion = plan(program, card_for(program, None).canvas.pose)
     except ScriptError as problem:
-        return Understood(text, problem.text, planned, problem.diagnostics)
-    return Understood(text, program.text, True, motion.notes, figures(motion))
+        return Analysis(text, problem.text, planned, problem.diagnostics)
+    return Analysis(text, program.text, True, motion.notes, figures(motion))
 
 
 def figures(motion: Motion) -> dict[int, Figures]:

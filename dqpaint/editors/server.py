@@ -18,7 +18,7 @@ from pygls.workspace import PositionCodec
 from dqpaint import __version__
 from dqpaint.diagnostics import Severity, Span, file_at, place
 from dqpaint.editors import completion
-from dqpaint.editors.analysis import Understood, understand
+from dqpaint.editors.analysis import Analysis, understand
 from dqpaint.language import Diagnostic, ScriptError
 from dqpaint.language.vocabulary import STATEMENTS
 from dqpaint.language.writing import formatter
@@ -79,7 +79,7 @@ class _Server(LanguageServer):
 
     def __init__(self) -> None:
         super().__init__("dqpaint", __version__)
-        self._understood: dict[str, Understood] = {}
+        self._understood: dict[str, Analysis] = {}
 
     def document(self, uri: str) -> _Document:
         return _Document(self.workspace.get_text_document(uri).source, self._codec)
@@ -88,7 +88,7 @@ class _Server(LanguageServer):
     def _codec(self) -> PositionCodec:
         return self.workspace.position_codec
 
-    def understood(self, uri: str, planned: bool) -> Understood:
+    def understood(self, uri: str, planned: bool) -> Analysis:
         """What there is to say about a text; nothing is worked out twice."""
         text = self.document(uri).text
         known = self._understood.get(uri)

@@ -9,7 +9,7 @@ from dqpaint import dq
 from dqpaint.diagnostics import Diagnostic, Span
 from dqpaint.dq import Floats
 from dqpaint.motion.geometry.paths import Indices
-from dqpaint.motion.schedule import Timetable
+from dqpaint.motion.schedule import Schedule
 from dqpaint.program import Arc, Chain, Cruise, Segment, Straight
 
 LEAST_JUMP = 1e-4  # [m/s] worth a word,
@@ -25,7 +25,7 @@ class _Corner(NamedTuple):
     round: bool  # it can be rounded
 
 
-def jumps(table: Timetable, pace: Floats | None = None) -> Iterator[Diagnostic]:
+def jumps(table: Schedule, pace: Floats | None = None) -> Iterator[Diagnostic]:
     """W403: the largest jump of the velocity between strokes, and the largest within one.
 
     Args:
@@ -43,7 +43,7 @@ def jumps(table: Timetable, pace: Floats | None = None) -> Iterator[Diagnostic]:
             yield _jump(last, len(jump))
 
 
-def _between(table: Timetable, pace: Floats | None) -> tuple[Floats, Indices]:
+def _between(table: Schedule, pace: Floats | None) -> tuple[Floats, Indices]:
     """The jumps worth a word (K,) [m/s], and the segments they begin (K,)."""
     number = np.arange(len(table))
     velocity = np.empty((2, len(table), 3))
@@ -58,7 +58,7 @@ def _between(table: Timetable, pace: Floats | None) -> tuple[Floats, Indices]:
     return jump, table.first[after[told]]
 
 
-def _within(table: Timetable) -> tuple[Floats, Indices]:
+def _within(table: Schedule) -> tuple[Floats, Indices]:
     """The same at the joints of strokes of several lines."""
     runs = np.flatnonzero(table.size > 1)
     if not len(runs):
@@ -79,7 +79,7 @@ def _within(table: Timetable) -> tuple[Floats, Indices]:
     return jump, number[joint[told]]
 
 
-def _rates_at_joints(table: Timetable, run: int) -> Floats:
+def _rates_at_joints(table: Schedule, run: int) -> Floats:
     """How fast a stroke runs where its segments meet (M - 1,), in fractions of it per second."""
     tau = np.linspace(0.0, 1.0, 4 * int(table.count[run]) + 1)
     progress = table.progress(np.full(len(tau), run), tau)
@@ -109,7 +109,7 @@ def _jump(corner: _Corner, count: int) -> Diagnostic:
     return Diagnostic("W403", message, corner.span, "corner where this begins", ", or ".join(ways))
 
 
-def slow(table: Timetable) -> Iterator[Diagnostic]:
+def slow(table: Schedule) -> Iterator[Diagnostic]:
     """W411: the stroke that stays most below the speed it is to cruise at."""
     firsts = table.firsts
     speed = np.array([s.timing.speed if isinstance(s.timing, Cruise) else 0.0 for s in firsts])

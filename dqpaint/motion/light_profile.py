@@ -10,7 +10,7 @@ from dqpaint.motion.geometry.batched_shapes import Flags
 from dqpaint.motion.geometry.paths import Indices
 from dqpaint.motion.profiles import Rates, rate_at, turns_back
 from dqpaint.motion.sampling import Rows
-from dqpaint.motion.schedule import Timetable, part_at
+from dqpaint.motion.schedule import Schedule, part_at
 from dqpaint.program import Bar, Light, Step, Still
 
 NEAR_END = 0.01  # of the length: how bright the ends of a stroke are is told there
@@ -18,7 +18,7 @@ DARK = Light((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
 @dataclass(frozen=True, eq=False)
-class Glow:
+class LightProfile:
     """The light of each segment (M) of a drawing.
 
     Attributes:
@@ -30,7 +30,7 @@ class Glow:
         peak: and its largest speed, where its law says it, in the time that was asked for (S,).
     """
 
-    table: Timetable
+    table: Schedule
     first: Floats
     last: Floats
     even: Flags
@@ -106,7 +106,7 @@ class Glow:
         ]
 
 
-def glow(table: Timetable) -> Glow:
+def glow(table: Schedule) -> LightProfile:
     """The light of a drawing."""
     segments = table.program.segments
     lights = [segment.light or DARK for segment in segments]
@@ -124,10 +124,10 @@ def glow(table: Timetable) -> Glow:
         way[stroke] = float(turns and isinstance(segment.brush, Bar))
     # as fast as it was to be before its time was rounded up: else a short stroke is the brightest
     fastest = table.peak_rates * way / np.minimum(table.wanted, table.time)
-    return Glow(table, first, last, even, way, fastest)
+    return LightProfile(table, first, last, even, way, fastest)
 
 
-def unevenness(table: Timetable) -> float:
+def unevenness(table: Schedule) -> float:
     """How much brighter strokes are at 1 % of their length than in the middle; 1 for even light."""
     lit = np.array([s.light is not None and not s.light.even for s in table.program.segments])
     matters = np.logical_or.reduceat(lit, table.first) & (table.length > 0.0)

@@ -13,7 +13,7 @@ from dqpaint.motion.corner_warnings import jumps, slow
 from dqpaint.motion.geometry.shapes import pose_array
 from dqpaint.motion.light_profile import glow, unevenness
 from dqpaint.motion.sampling import Rows, sampled
-from dqpaint.motion.schedule import Timetable, timetable
+from dqpaint.motion.schedule import Schedule, timetable
 from dqpaint.motion.stroke_errors import Faults, beyond_budget
 from dqpaint.motion.survey import tell
 from dqpaint.motion.time_scaling import Pace, Ticks
@@ -128,7 +128,7 @@ def plan(program: Program, canvas: Floats, pace: Pace | None = None) -> Motion:
     return sheet.motion(canvas, findings.ordered())
 
 
-def _ticks(table: Timetable, pace: Pace | None) -> list[Ticks] | None:
+def _ticks(table: Schedule, pace: Pace | None) -> list[Ticks] | None:
     """When the samples of each stroke are, where the clock is slowed; a jump never is."""
     if pace is None:
         return None
@@ -155,7 +155,7 @@ def _placed(program: Program, canvas: Floats) -> Floats:
 class _Sheet:
     """The rows of a motion, as they come."""
 
-    def __init__(self, table: Timetable, ticks: Sequence[Ticks] | None, placed: Floats) -> None:
+    def __init__(self, table: Schedule, ticks: Sequence[Ticks] | None, placed: Floats) -> None:
         self._table, self._ticks, self._placed = table, ticks, placed
         counts = table.count if ticks is None else np.array([tick.count for tick in ticks])
         n = int(counts.sum()) + 1

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from dqpaint.dq import Floats
 from dqpaint.motion.geometry.paths import Indices
 from dqpaint.motion.geometry.shapes import Flow
-from dqpaint.motion.schedule import Timetable
+from dqpaint.motion.schedule import Schedule
 from dqpaint.motion.stroke_errors import Faults, not_finite
 from dqpaint.motion.time_scaling import Ticks
 
@@ -56,7 +56,7 @@ def every_sample(counts: NDArray[np.int64], strokes: Indices) -> tuple[Indices, 
 
 
 def sampled(
-    table: Timetable, ticks: Sequence[Ticks] | None, faults: Faults, parted: bool = False
+    table: Schedule, ticks: Sequence[Ticks] | None, faults: Faults, parted: bool = False
 ) -> Iterator[Rows]:
     """All rows of all strokes.
 
@@ -94,7 +94,7 @@ def _paces(ticks: Sequence[Ticks]) -> tuple[Floats, Floats]:
 
 
 def _note(
-    table: Timetable, stroke: Indices, flow: Flow, of_segments: Faults, faults: Faults
+    table: Schedule, stroke: Indices, flow: Flow, of_segments: Faults, faults: Faults
 ) -> None:
     """The first fault of each stroke: what a formula said, or that its rows are not finite."""
     for number in sorted(of_segments):

@@ -29,7 +29,7 @@ RATES = {"cubic": 2, "quintic": 4}  # how many a law may have
 
 
 @dataclass(frozen=True, eq=False)
-class Timetable:
+class Schedule:
     """The strokes of a drawing (S): a segment each, or several of one run.
 
     Attributes:
@@ -75,7 +75,7 @@ class Timetable:
         """The first segment of each stroke; its law and timing are those of all."""
         return [self.program.segments[number] for number in self.first]
 
-    def of(self, strokes: Flags | Indices) -> "Timetable":
+    def of(self, strokes: Flags | Indices) -> "Schedule":
         """Some of the strokes."""
         names = ("first", "size", "length", "law", "rates", "count", "wanted")
         return replace(self, **{name: getattr(self, name)[strokes] for name in names})
@@ -189,7 +189,7 @@ def part_at(edges: Floats, f: Floats) -> Indices:
     return np.clip(np.searchsorted(edges, f, side="right") - 1, 0, len(edges) - 2)
 
 
-def timetable(program: Program, findings: Findings) -> Timetable:
+def timetable(program: Program, findings: Findings) -> Schedule:
     """The strokes of a program; what is wrong or worth saying about their times is added.
 
     Strokes that are wrong are left out.
@@ -203,7 +203,7 @@ def timetable(program: Program, findings: Findings) -> Timetable:
     first, size = _strokes(segments)
     by_length = _by_length(shapes, faults)
     begin, end, length = _joined(shapes, first, size)
-    draft = Timetable(
+    draft = Schedule(
         *(program, shapes, first, size, begin, end, by_length, length),
         *(np.zeros(len(first), np.intp), np.zeros((len(first), 4))),
         *(np.ones(len(first), np.int64), np.ones(len(first))),
@@ -263,7 +263,7 @@ def _of_strokes(faults: Faults, first: Indices) -> Faults:
     return wrong
 
 
-def _laws(table: Timetable, wrong: Faults) -> tuple[Indices, Floats]:
+def _laws(table: Schedule, wrong: Faults) -> tuple[Indices, Floats]:
     """Which law each stroke has (S,), and its rates as fractions of the path (S, 4)."""
     firsts = table.firsts
     law = np.array([NAMES.index(segment.law.name) for segment in firsts])
@@ -281,7 +281,7 @@ def _laws(table: Timetable, wrong: Faults) -> tuple[Indices, Floats]:
     return law, rates
 
 
-def _seconds(table: Timetable, wrong: Faults) -> Floats:
+def _seconds(table: Schedule, wrong: Faults) -> Floats:
     """How long each stroke is to take (S,) [s]."""
     period, firsts = table.program.period, table.firsts
     seconds, speed, turnspeed = np.array([_asked(s, period) for s in firsts]).T
@@ -329,7 +329,7 @@ def _counts(firsts: Sequence[Segment], seconds: Floats, program: Program) -> NDA
     return count
 
 
-def _told(table: Timetable, wrong: Faults, findings: Findings) -> Flags:
+def _told(table: Schedule, wrong: Faults, findings: Findings) -> Flags:
     """Says what is wrong, and what is rounded by much; gives which strokes (S,) are left."""
     period, most, firsts = table.program.period, table.program.most_samples, table.firsts
     good = np.array([stroke not in wrong for stroke in range(len(table))])
@@ -348,7 +348,7 @@ def _told(table: Timetable, wrong: Faults, findings: Findings) -> Flags:
     return good & (np.arange(len(table)) < end)
 
 
-def _too_much(segment: Segment, table: Timetable, stroke: int, samples: bool) -> Diagnostic:
+def _too_much(segment: Segment, table: Schedule, stroke: int, samples: bool) -> Diagnostic:
     count, period = int(table.count[stroke]), table.program.period
     most = table.program.most_samples
     if count >= 2 * most:

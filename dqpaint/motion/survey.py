@@ -17,7 +17,7 @@ from dqpaint.motion.geometry.batched_shapes import Flags
 from dqpaint.motion.geometry.paths import Indices
 from dqpaint.motion.light_profile import unevenness
 from dqpaint.motion.sampling import blocks, every_sample, sampled
-from dqpaint.motion.schedule import Timetable, timetable
+from dqpaint.motion.schedule import Schedule, timetable
 from dqpaint.motion.stroke_errors import Faults, beyond_budget
 from dqpaint.program import Program
 
@@ -110,7 +110,7 @@ class _Box:
         return np.asarray(self.most - self.least)
 
 
-def _doubtful(table: Timetable) -> Flags:
+def _doubtful(table: Schedule) -> Flags:
     """Which strokes (S,) may leave the numbers on their way, or have a box that is not simple."""
     shapes = table.shapes
     largest = [shape.largest() for shape in shapes.families]
@@ -126,7 +126,7 @@ def _doubtful(table: Timetable) -> Flags:
         return np.asarray(~(harmless & (1.0 / table.time < HARMLESS)))
 
 
-def _bound(table: Timetable, strokes: Indices, box: _Box) -> None:
+def _bound(table: Schedule, strokes: Indices, box: _Box) -> None:
     """Takes the samples of strokes into a box: their ends, and what lies farther out between."""
     if not len(strokes):
         return

@@ -17,7 +17,7 @@ from dqpaint.metrics import Table, asked_columns
 from dqpaint.motion import Motion
 
 
-class Telling(NamedTuple):
+class ColourBy(NamedTuple):
     """A figure that colours can show: its column, its title, from SI to what is shown."""
 
     column: str
@@ -27,15 +27,15 @@ class Telling(NamedTuple):
     from_zero: bool
 
 
-TELLINGS: Registry[Telling] = Registry("colour-by")
+TELLINGS: Registry[ColourBy] = Registry("colour-by")
 for _name, _telling in {
-    "position-error": Telling("position_error_m", "position error", "mm", 1e3, True),
-    "orientation-error": Telling(
+    "position-error": ColourBy("position_error_m", "position error", "mm", 1e3, True),
+    "orientation-error": ColourBy(
         "orientation_error_rad", "orientation error", "°", math.degrees(1.0), True
     ),
-    "speed": Telling("speed_m_s", "speed", "mm/s", 1e3, True),
-    "manipulability": Telling("manipulability", "manipulability", "", 1.0, False),
-    "line": Telling("line", "line of the drawing", "", 1.0, False),
+    "speed": ColourBy("speed_m_s", "speed", "mm/s", 1e3, True),
+    "manipulability": ColourBy("manipulability", "manipulability", "", 1.0, False),
+    "line": ColourBy("line", "line of the drawing", "", 1.0, False),
 }.items():
     TELLINGS.add(_name)(_telling)
 

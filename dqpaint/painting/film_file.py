@@ -20,9 +20,9 @@ from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.light.images import Legend
 from dqpaint.light.sources import Emitters, Sweep
-from dqpaint.painting.picture import Picture, Worked, linear
+from dqpaint.painting.picture import Picture, RenderCache, linear
 from dqpaint.painting.scene import Scene
-from dqpaint.render import Cast
+from dqpaint.render import ArmMotion
 from dqpaint.settings import Settings
 
 SCHEMA = "dqpaint-film-1"
@@ -92,17 +92,20 @@ class About(BaseModel):
 TIFF = [cv2.IMWRITE_TIFF_COMPRESSION, 8]  # deflate
 
 
-class Negative(NamedTuple):
+class FilmFile(NamedTuple):
     """What a film holds: what shone, how it was photographed, the arm, and how that was seen."""
 
     scene: Scene
     settings: Settings
-    cast: Cast | None = None
-    worked: Worked | None = None
+    cast: ArmMotion | None = None
+    worked: RenderCache | None = None
 
 
 def encode(
-    scene: Scene, settings: Settings, cast: Cast | None = None, worked: Worked | None = None
+    scene: Scene,
+    settings: Settings,
+    cast: ArmMotion | None = None,
+    worked: RenderCache | None = None,
 ) -> bytes:
     """A scene and how it was photographed, as a file; with the arm, if it is known how it moved."""
     arrays: dict[str, Any] = {"front": scene.front}
@@ -146,7 +149,7 @@ def encode(
     return file.getvalue()
 
 
-def read(path: str) -> Negative:
+def read(path: str) -> FilmFile:
     """What is in a file that `encode` made.
 
     Raises:
@@ -167,7 +170,7 @@ def read(path: str) -> Negative:
                 raise ValueError("front")
             scene = Scene(about.name, light, asked, under, front, legend, about.dimmer)
             cast = _cast(arrays, about.arm, light[0])
-            return Negative(scene, about.settings, cast, _worked(arrays, about, light))
+            return FilmFile(scene, about.settings, cast, _worked(arrays, about, light))
     except OSError as problem:
         reason = problem.strerror or "it is not a film"
         raise DqpaintError(f"film '{path[:60]}' cannot be read: {reason}") from None
@@ -181,7 +184,7 @@ def read(path: str) -> Negative:
         ) from None
 
 
-def _cast(arrays: Any, facts: Arm | None, sweep: Sweep) -> Cast | None:
+def _cast(arrays: Any, facts: Arm | None, sweep: Sweep) -> ArmMotion | None:
     if facts is None:
         return None
     posture = _numbers(arrays, "arm-posture")
@@ -190,10 +193,10 @@ def _cast(arrays: Any, facts: Arm | None, sweep: Sweep) -> Cast | None:
         raise ValueError("arm")
     if line.dtype.kind != "i":
         raise ValueError("arm")
-    return Cast(facts.robot, posture, line.astype(np.int64), facts.period)
+    return ArmMotion(facts.robot, posture, line.astype(np.int64), facts.period)
 
 
-def _worked(arrays: Any, about: About, light: tuple[Sweep, ...]) -> Worked | None:
+def _worked(arrays: Any, about: About, light: tuple[Sweep, ...]) -> RenderCache | None:
     if about.shown is None:
         return None
     key = _numbers(arrays, "shown-key")
@@ -210,7 +213,7 @@ def _worked(arrays: Any, about: About, light: tuple[Sweep, ...]) -> Worked | Non
         if share.min() < 0.0 or share.max() > 1.0:
             raise ValueError("share")
     seen = None if arm is None else arm.astype(np.float32)
-    return Worked(key, about.settings.ghost, seen, shares, about.shown.remarks)
+    return RenderCache(key, about.settings.ghost, seen, shares, about.shown.remarks)
 
 
 def _numbers(arrays: Any, name: str) -> Floats:

@@ -13,12 +13,12 @@ from dqpaint.dq import Floats
 from dqpaint.light.film import Film
 from dqpaint.metrics import Attenuation, Metrics, SetPoint, Table, attenuation, measure, set_points
 from dqpaint.motion import Motion, plan
-from dqpaint.painting.picture import Picture, Shown, photograph
+from dqpaint.painting.picture import Picture, PictureSet, photograph
 from dqpaint.painting.scene import Scene, arrange, check_choices
 from dqpaint.planning import placement, reachability, retiming
-from dqpaint.plants import Chosen, Takes, choose_plant
+from dqpaint.plants import ConfiguredPlant, Takes, choose_plant
 from dqpaint.program import Program
-from dqpaint.render import Cast, Staging, on_stage
+from dqpaint.render import ArmMotion, SceneArm, on_stage
 from dqpaint.robots.kinematics import Clamp, Kinematics, read_null
 from dqpaint.robots.loading import card_for, find_card
 from dqpaint.robots.model import DEFAULT_ROBOT
@@ -29,7 +29,7 @@ UNSEEN = "poses alone say nothing of the joints: the arm and what it hides are l
 
 
 @dataclass(frozen=True, repr=False)
-class Painting(Shown):
+class Painting(PictureSet):
     """A finished painting: what was asked, what the arm did, the pictures and the numbers."""
 
     settings: Settings
@@ -45,12 +45,12 @@ class Painting(Shown):
     attenuation: dict[str, Attenuation]  # of an unmodelled twist, in rotation and translation
     set_points: tuple[SetPoint, ...]
     scene: Scene
-    cast: Cast
+    cast: ArmMotion
     pictures: tuple[Picture, ...]  # one a view
-    slowed: retiming.Slowed | None = None  # where the drawing's clock may slow down
+    slowed: retiming.Retiming | None = None  # where the drawing's clock may slow down
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
     notes: tuple[str, ...] = ()  # what was assumed of the arm
-    placed: placement.Placed | None = None  # where `place auto` put the drawing
+    placed: placement.Placement | None = None  # where `place auto` put the drawing
     recording: Recording | None = None  # what was painted instead of a simulated run
 
     @property
@@ -73,7 +73,7 @@ class Painting(Shown):
         """Every limit of the arm that held a joint back."""
         return self.track.clamps
 
-    def staged(self) -> AbstractContextManager[Staging | None]:
+    def staged(self) -> AbstractContextManager[SceneArm | None]:
         """The arm as it moved, if the settings show it or let it hide light."""
         return on_stage(self.settings, find_card(self.cast.robot), self.cast)
 
@@ -111,7 +111,7 @@ def paint(
 
 
 @dataclass(frozen=True)
-class Ready:
+class PreparedRun:
     """A drawing and everything that its run needs, checked and worked out."""
 
     program: Program
@@ -119,13 +119,13 @@ class Ready:
     clock: "Stopwatch"
     controller: Controller[Any]
     gains: Schedule[Any]
-    plant: Chosen
+    plant: ConfiguredPlant
     disturbances: dict[str, Disturbance]
     kinematics: Kinematics
     motion: Motion
     start: Floats  # posture (n,) [rad]
-    slowed: retiming.Slowed | None
-    placed: placement.Placed | None
+    slowed: retiming.Retiming | None
+    placed: placement.Placement | None
     recording: Recording | None
 
     def follow(self, progress: Callable[[float], None] = lambda _done: None) -> Track:
@@ -143,7 +143,7 @@ class Ready:
 
 def prepare(
     program: Program, settings: Settings, controller: Controller[Any] | None = None
-) -> Ready:
+) -> PreparedRun:
     """What comes before the arm moves; arguments and errors as those of `paint`."""
     clock = Stopwatch()
     program = replace(program, most_samples=settings.max_samples)
@@ -174,13 +174,13 @@ def prepare(
             if settings.on_limit == "slow":
                 slowed = retiming.slow_down(motion, kinematics, start, settings.null, plant.motors)
                 motion = slowed.motion
-    return Ready(
+    return PreparedRun(
         program, settings, clock, controller, gains, plant, disturbances, kinematics, motion,
         start, slowed, placed, recording,
     )  # fmt: skip
 
 
-def finish(ready: Ready, run: Track) -> Painting:
+def finish(ready: PreparedRun, run: Track) -> Painting:
     """What comes after the arm has moved: numbers and pictures."""
     settings, motion, clock = ready.settings, ready.motion, ready.clock
     card, recording = ready.kinematics.card, ready.recording
@@ -190,7 +190,7 @@ def finish(ready: Ready, run: Track) -> Painting:
         came_through = attenuation(run, ready.gains.promise())
         steps = set_points(run)
     robot = settings.robot or ready.program.robot or DEFAULT_ROBOT
-    cast = Cast(robot, run.posture, motion.line, motion.period)
+    cast = ArmMotion(robot, run.posture, motion.line, motion.period)
     if settings.staged and not cast.known:
         notes += (UNSEEN,)
     with clock("light"), on_stage(settings, card, cast) as staging:

@@ -27,7 +27,7 @@ from dqpaint.light.images import with_legend
 from dqpaint.light.sources import ALL, Shade, Sweep, shade_of, stand
 from dqpaint.motion import Motion
 from dqpaint.painting.scene import Scene, arrange
-from dqpaint.render import Hidden, Staging, account
+from dqpaint.render import HiddenLight, SceneArm, account
 from dqpaint.settings import Settings
 
 # run lengths suit black ground with dithered halos: smaller and faster than the default search
@@ -60,7 +60,7 @@ class Picture:
     name: str
     told: str
     light: tuple[Sweep, ...] = ()
-    hidden: Hidden | None = None
+    hidden: HiddenLight | None = None
     arm: Image | None = None
     remarks: tuple[str, ...] = ()
 
@@ -69,11 +69,13 @@ class Picture:
         """(3,) what the light gave off: on the film, lost and hidden, in the film's unit."""
         return self.film.emitted + (0.0 if self.hidden is None else self.hidden.energy)
 
-    def worked(self, ghost: bool | str) -> "Worked":
+    def worked(self, ghost: bool | str) -> "RenderCache":
         """What of the arm was worked out for it, where it was shown like this."""
         shades = [sweep.shade for sweep in self.light if sweep.shade is not None]
         shares = tuple(shade.share for shade in shades)
-        return Worked(key_of(self.camera, self.exposure), ghost, self.arm, shares, self.remarks)
+        return RenderCache(
+            key_of(self.camera, self.exposure), ghost, self.arm, shares, self.remarks
+        )
 
     @property
     def png(self) -> bytes:
@@ -92,7 +94,7 @@ def take(motion: Motion, pose: Floats, settings: Settings) -> Picture:
     return next(photograph(arrange(motion, pose, settings), settings))
 
 
-class Shown:
+class PictureSet:
     """What is shown by its pictures, one a view: the first stands for it, in a notebook, too."""
 
     pictures: tuple[Picture, ...]
@@ -112,7 +114,7 @@ class Shown:
 
 
 @dataclass(frozen=True, eq=False)
-class Worked:
+class RenderCache:
     """What of the arm was worked out for one picture, to be used again where that fits.
 
     Attributes:
@@ -155,8 +157,8 @@ def key_of(camera: Camera, exposure: float) -> Floats:
 def photograph(
     scene: Scene,
     settings: Settings,
-    staging: Staging | None = None,
-    worked: Worked | None = None,
+    staging: SceneArm | None = None,
+    worked: RenderCache | None = None,
 ) -> Iterator[Picture]:
     """The pictures of a scene: one for each view of the settings, all of one run.
 
@@ -189,12 +191,12 @@ def _shoot(
     settings: Settings,
     shot: Shot,
     given: float | None,
-    staging: Staging | None,
-    worked: Worked | None,
+    staging: SceneArm | None,
+    worked: RenderCache | None,
 ) -> Picture:
     camera = place_camera(scene, settings, shot)
     exposure, told = _exposure(scene, settings, camera, given)
-    staged = Worked(key_of(camera, exposure), False, None, (), ())
+    staged = RenderCache(key_of(camera, exposure), False, None, (), ())
     if staging is not None:
         staged = _stage(scene, settings, camera, exposure, staging, worked)
     light = staged.shaded(scene.light) if staged.shares else scene.light
@@ -212,9 +214,9 @@ def _stage(
     settings: Settings,
     camera: Camera,
     exposure: float,
-    staging: Staging,
-    worked: Worked | None,
-) -> Worked:
+    staging: SceneArm,
+    worked: RenderCache | None,
+) -> RenderCache:
     """What of the arm is to be seen, and what it hides; what is known already is not asked."""
     key, fresh = key_of(camera, exposure), False
     arm: Image | None = None
@@ -232,7 +234,7 @@ def _stage(
         take = staging.blur if settings.ghost == "motion" else staging.photograph
         arm = take(camera, partial(lights_of, scene), exposure, _by_settings(settings))
     remarks = tuple(staging.remarks) if fresh or worked is None else worked.remarks
-    return Worked(key, settings.ghost, arm, shares, remarks)
+    return RenderCache(key, settings.ghost, arm, shares, remarks)
 
 
 def lights_of(scene: Scene, samples: slice = ALL) -> list[tuple[Floats, Floats]]:
@@ -240,7 +242,7 @@ def lights_of(scene: Scene, samples: slice = ALL) -> list[tuple[Floats, Floats]]
     return [lamp for sweep in scene.light for lamp in sweep.lights(samples)]
 
 
-def _hidden(light: Sequence[Sweep], line: NDArray[np.int64]) -> Hidden:
+def _hidden(light: Sequence[Sweep], line: NDArray[np.int64]) -> HiddenLight:
     """What of some sweeps their shades kept from the film, by the lines (N,) of the source."""
     shades = [sweep.shade for sweep in light if sweep.shade is not None]
     hidden = np.sum([shade.hidden for shade in shades], axis=0)

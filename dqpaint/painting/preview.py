@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 
 from dqpaint.motion import Motion, plan
-from dqpaint.painting.picture import Picture, Shown, photograph
+from dqpaint.painting.picture import Picture, PictureSet, photograph
 from dqpaint.painting.scene import Scene, arrange, check_choices
 from dqpaint.program import Program
 from dqpaint.robots.loading import card_for
@@ -11,7 +11,7 @@ from dqpaint.settings import Settings
 
 
 @dataclass(frozen=True, repr=False)
-class Preview(Shown):
+class Preview(PictureSet):
     """What was asked, and its pictures, one a view."""
 
     settings: Settings

@@ -19,7 +19,7 @@ from dqpaint.light.camera import parse_exposure
 from dqpaint.light.film import Exposing
 from dqpaint.painting.picture import Picture, beneath, finish, lights_of, linear
 from dqpaint.painting.scene import Scene
-from dqpaint.render import Staging
+from dqpaint.render import SceneArm
 from dqpaint.settings import Settings
 
 RATE = 25  # frames a second
@@ -38,7 +38,7 @@ def frames(
     settings: Settings,
     count: int,
     progress: Told,
-    staging: Staging | None = None,
+    staging: SceneArm | None = None,
 ) -> Iterator[NDArray[np.uint8]]:
     """The picture as it grows, (H, W, 3) each; the last frame is the picture itself.
 
@@ -82,7 +82,7 @@ def webm(
     picture: Picture,
     settings: Settings,
     progress: Told,
-    staging: Staging | None = None,
+    staging: SceneArm | None = None,
 ) -> bytes:
     """A video browsers play: VP9 in WebM; arguments as those of `frames`.
 
@@ -137,7 +137,7 @@ def webp(
     picture: Picture,
     settings: Settings,
     progress: Told,
-    staging: Staging | None = None,
+    staging: SceneArm | None = None,
 ) -> bytes:
     """An animation a README shows: WebP, small, over and over; arguments as those of `frames`.
 

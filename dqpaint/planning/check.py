@@ -13,12 +13,12 @@ from dqpaint.language.syntax import STDIN
 from dqpaint.motion import Motion, Survey, summary_line, survey
 
 if TYPE_CHECKING:
-    from dqpaint.planning.forecast_report import Outlook
+    from dqpaint.planning.forecast_report import ForecastReport
     from dqpaint.settings import Settings
 
 
 @dataclass(frozen=True)
-class Checked:
+class CheckResult:
     """One drawing, read: what was found, and its figures where it can be drawn."""
 
     file: str
@@ -26,7 +26,7 @@ class Checked:
     findings: tuple[Diagnostic, ...]
     drawing: Motion | Survey | None
     fault: str = ""  # of a file that could not even be read
-    outlook: "Outlook | None" = None  # what the arm says of it, where an arm was asked
+    outlook: "ForecastReport | None" = None  # what the arm says of it, where an arm was asked
 
     @property
     def errors(self) -> int:
@@ -61,7 +61,7 @@ class Checked:
 BEAD = 2.0  # times the brightness of the middle: less is no matter for a hint
 
 
-def check(name: str, **choices: Any) -> Checked:
+def check(name: str, **choices: Any) -> CheckResult:
     """Read one drawing and survey its motion; nothing is simulated.
 
     Where anything of the run is chosen, or an arm named in the file, it looks ahead, too: reach,
@@ -83,13 +83,13 @@ def check(name: str, **choices: Any) -> Checked:
         outlook = _look_ahead(program, settings) if asked else None
         drawing: Motion | Survey = outlook.motion if outlook else survey(program)
     except ScriptError as problem:
-        return Checked(problem.name, problem.text, problem.diagnostics, None)
+        return CheckResult(problem.name, problem.text, problem.diagnostics, None)
     except UsageError:
         raise
     except DqpaintError as problem:
-        return Checked(name, "", (), None, str(problem))
+        return CheckResult(name, "", (), None, str(problem))
     findings = drawing.notes + (outlook.warnings if outlook else ())
-    return Checked(program.name, program.text, findings, drawing, outlook=outlook)
+    return CheckResult(program.name, program.text, findings, drawing, outlook=outlook)
 
 
 def _chosen(choices: dict[str, Any]) -> "Settings | None":
@@ -108,7 +108,7 @@ def _chosen(choices: dict[str, Any]) -> "Settings | None":
     return settings if settings != Settings(max_samples=settings.max_samples) else None
 
 
-def _look_ahead(program: Program, settings: "Settings | None") -> "Outlook":
+def _look_ahead(program: Program, settings: "Settings | None") -> "ForecastReport":
     """What an arm says of a drawing; only this brings in the arms and their kinematics.
 
     Raises:
@@ -128,7 +128,7 @@ def _look_ahead(program: Program, settings: "Settings | None") -> "Outlook":
     return look_ahead(program, Kinematics(card), settings)
 
 
-def as_json(results: Sequence[Checked]) -> dict[str, Any]:
+def as_json(results: Sequence[CheckResult]) -> dict[str, Any]:
     """The findings of several drawings: 1-based, columns in code points, ends not included."""
     findings = [(result, finding) for result in results for finding in result.findings]
     warnings = sum(d.severity is Severity.WARNING for _, d in findings)
@@ -148,7 +148,7 @@ def as_json(results: Sequence[Checked]) -> dict[str, Any]:
     }
 
 
-def _as_json(result: Checked, finding: Diagnostic) -> dict[str, Any]:
+def _as_json(result: CheckResult, finding: Diagnostic) -> dict[str, Any]:
     fix = finding.fix
     return {
         "file": file_at(result.source, finding.span.start, result.file)[1]
@@ -178,7 +178,7 @@ def _as_json(result: Checked, finding: Diagnostic) -> dict[str, Any]:
     }
 
 
-def _file(result: Checked) -> dict[str, Any]:
+def _file(result: CheckResult) -> dict[str, Any]:
     drawing = result.drawing
     assert drawing is not None
     return {
@@ -192,7 +192,7 @@ def _file(result: Checked) -> dict[str, Any]:
     }
 
 
-def _unread(result: Checked) -> dict[str, Any]:
+def _unread(result: CheckResult) -> dict[str, Any]:
     empty = Diagnostic("E001", result.fault, None)
     return _as_json(result, empty)
 

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
 from dqpaint.planning.ideal_run import follow, jumps
-from dqpaint.planning.occlusion import LOOKS, PLAIN, Hiding, hide, looks_at
+from dqpaint.planning.occlusion import LOOKS, PLAIN, OcclusionForecast, hide, looks_at
 from dqpaint.planning.retiming import TAKEN_UP
-from dqpaint.plants import Chosen
+from dqpaint.plants import ConfiguredPlant
 from dqpaint.robots.kinematics import (
     DEFAULT_NULL,
     LENGTH,
@@ -35,7 +35,7 @@ MOST_ROWS = 20_000  # that are followed; of a longer drawing every second, third
 
 
 @dataclass(frozen=True)
-class Worst:
+class Extreme:
     """The worst of something on a line: its value, the joint (from 1) and the time [s]."""
 
     value: float
@@ -76,13 +76,13 @@ class Forecast:
 
     line: int
     start: float
-    margin: Worst
+    margin: Extreme
     room: float
-    speed: Worst
+    speed: Extreme
     speed_part: float
-    effort: Worst | None
+    effort: Extreme | None
     effort_part: float | None
-    jolt: Worst | None
+    jolt: Extreme | None
     jolt_part: float | None
     held_part: float
     sag: float | None
@@ -101,7 +101,7 @@ def forecast(
     kinematics: Kinematics,
     start: Floats,
     settings: Settings = PLAIN,
-    plant: Chosen | None = None,
+    plant: ConfiguredPlant | None = None,
 ) -> tuple[Forecast, ...]:
     """Look ahead along a drawing.
 
@@ -137,7 +137,7 @@ class _Run:
         kinematics: Kinematics,
         start: Floats,
         null: str = DEFAULT_NULL,
-        plant: Chosen | None = None,
+        plant: ConfiguredPlant | None = None,
     ) -> None:
         self.card = kinematics.card
         stride = -(-len(motion.t) // MOST_ROWS)
@@ -171,7 +171,7 @@ class _Run:
         motion: Motion,
         dynamics: Dynamics,
         at_tool: Floats,
-        plant: Chosen | None,
+        plant: ConfiguredPlant | None,
     ) -> None:
         """What the motors bear (N, n) [Nm], where there are any, as rates change by (N, n)."""
         self.effort: Floats | None = None
@@ -207,7 +207,7 @@ def _without_corners(change: Floats, stroke: NDArray[np.int64]) -> Floats:
 
 
 def _of_line(
-    run: _Run, line: int, looks: NDArray[np.intp], near: Nearest, hiding: Hiding
+    run: _Run, line: int, looks: NDArray[np.intp], near: Nearest, hiding: OcclusionForecast
 ) -> Forecast:
     rows = np.flatnonzero(run.line == line)
     card = run.card
@@ -215,7 +215,7 @@ def _of_line(
     effort, effort_part = _worst_if_any(run, rows, run.effort, card.effort)
     jolt, jolt_part = _worst_if_any(run, rows, run.jolt, card.effort)
     k, joint = np.unravel_index(run.margin[rows].argmin(), (len(rows), card.joints))
-    margin = Worst(float(run.margin[rows[k], joint]), int(joint) + 1, float(run.t[rows[k]]))
+    margin = Extreme(float(run.margin[rows[k], joint]), int(joint) + 1, float(run.t[rows[k]]))
     looked = np.flatnonzero(np.isin(looks, rows))
     closest = looked[near.distance[looked].argmin()]
     meets = bool(np.isfinite(near.distance[closest]))
@@ -244,16 +244,18 @@ def _of_line(
     )
 
 
-def _worst(run: _Run, rows: NDArray[np.intp], values: Floats, limit: Floats) -> tuple[Worst, float]:
+def _worst(
+    run: _Run, rows: NDArray[np.intp], values: Floats, limit: Floats
+) -> tuple[Extreme, float]:
     """Where some values come nearest to their limits, and that as a part of the limit."""
     parts = np.abs(values[rows]) / limit
     k, joint = np.unravel_index(parts.argmax(), parts.shape)
     row = rows[k]
-    worst = Worst(float(abs(values[row, joint])), int(joint) + 1, float(run.t[row]))
+    worst = Extreme(float(abs(values[row, joint])), int(joint) + 1, float(run.t[row]))
     return worst, float(parts[k, joint])
 
 
 def _worst_if_any(
     run: _Run, rows: NDArray[np.intp], values: Floats | None, limit: Floats
-) -> tuple[Worst | None, float | None]:
+) -> tuple[Extreme | None, float | None]:
     return (None, None) if values is None else _worst(run, rows, values, limit)

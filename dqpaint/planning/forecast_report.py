@@ -7,12 +7,12 @@ from typing import Any, NamedTuple
 
 from dqpaint.diagnostics import Diagnostic, Span
 from dqpaint.motion import Motion, plan
-from dqpaint.planning.forecast import Forecast, Worst, forecast
+from dqpaint.planning.forecast import Extreme, Forecast, forecast
 from dqpaint.planning.ideal_run import WORTH_A_LOOK
 from dqpaint.planning.occlusion import PLAIN
-from dqpaint.planning.placement import Placed, settle
+from dqpaint.planning.placement import Placement, settle
 from dqpaint.planning.reachability import begin, check_row
-from dqpaint.planning.retiming import Slowed, slow_down
+from dqpaint.planning.retiming import Retiming, slow_down
 from dqpaint.plants import DEFAULT_PLANTS, find_plant
 from dqpaint.program import Program
 from dqpaint.robots.kinematics import THRESHOLD, Kinematics, shapes_of
@@ -32,7 +32,7 @@ DEG = math.degrees(1)
 
 
 @dataclass(frozen=True)
-class Outlook:
+class ForecastReport:
     """What an arm says of a drawing it has not drawn yet.
 
     Attributes:
@@ -49,8 +49,8 @@ class Outlook:
     """
 
     motion: Motion
-    placed: Placed | None
-    slowed: Slowed | None
+    placed: Placement | None
+    slowed: Retiming | None
     robot: str
     plant: str
     seen: bool
@@ -89,7 +89,9 @@ class Outlook:
         }
 
 
-def look_ahead(program: Program, kinematics: Kinematics, settings: Settings = PLAIN) -> Outlook:
+def look_ahead(
+    program: Program, kinematics: Kinematics, settings: Settings = PLAIN
+) -> ForecastReport:
     """The outlook of a drawing for an arm.
 
     Args:
@@ -116,7 +118,7 @@ def look_ahead(program: Program, kinematics: Kinematics, settings: Settings = PL
     farthest = max(lines, key=lambda one: one.stray)
     if farthest.stray >= WORTH_A_LOOK:
         check_row(motion, kinematics, farthest.stray_row, settings.null)
-    return Outlook(
+    return ForecastReport(
         motion,
         placed,
         slowed,
@@ -169,7 +171,7 @@ def _jolt(one: Forecast, card: Card) -> str:
     )
 
 
-def _has(at: Worst, card: Card) -> str:
+def _has(at: Extreme, card: Card) -> str:
     return f"has {card.effort[at.joint - 1]:.4g} Nm"
 
 

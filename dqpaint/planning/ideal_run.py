@@ -14,9 +14,9 @@ from dqpaint.robots.kinematics import (
     DEFAULT_NULL,
     ON_THE_WAY,
     Kinematics,
-    Miss,
-    Start,
-    Wish,
+    NoPosture,
+    SecondaryTask,
+    StartPosture,
     find_start,
     make_pull,
     make_wish,
@@ -31,7 +31,9 @@ MOST_ROWS = 1500  # that are gone along to see whether an arm can draw something
 BEYOND = np.radians(0.05)  # of a joint's end count as its end
 
 
-def set_out(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL) -> Start | Miss:
+def set_out(
+    motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL
+) -> StartPosture | NoPosture:
     """The posture that leaves the most margin over a drawing, or the pose that is not reached.
 
     Args:
@@ -50,7 +52,7 @@ def can_draw(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL) -
     Arguments as those of `set_out`.
     """
     start = set_out(motion, kinematics, null)
-    if isinstance(start, Miss) or start.margin < 0:
+    if isinstance(start, NoPosture) or start.margin < 0:
         return False
     rows = np.arange(0, len(motion.t), -(-len(motion.t) // MOST_ROWS))
     wish = make_wish(null, kinematics.card, start.posture)
@@ -67,7 +69,11 @@ def jumps(motion: Motion, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
 
 
 def follow(
-    motion: Motion, kinematics: Kinematics, start: Floats, rows: NDArray[np.intp], wish: Wish
+    motion: Motion,
+    kinematics: Kinematics,
+    start: Floats,
+    rows: NDArray[np.intp],
+    wish: SecondaryTask,
 ) -> tuple[Floats, Floats, Floats]:
     """Along some rows (N,) of a motion, evenly spread; one Newton step leads to each.
 

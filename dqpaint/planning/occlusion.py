@@ -22,7 +22,7 @@ LAMPS, APART = 5, 0.03  # places along a brush, at the most, and how far apart a
 PLAIN = Settings()
 
 
-class Hiding(NamedTuple):
+class OcclusionForecast(NamedTuple):
     """What is hidden at some of a forecast's rows.
 
     Attributes:
@@ -58,7 +58,7 @@ def looks_at(line: NDArray[np.int64], most: int) -> NDArray[np.intp]:
 
 def hide(
     shapes: Shapes, motion: Motion, rows: NDArray[np.intp], postures: Floats, settings: Settings
-) -> Hiding:
+) -> OcclusionForecast:
     """Which of a motion's light an arm hides that follows it.
 
     Args:
@@ -75,7 +75,7 @@ def hide(
     names = tuple(shot.name for shot in shots)
     sent, hidden = np.zeros(len(looks)), np.zeros((len(shots), len(looks)))
     if not len(looks):
-        return Hiding(looks, sent, hidden, names)
+        return OcclusionForecast(looks, sent, hidden, names)
     light = sweeps(motion, motion.pose, motion.light, settings)
     points = np.concatenate([sweep.lit_points for sweep in light])
     front = dq.matrix_from_quaternion(motion.front)
@@ -93,4 +93,4 @@ def hide(
             for k in range(len(lamps)):
                 behind = shapes.hides(postures[looks[shone]], places[:, k], camera.position)
                 hidden[view, shone] += energy[shone] * behind / len(lamps)
-    return Hiding(looks, sent, hidden, names)
+    return OcclusionForecast(looks, sent, hidden, names)

@@ -30,7 +30,7 @@ from dqpaint.robots.kinematics import (
     PULL,
     Dynamics,
     Kinematics,
-    Miss,
+    NoPosture,
     manipulability,
     resolve,
     waypoints,
@@ -54,7 +54,7 @@ PLAIN = Settings()
 
 
 @dataclass(frozen=True)
-class Placed:
+class Placement:
     """Where a drawing was put, and how well it fits there.
 
     Attributes:
@@ -100,7 +100,7 @@ class Placed:
 
 def settle(
     program: Program, kinematics: Kinematics, settings: Settings = PLAIN
-) -> tuple[Program, Placed | None]:
+) -> tuple[Program, Placement | None]:
     """A program with its place found, if it is to be found.
 
     Args:
@@ -121,7 +121,7 @@ def settle(
     return replace(program, placement=placed.place), placed
 
 
-def find_place(program: Program, kinematics: Kinematics, settings: Settings = PLAIN) -> Placed:
+def find_place(program: Program, kinematics: Kinematics, settings: Settings = PLAIN) -> Placement:
     """Where a drawing fits an arm best; the same answer each time.
 
     It is to be in sight from the front, as far as can be, from wherever it is looked at: pictures
@@ -154,7 +154,7 @@ def has_room(motion: Motion, kinematics: Kinematics, settings: Settings = PLAIN)
 
 def _judge(
     program: Program, kinematics: Kinematics, line: str, settings: Settings = PLAIN
-) -> Placed | None:
+) -> Placement | None:
     """A place looked at along the whole drawing; None where it does not do."""
     place = parse(f"{line}\nhold 1 s\n", "place").placement
     assert isinstance(place, Pose)
@@ -166,7 +166,7 @@ def _judge(
     worst = min(one.manipulability for one in lines)
     torque = min(_left(one.held_part) for one in lines)
     hidden = max(one.hidden or 0.0 for one in lines)
-    return Placed(place, line, worst * room * torque, worst, room, torque, hidden)
+    return Placement(place, line, worst * room * torque, worst, room, torque, hidden)
 
 
 def _lines_if_good(
@@ -174,7 +174,7 @@ def _lines_if_good(
 ) -> tuple[Forecast, ...]:
     """The forecast of a motion that may stay where it is; nothing of one that may not."""
     start = set_out(motion, kinematics, settings.null)
-    if isinstance(start, Miss) or start.margin < 0:
+    if isinstance(start, NoPosture) or start.margin < 0:
         return ()
     seen = PLAIN.model_copy(update={"null": settings.null, "brush": settings.brush})
     lines = forecast(motion, kinematics, start.posture, seen)

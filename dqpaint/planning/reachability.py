@@ -14,8 +14,8 @@ from dqpaint.robots.kinematics import (
     DEFAULT_NULL,
     ON_THE_WAY,
     Kinematics,
-    Miss,
-    Start,
+    NoPosture,
+    StartPosture,
     shortfall,
     strays,
     waypoints,
@@ -30,7 +30,7 @@ WORTH_SAYING = np.radians(0.5)
 
 
 @dataclass(frozen=True)
-class Outside:
+class Unreachable:
     """A point of a line that leaves the reach: its row of the motion, and by how much.
 
     `miss` is None where it was not worked out; `alone` is whether no posture reaches the point at
@@ -38,11 +38,11 @@ class Outside:
     """
 
     row: int
-    miss: Miss | None = None
+    miss: NoPosture | None = None
     alone: bool = True
 
 
-def begin(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL) -> Start:
+def begin(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL) -> StartPosture:
     """The posture that leaves the most margin over the whole drawing.
 
     Args:
@@ -54,14 +54,14 @@ def begin(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL) -> S
         ScriptError: the drawing leaves the arm's reach, wherever it begins.
     """
     found = set_out(motion, kinematics, null)
-    if isinstance(found, Start) and found.margin >= 0:
+    if isinstance(found, StartPosture) and found.margin >= 0:
         return found
     rows = waypoints(motion.stroke)
     outside = _outside(motion, kinematics, rows)
     if outside:
         raise out_of_reach(motion, kinematics, outside, null)
-    if isinstance(found, Miss):
-        at = Outside(int(rows[found.index]), found, alone=found.index == 0)
+    if isinstance(found, NoPosture):
+        at = Unreachable(int(rows[found.index]), found, alone=found.index == 0)
         raise out_of_reach(motion, kinematics, [at], null)
     return found
 
@@ -99,7 +99,7 @@ def check_row(motion: Motion, kinematics: Kinematics, row: int, null: str = DEFA
             raise out_of_reach(motion, kinematics, outside, null)
 
 
-def _outside(motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp]) -> list[Outside]:
+def _outside(motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp]) -> list[Unreachable]:
     """The lines of which no posture reaches all, in order; looked at in some rows and between."""
     strokes = np.unique(motion.stroke[rows])
     looks = min(LOOKS, max(2, MOST_LOOKS // len(strokes)))
@@ -109,23 +109,23 @@ def _outside(motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp]) -> 
     rows = np.unique(rows)
     left = strays(kinematics, motion.pose[rows])
     beyond = np.flatnonzero(left >= ON_THE_WAY)
-    found: list[Outside] = []
+    found: list[Unreachable] = []
     for line in np.unique(motion.line[rows[beyond]]):
         its = beyond[motion.line[rows[beyond]] == line]
         worst = its[left[its].argmax()]
         if len(found) >= MOST_TOLD:
-            found.append(Outside(int(rows[worst])))
+            found.append(Unreachable(int(rows[worst])))
             continue
         few = rows[np.unique([its[0], worst, its[-1]])].tolist()
         misses = [(shortfall(kinematics, motion.pose[row]), row) for row in few]
         miss, row = max(misses, key=lambda pair: pair[0].badness)
         if miss.badness >= ON_THE_WAY:
-            found.append(Outside(row, miss))
+            found.append(Unreachable(row, miss))
     return found
 
 
 def out_of_reach(
-    motion: Motion, kinematics: Kinematics, outside: list[Outside], null: str = DEFAULT_NULL
+    motion: Motion, kinematics: Kinematics, outside: list[Unreachable], null: str = DEFAULT_NULL
 ) -> ScriptError:
     """The error for lines of a motion, some of whose rows no posture reaches."""
     program = motion.program
@@ -152,7 +152,7 @@ def out_of_reach(
     return ScriptError(program.name, program.text, tuple(problems))
 
 
-def _fault(one: Outside, name: str) -> str:
+def _fault(one: Unreachable, name: str) -> str:
     """How far it is away, in words."""
     assert one.miss is not None
     far, angle = one.miss.shortfall * 1e3, np.degrees(one.miss.turned)

@@ -31,7 +31,7 @@ Motors = Literal["none", "smooth", "sudden"]
 
 
 @dataclass(frozen=True)
-class Slowed:
+class Retiming:
     """A drawing that was slowed down.
 
     Attributes:
@@ -63,7 +63,7 @@ class Slowed:
 
 def slow_down(
     motion: Motion, kinematics: Kinematics, start: Floats, null: str, motors: Motors
-) -> Slowed:
+) -> Retiming:
     """The motion at a pace an arm can keep, as far as slowness helps.
 
     Position limits are not helped by it, nor is the way back to the path where an arm is off it:
@@ -85,11 +85,11 @@ def slow_down(
             break
         slowness = np.maximum(slowness, smooth(needed, motion.period))
     if (slowness == 1).all():
-        return Slowed(motion, 0.0, 1.0, ())
+        return Retiming(motion, 0.0, 1.0, ())
     placed = plan(motion.program, kinematics.card.canvas.pose, Pace(slowness, motion.period))
     lines = sorted({int(line) for line in motion.line[slowness > 1 + ENOUGH]})
     longer = float(placed.t[-1] - motion.t[-1])
-    return Slowed(placed, longer, float(1 / slowness.max()), tuple(lines))
+    return Retiming(placed, longer, float(1 / slowness.max()), tuple(lines))
 
 
 def _needed(

@@ -8,7 +8,7 @@ from dqpaint.plants.ideal import Ideal
 from dqpaint.plants.plant import (
     DEFAULT_PLANTS,
     PLANTS,
-    Chosen,
+    ConfiguredPlant,
     Plant,
     PlantMaker,
     Takes,
@@ -22,7 +22,7 @@ __all__ = [
     "DEFAULT_PLANTS",
     "PLANTS",
     "UNDISTURBED",
-    "Chosen",
+    "ConfiguredPlant",
     "Ideal",
     "Payload",
     "Plant",

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from dqpaint.dq import Floats
-from dqpaint.plants.bullet_loads import Pushing, check_pushes, loaded
+from dqpaint.plants.bullet_loads import TimedPush, check_pushes, loaded
 from dqpaint.plants.plant import Options, Trait
 from dqpaint.plants.world import UNDISTURBED, World
 from dqpaint.robots.bullet import Client, bullet, joint_indices, quiet
@@ -81,7 +81,7 @@ class RigidArm(Client):
         self.effort = np.zeros(card.joints)
         self.advance: Callable[[], object] = partial(bullet.stepSimulation, self.client)
         if world.pushes:
-            self.advance = Pushing(self, world)
+            self.advance = TimedPush(self, world)
 
     @property
     def encoder(self) -> Floats:

@@ -48,7 +48,7 @@ def check_pushes(world: World, card: Card) -> None:
             )
 
 
-class Pushing:
+class TimedPush:
     """Makes physics steps under pushes; PyBullet forgets a force after each of them."""
 
     def __init__(self, arm: "RigidArm", world: World) -> None:

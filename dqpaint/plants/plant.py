@@ -113,7 +113,7 @@ PLANTS: Registry[PlantMaker] = Folder("plant", "dqpaint.plants")
 
 
 @dataclass(frozen=True)
-class Chosen:
+class ConfiguredPlant:
     """A plant with its values.
 
     Attributes:
@@ -160,7 +160,7 @@ class Chosen:
         )
 
 
-def choose_plant(text: str | None, takes: Takes) -> Chosen:
+def choose_plant(text: str | None, takes: Takes) -> ConfiguredPlant:
     """The plant that was asked for, such as `compliant:frequency=60`, or the usual one.
 
     Raises:
@@ -177,7 +177,7 @@ def choose_plant(text: str | None, takes: Takes) -> Chosen:
     return plant
 
 
-def find_plant(text: str) -> Chosen:
+def find_plant(text: str) -> ConfiguredPlant:
     """The plant that was asked for, whatever commands it takes.
 
     Raises:
@@ -188,4 +188,4 @@ def find_plant(text: str) -> Chosen:
     if plant.options is None and values:
         raise UsageError(f"plant '{name}' takes no values")
     options = make_choice("plant", name, plant.options, values) if plant.options else None
-    return Chosen(text.strip(), plant, options)
+    return ConfiguredPlant(text.strip(), plant, options)

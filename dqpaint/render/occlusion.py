@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
-from dqpaint.render.ray_casting import Twins
+from dqpaint.render.ray_casting import RayCaster
 
 STEP = 0.004
 """Farthest that a lamp goes between two instants that are tried [m]."""
@@ -22,7 +22,7 @@ CLEARANCE = 0.01
 
 
 def visible(
-    twins: Twins, postures: Floats, places: Floats, eye: Floats, lit: NDArray[np.bool_]
+    twins: RayCaster, postures: Floats, places: Floats, eye: Floats, lit: NDArray[np.bool_]
 ) -> Floats:
     """The share (M, K) of the light of K lamps that reaches the eye at each of M instants, 0 to 1.
 

@@ -18,7 +18,7 @@ WORTH_THREADS = 500
 """With fewer rays it costs more to wake a second thread than it saves."""
 
 
-class Twins(Client):
+class RayCaster(Client):
     """Immovable bodies in the shape of an arm's links, as the file draws them.
 
     Meshes are taken as they are. The convex hulls that the physics would make of them stand proud

@@ -22,7 +22,7 @@ from dqpaint.settings import Settings
 
 if TYPE_CHECKING:
     from dqpaint.render.arm_shapes import Arm
-    from dqpaint.render.ray_casting import Twins
+    from dqpaint.render.ray_casting import RayCaster
 
 
 Shine = Callable[[slice], Sequence[tuple[Floats, Floats]]]
@@ -33,7 +33,7 @@ FEW = 32
 
 
 @dataclass(frozen=True, eq=False)
-class Hidden:
+class HiddenLight:
     """Light that the arm's own body kept from the camera.
 
     Attributes:
@@ -45,7 +45,7 @@ class Hidden:
     lines: tuple[tuple[int, float], ...]
 
 
-def account(hidden: Floats, emitted: Floats, line: NDArray[np.int64]) -> Hidden:
+def account(hidden: Floats, emitted: Floats, line: NDArray[np.int64]) -> HiddenLight:
     """What was hidden, by the source lines it comes from.
 
     Args:
@@ -57,10 +57,10 @@ def account(hidden: Floats, emitted: Floats, line: NDArray[np.int64]) -> Hidden:
     share = np.bincount(which, hidden.sum(axis=1), len(lines)) / max(float(emitted.sum()), 1e-300)
     order = np.argsort(-share, kind="stable")
     found = tuple((int(lines[i]), float(share[i])) for i in order if share[i] > 0.0)
-    return Hidden(hidden.sum(axis=0), found)
+    return HiddenLight(hidden.sum(axis=0), found)
 
 
-class Staging(ExitStack):
+class SceneArm(ExitStack):
     """An arm with the postures of a run. Its shapes are loaded when first needed, till the end.
 
     Args:
@@ -99,11 +99,11 @@ class Staging(ExitStack):
         return arm
 
     @cached_property
-    def twins(self) -> Twins:
+    def twins(self) -> RayCaster:
         """What rays hit."""
-        from dqpaint.render.ray_casting import Twins
+        from dqpaint.render.ray_casting import RayCaster
 
-        return self.enter_context(Twins(self.arm))
+        return self.enter_context(RayCaster(self.arm))
 
     @property
     def solid(self) -> bool:
@@ -183,7 +183,7 @@ class Staging(ExitStack):
 
 
 @dataclass(frozen=True, eq=False)
-class Cast:
+class ArmMotion:
     """How an arm moved in a run: all that is needed, beside its card, to put it on the stage.
 
     Attributes:
@@ -206,7 +206,7 @@ class Cast:
 
 
 @contextmanager
-def on_stage(settings: Settings, card: Card, cast: Cast) -> Iterator[Staging | None]:
+def on_stage(settings: Settings, card: Card, cast: ArmMotion) -> Iterator[SceneArm | None]:
     """The arm of a run, if the settings have a use for it, and the run has its joints.
 
     Raises:
@@ -218,6 +218,6 @@ def on_stage(settings: Settings, card: Card, cast: Cast) -> Iterator[Staging | N
     whole = prepare(card).whole
     with (
         urdf_file(card) as path,
-        Staging(path, cast.posture, cast.period, cast.line, whole) as staging,
+        SceneArm(path, cast.posture, cast.period, cast.line, whole) as staging,
     ):
         yield staging

@@ -40,7 +40,7 @@ class Screw:
 
 
 @dataclass(frozen=True)
-class Posed:
+class PoseReport:
     """An arm in a posture: where its tool or flange is, and how it can move from there."""
 
     card: Card
@@ -61,12 +61,12 @@ class Posed:
         ]
 
 
-def pose_arm(card: Card, posture: Floats, flange: bool) -> Posed:
+def pose_arm(card: Card, posture: Floats, flange: bool) -> PoseReport:
     """The pose and Jacobian of a card's tool, or of its bare last link, at a posture (n,) [rad]."""
     arm = Kinematics(card.model_copy(update={"tool": Mount()}) if flange else card)
     pose, jacobian = arm.pose_and_jacobian(posture)
     pose = dq.nearest(pose, dq.IDENTITY)
-    return Posed(card, flange, posture, pose, jacobian, arm.notes)
+    return PoseReport(card, flange, posture, pose, jacobian, arm.notes)
 
 
 def read_posture(card: Card, deg: str | None, rad: str | None) -> Floats:
@@ -111,7 +111,7 @@ def screw_of(pose: Floats) -> Screw:
     return Screw(axis, dq.cross(axis, moment), angle, advance)
 
 
-def as_json(posed: Posed) -> dict[str, Any]:
+def as_json(posed: PoseReport) -> dict[str, Any]:
     """All of it, in SI units; what does not exist of a pure translation is null."""
     screw = screw_of(posed.pose)
     return {

@@ -3,7 +3,7 @@
 A new option is a field of `model.Settings`.
 """
 
-from dqpaint.settings.file import Given, beside, read_given
+from dqpaint.settings.file import SettingsFile, beside, read_given
 from dqpaint.settings.model import (
     DEFAULT_CONTROLLER,
     SMALLEST,
@@ -18,8 +18,8 @@ from dqpaint.settings.model import (
 __all__ = [
     "DEFAULT_CONTROLLER",
     "SMALLEST",
-    "Given",
     "Settings",
+    "SettingsFile",
     "beside",
     "check_recorded",
     "make_settings",

@@ -46,7 +46,7 @@ Check = Callable[[Settings], None]
 
 
 @dataclass(frozen=True)
-class Given:
+class SettingsFile:
     """What a file says.
 
     Attributes:
@@ -90,7 +90,7 @@ class Given:
         return found
 
 
-def read_given(path: str, check: Check) -> Given:
+def read_given(path: str, check: Check) -> SettingsFile:
     """What a file says, looked through key by key.
 
     Args:
@@ -124,7 +124,7 @@ def read_given(path: str, check: Check) -> Given:
             check(make_settings(**law))
         except DqpaintError as problem:
             raise DqpaintError(f"{_where(place, text, spelt['gains'])}: {problem}") from None
-    return Given(place.name, choices, *given)
+    return SettingsFile(place.name, choices, *given)
 
 
 def beside(folder: Path, value: object) -> object:

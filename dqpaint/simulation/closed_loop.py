@@ -16,7 +16,7 @@ from dqpaint.disturbances import Disturbance
 from dqpaint.dq import Floats
 from dqpaint.errors import UnstableError
 from dqpaint.motion import Motion
-from dqpaint.plants import Chosen, Plant, PlantMaker
+from dqpaint.plants import ConfiguredPlant, Plant, PlantMaker
 from dqpaint.robots.kinematics import (
     DEFAULT_NULL,
     Clamp,
@@ -28,7 +28,14 @@ from dqpaint.robots.kinematics import (
 )
 from dqpaint.robots.model import Card
 from dqpaint.simulation.drives import make_drive
-from dqpaint.simulation.sensors import Late, ManySenses, Senses, Told, chance, delay
+from dqpaint.simulation.sensors import (
+    BatchedSensors,
+    DelayLine,
+    Measurement,
+    Sensors,
+    chance,
+    delay,
+)
 from dqpaint.simulation.stop_on_limit import limit_error, meets_limit
 
 REPORT_EVERY = 50  # rows
@@ -92,7 +99,7 @@ def track(
     motion: Motion,
     kinematics: Kinematics,
     start: Floats,
-    make_plant: PlantMaker | Chosen,
+    make_plant: PlantMaker | ConfiguredPlant,
     controller: Controller[Any],
     gains: Schedule[Any],
     progress: Callable[[float], None] = lambda _done: None,
@@ -121,7 +128,7 @@ def track(
         ScriptError: a limit was met, and `stop`.
         DqpaintError: the simulation left the numbers, or a law of one's own has a fault.
     """
-    senses = Senses(kinematics, motion.t, motion.period, disturbances, seed)
+    senses = Sensors(kinematics, motion.t, motion.period, disturbances, seed)
     carried = _carried(motion, disturbances, [seed])
     log = _Log(len(motion.t), (), kinematics.card.joints)
     see_limits = partial(log.see_limits, kinematics.card, motion, controller.drives_torque)
@@ -145,7 +152,7 @@ def track_many(
     motion: Motion,
     kinematics: Kinematics,
     start: Floats,
-    make_plant: PlantMaker | Chosen,
+    make_plant: PlantMaker | ConfiguredPlant,
     controller: Controller[Any],
     gains: Schedule[Any],
     disturbances: Mapping[str, Disturbance],
@@ -173,7 +180,7 @@ def track_many(
     Returns:
         A track a seed; None for one that left the numbers.
     """
-    senses = ManySenses(kinematics, motion.t, motion.period, disturbances, seeds)
+    senses = BatchedSensors(kinematics, motion.t, motion.period, disturbances, seeds)
     log = _Log(len(motion.t), (len(seeds),), kinematics.card.joints)
     _follow(
         motion, senses, np.tile(start, (len(seeds), 1)), make_plant, controller, gains,
@@ -188,9 +195,9 @@ def track_many(
 
 def _follow(
     motion: Motion,
-    senses: Senses,
+    senses: Sensors,
     start: Floats,
-    make_plant: PlantMaker | Chosen,
+    make_plant: PlantMaker | ConfiguredPlant,
     controller: Controller[Any],
     gains: Schedule[Any],
     disturbances: Mapping[str, Disturbance],
@@ -204,7 +211,7 @@ def _follow(
     ahead = controller.prepare(motion, gains) if controller.prepare else np.zeros((n, 0))
     wish = make_wish(null, card, start)
     drive = make_drive(controller, senses.believed, wish, motion.period)
-    late = Late(delay(disturbances), drive.hold(start))
+    late = DelayLine(delay(disturbances), drive.hold(start))
     parts = motion.clock / motion.clock[-1] if n > 1 else motion.clock
     plant = make_plant(card, start, motion.period, senses.world)
     asked = zip(
@@ -257,7 +264,7 @@ class _Log:
         self,
         k: int,
         plant: Plant,
-        told: Told,
+        told: Measurement,
         truth: tuple[Floats, Floats],
         wanted: Floats,
         given: Floats,

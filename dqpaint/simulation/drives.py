@@ -12,7 +12,7 @@ from dqpaint.robots.kinematics import (
     Bounds,
     Dynamics,
     Kinematics,
-    Wish,
+    SecondaryTask,
     drift_acceleration,
     resolve,
 )
@@ -34,7 +34,7 @@ class Drive(Protocol):
 
 
 def make_drive(
-    controller: Controller[Any], kinematics: Kinematics, wish: Wish, period: float
+    controller: Controller[Any], kinematics: Kinematics, wish: SecondaryTask, period: float
 ) -> Drive:
     """The drive a law needs.
 
@@ -57,7 +57,11 @@ class RateDrive:
     """
 
     def __init__(
-        self, controller: Controller[Any], kinematics: Kinematics, wish: Wish, period: float
+        self,
+        controller: Controller[Any],
+        kinematics: Kinematics,
+        wish: SecondaryTask,
+        period: float,
     ) -> None:
         self._law = controller.law
         self._resolved = controller.commands == "twist"
@@ -95,7 +99,11 @@ class TorqueDrive:
     """
 
     def __init__(
-        self, controller: Controller[Any], kinematics: Kinematics, wish: Wish, period: float
+        self,
+        controller: Controller[Any],
+        kinematics: Kinematics,
+        wish: SecondaryTask,
+        period: float,
     ) -> None:
         self._law = controller.law
         self._resolved = controller.commands == "acceleration"

@@ -17,7 +17,7 @@ from dqpaint.robots.kinematics import Kinematics, ManyKinematics
 Disturbances = Mapping[str, Disturbance]
 
 
-class Told(NamedTuple):
+class Measurement(NamedTuple):
     """What the law is told: encoder angles (n,) [rad], rates (n,) [rad/s], pose (8,), J (6, n)."""
 
     posture: Floats
@@ -30,7 +30,7 @@ class ModelsDifferError(ValueError):
     """Arms cannot go as one batch: the law's model of each is another."""
 
 
-class Senses:
+class Sensors:
     """Tells a law of the arm: by the encoders' readings and the model it believes in.
 
     Attributes:
@@ -56,14 +56,14 @@ class Senses:
         self.honest = not self._encoders and self.believed is kinematics
         self._model, self._true = self.believed, kinematics
 
-    def tell(self, row: int, plant: Plant) -> Told:
+    def tell(self, row: int, plant: Plant) -> Measurement:
         """What the law is told at a row.
 
         Speeds are differences of readings: their error is the change of the angles' error in a
         period.
         """
         angles, rates = self._read(row, plant)
-        return Told(angles, rates, *self._model.pose_and_jacobian(angles))
+        return Measurement(angles, rates, *self._model.pose_and_jacobian(angles))
 
     def _read(self, row: int, plant: Plant) -> tuple[Floats, Floats]:
         angles, rates = plant.encoder, plant.encoder_rates
@@ -76,7 +76,7 @@ class Senses:
             angles, rates = read, rates + (error - before) / self._period
         return angles, rates
 
-    def truth(self, plant: Plant, told: Told) -> tuple[Floats, Floats]:
+    def truth(self, plant: Plant, told: Measurement) -> tuple[Floats, Floats]:
         """The light's true pose (8,) and Jacobian (6, n), in the frame the law takes for base."""
         displaced = self.world.displaced
         if self.honest and not displaced and told.posture is plant.posture:
@@ -91,7 +91,7 @@ class Senses:
         return self._true.pose_and_jacobian(plant.posture)
 
 
-class ManySenses(Senses):
+class BatchedSensors(Sensors):
     """The same of many arms at once, which differ in their random numbers alone; arrays (B, ...).
 
     Raises:
@@ -106,7 +106,7 @@ class ManySenses(Senses):
         given: Disturbances,
         seeds: Sequence[int],
     ) -> None:
-        each = [Senses(kinematics, t, period, given, seed) for seed in seeds]
+        each = [Sensors(kinematics, t, period, given, seed) for seed in seeds]
         if any(one.believed is not kinematics for one in each):
             raise ModelsDifferError("the law's models of the arms differ")
         self.world, self._period = each[0].world, period
@@ -120,23 +120,23 @@ class ManySenses(Senses):
         self.honest = not self._encoders
 
     @override
-    def tell(self, row: int, plant: Plant) -> Told:
+    def tell(self, row: int, plant: Plant) -> Measurement:
         angles, rates = self._read(row, plant)
         if angles is plant.posture:
             self._found = self._arms.pose_and_jacobian(angles)
-            return Told(angles, rates, *self._found)
+            return Measurement(angles, rates, *self._found)
         # what is read and what is true at once: that costs little more than one of them
         x, J = self._arms.pose_and_jacobian(np.concatenate([angles, plant.posture]))
         count = len(angles)
         self._found = x[count:], J[count:]
-        return Told(angles, rates, x[:count], J[:count])
+        return Measurement(angles, rates, x[:count], J[:count])
 
     @override
     def _truth(self, plant: Plant) -> tuple[Floats, Floats]:
         return self._found
 
 
-class Late:
+class DelayLine:
     """Passes commands on some periods late; before the first one comes what holds the arm."""
 
     def __init__(self, delay: int, hold: Floats) -> None:

@@ -39,7 +39,7 @@ WIDE = 100_000  # columns: a table as wide as it is
 
 
 @dataclass(frozen=True, repr=False)
-class Studied(Generic[S]):
+class FinishedStudy(Generic[S]):
     """A finished study.
 
     Attributes:
@@ -108,7 +108,7 @@ def compare(
     jobs: int | None = None,
     cluster: str | None = None,
     **settings: Any,
-) -> Studied[Comparison]:
+) -> FinishedStudy[Comparison]:
     """Paint one drawing by several laws, plants or arms, as `dqpaint compare` does.
 
     Args:
@@ -142,7 +142,7 @@ def compare(
             figure=figure, size=size, **settings,
         )  # fmt: skip
         files = comparing.contents(made, figure, again)
-    return Studied(made, text, files, comparing.stem(made))
+    return FinishedStudy(made, text, files, comparing.stem(made))
 
 
 def sweep(
@@ -155,7 +155,7 @@ def sweep(
     jobs: int | None = None,
     cluster: str | None = None,
     **settings: Any,
-) -> Studied[Sweep]:
+) -> FinishedStudy[Sweep]:
     """Run a drawing over one or two axes of values, as `dqpaint sweep` does.
 
     Args:
@@ -180,7 +180,7 @@ def sweep(
         text = sweeping.told(made, figure, WIDE)
         again = _call("sweep", drawing, vary, runs=runs, figure=figure, **settings)
         files = sweeping.contents(made, figure, again)
-    return Studied(made, text, files, sweeping.stem(made))
+    return FinishedStudy(made, text, files, sweeping.stem(made))
 
 
 def tune(
@@ -196,7 +196,7 @@ def tune(
     jobs: int | None = None,
     cluster: str | None = None,
     **settings: Any,
-) -> Studied[Tuning]:
+) -> FinishedStudy[Tuning]:
     """Seek the gains with the least error within an effort bound, as `dqpaint tune` does.
 
     Args:
@@ -232,7 +232,7 @@ def tune(
             effort_figure=effort_figure, budget=budget, **settings,
         )  # fmt: skip
         files = tune_report.contents(made, again)
-    return Studied(made, text, files, tune_report.stem(made))
+    return FinishedStudy(made, text, files, tune_report.stem(made))
 
 
 def verify(

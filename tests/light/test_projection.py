@@ -1,14 +1,14 @@
 import numpy as np
 import pytest
 
-from dqpaint.light.film.projection import BATCH, Trail, bins
+from dqpaint.light.film.projection import BATCH, Projection, bins
 
 
 def trail_of(pixels, energy, breaks=()):
     """Steps from pixel to pixel (N, 2); before each break the lamp jumps, dark."""
     pixels = np.asarray(pixels, float).T
     steps = np.setdiff1d(np.arange(pixels.shape[1] - 1), breaks)
-    return Trail(
+    return Projection(
         pixels[:, :-1][:, steps], pixels[:, 1:][:, steps], np.asarray(energy).T[:, steps],
         np.zeros(3),
     )  # fmt: skip

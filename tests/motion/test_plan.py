@@ -11,7 +11,7 @@ from dqpaint.diagnostics.diagnostic import ScriptError
 from dqpaint.errors import UsageError
 from dqpaint.motion import plan, survey
 from dqpaint.motion.sampling import AT_ONCE
-from dqpaint.motion.schedule import Timetable
+from dqpaint.motion.schedule import Schedule
 from dqpaint.program.program import (
     MOST_ALLOWED,
     MOST_SAMPLES,
@@ -238,13 +238,13 @@ def test_a_drawing_s_own_budget():
 def test_a_long_stroke_is_surveyed_in_parts(monkeypatch):
     """As many rows at once as `AT_ONCE` says: a million of one curve took 700 MB."""
     rows = []
-    inner = Timetable.flow
+    inner = Schedule.flow
 
     def flow(self, stroke, tau, faults):
         rows.append(len(tau))
         return inner(self, stroke, tau, faults)
 
-    monkeypatch.setattr(Timetable, "flow", flow)
+    monkeypatch.setattr(Schedule, "flow", flow)
     curve = Curve(lambda t: (t * t * 0.1, t * 0.2, t * 0.0), 0.0, 1.0)
     drawing = program(stroke(curve, timing=Samples(40_000)), stroke(curve, timing=Samples(7)))
     found = survey(drawing)

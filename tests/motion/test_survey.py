@@ -12,7 +12,7 @@ from dqpaint.language import ScriptError, parse, read
 from dqpaint.motion import Motion, plan, survey
 from dqpaint.motion.geometry.arc_length import measure
 from dqpaint.motion.geometry.batched_shapes import gather
-from dqpaint.motion.geometry.orientations import Looking, LookingAtLine
+from dqpaint.motion.geometry.orientations import LookAtLine, LookAtPoint
 from dqpaint.motion.geometry.paths import Lines
 from dqpaint.motion.geometry.shapes import Loose
 from dqpaint.program.program import Cruise, Program
@@ -208,11 +208,11 @@ def test_a_look_is_steep_where_a_line_comes_close():
     ]:
         line = Lines(np.array([start], dtype=float), np.array([by], dtype=float))
         with np.errstate(all="ignore"):
-            assert (Looking(point, up).steepest(line)[0] > 1e9) == steep
+            assert (LookAtPoint(point, up).steepest(line)[0] > 1e9) == steep
     for start, steep in [((-1, 5, 0), True), ((-1, 5, 1), False)]:
         line = Lines(np.array([start], dtype=float), np.array([[2.0, 3.0, 0.0]]))
         with np.errstate(all="ignore"):
-            assert (LookingAtLine(point, up).steepest(line)[0] > 1e9) == steep
+            assert (LookAtLine(point, up).steepest(line)[0] > 1e9) == steep
 
 
 def test_one_more_line_on_which_the_tool_looks_costs_few_calls():

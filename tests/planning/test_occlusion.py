@@ -16,7 +16,7 @@ from dqpaint.planning.forecast_report import HIDDEN
 from dqpaint.planning.occlusion import hide, looks_at
 from dqpaint.planning.reachability import begin
 from dqpaint.plants import PLANTS
-from dqpaint.render.scene_arm import Staging
+from dqpaint.render.scene_arm import SceneArm
 from dqpaint.robots.bullet.client import bullet, joint_indices, quiet
 from dqpaint.robots.kinematics.collisions import shapes_of
 from dqpaint.robots.kinematics.differential_ik import LENGTH, THRESHOLD
@@ -100,7 +100,7 @@ def traced(arm, run, eye):
     motion, every = run.motion, np.ones(len(run.motion.t), dtype=bool)
     with (
         urdf_file(arm.card) as path,
-        Staging(path, run.posture, motion.period, motion.line) as staging,
+        SceneArm(path, run.posture, motion.period, motion.line) as staging,
     ):
         return staging.visible(motion.t, run.points[:, None], every, eye)[:, 0]
 

@@ -8,7 +8,7 @@ from dqpaint.light.camera.camera import View, frame
 from dqpaint.render import geometry_buffer
 from dqpaint.render.arm_shapes import Arm
 from dqpaint.render.geometry_buffer import Box, measure, projection_matrix, view_matrix
-from dqpaint.render.ray_casting import Twins
+from dqpaint.render.ray_casting import RayCaster
 from dqpaint.robots.bullet.client import bullet
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
@@ -82,7 +82,7 @@ def test_the_arm_has_the_colours_of_its_file():
 def test_rays_meet_what_is_seen(robot, rng, tmp_path):
     data = read_card("iiwa").urdf.path.parents[1]
     path = urdf(tmp_path, second=BALL) if robot == "plain" else data / robot
-    with Arm(path) as arm, Twins(arm) as twins:
+    with Arm(path) as arm, RayCaster(arm) as twins:
         arm.whiten()
         twins.stand(rng.normal(size=len(arm.joints)) * 0.5)
         camera = camera_at(rng, (640, 360))

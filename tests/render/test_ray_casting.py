@@ -7,7 +7,7 @@ from dqpaint import dq
 from dqpaint.light.camera.camera import View, frame
 from dqpaint.render.arm_shapes import Arm
 from dqpaint.render.geometry_buffer import measure
-from dqpaint.render.ray_casting import Twins
+from dqpaint.render.ray_casting import RayCaster
 from dqpaint.robots.model.card import read_card
 from dqpaint.robots.urdf.prepare import urdf_file
 from tests.support.urdf_shapes import BALL, BOX, urdf
@@ -36,7 +36,7 @@ def many_rays(rng, n, around):
 
 
 def test_a_ball_on_a_link_blocks_what_goes_through_it(rng, tmp_path):
-    with Arm(urdf(tmp_path, base="", first="", second=BALL)) as arm, Twins(arm) as twins:
+    with Arm(urdf(tmp_path, base="", first="", second=BALL)) as arm, RayCaster(arm) as twins:
         for posture in rng.uniform(-1, 1, (4, 2)):
             twins.stand(posture)
             centre = dq.translation(dq.mul(arm.frames(posture[None])[0, 2], arm.shapes[0].frame))
@@ -51,7 +51,7 @@ def test_a_ball_on_a_link_blocks_what_goes_through_it(rng, tmp_path):
 
 
 def test_a_base_whose_weight_is_elsewhere_blocks_where_it_is_drawn(rng, tmp_path):
-    with Arm(urdf(tmp_path, base=BOX, first="", second="")) as arm, Twins(arm) as twins:
+    with Arm(urdf(tmp_path, base=BOX, first="", second="")) as arm, RayCaster(arm) as twins:
         twins.stand(np.zeros(2))
         turn = np.array([np.cos(0.2), 0, 0, np.sin(0.2)])
         start, near = many_rays(rng, 4000, [0, 0, 0.1])
@@ -75,7 +75,7 @@ def test_rays_and_the_depth_buffer_agree(name, rng):
     if card.missing:
         pytest.skip(f"{name} needs {card.origin}")
     wrong = total = 0
-    with urdf_file(card) as path, Arm(path) as arm, Twins(arm) as twins:
+    with urdf_file(card) as path, Arm(path) as arm, RayCaster(arm) as twins:
         arm.whiten()
         for view in (View(30, 15), View(-70, 40)):
             place = rng.uniform([-0.4, -0.4, 0], [0.8, 0.4, 1.2], (2000, 3))
@@ -97,7 +97,7 @@ def test_rays_and_the_depth_buffer_agree(name, rng):
 
 
 def test_more_rays_than_one_call_takes_and_as_many_answers(rng, tmp_path):
-    with Arm(urdf(tmp_path)) as arm, Twins(arm) as twins:
+    with Arm(urdf(tmp_path)) as arm, RayCaster(arm) as twins:
         twins.stand(np.array([0.3, -0.2]))
         start, end = many_rays(rng, 33_000, [0, 0, 0.3])
         whole = twins.blocked(start, end)
@@ -127,7 +127,7 @@ def test_a_collada_mesh_blocks_where_its_triangles_are(rng, tmp_path):
     text = COLLADA.format(corners=" ".join(str(x) for x in CORNERS.ravel()))
     (tmp_path / "a.dae").write_text(text)
     mesh = '<visual><geometry><mesh filename="a.dae" scale="2 1.5 1"/></geometry></visual>'
-    with Arm(urdf(tmp_path, base="", first="", second=mesh)) as arm, Twins(arm) as twins:
+    with Arm(urdf(tmp_path, base="", first="", second=mesh)) as arm, RayCaster(arm) as twins:
         assert not twins.unread
         twins.stand(np.array([0.4, -0.7]))
         frame_of = dq.mul(arm.frames(np.array([[0.4, -0.7]]))[0, 2], arm.shapes[0].frame)
@@ -148,6 +148,6 @@ def test_a_collada_mesh_blocks_where_its_triangles_are(rng, tmp_path):
 def test_a_file_that_is_no_mesh_has_no_twin(tmp_path):
     (tmp_path / "junk.stl").write_text("junk")
     mesh = '<visual><geometry><mesh filename="junk.stl"/></geometry></visual>'
-    with Arm(urdf(tmp_path, second=mesh)) as arm, Twins(arm) as twins:
+    with Arm(urdf(tmp_path, second=mesh)) as arm, RayCaster(arm) as twins:
         assert [shape.link for shape in twins.unread] == [1]
         twins.stand(np.zeros(2))

@@ -13,7 +13,7 @@ from dqpaint.outputs import files
 from dqpaint.painting import video
 from dqpaint.painting.picture import lights_of
 from dqpaint.render.arm_shapes import Arm
-from dqpaint.render.scene_arm import Staging, account
+from dqpaint.render.scene_arm import SceneArm, account
 from tests.render.test_occlusion import EYE, Wall
 from tests.support.urdf_shapes import urdf
 
@@ -43,7 +43,7 @@ def test_no_light_hides_nothing():
 
 
 def test_nothing_is_loaded_before_it_is_needed(tmp_path):
-    with Staging(tmp_path / "nothing.urdf", np.zeros((3, 2)), 0.01) as staging:
+    with SceneArm(tmp_path / "nothing.urdf", np.zeros((3, 2)), 0.01) as staging:
         assert staging is not None
 
 
@@ -53,7 +53,7 @@ def test_the_posture_is_that_of_the_time():
     places = np.zeros((4, 1, 3))
     places[:, 0, 0] = [0.45, 1.1, 1.65, 2.5]
     for posture, expected in (([0] * 5, [1, 0, 0, 0]), ([0, 0, 0.2, 0.6, 0.6], [1, 1, 1, 0])):
-        staging = Staging("", np.array(posture, float)[:, None], 0.1)
+        staging = SceneArm("", np.array(posture, float)[:, None], 0.1)
         staging.__dict__["twins"] = Wall(0.5, 9)
         share = staging.visible(time, places, np.ones(4, bool), EYE)
         np.testing.assert_array_equal(share[:, 0], expected)
@@ -230,11 +230,11 @@ def test_meshes_that_are_not_there_are_a_remark(tmp_path):
     (tmp_path / "junk.stl").write_text("junk")
     junk = mesh.replace("nothere", "junk")
     for second, said in ((mesh, "a mesh of the arm"), (junk, "junk.stl"), ("", "no shape")):
-        with Staging(urdf(tmp_path, "", "", second), np.zeros((3, 2)), 0.01) as staging:
+        with SceneArm(urdf(tmp_path, "", "", second), np.zeros((3, 2)), 0.01) as staging:
             (remark,) = staging.remarks
             assert remark.startswith("warning: ")
             assert said in remark
             assert not staging.solid
-    with Staging(urdf(tmp_path), np.zeros((3, 2)), 0.01) as staging:
+    with SceneArm(urdf(tmp_path), np.zeros((3, 2)), 0.01) as staging:
         assert staging.remarks == []
         assert staging.solid

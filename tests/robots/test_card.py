@@ -10,7 +10,7 @@ from dqpaint import dq
 from dqpaint.cli.listing import lists
 from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.kinematics.start_posture import Start, find_start
+from dqpaint.robots.kinematics.start_posture import StartPosture, find_start
 from dqpaint.robots.model.card import Canvas, Card, Mount, card_names, installed_names, read_card
 
 
@@ -22,7 +22,7 @@ def test_every_arm_reaches_a_hand_around_its_canvas(name):
     )
     local = dq.pose_from(corners, np.tile([1.0, 0, 0, 0], (6, 1)))
     found = find_start(arm, dq.mul(arm.card.canvas.pose, local), np.arange(6.0))
-    assert isinstance(found, Start)
+    assert isinstance(found, StartPosture)
     assert found.margin > np.radians(10)
 
 

@@ -9,7 +9,7 @@ import pytest
 from dqpaint import dq
 from dqpaint.errors import DqpaintError, UnknownNameError, UsageError
 from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.kinematics.start_posture import Start, find_start
+from dqpaint.robots.kinematics.start_posture import StartPosture, find_start
 from dqpaint.robots.loading.load_file import read_file
 from dqpaint.robots.loading.lookup import find_card
 from dqpaint.robots.model.card import read_card
@@ -85,7 +85,7 @@ def test_a_derived_canvas_lies_well_inside_the_reach(name, monkeypatch):
     corners = 0.08 * np.array([[0, 0, 0], [1, 1, 0], [-1, 1, 0], [-1, -1, 0], [1, -1, 0]])
     poses = dq.mul(canvas.pose, dq.pose_from(corners, np.tile([1.0, 0, 0, 0], (5, 1))))
     found = find_start(arm, poses, 3.0 * np.arange(5))
-    assert isinstance(found, Start)
+    assert isinstance(found, StartPosture)
     assert found.margin > np.radians(8)
     assert ((card.lower <= home) & (home <= card.upper)).all()
 

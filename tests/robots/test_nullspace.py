@@ -10,7 +10,13 @@ from dqpaint.language import parse
 from dqpaint.motion import plan
 from dqpaint.plants import PLANTS
 from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.kinematics.nullspace import OBJECTIVES, Wish, make_pull, make_wish, read_null
+from dqpaint.robots.kinematics.nullspace import (
+    OBJECTIVES,
+    SecondaryTask,
+    make_pull,
+    make_wish,
+    read_null,
+)
 from dqpaint.robots.model.card import installed_names, read_card
 from dqpaint.simulation.closed_loop import track
 from dqpaint.simulation.drives import make_drive
@@ -156,7 +162,7 @@ def test_what_a_wish_does_in_a_time():
 def test_texts():
     assert read_null("limits") == ("limits", OBJECTIVES["limits"].usual)
     assert read_null("limits,gain=3") == read_null("limits:gain=3") == ("limits", 3.0)
-    assert isinstance(make_wish("home", CARD, CARD.home), Wish)
+    assert isinstance(make_wish("home", CARD, CARD.home), SecondaryTask)
     for text, said in (
         ("limits,gain=-1", "gain -1.0 should be greater than or equal to 0"),
         ("limits,gain=21", "gain 21.0 should be less than or equal to 20"),

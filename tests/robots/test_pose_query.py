@@ -60,7 +60,7 @@ def test_a_translation_is_a_screw_without_a_turn():
 def test_a_pure_translation_is_told_as_one():
     card = VIPER.model_copy(update={"tool": VIPER.tool})
     posed = pose_query.pose_arm(card, card.home, flange=False)
-    still = pose_query.Posed(
+    still = pose_query.PoseReport(
         card, False, card.home, dq.pose_from([0, 0, 0.5], [1.0, 0, 0, 0]), posed.jacobian, ()
     )
     assert "a translation, no turn" in pose_text.text(still)

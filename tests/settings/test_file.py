@@ -10,7 +10,7 @@ from dqpaint import __version__
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.outputs.files import summarise
 from dqpaint.painting.validate import check_each
-from dqpaint.settings.file import Given, read_given
+from dqpaint.settings.file import SettingsFile, read_given
 from dqpaint.settings.model import Settings, make_settings, parse_disturbances, parse_gains
 
 TOML = """# a camera, a law, a lamp
@@ -82,11 +82,11 @@ def test_a_version_that_is_not_this_one_is_told(file):
     given = read_given(file('dqpaint = "0.0.9"\n'), check_each)
     assert given.remarks("") == (f"given.toml is for dqpaint 0.0.9, this is {__version__}",)
     assert read_given(file(f'dqpaint = "{__version__}"\n'), check_each).remarks("") == ()
-    assert Given().remarks("") == ()
+    assert SettingsFile().remarks("") == ()
 
 
 def test_what_is_typed_wins_by_name():
-    given = Given("a.toml", {
+    given = SettingsFile("a.toml", {
         "controller": "p", "gains": {"k": 3.0}, "view": "iso", "ghost": True,
         "disturb": {"payload": {"": 1.0}, "noise": {"": 1.0}},
     })  # fmt: skip
@@ -98,7 +98,7 @@ def test_what_is_typed_wins_by_name():
     assert given.under({"gains": {"k": 4.0}})["gains"] == {"k": 4.0}
     assert given.under({"controller": "p"})["gains"] == {"k": 3.0}
     assert "gains" not in given.under({"controller": "pff"})  # they are those of another law
-    assert Given("b.toml", {"gains": {"K_T": 9.0}}).under({"controller": "hinf"})["gains"]
+    assert SettingsFile("b.toml", {"gains": {"K_T": 9.0}}).under({"controller": "hinf"})["gains"]
 
 
 def test_a_file_that_is_named_is_looked_for_beside_the_settings(file, tmp_path, monkeypatch):

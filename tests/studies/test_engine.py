@@ -13,7 +13,7 @@ from dqpaint.errors import DqpaintError, OutputError, UsageError
 from dqpaint.settings.model import make_settings
 from dqpaint.studies.runner import process_pool
 from dqpaint.studies.runner.engine import carry_out_study
-from dqpaint.studies.runner.journal import NAME, Record
+from dqpaint.studies.runner.journal import NAME, Journal
 from dqpaint.studies.runner.run import Result, Run, drawing_text, result_of, run_of, seeded
 from dqpaint.studies.runner.run_arrays import kept, place
 from tests.support.processes import start, wait_for_lines, wait_for_the_end
@@ -149,27 +149,27 @@ def test_runs_and_results_are_read_back_as_they_were():
 
 def test_a_record_forgets_a_line_that_was_cut_off_and_no_other(tmp_path):
     first, second = Result("a", "done", figures={"x": 1.5}), Result("b", "failed", "why")
-    with Record(tmp_path) as record:
+    with Journal(tmp_path) as record:
         record.add(first)
         record.add(second)
     path = tmp_path / NAME
     path.write_bytes(path.read_bytes()[:-5])
-    with Record(tmp_path) as record:
+    with Journal(tmp_path) as record:
         assert record.results == {"a": first}
         record.add(second)
-    with Record(tmp_path) as record:
+    with Journal(tmp_path) as record:
         assert record.results == {"a": first, "b": second}
     path.write_text(first.line + "colour\n")
     with pytest.raises(DqpaintError, match="line 2 is not the result of a run"):
-        Record(tmp_path)
+        Journal(tmp_path)
 
 
 def test_a_record_is_one_study_s_at_a_time(tmp_path):
-    with Record(tmp_path), pytest.raises(DqpaintError, match="another study is at work"):
-        Record(tmp_path)
+    with Journal(tmp_path), pytest.raises(DqpaintError, match="another study is at work"):
+        Journal(tmp_path)
     (tmp_path / "file").write_text("")
     with pytest.raises(OutputError, match="cannot be written"):
-        Record(tmp_path / "file")
+        Journal(tmp_path / "file")
 
 
 def test_what_is_kept_is_there_or_is_made_again(tmp_path):

@@ -19,7 +19,7 @@ def drawn(*labels, scale=1e-3):
     error = scale * (1 + T)
     series = {"t_s": T, "orientation_error_rad": 0.01 * T}
     return [
-        pictures.Drawn(label, {**series, "position_error_m": error * (i + 1)})
+        pictures.DrawnRun(label, {**series, "position_error_m": error * (i + 1)})
         for i, label in enumerate(labels)
     ]
 

@@ -21,8 +21,8 @@ from dqpaint.studies.experiment.statistics import spread
 from dqpaint.studies.kinds import replay
 from dqpaint.studies.replay.measures import (
     MEASURES,
-    Asked,
-    Measured,
+    MeasureRequest,
+    MeasureResult,
     cost,
     gain_grid,
     setpoint,
@@ -131,7 +131,7 @@ def test_late_replays_show_errors_over_time(tmp_path, monkeypatch):
         for cell in paper.cells
     )
     monkeypatch.setattr(late, "carry_out", lambda *choices, **more: cells)
-    made = late.late(paper, Asked(tmp_path))
+    made = late.late(paper, MeasureRequest(tmp_path))
     assert list(made.shown) == ["-published", "-errors"]
     panels = made.shown["-errors"].panels
     assert [panel.title for panel in panels[:2]] == ["HIR: position error", "HIRT: position error"]
@@ -167,7 +167,7 @@ def test_the_clock_ticks_at_its_rate(monkeypatch):
 @pytest.mark.slow
 def test_the_timing_of_every_law_is_taken(monkeypatch, tmp_path):
     monkeypatch.setattr(timing, "SECONDS", 0.08)
-    found = timing.timing(read_paper("thesis-timing"), Asked(tmp_path))
+    found = timing.timing(read_paper("thesis-timing"), MeasureRequest(tmp_path))
     assert set(found.numbers) == {cell.name for cell in read_paper("thesis-timing").cells}
     assert found.numbers["K, 8 ms"]["period_s"].mean > 0.007
     panels = found.shown["-histogram"].panels
@@ -197,10 +197,10 @@ def test_the_grid_of_the_surfaces():
 
 
 def made_up(paper, numbers):
-    measured = Measured(
+    measured = MeasureResult(
         {n: {f: spread([v]) for f, v in row.items()} for n, row in numbers.items()}, "x"
     )
-    return replay.Replayed(paper, measured, replay.judged(paper, measured.numbers), Path())
+    return replay.Replay(paper, measured, replay.judged(paper, measured.numbers), Path())
 
 
 @pytest.mark.parametrize(
@@ -268,11 +268,11 @@ def test_the_report_of_a_replay_has_curves(tmp_path):
 def test_what_a_replay_has_no_use_for_is_refused(tmp_path):
     for name in ("ozgur-cost", "pham-setpoint", "thesis-timing"):
         with pytest.raises(UsageError, match=f"replay '{name}' takes no --plant"):
-            replay.replay(name, Asked(tmp_path, settings={"plant": "stiff"}))
+            replay.replay(name, MeasureRequest(tmp_path, settings={"plant": "stiff"}))
         for word, asked in (
-            ("runs", Asked(tmp_path, runs=3)),
-            ("jobs", Asked(tmp_path, jobs=2)),
-            ("cluster", Asked(tmp_path, jobs="tcp://127.0.0.1:1")),
+            ("runs", MeasureRequest(tmp_path, runs=3)),
+            ("jobs", MeasureRequest(tmp_path, jobs=2)),
+            ("cluster", MeasureRequest(tmp_path, jobs="tcp://127.0.0.1:1")),
         ):
             with pytest.raises(UsageError, match=f"replay '{name}' takes no --{word}"):
                 replay.replay(name, asked)
@@ -293,7 +293,7 @@ def test_a_replay_from_the_command_to_its_files(tmp_path, monkeypatch, capsys):
     lines = [json.loads(line) for line in (study / "runs.jsonl").read_text().splitlines()]
     done = {line["key"]: line["figures"]["error_integral"] for line in lines}
     paper = read_paper("thesis-circle")
-    choice = tracking.settings_of(paper, Asked(study, settings={"plant": "ideal"}),
+    choice = tracking.settings_of(paper, MeasureRequest(study, settings={"plant": "ideal"}),
                                   paper.cells[0].settings)  # fmt: skip
     of_first = seeded(Run(*drawing_text("circle"), choice, tracking.KEPT), 2)
     errors = [done[run.key] for run in of_first]

@@ -11,7 +11,7 @@ from dqpaint.diagnostics.diagnostic import Span
 from dqpaint.motion.geometry.batched_shapes import shape
 from dqpaint.motion.geometry.shapes import Flow
 from dqpaint.motion.profiles import Progress
-from dqpaint.motion.schedule import Timetable, timetable
+from dqpaint.motion.schedule import Schedule, timetable
 from dqpaint.program import piecewise, taylor
 from dqpaint.program.program import (
     Arc,
@@ -136,7 +136,7 @@ def program(*segments, period=0.008, placement=None):
 class Stroke:
     """One stroke of a timetable."""
 
-    table: Timetable
+    table: Schedule
     number: int
 
     @property

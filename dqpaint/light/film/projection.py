@@ -21,7 +21,7 @@ matrix products would be spread over threads, for more than they take."""
 
 
 @dataclass(frozen=True, eq=False)
-class Trail:
+class Projection:
     """M lit steps in the order of time, each a straight piece of the picture.
 
     Attributes:
@@ -42,10 +42,10 @@ class Trail:
         way = self.end - self.start
         return cast(Floats, np.sqrt(way[0] ** 2 + way[1] ** 2))
 
-    def part(self, steps: slice) -> Trail:
+    def part(self, steps: slice) -> Projection:
         """Some of the steps; what fell outside is not among them."""
         start, end, energy = (of[:, steps] for of in (self.start, self.end, self.energy))
-        return Trail(start, end, energy, np.zeros(3))
+        return Projection(start, end, energy, np.zeros(3))
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +65,7 @@ class Bins:
     alone: NDArray[np.bool_]
 
 
-def trace(light: Light, camera: Camera, margin: float) -> Iterator[Trail]:
+def trace(light: Light, camera: Camera, margin: float) -> Iterator[Projection]:
     """What of `light` falls on the picture and a margin round it, a batch at a time.
 
     A step that crosses the edge is cut there and keeps its share by length. A step with an end
@@ -85,7 +85,7 @@ def trace(light: Light, camera: Camera, margin: float) -> Iterator[Trail]:
             yield _trace(points[begin : begin + len(some) + 1], some, camera, margin)
 
 
-def _trace(points: Floats, energy: Floats, camera: Camera, margin: float) -> Trail:
+def _trace(points: Floats, energy: Floats, camera: Camera, margin: float) -> Projection:
     """The same for one batch: points (N, 3), energy (N-1, 3)."""
     pixels, depth = camera.project(points)
     start, end = pixels[:-1].T, pixels[1:].T
@@ -114,7 +114,7 @@ def _trace(points: Floats, energy: Floats, camera: Camera, margin: float) -> Tra
         end[:, cut] = np.clip(a + leave * (b - a), low, high)
         some = left.any(axis=0)
         start, end, left = start[:, some], end[:, some], left[:, some]
-    return Trail(start, end, left, lost)
+    return Projection(start, end, left, lost)
 
 
 def _clip(start: Floats, end: Floats, low: Floats, high: Floats) -> tuple[Floats, Floats]:
@@ -134,7 +134,7 @@ def _clip(start: Floats, end: Floats, low: Floats, high: Floats) -> tuple[Floats
     return np.clip(enter, 0.0, 1.0), np.clip(leave, 0.0, 1.0)
 
 
-def bins(trail: Trail, step: float) -> Iterator[Bins]:
+def bins(trail: Projection, step: float) -> Iterator[Bins]:
     """The trail in pieces at most `step` long, a batch at a time.
 
     The time law of the lamp has no say in where a path is cut: each unbroken run of steps is cut
@@ -160,7 +160,7 @@ def bins(trail: Trail, step: float) -> Iterator[Bins]:
             first = last
 
 
-def _bin(trail: Trail, step: float) -> Bins:
+def _bin(trail: Projection, step: float) -> Bins:
     """The same for one batch: whole steps are added up from cut to cut, those with cuts shared."""
     start, end, energy, length = trail.start, trail.end, trail.energy, trail.length
     path = np.cumsum(length)  # walked at the end of each step
@@ -199,7 +199,7 @@ def _bin(trail: Trail, step: float) -> Bins:
 
 
 def _share(
-    total: Floats, after: NDArray[np.int64], trail: Trail, on: NDArray[np.int64], part: Floats
+    total: Floats, after: NDArray[np.int64], trail: Projection, on: NDArray[np.int64], part: Floats
 ) -> None:
     """Add steps with cuts to the bins at either side of each cut.
 

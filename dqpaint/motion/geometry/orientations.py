@@ -43,10 +43,10 @@ def orientation(segments: Sequence[Segment], places: Places) -> Spin:
         return Turning(r0, 2 * dq.log(dq.pose_from(np.zeros((len(segments), 3)), step))[:, :3])
     if isinstance(first, Look):
         looks = [s.tool for s in segments if isinstance(s.tool, Look)]
-        return Looking(column([t.point for t in looks]), column([t.up for t in looks]))
+        return LookAtPoint(column([t.point for t in looks]), column([t.up for t in looks]))
     if isinstance(first, LookLine):
         at = [s.tool for s in segments if isinstance(s.tool, LookLine)]
-        return LookingAtLine(column([t.point for t in at]), column([t.along for t in at]))
+        return LookAtLine(column([t.point for t in at]), column([t.along for t in at]))
     arcs = [s.path for s in segments if isinstance(s.path, Arc)]
     if arcs:
         return Turning(r0, column([[a.angle] for a in arcs]) * column([a.axis for a in arcs]))
@@ -124,7 +124,7 @@ def _across(axis: Floats) -> Floats:
 
 
 @dataclass(frozen=True)
-class Looking(Rowed):
+class LookAtPoint(Rowed):
     """Tool z towards `point`, x = up x z made a unit vector, y = z x x."""
 
     point: Floats
@@ -150,7 +150,7 @@ class Looking(Rowed):
 
 
 @dataclass(frozen=True)
-class LookingAtLine(Rowed):
+class LookAtLine(Rowed):
     """Tool z square to the line and towards it, x along the line, y = z x x."""
 
     point: Floats

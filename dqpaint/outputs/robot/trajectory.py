@@ -42,14 +42,14 @@ class Trajectory:
     about: tuple[str, ...]
 
 
-class Exported(NamedTuple):
+class ExportFile(NamedTuple):
     """A file: how its name ends, and its text."""
 
     ending: str
     text: str
 
 
-Format = Callable[[Trajectory], Exported]
+Format = Callable[[Trajectory], ExportFile]
 FORMATS: Registry[Format] = Folder("format", "dqpaint.outputs.robot")
 
 CAUTION = (

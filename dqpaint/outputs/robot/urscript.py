@@ -7,7 +7,7 @@ movep have time laws of their own, and the light would come too early or too lat
 import re
 
 from dqpaint.errors import UsageError
-from dqpaint.outputs.robot.trajectory import FORMATS, Exported, Trajectory, commented
+from dqpaint.outputs.robot.trajectory import FORMATS, ExportFile, Trajectory, commented
 
 JOINTS = ("shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3")
 SHORTEST = 0.002  # [s] of a servoj
@@ -18,7 +18,7 @@ END = "  stopj(1.0)\nend\n"
 
 
 @FORMATS.add("urscript")
-def urscript(trajectory: Trajectory) -> Exported:
+def urscript(trajectory: Trajectory) -> ExportFile:
     """A program for a Universal Robots arm: movej to the first posture, then servoj.
 
     Raises:
@@ -48,7 +48,7 @@ def urscript(trajectory: Trajectory) -> Exported:
         *(f"  servoj({posture}, {step})" for posture in postures[1:]),
     ]
     text = commented((*trajectory.about, *notes)) + "\n".join(lines) + "\n" + END + f"{name}()\n"
-    return Exported(".script", text)
+    return ExportFile(".script", text)
 
 
 def is_universal(joints: tuple[str, ...]) -> bool:

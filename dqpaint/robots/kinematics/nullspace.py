@@ -164,7 +164,7 @@ class Nothing:
 _BEFORE = np.triu(np.ones((64, 64)), 1)
 
 
-class Wish:
+class SecondaryTask:
     """An objective with its gain: what the null space is asked for."""
 
     def __init__(self, objective: Objective, gain: float) -> None:
@@ -205,14 +205,14 @@ def read_null(text: str) -> tuple[str, float]:
     return name, usual if given is None else given
 
 
-def make_wish(text: str, card: Card, start: Floats) -> Wish:
+def make_wish(text: str, card: Card, start: Floats) -> SecondaryTask:
     """The wish of an arm that begins in a posture (n,) [rad].
 
     Raises:
         UsageError: as `read_null`.
     """
     name, gain = read_null(text)
-    return Wish(OBJECTIVES[name](card, start), gain)
+    return SecondaryTask(OBJECTIVES[name](card, start), gain)
 
 
 def make_pull(text: str, kinematics: Kinematics) -> Callable[[Floats, Floats, float], Floats]:
@@ -228,7 +228,7 @@ def make_pull(text: str, kinematics: Kinematics) -> Callable[[Floats, Floats, fl
         ways = []
         for posture, start in zip(postures, starts, strict=True):
             x, J = kinematics.pose_and_jacobian(posture)
-            wish = Wish(OBJECTIVES[name](card, start), gain)
+            wish = SecondaryTask(OBJECTIVES[name](card, start), gain)
             ways.append(wish.over(seconds, posture, J, dq.translation(x)))
         return np.array(ways)
 

@@ -35,7 +35,7 @@ SEED = 1988
 
 
 @dataclass(frozen=True)
-class Start:
+class StartPosture:
     """Where to begin, and what the forecast along the path says.
 
     Attributes:
@@ -48,7 +48,7 @@ class Start:
 
 
 @dataclass(frozen=True)
-class Miss:
+class NoPosture:
     """A pose of the path for which no posture was found.
 
     Attributes:
@@ -77,7 +77,7 @@ def to_start(postures: Floats, starts: Floats, seconds: float) -> Floats:
 
 def find_start(
     kinematics: Kinematics, poses: Floats, seconds: Floats, pull: Pull = to_start
-) -> Start | Miss:
+) -> StartPosture | NoPosture:
     """The posture to begin with, for poses (N, 8) asked at times (N,) [s].
 
     A second, larger crowd of candidates is tried where the first one does not reach, or would
@@ -90,17 +90,17 @@ def find_start(
         pull: what the null space does meanwhile.
     """
     found = _find_start(kinematics, poses, seconds, CANDIDATES, pull)
-    if isinstance(found, Start) and found.margin >= 0:
+    if isinstance(found, StartPosture) and found.margin >= 0:
         return found
     again = _find_start(kinematics, poses, seconds, MORE_CANDIDATES, pull)
-    if isinstance(again, Miss) and isinstance(found, Miss):
+    if isinstance(again, NoPosture) and isinstance(found, NoPosture):
         return max(found, again, key=lambda miss: miss.index)
-    return again if isinstance(again, Start) else found
+    return again if isinstance(again, StartPosture) else found
 
 
 def _find_start(
     kinematics: Kinematics, poses: Floats, seconds: Floats, candidates: int, pull: Pull
-) -> Start | Miss:
+) -> StartPosture | NoPosture:
     card = kinematics.card
     rng = np.random.default_rng(SEED)
     seeds = rng.uniform(card.lower, card.upper, (candidates - 1, card.joints))
@@ -130,7 +130,7 @@ def waypoints(strokes: NDArray[np.int64]) -> NDArray[np.intp]:
 
 def _follow(
     kinematics: Kinematics, poses: Floats, seconds: Floats, starts: Floats, pull: Pull
-) -> Start | Miss:
+) -> StartPosture | NoPosture:
     """The best of the starts (M, n) by its least margin over the path."""
     postures, margin = starts.copy(), _margins(kinematics, starts)
     alive = np.arange(len(starts))
@@ -148,7 +148,7 @@ def _follow(
     # an elbow limit is the same for all the postures of a redundant arm: of equals, the homeliest
     good = alive[margin[alive] >= margin[alive].max() - EQUAL]
     best = good[np.argmin(np.linalg.norm(starts[good] - kinematics.card.home, axis=1))]
-    return Start(starts[best], float(margin[best]))
+    return StartPosture(starts[best], float(margin[best]))
 
 
 def _margins(kinematics: Kinematics, postures: Floats) -> Floats:
@@ -218,7 +218,7 @@ def strays(kinematics: Kinematics, poses: Floats) -> Floats:
     return left
 
 
-def shortfall(kinematics: Kinematics, pose: Floats) -> Miss:
+def shortfall(kinematics: Kinematics, pose: Floats) -> NoPosture:
     """How close the arm comes to a pose (8,) that nothing reaches."""
     card = kinematics.card
     seeds = np.random.default_rng(SEED).uniform(card.lower, card.upper, (MANY, card.joints))
@@ -228,7 +228,7 @@ def shortfall(kinematics: Kinematics, pose: Floats) -> Miss:
     )[0]
 
 
-def closest(kinematics: Kinematics, pose: Floats, postures: Floats) -> tuple[Miss, Floats]:
+def closest(kinematics: Kinematics, pose: Floats, postures: Floats) -> tuple[NoPosture, Floats]:
     """How close the arm comes to a pose (8,) inside its limits, and in which posture (n,).
 
     From the best few of some postures (M, n), once with the orientation kept, once with the place;
@@ -237,7 +237,7 @@ def closest(kinematics: Kinematics, pose: Floats, postures: Floats) -> tuple[Mis
     card = kinematics.card
     errors = np.abs(_error(pose, kinematics.poses_and_jacobians(postures)[0])).max(axis=1)
     few = np.clip(postures[np.argsort(errors)[:CANDIDATES]], card.lower, card.upper)
-    best, posture = Miss(0, np.inf, 0.0), few[0]
+    best, posture = NoPosture(0, np.inf, 0.0), few[0]
     for weights in KEPT_TURN, KEPT_PLACE:
         q = few
         for weight in np.repeat(weights, DESCENT):
@@ -245,7 +245,7 @@ def closest(kinematics: Kinematics, pose: Floats, postures: Floats) -> tuple[Mis
             error = _at_tool(pose, x)
             far, turned = np.linalg.norm(error[:, 3:], axis=1), np.linalg.norm(error[:, :3], axis=1)
             i = int(np.argmin(far + TURN * turned))
-            here = Miss(0, float(far[i]), float(turned[i]))
+            here = NoPosture(0, float(far[i]), float(turned[i]))
             if here.badness < best.badness:
                 best, posture = here, q[i]
             scale = np.array([weight] * 3 + [1.0] * 3)

@@ -7,7 +7,7 @@ from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.robots.kinematics.differential_ik import to_tool
 from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.kinematics.start_posture import Miss, find_start, solve_posture
+from dqpaint.robots.kinematics.start_posture import NoPosture, find_start, solve_posture
 from dqpaint.robots.model.card import Canvas, Card
 
 SAMPLES = 20000  # postures that are looked at
@@ -85,7 +85,7 @@ def find_home(card: Card, canvas: Canvas) -> Floats:
         DqpaintError: the arm does not reach it.
     """
     found = find_start(Kinematics(card), canvas.pose[None], np.zeros(1))
-    if isinstance(found, Miss):
+    if isinstance(found, NoPosture):
         raise DqpaintError(
             f"{card.name} does not reach its canvas: it stays {found.shortfall * 1e3:.0f} mm away"
         )
@@ -138,6 +138,6 @@ def _room_around(arm: Kinematics, canvas: Canvas, hand: float) -> float:
     local = dq.pose_from(corners, np.array([1.0, 0, 0, 0]))
     seconds = np.arange(len(corners), dtype=np.float64)
     found = find_start(arm, dq.mul(canvas.pose, local), 3.0 * seconds)
-    if isinstance(found, Miss):
+    if isinstance(found, NoPosture):
         return -1.0
     return min(found.margin / float(ROOM), float(_room(arm, found.posture[None])[0]))

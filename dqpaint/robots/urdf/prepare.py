@@ -25,7 +25,7 @@ BALL = 0.05  # [m], radius of the ball that stands for a shape nobody gave
 LIGHTEST = 0.1  # [kg], of a link that moves and has no mass
 
 
-class Prepared(NamedTuple):
+class PreparedUrdf(NamedTuple):
     """A description, and what had to be assumed for it, a sentence each."""
 
     text: str
@@ -33,7 +33,7 @@ class Prepared(NamedTuple):
     whole: bool = True  # whether every mesh is there
 
 
-def prepare(card: Card) -> Prepared:
+def prepare(card: Card) -> PreparedUrdf:
     """The description of a card's arm.
 
     Raises:
@@ -41,7 +41,7 @@ def prepare(card: Card) -> Prepared:
         DqpaintError: the file is no tree of links, or the arm has joints that do not turn.
     """
     if card.urdf is None:
-        return Prepared(write_urdf(card), ())
+        return PreparedUrdf(write_urdf(card), ())
     tree = Tree(card.urdf.path)
     arm = tree.arm(card.link)
     if len(arm) != card.joints:
@@ -59,7 +59,7 @@ def prepare(card: Card) -> Prepared:
                 joint.element.remove(dynamics)
     weighed, missing = list(_weigh(tree)), list(_find_meshes(tree))
     text = Xml.tostring(tree.robot, encoding="unicode")
-    return Prepared(text, (*weighed, *missing), not missing)
+    return PreparedUrdf(text, (*weighed, *missing), not missing)
 
 
 @contextmanager

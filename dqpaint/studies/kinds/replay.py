@@ -13,8 +13,15 @@ import numpy as np
 from dqpaint.outputs import files
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.statistics import Spread
-from dqpaint.studies.replay.claims import Numbers, Verdict, judge, lines_of, published, told_apart
-from dqpaint.studies.replay.measures import MEASURES, Asked, Measured
+from dqpaint.studies.replay.claims import (
+    ClaimVerdict,
+    Numbers,
+    judge,
+    lines_of,
+    published,
+    told_apart,
+)
+from dqpaint.studies.replay.measures import MEASURES, MeasureRequest, MeasureResult
 from dqpaint.studies.replay.papers import Claim, Figure, Paper, read_paper
 from dqpaint.studies.report.page import Block, Page, Rows, Tables, Words, files_of, html
 
@@ -28,11 +35,11 @@ BARS = (
     "deviation. Where numbers are more than 20 times apart, a dot stands on a logarithmic line "
     "from the least to the largest. A click on a heading sorts its table."
 )
-PRINTED = Verdict("holds", "its own numbers")
+PRINTED = ClaimVerdict("holds", "its own numbers")
 
 
 @dataclass(frozen=True)
-class Replayed:
+class Replay:
     """What came of a replay.
 
     Attributes:
@@ -43,12 +50,12 @@ class Replayed:
     """
 
     paper: Paper
-    measured: Measured
-    verdicts: tuple[tuple[Claim, Verdict, Verdict], ...]
+    measured: MeasureResult
+    verdicts: tuple[tuple[Claim, ClaimVerdict, ClaimVerdict], ...]
     folder: Path
 
 
-def replay(name: str, asked: Asked) -> Replayed:
+def replay(name: str, asked: MeasureRequest) -> Replay:
     """Do a paper's experiment again.
 
     Args:
@@ -61,10 +68,10 @@ def replay(name: str, asked: Asked) -> Replayed:
     """
     paper = read_paper(name)
     found = MEASURES[paper.measure](paper, asked)
-    return Replayed(paper, found, judged(paper, found.numbers), asked.folder)
+    return Replay(paper, found, judged(paper, found.numbers), asked.folder)
 
 
-def judged(paper: Paper, ours: Numbers) -> tuple[tuple[Claim, Verdict, Verdict], ...]:
+def judged(paper: Paper, ours: Numbers) -> tuple[tuple[Claim, ClaimVerdict, ClaimVerdict], ...]:
     """Every claim, by the paper's numbers and by ours."""
     theirs = published(paper)
     return tuple(
@@ -77,7 +84,7 @@ def judged(paper: Paper, ours: Numbers) -> tuple[tuple[Claim, Verdict, Verdict],
     )
 
 
-def tables(replayed: Replayed) -> list[tuple[Figure, list[list[str]]]]:
+def tables(replayed: Replay) -> list[tuple[Figure, list[list[str]]]]:
     """A table a figure: cell, the paper's number, ours, and ours by the paper's, if it prints any.
 
     The cells of a grid have tables of their own, see `surfaces`.
@@ -101,7 +108,7 @@ def tables(replayed: Replayed) -> list[tuple[Figure, list[list[str]]]]:
     return found
 
 
-def in_order(replayed: Replayed, figure: Figure) -> str:
+def in_order(replayed: Replay, figure: Figure) -> str:
     """How much of the paper's order is found here, in a sentence; empty where there is none.
 
     Means are told apart by the rule of `RULE`, theirs and ours alike.
@@ -123,7 +130,7 @@ def in_order(replayed: Replayed, figure: Figure) -> str:
     )
 
 
-def surfaces(replayed: Replayed) -> list[tuple[Figure, list[list[str]]]]:
+def surfaces(replayed: Replay) -> list[tuple[Figure, list[list[str]]]]:
     """A table a figure of a grid: the first axis downwards, the second to the right."""
     paper, ours = replayed.paper, replayed.measured.numbers
     if not paper.axes:
@@ -160,7 +167,7 @@ def _quotient(theirs: Spread | None, ours: Spread | None) -> str:
     return f"{ours.mean / theirs.mean:.3g}"
 
 
-def verdict_rows(replayed: Replayed) -> list[list[str]]:
+def verdict_rows(replayed: Replay) -> list[list[str]]:
     """The claims: what is said, where, by the paper's numbers, by ours."""
     rows = [["claim", "in", "by the paper's numbers", "here"]]
     for claim, theirs, ours in replayed.verdicts:
@@ -194,7 +201,7 @@ def _number(value: object) -> str:
     return f"{value:g}" if isinstance(value, float) else str(value)
 
 
-def summary(verdicts: Sequence[tuple[Claim, Verdict, Verdict]]) -> str:
+def summary(verdicts: Sequence[tuple[Claim, ClaimVerdict, ClaimVerdict]]) -> str:
     """How many claims hold, in a line."""
     words = [ours.word for _, _, ours in verdicts]
     same = sum(theirs.word == ours.word for _, theirs, ours in verdicts)
@@ -203,7 +210,7 @@ def summary(verdicts: Sequence[tuple[Claim, Verdict, Verdict]]) -> str:
     return f"{text}; {same} of {known} as by the paper's own numbers" if known else text
 
 
-def told(replayed: Replayed, columns: int) -> str:
+def told(replayed: Replay, columns: int) -> str:
     """The whole of it for a terminal."""
     paper, measured = replayed.paper, replayed.measured
     parts = [f"{paper.name}: {paper.title}\n{paper.source}\n"
@@ -224,7 +231,7 @@ def told(replayed: Replayed, columns: int) -> str:
     return "\n\n".join(parts)
 
 
-def _listed(bullet: str, replayed: Replayed) -> list[str]:
+def _listed(bullet: str, replayed: Replay) -> list[str]:
     """What has no numbers, and what cannot be tested."""
     lost = [f"{bullet}{name}: {why}" for name, why in replayed.measured.lost.items()]
     parts = [
@@ -235,7 +242,7 @@ def _listed(bullet: str, replayed: Replayed) -> list[str]:
     return [gap.join([head, "\n".join(lines)]) for head, lines in parts if lines]
 
 
-def markdown(replayed: Replayed) -> str:
+def markdown(replayed: Replay) -> str:
     """The whole of it as a page."""
     paper, measured = replayed.paper, replayed.measured
     parts = [f"# {paper.name}: {paper.title}", paper.source,
@@ -251,7 +258,7 @@ def markdown(replayed: Replayed) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def numbers_csv(replayed: Replayed) -> bytes:
+def numbers_csv(replayed: Replay) -> bytes:
     """Every number, all digits: cell, figure, table, the paper's, ours."""
     theirs, ours = published(replayed.paper), replayed.measured.numbers
     where = {cell.name: cell.table for cell in replayed.paper.cells}
@@ -277,7 +284,7 @@ def _row(value: Spread | None) -> list[object]:
     return [value.n, value.mean, value.std if np.isfinite(value.std) else ""]
 
 
-def verdicts_csv(replayed: Replayed) -> bytes:
+def verdicts_csv(replayed: Replay) -> bytes:
     """The claims and both verdicts."""
     file = io.StringIO()
     out = writer(file, lineterminator="\n")
@@ -288,7 +295,7 @@ def verdicts_csv(replayed: Replayed) -> bytes:
     return file.getvalue().encode()
 
 
-def page(replayed: Replayed, again: str) -> Page:
+def page(replayed: Replay, again: str) -> Page:
     """The whole of it as a report."""
     paper, measured = replayed.paper, replayed.measured
     numbers = [
@@ -312,7 +319,7 @@ def page(replayed: Replayed, again: str) -> Page:
     return Page(f"{paper.name}: {paper.title}", blocks, again=again)
 
 
-def save(replayed: Replayed, again: str | None = None) -> list[Path]:
+def save(replayed: Replay, again: str | None = None) -> list[Path]:
     """Write tables, verdicts and pictures; returns the paths.
 
     Args:

@@ -14,7 +14,7 @@ from dqpaint.studies.report.page import Page, Rows, Shot, Words, html
 from dqpaint.studies.runner.engine import Workers, carry_out_study
 from dqpaint.studies.runner.run import Result
 from dqpaint.studies.runner.run_arrays import kept
-from dqpaint.studies.verify.gates import GATES, Measured, developed_from, measure, spoke
+from dqpaint.studies.verify.gates import GATES, GateResult, developed_from, measure, spoke
 from dqpaint.studies.verify.references import (
     Arrays,
     Case,
@@ -45,7 +45,7 @@ class Verdict:
     result: Result
     reference: Reference | None
     made: Arrays | None
-    measured: Measured | None
+    measured: GateResult | None
     faults: tuple[str, ...]
     remarks: tuple[str, ...] = ()
 

@@ -23,7 +23,7 @@ CLOSE = 1e-3  # of two means: a smaller difference is none, however well it is k
 
 
 @dataclass(frozen=True)
-class Verdict:
+class ClaimVerdict:
     """What a table of numbers says to a claim, and the numbers that decide it.
 
     `not shown`: the means differ by less than chance explains, or by less than 0.1 %.
@@ -36,7 +36,7 @@ class Verdict:
         return f"{self.word}: {self.why}" if self.why else self.word
 
 
-Rule = Callable[[Claim, Sequence[Spread], Sequence[Spread]], Verdict]
+Rule = Callable[[Claim, Sequence[Spread], Sequence[Spread]], ClaimVerdict]
 RULES: Registry[Rule] = Registry("kind of claim")
 
 
@@ -51,7 +51,7 @@ def published(paper: Paper) -> Numbers:
     return found
 
 
-def judge(claim: Claim, paper: Paper, numbers: Numbers) -> Verdict:
+def judge(claim: Claim, paper: Paper, numbers: Numbers) -> ClaimVerdict:
     """What numbers say to a claim.
 
     Args:
@@ -65,14 +65,16 @@ def judge(claim: Claim, paper: Paper, numbers: Numbers) -> Verdict:
     known = [value for value in values if value is not None and np.isfinite(value.mean)]
     if len(known) < len(values):
         lost = [n for n, v in zip(claim.cells, values, strict=True) if v not in known]
-        return Verdict("no numbers", "" if len(lost) == len(values) else f"of {', '.join(lost)}")
+        return ClaimVerdict(
+            "no numbers", "" if len(lost) == len(values) else f"of {', '.join(lost)}"
+        )
     theirs = published(paper)
     printed = [theirs[name][claim.figure] for name in claim.cells if claim.figure in theirs[name]]
     return RULES[claim.kind](claim, known, printed)
 
 
 @RULES.add("order")
-def _order(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> Verdict:
+def _order(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> ClaimVerdict:
     steps = list(pairwise(values))
     signs = ["<" if a.mean < b.mean else ">" if a.mean > b.mean else "=" for a, b in steps]
     why = _said(values[0].mean)
@@ -80,8 +82,8 @@ def _order(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) ->
         why += f" {sign} {_said(b.mean)}"
     differ = [told_apart(a, b) for a, b in steps]
     if any(sign != "<" and sure for sign, sure in zip(signs, differ, strict=True)):
-        return Verdict("fails", why)
-    return Verdict("holds" if all(differ) else "not shown", why)
+        return ClaimVerdict("fails", why)
+    return ClaimVerdict("holds" if all(differ) else "not shown", why)
 
 
 def told_apart(a: Spread, b: Spread) -> bool:
@@ -93,68 +95,68 @@ def told_apart(a: Spread, b: Spread) -> bool:
 
 
 @RULES.add("spread")
-def _spread(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> Verdict:
+def _spread(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> ClaimVerdict:
     stds = [value.std for value in values]
     if not np.isfinite(stds).all():
-        return Verdict("no numbers", "needs several runs")
+        return ClaimVerdict("no numbers", "needs several runs")
     rises = all(a < b for a, b in pairwise(stds))
-    return Verdict("holds" if rises else "fails", "deviations " + ", ".join(map(_said, stds)))
+    return ClaimVerdict("holds" if rises else "fails", "deviations " + ", ".join(map(_said, stds)))
 
 
 @RULES.add("ratio")
-def _ratio(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> Verdict:
+def _ratio(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> ClaimVerdict:
     first, second = values
     if second.mean == 0:
-        return Verdict("no numbers", "divided by 0")
+        return ClaimVerdict("no numbers", "divided by 0")
     found = first.mean / second.mean
     good = abs(found / claim.value - 1) <= claim.tolerance
     why = f"{_said(found)} for {_said(claim.value)} ± {claim.tolerance:.0%}"
-    return Verdict("holds" if good else "fails", why)
+    return ClaimVerdict("holds" if good else "fails", why)
 
 
 @RULES.add("alike")
-def _alike(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> Verdict:
+def _alike(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> ClaimVerdict:
     first = values[0].mean
     if first == 0:
         good = all(value.mean == 0 for value in values)
-        return Verdict("holds" if good else "fails", "beside 0")
+        return ClaimVerdict("holds" if good else "fails", "beside 0")
     ratios = [value.mean / first for value in values[1:]]
     good = all(abs(ratio - 1) <= claim.tolerance for ratio in ratios)
     why = f"{', '.join(f'{ratio:.3g}' for ratio in ratios)} times for 1 ± {claim.tolerance:.2g}"
-    return Verdict("holds" if good else "fails", why)
+    return ClaimVerdict("holds" if good else "fails", why)
 
 
 @RULES.add("equals")
-def _equals(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> Verdict:
+def _equals(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> ClaimVerdict:
     if len(printed) < len(values):
-        return Verdict("no numbers", "the paper prints none")
+        return ClaimVerdict("no numbers", "the paper prints none")
     gaps = [abs(a.mean - b.mean) for a, b in zip(values, printed, strict=True)]
     good = max(gaps) <= claim.tolerance
     why = f"{_said(max(gaps))} apart at the most, for {_said(claim.tolerance)}"
-    return Verdict("holds" if good else "fails", why)
+    return ClaimVerdict("holds" if good else "fails", why)
 
 
 @RULES.add("below")
-def _below(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> Verdict:
+def _below(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> ClaimVerdict:
     most = max(value.mean for value in values)
-    return Verdict("holds" if most <= claim.value else "fails",
+    return ClaimVerdict("holds" if most <= claim.value else "fails",
                    f"{_said(most)} for at most {_said(claim.value)}")  # fmt: skip
 
 
-def _trend(claim: Claim, paper: Paper, numbers: Numbers) -> Verdict:
+def _trend(claim: Claim, paper: Paper, numbers: Numbers) -> ClaimVerdict:
     """Every step along an axis of the grid, the other one held, goes the claimed way."""
     steps = []
     for line in lines_of(paper, claim.axis):
         means = [numbers[n][claim.figure].mean for n in line if claim.figure in numbers.get(n, {})]
         steps += [b - a for a, b in pairwise(means)] if len(means) == len(line) else []
     if not steps:
-        return Verdict("no numbers")
+        return ClaimVerdict("no numbers")
     sign = 1 if claim.way == "rises" else -1
     good = sum(sign * step > 0 for step in steps)
     why = f"{good} of {len(steps)} steps"
     if good == len(steps):
-        return Verdict("holds", why)
-    return Verdict("in part" if good > PART * len(steps) else "fails", why)
+        return ClaimVerdict("holds", why)
+    return ClaimVerdict("in part" if good > PART * len(steps) else "fails", why)
 
 
 def cell_name(place: Mapping[str, float]) -> str:

@@ -15,7 +15,7 @@ from dqpaint.studies.runner.engine import Workers
 
 
 @dataclass(frozen=True)
-class Asked:
+class MeasureRequest:
     """What a person asked for.
 
     Attributes:
@@ -45,7 +45,7 @@ class Asked:
 
 
 @dataclass(frozen=True)
-class Measured:
+class MeasureResult:
     """What came out here.
 
     Attributes:
@@ -63,5 +63,5 @@ class Measured:
     cells: tuple[Cell, ...] = ()
 
 
-Measure = Callable[[Paper, Asked], Measured]
+Measure = Callable[[Paper, MeasureRequest], MeasureResult]
 MEASURES: Registry[Measure] = Registry("kind of replay")

@@ -38,7 +38,7 @@ ERRORS = (
 
 
 @dataclass(frozen=True)
-class Drawn:
+class DrawnRun:
     """A cell that came to something: its name, and what is kept of its first run."""
 
     label: str
@@ -50,20 +50,20 @@ class Group:
     """Cells that are shown together: a title, cells by what tells them apart, their colours."""
 
     title: str
-    members: Mapping[str, Drawn]
+    members: Mapping[str, DrawnRun]
     colours: Mapping[str, contact_sheet.Colour]
 
 
-def read_drawn(found: Sequence[Cell], folder: Path) -> list[Drawn]:
+def read_drawn(found: Sequence[Cell], folder: Path) -> list[DrawnRun]:
     """What is kept of the first runs of those cells that have figures."""
     return [
-        Drawn(cell.label, kept(folder, cell.results[0].key))
+        DrawnRun(cell.label, kept(folder, cell.results[0].key))
         for cell in found
         if cell.results[0].figures
     ]
 
 
-def groups(drawn: Sequence[Drawn]) -> list[Group]:
+def groups(drawn: Sequence[DrawnRun]) -> list[Group]:
     """All of a few cells together; many by the first part of their names, or each alone."""
     if len(drawn) <= MOST_TOGETHER:
         names = [one.label for one in drawn]
@@ -146,7 +146,7 @@ def columns(labels: Sequence[str]) -> int | None:
     return sizes.pop() if len(sizes) == 1 and sizes != {1} else None
 
 
-def errors(drawn: Sequence[Drawn]) -> Charts:
+def errors(drawn: Sequence[DrawnRun]) -> Charts:
     """Errors over time: of the place, then of the orientation, a panel a group."""
     split = groups(drawn)
     panels = []

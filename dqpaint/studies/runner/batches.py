@@ -90,7 +90,7 @@ def carry_out_batch(
 
 
 def _result(
-    key: str, run: Run, ready: paint.Ready, track: Track, folder: Path, seen: set[int | None]
+    key: str, run: Run, ready: paint.PreparedRun, track: Track, folder: Path, seen: set[int | None]
 ) -> Result:
     """Figures of one track, and what is kept of it; pictures only where they are kept."""
     try:

@@ -13,7 +13,7 @@ from typing import Protocol, Self
 
 from dqpaint.cli import terminal
 from dqpaint.studies.runner.batches import Task
-from dqpaint.studies.runner.journal import Record
+from dqpaint.studies.runner.journal import Journal
 from dqpaint.studies.runner.process_pool import Pool, check_jobs
 from dqpaint.studies.runner.run import Result, Run
 from dqpaint.studies.runner.run_arrays import place
@@ -64,7 +64,7 @@ class Study:
         self._progress = terminal.Progress(f"{what}, {total} runs")
         self._crew = _crew(folder, jobs)
         try:
-            self._record = Record(folder)
+            self._record = Journal(folder)
         except BaseException:
             self._crew.close()
             raise
@@ -133,7 +133,7 @@ class Study:
             )
 
 
-class Crew(Protocol):
+class WorkerPool(Protocol):
     """Who carries out runs: processes here, or a cluster."""
 
     def carry_out(
@@ -145,7 +145,7 @@ class Crew(Protocol):
         """End what is under way."""
 
 
-def _crew(folder: Path, jobs: Workers) -> Crew:
+def _crew(folder: Path, jobs: Workers) -> WorkerPool:
     if isinstance(jobs, str):
         from dqpaint.studies.runner.dask_pool import Cluster
 

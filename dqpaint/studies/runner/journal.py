@@ -15,7 +15,7 @@ except ImportError:  # where there is no such lock, two studies in one folder ar
 NAME = "runs.jsonl"
 
 
-class Record:
+class Journal:
     """The results that a folder holds, by their keys; open while a study adds to them.
 
     A line that a kill cut off is dropped: its run was not done. One study at a time.

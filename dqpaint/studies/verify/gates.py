@@ -28,11 +28,11 @@ class Gate:
     name: str
     same: float
     other: float
-    measure: Callable[["Measured"], float]
+    measure: Callable[["GateResult"], float]
 
 
 @dataclass(frozen=True)
-class Measured:
+class GateResult:
     """What a new picture is beside its reference: of the pictures, of the figures, of the light.
 
     Attributes:
@@ -59,14 +59,14 @@ GATES = (
 )
 
 
-def measure(reference: Reference, result: Result, made: Arrays) -> Measured:
+def measure(reference: Reference, result: Result, made: Arrays) -> GateResult:
     """A new result beside its reference; both pictures have the same size."""
     light, new_light = (developed_from(planes) for planes in (reference.planes, made["planes"]))
     pictures = differ(light, new_light, reference.picture, made["picture"])
     before = figures(reference.facts["figures"], reference.facts["light"])
     after = figures(result.figures, made)
     change, worst = changed(before, after)
-    return Measured(pictures, change, worst, float(made["balance"]))
+    return GateResult(pictures, change, worst, float(made["balance"]))
 
 
 def developed_from(planes: Arrays | np.ndarray) -> np.ndarray:
@@ -99,7 +99,7 @@ def changed(before: Mapping[str, float], after: Mapping[str, float]) -> tuple[fl
     return most, worst
 
 
-def spoke(measured: Measured, alike: bool) -> list[str]:
+def spoke(measured: GateResult, alike: bool) -> list[str]:
     """The names of the gates that say no; `alike`: the libraries are those of the reference."""
     names = []
     for gate in GATES:

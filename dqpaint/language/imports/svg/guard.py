@@ -54,7 +54,7 @@ Counts = tuple[int, int, int, int]  # elements, shapes, numbers, depth
 
 
 @dataclass
-class Guarded:
+class GuardedFile:
     """A drawing that may be read, and what of it is not drawn as it stands there.
 
     Attributes:
@@ -72,7 +72,7 @@ class Guarded:
     paths: list[Commands] = field(default_factory=list)
 
 
-def guard(data: bytes) -> Guarded:
+def guard(data: bytes) -> GuardedFile:
     """A drawing without what does not belong to its lines, its attributes written plainly.
 
     Raises:
@@ -85,7 +85,7 @@ def guard(data: bytes) -> Guarded:
     if tag_of(root) != "svg" or _is_foreign(root):
         raise SvgError(f"this is no SVG: it begins with <{str(root.tag)[:60]}>")
     _Count(root).check()
-    out = Guarded(b"")
+    out = GuardedFile(b"")
 
     def remark(element: Element, text: str) -> None:
         out.passed_over.append(f"line {lines[element]}: {text}")

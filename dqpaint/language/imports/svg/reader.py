@@ -18,7 +18,7 @@ from dqpaint.language.imports import stroke_order
 from dqpaint.language.imports.file_access import contents
 from dqpaint.language.imports.svg import paths
 from dqpaint.language.imports.svg.attributes import NUMBER
-from dqpaint.language.imports.svg.guard import MOST_BYTES, Guarded, Lines, guard
+from dqpaint.language.imports.svg.guard import MOST_BYTES, GuardedFile, Lines, guard
 from dqpaint.language.imports.svg.paths import Pieces
 from dqpaint.language.imports.svg.values import LARGEST, SvgError
 from dqpaint.language.pen.pen import Pen
@@ -50,7 +50,7 @@ class Drawing(NamedTuple):
     """The lines of a file, in an order with short ways, and what was left out of it."""
 
     lines: list[Line]
-    guarded: Guarded
+    guarded: GuardedFile
 
 
 def read(node: Quoted, pen: Pen) -> list[Line]:
@@ -67,7 +67,7 @@ def read(node: Quoted, pen: Pen) -> list[Line]:
     return lines
 
 
-def _warn(guarded: Guarded, node: Quoted, pen: Pen) -> None:
+def _warn(guarded: GuardedFile, node: Quoted, pen: Pen) -> None:
     """Says what of the file is not drawn, or not as it stands there."""
     if guarded.left_out:
         message = f"left out of {node.text}: {_counted(guarded.left_out)}"
@@ -104,7 +104,7 @@ def _read(data: bytes) -> Drawing:
     return Drawing(ordered, replace(guarded, xml=b"", paths=[]))
 
 
-def _said(guarded: Guarded) -> str:
+def _said(guarded: GuardedFile) -> str:
     cures = []
     if set(guarded.left_out) - {"image"}:
         cures.append("in the program it was made with, convert texts to paths")
@@ -118,7 +118,7 @@ def _no_library(node: Quoted) -> Problem:
     return problem("E297", message, node.span, "", 'pip install "dqpaint[svg]"')
 
 
-def _lines(guarded: Guarded) -> Iterator[tuple[Chain, Colour | None]]:
+def _lines(guarded: GuardedFile) -> Iterator[tuple[Chain, Colour | None]]:
     import svgelements
 
     pieces, transforms, lights = paths.Pieces(), array("d"), []

@@ -17,7 +17,7 @@ from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.studies.experiment.statistics import Spread, spread
 from dqpaint.studies.replay.claims import Numbers
-from dqpaint.studies.replay.measure import MEASURES, Asked, Measured
+from dqpaint.studies.replay.measure import MEASURES, MeasureRequest, MeasureResult
 from dqpaint.studies.replay.papers import Paper
 
 MANY = 10_000
@@ -233,7 +233,7 @@ def drifts() -> dict[str, float]:
 
 
 @MEASURES.add("cost")
-def cost(paper: Paper, asked: Asked) -> Measured:
+def cost(paper: Paper, asked: MeasureRequest) -> MeasureResult:
     """Storage and operations, counted; time and drift, measured."""
     asked.nothing_of(paper, "plant", "robot", "disturb", "seed")
     numbers: dict[str, dict[str, Spread]] = {}
@@ -254,4 +254,6 @@ def cost(paper: Paper, asked: Asked) -> Measured:
     for name, drift in drifts().items():
         numbers[name]["drift"] = spread([drift])
     found: Numbers = numbers
-    return Measured(found, f"counted on written-out products; measured on numpy {np.__version__}")
+    return MeasureResult(
+        found, f"counted on written-out products; measured on numpy {np.__version__}"
+    )

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from dqpaint.studies.replay.claims import Numbers, cell_name
-from dqpaint.studies.replay.measure import MEASURES, Asked, Measured
+from dqpaint.studies.replay.measure import MEASURES, MeasureRequest, MeasureResult
 from dqpaint.studies.replay.measures.tracking import carry_out, measured, numbers_of, tracking
 from dqpaint.studies.replay.papers import Paper
 from dqpaint.studies.report.charts import HeatMap
@@ -17,7 +17,7 @@ SURFACES = ("effort_integral", "speed_integral_m", "error_integral")
 
 
 @MEASURES.add("surfaces")
-def surfaces(paper: Paper, asked: Asked) -> Measured:
+def surfaces(paper: Paper, asked: MeasureRequest) -> MeasureResult:
     """The cells of the tables, then every combination of the axes' values."""
     tables = tracking(paper, asked)
     choices = grid(paper)

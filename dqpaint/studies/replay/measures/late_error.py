@@ -7,7 +7,7 @@ import numpy as np
 
 from dqpaint.studies.experiment.cells import Cell
 from dqpaint.studies.experiment.statistics import spread
-from dqpaint.studies.replay.measure import MEASURES, Asked, Measured
+from dqpaint.studies.replay.measure import MEASURES, MeasureRequest, MeasureResult
 from dqpaint.studies.replay.measures.tracking import beside_published, carry_out, measured
 from dqpaint.studies.replay.papers import Paper
 from dqpaint.studies.report.page import Pictured
@@ -19,7 +19,7 @@ FIGURE = "late_error_integral"
 
 
 @MEASURES.add("late")
-def late(paper: Paper, asked: Asked) -> Measured:
+def late(paper: Paper, asked: MeasureRequest) -> MeasureResult:
     """Every cell is run; the error integral is taken over the last nine tenths."""
     choices = {cell.name: cell.settings for cell in paper.cells}
     found = carry_out(paper, asked, choices, (), always=("series",))

@@ -16,7 +16,7 @@ from dqpaint.robots.model import Mount, read_card
 from dqpaint.simulation import Track, track
 from dqpaint.studies.experiment.statistics import Spread, spread
 from dqpaint.studies.replay.claims import published
-from dqpaint.studies.replay.measure import MEASURES, Asked, Measured
+from dqpaint.studies.replay.measure import MEASURES, MeasureRequest, MeasureResult
 from dqpaint.studies.replay.papers import Paper, find_paper_drawing
 from dqpaint.studies.report.charts import COLOURS, Line, Panel
 from dqpaint.studies.report.page import Charts
@@ -30,7 +30,7 @@ SETTLED = 0.02  # of the step
 
 
 @MEASURES.add("setpoint")
-def setpoint(paper: Paper, asked: Asked) -> Measured:
+def setpoint(paper: Paper, asked: MeasureRequest) -> MeasureResult:
     """Both poses, and the way between them by each law."""
     asked.nothing_of(paper, "plant", "robot", "disturb", "seed")
     card = read_card(ROBOT).model_copy(
@@ -57,7 +57,7 @@ def setpoint(paper: Paper, asked: Asked) -> Measured:
     lost = {name: f"limits held {len(run.clamps)} times: {run.clamps[0]}"
             for name, run in runs.items() if run.clamps}  # fmt: skip
     ours = f"{ROBOT}, plant ideal, from the printed angles, {motion.period * 1e3:g} ms"
-    return Measured(numbers, ours, lost, {"-response": response_of(runs, motion)})
+    return MeasureResult(numbers, ours, lost, {"-response": response_of(runs, motion)})
 
 
 def pose_numbers(x: Floats, printed: Mapping[str, Spread]) -> dict[str, float]:

@@ -18,7 +18,7 @@ from dqpaint.robots.loading import card_for
 from dqpaint.robots.model import DEFAULT_ROBOT, Card
 from dqpaint.simulation import track
 from dqpaint.studies.experiment.statistics import spread
-from dqpaint.studies.replay.measure import MEASURES, Asked, Measured
+from dqpaint.studies.replay.measure import MEASURES, MeasureRequest, MeasureResult
 from dqpaint.studies.replay.papers import Cell, Paper
 from dqpaint.studies.report.charts import Line, Panel
 from dqpaint.studies.report.page import Charts
@@ -64,7 +64,7 @@ def paced(clock: Clock) -> PlantMaker:
 
 
 @MEASURES.add("timing")
-def timing(paper: Paper, asked: Asked) -> Measured:
+def timing(paper: Paper, asked: MeasureRequest) -> MeasureResult:
     """Each law for a while at each period, in real time."""
     asked.nothing_of(paper, "plant", "disturb", "seed")
     clocks = {}
@@ -79,7 +79,7 @@ def timing(paper: Paper, asked: Asked) -> Measured:
     }  # fmt: skip
     robot = asked.settings.get("robot") or DEFAULT_ROBOT
     ours = f"Python and NumPy, an ideal {robot}, {SECONDS:g} s each"
-    return Measured(numbers, ours, shown={"-histogram": histogram(clocks)})
+    return MeasureResult(numbers, ours, shown={"-histogram": histogram(clocks)})
 
 
 def period_of(cell: Cell) -> float:

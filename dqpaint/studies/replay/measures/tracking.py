@@ -12,7 +12,7 @@ from dqpaint.robots.model import DEFAULT_ROBOT
 from dqpaint.settings import Settings, make_settings
 from dqpaint.studies.experiment.cells import Cell, Figure, family
 from dqpaint.studies.replay.claims import Numbers, published
-from dqpaint.studies.replay.measure import MEASURES, Asked, Measured
+from dqpaint.studies.replay.measure import MEASURES, MeasureRequest, MeasureResult
 from dqpaint.studies.replay.papers import Paper, find_paper_drawing
 from dqpaint.studies.report.charts import COLOURS, Line, Panel
 from dqpaint.studies.report.page import Charts, Pictured
@@ -26,7 +26,7 @@ KEPT = ("series", "light")  # of the first run of each cell
 
 
 @MEASURES.add("tracking")
-def tracking(paper: Paper, asked: Asked) -> Measured:
+def tracking(paper: Paper, asked: MeasureRequest) -> MeasureResult:
     """Every cell of the paper's tables is run as its settings say."""
     choices = {cell.name: cell.settings for cell in paper.cells}
     found = carry_out(paper, asked, choices, KEPT)
@@ -37,7 +37,7 @@ def tracking(paper: Paper, asked: Asked) -> Measured:
 
 def carry_out(
     paper: Paper,
-    asked: Asked,
+    asked: MeasureRequest,
     choices: dict[str, dict[str, Any]],
     keep: tuple[str, ...],
     drawing: str = "",
@@ -74,14 +74,14 @@ def carry_out(
     return found
 
 
-def settings_of(paper: Paper, asked: Asked, choice: dict[str, Any]) -> Settings:
+def settings_of(paper: Paper, asked: MeasureRequest, choice: dict[str, Any]) -> Settings:
     """What all runs have in common, then what a cell says, then what a person asked for."""
     return make_settings(**{**SIZE, **paper.settings, **choice, **asked.settings})
 
 
 def measured(
-    paper: Paper, asked: Asked, found: Sequence[Cell], shown: Mapping[str, Pictured]
-) -> Measured:
+    paper: Paper, asked: MeasureRequest, found: Sequence[Cell], shown: Mapping[str, Pictured]
+) -> MeasureResult:
     """What cells say, in the paper's figures."""
     base = settings_of(paper, asked, {})
     parts = [base.robot or DEFAULT_ROBOT, f"plant {base.plant or 'usual'}", f"from {base.start}"]
@@ -89,7 +89,7 @@ def measured(
         parts.append(f"{name} {', '.join(f'{k} = {v}' for k, v in values.items())}")
     parts.append(f"{asked.runs or 1} run{'s' if (asked.runs or 1) > 1 else ''} each")
     lost = {cell.label: f"{cell.status}: {cell.why}" for cell in found if not cell.stable}
-    return Measured(numbers_of(paper, found), ", ".join(parts), lost, shown, tuple(found))
+    return MeasureResult(numbers_of(paper, found), ", ".join(parts), lost, shown, tuple(found))
 
 
 def numbers_of(paper: Paper, found: Sequence[Cell]) -> Numbers:

@@ -1,4 +1,4 @@
-"""What several test files draw from: seeded random numbers, never special; the command line."""
+"""Fixtures for all tests: seeded random numbers; a command -> what it answers, in this process."""
 
 import os
 import subprocess
@@ -11,21 +11,10 @@ if "PYTEST_XDIST_WORKER" in os.environ:  # one of several, which would fight for
 import numpy as np
 import pytest
 
-from dqpaint import dq
-
 
 @pytest.fixture
 def rng() -> np.random.Generator:
     return np.random.default_rng(20161122)
-
-
-def random_rotations(rng: np.random.Generator, n: int) -> np.ndarray:
-    q = rng.normal(size=(n, 4))
-    return q / np.linalg.norm(q, axis=1, keepdims=True)
-
-
-def random_poses(rng: np.random.Generator, n: int) -> np.ndarray:
-    return dq.pose_from(rng.normal(size=(n, 3)), random_rotations(rng, n))
 
 
 @pytest.fixture

@@ -151,6 +151,37 @@ def test_a_code_means_one_thing():
     assert not {code: where for code, where in rooms.items() if len(where) > 1}
 
 
+TESTS = sorted((ROOT / "tests").rglob("*.py"))
+RUN_ON_PURPOSE = {
+    "tests.tools": {"test_documents.py", "plants/test_compliant_loop.py"},
+    "tests.bench": {"planning/test_check.py"},
+}
+"""Programs of their own -> the tests that run them, to see that what they make is current."""
+
+
+def imported(path):
+    """The modules a test file imports, also in the programs that it holds as texts."""
+    text = path.read_text("utf-8")
+    return set(re.findall(r"\b(?:from|import) ((?:tests|dqpaint)\b[\w.]*)", text))
+
+
+def is_there(module):
+    file = ROOT.joinpath(*module.split("."))
+    return file.is_dir() or file.with_suffix(".py").is_file()
+
+
+def test_no_test_imports_a_test():
+    for path in TESTS:
+        name = str(path.relative_to(ROOT / "tests"))
+        for module in imported(path):
+            said = f"{name}: {module}"
+            assert is_there(module), said
+            assert not re.search(r"\.(test_\w+|conftest)(\.|$)", module), said
+            program = ".".join(module.split(".")[:2])
+            if program in RUN_ON_PURPOSE and name.split("/")[0] != program.split(".")[1]:
+                assert name in RUN_ON_PURPOSE[program], said
+
+
 def test_public_names_are_real():
     import dqpaint
 

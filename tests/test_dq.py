@@ -9,7 +9,7 @@ import pinocchio
 import pytest
 
 from dqpaint import dq
-from tests.conftest import random_poses, random_rotations
+from tests.support.random_poses import random_poses, random_rotations
 
 EXACT = 1e-14
 LOG_TOLERANCE = 1e-12  # of exp(log(x)) as a pose, for every angle

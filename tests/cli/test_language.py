@@ -10,7 +10,7 @@ import pytest
 
 from dqpaint.diagnostics.catalogue import explanations
 from dqpaint.language.vocabulary.words import STATEMENTS
-from tests.cli.test_painting import files
+from tests.support.folders import files
 
 pytestmark = pytest.mark.slow
 UGLY, FAIR = "line   to (1,2)mm", "line to (1, 2) mm\n"

@@ -16,6 +16,7 @@ from dqpaint.cli.listing import LISTS
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.settings.model import Settings
 from tests.support.arm_files import arm_urdf
+from tests.support.folders import files
 
 pytestmark = pytest.mark.slow
 LINE = "period 20 ms\nstart at (0, 0) mm\nline to (30, 10) mm in 400 ms\n"
@@ -37,10 +38,6 @@ def dqpaint(tmp_path):
 def line(tmp_path):
     (tmp_path / "line.traj").write_text(LINE)
     return "line.traj"
-
-
-def files(folder):
-    return sorted(path.name for path in folder.iterdir())
 
 
 def test_draw_leaves_three_files_and_a_table(dqpaint, line, tmp_path):

@@ -12,8 +12,8 @@ from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.kinematics.nullspace import make_wish
 from dqpaint.robots.model.card import installed_names, read_card
 from dqpaint.simulation.drives import make_drive
-from tests.conftest import random_poses
 from tests.support.control import ARM, STILL, ahead_of, body_sees, law, seen_by
+from tests.support.random_poses import random_poses
 
 LAWS = pytest.mark.parametrize("name", CONTROLLERS)
 DAILY = ("iiwa", "viper850")  # of seven joints and of six; the others take their time

@@ -7,8 +7,8 @@ from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.controllers.base.pose_errors import difference_error, spatial_error
 from dqpaint.robots.kinematics.jacobians import pose_map
-from tests.conftest import random_poses, random_rotations
 from tests.support.control import ARM, STILL, ahead_of, body_sees, law, seen_by, states
+from tests.support.random_poses import random_poses, random_rotations
 
 RATE_TOLERANCE = 0.01  # of the rates the laws state, for small errors
 

@@ -10,8 +10,8 @@ from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.controllers.base.pose_errors import invariant_error, spatial_error
 from dqpaint.robots.kinematics.differential_ik import resolve
-from tests.conftest import random_poses
 from tests.support.control import STILL, ahead_of, law, states
+from tests.support.random_poses import random_poses
 
 E6 = np.zeros((8, 6))
 E6[[1, 2, 3, 5, 6, 7], range(6)] = 1

@@ -12,7 +12,7 @@ from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS, Seen, commands, find_controller
 from dqpaint.controllers.base.user_controller import make_controller, short_name
 from dqpaint.errors import DqpaintError, UsageError
-from tests.conftest import random_poses
+from tests.support.random_poses import random_poses
 
 EXAMPLE = Path(__file__).parents[2] / "trajectories" / "mylaw.py"
 

@@ -24,6 +24,7 @@ from dqpaint.robots.kinematics.dynamics import Dynamics
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
 from dqpaint.simulation.closed_loop import track
+from tests.support.control import ACCEL
 
 CARD = read_card("iiwa")
 ARM = Kinematics(CARD)
@@ -44,15 +45,6 @@ SIZES = {
 }
 RANDOM = {"noise", "links", "twist"}
 EVERY = pytest.mark.parametrize("name", DISTURBANCES)
-
-
-def accelerate(seen, gains):
-    """Resolved acceleration at the tool, enough of a law for the torque-driven arm."""
-    x_e = dq.mul(dq.nearest(seen.pose_d, seen.pose), dq.conj(seen.pose))
-    return 400 * dq.log(x_e) + 20 * (seen.twist_d - seen.twist) + seen.acceleration_d
-
-
-ACCEL = Controller("accelerate", "none", RateGains, accelerate, "acceleration")
 
 
 def run(disturb, plant=None, seed=0, law=None):

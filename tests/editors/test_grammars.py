@@ -20,7 +20,7 @@ from dqpaint.language.vocabulary.words import (
     STATEMENTS,
 )
 from dqpaint.program import colours
-from tests.language.test_robust import MIXED
+from tests.support.drawing_texts import MIXED
 
 pygments = pytest.importorskip("pygments")
 from pygments.token import Comment, Error, Keyword, Name, Number, String  # noqa: E402

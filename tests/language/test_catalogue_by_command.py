@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.language.test_includes import OF_FILES, write
-from tests.language.test_messages import ENTRIES, FILES, LARGE
+from tests.support.wrong_drawings import ENTRIES, FILES, LARGE, OF_FILES, write
 
 BESIDES = {"E140", "W403", "W411"}  # what is true of these little texts, too
 

@@ -10,6 +10,7 @@ from dqpaint.language import parse
 from dqpaint.motion.geometry.batched_shapes import shape
 from dqpaint.program.program import Arc, Cruise, Curve, Keep, Lasting, Look, Samples, Straight, Turn
 from tests.support.drawn import drawn
+from tests.support.wrong_drawings import found
 
 TOOL = "start at (11, -7, 5) mm tool rpy(20 deg, 30 deg, 40 deg)\n"
 
@@ -175,7 +176,6 @@ def test_each_stroke_is_rounded_within_itself():
 
 def test_what_is_advised_for_a_short_stroke_works():
     text = "blend {}\nline by (20, 0) mm by (0, 3.3333) mm by (20, 0) mm"
-    from tests.language.test_messages import found
 
     (told,) = found(text.format("5 mm"))
     advice = told.help.removeprefix("at most: blend ")

@@ -7,8 +7,8 @@ import pytest
 
 from dqpaint.language import ScriptError, parse
 from dqpaint.program.taylor import Taylor
-from tests.language.test_messages import found
 from tests.support.drawn import drawn, last, only
+from tests.support.wrong_drawings import found
 
 
 def place(text):

@@ -22,18 +22,8 @@ from dqpaint.program.program import (
     Turn,
 )
 from dqpaint.program.taylor import Taylor
+from tests.support.drawing_texts import ROSE, STAR
 from tests.support.drawn import drawn, matrix, rotation
-
-STAR = """# star.traj - a five-pointed star, one colour per edge
-period 10 ms
-speed 60 mm/s
-let r = 80 mm
-
-move to polar(r, 90 deg)
-repeat i from 1 to 5
-  line to polar(r, 90 deg + i*144 deg) light hsv(i*72 deg)
-end
-"""
 
 
 def test_star() -> None:
@@ -124,19 +114,6 @@ def test_baxter_screw() -> None:
     assert hold.timing == Lasting(2)
     assert hold.start == hold.end == screw.end
     assert hold.light == Light((1, 1, 1), (1, 1, 1))
-
-
-ROSE = """period 10 ms
-law constant
-let a = 30 mm
-
-repeat k from 0 to 5
-  with rotate k*60 deg shift (80 mm, 0) light hsv(k*60 deg)
-    move to (a, 0)
-    curve polar(a*cos(3*t), t) for t from 0 to 180 deg in 12 s
-  end
-end
-"""
 
 
 def test_rose() -> None:

@@ -5,7 +5,7 @@ import pytest
 
 from dqpaint.diagnostics.catalogue import explanations
 from dqpaint.language import ScriptError, parse
-from tests.language.test_messages import ENTRIES
+from tests.support.wrong_drawings import ENTRIES
 
 # The text (~ ends a line), the text mended.
 MENDED = """

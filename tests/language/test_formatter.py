@@ -14,7 +14,7 @@ from dqpaint.language.vocabulary.words import PARTS, STATEMENTS
 from dqpaint.language.writing.formatter import formatted
 from dqpaint.motion import plan
 from dqpaint.robots.model.card import read_card
-from tests.language.test_robust import MIXED, SCRAPS
+from tests.support.drawing_texts import MIXED, SCRAPS
 
 CANVAS = read_card("iiwa").canvas.pose
 EXAMPLES = {name: Path(find_drawing(name)).read_text("utf-8") for name in example_names()}

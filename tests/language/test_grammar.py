@@ -13,8 +13,8 @@ from dqpaint.diagnostics.collector import EnoughError, Findings
 from dqpaint.language.syntax.parser import parse_statements
 from dqpaint.language.vocabulary.units import UNITS
 from dqpaint.language.vocabulary.words import RESERVED
-from tests.language.test_messages import ENTRIES
-from tests.language.test_robust import FILES, MIXED, SCRAPS, TOKEN, WHOLE
+from tests.support.drawing_texts import FILES, MIXED, SCRAPS, TOKEN, WHOLE
+from tests.support.wrong_drawings import ENTRIES
 
 # What the parser refuses though it is in the grammar.
 BEYOND = {

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.language.test_svg_guard import OPEN, nested_uses
 from tests.support.clock import children_time
+from tests.support.svg import OPEN, nested_uses
 
 CASES = {
     'text "Müller" height 9 mm': ("E261", "1:8", '= help: use "Mueller"'),

@@ -8,67 +8,7 @@ import pytest
 from dqpaint.diagnostics.diagnostic import file_at, place
 from dqpaint.language import Program, ScriptError, read, render
 from dqpaint.program.program import Straight
-
-CHAIN = {f"{i}.traj": f'include "{i + 1}.traj"' for i in range(12)} | {"12.traj": "hold 1 s"}
-
-# The files, and of the message: file, line:column, the caret's words, what it says.
-OF_FILES = {
-    "E271": [
-        ({"a.traj": 'include "/etc/hosts"'}, "a.traj", '1:9 "/etc/hosts"', "a file to include is"),
-        ({"a.traj": 'include "../b.traj"'}, "a.traj", '1:9 "../b.traj"', "this file is outside"),
-        ({"a.traj": 'include "in/../../b.traj"'}, "a.traj", "1:9", "this file is outside"),
-        (
-            {"a.traj": 'include "in/b.traj"', "in/b.traj": '\n  include "../../c.traj"'},
-            "in/b.traj",
-            '2:11 "../../c.traj"',
-            "this file is outside",
-        ),
-    ],
-    "E272": [
-        ({"a.traj": 'include "b.traj"'}, "a.traj", '1:9 "b.traj"', "can't read "),
-        ({"a.traj": 'include "."'}, "a.traj", '1:9 "."', "can't read "),
-        ({"a.traj": 'include "b.traj"', "b.traj": "\0"}, "a.traj", "1:9", ""),
-        ({"a.traj": 'include "b.traj"', "b.traj": "\n# \xfc"}, "a.traj", "1:9", ""),
-    ],
-    "E273": [
-        (
-            {"a.traj": 'include "b.traj"', "b.traj": 'include "in/c.traj"',
-             "in/c.traj": 'let a = 1\ninclude "../b.traj"'},
-            "in/c.traj",
-            '2:9 "../b.traj"',
-            "this include goes in a circle: b.traj includes in/c.traj includes b.traj",
-        ),
-        ({"a.traj": 'include "a.traj"'}, "a.traj", "1:9",
-         "this include goes in a circle: a.traj includes a.traj"),
-    ],
-    "E274": [
-        ({**CHAIN, "a.traj": 'include "0.traj"'}, "7.traj", '1:9 "8.traj"',
-         "more than 8 files within each other"),
-    ],
-    "E205": [
-        ({"a.traj": 'hold 1 s\ninclude "b.traj"', "b.traj": "# b\n\nline to (nix, 0)"},
-         "b.traj", "3:10 nix", "'nix' is not known"),
-    ],
-    "E120": [
-        ({"a.traj": 'include "b.traj"', "b.traj": "lin to (1, 0) mm"}, "b.traj", "1:1 lin",
-         "unknown statement 'lin'"),
-    ],
-    "E305": [
-        ({"a.traj": 'include "b.traj"\n' + "#" * 1_500_000, "b.traj": "#" * 600_000},
-         "a.traj", "1:9", "all files together are larger than 2 MB"),
-    ],
-    "E306": [
-        ({"a.traj": 'include "b.traj"' + "\n" * 60_000, "b.traj": "\n" * 60_000},
-         "a.traj", "1:9", "all files together have more than 100,000 lines"),
-    ],
-}  # fmt: skip
-
-
-def write(folder: Path, files: dict[str, str]) -> Path:
-    for name, text in files.items():
-        (folder / name).parent.mkdir(exist_ok=True)
-        (folder / name).write_bytes(text.encode("latin-1"))
-    return folder / "a.traj"
+from tests.support.wrong_drawings import OF_FILES, write
 
 
 def compiled(folder: Path, files: dict[str, str]) -> Program:

@@ -7,7 +7,7 @@ import pytest
 
 from dqpaint.language.imports.svg import reader
 from dqpaint.program import piecewise
-from tests.language.test_svg_reader import OPEN
+from tests.support.svg import WITH
 
 INCH = 0.0254
 
@@ -15,7 +15,7 @@ INCH = 0.0254
 def ends(attributes: str, within: str) -> list[list[float]]:
     """Of each line of a drawing: its left and its right end [px], y down."""
     made = []
-    for line in reader._read(f"{OPEN.format(attributes)}{within}</svg>".encode()).lines:
+    for line in reader._read(f"{WITH.format(attributes)}{within}</svg>".encode()).lines:
         last = len(line.chain.cubic) - 1
         at = piecewise.derivatives(line.chain, np.array([0, last]), np.array([0.0, 1.0]))[0]
         made.append([*chain.from_iterable(sorted((at[:, :2] / INCH * [96, -96]).tolist()))])

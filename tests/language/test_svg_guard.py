@@ -5,8 +5,7 @@ import time
 import pytest
 
 from dqpaint.language.imports.svg.guard import DEEPEST, MOST_ELEMENTS, SvgError, guard
-
-OPEN = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink">'
+from tests.support.svg import OPEN, nested_uses
 
 
 def refused(text: str) -> str:
@@ -15,15 +14,6 @@ def refused(text: str) -> str:
         guard(text.encode())
     assert time.process_time() - begin < 2
     return caught.value.message
-
-
-def nested_uses(levels: int) -> str:
-    """Each group uses the one before it twice: 2^levels circles."""
-    groups = "".join(
-        f'<g id="a{i}"><use href="#a{i - 1}"/><use xlink:href="#a{i - 1}"/></g>'
-        for i in range(1, levels + 1)
-    )
-    return f'{OPEN}<circle id="a0" r="1"/>{groups}</svg>'
 
 
 def test_nested_uses() -> None:

@@ -13,9 +13,8 @@ from dqpaint.diagnostics.diagnostic import Span
 from dqpaint.language import Program, ScriptError, parse
 from dqpaint.program import piecewise
 from dqpaint.program.program import Chain, Light, Segment
-from tests.language.test_svg_guard import nested_uses
+from tests.support.svg import WITH, nested_uses
 
-OPEN = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" {}>'
 PX = 'width="100" height="100" viewBox="0 0 100 100"'
 PIXEL = 0.0254 / 96
 
@@ -23,7 +22,7 @@ PIXEL = 0.0254 / 96
 def made(folder: Path, body: str, clause: str = "", root: str = PX) -> Program:
     # a dot in two corners keeps the middle of the drawing where it is
     marks = '<path d="M0 0h1e-6M100 100h-1e-6" stroke="red"/>' if root == PX else ""
-    (folder / "a.svg").write_text(f"{OPEN.format(root)}{marks}{body}</svg>", "utf-8")
+    (folder / "a.svg").write_text(f"{WITH.format(root)}{marks}{body}</svg>", "utf-8")
     return parse(f'svg "a.svg" {clause}', "a.traj", folder / "a.traj")
 
 

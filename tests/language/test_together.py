@@ -13,7 +13,7 @@ from dqpaint.language.writing.builder import Drawing, DrawingError
 from dqpaint.motion import plan
 from dqpaint.program.program import Chain
 from dqpaint.robots.model.card import read_card
-from tests.language.test_messages import FILES
+from tests.support.wrong_drawings import FILES
 
 CANVAS = read_card("iiwa").canvas.pose
 

@@ -135,7 +135,7 @@ def test_blocks_that_are_read_at_once_fit_together(monkeypatch):
 HASH = """
 import hashlib, numpy as np
 from dqpaint.light.film import expose
-from tests.light.scene import drawn, flat_camera
+from tests.support.film_scene import drawn, flat_camera
 turn = np.linspace(0, 60, 300_001)
 pixels = np.column_stack([120 + turn * np.cos(turn), 90 + turn * np.sin(turn)])
 energy = np.random.default_rng(3).uniform(0, 1, (300_000, 3))

@@ -4,7 +4,7 @@ import pytest
 
 from dqpaint.light.film.film import PAD, Film, expose
 from dqpaint.light.film.point_spread import SHARPEST, point_spread, spread
-from tests.support.film_scene import drawn, flat_camera, line
+from tests.support.film_scene import drawn, flat_camera, line, sampled
 
 ENERGY_TOLERANCE = 1e-6
 RIPPLE_TOLERANCE = 0.01
@@ -18,20 +18,6 @@ def pixel_film(width, height, at=None):
     row, column = at or (height // 2, width // 2)
     planes[:, PAD + row, PAD + column] = [1.0, 2.0, 0.5]
     return Film(planes, planes.sum(axis=(1, 2)), np.zeros(3))
-
-
-def sampled(image, points, reach=8):
-    """Values between pixels by a windowed sinc: what band-limited pixels stand for."""
-    base = np.floor(points).astype(int)
-    offsets = np.arange(1 - reach, reach + 1)
-    weights = []
-    for axis in (0, 1):
-        t = (points[:, axis] - base[:, axis])[:, None] - offsets
-        window = np.i0(9 * np.sqrt(np.clip(1 - (t / reach) ** 2, 0, 1)))
-        w = np.sinc(t) * window
-        weights.append(w / w.sum(axis=1, keepdims=True))
-    patch = image[base[:, 1, None, None] + offsets[:, None], base[:, 0, None, None] + offsets]
-    return np.einsum("nij,ni,nj->n", patch, weights[1], weights[0])
 
 
 @pytest.mark.parametrize("size", [(1280, 720), (641, 363), (96, 54), (1000, 250)])

@@ -8,9 +8,8 @@ from dqpaint import dq
 from dqpaint.light.film.film import PAD, expose
 from dqpaint.light.sources.brushes import read_brush
 from dqpaint.light.sources.sheet import Sheet, cells
-from tests.light.test_point_spread import sampled
 from tests.support.camera_motion import camera_for, screw, swept
-from tests.support.film_scene import at_pixels, flat_camera
+from tests.support.film_scene import at_pixels, flat_camera, sampled
 
 JACOBIAN_TOLERANCE = 0.01
 CORE = 1.25  # [px] with the film's own spline it is what the sharpest spread leaves

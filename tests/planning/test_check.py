@@ -51,7 +51,7 @@ def test_a_drawing_without_an_arm_is_checked_without_the_arms(tmp_path: Path) ->
     path = tmp_path / "line.traj"
     path.write_text("line by (9, 0) mm\n", encoding="utf-8")
     code = (
-        "import sys; from dqpaint.checking import check\n"
+        "import sys; from dqpaint.planning.check import check\n"
         f"assert not check({str(path)!r}).errors\n"
         "assert not [m for m in sys.modules if m.startswith('dqpaint.robots')]\n"
         "assert not {'pin', 'pinocchio', 'cv2', 'pybullet'} & {*sys.modules}"

@@ -14,37 +14,14 @@ from dqpaint.planning.reachability import begin
 from dqpaint.plants import PLANTS
 from dqpaint.robots.kinematics.differential_ik import LENGTH
 from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.model.card import Card, Limits, read_card
+from dqpaint.robots.model.card import Card, read_card
 from dqpaint.settings.model import make_settings
 from dqpaint.simulation.closed_loop import track
+from tests.support.forecasts import lifted, random_drawing, rows_of
 
 RATE, TORQUE = 0.025, 0.04  # relative: a run takes each step with what it saw before it
 CORRECTION = 0.08  # of a torque limit: what a law adds to correct its own errors
 ANGLE = np.radians(0.1)
-
-
-def random_drawing(seed):
-    """Four lines within reach; some of them too fast, some with corners, some turning far."""
-    rng = np.random.default_rng([2016, seed])
-    text = "period 4 ms\nstart at (0, 0) mm\n"
-    for _ in range(4):
-        x, y, z = rng.uniform(-140, 140, 3) * [1, 1, 0.3]
-        law = rng.choice(["trapezoid", "quintic", "constant"], p=[0.5, 0.35, 0.15])
-        speed = np.exp(rng.uniform(np.log(60), np.log(1200)))
-        text += f"line to ({x:.0f}, {y:.0f}, {z:.0f}) mm speed {speed:.0f} mm/s law {law}"
-        if rng.random() < 0.6:
-            text += f" tool rot({rng.choice(list('xyz'))}, {rng.uniform(-60, 60):.0f} deg)"
-        text += " light red\n"
-    return text
-
-
-def lifted(card):
-    """The same arm with limits so wide that none is ever met."""
-    n = card.joints
-    limits = Limits(
-        lower_deg=(-2000,) * n, upper_deg=(2000,) * n, speed_deg_s=(1e6,) * n, effort_Nm=(1e6,) * n
-    )
-    return card.model_copy(update={"limits": limits})
 
 
 def look_and_run(text, plant, name="iiwa"):
@@ -64,10 +41,6 @@ def look_and_run(text, plant, name="iiwa"):
 @cache
 def looked_and_run(seed):
     return look_and_run(random_drawing(seed), "stiff")
-
-
-def rows_of(track, line):
-    return np.flatnonzero(track.motion.line[:-1] == line)
 
 
 def compare_amounts(found, free, card, efforts):

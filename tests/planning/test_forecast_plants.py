@@ -16,7 +16,7 @@ from dqpaint.plants.plant import find_plant
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
 from dqpaint.simulation.closed_loop import track
-from tests.planning.test_forecast import lifted, random_drawing, rows_of
+from tests.support.forecasts import lifted, random_drawing, rows_of
 
 SWING = 0.15  # of a torque: springs swing where the acceleration changes at once
 GAINS = {"k": 20.0}

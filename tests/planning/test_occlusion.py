@@ -25,7 +25,7 @@ from dqpaint.robots.model.card import read_card
 from dqpaint.robots.urdf.prepare import urdf_file
 from dqpaint.settings.model import make_settings
 from dqpaint.simulation.closed_loop import track
-from tests.planning.test_forecast import lifted
+from tests.support.forecasts import lifted
 
 ARMS = ("iiwa", "panda", "xarm6", "meka-a2", "viper850")
 SEEDS = (1, 8, 9, 16, 17, 20, 22, 33, 39, 50)  # of drawings that their arms can draw, two each

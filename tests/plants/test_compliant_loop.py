@@ -1,52 +1,23 @@
 """The compliant arm under a law: lag, sag, and the gain at which it begins to swing."""
 
-from functools import cache
-
 import numpy as np
 import pytest
 
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.language import parse
 from dqpaint.motion import plan
-from dqpaint.planning.reachability import begin
 from dqpaint.plants import choose_plant
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
 from dqpaint.simulation.closed_loop import track
+from tests.support.compliant_loop import ARMS, error
 from tests.tools import generated
 
 pytestmark = pytest.mark.slow
-TEXT = "period 8 ms\nstart at (60, 0) mm\narc centre (0, 0) angle 180 deg in 3 s law constant\n"
-ASIDE = 0.05  # [rad] in every joint, where it begins
 SPEED = 0.06 * np.pi / 3  # [m/s]
-ARMS = ("iiwa", "meka-a2")
 
 
 every_arm = pytest.mark.parametrize("arm", ARMS)
-
-
-@cache
-def beside_its_circle(name):
-    kinematics = Kinematics(read_card(name))
-    motion = plan(parse(TEXT, "t.traj"), kinematics.card.canvas.pose)
-    return kinematics, motion, begin(motion, kinematics).posture + ASIDE
-
-
-def error(arm, values, law="pff", k=20.0):
-    return _error(arm, values, law, k)
-
-
-@cache
-def _error(arm, values, law, k):
-    """The rms position error [mm] after a second, and the rms change of the commands [rad/s]."""
-    kinematics, motion, start = beside_its_circle(arm)
-    chosen = CONTROLLERS[law]
-    plant = choose_plant(f"compliant:{values}", "rates")
-    run = track(motion, kinematics, start, plant, chosen, chosen.read_gains({"k": k}))
-    late = motion.t > 1
-    far = np.linalg.norm(run.points - motion.points, axis=1)[late]
-    restless = np.linalg.norm(np.diff(run.command, axis=0), axis=1)[late[1:]]
-    return 1e3 * np.sqrt((far**2).mean()), np.sqrt((restless**2).mean())
 
 
 @every_arm

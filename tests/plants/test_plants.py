@@ -209,7 +209,7 @@ def test_physics_steps_are_at_most_a_millisecond(period, steps, monkeypatch):
 def test_pybullet_keeps_quiet():
     """It writes a build line when imported and a remark for each solver it is asked for."""
     code = (
-        "from dqpaint.plants import PLANTS; from dqpaint.robots.card import read_card;"
+        "from dqpaint.plants import PLANTS; from dqpaint.robots.model.card import read_card;"
         "card = read_card('iiwa'); PLANTS['stiff'](card, card.home, 0.01).close()"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -9,7 +9,7 @@ from dqpaint.render import motion_blur
 from dqpaint.render.arm_shapes import Arm
 from dqpaint.render.motion_blur import MOMENTS, blurred, moments
 from dqpaint.render.still import glow, photograph
-from tests.render.test_still import ring, seen
+from tests.support.ring_of_light import ring, seen
 from tests.support.urdf_shapes import urdf
 
 A, B = np.array([0.3, -0.4]), np.array([-0.5, 0.6])

@@ -14,7 +14,7 @@ from dqpaint.painting import video
 from dqpaint.painting.picture import lights_of
 from dqpaint.render.arm_shapes import Arm
 from dqpaint.render.scene_arm import SceneArm, account
-from tests.render.test_occlusion import EYE, Wall
+from tests.support.shadow import EYE, Wall
 from tests.support.urdf_shapes import urdf
 
 SMALL = {"size": (160, 90), "controller": "p"}

@@ -5,25 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from dqpaint.light.camera.camera import View, frame
 from dqpaint.render import still
 from dqpaint.render.arm_shapes import Arm
 from dqpaint.render.geometry_buffer import measure
 from dqpaint.render.still import glow, photograph
+from tests.support.ring_of_light import ring, seen
 from tests.support.urdf_shapes import BALL, urdf
 
 slow = pytest.mark.slow
-
-
-def ring(colour=(1.0, 0.2, 0.1), n=200):
-    angle = np.linspace(0, 2 * np.pi, n + 1)
-    points = np.stack([0.2 * np.cos(angle), np.full(n + 1, -0.3), 0.5 + 0.2 * np.sin(angle)], 1)
-    return points, np.tile(np.array(colour) / n, (n, 1))
-
-
-def seen(fill=0.3, size=(240, 180)):
-    front = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
-    return frame(ring()[0], front, View(15, 20), size, fill)
 
 
 def test_twice_the_light_with_half_the_exposure_is_the_same_glow():

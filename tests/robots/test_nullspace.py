@@ -20,7 +20,7 @@ from dqpaint.robots.kinematics.nullspace import (
 from dqpaint.robots.model.card import installed_names, read_card
 from dqpaint.simulation.closed_loop import track
 from dqpaint.simulation.drives import make_drive
-from tests.disturbances.test_contract import ACCEL
+from tests.support.control import ACCEL
 
 CARD = read_card("iiwa")
 ARM = Kinematics(CARD)

@@ -10,7 +10,7 @@ from dqpaint.cli import pose as pose_text
 from dqpaint.errors import UsageError
 from dqpaint.robots import pose_query
 from dqpaint.robots.model.card import read_card
-from tests.conftest import random_poses
+from tests.support.random_poses import random_poses
 
 VIPER = read_card("viper850")
 PHAM = "20,-110,190,25,45,20"

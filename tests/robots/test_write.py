@@ -8,7 +8,7 @@ from dqpaint.robots.model.card import read_card
 from dqpaint.robots.model.fields import Mount
 from dqpaint.robots.urdf.prepare import urdf_file
 from dqpaint.robots.urdf.write import roll_pitch_yaw, write_urdf
-from tests.conftest import random_rotations
+from tests.support.random_poses import random_rotations
 from tests.support.robot_cards import CARDS
 
 

@@ -12,7 +12,7 @@ from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.outputs import files
 from dqpaint.painting import film_file
 from dqpaint.simulation.recorded_run import along_cubics, along_screws, read_recording
-from tests.conftest import random_poses
+from tests.support.random_poses import random_poses
 
 TEXT = (
     "period 10 ms\nspeed 80 mm/s\nstart at (-40, 0) mm\n"

@@ -35,7 +35,7 @@ from dqpaint.studies.report import pictures as shown
 from dqpaint.studies.report.charts import Line, Panel
 from dqpaint.studies.report.page import Charts
 from dqpaint.studies.runner.run import Result, Run, drawing_text, seeded
-from tests.conftest import random_poses
+from tests.support.random_poses import random_poses
 
 
 def test_every_paper_s_measure_is_there():

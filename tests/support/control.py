@@ -4,6 +4,8 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS, Seen
+from dqpaint.controllers.base.controller import Controller
+from dqpaint.controllers.laws.p import RateGains
 from dqpaint.language import parse
 from dqpaint.motion import plan
 from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability
@@ -61,3 +63,12 @@ def states(rng, n, size=0.3):
         error = dq.exp(rng.uniform(-size, size, 6) / 2)
         out.append(seen_by(ARM, q, dq.mul(error, x) * rng.choice([-1, 1]), rng))
     return out
+
+
+def accelerate(seen, gains):
+    """Resolved acceleration at the tool, enough of a law for the torque-driven arm."""
+    x_e = dq.mul(dq.nearest(seen.pose_d, seen.pose), dq.conj(seen.pose))
+    return 400 * dq.log(x_e) + 20 * (seen.twist_d - seen.twist) + seen.acceleration_d
+
+
+ACCEL = Controller("accelerate", "none", RateGains, accelerate, "acceleration")

@@ -29,3 +29,17 @@ def line(a, b, density, camera, steps=1):
     u = np.linspace(0, 1, steps + 1)[:, None]
     share = np.linalg.norm(b - a) / steps
     return drawn(a + u * (b - a), np.tile(np.multiply(density, share), (steps, 1)), camera)
+
+
+def sampled(image, points, reach=8):
+    """Values between pixels by a windowed sinc: what band-limited pixels stand for."""
+    base = np.floor(points).astype(int)
+    offsets = np.arange(1 - reach, reach + 1)
+    weights = []
+    for axis in (0, 1):
+        t = (points[:, axis] - base[:, axis])[:, None] - offsets
+        window = np.i0(9 * np.sqrt(np.clip(1 - (t / reach) ** 2, 0, 1)))
+        w = np.sinc(t) * window
+        weights.append(w / w.sum(axis=1, keepdims=True))
+    patch = image[base[:, 1, None, None] + offsets[:, None], base[:, 0, None, None] + offsets]
+    return np.einsum("nij,ni,nj->n", patch, weights[1], weights[0])

@@ -119,7 +119,7 @@ def hard():
 
     from dqpaint import api
     from dqpaint.language import ScriptError
-    from tests.planning.test_retiming import BEYOND, FAST, far_out, past_a_singularity
+    from tests.support.hard_drawings import BEYOND, FAST, far_out, past_a_singularity
 
     rows = []
     for name, text, start in (
@@ -148,7 +148,7 @@ def hard():
 
 def springs():
     """The compliant arms on half a circle: error, sag, and where a gain makes them swing."""
-    from tests.plants.test_compliant_loop import ARMS, error
+    from tests.support.compliant_loop import ARMS, error
 
     rows = []
     for values, law, gains in (

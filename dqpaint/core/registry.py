@@ -1,22 +1,43 @@
-"""One way to give a thing a name; an unknown name is answered with the known ones."""
+"""A name -> the thing of its kind: built in, or brought by another package's entry points."""
 
 import importlib
 import pkgutil
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
-from typing import Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from dqpaint.errors import UnknownNameError
+from dqpaint.errors import UnknownNameError, UsageError
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 T = TypeVar("T")
 
 
 class Registry(Mapping[str, T], Generic[T]):
-    """Named things of one kind, in the order in which they were added."""
+    """Named things of one kind, in the order in which they were added; then those of plugins.
 
-    def __init__(self, kind: str) -> None:
+    Args:
+        kind: what the things are called in messages, in the singular.
+        group: of the entry points by which other packages bring more, such as
+            `dqpaint.controllers`; None is closed to them.
+        adapt: makes the thing of a kind from a name and what the entry point gives.
+
+    A plugin is imported when its name is asked for, or all names. Its name never hides a built-in
+    thing's, and one that two packages bring is refused.
+    """
+
+    def __init__(
+        self,
+        kind: str,
+        group: str | None = None,
+        adapt: Callable[[str, Any], T] = lambda _name, thing: thing,
+    ) -> None:
         self.kind = kind
+        self._group = group
+        self._adapt = adapt
         self._things: dict[str, T] = {}
+        self._origins: dict[str, str] = {}
 
     def add(self, name: str) -> Callable[[T], T]:
         """A decorator that gives the thing below it a name."""
@@ -29,19 +50,96 @@ class Registry(Mapping[str, T], Generic[T]):
 
         return record
 
+    def origin(self, name: str) -> str | None:
+        """The package, with its version, that brought a thing; None for one that is built in."""
+        self._look_for(name)
+        return self._origins.get(name)
+
+    @property
+    def faults(self) -> list[str]:
+        """What is wrong with plugins, a sentence each; all are imported."""
+        self._load_all()
+        return self._faults
+
+    @cached_property
+    def _faults(self) -> list[str]:
+        told = []
+        for name, brought in self._plugins.items():
+            if self._is_built_in(name):
+                told += [
+                    f"{self.kind} '{name}' of {_package(one)} is not used: dqpaint has its own"
+                    for one in brought
+                ]
+                continue
+            try:
+                self._load(name)
+            except UsageError as problem:
+                told.append(str(problem))
+        return told
+
+    @cached_property
+    def _plugins(self) -> "dict[str, list[EntryPoint]]":
+        if self._group is None:
+            return {}
+        from importlib.metadata import entry_points  # slow, and only unknown names need it
+
+        found: dict[str, list[EntryPoint]] = {}
+        for one in entry_points(group=self._group):
+            found.setdefault(one.name, []).append(one)
+        return dict(sorted(found.items()))
+
+    def _is_built_in(self, name: str) -> bool:
+        return name in self._things and name not in self._origins
+
+    def _load(self, name: str) -> None:
+        """Import the plugin of a name.
+
+        Raises:
+            UsageError: two packages bring it, or it cannot be imported or used.
+        """
+        if name in self._things or name not in self._plugins:
+            return
+        first, *others = self._plugins[name]
+        if others:
+            packages = " and ".join(_package(one) for one in self._plugins[name])
+            raise UsageError(f"{self.kind} '{name}' is brought by {packages}: remove one of them")
+        before = set(self._things)
+        try:
+            thing = first.load()
+            if name not in self._things:  # else the module has registered it itself
+                self._things[name] = self._adapt(name, thing)
+        except Exception as problem:
+            said = f"{type(problem).__name__}: {problem}".splitlines()[0]
+            raise UsageError(
+                f"{self.kind} '{name}' of {_package(first)} cannot be loaded: {said}"
+            ) from problem
+        self._origins |= dict.fromkeys(set(self._things) - before, _package(first))
+
+    def _look_for(self, name: str) -> None:
+        """Have a name's thing loaded, wherever it is."""
+        if name not in self._things:
+            self._load(name)
+
+    def _load_all(self) -> None:
+        _ = self._faults
+
     def __getitem__(self, name: str) -> T:
+        self._look_for(name)
         try:
             return self._things[name]
         except KeyError:
             raise UnknownNameError(self.kind, name, list(self)) from None
 
     def __contains__(self, name: object) -> bool:
+        self._look_for(str(name))
         return name in self._things
 
     def __iter__(self) -> Iterator[str]:
+        self._load_all()
         return iter(self._things)
 
     def __len__(self) -> int:
+        self._load_all()
         return len(self._things)
 
 
@@ -50,10 +148,22 @@ class Folder(Registry[T]):
 
     A file is read when it is needed: `pham-t` is looked for in `pham_t.py` first, and only who asks
     for all names, or for one that is elsewhere, has every file read.
+
+    Args:
+        kind: as for `Registry`.
+        package: whose files have the built-in things.
+        group: as for `Registry`.
+        adapt: as for `Registry`.
     """
 
-    def __init__(self, kind: str, package: str) -> None:
-        super().__init__(kind)
+    def __init__(
+        self,
+        kind: str,
+        package: str,
+        group: str | None = None,
+        adapt: Callable[[str, Any], T] = lambda _name, thing: thing,
+    ) -> None:
+        super().__init__(kind, group, adapt)
         self._package = package
 
     @cached_property
@@ -64,29 +174,27 @@ class Folder(Registry[T]):
     def _read(self, file: str) -> None:
         importlib.import_module(f"{self._package}.{file}")
 
-    def _read_all(self) -> None:
-        for file in self._files:
-            self._read(file)
-
     def _look_for(self, name: str) -> None:
         file = name.replace("-", "_")
         if name not in self._things and file in self._files:
             self._read(file)
         if name not in self._things:
             self._read_all()
+        super()._look_for(name)
 
-    def __getitem__(self, name: str) -> T:
-        self._look_for(name)
-        return super().__getitem__(name)
+    def _read_all(self) -> None:
+        for file in self._files:
+            self._read(file)
 
-    def __contains__(self, name: object) -> bool:
-        self._look_for(str(name))
-        return super().__contains__(name)
+    def _load_all(self) -> None:
+        self._read_all()
+        super()._load_all()
 
     def __iter__(self) -> Iterator[str]:
-        self._read_all()
+        self._load_all()
         return iter(sorted(self._things))
 
-    def __len__(self) -> int:
-        self._read_all()
-        return super().__len__()
+
+def _package(one: "EntryPoint") -> str:
+    """The distribution that an entry point belongs to, with its version."""
+    return f"{one.dist.name} {one.dist.version}" if one.dist else one.value

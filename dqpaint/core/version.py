@@ -1,7 +1,5 @@
 """The names of the libraries that a run's result depends on -> their versions here."""
 
-from importlib.metadata import PackageNotFoundError, version
-
 LIBRARIES = {
     "numpy": ("numpy",),
     "opencv-python-headless": ("opencv-python-headless",),
@@ -17,6 +15,8 @@ def library_versions() -> dict[str, str]:
 
 
 def _version(names: tuple[str, ...]) -> str:
+    from importlib.metadata import PackageNotFoundError, version  # slow, and few commands need it
+
     for name in names:
         try:
             found = version(name)

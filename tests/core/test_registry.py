@@ -6,9 +6,10 @@ import pytest
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.core.registry import Folder, Registry
 from dqpaint.disturbances import DISTURBANCES
-from dqpaint.errors import UnknownNameError
+from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.outputs.robot import FORMATS
 from dqpaint.plants import PLANTS
+from tests.support.plugins import install
 
 FOLDERS = [CONTROLLERS, PLANTS, DISTURBANCES, FORMATS]
 
@@ -86,3 +87,68 @@ def test_a_run_reads_no_law_plant_or_disturbance_but_its_own():
     for room, used in (("plants", "stiff"), ("disturbances", None)):
         for name in set(PLANTS if room == "plants" else DISTURBANCES) - {used}:
             assert f"dqpaint.{room}.{name}" not in read
+
+
+@pytest.fixture
+def orchard(tmp_path, monkeypatch, fruit):
+    """A function that installs packages that bring fruit, and the registry open to them."""
+
+    def grow(name, points, version="1.2", **files):
+        install(tmp_path / name, name, files, f"[fruit.trees]\n{points}\n", version)
+        monkeypatch.syspath_prepend(tmp_path / name)
+        return Folder("fruit", "fruit_of_test_registry", "fruit.trees", lambda _, thing: str(thing))
+
+    yield grow
+    for key in [key for key in sys.modules if key.startswith("orchard")]:
+        del sys.modules[key]
+
+
+def test_plugins_are_found_by_their_entry_points(orchard):
+    fruit = orchard("orchard1", "kiwi = orchard1.green:kiwi\nlime = orchard1.green", green="kiwi=7")
+    assert fruit["kiwi"] == "7"  # as `adapt` makes it
+    assert fruit.origin("kiwi") == "orchard1 1.2"
+    assert list(fruit) == ["kiwi", "lime"]
+    assert len(fruit) == 2
+
+
+def test_a_built_in_name_is_never_hidden(orchard):
+    orchard("orchard2", "apple = orchard2.red:apple", red="apple = 'wrong'")
+    own = Folder("fruit", "fruit_of_test_registry", "fruit.trees")
+    own.add("apple")("right")
+    assert own["apple"] == "right"
+    assert own.origin("apple") is None
+    assert list(own) == ["apple"]
+    assert own.faults == ["fruit 'apple' of orchard2 1.2 is not used: dqpaint has its own"]
+
+
+@pytest.mark.parametrize(
+    ("points", "said"),
+    [
+        ("kiwi = orchard3.nowhere:kiwi", "No module named 'orchard3.nowhere'"),
+        ("kiwi = orchard3.green:plum", "has no attribute 'plum'"),
+        ("kiwi = orchard3.broken:kiwi", "ZeroDivisionError"),
+    ],
+)
+def test_a_plugin_that_cannot_be_loaded_is_told_with_its_package(orchard, points, said):
+    fruit = orchard("orchard3", points, green="kiwi = 7", broken="1 / 0")
+    with pytest.raises(UsageError, match=rf"fruit 'kiwi' of orchard3 1\.2 .*{said}"):
+        fruit["kiwi"]
+    assert list(fruit) == []  # a list shows the others
+    assert said in fruit.faults[0]
+
+
+def test_a_name_that_two_packages_bring_is_refused(orchard):
+    orchard("orchard4", "kiwi = orchard4.green:kiwi", green="kiwi = 7")
+    fruit = orchard("orchard5", "kiwi = orchard5.green:kiwi", green="kiwi = 8", version="2.0")
+    with pytest.raises(UsageError, match=r"brought by orchard\d \S+ and orchard\d \S+: remove one"):
+        fruit["kiwi"]
+
+
+def test_a_plugin_may_register_itself_as_built_in_things_do(orchard):
+    text = "from orchard6 import FRUIT\nFRUIT.add('kiwi')('registered')\nkiwi = 'not this'"
+    fruit = orchard("orchard6", "kiwi = orchard6.green:kiwi", green=text)
+    import orchard6
+
+    orchard6.FRUIT = fruit
+    assert fruit["kiwi"] == "registered"
+    assert fruit.origin("kiwi") == "orchard6 1.2"

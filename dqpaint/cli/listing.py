@@ -4,13 +4,17 @@ from collections.abc import Callable
 from typing import Any
 
 from dqpaint.cli.terminal import table
+from dqpaint.core import Registry
 from dqpaint.errors import UnknownNameError
 
 
 def _robots() -> list[dict[str, Any]]:
+    from dqpaint.robots.loading import find_card, plugin_cards
     from dqpaint.robots.model import DEFAULT_ROBOT, card_names, read_card
 
+    brought = plugin_cards()
     cards = [read_card(name) for name in card_names()]
+    cards += [find_card(name) for name in brought]
     return [
         {
             "name": c.name,
@@ -19,6 +23,7 @@ def _robots() -> list[dict[str, Any]]:
             "missing": c.missing,
             "default": c.name == DEFAULT_ROBOT,
             "source": c.source,
+            **({"package": brought[c.name][1]} if c.name in brought else {}),
         }
         for c in cards
     ]
@@ -35,11 +40,12 @@ def _controllers() -> list[dict[str, Any]]:
             "default": c.name == DEFAULT_CONTROLLER,
             "source": c.source,
             "gains": [
-                {"name": name, "default": f.default, "about": f.description}
-                for name, f in c.gains.model_fields.items()
+                {"name": gain, "default": f.default, "about": f.description}
+                for gain, f in c.gains.model_fields.items()
             ],
+            **_package(CONTROLLERS, name),
         }
-        for c in CONTROLLERS.values()
+        for name, c in CONTROLLERS.items()
     ]
 
 
@@ -49,10 +55,11 @@ def _plants() -> list[dict[str, Any]]:
     return [
         {
             "name": name,
-            "about": (plant.__doc__ or "").splitlines()[0],
+            "about": _about(plant),
             "default": name == DEFAULT_PLANTS["rates"],
             "takes": plant.takes,
             "values": _values(plant.options) if plant.options else [],
+            **_package(PLANTS, name),
         }
         for name, plant in PLANTS.items()
     ]
@@ -77,11 +84,23 @@ def _disturbances() -> list[dict[str, Any]]:
     return [
         {
             "name": name,
-            "about": (model.__doc__ or "").splitlines()[0],
+            "about": _about(model),
             "values": _values(model),
+            **_package(DISTURBANCES, name),
         }
         for name, model in DISTURBANCES.items()
     ]
+
+
+def _about(thing: object) -> str:
+    """The first line of a docstring; a plugin's thing may have none."""
+    return next(iter((thing.__doc__ or "").splitlines()), "")
+
+
+def _package(registry: Registry[Any], name: str) -> dict[str, str]:
+    """The package that brings a thing, where it is not built in."""
+    package = registry.origin(name)
+    return {"package": package} if package else {}
 
 
 def _values(model: Any) -> list[dict[str, Any]]:
@@ -97,7 +116,7 @@ def _null() -> list[dict[str, Any]]:
     return [
         {
             "name": name,
-            "about": (objective.__doc__ or "").splitlines()[0],
+            "about": _about(objective),
             "default": name == DEFAULT_NULL,
             "values": [{"name": "gain", "default": objective.usual, "about": objective.unit}]
             if objective.usual
@@ -111,7 +130,12 @@ def _brushes() -> list[dict[str, Any]]:
     from dqpaint.light.sources import BRUSHES, choices_of
 
     return [
-        {"name": name, "about": (kind.__doc__ or "").splitlines()[0], "choices": choices_of(kind)}
+        {
+            "name": name,
+            "about": _about(kind),
+            "choices": choices_of(kind),
+            **_package(BRUSHES, name),
+        }
         for name, kind in BRUSHES.items()
     ]
 
@@ -122,7 +146,7 @@ def _looks() -> list[dict[str, Any]]:
 
     usual = Settings.model_fields["look"].default
     return [
-        {"name": name, "about": (look.__doc__ or "").splitlines()[0], "default": name == usual}
+        {"name": name, "about": _about(look), "default": name == usual}
         for name, look in LOOKS.items()
     ]
 
@@ -191,6 +215,22 @@ def lists(what: str) -> dict[str, list[dict[str, Any]]]:
     return {what: LISTS[what]()}
 
 
+def faults(what: str) -> list[str]:
+    """What is wrong with the plugins of a list, or of `all`: a sentence each."""
+    from dqpaint.controllers import CONTROLLERS
+    from dqpaint.disturbances import DISTURBANCES
+    from dqpaint.light.sources import BRUSHES
+    from dqpaint.plants import PLANTS
+    from dqpaint.robots.loading import CARD_FOLDERS
+
+    registries: dict[str, Registry[Any]] = {
+        "robots": CARD_FOLDERS, "controllers": CONTROLLERS, "plants": PLANTS,
+        "disturbances": DISTURBANCES, "brushes": BRUSHES,
+    }  # fmt: skip
+    asked = registries if what == "all" else {what} & registries.keys()
+    return [fault for name in asked for fault in registries[name].faults]
+
+
 def text(found: dict[str, list[dict[str, Any]]]) -> str:
     """Entries as a person reads them: a line each, what belongs to it below."""
     parts = []
@@ -198,7 +238,8 @@ def text(found: dict[str, list[dict[str, Any]]]) -> str:
         lines: list[tuple[str, str]] = []
         for row in rows:
             usual = " (default)" if row.get("default") else ""
-            lines.append((row["name"] + usual, row["about"]))
+            package = f" (from {row['package']})" if "package" in row else ""
+            lines.append((row["name"] + usual, row["about"] + package))
             lines += [("", f"  {choice}") for choice in row.get("choices", [])]
             numbers = [*row.get("gains", []), *row.get("values", [])]
             lines += [("", f"  {value_line(number)}") for number in numbers]

@@ -337,6 +337,8 @@ def list_(
         print(json.dumps(found, indent=2))
     else:
         print(listing.text(lists))
+    for fault in listing.faults(what):
+        print(f"warning: {fault}", file=sys.stderr)
 
 
 POSE_EXAMPLES = """Examples:

@@ -7,7 +7,7 @@ from dqpaint.core.atomic_files import rewrite, stage, write_new
 from dqpaint.core.examples import example_names, examples_folder, find_drawing
 from dqpaint.core.named_values import Values, make_choice, number_or_text, read_choice, reason
 from dqpaint.core.records import record, replaced
-from dqpaint.core.registry import Folder, Registry
+from dqpaint.core.registry import Folder, Registry, subclass
 from dqpaint.core.version import library_versions
 
 __all__ = [
@@ -26,5 +26,6 @@ __all__ = [
     "replaced",
     "rewrite",
     "stage",
+    "subclass",
     "write_new",
 ]

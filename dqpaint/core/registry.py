@@ -195,6 +195,17 @@ class Folder(Registry[T]):
         return iter(sorted(self._things))
 
 
+def subclass(base: type[T], name: str, thing: object) -> type[T]:
+    """A class of a plugin or a user's file, if it is a kind of the base.
+
+    Raises:
+        UsageError: it is not.
+    """
+    if isinstance(thing, type) and issubclass(thing, base) and thing is not base:
+        return thing
+    raise UsageError(f"'{name}' is not a subclass of {base.__module__}.{base.__name__}")
+
+
 def _package(one: "EntryPoint") -> str:
     """The distribution that an entry point belongs to, with its version."""
     return f"{one.dist.name} {one.dist.version}" if one.dist else one.value

@@ -2,12 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import ClassVar
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict
 
-from dqpaint.core import Folder, Registry, Values, make_choice
+from dqpaint.core import Folder, Registry, Values, make_choice, subclass
 from dqpaint.dq import Floats
 from dqpaint.plants import Trait, World
 from dqpaint.robots.kinematics import Kinematics
@@ -81,7 +82,9 @@ class Disturbance(BaseModel):
         return kinematics
 
 
-DISTURBANCES: Registry[type[Disturbance]] = Folder("disturbance", "dqpaint.disturbances")
+DISTURBANCES: Registry[type[Disturbance]] = Folder(
+    "disturbance", "dqpaint.disturbances", "dqpaint.disturbances", partial(subclass, Disturbance)
+)
 
 
 def make_disturbances(given: Mapping[str, Values]) -> dict[str, Disturbance]:

@@ -169,6 +169,7 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
             "python": platform.python_version(),
             **library_versions(),
         },
+        **_plugins(painting),
         "robot": painting.robot,
         "plant": painting.plant,
         "recording": painting.recording and painting.recording.as_json,
@@ -217,6 +218,14 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
         },
         "wall_s": {stage: round(seconds, 4) for stage, seconds in painting.seconds.items()},
     }
+
+
+def _plugins(painting: "paint.Painting") -> dict[str, dict[str, str]]:
+    """The packages beside dqpaint that had a part in the run, if there are any."""
+    from dqpaint.painting import plugins
+
+    found = plugins.plugins_of(painting.settings, painting.motion.program)
+    return {"plugins": found} if found else {}
 
 
 def _response(part: "Response", unit: str) -> dict[str, float | None]:

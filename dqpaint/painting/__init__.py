@@ -5,4 +5,4 @@ checks settings before anything runs, `scene` says what shines, `picture` takes 
 `video` the movies, `film_file` keeps what is needed to develop again.
 """
 
-__all__ = ["film_file", "paint", "picture", "preview", "scene", "validate", "video"]
+__all__ = ["film_file", "paint", "picture", "plugins", "preview", "scene", "validate", "video"]

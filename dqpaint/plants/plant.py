@@ -1,7 +1,7 @@
 """What a plant is: an arm that is given commands, each for one period, and answers by moving."""
 
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol
+from typing import Any, Literal, Protocol, get_args
 
 from pydantic import BaseModel, ConfigDict
 
@@ -109,7 +109,22 @@ class PlantMaker(Protocol):
         """The arm of a card at rest in a posture (n,) [rad], controlled every `period` [s]."""
 
 
-PLANTS: Registry[PlantMaker] = Folder("plant", "dqpaint.plants")
+def as_plant_maker(name: str, thing: Any) -> PlantMaker:
+    """A class or function that a plugin or a user's file brings, if it is a plant.
+
+    Raises:
+        UsageError: it lacks what `PlantMaker` lists.
+    """
+    if missing := [part for part in ("takes", "traits", "options") if not hasattr(thing, part)]:
+        raise UsageError(f"plant '{name}' has no {', '.join(missing)}")
+    if not callable(thing) or thing.takes not in get_args(Takes):
+        known = " or ".join(f'"{one}"' for one in get_args(Takes))
+        raise UsageError(f"plant '{name}': takes is {thing.takes!r}, not {known}")
+    maker: PlantMaker = thing
+    return maker
+
+
+PLANTS: Registry[PlantMaker] = Folder("plant", "dqpaint.plants", "dqpaint.plants", as_plant_maker)
 
 
 @dataclass(frozen=True)

@@ -105,7 +105,18 @@ class Controller(Generic[G]):
         return list_gains(self.gains)
 
 
-CONTROLLERS: Registry[Controller[Any]] = Folder("controller", "dqpaint.controllers.laws")
+def _from_plugin(name: str, law: Any) -> Controller[Any]:
+    """What an entry point brings: a `Controller`, or a law as a user's file has it."""
+    if isinstance(law, Controller):
+        return law
+    from dqpaint.controllers.base.user_controller import make_controller
+
+    return make_controller(law, name)
+
+
+CONTROLLERS: Registry[Controller[Any]] = Folder(
+    "controller", "dqpaint.controllers.laws", "dqpaint.controllers", _from_plugin
+)
 
 
 def controller(

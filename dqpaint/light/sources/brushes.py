@@ -7,13 +7,14 @@ A new brush is a class here under `@BRUSHES.add(name)`: fields with their descri
 from __future__ import annotations
 
 import re
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, cast
 
 import numpy as np
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
-from dqpaint.core import Registry, reason
+from dqpaint.core import Registry, reason, subclass
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.light.arrays import Floats
 from dqpaint.light.sources.emitters import Emitters
@@ -89,7 +90,7 @@ class Brush(BaseModel):
         raise NotImplementedError
 
 
-BRUSHES: Registry[type[Brush]] = Registry("brush")
+BRUSHES: Registry[type[Brush]] = Registry("brush", "dqpaint.brushes", partial(subclass, Brush))
 
 
 @BRUSHES.add("point")

@@ -1,5 +1,5 @@
 """A name, `.urdf` or `.toml` -> a checked card, with defaults for what the file does not say."""
 
-from dqpaint.robots.loading.lookup import card_for, find_card, with_tool
+from dqpaint.robots.loading.lookup import CARD_FOLDERS, card_for, find_card, plugin_cards, with_tool
 
-__all__ = ["card_for", "find_card", "with_tool"]
+__all__ = ["CARD_FOLDERS", "card_for", "find_card", "plugin_cards", "with_tool"]

@@ -1,12 +1,34 @@
-"""Which arm a drawing is for."""
+"""A name, a file or a drawing -> the card of its arm."""
 
+from importlib import resources
 from pathlib import Path
+from typing import Any
 
+from dqpaint.core import Registry
 from dqpaint.diagnostics import closest, did_you_mean
 from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.language import Diagnostic, Program, ScriptError
-from dqpaint.robots.model.card import DEFAULT_ROBOT, Card, read_card
+from dqpaint.robots.model.card import DEFAULT_ROBOT, Card, card_names, read_card
 from dqpaint.robots.model.tool_mount import parse_tool
+
+
+def _folder(_name: str, package: Any) -> Path:
+    """The folder of a package or module that holds cards."""
+    return Path(str(resources.files(package)))
+
+
+CARD_FOLDERS: Registry[Path] = Registry("folder of robots", "dqpaint.robots", _folder)
+"""Folders with cards (`NAME.toml`) that other packages bring."""
+
+
+def plugin_cards() -> dict[str, tuple[Path, str]]:
+    """The arms that other packages bring: name -> its card's file, and the package."""
+    found = {
+        file.stem: (file, CARD_FOLDERS.origin(name) or "")
+        for name, folder in CARD_FOLDERS.items()
+        for file in sorted(folder.glob("*.toml"))
+    }
+    return {name: one for name, one in found.items() if name not in card_names()}
 
 
 def find_card(robot: str) -> Card:
@@ -24,12 +46,15 @@ def find_card(robot: str) -> Card:
     try:
         return read_card(robot)
     except UnknownNameError:
+        brought = plugin_cards()
+        if robot in brought:
+            return find_card(str(brought[robot][0]))
         for file in (f"{robot}.toml", f"{robot}.urdf"):
             if Path(file).is_file():
                 raise UsageError(
                     f"no robot named '{robot}'; a file is named whole: {file}"
                 ) from None
-        raise
+        raise UnknownNameError("robot", robot, sorted({*card_names(), *brought})) from None
 
 
 def with_tool(card: Card, tool: str | None) -> Card:

@@ -21,7 +21,7 @@ from dqpaint.language import parse, read
 from dqpaint.language.imports import files_of
 from dqpaint.language.writing import builder
 from dqpaint.light.sources import read_brush
-from dqpaint.painting import scene
+from dqpaint.painting import plugins, scene
 from dqpaint.plants import choose_plant
 from dqpaint.program import Program
 from dqpaint.robots.loading import card_for
@@ -57,6 +57,7 @@ class Run:
     def key(self) -> str:
         """The hash of all that decides the result."""
         data = {**self.data, "name": Path(self.name).name, "files": self.files(), "code": code()}
+        data["plugins"] = plugins.plugins_of(self.settings, self.program())
         return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()
 
     def files(self) -> dict[str, str]:

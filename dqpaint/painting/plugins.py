@@ -1,0 +1,32 @@
+"""Settings and a program -> what of them other packages bring, with their versions."""
+
+from typing import Any
+
+from dqpaint.controllers import CONTROLLERS
+from dqpaint.core import Registry
+from dqpaint.disturbances import DISTURBANCES
+from dqpaint.light.sources import BRUSHES
+from dqpaint.plants import PLANTS
+from dqpaint.program import Program
+from dqpaint.robots.loading import plugin_cards
+from dqpaint.robots.model import card_names
+from dqpaint.settings import Settings
+
+
+def plugins_of(settings: Settings, program: Program) -> dict[str, str]:
+    """The packages behind a run: `controller pi` -> `name version`; empty where all is built in."""
+    chosen: list[tuple[Registry[Any], str | None]] = [
+        (CONTROLLERS, settings.controller),
+        (PLANTS, settings.plant),
+        (BRUSHES, settings.brush),
+        *((DISTURBANCES, name) for name in settings.disturb),
+    ]
+    found = {}
+    for registry, text in chosen:
+        name = (text or "").partition(":")[0].strip()
+        if name and not name.endswith(".py") and (package := registry.origin(name)):
+            found[f"{registry.kind} {name}"] = package
+    robot = settings.robot or program.robot
+    if robot and robot not in card_names() and robot in (brought := plugin_cards()):
+        found[f"robot {robot}"] = brought[robot][1]
+    return found

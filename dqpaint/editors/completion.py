@@ -5,7 +5,7 @@ from collections.abc import Iterable
 
 from dqpaint.diagnostics import Span
 from dqpaint.editors.vocabulary import Entry, vocabulary
-from dqpaint.language.vocabulary import PARTS, STATEMENTS
+from dqpaint.language.vocabulary import PARTS, RENAMED, STATEMENTS
 
 _WORD = re.compile(r"[A-Za-z_°][A-Za-z0-9_]*", re.ASCII)
 _TOKEN = re.compile(r'"[^"\n]*"?|#.*|[A-Za-z_°][A-Za-z0-9_]*|[\d.]+|\S', re.ASCII)
@@ -48,8 +48,8 @@ def completions(text: str, offset: int) -> list[Entry]:
     units = _of("unit")
     if re.fullmatch(r"[\d.]+", last):
         return units
-    if last == "law":
-        return _of("law")
+    if RENAMED.get(last, last) == "profile":
+        return _of("profile")
     if last == "light" or (last == "to" and "light" in tokens):
         return [*_of("colour", "function"), *_little("on", "off")]
     if last == "tool":

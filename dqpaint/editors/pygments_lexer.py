@@ -16,11 +16,12 @@ _KINDS = {
     "part": Keyword.Declaration,
     "word": Keyword.Declaration,
     "function": Name.Function,
-    "law": Name.Builtin,
+    "profile": Name.Builtin,
     "constant": Name.Constant,
     "colour": Name.Builtin,
     "unit": Keyword.Type,
     "statement": Keyword.Declaration,  # within a line: `look line`
+    "renamed": Keyword.Declaration,
 }
 _END = r"(?![A-Za-z0-9_])"
 

@@ -33,7 +33,7 @@ _KINDS = {
     "word": lsp.CompletionItemKind.Keyword,
     "unit": lsp.CompletionItemKind.Unit,
     "function": lsp.CompletionItemKind.Function,
-    "law": lsp.CompletionItemKind.EnumMember,
+    "profile": lsp.CompletionItemKind.EnumMember,
     "constant": lsp.CompletionItemKind.Constant,
     "colour": lsp.CompletionItemKind.Color,
     "name": lsp.CompletionItemKind.Variable,

@@ -16,11 +16,12 @@ _SCOPES = {
     "part": "keyword.other",
     "word": "keyword.other",
     "function": "support.function",
-    "law": "support.constant.law",
+    "profile": "support.constant.profile",
     "constant": "constant.language",
     "colour": "support.constant.colour",
     "unit": "keyword.other.unit",
     "statement": "keyword.other",
+    "renamed": "keyword.other",
 }
 _STATEMENT = "keyword.control.traj"
 

@@ -6,9 +6,10 @@ from typing import NamedTuple
 from dqpaint.language.vocabulary import (
     CONSTANTS,
     FUNCTIONS,
-    LAWS,
     LITTLE_WORDS,
     PARTS,
+    PROFILES,
+    RENAMED,
     STATEMENTS,
     UNITS,
 )
@@ -19,7 +20,7 @@ class Entry(NamedTuple):
     """A word: its kind, its meaning in a line, how it is written."""
 
     word: str
-    kind: str  # statement, part, word, unit, function, law, constant, colour
+    kind: str  # statement, part, word, unit, function, profile, constant, colour, renamed
     says: str
     example: str
 
@@ -35,11 +36,15 @@ def vocabulary() -> tuple[Entry, ...]:
         *(Entry(unit, "unit", f"the unit {name}", unit) for unit, (_, _, name) in UNITS.items()),
         *(Entry(name, "function", "a function", call) for name, call in FUNCTIONS.items()),
         *(
-            Entry(law, "law", "a time law", f"{law}{ends[max(counts)]}")
-            for law, counts in LAWS.items()
+            Entry(profile, "profile", "a profile", f"{profile}{ends[max(counts)]}")
+            for profile, counts in PROFILES.items()
         ),
         *(Entry(name, "constant", _constant(name), name) for name in CONSTANTS),
         *(Entry(name, "colour", "a colour", name) for name in colours.NAMES),
+        *(
+            Entry(old, "renamed", f"the same as {new}", PARTS[new].example)
+            for old, new in RENAMED.items()
+        ),
     )
 
 

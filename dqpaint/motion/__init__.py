@@ -1,11 +1,10 @@
 """Program -> Motion: the asked pose, twist and acceleration at every sample, in closed form.
 
-`places`, `orientations` and `shapes` say what strokes are (one screw, or place and orientation
-apart), `families` takes those of one kind together, `laws` says how they run in time, `lengths` and
-`timetable` how long they take, `sampling` gives their rows, `glow` how they shine, `corners` where
-the velocity jumps, `plan` puts the samples together, `survey` says what there is to say without
-them. A new time law is a function in `laws` under `@LAWS.add` with its `PEAK`, and its name in the
-language.
+`geometry` says what strokes are (one screw, or place and orientation apart) and takes those of one
+kind together, `profiles` says how they run in time, `schedule` how long they take, `sampling` gives
+their rows, `stroke_light` how they shine, `corner_warnings` where the velocity jumps, `plan` puts
+the samples together, `survey` says what there is to say without them. A new profile is a function
+in `profiles` under `@PROFILES.add` with its `PEAK`, and its name in the language.
 """
 
 from dqpaint.motion.plan import Motion, plan

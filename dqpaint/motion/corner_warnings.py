@@ -102,7 +102,9 @@ def _corner(jump: float, segments: tuple[Segment, Segment], within: bool) -> _Co
 
 def _jump(corner: _Corner, count: int) -> Diagnostic:
     others = f", the largest of {count} such corners" if count > 1 else ""
-    ways = ["end the stroke before it" if corner.within else "use law trapezoid to stop at corners"]
+    ways = [
+        "end the stroke before it" if corner.within else "use profile trapezoid to stop at corners"
+    ]
     if corner.round:
         ways.append("round the corner: blend 5 mm" if corner.within else "round them: blend 5 mm")
     message = f"the velocity jumps by {1e3 * corner.jump:.3g} mm/s here{others}"

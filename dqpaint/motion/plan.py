@@ -11,10 +11,10 @@ from dqpaint.diagnostics import Diagnostic, EnoughError, Findings, ScriptError
 from dqpaint.dq import Floats
 from dqpaint.motion.corner_warnings import jumps, slow
 from dqpaint.motion.geometry.shapes import pose_array
-from dqpaint.motion.light_profile import glow, unevenness
 from dqpaint.motion.sampling import Rows, sampled
 from dqpaint.motion.schedule import Schedule, timetable
 from dqpaint.motion.stroke_errors import Faults, beyond_budget
+from dqpaint.motion.stroke_light import glow, unevenness
 from dqpaint.motion.survey import tell
 from dqpaint.motion.time_scaling import Pace, Ticks
 from dqpaint.program import Auto, Pose, Program, Step

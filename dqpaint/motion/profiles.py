@@ -1,8 +1,8 @@
-"""Time laws: how far along its path a stroke is at a time, with the two derivatives.
+"""Velocity profiles, time -> progress along a path, with the two derivatives.
 
-A law runs over the fraction tau in [0, 1] of a stroke's time and gives the fraction of its path.
-`PEAK` is the largest rate d progress / d tau of a law from rest to rest: a stroke of length L that
-never exceeds a speed V takes PEAK L / V.
+A profile runs over the fraction tau in [0, 1] of a stroke's time and gives the fraction of its
+path. `PEAK` is the largest rate d progress / d tau of a profile from rest to rest: a stroke of
+length L that never exceeds a speed V takes PEAK L / V.
 """
 
 from collections.abc import Callable
@@ -25,21 +25,21 @@ class Progress(NamedTuple):
 
 # Boundary rates and accelerations, in fractions of path per tau: one number each, or one a row.
 Rates = tuple[float | Floats, ...]
-TimeLaw = Callable[[Floats, Rates], Progress]
+ProfileFunction = Callable[[Floats, Rates], Progress]
 
-LAWS: Registry[TimeLaw] = Registry("time law")
+PROFILES: Registry[ProfileFunction] = Registry("profile")
 HALVINGS = 26  # of an interval in which the fastest moment lies: its rate is stationary there
 BACKWARDS = 1e-9  # a rate below that, the other way, is the noise of one that is none
 RAMP = 0.2  # of a trapezoid's time, at each end
 
 
-@LAWS.add("constant")
+@PROFILES.add("constant")
 def constant(tau: Floats, _rates: Rates = ()) -> Progress:
     """One speed throughout; corners are velocity jumps."""
     return Progress(tau, np.ones_like(tau), np.zeros_like(tau))
 
 
-@LAWS.add("trapezoid")
+@PROFILES.add("trapezoid")
 def trapezoid(tau: Floats, _rates: Rates = ()) -> Progress:
     """Constant acceleration over the first fifth of the time, braking over the last.
 
@@ -56,13 +56,13 @@ def trapezoid(tau: Floats, _rates: Rates = ()) -> Progress:
     return Progress(value, rate, slope)
 
 
-@LAWS.add("cubic")
+@PROFILES.add("cubic")
 def cubic(tau: Floats, rates: Rates = ()) -> Progress:
     """The polynomial of degree 3 with the given rates (v0, v1) at its ends."""
     return _polynomial(cubic_coefficients(rates), tau)
 
 
-@LAWS.add("quintic")
+@PROFILES.add("quintic")
 def quintic(tau: Floats, rates: Rates = ()) -> Progress:
     """The polynomial of degree 5 with the given rates and accelerations (v0, v1, a0, a1)."""
     return _polynomial(quintic_coefficients(rates), tau)
@@ -105,7 +105,7 @@ PEAK = {"constant": 1.0, "trapezoid": 1.0 / (1.0 - RAMP), "cubic": 1.5, "quintic
 
 
 def peak_rate(name: str, rates: Rates) -> Floats:
-    """The largest |d progress / d tau| of a law with boundary rates; of many, one a row (K,)."""
+    """The largest |d progress / d tau| with boundary rates; of many strokes, one a row (K,)."""
     if not rates:
         return np.array(PEAK[name])
     coefficients = cubic_coefficients(rates) if name == "cubic" else quintic_coefficients(rates)
@@ -114,7 +114,7 @@ def peak_rate(name: str, rates: Rates) -> Floats:
 
 
 def turns_back(name: str, rates: Rates) -> NDArray[np.bool_]:
-    """Whether a law with boundary rates goes backwards on its way; of many, one a row (K,)."""
+    """Whether a profile with boundary rates goes backwards on its way; of many, one a row (K,)."""
     if not rates:
         return np.zeros((), dtype=bool)
     coefficients = cubic_coefficients(rates) if name == "cubic" else quintic_coefficients(rates)
@@ -123,14 +123,14 @@ def turns_back(name: str, rates: Rates) -> NDArray[np.bool_]:
 
 
 def rate_at(name: str, rates: Rates, fraction: float) -> Floats:
-    """The rate of a law that does not turn back, where it has come so far; of many (K,)."""
+    """The rate of a profile that does not turn back, where it has come so far; of many (K,)."""
     lower = np.zeros(np.shape(rates[0]) if rates else ())
     upper = np.ones_like(lower)
     for _ in range(60):
         middle = 0.5 * (lower + upper)
-        beyond = LAWS[name](middle, rates).value > fraction
+        beyond = PROFILES[name](middle, rates).value > fraction
         lower, upper = np.where(beyond, lower, middle), np.where(beyond, middle, upper)
-    return LAWS[name](lower, rates).rate
+    return PROFILES[name](lower, rates).rate
 
 
 def _stationary(slope: Rates) -> Floats:
@@ -162,7 +162,7 @@ def _inside(a: float | Floats, b: float | Floats) -> Floats:
 
 
 def cruise_time(name: str, end_rates: Rates, least: Floats) -> Floats:
-    """The shortest times (K,) [s] in which a law with boundary rates never exceeds its speed.
+    """The shortest times (K,) [s] in which a profile with boundary rates never exceeds its speed.
 
     `least` (K,) is the path over the cruising speed [s]; `end_rates` are fractions of path per
     second (v0, v1) and per second squared (a0, a1), each (K,). Not a number where no time is long

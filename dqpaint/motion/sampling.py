@@ -24,7 +24,7 @@ class Rows:
         stroke: the number of each row's stroke (N,), in order.
         tau: the fraction of its time (N,).
         flow: per second, in the drawing frame.
-        fraction: of the path, as the law has it (N,).
+        fraction: of the path, as the profile has it (N,).
         last: whether a row is the end of its stroke (N,); the next row is the start of another.
     """
 

@@ -1,4 +1,4 @@
-"""When each stroke runs: whole samples, the time law over them, and the budget.
+"""When each stroke runs: whole samples, the profile over them, and the budget.
 
 Durations are rounded up, so that every corner is itself a sample and no speed is exceeded. What
 belongs to the strokes stands in arrays, one row a stroke: a drawing may have many.
@@ -19,13 +19,21 @@ from dqpaint.motion.geometry.arc_length import has_cusp, length_fraction
 from dqpaint.motion.geometry.batched_shapes import Flags, Shapes, gather
 from dqpaint.motion.geometry.paths import Indices
 from dqpaint.motion.geometry.shapes import Flow
-from dqpaint.motion.profiles import LAWS, PEAK, Progress, Rates, cruise_time, peak_rate, scale_rates
+from dqpaint.motion.profiles import (
+    PEAK,
+    PROFILES,
+    Progress,
+    Rates,
+    cruise_time,
+    peak_rate,
+    scale_rates,
+)
 from dqpaint.motion.stroke_errors import MOST_SECONDS, Faults
 from dqpaint.program import Cruise, Program, Samples, Segment, Step, Still
 
 ENDLESS = 1e15  # samples
-NAMES = tuple(LAWS)
-RATES = {"cubic": 2, "quintic": 4}  # how many a law may have
+NAMES = tuple(PROFILES)
+RATES = {"cubic": 2, "quintic": 4}  # how many a profile may have
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,12 +47,12 @@ class Schedule:
         size: and how many it has (S,).
         begin: where each segment begins, as a fraction of its stroke's length (M,).
         end: and where it ends (M,).
-        by_length: which segments (M,) the law runs over by the length of their path, not by the
+        by_length: which segments (M,) the profile runs over by the length of their path, not by the
             parameter of their formula.
         length: of each stroke's path [m] (S,).
-        law: which of `NAMES` each time law is (S,).
-        rates: v0, v1, a0, a1 of each law (S, 4): fractions of the path per second, and per second
-            squared.
+        profile: which of `NAMES` each profile is (S,).
+        rates: v0, v1, a0, a1 of each profile (S, 4): fractions of the path per second, and per
+            second squared.
         count: of new samples (S,).
         wanted: the times [s] they would take if those were not rounded up to whole samples (S,).
     """
@@ -57,7 +65,7 @@ class Schedule:
     end: Floats
     by_length: Flags
     length: Floats
-    law: Indices
+    profile: Indices
     rates: Floats
     count: NDArray[np.int64]
     wanted: Floats
@@ -72,12 +80,12 @@ class Schedule:
 
     @cached_property
     def firsts(self) -> list[Segment]:
-        """The first segment of each stroke; its law and timing are those of all."""
+        """The first segment of each stroke; its profile and timing are those of all."""
         return [self.program.segments[number] for number in self.first]
 
     def of(self, strokes: Flags | Indices) -> "Schedule":
         """Some of the strokes."""
-        names = ("first", "size", "length", "law", "rates", "count", "wanted")
+        names = ("first", "size", "length", "profile", "rates", "count", "wanted")
         return replace(self, **{name: getattr(self, name)[strokes] for name in names})
 
     def edges(self, stroke: int) -> Floats:
@@ -85,25 +93,25 @@ class Schedule:
         first = self.first[stroke]
         return np.append(self.begin[first : first + self.size[stroke]], 1.0)
 
-    def laws(self) -> Iterator[tuple[str, bool, Indices]]:
-        """The strokes of each time law that occurs, those from rest to rest apart."""
+    def profiles(self) -> Iterator[tuple[str, bool, Indices]]:
+        """The strokes of each profile that occurs, those from rest to rest apart."""
         rated = self.rates.any(axis=1)
         for number, name in enumerate(NAMES):
             for with_rates in (False, True):
-                strokes = np.flatnonzero((self.law == number) & (rated == with_rates))
+                strokes = np.flatnonzero((self.profile == number) & (rated == with_rates))
                 if len(strokes):
                     yield name, with_rates, strokes
 
     def end_rates(self, name: str, strokes: Indices | int) -> Rates:
-        """The rates of strokes of one law, or of one stroke, per tau, as `laws` takes them."""
+        """The rates per tau of strokes of one profile, or of one stroke, as it takes them."""
         columns = self.rates[strokes].T[: RATES[name]]
         return scale_rates(tuple(columns), self.time[strokes])
 
     @cached_property
     def peak_rates(self) -> Floats:
-        """The largest rates of the laws (S,), in fractions of the path per tau."""
+        """The largest rates of the profiles (S,), in fractions of the path per tau."""
         peak = np.empty(len(self))
-        for name, with_rates, strokes in self.laws():
+        for name, with_rates, strokes in self.profiles():
             rates = self.end_rates(name, strokes) if with_rates else ()
             peak[strokes] = peak_rate(name, rates)
         return peak
@@ -112,14 +120,14 @@ class Schedule:
         """Fractions of the paths at fractions tau (N,) of the times of strokes (N,), per second."""
         value, rate, slope = np.empty((3, len(tau)))
         kind = np.empty(len(self), dtype=np.intp)
-        laws = list(self.laws())
-        for number, (_, _, strokes) in enumerate(laws):
+        profiles = list(self.profiles())
+        for number, (_, _, strokes) in enumerate(profiles):
             kind[strokes] = number
-        for number, (name, with_rates, _) in enumerate(laws):
-            rows = slice(None) if len(laws) == 1 else np.flatnonzero(kind[stroke] == number)
+        for number, (name, with_rates, _) in enumerate(profiles):
+            rows = slice(None) if len(profiles) == 1 else np.flatnonzero(kind[stroke] == number)
             rates = self.end_rates(name, stroke[rows]) if with_rates else ()
-            law = LAWS[name](tau[rows], rates)
-            value[rows], rate[rows], slope[rows] = law.value, law.rate, law.slope
+            profile = PROFILES[name](tau[rows], rates)
+            value[rows], rate[rows], slope[rows] = profile.value, profile.rate, profile.slope
         time = self.time[stroke]
         return Progress(value, rate / time, slope / time**2)
 
@@ -209,10 +217,10 @@ def timetable(program: Program, findings: Findings) -> Schedule:
         *(np.ones(len(first), np.int64), np.ones(len(first))),
     )
     wrong = _of_strokes(faults, first)
-    law, rates = _laws(draft, wrong)
-    wanted = _seconds(replace(draft, law=law, rates=rates), wrong)
+    profile, rates = _profiles(draft, wrong)
+    wanted = _seconds(replace(draft, profile=profile, rates=rates), wrong)
     count = _counts(draft.firsts, wanted, program)
-    table = replace(draft, law=law, rates=rates, count=count, wanted=wanted)
+    table = replace(draft, profile=profile, rates=rates, count=count, wanted=wanted)
     return table.of(_told(table, wrong, findings))
 
 
@@ -229,9 +237,9 @@ def _by_length(shapes: Shapes, faults: Faults) -> Flags:
     out = np.zeros(len(shapes.segments), dtype=bool)
     for number, extent in shapes.uneven.items():
         segment = shapes.segments[number]
-        law = segment.law
+        profile = segment.profile
         cruises = segment.run is not None or isinstance(segment.timing, Cruise)
-        out[number] = cruises or (any(law.rates) and not law.angular)
+        out[number] = cruises or (any(profile.rates) and not profile.angular)
         if out[number] and has_cusp(shapes.shape(number), extent):
             faults.setdefault(number, (told.cusp(segment),))
     for number in np.flatnonzero(shapes.length == 0.0).tolist():
@@ -263,22 +271,22 @@ def _of_strokes(faults: Faults, first: Indices) -> Faults:
     return wrong
 
 
-def _laws(table: Schedule, wrong: Faults) -> tuple[Indices, Floats]:
-    """Which law each stroke has (S,), and its rates as fractions of the path (S, 4)."""
+def _profiles(table: Schedule, wrong: Faults) -> tuple[Indices, Floats]:
+    """Which profile each stroke has (S,), and its rates as fractions of the path (S, 4)."""
     firsts = table.firsts
-    law = np.array([NAMES.index(segment.law.name) for segment in firsts])
+    profile = np.array([NAMES.index(segment.profile.name) for segment in firsts])
     rates = np.zeros((len(firsts), 4))
     for stroke, segment in enumerate(firsts):
-        given = segment.law.rates
+        given = segment.profile.rates
         if not any(given) or stroke in wrong:
             continue
         angles = table.shapes.angle[table.first[stroke] :][: table.size[stroke]]
-        extent = sum(angles.tolist()) if segment.law.angular else float(table.length[stroke])
+        extent = sum(angles.tolist()) if segment.profile.angular else float(table.length[stroke])
         if extent != 0:
             rates[stroke, : len(given)] = np.array(given) / extent
         elif not isinstance(segment.path, Still | Step):
             wrong[stroke] = (told.no_extent(segment),)
-    return law, rates
+    return profile, rates
 
 
 def _seconds(table: Schedule, wrong: Faults) -> Floats:
@@ -291,13 +299,13 @@ def _seconds(table: Schedule, wrong: Faults) -> Floats:
     with np.errstate(all="ignore"):  # of strokes that are wrong already
         turns = np.maximum.reduceat(table.shapes.angle / share, table.first)
         least = np.maximum(table.length / speed, turns / turnspeed)  # nowhere too fast
-    peak = np.array([PEAK[name] for name in NAMES])[table.law]
+    peak = np.array([PEAK[name] for name in NAMES])[table.profile]
     seconds = np.where(cruising, np.where(least == 0, period, peak * least), seconds)
     endless = ~(seconds / period < ENDLESS) | (cruising & ~(least < ENDLESS * period))
     for stroke in np.flatnonzero(endless).tolist():
         wrong.setdefault(stroke, (told.endless(firsts[stroke], table.program.most_samples),))
     good = np.array([stroke not in wrong for stroke in range(len(table))])
-    for name, with_rates, strokes in table.laws():
+    for name, with_rates, strokes in table.profiles():
         own = strokes[(cruising & (least > 0) & good)[strokes]]
         if with_rates and len(own):
             rates = tuple(table.rates[own].T[: RATES[name]])

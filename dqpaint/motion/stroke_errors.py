@@ -67,7 +67,7 @@ def fast_end(segment: Segment) -> Diagnostic:
     """E322."""
     return Diagnostic(
         "E322",
-        "the rates of the law carry this stroke beyond its speed",
+        "the rates of the profile carry this stroke beyond its speed",
         segment.span,
         help="lower the rates in the brackets, raise speed, or give a time: in 10 s",
     )
@@ -86,10 +86,10 @@ def on_the_spot(segment: Segment) -> Diagnostic:
 def no_extent(segment: Segment) -> Diagnostic:
     """E323."""
     kinds = [("length", "mm/s"), ("turn", "deg/s")]
-    (kind, unit), (_, other) = reversed(kinds) if segment.law.angular else kinds
+    (kind, unit), (_, other) = reversed(kinds) if segment.profile.angular else kinds
     return Diagnostic(
         "E323",
-        f"the law has rates in {unit}, but this stroke has no {kind}",
+        f"the profile has rates in {unit}, but this stroke has no {kind}",
         segment.span,
         help=f"give the rates in {other}, or leave the brackets out",
     )

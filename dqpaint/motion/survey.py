@@ -15,10 +15,10 @@ from dqpaint.dq import Floats
 from dqpaint.motion.corner_warnings import jumps, slow
 from dqpaint.motion.geometry.batched_shapes import Flags
 from dqpaint.motion.geometry.paths import Indices
-from dqpaint.motion.light_profile import unevenness
 from dqpaint.motion.sampling import blocks, every_sample, sampled
 from dqpaint.motion.schedule import Schedule, timetable
 from dqpaint.motion.stroke_errors import Faults, beyond_budget
+from dqpaint.motion.stroke_light import unevenness
 from dqpaint.program import Program
 
 HARMLESS = 1e40  # numbers below that stay finite in all the products of a stroke

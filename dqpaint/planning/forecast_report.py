@@ -221,7 +221,7 @@ RULES = (
         "W504",
         lambda one: (one.jolt_part or 0.0) if (one.effort_part or 0.0) <= 1 else 0.0,
         _jolt,
-        "law trapezoid and law quintic begin and end each stroke at rest; a lower speed helps, too",
+        "profile trapezoid or quintic starts and ends each stroke at rest; a lower speed helps too",
     ),
     _Rule(
         "W505",

@@ -96,7 +96,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Chain:
-    """Smooth pieces end to end: one time law over all, no stop where one passes into the next.
+    """Smooth pieces end to end: one profile over all, no stop where one passes into the next.
 
     Over its own g in [0, 1] a piece is at  c0 + c1 g + c2 g^2 + c3 g^3 + u cos(a) + v sin(a)  with
     a = a0 + g a1: a straight line, a Bezier curve, an arc of a circle or of any ellipse. Where the
@@ -202,8 +202,8 @@ Timing = Lasting | Samples | Cruise
 
 
 @record
-class Law:
-    """A time law by name, with its boundary rates in SI units (m or rad; `angular` says which).
+class Profile:
+    """A profile by name, with its boundary rates in SI units (m or rad; `angular` says which).
 
     `rates` is empty (rest to rest), (v0, v1) for cubic, (v0, v1, a0, a1) for quintic.
     """
@@ -256,14 +256,14 @@ class Strobe:
 
 @record
 class Run:
-    """One time law over several segments in a row, which all carry it: no stop between them.
+    """One profile over several segments in a row, which all carry it: no stop between them.
 
-    Law and timing are those of the whole. A segment whose light is `light` has its part of that
+    Profile and timing are those of the whole. A segment whose light is `light` has its part of that
     gradient, which goes over the whole length.
     """
 
     number: int  # which of the drawing's runs
-    law: Law
+    profile: Profile
     timing: Timing
     light: Light | None = None
 
@@ -274,7 +274,7 @@ class Segment:
 
     path: Path
     tool: Tool
-    law: Law
+    profile: Profile
     timing: Timing
     light: Light | None  # None: dark
     start: Pose
@@ -283,7 +283,7 @@ class Segment:
     line: int  # of the file, from 1; of an included one as `diagnostics.first_number` has it
     brush: Brush = Point()
     strobe: Strobe | None = None  # None: it burns steadily
-    run: Run | None = None  # None: it has law and timing for itself
+    run: Run | None = None  # None: it has profile and timing for itself
 
 
 @record

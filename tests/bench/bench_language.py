@@ -43,8 +43,8 @@ MIXED = [
     *[LINE, LINE, LINE],
     "line by ({z:.1f}, 9) mm light red to blue even",
     "hold 50 ms light off",
-    "arc centre ({x:.1f}, {y:.1f}) mm angle 120 deg law constant",
-    "line to ({x:.1f}, {y:.1f}) mm in 0.4 s law cubic(9 mm/s, 9 mm/s)",
+    "arc centre ({x:.1f}, {y:.1f}) mm angle 120 deg profile constant",
+    "line to ({x:.1f}, {y:.1f}) mm in 0.4 s profile cubic(9 mm/s, 9 mm/s)",
 ]
 
 
@@ -66,7 +66,7 @@ def kinds() -> dict[str, str]:
         "same": DRAWING,
         "lines": lines(LINE),
         "light": lines("line to ({x:.1f}, {y:.1f}) mm light {light}"),
-        "rates": "law cubic(5 mm/s, 5 mm/s)\n" + lines(LINE, count=LINES - 1),
+        "rates": "profile cubic(5 mm/s, 5 mm/s)\n" + lines(LINE, count=LINES - 1),
         "stroke": "stroke light white\n" + lines("  " + LINE, count=LINES - 2) + "end\n",
         "mixed": lines(*MIXED),
         "looks": lines("line to ({x:.1f}, {y:.1f}) mm tool look (0, 0, 500) mm"),

@@ -17,7 +17,7 @@ from dqpaint.language import parse
 from dqpaint.motion import plan
 from dqpaint.robots.model.card import read_card
 
-TEXT = "period 8 ms\narc centre (50, 0) mm angle 3 turn in 24 s law constant tool rpy(30 deg, 0 deg, 60 deg)\n"  # noqa: E501
+TEXT = "period 8 ms\narc centre (50, 0) mm angle 3 turn in 24 s profile constant tool rpy(30 deg, 0 deg, 60 deg)\n"  # noqa: E501
 
 
 def runge_kutta(motion, q, r):

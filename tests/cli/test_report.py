@@ -77,7 +77,9 @@ def test_torques_are_told_in_nm_s():
 @pytest.mark.slow
 def test_lines_of_included_files_are_named(tmp_path):
     """In the reports by the file's name, in the CSV by a column of its own."""
-    (tmp_path / "petal.traj").write_text("# petal\n\nline by (30, 0) mm speed 2 m/s law constant\n")
+    (tmp_path / "petal.traj").write_text(
+        "# petal\n\nline by (30, 0) mm speed 2 m/s profile constant\n"
+    )
     main = tmp_path / "a.traj"
     main.write_text('include "petal.traj"\nhold 40 ms\nline by (0, 9) mm\nhold 1 s\n')
     painting = dqpaint.draw(main, size=(64, 36))

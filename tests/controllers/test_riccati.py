@@ -15,12 +15,12 @@ from tests.support.strokes import strokes_of
 ACCURACY = 1e-6  # of P and g, relative to their largest
 SMOOTH = (
     "period 8 ms\nstart at (40, 0) mm\ncurve (40 mm * cos(t), 30 mm * sin(2 * t), 20 mm * sin(t)) "
-    "for t from 0 to 1 turn in 1.6 s law quintic tool rpy(90 deg, 20 deg, -30 deg)\n"
+    "for t from 0 to 1 turn in 1.6 s profile quintic tool rpy(90 deg, 20 deg, -30 deg)\n"
 )
 CORNERS = (
-    "period 8 ms\nline to (40, 0) mm in 0.4 s law constant tool rpy(30 deg, 0 deg, 0 deg)\n"
-    "arc centre (0, 0) angle 60 deg in 0.4 s law cubic tool rpy(0 deg, 40 deg, 0 deg)\n"
-    "step to (0, 0, 50) mm\nline to (0, 40) mm in 0.32 s law constant\nhold 80 ms\n"
+    "period 8 ms\nline to (40, 0) mm in 0.4 s profile constant tool rpy(30 deg, 0 deg, 0 deg)\n"
+    "arc centre (0, 0) angle 60 deg in 0.4 s profile cubic tool rpy(0 deg, 40 deg, 0 deg)\n"
+    "step to (0, 0, 50) mm\nline to (0, 40) mm in 0.32 s profile constant\nhold 80 ms\n"
 )
 UNEVEN = {"q": "1,2,3,4,5,6,7,8", "r": "0.01,0.02,0.03,0.04,0.05,0.06,0.07,0.08", "s": 0.3}
 
@@ -145,9 +145,8 @@ def test_twists_within_intervals_are_those_of_the_strokes(text):
 
 def test_it_does_not_matter_where_the_blocks_end():
     """A drawing of more than one block, against the same equations in one go."""
-    text = (
-        f"period 1 ms\nline to (40, 9) mm samples {2 * BLOCK + 5} law quintic tool rot(x, 30 deg)\n"
-    )
+    line = f"line to (40, 9) mm samples {2 * BLOCK + 5} profile quintic tool rot(x, 30 deg)"
+    text = f"period 1 ms\n{line}\n"
     motion = asked(text)
     P, g = solved(motion)
     P_fine, g_fine = tiny_steps(motion, {}, steps=1)

@@ -44,7 +44,7 @@ def test_no_meaning(text):
     ("arc centre (0, 0) |", {"mm", "angle"}, {"centre"}),
     ("arc centre (0, 0) an|", {"angle"}, {"centre"}),
     ("line to (1, 0) mm |", {"to", "speed"}, {"about"}),
-    ("law |", {"cubic"}, {"red", "mm"}),
+    ("profile |", {"cubic"}, {"red", "mm"}),
     ("line to (1, 0) mm light |", {"red", "off", "hsv"}, {"mm", "speed"}),
     ("light red to b|", {"blue"}, {"to"}),
     ("hold 3 |", {"s", "ms"}, {"light", "red"}),
@@ -65,7 +65,7 @@ def test_every_statement_and_part_is_completed():
     assert {e.word for e in completion.completions("", 0)} == set(STATEMENTS)
     for known in STATEMENTS.values():
         text = f"{known.word} "
-        if known.parts and known.word not in ("light", "law", "tool"):
+        if known.parts and known.word not in ("light", "profile", "tool"):
             words = {e.word for e in completion.completions(text, len(text)) if e.word in PARTS}
             assert set(known.parts) <= words
 
@@ -73,7 +73,7 @@ def test_every_statement_and_part_is_completed():
 def test_figures_of_lines():
     text = (
         "period 10 ms\nmove to (30, 0) mm\nrepeat 3\narc centre (0, 0) angle 120 deg in 1 s\nend\n"
-        "step to (0, 0)\nhold 2 s light off\nline to (0, 40) mm speed 20 mm/s law constant"
+        "step to (0, 0)\nhold 2 s light off\nline to (0, 40) mm speed 20 mm/s profile constant"
     )
     figures = understand(text, "a", planned=True).figures
     assert set(figures) == {4, 6, 7, 8}

@@ -14,9 +14,10 @@ from dqpaint.language.vocabulary.units import UNITS
 from dqpaint.language.vocabulary.words import (
     CONSTANTS,
     FUNCTIONS,
-    LAWS,
     LITTLE_WORDS,
     PARTS,
+    PROFILES,
+    RENAMED,
     STATEMENTS,
 )
 from dqpaint.program import colours
@@ -29,7 +30,8 @@ from dqpaint.editors.pygments_lexer import TrajLexer  # noqa: E402
 
 TABLES = {
     "statement": STATEMENTS, "part": PARTS, "word": LITTLE_WORDS, "unit": UNITS,
-    "function": FUNCTIONS, "law": LAWS, "constant": CONSTANTS, "colour": colours.NAMES,
+    "function": FUNCTIONS, "profile": PROFILES, "constant": CONSTANTS, "colour": colours.NAMES,
+    "renamed": RENAMED,
 }  # fmt: skip
 TEXTS = {name: find_drawing(name).read_text("utf-8") for name in example_names()} | {"mixed": MIXED}
 

@@ -39,7 +39,7 @@ hold 2 min|E102|1:8|1 min is 60 s; units are mm
 line to (５, 0) mm|E101|1:10|write the plain digit 5
 line to (9, 0) mm tool look (9, 0, 50) mm up z|E252|1:1|say another direction: tool look POINT up y
 let a = b|E205|1:9|name it first: let b = …
-law b|E205|1:5|the laws are: constant
+profile b|E205|1:9|the profiles are: constant
 hold 1 h|E110|1:8|its parts are: light, brush, strobe
 line to (9, 0) mm light red blue|E110|1:29|a colour stands behind 'light', two of them as: light red to blue
 repeat 3 {~line by (1, 0) mm~end|E101|1:10|no { is needed: a block ends with a line 'end'

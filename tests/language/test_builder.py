@@ -67,7 +67,7 @@ def rich():
     for angle in np.linspace(0.1, 1.3, 4):
         with d.block(rotate=angle, shift=(0.01, 0), light=("red", "hsv(30 deg) 40%")):
             d.arc(via=(0.02, 0.01), to=(0.03, 0), samples=40)
-            d.curve("polar(r, t)", "t", 0, "90 deg", tool="follow", law="cubic(0, 0)")
+            d.curve("polar(r, t)", "t", 0, "90 deg", tool="follow", profile="cubic(0, 0)")
     with d.repeat("i", 1, 3), d.block(scale=0.5), d.repeat(2):
         d.line(by=("i*mm", "n*mm"))
         d.line(by=("2*r", 0.01))
@@ -171,7 +171,7 @@ def test_errors_say_which_call():
     d.hold(1)
 
     def deeper():
-        d.line(to=(0.1, 0), law="fancy")  # here
+        d.line(to=(0.1, 0), profile="fancy")  # here
 
     deeper()
     with pytest.raises(DrawingError) as caught:

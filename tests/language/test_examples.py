@@ -12,8 +12,8 @@ from dqpaint.program.program import (
     Follow,
     Keep,
     Lasting,
-    Law,
     Light,
+    Profile,
     Samples,
     Screw,
     Step,
@@ -42,7 +42,7 @@ def test_star() -> None:
         )
         assert segment.tool == Keep()
         assert segment.timing == Cruise(pytest.approx(0.06), pytest.approx(math.pi / 3))
-        assert segment.law == Law("trapezoid")
+        assert segment.profile == Profile("trapezoid")
         assert segment.line == 8
         assert segment.span.of(program.text).startswith("line to polar(")
         assert segment.light is not None
@@ -54,18 +54,18 @@ def test_star() -> None:
 def test_circle() -> None:
     (segment,) = drawn(
         "period 20 ms\nlet r = 7 cm\n\nstart at (0, r)\n"
-        "arc centre (0, 0) axis -z angle 360 deg samples 3000 law constant\n"
+        "arc centre (0, 0) axis -z angle 360 deg samples 3000 profile constant\n"
     ).segments
     assert segment.path == Arc((0, 0, 0), (0, 0, -1), pytest.approx(2 * math.pi))
     assert segment.timing == Samples(3000)
-    assert segment.law == Law("constant")
+    assert segment.profile == Profile("constant")
     assert segment.end.position == pytest.approx((0, 0.07, 0), abs=1e-16)
     assert segment.line == 5
 
 
 def test_square() -> None:
     program = drawn(
-        "period 25 ms\nlaw constant\nlet a = 10 cm\nstart at (-a/2, -a/2)\n"
+        "period 25 ms\nprofile constant\nlet a = 10 cm\nstart at (-a/2, -a/2)\n"
         "line by ( a,  0) samples 500\nline by ( 0,  a) samples 300\n"
         "line by (-a,  0) samples 500\nline by ( 0, -a) samples 300\n"
     )
@@ -73,13 +73,13 @@ def test_square() -> None:
     ends = [(0.05, -0.05, 0), (0.05, 0.05, 0), (-0.05, 0.05, 0), (-0.05, -0.05, 0)]
     for segment, end in zip(program.segments, ends, strict=True):
         assert segment.end.position == pytest.approx(end, abs=1e-16)
-        assert segment.law == Law("constant")
+        assert segment.profile == Profile("constant")
 
 
 def test_spiral() -> None:
     (segment,) = drawn(
         "period 8 ms\nlet r = 7 cm\nstart at (0, r)\n"
-        "arc centre (0, 0) axis -z angle 3 turn rise 7 cm samples 3000 law constant\n"
+        "arc centre (0, 0) axis -z angle 3 turn rise 7 cm samples 3000 profile constant\n"
     ).segments
     assert segment.path == Arc(
         (0, 0, 0), (0, 0, -1), pytest.approx(6 * math.pi), pytest.approx(0.07)
@@ -91,7 +91,7 @@ def test_baxter_screw() -> None:
     program = drawn(
         "period 10 ms\nplace at (0, 0, 0)\nlet p = (700, 200, 400) mm\nlet d = (0, 0, 1)\n"
         "start at p - (150, 0, 0) mm tool look line p along d\n"
-        "screw about p along d angle 90 deg in 10 s law cubic(0 deg/s, 0 deg/s)\nhold 2 s\n"
+        "screw about p along d angle 90 deg in 10 s profile cubic(0 deg/s, 0 deg/s)\nhold 2 s\n"
     )
     screw, hold = program.segments
     assert program.placement is not None
@@ -100,7 +100,7 @@ def test_baxter_screw() -> None:
         pytest.approx((0.7, 0.2, 0.4)), (0, 0, 1), pytest.approx(math.pi / 2), 0
     )
     assert isinstance(screw.tool, Follow)
-    assert screw.law == Law("cubic", (0, 0), angular=True)
+    assert screw.profile == Profile("cubic", (0, 0), angular=True)
     assert screw.timing == Lasting(10)
     # The tool's z points from the start at the line, its x lies along the line.
     start = matrix(program.start.orientation)
@@ -157,6 +157,6 @@ def test_a_one_line_file() -> None:
     assert program.period == pytest.approx(0.008)
     assert (program.robot, program.placement) == (None, None)
     assert segment.timing == Cruise(pytest.approx(0.1), pytest.approx(math.pi / 3))
-    assert segment.law == Law("trapezoid")
+    assert segment.profile == Profile("trapezoid")
     assert segment.tool == Keep()
     assert segment.light == Light((1, 1, 1), (1, 1, 1))

@@ -92,12 +92,12 @@ def test_speed_is_never_scaled() -> None:
 
 def test_settings_end_with_their_block_but_not_with_a_loop() -> None:
     program = drawn(
-        "with light red speed 1 mm/s\nlaw constant\nline by (1,0) mm\nend\nline by (1,0) mm\n"
-        "repeat 2\nline by (1,0) mm\nlaw constant\nend\n"
+        "with light red speed 1 mm/s\nprofile constant\nline by (1,0) mm\nend\nline by (1,0) mm\n"
+        "repeat 2\nline by (1,0) mm\nprofile constant\nend\n"
         "line by (1,0) mm light off\nline by (1,0) mm"
     )
-    laws = [s.law.name for s in program.segments]
-    assert laws == ["constant", "trapezoid", "trapezoid", "constant", "constant", "constant"]
+    profiles = [s.profile.name for s in program.segments]
+    assert profiles == ["constant", "trapezoid", "trapezoid", "constant", "constant", "constant"]
     reds = [s.light and s.light.first for s in program.segments]
     assert reds == [(1, 0, 0), (1, 1, 1), (1, 1, 1), (1, 1, 1), None, (1, 1, 1)]
 
@@ -240,7 +240,7 @@ def test_a_look_that_begins_elsewhere_turns_in_the_dark_first() -> None:
     assert turn.path == Straight((0, 0, 0))
     assert turn.tool == Turn()
     assert turn.light is None
-    assert turn.law.name == "trapezoid"
+    assert turn.profile.name == "trapezoid"
     assert stroke.start.orientation == turn.end.orientation
     assert [note.code for note in program.notes] == ["W404"]
 
@@ -306,12 +306,12 @@ def test_follow_turns_with_the_heading(curve: str, degrees: float) -> None:
 
 
 def test_a_curve_that_starts_elsewhere_gets_a_dark_way() -> None:
-    program = drawn("law constant\ncurve (t, 42 mm) for t from 0 to 9 mm")
+    program = drawn("profile constant\ncurve (t, 42 mm) for t from 0 to 9 mm")
     way, curve = program.segments
     assert way.light is None
     assert way.path == Straight(pytest.approx((0, 0.042, 0)))
-    assert way.law.name == "trapezoid"
-    assert curve.law.name == "constant"
+    assert way.profile.name == "trapezoid"
+    assert curve.profile.name == "constant"
     assert [note.code for note in program.notes] == ["W402"]
 
 

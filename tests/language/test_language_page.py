@@ -11,7 +11,7 @@ from dqpaint.language import ScriptError, parse
 from dqpaint.language.vocabulary.words import STATEMENTS
 from dqpaint.language.writing.formatter import formatted
 from dqpaint.motion import plan
-from dqpaint.motion.profiles import LAWS
+from dqpaint.motion.profiles import PROFILES
 from dqpaint.planning.reachability import begin
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
@@ -50,11 +50,11 @@ def test_python_runs(capsys):
     assert dqpaint.preview(scope["wave"], size=(64, 36)).image.max() > 200
 
 
-def test_the_laws_take_the_time_that_is_told():
+def test_the_profiles_take_the_time_that_is_told():
     told = dict(re.findall(r"^\| `(\w+)` \| ([\d.]+) \|", PAGE, re.MULTILINE))
-    assert set(told) == set(LAWS)
-    for law, factor in told.items():
-        text = f"period 1 ms\nline to (100, 0) mm speed 10 mm/s law {law}"
+    assert set(told) == set(PROFILES)
+    for profile, factor in told.items():
+        text = f"period 1 ms\nline to (100, 0) mm speed 10 mm/s profile {profile}"
         motion = plan(parse(text), read_card("iiwa").canvas.pose)
         assert motion.t[-1] == pytest.approx(10 * float(factor), abs=2e-3)
         assert np.linalg.norm(motion.twist[:, 3:], axis=1).max() <= 0.01 * (1 + 1e-9)

@@ -92,7 +92,7 @@ clauses = st.one_of(
     st.builds(" speed {} mm/s".format, numbers),
     st.builds(" tool {}".format, orientations),
     st.builds(" light hsv({} deg) to {} K".format, numbers, numbers),
-    st.builds(" law cubic({} mm/s, {} mm/s)".format, numbers, numbers),
+    st.builds(" profile cubic({} mm/s, {} mm/s)".format, numbers, numbers),
     st.just(""),
 )
 formulas = st.builds(

@@ -11,7 +11,7 @@ from dqpaint.language import ScriptError, parse
 from dqpaint.language.pen.durations import apportioned
 from dqpaint.language.vocabulary.units import NAMES, dimension_name
 from dqpaint.program import colours
-from dqpaint.program.program import Curve, Law, Light, Samples
+from dqpaint.program.program import Curve, Light, Profile, Samples
 from dqpaint.program.taylor import Taylor
 from tests.support.drawn import last, matrix, only, rotation
 
@@ -80,17 +80,17 @@ def test_orientations_multiply_like_matrices() -> None:
     assert matrix(segment.end.orientation) == pytest.approx(expected, abs=1e-15)
 
 
-def test_laws() -> None:
-    laws = {
-        "cubic": Law("cubic"),
-        "cubic(1 mm/s, 2 mm/s)": Law("cubic", (0.001, 0.002)),
-        "cubic(0, 90 deg/s)": Law("cubic", (0, math.pi / 2), True),
-        "quintic(0, 1 m/s, 0, 2 m/s/s)": Law("quintic", (0, 1, 0, 2)),
-        "constant": Law("constant"),
-        "trapezoid": Law("trapezoid"),
+def test_profiles() -> None:
+    profiles = {
+        "cubic": Profile("cubic"),
+        "cubic(1 mm/s, 2 mm/s)": Profile("cubic", (0.001, 0.002)),
+        "cubic(0, 90 deg/s)": Profile("cubic", (0, math.pi / 2), True),
+        "quintic(0, 1 m/s, 0, 2 m/s/s)": Profile("quintic", (0, 1, 0, 2)),
+        "constant": Profile("constant"),
+        "trapezoid": Profile("trapezoid"),
     }
-    for text, law in laws.items():
-        assert only(f"line by (1,0) mm law {text}").law == law
+    for text, profile in profiles.items():
+        assert only(f"line by (1,0) mm profile {text}").profile == profile
 
 
 FORMULAS = [

@@ -13,9 +13,9 @@ from dqpaint.language.values.functions import TABLE
 from dqpaint.language.vocabulary.words import (
     FUNCTION_ALIASES,
     FUNCTIONS,
-    LAWS,
     PART_ALIASES,
     PARTS,
+    PROFILES,
     STATEMENT_ALIASES,
     STATEMENTS,
 )
@@ -24,8 +24,8 @@ HERE = str(examples_folder() / "test.traj")  # whose files the examples name
 
 
 def test_functions() -> None:
-    assert set(TABLE) == set(FUNCTIONS) | set(LAWS)
-    assert all((TABLE[name][1] or 0) in LAWS[name] for name in LAWS)
+    assert set(TABLE) == set(FUNCTIONS) | set(PROFILES)
+    assert all((TABLE[name][1] or 0) in PROFILES[name] for name in PROFILES)
 
 
 def test_movements_are_drawn() -> None:

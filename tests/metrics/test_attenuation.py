@@ -21,7 +21,9 @@ CARD = read_card("iiwa")
 ARM = Kinematics(CARD)
 PERIOD = 0.008
 STILL = "period 8 ms\nstart at (20, 10, 5) mm tool rpy(10 deg, 5 deg, 0)\nhold 16 s\n"
-MOVING = "period 8 ms\nstart at (60, 0) mm\narc centre (0, 0) angle 2 turn in 8 s law constant\n"
+MOVING = (
+    "period 8 ms\nstart at (60, 0) mm\narc centre (0, 0) angle 2 turn in 8 s profile constant\n"
+)
 
 
 def came_through(values, text=STILL, law="hinf", seed=0, free=False, **gains):

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
-from dqpaint.program.program import Lasting, Law
-from tests.support.strokes import KINDS, LAWS, program, segment, strokes_of
+from dqpaint.program.program import Lasting, Profile
+from tests.support.strokes import KINDS, PROFILES, program, segment, strokes_of
 
 BREAKPOINTS = np.array([0.0, 0.2, 0.8, 1.0])
 STEP = 0.002  # of the stroke's time; halved once
@@ -17,12 +17,12 @@ def only_stroke(*args):
     return strokes_of(program(segment(*args)))[0]
 
 
-@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("profile", PROFILES)
 @pytest.mark.parametrize(("path", "tool"), KINDS)
-def test_twist_and_acceleration_are_derivatives(rng, path, tool, law):
-    if path == "turn" and law.endswith("rates"):
+def test_twist_and_acceleration_are_derivatives(rng, path, tool, profile):
+    if path == "turn" and profile.endswith("rates"):
         pytest.skip("rates in m/s on a stroke without a length are an error, tested elsewhere")
-    stroke = only_stroke(path, tool, law)
+    stroke = only_stroke(path, tool, profile)
     time = stroke.count * 0.008
     tau = rng.uniform(0, 1, 400)
     tau = tau[np.abs(tau[:, None] - BREAKPOINTS).min(axis=1) > 2 * STEP][:60]
@@ -39,7 +39,7 @@ def test_twist_and_acceleration_are_derivatives(rng, path, tool, law):
     coarse, fine = errors(STEP), errors(STEP / 2)
     for a, b, size in zip(coarse, fine, (now.twist, now.slope), strict=True):
         scale = max(np.abs(size).max(), 1e-3)
-        # where the law and the path are low polynomials the differences are exact
+        # where the profile and the path are low polynomials the differences are exact
         exact = a < 1e-10 * scale
         assert exact or 3.6 < a / b < 4.4, (a, b)
         assert b < 0.01 * scale
@@ -48,9 +48,11 @@ def test_twist_and_acceleration_are_derivatives(rng, path, tool, law):
 @pytest.mark.parametrize(
     ("path", "tool"), [("spiral", "keep"), ("curve", "keep"), ("line", "turn")]
 )
-def test_a_law_that_runs_beyond_the_ends_takes_the_pose_along(path, tool):
+def test_a_profile_that_runs_beyond_the_ends_takes_the_pose_along(path, tool):
     """Rates that begin backwards: place and twist agree there too."""
-    back = replace(segment(path, tool), law=Law("cubic", (-0.02, 0.03)), timing=Lasting(2.504))
+    back = replace(
+        segment(path, tool), profile=Profile("cubic", (-0.02, 0.03)), timing=Lasting(2.504)
+    )
     (stroke,) = strokes_of(program(back))
     tau, h = np.linspace(0.02, 0.3, 15), 1e-4
     time = stroke.count * 0.008

@@ -21,9 +21,9 @@ from dqpaint.program.program import (
     Follow,
     Keep,
     Lasting,
-    Law,
     Light,
     Pose,
+    Profile,
     Samples,
     Screw,
     Step,
@@ -36,8 +36,8 @@ from tests.support.strokes import AXIS, START, program, segment
 CANVAS = dq.pose_from([0.7, -0.1, 0.5], np.array([0.5, 0.5, 0.5, 0.5]))
 
 
-def stroke(path, start=START, end=None, timing=None, law="constant", tool=None, **more):
-    made = segment("line", "keep", law)
+def stroke(path, start=START, end=None, timing=None, profile="constant", tool=None, **more):
+    made = segment("line", "keep", profile)
     return replace(made, path=path, start=start, end=end or start, tool=tool or Keep(),
                    timing=timing or Samples(100), **more)  # fmt: skip
 
@@ -108,9 +108,9 @@ def test_light_is_the_mean_of_each_step_and_a_gradient_runs_over_length():
     np.testing.assert_array_equal(motion.lit, [True] * 4 + [False] * 4)
 
 
-def test_a_gradient_stays_between_its_colours_where_the_law_overshoots():
+def test_a_gradient_stays_between_its_colours_where_the_profile_overshoots():
     over = stroke(Straight((0.1, 0, 0)), timing=Samples(100), light=Light((1, 0, 0), (0, 0, 0)))
-    over = replace(over, law=Law("cubic", (-0.5, -0.5)))
+    over = replace(over, profile=Profile("cubic", (-0.5, -0.5)))
     light = plan(program(over), dq.IDENTITY).light
     assert light.min() == 0
     assert light.max() == 1
@@ -123,7 +123,9 @@ def test_a_drawing_of_days_and_one_beyond_the_numbers_are_refused():
     with pytest.raises(ScriptError) as caught:
         plan(program(stroke(Straight((0.1, 0, 0)), timing=Cruise(1e-200, 1.0))), CANVAS)
     assert codes(caught) == ["E302"]
-    wild = replace(stroke(Straight((0.1, 0, 0)), timing=Samples(10)), law=Law("cubic", (1e308, 0)))
+    wild = replace(
+        stroke(Straight((0.1, 0, 0)), timing=Samples(10)), profile=Profile("cubic", (1e308, 0))
+    )
     with np.errstate(all="ignore"), pytest.raises(ScriptError) as caught:
         plan(program(wild), CANVAS)
     assert codes(caught) == ["E324"]
@@ -145,11 +147,11 @@ def test_a_curve_with_a_time_is_its_formula_and_with_a_speed_is_even():
     np.testing.assert_allclose(np.diff(even.points, axis=0)[:, 0].std(), 0, atol=1e-14)
 
 
-@pytest.mark.parametrize("law", ["constant", "trapezoid", "cubic", "quintic", "cubic-rates"])
+@pytest.mark.parametrize("profile", ["constant", "trapezoid", "cubic", "quintic", "cubic-rates"])
 @pytest.mark.parametrize("path", ["line", "circle", "spiral", "curve", "screw"])
-def test_cruising_speed_is_reached_and_never_exceeded(path, law):
+def test_cruising_speed_is_reached_and_never_exceeded(path, profile):
     tool = "follow" if path == "screw" else "keep"
-    made = replace(segment(path, tool, law), timing=Cruise(0.08, 100.0))
+    made = replace(segment(path, tool, profile), timing=Cruise(0.08, 100.0))
     motion = plan(program(made, period=0.001), CANVAS)
     speed = np.linalg.norm(dq.point_velocity(motion.twist, motion.points), axis=1)
     assert speed.max() <= 0.08 * (1 + 1e-9)
@@ -199,7 +201,7 @@ def test_rows_are_read_only():
 
 @pytest.mark.slow
 def test_the_sample_budget_is_checked_before_anything_is_made():
-    huge = stroke(Straight((0.1, 0, 0)), timing=Cruise(1e-9, 1.0), law="trapezoid")
+    huge = stroke(Straight((0.1, 0, 0)), timing=Cruise(1e-9, 1.0), profile="trapezoid")
     with pytest.raises(ScriptError) as caught:
         plan(program(huge), CANVAS)
     assert codes(caught) == ["E302"]
@@ -260,7 +262,8 @@ def test_faults_of_strokes_are_all_reported():
         replace(stroke(cusp, timing=Cruise(0.1, 1.0)), span=_span(0)),
         replace(stroke(root, timing=Samples(10)), span=_span(1)),
         replace(
-            stroke(Straight((0.1, 0, 0)), timing=Cruise(0.01, 1), law="cubic-rates"), span=_span(2)
+            stroke(Straight((0.1, 0, 0)), timing=Cruise(0.01, 1), profile="cubic-rates"),
+            span=_span(2),
         ),
         replace(stroke(Still(), timing=Samples(5)), span=_span(3)),
         replace(segment("turn", "turn", "cubic-rates"), span=_span(4)),
@@ -292,8 +295,8 @@ def test_a_screw_to_the_antipodal_orientation_goes_the_short_way():
     assert np.abs(motion.twist[:, :3]).max() < 1e-9
 
 
-def test_law_is_kept_out_of_the_way_of_a_still_stroke():
-    made = replace(stroke(Still(), timing=Lasting(0.4)), law=Law("cubic", (0.1, 0.1)))
+def test_profile_is_kept_out_of_the_way_of_a_still_stroke():
+    made = replace(stroke(Still(), timing=Lasting(0.4)), profile=Profile("cubic", (0.1, 0.1)))
     assert not plan(program(made), CANVAS).twist.any()
 
 

@@ -1,4 +1,4 @@
-"""Strokes of several lines: one law over all, derivatives, joints, light, time, warnings."""
+"""Strokes of several lines: one profile over all, derivatives, joints, light, time, warnings."""
 
 import math
 
@@ -34,7 +34,7 @@ BLENDED = """
   arc via (180, 10, 40) mm to (220, 60, 80) mm tool follow
   line by (-10, 50, 20) mm tool rpy(5 deg, -10 deg, 80 deg)
 """
-LAWS = ["constant", "trapezoid", "cubic", "quintic", "cubic(20 mm/s, 30 mm/s)"]
+PROFILES = ["constant", "trapezoid", "cubic", "quintic", "cubic(20 mm/s, 30 mm/s)"]
 
 
 def strokes_of(text):
@@ -53,11 +53,11 @@ BODIES = {
 }
 
 
-@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("profile", PROFILES)
 @pytest.mark.parametrize("body", BODIES)
-def test_twist_and_acceleration_are_derivatives(rng, body, law):
+def test_twist_and_acceleration_are_derivatives(rng, body, profile):
     lines, before = BODIES[body]
-    stroke = stroke_of(lines, f"in 6 s law {law}", before)
+    stroke = stroke_of(lines, f"in 6 s profile {profile}", before)
     time, step = stroke.count * PERIOD, 0.001
     grid = np.linspace(0, 1, 20_001)
     joints = np.interp(stroke.edges, stroke.progress(grid).value, grid)
@@ -83,7 +83,7 @@ def test_twist_and_acceleration_are_derivatives(rng, body, law):
 @pytest.mark.parametrize("body", BODIES)
 def test_the_point_runs_evenly_and_the_pose_has_no_gap(body):
     lines, before = BODIES[body]
-    stroke = stroke_of(lines, "in 6 s law constant", before)
+    stroke = stroke_of(lines, "in 6 s profile constant", before)
     flow = stroke.flow(np.linspace(0, 1, 4001))
     speed = np.linalg.norm(dq.point_velocity(flow.twist, dq.translation(flow.pose)), axis=1)
     length = stroke.length
@@ -113,7 +113,7 @@ def test_a_smooth_chain_does_not_stop_and_the_velocity_is_continuous():
 def test_samples_speed_and_time_hold_for_all_of_it():
     body = "line by (30, 0) mm\narc centre (30, 20) mm angle 90 deg\nend"
     length = 0.03 + 0.02 * math.pi / 2
-    motion = plan(parse(f"stroke samples 70 law constant\n{body}", "a"), dq.IDENTITY)
+    motion = plan(parse(f"stroke samples 70 profile constant\n{body}", "a"), dq.IDENTITY)
     assert len(motion.t) == 71
     way = np.linalg.norm(np.diff(motion.points, axis=0), axis=1)
     np.testing.assert_allclose(way[motion.points[1:, 0] < 0.03], length / 70, rtol=1e-9)
@@ -130,7 +130,7 @@ def test_samples_speed_and_time_hold_for_all_of_it():
 
 
 def test_at_a_joint_the_twist_is_of_what_begins():
-    text = "stroke samples 2 law constant\nline by (10, 0) mm\nline by (0, 10) mm\nend"
+    text = "stroke samples 2 profile constant\nline by (10, 0) mm\nline by (0, 10) mm\nend"
     motion = plan(parse(text, "a"), dq.IDENTITY)
     np.testing.assert_allclose(motion.twist[:, 3:], [[1.25, 0, 0], [0, 1.25, 0], [0, 1.25, 0]])
     np.testing.assert_array_equal(motion.stroke, [0, 1, 1])
@@ -151,7 +151,7 @@ def test_a_gradient_of_the_stroke_goes_over_all_of_it():
     )
     motion = plan(parse(text, "a"), dq.IDENTITY)
     ways = np.linalg.norm(np.diff(motion.points, axis=0), axis=1)
-    # corners are cut between two rows: the way along the drawing comes from the law
+    # corners are cut between two rows: the way along the drawing comes from the profile
     (stroke,) = strokes_of(text)
     at = stroke.progress(stroke.samples).value
     middle = 0.5 * (at[1:] + at[:-1])
@@ -168,7 +168,7 @@ def test_a_gradient_of_the_stroke_goes_over_all_of_it():
 
 def test_the_light_of_a_step_over_a_joint_is_the_mean_by_length():
     lines = "line by (10, 0) mm light red\nline by (20, 0) mm light blue\n"
-    text = f"stroke samples 3 law constant\n{lines}end"
+    text = f"stroke samples 3 profile constant\n{lines}end"
     light = plan(parse(text, "a"), dq.IDENTITY).light
     np.testing.assert_allclose(light[:3], [[1, 0, 0], [0, 0, 1], [0, 0, 1]], atol=1e-9)
     text = text.replace("samples 3", "samples 2")
@@ -184,11 +184,11 @@ EVEN = {
 }
 
 
-@pytest.mark.parametrize("law", ["constant", "trapezoid", "cubic", "quintic"])
+@pytest.mark.parametrize("profile", ["constant", "trapezoid", "cubic", "quintic"])
 @pytest.mark.parametrize("time", ["speed 70 mm/s", "in 3 s"])
 @pytest.mark.parametrize("path", EVEN)
-def test_even_light_gives_every_millimetre_the_same(path, time, law):
-    text = f"period 4 ms\n{EVEN[path]} {time} law {law} light white even"
+def test_even_light_gives_every_millimetre_the_same(path, time, profile):
+    text = f"period 4 ms\n{EVEN[path]} {time} profile {profile} light white even"
     motion = plan(parse(text, "a"), dq.IDENTITY)
     stroke = strokes_of(text)[0]
     fraction = stroke.fraction(stroke.samples)
@@ -206,7 +206,7 @@ def test_even_light_gives_every_millimetre_the_same(path, time, law):
     [
         'text "line.traj" font "gothiceng" height 5 mm light white even',
         "line by (0.9, 0) mm light white even\nline by (0.83, 0) mm light white even\n"
-        "line by (40, 0) mm light white even law constant",
+        "line by (40, 0) mm light white even profile constant",
         "line by (3, 0) mm by (0, 90) mm by (1, 0) mm in 0.94 s light white even",
     ],
 )
@@ -252,12 +252,12 @@ def notes(text):
 
 
 def test_the_velocity_s_jump_at_a_corner_is_told_with_its_size():
-    text = "speed 50 mm/s\nlaw constant\n"
+    text = "speed 50 mm/s\nprofile constant\n"
     two = f"{text}line by (50, 0) mm\nline by (0, 50) mm"
     note = notes(two)["W403"]
     assert note.message == "the velocity jumps by 70.7 mm/s here"
     assert note.span.of(two) == "line by (0, 50) mm"
-    assert note.help == "use law trapezoid to stop at corners, or round them: blend 5 mm"
+    assert note.help == "use profile trapezoid to stop at corners, or round them: blend 5 mm"
     note = notes(f"{two}\nline by (-50, 0) mm\nline by (40, 0) mm")["W403"]
     assert note.message == "the velocity jumps by 100 mm/s here, the largest of 3 such corners"
     alike = f"{two}\nline by (50, 0) mm\nline by (0, 50) mm"
@@ -266,7 +266,7 @@ def test_the_velocity_s_jump_at_a_corner_is_told_with_its_size():
     assert "W403" not in notes(f"{text}line by (50, 0) mm\nline by (50, 0) mm")
     assert "W403" not in notes(f"{text}line by (50, 0) mm\nhold 1 s\nline by (0, 50) mm")
     assert "W403" not in notes("line by (50, 0) mm by (0, 50) mm")
-    assert "W403" in notes(f"{text}line by (50, 0) mm\nline by (0, 50) mm law cubic")
+    assert "W403" in notes(f"{text}line by (50, 0) mm\nline by (0, 50) mm profile cubic")
 
 
 def test_a_corner_within_a_stroke_is_run_through_and_told():
@@ -303,12 +303,12 @@ def test_what_can_t_be_run_by_length_is_refused(line, code):
 
 
 @pytest.mark.parametrize(
-    ("law", "times"),
+    ("profile", "times"),
     [("constant", 1.0), ("trapezoid", 3.54), ("cubic", 4.5), ("quintic", 7.0)],
 )
-def test_beads_at_the_ends_have_a_size(law, times):
+def test_beads_at_the_ends_have_a_size(profile, times):
     """Against the figures measured for the design: 3.5, 4.5 and 7.0 at 1 % of the length."""
-    text = f"law {law}\nline by (99, 0) mm"
+    text = f"profile {profile}\nline by (99, 0) mm"
     assert plan(parse(text, "a"), dq.IDENTITY).unevenness == pytest.approx(times, rel=0.02)
-    text = f"law {law}\nline by (99, 0) mm light white even\nmove by (9, 0) mm"
+    text = f"profile {profile}\nline by (99, 0) mm light white even\nmove by (9, 0) mm"
     assert plan(parse(text, "a"), dq.IDENTITY).unevenness == 1.0

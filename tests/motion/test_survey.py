@@ -17,7 +17,7 @@ from dqpaint.motion.geometry.paths import Lines
 from dqpaint.motion.geometry.shapes import Loose
 from dqpaint.program.program import Cruise, Program
 from tests.support.drawings import drawing
-from tests.support.strokes import KINDS, LAWS, program, segment
+from tests.support.strokes import KINDS, PROFILES, program, segment
 
 FOLDER = Path(__file__).parents[2] / "trajectories"
 FILES = sorted(FOLDER.glob("*.traj"))
@@ -25,10 +25,11 @@ CANVAS = dq.pose_from([0.7, -0.1, 0.5], np.array([0.5, 0.5, 0.5, 0.5]))
 CHAINS = [
     'text "Ada" "Wo!" font "scripts" height 9 mm at (1, 2) mm tool rpy(0, 20 deg, 30 deg)\n'
     'text "By" width 30 mm tool look (9, 9, -99) mm in 3 s light red to blue even',
-    "blend 3 mm\nline to (50, 0) mm to (50, 50) mm to (10, 50) mm light red to blue law constant\n"
-    "line to (0, 0) light white even law constant\nhold 1 s light off to red",
+    "blend 3 mm\n"
+    "line to (50, 0) mm to (50, 50) mm to (10, 50) mm light red to blue profile constant\n"
+    "line to (0, 0) light white even profile constant\nhold 1 s light off to red",
     "arc centre (30, 0) mm angle 300 deg\narc centre (30, 9) mm angle 9 deg tool follow",
-    "stroke law constant\nline by (9, 0) mm\nline by (0, 9) mm\nline by (-9, 0) mm\nend",
+    "stroke profile constant\nline by (9, 0) mm\nline by (0, 9) mm\nline by (-9, 0) mm\nend",
 ]
 
 
@@ -80,7 +81,9 @@ def test_a_survey_finds_numbers_that_grow_beyond_all_numbers(path, tool, huge):
     made = segment(path, tool)
     for wild in (
         replace(made, start=replace_place(made.start, huge)),
-        replace(made, timing=Cruise(0.08, 0.9), law=replace(LAWS["cubic"], rates=(huge, 0.0))),
+        replace(
+            made, timing=Cruise(0.08, 0.9), profile=replace(PROFILES["cubic"], rates=(huge, 0.0))
+        ),
     ):
         with np.errstate(all="ignore"):
             same(program(wild))
@@ -130,10 +133,10 @@ def lines(count: int) -> str:
         "line to ({x}, {y}, {z}) mm light red to blue",
         "light hsv({x} deg)",
         "arc via ({y}, {z}) mm to ({x}, {y}) mm tool keep",
-        "line by ({z}, {x}) mm in 0.5 s law cubic(5 mm/s, 9 mm/s) light white even",
+        "line by ({z}, {x}) mm in 0.5 s profile cubic(5 mm/s, 9 mm/s) light white even",
         "hold 0.1 s light off",
         "step to ({y}, {x}) mm",
-        "arc centre ({y}, {z}) mm angle {x} deg law constant",
+        "arc centre ({y}, {z}) mm angle {x} deg profile constant",
     ]
     numbers = ({"x": i % 97 + 1, "y": i % 89 + 100, "z": i % 83 - 99} for i in range(count))
     return "\n".join(kinds[i % len(kinds)].format(**n) for i, n in enumerate(numbers))

@@ -13,9 +13,9 @@ CANVAS = read_card("iiwa").canvas.pose
 PERIOD = 0.004
 TEXT = """period 4 ms
 start at (60, 0, 10) mm
-arc centre (0, 0) angle 200 deg in 0.9 s law quintic light red to blue
+arc centre (0, 0) angle 200 deg in 0.9 s profile quintic light red to blue
 line to (0, 90, 30) mm tool rpy(10 deg, 20 deg, 30 deg) in 0.7 s
-screw about (0, 0, 0) along (1, 2, 3) angle 50 deg pitch 90 mm/turn in 0.5 s law constant
+screw about (0, 0, 0) along (1, 2, 3) angle 50 deg pitch 90 mm/turn in 0.5 s profile constant
 step to (10, 80, 0) mm
 hold 0.3 s
 """
@@ -64,7 +64,7 @@ def test_twist_and_acceleration_are_the_derivatives_in_real_time():
         rows = np.flatnonzero(motion.stroke == stroke)[2:-2]
         x, xi = motion.pose, motion.twist
         rate = dq.log(dq.mul(dq.nearest(x[rows + 1], x[rows - 1]), dq.conj(x[rows - 1]))) / PERIOD
-        # the law of `in` strokes has corners in its acceleration: where it is smooth, to order 2
+        # the profile of `in` strokes has acceleration corners: where it is smooth, to order 2
         np.testing.assert_allclose(rate, xi[rows], atol=2e-2 * np.abs(xi).max())
         slope = (xi[rows + 1] - xi[rows - 1]) / (2 * PERIOD)
         apart = np.abs(slope - motion.acceleration[rows]).max(axis=1)

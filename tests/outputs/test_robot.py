@@ -18,7 +18,7 @@ from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
 
 TEXT = (
-    "period 10 ms\nspeed 80 mm/s\nlaw quintic\nstart at (-40, 0) mm\n"
+    "period 10 ms\nspeed 80 mm/s\nprofile quintic\nstart at (-40, 0) mm\n"
     "line to (40, 0) mm light red\nmove to (40, 20) mm\n"
     "line to (0, 20) mm light blue to green\nhold 0.2 s light white 50%\n"
 )
@@ -346,13 +346,13 @@ def test_refused_for_speed(tmp_path_factory):
 
 
 def test_refused_for_a_sudden_start_and_end(tmp_path_factory):
-    text = "period 4 ms\nlaw constant\nspeed 80 mm/s\nstart at (0, 0) mm\nline to (60, 0) mm\n"
+    text = "period 4 ms\nprofile constant\nspeed 80 mm/s\nstart at (0, 0) mm\nline to (60, 0) mm\n"
     sudden = drawn(tmp_path_factory, text)
     assert not sudden.limits
     said = refused(sudden)
     assert "line 5: a sudden start: joint" in said
     assert "a sudden end" in said
-    assert "law trapezoid or quintic" in said
+    assert "profile trapezoid or quintic" in said
     assert "--on-limit" not in said
 
 
@@ -390,7 +390,7 @@ def test_refused_for_what_the_plant_did_not_mind(painting):
 
 def test_a_run_that_was_slowed_down_can_be_asked_of_an_arm(tmp_path_factory):
     """What is too fast is refused; with its clock slowed it is not, and the light keeps to it."""
-    text = "period 8 ms\nlaw quintic\nstart at (-120, 0) mm\n"
+    text = "period 8 ms\nprofile quintic\nstart at (-120, 0) mm\n"
     text += (
         "line to (0, 0) mm in 0.1 s light red\nline to (120, 0) mm in 0.1 s light blue\nhold 1 s\n"
     )

@@ -50,7 +50,7 @@ def test_a_placed_drawing_is_seen_from_the_robot_s_own_front():
 
 def test_a_jump_is_exposed_as_a_line_drawn_while_the_arm_settles():
     jump = asked("period 5 ms\nhold 0.5 s\nstep to (80, 0) mm\nhold 2 s\n")
-    line = asked(f"period 5 ms\nlaw constant\nline to (80, 0) mm in {SETTLING} s\n")
+    line = asked(f"period 5 ms\nprofile constant\nline to (80, 0) mm in {SETTLING} s\n")
     exposures = [take(m, m.pose, SETTINGS).exposure for m in (jump, line)]
     assert exposures[0] == pytest.approx(exposures[1], rel=0.02)
 

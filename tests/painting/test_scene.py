@@ -89,7 +89,7 @@ def test_a_bar_is_in_the_picture_with_its_ends():
 
 @pytest.mark.parametrize("by", ["speed", "line"])
 def test_colours_tell_and_every_millimetre_is_equally_bright(by):
-    text = "period 10 ms\nlaw constant\nline by (80, 0) mm in 1 s\nline by (0, 40) mm in 4 s\n"
+    text = "period 10 ms\nprofile constant\nline by (80, 0) mm in 1 s\nline by (0, 40) mm in 4 s\n"
     motion = motion_of(text=text)
     scene = arrange(motion, motion.pose, make_settings(colour_by=by, **SMALL))
     colours = scene.light[0].colours
@@ -210,7 +210,7 @@ def test_several_views_are_of_one_scene_and_a_series_has_one_exposure():
 
 
 def test_speed_of_a_motion_is_what_was_asked():
-    motion = motion_of(text="period 10 ms\nlaw constant\nline by (80, 0) mm in 2 s\n")
+    motion = motion_of(text="period 10 ms\nprofile constant\nline by (80, 0) mm in 2 s\n")
     np.testing.assert_allclose(asked_table(motion)["speed_m_s"][:-1], 0.04, rtol=1e-9)
 
 

@@ -150,7 +150,7 @@ def test_the_arm_follows_exactly_and_its_torques_are_those_of_lagrange():
     """Energy: the work of the torques is the change of kinetic and potential energy."""
     import pinocchio
 
-    text = "period 2 ms\nstart at (0, 0) mm\nline to (80, 60) mm law quintic in 0.5 s\n"
+    text = "period 2 ms\nstart at (0, 0) mm\nline to (80, 60) mm profile quintic in 0.5 s\n"
     motion, arm, start = prepared(text)
     run = _Run(motion, arm, start)
     assert np.linalg.norm(run.points - motion.points, axis=1).max() < 2e-6
@@ -188,7 +188,7 @@ def test_a_jump_of_the_set_point_counts_as_no_speed():
 
 def test_a_jump_from_full_speed_counts_as_no_torque():
     text = (
-        "period 4 ms\nlaw constant\nspeed 400 mm/s\nstart at (0, 0) mm\nline to (60, 0) mm\n"
+        "period 4 ms\nprofile constant\nspeed 400 mm/s\nstart at (0, 0) mm\nline to (60, 0) mm\n"
         "step to (60, 40) mm\nhold 0.2 s\n"
     )
     found = {one.line: one for one in forecast(*prepared(text))}

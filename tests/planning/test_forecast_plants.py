@@ -41,7 +41,7 @@ def part(run, card, line):
 @pytest.mark.parametrize("seed", range(3))
 def test_torques_that_are_commanded(seed):
     """Without corners: what these cost is the law's own."""
-    text = random_drawing(seed).replace("law constant", "law trapezoid")
+    text = random_drawing(seed).replace("profile constant", "profile trapezoid")
     found, run, card = look_and_run(text, "torque", "accel")
     assert len(found) == 4
     for one in found:
@@ -54,7 +54,7 @@ def test_torques_that_are_commanded(seed):
 def test_torques_through_springs_and_their_dampers(seed):
     """Corners and all; those of seed 5 ask for twice what the arm has."""
     text = random_drawing(seed)
-    assert "law constant" in text
+    assert "profile constant" in text
     found, run, card = look_and_run(text, "compliant", "pff")
     corner = set()
     for one in found:
@@ -110,7 +110,7 @@ def test_a_plant_without_masses_bears_nothing(tmp_path):
 
 
 CORNERS = (
-    "period 8 ms\nlaw constant\nspeed 700 mm/s\nstart at (0, 0) mm\nline to (100, 0) mm\n"
+    "period 8 ms\nprofile constant\nspeed 700 mm/s\nstart at (0, 0) mm\nline to (100, 0) mm\n"
     "line to (0, 60) mm\n"
 )
 

@@ -13,7 +13,7 @@ from dqpaint.robots.model.card import read_card
 
 FAST = (
     "period 8 ms\nstart at (0, 0) mm\nline to (40, 0) mm\n"
-    "line to (150, 0) mm speed 900 mm/s law constant\nline to (0, 60) mm speed 1200 mm/s\n"
+    "line to (150, 0) mm speed 900 mm/s profile constant\nline to (0, 60) mm speed 1200 mm/s\n"
 )
 
 

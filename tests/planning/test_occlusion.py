@@ -48,7 +48,7 @@ def wild(seed):
     text += f"rpy(90 deg, 0 deg, 90 deg)\nstart at (0, 0) mm {turned()}\n"
     for _ in range(3):
         x, y, z = rng.uniform(-90, 90, 3)
-        text += f"line to ({x:.0f}, {y:.0f}, {z:.0f}) mm in 4 s law quintic light white"
+        text += f"line to ({x:.0f}, {y:.0f}, {z:.0f}) mm in 4 s profile quintic light white"
         text += f" {turned()}\n" if rng.random() < 0.7 else "\n"
     return name, text
 

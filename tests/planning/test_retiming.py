@@ -87,7 +87,7 @@ def test_one_too_fast_stops_with_joint_time_line_and_amount(draw):
 @pytest.mark.slow
 def test_a_motor_that_saturates_stops_the_run(draw):
     with pytest.raises(ScriptError, match=r"joint \d would have to bear more than \d+ Nm"):
-        draw(FAST.replace("1500", "500 mm/s law constant #"), "stop", plant="stiff")
+        draw(FAST.replace("1500", "500 mm/s profile constant #"), "stop", plant="stiff")
 
 
 @pytest.mark.parametrize("plant", ["ideal", pytest.param("stiff", marks=pytest.mark.slow)])
@@ -168,7 +168,9 @@ def test_a_law_of_torques_is_slowed_for_its_motors_too():
     card = read_card("iiwa")
     limits = card.limits.model_copy(update={"effort_Nm": (8.0, 60.0, 8.0, 20.0, 3.0, 2.0, 2.0)})
     arm = Kinematics(card.model_copy(update={"limits": limits}))
-    text = "period 4 ms\nlaw quintic\nline to (80, 40) mm in 0.25 s\nline to (-60, 0) mm in 3 s\n"
+    text = (
+        "period 4 ms\nprofile quintic\nline to (80, 40) mm in 0.25 s\nline to (-60, 0) mm in 3 s\n"
+    )
     motion = plan(parse(text, "t.traj"), card.canvas.pose)
     start = begin(motion, arm).posture
     law = make_controller(stiff_law, "stiff_law")
@@ -188,7 +190,7 @@ def test_a_law_of_torques_is_slowed_for_its_motors_too():
 
 
 SUDDEN = (
-    "period 8 ms\nlaw constant\nstart at (-100, 0) mm\nline to (100, 60) mm speed 500 mm/s\n"
+    "period 8 ms\nprofile constant\nstart at (-100, 0) mm\nline to (100, 60) mm speed 500 mm/s\n"
     "line to (100, -60) mm speed 100 mm/s\nhold 0.3 s\n"
 )
 

@@ -100,7 +100,9 @@ def test_objectives_improve_while_the_tool_stands_still(name, law, rng):
 
 
 def test_without_a_wish_a_closed_drawing_does_not_close():
-    text = "period 8 ms\nstart at (60, 0) mm\narc centre (0, 0) angle 3 turn in 6 s law constant\n"
+    text = (
+        "period 8 ms\nstart at (60, 0) mm\narc centre (0, 0) angle 3 turn in 6 s profile constant\n"
+    )
     motion = plan(parse(text, "t.traj"), CARD.canvas.pose)
     law = CONTROLLERS["hinf"]
     open_, closed = (

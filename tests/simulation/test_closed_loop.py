@@ -95,7 +95,7 @@ QUARTER_APART = {"KPp": 270, "KVp": 7.5, "KPo": 270, "KVo": 7.5}
 
 CIRCLE = """period 8 ms
 start at (60, 0) mm
-arc centre (0, 0) angle 2 turn in 8 s law constant
+arc centre (0, 0) angle 2 turn in 8 s profile constant
 """
 
 
@@ -217,7 +217,7 @@ def test_signs_of_measured_poses_never_jump(law):
 @pytest.mark.slow
 def test_a_motor_that_saturates_only_while_it_starts_is_named():
     """A line begun at full speed: the first milliseconds of a period ask most of the motors."""
-    motion = asked("law constant\nspeed 500 mm/s\nline to (100, 0) mm\nline to (0, 0) mm\n")
+    motion = asked("profile constant\nspeed 500 mm/s\nline to (100, 0) mm\nline to (0, 0) mm\n")
     held = {clamp.joint for clamp in run(motion, plant="stiff").clamps if clamp.kind == "torque"}
     assert {1, 3} <= held
 

@@ -22,7 +22,7 @@ from tests.support.processes import start, wait_for_lines, wait_for_the_end
 
 STEP = "period 20 ms\nstart at (0, 0) mm\nhold 40 ms\nstep to (10, 0) mm\nhold 300 ms\n"
 RING = """period 20 ms
-law constant
+profile constant
 start at (20, 0) mm
 arc center (0, 0) mm angle 720 deg in 2 s
 """

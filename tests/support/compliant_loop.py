@@ -13,7 +13,7 @@ from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
 from dqpaint.simulation.closed_loop import track
 
-TEXT = "period 8 ms\nstart at (60, 0) mm\narc centre (0, 0) angle 180 deg in 3 s law constant\n"
+TEXT = "period 8 ms\nstart at (60, 0) mm\narc centre (0, 0) angle 180 deg in 3 s profile constant\n"
 ASIDE = 0.05  # [rad] in every joint, where it begins
 
 ARMS = ("iiwa", "meka-a2")

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 from dqpaint.language.vocabulary.units import UNITS
-from dqpaint.language.vocabulary.words import FUNCTIONS, LAWS, LITTLE_WORDS, PARTS, STATEMENTS
+from dqpaint.language.vocabulary.words import FUNCTIONS, LITTLE_WORDS, PARTS, PROFILES, STATEMENTS
 
 STAR = """# star.traj - a five-pointed star, one colour per edge
 period 10 ms
@@ -18,7 +18,7 @@ end
 """
 
 ROSE = """period 10 ms
-law constant
+profile constant
 let a = 30 mm
 
 repeat k from 0 to 5
@@ -43,11 +43,11 @@ end
 let a = quat(1,0,0,0)*rot(x,3 deg)
 let b = min(3 mm, max(2 mm,abs(-3 mm)), sqrt(4 mm*mm))
 move to (b, ln(exp(1))*mm) tool a
-screw to (3,4,5) mm tool rot((1,1,0), 30 deg) law cubic(1 deg/s, 0)
+screw to (3,4,5) mm tool rot((1,1,0), 30 deg) profile cubic(1 deg/s, 0)
 light 5600 K to hsv(30 deg, 1, 0.5)
 step to (1,1) mm
 hold 3 s light on to "#f80"
-arc centre (0,0) mm angle -30 deg rise 3 mm grow 1 mm law quintic(0,0,1 mm/s/s,0)
+arc centre (0,0) mm angle -30 deg rise 3 mm grow 1 mm profile quintic(0,0,1 mm/s/s,0)
 screw about (0,0) along x+y angle 1 turn pitch 3 mm/turn
 text "Ada, 3" "Love" font "scripts" width 30 mm at (1,2) mm align centre light red to blue
 path "orbit.csv" height 30 mm smooth at (1,1) mm samples 500
@@ -88,7 +88,7 @@ FILES = [path.read_text("utf-8") for path in sorted(FOLDER.glob("*.traj"))]
 PIECES = "0 1 -1 1e300 1e-300 9^9^9 (0,0) (0,0,0)mm red pi a ü % 40% # ( ) , ^ / * - = 180deg t"
 
 SCRAPS = [
-    *(*STATEMENTS, *PARTS, *FUNCTIONS, *LAWS, *LITTLE_WORDS, *UNITS),
+    *(*STATEMENTS, *PARTS, *FUNCTIONS, *PROFILES, *LITTLE_WORDS, *UNITS),
     *(*PIECES.split(), '"', "\n", "end\n"),
 ]
 

@@ -13,14 +13,15 @@ LIGHTS = ["", "", "light red", "light red to blue", "light white even", "light o
           "light red to blue even", "light lime even brush bar 30 mm"]  # fmt: skip
 TIMES = ["", "", "in 0.5 s", "in 0.333 s", "samples 17", "speed 90 mm/s",
          "speed 30 mm/s turnspeed 40 deg/s"]  # fmt: skip
-LAWS = ["", "", "law constant", "law cubic", "law quintic", "law cubic(10 mm/s, -5 mm/s)",
-        "law quintic(5 mm/s, 10 mm/s, 3 mm/s^2, -2 mm/s^2)"]  # fmt: skip
-STROKES = ["", "in 2 s", "samples 40", "law constant", "law cubic(10 mm/s, 10 mm/s) in 3 s"]
+PROFILES = ["", "", "profile constant", "profile cubic", "profile quintic",
+            "profile cubic(10 mm/s, -5 mm/s)",
+            "profile quintic(5 mm/s, 10 mm/s, 3 mm/s^2, -2 mm/s^2)"]  # fmt: skip
+STROKES = ["", "in 2 s", "samples 40", "profile constant", "profile cubic(10 mm/s, 10 mm/s) in 3 s"]
 FAULTS = [
     "line by (10, 0) mm speed 1e-6 mm/s",
     "hold 1 s\nline by (9, 0) mm in 90000 s",
-    "line by (1, 0) mm law cubic(500 mm/s, 500 mm/s)",
-    "line by (0, 0) mm tool rpy(10 deg, 0, 77 deg) law cubic(9 mm/s, 9 mm/s)",
+    "line by (1, 0) mm profile cubic(500 mm/s, 500 mm/s)",
+    "line by (0, 0) mm tool rpy(10 deg, 0, 77 deg) profile cubic(9 mm/s, 9 mm/s)",
     "curve (10 + 3*t^3, 3*t^2) mm for t from -1 to 1",
     "curve (9*abs(t - 0.37)^1.5, 3*t) mm for t from 0 to 1 samples 100 light red to blue",
 ]
@@ -67,7 +68,7 @@ def statement(rng: random.Random, inside: bool = False) -> str:
     if inside:
         parts = [part for part in parts if "look" not in part]
     else:
-        parts += [rng.choice(TIMES), rng.choice(LAWS)]
+        parts += [rng.choice(TIMES), rng.choice(PROFILES)]
     return " ".join([way(rng, inside), *filter(None, parts)])
 
 
@@ -77,7 +78,7 @@ def drawing(seed: int, faults: int = 0) -> str:
     lines = [f"period {rng.choice([4, 8, 10])} ms", "speed 80 mm/s"]
     lines.append("start at (1, 2, 3) mm tool rpy(10 deg, 20 deg, 30 deg)")
     if rng.random() < 0.3:
-        lines.append(f"law {rng.choice(['constant', 'quintic', 'cubic'])}")
+        lines.append(f"profile {rng.choice(['constant', 'quintic', 'cubic'])}")
     body = []
     for _ in range(rng.randint(3, 30)):
         if rng.random() < 0.2:

@@ -12,7 +12,7 @@ def mylaw(seen, k=20.0):
     return seen.twist_d + 2 * k * dq.log(error)
 """
 DRAWING = """period 8 ms
-law constant
+profile constant
 start at (-60, -20) mm
 line by (60, 60) mm samples 200 light orange
 line by (60, -60) mm samples 200 light cyan

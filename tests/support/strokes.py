@@ -20,11 +20,11 @@ from dqpaint.program.program import (
     Follow,
     Keep,
     Lasting,
-    Law,
     Light,
     Look,
     LookLine,
     Pose,
+    Profile,
     Program,
     Screw,
     ScrewTo,
@@ -84,13 +84,13 @@ TOOLS = {
     "look": Look((0.5, 0.9, -1.3), (0.0, 0.6, 0.8)),
     "look-line": LookLine((0.9, -0.4, 0.8), AXIS),
 }
-LAWS = {
-    "constant": Law("constant"),
-    "trapezoid": Law("trapezoid"),
-    "cubic": Law("cubic"),
-    "cubic-rates": Law("cubic", (0.02, 0.04)),
-    "quintic": Law("quintic"),
-    "quintic-rates": Law("quintic", (0.02, 0.04, -0.01, 0.03)),
+PROFILES = {
+    "constant": Profile("constant"),
+    "trapezoid": Profile("trapezoid"),
+    "cubic": Profile("cubic"),
+    "cubic-rates": Profile("cubic", (0.02, 0.04)),
+    "quintic": Profile("quintic"),
+    "quintic-rates": Profile("quintic", (0.02, 0.04, -0.01, 0.03)),
 }
 RIGID = {"screw", "screw-to"}
 CHAINS = {"bezier", "ellipse"}  # what is made of pieces has corners, in general
@@ -104,13 +104,14 @@ KINDS = [
 ]
 
 
-def segment(path, tool, law="trapezoid", timing=None, start=START):
+def segment(path, tool, profile="trapezoid", timing=None, start=START):
     """The stroke of these kinds, with its end pose as the language would compute it."""
     made = Segment(
         path=PATHS[path],
         tool=TOOLS[tool],
-        law=LAWS[law],
-        timing=timing or (Cruise(0.08, 0.9) if law in ("trapezoid", "cubic") else Lasting(2.504)),
+        profile=PROFILES[profile],
+        timing=timing
+        or (Cruise(0.08, 0.9) if profile in ("trapezoid", "cubic") else Lasting(2.504)),
         light=Light((1.0, 0.2, 0.0), (0.0, 0.3, 1.0)),
         start=start,
         end=Pose((0.2, 0.1, -0.3), TURNED),

@@ -165,13 +165,13 @@ line by (1,0) mm tool look (0, 5) mm|E252|1:1 line by (1,0) mm tool look (0, 5) 
 line by (1,0) mm tool look line (0,0) along x|E253|1:1 line by (1,0) mm tool look line (0,0) along x|the tool can't look at the line it is on||look at a line the tool does not go through
 curve (0, 0, t) for t from 0 to 1 mm tool follow|E254|1:7 (0, 0, t)|the curve stands still or goes along the axis, so it has no heading to follow||use: tool keep, or tool look
 screw to (1,2) mm|E255|1:10 (1,2) mm|'screw to' needs to know how the tool is held at the end||add: tool rpy(0 deg, 0 deg, 90 deg); to keep the tool as it is, use: line to
-law linear|E205|1:5 linear|'linear' is not known||did you mean 'constant'?
-law fancy|E205|1:5 fancy|'fancy' is not known||the laws are: constant, trapezoid, cubic, quintic
+profile linear|E205|1:9 linear|'linear' is not known||did you mean 'constant'?
+profile fancy|E205|1:9 fancy|'fancy' is not known||the profiles are: constant, trapezoid, cubic, quintic
 light rgb(255,0,0)|E206|1:7 rgb|there is no function 'rgb'||write the colour in quotes: "#ff8800"
 curve (10 mm*sin(t), 0) for t from 0 to 1|E213|1:18 t|sin needs an angle, this is a plain number||say which: sin(t*deg) or sin(t*rad)
 line to 50 mm, 0 mm|E112|1:14 ,|expected the end of the line but found ','||a point stands in brackets: (50, 0) mm; parts of a line need no commas
 period 20 s|E257|1:8 20 s|a period is from 0.01 ms to 10 s||an arm is controlled every few milliseconds: period 8 ms
-law cubic(1e300 mm/s, 0 mm/s)|E201|1:11 1e300 mm/s|this number is too large||
+profile cubic(1e300 mm/s, 0 mm/s)|E201|1:15 1e300 mm/s|this number is too large||
 line by (5,0) mm by (0,5) mm samples 1|E256|1:1 line by (5,0) mm by (0,5) mm samples 1|2 legs need at least 2 samples||write: samples 2
 repeat 10001~line by (1,0) mm~end|E303|1:8 10001|more than 10,000 passes of one 'repeat'|this is 10,001|draw a formula instead: curve … for t from … to …
 brush disc 3 mm|E109|1:7 disc|expected a kind of brush but found 'disc'||write: brush point, or brush bar 120 mm along x
@@ -216,7 +216,7 @@ stroke in 3 s speed 4 mm/s~line by (1, 0) mm~end|E241|1:15 speed|the time is giv
 stroke~stroke~line by (1, 0) mm~end~end|E280|2:1 stroke|a stroke within a stroke||one 'stroke' takes any number of lines
 stroke~line by (1, 0) mm in 3 s~end|E281|2:19 in|'in' belongs to the whole stroke||write it on its first line: stroke in 2 s
 stroke~speed 3 mm/s~line by (1, 0) mm~end|E281|2:1 speed|'speed' belongs to the whole stroke||write it on its first line: stroke speed 40 mm/s
-stroke~with law constant~line by (1, 0) mm~end~end|E281|2:6 law|'law' belongs to the whole stroke||write it on its first line: stroke law trapezoid
+stroke~with profile constant~line by (1, 0) mm~end~end|E281|2:6 profile|'profile' belongs to the whole stroke||write it on its first line: stroke profile trapezoid
 stroke~line by (9, 0) mm~hold 1 s~end|E282|3:1 hold 1 s|a pause can't be part of a stroke, which does not stop||end the stroke before it
 stroke~line by (9, 0) mm~line by (0, 0) tool rpy(0, 0, 3 deg)~end|E282|3:1 line by (0, 0) tool rpy(0, 0, 3 deg)|a turn on the spot can't be part of a stroke, which does not stop||end the stroke before it
 stroke~line by (9, 0) mm~curve (t, 3 mm) for t from 9 mm to 12 mm~end|E283|3:1 curve (t, 3 mm) for t from 9 mm to 12 mm|the tool would have to stop within this stroke||let this line begin where the one before it ends, and the tool look there
@@ -226,7 +226,7 @@ blend 5 mm~line by (8, 0) mm by (-8, 0) mm|E286|2:1 line by (8, 0) mm by (-8, 0)
 blend 5 mm~line by (8, 0) mm~curve (8 mm, t) for t from 0 to 9 mm|E285|2:1 line by (8, 0) mm|this corner can't be rounded: only those between lines and arcs can||switch it off before: blend off
 blend 1 mm~line by (8, 0) mm in 2 s~line by (0, 8) mm in 3 s|E287|3:1 line by (0, 8) mm in 3 s|a rounded corner joins two strokes with different times||say it once for both: stroke … end, or switch it off before: blend off
 blend 1 mm~line by (8, 0) mm~line by (0, 8) mm speed 3 mm/s|E287|3:1 line by (0, 8) mm speed 3 mm/s|a rounded corner joins two strokes with different times||say it once for both: stroke … end, or switch it off before: blend off
-blend 1 mm~line by (8, 0) mm~line by (0, 8) mm law quintic|E287|3:1 line by (0, 8) mm law quintic|a rounded corner joins two strokes with different laws||say it once for both: stroke … end, or switch it off before: blend off
+blend 1 mm~line by (8, 0) mm~line by (0, 8) mm profile quintic|E287|3:1 line by (0, 8) mm profile quintic|a rounded corner joins two strokes with different profiles||say it once for both: stroke … end, or switch it off before: blend off
 arc radius 20 mm left|E115|1:1 arc|this 'arc' has no 'to'||add where it ends: arc radius 20 mm to (10, 0) mm left
 arc radius 20 mm to (9, 0) mm|E115|1:1 arc|this 'arc' does not say which way it turns||add left (against the clock) or right
 arc radius 20 mm to (9, 0) mm left right|E248|1:36 right|an arc turns left or right, not both||keep one of them

@@ -55,14 +55,14 @@ def parts():
 
 def values():
     from dqpaint.language.vocabulary.units import UNITS
-    from dqpaint.language.vocabulary.words import CONSTANTS, FUNCTIONS, LAWS
+    from dqpaint.language.vocabulary.words import CONSTANTS, FUNCTIONS, PROFILES
 
     ends = {0: "", 2: "(v0, v1)", 4: "(v0, v1, a0, a1)"}  # rates and accelerations at the ends
-    laws = [f"{name}{ends[count]}" for name, counts in LAWS.items() for count in counts]
+    profiles = [f"{name}{ends[n]}" for name, counts in PROFILES.items() for n in counts]
     kinds = {
         "units": [f"`{u}`" for u in UNITS],
         "constants": [f"`{c}`" for c in CONSTANTS],
-        "laws": [f"`{law}`" for law in laws],
+        "profiles": [f"`{profile}`" for profile in profiles],
         "functions": [f"`{call}`" for call in FUNCTIONS.values()],
     }
     return table(["", ""], [[kind, " ".join(words)] for kind, words in kinds.items()])

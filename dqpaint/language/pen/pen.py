@@ -105,10 +105,10 @@ class Pen:
         if run is not None:
             self._check_goes_on(path, span)
             timing = run.timing
-        law = run.law if run is not None else settings.law
+        profile = run.profile if run is not None else settings.profile
         brush, strobe, start = settings.brush, settings.strobe, self.pose
         self.segments.append(
-            Segment(path, tool, law, timing, light, start, end, words, line, brush, strobe, run)
+            Segment(path, tool, profile, timing, light, start, end, words, line, brush, strobe, run)
         )
         self.corners.append(settings.blend * self.frame.scale)
         self.pose = end
@@ -130,9 +130,9 @@ class Pen:
             raise here("E283", message, span, "", cure)
 
     def begin_run(self, timing: Timing, light: Light | None) -> None:
-        """The segments that follow share a time law, and `light` if it is a gradient."""
+        """The segments that follow share a profile, and `light` if it is a gradient."""
         self._runs += 1
-        self.run = Run(self._runs, self.settings.law, timing, light)
+        self.run = Run(self._runs, self.settings.profile, timing, light)
 
     def check_pace(self, part: Part) -> None:
         """Raises if a line within a `stroke` has a time of its own."""
@@ -186,9 +186,9 @@ class Pen:
         self._assumed(Straight(vectors.ZERO), Turn(), speed, end, span)
 
     def _assumed(self, path: Path, tool: Tool, timing: Timing, end: Pose, span: Span) -> None:
-        """A stroke of our own, rest to rest whatever law the file's strokes have."""
+        """A stroke of our own, rest to rest whatever profile the file's strokes have."""
         settings, run = self.settings, self.run
-        self.settings, self.run = replace(settings, law=REST_TO_REST, blend=0.0), None
+        self.settings, self.run = replace(settings, profile=REST_TO_REST, blend=0.0), None
         self.draw(path, tool, timing, None, end, span)
         self.settings, self.run = settings, run
 

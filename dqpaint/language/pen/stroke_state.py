@@ -1,4 +1,4 @@
-"""What holds until something else is said: speed, law, tool, blend, light, brush, strobe."""
+"""What holds until something else is said: speed, profile, tool, blend, light, brush, strobe."""
 
 import math
 
@@ -23,10 +23,10 @@ from dqpaint.program import (
     Colour,
     Follow,
     Keep,
-    Law,
     Light,
     Look,
     LookLine,
+    Profile,
     Quaternion,
     Strobe,
     colours,
@@ -44,7 +44,7 @@ class Towards:
 ToolMode = Keep | Follow | Look | LookLine | Towards
 
 
-REST_TO_REST, KEEP = Law("trapezoid"), Keep()
+REST_TO_REST, KEEP = Profile("trapezoid"), Keep()
 POINT = Dot()
 WHITE = Light(colours.WHITE, colours.WHITE)
 
@@ -56,7 +56,7 @@ class Settings:
     Attributes:
         speed: [m/s] of the point.
         turnspeed: [rad/s] of a turn on the spot.
-        law: of every stroke.
+        profile: of every stroke.
         tool: what it does meanwhile.
         light: None is dark.
         shone: the light that was named last: what `on` means.
@@ -67,7 +67,7 @@ class Settings:
 
     speed: float = 0.1
     turnspeed: float = math.radians(60.0)
-    law: Law = REST_TO_REST
+    profile: Profile = REST_TO_REST
     tool: ToolMode = KEEP
     light: Light | None = WHITE
     shone: Light = WHITE
@@ -98,8 +98,8 @@ def changed(settings: Settings, part: Part, scope: Scope, frame: Frame) -> Setti
     if isinstance(value, BlendWords):
         size = 0.0 if value.size is None else typed_values.positive(value.size, scope, "blend")
         return replaced(settings, blend=size)
-    if part.word == "law":
-        return replaced(settings, law=typed_values.law(value, scope))
+    if part.word == "profile":
+        return replaced(settings, profile=typed_values.profile(value, scope))
     size = typed_values.positive(value, scope, part.word)
     if part.word == "speed":
         return replaced(settings, speed=size)

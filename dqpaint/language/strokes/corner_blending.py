@@ -2,7 +2,7 @@
 
 Two straight lines are joined by the arc of a circle that touches both; where an arc or a helix is
 one of the two, by the cubic Bezier curve that touches both and would be nearest to an arc between
-lines. Strokes that are joined become one run: there is one time law over all of them. A stroke
+lines. Strokes that are joined become one run: there is one profile over all of them. A stroke
 that is too short for its corners is an error; nothing is ever rounded less than was asked.
 """
 
@@ -301,7 +301,7 @@ def bezier(*points: Vector) -> Formula:
     return formula
 
 
-# Time: one law over what has been joined.
+# Time: one profile over what has been joined.
 
 
 def _as_run(
@@ -310,18 +310,18 @@ def _as_run(
     """The pieces of segments that were joined, with the time of all of them."""
     if len(segments) == 1 or segments[0].run is not None:
         return pieces
-    law, timing = segments[0].law, _whole(segments)
-    other = next((s for s in segments if s.law != law), None)
+    profile, timing = segments[0].profile, _whole(segments)
+    other = next((s for s in segments if s.profile != profile), None)
     if timing is None:
         other = next((s for s in segments if s.timing != segments[0].timing), segments[-1])
     if timing is None or other is not None:
         assert other is not None
-        what = "times" if timing is None else "laws"
+        what = "times" if timing is None else "profiles"
         message = f"a rounded corner joins two strokes with different {what}"
         cure = "say it once for both: stroke … end, or switch it off before: blend off"
         findings.add(Diagnostic("E287", message, other.span, "", cure))
         return pieces
-    run = Run(number, law, timing)
+    run = Run(number, profile, timing)
     return [replace(piece, timing=timing, run=run) for piece in pieces]
 
 

@@ -5,7 +5,7 @@ from dqpaint.language.syntax.cursor import Cursor, found
 from dqpaint.language.syntax.lexer import Token
 from dqpaint.language.syntax.tree import Word
 from dqpaint.language.vocabulary.units import UNITS
-from dqpaint.language.vocabulary.words import CONSTANTS, FUNCTIONS, LAWS, RESERVED
+from dqpaint.language.vocabulary.words import CONSTANTS, FUNCTIONS, PROFILES, RESERVED
 from dqpaint.program import colours
 
 
@@ -17,8 +17,8 @@ def meaning(word: str) -> str:
         return "a word of the language"
     if word in FUNCTIONS:
         return "a function"
-    if word in LAWS:
-        return "a time law"
+    if word in PROFILES:
+        return "a profile"
     if word in CONSTANTS:
         return "a number" if word == "pi" else f"the direction of the {word} axis"
     return "a colour" if word in colours.NAMES else ""

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from dqpaint.core import record
 from dqpaint.diagnostics import Diagnostic, Fix, Span
 from dqpaint.language.vocabulary.units import SAME_UNITS, UNITS
-from dqpaint.language.vocabulary.words import STATEMENTS
+from dqpaint.language.vocabulary.words import RENAMED, STATEMENTS
 
 
 @record
@@ -172,7 +172,7 @@ def _close(
 def _begins_statement(text: str, position: int) -> bool:
     """Whether a statement's word comes next: then an open bracket was forgotten, not continued."""
     match = _FIRST_WORD.match(text, position)
-    return match is not None and match[1] in STATEMENTS
+    return match is not None and (match[1] in STATEMENTS or match[1] in RENAMED)
 
 
 def _stray_bracket(token: Token) -> Diagnostic:

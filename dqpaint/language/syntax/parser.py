@@ -23,6 +23,7 @@ from dqpaint.language.vocabulary.words import (
     FOREIGN,
     FOREIGN_BLOCKS,
     PARTS,
+    RENAMED,
     STATEMENT_ALIASES,
     STATEMENTS,
 )
@@ -81,6 +82,8 @@ class _Parser:
 
     def _line(self, line: Line) -> None:
         first = line.tokens[0]
+        if first.text in RENAMED and first.kind == "name":
+            first = line.tokens[0] = replace(first, text=RENAMED[first.text])
         if first.kind == "end":  # nothing but characters that are not ours
             self._findings.add(line.problems[0])
             return

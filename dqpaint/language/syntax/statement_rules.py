@@ -7,7 +7,7 @@ from dqpaint.language.syntax import trailing_tokens
 from dqpaint.language.syntax.cursor import Cursor
 from dqpaint.language.syntax.lexer import Token
 from dqpaint.language.syntax.tree import Part, Statement
-from dqpaint.language.vocabulary.words import STATEMENTS, TIMES
+from dqpaint.language.vocabulary.words import RENAMED, STATEMENTS, TIMES
 
 _FORM_OF_CENTRE = ("axis", "angle", "rise", "grow")
 _QUESTION = re.compile(r"did you mean '(\w+)'\?")
@@ -217,7 +217,7 @@ def misplaced(word: str, token: Token) -> Problem | None:
         ("step", "in"): "a step takes one sample; to wait after it, use: hold 1 s",
         ("step", "samples"): "a step takes one sample; to wait after it, use: hold 1 s",
         ("step", "speed"): "a step takes one sample; to go there evenly, use: line to",
-        ("step", "law"): "a step takes one sample; to go there evenly, use: line to",
+        ("step", "profile"): "a step takes one sample; to go there evenly, use: line to",
         ("step", "by"): "a step says where to: step to (50, 0) mm",
         ("start", "turned"): "write: start at (0, 0, 0) tool …",
         ("place", "tool"): "write: place at (0, 0, 0) turned …",
@@ -231,7 +231,7 @@ def misplaced(word: str, token: Token) -> Problem | None:
         ("with", "turned"): "did you mean 'rotate'?",
         ("line", "from"): "a line begins where the tool is; write before it: move to (0, 0)",
         ("arc", "from"): "an arc begins where the tool is; write before it: move to (0, 0)",
-    }.get((word, token.text))
+    }.get((word, RENAMED.get(token.text, token.text)))
     if token.text == "with" and STATEMENTS[word].moves:
         cure = "parts stand there without 'with', as in: line to (10, 0) mm light red"
     elif token.text == "per":

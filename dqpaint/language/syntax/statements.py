@@ -9,7 +9,7 @@ from dqpaint.language.syntax.identifiers import new_name
 from dqpaint.language.syntax.lexer import Token
 from dqpaint.language.syntax.tree import Expression, Part, Quoted, Statement, Word
 from dqpaint.language.vocabulary.units import FOREIGN_UNITS, SAME_UNITS, UNITS, instead_of
-from dqpaint.language.vocabulary.words import PART_ALIASES, PARTS, SETTINGS, STATEMENTS
+from dqpaint.language.vocabulary.words import PART_ALIASES, PARTS, RENAMED, SETTINGS, STATEMENTS
 from dqpaint.program import colours
 
 VERSION = 1  # of the language, for `traj 1`
@@ -215,12 +215,13 @@ def _parts(cursor: Cursor, word: str) -> list[Part]:
     parts: list[Part] = []
     while cursor.token.kind == "name":
         token = cursor.token
-        if token.text not in known.parts:
+        part = RENAMED.get(token.text, token.text)
+        if part not in known.parts:
             if not known.parts:
                 break
             raise _unknown_part(cursor, word)
         cursor.take()
-        parts.append(_part(cursor, token.text, token.span))
+        parts.append(_part(cursor, part, token.span))
     return parts
 
 

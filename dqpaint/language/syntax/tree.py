@@ -19,7 +19,7 @@ class Literal:
 
 @record
 class Name:
-    """A name, a constant, a colour, a law or a unit."""
+    """A name, a constant, a colour, a profile or a unit."""
 
     name: str
     span: Span

@@ -27,8 +27,8 @@ from dqpaint.language.vocabulary.words import (
     CONSTANTS,
     FUNCTION_ALIASES,
     FUNCTIONS,
-    LAW_ALIASES,
-    LAWS,
+    PROFILE_ALIASES,
+    PROFILES,
 )
 from dqpaint.program import Taylor
 
@@ -44,7 +44,7 @@ def unknown(node: Name, scope: Scope, words: Iterable[str] = ()) -> Problem:
         fix = Fix(f"write {same}", node.span, same) if same else None
         return problem("E205", f"'{name}' is not known", node.span, "", cure, fix)
     words = list(words)
-    aliases = LAW_ALIASES if set(LAWS) <= set(words) else {}
+    aliases = PROFILE_ALIASES if set(PROFILES) <= set(words) else {}
     known = (*scope.names, *CONSTANTS, *words)
     meant = _abbreviation(name, scope) or closest(name, known, aliases)
     cure = did_you_mean(meant) or f"name it first: let {name} = …"
@@ -52,8 +52,8 @@ def unknown(node: Name, scope: Scope, words: Iterable[str] = ()) -> Problem:
         meant, cure = "", "a comment begins with #"
     if "keep" in words and not meant:
         cure += ", or write an orientation: rot(x, 180 deg)"
-    if not meant and set(words) == set(LAWS):
-        cure = f"the laws are: {listed(LAWS)}"
+    if not meant and set(words) == set(PROFILES):
+        cure = f"the profiles are: {listed(PROFILES)}"
     fix = Fix(f"write {meant}", node.span, meant) if meant else None
     return problem("E205", f"'{name}' is not known", node.span, "", cure, fix)
 

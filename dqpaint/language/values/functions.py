@@ -10,7 +10,6 @@ from dqpaint.language.values.values import (
     Orientation,
     Point,
     Quantity,
-    TimeLaw,
     Tint,
     Value,
     describe,
@@ -28,7 +27,7 @@ from dqpaint.language.vocabulary.units import (
     plausible_unit,
 )
 from dqpaint.language.vocabulary.words import FUNCTIONS
-from dqpaint.program import Taylor, colours, taylor
+from dqpaint.program import Profile, Taylor, colours, taylor
 from dqpaint.program import Value as Scalar
 
 
@@ -188,7 +187,7 @@ def _quat(given: Arguments) -> Value:
     return Orientation((w / size, x / size, y / size, z / size))
 
 
-def _law(given: Arguments) -> Value:
+def _profile(given: Arguments) -> Value:
     """Boundary rates: speeds, then accelerations, all of the point or all of the turn."""
     values = given.values
     angular = any(
@@ -199,10 +198,10 @@ def _law(given: Arguments) -> Value:
     for rate, node in zip(rates, given.nodes, strict=True):
         if abs(rate) > LARGEST_RATE:
             raise problem("E201", "this number is too large", node.span)
-    return TimeLaw(given.function, tuple(rates), angular)
+    return Profile(given.function, tuple(rates), angular)
 
 
-LARGEST_RATE = 1e9  # of a law, in SI units
+LARGEST_RATE = 1e9  # of a profile, in SI units
 
 _Function = Callable[[Arguments], Value]
 
@@ -225,12 +224,12 @@ TABLE: dict[str, tuple[_Function, int, int]] = {
     "rpy": (_rpy, 3, 3),
     "rot": (_rot, 2, 2),
     "quat": (_quat, 4, 4),
-    "constant": (_law, 0, 0),
-    "trapezoid": (_law, 0, 0),
-    "cubic": (_law, 2, 2),
-    "quintic": (_law, 4, 4),
+    "constant": (_profile, 0, 0),
+    "trapezoid": (_profile, 0, 0),
+    "cubic": (_profile, 2, 2),
+    "quintic": (_profile, 4, 4),
 }
-LAW_CALLS = {
+PROFILE_CALLS = {
     "constant": "constant",
     "trapezoid": "trapezoid",
     "cubic": "cubic(V0, V1)",
@@ -259,7 +258,7 @@ def call(given: Arguments) -> Value:
         )
         noun = "value" if needed == "1" else "values"
         message = f"{given.function} takes {needed if needed != '0' else 'no'} {noun}, not {count}"
-        cure = f"write: {FUNCTIONS.get(given.function) or LAW_CALLS[given.function]}"
+        cure = f"write: {FUNCTIONS.get(given.function) or PROFILE_CALLS[given.function]}"
         raise problem("E207", message, given.span, "", cure)
     try:
         return function(given)

@@ -5,10 +5,10 @@ from collections.abc import Iterable
 
 from dqpaint.diagnostics import Span
 from dqpaint.language.syntax.tree import Expression
-from dqpaint.language.values.values import Point, Quantity, TimeLaw, Tint, Value
+from dqpaint.language.values.values import Point, Quantity, Tint, Value
 from dqpaint.language.vocabulary.units import PLAIN, UNITS
-from dqpaint.language.vocabulary.words import LAWS
-from dqpaint.program import colours
+from dqpaint.language.vocabulary.words import PROFILES
+from dqpaint.program import Profile, colours
 
 
 class UnknownError(Exception):
@@ -20,7 +20,7 @@ UNIT_VALUES = {unit: Quantity(factor, kind) for unit, (factor, kind, _) in UNITS
 # What every file knows.
 BUILTINS: dict[str, Value] = {
     **{name: Tint(colour) for name, colour in colours.NAMES.items()},
-    **{name: TimeLaw(name, (), False) for name in LAWS},
+    **{name: Profile(name) for name in PROFILES},
     **UNIT_VALUES,
     "pi": Quantity(math.pi, PLAIN),
     "x": Point((1.0, 0.0, 0.0), PLAIN),

@@ -14,7 +14,6 @@ from dqpaint.language.values.values import (
     Point,
     Quantity,
     Text,
-    TimeLaw,
     Tint,
     Value,
     describe,
@@ -34,8 +33,8 @@ from dqpaint.language.vocabulary.units import (
     Dimension,
     dimension_name,
 )
-from dqpaint.language.vocabulary.words import LAWS, PARTS, STATEMENTS
-from dqpaint.program import Colour, Law, Quaternion, Taylor, Vector, colours
+from dqpaint.language.vocabulary.words import PARTS, PROFILES, STATEMENTS
+from dqpaint.program import Colour, Profile, Quaternion, Taylor, Vector, colours
 
 # The dimension of each part that takes one number.
 _DIMENSIONS = {
@@ -174,13 +173,13 @@ def orientation(node: Expression, scope: Scope, word: str) -> Quaternion:
     raise problem("E218", message, node.span, "", cure)
 
 
-def law(node: Expression, scope: Scope) -> Law:
-    """The time law after `law`."""
-    value = evaluate(node, scope, LAWS)
-    if isinstance(value, TimeLaw):
-        return Law(value.name, value.rates, value.angular)
-    message = f"'law' needs a time law, but this is {describe(value)}"
-    raise problem("E218", message, node.span, "", f"one of: {', '.join(LAWS)}")
+def profile(node: Expression, scope: Scope) -> Profile:
+    """The profile after `profile`."""
+    value = evaluate(node, scope, PROFILES)
+    if isinstance(value, Profile):
+        return value
+    message = f"'profile' needs a profile, but this is {describe(value)}"
+    raise problem("E218", message, node.span, "", f"one of: {', '.join(PROFILES)}")
 
 
 def colour(node: Expression, scope: Scope, after_to: bool = False) -> Colour:

@@ -13,7 +13,7 @@ from dqpaint.language.vocabulary.units import (
     Dimension,
     dimension_name,
 )
-from dqpaint.program import Colour, Quaternion, Taylor, taylor
+from dqpaint.program import Colour, Profile, Quaternion, Taylor, taylor
 from dqpaint.program import Value as Scalar
 
 
@@ -45,15 +45,6 @@ class Tint:
     """A colour: linear RGB."""
 
     rgb: Colour
-
-
-@record
-class TimeLaw:
-    """A time law and its boundary rates."""
-
-    name: str
-    rates: tuple[float, ...]
-    angular: bool
 
 
 @record
@@ -99,7 +90,7 @@ class Drawing:
     size: int
 
 
-Value = Quantity | Point | Orientation | Tint | TimeLaw | Text | Placement | Function | Drawing
+Value = Quantity | Point | Orientation | Tint | Profile | Text | Placement | Function | Drawing
 
 
 def describe(value: Value) -> str:
@@ -117,8 +108,8 @@ def describe(value: Value) -> str:
             return "an orientation"
         case Tint():
             return "a colour"
-        case TimeLaw():
-            return "a time law"
+        case Profile():
+            return "a profile"
         case Text():
             return "a text"
         case Placement():

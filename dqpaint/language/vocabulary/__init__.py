@@ -4,10 +4,20 @@ from dqpaint.language.vocabulary.units import UNITS
 from dqpaint.language.vocabulary.words import (
     CONSTANTS,
     FUNCTIONS,
-    LAWS,
     LITTLE_WORDS,
     PARTS,
+    PROFILES,
+    RENAMED,
     STATEMENTS,
 )
 
-__all__ = ["CONSTANTS", "FUNCTIONS", "LAWS", "LITTLE_WORDS", "PARTS", "STATEMENTS", "UNITS"]
+__all__ = [
+    "CONSTANTS",
+    "FUNCTIONS",
+    "LITTLE_WORDS",
+    "PARTS",
+    "PROFILES",
+    "RENAMED",
+    "STATEMENTS",
+    "UNITS",
+]

@@ -2,8 +2,6 @@
 
 The parser, its messages and its suggestions all read these tables, and so does whatever is made
 from them: the reference, completion, grammars for editors. A new word is a line here first.
-
-from dqpaint.language.records import record
 """
 
 from dqpaint.core import record
@@ -53,9 +51,9 @@ class StatementWord:
 
 
 LAMP = ("light", "brush", "strobe")  # what shines, and how
-SETTINGS = ("speed", "turnspeed", "law", "tool", "blend", *LAMP)
+SETTINGS = ("speed", "turnspeed", "profile", "tool", "blend", *LAMP)
 TIMES = ("in", "samples")
-PACE = (*TIMES, "speed", "turnspeed", "law")  # what a `stroke` says for all of its lines
+PACE = (*TIMES, "speed", "turnspeed", "profile")  # what a `stroke` says for all of its lines
 CLAUSES = (*TIMES, *SETTINGS)
 OWN_CORNERS = tuple(word for word in CLAUSES if word != "blend")  # of what comes from elsewhere
 DARK_CLAUSES = tuple(word for word in CLAUSES if word not in LAMP)
@@ -89,7 +87,7 @@ PARTS = {
         PartWord("samples", "count", "how many samples it takes", "samples 300"),
         PartWord("speed", "speed", "the speed the tool cruises at", "speed 40 mm/s"),
         PartWord("turnspeed", "turnspeed", "the speed of a turn on the spot", "turnspeed 60 deg/s"),
-        PartWord("law", "law", "how the speed goes along a stroke", "law trapezoid"),
+        PartWord("profile", "profile", "how the speed goes along a stroke", "profile trapezoid"),
         PartWord("tool", "tool", "what the tool does meanwhile", "tool look (0, 0, 300) mm"),
         PartWord("blend", "blend", "corners rounded within this distance", "blend 5 mm"),
         PartWord("light", "light", "the colour, or from one colour to another", "light red"),
@@ -346,12 +344,15 @@ PART_ALIASES = {
     "position": "at",
 }
 
+# Words of drawings of earlier versions, and what `dqpaint fmt` writes for them.
+RENAMED = {"law": "profile"}
+
 LITTLE_WORDS = (
     *("from", "for", "on", "off", "even", "keep", "follow", "look", "up", "point", "bar", "auto"),
 )
 
 CONSTANTS = ("pi", "x", "y", "z")
-LAWS = {"constant": (0,), "trapezoid": (0,), "cubic": (0, 2), "quintic": (0, 4)}
+PROFILES = {"constant": (0,), "trapezoid": (0,), "cubic": (0, 2), "quintic": (0, 4)}
 
 # How each function is called, for messages and completion.
 FUNCTIONS = {
@@ -373,7 +374,7 @@ FUNCTIONS = {
     "rot": "rot(AXIS, ANGLE)",
     "quat": "quat(W, X, Y, Z)",
 }
-LAW_ALIASES = {
+PROFILE_ALIASES = {
     "linear": "constant",
     "uniform": "constant",
     "trapezoidal": "trapezoid",
@@ -396,4 +397,6 @@ FUNCTION_ALIASES = {
 # Never part of an expression: a value was forgotten if one of them is found there.
 # But these say something in a few statements alone, and `let radius = …` is what people write.
 FREE = ("radius", "left", "right", "long", "height", "width", "unit")
-RESERVED = frozenset((*STATEMENTS, *PARTS, *LITTLE_WORDS, "if", "else", "while")).difference(FREE)
+RESERVED = frozenset(
+    (*STATEMENTS, *PARTS, *RENAMED, *LITTLE_WORDS, "if", "else", "while")
+).difference(FREE)

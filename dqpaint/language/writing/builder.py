@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 from dqpaint.diagnostics import file_at
 from dqpaint.errors import UsageError
 from dqpaint.language import Program, ScriptError, parse, render
-from dqpaint.language.vocabulary.words import STATEMENTS
+from dqpaint.language.vocabulary.words import RENAMED, STATEMENTS
 from dqpaint.language.writing.formatter import STEP, formatted
 from dqpaint.language.writing.values_to_text import (
     Unwritable,
@@ -39,6 +39,7 @@ _METHODS = {
     for word in STATEMENTS
     if word != "end"
 }
+_CALLS = {**_METHODS, **RENAMED}  # those of earlier versions are understood, not told
 
 
 _OF_FORM = "E1"  # what the codes begin with that are about a form that is not kept
@@ -112,9 +113,9 @@ class Drawing:
             self._add(_word(method), (value,), {})
 
     def __getattr__(self, method: str) -> Callable[..., Any]:
-        if method not in _METHODS:
+        if method not in _CALLS:
             raise AttributeError(self._no_method(method))
-        word = _METHODS[method]
+        word = _CALLS[method]
         known = STATEMENTS[word]
 
         def statement(*values: Any, **parts: Any) -> AbstractContextManager[None] | None:
@@ -199,14 +200,15 @@ class Drawing:
 
 
 def _word(method: str) -> str:
-    if method not in _METHODS:
+    if method not in _CALLS:
         raise UsageError(f"no statement named '{method}'; known: {', '.join(_METHODS)}")
-    return _METHODS[method]
+    return _CALLS[method]
 
 
 def _parts(word: str, parts: dict[str, Any]) -> Iterator[str]:
     for name, value in parts.items():
-        yield from written_part(word, name.removesuffix("_"), value)
+        part = name.removesuffix("_")
+        yield from written_part(word, RENAMED.get(part, part), value)
 
 
 def _caller() -> Call:

@@ -1,5 +1,6 @@
 """Text -> the same text in the one layout: `dqpaint fmt`. Tokens and comments stay as they are.
 
+Words of earlier versions become today's: `law` is written `profile`.
 Two blanks a block, `a, b`, `90 deg`, blanks round + - and =, none round * / ^, two blanks before a
 comment that follows something, one empty line at most. Lines are neither joined, broken nor moved.
 """
@@ -11,7 +12,7 @@ from typing import NamedTuple
 from dqpaint.diagnostics import EnoughError, Findings, ScriptError
 from dqpaint.language.syntax.lexer import TOKEN, Token, lines
 from dqpaint.language.syntax.parser import parse_statements
-from dqpaint.language.vocabulary.words import RESERVED, STATEMENTS
+from dqpaint.language.vocabulary.words import RENAMED, RESERVED, STATEMENTS
 
 STEP = "  "  # of a block, and of a bracket that goes on over lines
 BEFORE_COMMENT = "  "
@@ -62,7 +63,11 @@ def _check(text: str, name: str) -> None:
 
 
 def _words(text: str) -> list[list[tuple[str, str]]]:
-    return [[(token.kind, token.text) for token in line.tokens] for line in lines(text)]
+    return [[(t.kind, _today(t.kind, t.text)) for t in line.tokens] for line in lines(text)]
+
+
+def _today(kind: str, word: str) -> str:
+    return RENAMED.get(word, word) if kind == "name" else word
 
 
 def _laid_out(text: str) -> Iterator[str]:
@@ -114,7 +119,7 @@ def _rows(text: str) -> Iterator[_Row]:
                 Token("name", word, start, position),
             ]
         elif kind != "bad":  # a blank that only Unicode calls one
-            tokens.append(Token(kind, word, start, position))
+            tokens.append(Token(kind, _today(kind, word), start, position))
             brackets += (word == "(") - (word == ")")
     if tokens or comment:
         yield _Row(tokens, comment, begins and bool(tokens))

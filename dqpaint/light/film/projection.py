@@ -137,7 +137,7 @@ def _clip(start: Floats, end: Floats, low: Floats, high: Floats) -> tuple[Floats
 def bins(trail: Projection, step: float) -> Iterator[Bins]:
     """The trail in pieces at most `step` long, a batch at a time.
 
-    The time law of the lamp has no say in where a path is cut: each unbroken run of steps is cut
+    The profile of the lamp has no say in where a path is cut: each unbroken run of steps is cut
     evenly along its length, however many samples it came in, and each piece gets the energy that
     was left between its ends. A lamp that stands still adds all its energy to one piece.
 

@@ -47,7 +47,7 @@ def check_limits(painting: paint.Painting, kinematics: Kinematics) -> None:
                 f"{_line(motion, row)}: a sudden {when}: joint {joint + 1} changes its speed by "
                 f"{abs(bends[row, joint]) * motion.period * DEG:.3g} deg/s within "
                 f"{motion.period * 1e3:g} ms ({abs(bends[row, joint]):.3g} rad/s^2, at most "
-                f"{SUDDEN:g}); law trapezoid or quintic is gentle"
+                f"{SUDDEN:g}); profile trapezoid or quintic is gentle"
             )
     if reasons:
         more = len(reasons) - MOST_NAMED

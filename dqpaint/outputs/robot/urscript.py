@@ -1,7 +1,7 @@
 """The trajectory as a program of a Universal Robots arm: `servoj`, point by point.
 
 servoj takes the posture to be in a given time, which keeps the drawing's clock; movej, movel and
-movep have time laws of their own, and the light would come too early or too late.
+movep have profiles of their own, and the light would come too early or too late.
 """
 
 import re

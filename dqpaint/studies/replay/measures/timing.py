@@ -93,7 +93,7 @@ def loop(cell: Cell, settings: Mapping[str, Any]) -> Clock:
     steps = max(8, round(SECONDS / period))
     text = (
         f"period {period * 1e3:g} ms\nstart at (0, 70, 0) mm\n"
-        f"arc centre (0, 0) mm axis -z angle 90 deg samples {steps} law constant\n"
+        f"arc centre (0, 0) mm axis -z angle 90 deg samples {steps} profile constant\n"
     )
     program = parse(text, "arc")
     card: Card = card_for(program, settings.get("robot"), None)

@@ -18,7 +18,7 @@ DARK = Light((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
 @dataclass(frozen=True, eq=False)
-class LightProfile:
+class StrokeLight:
     """The light of each segment (M) of a drawing.
 
     Attributes:
@@ -27,7 +27,7 @@ class LightProfile:
         even: whether it is dimmed where the tool is slow (M,).
         way: the length of each stroke (S,) that even light is even over; 0 where it stays. A point
             of light that turns on the spot has none, a bar has its angle.
-        peak: and its largest speed, where its law says it, in the time that was asked for (S,).
+        peak: and its largest speed, where its profile says it, in the time that was asked for (S,).
     """
 
     table: Schedule
@@ -42,7 +42,7 @@ class LightProfile:
         table = self.table
         at = np.flatnonzero(~rows.last)
         stroke = rows.stroke[at]
-        # a law may run beyond the ends of a stroke; its colours do not
+        # a profile may run beyond the ends of a stroke; its colours do not
         inside = np.clip(rows.fraction, 0.0, 1.0)
         middle = 0.5 * (inside[at + 1] + inside[at])
         part, share = table.inside(stroke, middle)
@@ -106,7 +106,7 @@ class LightProfile:
         ]
 
 
-def glow(table: Schedule) -> LightProfile:
+def glow(table: Schedule) -> StrokeLight:
     """The light of a drawing."""
     segments = table.program.segments
     lights = [segment.light or DARK for segment in segments]
@@ -124,7 +124,7 @@ def glow(table: Schedule) -> LightProfile:
         way[stroke] = float(turns and isinstance(segment.brush, Bar))
     # as fast as it was to be before its time was rounded up: else a short stroke is the brightest
     fastest = table.peak_rates * way / np.minimum(table.wanted, table.time)
-    return LightProfile(table, first, last, even, way, fastest)
+    return StrokeLight(table, first, last, even, way, fastest)
 
 
 def unevenness(table: Schedule) -> float:
@@ -132,15 +132,15 @@ def unevenness(table: Schedule) -> float:
     lit = np.array([s.light is not None and not s.light.even for s in table.program.segments])
     matters = np.logical_or.reduceat(lit, table.first) & (table.length > 0.0)
     found = [] if matters.all() else [1.0]
-    for name, with_rates, strokes in table.laws():
+    for name, with_rates, strokes in table.profiles():
         some = strokes[matters[strokes]]
         if len(some):
             found.append(_over_middle(name, table.end_rates(name, some) if with_rates else ()))
     return max(found)
 
 
-def _over_middle(law: str, rates: Rates) -> float:
-    """The largest of some strokes with one law. Brightness is time per length."""
-    start, middle, end = (rate_at(law, rates, f) for f in (NEAR_END, 0.5, 1.0 - NEAR_END))
+def _over_middle(profile: str, rates: Rates) -> float:
+    """The largest of some strokes with one profile. Brightness is time per length."""
+    start, middle, end = (rate_at(profile, rates, f) for f in (NEAR_END, 0.5, 1.0 - NEAR_END))
     times = middle / np.minimum(start, end)
-    return float(np.where(turns_back(law, rates), 1.0, times).max())
+    return float(np.where(turns_back(profile, rates), 1.0, times).max())

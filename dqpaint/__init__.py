@@ -14,7 +14,8 @@ The rooms, in the order in which data moves through them:
 picture and knows no robot; `render` puts the arm before the camera. `planning` says beforehand what
 an arm will meet, `metrics` measure a run. `painting` is the whole flow as one function, `outputs`
 are the files, also for real arms. `api` is all of it from Python; `studies` are many paintings and
-what they show together, `editors` the language in editors, `cli` the command line.
+what they show together, `testing` what a plugin is held to, `editors` the language in editors,
+`cli` the command line.
 
 Data moves along this line and never back; each room is entered by what its `__init__` names. The
 contracts in pyproject.toml and `tests/test_architecture.py` hold the code to both.

@@ -13,6 +13,7 @@ from dqpaint.plants.plant import (
     PlantMaker,
     Takes,
     Trait,
+    as_plant_maker,
     choose_plant,
     find_plant,
 )
@@ -31,6 +32,7 @@ __all__ = [
     "Takes",
     "Trait",
     "World",
+    "as_plant_maker",
     "choose_plant",
     "find_plant",
 ]

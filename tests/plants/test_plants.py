@@ -18,9 +18,6 @@ CARD = read_card("iiwa")
 PERIOD = 0.008
 
 
-TAKES_RATES = pytest.mark.parametrize("name", [n for n, p in PLANTS.items() if p.takes == "rates"])
-
-
 def run(name, rates, card=CARD, period=PERIOD, drift=None):
     plant = PLANTS[name](card, card.home, period)
     postures, efforts = [plant.posture.copy()], [plant.effort.copy()]
@@ -30,59 +27,6 @@ def run(name, rates, card=CARD, period=PERIOD, drift=None):
         efforts.append(plant.effort.copy())
     plant.close()
     return np.array(postures), np.array(efforts)
-
-
-def smooth_rates(n, size=0.4):
-    t = np.arange(n) * PERIOD
-    return size * np.sin(2 * t[:, None] + np.arange(7))
-
-
-@pytest.mark.parametrize("name", PLANTS)
-def test_every_plant_begins_at_rest_where_it_is_told_and_leaves_arguments_alone(name):
-    home, rates = CARD.home.copy(), smooth_rates(3)
-    kept = rates.copy()
-    postures, _ = run(name, rates)
-    np.testing.assert_allclose(postures[0], home, atol=1e-15)
-    np.testing.assert_array_equal(CARD.home, home)
-    np.testing.assert_array_equal(rates, kept)
-
-
-@TAKES_RATES
-def test_every_plant_follows_its_commands(name):
-    rates = smooth_rates(250)
-    postures, _ = run(name, rates)
-    asked = CARD.home + np.cumsum(np.vstack([np.zeros(7), rates]), axis=0) * PERIOD
-    within = {"ideal": 1e-12, "stiff": 2e-4, "compliant": 0.1}[name]  # springs give way
-    assert np.abs(postures - asked).max() < within
-
-
-@pytest.mark.parametrize("name", PLANTS)
-def test_every_plant_repeats_itself_bit_for_bit(name):
-    first, second = (run(name, smooth_rates(100)) for _ in range(2))
-    np.testing.assert_array_equal(first[0], second[0])
-    np.testing.assert_array_equal(first[1], second[1])
-
-
-@pytest.mark.parametrize("name", PLANTS)
-def test_a_drift_carries_every_plant_along(name):
-    """Beside the same run without it; the torque-driven arm holds still under its own weight."""
-    drift = np.array([0.1, -0.05, 0.08, 0.04, -0.1, 0.06, -0.03])
-    commands = smooth_rates(60) if PLANTS[name].takes == "rates" else np.zeros((3, 7))
-    alone, carried = run(name, commands)[0], run(name, commands, drift=drift)[0]
-    moved = len(commands) * PERIOD * drift
-    np.testing.assert_allclose((carried - alone)[-1], moved, atol=0.02 * np.abs(moved).max())
-
-
-@pytest.mark.parametrize("name", PLANTS)
-def test_every_plant_measures_its_rates(name):
-    plant = PLANTS[name](CARD, CARD.home, 1e-3)
-    commands = smooth_rates(30) if PLANTS[name].takes == "rates" else 20 * smooth_rates(30)
-    for row in commands:
-        before = plant.posture
-        plant.run(row)
-    plant.close()
-    within = 0.01 if name == "compliant" else 1e-9  # its physics steps are shorter than 1 ms
-    np.testing.assert_allclose(plant.rates, (plant.posture - before) / 1e-3, atol=within)
 
 
 def test_a_plant_is_chosen_to_suit_the_commands():

@@ -3,7 +3,7 @@
 A new brush is a model in `brushes` under `@BRUSHES.add(name)` that returns its `Emitters`.
 """
 
-from dqpaint.light.sources.brushes import BRUSHES, choices_of, read_brush
+from dqpaint.light.sources.brushes import BRUSHES, Brush, choices_of, read_brush
 from dqpaint.light.sources.emission import inverse_square
 from dqpaint.light.sources.emitters import Emitters
 from dqpaint.light.sources.from_motion import evened, stand, sweeps
@@ -13,6 +13,7 @@ from dqpaint.light.sources.sweep import ALL, Sweep
 __all__ = [
     "ALL",
     "BRUSHES",
+    "Brush",
     "Emitters",
     "Shade",
     "Sweep",

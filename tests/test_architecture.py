@@ -162,7 +162,10 @@ RUN_ON_PURPOSE = {
 def imported(path):
     """The modules a test file imports, also in the programs that it holds as texts."""
     text = path.read_text("utf-8")
-    return set(re.findall(r"\b(?:from|import) ((?:tests|dqpaint)\b[\w.]*)", text))
+    found = set(re.findall(r"\b(?:from|import) ((?:tests|dqpaint)\b[\w.]*)", text))
+    for names in re.findall(r"\bfrom dqpaint import ([\w, ]+)", text):
+        found |= {f"dqpaint.{name}" for name in re.findall(r"\w+", names.split(" as ")[0])}
+    return found - {f"dqpaint.{name}" for name in face("dqpaint") | {"__version__"}}
 
 
 def is_there(module):

@@ -152,8 +152,8 @@ def test_help_ends_with_two_examples(dqpaint, command):
 )
 def test_they_start_without_the_numbers(words, ugly, tmp_path):
     code = (
-        "import sys; from dqpaint import cli; sys.argv[0] = 'dqpaint'\n"
-        "try: cli.app()\nexcept SystemExit: pass\n"
+        "import sys; from dqpaint.cli import main; sys.argv[0] = 'dqpaint'\n"
+        "try: main.run()\nexcept SystemExit: pass\n"
         "print('LOADED', [m for m in ('numpy', 'cv2', 'pinocchio', 'pybullet', 'pygments')"
         " if m in sys.modules])"
     )

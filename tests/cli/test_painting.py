@@ -19,25 +19,6 @@ from tests.support.arm_files import arm_urdf
 from tests.support.folders import files
 
 pytestmark = pytest.mark.slow
-LINE = "period 20 ms\nstart at (0, 0) mm\nline to (30, 10) mm in 400 ms\n"
-
-
-@pytest.fixture
-def dqpaint(tmp_path):
-    def call(*words, env=None, cwd=tmp_path):
-        return subprocess.run(
-            [sys.executable, "-m", "dqpaint", *words],
-            cwd=cwd, capture_output=True, text=True, timeout=120,
-            env={**os.environ, "PYTHONWARNINGS": "error", **(env or {})},
-        )  # fmt: skip
-
-    return call
-
-
-@pytest.fixture
-def line(tmp_path):
-    (tmp_path / "line.traj").write_text(LINE)
-    return "line.traj"
 
 
 def test_draw_leaves_three_files_and_a_table(dqpaint, line, tmp_path):
@@ -454,8 +435,8 @@ def test_help_ends_with_two_examples(answer, command):
 @pytest.mark.parametrize("words", [["--help"], ["draw", "--help"], ["check", "star"]])
 def test_help_and_check_start_without_the_heavy_libraries(dqpaint, words):
     code = (
-        "import sys; from dqpaint import studying; sys.argv[0] = 'dqpaint'\n"
-        "try: studying.app()\nexcept SystemExit: pass\n"
+        "import sys; from dqpaint.cli import main; sys.argv[0] = 'dqpaint'\n"
+        "try: main.run()\nexcept SystemExit: pass\n"
         "print('LOADED', [m for m in ('cv2', 'pinocchio', 'pybullet') if m in sys.modules])"
     )
     done = subprocess.run(
@@ -466,8 +447,8 @@ def test_help_and_check_start_without_the_heavy_libraries(dqpaint, words):
 
 def test_looking_ahead_needs_neither_the_simulator_nor_the_image_library(dqpaint):
     code = (
-        "import sys; from dqpaint import checking\n"
-        "assert checking.check('star', robot='iiwa').outlook\n"
+        "import sys; from dqpaint.planning.check import check\n"
+        "assert check('star', robot='iiwa').outlook\n"
         "print('LOADED', [m for m in ('cv2', 'pybullet') if m in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
@@ -523,7 +504,7 @@ def test_ctrl_c_while_libraries_are_imported(monkeypatch, capsys):
     def interrupted():
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("dqpaint.cli.painting.main.run", interrupted)
+    monkeypatch.setattr("dqpaint.cli.main.run", interrupted)
     with pytest.raises(SystemExit) as stopped:
         entry.main()
     assert stopped.value.code == 130

@@ -3,58 +3,62 @@
 A new kind of path brings its record in `program` and its geometry in `motion.geometry`.
 """
 
-from dqpaint.program import colours, piecewise, taylor
-from dqpaint.program.piecewise import (
-    NODES,
-    WEIGHTS,
-    Indices,
-    derivatives,
-    is_uneven,
-    speeds,
-    stretches,
-    together,
-)
-from dqpaint.program.program import (
-    IDENTITY,
-    LOOKING,
-    MOST_ALLOWED,
-    MOST_SAMPLES,
-    Arc,
-    Auto,
-    Bar,
-    Brush,
-    Chain,
-    Colour,
-    Cruise,
-    Curve,
-    Follow,
-    Formula,
-    Keep,
-    Lasting,
-    Light,
-    Look,
-    LookLine,
-    Path,
-    Point,
-    Pose,
-    Profile,
-    Program,
-    Quaternion,
-    Run,
-    Samples,
-    Screw,
-    ScrewTo,
-    Segment,
-    Step,
-    Still,
-    Straight,
-    Strobe,
-    Timing,
-    Tool,
-    Turn,
-    Vector,
-)
-from dqpaint.program.taylor import Floats, Taylor, Value
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from dqpaint.program import colours, piecewise, taylor
+    from dqpaint.program.piecewise import (
+        NODES,
+        WEIGHTS,
+        Indices,
+        derivatives,
+        is_uneven,
+        speeds,
+        stretches,
+        together,
+    )
+    from dqpaint.program.program import (
+        IDENTITY,
+        LOOKING,
+        MOST_ALLOWED,
+        MOST_SAMPLES,
+        Arc,
+        Auto,
+        Bar,
+        Brush,
+        Chain,
+        Colour,
+        Cruise,
+        Curve,
+        Follow,
+        Formula,
+        Keep,
+        Lasting,
+        Light,
+        Look,
+        LookLine,
+        Path,
+        Point,
+        Pose,
+        Profile,
+        Program,
+        Quaternion,
+        Run,
+        Samples,
+        Screw,
+        ScrewTo,
+        Segment,
+        Step,
+        Still,
+        Straight,
+        Strobe,
+        Timing,
+        Tool,
+        Turn,
+        Vector,
+    )
+    from dqpaint.program.taylor import Floats, Taylor, Value
 
 __all__ = [
     "IDENTITY",
@@ -110,3 +114,15 @@ __all__ = [
     "taylor",
     "together",
 ]
+
+_MODULES = ("program", "piecewise", "taylor")
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> Any:
+        """Import on first use: the names of colours are known without the numbers of curves."""
+        if name in __all__ and name not in (*_MODULES, "colours"):
+            for module in map(importlib.import_module, (f"{__name__}.{m}" for m in _MODULES)):
+                if hasattr(module, name):
+                    return getattr(module, name)
+        raise AttributeError(f"module 'dqpaint.program' has no attribute '{name}'")

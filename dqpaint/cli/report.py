@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from dqpaint.cli.terminal import table
-from dqpaint.diagnostics import line_named
+from dqpaint.diagnostics import SourceLine, line_named
 from dqpaint.language import render
 from dqpaint.motion import Motion, summary_line
 from dqpaint.painting import paint, picture
@@ -227,9 +227,9 @@ CURES = {
 }
 
 
-def _grouped(painting: paint.Painting) -> dict[tuple[str, int], list[Clamp]]:
+def _grouped(painting: paint.Painting) -> dict[tuple[str, SourceLine], list[Clamp]]:
     """The limits that were reached, by kind and line, in the order of time."""
-    groups: dict[tuple[str, int], list[Clamp]] = {}
+    groups: dict[tuple[str, SourceLine], list[Clamp]] = {}
     for clamp in painting.limits:
         groups.setdefault((clamp.kind, clamp.line), []).append(clamp)
     return groups
@@ -256,7 +256,7 @@ def _spread(figures: dict[str, float], name: str, unit: str, scale: float, shown
 def _worst(painting: paint.Painting) -> str:
     motion = painting.motion
     row = int(painting.table["position_error_m"].argmax())
-    return f"{motion.t[row]:.3f} s, line {motion.program.where(int(motion.line[row]))}"
+    return f"{motion.t[row]:.3f} s, line {motion.program.where(motion.source.at(row))}"
 
 
 def _files(written: Sequence[Path]) -> list[tuple[str, str]]:

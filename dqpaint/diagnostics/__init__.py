@@ -8,7 +8,6 @@ from dqpaint.diagnostics import catalogue
 from dqpaint.diagnostics.catalogue import url
 from dqpaint.diagnostics.collector import EnoughError, Findings
 from dqpaint.diagnostics.diagnostic import (
-    LINES,
     Diagnostic,
     Fix,
     PlaceProblem,
@@ -16,10 +15,11 @@ from dqpaint.diagnostics.diagnostic import (
     ScriptError,
     Severity,
     Source,
+    SourceLine,
     Span,
     called_here,
     file_at,
-    first_number,
+    file_number,
     line_named,
     place,
     problem,
@@ -28,7 +28,6 @@ from dqpaint.diagnostics.diagnostic import (
 from dqpaint.diagnostics.did_you_mean import closest, did_you_mean, listed
 
 __all__ = [
-    "LINES",
     "Diagnostic",
     "EnoughError",
     "Findings",
@@ -38,13 +37,14 @@ __all__ = [
     "ScriptError",
     "Severity",
     "Source",
+    "SourceLine",
     "Span",
     "called_here",
     "catalogue",
     "closest",
     "did_you_mean",
     "file_at",
-    "first_number",
+    "file_number",
     "line_named",
     "listed",
     "place",

@@ -110,27 +110,32 @@ def file_at(text: str, offset: int, name: str) -> tuple[int, str]:
     return included[at - 1] if at else (0, name)
 
 
-LINES = 1_000_000  # more than all files together have
+class SourceLine(NamedTuple):
+    """A line of a drawing; lines are ordered by their files, then by their numbers.
 
-
-def first_number(text: str, begin: int) -> int:
-    """The number of the first line of the file that begins at an offset.
-
-    Lines of the main file have their own number; those of the k-th file that it includes have k
-    times `LINES` more, so that a number alone says which file it is of.
+    Attributes:
+        file: 0 for the main file, k for the k-th that is included.
+        line: its number in that file, from 1; 0 where it is not known.
     """
-    included = text.included if isinstance(text, Source) else ()
-    return LINES * bisect_right(included, begin, key=lambda file: file[0]) + 1
+
+    file: int
+    line: int
 
 
-def line_named(text: str, number: int) -> str:
-    """A line as a person is told it: `12`, or `petal.traj:3` of an included file."""
-    file, line = divmod(number, LINES)
-    if not file:
-        return str(line)
+def file_number(text: str, offset: int) -> int:
+    """The file of an offset, as a `SourceLine` has it."""
     included = text.included if isinstance(text, Source) else ()
-    name = included[file - 1][1] if file <= len(included) else f"included file {file}"
-    return f"{name}:{line}"
+    return bisect_right(included, offset, key=lambda file: file[0])
+
+
+def line_named(text: str, at: SourceLine) -> str:
+    """A line as a person reads it: `12`, or `petal.traj:3` of an included file."""
+    if not at.file:
+        return str(at.line)
+    included = text.included if isinstance(text, Source) else ()
+    known = at.file <= len(included)
+    name = included[at.file - 1][1] if known else f"included file {at.file}"
+    return f"{name}:{at.line}"
 
 
 def render(diagnostic: Diagnostic, name: str, text: str) -> str:

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 
-from dqpaint.diagnostics import file_at
 from dqpaint.language import Diagnostic, ScriptError, parse
 from dqpaint.motion import Motion, plan
 from dqpaint.robots.loading import card_for
@@ -53,12 +52,10 @@ def understand(text: str, name: str, planned: bool) -> Analysis:
 
 def figures(motion: Motion) -> dict[int, Figures]:
     """How long each line is and takes; of the main file alone."""
-    text = motion.program.text
-    here = np.array([not file_at(text, s.span.start, "")[0] for s in motion.program.segments])
     steps = np.linalg.norm(np.diff(motion.points, axis=0), axis=1)
     steps[motion.jump[:-1]] = 0.0
-    rows = here[motion.stroke[:-1]]
-    lines, of = np.unique(motion.line[:-1][rows], return_inverse=True)
+    rows = motion.source.file[:-1] == 0
+    lines, of = np.unique(motion.source.line[:-1][rows], return_inverse=True)
     own = steps[rows]
     length, fastest = np.bincount(of, weights=own), np.zeros(len(lines))
     np.maximum.at(fastest, of, own)

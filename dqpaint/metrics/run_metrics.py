@@ -11,7 +11,6 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.controllers.base import invariant_error
-from dqpaint.diagnostics import LINES
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
 from dqpaint.simulation import Track
@@ -35,10 +34,10 @@ def measure(track: Track) -> Metrics:
 
 def asked_columns(motion: Motion) -> Table:
     """Time, source line, light, and the asked pose in the base frame."""
-    file, line = np.divmod(motion.line, LINES)
+    file = motion.source.file
     return {
         "t_s": motion.t,
-        "line": line.astype(np.float64),
+        "line": motion.source.line.astype(np.float64),
         **({"file": file.astype(np.float64)} if file.any() else {}),
         "lit": motion.lit.astype(np.float64),
         **_pose_columns("desired_", motion.points, motion.pose),

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint import dq
+from dqpaint.diagnostics import SourceLine
 from dqpaint.dq import Floats
 from dqpaint.simulation import Track
 
@@ -34,10 +35,10 @@ class Response:
 
 @dataclass(frozen=True)
 class SetPoint:
-    """One jump: when [s], on which line of the file, and how it was taken."""
+    """One jump: when [s], on which line, and how it was taken."""
 
     time: float
-    line: int
+    line: SourceLine
     translation: Response
     rotation: Response
 
@@ -57,7 +58,7 @@ def set_points(track: Track) -> tuple[SetPoint, ...]:
         found.append(
             SetPoint(
                 time=float(motion.t[rows[0]]),
-                line=int(motion.line[before]),
+                line=motion.source.at(int(before)),
                 translation=_response(way, track.points[rows] - dq.translation(new), times),
                 rotation=_response(turn, _turn(track.pose[rows], new), times),
             )

@@ -8,6 +8,7 @@ in `profiles` under `@PROFILES.add` with its `PEAK`, and its name in the languag
 """
 
 from dqpaint.motion.plan import Motion, plan
+from dqpaint.motion.row_lines import RowLines
 from dqpaint.motion.summary import summary_line
 from dqpaint.motion.survey import Survey, survey
 from dqpaint.motion.time_scaling import Pace, smooth
@@ -16,6 +17,7 @@ from dqpaint.motion.transform import moved, scaled, straight
 __all__ = [
     "Motion",
     "Pace",
+    "RowLines",
     "Survey",
     "moved",
     "plan",

@@ -11,6 +11,7 @@ from dqpaint.diagnostics import Diagnostic, EnoughError, Findings, ScriptError
 from dqpaint.dq import Floats
 from dqpaint.motion.corner_warnings import jumps, slow
 from dqpaint.motion.geometry.shapes import pose_array
+from dqpaint.motion.row_lines import RowLines
 from dqpaint.motion.sampling import Rows, sampled
 from dqpaint.motion.schedule import Schedule, timetable
 from dqpaint.motion.stroke_errors import Faults, beyond_budget
@@ -34,7 +35,7 @@ class Motion:
         twist: desired spatial twists (N, 6) [rad/s, m/s].
         acceleration: their plain derivatives (N, 6) [rad/s^2, m/s^2].
         light: mean linear RGB (N, 3) from t_k until t_k+1; the last row is dark.
-        line: the line of the file (N,) that asks for what follows row k.
+        source: the line of the drawing (N,) that asks for what follows row k.
         stroke: the number of the segment (N,), from 0.
         canvas: pose (8,) of the drawing frame in the base frame.
         front: orientation (4,) of the robot's own canvas: it is seen square on from the front,
@@ -53,7 +54,7 @@ class Motion:
     twist: Floats
     acceleration: Floats
     light: Floats
-    line: NDArray[np.int64]
+    source: RowLines
     stroke: NDArray[np.int64]
     canvas: Floats
     front: Floats
@@ -188,7 +189,7 @@ class _Sheet:
         """All of it, seen from the base frame."""
         table, program, number = self._table, self._table.program, self._number
         number[-1] = len(program.segments) - 1
-        lines = np.array([segment.line for segment in program.segments])
+        lines = RowLines.of([segment.line for segment in program.segments])
         steps = np.array([isinstance(segment.path, Step) for segment in program.segments])
         t = np.arange(len(number), dtype=np.float64) * program.period
         slowed = self._ticks is not None and any(tick.rate is not None for tick in self._ticks)
@@ -199,7 +200,7 @@ class _Sheet:
             twist=self._twist,
             acceleration=self._slope,
             light=self._light,
-            line=lines[number],
+            source=lines[number],
             stroke=number,
             canvas=np.array(self._placed),
             front=np.array(dq.rotation(canvas)),

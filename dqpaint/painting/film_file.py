@@ -16,10 +16,12 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from dqpaint import __version__
+from dqpaint.diagnostics import SourceLine
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.light.images import Legend
 from dqpaint.light.sources import Emitters, Sweep
+from dqpaint.motion import RowLines
 from dqpaint.painting.picture import Picture, RenderCache, linear
 from dqpaint.painting.scene import Scene
 from dqpaint.render import ArmMotion
@@ -136,7 +138,9 @@ def encode(
             arrays.update({f"{key}-{name}": array for name, array in parts.items()})
     if cast is not None and cast.known:
         about["arm"] = {"robot": cast.robot, "period": cast.period}
-        arrays.update({"arm-posture": cast.posture, "arm-line": cast.line})
+        arrays.update({"arm-posture": cast.posture, "arm-line": cast.source.line})
+        if cast.source.file.any():
+            arrays["arm-file"] = cast.source.file
     if worked is not None and settings.staged:
         about["shown"] = {"shares": len(worked.shares), "remarks": worked.remarks}
         arrays["shown-key"] = worked.key
@@ -189,11 +193,13 @@ def _cast(arrays: Any, facts: Arm | None, sweep: Sweep) -> ArmMotion | None:
         return None
     posture = _numbers(arrays, "arm-posture")
     line = np.asarray(arrays["arm-line"])
-    if posture.ndim != 2 or line.shape != sweep.time.shape or len(posture) != len(line):
+    file = np.asarray(arrays["arm-file"]) if "arm-file" in arrays else np.zeros_like(line)
+    if posture.ndim != 2 or len(posture) != len(sweep.time):
         raise ValueError("arm")
-    if line.dtype.kind != "i":
+    if any(part.dtype.kind != "i" or part.shape != sweep.time.shape for part in (line, file)):
         raise ValueError("arm")
-    return ArmMotion(facts.robot, posture, line.astype(np.int64), facts.period)
+    source = RowLines.of(list(map(SourceLine, file.tolist(), line.tolist())))
+    return ArmMotion(facts.robot, posture, source, facts.period)
 
 
 def _worked(arrays: Any, about: About, light: tuple[Sweep, ...]) -> RenderCache | None:

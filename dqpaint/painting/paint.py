@@ -190,7 +190,7 @@ def finish(ready: PreparedRun, run: Track) -> Painting:
         came_through = attenuation(run, ready.gains.promise())
         steps = set_points(run)
     robot = settings.robot or ready.program.robot or DEFAULT_ROBOT
-    cast = ArmMotion(robot, run.posture, motion.line, motion.period)
+    cast = ArmMotion(robot, run.posture, motion.source, motion.period)
     if settings.staged and not cast.known:
         notes += (UNSEEN,)
     with clock("light"), on_stage(settings, card, cast) as staging:

@@ -25,7 +25,7 @@ from dqpaint.light.film import (
 )
 from dqpaint.light.images import with_legend
 from dqpaint.light.sources import ALL, Shade, Sweep, shade_of, stand
-from dqpaint.motion import Motion
+from dqpaint.motion import Motion, RowLines
 from dqpaint.painting.scene import Scene, arrange
 from dqpaint.render import HiddenLight, SceneArm, account
 from dqpaint.settings import Settings
@@ -201,7 +201,7 @@ def _shoot(
         staged = _stage(scene, settings, camera, exposure, staging, worked)
     light = staged.shaded(scene.light) if staged.shares else scene.light
     film = expose(light, camera, _by_settings(settings))
-    hidden = _hidden(light, staging.line) if staging is not None and staged.shares else None
+    hidden = _hidden(light, staging.source) if staging is not None and staged.shares else None
     image = linear(scene, film, exposure, camera, settings, arm=staged.arm)
     return Picture(
         finish(scene, image, exposure, settings), film, exposure, camera, shot.name, told, light,
@@ -242,12 +242,12 @@ def lights_of(scene: Scene, samples: slice = ALL) -> list[tuple[Floats, Floats]]
     return [lamp for sweep in scene.light for lamp in sweep.lights(samples)]
 
 
-def _hidden(light: Sequence[Sweep], line: NDArray[np.int64]) -> HiddenLight:
-    """What of some sweeps their shades kept from the film, by the lines (N,) of the source."""
+def _hidden(light: Sequence[Sweep], source: RowLines) -> HiddenLight:
+    """What of some sweeps their shades kept from the film, by the lines (N,) of the drawing."""
     shades = [sweep.shade for sweep in light if sweep.shade is not None]
     hidden = np.sum([shade.hidden for shade in shades], axis=0)
     emitted = np.sum([shade.emitted for shade in shades], axis=0)
-    return account(hidden, emitted, line[:-1])
+    return account(hidden, emitted, source[:-1])
 
 
 def _by_settings(settings: Settings) -> bool:

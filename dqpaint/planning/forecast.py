@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from dqpaint.diagnostics import SourceLine
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
 from dqpaint.planning.ideal_run import follow, jumps
@@ -48,7 +49,7 @@ class Forecast:
     """What one line of a drawing asks of an arm.
 
     Attributes:
-        line: of the file.
+        line: of the drawing.
         start: time of its first row [s].
         margin: least distance of a joint to its limits [rad]; negative beyond them.
         room: the same as a part of half the joint's range: 0 at a limit, 1 in the middle.
@@ -74,7 +75,7 @@ class Forecast:
         view: that view.
     """
 
-    line: int
+    line: SourceLine
     start: float
     margin: Extreme
     room: float
@@ -118,11 +119,11 @@ def forecast(
     """
     run = _Run(motion, kinematics, start, settings.null, plant)
     shapes = shapes_of(kinematics)
-    looks = looks_at(run.line, LOOKS)
+    looks = looks_at(run.source.index, LOOKS)
     near = shapes.nearest(run.posture[looks])
     hiding = hide(shapes, motion, run.rows, run.posture, settings)
-    lines, first = np.unique(run.line, return_index=True)
-    return tuple(_of_line(run, int(line), looks, near, hiding) for line in lines[np.argsort(first)])
+    _, first = np.unique(run.source.index, return_index=True)
+    return tuple(_of_line(run, row, looks, near, hiding) for row in np.sort(first).tolist())
 
 
 class _Run:
@@ -142,7 +143,7 @@ class _Run:
         self.card = kinematics.card
         stride = -(-len(motion.t) // MOST_ROWS)
         self.rows = np.arange(0, len(motion.t), stride)
-        self.t, self.line = motion.t[self.rows], motion.line[self.rows]
+        self.t, self.source = motion.t[self.rows], motion.source[self.rows]
         self.period = stride * motion.period
         joined = jumps(motion, self.rows)
         self.posture, self.points, J = follow(
@@ -207,9 +208,10 @@ def _without_corners(change: Floats, stroke: NDArray[np.int64]) -> Floats:
 
 
 def _of_line(
-    run: _Run, line: int, looks: NDArray[np.intp], near: Nearest, hiding: OcclusionForecast
+    run: _Run, first: int, looks: NDArray[np.intp], near: Nearest, hiding: OcclusionForecast
 ) -> Forecast:
-    rows = np.flatnonzero(run.line == line)
+    """What the line whose first row is given asks for."""
+    rows = np.flatnonzero(run.source.index == run.source.index[first])
     card = run.card
     speed, speed_part = _worst(run, rows, run.rates, card.speed)
     effort, effort_part = _worst_if_any(run, rows, run.effort, card.effort)
@@ -221,7 +223,7 @@ def _of_line(
     meets = bool(np.isfinite(near.distance[closest]))
     hidden, view = hiding.of(rows)
     return Forecast(
-        line=line,
+        line=run.source.at(first),
         start=float(run.t[rows[0]]),
         margin=margin,
         room=float(run.room[rows].min()),

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
-from dqpaint.diagnostics import Diagnostic, Span
+from dqpaint.diagnostics import Diagnostic, SourceLine, Span
 from dqpaint.motion import Motion, plan
 from dqpaint.planning.forecast import Extreme, Forecast, forecast
 from dqpaint.planning.ideal_run import WORTH_A_LOOK
@@ -266,8 +266,8 @@ def _warnings(motion: Motion, card: Card, lines: Sequence[Forecast]) -> list[Dia
     return found
 
 
-def _spans(motion: Motion) -> dict[int, Span]:
-    spans: dict[int, Span] = {}
+def _spans(motion: Motion) -> dict[SourceLine, Span]:
+    spans: dict[SourceLine, Span] = {}
     for segment in motion.program.segments:
         spans.setdefault(segment.line, segment.span)
     return spans

@@ -70,7 +70,7 @@ def hide(
     """
     shots = parse_views(settings.view)
     lit = np.append(motion.light[:-1].any(axis=1), False)[rows]
-    looks = looks_at(motion.line[rows], max(LOOKS // len(shots), LEAST_LOOKS))
+    looks = looks_at(motion.source.index[rows], max(LOOKS // len(shots), LEAST_LOOKS))
     looks = looks[lit[looks]]
     names = tuple(shot.name for shot in shots)
     sent, hidden = np.zeros(len(looks)), np.zeros((len(shots), len(looks)))

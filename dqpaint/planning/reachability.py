@@ -110,8 +110,9 @@ def _outside(motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp]) -> 
     left = strays(kinematics, motion.pose[rows])
     beyond = np.flatnonzero(left >= ON_THE_WAY)
     found: list[Unreachable] = []
-    for line in np.unique(motion.line[rows[beyond]]):
-        its = beyond[motion.line[rows[beyond]] == line]
+    source = motion.source.index[rows[beyond]]
+    for line in np.unique(source):
+        its = beyond[source == line]
         worst = its[left[its].argmax()]
         if len(found) >= MOST_TOLD:
             found.append(Unreachable(int(rows[worst])))
@@ -136,10 +137,10 @@ def out_of_reach(
         last = one is told[-1]
         label = "farthest point of this line"
         if last and others:
-            lines = [int(motion.line[other.row]) for other in others]
+            lines = [program.where(motion.source.at(other.row)) for other in others]
             more = f" and {len(lines) - MOST_NAMED} more" if len(lines) > MOST_NAMED else ""
             label += f"; likewise line{'s' if len(lines) > 1 else ''} "
-            label += ", ".join(str(line) for line in lines[:MOST_NAMED]) + more
+            label += ", ".join(lines[:MOST_NAMED]) + more
         problems.append(
             Diagnostic(
                 "E310",

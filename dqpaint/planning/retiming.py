@@ -13,6 +13,7 @@ from typing import Any, Literal
 import numpy as np
 
 from dqpaint import dq
+from dqpaint.diagnostics import SourceLine
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion, Pace, plan, smooth
 from dqpaint.robots.kinematics import Dynamics, Kinematics, drift_acceleration, make_wish, resolve
@@ -38,13 +39,13 @@ class Retiming:
         motion: re-timed.
         longer: how much longer it takes [s].
         slowest: the least pace, as a part of the asked one.
-        lines: of the file that were slowed.
+        lines: of the drawing that were slowed.
     """
 
     motion: Motion
     longer: float
     slowest: float
-    lines: tuple[int, ...]
+    lines: tuple[SourceLine, ...]
 
     @property
     def as_json(self) -> dict[str, Any]:
@@ -87,7 +88,7 @@ def slow_down(
     if (slowness == 1).all():
         return Retiming(motion, 0.0, 1.0, ())
     placed = plan(motion.program, kinematics.card.canvas.pose, Pace(slowness, motion.period))
-    lines = sorted({int(line) for line in motion.line[slowness > 1 + ENOUGH]})
+    lines = motion.source[slowness > 1 + ENOUGH].present
     longer = float(placed.t[-1] - motion.t[-1])
     return Retiming(placed, longer, float(1 / slowness.max()), tuple(lines))
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dqpaint.core import record
-from dqpaint.diagnostics import LINES, Diagnostic, Span, line_named
+from dqpaint.diagnostics import Diagnostic, SourceLine, Span, line_named
 from dqpaint.program.colours import Colour as Colour
 from dqpaint.program.taylor import Floats, Taylor
 
@@ -280,7 +280,7 @@ class Segment:
     start: Pose
     end: Pose
     span: Span  # the words of the file that asked for it
-    line: int  # of the file, from 1; of an included one as `diagnostics.first_number` has it
+    line: SourceLine  # where these words begin
     brush: Brush = Point()
     strobe: Strobe | None = None  # None: it burns steadily
     run: Run | None = None  # None: it has profile and timing for itself
@@ -309,10 +309,10 @@ class Program:
     notes: tuple[Diagnostic, ...]  # warnings; errors are raised
     most_samples: int = MOST_SAMPLES
 
-    def where(self, line: int) -> str:
-        """A line number of a segment as a person is told it: `12`, `petal.traj:3`."""
+    def where(self, line: SourceLine) -> str:
+        """A line as a person reads it: `12`, `petal.traj:3`."""
         return line_named(self.text, line)
 
-    def told(self, line: int) -> int | str:
+    def told(self, line: SourceLine) -> int | str:
         """The same for a program: a number for a line of the main file."""
-        return line if line < LINES else self.where(line)
+        return self.where(line) if line.file else line.line

@@ -13,9 +13,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from dqpaint.diagnostics import SourceLine
 from dqpaint.dq import Floats
 from dqpaint.light import Image
 from dqpaint.light.camera import Camera
+from dqpaint.motion import RowLines
 from dqpaint.robots.model import Card
 from dqpaint.robots.urdf import prepare, urdf_file
 from dqpaint.settings import Settings
@@ -38,25 +40,26 @@ class HiddenLight:
 
     Attributes:
         energy: (3,) of it, linear RGB [lamp s].
-        lines: (line, share of all light) of the source lines it comes from, the most first.
+        lines: (line, share of all light) of the lines it comes from, the most first.
     """
 
     energy: Floats
-    lines: tuple[tuple[int, float], ...]
+    lines: tuple[tuple[SourceLine, float], ...]
 
 
-def account(hidden: Floats, emitted: Floats, line: NDArray[np.int64]) -> HiddenLight:
+def account(hidden: Floats, emitted: Floats, source: RowLines) -> HiddenLight:
     """What was hidden, by the source lines it comes from.
 
     Args:
         hidden: (M, 3) of each step, linear RGB [lamp s].
         emitted: (M, 3) of each step, hidden or not.
-        line: (M,) of the source.
+        source: the line (M,) of each step.
     """
-    lines, which = np.unique(line, return_inverse=True)
-    share = np.bincount(which, hidden.sum(axis=1), len(lines)) / max(float(emitted.sum()), 1e-300)
+    lines = source.lines
+    amounts = np.bincount(source.index, hidden.sum(axis=1), len(lines))
+    share = amounts / max(float(emitted.sum()), 1e-300)
     order = np.argsort(-share, kind="stable")
-    found = tuple((int(lines[i]), float(share[i])) for i in order if share[i] > 0.0)
+    found = tuple((lines[i], float(share[i])) for i in order if share[i] > 0.0)
     return HiddenLight(hidden.sum(axis=0), found)
 
 
@@ -67,11 +70,11 @@ class SceneArm(ExitStack):
         urdf: its description.
         posture: (N, n) at instants a period apart, from time 0 on [rad].
         period: [s].
-        line: (N,) of the source at these instants; None: they are not known.
+        source: the line (N,) at these instants; None: they are not known.
         whole: whether the description has all shapes that its arm should have.
 
     Attributes:
-        line: as given; 0 stands for what is not known.
+        source: as given; line 0 stands for what is not known.
     """
 
     def __init__(
@@ -79,14 +82,15 @@ class SceneArm(ExitStack):
         urdf: str | PathLike[str],
         posture: Floats,
         period: float,
-        line: NDArray[np.int64] | None = None,
+        source: RowLines | None = None,
         whole: bool = True,
     ) -> None:
         super().__init__()
         self._urdf = urdf
         self._whole = whole
         self._posture = posture
-        self.line = np.zeros(len(posture), np.int64) if line is None else line
+        unknown = [SourceLine(0, 0)] * len(posture)
+        self.source = RowLines.of(unknown) if source is None else source
         self._period = period
 
     @cached_property
@@ -190,13 +194,13 @@ class ArmMotion:
         robot: what `find_card` finds its card by.
         posture: (N, n) at instants a period apart, from time 0 on [rad]; (N, 0) where the run was
             recorded as poses.
-        line: (N,) of the source at these instants.
+        source: the line (N,) at these instants.
         period: [s].
     """
 
     robot: str
     posture: Floats
-    line: NDArray[np.int64]
+    source: RowLines
     period: float
 
     @property
@@ -218,6 +222,6 @@ def on_stage(settings: Settings, card: Card, cast: ArmMotion) -> Iterator[SceneA
     whole = prepare(card).whole
     with (
         urdf_file(card) as path,
-        SceneArm(path, cast.posture, cast.period, cast.line, whole) as staging,
+        SceneArm(path, cast.posture, cast.period, cast.source, whole) as staging,
     ):
         yield staging

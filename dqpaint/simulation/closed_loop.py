@@ -292,7 +292,7 @@ class _Log:
     def clamps(self, rows: slice, card: Card, motion: Motion, torques: bool) -> tuple[Clamp, ...]:
         """The limits that held a joint in some rows."""
         return clamps(
-            card, motion.t[rows], motion.line[rows],
+            card, motion.t[rows], motion.source[rows],
             (self.posture if torques else self.read)[rows], self.wanted[rows], self.command[rows],
             self.effort[rows], torques, motion.period,
         )  # fmt: skip

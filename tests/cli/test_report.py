@@ -4,7 +4,7 @@ import pytest
 
 import dqpaint
 from dqpaint.cli import listing, report
-from dqpaint.diagnostics.diagnostic import LINES
+from dqpaint.diagnostics import SourceLine
 from dqpaint.language import read
 from dqpaint.metrics.run_metrics import asked_columns
 from dqpaint.motion import plan
@@ -49,8 +49,12 @@ def test_rows_of_disturbances_and_set_points_have_their_figures_and_units(tmp_pa
     path = tmp_path / "dot.traj"
     path.write_text("period 8 ms\nhold 80 ms\n")
     painting = dqpaint.draw(path, plant="ideal", size=(64, 36), disturb={"twist": {"x": 0.01}})
-    jump = SetPoint(0.2, 7, Response(0.04, 1.25, 0.125, 0.002), Response(0.5, None, 0.25, 0.1))
-    none = SetPoint(0.4, 9, Response(0.01, 0.5, 0.0, 1e-15), Response(0.0, None, 0.0, 0.0))
+    jump = SetPoint(
+        0.2, SourceLine(0, 7), Response(0.04, 1.25, 0.125, 0.002), Response(0.5, None, 0.25, 0.1)
+    )
+    none = SetPoint(
+        0.4, SourceLine(0, 9), Response(0.01, 0.5, 0.0, 1e-15), Response(0.0, None, 0.0, 0.0)
+    )
     told = replace(
         painting,
         attenuation={"translation": Attenuation(0.3, 0.1), "rotation": Attenuation(0.05, 0.1)},
@@ -86,7 +90,7 @@ def test_lines_of_included_files_are_named(tmp_path):
     petal = str(tmp_path / "petal.traj")
     rows = zip(painting.table["file"].tolist(), painting.table["line"].tolist(), strict=True)
     assert list(dict.fromkeys(rows)) == [(1, 3), (0, 2), (0, 3), (0, 4)]
-    assert {clamp.line for clamp in painting.limits} >= {LINES + 3}
+    assert {clamp.line for clamp in painting.limits} >= {SourceLine(1, 3)}
     assert f"warning: line {petal}:3 runs into speed limits" in "\n".join(report.remarks(painting))
     summary = summarise(painting)
     assert summary["included"] == ["petal.traj"]
@@ -94,5 +98,6 @@ def test_lines_of_included_files_are_named(tmp_path):
     alone = tmp_path / "b.traj"
     alone.write_text("line by (0, 9) mm\n")
     program = read(alone)
-    assert (program.where(12), program.told(12)) == ("12", 12)
+    line = SourceLine(0, 12)
+    assert (program.where(line), program.told(line)) == ("12", 12)
     assert "file" not in asked_columns(plan(program, read_card("iiwa").canvas.pose))

@@ -78,7 +78,7 @@ end
     for a, b in zip(mine, plain, strict=True):
         assert a.end.position == pytest.approx(b.end.position, abs=1e-15)
         assert a.light == b.light
-    assert {s.line for s in mine} == {5, 7}
+    assert {s.line.line for s in mine} == {5, 7}
 
 
 def test_settings_in_a_def_hold_for_its_lines():

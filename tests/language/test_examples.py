@@ -43,7 +43,7 @@ def test_star() -> None:
         assert segment.tool == Keep()
         assert segment.timing == Cruise(pytest.approx(0.06), pytest.approx(math.pi / 3))
         assert segment.profile == Profile("trapezoid")
-        assert segment.line == 8
+        assert segment.line.line == 8
         assert segment.span.of(program.text).startswith("line to polar(")
         assert segment.light is not None
         assert segment.light.first == segment.light.last
@@ -60,7 +60,7 @@ def test_circle() -> None:
     assert segment.timing == Samples(3000)
     assert segment.profile == Profile("constant")
     assert segment.end.position == pytest.approx((0, 0.07, 0), abs=1e-16)
-    assert segment.line == 5
+    assert segment.line.line == 5
 
 
 def test_square() -> None:

@@ -26,7 +26,7 @@ def test_text_files(tmp_path: Path, data: bytes) -> None:
     path.write_bytes(data + data.removeprefix(b"\xef\xbb\xbf"))
     program = read(path)
     assert program.name == str(path)
-    assert [s.line for s in program.segments] == [1]
+    assert [s.line.line for s in program.segments] == [1]
     assert [n.code for n in program.notes] == ["W401"]
 
 

@@ -53,7 +53,7 @@ def answered(run, shape):
 
 def test_an_exponential_settles_after_ln_50_over_its_rate(run):
     first, second = set_points(answered(run, lambda t: 1 - np.exp(-5.0 * t)))
-    assert (first.line, second.line) == (4, 6)
+    assert (first.line.line, second.line.line) == (4, 6)
     assert first.time == pytest.approx(0.501)
     for part, size in (
         (first.translation, np.linalg.norm([0.04, 0.045, -0.02])),

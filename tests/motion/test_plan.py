@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
-from dqpaint.diagnostics.diagnostic import ScriptError
+from dqpaint.diagnostics import ScriptError, SourceLine
 from dqpaint.errors import UsageError
 from dqpaint.motion import plan, survey
 from dqpaint.motion.sampling import AT_ONCE
@@ -77,10 +77,10 @@ def test_a_screw_keeps_its_line():
 def test_samples_meet_at_corners_and_twists_are_of_what_follows():
     a = stroke(Straight((0.1, 0, 0)), timing=Samples(10))
     b_start = Pose((START.position[0] + 0.1, *START.position[1:]), START.orientation)
-    b = stroke(Straight((0, 0.05, 0)), b_start, timing=Samples(20), line=2)
+    b = stroke(Straight((0, 0.05, 0)), b_start, timing=Samples(20), line=SourceLine(0, 2))
     motion = plan(program(a, b), dq.IDENTITY)
     assert len(motion.t) == 31
-    np.testing.assert_array_equal(motion.line, [1] * 10 + [2] * 21)
+    np.testing.assert_array_equal(motion.source.line, [1] * 10 + [2] * 21)
     np.testing.assert_allclose(motion.twist[9, 3:], [0.1 / 0.08, 0, 0], atol=1e-14)
     np.testing.assert_allclose(motion.twist[10, 3:], [0, 0.05 / 0.16, 0], atol=1e-14)
     np.testing.assert_allclose(

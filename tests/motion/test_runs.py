@@ -122,8 +122,8 @@ def test_samples_speed_and_time_hold_for_all_of_it():
     motion = plan(parse(f"stroke speed 40 mm/s\n{body}", "a"), dq.IDENTITY)
     assert motion.t[-1] == pytest.approx(1.25 * length / 0.04, abs=PERIOD)
     assert motion.length == pytest.approx(length)
-    np.testing.assert_array_equal(np.unique(motion.line), [2, 3])
-    corner = np.argmax(motion.line == 3)
+    np.testing.assert_array_equal(np.unique(motion.source.line), [2, 3])
+    corner = np.argmax(motion.source.line == 3)
     assert motion.points[corner - 1, 0] < 0.03 < motion.points[corner, 0]
     assert set(motion.stroke[:corner]) == {0}
     assert set(motion.stroke[corner:]) == {1}
@@ -239,11 +239,11 @@ def test_even_light_of_a_stroke_of_several_lines_and_of_a_part_of_it():
 def test_even_light_is_dark_where_the_point_stays_and_a_bar_that_turns_is_not():
     text = "light white even\nline by (9, 0) mm\nhold 1 s\nline by (0, 0) mm tool rpy(0, 0, 90 deg)"
     motion = plan(parse(text, "a"), dq.IDENTITY)
-    assert not motion.light[motion.line > 2].any()
+    assert not motion.light[motion.source.line > 2].any()
     motion = plan(parse(f"brush bar 20 mm\n{text}", "a"), dq.IDENTITY)
-    assert not motion.light[motion.line == 4].any()
-    turning = motion.light[:-1][motion.line[:-1] == 5][:, 0]
-    rate = np.linalg.norm(motion.twist[:, :3], axis=1)[motion.line == 5]
+    assert not motion.light[motion.source.line == 4].any()
+    turning = motion.light[:-1][motion.source.line[:-1] == 5][:, 0]
+    rate = np.linalg.norm(motion.twist[:, :3], axis=1)[motion.source.line == 5]
     np.testing.assert_allclose(turning, 0.5 * (rate[1:] + rate[:-1]) / rate.max(), atol=0.02)
 
 

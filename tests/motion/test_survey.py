@@ -122,7 +122,7 @@ def test_many_strokes_at_once_are_what_each_is_alone(text):
                 getattr(motion, name)[rows], theirs, rtol=0, atol=1e-11 * scale
             )
         np.testing.assert_array_equal(motion.stroke[rows], single.stroke[:-1] + own.start)
-        np.testing.assert_array_equal(motion.line[rows], single.line[:-1])
+        np.testing.assert_array_equal(motion.source.line[rows], single.source.line[:-1])
     assert first == len(motion.t) - 1
 
 

@@ -307,7 +307,7 @@ def test_the_cues_give_back_the_light(painting):
     np.testing.assert_allclose(light[held], motion.light, atol=1e-6)
     assert [int(row["line"]) for row in rows][held[0]] == 5
     lines = np.array([int(row["line"]) for row in rows])[held]
-    np.testing.assert_array_equal(lines, motion.line)
+    np.testing.assert_array_equal(lines, motion.source.line)
     red = [k for k, row in enumerate(rows) if row["line"] == "5"]
     assert len(red) == 1  # a colour that stays is one cue
     assert len(rows) > 40  # a gradient is one a sample

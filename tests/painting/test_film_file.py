@@ -11,6 +11,7 @@ import pytest
 
 import dqpaint
 from dqpaint.cli import report
+from dqpaint.diagnostics import SourceLine
 from dqpaint.errors import DqpaintError
 from dqpaint.outputs import files as outputs
 from dqpaint.painting import film_file, video
@@ -143,6 +144,22 @@ def test_files_that_are_no_films_are_refused_in_a_sentence(tmp_path):
         assert "film" in str(caught.value), name
     with pytest.raises(DqpaintError, match="cannot be read: No such file"):
         dqpaint.develop(tmp_path / "none.npz")
+
+
+def test_lines_of_included_files_are_kept(tmp_path):
+    (tmp_path / "petal.traj").write_text("\nline by (30, 0) mm\n")
+    (tmp_path / "a.traj").write_text('include "petal.traj"\nline by (0, 9) mm\n')
+    painting = dqpaint.draw(tmp_path / "a.traj", plant="ideal", size=(64, 36))
+    whole = film_file.encode(painting.scene, painting.settings, painting.cast)
+    (tmp_path / "a.npz").write_bytes(whole)
+    source = film_file.read(str(tmp_path / "a.npz")).cast.source
+    assert source.lines == (SourceLine(0, 2), SourceLine(1, 2))
+    np.testing.assert_array_equal(source.index, painting.motion.source.index)
+    arrays = dict(np.load(io.BytesIO(whole)))
+    for wrong in (arrays["arm-file"][1:], arrays["arm-file"] * 1.0):
+        np.savez(tmp_path / "bad.npz", **{**arrays, "arm-file": wrong})
+        with pytest.raises(DqpaintError, match="is not a film"):
+            film_file.read(str(tmp_path / "bad.npz"))
 
 
 def test_a_film_without_light_is_told_without_a_share(tmp_path):

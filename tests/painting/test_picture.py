@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
+from dqpaint.diagnostics import SourceLine
 from dqpaint.errors import DqpaintError
 from dqpaint.language import parse
 from dqpaint.light.camera.camera import FILL
@@ -70,7 +71,7 @@ class Screen:
     remarks = ()
 
     def __init__(self, motion):
-        self.line = motion.line
+        self.source = motion.source
 
     def visible(self, time, places, lit, eye):
         self.time, self.lit = time, lit
@@ -99,7 +100,7 @@ def test_what_the_arm_hides_is_counted_line_by_line():
     np.testing.assert_allclose(together, emitted, rtol=1e-9)
     np.testing.assert_allclose(picture.emitted, emitted, rtol=1e-9)
     (line, share), *rest = picture.hidden.lines
-    assert line == 3
+    assert line == SourceLine(0, 3)
     assert sum(part for _, part in rest) < 0.02
     assert share == pytest.approx(picture.hidden.energy.sum() / emitted.sum(), abs=0.02)
     assert 0.2 < share < 0.9

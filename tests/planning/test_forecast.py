@@ -45,7 +45,7 @@ def looked_and_run(seed):
 
 def compare_amounts(found, free, card, efforts):
     for one in found:
-        rows = rows_of(free, one.line)
+        rows = rows_of(free, one.line.line)
         q = free.posture[rows]
         margin = np.minimum(q - card.lower, card.upper - q)
         assert one.margin.value == pytest.approx(margin.min(), abs=ANGLE)
@@ -191,7 +191,7 @@ def test_a_jump_from_full_speed_counts_as_no_torque():
         "period 4 ms\nprofile constant\nspeed 400 mm/s\nstart at (0, 0) mm\nline to (60, 0) mm\n"
         "step to (60, 40) mm\nhold 0.2 s\n"
     )
-    found = {one.line: one for one in forecast(*prepared(text))}
+    found = {one.line.line: one for one in forecast(*prepared(text))}
     assert found[5].jolt_part > 1
     assert found[6].jolt_part < 0.3
 

@@ -45,7 +45,7 @@ def test_torques_that_are_commanded(seed):
     found, run, card = look_and_run(text, "torque", "accel")
     assert len(found) == 4
     for one in found:
-        assert one.effort_part == pytest.approx(part(run, card, one.line), rel=0.02)
+        assert one.effort_part == pytest.approx(part(run, card, one.line.line), rel=0.02)
         assert one.jolt is one.jolt_part is one.sag is None
 
 
@@ -58,9 +58,9 @@ def test_torques_through_springs_and_their_dampers(seed):
     found, run, card = look_and_run(text, "compliant", "pff")
     corner = set()
     for one in found:
-        assert one.jolt_part == pytest.approx(part(run, card, one.line), rel=SWING)
+        assert one.jolt_part == pytest.approx(part(run, card, one.line.line), rel=SWING)
         assert one.effort_part < one.jolt_part * (1 + 1e-9)
-        corner |= {one.line} if one.jolt_part > 1.5 * one.effort_part else set()
+        corner |= {one.line.line} if one.jolt_part > 1.5 * one.effort_part else set()
     assert corner
 
 
@@ -69,7 +69,7 @@ def test_a_damper_on_the_ground_bears_no_corner():
     found, run, card = look_and_run(random_drawing(3), "compliant:damper=ground", "pff")
     for one in found:
         assert one.jolt_part == pytest.approx(one.effort_part, rel=0.05)
-        assert one.jolt_part == pytest.approx(part(run, card, one.line), rel=1.5 * SWING)
+        assert one.jolt_part == pytest.approx(part(run, card, one.line.line), rel=1.5 * SWING)
 
 
 @pytest.mark.parametrize("law", ["quintic", "trapezoid"])
@@ -92,7 +92,7 @@ SLOW = "period 8 ms\nstart at (60, 0) mm\nline to (-80, 60) mm in 3 s\nhold 0.5 
 def test_the_sag_that_no_encoder_sees_is_the_error_of_the_run(plant, name):
     found, run, _ = look_and_run(SLOW, plant, "pff", GAINS, name)
     off = np.linalg.norm(run.points - run.motion.points, axis=1)
-    assert found[-1].line == 4
+    assert found[-1].line.line == 4
     assert found[-1].sag == pytest.approx(off[-1], rel=0.02)
     still = run.motion.t > 1.0
     assert max(one.sag for one in found) == pytest.approx(off[still].max(), rel=0.1)

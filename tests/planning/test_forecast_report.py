@@ -33,7 +33,7 @@ def test_limits_are_warnings_at_the_worst_line(checked):
     codes = {d.code: d for d in result.outlook.warnings}
     assert set(codes) == {"W502", "W503", "W504"}
     speed = codes["W502"]
-    lines = {line.line: line for line in result.outlook.lines}
+    lines = {line.line.line: line for line in result.outlook.lines}
     assert f"joint {lines[5].speed.joint} has to turn at" in speed.message
     assert "likewise line 4" in result.text
     assert ":5:1\n" in result.text.partition("W502")[2]

@@ -100,7 +100,7 @@ def traced(arm, run, eye):
     motion, every = run.motion, np.ones(len(run.motion.t), dtype=bool)
     with (
         urdf_file(arm.card) as path,
-        SceneArm(path, run.posture, motion.period, motion.line) as staging,
+        SceneArm(path, run.posture, motion.period, motion.source) as staging,
     ):
         return staging.visible(motion.t, run.points[:, None], every, eye)[:, 0]
 
@@ -123,7 +123,7 @@ def test_ten_random_drawings(seed):
     eye = stand(motion.points[:-1], front, make_settings(), parse_views("front")[0]).position
     seen = traced(arm, run, eye)
     for one in foreseen(seed):
-        rows = np.flatnonzero(motion.line[:-1] == one.line)
+        rows = np.flatnonzero(motion.source.line[:-1] == one.line.line)
         least = min(smallest(arm, q) for q in run.posture[rows])
         assert one.singular == pytest.approx(least, abs=SINGULAR)
         assert (one.singular < THRESHOLD) == (least < THRESHOLD) or abs(

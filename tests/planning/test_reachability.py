@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
-from dqpaint.language import ScriptError, parse
+from dqpaint.language import ScriptError, parse, read
 from dqpaint.painting.paint import paint
 from dqpaint.planning.forecast_report import look_ahead
 from dqpaint.robots.kinematics.kinematics import Kinematics
@@ -87,6 +87,17 @@ def test_of_many_lines_the_first_are_told_and_the_others_named():
     message = refused(f"start at (650, -10) mm\n{lines}")
     assert message.count("error[E310]") == 5
     assert "farthest point of this line; likewise lines 7, 8, 9, 10, 11, 12 and 3 more" in message
+
+
+@pytest.mark.slow
+def test_other_lines_of_an_included_file_are_named_by_it(tmp_path):
+    lines = "".join(f"line to ({700 + i}, {10 * i}) mm in 1 s\n" for i in range(7))
+    far = tmp_path / "far.traj"
+    far.write_text(lines)
+    (tmp_path / "a.traj").write_text('start at (650, -10) mm\ninclude "far.traj"\n')
+    with pytest.raises(ScriptError) as caught:
+        paint(read(tmp_path / "a.traj"), SETTINGS)
+    assert f"likewise lines {far}:6, {far}:7" in str(caught.value)
 
 
 @pytest.mark.slow

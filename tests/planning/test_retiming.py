@@ -53,7 +53,7 @@ def test_one_too_fast(draw, plant):
     ).max() > 0.8 * SHARE  # no slower than due
     assert slow.slowed.longer == pytest.approx(slow.motion.t[-1] - clip.motion.t[-1])
     assert 1 < slow.slowed.longer < 3
-    assert {3, 5} <= set(slow.slowed.lines)
+    assert {3, 5} <= {line.line for line in slow.slowed.lines}
     assert slow.motion.clock[-1] == pytest.approx(clip.motion.t[-1])
     told = json.loads(files.summary(slow))["pace"]
     assert told["longer_s"] == slow.slowed.longer
@@ -69,7 +69,7 @@ def test_the_speed_goes_and_comes_back_smoothly(draw):
     pace = np.gradient(slow.motion.clock, slow.motion.t)[2:-2]
     assert pace.max() <= 1 + 1e-9
     assert np.abs(np.diff(pace)).max() < 0.05
-    middle = np.flatnonzero(slow.motion.line == 4)
+    middle = np.flatnonzero(slow.motion.source.line == 4)
     assert np.gradient(slow.motion.clock, slow.motion.t)[middle].max() > 0.95  # it comes back
 
 
@@ -108,7 +108,7 @@ def test_one_across_a_joint_limit(draw):
     """No pace helps: slow holds the joint back as clip does, and says so as clip does."""
     clip, slow = (draw(BEYOND, how, start="home") for how in ("clip", "slow"))
     for painting in (clip, slow):
-        assert {(held.kind, held.joint, held.line) for held in painting.limits} == {
+        assert {(held.kind, held.joint, held.line.line) for held in painting.limits} == {
             ("position", 7, 3)
         }
         assert painting.track.posture[:, 6].max() <= np.radians(175) + 1e-9
@@ -175,7 +175,7 @@ def test_a_law_of_torques_is_slowed_for_its_motors_too():
     start = begin(motion, arm).posture
     law = make_controller(stiff_law, "stiff_law")
     slowed = slow_down(motion, arm, start, "start", "smooth")
-    assert slowed.lines[0] == 3
+    assert slowed.lines[0].line == 3
     clip, slow = (
         track(one, arm, start, PLANTS["torque"], law, law.read_gains({}))
         for one in (motion, slowed.motion)

@@ -73,5 +73,5 @@ def test_a_motor_that_saturates_is_counted():
         motion, kinematics, card.home, choose_plant("compliant", "rates"), law, law.read_gains({})
     )
     held = [clamp for clamp in run.clamps if clamp.kind == "torque"]
-    assert [(clamp.joint, clamp.line, clamp.limit) for clamp in held] == [(2, 2, 30.0)]
+    assert [(clamp.joint, clamp.line.line, clamp.limit) for clamp in held] == [(2, 2, 30.0)]
     assert np.abs(run.effort[:, 1]).max() <= 30 * (1 + 1e-9)

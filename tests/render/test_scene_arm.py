@@ -9,6 +9,8 @@ import pytest
 
 import dqpaint
 from dqpaint.cli import report
+from dqpaint.diagnostics import SourceLine
+from dqpaint.motion import RowLines
 from dqpaint.outputs import files
 from dqpaint.painting import video
 from dqpaint.painting.picture import lights_of
@@ -32,13 +34,17 @@ TEXT = "speed 200 mm/s\nlight white\nline to (60, 0) mm\nlight off\nmove to (0, 
 
 def test_hidden_light_is_accounted_to_its_lines():
     hidden = np.array([[1.0, 0, 0], [0, 2, 0], [0, 0, 0], [3, 0, 0]])
-    found = account(hidden, np.full((4, 3), 2.0), np.array([7, 3, 5, 7]))
+    seven, three, five = SourceLine(0, 7), SourceLine(1, 3), SourceLine(0, 5)
+    source = RowLines.of([seven, three, five, seven])
+    found = account(hidden, np.full((4, 3), 2.0), source)
     np.testing.assert_array_equal(found.energy, [4, 2, 0])
-    assert found.lines == ((7, 4 / 24), (3, 2 / 24))
+    assert found.lines == ((seven, 4 / 24), (three, 2 / 24))
 
 
 def test_no_light_hides_nothing():
-    found = account(np.zeros((2, 3)), np.zeros((2, 3)), np.array([1, 2]))
+    found = account(
+        np.zeros((2, 3)), np.zeros((2, 3)), RowLines.of([SourceLine(0, 1), SourceLine(0, 2)])
+    )
     assert found.lines == ()
 
 

@@ -6,6 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from dqpaint.diagnostics import SourceLine
+from dqpaint.motion import RowLines
 from dqpaint.robots.kinematics.limits import Bounds, clamps
 from dqpaint.robots.model.card import read_card
 
@@ -39,18 +41,19 @@ def test_a_joint_far_beyond_its_limit_comes_back_at_its_speed():
 
 def test_each_kind_is_named_with_joint_time_line_and_amount():
     n = 10
-    t, line = np.arange(n) * 0.01, np.array([3] * 5 + [4] * 5)
+    three, four = SourceLine(0, 3), SourceLine(1, 4)
+    t, source = np.arange(n) * 0.01, RowLines.of([three] * 5 + [four] * 5)
     posture, effort = np.zeros((n, 7)), np.zeros((n, 7))
     wanted, command = np.zeros((n, 7)), np.zeros((n, 7))
     wanted[2:4, 3], command[2:4, 3] = [-2.0, -3.0], -CARD.speed[3]  # the worst is told
     posture[6, 1], wanted[6, 1], command[6, 1] = CARD.upper[1] - 0.01, 1.4, 1.0
     effort[8, 5] = -CARD.effort[5]
-    speed, position, motor = clamps(CARD, t, line, posture, wanted, command, effort, False)
-    assert (speed.kind, speed.joint, speed.line) == ("speed", 4, 3)
+    speed, position, motor = clamps(CARD, t, source, posture, wanted, command, effort, False)
+    assert (speed.kind, speed.joint, speed.line) == ("speed", 4, three)
     assert speed.start == pytest.approx(0.02)
     assert speed.seconds == pytest.approx(0.02)
     assert speed.wanted == pytest.approx(3.0)
-    assert (position.kind, position.joint, position.line) == ("position", 2, 4)
+    assert (position.kind, position.joint, position.line) == ("position", 2, four)
     assert position.limit == pytest.approx(np.radians(120))
     assert position.wanted == pytest.approx(np.radians(120) + 0.004)
     assert (motor.kind, motor.joint, motor.start) == ("torque", 6, pytest.approx(0.07))

@@ -155,7 +155,7 @@ def test_a_speed_limit_that_holds_a_joint_is_named_with_time_and_line():
     result = run(motion)
     fast = [clamp for clamp in result.clamps if clamp.kind == "speed"]
     assert fast
-    assert {clamp.line for clamp in fast} <= {3, 4}
+    assert {clamp.line.line for clamp in fast} <= {3, 4}
     assert all(clamp.start >= 0.4 for clamp in fast)
     assert (np.abs(result.command) <= CARD.speed * (1 + 1e-12)).all()
     assert all(clamp.wanted > clamp.limit for clamp in fast)
@@ -166,7 +166,7 @@ def test_a_position_limit_that_holds_a_joint_is_named_and_kept():
     motion = asked("period 8 ms\nhold 0.2 s\nline to (0, 0) mm tool rot(z, 150 deg)\n")
     result = run(motion, start=CARD.home)
     held = [clamp for clamp in result.clamps if clamp.kind == "position"]
-    assert [(clamp.joint, clamp.line) for clamp in held] == [(7, 3)]
+    assert [(clamp.joint, clamp.line.line) for clamp in held] == [(7, 3)]
     assert held[0].limit == pytest.approx(np.radians(175))
     assert result.posture[:, 6].max() <= CARD.upper[6] + 1e-12
     assert result.posture[:, 6].max() == pytest.approx(CARD.upper[6], abs=1e-6)
@@ -177,7 +177,9 @@ def test_an_effort_limit_that_holds_a_joint_is_named():
     weak = CARD.limits.model_copy(update={"effort_Nm": (320, 30, 176, 176, 110, 40, 40)})
     motion = asked("period 8 ms\nhold 0.2 s\n")
     result = run(motion, plant="stiff", card=CARD.model_copy(update={"limits": weak}))
-    assert {(clamp.kind, clamp.joint, clamp.line) for clamp in result.clamps} == {("torque", 2, 2)}
+    assert {(clamp.kind, clamp.joint, clamp.line.line) for clamp in result.clamps} == {
+        ("torque", 2, 2)
+    }
     assert result.clamps[0].limit == 30
 
 

@@ -30,4 +30,4 @@ def lifted(card):
 
 
 def rows_of(track, line):
-    return np.flatnonzero(track.motion.line[:-1] == line)
+    return np.flatnonzero(track.motion.source.line[:-1] == line)

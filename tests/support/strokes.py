@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from dqpaint import dq
+from dqpaint.diagnostics import SourceLine, Span
 from dqpaint.diagnostics.collector import Findings
-from dqpaint.diagnostics.diagnostic import Span
 from dqpaint.motion.geometry.batched_shapes import shape
 from dqpaint.motion.geometry.shapes import Flow
 from dqpaint.motion.profiles import Progress
@@ -116,7 +116,7 @@ def segment(path, tool, profile="trapezoid", timing=None, start=START):
         start=start,
         end=Pose((0.2, 0.1, -0.3), TURNED),
         span=Span(0, 4),
-        line=1,
+        line=SourceLine(0, 1),
     )
     if tool in ("look", "look-line"):  # the start lies on the look, as the language makes sure
         form = shape(made)

@@ -9,9 +9,10 @@ from dqpaint.diagnostics import (
     EnoughError,
     Findings,
     PlaceProblem,
+    SourceLine,
     Span,
     file_at,
-    first_number,
+    file_number,
     problem,
 )
 from dqpaint.language.pen.stroke_state import REST_TO_REST, Settings, Towards
@@ -200,25 +201,25 @@ def first_line(text: str, span: Span) -> Span:
 
 
 class _LineCounter:
-    """Line numbers of ever later places, without counting from the top each time."""
+    """Lines of ever later places, without counting from the top each time."""
 
     def __init__(self, text: str) -> None:
         self._text = text
-        self._known: dict[int, int] = {}
-        self._last = (0, 1)
+        self._known: dict[int, SourceLine] = {}
+        self._last = (0, SourceLine(0, 1))
 
-    def line(self, span: Span) -> int:
+    def line(self, span: Span) -> SourceLine:
         known = self._known.get(span.start)
         if known is not None:
             return known
-        offset, line = self._last
+        offset, (file, line) = self._last
         begin, _ = file_at(self._text, span.start, "")
         if not begin <= offset <= span.start:
-            offset, line = begin, first_number(self._text, begin)
-        line += self._text.count("\n", offset, span.start)
-        self._last = (span.start, line)
-        self._known[span.start] = line
-        return line
+            offset, file, line = begin, file_number(self._text, begin), 1
+        found = SourceLine(file, line + self._text.count("\n", offset, span.start))
+        self._last = (span.start, found)
+        self._known[span.start] = found
+        return found
 
 
 def _too_many(span: Span) -> Diagnostic:

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from dqpaint.diagnostics import LINES
 from dqpaint.motion import Motion
 from dqpaint.outputs.files import encode_csv
 from dqpaint.outputs.robot.trajectory import commented
@@ -23,13 +22,13 @@ def cue_sheet(motion: Motion, about: tuple[str, ...]) -> str:
     """
     segments = motion.program.segments
     strobes = [segments[stroke].strobe for stroke in motion.stroke.tolist()]
-    file, line = np.divmod(motion.line, LINES)
+    file = motion.source.file
     heads = (*HEADS, "file") if file.any() else HEADS
     rows = np.column_stack([
         np.round(motion.light, DIGITS),
         [strobe.frequency if strobe else 0.0 for strobe in strobes],
         [strobe.duty if strobe else 1.0 for strobe in strobes],
-        line,
+        motion.source.line,
         *([file] if file.any() else []),
     ])  # fmt: skip
     changes = np.append(True, (np.diff(rows, axis=0) != 0).any(axis=1))

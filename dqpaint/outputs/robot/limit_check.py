@@ -92,4 +92,4 @@ def _worst(values: Floats) -> tuple[int, int]:
 
 
 def _line(motion: Motion, row: int) -> str:
-    return f"line {motion.program.where(int(motion.line[row]))}"
+    return f"line {motion.program.where(motion.source.at(row))}"

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from dqpaint.diagnostics import SourceLine
 from dqpaint.dq import Floats
+from dqpaint.motion import RowLines
 from dqpaint.robots.model.card import Card
 
 AT_LIMIT = 1e-6  # relative: a motor this close to its largest torque is saturated
@@ -25,7 +27,7 @@ class Clamp:
         joint: its number, from 1.
         start: when it began [s].
         seconds: for how long, gaps left out.
-        line: the line of the file that was being drawn.
+        line: of the drawing, that was being drawn.
         limit: [rad], [rad/s] or [Nm].
         wanted: the most that was asked for, in the same unit; the limit itself where a motor
             that is told rates saturates, as it asks for no number.
@@ -35,7 +37,7 @@ class Clamp:
     joint: int
     start: float
     seconds: float
-    line: int
+    line: SourceLine
     limit: float
     wanted: float
 
@@ -80,7 +82,7 @@ class Bounds:
 def clamps(
     card: Card,
     t: Floats,
-    line: NDArray[np.int64],
+    source: RowLines,
     posture: Floats,
     wanted: Floats,
     command: Floats,
@@ -93,7 +95,7 @@ def clamps(
     Args:
         card: with the limits.
         t: (N,) [s].
-        line: (N,) of the file.
+        source: the line (N,) that asks for what follows.
         posture: (N, n) [rad], as the encoders read it where the commands are rates.
         wanted: what the law asked for (N, n), rates [rad/s] or torques [Nm].
         command: what the arm was given (N, n).
@@ -110,7 +112,7 @@ def clamps(
     ):
         for joint in range(where.shape[1]):
             found += _by_line(
-                kind, joint, where[:, joint], asked[:, joint], most[:, joint], t, line, period
+                kind, joint, where[:, joint], asked[:, joint], most[:, joint], t, source, period
             )
     return tuple(sorted(found, key=lambda clamp: clamp.start))
 
@@ -153,13 +155,13 @@ def _by_line(
     asked: Floats,
     most: Floats,
     t: Floats,
-    line: NDArray[np.int64],
+    source: RowLines,
     period: float,
 ) -> list[Clamp]:
     out = []
     rows = np.flatnonzero(where)
-    for number in sorted(set(line[rows].tolist())):
-        here = rows[line[rows] == number]
+    for line in np.unique(source.index[rows]):
+        here = rows[source.index[rows] == line]
         worst = here[np.argmax(np.abs(asked[here]))]
         out.append(
             Clamp(
@@ -167,7 +169,7 @@ def _by_line(
                 joint=joint + 1,
                 start=float(t[here[0]]),
                 seconds=float(len(here) * period),
-                line=number,
+                line=source.at(int(here[0])),
                 limit=float(most[worst]),
                 wanted=float(asked[worst]),
             )

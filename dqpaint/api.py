@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeGuard
 from dqpaint.core import find_drawing
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.language import Program, read
-from dqpaint.outputs import files
+from dqpaint.outputs import files, registry
 from dqpaint.settings import Settings, make_settings
 
 if TYPE_CHECKING:
@@ -135,18 +135,19 @@ def save(
     Args:
         painting: from `draw`.
         out: a folder (that exists, or ends with a slash), or the stem of the files.
-        what: a list of png, csv, json, motion, film, hdr, video, webp.
+        what: formats, with commas; `dqpaint list formats` tells them.
 
     Returns:
         The paths of the files.
 
     Raises:
-        DqpaintError: the place cannot be written; nothing was changed.
+        DqpaintError: an unknown format, or one that needs what the painting lacks; or the place
+            cannot be written. Nothing was changed.
     """
     name = f"{Path(painting.motion.program.name).stem}-{painting.controller.name}"
-    names = files.choose(what)
+    writers = registry.choose(what)
     stem = files.stem_for(str(out), name)
-    return files.write(stem, files.make(names, painting))
+    return files.write(stem, registry.make(writers, painting))
 
 
 def preview(

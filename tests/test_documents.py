@@ -15,7 +15,8 @@ from dqpaint.core.examples import example_names, examples_folder, find_drawing
 from dqpaint.language import parse, read
 from dqpaint.language.vocabulary.words import STATEMENTS
 from dqpaint.motion import plan
-from dqpaint.outputs.files import summarise
+from dqpaint.outputs import WRITERS
+from dqpaint.outputs.summary import summarise
 from dqpaint.planning.reachability import begin
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
@@ -62,6 +63,13 @@ def test_links_lead_somewhere(path):
     for target in re.findall(r"\]\(([^)#\s]+)\)", path.read_text("utf-8")):
         if not target.startswith("https://"):
             assert (path.parent / target).exists(), target
+
+
+def test_the_readme_names_every_format():
+    told = README.partition("`--save` takes")[2].partition("\n\nWith `--colour-by`")[0]
+    assert all(f"`{name}`" in told for name in WRITERS)
+    forms = sorted(one.form for one in WRITERS.values() if one.form)
+    assert f"`export --format {'|'.join(forms)}`" in README
 
 
 def test_the_readme_shows_the_star_as_it_is():

@@ -21,7 +21,6 @@ from dqpaint.cli.options import (
     Seed,
     Tool,
 )
-from dqpaint.errors import UsageError
 
 
 def add_to(app: typer.Typer) -> None:
@@ -40,7 +39,8 @@ EXPORT_EXAMPLES = """Examples:
 def export(
     file: Drawing,
     form: Annotated[
-        str | None, typer.Option("--format", metavar="csv|ros2|urscript", help="for whom; needed")
+        str | None,
+        typer.Option("--format", metavar="NAME", help="needed; see: dqpaint list formats"),
     ] = None,
     controller: Law = "hinf",
     gain: Gain = None,
@@ -65,13 +65,10 @@ def export(
     from dqpaint.cli.terminal import Progress
     from dqpaint.controllers.base import short_name
     from dqpaint.core import find_drawing
-    from dqpaint.outputs import files
-    from dqpaint.outputs.robot import FORMATS, files_of
+    from dqpaint.outputs import files, registry
     from dqpaint.settings import parse_disturbances, parse_gains
 
-    if form is None:
-        raise UsageError(f"export needs a --format: {', '.join(FORMATS)}")
-    FORMATS[form]  # an unknown one is told before anything is simulated
+    writer = registry.choose_form(form)  # an unknown one is told before anything is simulated
     path = find_drawing(file)
     stem = files.stem_for(out, f"{path.stem}-{short_name(controller)}")
     with Progress(path.name) as progress:
@@ -81,7 +78,7 @@ def export(
             seed=seed, start=start, null=null, on_limit=on_limit, size=(64, 36),
             max_samples=max_samples, progress=progress,
         )  # fmt: skip
-    written = files.write(stem, files_of(painting, form))
+    written = files.write(stem, registry.make([writer], painting))
 
     from dqpaint.cli import report
 

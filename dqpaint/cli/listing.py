@@ -151,6 +151,22 @@ def _looks() -> list[dict[str, Any]]:
     ]
 
 
+def _formats() -> list[dict[str, Any]]:
+    from dqpaint.outputs import WRITERS
+
+    return [
+        {
+            "name": name,
+            "about": one.about,
+            "file": f"NAME{one.ending}",
+            "needs": [need.words for need in one.needs],
+            "export": one.form,
+            **_package(WRITERS, name),
+        }
+        for name, one in WRITERS.items()
+    ]
+
+
 def _examples() -> list[dict[str, Any]]:
     from dqpaint.core import example_names, examples_folder
 
@@ -195,6 +211,7 @@ LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {
     "brushes": _brushes,
     "looks": _looks,
     "fonts": _fonts,
+    "formats": _formats,
     "examples": _examples,
     "replays": _replays,
     "statements": _statements,
@@ -220,12 +237,13 @@ def faults(what: str) -> list[str]:
     from dqpaint.controllers import CONTROLLERS
     from dqpaint.disturbances import DISTURBANCES
     from dqpaint.light.sources import BRUSHES
+    from dqpaint.outputs import WRITERS
     from dqpaint.plants import PLANTS
     from dqpaint.robots.loading import CARD_FOLDERS
 
     registries: dict[str, Registry[Any]] = {
         "robots": CARD_FOLDERS, "controllers": CONTROLLERS, "plants": PLANTS,
-        "disturbances": DISTURBANCES, "brushes": BRUSHES,
+        "disturbances": DISTURBANCES, "brushes": BRUSHES, "formats": WRITERS,
     }  # fmt: skip
     asked = registries if what == "all" else {what} & registries.keys()
     return [fault for name in asked for fault in registries[name].faults]
@@ -247,6 +265,12 @@ def text(found: dict[str, list[dict[str, Any]]]) -> str:
                 lines.append(("", f"  {row['example']}"))
             if row.get("parts"):
                 lines.append(("", f"  parts: {' '.join(row['parts'])}"))
+            if "file" in row:
+                lines.append(("", f"  {row['file']}"))
+            if row.get("needs"):
+                lines.append(("", f"  needs {'; '.join(row['needs'])}"))
+            if row.get("export"):
+                lines.append(("", f"  dqpaint export --format {row['export']}"))
             if "gains" in row:
                 lines.append(("", f"  from {row['source']}"))
         heading = [f"{name}:"] if len(found) > 1 else []

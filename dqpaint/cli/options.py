@@ -135,7 +135,7 @@ Out = Annotated[
     typer.Option(metavar="PATH", help="a folder, or the stem of the files [default: here]"),
 ]
 Save = Annotated[
-    str, typer.Option(metavar="LIST", help="of png, csv, json, motion, film, hdr, video, webp")
+    str, typer.Option(metavar="A,B,...", help="formats to write; see: dqpaint list formats")
 ]
 
 

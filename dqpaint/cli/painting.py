@@ -129,11 +129,11 @@ def draw(
     from dqpaint.cli.terminal import Progress
     from dqpaint.controllers.base import short_name
     from dqpaint.core import find_drawing
-    from dqpaint.outputs import files as outputs
+    from dqpaint.outputs import files, registry
     from dqpaint.painting import validate
     from dqpaint.settings import parse_disturbances, parse_gains, parse_size, read_given
 
-    names = outputs.choose(save)
+    writers = registry.choose(save)
     path = find_drawing(file)
     given = read_given(settings, validate.check_each) if settings else None
     choices = typed(
@@ -147,14 +147,14 @@ def draw(
         choices["ghost"] = "motion"
     both = given.under(choices) if given else choices
     law = "recorded" if both.get("recorded") else short_name(both.get("controller") or controller)
-    stem = outputs.stem_for(out, f"{path.stem}-{law}")
+    stem = files.stem_for(out, f"{path.stem}-{law}")
     with Progress(path.name) as progress:
         painting = api.draw(
             path, **choices, gains=parse_gains(gain or []),
             disturb=parse_disturbances(disturb or []), settings=given, progress=progress,
         )  # fmt: skip
     with Progress("movie") as progress:
-        written = outputs.write(stem, outputs.make(names, painting, progress))
+        written = files.write(stem, registry.make(writers, painting, progress))
 
     from dqpaint.cli import report
 
@@ -188,11 +188,11 @@ def preview(
     """Take the asked picture, without an arm, at once; with length, time and brightness."""
     from dqpaint import api
     from dqpaint.core import find_drawing
-    from dqpaint.outputs import files as outputs
+    from dqpaint.outputs import files
     from dqpaint.settings import parse_size
 
     path = find_drawing(file)
-    stem = outputs.stem_for(out, f"{path.stem}-preview")
+    stem = files.stem_for(out, f"{path.stem}-preview")
     choices = typed(
         context, robot=robot, tool=tool, size=parse_size(size), view=view, ev=ev, brush=brush,
         pwm=pwm, exposure=exposure, look=look, starburst=starburst, noise=noise,
@@ -201,7 +201,7 @@ def preview(
 
     def show() -> None:
         preview = api.preview(path, **choices, settings=settings)
-        written = outputs.write_pictures(stem, preview.pictures)
+        written = files.write_pictures(stem, preview.pictures)
 
         from dqpaint.cli import report
 
@@ -245,17 +245,17 @@ def develop(
     from pathlib import Path
 
     from dqpaint import api
-    from dqpaint.outputs import files as outputs
+    from dqpaint.outputs import files
     from dqpaint.settings import parse_size
 
     name = Path(film).stem.removesuffix("-film")
-    stem = outputs.stem_for(out, f"{name}-developed")
+    stem = files.stem_for(out, f"{name}-developed")
     pictures = api.develop(
         film, size=parse_size(size) if size else None, view=view, ev=ev, exposure=exposure,
         look=look, starburst=starburst, noise=noise, ghost="motion" if motion_ghost else ghost,
         occlusion=occlusion,
     )  # fmt: skip
-    written = outputs.write_pictures(stem, pictures)
+    written = files.write_pictures(stem, pictures)
 
     from dqpaint.cli import report
 

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from dqpaint.api import draw
 from dqpaint.controllers.base import short_name
-from dqpaint.outputs import files
+from dqpaint.outputs import files, summary
 from dqpaint.settings import DEFAULT_CONTROLLER
 from dqpaint.studies.kinds import hinf_bound
 
@@ -119,7 +119,7 @@ def make_gallery(folder: str) -> Iterator[Path]:
     """Paint every shot into a folder, with its summary, and pages that show them all."""
     for shot in SHOTS:
         painting = draw(shot.example, **shot.choices)
-        facts = files.summarise(painting)
+        facts = summary.summarise(painting)
         del facts["wall_s"]  # the only part that differs from run to run
         contents = {
             ".png": painting.picture.png,

@@ -8,7 +8,7 @@ from dqpaint.diagnostics import SourceLine
 from dqpaint.language import read
 from dqpaint.metrics.run_metrics import asked_columns
 from dqpaint.motion import plan
-from dqpaint.outputs.files import summarise
+from dqpaint.outputs.summary import summarise
 from dqpaint.robots.model.card import read_card
 
 

@@ -22,7 +22,7 @@ def test_a_copy_is_another_record_with_the_changes_alone() -> None:
     copy = replaced(SETTINGS, speed=0.5, blend=0.0)
     assert copy == replace(SETTINGS, speed=0.5, blend=0.0)
     assert (SETTINGS.speed, SETTINGS.blend) == (0.3, 0.01)
-    assert copy.law is SETTINGS.law
+    assert copy.profile is SETTINGS.profile
 
 
 def test_a_record_has_no_other_values() -> None:

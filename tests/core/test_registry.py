@@ -7,11 +7,11 @@ from dqpaint.controllers import CONTROLLERS
 from dqpaint.core.registry import Folder, Registry
 from dqpaint.disturbances import DISTURBANCES
 from dqpaint.errors import UnknownNameError, UsageError
-from dqpaint.outputs.robot import FORMATS
+from dqpaint.outputs import WRITERS
 from dqpaint.plants import PLANTS
 from tests.support.plugins import install
 
-FOLDERS = [CONTROLLERS, PLANTS, DISTURBANCES, FORMATS]
+FOLDERS = [CONTROLLERS, PLANTS, DISTURBANCES, WRITERS]
 
 
 @pytest.fixture

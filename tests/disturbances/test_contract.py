@@ -1,6 +1,5 @@
 """What every disturbance promises: it changes the run, repeats, vanishes, and is reported."""
 
-import json
 from itertools import pairwise
 
 import numpy as np
@@ -16,7 +15,7 @@ from dqpaint.errors import UsageError
 from dqpaint.language import parse
 from dqpaint.metrics.run_metrics import measure
 from dqpaint.motion import plan
-from dqpaint.outputs import files
+from dqpaint.outputs.summary import summarise
 from dqpaint.planning.reachability import begin
 from dqpaint.plants import choose_plant
 from dqpaint.plants.plant import PLANTS
@@ -77,7 +76,7 @@ def test_it_is_told_in_the_summary(name, tmp_path):
     painting = api.draw(
         file, plant=plant_for(name), disturb={name: SIZES[name]}, seed=3, size=(64, 48)
     )
-    told = json.loads(files.summary(painting))
+    told = summarise(painting)
     assert SIZES[name].items() <= told["disturbances"][name].items()
     assert told["seed"] == 3
     assert f"disturbed by       {name}  " in of_painting(painting, [])

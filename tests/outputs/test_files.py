@@ -13,9 +13,11 @@ import pytest
 import dqpaint
 from dqpaint.core import atomic_files
 from dqpaint.core.version import LIBRARIES
-from dqpaint.errors import OutputError
-from dqpaint.outputs import files as outputs
+from dqpaint.errors import OutputError, UnknownNameError, UsageError
+from dqpaint.outputs import WRITERS, files, registry, summary
+from dqpaint.outputs.registry import Need, Writer, writer
 from dqpaint.robots.model.card import read_card
+from tests.support.plugins import install
 
 TEXT = (
     "period 20 ms\nstart at (0, 0) mm\nline to (30, 10) mm\nline by (0, -20) mm light red to blue\n"
@@ -29,20 +31,106 @@ def painting(tmp_path_factory):
     return dqpaint.draw(path, plant="ideal", size=(160, 90))
 
 
-@pytest.mark.parametrize("name", outputs.OUTPUTS)
-def test_every_output_is_the_same_twice(painting, name):
-    assert outputs.OUTPUTS[name](painting) == outputs.OUTPUTS[name](painting) != b""
+def made(painting, name):
+    return registry.make(registry.choose(name), painting)
+
+
+@pytest.mark.parametrize("name", ["csv", "film", "hdr", "json", "motion", "png"])
+def test_every_format_is_the_same_twice(painting, name):
+    files = made(painting, name)
+    assert files == made(painting, name)
+    assert all(files.values())
+    assert WRITERS[name].ending in files
 
 
 def test_png_reads_back(painting):
-    image = cv2.imdecode(np.frombuffer(outputs.png(painting), np.uint8), cv2.IMREAD_COLOR)
+    png = made(painting, "png")[".png"]
+    image = cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR)
     np.testing.assert_array_equal(image[..., ::-1], painting.image)
-    assert painting._repr_png_() == outputs.png(painting)
+    assert painting._repr_png_() == png
+
+
+@pytest.fixture
+def own():
+    """Room for writers of a test: the registry as it was after the start, and later as before."""
+    before = dict(vars(WRITERS))
+    vars(WRITERS).update(_things=dict(WRITERS), _origins={})
+    for found in ("_plugins", "_faults"):
+        vars(WRITERS).pop(found, None)
+    yield
+    vars(WRITERS).clear()
+    vars(WRITERS).update(before)
+
+
+def test_progress_is_told_to_a_writer_that_wants_it(painting, own):
+    @writer("slow", "-slow.txt")
+    def slow(painting, progress):
+        progress(0.5)
+        return b"done"
+
+    @writer("quick", "-quick.txt")
+    def quick(painting):
+        """Quick."""
+        return {"-a.txt": b"a", "-b.txt": painting.sha256.encode()}
+
+    told = []
+    files = registry.make(registry.choose("slow, quick"), painting, told.append)
+    assert told == [0.5]
+    assert files == {"-slow.txt": b"done", "-a.txt": b"a", "-b.txt": painting.sha256.encode()}
+    assert WRITERS["quick"] == Writer("quick", "-quick.txt", quick)
+    assert WRITERS["quick"].about == "Quick."
+
+
+def test_what_a_writer_needs_is_asked_before_any_writes(painting, own):
+    def none(_painting):
+        raise UsageError("no tulips in it")
+
+    written = []
+    writer("first", ".a")(lambda painting: written.append(1) or b"a")
+    writer("tulip", ".b", Need("tulips", none))(lambda painting: written.append(2) or b"b")
+    with pytest.raises(UsageError, match="no tulips"):
+        registry.make(registry.choose("first,tulip"), painting)
+    assert not written
+    registry.make(registry.choose("first"), painting)
+    assert written == [1]
+
+
+PLUGIN = """
+from dqpaint.outputs import writer
+
+@writer("tulip", "-tulip.txt")
+def tulip(painting):
+    "Flowers."
+    return painting.robot.encode()
+
+bare = len
+"""
+
+
+def test_another_package_brings_a_format(painting, own, tmp_path, monkeypatch):
+    points = "[dqpaint.formats]\ntulip = bulbs:tulip\nrose = bulbs:bare\npng = bulbs:tulip\n"
+    install(tmp_path, "bulbs", {"__init__": PLUGIN}, points)
+    monkeypatch.syspath_prepend(tmp_path)
+    assert made(painting, "tulip,png") == {"-tulip.txt": b"iiwa", ".png": painting.picture.png}
+    assert WRITERS.origin("tulip") == "bulbs 1.2"
+    hidden, bare = WRITERS.faults
+    assert hidden == "format 'png' of bulbs 1.2 is not used: dqpaint has its own"
+    assert "'rose' is not registered by @dqpaint.outputs.writer under that name" in bare
+
+
+def test_formats_for_arms_are_those_of_export():
+    assert {one.form: one.name for one in WRITERS.values() if one.form} == {
+        "csv": "trajectory", "ros2": "ros2", "urscript": "urscript"
+    }  # fmt: skip
+    assert registry.choose_form("csv") is WRITERS["trajectory"]
+    for unknown in ("gcode", "png", "trajectory"):
+        with pytest.raises(UnknownNameError, match=f"named '{unknown}'; known: csv, ros2, urscr"):
+            registry.choose_form(unknown)
 
 
 @pytest.mark.parametrize("name", ["csv", "motion"])
 def test_tables_read_back(painting, name):
-    rows = list(csv_reader.reader(io.StringIO(outputs.OUTPUTS[name](painting).decode())))
+    rows = list(csv_reader.reader(io.StringIO(made(painting, name)[WRITERS[name].ending].decode())))
     assert len(rows) == 1 + len(painting.motion.t)
     values = np.array(rows[1:], dtype=float)
     assert np.isfinite(values).all()
@@ -53,8 +141,8 @@ def test_tables_read_back(painting, name):
 
 
 def test_summary_says_what_was_run_and_what_came_out(painting):
-    facts = json.loads(outputs.summary(painting))
-    assert facts["schema"] == outputs.SCHEMA
+    facts = json.loads(made(painting, "json")[".json"])
+    assert facts["schema"] == summary.SCHEMA
     assert facts["file"] == "corner.traj"
     assert facts["controller"] == "hinf"
     assert facts["gains"]["K_O"] == pytest.approx(40)
@@ -80,7 +168,7 @@ def test_summary_says_what_was_run_and_what_came_out(painting):
 
 
 def test_files_are_written_beside_each_other_and_nothing_else_is_left(tmp_path):
-    written = outputs.write(tmp_path / "a", {".png": b"1", ".csv": b"2"})
+    written = files.write(tmp_path / "a", {".png": b"1", ".csv": b"2"})
     assert [path.name for path in written] == ["a.png", "a.csv"]
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.csv", "a.png"]
     assert stat.S_IMODE(written[0].stat().st_mode) == 0o666 & ~atomic_files._umask()
@@ -90,7 +178,7 @@ def test_nothing_is_half_written(tmp_path, monkeypatch):
     (tmp_path / "a.png").write_bytes(b"before")
     (tmp_path / "a.csv").mkdir()
     with pytest.raises(OutputError, match="it is a folder"):
-        outputs.write(tmp_path / "a", {".png": b"after", ".csv": b"2"})
+        files.write(tmp_path / "a", {".png": b"after", ".csv": b"2"})
     assert (tmp_path / "a.png").read_bytes() == b"before"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.csv", "a.png"]
 
@@ -99,32 +187,35 @@ def test_nothing_is_half_written(tmp_path, monkeypatch):
 
     monkeypatch.setattr(os, "replace", full)
     with pytest.raises(OutputError, match="No space left on device"):
-        outputs.write(tmp_path / "b", {".png": b"after"})
+        files.write(tmp_path / "b", {".png": b"after"})
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.csv", "a.png"]
 
 
 def test_places_for_files(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    assert outputs.stem_for(None, "star-p").resolve() == tmp_path / "star-p"
-    assert outputs.stem_for(str(tmp_path), "star-p") == tmp_path / "star-p"
-    assert outputs.stem_for("new/folder/", "star-p").resolve() == tmp_path / "new/folder/star-p"
-    assert outputs.stem_for("mine", "star-p").resolve() == tmp_path / "mine"
-    assert outputs.stem_for("new/mine", "star-p").resolve() == tmp_path / "new/mine"
+    assert files.stem_for(None, "star-p").resolve() == tmp_path / "star-p"
+    assert files.stem_for(str(tmp_path), "star-p") == tmp_path / "star-p"
+    assert files.stem_for("new/folder/", "star-p").resolve() == tmp_path / "new/folder/star-p"
+    assert files.stem_for("mine", "star-p").resolve() == tmp_path / "mine"
+    assert files.stem_for("new/mine", "star-p").resolve() == tmp_path / "new/mine"
+    for end in ("png", "csv", "json", "webm", "webp", "hdr", "script"):
+        assert files.stem_for(f"new/mine.{end}", "star-p").resolve() == tmp_path / "new/mine"
+    assert files.stem_for("new/mine.2", "star-p").resolve() == tmp_path / "new/mine.2"
     with pytest.raises(OutputError, match="folder 'no/such' does not exist"):
-        outputs.stem_for("no/such/stem", "star-p")
+        files.stem_for("no/such/stem", "star-p")
     (tmp_path / "file").write_text("")
     with pytest.raises(OutputError, match="cannot be written"):
-        outputs.stem_for("file/", "star-p")
+        files.stem_for("file/", "star-p")
 
 
 def test_limits_are_written_in_si_with_their_unit(tmp_path):
     (tmp_path / "fast.traj").write_text("line to (200, 0) mm speed 3 m/s\nhold 1 s\n")
     fast = dqpaint.draw(tmp_path / "fast.traj", plant="ideal", size=(64, 36))
-    limit = next(limit for limit in outputs.summarise(fast)["limits"] if limit["kind"] == "speed")
+    limit = next(limit for limit in summary.summarise(fast)["limits"] if limit["kind"] == "speed")
     assert limit["unit"] == "rad/s"
     speeds = read_card("iiwa").speed
     assert limit["wanted"] > limit["limit"] == pytest.approx(speeds[limit["joint"] - 1])
-    assert len(fast.limits) == len(outputs.summarise(fast)["limits"])
+    assert len(fast.limits) == len(summary.summarise(fast)["limits"])
 
 
 def test_saving_from_python(painting, tmp_path):
@@ -151,7 +242,7 @@ def stepped(tmp_path_factory):
 
 
 def test_the_summary_tells_the_disturbances_what_came_through_and_the_steps(stepped):
-    said = outputs.summarise(stepped)
+    said = summary.summarise(stepped)
     one = stepped.disturbances["twist"]
     assert said["disturbances"] == {"twist": one.model_dump()}
     assert said["seed"] == 11

@@ -11,9 +11,11 @@ import yaml
 
 import dqpaint
 from dqpaint import dq
-from dqpaint.errors import DqpaintError, UnknownNameError, UsageError
-from dqpaint.outputs.robot import FORMATS, Trajectory, files_of
-from dqpaint.outputs.robot.urscript import is_universal
+from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.outputs.formats.ros2 import ros2
+from dqpaint.outputs.formats.urscript import is_universal, urscript
+from dqpaint.outputs.registry import choose_form, make
+from dqpaint.outputs.robot import Trajectory
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
 
@@ -34,6 +36,10 @@ def drawn(tmp_path_factory, text=TEXT, **choices):
 @pytest.fixture(scope="module")
 def painting(tmp_path_factory):
     return drawn(tmp_path_factory)
+
+
+def files_of(painting, form):
+    return make([choose_form(form)], painting)
 
 
 def texts(painting, form):
@@ -91,13 +97,11 @@ def test_the_ros_message_integrates_to_the_path(painting):
 
 
 def test_times_beyond_a_second_and_roundings():
-    from dqpaint.outputs.robot.ros2 import ros2
-    from dqpaint.outputs.robot.trajectory import Trajectory
 
     t = np.array([0.0, 0.9999999999, 1.7, 12.3])
     q = np.array([[1e-12, -1e-9], [1.5, 2], [3, 4], [5, 6]])
     made = ros2(Trajectory("n", "r", ("a", "b"), "base", 0.1, t, q, 0 * q, ()))
-    points = yaml.safe_load(made.text)["points"]
+    points = yaml.safe_load(made)["points"]
     stamps = [tuple(p["time_from_start"].values()) for p in points]
     assert stamps == [(0, 0), (1, 0), (1, 700_000_000), (12, 300_000_000)]
     assert all(isinstance(x, float) for p in points for x in p["positions"])
@@ -217,7 +221,7 @@ def universal_trajectory():
 
 def test_the_program_obeyed_leads_along_the_path_on_its_clock():
     trajectory = universal_trajectory()
-    script = FORMATS["urscript"](trajectory).text
+    script = urscript(trajectory)
     t, postures = obeyed(script, trajectory.positions[0] - 0.7)
     np.testing.assert_allclose(t, trajectory.t, atol=1e-9)
     np.testing.assert_allclose(postures, trajectory.positions, atol=1e-8)
@@ -412,9 +416,3 @@ def test_a_recorded_run_is_not_exported(painting, tmp_path):
     again = dqpaint.draw(tmp_path / "hook.traj", recorded=tmp_path / "run.csv", size=(64, 36))
     with pytest.raises(UsageError, match="it comes from an arm"):
         files_of(again, "csv")
-
-
-def test_formats_are_known():
-    assert set(FORMATS) == {"csv", "ros2", "urscript"}
-    with pytest.raises(UnknownNameError, match="csv"):
-        FORMATS["gcode"]

@@ -13,7 +13,7 @@ import dqpaint
 from dqpaint.cli import report
 from dqpaint.diagnostics import SourceLine
 from dqpaint.errors import DqpaintError
-from dqpaint.outputs import files as outputs
+from dqpaint.outputs import files, registry
 from dqpaint.painting import film_file, video
 from dqpaint.painting.picture import linear
 from dqpaint.painting.scene import Scene
@@ -173,7 +173,7 @@ def test_a_film_without_light_is_told_without_a_share(tmp_path):
 
 def test_a_device_is_no_place_for_a_picture():
     with pytest.raises(DqpaintError, match="'/dev/null' is neither a folder nor a file"):
-        outputs.stem_for("/dev/null", "star")
+        files.stem_for("/dev/null", "star")
 
 
 def test_choices_are_checked(tmp_path):
@@ -230,11 +230,11 @@ def test_movies_are_written_in_formats_that_play(tmp_path, monkeypatch):
     monkeypatch.setattr(video, "LONGEST", 1.0)
     painting = dqpaint.draw("star", plant="ideal", size=(161, 91))
     told = []
-    files = outputs.make(["video", "webp"], painting, told.append)
-    assert list(files) == [".webm", ".webp"]
+    movies = registry.make(registry.choose("video,webp"), painting, told.append)
+    assert list(movies) == [".webm", ".webp"]
     assert len(told) > 20
-    assert files[".webm"][:4] == b"\x1a\x45\xdf\xa3"  # EBML
-    (tmp_path / "a.webm").write_bytes(files[".webm"])
+    assert movies[".webm"][:4] == b"\x1a\x45\xdf\xa3"  # EBML
+    (tmp_path / "a.webm").write_bytes(movies[".webm"])
     film = cv2.VideoCapture(str(tmp_path / "a.webm"))
     assert int(film.get(cv2.CAP_PROP_FOURCC)).to_bytes(4, "little") in (b"VP90", b"vp09")
     frames = []
@@ -243,8 +243,8 @@ def test_movies_are_written_in_formats_that_play(tmp_path, monkeypatch):
     assert len(frames) == 25 + round(video.REST * 25)
     assert frames[-1].shape == (90, 160, 3)
     assert np.abs(frames[-1][..., ::-1].astype(int) - painting.image[:90, :160]).mean() < 4
-    assert files[".webp"][8:12] == b"WEBP"
-    done, animation = cv2.imdecodeanimation(np.frombuffer(files[".webp"], np.uint8))
+    assert movies[".webp"][8:12] == b"WEBP"
+    done, animation = cv2.imdecodeanimation(np.frombuffer(movies[".webp"], np.uint8))
     assert done
     assert len(animation.frames) == 12
 

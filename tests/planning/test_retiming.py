@@ -1,7 +1,5 @@
 """Where an arm cannot follow: what clip, slow and stop promise, in figures."""
 
-import json
-
 import numpy as np
 import pytest
 
@@ -11,7 +9,8 @@ from dqpaint.controllers.base.user_controller import commands
 from dqpaint.errors import DqpaintError
 from dqpaint.language import ScriptError, parse
 from dqpaint.motion import plan
-from dqpaint.outputs import files
+from dqpaint.outputs.summary import summarise
+from dqpaint.outputs.tables import encode_csv
 from dqpaint.planning.reachability import begin
 from dqpaint.planning.retiming import SHARE, _Torques, slow_down
 from dqpaint.robots.kinematics.differential_ik import resolve
@@ -55,12 +54,12 @@ def test_one_too_fast(draw, plant):
     assert 1 < slow.slowed.longer < 3
     assert {3, 5} <= {line.line for line in slow.slowed.lines}
     assert slow.motion.clock[-1] == pytest.approx(clip.motion.t[-1])
-    told = json.loads(files.summary(slow))["pace"]
+    told = summarise(slow)["pace"]
     assert told["longer_s"] == slow.slowed.longer
     assert "s longer, down to 0.3" in of_painting(slow, [])
     assert "drawing_time_s" in slow.table
     assert "drawing_time_s" not in clip.table
-    assert json.loads(files.summary(clip))["pace"] is None
+    assert summarise(clip)["pace"] is None
 
 
 def test_the_speed_goes_and_comes_back_smoothly(draw):
@@ -139,7 +138,7 @@ def test_one_out_of_reach_is_refused_whatever_is_asked(draw, how):
 @pytest.mark.parametrize("how", ["slow", "stop"])
 def test_a_drawing_that_meets_no_limit_is_drawn_as_ever(draw, how):
     clip, other = draw(GENTLE, "clip"), draw(GENTLE, how)
-    assert files.csv(clip) == files.csv(other)
+    assert encode_csv(clip.table) == encode_csv(other.table)
     if how == "slow":
         assert (other.slowed.longer, other.slowed.slowest, other.slowed.lines) == (0.0, 1.0, ())
         assert "pace" in of_painting(other, [])

@@ -1,6 +1,5 @@
 """A whole run with its arm on the stage: what is hidden, shown, said and written."""
 
-import json
 from dataclasses import replace
 from functools import partial
 
@@ -11,7 +10,7 @@ import dqpaint
 from dqpaint.cli import report
 from dqpaint.diagnostics import SourceLine
 from dqpaint.motion import RowLines
-from dqpaint.outputs import files
+from dqpaint.outputs.summary import summarise
 from dqpaint.painting import video
 from dqpaint.painting.picture import lights_of
 from dqpaint.render.arm_shapes import Arm
@@ -95,7 +94,7 @@ def test_energy_is_on_the_film_lost_or_hidden(brush, exposure, drawing):
 @pytest.mark.slow
 def test_the_summary_has_what_is_hidden(drawing):
     painting = dqpaint.draw(drawing, view="180,5", occlusion=True, **SMALL)
-    light = json.loads(files.summary(painting))["light"]
+    light = summarise(painting)["light"]
     emitted = painting.motion.light[:-1].sum(0) * painting.motion.period
     np.testing.assert_allclose(light["emitted"], emitted, rtol=1e-9)
     parts = [light["on_film"], light["lost"], light["occluded"]]
@@ -115,7 +114,7 @@ def test_an_arm_before_its_light_is_a_warning_with_lines_and_help(drawing):
 @pytest.mark.parametrize("choices", [{}, {"ghost": True, "occlusion": False}], ids=["bare", "no"])
 def test_untraced_light_is_said_to_be_untraced(drawing, choices):
     painting = dqpaint.draw(drawing, view="180,5", **choices, **SMALL)
-    assert json.loads(files.summary(painting))["light"]["occluded"] is None
+    assert summarise(painting)["light"]["occluded"] is None
     assert "hidden" not in report.light_line(painting.picture)
     assert not any("arm stood" in text for text in report.remarks(painting))
 

@@ -178,7 +178,7 @@ def test_texts():
 
 
 def test_the_choice_reaches_the_run_and_the_summary(tmp_path):
-    from dqpaint.outputs.files import summarise
+    from dqpaint.outputs.summary import summarise
 
     file = tmp_path / "t.traj"
     file.write_text("period 8 ms\nhold 0.2 s\n")

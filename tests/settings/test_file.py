@@ -8,7 +8,7 @@ import pytest
 import dqpaint
 from dqpaint import __version__
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.outputs.files import summarise
+from dqpaint.outputs.summary import summarise
 from dqpaint.painting.validate import check_each
 from dqpaint.settings.file import SettingsFile, read_given
 from dqpaint.settings.model import Settings, make_settings, parse_disturbances, parse_gains

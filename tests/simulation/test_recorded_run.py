@@ -9,7 +9,8 @@ import pytest
 import dqpaint
 from dqpaint import dq
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.outputs import files
+from dqpaint.outputs.summary import summarise
+from dqpaint.outputs.tables import encode_csv
 from dqpaint.painting import film_file
 from dqpaint.simulation.recorded_run import along_cubics, along_screws, read_recording
 from tests.support.random_poses import random_poses
@@ -46,7 +47,7 @@ def write(path, table, rows=slice(None), names=None, sign=","):
 
 def test_a_simulated_run_recorded_gives_the_same_figures_and_picture(drawing, simulated, tmp_path):
     path = tmp_path / "run.csv"
-    path.write_bytes(files.csv(simulated))
+    path.write_bytes(encode_csv(simulated.table))
     again = dqpaint.draw(drawing, recorded=path, size=(160, 90))
     assert again.plant == "recorded"
     np.testing.assert_array_equal(again.track.read, again.track.posture)
@@ -58,7 +59,7 @@ def test_a_simulated_run_recorded_gives_the_same_figures_and_picture(drawing, si
     for name, column in simulated.table.items():
         np.testing.assert_allclose(again.table[name], column, atol=1e-6, err_msg=name)
     np.testing.assert_array_equal(again.image, simulated.image)
-    facts = files.summarise(again)
+    facts = summarise(again)
     assert (facts["plant"], facts["controller"]) == ("recorded", "recorded")
     assert facts["recording"]["rows"] == len(simulated.motion.t)
 
@@ -89,8 +90,8 @@ def test_poses(drawing, simulated, tmp_path):
     assert "command_integral_rad" not in figures
     assert "manipulability" not in again.table
     assert not any(name.startswith("q1") for name in again.table)
-    assert files.encode_csv(again.table)
-    assert files.summary(again)
+    assert encode_csv(again.table)
+    assert summarise(again)
 
 
 def test_poses_alone_leave_the_arm_out_of_the_picture(drawing, simulated, tmp_path):

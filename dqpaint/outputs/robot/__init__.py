@@ -1,10 +1,9 @@
 """A painting -> programs for a real arm: joint trajectory, light cues, checked against its limits.
 
-A new format is a function in a new file of this folder under `@FORMATS.add(name)`: a `Trajectory`
-in, the ending of its file and its text out.
+A new format is a function in a new file of `outputs.formats` under `@for_arm(name, ending)`: a
+`Trajectory` in, the text of its file out.
 """
 
-from dqpaint.outputs.robot.export import files_of
-from dqpaint.outputs.robot.trajectory import FORMATS, Trajectory
+from dqpaint.outputs.robot.trajectory import Trajectory, commented, for_arm, trajectory_of
 
-__all__ = ["FORMATS", "Trajectory", "files_of"]
+__all__ = ["Trajectory", "commented", "for_arm", "trajectory_of"]

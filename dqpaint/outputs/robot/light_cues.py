@@ -3,8 +3,8 @@
 import numpy as np
 
 from dqpaint.motion import Motion
-from dqpaint.outputs.files import encode_csv
 from dqpaint.outputs.robot.trajectory import commented
+from dqpaint.outputs.tables import encode_csv
 
 DIGITS = 6  # of a colour: what changes less is one cue
 HEADS = ("t_s", "red", "green", "blue", "strobe_Hz", "strobe_duty", "line")

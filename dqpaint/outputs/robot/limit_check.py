@@ -5,8 +5,9 @@ import numpy as np
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.motion import Motion
+from dqpaint.outputs.robot.trajectory import kinematics_of
 from dqpaint.painting import paint
-from dqpaint.robots.kinematics import Dynamics, Kinematics
+from dqpaint.robots.kinematics import Dynamics
 from dqpaint.robots.model import Card
 
 SUDDEN = 10.0  # [rad/s^2] at the start or end; of a Panda's joints Franka allows 7.5 to 20
@@ -16,7 +17,7 @@ CURE = "--on-limit slow gives what is too fast the time it needs"
 DEG = float(np.degrees(1.0))
 
 
-def check_limits(painting: paint.Painting, kinematics: Kinematics) -> None:
+def check_limits(painting: paint.Painting) -> None:
     """Look at a run with the eyes of the arm that is to repeat it.
 
     The limits that were met while it ran count, and, whatever the plant made of them, positions,
@@ -25,6 +26,7 @@ def check_limits(painting: paint.Painting, kinematics: Kinematics) -> None:
     Raises:
         DqpaintError: something of it is beyond the arm; all of it is listed.
     """
+    kinematics = kinematics_of(painting)
     card, motion, q = kinematics.card, painting.motion, painting.track.posture
     where = motion.program.where
     reasons = [

@@ -4,15 +4,18 @@ import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dqpaint import __version__
-from dqpaint.core import Folder, Registry
 from dqpaint.dq import Floats
-from dqpaint.painting import paint
-from dqpaint.robots.kinematics import Kinematics
+from dqpaint.errors import UsageError
+from dqpaint.outputs.registry import WRITERS, Need, Writer
+
+if TYPE_CHECKING:
+    from dqpaint.painting import paint
+    from dqpaint.robots.kinematics import Kinematics
 
 
 @dataclass(frozen=True, repr=False)
@@ -42,15 +45,7 @@ class Trajectory:
     about: tuple[str, ...]
 
 
-class ExportFile(NamedTuple):
-    """A file: how its name ends, and its text."""
-
-    ending: str
-    text: str
-
-
-Format = Callable[[Trajectory], ExportFile]
-FORMATS: Registry[Format] = Folder("format", "dqpaint.outputs.robot")
+Format = Callable[[Trajectory], str]
 
 CAUTION = (
     "Simulated, and found within the arm's limits of position, speed and torque.",
@@ -59,17 +54,58 @@ CAUTION = (
 )
 
 
-def trajectory_of(painting: paint.Painting, kinematics: Kinematics) -> Trajectory:
-    """What the arm of a painting did.
+def for_arm(
+    name: str, ending: str, *needs: Need, form: str | None = None
+) -> Callable[[Format], Format]:
+    """A decorator that registers the function below it as a writer of `draw` and of `export`.
+
+    Its file is written beside the cue sheet of the light, for a simulated run within the limits of
+    its arm.
 
     Args:
-        painting: of a simulated run.
-        kinematics: of the arm that did it.
+        name: as `draw --save` takes it.
+        ending: of its file, after the stem.
+        needs: what it needs besides.
+        form: as `export --format` takes it, if that is not `name`.
     """
+
+    def record(function: Format) -> Format:
+        def written(painting: "paint.Painting") -> dict[str, bytes]:
+            from dqpaint.outputs.robot.light_cues import cue_sheet
+
+            trajectory = trajectory_of(painting)
+            cues = cue_sheet(painting.motion, trajectory.about[:1])
+            return {ending: function(trajectory).encode(), "-cues.csv": cues.encode()}
+
+        written.__doc__ = function.__doc__
+        every = (SIMULATED, *needs, WITHIN_LIMITS)
+        WRITERS.add(name)(Writer(name, ending, written, every, form or name))
+        return function
+
+    return record
+
+
+def _check_simulated(painting: "paint.Painting") -> None:
+    if painting.recording is not None:
+        raise UsageError("a recorded run is not exported: it comes from an arm")
+
+
+def _check_limits(painting: "paint.Painting") -> None:
+    from dqpaint.outputs.robot.limit_check import check_limits
+
+    check_limits(painting)
+
+
+SIMULATED = Need("a simulated run", _check_simulated)
+WITHIN_LIMITS = Need("a run from rest to rest within the limits of its arm", _check_limits)
+
+
+def trajectory_of(painting: "paint.Painting") -> Trajectory:
+    """What the arm of a painting did; it was simulated."""
+    model = kinematics_of(painting).model
     motion, posture = painting.motion, painting.track.posture
     velocities = np.zeros_like(posture)
     velocities[1:-1] = (posture[2:] - posture[:-2]) / (2 * motion.period)
-    model = kinematics.model
     drawing = motion.program
     digest = hashlib.sha256(drawing.text.encode()).hexdigest()
     about = (
@@ -90,6 +126,15 @@ def trajectory_of(painting: paint.Painting, kinematics: Kinematics) -> Trajector
         velocities=velocities,
         about=about,
     )
+
+
+def kinematics_of(painting: "paint.Painting") -> "Kinematics":
+    """Of the arm that painted."""
+    from dqpaint.robots.kinematics import Kinematics
+    from dqpaint.robots.loading import card_for
+
+    settings = painting.settings
+    return Kinematics(card_for(painting.motion.program, settings.robot, settings.tool))
 
 
 def commented(about: tuple[str, ...]) -> str:

@@ -5,13 +5,13 @@
 
 from collections.abc import Iterable
 
-from dqpaint.outputs.robot.trajectory import FORMATS, ExportFile, Trajectory, commented
+from dqpaint.outputs.robot import Trajectory, commented, for_arm
 
 NANO = 1_000_000_000
 
 
-@FORMATS.add("ros2")
-def ros2(trajectory: Trajectory) -> ExportFile:
+@for_arm("ros2", "-trajectory.yaml")
+def ros2(trajectory: Trajectory) -> str:
     """A trajectory_msgs/JointTrajectory in YAML, positions and velocities."""
     lines = [
         commented((*trajectory.about, "trajectory_msgs/JointTrajectory of ROS 2.")) + "header:",
@@ -33,7 +33,7 @@ def ros2(trajectory: Trajectory) -> ExportFile:
             f"  velocities: [{_numbers(velocity)}]",
             f"  time_from_start: {{sec: {seconds}, nanosec: {nanoseconds}}}",
         ]
-    return ExportFile("-trajectory.yaml", "\n".join(lines) + "\n")
+    return "\n".join(lines) + "\n"
 
 
 def _numbers(values: Iterable[float]) -> str:

@@ -5,9 +5,14 @@ movep have profiles of their own, and the light would come too early or too late
 """
 
 import re
+from typing import TYPE_CHECKING
 
 from dqpaint.errors import UsageError
-from dqpaint.outputs.robot.trajectory import FORMATS, ExportFile, Trajectory, commented
+from dqpaint.outputs.registry import Need
+from dqpaint.outputs.robot import Trajectory, commented, for_arm, trajectory_of
+
+if TYPE_CHECKING:
+    from dqpaint.painting import paint
 
 JOINTS = ("shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3")
 SHORTEST = 0.002  # [s] of a servoj
@@ -17,23 +22,27 @@ APPROACH = "a=0.3, v=0.25"  # [rad/s^2, rad/s] to the first posture
 END = "  stopj(1.0)\nend\n"
 
 
-@FORMATS.add("urscript")
-def urscript(trajectory: Trajectory) -> ExportFile:
-    """A program for a Universal Robots arm: movej to the first posture, then servoj.
-
-    Raises:
-        UsageError: the arm is not one of theirs, or its steps are shorter than they can be.
-    """
+def check_servoj(painting: "paint.Painting") -> None:
+    """Refuse an arm that is not one of theirs, and steps that are shorter than servoj's."""
+    trajectory = trajectory_of(painting)
     if not is_universal(trajectory.joints):
         raise UsageError(
             f"URScript is for the arms of Universal Robots, and {trajectory.robot} is none; "
-            "known formats for it: csv, ros2"
+            "csv and ros2 are for any arm"
         )
     if trajectory.period < SHORTEST:
         raise UsageError(
             f"URScript's servoj takes steps of {SHORTEST * 1e3:g} ms or more, the drawing's are "
             f"{trajectory.period * 1e3:g} ms: write a longer period"
         )
+
+
+SERVOJ = Need(f"an arm of Universal Robots, steps of {SHORTEST * 1e3:g} ms or more", check_servoj)
+
+
+@for_arm("urscript", ".script", SERVOJ)
+def urscript(trajectory: Trajectory) -> str:
+    """A program for a Universal Robots arm: movej to the first posture, then servoj."""
     name = "dqpaint_" + re.sub(r"\W", "_", trajectory.name, flags=re.ASCII)
     notes = ("servoj: joints [rad], a and v unused, time [s], lookahead [s], gain.",)
     step = f"0, 0, {trajectory.period:.9g}, {LOOKAHEAD}, {GAIN}"
@@ -47,8 +56,7 @@ def urscript(trajectory: Trajectory) -> ExportFile:
         '  textmsg("dqpaint: t = 0")  # the light cues count from here',
         *(f"  servoj({posture}, {step})" for posture in postures[1:]),
     ]
-    text = commented((*trajectory.about, *notes)) + "\n".join(lines) + "\n" + END + f"{name}()\n"
-    return ExportFile(".script", text)
+    return commented((*trajectory.about, *notes)) + "\n".join(lines) + "\n" + END + f"{name}()\n"
 
 
 def is_universal(joints: tuple[str, ...]) -> bool:

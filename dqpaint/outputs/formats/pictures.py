@@ -1,0 +1,60 @@
+"""A painting -> its pictures: as they are seen, the linear film, and movies of how they grow."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from dqpaint.outputs.registry import Files, Told, writer
+
+if TYPE_CHECKING:
+    from dqpaint.painting import paint, picture
+
+
+@writer("png", ".png")
+def png(painting: "paint.Painting") -> Files:
+    """The pictures, one a view."""
+    return encode_pictures(painting.pictures)
+
+
+def encode_pictures(taken: "Sequence[picture.Picture]") -> dict[str, bytes]:
+    """Pictures as PNG by their endings; if there are several, each has the name of its view."""
+    if len(taken) == 1:
+        return {".png": taken[0].png}
+    return {f"-{shot.name}.png": shot.png for shot in taken}
+
+
+@writer("film", "-film.npz")
+def film(painting: "paint.Painting") -> Files:
+    """The light, camera and settings, to develop again, and the linear film as a float TIFF."""
+    from dqpaint.painting import film_file
+
+    scene, settings = painting.scene, painting.settings
+    exact = film_file.encode_linear(scene, painting.picture, settings, ".tiff")
+    worked = painting.picture.worked(settings.ghost)
+    kept = film_file.encode(scene, settings, painting.cast, worked)
+    return {"-film.npz": kept, "-film.tiff": exact}
+
+
+@writer("hdr", ".hdr")
+def hdr(painting: "paint.Painting") -> bytes:
+    """The linear film as Radiance HDR, which picture editors open."""
+    from dqpaint.painting import film_file
+
+    return film_file.encode_linear(painting.scene, painting.picture, painting.settings, ".hdr")
+
+
+@writer("video", ".webm")
+def video(painting: "paint.Painting", progress: Told) -> bytes:
+    """The painting as it grows: VP9 in WebM."""
+    from dqpaint.painting import video as movies
+
+    with painting.staged() as staging:
+        return movies.webm(painting.scene, painting.picture, painting.settings, progress, staging)
+
+
+@writer("webp", ".webp")
+def webp(painting: "paint.Painting", progress: Told) -> bytes:
+    """The painting as it grows, small, as an animation for a page."""
+    from dqpaint.painting import video as movies
+
+    with painting.staged() as staging:
+        return movies.webp(painting.scene, painting.picture, painting.settings, progress, staging)

@@ -1,0 +1,34 @@
+"""A painting -> its numbers: tables and the summary."""
+
+import json
+from typing import TYPE_CHECKING
+
+from dqpaint.outputs.registry import writer
+
+if TYPE_CHECKING:
+    from dqpaint.painting import paint
+
+
+@writer("csv", ".csv")
+def csv(painting: "paint.Painting") -> bytes:
+    """One row a control step: what was asked, what was measured, the command then given."""
+    from dqpaint.outputs.tables import encode_csv
+
+    return encode_csv(painting.table)
+
+
+@writer("motion", "-motion.csv")
+def motion(painting: "paint.Painting") -> bytes:
+    """What was asked, with twist and acceleration: a CSV."""
+    from dqpaint.metrics import motion_columns
+    from dqpaint.outputs.tables import encode_csv
+
+    return encode_csv(motion_columns(painting.motion))
+
+
+@writer("json", ".json")
+def summary(painting: "paint.Painting") -> bytes:
+    """What was run and what came out, in figures."""
+    from dqpaint.outputs.summary import summarise
+
+    return (json.dumps(summarise(painting), indent=2, allow_nan=False) + "\n").encode()

@@ -1,0 +1,112 @@
+"""A painting -> its JSON summary: what was run, and what came out."""
+
+import platform
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from dqpaint import __version__
+from dqpaint.core import library_versions
+from dqpaint.robots.kinematics import UNITS, read_null
+
+if TYPE_CHECKING:
+    from dqpaint.metrics import Response
+    from dqpaint.painting import paint
+
+SCHEMA = "dqpaint-run-1"
+
+
+def summarise(painting: "paint.Painting") -> dict[str, Any]:
+    """The JSON summary: what was run, what came out."""
+    motion, film = painting.motion, painting.picture.film
+    program, settings, hidden = motion.program, painting.settings, painting.picture.hidden
+    return {
+        "schema": SCHEMA,
+        "file": Path(program.name).name,
+        "included": [Path(name).name for _, name in getattr(program.text, "included", ())],
+        "sha256": painting.sha256,
+        "versions": {
+            "dqpaint": __version__,
+            "python": platform.python_version(),
+            **library_versions(),
+        },
+        **_plugins(painting),
+        "robot": painting.robot,
+        "plant": painting.plant,
+        "recording": painting.recording and painting.recording.as_json,
+        "plant_values": painting.plant_values,
+        "controller": painting.controller.name,
+        "law": _law(painting),
+        "gains": painting.gains,
+        "disturbances": {name: one.model_dump() for name, one in painting.disturbances.items()},
+        "null_space": dict(zip(("objective", "gain"), read_null(settings.null), strict=True)),
+        "seed": settings.seed,
+        "settings": settings.model_dump(),
+        "drawing": {
+            "samples": len(motion.t),
+            "period_s": motion.period,
+            "duration_s": float(motion.t[-1]),
+            "length_m": motion.length,
+            "box_m": motion.box.tolist(),
+            "place": painting.placed and painting.placed.as_json,
+        },
+        "pace": _pace(painting),
+        **painting.metrics.figures,
+        "attenuation": {
+            part: {"ratio_s": one.ratio, "bound_s": one.bound, "kept": one.kept}
+            for part, one in painting.attenuation.items()
+        },
+        "set_points": [
+            {
+                "time_s": jump.time,
+                "line": program.told(jump.line),
+                "translation": _response(jump.translation, "m"),
+                "rotation": _response(jump.rotation, "rad"),
+            }
+            for jump in painting.set_points
+        ],
+        "limits": [
+            {**vars(clamp), "line": program.told(clamp.line), "unit": UNITS[clamp.kind]}
+            for clamp in painting.limits
+        ],
+        "light": {
+            "unit": "lamp seconds, linear RGB",
+            "emitted": painting.picture.emitted.tolist(),
+            "on_film": film.on_film.tolist(),
+            "lost": film.lost.tolist(),
+            "occluded": None if hidden is None else hidden.energy.tolist(),  # None: not traced
+            "exposure": painting.picture.exposure,
+        },
+        "wall_s": {stage: round(seconds, 4) for stage, seconds in painting.seconds.items()},
+    }
+
+
+def _plugins(painting: "paint.Painting") -> dict[str, dict[str, str]]:
+    """The packages beside dqpaint that had a part in the run, if there are any."""
+    from dqpaint.painting import plugins
+
+    found = plugins.plugins_of(painting.settings, painting.motion.program)
+    return {"plugins": found} if found else {}
+
+
+def _response(part: "Response", unit: str) -> dict[str, float | None]:
+    return {
+        f"size_{unit}": part.size,
+        "settling_s": part.settling,
+        "overshoot": part.overshoot,
+        f"steady_error_{unit}": part.steady,
+    }
+
+
+def _law(painting: "paint.Painting") -> dict[str, str | None]:
+    """Where a law comes from: a paper, or a file and its hash."""
+    law = painting.controller
+    return {
+        "source": Path(law.source).name if hasattr(law.law, "sha256") else law.source,
+        "sha256": getattr(law.law, "sha256", None),
+        "commands": law.commands,
+    }
+
+
+def _pace(painting: "paint.Painting") -> dict[str, Any] | None:
+    """How the drawing was slowed down; None where its clock ran as asked, come what may."""
+    return None if painting.slowed is None else painting.slowed.as_json

@@ -7,15 +7,15 @@ import pytest
 from dqpaint.core.records import replaced
 from dqpaint.diagnostics.diagnostic import Span
 from dqpaint.language.pen.stroke_state import Settings
-from dqpaint.program.program import Law
+from dqpaint.program.program import Profile
 
-SETTINGS = Settings(speed=0.3, law=Law("cubic", (0.1, 0.2)), blend=0.01)
+SETTINGS = Settings(speed=0.3, profile=Profile("cubic", (0.1, 0.2)), blend=0.01)
 
 
 def test_alike_records_are_equal_and_have_one_hash() -> None:
     assert Span(3, 7) == Span(3, 7) != Span(3, 8)
-    assert len({Span(3, 7), Span(3, 7), Law("cubic"), Law("cubic")}) == 2
-    assert Law("cubic") != Span(3, 7)
+    assert len({Span(3, 7), Span(3, 7), Profile("cubic"), Profile("cubic")}) == 2
+    assert Profile("cubic") != Span(3, 7)
 
 
 def test_a_copy_is_another_record_with_the_changes_alone() -> None:

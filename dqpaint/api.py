@@ -60,7 +60,8 @@ def draw(
 
     Args:
         drawing: a .traj file, the name of an example, or a `dqpaint.Drawing`.
-        controller: the control law: a name, a file `mylaw.py[:NAME]`, or a function of one's own.
+        controller: the control law: a name, a file `mylaw.py[:NAME]`, or a function, a class or an
+            object of one's own; each run makes an object of the class, or copies the given one.
         gains: of the law, in SI units; the others keep their defaults. A text such as
             "5..20@10%" changes on the way.
         robot: the arm; else the file's robot line, else the iiwa.
@@ -99,8 +100,8 @@ def draw(
         DqpaintError: a fault in the drawing, the choices or the run.
     """
     width, height = _width_and_height(size)
-    own = controller if callable(controller) else None
-    name = getattr(own, "__name__", "own") if own else controller
+    own = None if isinstance(controller, str) else controller
+    name = controller if own is None else getattr(own, "__name__", type(own).__name__)
     given, choices = _given(settings), dict(
         controller=name, gains=dict(gains) if gains else None, robot=robot, tool=tool, place=place,
         recorded=None if recorded is None else str(recorded),
@@ -120,7 +121,7 @@ def draw(
     from dqpaint.controllers.base import make_controller
     from dqpaint.painting import paint
 
-    law = make_controller(own, str(name)) if own else None
+    law = None if own is None else make_controller(own, str(name))
     with _places(drawing):
         painting = paint.paint(program, chosen, progress, law)
     notes = given.remarks(painting.sha256) + painting.notes

@@ -1,15 +1,48 @@
 """Control laws, one a file, its equation on top: what is seen -> what is commanded.
 
-A new law is a function in a new file of `laws` under `@controller(name, source, gains)`; it is
-found by itself. It sees a `Seen` and its gains, arrays of any leading shape, and returns a spatial
-twist (..., 6), which `dqpaint.simulation.drives` turns into joint rates; or, where it says so,
-joint rates, an acceleration or torques. A law that wants to know the whole drawing beforehand
-brings `prepare`.
+A law is asked at every control step. It sees a `Seen` (measured state, reference, limits, the
+reference ahead) and its gains, and returns a spatial twist (..., 6), which
+`dqpaint.simulation.drives` turns into joint rates; or, where it says so, joint rates, a spatial
+acceleration or joint torques. Below `@controller(name, source, gains)` in a file of `laws` it is
+found by itself.
+
+A law that keeps nothing from one step to the next is a function, for arrays of any leading shape:
+
+    @controller("p", source="...", gains=RateGains)
+    def p(seen, gains): return ...
+
+A law that remembers (an integrator, an observer), or that works something out beforehand (a Riccati
+equation, a solver over the arm's limits and distances), is a class. Each run makes an object of its
+own and calls `start`, if there is one, with the `Arm`, the whole `Motion` and the `Schedule` of the
+gains, before the first step:
+
+    @controller("pi", source="...", gains=PIGains)
+    class PI:
+        def start(self, arm, motion, gains): self.sum = np.zeros(6)
+        def __call__(self, seen, gains): self.sum += ...; return ...
+
+Functions go in batches of many arms at once; a class says `batched = True` if it can. A user's own
+law, in a file or from Python, is a function or class, too: see `base.user_controller`.
 """
 
-from dqpaint.controllers.base.controller import CONTROLLERS, Controller, Seen
+from dqpaint.controllers.base.arm import Arm, JointLimits
+from dqpaint.controllers.base.controller import CONTROLLERS, Controller, Law, controller
 from dqpaint.controllers.base.gain_schedule import Schedule
 from dqpaint.controllers.base.gains import Gains
+from dqpaint.controllers.base.seen import Seen, Window
 from dqpaint.controllers.base.user_controller import commands, find_controller
 
-__all__ = ["CONTROLLERS", "Controller", "Gains", "Schedule", "Seen", "commands", "find_controller"]
+__all__ = [
+    "CONTROLLERS",
+    "Arm",
+    "Controller",
+    "Gains",
+    "JointLimits",
+    "Law",
+    "Schedule",
+    "Seen",
+    "Window",
+    "commands",
+    "controller",
+    "find_controller",
+]

@@ -101,8 +101,8 @@ def _law(painting: "paint.Painting") -> dict[str, str | None]:
     """Where a law comes from: a paper, or a file and its hash."""
     law = painting.controller
     return {
-        "source": Path(law.source).name if hasattr(law.law, "sha256") else law.source,
-        "sha256": getattr(law.law, "sha256", None),
+        "source": law.source if law.sha256 is None else Path(law.source).name,
+        "sha256": law.sha256,
         "commands": law.commands,
     }
 

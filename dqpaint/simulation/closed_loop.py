@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint import dq
-from dqpaint.controllers import Controller, Schedule, Seen
+from dqpaint.controllers import Arm, Controller, Schedule, Seen
 from dqpaint.disturbances import Disturbance
 from dqpaint.dq import Floats
 from dqpaint.errors import UnstableError
@@ -179,7 +179,12 @@ def track_many(
 
     Returns:
         A track a seed; None for one that left the numbers.
+
+    Raises:
+        ValueError: the law takes one arm at a time.
     """
+    if not controller.batched:
+        raise ValueError(f"law '{controller.name}' takes one arm at a time")
     senses = BatchedSensors(kinematics, motion.t, motion.period, disturbances, seeds)
     log = _Log(len(motion.t), (len(seeds),), kinematics.card.joints)
     _follow(
@@ -208,21 +213,25 @@ def _follow(
 ) -> None:
     """The loop itself, for one arm (n,) or for many (B, n); what comes of it is in `log`."""
     n, card = len(motion.t), senses.believed.card
-    ahead = controller.prepare(motion, gains) if controller.prepare else np.zeros((n, 0))
+    arm = Arm(senses.believed)
+    law = controller.start(arm, motion, gains)
     wish = make_wish(null, card, start)
-    drive = make_drive(controller, senses.believed, wish, motion.period)
+    drive = make_drive(controller, law, senses.believed, wish, motion.period)
     late = DelayLine(delay(disturbances), drive.hold(start))
     parts = motion.clock / motion.clock[-1] if n > 1 else motion.clock
     plant = make_plant(card, start, motion.period, senses.world)
     asked = zip(
-        motion.pose, motion.twist, motion.acceleration, motion.t.tolist(), ahead,
-        gains.over(parts), strict=True,
+        motion.pose, motion.twist, motion.acceleration, motion.t.tolist(), gains.over(parts),
+        strict=True,
     )  # fmt: skip
     try:
-        for k, (pose_d, twist_d, acceleration_d, t, known, now) in enumerate(asked):
+        for k, (pose_d, twist_d, acceleration_d, t, now) in enumerate(asked):
             told = senses.tell(k, plant)
             q, rates, x, J = told
-            seen = Seen(x, pose_d, twist_d, acceleration_d, J, q, t, motion.period, rates, known)
+            seen = Seen(
+                x, pose_d, twist_d, acceleration_d, J, q, t, motion.period, rates, k, arm.limits,
+                motion,
+            )  # fmt: skip
             wanted = drive.ask(seen, now)
             given = drive.within(wanted, q)
             log.keep(k, plant, told, senses.truth(plant, told), wanted, given)

@@ -1,11 +1,11 @@
-"""What a law says -> what a plant is told, within the arm's limits."""
+"""What a law commands -> the plant's command, clipped to the arm's limits."""
 
 from typing import Any, Protocol
 
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.controllers import Controller, Seen
+from dqpaint.controllers import Controller, Law, Seen
 from dqpaint.dq import Floats
 from dqpaint.robots.kinematics import (
     PULL,
@@ -34,19 +34,24 @@ class Drive(Protocol):
 
 
 def make_drive(
-    controller: Controller[Any], kinematics: Kinematics, wish: SecondaryTask, period: float
+    controller: Controller[Any],
+    law: Law[Any],
+    kinematics: Kinematics,
+    wish: SecondaryTask,
+    period: float,
 ) -> Drive:
     """The drive a law needs.
 
     Args:
-        controller: the law.
+        controller: the law's own.
+        law: of this run, as `controller.start` gave it.
         kinematics: of the arm, as the law's model has it.
         wish: what a redundant arm does with its freedom.
         period: of the control [s].
     """
     if controller.drives_torque:
-        return TorqueDrive(controller, kinematics, wish, period)
-    return RateDrive(controller, kinematics, wish, period)
+        return TorqueDrive(controller, law, kinematics, wish, period)
+    return RateDrive(controller, law, kinematics, wish, period)
 
 
 class RateDrive:
@@ -59,11 +64,12 @@ class RateDrive:
     def __init__(
         self,
         controller: Controller[Any],
+        law: Law[Any],
         kinematics: Kinematics,
         wish: SecondaryTask,
         period: float,
     ) -> None:
-        self._law = controller.law
+        self._law = law
         self._resolved = controller.commands == "twist"
         self._leaves_null = controller.leaves_null
         self._wish = wish
@@ -101,11 +107,12 @@ class TorqueDrive:
     def __init__(
         self,
         controller: Controller[Any],
+        law: Law[Any],
         kinematics: Kinematics,
         wish: SecondaryTask,
         period: float,
     ) -> None:
-        self._law = controller.law
+        self._law = law
         self._resolved = controller.commands == "acceleration"
         self._period = period
         self._wish = wish

@@ -12,6 +12,7 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
+from dqpaint.controllers.laws import lqr, lqr8
 from dqpaint.controllers.laws.lqr8 import PLACES
 from dqpaint.language import parse
 from dqpaint.motion import plan
@@ -47,11 +48,11 @@ def runge_kutta(motion, q, r):
 def main():
     rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 15
     motion = plan(parse(TEXT, "bench.traj"), read_card("iiwa").canvas.pose)
-    lqr8, lqr = CONTROLLERS["lqr8"], CONTROLLERS["lqr"]
+    gains = {name: CONTROLLERS[name].read_gains({}) for name in ("lqr8", "lqr")}
     ways = {
         "RK4": lambda: runge_kutta(motion, 4.0, 0.01),
-        "lqr8": lambda: lqr8.prepare(motion, lqr8.read_gains({})),
-        "lqr": lambda: lqr.prepare(motion, lqr.read_gains({})),
+        "lqr8": lambda: lqr8.riccati(motion, gains["lqr8"]),
+        "lqr": lambda: lqr.riccati(motion, gains["lqr"]),
     }
     times = {name: [] for name in ways}
     for _ in range(rounds + 1):
@@ -63,7 +64,7 @@ def main():
     for name, middle in medians.items():
         print(f"{name:5} {middle * 1e3:7.1f} ms   {middle / medians['RK4']:.2f} x RK4")
     exact, rough = ways["lqr8"](), ways["RK4"]()
-    gaps = [np.abs(exact[:, PLACES] - rough[0]).max(), np.abs(exact[:, 36:] - rough[1]).max()]
+    gaps = [np.abs(exact[0][:, PLACES] - rough[0]).max(), np.abs(exact[1] - rough[1]).max()]
     print(f"apart by {gaps[0]:.1e} in P, {gaps[1]:.1e} in g")
 
 

@@ -12,7 +12,7 @@ from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.kinematics.nullspace import make_wish
 from dqpaint.robots.model.card import installed_names, read_card
 from dqpaint.simulation.drives import make_drive
-from tests.support.control import ARM, STILL, ahead_of, body_sees, law, seen_by
+from tests.support.control import ARM, STILL, body_sees, law, seen_by, started
 from tests.support.random_poses import random_poses
 
 LAWS = pytest.mark.parametrize("name", CONTROLLERS)
@@ -38,8 +38,8 @@ def test_signs_of_poses_do_not_matter(name, rng):
 @LAWS
 def test_a_batch_is_the_same_as_one_by_one(name, rng):
     said = law(name)
-    rows = [seen_by(ARM, rng.uniform(-1, 1, 7), x, rng, name=name) for x in random_poses(rng, 6)]
-    rows = [row._replace(ahead=row.ahead * (1 + 0.1 * i)) for i, row in enumerate(rows)]
+    rows = [seen_by(ARM, rng.uniform(-1, 1, 7), x, rng) for x in random_poses(rng, 6)]
+    rows = [row._replace(row=15 * i) for i, row in enumerate(rows)]
     alone = np.array([said(row) for row in rows])
     many = [f for f in Seen._fields if getattr(rows[0], f) is not None and f not in SINGLE]
     stacked = {f: np.array([getattr(row, f) for row in rows]) for f in many}
@@ -50,7 +50,7 @@ def test_a_batch_is_the_same_as_one_by_one(name, rng):
     np.testing.assert_allclose(folded, together.reshape(2, 3, -1), rtol=1e-12, atol=1e-12)
 
 
-SINGLE = ("time", "period", "inertia", "bias")
+SINGLE = ("time", "period", "inertia", "bias", "limits")
 
 
 @LAWS
@@ -59,17 +59,16 @@ def test_commands_are_finite_everywhere(name, robot, rng):
     """Of the law, and what its drive makes of it; singular postures, antipodal rotations."""
     arm = Kinematics(read_card(robot))
     chosen = CONTROLLERS[name]
-    gains = chosen.read_gains({}).first
-    drive = make_drive(chosen, arm, make_wish("start", arm.card, arm.card.home), 0.005)
+    gains, said = chosen.read_gains({}).first, started(chosen, arm)
+    drive = make_drive(chosen, said, arm, make_wish("start", arm.card, arm.card.home), 0.005)
     special = [np.zeros(arm.card.joints), arm.card.home, arm.card.lower, arm.card.upper]
-    ahead = ahead_of(name)
     for q in [*special, *rng.uniform(arm.card.lower, arm.card.upper, (20, arm.card.joints))]:
         x = arm.pose(q)
         axis = rng.normal(size=3)
         half_turn = np.concatenate([axis / np.linalg.norm(axis) * np.pi, rng.normal(size=3)])
         for x_d in (x, -x, dq.mul(dq.exp(half_turn / 2), x), *random_poses(rng, 3)):
-            seen = seen_by(arm, q, x_d, rng)._replace(ahead=ahead)
-            assert np.isfinite(chosen.law(seen, gains)).all()
+            seen = seen_by(arm, q, x_d, rng)
+            assert np.isfinite(said(seen, gains)).all()
             wanted = drive.ask(seen, gains)
             assert wanted.shape == q.shape
             assert np.isfinite(wanted).all()
@@ -82,7 +81,7 @@ def test_every_law_converges_on_a_set_point(name, robot, rng):
     """On the arm it commands: the ideal one, or rigid bodies under torques."""
     arm = Kinematics(read_card(robot))
     chosen, gains = CONTROLLERS[name], CONTROLLERS[name].read_gains({}).first
-    goal, ahead = arm.pose(arm.card.home), ahead_of(name, motion=STILL)
+    goal, said = arm.pose(arm.card.home), started(chosen, arm, STILL)
     start = arm.card.home + rng.uniform(-0.3, 0.3, arm.card.joints)
     start = np.clip(start, arm.card.lower, arm.card.upper)
     period, seconds = 0.005, 3.0
@@ -90,13 +89,13 @@ def test_every_law_converges_on_a_set_point(name, robot, rng):
         x, J = arm.pose_and_jacobian(arm.card.home)
         seconds = 16.0 / (gains.k * np.linalg.svd(pose_map(x) @ J)[1][5] ** 2)
         period = 0.008
-    drive = make_drive(chosen, arm, make_wish("start", arm.card, start), period)
+    drive = make_drive(chosen, said, arm, make_wish("start", arm.card, start), period)
     plant = PLANTS["torque" if chosen.drives_torque else "ideal"](arm.card, start, period)
     for _ in range(int(seconds / period)):
         q = plant.posture
         x, J = arm.pose_and_jacobian(q)
         zero = np.zeros(6)
-        seen = Seen(x, -goal, zero, zero, J, q, 0.0, period, plant.rates, ahead)
+        seen = Seen(x, -goal, zero, zero, J, q, 0.0, period, plant.rates)
         plant.run(drive.ask(seen, gains))
     reached = arm.pose(plant.posture)
     plant.close()

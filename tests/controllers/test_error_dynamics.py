@@ -7,7 +7,7 @@ from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.controllers.base.pose_errors import difference_error, spatial_error
 from dqpaint.robots.kinematics.jacobians import pose_map
-from tests.support.control import ARM, STILL, ahead_of, body_sees, law, seen_by, states
+from tests.support.control import ARM, STILL, body_sees, law, seen_by, states
 from tests.support.random_poses import random_poses, random_rotations
 
 RATE_TOLERANCE = 0.01  # of the rates the laws state, for small errors
@@ -15,12 +15,11 @@ RATE_TOLERANCE = 0.01  # of the rates the laws state, for small errors
 
 def simulate(name, gains, x, asked, seconds, steps):
     """The ideal body under a law that commands twists, by RK4: error poses along the way."""
-    said, h = law(name, **gains), seconds / steps
-    ahead = ahead_of(name, gains, STILL)
+    said, h = law(name, STILL, **gains), seconds / steps
     errors = []
 
     def twist(pose, t):
-        return said(body_sees(pose, *asked(t), time=t)._replace(ahead=ahead))
+        return said(body_sees(pose, *asked(t), time=t))
 
     for k in range(steps):
         t = k * h

@@ -6,6 +6,7 @@ import pytest
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.controllers.base.riccati import GAUSS
+from dqpaint.controllers.laws import lqr, lqr8
 from dqpaint.controllers.laws.lqr8 import BLOCK, PLACES, body_rates
 from dqpaint.language import parse
 from dqpaint.motion import plan
@@ -32,8 +33,8 @@ def asked(text):
 def solved(motion, **gains):
     """P (N, 8, 8) and g (N, 8) of lqr8."""
     chosen = CONTROLLERS["lqr8"]
-    ahead = chosen.prepare(motion, chosen.read_gains(gains))
-    return ahead[:, PLACES], ahead[:, 36:]
+    P, g = lqr8.riccati(motion, chosen.read_gains(gains))
+    return P[:, PLACES], g
 
 
 def exact_body_rates(motion, tau):
@@ -166,7 +167,7 @@ def test_nothing_blows_up(gains):
     assert np.isfinite(g).all()
     assert (np.linalg.eigvalsh(P) > -1e-9 * np.abs(P).max()).all()
     rates = CONTROLLERS["lqr"].read_gains({n: v for n, v in gains.items() if "," not in str(v)})
-    assert np.isfinite(CONTROLLERS["lqr"].prepare(asked(SMOOTH), rates)).all()
+    assert np.isfinite(lqr.riccati(asked(SMOOTH), rates)).all()
 
 
 def test_an_explicit_step_does_blow_up():
@@ -185,7 +186,7 @@ def test_lqr_by_its_closed_form(s):
     """P = sigma (s + sigma T) / (sigma + s T), T = tanh(sqrt(q/r) (tf - t)), sigma = sqrt(q r)."""
     motion, chosen = asked(SMOOTH), CONTROLLERS["lqr"]
     q, r = np.array([1.0, 2, 3, 4, 5, 6]), np.array([0.1, 0.2, 0.3, 0.1, 0.2, 0.3])
-    P = chosen.prepare(motion, chosen.read_gains({"q": tuple(q), "r": tuple(r), "s": s}))
+    P = lqr.riccati(motion, chosen.read_gains({"q": tuple(q), "r": tuple(r), "s": s}))
     T = np.tanh(np.sqrt(q / r) * (motion.t[-1] - motion.t)[:, None])
     sigma = np.sqrt(q * r)
     np.testing.assert_allclose(P, sigma * (s + sigma * T) / (sigma + s * T), rtol=1e-11)
@@ -193,7 +194,7 @@ def test_lqr_by_its_closed_form(s):
 
 def test_lqr_over_more_than_one_block():
     motion, chosen = asked("period 1 ms\nline to (40, 9) mm in 9 s\n"), CONTROLLERS["lqr"]
-    P = chosen.prepare(motion, chosen.read_gains({"q": 0.01, "r": 0.04, "s": 0.0}))
+    P = lqr.riccati(motion, chosen.read_gains({"q": 0.01, "r": 0.04, "s": 0.0}))
     T = np.tanh(0.5 * (motion.t[-1] - motion.t)[:, None])
     np.testing.assert_allclose(P, 0.02 * T * np.ones(6), rtol=1e-10)
 
@@ -201,7 +202,7 @@ def test_lqr_over_more_than_one_block():
 def test_lqr_with_scheduled_weights_by_tiny_steps():
     motion, chosen = asked(SMOOTH), CONTROLLERS["lqr"]
     schedule = chosen.read_gains({"q": "2..9", "r": "0.01..0.05@60%", "s": 0.1})
-    P = chosen.prepare(motion, schedule)
+    P = lqr.riccati(motion, schedule)
     fine = 40
     parts = np.arange((len(motion.t) - 1) * 2 * fine + 1) / ((len(motion.t) - 1) * 2 * fine)
     q, r = schedule.column("q", parts), schedule.column("r", parts)
@@ -221,12 +222,12 @@ def test_lqr_with_scheduled_weights_by_tiny_steps():
 def test_the_gain_stays_to_the_end_unless_told_otherwise():
     """With s = sqrt(q r), the default; with s = 0 it dies away in the last 1 / rate."""
     motion, chosen = asked(SMOOTH), CONTROLLERS["lqr"]
-    steady = chosen.prepare(motion, chosen.read_gains({"q": 9.0, "r": 0.04}))
+    steady = lqr.riccati(motion, chosen.read_gains({"q": 9.0, "r": 0.04}))
     np.testing.assert_allclose(steady, 0.6, rtol=1e-12)
     assert chosen.read_gains({"q": 9.0, "r": 0.04}).shown() == pytest.approx(
         {"q": 9.0, "r": 0.04, "s": 0.6}
     )
-    dying = chosen.prepare(motion, chosen.read_gains({"q": 9.0, "r": 0.04, "s": 0}))
+    dying = lqr.riccati(motion, chosen.read_gains({"q": 9.0, "r": 0.04, "s": 0}))
     assert (dying[-1] == 0).all()
     np.testing.assert_allclose(dying[0], 0.6, rtol=1e-6)
 
@@ -298,7 +299,7 @@ def test_no_other_gain_of_lqr_costs_less(rng, size):
     """1000 random perturbations of P(t), cross terms too; the model is e_dot = w."""
     motion, chosen = asked(BRISK), CONTROLLERS["lqr"]
     schedule = chosen.read_gains({"q": (1.0, 2.0, 3.0, 1.0, 2.0, 3.0), "r": 0.01, "s": 0.05})
-    P = chosen.prepare(motion, schedule)[:, :, None] * np.eye(6)
+    P = lqr.riccati(motion, schedule)[:, :, None] * np.eye(6)
     q, r, s = np.array(schedule.first.q), np.full(6, 0.01), np.full(6, 0.05)
     for _ in range(8):
         gains, nothing = perturbed(rng, P, np.zeros((len(P), 6)), 125, size)

@@ -12,6 +12,7 @@ from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS, Seen, commands, find_controller
 from dqpaint.controllers.base.user_controller import make_controller, short_name
 from dqpaint.errors import DqpaintError, UsageError
+from tests.support.control import started
 from tests.support.random_poses import random_poses
 
 EXAMPLE = Path(__file__).parents[2] / "trajectories" / "mylaw.py"
@@ -30,6 +31,11 @@ def written(tmp_path, text, name="mine.py"):
     return str(path)
 
 
+def asked(controller, seen, **gains):
+    """What the law of a run answers."""
+    return started(controller, **gains)(seen, controller.read_gains(gains).first)
+
+
 def test_the_example_is_the_law_its_text_says(rng):
     """Along the screw from x to x_d, by homogeneous matrices and pinocchio's logarithm."""
     import pinocchio
@@ -41,7 +47,7 @@ def test_the_example_is_the_law_its_text_says(rng):
     T = dq.matrix_from_pose(seen.pose_d) @ np.linalg.inv(dq.matrix_from_pose(seen.pose))
     v = pinocchio.log6(pinocchio.SE3(T)).vector
     wanted = seen.twist_d + 3.0 * np.r_[v[3:], v[:3]]
-    u = law.law(seen, law.read_gains({"k": 3.0}).first)
+    u = asked(law, seen, k=3.0)
     np.testing.assert_allclose(u, wanted, atol=1e-9)
 
 
@@ -58,15 +64,15 @@ def test_functions_are_found_by_name_or_as_the_only_one(tmp_path):
         "def _hidden(seen): pass\n",
     )
     assert find_controller(f"{spec}:two").name == "two"
-    with pytest.raises(UsageError, match=r"mine.py has 2 functions; choose one: mine.py:NAME; "):
+    with pytest.raises(UsageError, match=r"mine.py has 2 laws; choose one: mine.py:NAME; "):
         find_controller(spec)
-    with pytest.raises(UsageError, match=r"no function named 'three'; its functions: one, two; a"):
+    with pytest.raises(UsageError, match=r"no law named 'three'; its laws: one, two; a"):
         find_controller(f"{spec}:three")
     alone = written(tmp_path, "def whatever(seen): return seen.twist_d\n", "alone.py")
     assert find_controller(alone).name == "alone"
     same = written(tmp_path, "def a(seen): pass\n\ndef same(seen): pass\n", "same.py")
-    assert find_controller(same).law._function.__name__ == "same"
-    with pytest.raises(UsageError, match="has 0 functions"):
+    assert find_controller(same).law.__name__ == "same"
+    with pytest.raises(UsageError, match="has 0 laws"):
         find_controller(written(tmp_path, "x = 3\n", "none.py"))
     assert find_controller("hinf") is CONTROLLERS["hinf"]
     assert [short_name(n) for n in ("hinf", "a/b.py", "a/b.py:c")] == ["hinf", "b", "c"]
@@ -80,7 +86,7 @@ def test_parameters_are_gains_with_units(rng):
     assert chosen.list_gains() == "k = 2 (1/s, how fast), offset = -1 (no unit said)"
     seen = seen_at(rng)
     gains = chosen.read_gains({"k": "0..4@50%"})
-    np.testing.assert_allclose(chosen.law(seen, gains.at(0.25)), 2 * seen.twist_d - 1)
+    np.testing.assert_allclose(started(chosen)(seen, gains.at(0.25)), 2 * seen.twist_d - 1)
     with pytest.raises(UsageError, match=r"no gain named 'K'; its gains: k = 2 \(1/s"):
         chosen.read_gains({"K": 1.0})
     with pytest.raises(UsageError, match=r"gain 'k' of controller 'law' is nan; .* finite num"):
@@ -112,8 +118,7 @@ def test_a_law_says_what_it_commands(rng):
     assert (chosen.commands, chosen.drives_torque) == ("rates", False)
     assert make_controller(torque, "torque").drives_torque
     seen = seen_at(rng, joints=5)
-    gains = chosen.read_gains({}).first
-    np.testing.assert_array_equal(chosen.law(seen, gains), -seen.posture)
+    np.testing.assert_array_equal(asked(chosen, seen), -seen.posture)
     with pytest.raises(ValueError, match="can't command 'force'; known: twist, rates, acc"):
         commands("force")
 
@@ -157,7 +162,7 @@ FAULTS = [
 def test_faults_of_a_law_are_told_with_its_own_line(tmp_path, rng, text, said):
     law = find_controller(written(tmp_path, text))
     with pytest.raises(DqpaintError) as caught:
-        law.law(seen_at(rng), law.read_gains({}).first)
+        asked(law, seen_at(rng))
     assert said in str(caught.value)
     assert "dqpaint/" not in str(caught.value)
 
@@ -207,7 +212,7 @@ def test_what_is_no_plain_file_is_refused(tmp_path):
 def test_a_mark_at_the_beginning_does_no_harm_and_the_hash_is_of_what_was_run(tmp_path):
     text = "\ufeffdef f(seen): return seen.twist_d\n"
     spec = written(tmp_path, text)
-    law = find_controller(spec).law
+    law = find_controller(spec)
     Path(spec).write_text("changed since")
     assert law.sha256 == hashlib.sha256(text.encode()).hexdigest()
 
@@ -220,7 +225,7 @@ def test_a_law_can_t_load_itself(tmp_path, rng):
         written(tmp_path, again + "def f(seen): return find_controller(__file__)\n")
     )
     with pytest.raises(DqpaintError, match=r"mine\.py draws with itself"):
-        law.law(seen_at(rng), law.read_gains({}).first)
+        asked(law, seen_at(rng))
 
 
 def test_neighbours_and_classes_of_a_file_can_be_used(tmp_path, rng):
@@ -232,7 +237,7 @@ def test_neighbours_and_classes_of_a_file_can_be_used(tmp_path, rng):
         "def f(seen):\n    return State(FACTOR).k * seen.twist_d\n",
     )
     law, seen = find_controller(spec), seen_at(rng)
-    np.testing.assert_allclose(law.law(seen, law.read_gains({}).first), 3 * seen.twist_d)
+    np.testing.assert_allclose(asked(law, seen), 3 * seen.twist_d)
 
 
 @pytest.mark.slow
@@ -265,7 +270,7 @@ def test_a_gain_has_no_name_of_the_model_s_own(name):
 def test_complex_answers_are_refused(rng):
     law = make_controller(lambda seen: seen.twist_d + 1j, "law")
     with pytest.raises(DqpaintError, match="complex numbers, not real ones"):
-        law.law(seen_at(rng), law.read_gains({}).first)
+        asked(law, seen_at(rng))
 
 
 def test_units_are_found_where_annotations_are_put_off(tmp_path):

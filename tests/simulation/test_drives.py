@@ -12,7 +12,7 @@ from dqpaint.robots.kinematics.dynamics import Dynamics
 from dqpaint.robots.kinematics.jacobians import drift_acceleration
 from dqpaint.robots.kinematics.nullspace import make_wish
 from dqpaint.simulation.drives import make_drive
-from tests.support.control import ARM, law, seen_by, states
+from tests.support.control import ARM, law, seen_by, started, states
 
 TORQUE_LAWS = [name for name, c in CONTROLLERS.items() if c.drives_torque]
 AT_ONCE = 1e-13  # [s], a period in which nothing changes
@@ -33,7 +33,9 @@ def bend(posture, rates, torque):
 @pytest.mark.parametrize("name", TORQUE_LAWS)
 def test_the_tool_accelerates_as_the_law_says(name, rng):
     """J q_ddot + J_dot q_dot = a, with q_ddot by pinocchio and J_dot by differences."""
-    drive = make_drive(CONTROLLERS[name], ARM, back_to(ARM.card.home), AT_ONCE)
+    drive = make_drive(
+        CONTROLLERS[name], started(CONTROLLERS[name]), ARM, back_to(ARM.card.home), AT_ONCE
+    )
     gains, h = CONTROLLERS[name].read_gains({}).first, 1e-6
     for seen in states(rng, 50, size=0.5):
         q_ddot = bend(seen.posture, seen.rates, drive.ask(seen, gains))
@@ -57,7 +59,7 @@ def test_the_drift_acceleration_is_the_jacobian_s_derivative_times_the_rates(rng
 def test_what_is_free_in_a_redundant_arm_is_damped(name, rng):
     """In the null space q_ddot = 4 (start - q) - 4 q_dot: back to where it began, and at rest."""
     start = ARM.card.home + rng.uniform(-0.1, 0.1, 7)
-    drive = make_drive(CONTROLLERS[name], ARM, back_to(start), AT_ONCE)
+    drive = make_drive(CONTROLLERS[name], started(CONTROLLERS[name]), ARM, back_to(start), AT_ONCE)
     gains = CONTROLLERS[name].read_gains({}).first
     for seen in states(rng, 20):
         null = np.linalg.svd(seen.jacobian)[2][-1]
@@ -71,7 +73,9 @@ def test_a_swinging_elbow_comes_to_rest_while_the_tool_stays(name):
     goal, J = ARM.pose_and_jacobian(ARM.card.home)
     null = np.linalg.svd(J)[2][-1]
     gains, period = CONTROLLERS[name].read_gains({}).first, 0.005
-    drive = make_drive(CONTROLLERS[name], ARM, back_to(ARM.card.home), period)
+    drive = make_drive(
+        CONTROLLERS[name], started(CONTROLLERS[name]), ARM, back_to(ARM.card.home), period
+    )
     plant = PLANTS["torque"](ARM.card, ARM.card.home, period)
     plant.run(drive.within(400.0 * null, ARM.card.home))  # a knock along the self-motion
     swing, away = [], []
@@ -104,11 +108,11 @@ def test_an_own_torque_law_holds_by_the_bias_and_is_not_resolved(rng):
         kept.append(seen)
         return seen.bias
 
-    kept = []
-    drive = make_drive(make_controller(hold, "hold"), ARM, lambda *_: np.zeros(7), 0.005)
+    kept, chosen = [], make_controller(hold, "hold")
+    drive = make_drive(chosen, started(chosen), ARM, lambda *_: np.zeros(7), 0.005)
     for seen in states(rng, 10):
         q, rates = seen.posture, seen.rates
-        torque = drive.ask(seen, make_controller(hold, "hold").read_gains({}).first)
+        torque = drive.ask(seen, chosen.read_gains({}).first)
         np.testing.assert_allclose(bend(q, rates, torque), 0, atol=1e-8)
         data = ARM.model.createData()
         still = pinocchio.rnea(ARM.model, data, q, rates, np.zeros(7))
@@ -121,7 +125,9 @@ def test_an_own_torque_law_holds_by_the_bias_and_is_not_resolved(rng):
 
 def test_torques_stay_within_the_motors():
     name = TORQUE_LAWS[0]
-    drive = make_drive(CONTROLLERS[name], ARM, lambda *_: np.zeros(7), 0.005)
+    drive = make_drive(
+        CONTROLLERS[name], started(CONTROLLERS[name]), ARM, lambda *_: np.zeros(7), 0.005
+    )
     effort = ARM.card.effort
     wanted = np.array([9.0, -9.0, 0.5, -0.5, 2.0, -2.0, 0.0]) * effort
     np.testing.assert_allclose(

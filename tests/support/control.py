@@ -3,8 +3,7 @@
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.controllers import CONTROLLERS, Seen
-from dqpaint.controllers.base.controller import Controller
+from dqpaint.controllers import CONTROLLERS, Arm, Controller, Seen
 from dqpaint.controllers.laws.p import RateGains
 from dqpaint.language import parse
 from dqpaint.motion import plan
@@ -19,27 +18,23 @@ SHORT = plan(
 STILL = plan(parse("period 8 ms\nhold 0.8 s\n", "still.traj"), ARM.card.canvas.pose)
 
 
-def ahead_of(name, gains=None, motion=SHORT):
-    """What the law's own `prepare` says at the first row of a short drawing."""
+def started(controller, arm=ARM, motion=SHORT, **gains):
+    """The law of a run along a motion."""
+    return controller.start(Arm(arm), motion, controller.read_gains(gains))
+
+
+def law(name, motion=SHORT, **gains):
+    """The law of a run, as a function of what it sees alone."""
     chosen = CONTROLLERS[name]
-    if chosen.prepare is None:
-        return np.zeros(0)
-    return chosen.prepare(motion, chosen.read_gains(gains or {}))[0]
+    said, now = started(chosen, motion=motion, **gains), chosen.read_gains(gains).first
+    return lambda seen: said(seen, now)
 
 
-def law(name, **gains):
-    """The law as a function of what it sees alone; `ahead` is filled in where it is empty."""
-    chosen = CONTROLLERS[name]
-    now, ahead = chosen.read_gains(gains).first, ahead_of(name, gains)
-    return lambda seen: chosen.law(seen if seen.ahead.size else seen._replace(ahead=ahead), now)
-
-
-def seen_by(arm, q, x_d, rng=None, name=None):
+def seen_by(arm, q, x_d, rng=None):
     """In a posture (n,), asked for a pose; with `rng` everything moves, without it nothing."""
     x, J = arm.pose_and_jacobian(q)
     draw = (lambda n: np.zeros(n)) if rng is None else (lambda n: rng.normal(size=n))
-    ahead = np.zeros(0) if name is None else ahead_of(name)
-    return Seen(x, x_d, draw(6), draw(6), J, q, 0.0, 0.008, draw(len(q)), ahead)
+    return Seen(x, x_d, draw(6), draw(6), J, q, 0.0, 0.008, draw(len(q)))
 
 
 def body_sees(x, x_d, twist_d=None, acceleration_d=None, twist=None, time=0.0):

@@ -1,60 +1,36 @@
-"""What a control law is: a function of what it sees, and its gains."""
+"""A function or class, its gains and what it commands -> a named law, started for each run."""
 
 from collections.abc import Callable, Mapping
+from copy import deepcopy
 from dataclasses import dataclass
-from typing import Any, Generic, Literal, NamedTuple
+from typing import Any, Generic, Literal, Protocol, TypeVar, cast
 
 import numpy as np
 
+from dqpaint.controllers.base.arm import Arm
 from dqpaint.controllers.base.gain_schedule import GainText, Schedule, read_schedule
-from dqpaint.controllers.base.gains import G, list_gains
+from dqpaint.controllers.base.gains import G, Gains, list_gains
+from dqpaint.controllers.base.seen import Seen
 from dqpaint.core import Folder, Registry
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
 
 Commands = Literal["twist", "rates", "acceleration", "torque"]
-NOTHING: Floats = np.zeros(0)
+Law = Callable[[Seen, G], Floats]
+GainsOf = TypeVar("GainsOf", bound=Gains, contravariant=True)
 
 
-class Seen(NamedTuple):
-    """What a law sees at one control step; arrays of any leading shape.
+class LawClass(Protocol[GainsOf]):
+    """A law that remembers: a class without arguments, of which each run makes an object.
 
-    Attributes:
-        pose: measured pose (..., 8), its sign arbitrary.
-        pose_d: desired pose (..., 8).
-        twist_d: desired spatial twist (..., 6) [rad/s, m/s].
-        acceleration_d: its plain derivative (..., 6) [rad/s^2, m/s^2].
-        jacobian: J_w (..., 6, n), xi = J_w q_dot.
-        posture: measured joint angles (..., n) [rad].
-        time: since the drawing began [s].
-        period: of the control [s].
-        rates: measured joint rates (..., n) [rad/s].
-        ahead: what the law's own `prepare` worked out for this row; empty without one.
-        inertia: H(q) (..., n, n) [kg m^2], for laws that command torques; empty for others.
-        bias: C(q, q_dot) q_dot + G(q) and the joints' friction (..., n) [Nm], likewise.
+    Before the first step its `start(arm, motion, gains)` is called, if it has one: with the `Arm`,
+    the whole `Motion` and the `Schedule` of the gains. It returns nothing.
     """
 
-    pose: Floats
-    pose_d: Floats
-    twist_d: Floats
-    acceleration_d: Floats
-    jacobian: Floats
-    posture: Floats
-    time: float
-    period: float
-    rates: Floats = NOTHING
-    ahead: Floats = NOTHING
-    inertia: Floats = NOTHING
-    bias: Floats = NOTHING
+    def __init__(self) -> None: ...
 
-    @property
-    def twist(self) -> Floats:
-        """Measured spatial twist J_w q_dot (..., 6) [rad/s, m/s]."""
-        return np.asarray(np.matvec(self.jacobian, self.rates))
-
-
-Law = Callable[[Seen, G], Floats]
-Prepare = Callable[[Motion, Schedule[G]], Floats]
+    def __call__(self, seen: Seen, gains: GainsOf) -> Floats:
+        """What is commanded."""
 
 
 @dataclass(frozen=True)
@@ -65,22 +41,24 @@ class Controller(Generic[G]):
         name: as it is chosen.
         source: the paper and its equation.
         gains: the model of its gains.
-        law: what is seen and gains -> what is commanded, arrays of any leading shape.
+        law: what is seen and gains -> what is commanded: a function, which keeps nothing from one
+            step to the next, or a class, which may.
         commands: what the law's answer is: a spatial `twist` (..., 6), joint `rates` (..., n), a
             spatial `acceleration` (..., 6) or joint `torque` (..., n).
-        prepare: looks over the whole motion and all gains before the drawing starts; row k of what
-            it returns is `seen.ahead` at row k.
         leaves_null: whether joint rates it says have nothing in the null space, so that the
             objective of `--null` is added to them. A twist or an acceleration always leaves it.
+        batched: whether it can lead many arms at once, as arrays of any leading shape.
+        sha256: of the file of a law of one's own.
     """
 
     name: str
     source: str
     gains: type[G]
-    law: Law[G]
+    law: Law[G] | type[LawClass[G]]
     commands: Commands = "twist"
-    prepare: Prepare[G] | None = None
     leaves_null: bool = False
+    batched: bool = False
+    sha256: str | None = None
 
     @property
     def summary(self) -> str:
@@ -91,6 +69,22 @@ class Controller(Generic[G]):
     def drives_torque(self) -> bool:
         """Whether it needs an arm that is told torques."""
         return self.commands in ("acceleration", "torque")
+
+    def start(self, arm: Arm, motion: Motion, gains: Schedule[G]) -> Law[G]:
+        """The law of one run, which shares no state with that of any other.
+
+        Args:
+            arm: that it leads, as its model has it.
+            motion: what is asked for.
+            gains: over the drawing.
+
+        Raises:
+            DqpaintError: a law of one's own has a fault.
+        """
+        law = for_one_run(self.law)
+        if hasattr(type(law), "start"):
+            law.start(arm, motion, gains)
+        return cast(Law[G], law)
 
     def read_gains(self, given: Mapping[str, GainText]) -> Schedule[G]:
         """The gains with the given ones replaced, over the drawing.
@@ -105,6 +99,21 @@ class Controller(Generic[G]):
         return list_gains(self.gains)
 
 
+def for_one_run(law: Any) -> Any:
+    """The law of one run: of a class a new object, of an object a deep copy, else what is given.
+
+    Arrays, lists, dictionaries and sets that a class keeps are copied, too: `self.sum += error`
+    would otherwise change one that all its objects share.
+    """
+    fresh = law() if isinstance(law, type) else deepcopy(law)  # a function's copy is itself
+    own = getattr(fresh, "__dict__", {})
+    for base in type(fresh).__mro__:
+        for name, value in vars(base).items():
+            if isinstance(value, np.ndarray | list | dict | set) and not name.startswith("__"):
+                own.setdefault(name, deepcopy(value))
+    return fresh
+
+
 def _from_plugin(name: str, law: Any) -> Controller[Any]:
     """What an entry point brings: a `Controller`, or a law as a user's file has it."""
     if isinstance(law, Controller):
@@ -117,6 +126,7 @@ def _from_plugin(name: str, law: Any) -> Controller[Any]:
 CONTROLLERS: Registry[Controller[Any]] = Folder(
     "controller", "dqpaint.controllers.laws", "dqpaint.controllers", _from_plugin
 )
+L = TypeVar("L", bound=Callable[..., Any])
 
 
 def controller(
@@ -124,13 +134,17 @@ def controller(
     source: str,
     gains: type[G],
     commands: Commands = "twist",
-    prepare: Prepare[G] | None = None,
     leaves_null: bool = False,
-) -> Callable[[Law[G]], Law[G]]:
-    """A decorator that registers the law below it; arguments as in `Controller`."""
+) -> Callable[[L], L]:
+    """A decorator that registers the function or class below it; arguments as in `Controller`.
 
-    def record(law: Law[G]) -> Law[G]:
-        CONTROLLERS.add(name)(Controller(name, source, gains, law, commands, prepare, leaves_null))
+    A function goes in batches; a class, whose state may be that of one arm, where it says
+    `batched = True`.
+    """
+
+    def record(law: L) -> L:
+        batched = getattr(law, "batched", not isinstance(law, type))
+        CONTROLLERS.add(name)(Controller(name, source, gains, law, commands, leaves_null, batched))
         return law
 
     return record

@@ -1,4 +1,4 @@
-"""A control law of one's own: a function in a Python file, `--controller mylaw.py[:NAME]`.
+"""A function or class of one's own -> a control law: `--controller mylaw.py[:NAME]`.
 
     from dqpaint import dq
 
@@ -8,44 +8,59 @@
 
 It sees a `Seen` and returns a spatial twist; `@commands("rates")` or `@commands("torque")` above it
 says that it returns joint rates or torques. Further parameters with a number each are its gains.
+
+A law that remembers is a class: `__call__(self, seen, k=20.0)` is then the law, and each run makes
+an object of its own. Where the class has it, `start(self, arm, motion, gains)` is called before the
+first step. An object of a class, handed over in Python, is copied for each run as it was given.
 """
 
 import hashlib
 import inspect
-import linecache
 import math
-import sys
-import traceback
 from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
-from types import FunctionType, ModuleType
-from typing import Annotated, Any, TypeVar, get_args, get_type_hints
+from typing import Annotated, Any, TypeVar, cast, get_args, get_type_hints
 
 import numpy as np
 from pydantic import Field, create_model
+from typing_extensions import override
 
-from dqpaint.controllers.base.controller import CONTROLLERS, Commands, Controller, Seen
+from dqpaint.controllers.base.answers import check_answer
+from dqpaint.controllers.base.arm import Arm
+from dqpaint.controllers.base.controller import (
+    CONTROLLERS,
+    Commands,
+    Controller,
+    Law,
+    for_one_run,
+)
+from dqpaint.controllers.base.gain_schedule import Schedule
 from dqpaint.controllers.base.gains import Gains
-from dqpaint.core import examples_folder
+from dqpaint.controllers.base.law_files import (
+    AnswerError,
+    Running,
+    find_file,
+    read_laws,
+    split_spec,
+)
+from dqpaint.controllers.base.seen import Seen
 from dqpaint.dq import Floats
-from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.errors import UsageError
+from dqpaint.motion import Motion
 
-Function = TypeVar("Function", bound=Callable[..., Any])
+Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 Finite = Annotated[float, Field(allow_inf_nan=False)]
-WORDS = {
-    "twist": "a twist",
-    "rates": "joint rates",
-    "acceleration": "an acceleration",
-    "torque": "joint torques",
-}
-LARGEST = 1_000_000  # bytes of a file
-WIDEST = 120  # columns of a line that is shown
-_busy: set[Path] = set()  # files that are being run
 
-HOW = "a law is a function of what it sees, and of gains with a number each: def law(seen, k=20.0)"
+HOW = (
+    "a law is a function of what it sees, and of gains with a number each: def law(seen, k=20.0); "
+    "one that remembers is a class with def __call__(self, seen, k=20.0)"
+)
+START = "def start(self, arm, motion, gains)"
 
 
-def commands(kind: Commands) -> Callable[[Function], Function]:
+def commands(kind: Commands) -> Callable[[Decorated], Decorated]:
     """A decorator that says what a law returns; one without it returns a spatial twist.
 
     Args:
@@ -54,21 +69,16 @@ def commands(kind: Commands) -> Callable[[Function], Function]:
     if kind not in get_args(Commands):
         raise ValueError(f"a law can't command '{kind}'; known: {', '.join(get_args(Commands))}")
 
-    def record(function: Function) -> Function:
-        vars(function)["commands"] = kind
-        return function
+    def record(law: Decorated) -> Decorated:
+        setattr(law, "commands", kind)  # noqa: B010  of a function or a class
+        return law
 
     return record
 
 
-def is_file(spec: str) -> bool:
-    """Whether the name of a controller means a Python file."""
-    return _split(spec) is not None
-
-
 def short_name(spec: str) -> str:
-    """What a controller is called in the names of files: its function, else its file."""
-    parts = _split(spec)
+    """What a controller is called in the names of files: its law, else its file."""
+    parts = split_spec(spec)
     return spec if parts is None else parts[1] or parts[0].stem
 
 
@@ -79,196 +89,188 @@ def find_controller(spec: str) -> Controller[Any]:
         UsageError: no law has that name; the file has none, or several and none was named.
         DqpaintError: the file cannot be read or run.
     """
-    parts = _split(spec)
+    parts = split_spec(spec)
     if parts is None:
         return CONTROLLERS[spec]
-    path, name = _found(parts[0]), parts[1]
-    laws, digest = _functions(path)
+    path, name = find_file(parts[0]), parts[1]
+    things, digest = read_laws(path)
+    laws = {n: law for n, law in things.items() if not isinstance(law, type) or _is_called(law)}
     if name is None:
-        name = path.stem if path.stem in laws else next(iter(laws), None) if len(laws) == 1 else ""
-    if name not in laws:
-        known = ", ".join(laws) or "none"
-        fault = f"has no function named '{name}'" if name else f"has {len(laws)} functions"
-        cure = "" if name or len(laws) < 2 else f"; choose one: {path.name}:NAME"
-        raise UsageError(f"{path.name} {fault}{cure}; its functions: {known}; {HOW}")
-    return make_controller(laws[name], short_name(spec), path, digest)
+        known = laws or things  # the only class is what is meant, even if it can't be called
+        name = path.stem if path.stem in known else next(iter(known)) if len(known) == 1 else ""
+    if name not in things:
+        fault = f"has no law named '{name}'" if name else f"has {len(laws)} laws"
+        cure = "" if name or not laws else f"; choose one: {path.name}:NAME"
+        raise UsageError(f"{path.name} {fault}{cure}; its laws: {', '.join(laws) or 'none'}; {HOW}")
+    return make_controller(things[name], short_name(spec), path, digest)
 
 
 def make_controller(
-    function: Callable[..., Any], name: str, path: Path | None = None, digest: str = ""
+    law: Any, name: str, path: Path | None = None, digest: str = ""
 ) -> Controller[Any]:
-    """The law of a function.
+    """The law of a function, a class or an object of one.
 
     Args:
-        function: of what a law sees, and its gains.
+        law: called with what it sees, and its gains.
         name: as the law is to be called.
         path: of the file it stands in, for messages; found by itself if not given.
         digest: SHA-256 of the text that was run; of the file as it is now if not given.
 
     Raises:
-        UsageError: its parameters, or what it commands, are not those of a law.
+        UsageError: it can't be called, or its parameters, its constructor, its `start` or what it
+            commands are not those of a law.
     """
-    path = path or Path(inspect.getsourcefile(function) or "?")
-    where = f"law '{getattr(function, '__name__', name)}' in {path.name}"
-    model = _gains(function, where)
-    kind: Commands = getattr(function, "commands", "twist")
-    if not isinstance(kind, str) or kind not in get_args(Commands):
+    title = getattr(law, "__name__", type(law).__name__)
+    if not (_is_called(law) if isinstance(law, type) else callable(law)):
+        what = f"class '{title}'" if isinstance(law, type) else f"controller {str(law)[:40]!r}"
+        raise UsageError(f"{what} can't be called: it has no __call__; {HOW}")
+    body, owner = _body(law), _owner(law)
+    code = getattr(body, "__code__", None)
+    path = path or Path(code.co_filename if code and Path(code.co_filename).is_file() else "?")
+    where = f"law '{title}' in {path.name}"
+    _check_returns(body, where)
+    _check_start(law, owner, where)
+    model = _gains(law, body, where)
+    kind = getattr(owner, "commands", getattr(body, "commands", "twist"))
+    if not (isinstance(kind, str) and kind in get_args(Commands)):
         raise UsageError(
             f"{where} can't command {kind!r}; known: {', '.join(get_args(Commands))}; "
             'write @commands("rates") above it'
         )
-    return Controller(name, str(path), model, OwnLaw(function, kind, path, digest), kind)
+    if not digest and path.is_file():
+        digest = hashlib.sha256(path.read_bytes()).hexdigest()
+    return UserController(
+        name, str(path), model, law, cast(Commands, kind), sha256=digest, path=path,
+        place=f"{path.name}:{code.co_firstlineno}" if code else path.name,
+        about=inspect.getdoc(owner) or inspect.getdoc(body) or f"The law of {path.name}.",
+        batched=getattr(owner, "batched", False) is True,
+    )  # fmt: skip
 
 
-class AnswerError(DqpaintError):
-    """An answer that is none."""
+@dataclass(frozen=True)
+class UserController(Controller[Gains]):
+    """A law of one's own: its faults are told with its own lines, its answers checked.
 
+    Attributes:
+        path: of its file.
+        place: file and line of the law, for messages.
+        about: what the law itself says it is.
+    """
 
-class OwnLaw:
-    """A user's function as a law: its faults are told with its own lines, its answers checked."""
-
-    def __init__(
-        self, function: Callable[..., Any], kind: Commands, path: Path, digest: str = ""
-    ) -> None:
-        self.__doc__ = inspect.getdoc(function) or f"The law of {path.name}"
-        self._function, self._kind, self._path = function, kind, path
-        self._digest = digest
-        self._place = path.absolute()
-        self._time = 0.0  # [s], of the row it is asked about
+    path: Path = field(kw_only=True)
+    place: str = field(kw_only=True)
+    about: str = field(kw_only=True)
 
     @property
-    def sha256(self) -> str:
-        """Of the text that was run."""
-        if self._digest or not self._path.is_file():
-            return self._digest
-        return hashlib.sha256(self._path.read_bytes()).hexdigest()
+    @override
+    def summary(self) -> str:
+        return self.about.splitlines()[0].rstrip(".")
+
+    @override
+    def start(self, arm: Arm, motion: Motion, gains: Schedule[Gains]) -> Law[Gains]:
+        with Running(self.path):
+            law = for_one_run(self.law)
+            said = law.start(arm, motion, gains) if hasattr(type(law), "start") else None
+        if said is not None:
+            raise AnswerError(
+                f"{self.path.name}: start of law '{type(law).__name__}' returned a "
+                f"{type(said).__name__}; it returns nothing: what it works out is kept in self"
+            )
+        return CheckedLaw(law, self)
+
+
+class CheckedLaw:
+    """The law of one run, its answers checked."""
+
+    def __init__(self, law: Callable[..., Any], controller: UserController) -> None:
+        self._law, self._kind, self._place = law, controller.commands, controller.place
+        self._running = Running(controller.path)
 
     def __call__(self, seen: Seen, gains: Gains) -> Floats:
-        """What the function returns, (6,) or (n,)."""
+        """What the law returns, (..., 6) or (..., n)."""
         for array in (seen.pose, seen.jacobian, seen.posture, seen.rates):
             array.flags.writeable = False  # what the arm did is not for a law to change
-        self._time = seen.time
-        _busy.add(self._place)
-        try:
-            said = self._function(seen, **dict(gains))
-            joints = seen.posture.shape[-1]
-            return self._checked(said, 6 if self._kind in ("twist", "acceleration") else joints)
-        except (KeyboardInterrupt, AnswerError):
-            raise
-        except BaseException as fault:
-            raise DqpaintError(_told(fault, self._path)) from None
-        finally:
-            _busy.discard(self._place)
-
-    def _checked(self, said: Any, size: int) -> Floats:
-        """An answer as (size,) finite floats; its shape is seen before anything is copied."""
-        shape = _shape(said)
-        answer = np.zeros(0)
-        if shape in (None, (size,)):
-            try:
-                answer = np.asarray(said)
-                shape = answer.shape or None
-            except ValueError:  # a list of lists of several lengths
-                shape = (size, -1)
-        if shape != (size,):
+        *batch, joints = seen.posture.shape
+        size = 6 if self._kind in ("twist", "acceleration") else joints
+        with self._running:
+            said = self._law(seen, **dict(gains))
+            answer = check_answer(said, (*batch, size), self._kind, self._place)
+        if not np.isfinite(answer).all():
             raise AnswerError(
-                f"{self._at()}: a law that commands {WORDS[self._kind]} returns {size} numbers, "
-                f"this one returned {_described(said, shape)}"
+                f"{self._place}: at {seen.time:.3f} s the law returned {answer}, not finite numbers"
             )
-        if answer.dtype.kind == "c":
-            raise AnswerError(f"{self._at()}: the law returned complex numbers, not real ones")
-        is_text = answer.dtype == object and any(isinstance(x, str | bytes) for x in answer)
-        if is_text or answer.dtype.kind not in "iufO":
-            kind = type(answer[0].item() if answer.dtype != object else answer[0]).__name__
-            raise AnswerError(f"{self._at()}: the law returned values of type {kind}, not numbers")
-        try:
-            if answer.dtype == object and None in answer.tolist():
-                raise TypeError
-            floats = np.array(answer, dtype=np.float64)
-        except OverflowError:
-            floats = np.full(size, np.inf)
-        except (TypeError, ValueError):
-            raise AnswerError(
-                f"{self._at()}: the law returned values that are not numbers"
-            ) from None
-        if not np.isfinite(floats).all():
-            raise AnswerError(
-                f"{self._at()}: at {self._time:.3f} s the law returned {floats}, not finite numbers"
+        return answer
+
+
+def _owner(law: Any) -> Any:
+    """Where a law says what it is: a function or a class itself, the class of an object."""
+    if isinstance(law, partial):
+        return _body(law)
+    return law if isinstance(law, type) or inspect.isroutine(law) else type(law)
+
+
+def _body(law: Any) -> Any:
+    """The function that is called at each step."""
+    if isinstance(law, partial):
+        return _body(law.func)
+    return inspect.unwrap(law if inspect.isroutine(law) else law.__call__)
+
+
+def _is_called(kind: type) -> bool:
+    """Whether objects of a class can be called."""
+    return any("__call__" in vars(base) for base in kind.__mro__)
+
+
+def _check_returns(body: Any, where: str) -> None:
+    """Look that a law returns its answer."""
+    for test, word in (
+        (inspect.isgeneratorfunction, "yields"),
+        (inspect.iscoroutinefunction, "is async"),
+        (inspect.isasyncgenfunction, "is async"),
+    ):
+        if test(body):
+            raise UsageError(f"{where} {word}, but a law returns what it commands; {HOW}")
+
+
+def _check_start(law: Any, owner: Any, where: str) -> None:
+    """Look that each run can make an object of a class and start it."""
+    if isinstance(law, type):
+        needed = [one.name for one in _parameters(law, where) if _is_needed(one)]
+        if needed:
+            raise UsageError(
+                f"{where}: each run makes a {law.__name__}() of its own, but '{needed[0]}' of its "
+                f"constructor has no default; from Python, draw(controller={law.__name__}(...)) "
+                "takes an object"
             )
-        return floats
-
-    def _at(self) -> str:
-        line = inspect.unwrap(self._function).__code__.co_firstlineno
-        return f"{self._path.name}:{line}"
-
-
-def _split(spec: str) -> tuple[Path, str | None] | None:
-    """File and name of `mylaw.py` or `mylaw.py:NAME`; None for the name of a law."""
-    head, sign, name = spec.rpartition(":")
-    if sign and head.endswith(".py"):
-        return Path(head), name or None
-    return (Path(spec), None) if spec.endswith(".py") else None
-
-
-def _found(path: Path) -> Path:
-    """A file, else the example of that name."""
-    example = examples_folder() / path.name
-    return example if not path.exists() and str(path) == path.name and example.exists() else path
-
-
-def _text(path: Path) -> tuple[str, str]:
-    """The text of a file and its SHA-256."""
+    start = getattr(owner, "start", None) if isinstance(owner, type) else None
+    if start is None:
+        return
     try:
-        if path.exists() and not path.is_file():
-            raise DqpaintError(f"controller '{path}' is not a file")
-        if path.stat().st_size > LARGEST:
-            raise DqpaintError(f"controller '{path}' is larger than {LARGEST // 1000} kB")
-        data = path.read_bytes()
-        return data.decode("utf-8-sig"), hashlib.sha256(data).hexdigest()
-    except OSError as problem:
-        raise DqpaintError(f"controller '{path}' cannot be read: {problem.strerror}") from None
-    except UnicodeDecodeError:
-        raise DqpaintError(f"controller '{path}' is not a text in UTF-8") from None
+        inspect.signature(start).bind("self", "arm", "motion", "gains")
+    except (TypeError, ValueError):
+        raise UsageError(f"{where}: its start is not {START}") from None
 
 
-def _functions(path: Path) -> tuple[dict[str, FunctionType], str]:
-    """The functions a file defines, by their names, and its SHA-256; private ones have a _."""
-    if path.absolute() in _busy:
-        raise DqpaintError(f"{path.name} draws with itself: a law can't be loaded while it runs")
-    text, digest = _text(path)
-    module = ModuleType(f"dqpaint_own_{path.stem}")
-    module.__file__ = str(path)
-    sys.modules[module.__name__] = module  # where classes of the file look for themselves
-    folder = str(path.resolve().parent)
-    if folder not in sys.path:
-        sys.path.append(folder)  # its neighbours can be imported, as in a script
-    place = path.absolute()
-    _busy.add(place)
+def _parameters(called: Any, where: str) -> list[inspect.Parameter]:
     try:
-        exec(compile(text, str(path), "exec"), vars(module))
-    except KeyboardInterrupt:
-        raise
-    except BaseException as fault:
-        raise DqpaintError(_told(fault, path)) from None
-    finally:
-        _busy.discard(place)
-    laws = {
-        name: thing
-        for name, thing in vars(module).items()
-        if isinstance(thing, FunctionType)
-        and thing.__module__ == module.__name__
-        and not name.startswith("_")
-    }
-    return laws, digest
+        return list(inspect.signature(called).parameters.values())
+    except (TypeError, ValueError):
+        raise UsageError(f"{where}: its parameters can't be read; {HOW}") from None
 
 
-def _gains(function: Callable[..., Any], where: str) -> type[Gains]:
-    """A model of the gains a function takes after what it sees."""
-    parameters = list(inspect.signature(function).parameters.values())
+def _is_needed(parameter: inspect.Parameter) -> bool:
+    variable = parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD)
+    return parameter.default is parameter.empty and not variable
+
+
+def _gains(law: Any, body: Any, where: str) -> type[Gains]:
+    """A model of the gains a law takes after what it sees."""
+    of_class = isinstance(law, type)
+    parameters = _parameters(law.__call__ if of_class else law, where)[of_class:]  # without self
     if not parameters:
         raise UsageError(f"{where} takes nothing; {HOW}")
     fields: dict[str, Any] = {}
-    hints = _hints(function)
+    hints = _hints(body)
     for parameter in parameters[1:]:
         default = parameter.default
         is_number = isinstance(default, int | float) and not isinstance(default, bool)
@@ -302,40 +304,3 @@ def _hints(function: Callable[..., Any]) -> dict[str, Any]:
         return get_type_hints(function, include_extras=True)
     except (NameError, TypeError, AttributeError):
         return {}
-
-
-def _told(fault: BaseException, path: Path) -> str:
-    """A fault with the file's own last line in it, without the lines of this package."""
-    try:
-        text = str(fault)
-    except Exception:  # it is the user's own
-        text = ""
-    said = f"{type(fault).__name__}: {text}" if text else type(fault).__name__
-    if isinstance(fault, SyntaxError) and fault.filename == str(path):
-        number: int | None = fault.lineno
-        said = f"{type(fault).__name__}: {fault.msg}"
-    else:
-        frames = traceback.extract_tb(fault.__traceback__)
-        number = next((f.lineno for f in reversed(frames) if f.filename == str(path)), None)
-    if number is None:
-        return f"{path.name}: {said}"
-    code = linecache.getline(str(path), number).lstrip("\ufeff").rstrip()
-    code = code if len(code) <= WIDEST else f"{code[:WIDEST]} ..."
-    edge = " " * len(str(number))
-    return f"{path.name}:{number}: {said}\n{edge} |\n{number} | {code}"
-
-
-def _shape(said: Any) -> tuple[int, ...] | None:
-    """Of an array or a list; None of anything else."""
-    shape = getattr(said, "shape", None)
-    if isinstance(shape, tuple):
-        return shape or None
-    return (len(said),) if isinstance(said, list | tuple) else None
-
-
-def _described(said: Any, shape: tuple[int, ...] | None) -> str:
-    if said is None:
-        return "nothing"
-    if shape and min(shape) < 0:
-        return "rows of several lengths"
-    return f"an array of shape {shape}" if shape else f"a {type(said).__name__}"

@@ -4,9 +4,10 @@ import numpy as np
 from pydantic import Field
 
 from dqpaint import dq
-from dqpaint.controllers.base.controller import Seen, controller
+from dqpaint.controllers.base.controller import controller
 from dqpaint.controllers.base.gains import Gain, Gains
 from dqpaint.controllers.base.pose_errors import spatial_error
+from dqpaint.controllers.base.seen import Seen
 from dqpaint.dq import Floats
 
 

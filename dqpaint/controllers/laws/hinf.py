@@ -1,8 +1,9 @@
 """H-infinity tracking law in the dual-quaternion group, after Pereira."""
 
 from dqpaint import dq
-from dqpaint.controllers.base.controller import Seen, controller
+from dqpaint.controllers.base.controller import controller
 from dqpaint.controllers.base.pose_errors import spatial_error
+from dqpaint.controllers.base.seen import Seen
 from dqpaint.controllers.laws.hinf_set import GammaGains, correction
 from dqpaint.dq import Floats
 

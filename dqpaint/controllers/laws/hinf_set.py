@@ -7,9 +7,10 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from dqpaint import dq
-from dqpaint.controllers.base.controller import Seen, controller
+from dqpaint.controllers.base.controller import controller
 from dqpaint.controllers.base.gains import LEAST, MOST, Gain, Gains, Value
 from dqpaint.controllers.base.pose_errors import spatial_error
+from dqpaint.controllers.base.seen import Seen
 from dqpaint.dq import Floats
 
 

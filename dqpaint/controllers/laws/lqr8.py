@@ -5,10 +5,12 @@ from typing import ClassVar
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.controllers.base.controller import Seen, controller
+from dqpaint.controllers.base.arm import Arm
+from dqpaint.controllers.base.controller import controller
 from dqpaint.controllers.base.gain_schedule import Schedule
 from dqpaint.controllers.base.pose_errors import invariant_error, twist_of_invariant_rate
 from dqpaint.controllers.base.riccati import GAUSS, scattering, sweep
+from dqpaint.controllers.base.seen import Seen
 from dqpaint.controllers.base.weights import Weights, within
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
@@ -26,13 +28,8 @@ class EightWeights(Weights):
     size: ClassVar[int] = 8
 
 
-@controller(
-    "lqr8",
-    source="Pereira 2016, LQR in R8 [3.45]",
-    gains=EightWeights,
-    prepare=lambda motion, gains: prepare(motion, gains),
-)
-def lqr8(seen: Seen, gains: EightWeights) -> Floats:
+@controller("lqr8", source="Pereira 2016, LQR in R8 [3.45]", gains=EightWeights)
+class Lqr8:
     """Optimal between error and correction, on the eight numbers: knows the whole way ahead.
 
     q_dot = N^+ R^-1 (P e + g), with e = vec(1 - x* x_d), A = H-(x_d* x_d_dot),
@@ -42,18 +39,27 @@ def lqr8(seen: Seen, gains: EightWeights) -> Floats:
     e_dot = A e + u + c, u = -N q_dot: the optimum of this model while all of u is in the range of
     N, that is for small errors. g is the price of what is still to come: the feed-forward.
     """
-    e = invariant_error(seen.pose, seen.pose_d)
-    P, g = seen.ahead[..., PLACES], seen.ahead[..., 36:]
-    wanted = (np.matvec(P, e) + g) / np.asarray(gains.r)
-    return twist_of_invariant_rate(seen.pose, seen.pose_d, wanted)
+
+    batched = True  # what it keeps holds for every arm
+
+    def start(self, _arm: Arm, motion: Motion, gains: Schedule[EightWeights]) -> None:
+        """Work out P and g at every row."""
+        self._P, self._g = riccati(motion, gains)
+
+    def __call__(self, seen: Seen, gains: EightWeights) -> Floats:
+        """The twist (..., 6)."""
+        e = invariant_error(seen.pose, seen.pose_d)
+        P, g = self._P[seen.row][..., PLACES], self._g[seen.row]
+        wanted = (np.matvec(P, e) + g) / np.asarray(gains.r)
+        return twist_of_invariant_rate(seen.pose, seen.pose_d, wanted)
 
 
-def prepare(motion: Motion, gains: Schedule[EightWeights]) -> Floats:
-    """P and g at every row (N, 44): the upper triangle of P, row by row, then g [s]."""
+def riccati(motion: Motion, gains: Schedule[EightWeights]) -> tuple[Floats, Floats]:
+    """P, as its upper triangle (N, 36) row by row, and g (N, 8) at every row [s]."""
     rows = len(motion.t)
-    ahead = np.empty((rows, 44))
+    triangles, costs = np.empty((rows, 36)), np.empty((rows, 8))
     P, g = np.diag(gains.at(1.0).end()), np.zeros(8)
-    ahead[-1, :36], ahead[-1, 36:] = P[UPPER], g
+    triangles[-1], costs[-1] = P[UPPER], g
     for last in range(rows - 1, 0, -BLOCK):
         first = max(0, last - BLOCK)
         y = body_rates(motion, first, last)
@@ -61,9 +67,9 @@ def prepare(motion: Motion, gains: Schedule[EightWeights]) -> Floats:
         passing = scattering(dq.hamilton_minus(y), inverse, q, -y, motion.period)
         Ps, gs = sweep(passing, P, g)
         P, g = Ps[0], gs[0]
-        ahead[first:last, :36] = Ps[:, UPPER[0], UPPER[1]]
-        ahead[first:last, 36:] = gs
-    return ahead
+        triangles[first:last] = Ps[:, UPPER[0], UPPER[1]]
+        costs[first:last] = gs
+    return triangles, costs
 
 
 def body_rates(motion: Motion, first: int, last: int) -> Floats:

@@ -2,9 +2,10 @@
 
 from pydantic import Field
 
-from dqpaint.controllers.base.controller import Seen, controller
+from dqpaint.controllers.base.controller import controller
 from dqpaint.controllers.base.gains import Gain, Gains
 from dqpaint.controllers.base.pose_errors import invariant_error, twist_of_invariant_rate
+from dqpaint.controllers.base.seen import Seen
 from dqpaint.dq import Floats
 
 

@@ -3,8 +3,9 @@
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.controllers.base.controller import Seen, controller
+from dqpaint.controllers.base.controller import controller
 from dqpaint.controllers.base.pose_errors import twist_of_invariant_rate
+from dqpaint.controllers.base.seen import Seen
 from dqpaint.controllers.laws.p import RateGains
 from dqpaint.dq import Floats
 from dqpaint.robots.kinematics import pose_map

@@ -1,7 +1,8 @@
 """Proportional law on the difference of dual quaternions, after Pham."""
 
-from dqpaint.controllers.base.controller import Seen, controller
+from dqpaint.controllers.base.controller import controller
 from dqpaint.controllers.base.pose_errors import difference_error, twist_of_pose_rate
+from dqpaint.controllers.base.seen import Seen
 from dqpaint.controllers.laws.p import RateGains
 from dqpaint.dq import Floats
 

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from dqpaint.controllers import CONTROLLERS
+from dqpaint.controllers import find_controller
 from dqpaint.errors import DqpaintError
 from dqpaint.metrics import instability, measure
 from dqpaint.painting import paint
@@ -39,15 +39,23 @@ def groups(tasks: Sequence[Task]) -> list[list[Task]]:
 
 
 def goes_in_batches(run: Run) -> bool:
-    """Whether a run is on an ideal arm, random, and by a law of ours, which takes arrays."""
+    """Whether a run is on an ideal arm, random, and by a law that can lead many arms at once."""
     settings = run.settings
     return bool(
         settings.plant == "ideal"
         and settings.disturb
         and settings.recorded is None
         and settings.on_limit != "stop"
-        and settings.controller in CONTROLLERS
+        and _is_batched(settings.controller)
     )
+
+
+def _is_batched(controller: str) -> bool:
+    """Whether a law says so; what is wrong with one its run says by itself."""
+    try:
+        return find_controller(controller).batched
+    except DqpaintError:
+        return False
 
 
 def _likeness(run: Run) -> str:

@@ -62,7 +62,7 @@ class Run:
 
     def files(self) -> dict[str, str]:
         """The hashes of files: those the drawing names, a law, an arm or an image of one's own."""
-        law = getattr(find_controller(self.settings.controller).law, "sha256", "")
+        law = find_controller(self.settings.controller).sha256 or ""
         arm = Path(self.settings.robot or "")
         known = arm.suffix in (".urdf", ".toml")
         brush = read_brush(self.settings.brush) if self.settings.brush else None

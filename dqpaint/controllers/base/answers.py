@@ -1,0 +1,75 @@
+"""What a law of one's own answers, anything at all -> finite floats of the right shape."""
+
+from typing import Any
+
+import numpy as np
+
+from dqpaint.controllers.base.controller import Commands
+from dqpaint.controllers.base.law_files import AnswerError
+from dqpaint.dq import Floats
+
+WORDS = {
+    "twist": "a twist",
+    "rates": "joint rates",
+    "acceleration": "an acceleration",
+    "torque": "joint torques",
+}
+
+
+def check_answer(said: Any, wanted: tuple[int, ...], kind: Commands, where: str) -> Floats:
+    """An answer as finite floats; its shape is seen before anything is copied.
+
+    Args:
+        said: what the law returned.
+        wanted: the shape, (6,) or (n,), with that of a batch before it.
+        kind: what the law commands.
+        where: the law's file and line, for messages.
+
+    Raises:
+        AnswerError: it is something else.
+    """
+    shape = _shape(said)
+    answer = np.zeros(0)
+    if shape in (None, wanted[:1], wanted):
+        try:
+            answer = np.asarray(said)
+            shape = answer.shape or None
+        except ValueError:  # a list of lists of several lengths
+            shape = (*wanted, -1)
+    if shape != wanted:
+        count = f"{wanted[-1]} numbers" if len(wanted) == 1 else f"an array of shape {wanted}"
+        raise AnswerError(
+            f"{where}: a law that commands {WORDS[kind]} returns {count}, "
+            f"this one returned {_described(said, shape)}"
+        )
+    if answer.dtype.kind == "c":
+        raise AnswerError(f"{where}: the law returned complex numbers, not real ones")
+    is_text = answer.dtype == object and any(isinstance(x, str | bytes) for x in answer.flat)
+    if is_text or answer.dtype.kind not in "iufO":
+        first = answer.flat[0]
+        kind_said = type(first if answer.dtype == object else first.item()).__name__
+        raise AnswerError(f"{where}: the law returned values of type {kind_said}, not numbers")
+    try:
+        if answer.dtype == object and None in answer.ravel().tolist():
+            raise TypeError
+        return np.array(answer, dtype=np.float64)
+    except OverflowError:
+        return np.full(wanted, np.inf)
+    except (TypeError, ValueError):
+        raise AnswerError(f"{where}: the law returned values that are not numbers") from None
+
+
+def _shape(said: Any) -> tuple[int, ...] | None:
+    """Of an array or a list; None of anything else."""
+    shape = getattr(said, "shape", None)
+    if isinstance(shape, tuple):
+        return shape or None
+    return (len(said),) if isinstance(said, list | tuple) else None
+
+
+def _described(said: Any, shape: tuple[int, ...] | None) -> str:
+    if said is None:
+        return "nothing"
+    if shape and min(shape) < 0:
+        return "rows of several lengths"
+    return f"an array of shape {shape}" if shape else f"a {type(said).__name__}"

@@ -1,0 +1,59 @@
+"""A law's model of its arm -> what the law may use: joint limits, kinematics, distances."""
+
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from dqpaint.dq import Floats
+from dqpaint.robots.kinematics import Kinematics, Shapes
+
+
+class JointLimits(NamedTuple):
+    """What the joints of an arm can do, one number a joint; the arrays are read-only.
+
+    Attributes:
+        lower: least angles (n,) [rad].
+        upper: largest angles (n,) [rad].
+        speed: largest rates (n,) [rad/s], either way.
+        effort: largest torques (n,) [Nm], either way.
+    """
+
+    lower: Floats
+    upper: Floats
+    speed: Floats
+    effort: Floats
+
+
+INFINITE = np.array(np.inf)
+NO_LIMITS = JointLimits(-INFINITE, INFINITE, INFINITE, INFINITE)
+
+
+class Arm:
+    """The arm as a law's model has it, which disturbances of the model may have changed.
+
+    Attributes:
+        limits: of its joints.
+    """
+
+    def __init__(self, kinematics: Kinematics) -> None:
+        self._model = kinematics
+        card = kinematics.card
+        self.limits = JointLimits(card.lower, card.upper, card.speed, card.effort)
+        for array in self.limits:
+            array.setflags(write=False)
+
+    @property
+    def joints(self) -> int:
+        """How many joints move."""
+        return self._model.card.joints
+
+    @cached_property
+    def kinematics(self) -> Kinematics:
+        """Pose and Jacobian at any posture: a copy, so that nothing a law does to it is felt."""
+        return self._model.changed()
+
+    @cached_property
+    def collisions(self) -> Shapes:
+        """How near the links come to each other at any posture: `nearest(postures)`."""
+        return Shapes(self.kinematics)

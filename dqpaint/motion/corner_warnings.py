@@ -10,7 +10,7 @@ from dqpaint.diagnostics import Diagnostic, Span
 from dqpaint.dq import Floats
 from dqpaint.motion.geometry.paths import Indices
 from dqpaint.motion.schedule import Schedule
-from dqpaint.program import Arc, Chain, Cruise, Segment, Straight
+from dqpaint.program import Arc, Chain, CruiseSpeed, Segment, Straight
 
 LEAST_JUMP = 1e-4  # [m/s] worth a word,
 LEAST_PART = 0.01  # and of the speed
@@ -114,7 +114,7 @@ def _jump(corner: _Corner, count: int) -> Diagnostic:
 def slow(table: Schedule) -> Iterator[Diagnostic]:
     """W411: the stroke that stays most below the speed it is to cruise at."""
     firsts = table.firsts
-    speed = np.array([s.timing.speed if isinstance(s.timing, Cruise) else 0.0 for s in firsts])
+    speed = np.array([s.timing.speed if isinstance(s.timing, CruiseSpeed) else 0.0 for s in firsts])
     lit = np.array([segment.light is not None for segment in table.program.segments])
     lit_strokes = np.logical_or.reduceat(lit, table.first)
     chains = np.array([isinstance(segment.path, Chain) for segment in firsts])
@@ -130,7 +130,7 @@ def slow(table: Schedule) -> Iterator[Diagnostic]:
 
 
 def _slow(segment: Segment, reached: float, rounded: bool, count: int) -> Diagnostic:
-    assert isinstance(segment.timing, Cruise)
+    assert isinstance(segment.timing, CruiseSpeed)
     others = f", the slowest of {count} such strokes" if count > 1 else ""
     asked = f"{1e3 * segment.timing.speed:.3g} mm/s"
     message = f"this reaches {1e3 * reached:.3g} mm/s, not {asked}{others}"

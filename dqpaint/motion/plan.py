@@ -18,7 +18,7 @@ from dqpaint.motion.stroke_errors import Faults, beyond_budget
 from dqpaint.motion.stroke_light import glow, unevenness
 from dqpaint.motion.survey import tell
 from dqpaint.motion.time_scaling import Pace, Ticks
-from dqpaint.program import Auto, Pose, Program, Step
+from dqpaint.program import AutoPlacement, Pose, Program, Step
 
 
 @dataclass(frozen=True)
@@ -147,7 +147,7 @@ def _placed(program: Program, canvas: Floats) -> Floats:
     match program.placement:
         case Pose():
             return pose_array(program.placement)
-        case Auto(orientation=turned) if turned is not None:
+        case AutoPlacement(orientation=turned) if turned is not None:
             return dq.pose_from(dq.translation(canvas), np.array(turned))
         case _:
             return canvas

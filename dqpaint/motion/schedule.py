@@ -29,7 +29,7 @@ from dqpaint.motion.profiles import (
     scale_rates,
 )
 from dqpaint.motion.stroke_errors import MOST_SECONDS, Faults
-from dqpaint.program import Cruise, Program, Samples, Segment, Step, Still
+from dqpaint.program import CruiseSpeed, Dwell, Program, Samples, Segment, Step
 
 ENDLESS = 1e15  # samples
 NAMES = tuple(PROFILES)
@@ -226,7 +226,7 @@ def timetable(program: Program, findings: Findings) -> Schedule:
 
 def _strokes(segments: Sequence[Segment]) -> tuple[Indices, Indices]:
     """The first segment of each stroke (S,), and how many each has."""
-    run = np.array([s.run.number if s.run else 0 for s in segments])
+    run = np.array([s.stroke.number if s.stroke else 0 for s in segments])
     goes_on = (run[1:] == run[:-1]) & (run[1:] != 0)
     first = np.flatnonzero(np.concatenate([[True], ~goes_on]))
     return first, np.diff(np.append(first, len(segments)))
@@ -238,12 +238,12 @@ def _by_length(shapes: Shapes, faults: Faults) -> Flags:
     for number, extent in shapes.uneven.items():
         segment = shapes.segments[number]
         profile = segment.profile
-        cruises = segment.run is not None or isinstance(segment.timing, Cruise)
+        cruises = segment.stroke is not None or isinstance(segment.timing, CruiseSpeed)
         out[number] = cruises or (any(profile.rates) and not profile.angular)
         if out[number] and has_cusp(shapes.shape(number), extent):
             faults.setdefault(number, (told.cusp(segment),))
     for number in np.flatnonzero(shapes.length == 0.0).tolist():
-        if shapes.segments[number].run is not None:
+        if shapes.segments[number].stroke is not None:
             faults.setdefault(number, (told.on_the_spot(shapes.segments[number]),))
     return out
 
@@ -284,7 +284,7 @@ def _profiles(table: Schedule, wrong: Faults) -> tuple[Indices, Floats]:
         extent = sum(angles.tolist()) if segment.profile.angular else float(table.length[stroke])
         if extent != 0:
             rates[stroke, : len(given)] = np.array(given) / extent
-        elif not isinstance(segment.path, Still | Step):
+        elif not isinstance(segment.path, Dwell | Step):
             wrong[stroke] = (told.no_extent(segment),)
     return profile, rates
 
@@ -318,7 +318,7 @@ def _seconds(table: Schedule, wrong: Faults) -> Floats:
 def _asked(segment: Segment, period: float) -> tuple[float, float, float]:
     """The time [s] of a stroke, or its speed [m/s] and turnspeed [rad/s]."""
     timing = segment.timing
-    if isinstance(timing, Cruise):
+    if isinstance(timing, CruiseSpeed):
         return 0.0, timing.speed, timing.turnspeed
     return timing.count * period if isinstance(timing, Samples) else timing.seconds, 0.0, 1.0
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from dqpaint.diagnostics import Diagnostic, Findings, ScriptError
-from dqpaint.program import MOST_ALLOWED, Lasting, Segment, Step
+from dqpaint.program import MOST_ALLOWED, Duration, Segment, Step
 
 MOST_SECONDS = 86_400.0  # of a drawing
 ROUNDING_WORTH_SAYING = 0.01
@@ -131,7 +131,7 @@ def too_long(segment: Segment, seconds: float) -> Diagnostic:
 
 def rounding(segment: Segment, wanted: float, given: float) -> Diagnostic | None:
     """W410, where a time that was asked becomes longer by more than a little."""
-    asked = isinstance(segment.timing, Lasting) and not isinstance(segment.path, Step)
+    asked = isinstance(segment.timing, Duration) and not isinstance(segment.path, Step)
     if not asked or given - wanted <= ROUNDING_WORTH_SAYING * wanted:
         return None
     return Diagnostic(

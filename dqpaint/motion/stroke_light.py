@@ -11,7 +11,7 @@ from dqpaint.motion.geometry.paths import Indices
 from dqpaint.motion.profiles import Rates, rate_at, turns_back
 from dqpaint.motion.sampling import Rows
 from dqpaint.motion.schedule import Schedule, part_at
-from dqpaint.program import Bar, Light, Step, Still
+from dqpaint.program import Bar, Dwell, Light, Step
 
 NEAR_END = 0.01  # of the length: how bright the ends of a stroke are is told there
 DARK = Light((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
@@ -111,7 +111,7 @@ def glow(table: Schedule) -> StrokeLight:
     segments = table.program.segments
     lights = [segment.light or DARK for segment in segments]
     first, last = np.array([light.first for light in lights]), np.array([x.last for x in lights])
-    shared = [s.run is not None and (s.light or DARK) == s.run.light for s in segments]
+    shared = [s.stroke is not None and (s.light or DARK) == s.stroke.light for s in segments]
     of = np.flatnonzero(shared)  # they have their parts of a gradient over the whole stroke
     start, end = table.begin[of, None], table.end[of, None]
     a, b = first[of], last[of]
@@ -120,7 +120,7 @@ def glow(table: Schedule) -> StrokeLight:
     way = table.length.copy()
     for stroke in np.flatnonzero(way == 0.0).tolist():
         segment = segments[table.first[stroke]]
-        turns = not isinstance(segment.path, Still | Step)
+        turns = not isinstance(segment.path, Dwell | Step)
         way[stroke] = float(turns and isinstance(segment.brush, Bar))
     # as fast as it was to be before its time was rounded up: else a short stroke is the brightest
     fastest = table.peak_rates * way / np.minimum(table.wanted, table.time)

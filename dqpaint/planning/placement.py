@@ -25,7 +25,7 @@ from dqpaint.language import parse
 from dqpaint.motion import Motion, moved, plan, scaled, straight
 from dqpaint.planning.forecast import Forecast, forecast
 from dqpaint.planning.ideal_run import WORTH_A_LOOK, set_out
-from dqpaint.program import Auto, Pose, Program
+from dqpaint.program import AutoPlacement, Pose, Program
 from dqpaint.robots.kinematics import (
     PULL,
     Dynamics,
@@ -112,9 +112,9 @@ def settle(
         ScriptError: the arm can draw it nowhere.
     """
     wanted = program.placement
-    if settings.place == "auto" and not isinstance(wanted, Auto):
-        wanted = Auto(wanted.orientation if wanted else None, None)
-    if not isinstance(wanted, Auto):
+    if settings.place == "auto" and not isinstance(wanted, AutoPlacement):
+        wanted = AutoPlacement(wanted.orientation if wanted else None, None)
+    if not isinstance(wanted, AutoPlacement):
         return program, None
     program = replace(program, placement=wanted)
     placed = find_place(program, kinematics, settings)
@@ -348,7 +348,7 @@ def _nowhere(
     program: Program, kinematics: Kinematics, motion: Motion, settings: Settings
 ) -> ScriptError:
     """The error, with advice that was tried."""
-    assert isinstance(program.placement, Auto)
+    assert isinstance(program.placement, AutoPlacement)
     box = " x ".join(f"{side * 1e3:.0f}" for side in motion.box)
     held = straight(motion)
     fits = (s for s in FEW_SCALES if has_room(scaled(motion, s), kinematics, settings))

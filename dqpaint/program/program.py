@@ -85,7 +85,7 @@ class ScrewTo:
 
 
 @record
-class Still:
+class Dwell:
     """Waiting at the start pose."""
 
 
@@ -130,24 +130,24 @@ class Chain:
 MOST_SAMPLES = 2_000_000  # of a drawing, if no more are allowed
 MOST_ALLOWED = 100_000_000  # of one for which more are
 
-Path = Straight | Arc | Curve | Screw | ScrewTo | Still | Step | Chain
+Path = Straight | Arc | Curve | Screw | ScrewTo | Dwell | Step | Chain
 
 
-# What the tool does meanwhile. `Screw` and `ScrewTo` say it themselves and carry `Follow`.
+# What the tool does meanwhile. `Screw` and `ScrewTo` say it themselves and carry `FollowHeading`.
 
 
 @record
-class Keep:
+class FixedOrientation:
     """The orientation stays as it is."""
 
 
 @record
-class Turn:
+class SlerpOrientation:
     """The orientation goes evenly with the path, the short way, to the end orientation."""
 
 
 @record
-class Follow:
+class FollowHeading:
     """The tool turns rigidly with an arc about its axis, with a curve's heading about `axis`."""
 
     axis: Vector = (0.0, 0.0, 1.0)
@@ -169,7 +169,7 @@ class LookLine:
     along: Vector
 
 
-Tool = Keep | Turn | Follow | Look | LookLine
+Tool = FixedOrientation | SlerpOrientation | FollowHeading | Look | LookLine
 LOOKING = (Look, LookLine)  # what a tool does whose turn depends on where it is
 
 
@@ -177,7 +177,7 @@ LOOKING = (Look, LookLine)  # what a tool does whose turn depends on where it is
 
 
 @record
-class Lasting:
+class Duration:
     """`in T`: a time [s], rounded up to whole samples."""
 
     seconds: float
@@ -191,14 +191,14 @@ class Samples:
 
 
 @record
-class Cruise:
+class CruiseSpeed:
     """The speed [m/s] of the point, or [rad/s] where only the tool turns; never exceeded."""
 
     speed: float
     turnspeed: float
 
 
-Timing = Lasting | Samples | Cruise
+Timing = Duration | Samples | CruiseSpeed
 
 
 @record
@@ -255,14 +255,14 @@ class Strobe:
 
 
 @record
-class Run:
+class ContinuousStroke:
     """One profile over several segments in a row, which all carry it: no stop between them.
 
     Profile and timing are those of the whole. A segment whose light is `light` has its part of that
     gradient, which goes over the whole length.
     """
 
-    number: int  # which of the drawing's runs
+    number: int  # which of the drawing's
     profile: Profile
     timing: Timing
     light: Light | None = None
@@ -283,11 +283,11 @@ class Segment:
     line: SourceLine  # where these words begin
     brush: Brush = Point()
     strobe: Strobe | None = None  # None: it burns steadily
-    run: Run | None = None  # None: it has profile and timing for itself
+    stroke: ContinuousStroke | None = None  # None: it has profile and timing for itself
 
 
 @record
-class Auto:
+class AutoPlacement:
     """`place auto`: where the drawing fits the arm best, which only the arm can say."""
 
     orientation: Quaternion | None  # of the drawing in the base frame; None: the robot's canvas'
@@ -303,7 +303,9 @@ class Program:
     period: float  # [s]
     robot: str | None  # the file's own `robot` line
     robot_span: Span | None  # and the name in it
-    placement: Pose | Auto | None  # the drawing in the robot's base frame; None: on its canvas
+    placement: (
+        Pose | AutoPlacement | None
+    )  # the drawing in the robot's base frame; None: on its canvas
     start: Pose
     segments: tuple[Segment, ...]
     notes: tuple[Diagnostic, ...]  # warnings; errors are raised

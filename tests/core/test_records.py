@@ -6,10 +6,10 @@ import pytest
 
 from dqpaint.core.records import replaced
 from dqpaint.diagnostics.diagnostic import Span
-from dqpaint.language.pen.stroke_state import Settings
+from dqpaint.language.pen.stroke_state import StrokeState
 from dqpaint.program.program import Profile
 
-SETTINGS = Settings(speed=0.3, profile=Profile("cubic", (0.1, 0.2)), blend=0.01)
+STATE = StrokeState(speed=0.3, profile=Profile("cubic", (0.1, 0.2)), blend=0.01)
 
 
 def test_alike_records_are_equal_and_have_one_hash() -> None:
@@ -19,14 +19,14 @@ def test_alike_records_are_equal_and_have_one_hash() -> None:
 
 
 def test_a_copy_is_another_record_with_the_changes_alone() -> None:
-    copy = replaced(SETTINGS, speed=0.5, blend=0.0)
-    assert copy == replace(SETTINGS, speed=0.5, blend=0.0)
-    assert (SETTINGS.speed, SETTINGS.blend) == (0.3, 0.01)
-    assert copy.profile is SETTINGS.profile
+    copy = replaced(STATE, speed=0.5, blend=0.0)
+    assert copy == replace(STATE, speed=0.5, blend=0.0)
+    assert (STATE.speed, STATE.blend) == (0.3, 0.01)
+    assert copy.profile is STATE.profile
 
 
 def test_a_record_has_no_other_values() -> None:
     with pytest.raises(AttributeError):
-        replaced(SETTINGS, sped=0.5)
+        replaced(STATE, sped=0.5)
     with pytest.raises(AttributeError):
-        SETTINGS.sped = 0.5  # type: ignore[attr-defined]
+        STATE.sped = 0.5  # type: ignore[attr-defined]

@@ -8,7 +8,17 @@ import pytest
 from dqpaint import dq
 from dqpaint.language import parse
 from dqpaint.motion.geometry.batched_shapes import shape
-from dqpaint.program.program import Arc, Cruise, Curve, Keep, Lasting, Look, Samples, Straight, Turn
+from dqpaint.program.program import (
+    Arc,
+    CruiseSpeed,
+    Curve,
+    Duration,
+    FixedOrientation,
+    Look,
+    Samples,
+    SlerpOrientation,
+    Straight,
+)
 from tests.support.drawn import drawn
 from tests.support.wrong_drawings import found
 
@@ -44,9 +54,9 @@ def test_a_corner_is_left_and_reached_at_the_distance_and_touched(corner, tool):
     text = f"{start}\ntool {tool}\n{CORNERS[corner]}"
     sharp = drawn(text).segments
     first, bend, second = drawn(f"blend 7 mm\n{text}").segments
-    assert first.run == bend.run == second.run
-    assert first.run is not None
-    assert first.timing == Cruise(pytest.approx(0.1), pytest.approx(math.pi / 3))
+    assert first.stroke == bend.stroke == second.stroke
+    assert first.stroke is not None
+    assert first.timing == CruiseSpeed(pytest.approx(0.1), pytest.approx(math.pi / 3))
     assert isinstance(bend.path, Arc if corner in ("right", "sharp", "flat") else Curve)
     for near, far in ((first, bend), (bend, second)):
         (_, place), (_, direction), (_, pose) = ends(near)
@@ -111,10 +121,10 @@ def test_light_and_turn_go_on():
     assert first.light.last == pytest.approx((0.1, 0, 0.9))
     assert (bend.light.first, bend.light.last) == (first.light.last, (0, 1, 0))
     assert second.light.first == second.light.last == (0, 1, 0)
-    assert isinstance(bend.tool, Turn)
+    assert isinstance(bend.tool, SlerpOrientation)
     turned = 2 * math.atan2(first.end.orientation[3], first.end.orientation[0])
     assert turned == pytest.approx(0.9 * math.pi / 2)
-    assert isinstance(second.tool, Keep)
+    assert isinstance(second.tool, FixedOrientation)
 
 
 def test_a_tool_that_looks_goes_on_looking():
@@ -140,15 +150,15 @@ def test_no_corner_is_rounded_where_the_light_or_the_tool_stops(text):
 
 def test_what_is_straight_on_is_joined_and_not_cut():
     a, b = drawn("blend 3 mm\nline by (2, 0) mm\nline by (1, 0) mm").segments
-    assert a.run == b.run
-    assert a.run is not None
+    assert a.stroke == b.stroke
+    assert a.stroke is not None
     assert b.end.position == pytest.approx((0.003, 0, 0))
 
 
 def test_a_clause_rounds_the_end_of_its_own_line():
     text = "line by (20, 0) mm blend 3 mm\nline by (0, 20) mm\nline by (-20, 0) mm"
     assert [type(s.path) for s in drawn(text).segments] == [Straight, Arc, Straight, Straight]
-    assert [s.run is None for s in drawn(text).segments] == [False, False, False, True]
+    assert [s.stroke is None for s in drawn(text).segments] == [False, False, False, True]
 
 
 def test_blend_in_a_scaled_block_is_scaled():
@@ -158,10 +168,10 @@ def test_blend_in_a_scaled_block_is_scaled():
 
 def test_the_time_of_legs_is_the_time_of_all():
     text = "blend 3 mm\nline by (20, 0) mm by (0, 20) mm by (20, 0) mm"
-    for clause, timing in (("in 3 s", Lasting(pytest.approx(3))), ("samples 50", Samples(50))):
+    for clause, timing in (("in 3 s", Duration(pytest.approx(3))), ("samples 50", Samples(50))):
         segments = drawn(f"{text} {clause}").segments
-        assert {s.run.number for s in segments} == {1}
-        assert all(s.timing == s.run.timing == timing for s in segments)
+        assert {s.stroke.number for s in segments} == {1}
+        assert all(s.timing == s.stroke.timing == timing for s in segments)
 
 
 def test_each_stroke_is_rounded_within_itself():
@@ -169,8 +179,8 @@ def test_each_stroke_is_rounded_within_itself():
     segments = drawn(f"blend 3 mm\n{lines}line by (20, 0) mm by (0, 20) mm").segments
     round_ = [Straight, Arc, Straight]
     assert [type(s.path) for s in segments] == [*round_, Straight, *round_]
-    last = segments[-1].run.number
-    assert [s.run and s.run.number for s in segments] == [1, 1, 1, None, last, last, last]
+    last = segments[-1].stroke.number
+    assert [s.stroke and s.stroke.number for s in segments] == [1, 1, 1, None, last, last, last]
     assert last > 1
 
 

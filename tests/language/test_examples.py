@@ -7,19 +7,19 @@ import pytest
 
 from dqpaint.program.program import (
     Arc,
-    Cruise,
+    CruiseSpeed,
     Curve,
-    Follow,
-    Keep,
-    Lasting,
+    Duration,
+    Dwell,
+    FixedOrientation,
+    FollowHeading,
     Light,
     Profile,
     Samples,
     Screw,
+    SlerpOrientation,
     Step,
-    Still,
     Straight,
-    Turn,
 )
 from dqpaint.program.taylor import Taylor
 from tests.support.drawing_texts import ROSE, STAR
@@ -40,8 +40,8 @@ def test_star() -> None:
         assert np.linalg.norm(segment.path.by) == pytest.approx(
             2 * 0.08 * math.sin(math.radians(72))
         )
-        assert segment.tool == Keep()
-        assert segment.timing == Cruise(pytest.approx(0.06), pytest.approx(math.pi / 3))
+        assert segment.tool == FixedOrientation()
+        assert segment.timing == CruiseSpeed(pytest.approx(0.06), pytest.approx(math.pi / 3))
         assert segment.profile == Profile("trapezoid")
         assert segment.line.line == 8
         assert segment.span.of(program.text).startswith("line to polar(")
@@ -99,9 +99,9 @@ def test_baxter_screw() -> None:
     assert screw.path == Screw(
         pytest.approx((0.7, 0.2, 0.4)), (0, 0, 1), pytest.approx(math.pi / 2), 0
     )
-    assert isinstance(screw.tool, Follow)
+    assert isinstance(screw.tool, FollowHeading)
     assert screw.profile == Profile("cubic", (0, 0), angular=True)
-    assert screw.timing == Lasting(10)
+    assert screw.timing == Duration(10)
     # The tool's z points from the start at the line, its x lies along the line.
     start = matrix(program.start.orientation)
     assert start[:, 2] == pytest.approx([1, 0, 0], abs=1e-15)
@@ -110,8 +110,8 @@ def test_baxter_screw() -> None:
     assert matrix(screw.end.orientation) == pytest.approx(
         rotation((0, 0, 1), 90) @ start, abs=1e-15
     )
-    assert hold.path == Still()
-    assert hold.timing == Lasting(2)
+    assert hold.path == Dwell()
+    assert hold.timing == Duration(2)
     assert hold.start == hold.end == screw.end
     assert hold.light == Light((1, 1, 1), (1, 1, 1))
 
@@ -127,7 +127,7 @@ def test_rose() -> None:
     for k, segment in enumerate(curves):
         assert isinstance(segment.path, Curve)
         assert (segment.path.lower, segment.path.upper) == (0, pytest.approx(math.pi))
-        assert segment.timing == Lasting(12)
+        assert segment.timing == Duration(12)
         t = np.linspace(0, math.pi, 7)
         xyz = np.array([c.coefficients[0] for c in segment.path.formula(Taylor.variable(t))])
         r = 0.03 * np.cos(3 * t)
@@ -142,8 +142,8 @@ def test_step() -> None:
         "step to (50, 50, -20) mm tool rpy(0, 0, 30 deg)\nhold 10 s\n"
     )
     before, step, after = program.segments
-    assert (before.path, step.path, after.path) == (Still(), Step(), Still())
-    assert step.tool == Turn()
+    assert (before.path, step.path, after.path) == (Dwell(), Step(), Dwell())
+    assert step.tool == SlerpOrientation()
     assert step.timing == Samples(1)
     assert step.end.position == pytest.approx((0.05, 0.05, -0.02))
     assert matrix(step.end.orientation) == pytest.approx(rotation((0, 0, 1), 30), abs=1e-15)
@@ -156,7 +156,7 @@ def test_a_one_line_file() -> None:
     (segment,) = program.segments
     assert program.period == pytest.approx(0.008)
     assert (program.robot, program.placement) == (None, None)
-    assert segment.timing == Cruise(pytest.approx(0.1), pytest.approx(math.pi / 3))
+    assert segment.timing == CruiseSpeed(pytest.approx(0.1), pytest.approx(math.pi / 3))
     assert segment.profile == Profile("trapezoid")
-    assert segment.tool == Keep()
+    assert segment.tool == FixedOrientation()
     assert segment.light == Light((1, 1, 1), (1, 1, 1))

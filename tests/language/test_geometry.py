@@ -10,16 +10,16 @@ from dqpaint.language import ScriptError
 from dqpaint.language.values import vectors
 from dqpaint.program.program import (
     Arc,
-    Follow,
-    Keep,
-    Lasting,
+    Duration,
+    FixedOrientation,
+    FollowHeading,
     Look,
     LookLine,
     Samples,
     Screw,
     ScrewTo,
+    SlerpOrientation,
     Straight,
-    Turn,
 )
 from tests.support.drawn import drawn, last, matrix, only, rotation
 
@@ -71,14 +71,14 @@ def test_a_frame_turns_by_and_axes_and_orientations_and_scales_lengths() -> None
     straight, arc, turn, screw = program.segments
     start = rotation((0, 0, 1), 30) @ rotation((0, 1, 0), 20) @ rotation((1, 0, 0), 10)
     assert matrix(program.start.orientation) == pytest.approx(start, abs=1e-15)
-    assert straight.tool == Keep()  # keep is kept in the world
+    assert straight.tool == FixedOrientation()  # keep is kept in the world
     assert straight.end.position == pytest.approx(tuple(3 * r @ [0.01, 0.02, 0.005]))
     assert isinstance(arc.path, Arc)
     assert arc.path.centre == pytest.approx(tuple(3 * r @ [0.03, 0, 0]))
     assert arc.path.axis == pytest.approx(tuple(r @ np.array([1, 1, 0]) / math.sqrt(2)))
     assert (arc.path.rise, arc.path.grow) == (pytest.approx(0.012), pytest.approx(0.006))
     inside = rotation((0, 0, 1), 3) @ rotation((0, 1, 0), 2) @ rotation((1, 0, 0), 1)
-    assert turn.tool == Turn()
+    assert turn.tool == SlerpOrientation()
     assert matrix(turn.end.orientation) == pytest.approx(r @ inside, abs=1e-14)
     assert isinstance(screw.path, Screw)
     assert screw.path.advance == pytest.approx(3 * 0.036 * 40 / 360)
@@ -168,7 +168,7 @@ def test_arc_end(rng: np.random.Generator) -> None:
         assert matrix(segment.end.orientation) == pytest.approx(
             turn @ matrix(segment.start.orientation), abs=1e-12
         )
-        assert segment.tool == Follow(pytest.approx(tuple(n)))
+        assert segment.tool == FollowHeading(pytest.approx(tuple(n)))
 
 
 def test_a_flat_spiral_may_end_in_its_centre() -> None:
@@ -238,7 +238,7 @@ def test_a_look_that_begins_elsewhere_turns_in_the_dark_first() -> None:
     program = drawn("line by (1, 0) mm\nline by (1, 0) mm tool look (0, 0, -50) mm up y")
     _, turn, stroke = program.segments
     assert turn.path == Straight((0, 0, 0))
-    assert turn.tool == Turn()
+    assert turn.tool == SlerpOrientation()
     assert turn.light is None
     assert turn.profile.name == "trapezoid"
     assert stroke.start.orientation == turn.end.orientation
@@ -262,7 +262,7 @@ def test_a_setting_before_the_start_is_how_the_tool_is_held() -> None:
     program = drawn("tool rot(x, 40 deg)\nmove to (1, 2) mm\nline by (1, 0) mm")
     assert len(program.segments) == 1
     assert matrix(program.start.orientation) == pytest.approx(rotation((1, 0, 0), 40), abs=1e-15)
-    assert program.segments[0].tool == Keep()
+    assert program.segments[0].tool == FixedOrientation()
 
 
 def test_turn_and_light_and_time_are_spread_over_a_polyline() -> None:
@@ -278,13 +278,13 @@ def test_turn_and_light_and_time_are_spread_over_a_polyline() -> None:
         assert segment.light.last == pytest.approx((1 - share, 0, share))
     assert program.segments[0].light.first == (1, 0, 0)
     times = drawn("line by (30, 0) mm by (0, 10) mm by (-60, 0) mm in 5 s").segments
-    assert [s.timing for s in times] == [Lasting(pytest.approx(t)) for t in (1.5, 0.5, 3.0)]
+    assert [s.timing for s in times] == [Duration(pytest.approx(t)) for t in (1.5, 0.5, 3.0)]
 
 
 def test_turn_on_the_spot() -> None:
     segment = only("line by (0, 0) tool rot(y, 30 deg) in 2 s")
     assert segment.path == Straight((0, 0, 0))
-    assert segment.tool == Turn()
+    assert segment.tool == SlerpOrientation()
     assert matrix(segment.end.orientation) == pytest.approx(rotation((0, 1, 0), 30), abs=1e-15)
 
 
@@ -301,7 +301,7 @@ def test_turn_on_the_spot() -> None:
 def test_follow_turns_with_the_heading(curve: str, degrees: float) -> None:
     segment = last(f"start at (10, 0) mm tool rpy(3 deg, 4 deg, 5 deg)\ncurve {curve} tool follow")
     before = matrix(segment.start.orientation)
-    assert segment.tool == Follow(Z)
+    assert segment.tool == FollowHeading(Z)
     assert matrix(segment.end.orientation) == pytest.approx(rotation(Z, degrees) @ before, abs=1e-9)
 
 

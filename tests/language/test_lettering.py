@@ -8,7 +8,7 @@ import pytest
 from dqpaint.language import parse
 from dqpaint.language.imports import lettering
 from dqpaint.program import piecewise
-from dqpaint.program.program import Chain, Cruise, Light, Program, Samples, Segment, Straight
+from dqpaint.program.program import Chain, CruiseSpeed, Light, Program, Samples, Segment, Straight
 from tests.support.drawn import drawn
 
 FONTS = lettering.font_names()
@@ -156,7 +156,7 @@ def test_time_is_shared_by_length() -> None:
     counts = [s.timing.count for s in program.segments if isinstance(s.timing, Samples)]
     assert sum(counts) == 1000
     assert len(counts) == len(program.segments)
-    assert all(isinstance(s.timing, Cruise) for s in drawn('text "HI" height 9 mm').segments)
+    assert all(isinstance(s.timing, CruiseSpeed) for s in drawn('text "HI" height 9 mm').segments)
 
 
 def test_a_gradient_runs_over_all() -> None:

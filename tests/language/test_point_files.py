@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from dqpaint.language import Program, ScriptError, parse
 from dqpaint.language.strokes import imported_strokes
 from dqpaint.program import piecewise
-from dqpaint.program.program import Chain, Cruise, Lasting, Samples, Straight
+from dqpaint.program.program import Chain, CruiseSpeed, Duration, Samples, Straight
 from tests.support.clock import children_time
 
 CHECK = """
@@ -97,8 +97,8 @@ def test_it_is_one_stroke_with_the_clauses_of_a_stroke(tmp_path: Path) -> None:
         return segment.timing
 
     assert timing("samples 77") == Samples(77)
-    assert timing("in 3 s") == Lasting(3)
-    assert timing("speed 30 mm/s") == Cruise(pytest.approx(0.03), pytest.approx(np.pi / 3))
+    assert timing("in 3 s") == Duration(3)
+    assert timing("speed 30 mm/s") == CruiseSpeed(pytest.approx(0.03), pytest.approx(np.pi / 3))
 
 
 def test_the_way_there(tmp_path: Path) -> None:

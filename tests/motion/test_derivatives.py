@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
-from dqpaint.program.program import Lasting, Profile
+from dqpaint.program.program import Duration, Profile
 from tests.support.strokes import KINDS, PROFILES, program, segment, strokes_of
 
 BREAKPOINTS = np.array([0.0, 0.2, 0.8, 1.0])
@@ -51,7 +51,7 @@ def test_twist_and_acceleration_are_derivatives(rng, path, tool, profile):
 def test_a_profile_that_runs_beyond_the_ends_takes_the_pose_along(path, tool):
     """Rates that begin backwards: place and twist agree there too."""
     back = replace(
-        segment(path, tool), profile=Profile("cubic", (-0.02, 0.03)), timing=Lasting(2.504)
+        segment(path, tool), profile=Profile("cubic", (-0.02, 0.03)), timing=Duration(2.504)
     )
     (stroke,) = strokes_of(program(back))
     tau, h = np.linspace(0.02, 0.3, 15), 1e-4

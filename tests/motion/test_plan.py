@@ -16,18 +16,18 @@ from dqpaint.program.program import (
     MOST_ALLOWED,
     MOST_SAMPLES,
     Arc,
-    Cruise,
+    CruiseSpeed,
     Curve,
-    Follow,
-    Keep,
-    Lasting,
+    Duration,
+    Dwell,
+    FixedOrientation,
+    FollowHeading,
     Light,
     Pose,
     Profile,
     Samples,
     Screw,
     Step,
-    Still,
     Straight,
 )
 from dqpaint.settings.model import Settings, make_settings
@@ -38,7 +38,7 @@ CANVAS = dq.pose_from([0.7, -0.1, 0.5], np.array([0.5, 0.5, 0.5, 0.5]))
 
 def stroke(path, start=START, end=None, timing=None, profile="constant", tool=None, **more):
     made = segment("line", "keep", profile)
-    return replace(made, path=path, start=start, end=end or start, tool=tool or Keep(),
+    return replace(made, path=path, start=start, end=end or start, tool=tool or FixedOrientation(),
                    timing=timing or Samples(100), **more)  # fmt: skip
 
 
@@ -64,7 +64,7 @@ def test_a_screw_keeps_its_line():
     """Points of the axis, carried by the tool, slide along it by pitch x angle."""
     point, angle, advance = np.array([0.4, 0.1, -0.2]), 2.4, 0.15
     screw = stroke(
-        Screw(tuple(point), AXIS, angle, advance), timing=Samples(500), tool=Follow(AXIS)
+        Screw(tuple(point), AXIS, angle, advance), timing=Samples(500), tool=FollowHeading(AXIS)
     )
     motion = plan(program(screw), dq.IDENTITY)
     carried = dq.mul(motion.pose, dq.conj(motion.pose[0]))  # what moves the first pose to each
@@ -90,8 +90,8 @@ def test_samples_meet_at_corners_and_twists_are_of_what_follows():
 
 def test_step_jumps_between_two_samples_without_a_twist():
     end = Pose((0.3, 0.1, -0.1), START.orientation)
-    motion = plan(program(stroke(Still(), timing=Lasting(0.08)), stroke(Step(), START, end),
-                          stroke(Still(), end, timing=Lasting(0.04))), dq.IDENTITY)  # fmt: skip
+    motion = plan(program(stroke(Dwell(), timing=Duration(0.08)), stroke(Step(), START, end),
+                          stroke(Dwell(), end, timing=Duration(0.04))), dq.IDENTITY)  # fmt: skip
     assert len(motion.t) == 1 + 10 + 1 + 5
     np.testing.assert_allclose(motion.points[:11], np.tile(START.position, (11, 1)), atol=1e-15)
     np.testing.assert_allclose(motion.points[11:], np.tile(end.position, (6, 1)), atol=1e-15)
@@ -100,7 +100,7 @@ def test_step_jumps_between_two_samples_without_a_twist():
 
 def test_light_is_the_mean_of_each_step_and_a_gradient_runs_over_length():
     made = stroke(Straight((0.1, 0, 0)), timing=Samples(4), light=Light((1, 0, 0), (0, 0, 1)))
-    dark = stroke(Still(), Pose((START.position[0] + 0.1, *START.position[1:]), START.orientation),
+    dark = stroke(Dwell(), Pose((START.position[0] + 0.1, *START.position[1:]), START.orientation),
                   timing=Samples(3), light=None)  # fmt: skip
     motion = plan(program(made, dark), dq.IDENTITY)
     np.testing.assert_allclose(motion.light[:4, 0], [0.875, 0.625, 0.375, 0.125], atol=1e-14)
@@ -118,10 +118,10 @@ def test_a_gradient_stays_between_its_colours_where_the_profile_overshoots():
 
 def test_a_drawing_of_days_and_one_beyond_the_numbers_are_refused():
     with pytest.raises(ScriptError) as caught:
-        plan(program(stroke(Still(), timing=Samples(10_000)), period=10.0), CANVAS)
+        plan(program(stroke(Dwell(), timing=Samples(10_000)), period=10.0), CANVAS)
     assert codes(caught) == ["E325"]
     with pytest.raises(ScriptError) as caught:
-        plan(program(stroke(Straight((0.1, 0, 0)), timing=Cruise(1e-200, 1.0))), CANVAS)
+        plan(program(stroke(Straight((0.1, 0, 0)), timing=CruiseSpeed(1e-200, 1.0))), CANVAS)
     assert codes(caught) == ["E302"]
     wild = replace(
         stroke(Straight((0.1, 0, 0)), timing=Samples(10)), profile=Profile("cubic", (1e308, 0))
@@ -143,7 +143,7 @@ def test_a_curve_with_a_time_is_its_formula_and_with_a_speed_is_even():
     line = Curve(lambda t: (0.1 * t * t, 0.0 * t, 0.2 * t * t), 0.3, 1.0)
     literal = plan(program(stroke(line, timing=Samples(7))), dq.IDENTITY)
     np.testing.assert_allclose(literal.points[:, 0], 0.1 * np.linspace(0.3, 1, 8) ** 2, atol=1e-15)
-    even = plan(program(stroke(line, timing=Cruise(0.05, 1.0))), dq.IDENTITY)
+    even = plan(program(stroke(line, timing=CruiseSpeed(0.05, 1.0))), dq.IDENTITY)
     np.testing.assert_allclose(np.diff(even.points, axis=0)[:, 0].std(), 0, atol=1e-14)
 
 
@@ -151,7 +151,7 @@ def test_a_curve_with_a_time_is_its_formula_and_with_a_speed_is_even():
 @pytest.mark.parametrize("path", ["line", "circle", "spiral", "curve", "screw"])
 def test_cruising_speed_is_reached_and_never_exceeded(path, profile):
     tool = "follow" if path == "screw" else "keep"
-    made = replace(segment(path, tool, profile), timing=Cruise(0.08, 100.0))
+    made = replace(segment(path, tool, profile), timing=CruiseSpeed(0.08, 100.0))
     motion = plan(program(made, period=0.001), CANVAS)
     speed = np.linalg.norm(dq.point_velocity(motion.twist, motion.points), axis=1)
     assert speed.max() <= 0.08 * (1 + 1e-9)
@@ -166,11 +166,11 @@ def test_turnspeed_holds_a_turn_back():
 
 def test_durations_are_rounded_up_and_said_where_it_matters():
     assert 0.07 / 0.01 > 7  # the noise of a division is not another sample
-    assert len(plan(program(stroke(Still(), timing=Lasting(0.07)), period=0.01), CANVAS).t) == 8
-    motion = plan(program(stroke(Still(), timing=Lasting(0.08))), CANVAS)
+    assert len(plan(program(stroke(Dwell(), timing=Duration(0.07)), period=0.01), CANVAS).t) == 8
+    motion = plan(program(stroke(Dwell(), timing=Duration(0.08))), CANVAS)
     assert len(motion.t) == 11
     assert not motion.notes
-    motion = plan(program(stroke(Still(), timing=Lasting(0.081))), CANVAS)
+    motion = plan(program(stroke(Dwell(), timing=Duration(0.081))), CANVAS)
     assert len(motion.t) == 12
     assert [n.code for n in motion.notes] == ["W410"]
 
@@ -201,15 +201,15 @@ def test_rows_are_read_only():
 
 @pytest.mark.slow
 def test_the_sample_budget_is_checked_before_anything_is_made():
-    huge = stroke(Straight((0.1, 0, 0)), timing=Cruise(1e-9, 1.0), profile="trapezoid")
+    huge = stroke(Straight((0.1, 0, 0)), timing=CruiseSpeed(1e-9, 1.0), profile="trapezoid")
     with pytest.raises(ScriptError) as caught:
         plan(program(huge), CANVAS)
     assert codes(caught) == ["E302"]
     assert "this line alone has 15,625,000,000" in str(caught.value)
     with pytest.raises(ScriptError) as caught:
-        plan(program(stroke(Still(), timing=Samples(10**12))), CANVAS)
+        plan(program(stroke(Dwell(), timing=Samples(10**12))), CANVAS)
     assert codes(caught) == ["E302"]
-    many = stroke(Still(), timing=Samples(1_500_000))
+    many = stroke(Dwell(), timing=Samples(1_500_000))
     with pytest.raises(ScriptError) as caught:
         plan(program(many, many), CANVAS)
     assert codes(caught) == ["E302"]
@@ -217,7 +217,7 @@ def test_the_sample_budget_is_checked_before_anything_is_made():
 
 def test_a_drawing_s_own_budget():
     """Of samples, the first included; what is refused for its size is not sampled at all."""
-    lines = [stroke(Still(), timing=Samples(10)) for _ in range(3)]
+    lines = [stroke(Dwell(), timing=Samples(10)) for _ in range(3)]
     drawing = replace(program(*lines), most_samples=31)
     assert plan(drawing, CANVAS).samples == survey(drawing).samples == 31
     asked = []
@@ -259,13 +259,13 @@ def test_faults_of_strokes_are_all_reported():
     cusp = Curve(lambda t: (0.1 * t * t * t, 0.1 * t * t, 0.0 * t), -1.0, 1.0)
     root = Curve(lambda t: (0.1 * _sqrt(t), 0.0 * t, 0.0 * t), 0.0, 1.0)
     segments = [
-        replace(stroke(cusp, timing=Cruise(0.1, 1.0)), span=_span(0)),
+        replace(stroke(cusp, timing=CruiseSpeed(0.1, 1.0)), span=_span(0)),
         replace(stroke(root, timing=Samples(10)), span=_span(1)),
         replace(
-            stroke(Straight((0.1, 0, 0)), timing=Cruise(0.01, 1), profile="cubic-rates"),
+            stroke(Straight((0.1, 0, 0)), timing=CruiseSpeed(0.01, 1), profile="cubic-rates"),
             span=_span(2),
         ),
-        replace(stroke(Still(), timing=Samples(5)), span=_span(3)),
+        replace(stroke(Dwell(), timing=Samples(5)), span=_span(3)),
         replace(segment("turn", "turn", "cubic-rates"), span=_span(4)),
     ]
     with pytest.raises(ScriptError) as caught:
@@ -290,19 +290,19 @@ def test_a_screw_to_the_antipodal_orientation_goes_the_short_way():
 
     q = np.array(START.orientation)
     end = Pose((0.2, 0.0, 0.1), tuple(-q))
-    made = stroke(ScrewTo(), START, end, timing=Samples(10), tool=Follow())
+    made = stroke(ScrewTo(), START, end, timing=Samples(10), tool=FollowHeading())
     motion = plan(program(made), dq.IDENTITY)
     assert np.abs(motion.twist[:, :3]).max() < 1e-9
 
 
 def test_profile_is_kept_out_of_the_way_of_a_still_stroke():
-    made = replace(stroke(Still(), timing=Lasting(0.4)), profile=Profile("cubic", (0.1, 0.1)))
+    made = replace(stroke(Dwell(), timing=Duration(0.4)), profile=Profile("cubic", (0.1, 0.1)))
     assert not plan(program(made), CANVAS).twist.any()
 
 
 def test_at_most_twenty_faults_are_told_in_the_order_of_the_text():
     cusp = Curve(lambda t: (0.1 * t * t * t, 0.1 * t * t, 0.0 * t), -1.0, 1.0)
-    faulty = stroke(cusp, timing=Cruise(0.1, 1.0))
+    faulty = stroke(cusp, timing=CruiseSpeed(0.1, 1.0))
     with pytest.raises(ScriptError) as caught:
         plan(program(*(replace(faulty, span=_span(i)) for i in range(60))), CANVAS)
     assert [d.span.start for d in caught.value.diagnostics] == list(range(20))

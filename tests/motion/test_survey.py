@@ -15,7 +15,7 @@ from dqpaint.motion.geometry.batched_shapes import gather
 from dqpaint.motion.geometry.orientations import LookAtLine, LookAtPoint
 from dqpaint.motion.geometry.paths import Lines
 from dqpaint.motion.geometry.shapes import Loose
-from dqpaint.program.program import Cruise, Program
+from dqpaint.program.program import CruiseSpeed, Program
 from tests.support.drawings import drawing
 from tests.support.strokes import KINDS, PROFILES, program, segment
 
@@ -82,7 +82,9 @@ def test_a_survey_finds_numbers_that_grow_beyond_all_numbers(path, tool, huge):
     for wild in (
         replace(made, start=replace_place(made.start, huge)),
         replace(
-            made, timing=Cruise(0.08, 0.9), profile=replace(PROFILES["cubic"], rates=(huge, 0.0))
+            made,
+            timing=CruiseSpeed(0.08, 0.9),
+            profile=replace(PROFILES["cubic"], rates=(huge, 0.0)),
         ),
     ):
         with np.errstate(all="ignore"):
@@ -100,7 +102,7 @@ def alone(program: Program, chosen: slice) -> Motion:
 
 def runs(program: Program) -> list[slice]:
     """The segments of each stroke."""
-    number = [s.run.number if s.run else -i for i, s in enumerate(program.segments, 1)]
+    number = [s.stroke.number if s.stroke else -i for i, s in enumerate(program.segments, 1)]
     starts = [i for i, n in enumerate(number) if i == 0 or n != number[i - 1]]
     return [slice(*pair) for pair in zip(starts, [*starts[1:], len(number)], strict=True)]
 

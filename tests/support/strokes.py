@@ -15,11 +15,11 @@ from dqpaint.motion.schedule import Schedule, timetable
 from dqpaint.program import piecewise, taylor
 from dqpaint.program.program import (
     Arc,
-    Cruise,
+    CruiseSpeed,
     Curve,
-    Follow,
-    Keep,
-    Lasting,
+    Duration,
+    FixedOrientation,
+    FollowHeading,
     Light,
     Look,
     LookLine,
@@ -29,8 +29,8 @@ from dqpaint.program.program import (
     Screw,
     ScrewTo,
     Segment,
+    SlerpOrientation,
     Straight,
-    Turn,
 )
 
 START = Pose((0.11, -0.07, 0.05), tuple(np.array([0.3, -0.5, 0.7, 0.4]) / math.sqrt(0.99)))
@@ -78,9 +78,9 @@ PATHS = {
     ),
 }
 TOOLS = {
-    "keep": Keep(),
-    "turn": Turn(),
-    "follow": Follow((0.6, 0.0, 0.8)),
+    "keep": FixedOrientation(),
+    "turn": SlerpOrientation(),
+    "follow": FollowHeading((0.6, 0.0, 0.8)),
     "look": Look((0.5, 0.9, -1.3), (0.0, 0.6, 0.8)),
     "look-line": LookLine((0.9, -0.4, 0.8), AXIS),
 }
@@ -111,7 +111,7 @@ def segment(path, tool, profile="trapezoid", timing=None, start=START):
         tool=TOOLS[tool],
         profile=PROFILES[profile],
         timing=timing
-        or (Cruise(0.08, 0.9) if profile in ("trapezoid", "cubic") else Lasting(2.504)),
+        or (CruiseSpeed(0.08, 0.9) if profile in ("trapezoid", "cubic") else Duration(2.504)),
         light=Light((1.0, 0.2, 0.0), (0.0, 0.3, 1.0)),
         start=start,
         end=Pose((0.2, 0.1, -0.3), TURNED),

@@ -5,7 +5,7 @@ from dqpaint.language.syntax.tree import Part, Statement
 from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.evaluate import evaluate
 from dqpaint.language.values.scope import Scope, UnknownError
-from dqpaint.language.values.values import Drawing, Point
+from dqpaint.language.values.values import PointValue, Procedure
 from dqpaint.language.values.vectors import Frame
 from dqpaint.language.vocabulary.units import PLAIN
 
@@ -50,7 +50,7 @@ def _size(body: tuple[Statement, ...], scope: Scope) -> int:
             size += count * _size(statement.body, scope)
         elif statement.word == "call" and statement.name is not None:
             drawing = scope.names.get(statement.name.text)
-            size += drawing.size if isinstance(drawing, Drawing) else 0
+            size += drawing.size if isinstance(drawing, Procedure) else 0
     return size
 
 
@@ -98,7 +98,7 @@ def _rotation(part: Part, about: Part | None, scope: Scope) -> Frame:
     if about is None:
         return Frame(turn=typed_values.rotation(part.expression, scope, "rotate"))
     where = evaluate(about.expression, scope)
-    if isinstance(where, Point) and where.dimension == PLAIN and any(where.xyz):
+    if isinstance(where, PointValue) and where.dimension == PLAIN and any(where.xyz):
         axis = typed_values.direction(about.expression, scope, "about")
         angle = typed_values.number(part.expression, scope, "rotate")
         return Frame(turn=vectors.turn_about(axis, angle))

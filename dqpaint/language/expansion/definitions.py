@@ -7,7 +7,7 @@ from dqpaint.language.syntax.tree import Statement, names_in, size_of
 from dqpaint.language.values import typed_values
 from dqpaint.language.values.evaluate import evaluate
 from dqpaint.language.values.scope import DEEPEST_CALLS, Scope, UnknownError
-from dqpaint.language.values.values import Drawing, Function, Placement, Value
+from dqpaint.language.values.values import FrameValue, Function, Procedure, Value
 from dqpaint.language.values.vectors import Frame
 
 
@@ -28,7 +28,7 @@ def function_of(statement: Statement, scope: Scope) -> Function:
     return Function(name, params, body, scope.known(used.difference(params)), size, depth)
 
 
-def drawing_of(statement: Statement, scope: Scope) -> Drawing:
+def drawing_of(statement: Statement, scope: Scope) -> Procedure:
     """`def star(r) … end`. Its lines know what is known here, and what they are handed."""
     assert statement.name is not None
     assert statement.params is not None
@@ -39,7 +39,7 @@ def drawing_of(statement: Statement, scope: Scope) -> Drawing:
         raise problem("E232", message, call.span, "", "repeat draws its lines several times")
     known = scope.known(names_in(statement.body).difference(p.text for p in statement.params))
     size = blocks.size(statement, 1, scope)
-    return Drawing(name.text, statement.params, statement.body, known, size)
+    return Procedure(name.text, statement.params, statement.body, known, size)
 
 
 def _call_of(name: str, body: tuple[Statement, ...]) -> Statement | None:
@@ -53,7 +53,7 @@ def _call_of(name: str, body: tuple[Statement, ...]) -> Statement | None:
     return None
 
 
-def frame_of(statement: Statement, scope: Scope) -> Placement:
+def frame_of(statement: Statement, scope: Scope) -> FrameValue:
     """`frame leaf at P turned O`."""
     at, turned = statement.value("at"), statement.value("turned")
     frame = Frame()
@@ -61,15 +61,15 @@ def frame_of(statement: Statement, scope: Scope) -> Placement:
         frame = Frame(shift=typed_values.place(at, scope, "at"))
     if turned is not None:
         frame = frame._replace(turn=typed_values.rotation(turned, scope, "turned"))
-    return Placement(frame)
+    return FrameValue(frame)
 
 
-def called(statement: Statement, scope: Scope) -> Drawing:
+def called(statement: Statement, scope: Scope) -> Procedure:
     """The `def` that a line calls."""
     assert statement.name is not None
     word = statement.name
     value = scope.names.get(word.text)
-    if isinstance(value, Drawing):
+    if isinstance(value, Procedure):
         return value
     if word.text in scope.names and value is None:
         raise UnknownError
@@ -79,7 +79,7 @@ def called(statement: Statement, scope: Scope) -> Drawing:
     if value is not None:
         message = f"'{word.text}' is no 'def', so it can't be drawn"
         raise problem("E206", message, word.span)
-    defs = [name for name, known in scope.names.items() if isinstance(known, Drawing)]
+    defs = [name for name, known in scope.names.items() if isinstance(known, Procedure)]
     mistake, meant = unknown_statement(word.text, word.span, defs)
     if not meant:
         mistake = problem(
@@ -92,7 +92,7 @@ def called(statement: Statement, scope: Scope) -> Drawing:
     raise Problem(mistake)
 
 
-def handed(drawing: Drawing, statement: Statement, scope: Scope) -> Scope:
+def handed(drawing: Procedure, statement: Statement, scope: Scope) -> Scope:
     """What the lines of a `def` know when it is called."""
     wanted, given = len(drawing.params), len(statement.values)
     if wanted != given:

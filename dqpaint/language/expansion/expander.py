@@ -30,8 +30,8 @@ from dqpaint.language.values.scope import BUILTINS, Scope, UnknownError
 from dqpaint.language.values.values import Quantity, Value
 from dqpaint.language.values.vectors import Frame
 from dqpaint.language.vocabulary.units import PLAIN
-from dqpaint.language.vocabulary.words import SETTINGS, STATEMENTS
-from dqpaint.program import Auto, Pose, Program, Segment
+from dqpaint.language.vocabulary.words import MODAL, STATEMENTS
+from dqpaint.program import AutoPlacement, Pose, Program, Segment
 
 NAMELESS = ("robot", "place", "curve", "repeat", "call")  # their name is none that they give
 ALIKE = ("text", "path", "svg", "move")  # in each pass as much as in the first
@@ -56,7 +56,7 @@ class Expander:
         self._period = PERIOD
         self._robot: str | None = None
         self._robot_span: Span | None = None
-        self._placement: Pose | Auto | None = None
+        self._placement: Pose | AutoPlacement | None = None
         self.at: Span | None = None  # the statement being worked on
 
     def program(self, statements: tuple[Statement, ...]) -> Program:
@@ -97,7 +97,7 @@ class Expander:
         try:
             if statement.word in _HANDLERS:
                 _HANDLERS[statement.word](self, statement)
-            elif statement.word in SETTINGS:
+            elif statement.word in MODAL:
                 self._change(statement.parts[0], self._pen.frame)
             elif STATEMENTS[statement.word].moves:
                 strokes.draw(statement, self._pen, self._scope)
@@ -195,13 +195,13 @@ class Expander:
         drawing = called(statement, self._scope)
         inner = handed(drawing, statement, self._scope)
         self._check_size(statement, self._expanded + drawing.size)
-        scope, settings, failed = self._scope, self._pen.settings, self._failed
+        scope, state, failed = self._scope, self._pen.state, self._failed
         self._scope = inner
         self._calls.append(statement.span)
         self._inside(statement, drawing.body)
         self._calls.pop()
         self._scope = scope
-        self._pen.settings = replace(settings, shone=self._pen.settings.shone)
+        self._pen.state = replace(state, shone=self._pen.state.shone)
         if self._failed > failed:
             self._pen.lost = True
 
@@ -238,37 +238,37 @@ class Expander:
 
     def _with(self, statement: Statement) -> None:
         pen = self._pen
-        frame, settings = pen.frame, pen.settings
+        frame, state = pen.frame, pen.state
         inner = blocks.inner_frame(statement, frame, self._scope)
         for part in statement.parts:
-            if part.word in SETTINGS:
+            if part.word in MODAL:
                 self._change(part, inner)
         pen.frame = inner
         self._inside(statement, statement.body)
         pen.frame = frame
-        pen.settings = replace(settings, shone=pen.settings.shone)
+        pen.state = replace(state, shone=pen.state.shone)
 
     def _change(self, part: Part, frame: Frame) -> None:
         pen = self._pen
         pen.check_pace(part)
-        pen.settings = changed(pen.settings, part, self._scope, frame)
+        pen.state = changed(pen.state, part, self._scope, frame)
 
     def _stroke(self, statement: Statement) -> None:
         pen = self._pen
-        if pen.run is not None:
+        if pen.stroke is not None:
             cure = "one 'stroke' takes any number of lines"
             raise problem("E280", "a stroke within a stroke", statement.span, "", cure)
-        settings = pen.settings
+        state = pen.state
         for part in statement.parts:
-            if part.word in SETTINGS:
+            if part.word in MODAL:
                 self._change(part, pen.frame)
-        light = pen.settings.light if statement.part("light") else None
-        pen.begin_run(timing(statement, pen.settings, self._scope), light)
+        light = pen.state.light if statement.part("light") else None
+        pen.begin_stroke(timing(statement, pen.state, self._scope), light)
         try:
             self._inside(statement, statement.body)
         finally:
-            pen.run = None
-        pen.settings = replace(settings, shone=pen.settings.shone)
+            pen.stroke = None
+        pen.state = replace(state, shone=pen.state.shone)
 
     def _curve(self, statement: Statement) -> None:
         self._define(statement)
@@ -329,7 +329,7 @@ class Expander:
         turned = statement.value("turned")
         given = None if turned is None else typed_values.rotation(turned, self._scope, "turned")
         if statement.name is not None:
-            self._placement = Auto(given, statement.span)
+            self._placement = AutoPlacement(given, statement.span)
             return
         position = typed_values.place(statement.given("at"), self._scope, "at")
         self._placement = Pose(position, given or (1.0, 0.0, 0.0, 0.0))
@@ -341,7 +341,7 @@ class Expander:
         position = pen.frame.point(typed_values.place(at, self._scope, "at"))
         orientation = None
         if tool is not None:
-            mode = changed(pen.settings, tool, self._scope, pen.frame).tool
+            mode = changed(pen.state, tool, self._scope, pen.frame).tool
             orientation = tool_orientation.told(mode, position, tool.value.span)
             if orientation is None:
                 message = "'start' needs to know how the tool is held"

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from dqpaint.program import Chain, Colour, Floats, piecewise
 
-Line = tuple[Chain, Colour | None]
+ColouredCurve = tuple[Chain, Colour | None]
 
 TOUCHING = 1e-5  # of the size of the drawing
 SAME = 1e-12  # [m]
@@ -23,7 +23,7 @@ ROUNDS = 20
 RINGS = 6  # of cells that are searched before all lines are
 
 
-def in_order(lines: list[Line]) -> list[Line]:
+def in_order(lines: list[ColouredCurve]) -> list[ColouredCurve]:
     """The same lines, joined and in an order whose dark ways are no longer than before."""
     return _routed(_merged(lines))
 
@@ -31,7 +31,7 @@ def in_order(lines: list[Line]) -> list[Line]:
 # Joined.
 
 
-def _merged(lines: list[Line]) -> list[Line]:
+def _merged(lines: list[ColouredCurve]) -> list[ColouredCurve]:
     """Lines whose ends touch become one."""
     ends = piecewise.all_ends([chain for chain, _ in lines])
     tolerance = max(TOUCHING * float(np.ptp(ends.reshape(-1, 3), axis=0).max()), SAME)
@@ -85,9 +85,11 @@ def _pairs(
     return out
 
 
-def _strung(lines: list[Line], partner: dict[tuple[int, int], tuple[int, int]]) -> list[Line]:
+def _strung(
+    lines: list[ColouredCurve], partner: dict[tuple[int, int], tuple[int, int]]
+) -> list[ColouredCurve]:
     """Follows the partners from line to line."""
-    out: list[Line] = []
+    out: list[ColouredCurve] = []
     done: set[int] = set()
     for number in range(len(lines)):
         if number in done:
@@ -113,7 +115,7 @@ def _strung(lines: list[Line], partner: dict[tuple[int, int], tuple[int, int]]) 
 # Ordered.
 
 
-def _routed(lines: list[Line]) -> list[Line]:
+def _routed(lines: list[ColouredCurve]) -> list[ColouredCurve]:
     ends = piecewise.all_ends([chain for chain, _ in lines])
     order, flipped = _nearest(ends)
     if len(lines) <= MOST_TURNED:

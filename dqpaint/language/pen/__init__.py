@@ -1,1 +1,1 @@
-"""The state between statements: pose of the pen, settings of strokes -> times and orientations."""
+"""The state between statements: pose of the pen, state of strokes -> times and orientations."""

@@ -1,31 +1,31 @@
 """How long a stroke takes, and how the legs of one statement share it."""
 
 from dqpaint.diagnostics import Span, problem
-from dqpaint.language.pen.stroke_state import Settings
+from dqpaint.language.pen.stroke_state import StrokeState
 from dqpaint.language.syntax.tree import Statement
 from dqpaint.language.values import typed_values
 from dqpaint.language.values.scope import Scope
-from dqpaint.program import Cruise, Lasting, Samples, Timing
+from dqpaint.program import CruiseSpeed, Duration, Samples, Timing
 
 
-def timing(statement: Statement, settings: Settings, scope: Scope) -> Timing:
-    """The time that a statement asks for; `settings` include its own clauses."""
+def timing(statement: Statement, state: StrokeState, scope: Scope) -> Timing:
+    """The time that a statement asks for; `state` has its own clauses."""
     for part in statement.parts:
         if part.word not in ("in", "samples"):
             continue
         if part.word == "in":
-            return Lasting(typed_values.positive(part.expression, scope, "in"))
+            return Duration(typed_values.positive(part.expression, scope, "in"))
         return Samples(typed_values.count(part.expression, scope, "samples", least=1))
-    return Cruise(settings.speed, settings.turnspeed)
+    return CruiseSpeed(state.speed, state.turnspeed)
 
 
 def shared(whole: Timing, shares: list[float], span: Span) -> list[Timing]:
     """The time of each leg: `shares` [any unit] are the legs' lengths."""
-    if len(shares) == 1 or isinstance(whole, Cruise):
+    if len(shares) == 1 or isinstance(whole, CruiseSpeed):
         return [whole] * len(shares)
     total = sum(shares)
-    if isinstance(whole, Lasting):
-        return [Lasting(whole.seconds * share / total) for share in shares]
+    if isinstance(whole, Duration):
+        return [Duration(whole.seconds * share / total) for share in shares]
     if whole.count < len(shares):
         message = f"{len(shares)} legs need at least {len(shares)} samples"
         raise problem("E256", message, span, "", f"write: samples {len(shares)}")

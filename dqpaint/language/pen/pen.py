@@ -15,28 +15,28 @@ from dqpaint.diagnostics import (
     file_number,
     problem,
 )
-from dqpaint.language.pen.stroke_state import REST_TO_REST, Settings, Towards
+from dqpaint.language.pen.stroke_state import REST_TO_REST, StrokeState, TurnTo
 from dqpaint.language.syntax.tree import Part
 from dqpaint.language.values import vectors
 from dqpaint.language.vocabulary.words import PACE, PARTS
 from dqpaint.program import (
     IDENTITY,
-    Cruise,
-    Keep,
+    ContinuousStroke,
+    CruiseSpeed,
+    Dwell,
+    FixedOrientation,
     Light,
     Look,
     LookLine,
     Path,
     Pose,
     Quaternion,
-    Run,
     Segment,
+    SlerpOrientation,
     Step,
-    Still,
     Straight,
     Timing,
     Tool,
-    Turn,
     Vector,
 )
 
@@ -48,7 +48,7 @@ LOOKS_ALREADY = 1e-9  # [rad] what rounding may leave between a look and the str
 
 
 class Pen:
-    """The state of the drawing: `settings` and `frame` are changed from outside."""
+    """The state of the drawing: `state` and `frame` are changed from outside."""
 
     def __init__(
         self, name: str, text: str, findings: Findings, path: FilePath | None = None
@@ -57,14 +57,14 @@ class Pen:
         self.path = path  # of the main file, if the text is one
         self.text = text
         self.findings = findings
-        self.settings = Settings()
+        self.state = StrokeState()
         self.frame = vectors.WORLD
         self.pose = IDENTITY
         self.start = IDENTITY
         self.segments: list[Segment] = []
         self.corners: list[float] = []  # within what distance [m] the end of each is rounded
-        self.run: Run | None = None  # of the `stroke` that is being drawn
-        self._runs = 0
+        self.stroke: ContinuousStroke | None = None  # of the `stroke` that is being drawn
+        self._strokes = 0
         self.pieces = 0  # of chains
         self.placed = False  # the file has said where the drawing starts
         self.started = False  # something has moved
@@ -78,8 +78,8 @@ class Pen:
         if self.started:
             return
         self.started, self.moved = True, span
-        mode = self.settings.tool
-        if isinstance(mode, Towards) and not self.oriented:
+        mode = self.state.tool
+        if isinstance(mode, TurnTo) and not self.oriented:
             self._adopt(mode.orientation)
 
     def start_at(self, position: Vector, orientation: Quaternion | None) -> None:
@@ -102,50 +102,52 @@ class Pen:
         if max(map(abs, end.position)) > FARTHEST:
             raise here("E201", "this ends too far away", span)
         line, words = self._lines.line(span), first_line(self.text, span)
-        settings, run = self.settings, self.run
-        if run is not None:
+        state, stroke = self.state, self.stroke
+        if stroke is not None:
             self._check_goes_on(path, span)
-            timing = run.timing
-        profile = run.profile if run is not None else settings.profile
-        brush, strobe, start = settings.brush, settings.strobe, self.pose
+            timing = stroke.timing
+        profile = stroke.profile if stroke is not None else state.profile
+        brush, strobe, start = state.brush, state.strobe, self.pose
         self.segments.append(
-            Segment(path, tool, profile, timing, light, start, end, words, line, brush, strobe, run)
+            Segment(
+                path, tool, profile, timing, light, start, end, words, line, brush, strobe, stroke
+            )
         )
-        self.corners.append(settings.blend * self.frame.scale)
+        self.corners.append(state.blend * self.frame.scale)
         self.pose = end
         self.oriented = True
 
     # Strokes of several lines.
 
     @property
-    def amid_run(self) -> bool:
+    def amid_stroke(self) -> bool:
         """Whether a `stroke` has begun to move."""
         segments = self.segments
-        return self.run is not None and bool(segments) and segments[-1].run is self.run
+        return self.stroke is not None and bool(segments) and segments[-1].stroke is self.stroke
 
     def check_no_stop(self, span: Span) -> None:
         """Raises if a way or a turn of our own would come into the middle of a `stroke`."""
-        if self.amid_run:
+        if self.amid_stroke:
             message = "the tool would have to stop within this stroke"
             cure = "let this line begin where the one before it ends, and the tool look there"
             raise here("E283", message, span, "", cure)
 
-    def begin_run(self, timing: Timing, light: Light | None) -> None:
+    def begin_stroke(self, timing: Timing, light: Light | None) -> None:
         """The segments that follow share a profile, and `light` if it is a gradient."""
-        self._runs += 1
-        self.run = Run(self._runs, self.settings.profile, timing, light)
+        self._strokes += 1
+        self.stroke = ContinuousStroke(self._strokes, self.state.profile, timing, light)
 
     def check_pace(self, part: Part) -> None:
         """Raises if a line within a `stroke` has a time of its own."""
-        if self.run is not None and part.word in PACE:
+        if self.stroke is not None and part.word in PACE:
             message = f"'{part.word}' belongs to the whole stroke"
             cure = f"write it on its first line: stroke {PARTS[part.word].example}"
             raise problem("E281", message, part.span, "", cure)
 
     def _check_goes_on(self, path: Path, span: Span) -> None:
         """Raises if the point stands still within a `stroke`."""
-        if isinstance(path, Still | Step) or path == Straight(vectors.ZERO):
-            what = {Still: "a pause", Step: "a jump"}.get(type(path), "a turn on the spot")
+        if isinstance(path, Dwell | Step) or path == Straight(vectors.ZERO):
+            what = {Dwell: "a pause", Step: "a jump"}.get(type(path), "a turn on the spot")
             message = f"{what} can't be part of a stroke, which does not stop"
             raise problem("E282", message, span, "", "end the stroke before it")
 
@@ -164,9 +166,9 @@ class Pen:
     ) -> None:
         """A way in the dark that the file did not ask for; the tool keeps, if nothing is said."""
         by = vectors.minus(to, self.pose.position)
-        timing = timing or Cruise(self.settings.speed, self.settings.turnspeed)
+        timing = timing or CruiseSpeed(self.state.speed, self.state.turnspeed)
         end = Pose(to, orientation or self.pose.orientation)
-        self._assumed(Straight(by), tool or Keep(), timing, end, span)
+        self._assumed(Straight(by), tool or FixedOrientation(), timing, end, span)
 
     def look(self, mode: Look | LookLine, orientation: Quaternion, span: Span) -> None:
         """Turns the tool to where a stroke needs it at its start, in the dark, if it is not."""
@@ -182,16 +184,16 @@ class Pen:
         message = f"the tool turns by {degrees:.3g} deg before this, to look at the {what}"
         cure = f"a light-off turn is added; to avoid it, write: start at (…) tool {how} …"
         self.warn("W404", message, span, "", cure)
-        speed = Cruise(self.settings.speed, self.settings.turnspeed)
+        speed = CruiseSpeed(self.state.speed, self.state.turnspeed)
         end = Pose(self.pose.position, orientation)
-        self._assumed(Straight(vectors.ZERO), Turn(), speed, end, span)
+        self._assumed(Straight(vectors.ZERO), SlerpOrientation(), speed, end, span)
 
     def _assumed(self, path: Path, tool: Tool, timing: Timing, end: Pose, span: Span) -> None:
         """A stroke of our own, rest to rest whatever profile the file's strokes have."""
-        settings, run = self.settings, self.run
-        self.settings, self.run = replace(settings, profile=REST_TO_REST, blend=0.0), None
+        state, stroke = self.state, self.stroke
+        self.state, self.stroke = replace(state, profile=REST_TO_REST, blend=0.0), None
         self.draw(path, tool, timing, None, end, span)
-        self.settings, self.run = settings, run
+        self.state, self.stroke = state, stroke
 
 
 def first_line(text: str, span: Span) -> Span:

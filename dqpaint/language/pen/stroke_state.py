@@ -7,10 +7,10 @@ from dqpaint.diagnostics import problem
 from dqpaint.language.syntax.tree import (
     BlendWords,
     BrushWords,
+    ColourWords,
     Expression,
     LightWords,
     Part,
-    Shade,
     StrobeWords,
     ToolWords,
 )
@@ -21,8 +21,8 @@ from dqpaint.program import (
     Bar,
     Brush,
     Colour,
-    Follow,
-    Keep,
+    FixedOrientation,
+    FollowHeading,
     Light,
     Look,
     LookLine,
@@ -35,23 +35,23 @@ from dqpaint.program import Point as Dot
 
 
 @record
-class Towards:
+class TurnTo:
     """`tool ORIENTATION`, in the drawing frame."""
 
     orientation: Quaternion
 
 
-ToolMode = Keep | Follow | Look | LookLine | Towards
+ToolMode = FixedOrientation | FollowHeading | Look | LookLine | TurnTo
 
 
-REST_TO_REST, KEEP = Profile("trapezoid"), Keep()
+REST_TO_REST, KEEP = Profile("trapezoid"), FixedOrientation()
 POINT = Dot()
 WHITE = Light(colours.WHITE, colours.WHITE)
 
 
 @record
-class Settings:
-    """The settings at one place of the file, in SI units and the drawing frame.
+class StrokeState:
+    """What holds for strokes at one place of the file, in SI units and the drawing frame.
 
     Attributes:
         speed: [m/s] of the point.
@@ -81,29 +81,29 @@ LARGEST_LAMP = 10.0  # [m]
 SLOWEST_STROBE, FASTEST_STROBE = 1e-3, 1e6  # [Hz]
 
 
-def changed(settings: Settings, part: Part, scope: Scope, frame: Frame) -> Settings:
-    """The settings after a setting line, or for a statement with this clause."""
+def changed(state: StrokeState, part: Part, scope: Scope, frame: Frame) -> StrokeState:
+    """The state after a modal line, or for a statement with this clause."""
     value = part.value
     if isinstance(value, ToolWords):
-        return replaced(settings, tool=tool_mode(value, scope, frame))
+        return replaced(state, tool=tool_mode(value, scope, frame))
     if isinstance(value, LightWords):
-        light = light_of(value, settings, scope)
+        light = light_of(value, state, scope)
         named = value.first.word != "on"  # `on 40%` is 40% of what was named, however often
-        shone = light if light is not None and named else settings.shone
-        return replaced(settings, light=light, shone=shone)
+        shone = light if light is not None and named else state.shone
+        return replaced(state, light=light, shone=shone)
     if isinstance(value, BrushWords):
-        return replaced(settings, brush=brush_of(value, scope))
+        return replaced(state, brush=brush_of(value, scope))
     if isinstance(value, StrobeWords):
-        return replaced(settings, strobe=strobe_of(value, scope))
+        return replaced(state, strobe=strobe_of(value, scope))
     if isinstance(value, BlendWords):
         size = 0.0 if value.size is None else typed_values.positive(value.size, scope, "blend")
-        return replaced(settings, blend=size)
+        return replaced(state, blend=size)
     if part.word == "profile":
-        return replaced(settings, profile=typed_values.profile(value, scope))
+        return replaced(state, profile=typed_values.profile(value, scope))
     size = typed_values.positive(value, scope, part.word)
     if part.word == "speed":
-        return replaced(settings, speed=size)
-    return replaced(settings, turnspeed=size)
+        return replaced(state, speed=size)
+    return replaced(state, turnspeed=size)
 
 
 def tool_mode(words: ToolWords, scope: Scope, frame: Frame) -> ToolMode:
@@ -111,9 +111,9 @@ def tool_mode(words: ToolWords, scope: Scope, frame: Frame) -> ToolMode:
     values = words.values
     match words.mode:
         case "keep":
-            return Keep()
+            return FixedOrientation()
         case "follow":
-            return Follow()
+            return FollowHeading()
         case "look":
             up = typed_values.direction(values[1], scope, "up") if len(values) > 1 else Y
             point = typed_values.place(values[0], scope, "look")
@@ -123,18 +123,18 @@ def tool_mode(words: ToolWords, scope: Scope, frame: Frame) -> ToolMode:
             along = typed_values.direction(values[1], scope, "along")
             return LookLine(frame.point(point), frame.direction(along))
         case _:
-            return Towards(frame.orientation(typed_values.orientation(values[0], scope, "tool")))
+            return TurnTo(frame.orientation(typed_values.orientation(values[0], scope, "tool")))
 
 
-def light_of(words: LightWords, settings: Settings, scope: Scope) -> Light | None:
+def light_of(words: LightWords, state: StrokeState, scope: Scope) -> Light | None:
     """What stands after `light`; None if it is off from end to end."""
-    first = _shade(words.first, settings.shone.first, scope)
+    first = _shade(words.first, state.shone.first, scope)
     last = first
     if words.last is not None:
-        last = _shade(words.last, settings.shone.last, scope, after_to=True)
+        last = _shade(words.last, state.shone.last, scope, after_to=True)
     elif words.first.word == "on":
-        last = colours.dimmed(settings.shone.last, words.first.brightness)
-    even = words.even or (words.first.word == "on" and settings.shone.even)
+        last = colours.dimmed(state.shone.last, words.first.brightness)
+    even = words.even or (words.first.word == "on" and state.shone.even)
     return Light(first, last, even) if (first, last) != (colours.DARK, colours.DARK) else None
 
 
@@ -168,7 +168,7 @@ def strobe_of(words: StrobeWords, scope: Scope) -> Strobe | None:
     return Strobe(frequency, words.duty)
 
 
-def _shade(shade: Shade, on: Colour, scope: Scope, after_to: bool = False) -> Colour:
+def _shade(shade: ColourWords, on: Colour, scope: Scope, after_to: bool = False) -> Colour:
     if shade.word == "off":
         return colours.DARK
     colour = on if shade.value is None else typed_values.colour(shade.value, scope, after_to)
@@ -176,7 +176,7 @@ def _shade(shade: Shade, on: Colour, scope: Scope, after_to: bool = False) -> Co
 
 
 def standing(light: Light | None) -> Light | None:
-    """The light of a pause under this setting: what the stroke before it ended with."""
+    """The light of a pause under this light: what the stroke before it ended with."""
     if light is None or light.even or light.last == colours.DARK:
         return None  # a light that is even over the way does not shine where there is none
     return Light(light.last, light.last)

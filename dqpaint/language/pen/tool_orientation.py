@@ -8,9 +8,19 @@ from collections.abc import Iterable
 
 from dqpaint.diagnostics import Span
 from dqpaint.language.pen.pen import SAME_PLACE, SAME_TURN, Pen, here
-from dqpaint.language.pen.stroke_state import ToolMode, Towards
+from dqpaint.language.pen.stroke_state import ToolMode, TurnTo
 from dqpaint.language.values import vectors
-from dqpaint.program import LOOKING, Follow, Keep, Look, LookLine, Quaternion, Tool, Turn, Vector
+from dqpaint.program import (
+    LOOKING,
+    FixedOrientation,
+    FollowHeading,
+    Look,
+    LookLine,
+    Quaternion,
+    SlerpOrientation,
+    Tool,
+    Vector,
+)
 
 LEAST_LEAN = math.radians(1.0)  # between the direction of a look and `up`
 
@@ -51,7 +61,7 @@ def _look_line(mode: LookLine, position: Vector, span: Span) -> Quaternion:
 
 def told(mode: ToolMode, position: Vector, span: Span) -> Quaternion | None:
     """The orientation at a place, if the mode alone says it."""
-    if isinstance(mode, Towards):
+    if isinstance(mode, TurnTo):
         return mode.orientation
     if isinstance(mode, LOOKING):
         return orientation_at(mode, position, span)
@@ -72,18 +82,18 @@ def at_end(
     `axis` and `turn` [rad] are the turn of a tool that follows.
     """
     now = pen.pose.orientation
-    if isinstance(mode, Follow):
-        return Follow(axis), vectors.turn_product(vectors.turn_about(axis, turn), now)
+    if isinstance(mode, FollowHeading):
+        return FollowHeading(axis), vectors.turn_product(vectors.turn_about(axis, turn), now)
     if isinstance(mode, LOOKING):
         return mode, orientation_at(mode, position, span)
-    return turning(now, mode.orientation if isinstance(mode, Towards) else now)
+    return turning(now, mode.orientation if isinstance(mode, TurnTo) else now)
 
 
 def turning(now: Quaternion, end: Quaternion) -> tuple[Tool, Quaternion]:
     """Turn, or Keep where there is nothing to turn."""
     if end == now or vectors.turn_between(now, end) <= SAME_TURN:
-        return Keep(), now
-    return Turn(), end
+        return FixedOrientation(), now
+    return SlerpOrientation(), end
 
 
 def most_leaning(mode: Look | LookLine, start: Vector, way: Vector) -> tuple[Vector, ...]:

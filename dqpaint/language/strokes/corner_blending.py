@@ -2,8 +2,8 @@
 
 Two straight lines are joined by the arc of a circle that touches both; where an arc or a helix is
 one of the two, by the cubic Bezier curve that touches both and would be nearest to an arc between
-lines. Strokes that are joined become one run: there is one profile over all of them. A stroke
-that is too short for its corners is an error; nothing is ever rounded less than was asked.
+lines. Strokes that are joined become one continuous stroke: one profile runs over all of them. A
+stroke that is too short for its corners is an error; nothing is rounded less than was asked.
 """
 
 import math
@@ -21,25 +21,25 @@ from dqpaint.program import (
     Arc,
     Chain,
     Colour,
-    Cruise,
+    ContinuousStroke,
+    CruiseSpeed,
     Curve,
-    Follow,
+    Duration,
+    Dwell,
+    FollowHeading,
     Formula,
-    Lasting,
     Light,
     Path,
     Pose,
     Quaternion,
-    Run,
     Samples,
     Segment,
+    SlerpOrientation,
     Step,
-    Still,
     Straight,
     Taylor,
     Timing,
     Tool,
-    Turn,
     Vector,
     colours,
 )
@@ -81,7 +81,7 @@ def rounded(
     if findings.errors:
         return list(segments)
     out: list[Segment] = []
-    number = max((s.run.number for s in segments if s.run is not None), default=0)
+    number = max((s.stroke.number for s in segments if s.stroke is not None), default=0)
     first = 0
     for last, joint in enumerate([*joints, _NO_JOINT]):
         if not joint.joined:
@@ -116,7 +116,7 @@ def _joint(a: Segment, b: Segment, size: float, findings: Findings) -> _Joint:
     if isinstance(a.path, Chain) or isinstance(b.path, Chain):
         return _NO_JOINT
     lifted = (a.light is None) != (b.light is None)
-    if not size or lifted or a.run != b.run or _rests(a) or _rests(b):
+    if not size or lifted or a.stroke != b.stroke or _rests(a) or _rests(b):
         return _NO_JOINT
     if not (_is_known(a.path) and _is_known(b.path)):
         return _told(findings, a, "E285", "this corner can't be rounded: only those between lines "
@@ -135,7 +135,7 @@ def _told(findings: Findings, segment: Segment, code: str, message: str, cure: s
 
 def _rests(segment: Segment) -> bool:
     path = segment.path
-    return isinstance(path, Still | Step) or path == Straight(vectors.ZERO)
+    return isinstance(path, Dwell | Step) or path == Straight(vectors.ZERO)
 
 
 def _is_known(path: Path) -> bool:
@@ -216,9 +216,9 @@ def _orientation(segment: Segment, share: float, position: Vector) -> Quaternion
     tool, start = segment.tool, segment.start.orientation
     if isinstance(tool, LOOKING):
         return tool_orientation.orientation_at(tool, position, segment.span)
-    if isinstance(tool, Turn):
+    if isinstance(tool, SlerpOrientation):
         return vectors.part_of_turn(start, segment.end.orientation, share)
-    if isinstance(tool, Follow) and isinstance(segment.path, Arc):
+    if isinstance(tool, FollowHeading) and isinstance(segment.path, Arc):
         turn = vectors.turn_about(segment.path.axis, share * segment.path.angle)
         return vectors.turn_product(turn, start)
     return start
@@ -248,7 +248,7 @@ def _shade(light: Light, share: float) -> Colour:
 
 
 def _of_run(segment: Segment) -> bool:
-    return segment.run is not None and segment.light == segment.run.light
+    return segment.stroke is not None and segment.light == segment.stroke.light
 
 
 # The piece that goes round the corner.
@@ -308,7 +308,7 @@ def _as_run(
     segments: Sequence[Segment], pieces: list[Segment], number: int, findings: Findings
 ) -> list[Segment]:
     """The pieces of segments that were joined, with the time of all of them."""
-    if len(segments) == 1 or segments[0].run is not None:
+    if len(segments) == 1 or segments[0].stroke is not None:
         return pieces
     profile, timing = segments[0].profile, _whole(segments)
     other = next((s for s in segments if s.profile != profile), None)
@@ -321,19 +321,19 @@ def _as_run(
         cure = "say it once for both: stroke … end, or switch it off before: blend off"
         findings.add(Diagnostic("E287", message, other.span, "", cure))
         return pieces
-    run = Run(number, profile, timing)
-    return [replace(piece, timing=timing, run=run) for piece in pieces]
+    stroke = ContinuousStroke(number, profile, timing)
+    return [replace(piece, timing=timing, stroke=stroke) for piece in pieces]
 
 
 def _whole(segments: Sequence[Segment]) -> Timing | None:
     """The time of segments in a row: their speed, or that of one statement's legs together."""
     timings = [segment.timing for segment in segments]
-    if isinstance(timings[0], Cruise):
+    if isinstance(timings[0], CruiseSpeed):
         return timings[0] if all(timing == timings[0] for timing in timings) else None
     if any(segment.span != segments[0].span for segment in segments):
         return None
-    seconds = [timing.seconds for timing in timings if isinstance(timing, Lasting)]
+    seconds = [timing.seconds for timing in timings if isinstance(timing, Duration)]
     if len(seconds) == len(timings):
-        return Lasting(math.fsum(seconds))
+        return Duration(math.fsum(seconds))
     counts = [timing.count for timing in timings if isinstance(timing, Samples)]
     return Samples(sum(counts)) if len(counts) == len(timings) else None

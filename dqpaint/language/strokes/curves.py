@@ -8,7 +8,7 @@ from dqpaint.language.syntax.tree import Expression, Statement, names_in, size_o
 from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.evaluate import evaluate
 from dqpaint.language.values.scope import MOST_CURVE_STEPS, Budget, Scope
-from dqpaint.language.values.values import Point, Quantity, Value, describe, is_zero
+from dqpaint.language.values.values import PointValue, Quantity, Value, describe, is_zero
 from dqpaint.language.values.vectors import Frame
 from dqpaint.language.vocabulary.units import ANGLE, LENGTH, TIME, Dimension
 from dqpaint.program import Curve, Floats, Formula, Taylor, Vector
@@ -107,15 +107,15 @@ def _formula(
     return formula
 
 
-def _point(node: Expression, scope: Scope) -> Point:
+def _point(node: Expression, scope: Scope) -> PointValue:
     value = evaluate(node, scope)
-    if isinstance(value, Point) and (value.dimension == LENGTH or is_zero(value)):
+    if isinstance(value, PointValue) and (value.dimension == LENGTH or is_zero(value)):
         return value
     raise _no_point(value, node, scope)
 
 
 def _no_point(value: Value, node: Expression, scope: Scope) -> Problem:
-    if isinstance(value, Point):
+    if isinstance(value, PointValue):
         return typed_values.needs(node, value, scope, "curve", LENGTH)
     message = f"'curve' needs a point, but this is {describe(value)}"
     cure = "for example: curve (r*cos(t), r*sin(t)) for t from 0 to 360 deg"

@@ -15,7 +15,7 @@ from dqpaint.language.imports import lettering
 from dqpaint.language.pen import tool_orientation
 from dqpaint.language.pen.durations import shared, timing
 from dqpaint.language.pen.pen import FARTHEST, SAME_PLACE, Pen, here
-from dqpaint.language.pen.stroke_state import Towards
+from dqpaint.language.pen.stroke_state import TurnTo
 from dqpaint.language.strokes.curves import GAP
 from dqpaint.language.syntax.tree import Name, Quoted, Statement
 from dqpaint.language.values import typed_values, vectors
@@ -25,9 +25,9 @@ from dqpaint.program import (
     LOOKING,
     Chain,
     Colour,
+    FixedOrientation,
     Floats,
-    Follow,
-    Keep,
+    FollowHeading,
     Light,
     Pose,
     Timing,
@@ -102,7 +102,7 @@ def path(statement: Statement, pen: Pen, scope: Scope) -> None:
     (trace,) = _drawn([(chain, None)], pen, scale, shift)
     start = piecewise.ends(trace.chain)[0]
     gap = vectors.length(vectors.minus(start, pen.pose.position))
-    if pen.started and gap > GAP and not statement.part("at") and not pen.amid_run:
+    if pen.started and gap > GAP and not statement.part("at") and not pen.amid_stroke:
         message = f"the path starts {1e3 * gap:.3g} mm away from where the tool is"
         cure = "a light-off move is added; write a move to choose its speed"
         pen.warn("W402", message, nodes[0].span, "", cure)
@@ -210,9 +210,9 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
     Time and a gradient of the light are spread over all by their lengths: the time over the ways
     between the strokes, too, but not over the way to the first.
     """
-    pen.settings = replace(pen.settings, blend=0.0)  # corners are meant, and no stroke ends there
-    mode, span = pen.settings.tool, statement.span
-    if isinstance(mode, Follow):
+    pen.state = replace(pen.state, blend=0.0)  # corners are meant, and no stroke ends there
+    mode, span = pen.state.tool, statement.span
+    if isinstance(mode, FollowHeading):
         message = f"the tool can't follow a '{statement.word}': it would jump at every corner"
         part = statement.part("tool")
         raise here("E254", message, part.value.span if part else span, "", "use: tool keep")
@@ -222,7 +222,7 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
         raise here("E201", "this goes too far away", span)
     ends = piecewise.all_ends([trace.chain for trace in traces]).tolist()
     starts, stops = ([_vector(pair[side]) for pair in ends] for side in (0, 1))
-    if pen.run is not None and len(traces) > 1:
+    if pen.stroke is not None and len(traces) > 1:
         raise _pen_up(statement, len(traces))
     _begin(pen, starts[0], span)
     lengths = piecewise.lengths([trace.chain for trace in traces])
@@ -230,7 +230,7 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
         vectors.length(vectors.minus(b, a))
         for a, b in zip(stops, (*starts[1:], stops[-1]), strict=True)
     ]
-    times = _times(timing(statement, pen.settings, scope), lengths, ways, span)
+    times = _times(timing(statement, pen.state, scope), lengths, ways, span)
     glows = _glows(statement, pen, traces, lengths)
     for number, trace in enumerate(traces):
         _travel(pen, starts[number], span, times[2 * number - 1] if number else None)
@@ -267,7 +267,7 @@ def _begin(pen: Pen, start: Vector, span: Span) -> None:
     if pen.started:
         return
     pen.started, pen.moved = True, span
-    pen.start_at(start, tool_orientation.told(pen.settings.tool, start, span))
+    pen.start_at(start, tool_orientation.told(pen.state.tool, start, span))
 
 
 def _times(whole: Timing, lengths: list[float], ways: list[float], span: Span) -> list[Timing]:
@@ -282,7 +282,7 @@ def _glows(
     statement: Statement, pen: Pen, traces: list[Trace], lengths: list[float]
 ) -> list[Light | None]:
     """The light of each stroke: the clause's, else its own colour, else the one that holds."""
-    light = pen.settings.light
+    light = pen.state.light
     done = np.concatenate([[0.0], np.cumsum(lengths)]) / sum(lengths)
     out: list[Light | None] = []
     for number, trace in enumerate(traces):
@@ -300,14 +300,14 @@ def _glows(
 
 def _travel(pen: Pen, to: Vector, span: Span, time: Timing | None) -> None:
     """The dark way to a stroke; a tool that is to be turned turns on it, and looks if it looks."""
-    mode = pen.settings.tool
+    mode = pen.state.tool
     far = vectors.length(vectors.minus(to, pen.pose.position)) > SAME_PLACE
-    wanted = mode.orientation if isinstance(mode, Towards) else pen.pose.orientation
+    wanted = mode.orientation if isinstance(mode, TurnTo) else pen.pose.orientation
     tool, orientation = tool_orientation.turning(pen.pose.orientation, wanted)
-    if far and not isinstance(mode, Keep | Towards):
+    if far and not isinstance(mode, FixedOrientation | TurnTo):
         tool_orientation.begin(pen, mode, span)
         tool, orientation = tool_orientation.at_end(pen, mode, to, span, vectors.Z, 0.0)
-    if far or not isinstance(tool, Keep):
+    if far or not isinstance(tool, FixedOrientation):
         pen.check_no_stop(span)
         pen.travel(to, span, tool, orientation, time)
 

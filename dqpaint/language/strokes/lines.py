@@ -4,14 +4,14 @@ from dqpaint.diagnostics import Span
 from dqpaint.language.pen import tool_orientation
 from dqpaint.language.pen.durations import shared, timing
 from dqpaint.language.pen.pen import SAME_PLACE, Pen
-from dqpaint.language.pen.stroke_state import Towards
+from dqpaint.language.pen.stroke_state import TurnTo
 from dqpaint.language.syntax.tree import Statement
 from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.scope import Scope
 from dqpaint.program import (
     LOOKING,
-    Follow,
-    Keep,
+    FixedOrientation,
+    FollowHeading,
     Light,
     Look,
     LookLine,
@@ -51,12 +51,12 @@ def move(statement: Statement, pen: Pen, scope: Scope) -> None:
         return
     pen.started, pen.moved = True, statement.span
     (first, span), *rest = _stops(statement, pen, scope)
-    mode = pen.settings.tool
+    mode = pen.state.tool
     pen.start_at(first, tool_orientation.told(mode, first, span))
     if rest:
         _legs(statement, rest, pen, scope, light=None)
         return
-    timing(statement, pen.settings, scope)
+    timing(statement, pen.state, scope)
     for part in statement.parts:
         if part.word not in ("to", "by", "tool"):
             message = (
@@ -68,7 +68,7 @@ def move(statement: Statement, pen: Pen, scope: Scope) -> None:
 
 def line(statement: Statement, pen: Pen, scope: Scope) -> None:
     """`line`: one stroke, or several."""
-    _legs(statement, _stops(statement, pen, scope), pen, scope, pen.settings.light)
+    _legs(statement, _stops(statement, pen, scope), pen, scope, pen.state.light)
 
 
 def _legs(
@@ -87,11 +87,11 @@ def _legs(
             at = stop
         elif len(stops) > 1:
             _no_length(statement.word, span, pen)
-    whole = timing(statement, pen.settings, scope)
+    whole = timing(statement, pen.state, scope)
     if not legs:
         _on_the_spot(statement, stops[0][1], pen, whole, light)
         return
-    mode = pen.settings.tool
+    mode = pen.state.tool
     sizes = [size for _, size in legs]
     times = shared(whole, sizes, statement.span)
     for (stop, _), leg_time, (first, last) in zip(legs, times, _shares(sizes), strict=True):
@@ -114,7 +114,7 @@ def _legs(
 
 def _of_run(pen: Pen, light: Light) -> bool:
     """Whether a gradient goes over a whole `stroke`."""
-    return pen.run is not None and light is pen.run.light
+    return pen.stroke is not None and light is pen.stroke.light
 
 
 def _shares(sizes: list[float]) -> list[tuple[float, float]]:
@@ -131,10 +131,10 @@ def _tool_of_leg(
     pen: Pen, stop: Vector, span: Span, first: float, last: float
 ) -> tuple[Tool, Quaternion]:
     """The turn of a leg that runs from one share of the whole way to another."""
-    mode, now = pen.settings.tool, pen.pose.orientation
-    if isinstance(mode, Follow):
-        return Keep(), now
-    if isinstance(mode, Towards) and last < 1.0:
+    mode, now = pen.state.tool, pen.pose.orientation
+    if isinstance(mode, FollowHeading):
+        return FixedOrientation(), now
+    if isinstance(mode, TurnTo) and last < 1.0:
         share = (last - first) / (1.0 - first)  # of what is left to turn
         return tool_orientation.turning(now, vectors.part_of_turn(now, mode.orientation, share))
     return tool_orientation.at_end(pen, mode, stop, span, vectors.Z, 0.0)
@@ -154,10 +154,10 @@ def _on_the_spot(
     statement: Statement, span: Span, pen: Pen, whole: Timing, light: Light | None
 ) -> None:
     """A line that goes nowhere: a turn, if its tool asks for one."""
-    mode, now = pen.settings.tool, pen.pose.orientation
+    mode, now = pen.state.tool, pen.pose.orientation
     wanted = tool_orientation.told(mode, pen.pose.position, span)
     tool, orientation = tool_orientation.turning(now, wanted if wanted is not None else now)
-    if isinstance(tool, Keep):
+    if isinstance(tool, FixedOrientation):
         _no_length(statement.word, span, pen)
         return
     end = Pose(pen.pose.position, orientation)

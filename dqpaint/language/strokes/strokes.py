@@ -5,52 +5,52 @@ from dqpaint.diagnostics import problem
 from dqpaint.language.pen import tool_orientation
 from dqpaint.language.pen.durations import timing
 from dqpaint.language.pen.pen import SAME_PLACE, SAME_TURN, Pen
-from dqpaint.language.pen.stroke_state import Settings, changed, light_of, standing
+from dqpaint.language.pen.stroke_state import StrokeState, changed, light_of, standing
 from dqpaint.language.strokes import arcs, curves, imported_strokes, lines
 from dqpaint.language.syntax.tree import Expression, LightWords, Statement
 from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.scope import Scope
-from dqpaint.language.vocabulary.words import SETTINGS
+from dqpaint.language.vocabulary.words import MODAL
 from dqpaint.program import (
     LOOKING,
     Arc,
-    Follow,
-    Keep,
-    Lasting,
+    Duration,
+    Dwell,
+    FixedOrientation,
+    FollowHeading,
     Light,
     Pose,
     Samples,
     Screw,
     ScrewTo,
+    SlerpOrientation,
     Step,
-    Still,
-    Turn,
     Vector,
 )
 
 
 def draw(statement: Statement, pen: Pen, scope: Scope) -> None:
     """Adds what a movement draws; its clauses hold for it alone."""
-    outside = pen.settings
-    if pen.run is not None:
+    outside = pen.state
+    if pen.stroke is not None:
         for part in statement.parts:
             pen.check_pace(part)
     if not lines.sets_start(statement, pen):
         pen.begin(statement.span)
     try:
-        pen.settings = _with_clauses(statement, outside, pen, scope)
+        pen.state = _with_clauses(statement, outside, pen, scope)
         _DRAW[statement.word](statement, pen, scope)
     finally:
         # What shone last is remembered, so that `light on` finds it.
-        shone = pen.settings.shone
-        pen.settings = outside if shone is outside.shone else replaced(outside, shone=shone)
+        shone = pen.state.shone
+        pen.state = outside if shone is outside.shone else replaced(outside, shone=shone)
 
 
-def _with_clauses(statement: Statement, settings: Settings, pen: Pen, scope: Scope) -> Settings:
+def _with_clauses(statement: Statement, state: StrokeState, pen: Pen, scope: Scope) -> StrokeState:
     for part in statement.parts:
-        if part.word in SETTINGS and not _own_light(statement, part.word):
-            settings = changed(settings, part, scope, pen.frame)
-    return settings
+        if part.word in MODAL and not _own_light(statement, part.word):
+            state = changed(state, part, scope, pen.frame)
+    return state
 
 
 def _own_light(statement: Statement, word: str) -> bool:
@@ -121,13 +121,13 @@ def _axis(statement: Statement, pen: Pen, scope: Scope) -> Vector:
 
 
 def _draw_arc(statement: Statement, pen: Pen, scope: Scope, arc: Arc, end: Vector) -> None:
-    mode, span = pen.settings.tool, statement.span
+    mode, span = pen.state.tool, statement.span
     tool_orientation.begin(pen, mode, span)
     if isinstance(mode, LOOKING) and not pen.lost:
         tool_orientation.check_way(mode, arcs.places(arc, pen.pose.position), span)
     tool, orientation = tool_orientation.at_end(pen, mode, end, span, arc.axis, arc.angle)
-    whole = timing(statement, pen.settings, scope)
-    pen.draw(arc, tool, whole, pen.settings.light, Pose(end, orientation), span)
+    whole = timing(statement, pen.state, scope)
+    pen.draw(arc, tool, whole, pen.state.light, Pose(end, orientation), span)
 
 
 def _screw(statement: Statement, pen: Pen, scope: Scope) -> None:
@@ -143,20 +143,20 @@ def _screw(statement: Statement, pen: Pen, scope: Scope) -> None:
         message = "a screw of 0 deg goes nowhere"
         raise problem("E244", message, angle_node.span, "", "to go straight, use: line by")
     advance = frame.scale * typed_values.number(pitch, scope, "pitch") * angle if pitch else 0.0
-    mode = pen.settings.tool
+    mode = pen.state.tool
     if isinstance(mode, LOOKING) and not pen.oriented:
         tool_orientation.begin(pen, mode, statement.span)
     end = vectors.carried(pen.pose, point, axis, angle, advance)
-    whole = timing(statement, pen.settings, scope)
+    whole = timing(statement, pen.state, scope)
     path = Screw(point, axis, angle, advance)
-    pen.draw(path, Follow(axis), whole, pen.settings.light, end, statement.span)
+    pen.draw(path, FollowHeading(axis), whole, pen.state.light, end, statement.span)
 
 
 def _screw_to(statement: Statement, pen: Pen, scope: Scope) -> None:
     node = statement.given("to")
     end = _place(node, pen, scope, "to")
     pen.lost = False
-    orientation = tool_orientation.told(pen.settings.tool, end, statement.span)
+    orientation = tool_orientation.told(pen.state.tool, end, statement.span)
     if orientation is None:
         message = "'screw to' needs to know how the tool is held at the end"
         cure = "add: tool rpy(0 deg, 0 deg, 90 deg); to keep the tool as it is, use: line to"
@@ -167,9 +167,9 @@ def _screw_to(statement: Statement, pen: Pen, scope: Scope) -> None:
             "W401", "this screw has no length", node.span, "already here", "to wait, use: hold 1 s"
         )
         return
-    whole = timing(statement, pen.settings, scope)
-    light, span = pen.settings.light, statement.span
-    pen.draw(ScrewTo(), Follow(), whole, light, Pose(end, orientation), span)
+    whole = timing(statement, pen.state, scope)
+    light, span = pen.state.light, statement.span
+    pen.draw(ScrewTo(), FollowHeading(), whole, light, Pose(end, orientation), span)
 
 
 # Formulas.
@@ -190,16 +190,16 @@ def _curve(statement: Statement, pen: Pen, scope: Scope) -> None:
         cure = "a light-off move is added; write a move to choose its speed"
         pen.warn("W402", message, span, "", cure)
         pen.travel(start, statement.span)
-    mode, turn = pen.settings.tool, 0.0
+    mode, turn = pen.state.tool, 0.0
     axis = pen.frame.direction(vectors.Z)
     tool_orientation.begin(pen, mode, statement.span)
     if isinstance(mode, LOOKING):
         tool_orientation.check_way(mode, places, statement.span)
-    if isinstance(mode, Follow):
+    if isinstance(mode, FollowHeading):
         turn = curves.heading_change(curve, axis, span)
     tool, orientation = tool_orientation.at_end(pen, mode, end, statement.span, axis, turn)
-    whole = timing(statement, pen.settings, scope)
-    pen.draw(curve, tool, whole, pen.settings.light, Pose(end, orientation), statement.span)
+    whole = timing(statement, pen.state, scope)
+    pen.draw(curve, tool, whole, pen.state.light, Pose(end, orientation), statement.span)
 
 
 def _millimetres(size: float) -> str:
@@ -213,11 +213,11 @@ def _step(statement: Statement, pen: Pen, scope: Scope) -> None:
     to = statement.given("to")
     end = _place(to, pen, scope, "to")
     pen.lost = False
-    wanted = tool_orientation.told(pen.settings.tool, end, statement.span)
+    wanted = tool_orientation.told(pen.state.tool, end, statement.span)
     now = pen.pose.orientation
     tool, orientation = tool_orientation.turning(now, wanted if wanted is not None else now)
     way = vectors.length(vectors.minus(end, pen.pose.position))
-    if way <= SAME_PLACE and not isinstance(tool, Turn):
+    if way <= SAME_PLACE and not isinstance(tool, SlerpOrientation):
         pen.warn(
             "W401", "this step goes nowhere", to.span, "already here", "to wait, use: hold 1 s"
         )
@@ -229,16 +229,16 @@ def _step(statement: Statement, pen: Pen, scope: Scope) -> None:
 def _hold(statement: Statement, pen: Pen, scope: Scope) -> None:
     seconds = typed_values.positive(statement.values[0], scope, "hold")
     light = _standing_light(statement, pen, scope)
-    pen.draw(Still(), Keep(), Lasting(seconds), light, pen.pose, statement.span)
+    pen.draw(Dwell(), FixedOrientation(), Duration(seconds), light, pen.pose, statement.span)
 
 
 def _standing_light(statement: Statement, pen: Pen, scope: Scope) -> Light | None:
     """A pause's own light may change over its time; another's gradient ended before it."""
     part = statement.part("light")
     if part is None:
-        return standing(pen.settings.light)
+        return standing(pen.state.light)
     assert isinstance(part.value, LightWords)
-    return light_of(part.value, pen.settings, scope)
+    return light_of(part.value, pen.state, scope)
 
 
 _DRAW = {

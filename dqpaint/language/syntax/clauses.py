@@ -9,9 +9,9 @@ from dqpaint.language.syntax.expressions import expression
 from dqpaint.language.syntax.tree import (
     BlendWords,
     BrushWords,
+    ColourWords,
     Expression,
     LightWords,
-    Shade,
     StrobeWords,
     ToolWords,
     Words,
@@ -85,7 +85,7 @@ def _light(cursor: Cursor) -> LightWords:
     return LightWords(first, last, cursor.span_from(start), even)
 
 
-def _shade(cursor: Cursor, after: str = "light") -> Shade:
+def _shade(cursor: Cursor, after: str = "light") -> ColourWords:
     start, word, value = cursor.token.start, "", None
     percent = cursor.peek().kind == "sign" and cursor.peek().text == "%"
     if cursor.is_word("on") or cursor.is_word("off"):
@@ -102,7 +102,7 @@ def _shade(cursor: Cursor, after: str = "light") -> Shade:
             span = cursor.span_from(at)
             message = "the brightness goes from 0% to 100%"
             raise problem("E217", message, span, "", "for a brighter picture expose it longer")
-    return Shade(word, value, brightness, cursor.span_from(start))
+    return ColourWords(word, value, brightness, cursor.span_from(start))
 
 
 def _no_colour(cursor: Cursor) -> Problem:

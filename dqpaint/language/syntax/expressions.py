@@ -8,13 +8,13 @@ from dqpaint.language.syntax.lexer import Token
 from dqpaint.language.syntax.tree import (
     Bracket,
     Call,
-    Chain,
     Expression,
     Literal,
     Name,
+    Negation,
     Power,
     Quoted,
-    Sign,
+    SumOrProduct,
 )
 from dqpaint.language.vocabulary.units import UNITS
 from dqpaint.language.vocabulary.words import FUNCTIONS, RESERVED
@@ -40,7 +40,7 @@ def _sum(cursor: Cursor, first: Expression) -> Expression:
         cursor.take()
         rest.append((token.text, _product(cursor, _signed(cursor, token.text))))
         token = cursor.token
-    return Chain(first, tuple(rest), cursor.span_from(first.span.start)) if rest else first
+    return SumOrProduct(first, tuple(rest), cursor.span_from(first.span.start)) if rest else first
 
 
 def _product(cursor: Cursor, first: Expression) -> Expression:
@@ -50,7 +50,7 @@ def _product(cursor: Cursor, first: Expression) -> Expression:
         cursor.take()
         rest.append((token.text, _signed(cursor, token.text)))
         token = cursor.token
-    return Chain(first, tuple(rest), cursor.span_from(first.span.start)) if rest else first
+    return SumOrProduct(first, tuple(rest), cursor.span_from(first.span.start)) if rest else first
 
 
 def _signed(cursor: Cursor, after: str) -> Expression:
@@ -61,7 +61,7 @@ def _signed(cursor: Cursor, after: str) -> Expression:
     _deeper(cursor, token)
     value = _signed(cursor, token.text)
     cursor.depth -= 1
-    return Sign(value, cursor.span_from(token.start)) if token.text == "-" else value
+    return Negation(value, cursor.span_from(token.start)) if token.text == "-" else value
 
 
 def _power(cursor: Cursor, base: Expression) -> Expression:

@@ -26,7 +26,7 @@ class Token:
         return Span(self.start, self.end)
 
 
-class Line(NamedTuple):
+class TokenLine(NamedTuple):
     """The tokens of one statement, and what was wrong with its characters."""
 
     tokens: list[Token]
@@ -96,7 +96,7 @@ _QUOTED = re.compile(rf"[{_QUOTES}]([^{_QUOTES}\"\n]*)[{_QUOTES}]")
 _NAMES_OF_LETTERS = {"π": "pi", "²": "^2", "³": "^3", "√": "sqrt(…)"}
 
 
-def lines(text: str, begin: int = 0) -> Iterator[Line]:
+def lines(text: str, begin: int = 0) -> Iterator[TokenLine]:
     """The lines from an offset on that hold anything, in order."""
     tokens: list[Token] = []
     problems: list[Diagnostic] = []
@@ -144,16 +144,16 @@ def lines(text: str, begin: int = 0) -> Iterator[Line]:
         yield _close(tokens, problems, brackets, size)
 
 
-def _too_long(tokens: list[Token]) -> Line:
+def _too_long(tokens: list[Token]) -> TokenLine:
     message = f"this line has more than {MOST_TOKENS:,} words, numbers and signs"
     mistake = Diagnostic("E314", message, tokens[0].span, "begins here", "make several lines of it")
     last = tokens[-1].end
-    return Line([*tokens[:2], Token("end", "", last, last)], [mistake])
+    return TokenLine([*tokens[:2], Token("end", "", last, last)], [mistake])
 
 
 def _close(
     tokens: list[Token], problems: list[Diagnostic], brackets: list[Token], end: int
-) -> Line:
+) -> TokenLine:
     if brackets:
         problems.append(
             Diagnostic(
@@ -166,7 +166,7 @@ def _close(
         )
     end = tokens[-1].end if tokens else end
     tokens.append(Token("end", "", end, end))
-    return Line(tokens, problems)
+    return TokenLine(tokens, problems)
 
 
 def _begins_statement(text: str, position: int) -> bool:

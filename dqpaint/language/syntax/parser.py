@@ -17,7 +17,7 @@ from dqpaint.diagnostics import (
 from dqpaint.language.syntax import statements
 from dqpaint.language.syntax.cursor import Cursor, found
 from dqpaint.language.syntax.identifiers import meaning
-from dqpaint.language.syntax.lexer import Line, Token, lines
+from dqpaint.language.syntax.lexer import Token, TokenLine, lines
 from dqpaint.language.syntax.tree import Statement, Word
 from dqpaint.language.vocabulary.words import (
     FOREIGN,
@@ -80,7 +80,7 @@ class _Parser:
             self._close()
         return tuple(self._body)
 
-    def _line(self, line: Line) -> None:
+    def _line(self, line: TokenLine) -> None:
         first = line.tokens[0]
         if first.text in RENAMED and first.kind == "name":
             first = line.tokens[0] = replace(first, text=RENAMED[first.text])
@@ -104,7 +104,7 @@ class _Parser:
         else:
             self._body.append(statement)
 
-    def _statement(self, line: Line) -> Statement:
+    def _statement(self, line: TokenLine) -> Statement:
         """One line; a mistake in it is reported, and the statement marked as broken."""
         cursor = Cursor(line.tokens, self._text)
         read = statements.statement if line.tokens[0].text in STATEMENTS else statements.call
@@ -145,7 +145,7 @@ class _Parser:
             )
         )
 
-    def _end(self, line: Line) -> None:
+    def _end(self, line: TokenLine) -> None:
         if not self._open:
             raise problem(
                 "E131",
@@ -166,7 +166,7 @@ class _Parser:
 
     # What is no statement of ours.
 
-    def _may_be_call(self, line: Line) -> bool:
+    def _may_be_call(self, line: TokenLine) -> bool:
         """Whether a line is `star(…)`, where there may be a `def star`."""
         name, bracket = line.tokens[0], line.tokens[1]
         if name.kind != "name" or bracket.kind != "sign" or bracket.text != "(":
@@ -175,7 +175,7 @@ class _Parser:
             return name.text in self._defined
         return not meaning(name.text) and name.text not in STATEMENT_ALIASES
 
-    def _unknown(self, line: Line) -> None:
+    def _unknown(self, line: TokenLine) -> None:
         if line.problems and (at := line.problems[0].span) and at.start < line.tokens[0].start:
             self._findings.add(line.problems[0])
             self._body.append(_broken(line.tokens))

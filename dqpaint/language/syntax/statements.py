@@ -9,7 +9,7 @@ from dqpaint.language.syntax.identifiers import new_name
 from dqpaint.language.syntax.lexer import Token
 from dqpaint.language.syntax.tree import Expression, Part, Quoted, Statement, Word
 from dqpaint.language.vocabulary.units import FOREIGN_UNITS, SAME_UNITS, UNITS, instead_of
-from dqpaint.language.vocabulary.words import PART_ALIASES, PARTS, RENAMED, SETTINGS, STATEMENTS
+from dqpaint.language.vocabulary.words import MODAL, PART_ALIASES, PARTS, RENAMED, STATEMENTS
 from dqpaint.program import colours
 
 VERSION = 1  # of the language, for `traj 1`
@@ -32,7 +32,7 @@ def statement(cursor: Cursor) -> Statement:
     first = cursor.take()
     known = STATEMENTS[first.text]
     head = _NOTHING
-    if first.text in SETTINGS:  # a setting's line is the clause alone
+    if first.text in MODAL:  # a modal word's line is the clause alone
         parts = [_part(cursor, first.text, first.span)]
     else:
         head = _head(cursor, first.text, known.head)

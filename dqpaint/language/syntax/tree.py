@@ -52,7 +52,7 @@ class Call:
 
 
 @record
-class Sign:
+class Negation:
     """A value with its sign changed."""
 
     value: "Expression"
@@ -60,7 +60,7 @@ class Sign:
 
 
 @record
-class Chain:
+class SumOrProduct:
     """A sum or a product of any length, so that a long one is not a deep one."""
 
     first: "Expression"
@@ -77,7 +77,7 @@ class Power:
     span: Span
 
 
-Expression = Literal | Name | Quoted | Bracket | Call | Sign | Chain | Power
+Expression = Literal | Name | Quoted | Bracket | Call | Negation | SumOrProduct | Power
 
 
 def names_in(tree: object) -> set[str]:
@@ -110,9 +110,9 @@ def _children(node: Expression) -> tuple[Expression, ...]:
     match node:
         case Bracket(values) | Call(_, values):
             return values
-        case Sign(value):
+        case Negation(value):
             return (value,)
-        case Chain(first, rest):
+        case SumOrProduct(first, rest):
             return (first, *(value for _, value in rest))
         case Power(base, exponent):
             return base, exponent
@@ -132,7 +132,7 @@ class ToolWords:
 
 
 @record
-class Shade:
+class ColourWords:
     """`on`, `off` or a colour (`word` is empty then), and its brightness."""
 
     word: str
@@ -145,8 +145,8 @@ class Shade:
 class LightWords:
     """One shade, or one that goes over into another; `even` if it is to be equally bright."""
 
-    first: Shade
-    last: Shade | None
+    first: ColourWords
+    last: ColourWords | None
     span: Span
     even: bool = False
 

@@ -6,22 +6,22 @@ from dqpaint.diagnostics import Problem, Span, called_here, problem
 from dqpaint.language.syntax.tree import (
     Bracket,
     Call,
-    Chain,
     Expression,
     Literal,
     Name,
+    Negation,
     Power,
     Quoted,
-    Sign,
+    SumOrProduct,
 )
 from dqpaint.language.values import expression_errors, functions, values
 from dqpaint.language.values.scope import BUILTINS, DEEPEST_CALLS, UNIT_VALUES, Scope, UnknownError
 from dqpaint.language.values.values import (
-    Drawing,
     Function,
-    Point,
+    PointValue,
+    Procedure,
     Quantity,
-    Text,
+    TextValue,
     Value,
     describe,
     gated,
@@ -51,7 +51,7 @@ def _literal(node: Literal, _scope: Scope) -> Value:
 
 
 def _quoted(node: Quoted, _scope: Scope) -> Value:
-    return Text(node.text)
+    return TextValue(node.text)
 
 
 def _name(node: Name, scope: Scope) -> Value:
@@ -60,7 +60,7 @@ def _name(node: Name, scope: Scope) -> Value:
         value = names[node.name]
         if value is None:
             raise UnknownError
-        if isinstance(value, Function | Drawing):
+        if isinstance(value, Function | Procedure):
             raise expression_errors.no_value_of(node, value)
         return value
     if node.name in BUILTINS:
@@ -79,14 +79,14 @@ def _bracket(node: Bracket, scope: Scope) -> Value:
         raise expression_errors.second_unit(node, describe(value))
     numbers, dimension = _coordinates(node, scope)
     x, y = numbers[0], numbers[1]
-    point = Point((x, y, numbers[2] if count == 3 else 0.0), dimension)
+    point = PointValue((x, y, numbers[2] if count == 3 else 0.0), dimension)
     if not node.unit:
         return point
     if dimension != PLAIN:
         raise expression_errors.second_unit(node, f"already {dimension_name(dimension)}")
     factor, kind, _ = UNITS[node.unit]
     x, y, z = point.xyz
-    return gated(Point((x * factor, y * factor, z * factor), kind), node.span)
+    return gated(PointValue((x * factor, y * factor, z * factor), kind), node.span)
 
 
 def _coordinates(node: Bracket, scope: Scope) -> tuple[list[Scalar], Dimension]:
@@ -152,7 +152,7 @@ def _own_call(function: Function, node: Call, scope: Scope) -> Value:
         budget.depth -= function.depth
 
 
-def _sign(node: Sign, scope: Scope) -> Value:
+def _sign(node: Negation, scope: Scope) -> Value:
     value = evaluate(node.value, scope)
     result = values.negative(value)
     if result is None:
@@ -160,7 +160,7 @@ def _sign(node: Sign, scope: Scope) -> Value:
     return result
 
 
-def _chain(node: Chain, scope: Scope) -> Value:
+def _chain(node: SumOrProduct, scope: Scope) -> Value:
     result, start = evaluate(node.first, scope), node.first
     for sign, child in node.rest:
         operand = evaluate(child, scope)
@@ -210,7 +210,7 @@ _EVALUATORS: dict[type, Callable[..., Value]] = {
     Name: _name,
     Bracket: _bracket,
     Call: _call,
-    Sign: _sign,
-    Chain: _chain,
+    Negation: _sign,
+    SumOrProduct: _chain,
     Power: _power,
 }

@@ -3,13 +3,13 @@
 from collections.abc import Iterable
 
 from dqpaint.diagnostics import Fix, Problem, Span, closest, did_you_mean, listed, problem
-from dqpaint.language.syntax.tree import Bracket, Call, Expression, Literal, Name, Sign
+from dqpaint.language.syntax.tree import Bracket, Call, Expression, Literal, Name, Negation
 from dqpaint.language.values import functions
 from dqpaint.language.values.scope import BUILTINS, Scope
 from dqpaint.language.values.values import (
-    Drawing,
     Function,
-    Point,
+    PointValue,
+    Procedure,
     Quantity,
     Value,
     describe,
@@ -64,7 +64,7 @@ def _abbreviation(name: str, scope: Scope) -> str:
     return max(short, key=len) if short else ""
 
 
-def no_value_of(node: Name, value: Function | Drawing) -> Problem:
+def no_value_of(node: Name, value: Function | Procedure) -> Problem:
     """E206: the name of a function or of a `def`, alone."""
     if isinstance(value, Function):
         cure = f"write: {value.name}({', '.join(value.params)})"
@@ -137,7 +137,7 @@ def second_unit(node: Bracket, what: str) -> Problem:
 def unknown_function(node: Call, scope: Scope) -> Problem:
     """E206."""
     span = Span(node.span.start, node.span.start + len(node.name))
-    if isinstance(scope.names.get(node.name), Drawing):
+    if isinstance(scope.names.get(node.name), Procedure):
         message = f"'{node.name}' is drawn, it has no value"
         return problem("E206", message, span, "", _CALLED)
     if node.name in scope.names or node.name in BUILTINS:
@@ -167,22 +167,26 @@ def no_sum(
     else:
         message = f"can't subtract {describe(right)} from {describe(left)}"
     at, lacking, other = child, right, left
-    if isinstance(left, Quantity | Point) and left.dimension == PLAIN:
+    if isinstance(left, Quantity | PointValue) and left.dimension == PLAIN:
         at, lacking, other = first, left, right
     cure, fix = "", None
-    alike = isinstance(lacking, Quantity | Point) and type(lacking) is type(other)
-    if alike and isinstance(lacking, Quantity | Point) and lacking.dimension == PLAIN:
-        assert isinstance(other, Quantity | Point)
+    alike = isinstance(lacking, Quantity | PointValue) and type(lacking) is type(other)
+    if alike and isinstance(lacking, Quantity | PointValue) and lacking.dimension == PLAIN:
+        assert isinstance(other, Quantity | PointValue)
         if written := with_unit(at, lacking, other.dimension, scope):
             cure = f"did you mean {written}?"
             fix = Fix(f"write {written}", at.span, written)
-    elif {type(left), type(right)} == {Point, Quantity}:
+    elif {type(left), type(right)} == {PointValue, Quantity}:
         cure = "a point goes with a point: (5, 0) mm"
     return problem("E208", message, at.span, describe(lacking), cure, fix)
 
 
 def with_unit(
-    node: Expression, value: Quantity | Point, dimension: Dimension, scope: Scope, word: str = ""
+    node: Expression,
+    value: Quantity | PointValue,
+    dimension: Dimension,
+    scope: Scope,
+    word: str = "",
 ) -> str:
     """A value without a unit as it would be written with the one that is most likely."""
     numbers = (value.value,) if isinstance(value, Quantity) else value.xyz
@@ -192,7 +196,7 @@ def with_unit(
     if not unit or len(written) > 60:
         return ""
     if isinstance(node, Literal | Bracket) or (
-        isinstance(node, Sign) and isinstance(node.value, Literal | Bracket)
+        isinstance(node, Negation) and isinstance(node.value, Literal | Bracket)
     ):
         return f"{written} {unit}"
     if isinstance(node, Name | Call):
@@ -204,6 +208,6 @@ def no_product(left: Value, right: Value, verb: str, by: str, child: Expression)
     """E209."""
     message = f"can't {verb} {describe(left)} {by} {describe(right)}"
     cure = ""
-    if isinstance(left, Point) and isinstance(right, Point):
+    if isinstance(left, PointValue) and isinstance(right, PointValue):
         cure = "a point can be multiplied by a number; for one of its parts, write that part"
     return problem("E209", message, child.span, describe(right), cure)

@@ -7,10 +7,10 @@ from dqpaint.diagnostics import Problem, Span, problem
 from dqpaint.language.syntax.tree import Expression, Literal
 from dqpaint.language.values import vectors
 from dqpaint.language.values.values import (
+    ColourValue,
     Orientation,
-    Point,
+    PointValue,
     Quantity,
-    Tint,
     Value,
     describe,
     is_zero,
@@ -137,7 +137,7 @@ def _quantity(given: Arguments, i: int) -> Quantity:
 def _polar(given: Arguments) -> Value:
     radius, angle = _quantity(given, 0), given.number(1, ANGLE)
     x, y = radius.value * taylor.cos(angle), radius.value * taylor.sin(angle)
-    return Point((x, y, 0.0), radius.dimension)
+    return PointValue((x, y, 0.0), radius.dimension)
 
 
 def _hsv(given: Arguments) -> Value:
@@ -150,7 +150,7 @@ def _hsv(given: Arguments) -> Value:
             raise problem("E217", message, given.nodes[i].span)
         rest.append(share)
     saturation, value = [*rest, 1.0, 1.0][:2]
-    return Tint(colours.from_hsv(hue / (2.0 * math.pi), saturation, value))
+    return ColourValue(colours.from_hsv(hue / (2.0 * math.pi), saturation, value))
 
 
 def _rpy(given: Arguments) -> Value:
@@ -160,7 +160,7 @@ def _rpy(given: Arguments) -> Value:
 
 def _rot(given: Arguments) -> Value:
     axis = given.values[0]
-    if not isinstance(axis, Point):
+    if not isinstance(axis, PointValue):
         message = f"rot needs a direction, this is {describe(axis)}"
         cure = "for example: rot(z, 30 deg) or rot((1, 1, 0), 30 deg)"
         raise problem("E213", message, given.nodes[0].span, "", cure)

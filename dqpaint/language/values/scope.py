@@ -5,7 +5,7 @@ from collections.abc import Iterable
 
 from dqpaint.diagnostics import Span
 from dqpaint.language.syntax.tree import Expression
-from dqpaint.language.values.values import Point, Quantity, Tint, Value
+from dqpaint.language.values.values import ColourValue, PointValue, Quantity, Value
 from dqpaint.language.vocabulary.units import PLAIN, UNITS
 from dqpaint.language.vocabulary.words import PROFILES
 from dqpaint.program import Profile, colours
@@ -19,13 +19,13 @@ UNIT_VALUES = {unit: Quantity(factor, kind) for unit, (factor, kind, _) in UNITS
 
 # What every file knows.
 BUILTINS: dict[str, Value] = {
-    **{name: Tint(colour) for name, colour in colours.NAMES.items()},
+    **{name: ColourValue(colour) for name, colour in colours.NAMES.items()},
     **{name: Profile(name) for name in PROFILES},
     **UNIT_VALUES,
     "pi": Quantity(math.pi, PLAIN),
-    "x": Point((1.0, 0.0, 0.0), PLAIN),
-    "y": Point((0.0, 1.0, 0.0), PLAIN),
-    "z": Point((0.0, 0.0, 1.0), PLAIN),
+    "x": PointValue((1.0, 0.0, 0.0), PLAIN),
+    "y": PointValue((0.0, 1.0, 0.0), PLAIN),
+    "z": PointValue((0.0, 0.0, 1.0), PLAIN),
 }
 
 

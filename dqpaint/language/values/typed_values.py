@@ -9,12 +9,12 @@ from dqpaint.language.values.evaluate import evaluate
 from dqpaint.language.values.expression_errors import with_unit
 from dqpaint.language.values.scope import Scope
 from dqpaint.language.values.values import (
+    ColourValue,
+    FrameValue,
     Orientation,
-    Placement,
-    Point,
+    PointValue,
     Quantity,
-    Text,
-    Tint,
+    TextValue,
     Value,
     describe,
     is_zero,
@@ -114,7 +114,7 @@ def count(node: Expression, scope: Scope, word: str, least: int) -> int:
 def place(node: Expression, scope: Scope, word: str) -> Vector:
     """The point after `word`: its three lengths."""
     value = evaluate(node, scope)
-    if isinstance(value, Point):
+    if isinstance(value, PointValue):
         if value.dimension == LENGTH or is_zero(value):
             at = floats(value)
             if max(map(abs, at)) > LARGEST:
@@ -131,7 +131,7 @@ def place(node: Expression, scope: Scope, word: str) -> Vector:
 def direction(node: Expression, scope: Scope, word: str) -> Vector:
     """The unit vector after `word`, from a point with or without a unit."""
     value = evaluate(node, scope)
-    if not isinstance(value, Point) or value.dimension not in (PLAIN, LENGTH):
+    if not isinstance(value, PointValue) or value.dimension not in (PLAIN, LENGTH):
         message = f"'{word}' needs a direction, but this is {describe(value)}"
         cure = f"for example: {word} z, or {word} (0, 1, 1)"
         raise problem("E218", message, node.span, "", cure)
@@ -143,12 +143,12 @@ def direction(node: Expression, scope: Scope, word: str) -> Vector:
 def frame(node: Expression, scope: Scope) -> Frame:
     """The frame that a name stands for."""
     if isinstance(node, Name) and not scope.knows(node.name):
-        frames = [name for name, value in scope.names.items() if isinstance(value, Placement)]
+        frames = [name for name, value in scope.names.items() if isinstance(value, FrameValue)]
         cure = did_you_mean(closest(node.name, frames))
         cure = cure or f"name it first: frame {node.name} at (30, 0) mm"
         raise problem("E205", f"'{node.name}' is not known", node.span, "", cure)
     value = evaluate(node, scope)
-    if isinstance(value, Placement):
+    if isinstance(value, FrameValue):
         return value.frame
     message = f"'frame' needs a frame, but this is {describe(value)}"
     cure = "name one first: frame leaf at (30, 0) mm turned 45 deg"
@@ -185,9 +185,9 @@ def profile(node: Expression, scope: Scope) -> Profile:
 def colour(node: Expression, scope: Scope, after_to: bool = False) -> Colour:
     """The colour after `light`: a colour, a text with one, or a temperature."""
     value = evaluate(node, scope, colours.NAMES)
-    if isinstance(value, Tint):
+    if isinstance(value, ColourValue):
         return value.rgb
-    if isinstance(value, Text):
+    if isinstance(value, TextValue):
         return _colour_of_text(node, value.text)
     if isinstance(value, Quantity) and value.dimension == TEMPERATURE:
         kelvin = float(value.value) if not isinstance(value.value, Taylor) else math.nan
@@ -197,7 +197,7 @@ def colour(node: Expression, scope: Scope, after_to: bool = False) -> Colour:
         return colours.from_temperature(kelvin)
     message = f"'light' needs a colour, but this is {describe(value)}"
     cure = 'for example: light red, light hsv(30 deg), light "#ff8800", light 5600 K'
-    if after_to and isinstance(value, Point):
+    if after_to and isinstance(value, PointValue):
         cure = "after a colour, 'to' says which colour comes next; write 'light' after the point"
     raise problem("E218", message, node.span, "", cure)
 
@@ -217,7 +217,7 @@ def _colour_of_text(node: Expression, text: str) -> Colour:
     raise problem("E216", f'there is no colour "{text}"', node.span, "", cure, fix)
 
 
-def floats(value: Point) -> Vector:
+def floats(value: PointValue) -> Vector:
     """The numbers of a point outside a curve."""
     x, y, z = value.xyz
     assert not isinstance(x, Taylor)
@@ -231,14 +231,14 @@ def needs(node: Expression, value: Value, scope: Scope, word: str, dimension: Di
     needed = dimension_name(dimension)
     if word in ("repeat", "samples", "scale"):
         needed = "a plain number"
-    if isinstance(value, Quantity | Point) and value.dimension == PLAIN and dimension != PLAIN:
+    if isinstance(value, Quantity | PointValue) and value.dimension == PLAIN and dimension != PLAIN:
         written = with_unit(node, value, dimension, scope, word)
         message = f"'{word}' needs {needed}, but this has no unit"
         cure = f"write {written}" if written else f"for example: {_example(word)}"
         fix = Fix(cure, node.span, written) if written else None
         return problem("E218", message, node.span, "no unit", cure, fix)
     cure, fix = (f"for example: {_example(word)}" if _example(word) else ""), None
-    if isinstance(value, Quantity | Point):
+    if isinstance(value, Quantity | PointValue):
         kind = value.dimension
         per_time = tuple(a - b for a, b in zip(kind, TIME, strict=True))
         per_angle = tuple(a - b for a, b in zip(kind, ANGLE, strict=True))
@@ -256,7 +256,7 @@ def needs(node: Expression, value: Value, scope: Scope, word: str, dimension: Di
             if isinstance(node, Literal | Name | Call):
                 fix = Fix(cure, node.span, f"{scope.written(node)}{per}")
     shown = describe(value)
-    if isinstance(value, Point) and word in ("to", "by") and value.dimension != PLAIN:
+    if isinstance(value, PointValue) and word in ("to", "by") and value.dimension != PLAIN:
         shown = dimension_name(value.dimension)
     message = f"'{word}' needs {needed}, but this is {shown}"
     return problem("E218", message, node.span, "", cure, fix)

@@ -26,7 +26,7 @@ class Quantity:
 
 
 @record
-class Point:
+class PointValue:
     """Three numbers of one dimension: a place, a shift, or without a unit a direction."""
 
     xyz: tuple[Scalar, Scalar, Scalar]
@@ -41,21 +41,21 @@ class Orientation:
 
 
 @record
-class Tint:
+class ColourValue:
     """A colour: linear RGB."""
 
     rgb: Colour
 
 
 @record
-class Text:
+class TextValue:
     """A text in quotes."""
 
     text: str
 
 
 @record
-class Placement:
+class FrameValue:
     """A frame with a name."""
 
     frame: vectors.Frame
@@ -77,7 +77,7 @@ class Function:
 
 
 @record
-class Drawing:
+class Procedure:
     """A `def` of the file: the names it is handed, its lines, and the names those know.
 
     `size` is how many statements a call of it is at least.
@@ -90,7 +90,17 @@ class Drawing:
     size: int
 
 
-Value = Quantity | Point | Orientation | Tint | Profile | Text | Placement | Function | Drawing
+Value = (
+    Quantity
+    | PointValue
+    | Orientation
+    | ColourValue
+    | Profile
+    | TextValue
+    | FrameValue
+    | Function
+    | Procedure
+)
 
 
 def describe(value: Value) -> str:
@@ -98,7 +108,7 @@ def describe(value: Value) -> str:
     match value:
         case Quantity(_, dimension):
             return dimension_name(dimension)
-        case Point(_, dimension):
+        case PointValue(_, dimension):
             if dimension == LENGTH:
                 return "a point"
             if dimension == PLAIN:
@@ -106,17 +116,17 @@ def describe(value: Value) -> str:
             return f"a point whose numbers are each {dimension_name(dimension)}"
         case Orientation():
             return "an orientation"
-        case Tint():
+        case ColourValue():
             return "a colour"
         case Profile():
             return "a profile"
-        case Text():
+        case TextValue():
             return "a text"
-        case Placement():
+        case FrameValue():
             return "a frame"
         case Function():
             return "a function"
-        case Drawing():
+        case Procedure():
             return "a def"
 
 
@@ -124,7 +134,7 @@ def is_zero(value: Value) -> bool:
     """A plain 0, or a point of plain zeros: it needs no unit."""
     if isinstance(value, Quantity):
         return value.dimension == PLAIN and _none(value.value)
-    if isinstance(value, Point):
+    if isinstance(value, PointValue):
         return value.dimension == PLAIN and all(map(_none, value.xyz))
     return False
 
@@ -146,7 +156,7 @@ def gated(value: Value, span: Span) -> Value:
     """Lets a value pass if all its numbers are finite."""
     if isinstance(value, Quantity):
         finite(value.value, span)
-    elif isinstance(value, Point):
+    elif isinstance(value, PointValue):
         for number in value.xyz:
             finite(number, span)
     return value
@@ -164,7 +174,7 @@ def sum_of(left: Value, right: Value, sign: str) -> Value | None:
         if sign == "+":
             return Quantity(left.value + right.value, left.dimension)
         return Quantity(left.value - right.value, left.dimension)
-    if isinstance(left, Point) and isinstance(right, Point):
+    if isinstance(left, PointValue) and isinstance(right, PointValue):
         if left.dimension != right.dimension:
             if is_zero(right):
                 return left
@@ -173,8 +183,8 @@ def sum_of(left: Value, right: Value, sign: str) -> Value | None:
             return right if sign == "+" else negative(right)
         (a, b, c), (d, e, f) = left.xyz, right.xyz
         if sign == "+":
-            return Point((a + d, b + e, c + f), left.dimension)
-        return Point((a - d, b - e, c - f), left.dimension)
+            return PointValue((a + d, b + e, c + f), left.dimension)
+        return PointValue((a - d, b - e, c - f), left.dimension)
     return None
 
 
@@ -183,11 +193,11 @@ def product_of(left: Value, right: Value) -> Value | None:
     if isinstance(left, Quantity):
         if isinstance(right, Quantity):
             return Quantity(left.value * right.value, _times(left.dimension, right.dimension, 1.0))
-        if isinstance(right, Point):
+        if isinstance(right, PointValue):
             k, (a, b, c) = left.value, right.xyz
-            return Point((k * a, k * b, k * c), _times(left.dimension, right.dimension, 1.0))
+            return PointValue((k * a, k * b, k * c), _times(left.dimension, right.dimension, 1.0))
         return None
-    if isinstance(left, Point) and isinstance(right, Quantity):
+    if isinstance(left, PointValue) and isinstance(right, Quantity):
         return product_of(right, left)
     if isinstance(left, Orientation) and isinstance(right, Orientation):
         return Orientation(vectors.turn_product(left.quaternion, right.quaternion))
@@ -203,9 +213,9 @@ def quotient_of(left: Value, right: Value, span: Span) -> Value | None:
         raise problem("E203", "division by zero", span, "this is 0")
     if isinstance(left, Quantity):
         return Quantity(left.value / k, _times(left.dimension, right.dimension, -1.0))
-    if isinstance(left, Point):
+    if isinstance(left, PointValue):
         a, b, c = left.xyz
-        return Point((a / k, b / k, c / k), _times(left.dimension, right.dimension, -1.0))
+        return PointValue((a / k, b / k, c / k), _times(left.dimension, right.dimension, -1.0))
     return None
 
 
@@ -213,9 +223,9 @@ def negative(value: Value) -> Value | None:
     """With the other sign; None if it has no sign."""
     if isinstance(value, Quantity):
         return Quantity(-value.value, value.dimension)
-    if isinstance(value, Point):
+    if isinstance(value, PointValue):
         a, b, c = value.xyz
-        return Point((-a, -b, -c), value.dimension)
+        return PointValue((-a, -b, -c), value.dimension)
     return None
 
 

@@ -51,10 +51,17 @@ class StatementWord:
 
 
 LAMP = ("light", "brush", "strobe")  # what shines, and how
-SETTINGS = ("speed", "turnspeed", "profile", "tool", "blend", *LAMP)
+MODAL = (
+    "speed",
+    "turnspeed",
+    "profile",
+    "tool",
+    "blend",
+    *LAMP,
+)  # each holds until it is said again
 TIMES = ("in", "samples")
 PACE = (*TIMES, "speed", "turnspeed", "profile")  # what a `stroke` says for all of its lines
-CLAUSES = (*TIMES, *SETTINGS)
+CLAUSES = (*TIMES, *MODAL)
 OWN_CORNERS = tuple(word for word in CLAUSES if word != "blend")  # of what comes from elsewhere
 DARK_CLAUSES = tuple(word for word in CLAUSES if word not in LAMP)
 
@@ -134,7 +141,7 @@ STATEMENTS = {
         StatementWord("period", "the time between two samples", "period 8 ms", head="value"),
         *(
             StatementWord(word, f"{PARTS[word].says}, from here on", PARTS[word].example, word)
-            for word in SETTINGS
+            for word in MODAL
         ),
         StatementWord(
             "line",
@@ -217,7 +224,7 @@ STATEMENTS = {
             "with",
             "its lines, turned, moved, scaled or set differently",
             "with rotate 30 deg shift (80, 0) mm",
-            parts=("rotate", "about", "shift", "scale", "frame", *SETTINGS),
+            parts=("rotate", "about", "shift", "scale", "frame", *MODAL),
             many=("rotate", "about", "shift", "scale", "frame"),
             block=True,
         ),

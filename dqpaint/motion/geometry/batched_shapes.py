@@ -29,15 +29,15 @@ from dqpaint.motion.stroke_errors import Faults, StrokeError, pole, stroke_error
 from dqpaint.program import (
     Arc,
     Chain,
-    Cruise,
+    CruiseSpeed,
     Curve,
-    Follow,
-    Keep,
+    Dwell,
+    FixedOrientation,
+    FollowHeading,
     Screw,
     ScrewTo,
     Segment,
     Step,
-    Still,
     Straight,
     Vector,
 )
@@ -178,7 +178,7 @@ def gather(segments: tuple[Segment, ...], faults: Faults, most: float = np.inf) 
 def _least_seconds(segment: Segment, extent: Extent) -> float:
     """What a segment takes at least, as far as that is a matter of its length."""
     timing = segment.timing
-    if segment.run is not None or not isinstance(timing, Cruise):
+    if segment.stroke is not None or not isinstance(timing, CruiseSpeed):
         return 0.0
     return extent.length / timing.speed
 
@@ -199,20 +199,20 @@ def _shape(segments: Sequence[Segment]) -> Shape:
         column([s.start.position for s in segments]),
         column([s.start.orientation for s in segments]),
     )
-    if isinstance(path, Still):
+    if isinstance(path, Dwell):
         return Rigid(start, np.zeros((len(segments), 6)))
     if isinstance(path, ScrewTo):
         return Rigid(start, 2 * dq.log(dq.mul(_ends(segments), dq.conj(start))))
     if isinstance(path, Step):
         return Jump(start, _ends(segments))
-    if isinstance(path, Straight) and isinstance(tool, Keep | Follow):
+    if isinstance(path, Straight) and isinstance(tool, FixedOrientation | FollowHeading):
         by = column([s.path.by for s in segments if isinstance(s.path, Straight)])
         return Rigid(start, np.concatenate([np.zeros_like(by), by], axis=1))
     if isinstance(path, Screw):
         screws = [s.path for s in segments if isinstance(s.path, Screw)]
         lines = [(s.point, s.axis, s.angle, s.advance) for s in screws]
         return Rigid(start, _screws(lines))
-    if isinstance(path, Arc) and isinstance(tool, Follow) and path.grow == 0:
+    if isinstance(path, Arc) and isinstance(tool, FollowHeading) and path.grow == 0:
         arcs = [s.path for s in segments if isinstance(s.path, Arc)]
         return Rigid(start, _screws([(a.centre, a.axis, a.angle, a.rise) for a in arcs]))
     places = _places(segments)

@@ -9,7 +9,15 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.motion.geometry.paths import Indices, Lines, Places, Rowed, column
-from dqpaint.program import Arc, Follow, Keep, Look, LookLine, Segment, Turn
+from dqpaint.program import (
+    Arc,
+    FixedOrientation,
+    FollowHeading,
+    Look,
+    LookLine,
+    Segment,
+    SlerpOrientation,
+)
 
 Turns = tuple[Floats, Floats, Floats]  # r (N, 4), w (N, 3) [rad per f], its derivative (N, 3)
 
@@ -35,9 +43,9 @@ def orientation(segments: Sequence[Segment], places: Places) -> Spin:
     """The tool of segments of one kind along their places, for strokes that are not one screw."""
     first = segments[0].tool
     r0 = column([segment.start.orientation for segment in segments])
-    if isinstance(first, Keep):
+    if isinstance(first, FixedOrientation):
         return Turning(r0, np.zeros((len(segments), 3)))
-    if isinstance(first, Turn):
+    if isinstance(first, SlerpOrientation):
         r1 = column([segment.end.orientation for segment in segments])
         step = dq.quaternion_mul(r1, r0 * dq.C4)
         return Turning(r0, 2 * dq.log(dq.pose_from(np.zeros((len(segments), 3)), step))[:, :3])
@@ -50,7 +58,7 @@ def orientation(segments: Sequence[Segment], places: Places) -> Spin:
     arcs = [s.path for s in segments if isinstance(s.path, Arc)]
     if arcs:
         return Turning(r0, column([[a.angle] for a in arcs]) * column([a.axis for a in arcs]))
-    assert isinstance(first, Follow)
+    assert isinstance(first, FollowHeading)
     return heading(r0[0], np.array(first.axis), places)
 
 

@@ -2,6 +2,7 @@
 
 import math
 import re
+from operator import attrgetter
 
 import numpy as np
 import pytest
@@ -82,8 +83,9 @@ def test_written_and_read_again_it_is_the_same_to_the_last_bit():
     text = str(drawing)
     assert formatted(text) == text
     asked, again = motion(drawing.program()), motion(parse(text))
-    for kind in ("t", "pose", "twist", "acceleration", "light", "line"):
-        assert np.array_equal(getattr(asked, kind), getattr(again, kind)), kind
+    for kind in ("t", "pose", "twist", "acceleration", "light", "source.line"):
+        read = attrgetter(kind)
+        assert np.array_equal(read(asked), read(again)), kind
     legs = asked.program.segments[:3]
     assert legs[0].start.position == tuple((np.array([1 / 3, -0.1, 1e-7]) / 7).tolist())
     assert sum(leg.timing.seconds for leg in legs) == pytest.approx(np.pi, rel=1e-12)

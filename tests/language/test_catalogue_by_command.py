@@ -1,4 +1,4 @@
-"""Every message of the catalogue once more, as `dqpaint check --json` gives it."""
+"""Messages as `dqpaint check --json` gives them: one of each kind, the same as in this process."""
 
 import json
 import shutil
@@ -8,63 +8,78 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.wrong_drawings import ENTRIES, FILES, LARGE, OF_FILES, write
+from dqpaint.diagnostics.diagnostic import Diagnostic, place
+from tests.support.wrong_drawings import ENTRIES, FILES, LARGE, OF_FILES, found, only, write
 
+KINDS = {
+    "# nothing": "no place",
+    "let café = 3": "letters beyond ASCII before the caret",
+    "line to (0, 0, 70 mm": "a label, a help, no fix",
+    "move to (1, 2) mm;": "a fix",
+    "period 3 ms~period 4 ms": "another line",
+    "def star(r)~line by (r, 0)~end~star(5)": "called from elsewhere",
+    'path "bad.csv" unit mm': "a file beside it",
+    'svg "otherwise.svg"': "a warning",
+}
 BESIDES = {"E140", "W403", "W411"}  # what is true of these little texts, too
 
 
 def checked(paths: list[Path]) -> dict[str, list[dict]]:
+    """What the command finds in each file."""
     command = [sys.executable, "-m", "dqpaint", "check", "--json", *map(str, paths)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
     assert (done.returncode, done.stderr) == (1, "")
-    found: dict[str, list[dict]] = {}
+    told: dict[str, list[dict]] = {}
     for finding in json.loads(done.stdout)["diagnostics"]:
-        found.setdefault(finding["file"], []).append(finding)
-    return found
+        told.setdefault(finding["file"], []).append(finding)
+    return told
+
+
+def same(finding: dict, diagnostic: Diagnostic, text: str) -> None:
+    for name in ("code", "message", "label", "help"):
+        assert finding[name] == getattr(diagnostic, name)
+    assert finding["severity"] == diagnostic.severity
+    assert len(finding["related"]) == len(diagnostic.related)
+    assert (finding["fix"] is None) == (diagnostic.fix is None)
+    ends = ("start", "end")
+    if diagnostic.span is None:
+        assert [finding[end] for end in ends] == [None, None]
+        return
+    for end in ends:
+        line, column = place(text, getattr(diagnostic.span, end))
+        assert finding[end] == {"line": line, "column": column}
 
 
 @pytest.mark.slow
-def test_the_table(tmp_path: Path) -> None:
-    paths = {}
-    for i, entry in enumerate(ENTRIES):
-        if "that is no file" not in entry[3]:
-            paths[tmp_path / f"{i}.traj"] = entry
-            (tmp_path / f"{i}.traj").write_text(entry[0].replace("~", "\n"))
+def test_a_message_of_each_kind(tmp_path: Path) -> None:
     for file in FILES.iterdir():
         shutil.copy(file, tmp_path)
-    found = checked(list(paths))
-    for path, (source, code, caret, message, label, cure) in paths.items():
-        (finding,) = (f for f in found[str(path)] if f["code"] == code or f["code"] not in BESIDES)
-        said = (finding["code"], finding["message"], finding["label"], finding["help"])
-        assert said == (code, message, label, cure), source
-        at = finding["start"] and "{line}:{column}".format(**finding["start"])
-        assert (at or "") == caret.partition(" ")[0]
+    entries = {tmp_path / f"{i}.traj": e for i, e in enumerate(ENTRIES) if e[0] in KINDS}
+    assert len(entries) == len(KINDS)
+    for path, entry in entries.items():
+        path.write_text(entry[0].replace("~", "\n"), "utf-8")
+    (tmp_path / "include").mkdir()
+    code, files, of_file, caret = next(case for case in OF_FILES if case[2] == "in/b.traj")
+    main = write(tmp_path / "include", files)
+    long = tmp_path / "long.traj"
+    long.write_text(LARGE["words"][0])
+
+    told = checked([*entries, main, long])
+    for path, entry in entries.items():
+        one = only(entry)
+        (finding,) = (
+            f for f in told[str(path)] if f["code"] == one.code or f["code"] not in BESIDES
+        )
+        same(finding, one, path.read_text("utf-8"))
+    (finding,) = told[str(tmp_path / "include" / of_file)]
+    assert finding["code"] == code
+    assert "{line}:{column}".format(**finding["start"]) == caret.partition(" ")[0]
+    same(told[str(long)][0], found(LARGE["words"][0])[0], LARGE["words"][0])
 
 
 @pytest.mark.slow
-def test_those_of_several_files(tmp_path: Path) -> None:
-    cases = [(code, *case) for code, cases in OF_FILES.items() for case in cases]
-    mains = []
-    for i, (_, files, *_) in enumerate(cases):
-        (tmp_path / str(i)).mkdir()
-        mains.append(write(tmp_path / str(i), files))
-    found = checked(mains)
-    for i, (code, _, file, caret, message) in enumerate(cases):
-        (finding,) = found[str(tmp_path / str(i) / file)]
-        assert (finding["code"], finding["message"][: len(message)]) == (code, message)
-        assert "{line}:{column}".format(**finding["start"]) == caret.partition(" ")[0]
-
-
-@pytest.mark.slow
-def test_the_large_ones(tmp_path: Path) -> None:
-    """The text beyond 2 MB is not even read, and so a file that can't be."""
-    paths = [tmp_path / f"{i}.traj" for i in range(len(LARGE))]
-    for path, text in zip(paths, LARGE, strict=True):
-        path.write_bytes(text.encode())
-    found = checked(paths)
-    for path, (code, message) in zip(paths, LARGE.values(), strict=True):
-        first = found[str(path)][0]
-        if code == "E305":
-            assert (first["code"], first["message"]) == ("E001", f"{path} is larger than 2 MB")
-        else:
-            assert (first["code"], first["message"][: len(message)]) == (code, message)
+def test_what_is_too_large_is_not_even_read(tmp_path: Path) -> None:
+    path = tmp_path / "a.traj"
+    path.write_text(LARGE["size"][0])
+    (finding,) = checked([path])[str(path)]
+    assert finding["code"] == "E001"

@@ -15,22 +15,17 @@ def compiled(folder: Path, files: dict[str, str]) -> Program:
     return read(write(folder, files))
 
 
-@pytest.mark.parametrize(
-    ("code", "files", "file", "caret", "message"),
-    [(code, *case) for code, cases in OF_FILES.items() for case in cases],
-)
-def test_messages(
-    tmp_path: Path, code: str, files: dict[str, str], file: str, caret: str, message: str
-) -> None:
+@pytest.mark.parametrize(("code", "files", "file", "caret"), OF_FILES)
+def test_messages(tmp_path: Path, code: str, files: dict[str, str], file: str, caret: str) -> None:
     with pytest.raises(ScriptError) as caught:
         compiled(tmp_path, files)
     error = caught.value
     (found,) = error.diagnostics
-    assert (found.code, found.message[: len(message)]) == (code, message)
+    assert found.code == code
     assert found.span is not None
     at, _, words = caret.partition(" ")
     assert "{}:{}".format(*place(error.text, found.span.start)) == at
-    assert found.span.of(error.text).startswith(words)
+    assert found.span.of(error.text) == words
     assert file_at(error.text, found.span.start, error.name)[1] == str(tmp_path / file)
     assert f"--> {tmp_path / file}:{at}\n" in render(found, error.name, error.text)
 

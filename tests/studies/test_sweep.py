@@ -176,29 +176,6 @@ def test_tables_of_text():
     assert parse_laws("p") == ["p"]
 
 
-@pytest.mark.parametrize(
-    ("words", "code", "fault"),
-    [
-        (("compare", "line.traj", "--controllers", "p,q"), 2, "no controller named 'q'"),
-        (("compare", "line.traj", "--controllers", "p,p"), 2, "a law is there twice"),
-        (("compare", "line.traj", "--controllers", "p,pff", "--runs", "3"), 2, "nothing in them"),
-        (("compare", "line.traj", "--controllers", "p(k=x)"), 2, "k"),
-        (("sweep", "line.traj", "--vary", "q=1,2"), 2, "has no gain named 'q'; its gains: gamma"),
-        (("sweep", "line.traj", "--vary", "gamma_T"), 2, "is not NAME=VALUES"),
-        (("sweep", "none.traj", "--vary", "gamma_T=1"), 1, "no file 'none.traj'"),
-        (("sweep", "line.traj", "--vary", "plant=ideal", "--out", "line.traj"), 1, "cannot be"),
-        (("sweep", "line.traj", "--vary", "plant=ideal", "--jobs", "0"), 2, "0 jobs"),
-        (("verify", "nowhere"), 1, "no folder 'nowhere'"),
-    ],
-)  # fmt: skip
-def test_slips_are_told(answer, line, tmp_path, words, code, fault):
-    done = answer(*words)
-    assert (done.returncode, done.stdout) == (code, "")
-    assert fault in done.stderr
-    assert "Traceback" not in done.stderr
-    assert [path.name for path in tmp_path.iterdir()] == ["line.traj"]
-
-
 def test_an_old_report_beside_new_tables_is_told(tmp_path, capsys):
     from dqpaint.cli.studies import _finish
 

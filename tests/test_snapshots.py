@@ -14,7 +14,8 @@ def test_the_wording_is_the_one_that_is_kept(name):
     kept = (FOLDER / name).read_text("utf-8").splitlines()
     said = SNAPSHOTS[name]().splitlines()
     differences = list(unified_diff(kept, said, "kept", "said now", lineterm="", n=2))
-    assert not differences, "\n".join([*differences, f"if this is meant: {COMMAND}"])
+    if differences:
+        pytest.fail("\n".join([*differences, f"if this is meant: {COMMAND}"]), pytrace=False)
 
 
 def test_each_snapshot_is_compared():

@@ -301,26 +301,16 @@ def along_cubics(t: Floats, values: Floats, at: Floats) -> Floats:
     """Values (K, n) at times (K,) between rows (M, n), by monotone cubics.
 
     Slopes are the weighted harmonic means of the neighbouring secants, and zero where these have
-    different signs: Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984).
+    different signs: Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984). At both ends they are
+    the secants.
     """
     if len(t) == 1:
         return np.repeat(values, len(at), axis=0)
-    h = np.diff(t)[:, None]
-    secant = np.diff(values, axis=0) / h
-    slope = np.concatenate([secant[:1], np.zeros_like(values[2:]), secant[-1:]])
-    before, after = secant[:-1], secant[1:]
-    w = (h[:-1] + 2 * h[1:]) / (3 * (h[:-1] + h[1:]))
-    same = before * after > 0
-    mean = np.where(same, (1 - w) * before + w * after, 1.0)
-    slope[1:-1] = np.where(same, before * after / mean, 0.0)
-    k = np.clip(np.searchsorted(t, at, side="right") - 1, 0, len(t) - 2)
-    h = h[k]
-    s = ((at - t[k])[:, None]) / h
-    left, right = 1 - s, s
-    return np.asarray(
-        left**2 * ((1 + 2 * s) * values[k] + s * h * slope[k])
-        + right**2 * ((1 + 2 * left) * values[k + 1] - left * h * slope[k + 1])
-    )
+    from scipy.interpolate import CubicHermiteSpline, PchipInterpolator  # slow to import
+
+    slope = PchipInterpolator(t, values)(t, 1)
+    slope[[0, -1]] = (np.diff(values, axis=0) / np.diff(t)[:, None])[[0, -1]]
+    return np.asarray(CubicHermiteSpline(t, values, slope)(at))
 
 
 def along_screws(t: Floats, poses: Floats, at: Floats) -> Floats:

@@ -143,6 +143,20 @@ def test_cubics_are_smooth_and_never_leave_their_rows():
     assert np.abs(np.diff(slopes, axis=0)).max() < 0.08 * np.ptp(slopes)  # no corners
 
 
+def test_cubics_begin_and_end_along_the_secants():
+    t, values = np.array([0.0, 0.1, 0.3, 0.4]), np.array([[0.0], [0.3], [0.4], [0.0]])
+    step = 1e-6
+    first, last = along_cubics(t, values, np.array([step, 0.4 - step]))[:, 0]
+    assert first / step == pytest.approx(3.0, rel=1e-4)
+    assert last / step == pytest.approx(4.0, rel=1e-4)
+    # between them as by hand: slope (3 * 0.5) / ((1 - 5/9) * 3 + 5/9 * 0.5) in the second row
+    slope = 1.5 / (4 / 9 * 3 + 5 / 9 * 0.5)
+    middle = 0.5 * 0.3 + 0.1 / 8 * (3.0 - slope)
+    assert along_cubics(t, values, np.array([0.05]))[0, 0] == pytest.approx(middle, abs=1e-12)
+    between = along_cubics(t[:2], values[:2], np.array([0.0, 0.025, 0.1]))
+    np.testing.assert_allclose(between[:, 0], [0.0, 0.075, 0.3], atol=1e-12)
+
+
 def test_cubics_of_a_smooth_way_converge():
     errors = []
     for n in (20, 40, 80):

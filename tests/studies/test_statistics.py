@@ -8,7 +8,6 @@ import pytest
 from dqpaint.studies.experiment.statistics import (
     Spread,
     holm,
-    incomplete_beta,
     spread,
     two_sided,
     welch,
@@ -35,18 +34,6 @@ def test_t_against_its_density_summed(t, freedom):
     x = np.linspace(0, t, 200_001)
     inside = np.trapezoid((1 + x * x / freedom) ** (-(freedom + 1) / 2), x) * norm
     assert two_sided(t, freedom) == pytest.approx(1 - 2 * inside, abs=1e-9)
-
-
-@pytest.mark.parametrize(("a", "b"), [(0.5, 0.5), (3.0, 2.0), (17.3, 0.5), (0.5, 60.0)])
-def test_the_beta_function_against_its_integral(a, b):
-    for x in (0.001, 0.2, 0.5, 0.9, 0.999):
-        angle = np.linspace(0, math.asin(math.sqrt(x)), 400_001)[1:-1]  # no pole at the ends
-        step = angle[1] - angle[0]
-        whole = math.exp(math.lgamma(a) + math.lgamma(b) - math.lgamma(a + b))
-        values = 2 * np.sin(angle) ** (2 * a - 1) * np.cos(angle) ** (2 * b - 1)
-        assert incomplete_beta(x, a, b) == pytest.approx(values.sum() * step / whole, abs=1e-4)
-    assert incomplete_beta(0.0, a, b) == 0.0
-    assert incomplete_beta(1.0, a, b) == 1.0
 
 
 def test_spreads_are_numpy_s(rng):

@@ -31,6 +31,7 @@ BREAKS = {
     "the door to cv2": ("motion/plan.py", "cv2"),
     "the door to typer": ("planning/check.py", "typer"),
     "the door to matplotlib": ("studies/kinds/sweep.py", "matplotlib"),
+    "the door to jinja2": ("studies/report/page.py", "jinja2"),
     "the doors of editors and clusters": ("cli/language.py", "pygls"),
 }
 """Contract -> a file and an import in it that breaks that contract."""

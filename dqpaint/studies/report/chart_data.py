@@ -21,13 +21,18 @@ def of_panel(panel: Panel, most: int = MOST_POINTS) -> dict[str, Any]:
         "span",
     )  # fmt: skip
     ticks = None if panel.ticks is None else list(panel.ticks)
-    return {**{name: getattr(panel, name) for name in names}, "ticks": ticks, "lines": lines}
+    return {
+        "kind": "curves",
+        **{name: getattr(panel, name) for name in names},
+        "ticks": ticks,
+        "lines": lines,
+    }
 
 
 def of_map(given: HeatMap) -> dict[str, Any]:
     """A heat map."""
     return {
-        "title": given.title, "x_label": given.x_label, "y_label": given.y_label,
+        "kind": "heat", "title": given.title, "x_label": given.x_label, "y_label": given.y_label,
         "x": list(given.x), "y": list(given.y), "log": given.log,
         "values": [_numbers(row) for row in given.values], "marked": given.marked.tolist(),
     }  # fmt: skip

@@ -10,7 +10,6 @@ import hashlib
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from html import escape
 from importlib.resources import files
 from typing import Any
 
@@ -20,6 +19,7 @@ from dqpaint.settings import Settings
 from dqpaint.studies.report import chart_data
 from dqpaint.studies.report.charts import HeatMap, Panel, beside, chart, heat_map
 from dqpaint.studies.report.html_tables import table
+from dqpaint.studies.report.templates import render
 
 SCRIPTS = "page.js", "curves.js", "heat.js", "tables.js"
 WIDE = (7.0, 12.0, 15.0)  # of one chart, of two and of three beside each other [inches]
@@ -34,6 +34,14 @@ HINT = (
 class Words:
     """A paragraph."""
 
+    text: str
+
+
+@dataclass(frozen=True)
+class Source:
+    """A text that is shown as it stands."""
+
+    title: str
     text: str
 
 
@@ -60,12 +68,7 @@ class Shot:
     """A picture, a PNG file, and what it shows."""
 
     title: str
-    png: bytes
-
-    @property
-    def picture(self) -> bytes:
-        """As a PNG file."""
-        return self.png
+    picture: bytes
 
 
 @dataclass(frozen=True)
@@ -101,7 +104,7 @@ class Map:
 
 
 Pictured = Shot | Charts | Map
-Block = Words | Rows | Tables | Pictured
+Block = Words | Source | Rows | Tables | Pictured
 
 
 @dataclass(frozen=True)
@@ -135,25 +138,18 @@ def html(page: Page) -> bytes:
         "default-src 'none'; img-src data:; base-uri 'none'; form-action 'none'; "
         f"script-src {_hash(script)}; style-src {_hash(style)}"
     )
-    parts = [_block(block, str(i)) for i, block in enumerate([*page.blocks, *_about(page)])]
-    said = " ".join(f"{name} {value}" for name, value in library_versions().items())
-    return f"""<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="{rules}">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{escape(page.title)}</title>
-<style>{style}</style>
-</head>
-<body>
-<h1>{escape(page.title)}</h1>
-{"".join(parts)}
-<footer>Made by dqpaint {escape(__version__)} with {escape(said)}.</footer>
-<script>{script}</script>
-</body>
-</html>
-""".encode()
+    blocks = [*page.blocks, *_about(page)]
+    return render(
+        "page.html",
+        title=page.title, rules=rules, style=style, script=script, hint=HINT, table=table,
+        blocks=[(type(block).__name__, block) for block in blocks],
+        of_panel=_of_panel, of_map=chart_data.of_map, beside=beside, version=__version__,
+        libraries=" ".join(f"{name} {value}" for name, value in library_versions().items()),
+    ).encode()  # fmt: skip
+
+
+def _of_panel(panel: Panel, columns: int) -> dict[str, Any]:
+    return chart_data.of_panel(panel, chart_data.MOST_POINTS // (2 if columns > 2 else 1))
 
 
 def _about(page: Page) -> list[Block]:
@@ -164,9 +160,9 @@ def _about(page: Page) -> list[Block]:
         rows = [[name, _said(value)] for name, value in chosen.items()]
         blocks.append(Rows("Settings of all runs; the others as usual", [["", ""], *rows]))
     if page.text:
-        blocks.append(_Source("The drawing", page.text))
+        blocks.append(Source("The drawing", page.text))
     if page.again:
-        blocks.append(_Source("To run it again", page.again))
+        blocks.append(Source("To run it again", page.again))
     return blocks
 
 
@@ -183,11 +179,6 @@ def _said(value: object) -> str:
     return "  ".join(f"{name}={said}" for name, said in parts.items())
 
 
-@dataclass(frozen=True)
-class _Source(Words):
-    source: str
-
-
 def _source(*names: str) -> str:
     folder = files("dqpaint.studies.report")
     return "".join("\n" + folder.joinpath(name).read_text("utf-8") for name in names)
@@ -195,58 +186,3 @@ def _source(*names: str) -> str:
 
 def _hash(text: str) -> str:
     return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
-
-
-def _block(block: Block, name: str) -> str:
-    if isinstance(block, _Source):
-        return f"<h2>{escape(block.text)}</h2>\n<pre>{escape(block.source)}</pre>\n"
-    if isinstance(block, Words):
-        return f"<p>{escape(block.text)}</p>\n" if block.text else ""
-    head = f"<h2>{escape(block.title)}</h2>\n"
-    if isinstance(block, Rows):
-        return head + table(block.lines, block.bars) + _note(block)
-    if isinstance(block, Tables):
-        made = [f"<div>{_own_title(one)}{table(one.lines, one.bars)}{_note(one)}</div>\n"
-                for one in block.tables]  # fmt: skip
-        return f'{head}<div class="small">\n{"".join(made)}</div>\n'
-    if isinstance(block, Shot):
-        return f"{head}{_image(block.png, block.title)}\n"
-    without = f"<noscript>{_image(block.picture, block.title)}</noscript>\n"
-    if isinstance(block, Map):
-        figure = _figure(block.given.title, f"heat-{name}", "heat", chart_data.of_map(block.given))
-        return f'{head}<div class="map" hidden>\n{figure}</div>\n{without}'
-    columns = beside(len(block.panels))
-    most = chart_data.MOST_POINTS // (2 if columns > 2 else 1)
-    figures = "".join(
-        _figure(panel.title, f"curves-{name}-{i}", "curves", chart_data.of_panel(panel, most))
-        for i, panel in enumerate(block.panels)
-    )
-    kind = f"beside columns{columns}"
-    shared = " data-shared" if block.shared else ""
-    hint = f'<p class="hint" hidden>{HINT}</p>\n'
-    charts = f'<div class="charts"{shared} hidden>\n<div class="{kind}">\n{figures}</div>\n</div>\n'
-    return f"{head}{hint}{charts}{without}"
-
-
-def _own_title(rows: Rows) -> str:
-    """The title of a small table, unless its first heading says it."""
-    return "" if rows.title in rows.lines[0] else f"<h3>{escape(rows.title)}</h3>\n"
-
-
-def _note(rows: Rows) -> str:
-    return f'<p class="note">{escape(rows.note)}</p>\n' if rows.note else ""
-
-
-def _image(png: bytes, title: str) -> str:
-    data = base64.b64encode(png).decode()
-    return f'<img alt="{escape(title)}" src="data:image/png;base64,{data}">'
-
-
-def _figure(title: str, name: str, kind: str, data: dict[str, Any]) -> str:
-    text = json.dumps({"kind": kind, **data}, allow_nan=False, separators=(",", ":"))
-    # within a script only these could end it, or begin another
-    safe = text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
-    return (
-        f'<figure class="chart" id="{name}"><h3>{escape(title)}</h3></figure>\n'
-        f'<script type="application/json" data-figure="{name}">{safe}</script>\n'
-    )

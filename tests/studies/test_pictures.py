@@ -120,7 +120,7 @@ def test_overlays_of_many_are_apart_and_named_below(tmp_path):
     cells = study(tmp_path, labels)
     made = pictures.pictures(cells, tmp_path, settings)
     assert list(made) == ["-sheet", "-overlay", "-errors"]
-    sheet, overlay = (contact_sheet.opened(made[end].png) for end in ("-sheet", "-overlay"))
+    sheet, overlay = (contact_sheet.opened(made[end].picture) for end in ("-sheet", "-overlay"))
     assert sheet.shape[1] < 4 * WIDTH  # four beside each other, cut to what is lit
     assert overlay.shape[1] == sheet.shape[1]  # so that they stand below each other
     # eight spots of white; four pairs that differ, each of two hues

@@ -139,8 +139,8 @@ def test_overlays_of_many_are_apart_and_named_below(tmp_path):
         below[name] = np.argwhere(differ > 100)[:, 0].mean()
     assert below["1"] < below["2"]  # as they lie, each in the colour that the key names
     lone = pictures.pictures(cells[:1], tmp_path, settings)
-    assert contact_sheet.opened(lone["-overlay"].png).shape == (HEIGHT, WIDTH, 3)
+    assert contact_sheet.opened(lone["-overlay"].picture).shape == (HEIGHT, WIDTH, 3)
     failed = [Cell({"cell": "x"}, (Result("x", "failed", "too far"),))]
     assert pictures.pictures(failed, tmp_path, settings) == {}
     mixed = pictures.pictures([*cells, *failed], tmp_path, settings)
-    assert contact_sheet.opened(mixed["-sheet"].png).shape[0] > sheet.shape[0]
+    assert contact_sheet.opened(mixed["-sheet"].picture).shape[0] > sheet.shape[0]

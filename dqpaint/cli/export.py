@@ -63,8 +63,7 @@ def export(
     """
     from dqpaint import api
     from dqpaint.cli.terminal import Progress
-    from dqpaint.controllers.base import short_name
-    from dqpaint.core import find_drawing
+    from dqpaint.core import find_drawing, short_name
     from dqpaint.outputs import files, registry
     from dqpaint.settings import parse_disturbances, parse_gains
 

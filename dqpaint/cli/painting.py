@@ -127,8 +127,7 @@ def draw(
     """Paint a drawing with an arm: picture, per-step CSV and summary."""
     from dqpaint import api
     from dqpaint.cli.terminal import Progress
-    from dqpaint.controllers.base import short_name
-    from dqpaint.core import find_drawing
+    from dqpaint.core import find_drawing, short_name
     from dqpaint.outputs import files, registry
     from dqpaint.painting import validate
     from dqpaint.settings import parse_disturbances, parse_gains, parse_size, read_given

@@ -30,7 +30,11 @@ from dqpaint.controllers.base.controller import CONTROLLERS, Controller, Law, co
 from dqpaint.controllers.base.gain_schedule import Schedule
 from dqpaint.controllers.base.gains import Gains
 from dqpaint.controllers.base.seen import Seen, Window
-from dqpaint.controllers.base.user_controller import commands, find_controller
+from dqpaint.controllers.base.user_controller import (
+    commands,
+    find_controller,
+    make_controller,
+)
 
 __all__ = [
     "CONTROLLERS",
@@ -45,4 +49,5 @@ __all__ = [
     "commands",
     "controller",
     "find_controller",
+    "make_controller",
 ]

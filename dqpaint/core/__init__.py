@@ -5,18 +5,33 @@ Nothing here knows of robots, light or the language.
 
 from dqpaint.core.atomic_files import rewrite, stage, write_new
 from dqpaint.core.examples import example_names, examples_folder, find_drawing
-from dqpaint.core.named_values import Values, make_choice, number_or_text, read_choice, reason
+from dqpaint.core.named_values import FILE, Values, make_choice, number_or_text, read_choice, reason
 from dqpaint.core.records import record, replaced
 from dqpaint.core.registry import Folder, Registry, subclass
+from dqpaint.core.user_files import (
+    AnswerError,
+    Guarded,
+    Running,
+    file_digest,
+    find_in_file,
+    short_name,
+    split_spec,
+)
 from dqpaint.core.version import library_versions
 
 __all__ = [
+    "FILE",
+    "AnswerError",
     "Folder",
+    "Guarded",
     "Registry",
+    "Running",
     "Values",
     "example_names",
     "examples_folder",
+    "file_digest",
     "find_drawing",
+    "find_in_file",
     "library_versions",
     "make_choice",
     "number_or_text",
@@ -25,6 +40,8 @@ __all__ = [
     "record",
     "replaced",
     "rewrite",
+    "short_name",
+    "split_spec",
     "stage",
     "subclass",
     "write_new",

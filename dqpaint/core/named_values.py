@@ -8,12 +8,15 @@ from pydantic import BaseModel, ValidationError
 
 from dqpaint.errors import UsageError
 
+FILE = r"[^:=,]+\.py(?::[^\W\d]\w*(?=:|$))?"  # FILE.py or FILE.py:NAME, before values
 Values = Mapping[str, float | str]
 M = TypeVar("M", bound=BaseModel)
 
 
 def read_choice(kind: str, text: str, example: str) -> tuple[str, dict[str, float | str]]:
     """Name and values of a text like `twist=sine,x=0.02` or `twist:form=sine,x=0.02`, or a name.
+
+    The name may be a file of the user's, as in `mine.py:Springy:frequency=60`.
 
     A value without a name has the name "".
 
@@ -25,7 +28,7 @@ def read_choice(kind: str, text: str, example: str) -> tuple[str, dict[str, floa
     Raises:
         UsageError: anything else, or a value given twice.
     """
-    parts = re.fullmatch(r"\s*([\w-]+)\s*(?:[:=,](.+))?", text)
+    parts = re.fullmatch(rf"\s*({FILE}|[\w-]+)\s*(?:[:=,](.+))?", text)
     if parts is None:
         raise UsageError(f"{kind} '{text}' is not NAME or NAME:KEY=VALUE, for example {example}")
     values: dict[str, float | str] = {}

@@ -1,10 +1,9 @@
 """Settings -> the first slip among them, before anything is simulated."""
 
 from dqpaint.controllers import find_controller
-from dqpaint.core import read_choice
 from dqpaint.disturbances import make_disturbances
 from dqpaint.painting.scene import check_choices
-from dqpaint.plants import PLANTS, choose_plant
+from dqpaint.plants import find_plant
 from dqpaint.robots.kinematics import read_null
 from dqpaint.robots.loading import find_card
 from dqpaint.robots.model import parse_tool
@@ -24,7 +23,6 @@ def check_each(settings: Settings) -> None:
     if settings.tool is not None:
         parse_tool(settings.tool)
     if settings.plant is not None:
-        name, _ = read_choice("plant", settings.plant, "compliant:frequency=60")
-        choose_plant(settings.plant, PLANTS[name].takes)
+        find_plant(settings.plant)
     read_null(settings.null)
     make_disturbances(settings.disturb)

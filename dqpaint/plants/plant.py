@@ -1,17 +1,28 @@
 """What a plant is: an arm that is given commands, each for one period, and answers by moving."""
 
+import inspect
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol, get_args
+from pathlib import Path
+from typing import Any, Literal, Protocol, cast, get_args
 
 from pydantic import BaseModel, ConfigDict
 
-from dqpaint.core import Folder, Registry, make_choice, read_choice
+from dqpaint.core import (
+    Folder,
+    Guarded,
+    Registry,
+    find_in_file,
+    make_choice,
+    read_choice,
+    split_spec,
+)
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 from dqpaint.plants.world import UNDISTURBED, World
 from dqpaint.robots.model import Card
 
 Takes = Literal["rates", "torque"]
+HOW = "a plant is a class with takes, traits and options, as dqpaint.plants.Plant has it"
 Trait = Literal["masses", "a model of gravity", "sudden motors"]
 
 
@@ -120,11 +131,18 @@ def as_plant_maker(name: str, thing: Any) -> PlantMaker:
     if not callable(thing) or thing.takes not in get_args(Takes):
         known = " or ".join(f'"{one}"' for one in get_args(Takes))
         raise UsageError(f"plant '{name}': takes is {thing.takes!r}, not {known}")
-    maker: PlantMaker = thing
-    return maker
+    return cast(PlantMaker, Guarded(thing, Path(inspect.getsourcefile(thing) or name)))
 
 
 PLANTS: Registry[PlantMaker] = Folder("plant", "dqpaint.plants", "dqpaint.plants", as_plant_maker)
+
+
+def _of_name(name: str) -> PlantMaker:
+    """A plant by its name, or by `FILE.py` or `FILE.py:NAME`."""
+    if split_spec(name) is None:
+        return PLANTS[name]
+    thing, _, _ = find_in_file("plant", name, lambda thing: hasattr(thing, "takes"), HOW)
+    return as_plant_maker(name, thing)
 
 
 @dataclass(frozen=True)
@@ -199,7 +217,7 @@ def find_plant(text: str) -> ConfiguredPlant:
         UsageError: an unknown plant or value.
     """
     name, values = read_choice("plant", text, "compliant:frequency=60")
-    plant = PLANTS[name]
+    plant = _of_name(name)
     if plant.options is None and values:
         raise UsageError(f"plant '{name}' takes no values")
     options = make_choice("plant", name, plant.options, values) if plant.options else None

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from dqpaint.api import draw
-from dqpaint.controllers.base import short_name
+from dqpaint.core import short_name
 from dqpaint.outputs import files, summary
 from dqpaint.settings import DEFAULT_CONTROLLER
 from dqpaint.studies.kinds import hinf_bound

@@ -9,7 +9,8 @@ over everything that is built in. A new kind of plugin brings its check here.
 """
 
 from dqpaint.testing.brushes import check_brush
+from dqpaint.testing.controllers import check_controller
 from dqpaint.testing.disturbances import check_disturbance
 from dqpaint.testing.plants import check_plant
 
-__all__ = ["check_brush", "check_disturbance", "check_plant"]
+__all__ = ["check_brush", "check_controller", "check_disturbance", "check_plant"]

@@ -132,7 +132,7 @@ def test_a_law_of_one_s_own(dqpaint, line, tmp_path):
             2,
             "'stiff' takes joint rates",
         ),
-        (("none.py",), 1, "controller 'none.py' cannot be read"),
+        (("none.py",), 1, "law 'none.py' cannot be read"),
     ):
         done = dqpaint(*chosen, *words)
         assert done.returncode == code

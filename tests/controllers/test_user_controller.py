@@ -10,7 +10,8 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS, Seen, commands, find_controller
-from dqpaint.controllers.base.user_controller import make_controller, short_name
+from dqpaint.controllers.base.user_controller import make_controller
+from dqpaint.core import short_name
 from dqpaint.errors import DqpaintError, UsageError
 from tests.support.control import started
 from tests.support.random_poses import random_poses

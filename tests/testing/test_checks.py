@@ -3,12 +3,17 @@
 import numpy as np
 import pytest
 
+from dqpaint import dq
+from dqpaint.controllers import CONTROLLERS
 from dqpaint.disturbances import DISTURBANCES, Disturbance
+from dqpaint.errors import DqpaintError
 from dqpaint.light.sources import BRUSHES, Brush
 from dqpaint.light.sources.emitters import Emitters
 from dqpaint.plants import PLANTS
 from dqpaint.plants.ideal import Ideal
-from dqpaint.testing import check_brush, check_disturbance, check_plant
+from dqpaint.robots.kinematics.jacobians import pose_map
+from dqpaint.testing import check_brush, check_controller, check_disturbance, check_plant
+from dqpaint.testing.runs import arm
 from tests.support.disturbances import RANDOM, SIZES
 
 WITHIN = {"ideal": 1e-12, "compliant": 0.1}  # springs give way
@@ -135,3 +140,88 @@ def test_faulty_disturbances_are_found():
         check_disturbance(Loud, {}, random=False)
     with pytest.raises(AssertionError, match="only if, it is random"):
         check_disturbance("base", SIZES["base"], random=True)
+
+
+def settling(name):
+    """How long a law may take [s]: `pham-t` is as slow as its weakest mode."""
+    if name != "pham-t":
+        return 3.0
+    x, J = arm().pose_and_jacobian(arm().card.home)
+    weakest = np.linalg.svd(pose_map(x) @ J)[1][5]
+    return 16.0 / (CONTROLLERS[name].read_gains({}).first.k * weakest**2)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", CONTROLLERS)
+def test_controllers(name):
+    check_controller(name, settles=settling(name))
+
+
+def error(seen):
+    return dq.log(dq.mul(dq.nearest(seen.pose_d, seen.pose), dq.conj(seen.pose)))
+
+
+def sound(seen, k=20.0):
+    """A proportional law with feed-forward."""
+    return seen.twist_d + 2 * k * error(seen)
+
+
+def backwards(seen, k=20.0):
+    """It goes the wrong way."""
+    return -2 * k * error(seen)
+
+
+def unwinding(seen, k=20.0):
+    """It takes -x for another pose than x."""
+    return 2 * k * error(seen) * np.sign(seen.pose[0])
+
+
+def short(seen, k=20.0):
+    """Three numbers where six are needed."""
+    return error(seen)[:3]
+
+
+def silent(seen, k=20.0):
+    return 2 * k * error(seen)
+
+
+class Hoarding:
+    """What it learns in one run it keeps for the next."""
+
+    total = 0.0
+
+    def __call__(self, seen, k=20.0):
+        type(self).total += 1e-3
+        return seen.twist_d + 2 * k * error(seen) + type(self).total * 1e-6
+
+
+class Integrating:
+    """A PI law."""
+
+    def start(self, arm, motion, gains):
+        self.sum = np.zeros(6)
+
+    def __call__(self, seen, k=20.0, ki=40.0):
+        e = 2 * error(seen)
+        self.sum = self.sum + seen.period * e
+        return seen.twist_d + k * e + ki * self.sum
+
+
+@pytest.mark.parametrize(
+    ("law", "said"),
+    [
+        (backwards, "set point is reached"),
+        (unwinding, "same pose"),
+        (short, "returns 6 numbers"),
+        (silent, "docstring"),
+        (Hoarding, "share no state"),
+    ],
+)
+def test_faulty_laws_are_found(law, said):
+    with pytest.raises((AssertionError, DqpaintError), match=said):
+        check_controller(law)
+
+
+def test_sound_laws_pass_with_a_memory_or_without():
+    check_controller(sound)
+    check_controller(Integrating, {"ki": 100.0})

@@ -1,6 +1,6 @@
 """What laws are built from: measured pose -> errors, text -> gains, a user's file -> a law."""
 
 from dqpaint.controllers.base.pose_errors import difference_error, invariant_error, spatial_error
-from dqpaint.controllers.base.user_controller import make_controller, short_name
+from dqpaint.controllers.base.user_controller import make_controller
 
-__all__ = ["difference_error", "invariant_error", "make_controller", "short_name", "spatial_error"]
+__all__ = ["difference_error", "invariant_error", "make_controller", "spatial_error"]

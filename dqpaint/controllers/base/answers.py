@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from dqpaint.controllers.base.controller import Commands
-from dqpaint.controllers.base.law_files import AnswerError
+from dqpaint.core import AnswerError
 from dqpaint.dq import Floats
 
 WORDS = {

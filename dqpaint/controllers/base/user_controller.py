@@ -38,14 +38,8 @@ from dqpaint.controllers.base.controller import (
 )
 from dqpaint.controllers.base.gain_schedule import Schedule
 from dqpaint.controllers.base.gains import Gains
-from dqpaint.controllers.base.law_files import (
-    AnswerError,
-    Running,
-    find_file,
-    read_laws,
-    split_spec,
-)
 from dqpaint.controllers.base.seen import Seen
+from dqpaint.core import AnswerError, Running, find_in_file, short_name, split_spec
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 from dqpaint.motion import Motion
@@ -76,12 +70,6 @@ def commands(kind: Commands) -> Callable[[Decorated], Decorated]:
     return record
 
 
-def short_name(spec: str) -> str:
-    """What a controller is called in the names of files: its law, else its file."""
-    parts = split_spec(spec)
-    return spec if parts is None else parts[1] or parts[0].stem
-
-
 def find_controller(spec: str) -> Controller[Any]:
     """The law of a name, or of a file `mylaw.py` or `mylaw.py:NAME`.
 
@@ -89,20 +77,12 @@ def find_controller(spec: str) -> Controller[Any]:
         UsageError: no law has that name; the file has none, or several and none was named.
         DqpaintError: the file cannot be read or run.
     """
-    parts = split_spec(spec)
-    if parts is None:
+    if split_spec(spec) is None:
         return CONTROLLERS[spec]
-    path, name = find_file(parts[0]), parts[1]
-    things, digest = read_laws(path)
-    laws = {n: law for n, law in things.items() if not isinstance(law, type) or _is_called(law)}
-    if name is None:
-        known = laws or things  # the only class is what is meant, even if it can't be called
-        name = path.stem if path.stem in known else next(iter(known)) if len(known) == 1 else ""
-    if name not in things:
-        fault = f"has no law named '{name}'" if name else f"has {len(laws)} laws"
-        cure = "" if name or not laws else f"; choose one: {path.name}:NAME"
-        raise UsageError(f"{path.name} {fault}{cure}; its laws: {', '.join(laws) or 'none'}; {HOW}")
-    return make_controller(things[name], short_name(spec), path, digest)
+    law, path, digest = find_in_file(
+        "law", spec, lambda thing: not isinstance(thing, type) or _is_called(thing), HOW
+    )
+    return make_controller(law, short_name(spec), path, digest)
 
 
 def make_controller(

@@ -14,7 +14,7 @@ from typing import Annotated, Any, cast
 import numpy as np
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
-from dqpaint.core import Registry, reason, subclass
+from dqpaint.core import FILE, Registry, find_in_file, reason, subclass
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.light.arrays import Floats
 from dqpaint.light.sources.emitters import Emitters
@@ -76,6 +76,9 @@ Lobe = Annotated[float, Field(ge=0.0, le=200.0, allow_inf_nan=False)]
 Leds = Annotated[int, Field(ge=0, le=2000), AfterValidator(_several)]
 X: tuple[float, float, float] = (1.0, 0.0, 0.0)
 Z = np.array([0.0, 0.0, 1.0])
+
+
+HOW = "a brush is a subclass of dqpaint.light.sources.Brush with a method emitters"
 
 
 class Brush(BaseModel):
@@ -255,7 +258,12 @@ def read_brush(text: str) -> Brush:
         UsageError: an unknown brush or choice, or a value that is none.
     """
     name, _, rest = text.strip().partition(":")
-    kind = BRUSHES[name.strip()]
+    if own := re.fullmatch(rf"({FILE})(?::(.*))?", text.strip()):
+        name, rest = own[1], own[2] or ""
+        thing, _, _ = find_in_file("brush", name, _is_brush, HOW)
+        kind = subclass(Brush, name, thing)
+    else:
+        kind = BRUSHES[name.strip()]
     given: dict[str, Any] = {}
     for part in rest.split(",") if rest.strip() else []:
         key, sign, value = part.partition("=")
@@ -276,6 +284,10 @@ def read_brush(text: str) -> Brush:
         fault = reason(first)
         shown = "" if fault.startswith(("'", "no ")) else f"'{given.get(key)}' "
         raise UsageError(f"brush '{name}': {key} {shown}{fault}") from None
+
+
+def _is_brush(thing: object) -> bool:
+    return isinstance(thing, type) and issubclass(thing, Brush)
 
 
 def _choices(name: str, kind: type[Brush]) -> str:

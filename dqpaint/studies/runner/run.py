@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 from dqpaint import __version__
 from dqpaint.controllers import find_controller
-from dqpaint.core import find_drawing, library_versions
+from dqpaint.core import file_digest, find_drawing, library_versions, read_choice
 from dqpaint.disturbances import make_disturbances
 from dqpaint.errors import UsageError
 from dqpaint.language import parse, read
@@ -69,6 +69,10 @@ class Run:
         image = getattr(brush, "image", "")
         found = {name: _sha256(path) for name, path in _named(self.name, self.text)}
         found |= {"law": law, "arm": _sha256(arm) if known else ""}
+        found |= {
+            kind: file_digest(read_choice(kind, text, text)[0]) if text else ""
+            for kind, text in (("plant", self.settings.plant), ("brush", self.settings.brush))
+        }
         recorded = self.settings.recorded
         found |= {"recorded": _sha256(Path(recorded)) if recorded else ""}
         return {**found, "image": _sha256(Path(image)) if image else ""}

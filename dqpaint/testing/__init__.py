@@ -12,5 +12,6 @@ from dqpaint.testing.brushes import check_brush
 from dqpaint.testing.controllers import check_controller
 from dqpaint.testing.disturbances import check_disturbance
 from dqpaint.testing.plants import check_plant
+from dqpaint.testing.writers import check_writer
 
-__all__ = ["check_brush", "check_controller", "check_disturbance", "check_plant"]
+__all__ = ["check_brush", "check_controller", "check_disturbance", "check_plant", "check_writer"]

@@ -1,5 +1,7 @@
 """The exported checks: all that is built in keeps them; a planted fault in each kind does not."""
 
+import time
+
 import numpy as np
 import pytest
 
@@ -9,10 +11,17 @@ from dqpaint.disturbances import DISTURBANCES, Disturbance
 from dqpaint.errors import DqpaintError
 from dqpaint.light.sources import BRUSHES, Brush
 from dqpaint.light.sources.emitters import Emitters
+from dqpaint.outputs import WRITERS, Writer
 from dqpaint.plants import PLANTS
 from dqpaint.plants.ideal import Ideal
 from dqpaint.robots.kinematics.jacobians import pose_map
-from dqpaint.testing import check_brush, check_controller, check_disturbance, check_plant
+from dqpaint.testing import (
+    check_brush,
+    check_controller,
+    check_disturbance,
+    check_plant,
+    check_writer,
+)
 from dqpaint.testing.runs import arm
 from tests.support.disturbances import RANDOM, SIZES
 
@@ -225,3 +234,43 @@ def test_faulty_laws_are_found(law, said):
 def test_sound_laws_pass_with_a_memory_or_without():
     check_controller(sound)
     check_controller(Integrating, {"ki": 100.0})
+
+
+SMOOTH = "profile quintic\nline to (60, 20, 5) mm tool rot(y, 20 deg) in 1 s\n"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", WRITERS)
+def test_writers(name):
+    if name == "urscript":
+        pytest.skip("only for Universal Robots, whose models are an extra")
+    check_writer(name, SMOOTH)
+
+
+def hurried(painting):
+    """The time of writing is in the file."""
+    return str(time.perf_counter_ns()).encode()
+
+
+def empty(painting):
+    """Nothing is in the file."""
+    return b""
+
+
+def nameless(painting):
+    return b"x"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("function", "ending", "said"),
+    [
+        (hurried, ".txt", "same bytes"),
+        (empty, ".txt", "has bytes"),
+        (nameless, ".txt", "docstring"),
+        (hurried, "txt", "begins with"),
+    ],
+)
+def test_faulty_writers_are_found(function, ending, said):
+    with pytest.raises(AssertionError, match=said):
+        check_writer(Writer("mine", ending, function))

@@ -101,13 +101,14 @@ def test_readme_python_runs(tmp_path, monkeypatch):
 def test_readme_studies_from_python_run(tmp_path, monkeypatch):
     scope = {}
     monkeypatch.chdir(tmp_path)
-    exec(blocks("python")[2], scope)
+    exec(blocks("python")[3], scope)
     assert scope["compared"].pictures["overlay"].shape == (360, 640, 3)
     assert (tmp_path / "pictures/lag-report.html").is_file()
 
 
-def test_the_readme_shows_the_law_as_it_is():
-    assert blocks("python")[1] == (examples_folder() / "mylaw.py").read_text("utf-8")
+def test_the_readme_shows_the_laws_as_they_are():
+    shown = [(examples_folder() / name).read_text("utf-8") for name in ("mylaw.py", "pi.py")]
+    assert blocks("python")[1:3] == shown
 
 
 def test_the_readme_shows_the_message_as_it_is():

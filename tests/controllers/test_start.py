@@ -23,7 +23,7 @@ from dqpaint.settings import make_settings
 from dqpaint.simulation.closed_loop import track, track_many
 from dqpaint.studies.runner.batches import goes_in_batches
 from dqpaint.studies.runner.run import Run
-from tests.support.control import ARM, SHORT, STILL, seen_by, started
+from tests.support.control import ARM, SHORT, STILL, law, seen_by, started
 from tests.support.random_poses import random_poses
 
 PI = Path(__file__).parents[2] / "trajectories" / "pi.py"
@@ -52,13 +52,26 @@ def test_two_laws_of_one_controller_share_nothing(name, rng):
     ]
     other = [state._replace(pose_d=state.pose) for state in reversed(states)]
     alone = answers(started(controller), controller, states)
-    first, second = started(controller), started(controller)
+    gain, plain = next(iter(controller.gains().shown().items()))
+    first, second = started(controller), started(controller, motion=STILL, **{gain: plain / 2})
     gains, by_turns = controller.read_gains({}).first, []
     for state, another in zip(states, other, strict=True):
         second(another, gains)
         by_turns.append(first(state, gains))
     np.testing.assert_array_equal(by_turns, alone)
     np.testing.assert_array_equal(answers(started(controller), controller, states), alone)
+
+
+@pytest.mark.parametrize("name", ["lqr", "lqr8"])
+def test_what_was_worked_out_is_looked_up_at_the_row(name, rng):
+    """With no weight at the end nothing is corrected there: at most the forward part is left."""
+    said = law(name, s=0.0)
+    seen = seen_by(ARM, ARM.card.home, random_poses(rng, 1)[0], rng)
+    last = said(seen._replace(row=len(SHORT.t) - 1))
+    x_e = dq.mul(seen.pose, dq.conj(dq.nearest(seen.pose_d, seen.pose)))
+    left = dq.adjoint(x_e, seen.twist_d) if name == "lqr" else np.zeros(6)
+    np.testing.assert_allclose(last, left, atol=1e-12)
+    assert np.abs(said(seen) - left).max() > 1
 
 
 @LAWS

@@ -5,27 +5,12 @@ from typing import Annotated
 
 import typer
 
-from dqpaint.cli.options import (
-    Disturb,
-    Drawing,
-    From,
-    Gain,
-    Law,
-    MaxSamples,
-    Null,
-    OnLimit,
-    Out,
-    PlaceAt,
-    PlantName,
-    Robot,
-    Seed,
-    Tool,
-)
+from dqpaint.cli.options import Choices, Drawing, MadeWhenCalled, Out, takes
 
 
 def add_to(app: typer.Typer) -> None:
     """Make the command known."""
-    app.command(epilog=EXPORT_EXAMPLES)(export)
+    app.command(cls=MadeWhenCalled, epilog=EXPORT_EXAMPLES)(export)
 
 
 EXPORT_EXAMPLES = """Examples:
@@ -36,24 +21,14 @@ EXPORT_EXAMPLES = """Examples:
 """
 
 
+@takes("export")
 def export(
+    choices: Choices,
     file: Drawing,
     form: Annotated[
         str | None,
         typer.Option("--format", metavar="NAME", help="needed; see: dqpaint list formats"),
     ] = None,
-    controller: Law = "hinf",
-    gain: Gain = None,
-    robot: Robot = None,
-    tool: Tool = None,
-    place: PlaceAt = None,
-    plant: PlantName = None,
-    disturb: Disturb = None,
-    seed: Seed = 0,
-    start: From = "first",
-    null: Null = "start",
-    on_limit: OnLimit = "clip",
-    max_samples: MaxSamples = 2_000_000,
     out: Out = None,
 ) -> None:
     """Run a drawing as draw does; write the joint trajectory for a real arm, and light cues.
@@ -65,18 +40,16 @@ def export(
     from dqpaint.cli.terminal import Progress
     from dqpaint.core import find_drawing, short_name
     from dqpaint.outputs import files, registry
-    from dqpaint.settings import parse_disturbances, parse_gains
+    from dqpaint.painting import validate
+    from dqpaint.settings import DEFAULT_CONTROLLER
 
     writer = registry.choose_form(form)  # an unknown one is told before anything is simulated
     path = find_drawing(file)
-    stem = files.stem_for(out, f"{path.stem}-{short_name(controller)}")
+    given = validate.settings_file(choices.pop("settings", None))
+    law = given.under(choices).get("controller", DEFAULT_CONTROLLER)
+    stem = files.stem_for(out, f"{path.stem}-{short_name(law)}")
     with Progress(path.name) as progress:
-        painting = api.draw(
-            path, controller=controller, gains=parse_gains(gain or []), robot=robot,
-            tool=tool, place=place, plant=plant, disturb=parse_disturbances(disturb or []),
-            seed=seed, start=start, null=null, on_limit=on_limit, size=(64, 36),
-            max_samples=max_samples, progress=progress,
-        )  # fmt: skip
+        painting = api.draw(path, **choices, size=(64, 36), settings=given, progress=progress)
     written = files.write(stem, registry.make([writer], painting))
 
     from dqpaint.cli import report

@@ -1,135 +1,23 @@
-"""The options of `draw`, most shared by other commands: drawing, arm, law, camera, light."""
+"""Groups of settings -> options of commands -> the choices that were typed.
 
-from typing import Annotated, Any
+`takes` gives a command the options of its groups. They are made when the command is
+called, or its help asked for: the list of commands needs none of them.
+"""
+
+import inspect
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from typer.core import TyperCommand
+
+if TYPE_CHECKING:
+    from dqpaint.settings import Setting
+
+Choices = dict[str, Any]
+"""What was typed of a command's settings, by their names in Python."""
 
 Drawing = Annotated[str, typer.Argument(metavar="FILE", help="a .traj file, or an example's name")]
-Law = Annotated[
-    str,
-    typer.Option(
-        metavar="NAME|FILE.py[:NAME]",
-        help="control law: see dqpaint list controllers; or a function of your own",
-    ),
-]
-Gain = Annotated[
-    list[str] | None,
-    typer.Option(
-        metavar="NAME=VALUE",
-        help="a gain of that law in SI units; repeatable; 5..20@10% is a ramp in the first 10 %",
-    ),
-]
-Robot = Annotated[
-    str | None,
-    typer.Option(
-        metavar="NAME|FILE",
-        help="the arm, or its .urdf or .toml [default: the drawing's, else iiwa]",
-    ),
-]
-Tool = Annotated[
-    str | None,
-    typer.Option(
-        metavar="X,Y,Z[,R,P,Y]",
-        help="where the light sits on the flange, m and deg, or with units: 0,0,80mm",
-    ),
-]
-PlaceAt = Annotated[
-    str | None,
-    typer.Option("--place", metavar="auto", help="put the drawing where it fits the arm best"),
-]
-Recorded = Annotated[
-    str | None,
-    typer.Option(
-        metavar="RUN.csv", help="paint a real arm's run: t_s and joints or poses, see README"
-    ),
-]
-PlantName = Annotated[
-    str | None,
-    typer.Option(
-        metavar="NAME[:KEY=VALUE,...]",
-        help="how the arm answers, such as compliant:frequency=60 [default: stiff, or torque for "
-        "its laws]",
-    ),
-]
-Disturb = Annotated[
-    list[str] | None,
-    typer.Option(
-        metavar="NAME=VALUE,...",
-        help="a disturbance, repeatable, such as twist=sine,x=0.02,frequency=2",
-    ),
-]
-Seed = Annotated[int, typer.Option(help="of everything random")]
-Null = Annotated[
-    str,
-    typer.Option(
-        metavar="NAME[,gain=VALUE]",
-        help="what a redundant arm does with its freedom: see dqpaint list null",
-    ),
-]
-OnLimit = Annotated[
-    str,
-    typer.Option(
-        metavar="clip|slow|stop",
-        help="where a joint would pass a limit: hold it back, slow the drawing down, or end",
-    ),
-]
-From = Annotated[str, typer.Option("--from", metavar="first|home", help="where the arm begins")]
-Size = Annotated[str, typer.Option(metavar="WxH", help="of the picture, in pixels")]
-View = Annotated[
-    str,
-    typer.Option(
-        metavar="VIEW",
-        help="front, iso, side, top, or AZ,EL: degrees to its right and above; stereo[:VIEW], "
-        "orbit[:N[:EL]], at:X:Y:Z[:X:Y:Z] m; several with commas",
-    ),
-]
-Ev = Annotated[float, typer.Option(help="exposure in stops, on top of the automatic one")]
-Brush = Annotated[
-    str | None,
-    typer.Option(metavar="NAME[:KEY=VALUE,...]", help="what shines; see: dqpaint list brushes"),
-]
-Pwm = Annotated[float, typer.Option(metavar="HZ", help="dim the lamps by pulses; 0: evenly")]
-Exposure = Annotated[
-    str | None,
-    typer.Option(
-        metavar="SETTINGS",
-        help="a camera's, in any order: f/8,iso100,35mm,nd3,0.1cd,2.2m [default: automatic]",
-    ),
-]
-Look = Annotated[
-    str, typer.Option(metavar="NAME", help="how it is developed; see: dqpaint list looks")
-]
-Starburst = Annotated[int, typer.Option(metavar="BLADES", help="of an aperture that draws rays")]
-Noise = Annotated[int | None, typer.Option(metavar="SEED", help="of the sensor's noise")]
-ColourBy = Annotated[
-    str | None,
-    typer.Option(
-        metavar="FIGURE[:END]",
-        help="that the colours tell: position-error, orientation-error, speed, manipulability, "
-        "line; END of the scale, such as position-error:20",
-    ),
-]
-Overlay = Annotated[bool, typer.Option(help="the asked drawing beneath")]
-Magnify = Annotated[float, typer.Option(metavar="N", help="deviations, N times as large")]
-Ghost = Annotated[bool, typer.Option(help="the arm in the picture, and room for it")]
-MotionGhost = Annotated[
-    bool, typer.Option("--motion-ghost", help="the arm as a veil, seen all through its motion")
-]
-Occlusion = Annotated[
-    bool | None,
-    typer.Option(help="the arm's body hides light from the camera [default: as --ghost]"),
-]
-MaxSamples = Annotated[
-    int, typer.Option(metavar="N", help="that the drawing may have; each takes about 1 kB")
-]
-SettingsFile = Annotated[
-    str | None,
-    typer.Option(
-        "--settings",
-        metavar="FILE",
-        help="a TOML of these options, or the JSON of a run; what is typed wins",
-    ),
-]
 Out = Annotated[
     str | None,
     typer.Option(metavar="PATH", help="a folder, or the stem of the files [default: here]"),
@@ -138,11 +26,154 @@ Save = Annotated[
     str, typer.Option(metavar="A,B,...", help="formats to write; see: dqpaint list formats")
 ]
 
+Command = Callable[..., None]
 
-def typed(context: typer.Context, **choices: Any) -> dict[str, Any]:
-    """The choices that were typed, by name; None for those that were left to their defaults."""
-    typed_in = {
-        name for name in context.params
-        if (source := context.get_parameter_source(name)) and source.name == "COMMANDLINE"
-    }  # fmt: skip
-    return {name: value if name in typed_in else None for name, value in choices.items()}
+FILE = typer.Option(
+    "--settings",
+    metavar="FILE",
+    help="a TOML of these options, or the JSON of a run; what is typed wins",
+)
+
+
+def takes(
+    name: str,
+    *,
+    without: Container[str] = (),
+    file: bool = True,
+    usual: Mapping[str, Any] | None = None,
+    unsaid: bool = True,
+) -> Callable[[Command], Command]:
+    """Give a command the options of the groups of settings that it takes.
+
+    The command receives what was typed of them, and nothing else, as its argument `choices`: by
+    the names in Python, as `dqpaint.draw` takes them.
+
+    Args:
+        name: of the command in `dqpaint.settings.COMMANDS`, which is read when it is called.
+        without: names in Python of settings that it has options of its own for.
+        file: whether it takes a file of settings, too.
+        usual: what help shows as defaults of this command, by the names in Python.
+        unsaid: whether help shows defaults at all.
+    """
+
+    def wrap(command: Command) -> Command:
+        def whole() -> Command:
+            from dqpaint.settings import COMMANDS, settings_of
+
+            settings = [s for s in settings_of(*COMMANDS[name]) if s.keyword not in without]
+            made = [one for each in settings for one in _options(each, usual or {}, unsaid)]
+            made += [_parameter("settings", str | None, None, FILE)] if file else []
+            return _with(command, made, settings)
+
+        def listed() -> None:
+            """Stand for the command in a list."""
+
+        listed.__name__, listed.__doc__ = command.__name__, command.__doc__
+        listed.made = whole  # type: ignore[attr-defined]
+        return listed
+
+    return wrap
+
+
+def _with(
+    command: Command, parameters: "list[inspect.Parameter]", settings: "Sequence[Setting]"
+) -> Command:
+    """The command with further parameters, as typer reads them off a signature."""
+    of_command = inspect.signature(command).parameters.values()
+    own = [one for one in of_command if one.name != "choices"]
+
+    def call(**given: Any) -> None:
+        context = given.pop("context")
+        typed = {
+            name for name in given
+            if (source := context.get_parameter_source(name)) and source.name == "COMMANDLINE"
+        }  # fmt: skip
+        keywords = [setting.keyword for setting in settings] + ["settings"]
+        choices = {keyword: given[keyword] for keyword in keywords if keyword in typed}
+        for setting in settings:
+            variant = setting.option.variant
+            if variant and given[_variable(variant.name)]:
+                choices[setting.keyword] = variant.value
+        command(**{one.name: given[one.name] for one in own}, choices=choices)
+
+    context = inspect.Parameter("context", _KEYWORD, annotation=typer.Context)
+    whole = [context, *(one.replace(kind=_KEYWORD) for one in own), *parameters]
+    call.__signature__ = inspect.Signature(whole)  # type: ignore[attr-defined]
+    call.__annotations__ = {one.name: one.annotation for one in whole}
+    call.__name__, call.__doc__ = command.__name__, command.__doc__
+    return call
+
+
+_KEYWORD = inspect.Parameter.KEYWORD_ONLY
+
+
+def _options(
+    setting: "Setting", usual: Mapping[str, Any], unsaid: bool
+) -> Iterator[inspect.Parameter]:
+    """The parameters of a command that give one setting."""
+    option = setting.option
+    default = usual.get(setting.keyword, setting.default) if unsaid else None
+    shown = f" [default: {option.unsaid}]" if unsaid and option.unsaid and default is None else ""
+    flag = f"--{setting.name}"
+    info = typer.Option(
+        f"{flag}/--no-{setting.name}" if setting.kind is bool else flag,
+        metavar=option.metavar,
+        help=option.help + shown,
+        rich_help_panel=setting.panel,
+    )
+    kind: Any = list[str] if option.many else setting.kind
+    yield _parameter(setting.keyword, kind if default is not None else kind | None, default, info)
+    if option.variant:
+        info = typer.Option(
+            f"--{option.variant.name}", help=option.variant.help, rich_help_panel=setting.panel
+        )
+        yield _parameter(_variable(option.variant.name), bool, False, info)
+
+
+def _parameter(name: str, kind: Any, default: Any, info: Any) -> inspect.Parameter:
+    return inspect.Parameter(name, _KEYWORD, default=default, annotation=Annotated[kind, info])
+
+
+def _variable(name: str) -> str:
+    return name.replace("-", "_")
+
+
+class MadeWhenCalled(TyperCommand):
+    """A command with the options of `takes`: made when it is called, not when it is listed."""
+
+    def make_context(
+        self, info_name: str | None, args: list[str], parent: Any = None, **extra: Any
+    ) -> Any:
+        """The context of the whole command."""
+        app = typer.Typer(add_completion=False, rich_markup_mode=None)
+        made = self.callback.made()  # type: ignore[union-attr]
+        app.command(cls=InPanels, epilog=self.epilog)(made)
+        return typer.main.get_command(app).make_context(info_name, args, parent, **extra)
+
+
+class InPanels(TyperCommand):
+    """A command whose help has its options under headings."""
+
+    def format_options(self, ctx: Any, formatter: Any) -> None:
+        """Write them, the command's own first."""
+        sections: dict[str, list[tuple[str, str]]] = {}
+        for parameter in self.get_params(ctx):
+            if record := parameter.get_help_record(ctx):
+                own = "Arguments" if parameter.param_type_name == "argument" else "Options"
+                panel = getattr(parameter, "rich_help_panel", None) or own
+                sections.setdefault(panel, []).append(record)
+        for panel, records in sections.items():
+            with formatter.section(panel):
+                formatter.write_dl(records)
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Read the options; one is accepted for several, and several for one: --plant, --plants."""
+        known = {name for one in self.get_params(ctx) for name in (*one.opts, *one.secondary_opts)}
+        end = args.index("--") if "--" in args else len(args)
+        meant = []
+        for word in args[:end]:
+            name, sign, value = word.partition("=")
+            if name.startswith("--") and name not in known:
+                name = next((n for n in (f"{name}s", name.removesuffix("s")) if n in known), name)
+            meant.append(name + sign + value)
+        return super().parse_args(ctx, meant + args[end:])

@@ -16,39 +16,12 @@ from dqpaint import __version__
 from dqpaint.cli import export, language
 from dqpaint.cli.language import point_at
 from dqpaint.cli.options import (
-    Brush,
-    ColourBy,
-    Disturb,
+    Choices,
     Drawing,
-    Ev,
-    Exposure,
-    From,
-    Gain,
-    Ghost,
-    Law,
-    Look,
-    Magnify,
-    MaxSamples,
-    MotionGhost,
-    Noise,
-    Null,
-    Occlusion,
-    OnLimit,
+    MadeWhenCalled,
     Out,
-    Overlay,
-    PlaceAt,
-    PlantName,
-    Pwm,
-    Recorded,
-    Robot,
     Save,
-    Seed,
-    SettingsFile,
-    Size,
-    Starburst,
-    Tool,
-    View,
-    typed,
+    takes,
 )
 from dqpaint.errors import UsageError
 
@@ -88,70 +61,25 @@ def common(
     """Light paintings by a simulated robot arm: a short text, a control law, a long exposure."""
 
 
-@app.command(epilog=DRAW_EXAMPLES)
-def draw(
-    context: typer.Context,
-    file: Drawing,
-    controller: Law = "hinf",
-    gain: Gain = None,
-    robot: Robot = None,
-    tool: Tool = None,
-    place: PlaceAt = None,
-    recorded: Recorded = None,
-    plant: PlantName = None,
-    disturb: Disturb = None,
-    seed: Seed = 0,
-    start: From = "first",
-    null: Null = "start",
-    on_limit: OnLimit = "clip",
-    size: Size = "1280x720",
-    view: View = "front",
-    ev: Ev = 0.0,
-    brush: Brush = None,
-    pwm: Pwm = 0.0,
-    exposure: Exposure = None,
-    look: Look = "film",
-    starburst: Starburst = 0,
-    noise: Noise = None,
-    colour_by: ColourBy = None,
-    overlay: Overlay = False,
-    magnify: Magnify = 1.0,
-    ghost: Ghost = False,
-    motion_ghost: MotionGhost = False,
-    occlusion: Occlusion = None,
-    max_samples: MaxSamples = 2_000_000,
-    settings: SettingsFile = None,
-    out: Out = None,
-    save: Save = "png,csv,json",
-) -> None:
+@app.command(cls=MadeWhenCalled, epilog=DRAW_EXAMPLES)
+@takes("draw")
+def draw(choices: Choices, file: Drawing, out: Out = None, save: Save = "png,csv,json") -> None:
     """Paint a drawing with an arm: picture, per-step CSV and summary."""
     from dqpaint import api
     from dqpaint.cli.terminal import Progress
     from dqpaint.core import find_drawing, short_name
     from dqpaint.outputs import files, registry
     from dqpaint.painting import validate
-    from dqpaint.settings import parse_disturbances, parse_gains, parse_size, read_given
+    from dqpaint.settings import DEFAULT_CONTROLLER
 
     writers = registry.choose(save)
     path = find_drawing(file)
-    given = read_given(settings, validate.check_each) if settings else None
-    choices = typed(
-        context, controller=controller, robot=robot, tool=tool, place=place, recorded=recorded,
-        plant=plant, seed=seed, start=start, null=null, on_limit=on_limit, size=parse_size(size),
-        view=view, ev=ev, brush=brush, pwm=pwm, exposure=exposure, look=look, starburst=starburst,
-        noise=noise, colour_by=colour_by, overlay=overlay, magnify=magnify, ghost=ghost,
-        occlusion=occlusion, max_samples=max_samples,
-    )  # fmt: skip
-    if motion_ghost:
-        choices["ghost"] = "motion"
-    both = given.under(choices) if given else choices
-    law = "recorded" if both.get("recorded") else short_name(both.get("controller") or controller)
-    stem = files.stem_for(out, f"{path.stem}-{law}")
+    given = validate.settings_file(choices.pop("settings", None))
+    both = given.under(choices)
+    law = "recorded" if both.get("recorded") else both.get("controller", DEFAULT_CONTROLLER)
+    stem = files.stem_for(out, f"{path.stem}-{short_name(law)}")
     with Progress(path.name) as progress:
-        painting = api.draw(
-            path, **choices, gains=parse_gains(gain or []),
-            disturb=parse_disturbances(disturb or []), settings=given, progress=progress,
-        )  # fmt: skip
+        painting = api.draw(path, **choices, settings=given, progress=progress)
     with Progress("movie") as progress:
         written = files.write(stem, registry.make(writers, painting, progress))
 
@@ -161,26 +89,13 @@ def draw(
 
 
 @app.command(
-    epilog="Examples:\n\n  dqpaint preview star\n\n  dqpaint preview helix.traj --view iso --watch"
+    cls=MadeWhenCalled,
+    epilog="Examples:\n\n  dqpaint preview star\n\n  dqpaint preview helix.traj --view iso --watch",
 )
+@takes("preview")
 def preview(
-    context: typer.Context,
+    choices: Choices,
     file: Drawing,
-    robot: Robot = None,
-    tool: Tool = None,
-    size: Size = "1280x720",
-    view: View = "front",
-    ev: Ev = 0.0,
-    brush: Brush = None,
-    pwm: Pwm = 0.0,
-    exposure: Exposure = None,
-    look: Look = "film",
-    starburst: Starburst = 0,
-    noise: Noise = None,
-    colour_by: ColourBy = None,
-    ghost: Ghost = False,
-    max_samples: MaxSamples = 2_000_000,
-    settings: SettingsFile = None,
     out: Out = None,
     watch: Annotated[bool, typer.Option("--watch", help="again at each save, till Ctrl-C")] = False,
 ) -> None:
@@ -188,18 +103,12 @@ def preview(
     from dqpaint import api
     from dqpaint.core import find_drawing
     from dqpaint.outputs import files
-    from dqpaint.settings import parse_size
 
     path = find_drawing(file)
     stem = files.stem_for(out, f"{path.stem}-preview")
-    choices = typed(
-        context, robot=robot, tool=tool, size=parse_size(size), view=view, ev=ev, brush=brush,
-        pwm=pwm, exposure=exposure, look=look, starburst=starburst, noise=noise,
-        colour_by=colour_by, ghost=ghost, max_samples=max_samples,
-    )  # fmt: skip
 
     def show() -> None:
-        preview = api.preview(path, **choices, settings=settings)
+        preview = api.preview(path, **choices)
         written = files.write_pictures(stem, preview.pictures)
 
         from dqpaint.cli import report
@@ -213,31 +122,19 @@ def preview(
 
     from dqpaint.cli import watch as watching
 
+    settings = choices.get("settings")
     watching.watch(path, show, others=[Path(settings)] if settings else ())
 
 
 @app.command(
+    cls=MadeWhenCalled,
     epilog="Examples:\n\n  dqpaint develop star-hinf-film.npz --look aces --ev 1\n\n"
-    "  dqpaint develop star-hinf-film.npz --view iso,orbit:8 --size 640x360 --out round/"
+    "  dqpaint develop star-hinf-film.npz --view iso,orbit:8 --size 640x360 --out round/",
 )
+@takes("develop", file=False, unsaid=False)
 def develop(
+    choices: Choices,
     film: Annotated[str, typer.Argument(metavar="FILM", help="from: dqpaint draw --save film")],
-    size: Annotated[str | None, typer.Option(metavar="WxH", help="of the picture")] = None,
-    view: Annotated[str | None, typer.Option(metavar="VIEW", help="as for draw")] = None,
-    ev: Annotated[float | None, typer.Option(help="exposure in stops")] = None,
-    exposure: Annotated[
-        str | None, typer.Option(metavar="SETTINGS", help="as for draw, or auto")
-    ] = None,
-    look: Annotated[
-        str | None, typer.Option(metavar="NAME", help="see: dqpaint list looks")
-    ] = None,
-    starburst: Annotated[int | None, typer.Option(metavar="BLADES", help="0: none")] = None,
-    noise: Noise = None,
-    ghost: Annotated[bool | None, typer.Option(help="the arm in the picture")] = None,
-    motion_ghost: MotionGhost = False,
-    occlusion: Annotated[
-        bool | None, typer.Option(help="the arm's body hides light from the camera")
-    ] = None,
     out: Out = None,
 ) -> None:
     """Take other pictures of a finished painting, at once; what is not said is as it was."""
@@ -245,15 +142,10 @@ def develop(
 
     from dqpaint import api
     from dqpaint.outputs import files
-    from dqpaint.settings import parse_size
 
     name = Path(film).stem.removesuffix("-film")
     stem = files.stem_for(out, f"{name}-developed")
-    pictures = api.develop(
-        film, size=parse_size(size) if size else None, view=view, ev=ev, exposure=exposure,
-        look=look, starburst=starburst, noise=noise, ghost="motion" if motion_ghost else ghost,
-        occlusion=occlusion,
-    )  # fmt: skip
+    pictures = api.develop(film, **choices)
     written = files.write_pictures(stem, pictures)
 
     from dqpaint.cli import report
@@ -269,25 +161,9 @@ CHECK_EXAMPLES = """Examples:
 """
 
 
-@app.command(epilog=CHECK_EXAMPLES)
-def check(
-    context: typer.Context,
-    files: Drawings,
-    robot: Robot = None,
-    tool: Tool = None,
-    place: PlaceAt = None,
-    plant: PlantName = None,
-    start: From = "first",
-    null: Null = "start",
-    on_limit: OnLimit = "clip",
-    brush: Brush = None,
-    view: View = "front",
-    size: Size = "1280x720",
-    exposure: Exposure = None,
-    ghost: Ghost = False,
-    max_samples: MaxSamples = 2_000_000,
-    as_json: AsJson = False,
-) -> None:
+@app.command(cls=MadeWhenCalled, epilog=CHECK_EXAMPLES)
+@takes("check")
+def check(choices: Choices, files: Drawings, as_json: AsJson = False) -> None:
     """Read drawings: every error at its place, or length, time, steps and box.
 
     With --robot or any other choice of a run, or a robot line in the file, it also looks ahead,
@@ -299,15 +175,10 @@ def check(
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from dqpaint.planning import check as checking
 
-    choices = typed(
-        context, robot=robot, tool=tool, place=place, plant=plant, start=start, null=null,
-        on_limit=on_limit, brush=brush, view=view, size=size, exposure=exposure, ghost=ghost,
-        max_samples=max_samples,
-    )  # fmt: skip
-    if wanted := choices.pop("size"):
-        from dqpaint.settings import parse_size
+    if (path := choices.pop("settings", None)) is not None:
+        from dqpaint.painting import validate
 
-        choices["width"], choices["height"] = parse_size(wanted)
+        choices = validate.settings_file(path).under(choices)
     results = [checking.check(name, **choices) for name in files]
     if as_json:
         print(json.dumps(checking.as_json(results), indent=2))
@@ -358,7 +229,12 @@ def pose(
         str | None, typer.Option(metavar="A,B,...", help="the joints in radians")
     ] = None,
     flange: Annotated[bool, typer.Option("--flange", help="the bare last link, no tool")] = False,
-    tool: Tool = None,
+    tool: Annotated[
+        str | None,
+        typer.Option(
+            metavar="X,Y,Z[,R,P,Y]", help="in place of the card's, m and deg, or with units"
+        ),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Tell where an arm's tool is: dual quaternion, matrix, screw, Jacobian, manipulability."""

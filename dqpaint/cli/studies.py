@@ -4,28 +4,16 @@ import shlex
 import shutil
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from dqpaint.cli.options import (
-    Brush,
-    Disturb,
-    Drawing,
-    Ev,
-    Exposure,
-    From,
-    Gain,
-    Law,
-    Look,
-    PlantName,
-    Robot,
-    Seed,
-    Size,
-    View,
-)
+from dqpaint.cli.options import Choices, Drawing, MadeWhenCalled, takes
 from dqpaint.cli.painting import app
 from dqpaint.errors import UsageError
+
+if TYPE_CHECKING:
+    from dqpaint.settings import Settings
 
 __all__ = ["app"]
 
@@ -53,8 +41,10 @@ COMPARE_EXAMPLES = """Examples:
 """
 
 
-@app.command(epilog=COMPARE_EXAMPLES)
+@app.command(cls=MadeWhenCalled, epilog=COMPARE_EXAMPLES)
+@takes("compare", without=("controller", "plant", "robot"), usual={"size": "640x360"})
 def compare(
+    choices: Choices,
     file: Drawing,
     controllers: Annotated[
         str, typer.Option(metavar="A,B(GAIN=VALUE),...", help="the laws, with gains of their own")
@@ -63,15 +53,6 @@ def compare(
     robots: Annotated[str | None, typer.Option(metavar="A,B,...", help="the arms")] = None,
     runs: Runs = 1,
     figure: Measure = "error_integral",
-    disturb: Disturb = None,
-    seed: Seed = 0,
-    start: From = "first",
-    size: Size = "640x360",
-    view: View = "front",
-    ev: Ev = 0.0,
-    brush: Brush = None,
-    exposure: Exposure = None,
-    look: Look = "film",
     jobs: Jobs = None,
     cluster: Address = None,
     out: Folder = None,
@@ -81,7 +62,6 @@ def compare(
 
     With --runs each is done with several seeds, and the table has means and standard deviations.
     """
-    from dqpaint.settings import make_settings, parse_disturbances, parse_size
     from dqpaint.studies.experiment import Axis, check_figure, parse_laws, parse_list
     from dqpaint.studies.kinds import compare as study
 
@@ -90,11 +70,7 @@ def compare(
     for name, values in (("plant", plants), ("robot", robots)):
         if values is not None:
             axes.append(Axis(name, tuple(parse_list(values))))
-    width, height = parse_size(size)
-    base = make_settings(
-        disturb=parse_disturbances(disturb or []), seed=seed, start=start, width=width,
-        height=height, view=view, ev=ev, brush=brush, exposure=exposure, look=look,
-    )  # fmt: skip
+    base = _settings(choices, size=(640, 360))
     compared = study.compare(
         file, axes, base, _folder(out, file, "compare"), runs, _workers(jobs, cluster)
     )
@@ -109,8 +85,10 @@ SWEEP_EXAMPLES = """Examples:
 """
 
 
-@app.command(epilog=SWEEP_EXAMPLES)
+@app.command(cls=MadeWhenCalled, epilog=SWEEP_EXAMPLES)
+@takes("sweep")
 def sweep(
+    choices: Choices,
     file: Drawing,
     vary: Annotated[
         list[str],
@@ -120,13 +98,6 @@ def sweep(
             "once or twice",
         ),
     ],
-    controller: Law = "hinf",
-    gain: Gain = None,
-    plant: PlantName = None,
-    robot: Robot = None,
-    disturb: Disturb = None,
-    seed: Seed = 0,
-    start: From = "first",
     runs: Runs = 1,
     figure: Measure = "position_error_rms_m",
     jobs: Jobs = None,
@@ -138,16 +109,12 @@ def sweep(
 
     Unstable points are marked. A sweep that was stopped goes on where it was.
     """
-    from dqpaint.settings import make_settings, parse_disturbances, parse_gains
     from dqpaint.studies.experiment import check_figure, parse_axis
     from dqpaint.studies.kinds import sweep as study
 
     check_figure(figure)
     axes = [parse_axis(text) for text in vary]
-    base = make_settings(
-        controller=controller, gains=parse_gains(gain or []), plant=plant, robot=robot,
-        disturb=parse_disturbances(disturb or []), seed=seed, start=start,
-    )  # fmt: skip
+    base = _settings(choices)
     swept = study.sweep(
         file, axes, base, _folder(out, file, "sweep"), runs, _workers(jobs, cluster)
     )
@@ -162,8 +129,10 @@ TUNE_EXAMPLES = """Examples:
 """
 
 
-@app.command(epilog=TUNE_EXAMPLES)
+@app.command(cls=MadeWhenCalled, epilog=TUNE_EXAMPLES)
+@takes("tune")
 def tune(
+    choices: Choices,
     file: Drawing,
     vary: Annotated[
         list[str] | None,
@@ -173,16 +142,9 @@ def tune(
             "[default: all of the law's, from a tenth to ten times the usual value]",
         ),
     ] = None,
-    controller: Law = "hinf",
     effort: Annotated[
         float, typer.Option(metavar="X", help="at most, times what the drawing itself needs")
     ] = 1.1,
-    gain: Gain = None,
-    plant: PlantName = None,
-    robot: Robot = None,
-    disturb: Disturb = None,
-    seed: Seed = 0,
-    start: From = "first",
     runs: Runs = 1,
     figure: Annotated[
         str, typer.Option("--figure", metavar="NAME", help="that is to be small, as in the JSON")
@@ -201,17 +163,13 @@ def tune(
     The bound is 1 for the effort of an arm that does exactly what the drawing asks. Seeded; a
     search that was stopped goes on where it was.
     """
-    from dqpaint.settings import make_settings, parse_disturbances, parse_gains
     from dqpaint.studies.experiment import check_figure
     from dqpaint.studies.kinds import tune as study
     from dqpaint.studies.kinds import tune_report
 
     check_figure(figure)
     check_figure(effort_figure)
-    base = make_settings(
-        controller=controller, gains=parse_gains(gain or []), plant=plant, robot=robot,
-        disturb=parse_disturbances(disturb or []), seed=seed, start=start,
-    )  # fmt: skip
+    base = _settings(choices)
     tuned = study.tune(
         file, vary or [], base, _folder(out, file, "tune"), factor=effort, error=figure,
         effort=effort_figure, count=runs, budget=budget,
@@ -230,16 +188,14 @@ REPLAY_EXAMPLES = """Examples:
 """
 
 
-@app.command(epilog=REPLAY_EXAMPLES)
+@app.command(cls=MadeWhenCalled, epilog=REPLAY_EXAMPLES)
+@takes("replay", file=False, unsaid=False)
 def replay(
+    choices: Choices,
     name: Annotated[str, typer.Argument(metavar="NAME", help="see: dqpaint list replays")],
     runs: Annotated[
         int | None, typer.Option(metavar="N", help="of each, with the seeds that follow --seed")
     ] = None,
-    plant: PlantName = None,
-    robot: Robot = None,
-    disturb: Disturb = None,
-    seed: Annotated[int | None, typer.Option(metavar="N", help="of everything random")] = None,
     jobs: Jobs = None,
     cluster: Address = None,
     out: Folder = None,
@@ -249,18 +205,21 @@ def replay(
 
     Every verdict follows from the numbers of this run; the paper's own are judged alike.
     """
-    from dqpaint.settings import parse_disturbances
+    from dqpaint.settings import read_choices
     from dqpaint.studies.kinds import replay as study
     from dqpaint.studies.replay.measures import MeasureRequest
 
-    given = {
-        "plant": plant, "robot": robot, "seed": seed,
-        "disturb": parse_disturbances(disturb) if disturb else None,
-    }  # fmt: skip
-    changed = {key: value for key, value in given.items() if value is not None}
+    changed = read_choices(choices)
     folder = Path(out) if out else Path(f"{name}-replay")
     replayed = study.replay(name, MeasureRequest(folder, runs, _workers(jobs, cluster), changed))
     _finish(study.told(replayed, _columns()), study.save(replayed, _again(report)))
+
+
+def _settings(choices: Choices, **usual: Any) -> "Settings":
+    """What was typed, or else is in the file of settings, or else is usual for the command."""
+    from dqpaint.painting import validate
+
+    return validate.chosen(choices, **usual)
 
 
 def _folder(out: str | None, file: str, what: str) -> Path:

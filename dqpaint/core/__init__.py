@@ -4,6 +4,7 @@ Nothing here knows of robots, light or the language.
 """
 
 from dqpaint.core.atomic_files import rewrite, stage, write_new
+from dqpaint.core.bounds import MOST_ALLOWED, MOST_SAMPLES
 from dqpaint.core.examples import example_names, examples_folder, find_drawing
 from dqpaint.core.named_values import FILE, Values, make_choice, number_or_text, read_choice, reason
 from dqpaint.core.records import record, replaced
@@ -21,6 +22,8 @@ from dqpaint.core.version import library_versions
 
 __all__ = [
     "FILE",
+    "MOST_ALLOWED",
+    "MOST_SAMPLES",
     "AnswerError",
     "Folder",
     "Guarded",

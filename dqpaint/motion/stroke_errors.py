@@ -4,8 +4,9 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from dqpaint.core import MOST_ALLOWED
 from dqpaint.diagnostics import Diagnostic, Findings, ScriptError
-from dqpaint.program import MOST_ALLOWED, Duration, Segment, Step
+from dqpaint.program import Duration, Segment, Step
 
 MOST_SECONDS = 86_400.0  # of a drawing
 ROUNDING_WORTH_SAYING = 0.01

@@ -77,9 +77,9 @@ def check(name: str, **choices: Any) -> CheckResult:
     settings = _chosen(choices)
     try:
         program = read_input() if name == STDIN else read(find_drawing(name))
-        if (most := choices.get("max_samples")) is not None:
-            program = replace(program, most_samples=most)
-        asked = settings is not None or program.robot is not None
+        if settings is not None:
+            program = replace(program, most_samples=settings.max_samples)
+        asked = _is_of_a_run(settings) or program.robot is not None
         outlook = _look_ahead(program, settings) if asked else None
         drawing: Motion | Survey = outlook.motion if outlook else survey(program)
     except ScriptError as problem:
@@ -93,7 +93,7 @@ def check(name: str, **choices: Any) -> CheckResult:
 
 
 def _chosen(choices: dict[str, Any]) -> "Settings | None":
-    """The settings, if anything of a run is chosen.
+    """The settings, if anything is chosen.
 
     Without a choice they are not even imported, which takes a while.
 
@@ -102,10 +102,16 @@ def _chosen(choices: dict[str, Any]) -> "Settings | None":
     """
     if all(value is None for value in choices.values()):
         return None
-    from dqpaint.settings import Settings, make_settings
+    from dqpaint.settings import make_settings
 
-    settings = make_settings(**choices)
-    return settings if settings != Settings(max_samples=settings.max_samples) else None
+    return make_settings(**choices)
+
+
+def _is_of_a_run(settings: "Settings | None") -> bool:
+    """Whether more is chosen than how many samples a drawing may have."""
+    return settings is not None and bool(
+        settings.model_dump(exclude_defaults=True).keys() - {"max_samples"}
+    )
 
 
 def _look_ahead(program: Program, settings: "Settings | None") -> "ForecastReport":

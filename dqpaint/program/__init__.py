@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from dqpaint.program.program import (
         IDENTITY,
         LOOKING,
-        MOST_ALLOWED,
-        MOST_SAMPLES,
         Arc,
         AutoPlacement,
         Bar,
@@ -63,8 +61,6 @@ if TYPE_CHECKING:
 __all__ = [
     "IDENTITY",
     "LOOKING",
-    "MOST_ALLOWED",
-    "MOST_SAMPLES",
     "NODES",
     "WEIGHTS",
     "Arc",

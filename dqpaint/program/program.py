@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dqpaint.core import record
+from dqpaint.core import MOST_SAMPLES, record
 from dqpaint.diagnostics import Diagnostic, SourceLine, Span, line_named
 from dqpaint.program.colours import Colour as Colour
 from dqpaint.program.taylor import Floats, Taylor
@@ -126,9 +126,6 @@ class Chain:
     def __hash__(self) -> int:
         return hash(self.cubic.tobytes())
 
-
-MOST_SAMPLES = 2_000_000  # of a drawing, if no more are allowed
-MOST_ALLOWED = 100_000_000  # of one for which more are
 
 Path = Straight | Arc | Curve | Screw | ScrewTo | Dwell | Step | Chain
 

@@ -1,30 +1,45 @@
 """Options, a settings file or a run's summary -> checked settings of one painting.
 
-A new option is a field of `model.Settings`.
+A new setting is a field of a group in `model`, with its `Option`: command line, Python, settings
+files and documents read it from there.
 """
 
+from dqpaint.settings.commands import COMMANDS
+from dqpaint.settings.declaration import Option, Setting, settings_of
 from dqpaint.settings.file import SettingsFile, beside, read_given
+from dqpaint.settings.keywords import keywords
 from dqpaint.settings.model import (
     DEFAULT_CONTROLLER,
+    SETTINGS,
     SMALLEST,
     Settings,
     check_recorded,
     make_settings,
-    parse_disturbances,
-    parse_gains,
-    parse_size,
+    read_choices,
 )
+from dqpaint.settings.options import DevelopOptions, DrawOptions, PreviewOptions, RunOptions
+from dqpaint.settings.readers import parse_disturbances, parse_gains
 
 __all__ = [
+    "COMMANDS",
     "DEFAULT_CONTROLLER",
+    "SETTINGS",
     "SMALLEST",
+    "DevelopOptions",
+    "DrawOptions",
+    "Option",
+    "PreviewOptions",
+    "RunOptions",
+    "Setting",
     "Settings",
     "SettingsFile",
     "beside",
     "check_recorded",
+    "keywords",
     "make_settings",
     "parse_disturbances",
     "parse_gains",
-    "parse_size",
+    "read_choices",
     "read_given",
+    "settings_of",
 ]

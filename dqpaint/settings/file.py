@@ -5,8 +5,9 @@
     gain.k = 20
     disturb.twist = "sine,x=0.02,frequency=2"
 
-Keys are the options of `draw` without their dashes, or the fields of `Settings`, which is how a
-summary has them. A file that a value names is looked for beside the settings first.
+Keys are the options of the command line without the dashes before them, or the fields of
+`Settings`, which is how a summary has them. A file that a value names is looked for beside the
+settings first.
 """
 
 import json
@@ -22,25 +23,20 @@ from dqpaint.diagnostics import closest
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.settings.model import (
     DEFAULT_CONTROLLER,
+    SETTINGS,
     Settings,
-    make_settings,
-    parse_disturbances,
-    parse_gains,
-    parse_size,
-    settings_in_kind,
+    checked,
+    read_choices,
 )
 
 LARGEST = 1_000_000  # bytes of a file
 SUMMARY = "dqpaint-run-1"
-OPTIONS = {"gain": "gains", "from": "start"}  # options that are called otherwise among the settings
-SPECIAL = ("size", "motion_ghost")  # options that are no fields of the settings
 MEANT = {
     "camera": "view", "color-by": "colour-by", "colour": "colour-by", "law": "controller",
     "arm": "robot", "lens": "exposure", "f-number": "exposure", "iso": "exposure",
     "distance": "exposure", "shutter": "exposure", "azimuth": "view", "elevation": "view",
 }  # fmt: skip
 NOT_OF_THE_PICTURE = ("out", "save", "settings", "watch", "jobs")
-NAMES_FILES = ("controller", "robot", "recorded")
 
 Check = Callable[[Settings], None]
 
@@ -62,12 +58,15 @@ class SettingsFile:
     sha256: str | None = None
 
     def under(self, typed: Mapping[str, Any]) -> dict[str, Any]:
-        """All choices: what was typed wins; gains and disturbances one by one.
+        """All choices, read: what was typed wins; gains and disturbances one by one.
 
         The gains of a file are those of its law, and go with it.
+
+        Raises:
+            UsageError: what was typed has not the form of its setting.
         """
         given = dict(self.choices)
-        said = {name: value for name, value in typed.items() if value is not None}
+        said = read_choices(typed)
         law = given.get("controller", DEFAULT_CONTROLLER)
         if said.get("controller", law) != law:
             given.pop("gains", None)
@@ -107,21 +106,23 @@ def read_given(path: str, check: Check) -> SettingsFile:
     spelt: dict[str, str] = {}
     for key, value in raw.items():
         try:
-            for name, read in _read(_field(key), _beside_all(place.parent, value)).items():
+            for name, read in _read(key, _beside_all(place.parent, value)).items():
                 if name in choices:
                     raise UsageError(f"{key} says again what {spelt[name]} said")
                 choices[name], spelt[name] = read, key
             of_key = {name: choices[name] for name in choices if spelt[name] == key}
             gains = of_key.pop("gains", None)  # of a law that another key may name
-            check(settings_in_kind(of_key))
+            check(checked(of_key, strict=True))
             if gains is not None:
-                settings_in_kind({"gains": gains})
+                checked({"gains": gains}, strict=True)
         except DqpaintError as problem:
             raise DqpaintError(f"{_where(place, text, key)}: {_told(problem)}") from None
     if "gains" in choices:
         try:
-            law = {name: choices[name] for name in ("controller", "gains") if name in choices}
-            check(make_settings(**law))
+            law: dict[str, Any] = {
+                name: choices[name] for name in ("controller", "gains") if name in choices
+            }
+            check(checked(law))
         except DqpaintError as problem:
             raise DqpaintError(f"{_where(place, text, spelt['gains'])}: {problem}") from None
     return SettingsFile(place.name, choices, *given)
@@ -180,59 +181,28 @@ def _parsed(place: Path, text: str) -> tuple[dict[str, Any], tuple[str | None, s
     return said, (str(versions.get("dqpaint")), str(raw.get("sha256")))
 
 
-def _field(key: str) -> str:
-    """The field of `Settings` that a key is for, or one of `SPECIAL`."""
-    option = key.replace("_", "-")
-    name = OPTIONS.get(option, option.replace("-", "_"))
-    if name in (*Settings.model_fields, *SPECIAL):
-        return name
-    if option in NOT_OF_THE_PICTURE:
-        raise UsageError(f"'{option}' is no part of a picture: say it on the command line")
-    fields = (field.replace("_", "-") for field in Settings.model_fields)
-    special = (name.replace("_", "-") for name in SPECIAL)
-    known = sorted({*special, *OPTIONS, *fields} - {"width", "height", *OPTIONS.values()})
-    meant = closest(option, known, MEANT)
+def _read(key: str, value: Any) -> dict[str, Any]:
+    """The fields of `Settings` that a key and its value give."""
+    name = key.replace("_", "-")
+    for setting in SETTINGS.values():
+        if name in (setting.name, setting.keyword.replace("_", "-")):
+            return read_choices({setting.keyword: value})
+        variant = setting.option.variant
+        if variant and name == variant.name:
+            if not isinstance(value, bool):
+                raise UsageError(f"{key} {value!r} should be true or false")
+            return {setting.field: variant.value} if value else {}
+    if (field := name.replace("-", "_")) in Settings.model_fields:
+        return {field: value}
+    if name in NOT_OF_THE_PICTURE:
+        raise UsageError(f"'{name}' is no part of a picture: say it on the command line")
+    known = sorted(
+        {setting.name for setting in SETTINGS.values()}
+        | {one.option.variant.name for one in SETTINGS.values() if one.option.variant}
+    )
+    meant = closest(name, known, MEANT)
     cure = f"did you mean '{meant}'?" if meant else f"known: {', '.join(known)}"
     raise UsageError(f"no setting named '{key[:60]}'; {cure}")
-
-
-def _read(name: str, value: Any) -> dict[str, Any]:
-    """The fields of `Settings` that a value gives, as the command line would have them."""
-    if name == "motion_ghost":
-        if not isinstance(value, bool):
-            raise UsageError(f"motion_ghost {value!r} should be true or false")
-        return {"ghost": "motion"} if value else {}
-    if name == "size":
-        return dict(zip(("width", "height"), parse_size(str(value)), strict=True))
-    readers: dict[str, Callable[[list[str]], Any]] = {
-        "gains": parse_gains, "disturb": parse_disturbances,
-    }  # fmt: skip
-    if name not in readers:
-        return {name: value}
-    if isinstance(value, list):
-        return {name: readers[name]([str(text) for text in value])}
-    if not isinstance(value, dict):
-        option = "gain" if name == "gains" else name
-        raise UsageError(f"{option} is a table of names, for example {option}.{EXAMPLES[name]}")
-    if name == "gains":
-        for one, gain in value.items():
-            if isinstance(gain, bool):
-                raise UsageError(f"gain '{one}' should be a number, not {str(gain).lower()}")
-        return {name: {one: _numbers(gain) for one, gain in value.items()}}
-    found: dict[str, Any] = {}
-    for one, values in value.items():
-        found |= (
-            {one: values} if isinstance(values, dict) else parse_disturbances([f"{one}={values}"])
-        )
-    return {name: found}
-
-
-def _numbers(gain: Any) -> Any:
-    """A diagonal is a list in a file."""
-    return tuple(gain) if isinstance(gain, list) else gain
-
-
-EXAMPLES = {"gains": "k = 20", "disturb": 'twist = "sine,x=0.02,frequency=2"'}
 
 
 def _where(place: Path, text: str, key: str) -> str:

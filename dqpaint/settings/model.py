@@ -1,54 +1,158 @@
-"""How a drawing is painted: everything besides its text, checked."""
+"""How a drawing is painted: everything besides its text, checked.
 
-import re
-from collections.abc import Mapping, Sequence
-from typing import Annotated, Literal
+Settings come in groups, each a class: a command names the groups it takes, and a new setting is a
+field of a group, declared with its bounds, its `Option` and its default, and nothing else.
+"""
+
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
-from dqpaint.core import number_or_text, read_choice, reason
+from dqpaint.core import MOST_ALLOWED, MOST_SAMPLES, reason
 from dqpaint.errors import UsageError
-from dqpaint.program import MOST_ALLOWED, MOST_SAMPLES
+from dqpaint.settings.declaration import Option, Setting, Variant, settings_of
+from dqpaint.settings.readers import (
+    DISTURBANCE,
+    Gain,
+    read_disturbances,
+    read_gains,
+    read_path,
+    read_size,
+)
 
 DEFAULT_CONTROLLER = "hinf"
 LARGEST = 8192  # columns or rows of a picture
 SMALLEST = 16
-DISTURBANCE = "twist=sine,x=0.02,frequency=2"
 
 
-class Settings(BaseModel):
-    """The choices of one painting, as the command line's options name them."""
+class Group(BaseModel):
+    """Settings that some commands take and others do not."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
-    controller: str = DEFAULT_CONTROLLER
-    gains: dict[str, float | tuple[float, ...] | str] = Field(default_factory=dict)
-    robot: str | None = None  # None: the file's own robot line, else the iiwa
-    tool: str | None = None  # where the light sits on the flange; None: where the card says
-    place: Literal["auto"] | None = None  # None: what the file says, else the robot's canvas
-    recorded: str | None = None  # a CSV of a real arm's run, instead of a simulated one
-    plant: str | None = None  # None: the usual one for what the law commands
-    disturb: dict[str, dict[str, float | str]] = Field(default_factory=dict)
-    null: str = "start"  # what a redundant arm does with its freedom
-    on_limit: Literal["clip", "slow", "stop"] = "clip"
-    seed: Annotated[int, Field(ge=0, le=2**63 - 1)] = 0
-    start: Literal["first", "home"] = "first"
-    width: Annotated[int, Field(ge=SMALLEST, le=LARGEST)] = 1280
-    height: Annotated[int, Field(ge=SMALLEST, le=LARGEST)] = 720
-    view: str = "front"
-    ev: Annotated[float, Field(ge=-20, le=20, allow_inf_nan=False)] = 0.0
-    brush: str | None = None  # None: the file's own
-    pwm: Annotated[float, Field(ge=0, le=1e5, allow_inf_nan=False)] = 0.0  # [Hz]; 0: even light
-    exposure: str | None = None  # None: automatic
-    look: str = "film"
-    starburst: Annotated[int, Field(ge=0)] = 0  # blades of the aperture; 0: a round one
-    noise: Annotated[int, Field(ge=0)] | None = None  # its seed; None: there is none
-    colour_by: str | None = None
-    overlay: bool = False
-    magnify: Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)] = 1.0
-    ghost: Literal[False, True, "motion"] = False  # the arm is seen: flashed, or as it moved
-    occlusion: bool | None = None  # its body hides light from the camera; None: as ghost
-    max_samples: Annotated[int, Field(ge=1, le=MOST_ALLOWED)] = MOST_SAMPLES  # of a drawing
+    panel: ClassVar[str]
+    """The heading of these options in help and documents."""
+
+
+class LawSettings(Group):
+    """What drives the arm."""
+
+    panel = "Control"
+
+    controller: Annotated[
+        str,
+        Option(
+            "control law: see dqpaint list controllers; or a function of your own",
+            "NAME|FILE.py[:NAME]",
+            read=read_path,
+            python="str | PathLike[str] | Callable[..., Any]",
+        ),
+    ] = DEFAULT_CONTROLLER
+    gains: Annotated[
+        dict[str, Gain],
+        Option(
+            "a gain of that law in SI units; repeatable; 5..20@10% is a ramp in the first 10 %",
+            "NAME=VALUE",
+            name="gain",
+            many=True,
+            read=read_gains,
+            python="Mapping[str, float | Sequence[float] | str] | Sequence[str] | str",
+        ),
+    ] = Field(default_factory=dict)
+    recorded: Annotated[
+        str | None,
+        Option(
+            "paint a real arm's run: t_s and joints or poses, see README",
+            "RUN.csv",
+            read=read_path,
+            python="str | PathLike[str]",
+        ),
+    ] = None
+
+
+class DisturbanceSettings(Group):
+    """What no law knows of."""
+
+    panel = "Control"
+
+    disturb: Annotated[
+        dict[str, dict[str, float | str]],
+        Option(
+            f"a disturbance, repeatable, such as {DISTURBANCE}",
+            "NAME=VALUE,...",
+            many=True,
+            read=read_disturbances,
+            python="Mapping[str, Mapping[str, float | str] | float | str] | Sequence[str] | str",
+        ),
+    ] = Field(default_factory=dict)
+    seed: Annotated[int, Field(ge=0, le=2**63 - 1), Option("seed of everything random")] = 0
+
+
+class ArmSettings(Group):
+    """Which arm holds the light, and where."""
+
+    panel = "Arm"
+
+    robot: Annotated[
+        str | None,
+        Option(
+            "the arm, or its .urdf or .toml",
+            "NAME|FILE",
+            unsaid="the drawing's, else iiwa",
+            read=read_path,
+            python="str | PathLike[str]",
+        ),
+    ] = None
+    tool: Annotated[
+        str | None,
+        Option(
+            "where the light sits on the flange, m and deg, or with units: 0,0,80mm",
+            "X,Y,Z[,R,P,Y]",
+            unsaid="where the arm's card says",
+        ),
+    ] = None
+
+
+class MotionSettings(Group):
+    """How an arm follows a drawing, whatever its law."""
+
+    panel = "Arm"
+
+    place: Annotated[
+        Literal["auto"] | None,
+        Option(
+            "put the drawing where it fits the arm best",
+            "auto",
+            unsaid="what the drawing says, else the arm's canvas",
+        ),
+    ] = None
+    plant: Annotated[
+        str | None,
+        Option(
+            "how the arm answers, such as compliant:frequency=60",
+            "NAME[:KEY=VALUE,...]",
+            unsaid="stiff, or torque for its laws",
+        ),
+    ] = None
+    start: Annotated[
+        Literal["first", "home"],
+        Option("where the arm begins: at the first pose, or at home", "first|home", name="from"),
+    ] = "first"
+    null: Annotated[
+        str,
+        Option(
+            "what a redundant arm does with its freedom: see dqpaint list null",
+            "NAME[,gain=VALUE]",
+        ),
+    ] = "start"
+    on_limit: Annotated[
+        Literal["clip", "slow", "stop"],
+        Option(
+            "where a joint would pass a limit: hold it back, slow the drawing down, or end",
+            "clip|slow|stop",
+        ),
+    ] = "clip"
 
     @field_validator("place", mode="before")
     @classmethod
@@ -58,6 +162,159 @@ class Settings(BaseModel):
         raise ValueError(
             "is not auto; a place of your own is a line of the drawing: place at POINT"
         )
+
+
+class DrawingSettings(Group):
+    """How large a drawing may be."""
+
+    panel = "Drawing"
+
+    max_samples: Annotated[
+        int,
+        Field(ge=1, le=MOST_ALLOWED),
+        Option("samples that the drawing may have; each takes about 1 kB", "N"),
+    ] = MOST_SAMPLES
+
+
+class LightSettings(Group):
+    """What shines."""
+
+    panel = "Light"
+
+    brush: Annotated[
+        str | None,
+        Option(
+            "what shines; see: dqpaint list brushes",
+            "NAME[:KEY=VALUE,...]",
+            unsaid="the drawing's, else a point",
+        ),
+    ] = None
+    pwm: Annotated[
+        float,
+        Field(ge=0, le=1e5, allow_inf_nan=False),
+        Option("frequency [Hz] at which the lamps are dimmed by pulses; 0: evenly", "HZ"),
+    ] = 0.0
+
+
+class ColourSettings(Group):
+    """What the colours mean."""
+
+    panel = "Light"
+
+    colour_by: Annotated[
+        str | None,
+        Option(
+            "what the colours show of the run: position-error, orientation-error, speed, "
+            "manipulability, line; END of the scale, such as position-error:20",
+            "FIGURE[:END]",
+        ),
+    ] = None
+
+
+class DeviationSettings(Group):
+    """How far the run is from the reference, to be seen."""
+
+    panel = "Light"
+
+    overlay: Annotated[bool, Option("the reference beneath, in faint lines")] = False
+    magnify: Annotated[
+        float,
+        Field(gt=0, le=1e6, allow_inf_nan=False),
+        Option("deviations from the reference, N times as large", "N"),
+    ] = 1.0
+
+
+class CameraSettings(Group):
+    """From where, how large and how long a picture is taken."""
+
+    panel = "Camera"
+
+    width: Annotated[
+        int,
+        Field(ge=SMALLEST, le=LARGEST),
+        Option(
+            "width and height of the picture, in pixels",
+            "WxH",
+            name="size",
+            parts=("width", "height"),
+            read=read_size,
+            python="tuple[int, int] | str",
+        ),
+    ] = 1280
+    height: Annotated[int, Field(ge=SMALLEST, le=LARGEST)] = 720
+    view: Annotated[
+        str,
+        Option(
+            "from where: front, iso, side, top, or AZ,EL: degrees to its right and above; "
+            "stereo[:VIEW], orbit[:N[:EL]], at:X:Y:Z[:X:Y:Z] m; several with commas",
+            "VIEW",
+        ),
+    ] = "front"
+    exposure: Annotated[
+        str | None,
+        Option(
+            "settings of a camera, in any order: f/8,iso100,35mm,nd3,0.1cd,2.2m",
+            "SETTINGS",
+            unsaid="automatic",
+        ),
+    ] = None
+
+
+class FilmSettings(Group):
+    """How the film is developed."""
+
+    panel = "Camera"
+
+    ev: Annotated[
+        float,
+        Field(ge=-20, le=20, allow_inf_nan=False),
+        Option("exposure in stops, on top of the automatic one"),
+    ] = 0.0
+    look: Annotated[str, Option("how the film is developed; see: dqpaint list looks", "NAME")] = (
+        "film"
+    )
+    starburst: Annotated[
+        int, Field(ge=0), Option("blades of an aperture that draws rays; 0: a round one", "BLADES")
+    ] = 0
+    noise: Annotated[
+        int | None, Field(ge=0), Option("seed of the sensor's noise", "SEED", unsaid="no noise")
+    ] = None
+
+
+class GhostSettings(Group):
+    """The arm in the picture."""
+
+    panel = "Camera"
+
+    ghost: Annotated[
+        Literal[False, True, "motion"],
+        Option(
+            "the arm in the picture, and room for it",
+            variant=Variant(
+                "motion-ghost", "motion", "the arm as a veil, seen all through its motion"
+            ),
+            python='bool | Literal["motion"]',
+        ),
+    ] = False
+
+
+class OcclusionSettings(Group):
+    """The arm before the light."""
+
+    panel = "Camera"
+
+    occlusion: Annotated[
+        bool | None,
+        Option("the arm's body hides light from the camera", unsaid="as --ghost"),
+    ] = None
+
+
+class Settings(
+    OcclusionSettings, GhostSettings, FilmSettings, CameraSettings, DeviationSettings,
+    ColourSettings, LightSettings, DrawingSettings, MotionSettings, ArmSettings,
+    DisturbanceSettings, LawSettings,
+):  # fmt: skip
+    """The choices of one painting: the groups above, one after the other, as one flat model."""
 
     @property
     def traced(self) -> bool:
@@ -70,31 +327,61 @@ class Settings(BaseModel):
         return bool(self.ghost) or self.traced
 
 
+GROUPS: tuple[type[Group], ...] = Settings.__bases__[::-1]
+SETTINGS: dict[str, Setting] = {setting.keyword: setting for setting in settings_of(*GROUPS)}
+"""What can be said, by the names in Python."""
+
+
 def make_settings(**choices: object) -> Settings:
-    """Settings with the given choices; None stands for the default.
+    """Settings with the given choices, by their names in Python; None stands for the default.
 
     Raises:
         UsageError: an unknown choice or a value outside its range.
     """
-    return _made(choices, strict=False)
+    return checked(read_choices(choices))
 
 
-def settings_in_kind(choices: Mapping[str, object]) -> Settings:
-    """The same, where `true` is no number, and "yes" is not `true`."""
-    return _made(choices, strict=True)
+def read_choices(choices: Mapping[str, object]) -> dict[str, Any]:
+    """The fields of `Settings` that choices give, each read; None is no choice.
+
+    Raises:
+        UsageError: a value that has not the form of its setting.
+    """
+    found: dict[str, Any] = {}
+    for keyword, value in choices.items():
+        if value is None:
+            continue
+        option = SETTINGS[keyword].option if keyword in SETTINGS else None
+        read: Any = option.read(value) if option and option.read else value
+        if option and option.parts:
+            found |= dict(zip(option.parts, read, strict=True))
+        else:
+            found[keyword] = read
+    return found
 
 
-def _made(choices: Mapping[str, object], strict: bool) -> Settings:
-    given = {name: value for name, value in choices.items() if value is not None}
+def checked(fields: Mapping[str, object], strict: bool = False) -> Settings:
+    """Settings with some fields.
+
+    Args:
+        fields: as the model has them.
+        strict: whether `true` is no number, and "yes" is not `true`.
+
+    Raises:
+        UsageError: an unknown field or a value outside its range.
+    """
     try:
-        return Settings.model_validate(given, strict=strict)
+        return Settings.model_validate(fields, strict=strict)
     except ValidationError as problem:
         first = problem.errors()[0]
         name = ".".join(str(part) for part in first["loc"])
         if first["type"] == "extra_forbidden":
-            known = ", ".join(Settings.model_fields)
+            known = ", ".join(SETTINGS)
             raise UsageError(f"no setting named '{name}'; known: {known}") from None
         raise UsageError(f"{name} {first['input']!r} {reason(first)}") from None
+
+
+SIMULATED = ("controller", "gains", "plant", "disturb", "start", "null", "on_limit")
 
 
 def check_recorded(settings: Settings) -> None:
@@ -105,61 +392,7 @@ def check_recorded(settings: Settings) -> None:
     """
     if settings.recorded is None:
         return
-    plain = Settings(recorded=settings.recorded)
-    for name, option in (
-        ("controller", "--controller"), ("gains", "--gain"), ("plant", "--plant"),
-        ("disturb", "--disturb"), ("start", "--from"), ("null", "--null"),
-        ("on_limit", "--on-limit"),
-    ):  # fmt: skip
-        if getattr(settings, name) != getattr(plain, name):
-            raise UsageError(f"a recorded run is not simulated: leave out {option}")
-
-
-def parse_size(text: str) -> tuple[int, int]:
-    """Width and height [px] from `1280x720`.
-
-    Raises:
-        UsageError: anything else.
-    """
-    found = re.fullmatch(r"(\d{1,6})x(\d{1,6})", text)
-    if found is None:
-        raise UsageError(f"size '{text[:40]}' is not WIDTHxHEIGHT in pixels, for example 1280x720")
-    return int(found[1]), int(found[2])
-
-
-def parse_gains(texts: Sequence[str]) -> dict[str, float | str]:
-    """Gains by their names from texts like `k=20`; other forms than a number the law reads.
-
-    Raises:
-        UsageError: anything else, or a gain given twice.
-    """
-    gains: dict[str, float | str] = {}
-    for text in texts:
-        name, sign, value = (part.strip() for part in text.partition("="))
-        if not (name and sign and value):
-            raise UsageError(
-                f"gain '{text}' is not NAME=VALUE, for example k=20, or k=5..20@10% for a ramp"
-            )
-        if name in gains:
-            raise UsageError(f"gain '{name}' is given twice")
-        gains[name] = number_or_text(value)
-    return gains
-
-
-def parse_disturbances(texts: Sequence[str]) -> dict[str, dict[str, float | str]]:
-    """Disturbances by their names from texts like `twist=sine,x=0.02` or `twist:form=sine,x=0.02`.
-
-    A value without a name has the name "".
-
-    Raises:
-        UsageError: anything else, or a disturbance or value given twice.
-    """
-    found: dict[str, dict[str, float | str]] = {}
-    for text in texts:
-        name, values = read_choice("disturbance", text, DISTURBANCE)
-        if not values:
-            raise UsageError(f"disturbance '{text}' is not NAME=VALUE, for example {DISTURBANCE}")
-        if name in found:
-            raise UsageError(f"disturbance '{name}' is given twice")
-        found[name] = values
-    return found
+    for keyword in SIMULATED:
+        if getattr(settings, keyword) != getattr(Settings(), keyword):
+            option = SETTINGS[keyword].name
+            raise UsageError(f"a recorded run is not simulated: leave out --{option}")

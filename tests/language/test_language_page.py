@@ -68,6 +68,7 @@ def test_every_statement_is_taught_before_the_tables():
 
 
 def test_bounds_are_the_program_s():
+    from dqpaint.core.bounds import MOST_SAMPLES
     from dqpaint.language.compile import MOST_LINES
     from dqpaint.language.expansion import blocks as language_blocks
     from dqpaint.language.pen.pen import MOST_SEGMENTS
@@ -75,7 +76,6 @@ def test_bounds_are_the_program_s():
     from dqpaint.language.syntax.parser import DEEPEST as DEEPEST_BLOCK
     from dqpaint.language.syntax.source import MOST_BYTES
     from dqpaint.motion.schedule import MOST_SECONDS
-    from dqpaint.program.program import MOST_SAMPLES
 
     text = " ".join(PAGE[PAGE.index("## Bounds") :].split())
     for number, after in [

@@ -7,14 +7,13 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
+from dqpaint.core.bounds import MOST_ALLOWED, MOST_SAMPLES
 from dqpaint.diagnostics import ScriptError, SourceLine
 from dqpaint.errors import UsageError
 from dqpaint.motion import plan, survey
 from dqpaint.motion.sampling import AT_ONCE
 from dqpaint.motion.schedule import Schedule
 from dqpaint.program.program import (
-    MOST_ALLOWED,
-    MOST_SAMPLES,
     Arc,
     CruiseSpeed,
     Curve,

@@ -6,11 +6,11 @@ import sys
 from pathlib import Path
 
 import pytest
-import typer.main
 from typer.testing import CliRunner
 
 from dqpaint.cli.studies import app
 from dqpaint.errors import UsageError
+from dqpaint.settings import COMMANDS, settings_of
 from tests.bench.bench_language import PYTHON, kinds
 from tests.support.clock import children_time
 
@@ -59,18 +59,18 @@ def test_a_drawing_without_an_arm_is_checked_without_the_arms(tmp_path: Path) ->
     spent("-c", code)
 
 
-OPTIONS = [
-    option.opts[0]
-    for option in typer.main.get_command(app).commands["check"].params
-    if option.param_type_name == "option" and not option.is_flag
-]
+OPTIONS = {
+    f"--{setting.name}": "nix" if setting.kind is str else "-9"
+    for setting in settings_of(*COMMANDS["check"])
+    if setting.kind is not bool
+}
 
 
 @pytest.mark.parametrize("option", OPTIONS)
 def test_every_choice_is_heeded(option: str, tmp_path: Path) -> None:
     path = tmp_path / "line.traj"
     path.write_text("line by (9, 0) mm\n", encoding="utf-8")
-    wrong = "-9" if option == "--max-samples" else "nix"  # typer itself takes numbers alone
+    wrong = OPTIONS[option]
     fault = CliRunner().invoke(app, ["check", str(path), option, wrong]).exception
     assert isinstance(fault, UsageError)
     assert wrong in str(fault)

@@ -11,7 +11,8 @@ from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.outputs.summary import summarise
 from dqpaint.painting.validate import check_each
 from dqpaint.settings.file import SettingsFile, read_given
-from dqpaint.settings.model import Settings, make_settings, parse_disturbances, parse_gains
+from dqpaint.settings.model import Settings, make_settings
+from dqpaint.settings.readers import parse_disturbances, parse_gains
 
 TOML = """# a camera, a law, a lamp
 view = "at:1.6:-0.5:0.8"
@@ -130,8 +131,8 @@ WRONG = {
     "starburst = 99": "given.toml:1: starburst 99: an aperture has",
     '[disturb]\ntwst = "x=3"': "given.toml:1: no disturbance named 'twst'; did you mean 'twist'?",
     "[gain]\nk = 3": "given.toml:1: controller 'hinf' has no gain named 'k'",
-    "gain = 3": "given.toml:1: gain is a table of names, for example gain.k = 20",
-    "disturb = 3": "given.toml:1: disturb is a table of names, for example disturb.twist =",
+    "gain = 3": "given.toml:1: gain 3 gives no names with values, for example k=20",
+    "disturb = 3": "given.toml:1: disturb 3 gives no names with values, for example twist=sine,",
     'ghost = "flash"': "given.toml:1: ghost 'flash' should be False, True or 'motion'",
     "ev = nan": "given.toml:1: ev nan should be a finite number",
     "view = 30": "given.toml:1: view 30 should be a valid string",

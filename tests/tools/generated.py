@@ -1,6 +1,8 @@
 """The generated tables of the pages: `python -m tests.tools.generated` writes them."""
 
 import json
+import subprocess
+import sys
 from math import ceil, floor
 from pathlib import Path
 
@@ -227,6 +229,65 @@ def looks():
     return table(["look", ""], [[f"`{n}`", k.__doc__.splitlines()[0]] for n, k in LOOKS.items()])
 
 
+def options():
+    """The options of the command line, each with the commands that take it."""
+    from dqpaint.settings import COMMANDS, settings_of
+
+    rows = []
+    for setting in settings_of(*COMMANDS["draw"]):
+        option, default = setting.option, setting.default
+        forms = [f"--{setting.name}" + (f" {option.metavar}" if option.metavar else "")]
+        forms += [f"--{option.variant.name}"] if option.variant else []
+        usual = option.unsaid or ("" if default in (None, False) else f"`{default}`")
+        forms = ", ".join(f"`{form}`".replace("|", "\\|") for form in forms)
+        takers = ", ".join(name for name, groups in COMMANDS.items() if setting.group in groups)
+        rows.append([forms, option.help.replace("|", "\\|"), usual, takers])
+    return table(["option", "", "default", "commands"], rows)
+
+
+OPTIONS = ROOT / "dqpaint/settings/options.py"
+OPTIONS_HEAD = '''"""Groups of `model` -> keywords in Python, as type checkers and editors see them.
+
+`python -m tests.tools.generated` writes it again.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from os import PathLike
+from typing import Any, Literal, TypedDict
+'''
+
+
+def keyword_types():
+    """The module that says to type checkers which keywords there are."""
+    from dqpaint.settings.commands import COMMANDS, OF_RUN
+    from dqpaint.settings.declaration import settings_of
+    from dqpaint.settings.keywords import python_type
+
+    def name(group):
+        return group.__name__.replace("Settings", "Options")
+
+    parts = [OPTIONS_HEAD]
+    for group in COMMANDS["draw"]:
+        fields = [f"    {s.keyword}: {python_type(s)} | None" for s in settings_of(group)]
+        head = f'class {name(group)}(TypedDict, total=False):\n    """{group.__doc__}"""\n'
+        parts.append("\n".join([head, *fields, ""]))
+    whole = {n.title(): COMMANDS[n] for n in ("draw", "preview", "develop")} | {"Run": OF_RUN}
+    about = {command: f"Of `{command.lower()}`." for command in whole}
+    about["Run"] = "Of a run without pictures."
+    for command, groups in whole.items():
+        bases = ", ".join(map(name, groups))
+        parts.append(f'class {command}Options({bases}):\n    """{about[command]}"""\n')
+    return _formatted("\n\n".join(parts))
+
+
+def _formatted(text):
+    """As ruff lays it out."""
+    return subprocess.run(
+        [sys.executable, "-m", "ruff", "format", "--stdin-filename", str(OPTIONS), "-"],
+        input=text, capture_output=True, text=True, check=True,
+    ).stdout  # fmt: skip
+
+
 def columns():
     return table(["column", ""], [[f"`{name}`", about] for name, about in COLUMNS.items()])
 
@@ -258,7 +319,7 @@ def rule(explanation):
 
 README = ROOT / "README.md"
 PAGES = {
-    README: [controllers, robots, plants, disturbances, null, brushes, looks, columns],
+    README: [controllers, robots, plants, disturbances, null, brushes, looks, options, columns],
     ROOT / "trajectories/README.md": [messages, statements, parts, values],
     ROOT / "trajectories/MESSAGES.md": [rules],
 }
@@ -290,6 +351,7 @@ def cases():
 
 if __name__ == "__main__":
     CASES.write_text(cases(), "utf-8")
+    OPTIONS.write_text(keyword_types(), "utf-8")
     for tables in (PAGES, SLOW_TABLES):
         for page in tables:
             page.write_text(renewed(page, tables), "utf-8")

@@ -7,6 +7,7 @@ from typing import Any
 
 from dqpaint.core import Registry
 from dqpaint.errors import UsageError
+from dqpaint.settings import SETTINGS
 from dqpaint.studies.experiment.cells import Cell
 from dqpaint.studies.replay.claims import Numbers
 from dqpaint.studies.replay.papers import Paper
@@ -30,18 +31,19 @@ class MeasureRequest:
     jobs: Workers = None
     settings: Mapping[str, Any] = field(default_factory=dict)
 
-    def nothing_of(self, paper: Paper, *names: str) -> None:
-        """Refuse settings that a replay has no use for; and runs and workers, for it has no study.
+    def nothing_but(self, paper: Paper, *names: str) -> None:
+        """Refuse all settings but some; and runs and workers, for such a replay has no study.
 
         Raises:
             UsageError: one of them was given.
         """
-        given = set(self.settings) & set(names)
+        given = set(self.settings) - set(names)
         given |= {"runs"} if self.runs is not None else set()
         given |= {"cluster" if isinstance(self.jobs, str) else "jobs"} if self.jobs else set()
-        for name in ("runs", "jobs", "cluster", *names):
+        for name in ("runs", "jobs", "cluster", *self.settings):
             if name in given:
-                raise UsageError(f"replay '{paper.name}' takes no --{name}: {paper.title}")
+                option = SETTINGS[name].name if name in SETTINGS else name
+                raise UsageError(f"replay '{paper.name}' takes no --{option}: {paper.title}")
 
 
 @dataclass(frozen=True)

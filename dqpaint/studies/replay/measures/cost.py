@@ -235,7 +235,7 @@ def drifts() -> dict[str, float]:
 @MEASURES.add("cost")
 def cost(paper: Paper, asked: MeasureRequest) -> MeasureResult:
     """Storage and operations, counted; time and drift, measured."""
-    asked.nothing_of(paper, "plant", "robot", "disturb", "seed")
+    asked.nothing_but(paper)
     numbers: dict[str, dict[str, Spread]] = {}
     for name, (storage, compose, sizes) in COMPOSE.items():
         tally = counted(compose, sizes)

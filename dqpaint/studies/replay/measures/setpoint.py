@@ -32,7 +32,7 @@ SETTLED = 0.02  # of the step
 @MEASURES.add("setpoint")
 def setpoint(paper: Paper, asked: MeasureRequest) -> MeasureResult:
     """Both poses, and the way between them by each law."""
-    asked.nothing_of(paper, "plant", "robot", "disturb", "seed")
+    asked.nothing_but(paper)
     card = read_card(ROBOT).model_copy(
         update={"tool": Mount()}
     )  # the paper's poses are its flange's

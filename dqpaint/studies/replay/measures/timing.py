@@ -66,7 +66,7 @@ def paced(clock: Clock) -> PlantMaker:
 @MEASURES.add("timing")
 def timing(paper: Paper, asked: MeasureRequest) -> MeasureResult:
     """Each law for a while at each period, in real time."""
-    asked.nothing_of(paper, "plant", "disturb", "seed")
+    asked.nothing_but(paper, "robot")
     clocks = {}
     with terminal.Progress(paper.name) as progress:
         for i, cell in enumerate(paper.cells):

@@ -1,0 +1,39 @@
+"""Command -> the groups of settings that it takes, on the command line and in Python alike."""
+
+from dqpaint.settings.model import (
+    GROUPS,
+    ArmSettings,
+    CameraSettings,
+    ColourSettings,
+    DisturbanceSettings,
+    DrawingSettings,
+    FilmSettings,
+    GhostSettings,
+    Group,
+    LawSettings,
+    LightSettings,
+    MotionSettings,
+    OcclusionSettings,
+)
+
+OF_RUN: tuple[type[Group], ...] = (
+    LawSettings, DisturbanceSettings, ArmSettings, MotionSettings, DrawingSettings,
+)  # fmt: skip
+
+COMMANDS: dict[str, tuple[type[Group], ...]] = {
+    "draw": GROUPS,
+    "preview": (
+        ArmSettings, DrawingSettings, LightSettings, ColourSettings, CameraSettings, FilmSettings,
+        GhostSettings,
+    ),
+    "develop": (CameraSettings, FilmSettings, GhostSettings, OcclusionSettings),
+    "check": (
+        ArmSettings, MotionSettings, DrawingSettings, LightSettings, CameraSettings, GhostSettings,
+        OcclusionSettings,
+    ),
+    "export": OF_RUN,
+    "compare": GROUPS,
+    "sweep": GROUPS,
+    "tune": OF_RUN,
+    "replay": (DisturbanceSettings, ArmSettings, MotionSettings, DrawingSettings),
+}  # fmt: skip

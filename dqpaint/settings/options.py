@@ -1,0 +1,132 @@
+"""Groups of `model` -> keywords in Python, as type checkers and editors see them.
+
+`python -m tests.tools.generated` writes it again.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from os import PathLike
+from typing import Any, Literal, TypedDict
+
+
+class LawOptions(TypedDict, total=False):
+    """What drives the arm."""
+
+    controller: str | PathLike[str] | Callable[..., Any] | None
+    gains: Mapping[str, float | Sequence[float] | str] | Sequence[str] | str | None
+    recorded: str | PathLike[str] | None
+
+
+class DisturbanceOptions(TypedDict, total=False):
+    """What no law knows of."""
+
+    disturb: Mapping[str, Mapping[str, float | str] | float | str] | Sequence[str] | str | None
+    seed: int | None
+
+
+class ArmOptions(TypedDict, total=False):
+    """Which arm holds the light, and where."""
+
+    robot: str | PathLike[str] | None
+    tool: str | None
+
+
+class MotionOptions(TypedDict, total=False):
+    """How an arm follows a drawing, whatever its law."""
+
+    place: Literal["auto"] | None
+    plant: str | None
+    start: Literal["first", "home"] | None
+    null: str | None
+    on_limit: Literal["clip", "slow", "stop"] | None
+
+
+class DrawingOptions(TypedDict, total=False):
+    """How large a drawing may be."""
+
+    max_samples: int | None
+
+
+class LightOptions(TypedDict, total=False):
+    """What shines."""
+
+    brush: str | None
+    pwm: float | None
+
+
+class ColourOptions(TypedDict, total=False):
+    """What the colours mean."""
+
+    colour_by: str | None
+
+
+class DeviationOptions(TypedDict, total=False):
+    """How far the run is from the reference, to be seen."""
+
+    overlay: bool | None
+    magnify: float | None
+
+
+class CameraOptions(TypedDict, total=False):
+    """From where, how large and how long a picture is taken."""
+
+    size: tuple[int, int] | str | None
+    view: str | None
+    exposure: str | None
+
+
+class FilmOptions(TypedDict, total=False):
+    """How the film is developed."""
+
+    ev: float | None
+    look: str | None
+    starburst: int | None
+    noise: int | None
+
+
+class GhostOptions(TypedDict, total=False):
+    """The arm in the picture."""
+
+    ghost: bool | Literal["motion"] | None
+
+
+class OcclusionOptions(TypedDict, total=False):
+    """The arm before the light."""
+
+    occlusion: bool | None
+
+
+class DrawOptions(
+    LawOptions,
+    DisturbanceOptions,
+    ArmOptions,
+    MotionOptions,
+    DrawingOptions,
+    LightOptions,
+    ColourOptions,
+    DeviationOptions,
+    CameraOptions,
+    FilmOptions,
+    GhostOptions,
+    OcclusionOptions,
+):
+    """Of `draw`."""
+
+
+class PreviewOptions(
+    ArmOptions,
+    DrawingOptions,
+    LightOptions,
+    ColourOptions,
+    CameraOptions,
+    FilmOptions,
+    GhostOptions,
+):
+    """Of `preview`."""
+
+
+class DevelopOptions(CameraOptions, FilmOptions, GhostOptions, OcclusionOptions):
+    """Of `develop`."""
+
+
+class RunOptions(LawOptions, DisturbanceOptions, ArmOptions, MotionOptions, DrawingOptions):
+    """Of a run without pictures."""

@@ -1,0 +1,116 @@
+"""What a person gives for a setting, text or value -> the value that `Settings` holds.
+
+The command line gives texts, Python and settings files may give mappings and numbers as well: each
+reader takes them all.
+"""
+
+import os
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from dqpaint.core import number_or_text, read_choice
+from dqpaint.errors import UsageError
+
+DISTURBANCE = "twist=sine,x=0.02,frequency=2"
+SEVERAL = re.compile(r",(?=\s*\w+\s*=)")  # between the gains of one text
+
+Gain = float | tuple[float, ...] | str
+
+
+def read_path(value: object) -> object:
+    """The text of a path; anything else as it is."""
+    return os.fspath(value) if isinstance(value, os.PathLike) else value
+
+
+def read_size(value: object) -> tuple[Any, ...]:
+    """Width and height [px] from `1280x720` or a pair.
+
+    Raises:
+        UsageError: anything else.
+    """
+    if isinstance(value, Sequence) and not isinstance(value, str) and len(value) == 2:
+        return tuple(value)
+    found = re.fullmatch(r"(\d{1,6})x(\d{1,6})", value) if isinstance(value, str) else None
+    if found is None:
+        said = value[:40] if isinstance(value, str) else value
+        raise UsageError(f"size {said!r} is not WIDTHxHEIGHT in pixels, for example 1280x720")
+    return int(found[1]), int(found[2])
+
+
+def read_gains(value: object) -> dict[str, Any]:
+    """Gains by their names, from a mapping or from texts like `k=20`.
+
+    Raises:
+        UsageError: anything else.
+    """
+    if isinstance(value, Mapping):
+        for name, gain in value.items():
+            if isinstance(gain, bool):
+                raise UsageError(f"gain '{name}' should be a number, not {str(gain).lower()}")
+        return {n: tuple(gain) if isinstance(gain, list) else gain for n, gain in value.items()}
+    return parse_gains(_texts("gain", value, "k=20"))
+
+
+def read_disturbances(value: object) -> dict[str, Any]:
+    """Disturbances by their names, from a mapping or from texts like `twist=sine,x=0.02`.
+
+    Raises:
+        UsageError: anything else.
+    """
+    if not isinstance(value, Mapping):
+        return parse_disturbances(_texts("disturb", value, DISTURBANCE))
+    found: dict[str, Any] = {}
+    for name, values in value.items():
+        found |= (
+            {name: dict(values)}
+            if isinstance(values, Mapping)
+            else parse_disturbances([f"{name}={values}"])
+        )
+    return found
+
+
+def _texts(name: str, value: object, example: str) -> list[str]:
+    if isinstance(value, str):
+        return [value]
+    if isinstance(value, Sequence) and all(isinstance(text, str) for text in value):
+        return list(value)
+    raise UsageError(f"{name} {value!r} gives no names with values, for example {example}")
+
+
+def parse_gains(texts: Sequence[str]) -> dict[str, float | str]:
+    """Gains by their names from texts like `k=20`; other forms than a number the law reads.
+
+    Raises:
+        UsageError: anything else, or a gain given twice.
+    """
+    gains: dict[str, float | str] = {}
+    for text in (part for several in texts for part in SEVERAL.split(several)):
+        name, sign, value = (part.strip() for part in text.partition("="))
+        if not (name and sign and value):
+            raise UsageError(
+                f"gain '{text}' is not NAME=VALUE, for example k=20, or k=5..20@10% for a ramp"
+            )
+        if name in gains:
+            raise UsageError(f"gain '{name}' is given twice")
+        gains[name] = number_or_text(value)
+    return gains
+
+
+def parse_disturbances(texts: Sequence[str]) -> dict[str, dict[str, float | str]]:
+    """Disturbances by their names from texts like `twist=sine,x=0.02` or `twist:form=sine,x=0.02`.
+
+    A value without a name has the name "".
+
+    Raises:
+        UsageError: anything else, or a disturbance or value given twice.
+    """
+    found: dict[str, dict[str, float | str]] = {}
+    for text in texts:
+        name, values = read_choice("disturbance", text, DISTURBANCE)
+        if not values:
+            raise UsageError(f"disturbance '{text}' is not NAME=VALUE, for example {DISTURBANCE}")
+        if name in found:
+            raise UsageError(f"disturbance '{name}' is given twice")
+        found[name] = values
+    return found

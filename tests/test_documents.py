@@ -39,6 +39,11 @@ def test_generated_tables_are_current(page):
     assert generated.renewed(page) == page.read_text("utf-8"), "python -m tests.tools.generated"
 
 
+def test_generated_keywords_are_current():
+    made = generated.keyword_types()
+    assert generated.OPTIONS.read_text("utf-8") == made, "python -m tests.tools.generated"
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(("page", "table"), [
     (page, table) for page, tables in generated.SLOW_TABLES.items() for table in tables

@@ -14,7 +14,6 @@ import pytest
 import dqpaint
 from dqpaint.errors import UsageError
 from dqpaint.settings import COMMANDS, SETTINGS, Settings, make_settings, options, settings_of
-from tests.tools import generated
 
 PACKAGE = Path(dqpaint.__file__).parent
 LINE = "period 20 ms\nstart at (0, 0) mm\nline to (30, 10) mm in 400 ms\n"
@@ -30,8 +29,6 @@ def test_every_field_can_be_said_once():
 
 
 def test_keywords_of_type_checkers_are_those_of_the_model():
-    """A new setting is written there by: python -m tests.tools.generated."""
-    assert generated.OPTIONS.read_text("utf-8") == generated.keyword_types()
     for name in ("draw", "preview", "develop"):
         typed = get_type_hints(getattr(options, f"{name.title()}Options"))
         of_command = {setting.keyword for setting in settings_of(*COMMANDS[name])}

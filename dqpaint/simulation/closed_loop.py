@@ -1,4 +1,4 @@
-"""Motion x robot x plant x law -> Track: what the arm did."""
+"""Reference motion, arm, law and plant -> the Track of a closed-loop simulation."""
 
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
@@ -33,8 +33,8 @@ from dqpaint.simulation.sensors import (
     DelayLine,
     Measurement,
     Sensors,
-    chance,
-    delay,
+    random_numbers,
+    total_delay,
 )
 from dqpaint.simulation.stop_on_limit import limit_error, meets_limit
 
@@ -46,11 +46,11 @@ BLOCK = 512  # rows whose Jacobians are kept
 class Track:
     """A run, one row a control step; the arrays are read-only.
 
-    A row is a time t_k, what was asked at t_k (in `motion`), where the arm and its light truly were
-    at t_k, what the law was told of it, and the command then given.
+    A row is a time t_k, the reference at t_k (in `motion`), the true state of the arm and its light
+    at t_k, what was measured of it, and the command then given.
 
     Attributes:
-        motion: what was asked.
+        motion: the reference.
         posture: true joint angles (N, n) [rad].
         pose: true tool poses (N, 8) in the base frame, signs continuous.
         read: joint angles (N, n) [rad] as the encoders read them.
@@ -126,25 +126,25 @@ def track(
     Raises:
         UsageError: a disturbance that does not go with the period or the arm, an unknown `null`.
         ScriptError: a limit was met, and `stop`.
-        DqpaintError: the simulation left the numbers, or a law of one's own has a fault.
+        DqpaintError: the simulation diverged, or a law of one's own has a fault.
     """
-    senses = Sensors(kinematics, motion.t, motion.period, disturbances, seed)
-    carried = _carried(motion, disturbances, [seed])
+    sensors = Sensors(kinematics, motion.t, motion.period, disturbances, seed)
+    drift = _drift(motion, disturbances, [seed])
     log = _Log(len(motion.t), (), kinematics.card.joints)
-    see_limits = partial(log.see_limits, kinematics.card, motion, controller.drives_torque)
+    stop_at_limit = partial(log.stop_at_limit, kinematics.card, motion, controller.drives_torque)
 
     def at_row(k: int) -> None:
         if stop:
-            see_limits(k)
+            stop_at_limit(k)
         if k % REPORT_EVERY == 0:
             progress(k / len(motion.t))
 
-    _follow(
-        motion, senses, start, make_plant, controller, gains, disturbances, null, log,
-        None if carried is None else carried[:, 0], at_row,
+    _simulate(
+        motion, sensors, start, make_plant, controller, gains, disturbances, null, log,
+        None if drift is None else drift[:, 0], at_row,
     )  # fmt: skip
     if not log.finite.all():
-        raise _lost(float(motion.t[-1]))
+        raise _diverged(float(motion.t[-1]))
     return _finished(log, motion, kinematics.card, controller.drives_torque)
 
 
@@ -178,18 +178,18 @@ def track_many(
         progress: called now and then with the part done, 0 to 1.
 
     Returns:
-        A track a seed; None for one that left the numbers.
+        A track a seed; None for one that diverged.
 
     Raises:
         ValueError: the law takes one arm at a time.
     """
     if not controller.batched:
         raise ValueError(f"law '{controller.name}' takes one arm at a time")
-    senses = BatchedSensors(kinematics, motion.t, motion.period, disturbances, seeds)
+    sensors = BatchedSensors(kinematics, motion.t, motion.period, disturbances, seeds)
     log = _Log(len(motion.t), (len(seeds),), kinematics.card.joints)
-    _follow(
-        motion, senses, np.tile(start, (len(seeds), 1)), make_plant, controller, gains,
-        disturbances, null, log, _carried(motion, disturbances, seeds),
+    _simulate(
+        motion, sensors, np.tile(start, (len(seeds), 1)), make_plant, controller, gains,
+        disturbances, null, log, _drift(motion, disturbances, seeds),
         lambda k: progress(k / len(motion.t)) if k % REPORT_EVERY == 0 else None,
     )  # fmt: skip
     return [
@@ -198,9 +198,9 @@ def track_many(
     ]
 
 
-def _follow(
+def _simulate(
     motion: Motion,
-    senses: Sensors,
+    sensors: Sensors,
     start: Floats,
     make_plant: PlantMaker | ConfiguredPlant,
     controller: Controller[Any],
@@ -208,44 +208,44 @@ def _follow(
     disturbances: Mapping[str, Disturbance],
     null: str,
     log: "_Log",
-    carried: Floats | None,
+    drift: Floats | None,
     at_row: Callable[[int], None],
 ) -> None:
-    """The loop itself, for one arm (n,) or for many (B, n); what comes of it is in `log`."""
-    n, card = len(motion.t), senses.believed.card
-    arm = Arm(senses.believed)
+    """The control loop, of one arm (n,) or of many (B, n); it fills `log`."""
+    n, card = len(motion.t), sensors.model.card
+    arm = Arm(sensors.model)
     law = controller.start(arm, motion, gains)
     wish = make_wish(null, card, start)
-    drive = make_drive(controller, law, senses.believed, wish, motion.period)
-    late = DelayLine(delay(disturbances), drive.hold(start))
+    drive = make_drive(controller, law, sensors.model, wish, motion.period)
+    late = DelayLine(total_delay(disturbances), drive.hold(start))
     parts = motion.clock / motion.clock[-1] if n > 1 else motion.clock
-    plant = make_plant(card, start, motion.period, senses.world)
+    plant = make_plant(card, start, motion.period, sensors.world)
     asked = zip(
         motion.pose, motion.twist, motion.acceleration, motion.t.tolist(), gains.over(parts),
         strict=True,
     )  # fmt: skip
     try:
         for k, (pose_d, twist_d, acceleration_d, t, now) in enumerate(asked):
-            told = senses.tell(k, plant)
-            q, rates, x, J = told
+            measured = sensors.measure(k, plant)
+            q, rates, x, J = measured
             seen = Seen(
                 x, pose_d, twist_d, acceleration_d, J, q, t, motion.period, rates, k, arm.limits,
                 motion,
             )  # fmt: skip
-            wanted = drive.ask(seen, now)
-            given = drive.within(wanted, q)
-            log.keep(k, plant, told, senses.truth(plant, told), wanted, given)
+            wanted = drive.command(seen, now)
+            given = drive.clip(wanted, q)
+            log.record(k, plant, measured, sensors.truth(plant, measured), wanted, given)
             at_row(k)
             if k < n - 1:
-                plant.run(late(given), log.drift(k, carried))
-    except np.linalg.LinAlgError:  # a posture that is no number any more has no singular values
-        raise _lost(t) from None
+                plant.run(late(given), log.drift_rates(k, drift))
+    except np.linalg.LinAlgError:  # a posture that is not finite has no singular values
+        raise _diverged(t) from None
     finally:
         plant.close()
 
 
 class _Log:
-    """What a run leaves, row by row; what `shape` (B,) runs leave, if there are several."""
+    """The arrays of a run, filled row by row; of `shape` (B,) runs, if there are several."""
 
     def __init__(self, n: int, shape: tuple[int, ...], joints: int) -> None:
         of_joints = (n, *shape, joints)
@@ -258,36 +258,36 @@ class _Log:
 
     @property
     def finite(self) -> NDArray[np.bool_]:
-        """Whether all postures and commands of a run are numbers, for each of several."""
+        """Whether all postures and commands are finite, for each of several runs."""
         found = np.isfinite(self.posture).all(axis=(0, -1))
         return np.asarray(found & np.isfinite(self.command).all(axis=(0, -1)))
 
     def one(self, i: int) -> Self:
-        """Of several runs the i-th alone."""
+        """The i-th of several runs."""
         other = copy(self)
         for name, array in vars(self).items():
             setattr(other, name, np.ascontiguousarray(array[:, i]))
         return other
 
-    def keep(
+    def record(
         self,
         k: int,
         plant: Plant,
-        told: Measurement,
+        measured: Measurement,
         truth: tuple[Floats, Floats],
         wanted: Floats,
         given: Floats,
     ) -> None:
-        """Note row k; manipulabilities are worked out a block at a time, which costs less."""
+        """Record row k; manipulabilities are computed a block at a time, which costs less."""
         self.posture[k], self.effort[k] = plant.posture, plant.effort
-        self.read[k], self.believed[k] = told.posture, told.pose
+        self.read[k], self.believed[k] = measured.posture, measured.pose
         self.pose[k], self._jacobian[k % BLOCK] = truth
         self.wanted[k], self.command[k] = wanted, given
         if k % BLOCK == BLOCK - 1 or k == len(self.pose) - 1:
             first = k - k % BLOCK
             self.manipulability[first : k + 1] = manipulability(self._jacobian[: k + 1 - first])
 
-    def see_limits(self, card: Card, motion: Motion, torques: bool, k: int) -> None:
+    def stop_at_limit(self, card: Card, motion: Motion, torques: bool, k: int) -> None:
         """End the run where row k, or the period before it, met a limit.
 
         Raises:
@@ -306,16 +306,16 @@ class _Log:
             self.effort[rows], torques, motion.period,
         )  # fmt: skip
 
-    def drift(self, k: int, carried: Floats | None) -> Floats | None:
+    def drift_rates(self, k: int, drift: Floats | None) -> Floats | None:
         """The joint rates (n,) of an unmodelled velocity (N, 6) of the tool at row k."""
-        if carried is None:
+        if drift is None:
             return None
         point, J = dq.translation(self.pose[k]), self._jacobian[k % BLOCK]
-        self.disturbance[k] = dq.twist_from_point(carried[k, ..., :3], carried[k, ..., 3:], point)
+        self.disturbance[k] = dq.twist_from_point(drift[k, ..., :3], drift[k, ..., 3:], point)
         return resolve(J, point, self.disturbance[k], None)
 
 
-def _carried(
+def _drift(
     motion: Motion, disturbances: Mapping[str, Disturbance], seeds: Sequence[int]
 ) -> Floats | None:
     """Unmodelled velocities (N, B, 6) of the tool; each disturbance has its own random numbers."""
@@ -323,7 +323,7 @@ def _carried(
         return None
     found = np.stack([
         sum(
-            one.twist(motion.t, motion.period, chance(seed, name))
+            one.twist(motion.t, motion.period, random_numbers(seed, name))
             for name, one in disturbances.items()
         )
         for seed in seeds
@@ -342,8 +342,8 @@ def _finished(log: _Log, motion: Motion, card: Card, torques: bool) -> Track:
     )  # fmt: skip
 
 
-def _lost(time: float) -> UnstableError:
+def _diverged(time: float) -> UnstableError:
     return UnstableError(
-        f"the run left the numbers before {time:.3f} s: the loop is unstable; "
+        f"the simulation diverged before {time:.3f} s: the loop is unstable; "
         "lower the gains or shorten the period"
     )

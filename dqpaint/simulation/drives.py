@@ -21,16 +21,16 @@ STILL = np.zeros(6)  # the twist of a tool that stays
 
 
 class Drive(Protocol):
-    """Turns what a law sees into a command."""
+    """A law's answer, converted into a command of a plant."""
 
-    def ask(self, seen: Seen, gains: Any) -> Floats:
-        """What the law wants: joint rates (n,) [rad/s] or torques (n,) [Nm]."""
+    def command(self, seen: Seen, gains: Any) -> Floats:
+        """Joint rates (n,) [rad/s] or torques (n,) [Nm], before any limit."""
 
     def hold(self, posture: Floats) -> Floats:
         """The command that holds the arm still in a posture (n,) [rad]."""
 
-    def within(self, wanted: Floats, posture: Floats) -> Floats:
-        """What of it the limits allow in a posture (n,) [rad]."""
+    def clip(self, wanted: Floats, posture: Floats) -> Floats:
+        """The same within the limits, in a posture (n,) [rad]."""
 
 
 def make_drive(
@@ -46,7 +46,7 @@ def make_drive(
         controller: the law's own.
         law: of this run, as `controller.start` gave it.
         kinematics: of the arm, as the law's model has it.
-        wish: what a redundant arm does with its freedom.
+        wish: the secondary task in the null space of a redundant arm.
         period: of the control [s].
     """
     if controller.drives_torque:
@@ -57,8 +57,8 @@ def make_drive(
 class RateDrive:
     """For laws that command a twist or joint rates.
 
-    q_dot = J^+ u + (I - J^+ J) z with z the wish. Joint rates pass as they are, but for those of a
-    law that leaves the null space free: they gain (I - J^+ J) z.
+    q_dot = J^+ u + (I - J^+ J) z, with z the secondary task. Joint rates pass unchanged, but
+    (I - J^+ J) z is added to those of a law that leaves the null space free.
     """
 
     def __init__(
@@ -75,22 +75,22 @@ class RateDrive:
         self._wish = wish
         self._bounds = Bounds(kinematics.card, period)
 
-    def ask(self, seen: Seen, gains: Any) -> Floats:
+    def command(self, seen: Seen, gains: Any) -> Floats:
         """Joint rates (n,) [rad/s]."""
-        said: Floats = self._law(seen, gains)
+        answer: Floats = self._law(seen, gains)
         if not (self._resolved or self._leaves_null):
-            return said
+            return answer
         point = dq.translation(seen.pose)
         wish = self._wish(seen.posture, seen.jacobian, point)
         if self._resolved:
-            return resolve(seen.jacobian, point, said, wish)
-        return said + resolve(seen.jacobian, point, STILL, wish)
+            return resolve(seen.jacobian, point, answer, wish)
+        return answer + resolve(seen.jacobian, point, STILL, wish)
 
     def hold(self, posture: Floats) -> Floats:
         """No rates (n,)."""
         return np.zeros_like(posture)
 
-    def within(self, wanted: Floats, posture: Floats) -> Floats:
+    def clip(self, wanted: Floats, posture: Floats) -> Floats:
         """Within the speed limits, and ending within the position limits."""
         return self._bounds.clip(wanted, posture)
 
@@ -119,7 +119,7 @@ class TorqueDrive:
         self._dynamics = Dynamics(kinematics)
         self._effort = kinematics.card.effort
 
-    def ask(self, seen: Seen, gains: Any) -> Floats:
+    def command(self, seen: Seen, gains: Any) -> Floats:
         """Joint torques (n,) [Nm]."""
         q, rates = seen.posture, seen.rates
         if not self._resolved:
@@ -133,9 +133,9 @@ class TorqueDrive:
         return self._dynamics.torque(q, rates, bend, self._period)
 
     def hold(self, posture: Floats) -> Floats:
-        """What the arm weighs (n,) [Nm], by the law's model."""
-        return self.within(self._dynamics.weight(posture), posture)
+        """The gravity torques (n,) [Nm] of the law's model."""
+        return self.clip(self._dynamics.weight(posture), posture)
 
-    def within(self, wanted: Floats, posture: Floats) -> Floats:
+    def clip(self, wanted: Floats, posture: Floats) -> Floats:
         """Within the motors' torques."""
         return np.asarray(np.clip(wanted, -self._effort, self._effort))

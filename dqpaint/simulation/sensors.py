@@ -1,4 +1,4 @@
-"""What is true of the arm, and what the law is told of it."""
+"""The true state of a plant -> what is measured of it, and where the light truly is."""
 
 from collections import deque
 from collections.abc import Mapping, Sequence
@@ -18,7 +18,10 @@ Disturbances = Mapping[str, Disturbance]
 
 
 class Measurement(NamedTuple):
-    """What the law is told: encoder angles (n,) [rad], rates (n,) [rad/s], pose (8,), J (6, n)."""
+    """What is measured: encoder angles (n,) [rad], rates (n,) [rad/s], pose (8,), J (6, n).
+
+    Pose and Jacobian are those of the law's model at the measured angles.
+    """
 
     posture: Floats
     rates: Floats
@@ -31,39 +34,44 @@ class ModelsDifferError(ValueError):
 
 
 class Sensors:
-    """Tells a law of the arm: by the encoders' readings and the model it believes in.
+    """Encoders, and the law's model of the arm.
 
     Attributes:
-        world: what the arm truly is under.
-        believed: the law's model.
-        honest: whether all that is told is true.
+        world: what disturbs the arm itself.
+        model: the law's.
+        exact: whether every measurement is true.
     """
 
     def __init__(
-        self, kinematics: Kinematics, t: Floats, period: float, given: Disturbances, seed: int
+        self,
+        kinematics: Kinematics,
+        t: Floats,
+        period: float,
+        disturbances: Disturbances,
+        seed: int,
     ) -> None:
-        self.world, self.believed = UNDISTURBED, kinematics
+        self.world, self.model = UNDISTURBED, kinematics
         self._period = period
         self._encoders: list[Encoder] = []
-        for name, one in given.items():
+        for name, one in disturbances.items():
             one.check(t)
             self.world = one.world(self.world)
-            self.believed = one.belief(self.believed, chance(seed, name))
-            encoder = one.encoder(len(t), kinematics.card.joints, chance(seed, name))
+            self.model = one.belief(self.model, random_numbers(seed, name))
+            encoder = one.encoder(len(t), kinematics.card.joints, random_numbers(seed, name))
             if encoder is not None:
                 self._encoders.append(encoder)
         self._error = np.zeros(kinematics.card.joints)
-        self.honest = not self._encoders and self.believed is kinematics
-        self._model, self._true = self.believed, kinematics
+        self.exact = not self._encoders and self.model is kinematics
+        self._true = kinematics
 
-    def tell(self, row: int, plant: Plant) -> Measurement:
-        """What the law is told at a row.
+    def measure(self, row: int, plant: Plant) -> Measurement:
+        """The measurement at a row.
 
-        Speeds are differences of readings: their error is the change of the angles' error in a
+        Rates are differences of readings: their error is the change of the angles' error in a
         period.
         """
         angles, rates = self._read(row, plant)
-        return Measurement(angles, rates, *self._model.pose_and_jacobian(angles))
+        return Measurement(angles, rates, *self.model.pose_and_jacobian(angles))
 
     def _read(self, row: int, plant: Plant) -> tuple[Floats, Floats]:
         angles, rates = plant.encoder, plant.encoder_rates
@@ -76,11 +84,11 @@ class Sensors:
             angles, rates = read, rates + (error - before) / self._period
         return angles, rates
 
-    def truth(self, plant: Plant, told: Measurement) -> tuple[Floats, Floats]:
-        """The light's true pose (8,) and Jacobian (6, n), in the frame the law takes for base."""
+    def truth(self, plant: Plant, measured: Measurement) -> tuple[Floats, Floats]:
+        """The light's true pose (8,) and Jacobian (6, n), in the law's own base frame."""
         displaced = self.world.displaced
-        if self.honest and not displaced and told.posture is plant.posture:
-            return told.pose, told.jacobian
+        if self.exact and not displaced and measured.posture is plant.posture:
+            return measured.pose, measured.jacobian
         x, J = self._truth(plant)
         if displaced:
             base = self.world.base
@@ -92,7 +100,7 @@ class Sensors:
 
 
 class BatchedSensors(Sensors):
-    """The same of many arms at once, which differ in their random numbers alone; arrays (B, ...).
+    """The same for many arms at once that differ only in their random numbers; arrays (B, ...).
 
     Raises:
         ModelsDifferError: their models differ, too.
@@ -103,29 +111,29 @@ class BatchedSensors(Sensors):
         kinematics: Kinematics,
         t: Floats,
         period: float,
-        given: Disturbances,
+        disturbances: Disturbances,
         seeds: Sequence[int],
     ) -> None:
-        each = [Sensors(kinematics, t, period, given, seed) for seed in seeds]
-        if any(one.believed is not kinematics for one in each):
+        each = [Sensors(kinematics, t, period, disturbances, seed) for seed in seeds]
+        if any(one.model is not kinematics for one in each):
             raise ModelsDifferError("the law's models of the arms differ")
         self.world, self._period = each[0].world, period
-        self.believed = kinematics
+        self.model = kinematics
         self._arms = ManyKinematics(kinematics)
         self._encoders = [
             Encoder(np.stack([one.errors for one in alike], axis=1), alike[0].step)
             for alike in zip(*(one._encoders for one in each), strict=True)
         ]
         self._error = np.zeros((len(each), kinematics.card.joints))
-        self.honest = not self._encoders
+        self.exact = not self._encoders
 
     @override
-    def tell(self, row: int, plant: Plant) -> Measurement:
+    def measure(self, row: int, plant: Plant) -> Measurement:
         angles, rates = self._read(row, plant)
         if angles is plant.posture:
             self._found = self._arms.pose_and_jacobian(angles)
             return Measurement(angles, rates, *self._found)
-        # what is read and what is true at once: that costs little more than one of them
+        # measured and true angles in one call cost little more than one of them
         x, J = self._arms.pose_and_jacobian(np.concatenate([angles, plant.posture]))
         count = len(angles)
         self._found = x[count:], J[count:]
@@ -137,7 +145,7 @@ class BatchedSensors(Sensors):
 
 
 class DelayLine:
-    """Passes commands on some periods late; before the first one comes what holds the arm."""
+    """Delays commands by some periods; until the first one arrives the arm is held still."""
 
     def __init__(self, delay: int, hold: Floats) -> None:
         self._waiting = deque([hold] * delay)
@@ -148,11 +156,11 @@ class DelayLine:
         return self._waiting.popleft()
 
 
-def chance(seed: int, name: str) -> "np.random.Generator":
-    """The random numbers of one disturbance: its own, whatever else disturbs."""
+def random_numbers(seed: int, name: str) -> "np.random.Generator":
+    """The random numbers of one disturbance: the same whatever other disturbances there are."""
     return np.random.default_rng([seed, crc32(name.encode())])
 
 
-def delay(given: Disturbances) -> int:
-    """How many periods late commands come in all."""
-    return sum(one.delay for one in given.values())
+def total_delay(disturbances: Disturbances) -> int:
+    """How many periods late commands arrive."""
+    return sum(one.delay for one in disturbances.values())

@@ -1,4 +1,4 @@
-"""`--on-limit stop`: the first limit that is met ends the run, and is named."""
+"""The first limit that a run meets -> the error that ends it, with `--on-limit stop`."""
 
 import numpy as np
 

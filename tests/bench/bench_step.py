@@ -47,7 +47,7 @@ def ours(kinematics, poses, twists):
 
     def step(k, q):
         x, J = kinematics.pose_and_jacobian(q)
-        return drive.ask(Seen(x, poses[k], twists[k], still, J, q, 0.0, 0.008, rates), gains)
+        return drive.command(Seen(x, poses[k], twists[k], still, J, q, 0.0, 0.008, rates), gains)
 
     return step
 

@@ -69,10 +69,10 @@ def test_commands_are_finite_everywhere(name, robot, rng):
         for x_d in (x, -x, dq.mul(dq.exp(half_turn / 2), x), *random_poses(rng, 3)):
             seen = seen_by(arm, q, x_d, rng)
             assert np.isfinite(said(seen, gains)).all()
-            wanted = drive.ask(seen, gains)
+            wanted = drive.command(seen, gains)
             assert wanted.shape == q.shape
             assert np.isfinite(wanted).all()
-            assert np.isfinite(drive.within(wanted, q)).all()
+            assert np.isfinite(drive.clip(wanted, q)).all()
 
 
 @LAWS
@@ -96,7 +96,7 @@ def test_every_law_converges_on_a_set_point(name, robot, rng):
         x, J = arm.pose_and_jacobian(q)
         zero = np.zeros(6)
         seen = Seen(x, -goal, zero, zero, J, q, 0.0, period, plant.rates)
-        plant.run(drive.ask(seen, gains))
+        plant.run(drive.command(seen, gains))
     reached = arm.pose(plant.posture)
     plant.close()
     assert np.abs(dq.log(dq.mul(reached, dq.conj(goal)))).max() < 2e-6

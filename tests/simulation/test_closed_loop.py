@@ -18,7 +18,7 @@ from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.kinematics.start_posture import find_start, waypoints
 from dqpaint.robots.model.card import read_card
 from dqpaint.simulation.closed_loop import track
-from dqpaint.simulation.sensors import chance
+from dqpaint.simulation.sensors import random_numbers
 
 CARD = read_card("iiwa")
 ARM = Kinematics(CARD)
@@ -240,7 +240,7 @@ def test_a_law_that_leaves_the_numbers_is_an_error():
 
     broken = replace(CONTROLLERS["hinf"], law=lambda _seen, _gains: np.full(6, np.inf))
     for text in (CIRCLE, "period 8 ms\nhold 80 ms\n", "period 8 ms\nhold 8 ms\n"):
-        with np.errstate(all="ignore"), pytest.raises(DqpaintError, match="left the numbers"):
+        with np.errstate(all="ignore"), pytest.raises(DqpaintError, match="diverged before"):
             track(asked(text), ARM, CARD.home, PLANTS["ideal"], broken, broken.read_gains({}))
 
 
@@ -260,8 +260,8 @@ def test_random_numbers_differ_with_the_seed_and_with_the_disturbance():
     noise = {"": "noise", "x": 0.01, "frequency": 3.0}
     one, other = (disturbed({"twist": noise}, seed).disturbance for seed in (1, 2))
     assert np.abs(one - other).max() > 1e-3
-    assert not (chance(1, "twist").random(8) == chance(1, "noise").random(8)).any()
-    assert not (chance(1, "twist").random(8) == chance(2, "twist").random(8)).any()
+    assert not (random_numbers(1, "twist").random(8) == random_numbers(1, "noise").random(8)).any()
+    assert not (random_numbers(1, "twist").random(8) == random_numbers(2, "twist").random(8)).any()
 
 
 def test_the_disturbance_of_a_row_is_that_of_its_time():

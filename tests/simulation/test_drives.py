@@ -38,7 +38,7 @@ def test_the_tool_accelerates_as_the_law_says(name, rng):
     )
     gains, h = CONTROLLERS[name].read_gains({}).first, 1e-6
     for seen in states(rng, 50, size=0.5):
-        q_ddot = bend(seen.posture, seen.rates, drive.ask(seen, gains))
+        q_ddot = bend(seen.posture, seen.rates, drive.command(seen, gains))
         later, earlier = (ARM.pose_and_jacobian(seen.posture + s * seen.rates)[1] for s in (h, -h))
         got = seen.jacobian @ q_ddot + (later - earlier) / (2 * h) @ seen.rates
         wanted = law(name)(seen)
@@ -63,7 +63,7 @@ def test_what_is_free_in_a_redundant_arm_is_damped(name, rng):
     gains = CONTROLLERS[name].read_gains({}).first
     for seen in states(rng, 20):
         null = np.linalg.svd(seen.jacobian)[2][-1]
-        q_ddot = bend(seen.posture, seen.rates, drive.ask(seen, gains))
+        q_ddot = bend(seen.posture, seen.rates, drive.command(seen, gains))
         wanted = null @ (4.0 * (start - seen.posture) - 4.0 * seen.rates)
         assert null @ q_ddot == pytest.approx(wanted, abs=1e-6 * np.abs(q_ddot).max())
 
@@ -77,13 +77,13 @@ def test_a_swinging_elbow_comes_to_rest_while_the_tool_stays(name):
         CONTROLLERS[name], started(CONTROLLERS[name]), ARM, back_to(ARM.card.home), period
     )
     plant = PLANTS["torque"](ARM.card, ARM.card.home, period)
-    plant.run(drive.within(400.0 * null, ARM.card.home))  # a knock along the self-motion
+    plant.run(drive.clip(400.0 * null, ARM.card.home))  # a knock along the self-motion
     swing, away = [], []
     for _ in range(800):
         seen = seen_by(ARM, plant.posture, goal)._replace(rates=plant.rates)
         swing.append(np.abs(plant.rates).max())
         away.append(np.abs(plant.posture - ARM.card.home).max())
-        plant.run(drive.ask(seen, gains))
+        plant.run(drive.command(seen, gains))
     plant.close()
     assert max(away) > 0.1
     assert swing[-1] < 0.02 * max(swing)
@@ -112,7 +112,7 @@ def test_an_own_torque_law_holds_by_the_bias_and_is_not_resolved(rng):
     drive = make_drive(chosen, started(chosen), ARM, lambda *_: np.zeros(7), 0.005)
     for seen in states(rng, 10):
         q, rates = seen.posture, seen.rates
-        torque = drive.ask(seen, chosen.read_gains({}).first)
+        torque = drive.command(seen, chosen.read_gains({}).first)
         np.testing.assert_allclose(bend(q, rates, torque), 0, atol=1e-8)
         data = ARM.model.createData()
         still = pinocchio.rnea(ARM.model, data, q, rates, np.zeros(7))
@@ -131,7 +131,7 @@ def test_torques_stay_within_the_motors():
     effort = ARM.card.effort
     wanted = np.array([9.0, -9.0, 0.5, -0.5, 2.0, -2.0, 0.0]) * effort
     np.testing.assert_allclose(
-        drive.within(wanted, ARM.card.home), np.array([1, -1, 0.5, -0.5, 1, -1, 0]) * effort
+        drive.clip(wanted, ARM.card.home), np.array([1, -1, 0.5, -0.5, 1, -1, 0]) * effort
     )
 
 

@@ -1,4 +1,4 @@
-"""Gains over a drawing: any gain of any law is a number, or changes on the way.
+"""Texts of gains -> their values over a drawing: constant, or changing on the way.
 
     20                     a number
     1,1,1,4,4,4            a diagonal, where the law takes one

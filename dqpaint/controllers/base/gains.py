@@ -1,4 +1,4 @@
-"""The gains of a law: a checked model with units, the same for every law."""
+"""Named numbers -> the checked gains of a law, with their units."""
 
 from typing import Annotated, ClassVar, TypeVar
 

@@ -1,4 +1,4 @@
-"""The errors of the papers between a measured and a desired pose, always the short way round.
+"""Measured and desired pose -> the errors of the papers, always the short way round.
 
 x and -x are one pose: the desired one is taken on the side of the measured one before an error is
 formed, or the arm might turn the long way. The sign is decided by the error itself, never by the

@@ -1,4 +1,4 @@
-"""The Riccati equations of the LQR laws, solved backwards by a method that cannot blow up.
+"""Weights and dynamics -> the Riccati solutions of the LQR laws, backwards and always stable.
 
 P_dot = -P A - A'P + P W P - Q and g_dot = -A'g + P W g - P c, with W = R^-1, belong to a linear
 flow of the error e and its costate p = P e + g:

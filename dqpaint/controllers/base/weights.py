@@ -1,4 +1,4 @@
-"""The weights of the LQR laws, and their values within the intervals of a drawing."""
+"""Weights of the LQR laws -> their diagonals within the intervals of a drawing."""
 
 from typing import ClassVar, TypeVar
 

@@ -140,6 +140,36 @@ def _brushes() -> list[dict[str, Any]]:
     ]
 
 
+def _columns() -> list[dict[str, Any]]:
+    from dqpaint.metrics import METRICS, all_columns
+
+    return [
+        {
+            "name": one.headers,
+            "about": one.meaning,
+            "unit": one.unit,
+            "colour_by": one.colour_by,
+            **_package(METRICS, one.name),
+        }
+        for one in all_columns()
+    ]
+
+
+def _figures() -> list[dict[str, Any]]:
+    from dqpaint.metrics import METRICS, all_figures
+
+    return [
+        {
+            "name": name,
+            "about": f"{one.title}: {one.meaning}",
+            "unit": one.unit,
+            "kind": one.kind,
+            **_package(METRICS, name),
+        }
+        for name, one in all_figures().items()
+    ]
+
+
 def _looks() -> list[dict[str, Any]]:
     from dqpaint.light.film import LOOKS
     from dqpaint.settings import Settings
@@ -210,6 +240,8 @@ LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {
     "null": _null,
     "brushes": _brushes,
     "looks": _looks,
+    "columns": _columns,
+    "figures": _figures,
     "fonts": _fonts,
     "formats": _formats,
     "examples": _examples,
@@ -237,6 +269,7 @@ def faults(what: str) -> list[str]:
     from dqpaint.controllers import CONTROLLERS
     from dqpaint.disturbances import DISTURBANCES
     from dqpaint.light.sources import BRUSHES
+    from dqpaint.metrics import METRICS
     from dqpaint.outputs import WRITERS
     from dqpaint.plants import PLANTS
     from dqpaint.robots.loading import CARD_FOLDERS
@@ -244,9 +277,10 @@ def faults(what: str) -> list[str]:
     registries: dict[str, Registry[Any]] = {
         "robots": CARD_FOLDERS, "controllers": CONTROLLERS, "plants": PLANTS,
         "disturbances": DISTURBANCES, "brushes": BRUSHES, "formats": WRITERS,
+        "columns": METRICS, "figures": METRICS,
     }  # fmt: skip
     asked = registries if what == "all" else {what} & registries.keys()
-    return [fault for name in asked for fault in registries[name].faults]
+    return list(dict.fromkeys(fault for name in asked for fault in registries[name].faults))
 
 
 def text(found: dict[str, list[dict[str, Any]]]) -> str:

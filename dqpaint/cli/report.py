@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from dqpaint.cli.terminal import table
 from dqpaint.diagnostics import SourceLine, line_named
 from dqpaint.language import render
+from dqpaint.metrics import all_figures
 from dqpaint.motion import Motion, summary_line
 from dqpaint.painting import paint, picture
 from dqpaint.robots.kinematics import Clamp
@@ -32,9 +33,9 @@ def of_painting(painting: paint.Painting, written: Sequence[Path]) -> str:
         ("arm", f"{painting.robot}, {painting.plant}"),
         ("controller", f"{painting.controller.name}  {gains}".rstrip()),
         *_disturbed(painting),
-        ("position error", _spread(figures, "position_error", "m", 1e3, "mm")),
+        ("position error", _spread(figures, "position_error", "m")),
         ("", f"largest at {_worst(painting)}"),
-        ("orientation error", _spread(figures, "orientation_error", "rad", math.degrees(1), "deg")),
+        ("orientation error", _spread(figures, "orientation_error", "rad")),
         *_commanded(figures),
         *_came_through(painting),
         *_steps(painting),
@@ -105,10 +106,11 @@ def _steps(painting: paint.Painting) -> list[tuple[str, str]]:
 
 def _commanded(figures: dict[str, float]) -> list[tuple[str, str]]:
     """What the joints were given in all, where they are known."""
-    for name, unit in (("torque_integral_Nm_s", "Nm s"), ("command_integral_rad", "rad")):
-        if name in figures:
-            return [("commanded", f"{figures[name]:.3g} {unit} in all joints together")]
-    return []
+    return [
+        ("commanded", f"{figures[name]:.3g} {known.shown} in all joints together")
+        for name, known in all_figures().items()
+        if known.title == "command" and name in figures
+    ]
 
 
 def _gain(value: float | tuple[float, ...] | str) -> str:
@@ -247,10 +249,11 @@ def _limits_line(painting: paint.Painting) -> str:
     return f"{', '.join(parts)}{more} reached: there the arm could not follow"
 
 
-def _spread(figures: dict[str, float], name: str, unit: str, scale: float, shown: str) -> str:
-    rms, most = (figures[f"{name}_{kind}_{unit}"] * scale for kind in ("rms", "max"))
+def _spread(figures: dict[str, float], name: str, unit: str) -> str:
+    known = all_figures()[f"{name}_rms_{unit}"]
+    rms, most = (figures[f"{name}_{kind}_{unit}"] * known.scale for kind in ("rms", "max"))
     rms, most = (0.0 if value < NOTHING else value for value in (rms, most))
-    return f"rms {rms:.3g} {shown}, largest {most:.3g} {shown}"
+    return f"rms {rms:.3g} {known.shown}, largest {most:.3g} {known.shown}"
 
 
 def _worst(painting: paint.Painting) -> str:

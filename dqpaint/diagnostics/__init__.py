@@ -24,6 +24,7 @@ from dqpaint.diagnostics.diagnostic import (
     place,
     problem,
     render,
+    text_of_line,
 )
 from dqpaint.diagnostics.did_you_mean import closest, did_you_mean, listed
 
@@ -50,5 +51,6 @@ __all__ = [
     "place",
     "problem",
     "render",
+    "text_of_line",
     "url",
 ]

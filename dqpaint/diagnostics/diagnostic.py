@@ -138,6 +138,13 @@ def line_named(text: str, at: SourceLine) -> str:
     return f"{name}:{at.line}"
 
 
+def text_of_line(text: str, at: SourceLine) -> str:
+    """What stands on a line of a drawing."""
+    included = text.included if isinstance(text, Source) else ()
+    begin = included[at.file - 1][0] if at.file else 0
+    return text[begin:].split("\n", at.line)[at.line - 1]
+
+
 def render(diagnostic: Diagnostic, name: str, text: str) -> str:
     """The message as a person reads it in a terminal, with the line it speaks of and a caret."""
     head = f"{diagnostic.severity}[{diagnostic.code}]: {diagnostic.message}"

@@ -1,20 +1,51 @@
-"""A run -> columns of the table and figures of the summary."""
+"""A run -> columns of the table and figures of the summary.
 
+A new metric is a function in `columns` under `@column`, or in `figures` under `@figure`, with its
+name, unit, title and meaning: tables, summaries, studies, colours and pages then have it. Other
+packages bring theirs by entry points of the group `dqpaint.metrics`.
+"""
+
+from dqpaint.metrics import columns, figures  # noqa: F401  the order of table and summary
 from dqpaint.metrics.attenuation import Attenuation, attenuation
-from dqpaint.metrics.run_metrics import Metrics, Table, asked_columns, measure, motion_columns
+from dqpaint.metrics.registry import (
+    METRICS,
+    Column,
+    Figure,
+    Metric,
+    Table,
+    Values,
+    all_columns,
+    all_figures,
+    column,
+    figure,
+    motion_column,
+    suffix,
+)
+from dqpaint.metrics.run_metrics import Metrics, asked_columns, measure, motion_columns
 from dqpaint.metrics.stability import instability
 from dqpaint.metrics.step_response import Response, SetPoint, set_points
 
 __all__ = [
+    "METRICS",
     "Attenuation",
+    "Column",
+    "Figure",
+    "Metric",
     "Metrics",
     "Response",
     "SetPoint",
     "Table",
+    "Values",
+    "all_columns",
+    "all_figures",
     "asked_columns",
     "attenuation",
+    "column",
+    "figure",
     "instability",
     "measure",
+    "motion_column",
     "motion_columns",
     "set_points",
+    "suffix",
 ]

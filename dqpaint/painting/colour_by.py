@@ -1,43 +1,19 @@
-"""Light that tells: the colour of the light says a figure of the run; errors are magnified.
+"""A column of a run -> colours of its light with a legend; and deviations drawn magnified.
 
 In such a picture every millimetre is equally bright, so that nothing but the colour tells.
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.core import Registry
+from dqpaint.diagnostics import SourceLine, text_of_line
 from dqpaint.dq import Floats
-from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.errors import DqpaintError, UnknownNameError, UsageError
 from dqpaint.light.images import Legend, amounts, colour_amounts, colour_kinds
-from dqpaint.metrics import Table, asked_columns
+from dqpaint.metrics import Column, Table, all_columns
 from dqpaint.motion import Motion
-
-
-class ColourBy(NamedTuple):
-    """A figure that colours can show: its column, its title, from SI to what is shown."""
-
-    column: str
-    title: str
-    unit: str
-    scale: float
-    from_zero: bool
-
-
-TELLINGS: Registry[ColourBy] = Registry("colour-by")
-for _name, _telling in {
-    "position-error": ColourBy("position_error_m", "position error", "mm", 1e3, True),
-    "orientation-error": ColourBy(
-        "orientation_error_rad", "orientation error", "°", math.degrees(1.0), True
-    ),
-    "speed": ColourBy("speed_m_s", "speed", "mm/s", 1e3, True),
-    "manipulability": ColourBy("manipulability", "manipulability", "", 1.0, False),
-    "line": ColourBy("line", "line of the drawing", "", 1.0, False),
-}.items():
-    TELLINGS.add(_name)(_telling)
 
 MOST = 98.0
 """Percentile of the lit values that gets the last colour: a peak does not hide the rest."""
@@ -46,69 +22,81 @@ LEAST, GREATEST = 1e-6, 1e6
 NICE = (1.0, 2.0, 2.5, 5.0, 10.0)
 
 
-def read_telling(text: str) -> tuple[str, float | None]:
-    """A figure's name, and the end of its scale in the unit that is shown, of `position-error:20`.
+def colour_columns() -> dict[str, Column]:
+    """The columns that a light can be coloured by, by the names they have there."""
+    return {one.colour_by: one for one in all_columns() if one.colour_by is not None}
+
+
+def read_colour_by(text: str) -> tuple[str, float | None]:
+    """A column's name, and the end of its scale in the unit that is shown, of `position-error:20`.
 
     Raises:
-        UsageError: an unknown figure, or an end that is none.
+        UsageError: an unknown column, or an end that is none.
     """
     name, colon, end = text.partition(":")
-    unit = TELLINGS[name].unit
+    known = colour_columns()
+    if name not in known:
+        raise UnknownNameError("colour-by", name, list(known))
     if not colon:
         return name, None
-    known = [name for name, telling in TELLINGS.items() if telling.from_zero]
+    unit, scaled = _unit(known[name]), [name for name, one in known.items() if one.from_zero]
     try:
         high = float(end)
     except ValueError:
         high = math.nan
-    if name not in known or not LEAST <= high <= GREATEST:
+    if name not in scaled or not LEAST <= high <= GREATEST:
         raise UsageError(
             f"colour by '{text[:40]}': what follows the colon is the end of its scale"
-            f"{f' in {unit}' if unit else ''}, for {', '.join(known)}, as in position-error:20"
+            f"{f' in {unit}' if unit else ''}, for {', '.join(scaled)}, as in position-error:20"
         )
     return name, high
 
 
 def colours_of(motion: Motion, table: Table, by: str) -> tuple[Floats, Legend]:
-    """The colour (N, 3) of each row by a figure of the run, dark where it is dark, and the legend.
+    """The colour (N, 3) of each row by a column of the run, dark where it is dark, and the legend.
 
     Raises:
-        UsageError: an unknown figure, or one that only an arm has.
+        UsageError: an unknown column, or one that this run has not.
     """
-    by, end = read_telling(by)
-    telling = TELLINGS[by]
-    if telling.column not in table:
-        known = ", ".join(name for name, t in TELLINGS.items() if t.column in table)
+    by, end = read_colour_by(by)
+    column = colour_columns()[by]
+    if column.name not in table:
+        known = ", ".join(name for name, one in colour_columns().items() if one.name in table)
         raise UsageError(f"colour by {by} needs an arm: use draw; without one: {known}")
-    values = table[telling.column] * telling.scale
     lit = motion.lit
     if by == "line":
-        lines = np.unique(values[lit])
-        colours = colour_kinds(len(lines))
-        shown = colours[np.searchsorted(lines, values).clip(0, len(lines) - 1)]
-        labels = tuple(_labelled(motion, int(line)) for line in lines)
-        legend = Legend(telling.title, labels, _tuples(colours), amounts=False)
+        shown, legend = _by_line(motion, column.title)
     else:
-        low, high = limits(values[lit], telling.from_zero) if end is None else (0.0, end)
+        values = table[column.name] * column.scale
+        low, high = limits(values[lit], column.from_zero) if end is None else (0.0, end)
         shown = colour_amounts((values - low) / (high - low))
-        title = telling.title + (f" [{telling.unit}]" if telling.unit else "")
+        title = column.title + (f" [{_unit(column)}]" if column.shown else "")
         more = "≥ " if values[lit].max() > high * (1.0 + 1e-9) else ""
         labels = (f"{low:g}", f"{more}{high:g}")
         legend = Legend(title, labels, _tuples(amounts()), amounts=True)
     return np.where(lit[:, None], shown, 0.0), legend
 
 
-def asked_table(motion: Motion) -> Table:
-    """The columns that a motion has without an arm."""
-    speed = np.zeros(len(motion.t))
-    speed[:-1] = np.sqrt((np.diff(motion.points, axis=0) ** 2).sum(axis=1)) / motion.period
-    return {**asked_columns(motion), "speed_m_s": speed}
+def _by_line(motion: Motion, title: str) -> tuple[Floats, Legend]:
+    """A colour (N, 3) for each line of the drawing that shines."""
+    lines = motion.source[motion.lit].present
+    colours = colour_kinds(len(lines))
+    place = {line: i for i, line in enumerate(lines)}
+    kinds = np.array([place.get(line, 0) for line in motion.source.lines])  # others are dark
+    labels = tuple(_labelled(motion, line) for line in lines)
+    return colours[kinds[motion.source.index]], Legend(
+        title, labels, _tuples(colours), amounts=False
+    )
 
 
-def _labelled(motion: Motion, line: int) -> str:
-    words = motion.program.text.splitlines()[line - 1].split("#")[0].split()
-    text = " ".join(words)
-    return f"{line}  {text if len(text) <= 28 else text[:27] + '…'}"
+def _unit(column: Column) -> str:
+    return column.shown.replace("deg", "°")
+
+
+def _labelled(motion: Motion, line: SourceLine) -> str:
+    program = motion.program
+    text = " ".join(text_of_line(program.text, line).split("#")[0].split())
+    return f"{program.where(line)}  {text if len(text) <= 28 else text[:27] + '…'}"
 
 
 def _tuples(colours: Floats) -> tuple[tuple[float, float, float], ...]:

@@ -11,7 +11,16 @@ from dqpaint.controllers import Controller, Schedule, find_controller
 from dqpaint.disturbances import Disturbance, make_disturbances
 from dqpaint.dq import Floats
 from dqpaint.light.film import Film
-from dqpaint.metrics import Attenuation, Metrics, SetPoint, Table, attenuation, measure, set_points
+from dqpaint.metrics import (
+    METRICS,
+    Attenuation,
+    Metrics,
+    SetPoint,
+    Table,
+    attenuation,
+    measure,
+    set_points,
+)
 from dqpaint.motion import Motion, plan
 from dqpaint.painting.picture import Picture, PictureSet, photograph
 from dqpaint.painting.scene import Scene, arrange, check_choices
@@ -187,6 +196,7 @@ def finish(ready: PreparedRun, run: Track) -> Painting:
     notes = ready.kinematics.notes + (recording.notes(motion) if recording else ())
     with clock("metrics"):
         metrics = measure(run)
+        notes += tuple(METRICS.faults)
         came_through = attenuation(run, ready.gains.promise())
         steps = set_points(run)
     robot = settings.robot or ready.program.robot or DEFAULT_ROBOT

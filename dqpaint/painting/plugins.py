@@ -6,6 +6,7 @@ from dqpaint.controllers import CONTROLLERS
 from dqpaint.core import Registry
 from dqpaint.disturbances import DISTURBANCES
 from dqpaint.light.sources import BRUSHES
+from dqpaint.metrics import METRICS
 from dqpaint.plants import PLANTS
 from dqpaint.program import Program
 from dqpaint.robots.loading import plugin_cards
@@ -26,6 +27,9 @@ def plugins_of(settings: Settings, program: Program) -> dict[str, str]:
         name = (text or "").partition(":")[0].strip()
         if name and not name.endswith(".py") and (package := registry.origin(name)):
             found[f"{registry.kind} {name}"] = package
+    for name in METRICS:
+        if package := METRICS.origin(name):
+            found[f"metric {name}"] = package
     robot = settings.robot or program.robot
     if robot and robot not in card_names() and robot in (brought := plugin_cards()):
         found[f"robot {robot}"] = brought[robot][1]

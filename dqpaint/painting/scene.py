@@ -15,9 +15,9 @@ from dqpaint.light.camera import parse_exposure, parse_views
 from dqpaint.light.film import BLADES, CORE, LOOKS
 from dqpaint.light.images import RIDGE, Legend
 from dqpaint.light.sources import Emitters, Sweep, evened, read_brush, sweeps
-from dqpaint.metrics import Table
+from dqpaint.metrics import Table, asked_columns
 from dqpaint.motion import Motion
-from dqpaint.painting.colour_by import asked_table, colours_of, magnified, read_telling
+from dqpaint.painting.colour_by import colours_of, magnified, read_colour_by
 from dqpaint.settings import Settings
 
 SETTLING = 0.25  # [s] in which a jump of the set point counts as drawn
@@ -75,7 +75,7 @@ def check_choices(settings: Settings) -> None:
                 f"exposure '{settings.exposure}'"
             )
     if settings.colour_by is not None:
-        read_telling(settings.colour_by)
+        read_colour_by(settings.colour_by)
 
 
 def arrange(motion: Motion, pose: Floats, settings: Settings, table: Table | None = None) -> Scene:
@@ -97,7 +97,7 @@ def arrange(motion: Motion, pose: Floats, settings: Settings, table: Table | Non
     colours, legend, dimmer = motion.light, None, 1.0
     metered = colours
     if settings.colour_by is not None:
-        columns = asked_table(motion) if table is None else table
+        columns = asked_columns(motion) if table is None else table
         colours, legend = colours_of(motion, columns, settings.colour_by)
         dimmer = RIDGE / CORE
         metered = np.where(motion.lit[:, None], np.ones(3), 0.0)  # as bright as the legend's strip

@@ -11,7 +11,15 @@ over everything that is built in. A new kind of plugin brings its check here.
 from dqpaint.testing.brushes import check_brush
 from dqpaint.testing.controllers import check_controller
 from dqpaint.testing.disturbances import check_disturbance
+from dqpaint.testing.metrics import check_metric
 from dqpaint.testing.plants import check_plant
 from dqpaint.testing.writers import check_writer
 
-__all__ = ["check_brush", "check_controller", "check_disturbance", "check_plant", "check_writer"]
+__all__ = [
+    "check_brush",
+    "check_controller",
+    "check_disturbance",
+    "check_metric",
+    "check_plant",
+    "check_writer",
+]

@@ -6,7 +6,7 @@ import dqpaint
 from dqpaint.cli import listing, report
 from dqpaint.diagnostics import SourceLine
 from dqpaint.language import read
-from dqpaint.metrics.run_metrics import asked_columns
+from dqpaint.metrics import asked_columns
 from dqpaint.motion import plan
 from dqpaint.outputs.summary import summarise
 from dqpaint.robots.model.card import read_card

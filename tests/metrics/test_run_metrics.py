@@ -6,7 +6,7 @@ import pytest
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.language import parse
-from dqpaint.metrics.run_metrics import measure, motion_columns
+from dqpaint.metrics import measure, motion_columns
 from dqpaint.motion import plan
 from dqpaint.plants import PLANTS
 from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability

@@ -10,8 +10,9 @@ from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.language import parse
 from dqpaint.light.camera.views import parse_views
 from dqpaint.light.film.film import expose
+from dqpaint.metrics import asked_columns
 from dqpaint.motion import plan
-from dqpaint.painting.colour_by import TELLINGS, asked_table, common_delay, limits, magnified
+from dqpaint.painting.colour_by import colour_columns, common_delay, limits, magnified
 from dqpaint.painting.picture import photograph, place_camera, take
 from dqpaint.painting.preview import sketch
 from dqpaint.painting.scene import arrange, check_choices
@@ -105,9 +106,9 @@ def test_colours_tell_and_every_millimetre_is_equally_bright(by):
     assert lightness[50] == pytest.approx(lightness[150], rel=0.5)
 
 
-@pytest.mark.parametrize("by", [n for n in TELLINGS if n not in ("speed", "line")])
+@pytest.mark.parametrize("by", [n for n in colour_columns() if n not in ("speed", "line")])
 def test_what_only_an_arm_has_is_refused_without_one(by):
-    with pytest.raises(UsageError, match=f"colour by {by} needs an arm: use draw; .*: speed, line"):
+    with pytest.raises(UsageError, match=f"colour by {by} needs an arm: use draw; .*: line, speed"):
         sketch(program(), make_settings(colour_by=by, **SMALL))
 
 
@@ -116,12 +117,12 @@ def test_what_only_an_arm_has_is_refused_without_one(by):
     ({"look": "velvia"}, "no look named 'velvia'; known: film, aces, agx, clip"),
     ({"brush": "broom"}, "no brush named 'broom'"),
     ({"exposure": "f8"}, "is no part of one"),
-    ({"colour_by": "mood:3"}, "no colour-by named 'mood'; known: position-error"),
+    ({"colour_by": "mood:3"}, "no colour-by named 'mood'; known: line, position-error"),
     ({"colour_by": "position-error:"}, "is the end of its scale in mm"),
     ({"colour_by": "position-error:-1"}, "for position-error, orientation-error, speed"),
     ({"colour_by": "speed:nan"}, "is the end of its scale in mm/s"),
     ({"colour_by": "line:3"}, "is the end of its scale"),
-    ({"colour_by": "mood"}, "no colour-by named 'mood'; known: position-error, orientation-error"),
+    ({"colour_by": "mood"}, "no colour-by named 'mood'; known: line, position-error"),
 ])  # fmt: skip
 def test_slips_are_told_first(choice, says):
     with pytest.raises(UsageError, match=says):
@@ -211,7 +212,7 @@ def test_several_views_are_of_one_scene_and_a_series_has_one_exposure():
 
 def test_speed_of_a_motion_is_what_was_asked():
     motion = motion_of(text="period 10 ms\nprofile constant\nline by (80, 0) mm in 2 s\n")
-    np.testing.assert_allclose(asked_table(motion)["speed_m_s"][:-1], 0.04, rtol=1e-9)
+    np.testing.assert_allclose(asked_columns(motion)["speed_m_s"][:-1], 0.04, rtol=1e-9)
 
 
 def test_a_dark_drawing_is_refused():

@@ -5,7 +5,7 @@ import pytest
 
 import dqpaint
 from dqpaint.errors import UsageError
-from dqpaint.studies.experiment.cells import KNOWN
+from dqpaint.metrics import all_figures
 from tests.support import guarded
 
 LINE = "period 10 ms\nspeed 60 mm/s\nstart at (0, 0) mm\nline to (40, 20) mm\n"
@@ -75,7 +75,7 @@ def test_a_figure_that_is_none_is_refused_before_the_first_run(tmp_path):
 def test_every_figure_of_a_run_may_be_asked_for(tmp_path, law, plant):
     (tmp_path / "line.traj").write_text(LINE)
     run = dqpaint.draw(tmp_path / "line.traj", controller=law, plant=plant, size=(16, 16))
-    assert set(run.metrics.figures) <= set(KNOWN)
+    assert set(run.metrics.figures) <= set(all_figures())
 
 
 def test_slips_are_told():

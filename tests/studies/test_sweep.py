@@ -13,12 +13,13 @@ from dqpaint.light.images.contact_sheet import hues
 from dqpaint.settings.model import make_settings
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.axes import parse_axis, parse_laws
-from dqpaint.studies.experiment.cells import SHOWN, Cell
+from dqpaint.studies.experiment.cells import Cell, listed_figures
 from dqpaint.studies.kinds import compare, sweep
 from dqpaint.studies.report.charts import ALARM
 from dqpaint.studies.runner.run import Result
 
 LINE = "period 10 ms\nspeed 60 mm/s\nstart at (0, 0) mm\nline to (40, 20) mm\n"
+ERROR = listed_figures("error")[0]
 NOISE = {"twist": {"form": "noise", "x": 0.02, "y": 0.02, "frequency": 5.0}}
 
 
@@ -66,7 +67,7 @@ def test_a_comparison_s_table_is_what_numpy_says_of_draws(line, tmp_path):
             assert float(row[f"{name}_mean"]) == pytest.approx(np.mean(values), rel=1e-9)
             assert float(row[f"{name}_std"]) == pytest.approx(np.std(values, ddof=1), rel=1e-9)
         means.append(np.mean([one["error_integral"] for one in figures]))
-    tests = compare.differences(made.cells, SHOWN[0])
+    tests = compare.differences(made.cells, ERROR)
     assert tests[1][:3] == ["pff", "p", f"{means[0] / means[1]:.3g}"]
     assert tests[1][-1] == "yes"
     assert "Welch" in paths["line-table.md"].read_text()
@@ -145,12 +146,12 @@ def made_up(*values, status="done", why=""):
 
 def test_cells_take_figures_from_runs_that_came_to_their_end():
     mixed = Cell({"k": "5"}, made_up(1.0, 3.0) + made_up(9.0, status="unstable", why="it rings"))
-    assert mixed.of(SHOWN[0]).mean == 2.0
+    assert mixed.of(ERROR).mean == 2.0
     assert mixed.status == "2 done, 1 unstable"
     assert mixed.why == "it rings"
     assert not mixed.stable
     alone = Cell({"k": "9"}, made_up(9.0, status="unstable", why="it rings"))
-    assert alone.of(SHOWN[0]).mean == 9.0
+    assert alone.of(ERROR).mean == 9.0
     lost = Cell({"k": "10"}, (Result("x", "failed", "too far\nand more"),))
     assert cells.rows([mixed, alone, lost])[1:] == [
         ["5", "2 ± 1.4", *["-"] * 7, "3", "2 done, 1 unstable"],
@@ -162,7 +163,7 @@ def test_cells_take_figures_from_runs_that_came_to_their_end():
     assert lines[1].startswith('5,3,2,"2 done, 1 unstable",it rings,2.0,1.41421356237')
     assert lines[3] == "10,1,0,failed,too far,,"
     made = sweep.Sweep("a.traj", (parse_axis("k=5,9,10"),), (mixed, alone, lost), Path())
-    assert sweep.curves(made, SHOWN[0])[0].lines[0].marks.tolist() == [True, True, True]
+    assert sweep.curves(made, ERROR)[0].lines[0].marks.tolist() == [True, True, True]
     with pytest.raises(DqpaintError, match="every run failed; the first: too far"):
         sweep.told(sweep.Sweep("a.traj", made.axes, (lost,), Path()), "error_integral", 80)
 
@@ -197,13 +198,13 @@ def swept(*cells_of, axes):
 
 def test_a_curve_names_its_axes_and_joins_no_names():
     found = [Cell({"k": k}, made_up(v)) for k, v in (("20", 1.0), ("5", 3.0))]
-    (panel, _) = sweep.curves(swept(*found, axes=["k=20,5"]), SHOWN[0])
+    (panel, _) = sweep.curves(swept(*found, axes=["k=20,5"]), ERROR)
     assert (panel.title, panel.x_label) == ("error integral over k", "k [1/s]")
     assert panel.lines[0].x.tolist() == [5.0, 20.0]
     assert panel.lines[0].y.tolist() == [3.0, 1.0]
     assert panel.lines[0].width > 0
     found = [Cell({"plant": name}, made_up(1.0)) for name in ("ideal", "stiff")]
     made = swept(*found, axes=["plant=ideal,stiff"])
-    assert sweep.curves(made, SHOWN[0])[0].lines[0].width == 0
+    assert sweep.curves(made, ERROR)[0].lines[0].width == 0
     assert sweep.meanings(made) == []
     assert sweep.meanings(swept(*found, axes=["k=1,2"]))[0].startswith("k: 1/s, the rate")

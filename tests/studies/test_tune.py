@@ -164,12 +164,13 @@ def test_what_is_told_of_made_up_results(tmp_path):
         figures = {"error_integral": error, "command_integral_rad": effort}
         return Cell({"k": str(k)}, (Result(str(k), status, "why", figures),))
 
-    from dqpaint.studies.experiment.cells import SHOWN
+    from dqpaint.studies.experiment.cells import listed_figures
     from dqpaint.studies.kinds.tune import Tuning
 
+    (error, *_), (command, *_) = listed_figures("error"), listed_figures("cost")
     tried = (cell(1, 9.0, 2.0), cell(5, 4.0, 3.0), cell(6, 5.0, 3.5), cell(8, 2.0, 4.5),
              cell(9, 0.1, 3.0, "unstable"))  # fmt: skip
-    made = Tuning("a.traj", base(), (read_range("k=1..5"),), tried, tried[2], SHOWN[0], SHOWN[4],
+    made = Tuning("a.traj", base(), (read_range("k=1..5"),), tried, tried[2], error, command,
                   2.0, 2.0, False, tmp_path)  # fmt: skip
     assert made.best is tried[1]  # the unstable one does not count
     assert made.front == [tried[0], tried[1], tried[3]]

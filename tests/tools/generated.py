@@ -13,26 +13,6 @@ ROOT = Path(__file__).parents[2]
 CASES = ROOT / "tests/references/cases.toml"
 CASE_SIZE = {"width": 400, "height": 225}  # all of them stay below 3.5 MB
 
-COLUMNS = {
-    "t_s": "time",
-    "line": "the line of the drawing that asks for what follows",
-    "file": "which file `line` is of, where the drawing includes others: 0 is the main one",
-    "lit": "1 while the light shines until the next row",
-    "desired_x_m, desired_y_m, desired_z_m": "asked place",
-    "desired_qw, desired_qx, desired_qy, desired_qz": "asked orientation, scalar first",
-    "x_m, y_m, z_m": "place of the light, the true one",
-    "qw, qx, qy, qz": "true orientation",
-    "position_error_m": "distance from the asked place",
-    "orientation_error_rad": "angle from the asked orientation",
-    "invariant_error": "norm of 1 - x* x_d",
-    "speed_m_s": "of the light, until the next row",
-    "acceleration_m_s2": "of the light",
-    "effort_rad": "how far the joints move until the next row",
-    "manipulability": "square root of det(J J')",
-    "q1_rad ...": "joint angles, the true ones",
-    "command1_rad_s ...": "joint rates the arm is given",
-}
-
 
 def table(heads, rows):
     lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
@@ -289,7 +269,17 @@ def _formatted(text):
 
 
 def columns():
-    return table(["column", ""], [[f"`{name}`", about] for name, about in COLUMNS.items()])
+    from dqpaint.metrics import all_columns
+
+    rows = [[f"`{one.headers}`", one.meaning] for one in all_columns() if not one.extra]
+    return table(["column", ""], rows)
+
+
+def figures():
+    from dqpaint.metrics import all_figures
+
+    rows = [[f"`{name}`", one.heading, one.meaning] for name, one in all_figures().items()]
+    return table(["figure", "in tables", ""], rows)
 
 
 def messages():
@@ -319,7 +309,9 @@ def rule(explanation):
 
 README = ROOT / "README.md"
 PAGES = {
-    README: [controllers, robots, plants, disturbances, null, brushes, looks, options, columns],
+    README: [
+        controllers, robots, plants, disturbances, null, brushes, looks, options, columns, figures,
+    ],  # fmt: skip
     ROOT / "trajectories/README.md": [messages, statements, parts, values],
     ROOT / "trajectories/MESSAGES.md": [rules],
 }

@@ -8,12 +8,13 @@ from csv import writer
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from dqpaint import metrics
 from dqpaint.errors import UsageError
 from dqpaint.studies.experiment.statistics import Spread, spread
 from dqpaint.studies.runner.run import Result
 
 
-class Figure(NamedTuple):
+class TableFigure(NamedTuple):
     """A figure as tables show it: its names in a summary, a heading, and a scale to its unit."""
 
     names: tuple[str, ...]
@@ -21,32 +22,44 @@ class Figure(NamedTuple):
     scale: float = 1.0
 
 
-DEGREES = math.degrees(1.0)
-SHOWN = (
-    Figure(("error_integral",), "error integral"),
-    Figure(("position_error_rms_m",), "position rms [mm]", 1e3),
-    Figure(("position_error_max_m",), "position largest [mm]", 1e3),
-    Figure(("orientation_error_rms_rad",), "orientation rms [deg]", DEGREES),
-    Figure(("command_integral_rad", "torque_integral_Nm_s"), "command"),
-    Figure(("effort_integral",), "effort [rad s]"),
-    Figure(("speed_integral_m",), "way [m]"),
-    Figure(("acceleration_integral",), "acceleration integral [m/s]"),
-)
-ERRORS = SHOWN[:4]
-UNITS = {"command_integral_rad": "rad", "torque_integral_Nm_s": "Nm s"}  # of what a law commands
-MEANING = """The first four are errors, of which less is better; the others are what it costs.
-error integral: of the invariant error, the norm of 1 - x* x_d, over time
-position, orientation: how far, and by which angle, the light is from what is asked at the time
-command: the norm of what the joints are told, over time
-effort: how far the joints move in a step, over time
-way: how far the light goes
-acceleration integral: of the light, over time"""
-KNOWN = (
-    "error_integral", "command_integral_rad", "torque_integral_Nm_s", "effort_integral",
-    "speed_integral_m", "acceleration_integral", "position_error_rms_m", "position_error_std_m",
-    "position_error_max_m", "orientation_error_rms_rad", "orientation_error_std_rad",
-    "orientation_error_max_rad",
-)  # fmt: skip
+KINDS = {"error": "Errors, of which less is better:", "cost": "What it costs:"}
+
+
+def listed_figures(*kinds: str) -> tuple[TableFigure, ...]:
+    """The figures of some kinds, or all, that tables show; those of one title are one of them."""
+    by_title: dict[str, list[metrics.Figure]] = {}
+    for kind in kinds or KINDS:
+        for one in _listed(kind):
+            by_title.setdefault(one.title, []).append(one)
+    return tuple(map(_together, by_title.values()))
+
+
+def _listed(kind: str) -> list[metrics.Figure]:
+    return [one for one in metrics.all_figures().values() if one.listed and one.kind == kind]
+
+
+def _together(figures: Sequence[metrics.Figure]) -> TableFigure:
+    first, *others = figures
+    heading = first.title if others else first.heading
+    return TableFigure(tuple(one.name for one in figures), heading, first.scale)
+
+
+def error_headings(cells: Sequence["Cell"]) -> list[str]:
+    """The headings of the errors in a table of cells."""
+    return [fitted(figure, cells).heading for figure in listed_figures("error")]
+
+
+def meaning() -> str:
+    """What the figures of tables are, a line each; those of one meaning share it."""
+    lines = []
+    for kind, heading in KINDS.items():
+        titles: dict[str, dict[str, None]] = {}
+        for one in _listed(kind):
+            titles.setdefault(one.meaning, {})[one.title] = None
+        lines += [heading, *(f"{', '.join(these)}: {text}" for text, these in titles.items())]
+    return "\n".join(lines)
+
+
 FAMILY = re.compile(r"(.*?)(?:(, |: )(.*))?$", re.DOTALL)
 ROUNDING = 1e-13  # of a figure's own unit: what is smaller is shown as 0
 
@@ -94,7 +107,7 @@ class Cell:
         faults = [result.message for result in self.results if result.status != "done"]
         return faults[0].splitlines()[0] if faults else ""
 
-    def of(self, figure: Figure) -> Spread:
+    def of(self, figure: TableFigure) -> Spread:
         """Mean and spread of a figure; of unstable runs only where all are."""
         chosen = self.done or [result for result in self.results if result.figures]
         rows = (result.figures for result in chosen)
@@ -116,31 +129,33 @@ def check_figure(name: str) -> None:
     Raises:
         UsageError: there is none of that name.
     """
-    if name not in KNOWN:
-        raise UsageError(f"no figure named '{name}'; known: {', '.join(KNOWN)}")
+    known = metrics.all_figures()
+    if name not in known:
+        raise UsageError(f"no figure named '{name}'; known: {', '.join(known)}")
 
 
-def find_figure(name: str, cells: Sequence[Cell]) -> Figure:
+def find_figure(name: str, cells: Sequence[Cell]) -> TableFigure:
     """A figure by its name in a summary.
 
     Raises:
         UsageError: no run has one of that name.
     """
-    for figure in SHOWN:
+    for figure in listed_figures():
         if name in figure.names:
             return fitted(figure, cells)
-    known = names_of(cells)
-    if known and name not in known:
-        raise UsageError(f"no figure named '{name}'; known: {', '.join(known)}")
-    return Figure((name,), name)
-
-
-def fitted(figure: Figure, cells: Sequence[Cell]) -> Figure:
-    """The figure with the unit it has in these cells: laws differ in what they command."""
-    if not set(figure.names) & set(UNITS):
-        return figure
     there = names_of(cells)
-    units = ", ".join(unit for name, unit in UNITS.items() if name in there)
+    if there and name not in there:
+        raise UsageError(f"no figure named '{name}'; known: {', '.join(there)}")
+    known = metrics.all_figures()
+    return _together([known[name]]) if name in known else TableFigure((name,), name)
+
+
+def fitted(figure: TableFigure, cells: Sequence[Cell]) -> TableFigure:
+    """The figure with the unit it has in these cells: laws differ in what they command."""
+    if len(figure.names) == 1:
+        return figure
+    there, known = names_of(cells), metrics.all_figures()
+    units = ", ".join(known[name].shown for name in figure.names if name in there)
     return figure._replace(heading=f"{figure.heading} [{units}]") if units else figure
 
 
@@ -150,10 +165,10 @@ def names_of(cells: Sequence[Cell]) -> list[str]:
     return list(dict.fromkeys(name for result in results for name in result.figures))
 
 
-def rows(cells: Sequence[Cell], figures: Sequence[Figure] = SHOWN) -> list[list[str]]:
+def rows(cells: Sequence[Cell]) -> list[list[str]]:
     """Headings and rows of text; what was not done says so."""
     axes = list(cells[0].choice)
-    figures = [fitted(figure, cells) for figure in figures]
+    figures = [fitted(figure, cells) for figure in listed_figures()]
     found = [[*axes, *(figure.heading for figure in figures), "runs", "status"]]
     for cell in cells:
         texts = [said(cell.of(figure)) for figure in figures]
@@ -204,7 +219,7 @@ def columns(cells: Sequence[Cell]) -> Columns:
     found["status"] = [cell.status for cell in cells]
     found["message"] = [cell.why for cell in cells]
     for name in names_of(cells):
-        spreads = [cell.of(Figure((name,), name)) for cell in cells]
+        spreads = [cell.of(TableFigure((name,), name)) for cell in cells]
         found[f"{name}_mean"] = [one.mean for one in spreads]
         found[f"{name}_std"] = [one.std for one in spreads]
     return found

@@ -13,7 +13,7 @@ from dqpaint.outputs import files
 from dqpaint.settings import Settings
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.axes import Axis, combinations, settings_of
-from dqpaint.studies.experiment.cells import Cell, Figure, find_figure
+from dqpaint.studies.experiment.cells import Cell, TableFigure, find_figure
 from dqpaint.studies.experiment.statistics import LEVEL, holm, welch
 from dqpaint.studies.report.page import Block, Page, Pictured, Rows, Words, files_of, html
 from dqpaint.studies.report.pictures import pictures
@@ -110,13 +110,15 @@ def contents(compared: Comparison, measure: str, again: str | None = None) -> di
     return made
 
 
-def page(compared: Comparison, figure: Figure, shown: Mapping[str, Pictured], again: str) -> Page:
+def page(
+    compared: Comparison, figure: TableFigure, shown: Mapping[str, Pictured], again: str
+) -> Page:
     """The comparison as a report."""
     many = any(len(cell.results) > 1 for cell in compared.cells)
     title = "Means and standard deviations" if many else "Figures"
     rows = cells.rows(compared.cells)
-    bars = tuple(rows[0].index(figure.heading) for figure in cells.ERRORS)
-    blocks: list[Block] = [Rows(title, rows, bars, cells.MEANING)]
+    bars = tuple(rows[0].index(head) for head in cells.error_headings(compared.cells))
+    blocks: list[Block] = [Rows(title, rows, bars, cells.meaning())]
     tests = differences(compared.cells, figure)
     if tests:
         blocks += [Rows("Differences", tests), Words(about_test(figure))]
@@ -124,7 +126,7 @@ def page(compared: Comparison, figure: Figure, shown: Mapping[str, Pictured], ag
     return Page(f"{compared.name}, compared", blocks, compared.settings, compared.text, again)
 
 
-def differences(found: Sequence[Cell], figure: Figure) -> list[list[str]]:
+def differences(found: Sequence[Cell], figure: TableFigure) -> list[list[str]]:
     """Whether means differ by more than chance: rows of text, the best first; none without runs."""
     ranked = sorted((c for c in found if len(c.done) > 1), key=lambda cell: cell.of(figure).mean)
     tests = [
@@ -145,7 +147,7 @@ def differences(found: Sequence[Cell], figure: Figure) -> list[list[str]]:
     return lines
 
 
-def about_test(figure: Figure) -> str:
+def about_test(figure: TableFigure) -> str:
     """What the table of differences says."""
     return (
         f"Whether the mean of {figure.heading} differs by more than its spread explains: Welch's "

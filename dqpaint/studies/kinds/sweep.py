@@ -14,7 +14,7 @@ from dqpaint.outputs import files
 from dqpaint.settings import SMALLEST, Settings
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.axes import Axis, about, combinations, label, settings_of
-from dqpaint.studies.experiment.cells import Cell, Figure, find_figure
+from dqpaint.studies.experiment.cells import Cell, TableFigure, find_figure
 from dqpaint.studies.report.charts import HeatMap, Line, Panel
 from dqpaint.studies.report.page import (
     Block,
@@ -31,7 +31,7 @@ from dqpaint.studies.runner.engine import Workers, carry_out_study
 from dqpaint.studies.runner.run import Run, drawing_text, seeded
 
 MOST_RUNS = 100_000
-EFFORT = "command_integral_rad", "torque_integral_Nm_s"
+EFFORT = "command_integral_rad"  # of laws that command torque, theirs
 
 
 @dataclass(frozen=True)
@@ -121,17 +121,17 @@ def contents(swept: Sweep, measure: str, again: str | None = None) -> dict[str, 
     }
     if again is not None:
         said = Words("\n".join([*whys(swept), *meanings(swept)]))
-        blocks: list[Block] = [shown, said, Rows("All points", rows, note=cells.MEANING)]
+        blocks: list[Block] = [shown, said, Rows("All points", rows, note=cells.meaning())]
         made["-report.html"] = html(Page(title, blocks, swept.settings, swept.text, again))
     return made
 
 
-def values(found: Sequence[Cell], figure: Figure) -> Floats:
+def values(found: Sequence[Cell], figure: TableFigure) -> Floats:
     """The means (N,) of a figure; nan where no run came to one."""
     return np.array([cell.of(figure).mean for cell in found])
 
 
-def curves(swept: Sweep, figure: Figure) -> list[Panel]:
+def curves(swept: Sweep, figure: TableFigure) -> list[Panel]:
     """The figure, and the command beside it, over one axis."""
     axis = swept.axes[0]
     numbers = axis.numbers
@@ -139,7 +139,7 @@ def curves(swept: Sweep, figure: Figure) -> list[Panel]:
     order = np.argsort(x)
     chosen = [swept.cells[i] for i in order]
     marks = np.array([not cell.stable for cell in chosen])
-    effort = find_figure(EFFORT[0], swept.cells)
+    effort = find_figure(EFFORT, swept.cells)
     panels = []
     for one in dict.fromkeys((figure, effort)):
         y = values(chosen, one)
@@ -176,7 +176,7 @@ def meanings(swept: Sweep) -> list[str]:
     return [f"{name}: {text}." for name, text in told if text]
 
 
-def surface(swept: Sweep, figure: Figure) -> HeatMap:
+def surface(swept: Sweep, figure: TableFigure) -> HeatMap:
     """The figure as a heat map: the first axis upwards, the second to the right."""
     up, right = swept.axes
     shape = len(up.texts), len(right.texts)
@@ -208,8 +208,8 @@ def told(swept: Sweep, measure: str, columns: int) -> str:
     text = cells.text(table)
     if max(map(len, text.splitlines())) > columns:  # what few columns can say of many rows
         kept = [table[0].index(axis.name) for axis in swept.axes]
-        heads = [f.heading for f in cells.SHOWN[:4]]
-        kept += [table[0].index(head) for head in heads] + [len(table[0]) - 1]
+        kept += [table[0].index(head) for head in cells.error_headings(swept.cells)]
+        kept.append(len(table[0]) - 1)
         text = cells.text([[row[i] for i in kept] for row in table])
     return "\n".join([text, *whys(swept)])
 

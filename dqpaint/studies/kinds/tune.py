@@ -34,7 +34,7 @@ from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.language.writing import builder
 from dqpaint.settings import SMALLEST, Settings
 from dqpaint.studies.experiment.axes import settings_of
-from dqpaint.studies.experiment.cells import Cell, Figure, find_figure
+from dqpaint.studies.experiment.cells import Cell, TableFigure, find_figure
 from dqpaint.studies.runner.engine import Study, Workers, check
 from dqpaint.studies.runner.run import Run, drawing_text, seeded
 
@@ -104,8 +104,8 @@ class Tuning:
     ranges: tuple[Range, ...]
     cells: tuple[Cell, ...]
     usual: Cell | None
-    error: Figure
-    effort: Figure
+    error: TableFigure
+    effort: TableFigure
     needed: float
     factor: float
     settled: bool

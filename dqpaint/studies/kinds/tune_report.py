@@ -10,7 +10,7 @@ from dqpaint.errors import DqpaintError
 from dqpaint.outputs import files
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.axes import label
-from dqpaint.studies.experiment.cells import Cell, Figure
+from dqpaint.studies.experiment.cells import Cell, TableFigure
 from dqpaint.studies.kinds.tune import Tuning
 from dqpaint.studies.report.charts import COLOURS, Line, Panel
 from dqpaint.studies.report.page import Block, Charts, Page, Rows, Words, files_of, html
@@ -150,22 +150,24 @@ def panels(tuned: Tuning) -> list[Panel]:
     return made
 
 
-def _values(found: Sequence[Cell], of: Figure | str) -> Floats:
+def _values(found: Sequence[Cell], of: TableFigure | str) -> Floats:
     if isinstance(of, str):
         return np.array([float(cell.choice[of]) for cell in found])
     return np.array([cell.of(of).mean for cell in found])
 
 
-def _dots(tuned: Tuning, found: Sequence[Cell], label: str, x: Figure | str, colour: str) -> Line:
+def _dots(
+    tuned: Tuning, found: Sequence[Cell], label: str, x: TableFigure | str, colour: str
+) -> Line:
     marks = np.array([not cell.stable for cell in found], dtype=bool)
     return Line(_values(found, x), _values(found, tuned.error), label, colour, marks, width=0.0)
 
 
-def _line(front: Sequence[Cell], tuned: Tuning, x: Figure | str) -> Line:
+def _line(front: Sequence[Cell], tuned: Tuning, x: TableFigure | str) -> Line:
     return Line(_values(front, x), _values(front, tuned.error), "least error for an effort", FRONT)
 
 
-def _named(tuned: Tuning, x: Figure | str) -> list[Line]:
+def _named(tuned: Tuning, x: TableFigure | str) -> list[Line]:
     """The usual gains and the best ones."""
     return [
         _dots(tuned, [cell], label, x, colour)

@@ -16,6 +16,7 @@ from dqpaint.dq import Floats
 from dqpaint.light import Picture
 from dqpaint.light.film import LOOKS
 from dqpaint.light.images import Legend, contact_sheet, with_legend
+from dqpaint.metrics import all_columns
 from dqpaint.settings import Settings
 from dqpaint.studies.experiment.cells import Cell, family
 from dqpaint.studies.report.charts import Line, Panel
@@ -31,10 +32,6 @@ THICK, THICKER, THIN = 3.6, 2.6, 1.2
 WIDE = 20.0  # from a usual error to the largest: on an axis from 0 it could not be seen
 ROOM = 1.3  # of an axis, above the largest error
 ALIKE = "what all drew alike is white"
-ERRORS = (
-    ("position_error_m", "position error", "mm", 1e3),
-    ("orientation_error_rad", "orientation error", "deg", float(np.degrees(1.0))),
-)
 
 
 @dataclass(frozen=True)
@@ -147,10 +144,13 @@ def columns(labels: Sequence[str]) -> int | None:
 
 
 def errors(drawn: Sequence[DrawnRun]) -> Charts:
-    """Errors over time: of the place, then of the orientation, a panel a group."""
+    """Errors over time, one below the other, a panel a group."""
     split = groups(drawn)
     panels = []
-    for name, title, unit, scale in ERRORS:
+    for column in all_columns():
+        name, title, scale = column.name, column.title, column.scale
+        if column.study != "drawn" or any(name not in one.arrays for one in drawn):
+            continue
         least = min(float(np.median(one.arrays[name])) for one in drawn)
         most = max(float(one.arrays[name].max()) for one in drawn)
         log = 0 < least < most / WIDE
@@ -160,7 +160,7 @@ def errors(drawn: Sequence[DrawnRun]) -> Charts:
             head = f"{group.title}: {title}" if group.title else title
             panels.append(
                 Panel(
-                    head, "time [s]", f"{title} [{unit}]", lines, log_y=log, decades=DECADES,
+                    head, "time [s]", column.heading, lines, log_y=log, decades=DECADES,
                     span=span,
                 )
             )  # fmt: skip

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.core import Registry
+from dqpaint.metrics import all_columns
 from dqpaint.outputs import files
 from dqpaint.painting import paint, picture
 
@@ -18,8 +19,8 @@ KEEPERS: Registry[Callable[[paint.Painting], Arrays]] = Registry("thing to keep"
 
 @KEEPERS.add("series")
 def series(painting: paint.Painting) -> Arrays:
-    """Time and errors of every control step (N,)."""
-    names = ("t_s", "position_error_m", "orientation_error_rad", "invariant_error")
+    """Time, errors and what else is kept of every control step (N,)."""
+    names = [one.name for one in all_columns() if one.study and one.name in painting.table]
     return {name: np.asarray(painting.table[name]) for name in names}
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from dqpaint.errors import DqpaintError
 from dqpaint.robots.model import DEFAULT_ROBOT
 from dqpaint.settings import Settings, make_settings
-from dqpaint.studies.experiment.cells import Cell, Figure, family
+from dqpaint.studies.experiment.cells import Cell, TableFigure, family
 from dqpaint.studies.replay.claims import Numbers, published
 from dqpaint.studies.replay.measure import MEASURES, MeasureRequest, MeasureResult
 from dqpaint.studies.replay.papers import Paper, find_paper_drawing
@@ -95,7 +95,7 @@ def measured(
 def numbers_of(paper: Paper, found: Sequence[Cell]) -> Numbers:
     """Mean and spread of the paper's figures, of the runs that were done as they should."""
     return {
-        cell.label: {f.name: cell.of(Figure((f.name,), f.name)) for f in paper.figures}
+        cell.label: {f.name: cell.of(TableFigure((f.name,), f.name)) for f in paper.figures}
         for cell in found
         if cell.done
     }

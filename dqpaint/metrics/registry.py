@@ -1,0 +1,257 @@
+"""A function of a run -> a metric by its name: a column of its table, or a figure of its summary.
+
+All that tells metrics apart is said where they are registered. From here come the CSV, the JSON,
+the tables and curves of studies, `--figure`, `--colour-by`, `dqpaint list` and the pages.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dqpaint.core import Registry
+from dqpaint.dq import Floats
+from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.motion import Motion
+from dqpaint.simulation import Track
+
+Table = dict[str, Floats]  # columns (N,) by their headers, unit in the name
+Values = NDArray[Any]
+
+SCALES = {("m", "mm"): 1e3, ("m/s", "mm/s"): 1e3, ("rad", "deg"): math.degrees(1.0)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Metric:
+    """What columns and figures have in common.
+
+    Attributes:
+        unit: of the SI; nothing if there is none.
+        title: what it is called in legends, charts and tables, without its unit.
+        meaning: what it is, in a few words.
+        shown: the unit in which people read it, if it is another one.
+    """
+
+    unit: str
+    title: str
+    meaning: str
+    shown: str
+
+    def __post_init__(self) -> None:
+        if self.shown != self.unit and (self.unit, self.shown) not in SCALES:
+            raise ValueError(f"{self.title}: [{self.unit}] cannot be shown in [{self.shown}]")
+
+    @property
+    def scale(self) -> float:
+        """What its value is multiplied by to be shown."""
+        return SCALES.get((self.unit, self.shown), 1.0)
+
+    @property
+    def heading(self) -> str:
+        """The title with the unit that is shown."""
+        return f"{self.title} [{self.shown}]" if self.shown else self.title
+
+
+@dataclass(frozen=True, kw_only=True)
+class Column(Metric):
+    """A column of the table, or several that belong together.
+
+    Attributes:
+        names: their headers; `q{joint}_rad` stands for one of each joint.
+        of: its values (N,), or (N, k) of k columns, from a run; None where the run has none. Of
+            what was asked, and is known without an arm, there is `asked` alone.
+        asked: its values without an arm, if it has any.
+        extra: whether only the table of a motion has it.
+        from_zero: whether a scale of it begins at 0.
+        coloured: whether the light can be coloured by it.
+        study: what a study does with it: keep it of first runs, or draw it over time as well.
+    """
+
+    names: tuple[str, ...]
+    of: Callable[[Track], Values | None] | None
+    asked: Callable[[Motion], Values | None] | None
+    extra: bool = False
+    from_zero: bool = False
+    coloured: bool = True
+    study: Literal["", "kept", "drawn"] = ""
+
+    @property
+    def name(self) -> str:
+        """Its first header."""
+        return self.names[0].format(joint=1)
+
+    @property
+    def headers(self) -> str:
+        """The headers as a person reads them: `x_m, y_m, z_m`, or `q1_rad ...`."""
+        return f"{self.name} ..." if self._each_joint else ", ".join(self.names)
+
+    @property
+    def colour_by(self) -> str | None:
+        """What `--colour-by` calls it: its name without the unit, if it has one value a row."""
+        if len(self.names) > 1 or self._each_joint or self.extra or not self.coloured:
+            return None
+        return self.name.removesuffix(suffix(self.unit)).replace("_", "-")
+
+    @property
+    def _each_joint(self) -> bool:
+        return "{joint}" in self.names[0]
+
+    def of_run(self, track: Track) -> Values | None:
+        """Its values from a run."""
+        return self.of_motion(track.motion) if self.of is None else self.of(track)
+
+    def of_motion(self, motion: Motion) -> Values | None:
+        """Its values without an arm."""
+        return None if self.asked is None else self.asked(motion)
+
+    def by_header(self, values: Values, rows: int) -> Table:
+        """The columns (N,) from what was measured.
+
+        Raises:
+            DqpaintError: it is not one value, or one for each name, a row.
+        """
+        columns = np.asarray(values, dtype=np.float64)
+        columns = columns[None] if columns.ndim == 1 else columns.T
+        names = self.names
+        if self._each_joint:
+            names = tuple(names[0].format(joint=i + 1) for i in range(len(columns)))
+        if columns.shape != (len(names), rows):
+            raise DqpaintError(
+                f"column '{self.headers}' is an array of shape {np.shape(values)}; there are "
+                f"{rows} rows, and {len(names)} column{'s' if len(names) > 1 else ''}"
+            )
+        return dict(zip(names, columns, strict=True))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Figure(Metric):
+    """A figure of the summary: one number of a run.
+
+    Attributes:
+        name: its key in the JSON.
+        of: its value, from the run and its table; None where the run has none.
+        kind: an error, of which less is better, or a cost.
+        listed: whether the tables of studies show it. Figures of one title share a column there.
+    """
+
+    name: str
+    of: Callable[[Track, Table], float | None]
+    kind: Literal["error", "cost"]
+    listed: bool = False
+
+
+def _not_registered(name: str, _thing: Any) -> Column | Figure:
+    raise UsageError(f"its module registers none of that name with @column or @figure ('{name}')")
+
+
+METRICS: Registry[Column | Figure] = Registry("metric", "dqpaint.metrics", _not_registered)
+"""Columns by their first headers and figures by their names, in the order of table and summary.
+
+An entry point has the name of a metric and is loaded for its module, which may register others.
+"""
+
+Run = TypeVar("Run", bound=Callable[[Track], Values | None])
+Asked = TypeVar("Asked", bound=Callable[[Motion], Values | None])
+Value = TypeVar("Value", bound=Callable[[Track, Table], float | None])
+
+
+def column(
+    *names: str,
+    unit: str,
+    title: str,
+    meaning: str,
+    shown: str | None = None,
+    asked: Callable[[Motion], Values | None] | None = None,
+    from_zero: bool = False,
+    coloured: bool = True,
+    study: Literal["", "kept", "drawn"] = "",
+) -> Callable[[Run], Run]:
+    """A decorator: what is below it measures columns of a run. Arguments as `Column` has them.
+
+    Raises:
+        ValueError: there is a column of that name, or a figure.
+    """
+
+    def record(function: Run) -> Run:
+        _add(
+            Column(
+                names=names, of=function, asked=asked, unit=unit, title=title, meaning=meaning,
+                shown=shown or unit, from_zero=from_zero, coloured=coloured, study=study,
+            )
+        )  # fmt: skip
+        return function
+
+    return record
+
+
+def motion_column(
+    *names: str,
+    unit: str,
+    title: str,
+    meaning: str,
+    extra: bool = False,
+    coloured: bool = True,
+    study: Literal["", "kept"] = "",
+) -> Callable[[Asked], Asked]:
+    """The same for what was asked, which is known before there is a run."""
+
+    def record(function: Asked) -> Asked:
+        _add(
+            Column(
+                names=names, of=None, asked=function, unit=unit, title=title, meaning=meaning,
+                shown=unit, extra=extra, coloured=coloured, study=study,
+            )
+        )  # fmt: skip
+        return function
+
+    return record
+
+
+def figure(
+    name: str,
+    *,
+    unit: str,
+    title: str,
+    meaning: str,
+    kind: Literal["error", "cost"],
+    shown: str | None = None,
+    listed: bool = False,
+) -> Callable[[Value], Value]:
+    """A decorator: what is below it measures a figure of a run. Arguments as `Figure` has them.
+
+    Raises:
+        ValueError: there is a figure of that name, or a column.
+    """
+
+    def record(function: Value) -> Value:
+        METRICS.add(name)(
+            Figure(
+                name=name, of=function, unit=unit, title=title, meaning=meaning, kind=kind,
+                shown=shown or unit, listed=listed,
+            )
+        )  # fmt: skip
+        return function
+
+    return record
+
+
+def _add(one: Column) -> None:
+    METRICS.add(one.name)(one)
+
+
+def all_columns() -> tuple[Column, ...]:
+    """All columns, in the order of the tables."""
+    return tuple(one for one in METRICS.values() if isinstance(one, Column))
+
+
+def all_figures() -> dict[str, Figure]:
+    """All figures by their names, in the order of the summary."""
+    return {name: one for name, one in METRICS.items() if isinstance(one, Figure)}
+
+
+def suffix(unit: str) -> str:
+    """How a name says a unit: `_rad_s` of rad/s, `_m_s2` of m/s^2."""
+    return f"_{unit}".replace("/", "_").replace(" ", "_").replace("^", "") if unit else ""

@@ -1,0 +1,234 @@
+"""Every metric keeps what it promises, and all that shows metrics has them from the registry."""
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import dqpaint
+from dqpaint.cli import listing
+from dqpaint.diagnostics import SourceLine
+from dqpaint.errors import DqpaintError
+from dqpaint.metrics import METRICS, all_columns, all_figures, measure
+from dqpaint.metrics.registry import Column, Figure, column, figure, suffix
+from dqpaint.motion import RowLines
+from dqpaint.outputs import files
+from dqpaint.painting.colour_by import colour_columns
+from dqpaint.plants import PLANTS
+from dqpaint.studies.experiment import cells
+from dqpaint.testing import check_metric
+from dqpaint.testing.runs import run
+from tests.support.plugins import install
+
+SI = {"", "m", "rad", "s", "m/s", "m/s^2", "rad/s", "rad/s^2", "rad s", "Nm", "Nm s"}
+
+
+@pytest.fixture(scope="module")
+def ideal():
+    return run(PLANTS["ideal"])
+
+
+def special(name, track):
+    """A run that has what only some have, made of one that has not."""
+    motion = track.motion
+    n = len(motion.t)
+    if name == "file":
+        return replace(track, motion=replace(motion, source=RowLines.of([SourceLine(1, 1)] * n)))
+    if name == "drawing_time_s":
+        return replace(track, motion=replace(motion, clock=0.5 * motion.t))
+    if name == "read1_rad":
+        return replace(track, read=track.read + 1e-3)
+    if name.startswith("believed_"):
+        return replace(track, believed=-1.0 * track.believed)
+    return None
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", METRICS)
+def test_what_every_metric_promises(name, ideal):
+    check_metric(name, special(name, ideal))
+    assert METRICS[name].unit in SI
+
+
+@pytest.mark.parametrize(("unit", "end"), [
+    ("rad/s^2", "_rad_s2"), ("Nm s", "_Nm_s"), ("m", "_m"), ("", ""),
+])  # fmt: skip
+def test_a_name_says_its_unit(unit, end):
+    assert suffix(unit) == end
+
+
+def test_no_figure_hides_what_else_a_summary_says(tmp_path):
+    (tmp_path / "a.traj").write_text("hold 20 ms\nline to (1, 0) mm\n")
+    painting = dqpaint.draw(tmp_path / "a.traj", plant="ideal", size=(16, 16))
+    bare = replace(painting, metrics=replace(painting.metrics, figures={}))
+    assert not all_figures().keys() & files.summarise(bare).keys()
+
+
+def test_columns_and_figures_are_where_people_look_for_them():
+    assert set(colour_columns()) == {
+        "line", "position-error", "orientation-error", "invariant-error", "speed", "acceleration",
+        "effort", "manipulability",
+    }  # fmt: skip
+    shown = listing.lists("all")
+    assert [row["name"] for row in shown["figures"]] == list(all_figures())
+    assert [row["name"] for row in shown["columns"]] == [one.headers for one in all_columns()]
+    text = cells.meaning()
+    assert all(one.meaning in text for one in all_figures().values() if one.listed)
+    assert cells.listed_figures() == (*cells.listed_figures("error"), *cells.listed_figures("cost"))
+
+
+@pytest.fixture
+def added(monkeypatch):
+    """What is registered here is gone afterwards; it is as if a package had brought it."""
+    monkeypatch.setattr(METRICS, "_things", dict(METRICS))
+    monkeypatch.setattr(METRICS, "_origins", {})
+
+    def brought(name):
+        METRICS._origins[name] = "gauges 1.2"
+
+    return brought
+
+
+def test_a_new_metric_is_measured_in_its_place(ideal, added):
+    @column("height_m", unit="m", shown="mm", title="height", meaning="of the light")
+    def height(track):
+        return track.points[:, 2]
+
+    @figure("height_max_m", unit="m", title="height", meaning="of the light", kind="cost")
+    def highest(track, table):
+        return table["height_m"].max()
+
+    found = measure(ideal)
+    np.testing.assert_array_equal(found.table["height_m"], ideal.points[:, 2])
+    assert found.figures["height_max_m"] == ideal.points[:, 2].max()
+    assert list(found.figures)[-1] == "height_max_m"
+    assert colour_columns()["height"].heading == "height [mm]"
+    assert "height_max_m" in {row["name"] for row in listing.lists("figures")["figures"]}
+    cells.check_figure("height_max_m")
+    for name in ("height_m", "height_max_m"):
+        check_metric(name)
+
+
+@pytest.mark.parametrize(("wrong", "said"), [
+    (lambda track: track.points[:, 0][1:], r"shape \(111,\); there are 112 rows, and 1 column$"),
+    (lambda track: track.points, r"shape \(112, 3\); there are 112 rows, and 1 column$"),
+    (lambda track: 1.0, r"shape \(\); there are"),
+    (lambda track: track.nothing, "metric 'x_length_m' of gauges 1.2 failed: AttributeError: "),
+])  # fmt: skip
+def test_a_metric_of_a_package_that_fails_is_told_in_a_sentence(ideal, added, wrong, said):
+    column("x_length_m", unit="m", title="x", meaning="x")(wrong)
+    added("x_length_m")
+    with pytest.raises(DqpaintError, match=said):
+        measure(ideal)
+
+
+def test_a_figure_that_is_no_number_is_refused(ideal, added):
+    figure("depth_m", unit="m", title="x", meaning="x", kind="cost")(lambda *_: np.nan)
+    with pytest.raises(DqpaintError, match="metric 'depth_m' came out as nan"):
+        measure(ideal)
+
+
+def test_two_of_a_name_are_refused(ideal, added):
+    with pytest.raises(ValueError, match="two metrics named 'speed_m_s'"):
+        column("speed_m_s", unit="m/s", title="x", meaning="x")(lambda track: track.points[:, 0])
+    with pytest.raises(ValueError, match=r"\[m\] cannot be shown in \[deg\]"):
+        column("z_m", unit="m", shown="deg", title="x", meaning="x")(lambda track: None)
+    column("a_m", "q3_rad", unit="m", title="x", meaning="x")(lambda track: track.points[:, :2])
+    with pytest.raises(DqpaintError, match="two columns named 'q3_rad', one of them with 'a_m, q3"):
+        measure(ideal)
+
+
+def made(kind=Column, **changed):
+    more = {"names": ("a_m",), "asked": None} if kind is Column else {"name": "a_m", "kind": "cost"}
+    of = (lambda track: track.points[:, 0]) if kind is Column else (lambda track, table: 1.0)
+    given = {"unit": "m", "title": "a", "meaning": "b", "of": of, **more, **changed}
+    return kind(**{"shown": given["unit"], **given})
+
+
+NOISE = np.random.default_rng(1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("faulty", "said"), [
+    (made(meaning=""), "has a title and a meaning"),
+    (made(names=("a_mm",)), "'a_mm' ends with its unit: _m"),
+    (made(unit=""), "'a_m' does not end with a unit, as it has none"),
+    (made(names=("a-b_m",)), "is made of letters, digits and _"),
+    (made(of=lambda track: track.points[1:, 0]), "there are 112 rows"),
+    (made(of=lambda track: track.points[:, 0] / 0.0), "finite values in every row"),
+    (made(of=lambda track: NOISE.normal(size=len(track.points))), "repeats itself bit for bit"),
+    (made(of=lambda track: None), "has values in some run"),
+    (made(of=lambda track: track.points[:, 0], asked=lambda motion: motion.t[1:]), "112 rows"),
+    (made(Figure, of=lambda track, table: np.inf), "is a finite number"),
+    (made(Figure, of=lambda track, table: NOISE.normal()), "repeats itself bit for bit"),
+    (made(Figure, unit="rad"), "ends with its unit: _rad"),
+    (made(Figure, title=""), "has a title and a meaning"),
+])  # fmt: skip
+def test_faulty_metrics_are_found(faulty, said):
+    with np.errstate(all="ignore"), pytest.raises(AssertionError, match=said):
+        check_metric(faulty)
+
+
+def test_faultless_metrics_pass():
+    check_metric(made())
+    check_metric(made(Figure))
+
+
+GAUGES = """
+from dqpaint.metrics import column, figure
+
+@column("reach_m", unit="m", shown="mm", title="reach", meaning="from the base", from_zero=True,
+        study="drawn")
+def reach(track):
+    return (track.points ** 2).sum(axis=1) ** 0.5
+
+@figure("reach_max_m", unit="m", shown="mm", title="reach largest", meaning="from the base",
+        kind="cost", listed=True)
+def farthest(track, table):
+    return float(table["reach_m"].max())
+"""
+POINTS = "[dqpaint.metrics]\nreach_m = gauges:reach\nbroken_m = gauges.nowhere:of\n"
+SCRIPT = """
+import json, sys
+import dqpaint
+from dqpaint.cli import listing
+from dqpaint.testing import check_metric
+
+run = dqpaint.draw("a.traj", plant="ideal", size=(64, 36), colour_by="reach")
+(files,) = [dqpaint.save(run, "a", "csv,json")]
+made = dqpaint.compare("a.traj", ["p", "pff"], figure="reach_max_m", size=(64, 36), folder="s")
+check_metric("reach_m")
+check_metric("reach_max_m")
+print(json.dumps({
+    "notes": run.notes, "legend": run.scene.legend.title, "table": made.table,
+    "listed": [row for row in listing.lists("columns")["columns"] if row["name"] == "reach_m"],
+    "faults": listing.faults("columns"),
+}))
+"""
+
+
+@pytest.mark.slow
+def test_another_package_brings_metrics(tmp_path):
+    install(tmp_path / "site", "gauges", {"__init__": GAUGES}, POINTS)
+    (tmp_path / "a.traj").write_text("period 20 ms\nspeed 60 mm/s\nline to (40, 20) mm\n")
+    (tmp_path / "run.py").write_text(f"if __name__ == '__main__':\n    exec({SCRIPT!r})\n")
+    path = ":".join([str(tmp_path / "site"), *filter(None, sys.path)])
+    done = subprocess.run(
+        [sys.executable, "run.py"], cwd=tmp_path, env={"PYTHONPATH": path, "HOME": str(tmp_path)},
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    told = json.loads(done.stdout.splitlines()[-1])
+    header, *rows = (tmp_path / "a.csv").read_text().splitlines()
+    assert header.endswith(",reach_m")
+    reached = [float(row.rpartition(",")[2]) for row in rows]
+    summary = json.loads((tmp_path / "a.json").read_text())
+    assert summary["reach_max_m"] == pytest.approx(max(reached))
+    assert summary["plugins"]["metric reach_m"] == "gauges 1.2"
+    assert told["legend"] == "reach [mm]"
+    assert told["table"]["reach_max_m_mean"][0] == pytest.approx(max(reached), abs=0.01)
+    assert told["listed"][0]["package"] == "gauges 1.2"
+    assert any("metric 'broken_m' of gauges 1.2 cannot be loaded" in note for note in told["notes"])
+    assert told["faults"] == [note for note in told["notes"] if "broken_m" in note]

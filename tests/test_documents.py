@@ -54,15 +54,6 @@ def test_generated_measurements_are_current(page, table):
     assert renewed == page.read_text("utf-8"), "python -m tests.tools.generated"
 
 
-def test_the_column_table_knows_every_kind_of_column(tmp_path):
-    (tmp_path / "hold.traj").write_text("hold 50 ms\n")
-    (tmp_path / "dot.traj").write_text('include "hold.traj"\n')
-    columns = list(dqpaint.draw(tmp_path / "dot.traj", plant="ideal", size=(64, 36)).table)
-    described = ", ".join(generated.COLUMNS).replace(" ...", "").split(", ")
-    kinds = {re.sub(r"^(q|command)\d", r"\g<1>1", column) for column in columns}
-    assert kinds == set(described)
-
-
 @pytest.mark.parametrize("path", PAGES, ids=lambda p: p.name)
 def test_links_lead_somewhere(path):
     for target in re.findall(r"\]\(([^)#\s]+)\)", path.read_text("utf-8")):

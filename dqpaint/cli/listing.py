@@ -1,11 +1,14 @@
 """What there is to choose from, read off the registries."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from dqpaint.cli.terminal import table
 from dqpaint.core import Registry
 from dqpaint.errors import UnknownNameError
+
+if TYPE_CHECKING:
+    from dqpaint.metrics import Column
 
 
 def _robots() -> list[dict[str, Any]]:
@@ -143,10 +146,14 @@ def _brushes() -> list[dict[str, Any]]:
 def _columns() -> list[dict[str, Any]]:
     from dqpaint.metrics import METRICS, all_columns
 
+    def about(one: "Column") -> str:
+        colour = f" (--colour-by {one.colour_by})" if one.colour_by else ""
+        return f"{one.meaning}{colour}{' (in --save motion)' if one.extra else ''}"
+
     return [
         {
             "name": one.headers,
-            "about": one.meaning,
+            "about": about(one),
             "unit": one.unit,
             "colour_by": one.colour_by,
             **_package(METRICS, one.name),

@@ -113,7 +113,8 @@ class Registry(Mapping[str, T], Generic[T]):
             raise UsageError(
                 f"{self.kind} '{name}' of {_package(first)} cannot be loaded: {said}"
             ) from problem
-        self._origins |= dict.fromkeys(set(self._things) - before, _package(first))
+        finally:  # a module that fails may have registered some before, or its package
+            self._origins |= dict.fromkeys(set(self._things) - before, _package(first))
 
     def _look_for(self, name: str) -> None:
         """Have a name's thing loaded, wherever it is."""

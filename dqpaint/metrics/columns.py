@@ -81,7 +81,7 @@ def _asked_translation(motion: Motion) -> Floats:
 
 @motion_column(
     *_desired(("wx_dot_rad_s2", "wy_dot_rad_s2", "wz_dot_rad_s2")), unit="rad/s^2",
-    title="asked angular acceleration", meaning="its derivative", extra=True,
+    title="asked angular acceleration", meaning="and its plain derivative", extra=True,
 )  # fmt: skip
 def _asked_rotation_rate(motion: Motion) -> Floats:
     return motion.acceleration[:, :3]
@@ -89,7 +89,7 @@ def _asked_rotation_rate(motion: Motion) -> Floats:
 
 @motion_column(
     *_desired(("vx_dot_m_s2", "vy_dot_m_s2", "vz_dot_m_s2")), unit="m/s^2",
-    title="asked acceleration", meaning="its derivative", extra=True,
+    title="asked acceleration", meaning="and its plain derivative", extra=True,
 )  # fmt: skip
 def _asked_translation_rate(motion: Motion) -> Floats:
     return motion.acceleration[:, 3:]

@@ -7,7 +7,7 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.language import parse
+from dqpaint.language import parse, read
 from dqpaint.light.camera.views import parse_views
 from dqpaint.light.film.film import expose
 from dqpaint.metrics import asked_columns
@@ -106,6 +106,27 @@ def test_colours_tell_and_every_millimetre_is_equally_bright(by):
     assert lightness[50] == pytest.approx(lightness[150], rel=0.5)
 
 
+def test_lines_of_included_files_have_colours_of_their_own(tmp_path):
+    """The same numbers in two files are two lines, each named with its own words."""
+    (tmp_path / "petal.traj").write_text("line by (0, 9) mm light red\n")
+    main = tmp_path / "a.traj"
+    main.write_text('line by (9, 0) mm light lime\ninclude "petal.traj"\nline by (9, 9) mm\n')
+    motion = plan(read(main), CANVAS)
+    scene = arrange(motion, motion.pose, make_settings(colour_by="line", **SMALL))
+    assert scene.legend.labels == (
+        "1  line by (9, 0) mm light lime",
+        "3  line by (9, 9) mm",
+        f"{tmp_path}/petal.traj:1  line by (0, 9) mm light red",
+    )
+    colours = scene.light[0].colours
+    shown = colours / np.maximum(colours.max(axis=1, keepdims=True), 1e-9)
+    kinds = {}
+    for line, colour in zip(motion.source.index[:-1].tolist(), shown.tolist(), strict=False):
+        kinds.setdefault(line, set()).add(tuple(np.round(colour, 6)))
+    assert [len(kinds[i]) for i in range(3)] == [1, 1, 1]
+    assert len(set.union(*kinds.values())) == 3
+
+
 @pytest.mark.parametrize("by", [n for n in colour_columns() if n not in ("speed", "line")])
 def test_what_only_an_arm_has_is_refused_without_one(by):
     with pytest.raises(UsageError, match=f"colour by {by} needs an arm: use draw; .*: line, speed"):
@@ -119,7 +140,7 @@ def test_what_only_an_arm_has_is_refused_without_one(by):
     ({"exposure": "f8"}, "is no part of one"),
     ({"colour_by": "mood:3"}, "no colour-by named 'mood'; known: line, position-error"),
     ({"colour_by": "position-error:"}, "is the end of its scale in mm"),
-    ({"colour_by": "position-error:-1"}, "for position-error, orientation-error, speed"),
+    ({"colour_by": "position-error:-1"}, "for position-error, orientation-error, invariant"),
     ({"colour_by": "speed:nan"}, "is the end of its scale in mm/s"),
     ({"colour_by": "line:3"}, "is the end of its scale"),
     ({"colour_by": "mood"}, "no colour-by named 'mood'; known: line, position-error"),

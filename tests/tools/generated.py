@@ -279,7 +279,7 @@ def figures():
     from dqpaint.metrics import all_figures
 
     rows = [[f"`{name}`", one.heading, one.meaning] for name, one in all_figures().items()]
-    return table(["figure", "in tables", ""], rows)
+    return table(["figure", "shown as", ""], rows)
 
 
 def messages():

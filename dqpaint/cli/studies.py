@@ -28,7 +28,10 @@ Folder = Annotated[
     typer.Option("--out", metavar="FOLDER", help="of the study; one that was stopped goes on"),
 ]
 Measure = Annotated[
-    str, typer.Option("--figure", metavar="NAME", help="that is tested and drawn, as in the JSON")
+    str,
+    typer.Option(
+        "--figure", metavar="NAME", help="that is tested and drawn: see dqpaint list figures"
+    ),
 ]
 
 Report = Annotated[bool, typer.Option("--report", help="one HTML page of it all, as well")]

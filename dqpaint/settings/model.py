@@ -204,8 +204,8 @@ class ColourSettings(Group):
     colour_by: Annotated[
         str | None,
         Option(
-            "what the colours show of the run: position-error, orientation-error, speed, "
-            "manipulability, line; END of the scale, such as position-error:20",
+            "what the colours show of the run: see dqpaint list columns; END of the scale, such "
+            "as position-error:20",
             "FIGURE[:END]",
         ),
     ] = None

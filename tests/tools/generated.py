@@ -310,8 +310,17 @@ def rule(explanation):
 README = ROOT / "README.md"
 PAGES = {
     README: [
-        controllers, robots, plants, disturbances, null, brushes, looks, options, columns, figures,
-    ],  # fmt: skip
+        controllers,
+        robots,
+        plants,
+        disturbances,
+        null,
+        brushes,
+        looks,
+        options,
+        columns,
+        figures,
+    ],
     ROOT / "trajectories/README.md": [messages, statements, parts, values],
     ROOT / "trajectories/MESSAGES.md": [rules],
 }

@@ -25,8 +25,8 @@ from dqpaint.light.film import (
 )
 from dqpaint.light.images import with_legend
 from dqpaint.light.sources import ALL, Shade, Sweep, shade_of, stand
-from dqpaint.motion import Motion, RowLines
-from dqpaint.painting.scene import Scene, arrange
+from dqpaint.motion import RowLines
+from dqpaint.painting.scene import Scene
 from dqpaint.render import HiddenLight, SceneArm, account
 from dqpaint.settings import Settings
 
@@ -87,11 +87,6 @@ class Picture:
 
     def _repr_png_(self) -> bytes:
         return self.png
-
-
-def take(motion: Motion, pose: Floats, settings: Settings) -> Picture:
-    """The first picture of a motion's light carried through poses (N, 8)."""
-    return next(photograph(arrange(motion, pose, settings), settings))
 
 
 class PictureSet:

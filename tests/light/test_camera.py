@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.light.camera.camera import FILL, LENS, VIEWS, Camera, View, frame, parse_view
+from dqpaint.light.camera.camera import FILL, LENS, VIEWS, Camera, View, frame
 
 SIZES = [(1280, 720), (500, 500), (360, 640)]
 ANGLES = [*VIEWS.values(), View(-37.0, 12.0), View(200.0, -64.0), View(10.0, 89.9)]
@@ -131,26 +131,6 @@ def test_nothing_or_no_number_cannot_be_framed():
         Camera([0, 0, 1], np.diag([1.0, 1.0, -1.0]), 100.0, [1, 1], 3, 3)
     with pytest.raises(ValueError, match="orthonormal"):
         Camera([0, 0, 1], 2 * np.eye(3), 100.0, [1, 1], 3, 3)
-
-
-def test_views_are_read():
-    for name, view in VIEWS.items():
-        assert parse_view(name) == view
-    assert parse_view(" -30, 12.5 ") == View(-30.0, 12.5)
-
-
-@pytest.mark.parametrize("text", ["", "back", "1", "1,2,3", "a,b", "nan,0", "inf,0", "Front"])
-def test_an_unknown_view_names_the_known(text):
-    with pytest.raises(
-        UsageError, match=f"no view named '{text}'; known: front, iso, side, top, AZ,EL"
-    ):
-        parse_view(text)
-
-
-@pytest.mark.parametrize("text", ["0,91", "0,-90.1", "0,nan"])
-def test_an_elevation_beyond_the_pole_is_refused(text):
-    with pytest.raises(UsageError, match=r"elevation .* must be from -90 to 90"):
-        parse_view(text)
 
 
 def test_coarser_pixels_cover_the_same_places(rng):

@@ -7,7 +7,7 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.errors import UsageError
-from dqpaint.light.camera.camera import frame, parse_view
+from dqpaint.light.camera.camera import VIEWS, View, frame
 from dqpaint.light.camera.exposure_settings import Exposure, advice, parse_exposure
 from dqpaint.light.film.film import expose
 from dqpaint.light.film.point_spread import point_spread, spread
@@ -22,9 +22,9 @@ def line(metres=0.4, speed=0.23, samples=400):
     return Sweep(period, pose, np.ones((samples - 1, 3)), read_brush("point").emitters())
 
 
-def ridge(text, size=(1920, 1081), view="front"):  # the line lies on a row
+def ridge(text, size=(1920, 1081), view=VIEWS["front"]):  # the line lies on a row
     real, sweep = parse_exposure(text), line()
-    camera = frame(sweep.lit_points, np.eye(3), parse_view(view), size, real.lens, real.distance)
+    camera = frame(sweep.lit_points, np.eye(3), view, size, real.lens, real.distance)
     image = spread(expose(sweep, camera, falloff=True), point_spread(size[1]))
     return float(image[size[1] // 2 - 3 : size[1] // 2 + 3, size[0] // 2, 0].max()) * real.factor(
         camera
@@ -63,7 +63,7 @@ def test_twice_as_far_a_line_is_half_as_bright():
 
 def test_a_step_nearer_to_the_camera_is_brighter_by_its_distance_squared():
     sweep = line()
-    camera = frame(sweep.lit_points, np.eye(3), parse_view("60,0"), (640, 360))
+    camera = frame(sweep.lit_points, np.eye(3), View(60.0, 0.0), (640, 360))
     plain, real = ([p.energy for p in sweep.towards(camera, falloff)] for falloff in (False, True))
     middle = 0.5 * (sweep.points[1:] + sweep.points[:-1])
     r = np.linalg.norm(middle - camera.position, axis=1)
@@ -75,7 +75,7 @@ def test_distance_and_focal_length_are_those_of_the_camera():
     sweep = line()
     real = parse_exposure("50mm,1.5m")
     camera = frame(
-        sweep.lit_points, np.eye(3), parse_view("front"), (900, 600), real.lens, real.distance
+        sweep.lit_points, np.eye(3), VIEWS["front"], (900, 600), real.lens, real.distance
     )
     assert camera.focal == pytest.approx(50 / 36 * 900)
     np.testing.assert_allclose(camera.position, [0, 0, 1.5], atol=1e-12)
@@ -87,7 +87,7 @@ def test_advice_gives_back_what_it_was_asked():
     """The automatic's factor, taken as real settings, is the same picture."""
     real = Exposure(candela=0.13)
     sweep = line()
-    camera = frame(sweep.lit_points, np.eye(3), parse_view("front"), (1280, 720))
+    camera = frame(sweep.lit_points, np.eye(3), VIEWS["front"], (1280, 720))
     distance = float(camera.position[2])
     factor = real.factor(camera) / distance**2
     assert advice(factor, camera, distance) == (

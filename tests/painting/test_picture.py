@@ -11,10 +11,11 @@ from dqpaint.light.camera.camera import FILL
 from dqpaint.light.sources.from_motion import BESIDE_ARM
 from dqpaint.light.sources.sweep import ALL
 from dqpaint.motion import plan
-from dqpaint.painting.picture import photograph, take
+from dqpaint.painting.picture import photograph
 from dqpaint.painting.scene import SETTLING, arrange
 from dqpaint.robots.model.card import read_card
 from dqpaint.settings.model import make_settings
+from tests.support.pictures import take
 
 CANVAS = read_card("iiwa").canvas.pose
 SETTINGS = make_settings(width=320, height=180)

@@ -13,12 +13,13 @@ from dqpaint.light.film.film import expose
 from dqpaint.metrics import asked_columns
 from dqpaint.motion import plan
 from dqpaint.painting.colour_by import colour_columns, common_delay, limits, magnified
-from dqpaint.painting.picture import photograph, place_camera, take
+from dqpaint.painting.picture import photograph, place_camera
 from dqpaint.painting.preview import sketch
 from dqpaint.painting.scene import arrange, check_choices
 from dqpaint.program.program import Bar, Point, Strobe
 from dqpaint.robots.model.card import read_card
 from dqpaint.settings.model import make_settings
+from tests.support.pictures import take
 
 CANVAS = read_card("iiwa").canvas.pose
 SMALL = {"width": 320, "height": 180}

@@ -6,8 +6,8 @@ import pytest
 from dqrobotics.robot_modeling import DQ_SerialManipulatorDH, DQ_SerialManipulatorMDH
 
 from dqpaint import dq
-from dqpaint.robots.kinematics.jacobians import jacobian8, jacobian8_rate
 from dqpaint.robots.model.card import read_card
+from tests.support.jacobians import jacobian8, jacobian8_rate
 from tests.support.robot_cards import IIWA, PANDA
 
 ROWS = {

@@ -5,9 +5,10 @@ import pinocchio
 import pytest
 
 from dqpaint import dq
-from dqpaint.robots.kinematics.jacobians import jacobian8, jacobian8_rate, jacobian_rate
+from dqpaint.robots.kinematics.jacobians import jacobian_rate
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import installed_names, read_card
+from tests.support.jacobians import jacobian8, jacobian8_rate
 from tests.support.robot_cards import CARDS
 
 

@@ -3,7 +3,8 @@
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.light.camera.camera import frame, parse_view
+from dqpaint.light.camera.camera import frame
+from dqpaint.light.camera.views import parse_views
 from dqpaint.light.sources.sweep import Sweep
 
 ROTATION = np.linalg.qr(np.random.default_rng(11).normal(size=(3, 3)))[0]
@@ -36,4 +37,4 @@ def swept(emitters, samples=400, period=0.01, colours=None, **how):
 
 
 def camera_for(sweep, view="20,15", size=(320, 180)):
-    return frame(sweep.lit_points, FRONT, parse_view(view), size)
+    return frame(sweep.lit_points, FRONT, parse_views(view)[0].view, size)

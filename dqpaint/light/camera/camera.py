@@ -45,23 +45,6 @@ VIEWS = {
 }
 
 
-def parse_view(text: str) -> View:
-    """The view called `text`: a name of `VIEWS`, or `AZ,EL` in degrees."""
-    name = text.strip()
-    if name in VIEWS:
-        return VIEWS[name]
-    try:
-        azimuth, elevation = (float(word) for word in name.split(","))
-        understood = bool(np.isfinite(azimuth))
-    except ValueError:
-        understood = False
-    if not understood:
-        raise UsageError(f"no view named '{name}'; known: {', '.join(VIEWS)}, AZ,EL in degrees")
-    if not -90.0 <= elevation <= 90.0:
-        raise UsageError(f"view elevation {elevation:g} deg must be from -90 to 90")
-    return View(azimuth, elevation)
-
-
 @dataclass(frozen=True, eq=False)
 class Camera:
     """A pinhole that looks along -z of its own axes.
@@ -140,7 +123,7 @@ def frame(
             so that the picture of what was achieved is taken from the same place.
         canvas_rotation: (3, 3) columns: the canvas' x (right), y (up) and z (towards the viewer)
             as unit vectors of the base frame.
-        view: From where, see `parse_view`.
+        view: From where, such as one of `VIEWS`.
         size: Columns and rows of the picture.
         lens: Focal length over the long side of the sensor.
         distance: From the pinhole to the middle of the points [m]; None fills the picture.

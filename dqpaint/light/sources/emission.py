@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from dqpaint.errors import DqpaintError
 from dqpaint.light.arrays import Floats, kept
@@ -83,19 +82,3 @@ def inverse_square(points: Floats, camera: Camera) -> Floats:
     """1 / r^2 (...) of points (..., 3) seen from the camera [1/m^2]; none is nearer than 1 mm."""
     away = points - camera.position
     return np.asarray(1.0 / np.maximum((away * away).sum(axis=-1), 1e-6))
-
-
-def shine(positions: ArrayLike, colours: ArrayLike, period: float) -> Light:
-    """The light of one LED at the tool's tip.
-
-    Args:
-        positions: (N, 3) of the tip at instants a period apart, base frame [m].
-        colours: (N, 3) linear RGB, not negative; row k is the mean from instant k to k+1, and
-            zero is dark. The last row has no such interval and is not used.
-        period: Time from one instant to the next [s].
-    """
-    if not (np.isfinite(period) and period > 0.0):
-        raise DqpaintError(f"period {period} s must be positive")
-    points = kept("lamp position", positions, (None, 3))
-    rgb = kept("lamp colour", colours, (len(points), 3))
-    return Light(points, rgb[:-1] * period)

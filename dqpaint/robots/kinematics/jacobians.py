@@ -32,12 +32,6 @@ def pose_map(pose: Floats) -> Floats:
     return M
 
 
-def jacobian8(jacobian: Floats, pose: Floats) -> Floats:
-    """J8 = H-(x) E6 J_w / 2 (..., 8, n), with vec(x_dot) = J8 q_dot, at poses x (..., 8)."""
-    J8: Floats = pose_map(pose) @ jacobian
-    return J8
-
-
 def jacobian_rate(jacobian: Floats, rates: Floats) -> Floats:
     """The time derivative of J_w (..., 6, n) at joint rates (..., n) [rad/s].
 
@@ -53,10 +47,3 @@ def jacobian_rate(jacobian: Floats, rates: Floats) -> Floats:
 def drift_acceleration(jacobian: Floats, rates: Floats) -> Floats:
     """J_w_dot q_dot (..., 6): how the tool's twist changes at constant joint rates (..., n)."""
     return np.asarray(np.matvec(jacobian_rate(jacobian, rates), rates))
-
-
-def jacobian8_rate(jacobian: Floats, pose: Floats, rates: Floats) -> Floats:
-    """The time derivative of J8 (..., 8, n): H-(x_dot) E6 J_w / 2 + H-(x) E6 J_w_dot / 2."""
-    twist = np.matvec(jacobian, rates)
-    moving = 0.5 * dq.mul(dq.pure(twist), pose)
-    return jacobian8(jacobian, moving) + jacobian8(jacobian_rate(jacobian, rates), pose)

@@ -54,6 +54,10 @@ def test_generated_measurements_are_current(page, table):
     assert renewed == page.read_text("utf-8"), "python -m tests.tools.generated"
 
 
+def test_editors_know_every_statement_as_a_method():
+    assert generated.STUB.read_text("utf-8") == generated.stub(), "python -m tests.tools.generated"
+
+
 @pytest.mark.parametrize("path", PAGES, ids=lambda p: p.name)
 def test_links_lead_somewhere(path):
     for target in re.findall(r"\]\(([^)#\s]+)\)", path.read_text("utf-8")):

@@ -12,14 +12,14 @@ from dqpaint.core.examples import find_drawing
 from dqpaint.errors import UsageError
 from dqpaint.language import parse, read
 from dqpaint.language.vocabulary.words import PARTS, STATEMENTS
-from dqpaint.language.writing.builder import _METHODS, Drawing, DrawingError, _form, quoted
+from dqpaint.language.writing.builder import METHODS, Drawing, DrawingError, example_call, quoted
 from dqpaint.language.writing.formatter import formatted
 from dqpaint.motion import plan
 from dqpaint.robots.model.card import read_card
 
 CANVAS = read_card("iiwa").canvas.pose
 WORDS = [word for word in STATEMENTS if word != "end"]
-METHOD = {word: method for method, word in _METHODS.items()}
+METHOD = {word: method for method, word in METHODS.items()}
 
 
 def motion(program):
@@ -163,8 +163,8 @@ def test_every_part_is_a_keyword(word, part):
 
 def test_no_statement_hides_a_method():
     own = {name for name in vars(Drawing) if not name.startswith("_")} | {"name"}
-    assert not own & set(_METHODS)
-    assert set(_METHODS) <= set(dir(Drawing()))
+    assert not own & set(METHODS)
+    assert set(METHODS) <= set(dir(Drawing()))
 
 
 def test_errors_say_which_call():
@@ -269,7 +269,7 @@ def test_draw_takes_a_drawing(tmp_path):
 @pytest.mark.parametrize("word", WORDS)
 def test_every_example_of_a_call_is_one(word):
     """What messages show can be typed, and writes the statement's own example."""
-    for form in _form(word).split(", or "):
+    for form in example_call(word).split(", or "):
         d = Drawing()
         block = eval(form, {"d": d})
         if block is not None:
@@ -277,7 +277,7 @@ def test_every_example_of_a_call_is_one(word):
                 pass
         line = str(d).split("\n")[0]
         assert line.split()[0] == word
-        if ", or " not in _form(word) and not STATEMENTS[word].block:
+        if ", or " not in example_call(word) and not STATEMENTS[word].block:
             assert line == formatted(STATEMENTS[word].example).strip()
 
 

@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from keyword import iskeyword
 from math import ceil, floor
 from pathlib import Path
 
@@ -350,7 +351,41 @@ def cases():
     return "\n".join(lines) + "\n"
 
 
+STUB = ROOT / "dqpaint/language/writing/statements.pyi"
+STUB_HEAD = '''"""The statements as methods of a drawing, for editors and type checkers.
+
+Written by python -m tests.tools.generated from the tables of the language.
+"""
+
+# ruff: noqa: E501
+# fmt: off
+from contextlib import AbstractContextManager
+from typing import Any
+
+class Statements:
+'''
+
+
+def stub():
+    """The methods of a drawing, with the parts of each statement as keywords."""
+    from dqpaint.language.vocabulary.words import PARTS, STATEMENTS
+    from dqpaint.language.writing.builder import METHODS, example_call
+
+    text = STUB_HEAD
+    for method, word in METHODS.items():
+        known = STATEMENTS[word]
+        given = ["self"] + ["*values: Any"] * bool(known.head) + ["*"] * (not known.head)
+        for part in known.parts:
+            name = f"{part}_" if iskeyword(part) else part
+            given.append(f"{name}: {'bool' if PARTS[part].takes == 'flag' else 'Any'} = ...")
+        answer = "AbstractContextManager[None]" if known.block else "None"
+        text += f"    def {method}({', '.join(given).removesuffix(', *')}) -> {answer}:\n"
+        text += f'        """{known.says[0].upper()}{known.says[1:]}: `{example_call(word)}`."""\n'
+    return text
+
+
 if __name__ == "__main__":
+    STUB.write_text(stub(), "utf-8")
     CASES.write_text(cases(), "utf-8")
     OPTIONS.write_text(keyword_types(), "utf-8")
     for tables in (PAGES, SLOW_TABLES):

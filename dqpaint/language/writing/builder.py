@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from keyword import iskeyword
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from dqpaint.diagnostics import file_at
 from dqpaint.errors import UsageError
@@ -33,21 +33,26 @@ from dqpaint.language.writing.values_to_text import (
     written_part,
 )
 
+if TYPE_CHECKING:
+    from dqpaint.language.writing.statements import Statements
+else:
+    Statements = object
+
 _BLOCKS = {"with": "block", "def": "define"}  # as methods
-_METHODS = {
+METHODS = {
     _BLOCKS.get(word, f"{word}_" if iskeyword(word) else word): word
     for word in STATEMENTS
     if word != "end"
 }
-_CALLS = {**_METHODS, **RENAMED}  # those of earlier versions are understood, not told
+_CALLS = {**METHODS, **RENAMED}  # those of earlier versions are understood, not told
 
 
 _OF_FORM = "E1"  # what the codes begin with that are about a form that is not kept
 
 
-def _form(word: str) -> str:
+def example_call(word: str) -> str:
     """How a statement is called, as it would be typed."""
-    method = next(method for method, known in _METHODS.items() if known == word)
+    method = next(method for method, known in METHODS.items() if known == word)
     return f"d.{called(word, method)}"
 
 
@@ -87,14 +92,14 @@ class DrawingError(ScriptError):
             return ""
         word = self.text.split("\n")[line - 1].split()[0]
         form = (
-            f"; for example: {_form(word)}"
+            f"; for example: {example_call(word)}"
             if code.startswith(_OF_FORM) and word in STATEMENTS
             else ""
         )
         return f"\n{margin}= call: {self.calls[line]}{form}"
 
 
-class Drawing:
+class Drawing(Statements):
     """A drawing made by calls: printed it is a .traj file; `program` is what it means.
 
     Args:
@@ -112,27 +117,29 @@ class Drawing:
         for method, value in settings.items():
             self._add(_word(method), (value,), {})
 
-    def __getattr__(self, method: str) -> Callable[..., Any]:
-        if method not in _CALLS:
-            raise AttributeError(self._no_method(method))
-        word = _CALLS[method]
-        known = STATEMENTS[word]
+    if not TYPE_CHECKING:  # the stub has the methods: a word that is none is told by editors
 
-        def statement(*values: Any, **parts: Any) -> AbstractContextManager[None] | None:
-            self._add(word, values, parts)
-            return self._block() if known.block else None
+        def __getattr__(self, method: str) -> Callable[..., Any]:
+            if method not in _CALLS:
+                raise AttributeError(self._no_method(method))
+            word = _CALLS[method]
 
-        statement.__name__ = method
-        statement.__doc__ = f"{known.says.capitalize()}: `{known.example}`."
-        return statement
+            def statement(*values: Any, **parts: Any) -> AbstractContextManager[None] | None:
+                self._add(word, values, parts)
+                return self._block() if STATEMENTS[word].block else None
+
+            statement.__name__ = method
+            says = STATEMENTS[word].says
+            statement.__doc__ = f"{says[0].upper()}{says[1:]}: `{example_call(word)}`."
+            return statement
 
     def _no_method(self, method: str) -> str:
         if f"def {method}(" in "\n".join(self._lines):
             return f"'{method}' is drawn by a line of the language: d.write(\"{method}(...)\")"
-        return f"a drawing has no '{method}'; it has: {', '.join(_METHODS)}"
+        return f"a drawing has no '{method}'; it has: {', '.join(METHODS)}"
 
     def __dir__(self) -> list[str]:
-        return sorted({*super().__dir__(), *_METHODS})
+        return sorted({*super().__dir__(), *METHODS})
 
     def write(self, line: str) -> None:
         """A line of the language as it stands, such as the call of a `def`."""
@@ -181,7 +188,9 @@ class Drawing:
         try:
             line = " ".join([word, *written_head(word, values), *_parts(word, parts)])
         except Unwritable as problem:
-            example = "" if "for example" in str(problem) else f"; for example: {_form(word)}"
+            example = (
+                "" if "for example" in str(problem) else f"; for example: {example_call(word)}"
+            )
             raise UsageError(f"{_caller()}: {word}: {problem}{example}") from None
         self._line(line)
 
@@ -201,7 +210,7 @@ class Drawing:
 
 def _word(method: str) -> str:
     if method not in _CALLS:
-        raise UsageError(f"no statement named '{method}'; known: {', '.join(_METHODS)}")
+        raise UsageError(f"no statement named '{method}'; known: {', '.join(METHODS)}")
     return _CALLS[method]
 
 

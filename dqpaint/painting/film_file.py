@@ -5,15 +5,14 @@ It is NumPy's .npz: arrays that can be read with `numpy.load`, and the rest as J
 
 import io
 import json
-import zipfile
-import zlib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple
 
 import cv2
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, Field
 
 from dqpaint import __version__
 from dqpaint.diagnostics import SourceLine
@@ -33,6 +32,7 @@ UNIT = 1e-6  # how far a rotation may be from one
 FARTHEST = 1e6  # of any number of an array
 Number = Annotated[float, Field(ge=0, le=FARTHEST, allow_inf_nan=False)]
 Part = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
+Arrays = dict[str, NDArray[Any]]
 Shade = tuple[Number, Number, Number]
 
 
@@ -84,7 +84,7 @@ class About(BaseModel):
     settings: Settings
     dimmer: Annotated[float, Field(ge=0, le=FARTHEST, allow_inf_nan=False)]
     legend: Key | None
-    light: tuple[Facts, ...]
+    light: Annotated[tuple[Facts, ...], Field(min_length=1)]
     asked: tuple[Facts, ...]
     under: tuple[Facts, ...]
     arm: Arm | None = None
@@ -163,37 +163,46 @@ def read(path: str) -> FilmFile:
     if place.suffix in (".tiff", ".hdr"):  # the pictures that lie beside it
         place = place.with_suffix(".npz")
     try:
-        with np.load(io.BytesIO(place.read_bytes()), allow_pickle=False) as arrays:
-            about = About.model_validate(json.loads(str(arrays["about"])))
-            light, asked, under = (
-                tuple(_sweeps(arrays, group, getattr(about, group))) for group in GROUPS
-            )
-            legend = None if about.legend is None else Legend(**dict(about.legend))
-            front = _numbers(arrays, "front")
-            if front.shape != (3, 3) or np.abs(front @ front.T - np.eye(3)).max() > UNIT:
-                raise ValueError("front")
-            scene = Scene(about.name, light, asked, under, front, legend, about.dimmer)
-            cast = _cast(arrays, about.arm, light[0])
-            return FilmFile(scene, about.settings, cast, _worked(arrays, about, light))
+        return _film(_arrays(place.read_bytes()))
     except OSError as problem:
-        reason = problem.strerror or "it is not a film"
-        raise DqpaintError(f"film '{path[:60]}' cannot be read: {reason}") from None
-    except (
-        ValueError, KeyError, IndexError, TypeError, AttributeError, EOFError, OverflowError,
-        RecursionError, MemoryError, NotImplementedError, zipfile.BadZipFile, zlib.error,
-        ValidationError, DqpaintError,
-    ):  # fmt: skip
+        raise DqpaintError(f"film '{path[:60]}' cannot be read: {problem.strerror}") from None
+    except (ValueError, DqpaintError):  # among them pydantic's
         raise DqpaintError(
             f"'{path[:60]}' is not a film of dqpaint; draw with --save film makes one"
         ) from None
 
 
-def _cast(arrays: Any, facts: Arm | None, sweep: Sweep) -> ArmMotion | None:
+def _arrays(data: bytes) -> Arrays:
+    """The arrays of an .npz file by their names.
+
+    Raises:
+        ValueError: it is none.
+    """
+    try:
+        with np.load(io.BytesIO(data), allow_pickle=False) as file:
+            return dict(file)
+    except Exception as problem:  # whatever numpy, zipfile and zlib make of bytes of others
+        raise ValueError("no arrays") from problem
+
+
+def _film(arrays: Arrays) -> FilmFile:
+    about = About.model_validate_json(str(arrays.get("about")))
+    light, asked, under = (tuple(_sweeps(arrays, group, getattr(about, group))) for group in GROUPS)
+    legend = None if about.legend is None else Legend(**dict(about.legend))
+    front = _numbers(arrays, "front")
+    if front.shape != (3, 3) or np.abs(front @ front.T - np.eye(3)).max() > UNIT:
+        raise ValueError("front")
+    scene = Scene(about.name, light, asked, under, front, legend, about.dimmer)
+    cast = _cast(arrays, about.arm, light[0])
+    return FilmFile(scene, about.settings, cast, _worked(arrays, about, light))
+
+
+def _cast(arrays: Arrays, facts: Arm | None, sweep: Sweep) -> ArmMotion | None:
     if facts is None:
         return None
     posture = _numbers(arrays, "arm-posture")
-    line = np.asarray(arrays["arm-line"])
-    file = np.asarray(arrays["arm-file"]) if "arm-file" in arrays else np.zeros_like(line)
+    line = _array(arrays, "arm-line")
+    file = arrays.get("arm-file", np.zeros_like(line))
     if posture.ndim != 2 or len(posture) != len(sweep.time):
         raise ValueError("arm")
     if any(part.dtype.kind != "i" or part.shape != sweep.time.shape for part in (line, file)):
@@ -202,7 +211,7 @@ def _cast(arrays: Any, facts: Arm | None, sweep: Sweep) -> ArmMotion | None:
     return ArmMotion(facts.robot, posture, source, facts.period)
 
 
-def _worked(arrays: Any, about: About, light: tuple[Sweep, ...]) -> RenderCache | None:
+def _worked(arrays: Arrays, about: About, light: tuple[Sweep, ...]) -> RenderCache | None:
     if about.shown is None:
         return None
     key = _numbers(arrays, "shown-key")
@@ -222,15 +231,21 @@ def _worked(arrays: Any, about: About, light: tuple[Sweep, ...]) -> RenderCache 
     return RenderCache(key, about.settings.ghost, seen, shares, about.shown.remarks)
 
 
-def _numbers(arrays: Any, name: str) -> Floats:
+def _array(arrays: Arrays, name: str) -> NDArray[Any]:
+    if name not in arrays:
+        raise ValueError(f"no array {name}")
+    return arrays[name]
+
+
+def _numbers(arrays: Arrays, name: str) -> Floats:
     """An array of a file as floats, each of which a picture can come from."""
-    array = np.asarray(arrays[name])
+    array = _array(arrays, name)
     if array.dtype.kind != "f" or not (np.abs(array) <= FARTHEST).all():
         raise ValueError(name)
     return np.asarray(array, dtype=np.float64)
 
 
-def _sweeps(arrays: Any, group: str, sweeps: tuple[Facts, ...]) -> Iterator[Sweep]:
+def _sweeps(arrays: Arrays, group: str, sweeps: tuple[Facts, ...]) -> Iterator[Sweep]:
     for i, facts in enumerate(sweeps):
 
         def array(name: str, key: str = f"{group}{i}") -> Floats:
@@ -241,10 +256,11 @@ def _sweeps(arrays: Any, group: str, sweeps: tuple[Facts, ...]) -> Iterator[Swee
             facts.lobe,
         )  # fmt: skip
         strobe = array("strobe") if facts.strobe else None
-        pose = array("pose")
-        if (np.abs(np.linalg.norm(pose[:, :4], axis=1) - 1) > UNIT).any():
+        colours = array("colours")
+        sweep = Sweep(facts.period, array("pose"), colours, emitters, strobe, facts.pwm)
+        if (np.abs(np.linalg.norm(sweep.turns, axis=1) - 1) > UNIT).any():
             raise ValueError("pose")
-        yield Sweep(facts.period, pose, array("colours"), emitters, strobe, facts.pwm)
+        yield sweep
 
 
 def encode_linear(scene: Scene, picture: Picture, settings: Settings, ending: str) -> bytes:

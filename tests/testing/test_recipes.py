@@ -1,108 +1,58 @@
-"""A package outside the repository brings a law that remembers, a plant, a brush and a format."""
+"""The recipes of CONTRIBUTING, carried out: a package outside the repository, as they have it."""
 
 import json
 import os
+import re
 import subprocess
 import sys
+import tomllib
+from pathlib import Path
 
 import pytest
 
 from tests.support.plugins import install
 
-PARTS = {
-    "laws": '''
-"""Laws of the workshop."""
-
-import numpy as np
-
-from dqpaint import dq
-
-
-class PI:
-    """Proportional and integral action on the pose error."""
-
-    def start(self, arm, motion, gains):
-        self.sum = np.zeros(6)
-
-    def __call__(self, seen, k=20.0, ki=100.0):
-        near = dq.nearest(seen.pose_d, seen.pose)
-        error = 2 * dq.log(dq.mul(near, dq.conj(seen.pose)))
-        self.sum = self.sum + seen.period * error
-        return seen.twist_d + k * error + ki * self.sum
-''',
-    "plants": '''
-"""Plants of the workshop."""
-
-from pydantic import Field
-
-from dqpaint.plants import UNDISTURBED, Ideal, Values
-
-
-class Share(Values):
-    share: float = Field(0.5, description="of the rates that arrive")
-
-
-class Weak(Ideal):
-    """It moves at a share of the rates it is given."""
-
-    options = Share
-
-    def __init__(self, card, posture, period, world=UNDISTURBED, options=None):
-        super().__init__(card, posture, period)
-        self.share = (options or Share()).share
-
-    def run(self, command, drift=None):
-        super().run(self.share * command, drift)
-''',
-    "brushes": '''
-"""Brushes of the workshop."""
-
-import numpy as np
-from pydantic import Field
-
-from dqpaint.light.sources import Brush, Emitters
-
-
-class Pair(Brush):
-    """Two lamps side by side."""
-
-    apart: float = Field(0.04, description="from lamp to lamp [m]")
-
-    def emitters(self):
-        half = self.apart / 2
-        return Emitters([[-half, 0, 0], [half, 0, 0]], np.full((1, 2, 3), 0.5), lobe=self.lobe)
-''',
-    "formats": '''
-"""Formats of the workshop."""
-
-from dqpaint.outputs import writer
-
-
-@writer("duration", ".duration")
-def duration(painting):
-    """How long the drawing takes [s]."""
-    return f"{painting.motion.t[-1]:.2f}".encode()
-''',
-}
-POINTS = """
-[dqpaint.controllers]
-workshop-pi = workshop.laws:PI
-[dqpaint.plants]
-weak = workshop.plants:Weak
-[dqpaint.brushes]
-pair = workshop.brushes:Pair
-[dqpaint.formats]
-duration = workshop.formats
-"""
+ROOT = Path(__file__).parents[2]
+RECIPES = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
 TEXT = "period 10 ms\nline to (60, 20, 5) mm tool rot(y, 20 deg) in 1 s\n"
 pytestmark = pytest.mark.slow
+
+
+def blocks(kind):
+    """The blocks of code of a language, in their order."""
+    return re.findall(rf"^```{kind}\n(.*?)^```$", RECIPES, re.DOTALL | re.MULTILINE)
+
+
+def files():
+    """The files that the blocks say they are: name -> text; one may come in several blocks."""
+    found = {}
+    for block in blocks("python"):
+        first, _, text = block.partition("\n")
+        name = first.removeprefix("# ").strip()
+        found[name] = found.get(name, "") + text
+    return found
+
+
+def entry_points():
+    """The block of pyproject.toml as pip writes it."""
+    (block,) = blocks("toml")
+    groups = tomllib.loads(block)["project"]["entry-points"]
+    lines = []
+    for group, names in groups.items():
+        lines += [f"[{group}]", *(f"{name} = {place}" for name, place in names.items())]
+    return "\n".join(lines)
 
 
 @pytest.fixture(scope="module")
 def outside(tmp_path_factory):
     """A function that runs Python where the package is installed; gives what it prints."""
     folder = tmp_path_factory.mktemp("outside")
-    install(folder / "site", "workshop", PARTS, POINTS)
+    texts = files()
+    modules = {
+        Path(name).stem: text for name, text in texts.items() if name.startswith("workshop/")
+    }
+    install(folder / "site", "workshop", modules, entry_points())
+    (folder / "check.py").write_text(texts["check.py"])
     (folder / "t.traj").write_text(TEXT)
     path = os.pathsep.join([str(folder / "site"), *filter(None, [os.environ.get("PYTHONPATH")])])
 
@@ -125,6 +75,8 @@ def outside(tmp_path_factory):
         ("plants", "weak", "It moves at a share"),
         ("brushes", "pair", "Two lamps side by side"),
         ("formats", "duration", "How long the drawing takes"),
+        ("controllers", "careful", "Feed-forward and proportional action"),
+        ("figures", "position_error_p95_m", "95 %"),
     ],
 )
 def test_lists_say_what_it_brings(outside, kind, name, about):
@@ -146,9 +98,11 @@ def test_it_is_drawn_with_and_recorded(outside):
     assert summary["plugins"] == {
         "brush pair": "workshop 1.2",
         "controller workshop-pi": "workshop 1.2",
+        "metric position_error_p95_m": "workshop 1.2",
         "plant weak": "workshop 1.2",
     }
     assert (outside.folder / "one/t-workshop-pi.duration").read_text() == "1.00"
+    assert summary["position_error_p95_m"] <= summary["position_error_max_m"]
 
 
 def test_a_sweep_with_two_workers_gives_the_bits_of_single_runs(outside):
@@ -170,11 +124,4 @@ def test_a_sweep_with_two_workers_gives_the_bits_of_single_runs(outside):
 
 
 def test_the_exported_checks_pass_on_it(outside):
-    outside(
-        "-c",
-        "from dqpaint.testing import check_brush, check_controller, check_plant, check_writer\n"
-        "check_controller('workshop-pi')\n"
-        "check_plant('weak', within=None)\n"
-        "check_brush('pair')\n"
-        "check_writer('duration')\n",
-    )
+    outside("check.py")

@@ -177,7 +177,7 @@ def _stage(
     """The arm of a film, if it is to be seen and is still there; and else what there is to say."""
     if not settings.staged:
         return nullcontext(), ()
-    from dqpaint.render import on_stage
+    from dqpaint.render import scene_arm_of_run
     from dqpaint.robots.loading import find_card
     from dqpaint.robots.urdf import prepare
 
@@ -192,4 +192,4 @@ def _stage(
         return nullcontext(), (
             f"warning: the arm is left out, and what it hides is not traced: {problem}",
         )
-    return on_stage(settings, card, cast), ()
+    return scene_arm_of_run(settings, card, cast), ()

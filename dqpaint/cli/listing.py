@@ -130,13 +130,13 @@ def _null() -> list[dict[str, Any]]:
 
 
 def _brushes() -> list[dict[str, Any]]:
-    from dqpaint.light.sources import BRUSHES, choices_of
+    from dqpaint.light.sources import BRUSHES, describe_fields
 
     return [
         {
             "name": name,
             "about": _about(kind),
-            "choices": choices_of(kind),
+            "choices": describe_fields(kind),
             **_package(BRUSHES, name),
         }
         for name, kind in BRUSHES.items()

@@ -4,7 +4,7 @@ In comes where the tool was at N instants, what it carried and in which colours 
 an (H, W, 3) array of 8-bit sRGB. Between the two there is one noun a step, each linear in the light
 until the last:
 
-    poses, colours, Emitters -> Sweep -towards-> Light, Sheet -expose-> Film -spread-> image
+    poses, colours, Emitters -> Sweep -emission_to-> Light, Sheet -expose-> Film -spread-> image
                   points -frame-> Camera ~^                ~^               ^~ automatic_exposure
                                                                     image -LOOKS-> picture
 

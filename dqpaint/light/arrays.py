@@ -12,13 +12,13 @@ Image = NDArray[np.float32]
 """(H, W, 3) linear RGB, 1.0 = what saturates the sensor once exposed."""
 Picture = NDArray[np.uint8]
 """(H, W, 3) sRGB."""
-TOGETHER = 64  # short rows that are added as one
+ROWS_PER_SUM = 64  # short rows that are added as one
 BATCH = 1 << 15
 """How many steps, or pieces, are worked on at once: what fits the cache. It is fixed, so that sums
 are made in the same order whatever machine they are made on."""
 
 
-def kept(name: str, values: ArrayLike, shape: tuple[int | None, ...]) -> Floats:
+def checked_array(name: str, values: ArrayLike, shape: tuple[int | None, ...]) -> Floats:
     """A read-only float64 copy of `values`, checked.
 
     Args:
@@ -44,8 +44,8 @@ def kept(name: str, values: ArrayLike, shape: tuple[int | None, ...]) -> Floats:
     return array
 
 
-def summed(rows: Floats) -> Floats:
+def sum_rows(rows: Floats) -> Floats:
     """(3,) the sum of rows (N, 3): numpy adds long rows ten times as fast as short ones."""
-    whole = len(rows) - len(rows) % TOGETHER
-    long = rows[:whole].reshape(-1, 3 * TOGETHER).sum(axis=0)
+    whole = len(rows) - len(rows) % ROWS_PER_SUM
+    long = rows[:whole].reshape(-1, 3 * ROWS_PER_SUM).sum(axis=0)
     return np.asarray(long.reshape(-1, 3).sum(axis=0) + rows[whole:].sum(axis=0))

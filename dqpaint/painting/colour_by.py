@@ -11,7 +11,7 @@ from dqpaint import dq
 from dqpaint.diagnostics import SourceLine, text_of_line
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UnknownNameError, UsageError
-from dqpaint.light.images import Legend, amounts, colour_amounts, colour_kinds
+from dqpaint.light.images import Legend, categorical_colours, sequential_colours, sequential_map
 from dqpaint.metrics import Column, Table, all_columns
 from dqpaint.motion import Motion
 
@@ -69,18 +69,18 @@ def colours_of(motion: Motion, table: Table, by: str) -> tuple[Floats, Legend]:
     else:
         values = table[column.name] * column.scale
         low, high = limits(values[lit], column.from_zero) if end is None else (0.0, end)
-        shown = colour_amounts((values - low) / (high - low))
+        shown = sequential_colours((values - low) / (high - low))
         title = column.title + (f" [{_unit(column)}]" if column.shown else "")
         more = "≥ " if values[lit].max() > high * (1.0 + 1e-9) else ""
         labels = (f"{low:g}", f"{more}{high:g}")
-        legend = Legend(title, labels, _tuples(amounts()), amounts=True)
+        legend = Legend(title, labels, _tuples(sequential_map()), amounts=True)
     return np.where(lit[:, None], shown, 0.0), legend
 
 
 def _by_line(motion: Motion, title: str) -> tuple[Floats, Legend]:
     """A colour (N, 3) for each line of the drawing that shines."""
     lines = motion.source[motion.lit].present
-    colours = colour_kinds(len(lines))
+    colours = categorical_colours(len(lines))
     place = {line: i for i, line in enumerate(lines)}
     kinds = np.array([place.get(line, 0) for line in motion.source.lines])  # others are dark
     labels = tuple(_labelled(motion, line) for line in lines)

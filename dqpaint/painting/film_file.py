@@ -130,13 +130,13 @@ def encode(
                 }
             )  # fmt: skip
             parts = {
-                "pose": sweep.pose, "colours": sweep.colours, "places": e.places,
+                "pose": sweep.pose, "colours": sweep.colours, "places": e.positions,
                 "tints": e.tints, "normal": e.normal,
             }  # fmt: skip
             if sweep.strobe is not None:
                 parts["strobe"] = sweep.strobe
             arrays.update({f"{key}-{name}": array for name, array in parts.items()})
-    if cast is not None and cast.known:
+    if cast is not None and cast.has_joints:
         about["arm"] = {"robot": cast.robot, "period": cast.period}
         arrays.update({"arm-posture": cast.posture, "arm-line": cast.source.line})
         if cast.source.file.any():

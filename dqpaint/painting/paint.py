@@ -27,7 +27,7 @@ from dqpaint.painting.scene import Scene, arrange, check_choices
 from dqpaint.planning import placement, reachability, retiming
 from dqpaint.plants import ConfiguredPlant, Takes, choose_plant
 from dqpaint.program import Program
-from dqpaint.render import ArmMotion, SceneArm, on_stage
+from dqpaint.render import ArmMotion, SceneArm, scene_arm_of_run
 from dqpaint.robots.kinematics import Clamp, Kinematics, read_null
 from dqpaint.robots.loading import card_for, find_card
 from dqpaint.robots.model import DEFAULT_ROBOT
@@ -84,7 +84,7 @@ class Painting(PictureSet):
 
     def staged(self) -> AbstractContextManager[SceneArm | None]:
         """The arm as it moved, if the settings show it or let it hide light."""
-        return on_stage(self.settings, find_card(self.cast.robot), self.cast)
+        return scene_arm_of_run(self.settings, find_card(self.cast.robot), self.cast)
 
     def __repr__(self) -> str:
         name, rms = self.motion.program.name, self.metrics.figures["position_error_rms_m"]
@@ -201,9 +201,9 @@ def finish(ready: PreparedRun, run: Track) -> Painting:
         steps = set_points(run)
     robot = settings.robot or ready.program.robot or DEFAULT_ROBOT
     cast = ArmMotion(robot, run.posture, motion.source, motion.period)
-    if settings.staged and not cast.known:
+    if settings.staged and not cast.has_joints:
         notes += (UNSEEN,)
-    with clock("light"), on_stage(settings, card, cast) as staging:
+    with clock("light"), scene_arm_of_run(settings, card, cast) as staging:
         scene = arrange(motion, run.pose, settings, metrics.table)
         pictures = tuple(photograph(scene, settings, staging))
     return Painting(

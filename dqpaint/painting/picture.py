@@ -11,9 +11,16 @@ from numpy.typing import NDArray
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.light import Image
-from dqpaint.light.camera import Camera, Shot, advice, distance_to, parse_exposure, parse_views
+from dqpaint.light.camera import (
+    Camera,
+    Shot,
+    distance_to,
+    equivalent_exposure,
+    parse_exposure,
+    parse_views,
+)
 from dqpaint.light.film import (
-    CORE,
+    CORE_EXPOSURE,
     LOOKS,
     Film,
     automatic_exposure,
@@ -24,10 +31,10 @@ from dqpaint.light.film import (
     with_starburst,
 )
 from dqpaint.light.images import with_legend
-from dqpaint.light.sources import ALL, Shade, Sweep, shade_of, stand
+from dqpaint.light.sources import ALL_SAMPLES, Occlusion, Sweep, occlusion_by, view_camera
 from dqpaint.motion import RowLines
 from dqpaint.painting.scene import Scene
-from dqpaint.render import HiddenLight, SceneArm, account
+from dqpaint.render import HiddenLight, SceneArm, hidden_by_line
 from dqpaint.settings import Settings
 
 # run lengths suit black ground with dithered halos: smaller and faster than the default search
@@ -71,7 +78,7 @@ class Picture:
 
     def worked(self, ghost: bool | str) -> "RenderCache":
         """What of the arm was worked out for it, where it was shown like this."""
-        shades = [sweep.shade for sweep in self.light if sweep.shade is not None]
+        shades = [sweep.occlusion for sweep in self.light if sweep.occlusion is not None]
         shares = tuple(shade.share for shade in shades)
         return RenderCache(
             key_of(self.camera, self.exposure), ghost, self.arm, shares, self.remarks
@@ -138,7 +145,7 @@ class RenderCache:
     def shaded(self, light: tuple[Sweep, ...]) -> tuple[Sweep, ...]:
         """Light with what is hidden of it."""
         return tuple(
-            replace(sweep, shade=Shade(sweep.period, share))
+            replace(sweep, occlusion=Occlusion(sweep.period, share))
             for sweep, share in zip(light, self.shares, strict=True)
         )
 
@@ -178,7 +185,7 @@ def photograph(
 
 def place_camera(scene: Scene, settings: Settings, shot: Shot) -> Camera:
     """The camera of one view."""
-    return stand(scene.shown_points, scene.front, settings, shot)
+    return view_camera(scene.shown_points, scene.front, settings, shot)
 
 
 def _shoot(
@@ -220,29 +227,31 @@ def _stage(
         shares = worked.shares
     elif settings.traced:
         fresh = True
-        if staging.solid:
-            shares = tuple(shade_of(sweep, staging, camera.position).share for sweep in scene.light)
+        if staging.can_occlude:
+            shares = tuple(
+                occlusion_by(sweep, staging, camera.position).share for sweep in scene.light
+            )
     if settings.ghost and worked is not None and worked.shows(key, settings):
         arm = worked.arm
     elif settings.ghost:
         fresh = True
-        take = staging.blur if settings.ghost == "motion" else staging.photograph
+        take = staging.render_blurred if settings.ghost == "motion" else staging.render_still
         arm = take(camera, partial(lights_of, scene), exposure, _by_settings(settings))
     remarks = tuple(staging.remarks) if fresh or worked is None else worked.remarks
     return RenderCache(key, settings.ghost, arm, shares, remarks)
 
 
-def lights_of(scene: Scene, samples: slice = ALL) -> list[tuple[Floats, Floats]]:
+def lights_of(scene: Scene, samples: slice = ALL_SAMPLES) -> list[tuple[Floats, Floats]]:
     """The paths (N, 3) and energies (N-1, 3) of a scene's lamps, of some steps between samples."""
-    return [lamp for sweep in scene.light for lamp in sweep.lights(samples)]
+    return [lamp for sweep in scene.light for lamp in sweep.lamp_paths(samples)]
 
 
 def _hidden(light: Sequence[Sweep], source: RowLines) -> HiddenLight:
     """What of some sweeps their shades kept from the film, by the lines (N,) of the drawing."""
-    shades = [sweep.shade for sweep in light if sweep.shade is not None]
+    shades = [sweep.occlusion for sweep in light if sweep.occlusion is not None]
     hidden = np.sum([shade.hidden for shade in shades], axis=0)
     emitted = np.sum([shade.emitted for shade in shades], axis=0)
-    return account(hidden, emitted, source[:-1])
+    return hidden_by_line(hidden, emitted, source[:-1])
 
 
 def _by_settings(settings: Settings) -> bool:
@@ -260,7 +269,10 @@ def _exposure(
         psf = point_spread(settings.height)
         given = automatic_exposure(scene.asked, camera, psf) * scene.dimmer
     shown = given * 2.0**settings.ev
-    return given, f"automatic, {advice(shown, camera, distance_to(camera, scene.shown_points))}"
+    return (
+        given,
+        f"automatic, {equivalent_exposure(shown, camera, distance_to(camera, scene.shown_points))}",
+    )
 
 
 def linear(
@@ -296,7 +308,7 @@ def linear(
 def beneath(scene: Scene, exposure: float, camera: Camera, settings: Settings) -> Image:
     """(H, W, 3) the faint lines of the asked drawing, on the same scale as the film's light."""
     psf = point_spread(settings.height)
-    ridge = automatic_exposure(scene.under, camera, psf) / CORE
+    ridge = automatic_exposure(scene.under, camera, psf) / CORE_EXPOSURE
     faint = np.float32(FAINT * ridge / (exposure * 2.0**settings.ev))
     return spread(expose(scene.under, camera), psf) * faint
 

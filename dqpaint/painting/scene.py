@@ -12,9 +12,9 @@ from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.light.camera import parse_exposure, parse_views
-from dqpaint.light.film import BLADES, CORE, LOOKS
-from dqpaint.light.images import RIDGE, Legend
-from dqpaint.light.sources import Emitters, Sweep, evened, read_brush, sweeps
+from dqpaint.light.film import BLADE_RANGE, CORE_EXPOSURE, LOOKS
+from dqpaint.light.images import LEGEND_EXPOSURE, Legend
+from dqpaint.light.sources import Emitters, Sweep, even_by_length, read_brush, sweeps
 from dqpaint.metrics import Table, asked_columns
 from dqpaint.motion import Motion
 from dqpaint.painting.colour_by import colours_of, magnified, read_colour_by
@@ -62,14 +62,14 @@ def check_choices(settings: Settings) -> None:
     """Raise a UsageError for a slip in what concerns light, before anything is simulated."""
     shots = parse_views(settings.view)
     LOOKS[settings.look]
-    if settings.starburst and not BLADES[0] <= settings.starburst <= BLADES[1]:
-        bounds = f"{BLADES[0]} to {BLADES[1]} blades; 0 is a round one"
+    if settings.starburst and not BLADE_RANGE[0] <= settings.starburst <= BLADE_RANGE[1]:
+        bounds = f"{BLADE_RANGE[0]} to {BLADE_RANGE[1]} blades; 0 is a round one"
         raise UsageError(f"starburst {settings.starburst}: an aperture has {bounds}")
     if settings.brush is not None:
         read_brush(settings.brush).emitters()
     if settings.exposure is not None:
         exposure = parse_exposure(settings.exposure)
-        if exposure and exposure.distance is not None and any(shot.place for shot in shots):
+        if exposure and exposure.distance is not None and any(shot.position for shot in shots):
             raise UsageError(
                 f"view '{settings.view}' says where the camera stands: leave the distance out of "
                 f"exposure '{settings.exposure}'"
@@ -99,7 +99,7 @@ def arrange(motion: Motion, pose: Floats, settings: Settings, table: Table | Non
     if settings.colour_by is not None:
         columns = asked_columns(motion) if table is None else table
         colours, legend = colours_of(motion, columns, settings.colour_by)
-        dimmer = RIDGE / CORE
+        dimmer = LEGEND_EXPOSURE / CORE_EXPOSURE
         metered = np.where(motion.lit[:, None], np.ones(3), 0.0)  # as bright as the legend's strip
     even = settings.colour_by is not None
     shown = pose if settings.magnify == 1.0 else magnified(motion, pose, settings.magnify)
@@ -130,8 +130,8 @@ def _thin(sweeps: tuple[Sweep, ...]) -> tuple[Sweep, ...]:
     thin = []
     for sweep in sweeps:
         places = sweep.emitters.extent
-        if len(sweep.emitters.places) == 1 or not sweep.emitters.straight:
+        if len(sweep.emitters.positions) == 1 or not sweep.emitters.straight:
             places = np.zeros((1, 3))
         lines = Emitters(places, np.ones((1, len(places), 3)))
-        thin.append(evened(replace(sweep, emitters=lines, strobe=None, pwm=0.0)))
+        thin.append(even_by_length(replace(sweep, emitters=lines, strobe=None, pwm=0.0)))
     return tuple(thin)

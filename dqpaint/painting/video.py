@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from dqpaint.errors import DqpaintError
 from dqpaint.light import Image
 from dqpaint.light.camera import parse_exposure
-from dqpaint.light.film import Exposing
+from dqpaint.light.film import FilmAccumulator
 from dqpaint.painting.picture import Picture, beneath, finish, lights_of, linear
 from dqpaint.painting.scene import Scene
 from dqpaint.render import SceneArm
@@ -53,7 +53,7 @@ def frames(
         progress: called with the part done, 0 to 1.
         staging: the arm; None leaves it out till the end.
     """
-    exposing = Exposing(picture.camera)
+    exposing = FilmAccumulator(picture.camera)
     falloff = parse_exposure(settings.exposure or "auto") is not None
     camera, exposure = picture.camera, picture.exposure
     under = beneath(scene, exposure, camera, settings) if scene.under else None
@@ -61,10 +61,12 @@ def frames(
     edges = [steps * i // count for i in range(count)]
     arms: Iterator[Image | None] = repeat(None)
     if staging is not None and settings.ghost:
-        arms = staging.frames(camera, partial(lights_of, scene), exposure, falloff, edges[1:])
+        arms = staging.render_frames(
+            camera, partial(lights_of, scene), exposure, falloff, edges[1:]
+        )
     for i, (first, last) in enumerate(pairwise(edges)):
         for sweep in picture.light:
-            for piece in sweep.towards(picture.camera, falloff, slice(first, last)):
+            for piece in sweep.emission_to(picture.camera, falloff, slice(first, last)):
                 exposing.add(piece)
         image = linear(scene, exposing.film(), exposure, camera, settings, under, next(arms))
         progress((i + 1) / count)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.light.camera import parse_views
-from dqpaint.light.sources import stand, sweeps
+from dqpaint.light.sources import sweeps, view_camera
 from dqpaint.motion import Motion
 from dqpaint.robots.kinematics import Shapes
 from dqpaint.settings import Settings
@@ -79,15 +79,15 @@ def hide(
     light = sweeps(motion, motion.pose, motion.light, settings)
     points = np.concatenate([sweep.lit_points for sweep in light])
     front = dq.matrix_from_quaternion(motion.front)
-    cameras = [stand(points, front, settings, shot) for shot in shots]
+    cameras = [view_camera(points, front, settings, shot) for shot in shots]
     for sweep in light:
         energy = sweep.colours[np.minimum(rows[looks], len(sweep.colours) - 1)].sum(axis=1)
         shone = np.flatnonzero(energy)
         if not len(shone):
             continue
         at = rows[looks[shone]]
-        lamps = sweep.emitters.along(max(APART, 2 * sweep.emitters.reach / (LAMPS - 1)))
-        places = sweep.places(sweep.points[at], sweep.turns[at], lamps)
+        lamps = sweep.emitters.positions_along(max(APART, 2 * sweep.emitters.reach / (LAMPS - 1)))
+        places = sweep.base_positions(sweep.positions[at], sweep.rotations[at], lamps)
         sent[shone] += energy[shone]
         for view, camera in enumerate(cameras):
             for k in range(len(lamps)):

@@ -7,6 +7,12 @@ In come plain arrays; nothing here is loaded unless the arm is to be seen or to 
 `scene_arm` is the entry: one arm with the postures of one run.
 """
 
-from dqpaint.render.scene_arm import ArmMotion, HiddenLight, SceneArm, account, on_stage
+from dqpaint.render.scene_arm import (
+    ArmMotion,
+    HiddenLight,
+    SceneArm,
+    hidden_by_line,
+    scene_arm_of_run,
+)
 
-__all__ = ["ArmMotion", "HiddenLight", "SceneArm", "account", "on_stage"]
+__all__ = ["ArmMotion", "HiddenLight", "SceneArm", "hidden_by_line", "scene_arm_of_run"]

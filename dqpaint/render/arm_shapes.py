@@ -11,7 +11,7 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.render.meshes import rounded
+from dqpaint.render.meshes import with_fine_meshes
 from dqpaint.robots.bullet import Client, bullet, joint_indices, quiet
 
 WHITE = [1.0, 1.0, 1.0, 1.0]
@@ -56,7 +56,7 @@ class Arm(Client):
             here = {"physicsClientId": self.client}
             self.body = self._load(urdf)
             self.shapes = [_shape(data) for data in bullet.getVisualShapeData(self.body, **here)]
-            self._round_off(urdf)
+            self._use_fine_meshes(urdf)
         self.joints = joint_indices(self.body, self.client)
         self.links = list(range(bullet.getNumJoints(self.body, **here)))
 
@@ -74,9 +74,9 @@ class Arm(Client):
                 body = bullet.loadURDF(bare.name, **how)
         return body
 
-    def _round_off(self, urdf: str | PathLike[str]) -> None:
+    def _use_fine_meshes(self, urdf: str | PathLike[str]) -> None:
         """Put a body with finer shapes in the place of this one, if it has no meshes."""
-        files = rounded(Path(urdf).read_bytes())
+        files = with_fine_meshes(Path(urdf).read_bytes())
         if files is None:
             return
         bullet.removeBody(self.body, physicsClientId=self.client)
@@ -85,7 +85,7 @@ class Arm(Client):
                 (Path(folder) / name).write_bytes(data)
             self.body = self._load(Path(folder) / "arm.urdf")
 
-    def stand(self, posture: Floats) -> None:
+    def set_posture(self, posture: Floats) -> None:
         """Take a posture (n,) [rad]."""
         angles = [(angle,) for angle in posture.tolist()]
         bullet.resetJointStatesMultiDof(self.body, self.joints, angles, physicsClientId=self.client)
@@ -96,7 +96,7 @@ class Arm(Client):
         rows = np.empty((len(postures), len(self.links) + 1, 7))
         rows[:, 0] = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0
         for row, posture in zip(rows, postures, strict=True):
-            self.stand(posture)
+            self.set_posture(posture)
             if self.links:
                 states = bullet.getLinkStates(
                     self.body, self.links, computeForwardKinematics=1, **here

@@ -7,24 +7,24 @@ from dqpaint.light import Image
 from dqpaint.light.camera import Camera
 from dqpaint.light.sources import inverse_square
 from dqpaint.render.lamps import Lamps
-from dqpaint.render.shading import by_lamps, fresnel, seen_from
+from dqpaint.render.shading import fresnel, points_seen_from, shade_by_lamps
 
 ALBEDO = 0.55
 """Of its dull light. A real dark floor has a tenth of it; but one wants to see where the arm is."""
-POLISH = 1.0
+MIRROR_SHARE = 1.0
 """Of what a mirror of lacquer would show."""
-COARSE = 4
+FLOOR_SCALE = 4
 """Pixels of the picture to one of the floor: its light is soft."""
-HAZE = 0.012
+MIRROR_BLUR = 0.012
 """Blur of what is mirrored, as a share of the picture's height."""
-UPRIGHT = 3.0
+VERTICAL_BLUR_RATIO = 3.0
 """It is that much wider upright, as in wet streets."""
-FARTHEST = 12.0
+FARTHEST_FLOOR = 12.0
 """Of the floor that is seen [m]."""
 UP = np.array([0.0, 0.0, 1.0], np.float32)
 
 
-def light_of_floor(
+def floor_light(
     camera: Camera,
     lamps: Lamps,
     path: Lamps,
@@ -44,40 +44,46 @@ def light_of_floor(
         exposure: factor from the film [lamp s / px^2] to saturation.
         falloff: whether the film's unit is divided by the distance squared [lamp s / (m px)^2].
     """
-    if camera.position[2] <= 0.0 or lamps.place[:, 2].min(initial=np.inf) <= 0.0:
+    if camera.position[2] <= 0.0 or lamps.position[:, 2].min(initial=np.inf) <= 0.0:
         return None
-    height, width = -(-camera.height // COARSE), -(-camera.width // COARSE)
-    x = ((np.arange(width) + 0.5) * COARSE - 0.5 - camera.centre[0]) / camera.focal
-    y = ((np.arange(height) + 0.5) * COARSE - 0.5 - camera.centre[1]) / camera.focal
+    height, width = -(-camera.height // FLOOR_SCALE), -(-camera.width // FLOOR_SCALE)
+    x = ((np.arange(width) + 0.5) * FLOOR_SCALE - 0.5 - camera.centre[0]) / camera.focal
+    y = ((np.arange(height) + 0.5) * FLOOR_SCALE - 0.5 - camera.centre[1]) / camera.focal
     right, up, back = camera.rotation
     ray = right * x[None, :, None] - up * y[:, None, None] - back
     down = np.minimum(ray[..., 2], -1e-9)
     reach = -camera.position[2] / down
-    seen = reach < FARTHEST
+    seen = reach < FARTHEST_FLOOR
     if not seen.any():
         return None
     place = (camera.position + reach[seen][:, None] * ray[seen]).astype(np.float32)
-    points = seen_from(camera.position, place, np.broadcast_to(UP, place.shape))
-    dull, _ = by_lamps(points, lamps, 1)
+    points = points_seen_from(camera.position, place, np.broadcast_to(UP, place.shape))
+    dull, _ = shade_by_lamps(points, lamps, 1)
     light = np.zeros((height, width, 3), np.float32)
     light[seen] = np.float32(ALBEDO * gain) * dull
-    image = _mirrored(camera, path, (height, width), falloff)
-    light[seen] += np.float32(POLISH * exposure) * fresnel(points.facing)[:, None] * image[seen]
-    whole = (width * COARSE, height * COARSE)
+    image = _mirror_image(camera, path, (height, width), falloff)
+    light[seen] += (
+        np.float32(MIRROR_SHARE * exposure) * fresnel(points.cosine_to_eye)[:, None] * image[seen]
+    )
+    whole = (width * FLOOR_SCALE, height * FLOOR_SCALE)
     shown = cv2.resize(light, whole, interpolation=cv2.INTER_LINEAR)
     return np.asarray(shown[: camera.height, : camera.width], np.float32)
 
 
-def _mirrored(camera: Camera, path: Lamps, shape: tuple[int, int], falloff: bool = False) -> Image:
+def _mirror_image(
+    camera: Camera, path: Lamps, shape: tuple[int, int], falloff: bool = False
+) -> Image:
     """(h, w, 3) the hazy image of the lamps under the floor, in the film's unit."""
-    below = path.place * [1.0, 1.0, -1.0]
+    below = path.position * [1.0, 1.0, -1.0]
     pixels, _ = camera.project(below)
     energy = path.energy * inverse_square(below, camera)[:, None] if falloff else path.energy
     image = np.zeros((*shape, 3), np.float32)
-    near = (pixels + 0.5) / COARSE - 0.5
+    near = (pixels + 0.5) / FLOOR_SCALE - 0.5
     height, width = shape
     inside = (near > -0.5).all(axis=1) & (near[:, 0] < width - 0.5) & (near[:, 1] < height - 0.5)
     x, y = np.rint(near[inside]).astype(np.int64).T
-    np.add.at(image, (y, x), energy[inside].astype(np.float32) / np.float32(COARSE**2))
-    blur = HAZE * height
-    return np.asarray(cv2.GaussianBlur(image, (0, 0), blur, sigmaY=UPRIGHT * blur), np.float32)
+    np.add.at(image, (y, x), energy[inside].astype(np.float32) / np.float32(FLOOR_SCALE**2))
+    blur = MIRROR_BLUR * height
+    return np.asarray(
+        cv2.GaussianBlur(image, (0, 0), blur, sigmaY=VERTICAL_BLUR_RATIO * blur), np.float32
+    )

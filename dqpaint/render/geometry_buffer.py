@@ -19,19 +19,19 @@ from dqpaint.light.camera import Camera
 from dqpaint.render.arm_shapes import Arm
 from dqpaint.robots.bullet import bullet
 
-NEAR, FAR = 0.02, 50.0
+NEAR_PLANE, FAR_PLANE = 0.02, 50.0
 """Nearer or farther than this from the camera nothing is seen [m]."""
-COARSE = 240
+SEARCH_COLUMNS = 240
 """Columns of the look that finds where in the picture the arm is."""
-MARGIN = 2
+SEARCH_MARGIN = 2
 """Columns of that look by which it might miss."""
-SOFT, HARD = float(np.cos(np.radians(14.0))), float(np.cos(np.radians(28.0)))
+CREASE_START, CREASE_FULL = float(np.cos(np.radians(14.0))), float(np.cos(np.radians(28.0)))
 """Cosines of the angles between smooth and flat normals from which an edge begins to count as one,
 and counts in full."""
-SHIFTS = ((-0.125, -0.375), (0.125, 0.375), (0.375, -0.125), (-0.375, 0.125))
+SUBPIXEL_SHIFTS = ((-0.125, -0.375), (0.125, 0.375), (0.375, -0.125), (-0.375, 0.125))
 """Where in a pixel each of the four looks goes, right and down of its middle: a rotated square, so
 that outlines come out smooth at no cost [px]."""
-ROUND = (5, 5)
+NORMAL_BLUR = (5, 5)
 """Pixels over which a glance takes the mean of normals, so that facets do not show."""
 LINK_BITS = 24
 """The segmentation has the body's number below and the link's, plus one, above these bits."""
@@ -47,7 +47,7 @@ class Box(NamedTuple):
     right: int
     bottom: int
 
-    def of(self, image: NDArray[Any]) -> NDArray[Any]:
+    def crop(self, image: NDArray[Any]) -> NDArray[Any]:
         """This part of a picture (H, W, ...), to be written to."""
         return image[self.top : self.bottom, self.left : self.right]
 
@@ -61,7 +61,7 @@ class Surfaces:
         cover: (h, w) share of each pixel that the arm covers, in quarters.
         sure: (h, w) which pixels show one link all over; P of them are True, in rows.
         depth: (P,) along the camera's axis [m].
-        place: (P, 3) base frame [m].
+        position: (P, 3) base frame [m].
         normal: (P, 3) unit, towards the outside.
         link: (P,) numbers of links; -1 is the base.
     """
@@ -70,26 +70,26 @@ class Surfaces:
     cover: Numbers
     sure: NDArray[np.bool_]
     depth: Numbers
-    place: Numbers
+    position: Numbers
     normal: Numbers
     link: NDArray[np.int64]
 
 
-def measure(arm: Arm, camera: Camera) -> Surfaces | None:
+def measure_surfaces(arm: Arm, camera: Camera) -> Surfaces | None:
     """The surfaces of an arm that was painted white; None if it is not in the picture.
 
     Args:
         arm: in its posture.
         camera: that of the picture.
     """
-    box = _find(arm, camera)
+    box = _find_arm(arm, camera)
     if box is None:
         return None
     right, up, _ = camera.rotation
     lights = (right, -right, up, -up)
     sides = [
-        _look(arm, camera, box, 1.0, tuple(light), shift)
-        for light, shift in zip(lights, SHIFTS, strict=True)
+        _render_box(arm, camera, box, 1.0, tuple(light), shift)
+        for light, shift in zip(lights, SUBPIXEL_SHIFTS, strict=True)
     ]
     link = sides[0].segment
     hits = np.stack([side.segment >= 0 for side in sides])
@@ -104,20 +104,20 @@ def measure(arm: Arm, camera: Camera) -> Surfaces | None:
     across, above = across / lean, above / lean
     smooth = np.stack([across, above, np.sqrt(np.maximum(1.0 - across**2 - above**2, 0.0))], axis=1)
     depth = _depth(np.mean([side.depth for side in sides], axis=0, dtype=np.float32))
-    normal = _creased(smooth, _flat(camera, box, depth)[sure])
+    normal = _creased(smooth, _facet_normals(camera, box, depth)[sure])
     return Surfaces(
         box,
         hits.mean(axis=0, dtype=np.float32),
         sure,
         depth[sure],
-        _places(camera, box, sure, depth[sure]),
-        _turned(normal, camera.rotation.astype(np.float32)),
+        _positions(camera, box, sure, depth[sure]),
+        _rotated(normal, camera.rotation.astype(np.float32)),
         (link[sure].astype(np.int64) >> LINK_BITS) - 1,
     )
 
 
-def glance(arm: Arm, camera: Camera, shift: tuple[float, float]) -> Surfaces | None:
-    """What `measure` finds, from one look instead of four, with hard outlines.
+def quick_surfaces(arm: Arm, camera: Camera, shift: tuple[float, float]) -> Surfaces | None:
+    """What `measure_surfaces` finds, from one look instead of four, with hard outlines.
 
     Args:
         arm: in its posture.
@@ -125,28 +125,30 @@ def glance(arm: Arm, camera: Camera, shift: tuple[float, float]) -> Surfaces | N
         shift: where in a pixel to look, right and down of its middle [px].
     """
     whole = Box(0, 0, camera.width, camera.height)
-    side = _look(arm, camera, whole, 1.0, (0.0, 0.0, 1.0), shift)
+    side = _render_box(arm, camera, whole, 1.0, (0.0, 0.0, 1.0), shift)
     seen = side.segment >= 0
     if not seen.any():
         return None
     rows, columns = np.flatnonzero(seen.any(axis=1)), np.flatnonzero(seen.any(axis=0))
     box = Box(int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1)
-    sure, depth = box.of(seen), _depth(box.of(side.depth))
-    flat = np.where(sure[..., None], _flat(camera, box, depth), np.float32(0.0))
-    normal = np.asarray(cv2.blur(flat, ROUND, borderType=cv2.BORDER_CONSTANT), np.float32)[sure]
+    sure, depth = box.crop(seen), _depth(box.crop(side.depth))
+    flat = np.where(sure[..., None], _facet_normals(camera, box, depth), np.float32(0.0))
+    normal = np.asarray(cv2.blur(flat, NORMAL_BLUR, borderType=cv2.BORDER_CONSTANT), np.float32)[
+        sure
+    ]
     normal /= np.maximum(np.sqrt((normal * normal).sum(axis=1, keepdims=True)), np.float32(1e-6))
     return Surfaces(
         box,
         sure.astype(np.float32),
         sure,
         depth[sure],
-        _places(camera, box, sure, depth[sure]),
-        _turned(normal, camera.rotation.astype(np.float32)),
-        (box.of(side.segment)[sure].astype(np.int64) >> LINK_BITS) - 1,
+        _positions(camera, box, sure, depth[sure]),
+        _rotated(normal, camera.rotation.astype(np.float32)),
+        (box.crop(side.segment)[sure].astype(np.int64) >> LINK_BITS) - 1,
     )
 
 
-def _flat(camera: Camera, box: Box, depth: Numbers) -> Numbers:
+def _facet_normals(camera: Camera, box: Box, depth: Numbers) -> Numbers:
     """(h, w, 3) the normals of the facets themselves, in the camera's axes, from their depth.
 
     A plane's inverse depth is linear in the picture, 1/Z = a + b x + c y with x right and y down
@@ -154,7 +156,9 @@ def _flat(camera: Camera, box: Box, depth: Numbers) -> Numbers:
     side the gentler counts, as the other may reach over an edge.
     """
     inverse = 1.0 / depth
-    by_row, by_column = (_gentler(inverse, axis) * np.float32(camera.focal) for axis in (0, 1))
+    by_row, by_column = (
+        _smaller_difference(inverse, axis) * np.float32(camera.focal) for axis in (0, 1)
+    )
     y, x = np.mgrid[box.top : box.bottom, box.left : box.right].astype(np.float32)
     x -= np.float32(camera.centre[0])
     y -= np.float32(camera.centre[1])
@@ -165,7 +169,7 @@ def _flat(camera: Camera, box: Box, depth: Numbers) -> Numbers:
     return normal
 
 
-def _gentler(values: Numbers, axis: int) -> Numbers:
+def _smaller_difference(values: Numbers, axis: int) -> Numbers:
     """The smaller of the differences to the pixels on either side."""
     step = np.diff(values, axis=axis)
     edge = [(0, 0), (0, 0)]
@@ -182,44 +186,44 @@ def _creased(smooth: Numbers, flat: Numbers) -> Numbers:
     Files that give one normal a corner make machined faces look as if they had melted.
     """
     cosine = np.clip((smooth * flat).sum(axis=1), -1.0, 1.0)
-    share = np.clip((SOFT - cosine) / (SOFT - HARD), 0.0, 1.0)[:, None]
+    share = np.clip((CREASE_START - cosine) / (CREASE_START - CREASE_FULL), 0.0, 1.0)[:, None]
     mixed = smooth + (flat - smooth) * share
     mixed /= np.maximum(np.sqrt((mixed * mixed).sum(axis=1, keepdims=True)), 1e-6)
     return np.asarray(mixed, np.float32)
 
 
-def _turned(vectors: Numbers, rotation: Numbers) -> Numbers:
+def _rotated(vectors: Numbers, rotation: Numbers) -> Numbers:
     """Vectors (P, 3) of the camera's axes, in the base frame; summed in a fixed order."""
     x, y, z = vectors.T
     columns = [x * a + y * b + z * c for a, b, c in rotation.T]
     return np.stack(columns, axis=1).astype(np.float32)
 
 
-def _places(camera: Camera, box: Box, seen: NDArray[np.bool_], depth: Numbers) -> Numbers:
+def _positions(camera: Camera, box: Box, seen: NDArray[np.bool_], depth: Numbers) -> Numbers:
     rows, columns = np.nonzero(seen)
     across = (box.left + columns - camera.centre[0]) / camera.focal * depth
     above = -(box.top + rows - camera.centre[1]) / camera.focal * depth
-    offset = _turned(
+    offset = _rotated(
         np.stack([across, above, -depth], axis=1).astype(np.float32),
         camera.rotation.astype(np.float32),
     )
     return offset + camera.position.astype(np.float32)
 
 
-class _Side(NamedTuple):
+class _LitImage(NamedTuple):
     white: NDArray[np.uint8]
     depth: Numbers
     segment: NDArray[np.int32]
 
 
-def _look(
+def _render_box(
     arm: Arm,
     camera: Camera,
     box: Box,
     scale: float,
     light: Sequence[float],
     shift: tuple[float, float] = (0.0, 0.0),
-) -> _Side:
+) -> _LitImage:
     """A part of the picture, lit from one direction, by rays beside the middles of pixels."""
     width = max(1, round((box.right - box.left) * scale))
     height = max(1, round((box.bottom - box.top) * scale))
@@ -243,28 +247,28 @@ def _look(
     )
     _, _, colour, depth, segment = found
     shape = (height, width)
-    return _Side(
+    return _LitImage(
         np.reshape(np.asarray(colour, np.uint8), (*shape, 4)),
         np.reshape(np.asarray(depth, np.float32), shape),
         np.reshape(np.asarray(segment, np.int32), shape),
     )
 
 
-def _find(arm: Arm, camera: Camera) -> Box | None:
+def _find_arm(arm: Arm, camera: Camera) -> Box | None:
     """The part of the picture that the arm is in."""
     whole = Box(0, 0, camera.width, camera.height)
-    scale = min(1.0, COARSE / camera.width)
-    seen = _look(arm, camera, whole, scale, (0.0, 0.0, 1.0)).segment >= 0
+    scale = min(1.0, SEARCH_COLUMNS / camera.width)
+    seen = _render_box(arm, camera, whole, scale, (0.0, 0.0, 1.0)).segment >= 0
     if not seen.any():
         return None
     height, width = seen.shape
     rows, columns = np.flatnonzero(seen.any(axis=1)), np.flatnonzero(seen.any(axis=0))
     across, down = camera.width / width, camera.height / height
     return Box(
-        max(0, int((columns[0] - MARGIN) * across)),
-        max(0, int((rows[0] - MARGIN) * down)),
-        min(camera.width, int((columns[-1] + 1 + MARGIN) * across) + 1),
-        min(camera.height, int((rows[-1] + 1 + MARGIN) * down) + 1),
+        max(0, int((columns[0] - SEARCH_MARGIN) * across)),
+        max(0, int((rows[0] - SEARCH_MARGIN) * down)),
+        min(camera.width, int((columns[-1] + 1 + SEARCH_MARGIN) * across) + 1),
+        min(camera.height, int((rows[-1] + 1 + SEARCH_MARGIN) * down) + 1),
     )
 
 
@@ -288,13 +292,13 @@ def projection_matrix(camera: Camera, box: Box) -> Floats:
     matrix[0, 2] = 1.0 - 2.0 * (camera.centre[0] + 0.5 - box.left) / width
     matrix[1, 1] = 2.0 * camera.focal / height
     matrix[1, 2] = 2.0 * (camera.centre[1] + 0.5 - box.top) / height - 1.0
-    matrix[2, 2] = -(FAR + NEAR) / (FAR - NEAR)
-    matrix[2, 3] = -2.0 * FAR * NEAR / (FAR - NEAR)
+    matrix[2, 2] = -(FAR_PLANE + NEAR_PLANE) / (FAR_PLANE - NEAR_PLANE)
+    matrix[2, 3] = -2.0 * FAR_PLANE * NEAR_PLANE / (FAR_PLANE - NEAR_PLANE)
     matrix[3, 2] = -1.0
     return matrix
 
 
 def _depth(value: Numbers) -> Numbers:
     """From the depth buffer, 0 near to 1 far, to metres."""
-    near, far = np.float32(NEAR), np.float32(FAR)
+    near, far = np.float32(NEAR_PLANE), np.float32(FAR_PLANE)
     return np.asarray(far * near / (far - (far - near) * value), np.float32)

@@ -7,7 +7,7 @@ import numpy as np
 
 from dqpaint.dq import Floats
 
-MOST = 128
+MOST_LAMPS = 128
 """Lamps that a painting is gathered into."""
 
 
@@ -16,11 +16,11 @@ class Lamps:
     """Points that shine to all sides.
 
     Attributes:
-        place: (K, 3) base frame [m].
+        position: (K, 3) base frame [m].
         energy: (K, 3) linear RGB [lamp s].
     """
 
-    place: Floats
+    position: Floats
     energy: Floats
 
     @property
@@ -32,10 +32,10 @@ class Lamps:
     def middle(self) -> Floats:
         """(3,) where half of the light is to any side, or nearly [m]."""
         weight = self.energy.sum(axis=1)
-        return np.asarray((weight[:, None] * self.place).sum(axis=0) / weight.sum())
+        return np.asarray((weight[:, None] * self.position).sum(axis=0) / weight.sum())
 
 
-def gather(lights: Iterable[tuple[Floats, Floats]], most: int = MOST) -> Lamps:
+def gather_lamps(lights: Iterable[tuple[Floats, Floats]], most: int = MOST_LAMPS) -> Lamps:
     """Few lamps that light a scene as many steps do: all of the energy, each where its steps were.
 
     Args:

@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-AROUND = 40
+SIDES = 40
 """Sides of what is round."""
-BENDS = 10
+RINGS = 10
 """Rings from the equator of a ball to its pole."""
 
 
@@ -25,7 +25,7 @@ Strips = Sequence[Sequence[Ring]]
 """Rings that are joined, from below to above; between two strips there is an edge."""
 
 
-def rounded(description: bytes) -> dict[str, bytes] | None:
+def with_fine_meshes(description: bytes) -> dict[str, bytes] | None:
     """The files of the same description with fine meshes; None if it has meshes of its own.
 
     Args:
@@ -44,7 +44,7 @@ def rounded(description: bytes) -> dict[str, bytes] | None:
                 continue
             sizes = tuple(float(element.get(word, "nan")) for word in ("radius", "length"))
             name = f"{len(files)}.obj"
-            files[name] = mesh(SHAPES[element.tag](*sizes))
+            files[name] = revolution_mesh(SHAPES[element.tag](*sizes))
             geometry.remove(element)
             Xml.SubElement(geometry, "mesh", filename=name)
     files["arm.urdf"] = Xml.tostring(tree)
@@ -70,7 +70,7 @@ def _capsule(radius: float, length: float) -> Strips:
 
 def _cap(radius: float, z: float, side: int) -> list[Ring]:
     """Half a ball about (0, 0, z), its pole above or below."""
-    angles = np.linspace(0.0, 0.5 * np.pi, BENDS + 1)[::side]
+    angles = np.linspace(0.0, 0.5 * np.pi, RINGS + 1)[::side]
     return [
         Ring(float(radius * c), float(z + side * radius * s), float(c), float(side * s))
         for c, s in zip(np.cos(angles), np.sin(angles), strict=True)
@@ -82,9 +82,9 @@ SHAPES: dict[str, Callable[[float, float], Strips]] = {
 }  # fmt: skip
 
 
-def mesh(strips: Strips) -> bytes:
+def revolution_mesh(strips: Strips) -> bytes:
     """A surface of revolution about z as Wavefront OBJ, its normals smooth along each strip."""
-    turn = 2.0 * np.pi * np.arange(AROUND) / AROUND
+    turn = 2.0 * np.pi * np.arange(SIDES) / SIDES
     x, y = np.cos(turn), np.sin(turn)
     points, normals, faces = [], [], []
     first = 1  # OBJ counts from 1
@@ -93,11 +93,11 @@ def mesh(strips: Strips) -> bytes:
             points.append(np.stack([ring.radius * x, ring.radius * y, 0 * x + ring.height], 1))
             normals.append(np.stack([ring.out * x, ring.out * y, 0 * x + ring.up], 1))
         for k in range(len(strip) - 1):
-            here = first + k * AROUND + np.arange(AROUND)
-            beside = first + k * AROUND + (np.arange(AROUND) + 1) % AROUND
-            faces.append(np.stack([here, beside, beside + AROUND], 1))
-            faces.append(np.stack([here, beside + AROUND, here + AROUND], 1))
-        first += len(strip) * AROUND
+            here = first + k * SIDES + np.arange(SIDES)
+            beside = first + k * SIDES + (np.arange(SIDES) + 1) % SIDES
+            faces.append(np.stack([here, beside, beside + SIDES], 1))
+            faces.append(np.stack([here, beside + SIDES, here + SIDES], 1))
+        first += len(strip) * SIDES
     lines = [f"v {a:.7g} {b:.7g} {c:.7g}" for a, b, c in np.concatenate(points).tolist()]
     lines += [f"vn {a:.7g} {b:.7g} {c:.7g}" for a, b, c in np.concatenate(normals).tolist()]
     lines += [f"f {a}//{a} {b}//{b} {c}//{c}" for a, b, c in np.concatenate(faces).tolist()]

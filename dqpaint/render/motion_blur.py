@@ -19,22 +19,22 @@ from dqpaint.dq import Floats
 from dqpaint.light import Image
 from dqpaint.light.camera import Camera
 from dqpaint.render.arm_shapes import Arm
-from dqpaint.render.geometry_buffer import glance
-from dqpaint.render.still import Lights, finished, floor, glow, lit
+from dqpaint.render.geometry_buffer import quick_surfaces
+from dqpaint.render.still import Lights, gather_glow, light_surfaces, render_floor, to_picture_size
 
-MOMENTS = 48
+MOST_MOMENTS = 48
 """Moments at which the arm is looked at, at most."""
-SIDE = 512
+BLUR_SIDE = 512
 """Pixels of the longer side that a moment is worked out on: a veil is soft."""
-LAMPS = 4
+LAMPS_PER_MOMENT = 4
 """Lamps that what was painted in one moment is gathered into."""
-BY_TIME = 0.25
+TIME_SHARE = 0.25
 """Share of the moments that are spread over time; the others are spread over the motion."""
-SPREAD = (0.7548776662466927, 0.5698402909980532)
+JITTER_STEP = (0.7548776662466927, 0.5698402909980532)
 """Multiples of these are spread evenly over a pixel: outlines come out smooth (Roberts 2018)."""
 
 
-def blurred(
+def blurred_arm(
     arm: Arm,
     postures: Floats,
     camera: Camera,
@@ -53,29 +53,29 @@ def blurred(
         exposure: of the picture: factor from its own unit [lamp s / px^2] to saturation.
         falloff: whether that unit is divided by the distance squared [lamp s / (m px)^2].
     """
-    scale = min(1.0, SIDE / max(camera.width, camera.height))
-    coarse = camera.coarser(scale)
-    whole = glow(shine(slice(None)))
+    scale = min(1.0, BLUR_SIDE / max(camera.width, camera.height))
+    coarse = camera.scaled(scale)
+    whole = gather_glow(shine(slice(None)))
     veil = np.zeros((coarse.height, coarse.width, 4), np.float32)  # light, and what is hidden
     edges = moments(postures)
     for i, (first, last) in enumerate(pairwise(edges.tolist())):
-        arm.stand(postures[(first + last) // 2])
-        across, down = ((i * step) % 1.0 - 0.5 for step in SPREAD)
-        surfaces = glance(arm, coarse, (across, down))
+        arm.set_posture(postures[(first + last) // 2])
+        across, down = ((i * step) % 1.0 - 0.5 for step in JITTER_STEP)
+        surfaces = quick_surfaces(arm, coarse, (across, down))
         if surfaces is None:
             continue
         share = (last - first) / edges[-1]
-        light = whole.part(shine(slice(first, last)), LAMPS)
-        layer = np.full((len(surfaces.place), 4), share, np.float32)
-        layer[:, :3] = lit(arm, surfaces, coarse, light, share)
-        surfaces.box.of(veil)[surfaces.sure] += layer
-    ground = floor(camera, whole, exposure, falloff)
+        light = whole.part(shine(slice(first, last)), LAMPS_PER_MOMENT)
+        layer = np.full((len(surfaces.position), 4), share, np.float32)
+        layer[:, :3] = light_surfaces(arm, surfaces, coarse, light, share)
+        surfaces.box.crop(veil)[surfaces.sure] += layer
+    ground = render_floor(camera, whole, exposure, falloff)
     size = (round(coarse.width / scale), round(coarse.height / scale))
     over = cv2.resize(veil, size, interpolation=cv2.INTER_LINEAR)
     over = np.asarray(over[: camera.height, : camera.width], np.float32)
     ground *= 1.0 - over[..., 3:]
     ground += over[..., :3]
-    return finished(ground, camera, exposure)
+    return to_picture_size(ground, camera, exposure)
 
 
 def moments(postures: Floats) -> NDArray[np.int64]:
@@ -88,7 +88,7 @@ def moments(postures: Floats) -> NDArray[np.int64]:
     total = float(moved.sum())
     weight = np.full(steps, 1.0 / steps)
     if total > 0.0:
-        weight = BY_TIME * weight + (1.0 - BY_TIME) * moved / total
+        weight = TIME_SHARE * weight + (1.0 - TIME_SHARE) * moved / total
     gone = np.cumsum(weight)
-    inner = np.searchsorted(gone, np.arange(1, MOMENTS) / MOMENTS * gone[-1]) + 1
+    inner = np.searchsorted(gone, np.arange(1, MOST_MOMENTS) / MOST_MOMENTS * gone[-1]) + 1
     return np.unique(np.concatenate([[0], inner, [steps]]))

@@ -13,15 +13,15 @@ from numpy.typing import NDArray
 from dqpaint.dq import Floats
 from dqpaint.render.ray_casting import RayCaster
 
-STEP = 0.004
+LONGEST_LAMP_STEP = 0.004
 """Farthest that a lamp goes between two instants that are tried [m]."""
-TURN = np.radians(1.0)
+LARGEST_TURN = np.radians(1.0)
 """Farthest that the joints turn meanwhile, all together [rad]."""
 CLEARANCE = 0.01
 """A ray begins so far from its lamp: what holds the lamp does not hide it [m]."""
 
 
-def visible(
+def visible_share(
     twins: RayCaster, postures: Floats, places: Floats, eye: Floats, lit: NDArray[np.bool_]
 ) -> Floats:
     """The share (M, K) of the light of K lamps that reaches the eye at each of M instants, 0 to 1.
@@ -41,7 +41,7 @@ def visible(
 
     def ask(rows: NDArray[np.int64]) -> None:
         start, end = _rays(places[rows], eye)
-        for i in twins.stands(postures[rows]):
+        for i in twins.each_posture(postures[rows]):
             seen[rows[i]] = ~twins.blocked(start[i], end[i])
         tried[rows] = True
 
@@ -55,13 +55,13 @@ def visible(
         if len(middle) == 0:
             break
         ask(middle)
-    return _filled(seen, tried, lit)
+    return _interpolated(seen, tried, lit)
 
 
 def _instants(postures: Floats, places: Floats, rows: NDArray[np.int64]) -> NDArray[np.int64]:
     """The rows to try: both ends of each lit run, and steps within it that are short enough."""
-    way = np.sqrt((np.diff(places, axis=0) ** 2).sum(axis=2)).max(axis=1) / STEP
-    turn = np.abs(np.diff(postures, axis=0)).sum(axis=1) / TURN
+    way = np.sqrt((np.diff(places, axis=0) ** 2).sum(axis=2)).max(axis=1) / LONGEST_LAMP_STEP
+    turn = np.abs(np.diff(postures, axis=0)).sum(axis=1) / LARGEST_TURN
     gone = np.concatenate([[0.0], np.cumsum(np.maximum(way, turn))])[rows]
     begins = np.diff(rows, prepend=-2) > 1
     ends = np.append(begins[1:], True)
@@ -79,7 +79,7 @@ def _rays(places: Floats, eye: Floats) -> tuple[Floats, Floats]:
     return start, np.broadcast_to(eye, places.shape)
 
 
-def _filled(seen: Floats, tried: NDArray[np.bool_], lit: NDArray[np.bool_]) -> Floats:
+def _interpolated(seen: Floats, tried: NDArray[np.bool_], lit: NDArray[np.bool_]) -> Floats:
     """Rows that were not tried get what lies between their neighbours in the same lit run."""
     known = np.flatnonzero(tried)
     rows = np.arange(len(tried))

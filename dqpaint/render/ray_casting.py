@@ -14,7 +14,7 @@ from dqpaint.robots.kinematics import read_mesh
 
 MOST_RAYS = 16_000
 """Rays of one call: PyBullet loses one of 16,384 and refuses more."""
-WORTH_THREADS = 500
+LEAST_RAYS_FOR_THREADS = 500
 """With fewer rays it costs more to wake a second thread than it saves."""
 
 
@@ -54,12 +54,12 @@ class RayCaster(Client):
         body: int = bullet.createMultiBody(0, made, **here)
         return body
 
-    def stand(self, posture: Floats) -> None:
+    def set_posture(self, posture: Floats) -> None:
         """Take a posture (n,) [rad], the arm along with it."""
-        for _ in self.stands(posture[None]):
+        for _ in self.each_posture(posture[None]):
             pass
 
-    def stands(self, postures: Floats) -> Iterator[int]:
+    def each_posture(self, postures: Floats) -> Iterator[int]:
         """Take postures (M, n) [rad], one after the other; says which it is in."""
         poses = dq.mul(self._arm.frames(postures)[:, self._links], self._frames)
         places = dq.translation(poses).tolist()
@@ -77,7 +77,7 @@ class RayCaster(Client):
             rays: Any = bullet.rayTestBatch(
                 start[rows].tolist(),
                 end[rows].tolist(),
-                numThreads=1 if len(hit[rows]) <= WORTH_THREADS else 0,
+                numThreads=1 if len(hit[rows]) <= LEAST_RAYS_FOR_THREADS else 0,
                 physicsClientId=self.client,
             )
             hit[rows] = [ray[0] >= 0 for ray in rays]

@@ -28,9 +28,9 @@ if TYPE_CHECKING:
 
 
 Shine = Callable[[slice], Sequence[tuple[Floats, Floats]]]
-MOVING = 480
+MOVIE_SIDE = 480
 """Pixels of the longer side that the arm is worked out on in a moving picture."""
-FEW = 32
+MOVIE_LAMPS = 32
 """Lamps that stand for what was painted, there."""
 
 
@@ -47,7 +47,7 @@ class HiddenLight:
     lines: tuple[tuple[SourceLine, float], ...]
 
 
-def account(hidden: Floats, emitted: Floats, source: RowLines) -> HiddenLight:
+def hidden_by_line(hidden: Floats, emitted: Floats, source: RowLines) -> HiddenLight:
     """What was hidden, by the source lines it comes from.
 
     Args:
@@ -103,16 +103,16 @@ class SceneArm(ExitStack):
         return arm
 
     @cached_property
-    def twins(self) -> RayCaster:
+    def ray_caster(self) -> RayCaster:
         """What rays hit."""
         from dqpaint.render.ray_casting import RayCaster
 
         return self.enter_context(RayCaster(self.arm))
 
     @property
-    def solid(self) -> bool:
+    def can_occlude(self) -> bool:
         """Whether every shape of the arm can be asked what it hides, and there is one."""
-        return self._complete and bool(self.arm.shapes) and not self.twins.unread
+        return self._complete and bool(self.arm.shapes) and not self.ray_caster.unread
 
     @property
     def _complete(self) -> bool:
@@ -126,7 +126,7 @@ class SceneArm(ExitStack):
             return [f"warning: a mesh of the arm cannot be read: it is shown without, {untraced}"]
         if not self.arm.shapes:
             return [f"warning: the arm's file gives it no shape: it cannot be shown, {untraced}"]
-        names = sorted({Path(shape.mesh).name for shape in self.twins.unread})
+        names = sorted({Path(shape.mesh).name for shape in self.ray_caster.unread})
         return [f"warning: {name} cannot be read: it is not shown, {untraced}" for name in names]
 
     def visible(self, time: Floats, places: Floats, lit: NDArray[np.bool_], eye: Floats) -> Floats:
@@ -138,13 +138,13 @@ class SceneArm(ExitStack):
             lit: (M,) whether any of them burns.
             eye: (3,) of the camera [m].
         """
-        from dqpaint.render.occlusion import visible
+        from dqpaint.render.occlusion import visible_share
 
         clock = np.arange(len(self._posture)) * self._period
         posture = np.stack([np.interp(time, clock, joint) for joint in self._posture.T], axis=1)
-        return visible(self.twins, posture, places, eye, lit)
+        return visible_share(self.ray_caster, posture, places, eye, lit)
 
-    def photograph(
+    def render_still(
         self, camera: Camera, shine: Shine, exposure: float, falloff: bool = False
     ) -> Image:
         """(H, W, 3) linear light of arm and floor, to be added before the picture is developed.
@@ -158,32 +158,34 @@ class SceneArm(ExitStack):
             exposure: of the picture: factor from its own unit [lamp s / px^2] to saturation.
             falloff: whether that unit is divided by the distance squared [lamp s / (m px)^2].
         """
-        from dqpaint.render.still import glow, photograph
+        from dqpaint.render.still import gather_glow, render_arm
 
-        self.arm.stand(self._posture[-1])
-        return photograph(self.arm, camera, glow(shine(slice(None))), exposure, falloff)
+        self.arm.set_posture(self._posture[-1])
+        return render_arm(self.arm, camera, gather_glow(shine(slice(None))), exposure, falloff)
 
-    def blur(self, camera: Camera, shine: Shine, exposure: float, falloff: bool = False) -> Image:
+    def render_blurred(
+        self, camera: Camera, shine: Shine, exposure: float, falloff: bool = False
+    ) -> Image:
         """The same of an arm that is not flashed, but seen all the time as it moves."""
-        from dqpaint.render.motion_blur import blurred
+        from dqpaint.render.motion_blur import blurred_arm
 
-        return blurred(self.arm, self._posture, camera, shine, exposure, falloff)
+        return blurred_arm(self.arm, self._posture, camera, shine, exposure, falloff)
 
-    def frames(
+    def render_frames(
         self, camera: Camera, shine: Shine, exposure: float, falloff: bool, rows: Sequence[int]
     ) -> Iterator[Image]:
         """The same at some instants of the run, each lit by what was painted until then.
 
         They are coarser, for a moving picture.
         """
-        from dqpaint.render.still import glow, photograph
+        from dqpaint.render.still import gather_glow, render_arm
 
-        whole = glow(shine(slice(None)))
-        scale = min(1.0, MOVING / max(camera.width, camera.height))
+        whole = gather_glow(shine(slice(None)))
+        scale = min(1.0, MOVIE_SIDE / max(camera.width, camera.height))
         for row in rows:
-            self.arm.stand(self._posture[row])
-            light = whole.part(shine(slice(0, row)), FEW)
-            yield photograph(self.arm, camera, light, exposure, falloff, scale)
+            self.arm.set_posture(self._posture[row])
+            light = whole.part(shine(slice(0, row)), MOVIE_LAMPS)
+            yield render_arm(self.arm, camera, light, exposure, falloff, scale)
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,19 +206,19 @@ class ArmMotion:
     period: float
 
     @property
-    def known(self) -> bool:
+    def has_joints(self) -> bool:
         """Whether it is known how the joints moved."""
         return len(self.posture.T) > 0
 
 
 @contextmanager
-def on_stage(settings: Settings, card: Card, cast: ArmMotion) -> Iterator[SceneArm | None]:
+def scene_arm_of_run(settings: Settings, card: Card, cast: ArmMotion) -> Iterator[SceneArm | None]:
     """The arm of a run, if the settings have a use for it, and the run has its joints.
 
     Raises:
         DqpaintError: the arm's description is not there, or cannot be read.
     """
-    if not (settings.staged and cast.known):
+    if not (settings.staged and cast.has_joints):
         yield None
         return
     whole = prepare(card).whole

@@ -10,12 +10,12 @@ from dqpaint.dq import Floats
 from dqpaint.render.geometry_buffer import Numbers
 from dqpaint.render.lamps import Lamps
 
-COAT = 0.04
+COAT_REFLECTANCE = 0.04
 """Share of the light that lacquer reflects straight on; Schlick's approximation has the rest."""
-BATCH, MANY = 512, 128
+BATCH, BATCH_LAMPS = 512, 128
 """Points that are worked on at once with so many lamps, whatever the machine, so that they stay in
 the cache; with fewer lamps there are more points."""
-BLUNT = 0.05
+NEAREST_LAMP = 0.05
 """Nearer than this a lamp gets no brighter: it stands for a stretch of path [m]."""
 THREADS = 2
 
@@ -25,27 +25,27 @@ class Points:
     """Points of surfaces as someone sees them.
 
     Attributes:
-        place: (P, 3) base frame [m].
+        position: (P, 3) base frame [m].
         normal: (P, 3) unit.
-        toward: (P, 3) unit, to the eye.
+        to_eye: (P, 3) unit, to the eye.
     """
 
-    place: Numbers
+    position: Numbers
     normal: Numbers
-    toward: Numbers
+    to_eye: Numbers
 
     @cached_property
-    def facing(self) -> Numbers:
+    def cosine_to_eye(self) -> Numbers:
         """(P,) cosine between normal and eye, 0 to 1."""
-        return np.asarray(np.clip((self.normal * self.toward).sum(axis=1), 0.0, 1.0), np.float32)
+        return np.asarray(np.clip((self.normal * self.to_eye).sum(axis=1), 0.0, 1.0), np.float32)
 
     @cached_property
-    def mirrored(self) -> Numbers:
+    def mirrored_to_eye(self) -> Numbers:
         """(P, 3) the way to the eye, mirrored about the normal."""
-        return np.asarray(2.0 * self.facing[:, None] * self.normal - self.toward, np.float32)
+        return np.asarray(2.0 * self.cosine_to_eye[:, None] * self.normal - self.to_eye, np.float32)
 
 
-def seen_from(eye: Floats, place: Numbers, normal: Numbers) -> Points:
+def points_seen_from(eye: Floats, place: Numbers, normal: Numbers) -> Points:
     """Points (P, 3) with unit normals as an eye (3,) sees them."""
     toward = eye.astype(np.float32) - place
     toward /= np.sqrt((toward * toward).sum(axis=1))[:, None]
@@ -54,10 +54,10 @@ def seen_from(eye: Floats, place: Numbers, normal: Numbers) -> Points:
 
 def fresnel(facing: Numbers) -> Numbers:
     """(P,) what of the light the coat reflects: F = F_0 + (1 - F_0) (1 - cos)^5 (Schlick 1994)."""
-    return np.asarray(COAT + (1.0 - COAT) * (1.0 - facing) ** 5, np.float32)
+    return np.asarray(COAT_REFLECTANCE + (1.0 - COAT_REFLECTANCE) * (1.0 - facing) ** 5, np.float32)
 
 
-def by_lamps(points: Points, lamps: Lamps, sharpness: int) -> tuple[Numbers, Numbers]:
+def shade_by_lamps(points: Points, lamps: Lamps, sharpness: int) -> tuple[Numbers, Numbers]:
     """What lamps send to points: dull and glossy.
 
         dull   = 1/pi sum_k E_k max(n.l_k, 0) / d_k^2
@@ -73,15 +73,15 @@ def by_lamps(points: Points, lamps: Lamps, sharpness: int) -> tuple[Numbers, Num
     Returns:
         (P, 3) each, to be multiplied by albedo and by what the coat reflects [lamp s / m^2].
     """
-    dull = np.zeros((len(points.place), 3), np.float32)
+    dull = np.zeros((len(points.position), 3), np.float32)
     glossy = np.zeros_like(dull)
-    mirrored = points.mirrored
-    at, energy = lamps.place.astype(np.float32), lamps.energy.astype(np.float32)
-    batch = BATCH * max(1, MANY // max(1, len(at)))
+    mirrored = points.mirrored_to_eye
+    at, energy = lamps.position.astype(np.float32), lamps.energy.astype(np.float32)
+    batch = BATCH * max(1, BATCH_LAMPS // max(1, len(at)))
 
     def work(first: int) -> None:
         rows = slice(first, first + batch)
-        place, normal = points.place[rows], points.normal[rows]
+        place, normal = points.position[rows], points.normal[rows]
         inverse, cosine = _geometry(place, normal, at)
         lobe = np.maximum(_along(mirrored[rows], place, at), 0.0)
         lobe *= np.sqrt(inverse)
@@ -100,7 +100,7 @@ def by_lamps(points: Points, lamps: Lamps, sharpness: int) -> tuple[Numbers, Num
     return dull, glossy
 
 
-def by_lamp(points: Points, way: Floats, sharpness: int) -> tuple[Numbers, Numbers]:
+def shade_by_direction(points: Points, way: Floats, sharpness: int) -> tuple[Numbers, Numbers]:
     """What a lamp far away sends to points: dull max(n.l, 0) and glossy max(r.l, 0)^m, (P, 1) each.
 
     Args:
@@ -110,7 +110,7 @@ def by_lamp(points: Points, way: Floats, sharpness: int) -> tuple[Numbers, Numbe
     """
     x, y, z = (way / np.linalg.norm(way)).astype(np.float32)
     cosines = (
-        v[:, :1] * x + v[:, 1:2] * y + v[:, 2:] * z for v in (points.normal, points.mirrored)
+        v[:, :1] * x + v[:, 1:2] * y + v[:, 2:] * z for v in (points.normal, points.mirrored_to_eye)
     )
     dull, lobe = (np.maximum(cosine, 0.0) for cosine in cosines)
     return dull, lobe**sharpness
@@ -122,11 +122,11 @@ def _along(vectors: Numbers, place: Numbers, at: Numbers) -> Numbers:
 
 
 def _geometry(place: Numbers, normal: Numbers, at: Numbers) -> tuple[Numbers, Numbers]:
-    """(B, K) 1 / d^2, where nearness ends at `BLUNT`, and d max(n.l, 0)."""
+    """(B, K) 1 / d^2, where nearness ends at `NEAREST_LAMP`, and d max(n.l, 0)."""
     squared = place @ (-2.0 * at.T)
     squared += (place * place).sum(axis=1)[:, None]
     squared += (at * at).sum(axis=1)
     np.maximum(squared, 0.0, out=squared)
-    squared += np.float32(BLUNT**2)
+    squared += np.float32(NEAREST_LAMP**2)
     cosine = _along(normal, place, at)
     return np.reciprocal(squared, out=squared), np.maximum(cosine, 0.0, out=cosine)

@@ -21,38 +21,38 @@ from dqpaint.dq import Floats
 from dqpaint.light import Image
 from dqpaint.light.camera import Camera
 from dqpaint.render.arm_shapes import Arm
-from dqpaint.render.floor import light_of_floor
-from dqpaint.render.geometry_buffer import Numbers, Surfaces, measure
-from dqpaint.render.lamps import Lamps, gather
-from dqpaint.render.shading import by_lamp, by_lamps, fresnel, seen_from
+from dqpaint.render.floor import floor_light
+from dqpaint.render.geometry_buffer import Numbers, Surfaces, measure_surfaces
+from dqpaint.render.lamps import Lamps, gather_lamps
+from dqpaint.render.shading import fresnel, points_seen_from, shade_by_direction, shade_by_lamps
 
-KEY = 0.6
+KEY_EXPOSURE = 0.6
 """What all of a painting's light makes of a white surface at its own distance; 1 saturates."""
-ROOM = 0.15
+LAMP_CLEARANCE = 0.15
 """That distance, on top of how far the light is spread: about a flange and a lamp's stub [m]."""
-BLACK, DARK = 0.04, 0.22
+BLACK_ALBEDO, ALBEDO_SHARE = 0.04, 0.22
 """Albedo of a black body, and how much of its colour's brightness another has on top."""
-FADED = 0.7
+GREY_SHARE = 0.7
 """Share of the colour in a file that goes grey."""
-GLOSS = 64
+COAT_SHARPNESS = 64
 """Sharpness of the coat's highlights."""
 FLASH, FLASH_COLOUR = 0.012, (1.0, 0.95, 0.88)
-FROM_ABOVE = (-0.4, 0.8, 0.6)
+FLASH_DIRECTION = (-0.4, 0.8, 0.6)
 """Whence the flash comes: right, up, back towards the viewer."""
 FLASH_GLINT = 40.0
 RIM, RIM_DULL, RIM_GLINT, RIM_GLOSS = 0.33, 0.6, 4.0, 4
-BEHIND = (0.8, 0.3, -0.75)
+RIM_DIRECTION = (0.8, 0.3, -0.75)
 """Whence the right lamp behind the arm comes; the left one is its mirror image."""
-APART = 8
+RIM_COLOUR_SPREAD = 8
 """How much the rims' colours are those of the painting's outermost light."""
-SOFT = 0.7
+ARM_BLUR = 0.7
 """Blur of the arm, less than the lens does to a line [px]."""
-REACH = (5, 5)
+OUTLINE_REACH = (5, 5)
 """Pixels around an outline that lend it their colour."""
-PALE = 0.28
+LEAST_RIM_LUMINANCE = 0.28
 """Least luminance of a rim's colour."""
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
-PATH = 4096
+MIRROR_POINTS = 4096
 """Points that stand for the painting in the floor's mirror."""
 
 Lights = Sequence[tuple[Floats, Floats]]
@@ -76,10 +76,12 @@ class Glow:
 
     def part(self, lights: Lights, most: int) -> Glow:
         """A part of this light, as strong as it is in it, in so many lamps."""
-        return Glow(gather(lights, most), gather(lights, PATH), self.gain, self.whole)
+        return Glow(
+            gather_lamps(lights, most), gather_lamps(lights, MIRROR_POINTS), self.gain, self.whole
+        )
 
 
-def glow(lights: Lights) -> Glow:
+def gather_glow(lights: Lights) -> Glow:
     """The light of lamps on their ways.
 
     Its gain does not depend on a camera: several views of one painting show one arm.
@@ -87,15 +89,20 @@ def glow(lights: Lights) -> Glow:
     Args:
         lights: of each lamp its points (N, 3) [m] and the energy (N-1, 3) between them [lamp s].
     """
-    lamps = gather(lights)
+    lamps = gather_lamps(lights)
     total = float(lamps.total.max(initial=0.0))
     if total == 0.0:
         return Glow(lamps, lamps, 0.0, lamps)
-    spread = ((lamps.place - lamps.middle) ** 2).sum(axis=1).mean()
-    return Glow(lamps, gather(lights, PATH), KEY * np.pi * (spread + ROOM**2) / total, lamps)
+    spread = ((lamps.position - lamps.middle) ** 2).sum(axis=1).mean()
+    return Glow(
+        lamps,
+        gather_lamps(lights, MIRROR_POINTS),
+        KEY_EXPOSURE * np.pi * (spread + LAMP_CLEARANCE**2) / total,
+        lamps,
+    )
 
 
-def photograph(
+def render_arm(
     arm: Arm,
     camera: Camera,
     light: Glow,
@@ -113,33 +120,35 @@ def photograph(
         falloff: whether that unit is divided by the distance squared [lamp s / (m px)^2].
         scale: 1 / width of the pixels that are worked on, for a picture in a moving one.
     """
-    seen = camera if scale == 1.0 else camera.coarser(scale)
-    shown = floor(seen, light, exposure * scale**2, falloff)
-    surfaces = measure(arm, seen)
+    seen = camera if scale == 1.0 else camera.scaled(scale)
+    shown = render_floor(seen, light, exposure * scale**2, falloff)
+    surfaces = measure_surfaces(arm, seen)
     if surfaces is not None:
-        part = surfaces.box.of(shown)
+        part = surfaces.box.crop(shown)
         cover = surfaces.cover[..., None]
         part *= 1.0 - cover
-        part += cover * _spread(lit(arm, surfaces, seen, light), surfaces.sure)
-    return finished(shown, camera, exposure, scale)
+        part += cover * _spread(light_surfaces(arm, surfaces, seen, light), surfaces.sure)
+    return to_picture_size(shown, camera, exposure, scale)
 
 
-def floor(camera: Camera, light: Glow, exposure: float, falloff: bool) -> Image:
+def render_floor(camera: Camera, light: Glow, exposure: float, falloff: bool) -> Image:
     """(H, W, 3) what the floor sends to the camera; 1 saturates it. Arguments as above."""
-    shown = light_of_floor(camera, light.lamps, light.path, light.gain, exposure, falloff)
+    shown = floor_light(camera, light.lamps, light.path, light.gain, exposure, falloff)
     return np.zeros((camera.height, camera.width, 3), np.float32) if shown is None else shown
 
 
-def finished(shown: Image, camera: Camera, exposure: float, scale: float = 1.0) -> Image:
+def to_picture_size(shown: Image, camera: Camera, exposure: float, scale: float = 1.0) -> Image:
     """Light of arm and floor in the picture's unit and size, as sharp as a lens would have it."""
-    soft = cv2.GaussianBlur(shown, (0, 0), SOFT)
+    soft = cv2.GaussianBlur(shown, (0, 0), ARM_BLUR)
     if scale != 1.0:
         whole = cv2.resize(soft, None, fx=1 / scale, fy=1 / scale, interpolation=cv2.INTER_LINEAR)
         soft = whole[: camera.height, : camera.width]
     return np.asarray(soft * np.float32(1.0 / exposure), np.float32)
 
 
-def lit(arm: Arm, surfaces: Surfaces, camera: Camera, light: Glow, room: float = 1.0) -> Numbers:
+def light_surfaces(
+    arm: Arm, surfaces: Surfaces, camera: Camera, light: Glow, room: float = 1.0
+) -> Numbers:
     """(P, 3) what the arm's surfaces send to the camera; 1 saturates it.
 
     Args:
@@ -149,16 +158,18 @@ def lit(arm: Arm, surfaces: Surfaces, camera: Camera, light: Glow, room: float =
         light: that is painted meanwhile.
         room: how strong the other lamps are: those behind the arm, and the flash.
     """
-    points = seen_from(camera.position, surfaces.place, surfaces.normal)
-    body, coat = _albedo(arm)[surfaces.link + 1], fresnel(points.facing)[:, None]
-    dull, glossy = by_lamps(points, light.lamps, GLOSS)
+    points = points_seen_from(camera.position, surfaces.position, surfaces.normal)
+    body, coat = _albedo(arm)[surfaces.link + 1], fresnel(points.cosine_to_eye)[:, None]
+    dull, glossy = shade_by_lamps(points, light.lamps, COAT_SHARPNESS)
     shown = (body * dull + coat * glossy) * np.float32(light.gain)
-    sides = np.stack([camera.rotation.T @ np.multiply(BEHIND, (sign, 1, 1)) for sign in (1, -1)])
+    sides = np.stack(
+        [camera.rotation.T @ np.multiply(RIM_DIRECTION, (sign, 1, 1)) for sign in (1, -1)]
+    )
     for way, colour in zip(sides, _rims(light.whole, camera), strict=True):
-        dull, glossy = by_lamp(points, way, RIM_GLOSS)
+        dull, glossy = shade_by_direction(points, way, RIM_GLOSS)
         edge = np.float32(RIM_DULL) * body * dull + np.float32(RIM_GLINT) * coat * glossy
         shown += np.float32(room * RIM) * colour * edge
-    dull, glossy = by_lamp(points, camera.rotation.T @ FROM_ABOVE, GLOSS)
+    dull, glossy = shade_by_direction(points, camera.rotation.T @ FLASH_DIRECTION, COAT_SHARPNESS)
     flash = np.float32(room * FLASH) * np.array(FLASH_COLOUR, np.float32)
     shown += flash * (dull + np.float32(FLASH_GLINT) * coat * glossy)
     return np.asarray(shown, np.float32)
@@ -168,8 +179,8 @@ def _spread(colours: Numbers, sure: NDArray[np.bool_]) -> Image:
     """(h, w, 3) of colours (P, 3) where they are sure, and between and beside them their mean."""
     image = np.zeros((*sure.shape, 3), np.float32)
     image[sure] = colours
-    weight = cv2.blur(sure.astype(np.float32), REACH, borderType=cv2.BORDER_CONSTANT)
-    around = np.asarray(cv2.blur(image, REACH, borderType=cv2.BORDER_CONSTANT), np.float32)
+    weight = cv2.blur(sure.astype(np.float32), OUTLINE_REACH, borderType=cv2.BORDER_CONSTANT)
+    around = np.asarray(cv2.blur(image, OUTLINE_REACH, borderType=cv2.BORDER_CONSTANT), np.float32)
     around /= np.maximum(weight, np.float32(1e-6))[..., None]
     around[sure] = colours
     return around
@@ -177,24 +188,24 @@ def _spread(colours: Numbers, sure: NDArray[np.bool_]) -> Image:
 
 def _rims(lamps: Lamps, camera: Camera) -> tuple[Numbers, Numbers]:
     """The colours (3,) of the painting's right and left ends, as bright as a colour can be."""
-    if len(lamps.place) == 0:
+    if len(lamps.position) == 0:
         return np.ones(3, np.float32), np.ones(3, np.float32)
-    side = (lamps.place - lamps.middle) @ camera.rotation[0]
+    side = (lamps.position - lamps.middle) @ camera.rotation[0]
     reach = max(float(np.abs(side).max()), 1e-9)
     found = []
     for sign in (1.0, -1.0):
-        weight = (0.5 + 0.5 * sign * side / reach) ** APART
+        weight = (0.5 + 0.5 * sign * side / reach) ** RIM_COLOUR_SPREAD
         colour = (weight[:, None] * lamps.energy).sum(axis=0)
-        found.append(_clear(colour / colour.max()))
+        found.append(_outline_colour(colour / colour.max()))
     return found[0], found[1]
 
 
-def _clear(colour: Floats) -> Numbers:
+def _outline_colour(colour: Floats) -> Numbers:
     """A colour (3,) that draws an outline: a deep blue gets some white, and more strength."""
     luminance = float(LUMINANCE @ colour)
-    white = max(0.0, PALE - luminance) / (1.0 - luminance + 1e-9)
+    white = max(0.0, LEAST_RIM_LUMINANCE - luminance) / (1.0 - luminance + 1e-9)
     pale = colour + white * (1.0 - colour)
-    return np.asarray(pale * np.sqrt(0.5 / max(luminance, PALE)), np.float32)
+    return np.asarray(pale * np.sqrt(0.5 / max(luminance, LEAST_RIM_LUMINANCE)), np.float32)
 
 
 def _albedo(arm: Arm) -> Numbers:
@@ -203,5 +214,5 @@ def _albedo(arm: Arm) -> Numbers:
     for shape in arm.shapes:
         linear = np.asarray(shape.colour, np.float32) ** 2.2
         grey = linear @ LUMINANCE.astype(np.float32)
-        found[shape.link + 1] = linear + np.float32(FADED) * (grey - linear)
-    return np.float32(BLACK) + np.float32(DARK) * found
+        found[shape.link + 1] = linear + np.float32(GREY_SHARE) * (grey - linear)
+    return np.float32(BLACK_ALBEDO) + np.float32(ALBEDO_SHARE) * found

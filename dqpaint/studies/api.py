@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from dqpaint.errors import UsageError
 from dqpaint.language.writing import builder
-from dqpaint.light.images import opened
+from dqpaint.light.images import decode_png
 from dqpaint.outputs import files
 from dqpaint.settings import Settings, make_settings
 from dqpaint.studies.experiment import cells
@@ -65,7 +65,7 @@ class FinishedStudy(Generic[S]):
     def pictures(self) -> dict[str, NDArray[np.uint8]]:
         """Charts and pictures (H, W, 3) by the ends of their names, such as `sheet`."""
         return {
-            end.removesuffix(".png").removeprefix("-"): opened(data)
+            end.removesuffix(".png").removeprefix("-"): decode_png(data)
             for end, data in self.files.items()
             if end.endswith(".png")
         }

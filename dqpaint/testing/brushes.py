@@ -5,9 +5,9 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.core import subclass
 from dqpaint.dq import Floats
-from dqpaint.light.camera import Camera, View, frame
+from dqpaint.light.camera import Camera, View, frame_points
 from dqpaint.light.film import Film, expose
-from dqpaint.light.sources import BRUSHES, Brush, Emitters, Sweep, choices_of
+from dqpaint.light.sources import BRUSHES, Brush, Emitters, Sweep, describe_fields
 from dqpaint.testing.runs import require
 
 SAMPLES = 120
@@ -36,7 +36,7 @@ def check_brush(brush: str | type[Brush], even: bool = True) -> None:
     for name, field in model.model_fields.items():
         require(bool(field.description), f"its value '{name}' has a description")
         require(not field.is_required(), f"its value '{name}' has a default")
-    require(len(choices_of(model)) == len(model.model_fields), "its values can be listed")
+    require(len(describe_fields(model)) == len(model.model_fields), "its values can be listed")
     emitters = model.model_validate({}).emitters()
     if even:
         total = emitters.tints.sum(axis=1)
@@ -44,7 +44,7 @@ def check_brush(brush: str | type[Brush], even: bool = True) -> None:
     for strobe in (None, np.tile((37.0, 0.3), (SAMPLES - 1, 1))):
         sweep = Sweep(PERIOD, screw(), _colours(), emitters, strobe=strobe)
         for view in VIEWS:
-            camera = frame(sweep.lit_points, np.eye(3), view, (160, 90))
+            camera = frame_points(sweep.lit_points, np.eye(3), view, (160, 90))
             _check_balance(expose(sweep, camera))
     _check_bits(sweep, camera)
     _check_still(emitters)
@@ -77,7 +77,7 @@ def _check_bits(sweep: Sweep, camera: Camera) -> None:
 def _check_still(emitters: Emitters) -> None:
     moving = Sweep(PERIOD, screw(), _colours(), emitters)
     still = Sweep(PERIOD, np.tile(screw()[:1], (SAMPLES, 1)), _colours(), emitters)
-    camera = frame(moving.lit_points, np.eye(3), VIEWS[1], (640, 360))
+    camera = frame_points(moving.lit_points, np.eye(3), VIEWS[1], (640, 360))
     film = expose(still, camera)
     kept = np.allclose(film.on_film, film.emitted, rtol=BALANCE)
     require(bool(kept), "a standing light in the middle of the picture loses nothing")

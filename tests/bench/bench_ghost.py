@@ -10,7 +10,7 @@ from functools import partial
 
 import dqpaint
 from dqpaint.painting.picture import lights_of
-from dqpaint.render.scene_arm import on_stage
+from dqpaint.render.scene_arm import scene_arm_of_run
 from dqpaint.robots.model.card import read_card
 
 SIZE = (1920, 1080)
@@ -26,15 +26,15 @@ def main():
         shine = partial(lights_of, scene)
         for _ in range(rounds):
             begin = time.perf_counter()
-            with on_stage(painting.settings, card, painting.cast) as staging:
-                staging.photograph(camera, shine, exposure)
+            with scene_arm_of_run(painting.settings, card, painting.cast) as staging:
+                staging.render_still(camera, shine, exposure)
             flashed = time.perf_counter()
-            with on_stage(painting.settings, card, painting.cast) as staging:
-                staging.blur(camera, shine, exposure)
+            with scene_arm_of_run(painting.settings, card, painting.cast) as staging:
+                staging.render_blurred(camera, shine, exposure)
             middle = time.perf_counter()
-            with on_stage(painting.settings, card, painting.cast) as staging:
+            with scene_arm_of_run(painting.settings, card, painting.cast) as staging:
                 for sweep in scene.light:
-                    sweep.behind(staging, camera.position)
+                    sweep.occluded_by(staging, camera.position)
             times["ghost"].append(flashed - begin)
             times["motion"].append(middle - flashed)
             times["occlusion"].append(time.perf_counter() - middle)

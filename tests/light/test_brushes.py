@@ -10,7 +10,7 @@ from dqpaint.light.camera.camera import VIEWS
 from dqpaint.light.film.auto_exposure import automatic_exposure
 from dqpaint.light.film.film import expose
 from dqpaint.light.film.point_spread import point_spread
-from dqpaint.light.sources.brushes import BRUSHES, brush_of, read_brush, stripes
+from dqpaint.light.sources.brushes import BRUSHES, program_brush, read_brush, striped_image
 from dqpaint.program.program import Bar, Point
 from tests.support.camera_motion import camera_for, swept
 
@@ -41,7 +41,7 @@ def test_so_it_is_where_much_of_it_misses_the_picture(name):
     sweep = swept(read_brush(name).emitters(), 120)
     far = camera_for(sweep, size=(160, 90))
     near = type(far)(
-        far.position - 0.6 * (far.position - sweep.points.mean(axis=0)),
+        far.position - 0.6 * (far.position - sweep.positions.mean(axis=0)),
         far.rotation, 3 * far.focal, np.add(far.centre, [70.0, 20.0]), far.width, far.height,
     )  # fmt: skip
     for falloff in (False, True):
@@ -85,7 +85,7 @@ def test_lamps_of_a_bar_are_where_the_tool_carries_them():
     """By rotation matrices, and not by the quaternions that carry them."""
     sweep = swept(read_brush("bar:length=120mm,leds=5,along=y,joined=0").emitters(), 30)
     camera = camera_for(sweep)
-    light = next(sweep.towards(camera))
+    light = next(sweep.emission_to(camera))
     T = dq.matrix_from_pose(sweep.pose)
     lamps = 0.12 * ((np.arange(5) + 0.5) / 5 - 0.5)
     for lamp, run in zip(lamps, light.points.reshape(5, -1, 3), strict=True):
@@ -100,10 +100,10 @@ def test_a_lobe_is_the_power_of_the_cosine_and_dark_behind():
     sweep = swept(read_brush("point:lobe=3").emitters(), 40)
     camera = camera_for(sweep, "front")
     plain = swept(read_brush("point").emitters(), 40)
-    energy = np.concatenate([piece.energy for piece in sweep.towards(camera)])
-    whole = np.concatenate([piece.energy for piece in plain.towards(camera)])
+    energy = np.concatenate([piece.energy for piece in sweep.emission_to(camera)])
+    whole = np.concatenate([piece.energy for piece in plain.emission_to(camera)])
     T = dq.matrix_from_pose(sweep.pose)
-    ray = camera.position - sweep.points
+    ray = camera.position - sweep.positions
     cosine = (ray * T[:, :3, 2]).sum(axis=1) / np.linalg.norm(ray, axis=1)
     expected = np.clip(cosine, 0, None) ** 3
     middle = 0.5 * (expected[1:] + expected[:-1])
@@ -116,7 +116,7 @@ def test_a_ball_is_an_even_disc_of_its_size():
     still = type(sweep)(0.01, np.tile(sweep.pose[:1], (2, 1)), sweep.colours, sweep.emitters)
     camera = camera_for(swept(read_brush("point").emitters()), size=(960, 540))
     plane = expose(still, camera).planes[0]
-    _, depth = camera.project(still.points)
+    _, depth = camera.project(still.positions)
     radius = 0.01 * camera.focal / depth[0]
     assert radius > 10
     y, x = np.mgrid[: plane.shape[0], : plane.shape[1]]
@@ -155,7 +155,7 @@ def test_an_image_goes_along_the_way_and_along_the_bar(tmp_path):
     np.testing.assert_allclose(tints[10:, :4], np.broadcast_to([0, 0, 1.0], (10, 4, 3)), atol=1e-9)
     assert not tints[:10, :4].any()
     sweep = swept(brush.emitters(), 200, colours=np.ones((199, 3)))
-    light = next(sweep.towards(camera_for(sweep)))
+    light = next(sweep.emission_to(camera_for(sweep)))
     red, blue = light.energy[:, 0], light.energy[:, 2]
     runs = (len(light.energy) + 1) // 8
     first_run = slice(7 * runs, 8 * runs - 1)  # the uppermost lamp
@@ -169,11 +169,11 @@ def test_an_image_goes_along_the_way_and_along_the_bar(tmp_path):
 
 
 def test_what_the_language_says_becomes_a_brush():
-    assert brush_of(Point()).emitters().single
-    assert brush_of(Point(0.04)).emitters().size == 0.04
-    bar = brush_of(Bar(0.3, (0.0, 1.0, 0.0))).emitters()
+    assert program_brush(Point()).emitters().single
+    assert program_brush(Point(0.04)).emitters().size == 0.04
+    bar = program_brush(Bar(0.3, (0.0, 1.0, 0.0))).emitters()
     np.testing.assert_allclose(np.ptp(bar.extent, axis=0), [0, 0.3, 0], atol=1e-12)
-    assert len(bar.places) == 43
+    assert len(bar.positions) == 43
 
 
 def test_colours_run_from_end_to_end():
@@ -181,7 +181,7 @@ def test_colours_run_from_end_to_end():
     np.testing.assert_allclose(tints[1], 1.0)
     assert tints[0, 0] == 1.0
     assert 0.2 < tints[0, 1] < 0.5
-    assert stripes(5).shape == (110, 5, 3)
+    assert striped_image(5).shape == (110, 5, 3)
 
 
 @pytest.mark.parametrize(("text", "says"), [

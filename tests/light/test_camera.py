@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.light.camera.camera import FILL, LENS, VIEWS, Camera, View, frame
+from dqpaint.light.camera.camera import DEFAULT_LENS, FRAME_FILL, VIEWS, Camera, View, frame_points
 
 SIZES = [(1280, 720), (500, 500), (360, 640)]
 ANGLES = [*VIEWS.values(), View(-37.0, 12.0), View(200.0, -64.0), View(10.0, 89.9)]
@@ -49,7 +49,7 @@ def test_right_is_right_and_up_is_up_on_a_turned_canvas():
         [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
     )  # stands in the y-z plane
     canvas = np.array([[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0]])
-    camera = frame(canvas @ rotation.T, rotation, VIEWS["front"], (640, 480))
+    camera = frame_points(canvas @ rotation.T, rotation, VIEWS["front"], (640, 480))
     pixels, _ = camera.project(canvas @ rotation.T)
     assert pixels[1, 0] > pixels[0, 0] + 100
     assert pixels[2, 1] < pixels[0, 1] - 100
@@ -62,7 +62,7 @@ def test_right_is_right_and_up_is_up_on_a_turned_canvas():
     [("front", [0, 0, 1]), ("side", [1, 0, 0]), ("top", [0, 1, 0]), ("iso", [1, 1, 1])],
 )
 def test_views_look_from_where_they_say(name, direction):
-    camera = frame(np.eye(3), np.eye(3), VIEWS[name], (640, 480))
+    camera = frame_points(np.eye(3), np.eye(3), VIEWS[name], (640, 480))
     np.testing.assert_allclose(
         camera.rotation[2], np.array(direction) / np.linalg.norm(direction), atol=1e-12
     )
@@ -79,30 +79,32 @@ def test_any_cloud_fills_the_frame_to_the_pixel(view, size):
         spans = rng.uniform(0.4, 1.0, 3) * rng.choice([0.15, 0.4, 3.0])
         points = rng.normal(size=3) + rng.uniform(-0.5, 0.5, (count, 3)) * spans
         canvas = turned(rng)
-        camera = frame(points, canvas, view, size)
+        camera = frame_points(points, canvas, view, size)
         low, high = box(camera, points)
         np.testing.assert_allclose((low + high) / 2, camera.centre, atol=1e-6)
         share = (high - low) / np.array(size)
-        assert share.max() <= FILL + 1e-9
+        assert share.max() <= FRAME_FILL + 1e-9
         if count > 3:  # few points may be seen nearly in line
-            np.testing.assert_allclose(share.max(), FILL, atol=1e-9)
-        assert camera.focal == LENS * max(size)
+            np.testing.assert_allclose(share.max(), FRAME_FILL, atol=1e-9)
+        assert camera.focal == DEFAULT_LENS * max(size)
         assert camera.centre.tolist() == [(size[0] - 1) / 2, (size[1] - 1) / 2]
 
 
 @pytest.mark.parametrize("view", VIEWS.values(), ids=VIEWS)
 def test_what_has_no_extent_is_framed_as_something_small(view):
-    dot = frame([[0.5, 0.1, 0.7]] * 3, np.eye(3), view, (640, 360))
+    dot = frame_points([[0.5, 0.1, 0.7]] * 3, np.eye(3), view, (640, 360))
     pixels, depth = dot.project([[0.5, 0.1, 0.7]])
     np.testing.assert_allclose(pixels[0], dot.centre, atol=1e-9)
-    np.testing.assert_allclose(0.04 / depth[0] * dot.focal, FILL * 360)  # 4 cm fill the height
+    np.testing.assert_allclose(
+        0.04 / depth[0] * dot.focal, FRAME_FILL * 360
+    )  # 4 cm fill the height
     for axis in np.eye(3):
         points = [0.5, 0.1, 0.7] + np.linspace(0, 0.3, 20)[:, None] * axis
-        camera = frame(points, np.eye(3), view, (640, 360))
+        camera = frame_points(points, np.eye(3), view, (640, 360))
         low, high = box(camera, points)
         np.testing.assert_allclose((low + high) / 2, camera.centre, atol=1e-6)
         assert camera.project(points)[1].min() > 0.05
-        assert ((high - low) / [640, 360]).max() <= FILL + 1e-9
+        assert ((high - low) / [640, 360]).max() <= FRAME_FILL + 1e-9
 
 
 def test_the_camera_and_the_drawing_may_stand_anywhere():
@@ -114,19 +116,19 @@ def test_the_camera_and_the_drawing_may_stand_anywhere():
         rng.normal(size=3),
         turned(rng),
     )
-    here = frame(points, canvas, VIEWS["iso"], (640, 480))
+    here = frame_points(points, canvas, VIEWS["iso"], (640, 480))
     moved = points @ turn.T + move
-    there = frame(moved, turn @ canvas, VIEWS["iso"], (640, 480))
+    there = frame_points(moved, turn @ canvas, VIEWS["iso"], (640, 480))
     np.testing.assert_allclose(here.project(points)[0], there.project(moved)[0], atol=1e-8)
 
 
 def test_nothing_or_no_number_cannot_be_framed():
     with pytest.raises(DqpaintError, match="nothing is lit"):
-        frame(np.zeros((0, 3)), np.eye(3), VIEWS["front"], (640, 480))
+        frame_points(np.zeros((0, 3)), np.eye(3), VIEWS["front"], (640, 480))
     with pytest.raises(DqpaintError, match="not finite"):
-        frame([[0, np.nan, 0]], np.eye(3), VIEWS["front"], (640, 480))
+        frame_points([[0, np.nan, 0]], np.eye(3), VIEWS["front"], (640, 480))
     with pytest.raises(UsageError, match="0x480"):
-        frame([[0, 0, 0]], np.eye(3), VIEWS["front"], (0, 480))
+        frame_points([[0, 0, 0]], np.eye(3), VIEWS["front"], (0, 480))
     with pytest.raises(ValueError, match="mirrors"):
         Camera([0, 0, 1], np.diag([1.0, 1.0, -1.0]), 100.0, [1, 1], 3, 3)
     with pytest.raises(ValueError, match="orthonormal"):
@@ -134,10 +136,10 @@ def test_nothing_or_no_number_cannot_be_framed():
 
 
 def test_coarser_pixels_cover_the_same_places(rng):
-    camera = frame(rng.uniform(-0.2, 0.2, (50, 3)), np.eye(3), View(20, 10), (641, 361))
+    camera = frame_points(rng.uniform(-0.2, 0.2, (50, 3)), np.eye(3), View(20, 10), (641, 361))
     points = rng.uniform(-0.1, 0.1, (20, 3))
     for scale in (0.5, 0.37, 1.0):
-        coarse = camera.coarser(scale)
+        coarse = camera.scaled(scale)
         assert (coarse.width, coarse.height) == (
             int(np.ceil(641 * scale)), int(np.ceil(361 * scale)),
         )  # fmt: skip

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from dqpaint.light.film.looks import LOOKS
-from dqpaint.light.images.colour_maps import amounts, colour_amounts, colour_kinds
+from dqpaint.light.images.colour_maps import categorical_colours, sequential_colours, sequential_map
 from dqpaint.light.images.legend import Legend, with_legend
 
 
@@ -24,7 +24,7 @@ def oklab(rgb):
 
 
 def test_equal_steps_of_value_look_equally_different():
-    lab = oklab(amounts())
+    lab = oklab(sequential_map())
     steps = np.linalg.norm(np.diff(lab, axis=0), axis=1)
     assert np.ptp(steps) < 0.05 * steps.mean()
     assert (np.diff(lab[:, 0]) > 0).all()
@@ -33,20 +33,20 @@ def test_equal_steps_of_value_look_equally_different():
 
 
 def test_values_find_their_colours():
-    table = amounts()
-    np.testing.assert_allclose(colour_amounts(np.array([0.0, 1.0])), table[[0, -1]])
-    np.testing.assert_allclose(colour_amounts(np.array([-3.0, 7.0])), table[[0, -1]])
-    np.testing.assert_allclose(colour_amounts(np.array(0.5 / 255)), table[:2].mean(axis=0))
+    table = sequential_map()
+    np.testing.assert_allclose(sequential_colours(np.array([0.0, 1.0])), table[[0, -1]])
+    np.testing.assert_allclose(sequential_colours(np.array([-3.0, 7.0])), table[[0, -1]])
+    np.testing.assert_allclose(sequential_colours(np.array(0.5 / 255)), table[:2].mean(axis=0))
 
 
 def test_kinds_are_far_apart_and_equally_light():
-    lab = oklab(colour_kinds(6))
+    lab = oklab(categorical_colours(6))
     np.testing.assert_allclose(lab[:, 0], 0.76, atol=0.01)
     apart = np.linalg.norm(lab[:, None] - lab[None], axis=2)[np.triu_indices(6, 1)]
     assert apart.min() > 0.04
 
 
-SCALE = Legend("speed [mm/s]", ("0", "20"), tuple(map(tuple, amounts())), True)
+SCALE = Legend("speed [mm/s]", ("0", "20"), tuple(map(tuple, sequential_map())), True)
 
 
 @pytest.mark.parametrize("size", [(1280, 720), (640, 360), (1920, 1080)])
@@ -76,7 +76,9 @@ def test_a_legend_that_does_not_fit_is_left_out():
 @pytest.mark.parametrize("look", LOOKS)
 def test_kinds_are_named_one_below_the_other(look):
     labels = tuple(f"{i}  line" for i in range(11))
-    legend = Legend("line of the drawing", labels, tuple(map(tuple, colour_kinds(11))), False)
+    legend = Legend(
+        "line of the drawing", labels, tuple(map(tuple, categorical_colours(11))), False
+    )
     shown = with_legend(np.zeros((720, 1280, 3), np.uint8), legend, look)
     swatches = shown[:, 30].astype(int)
     runs = np.flatnonzero(np.diff((swatches.max(axis=1) > 0).astype(int)) == 1)

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from dqpaint.light.film.auto_exposure import CORE, _weighted_median, automatic_exposure
+from dqpaint.light.film.auto_exposure import CORE_EXPOSURE, _weighted_median, automatic_exposure
 from dqpaint.light.film.film import expose
 from dqpaint.light.film.point_spread import point_spread, spread
 from dqpaint.light.sources.emission import Light
@@ -20,7 +20,7 @@ def exposed(light):
 @pytest.mark.parametrize("colour", [[1e-3, 0, 5e-4], [40, 700, 0]])
 def test_the_core_of_a_line_is_as_bright_as_it_should(steps, colour):
     image = exposed(line([60, 100], [420, 100], colour, CAMERA, steps))
-    np.testing.assert_allclose(image[100, 120:360].max(axis=1), CORE, rtol=0.01)
+    np.testing.assert_allclose(image[100, 120:360].max(axis=1), CORE_EXPOSURE, rtol=0.01)
 
 
 def test_the_median_is_by_length_and_not_by_time():
@@ -28,7 +28,7 @@ def test_the_median_is_by_length_and_not_by_time():
     x = np.concatenate([np.linspace(60, 180, 5000), np.linspace(180, 420, 60)[1:]])
     pixels = np.column_stack([x, np.full(len(x), 100.0)])
     image = exposed(drawn(pixels, np.ones((len(x) - 1, 3)), CAMERA))
-    np.testing.assert_allclose(image[100, 220:380], CORE, rtol=0.02)
+    np.testing.assert_allclose(image[100, 220:380], CORE_EXPOSURE, rtol=0.02)
 
 
 def test_the_weighted_median_weighs():
@@ -51,19 +51,19 @@ def test_dark_moves_and_light_off_the_picture_do_not_count():
 
 def test_a_dot_is_exposed_by_its_peak():
     still = drawn([[240, 180]] * 5, [[0, 0.2, 0.1]] * 4, CAMERA)
-    np.testing.assert_allclose(exposed(still).max(), CORE, rtol=0.03)
+    np.testing.assert_allclose(exposed(still).max(), CORE_EXPOSURE, rtol=0.03)
 
 
 def test_so_is_each_dot_of_many():
     pixels = np.repeat([[60, 60], [400, 80], [200, 300]], 2, axis=0)
     stars = drawn(pixels, [[1] * 3, [0] * 3, [1] * 3, [0] * 3, [1] * 3], CAMERA)
-    np.testing.assert_allclose(exposed(stars)[60, 60], CORE, rtol=0.03)
+    np.testing.assert_allclose(exposed(stars)[60, 60], CORE_EXPOSURE, rtol=0.03)
 
 
 @pytest.mark.parametrize("length", [1e-6, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 12.0])
 def test_between_dot_and_line_the_peak_stays_near(length):
     image = exposed(line([240, 180], [240 + length, 180], [1, 1, 1], CAMERA, 20))
-    assert 0.75 * CORE < image.max() < 1.05 * CORE
+    assert 0.75 * CORE_EXPOSURE < image.max() < 1.05 * CORE_EXPOSURE
 
 
 def test_ten_times_the_light_needs_a_tenth_of_the_exposure():

@@ -7,8 +7,8 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.errors import UsageError
-from dqpaint.light.camera.camera import VIEWS, View, frame
-from dqpaint.light.camera.exposure_settings import Exposure, advice, parse_exposure
+from dqpaint.light.camera.camera import VIEWS, View, frame_points
+from dqpaint.light.camera.exposure_settings import Exposure, equivalent_exposure, parse_exposure
 from dqpaint.light.film.film import expose
 from dqpaint.light.film.point_spread import point_spread, spread
 from dqpaint.light.sources.brushes import read_brush
@@ -24,7 +24,7 @@ def line(metres=0.4, speed=0.23, samples=400):
 
 def ridge(text, size=(1920, 1081), view=VIEWS["front"]):  # the line lies on a row
     real, sweep = parse_exposure(text), line()
-    camera = frame(sweep.lit_points, np.eye(3), view, size, real.lens, real.distance)
+    camera = frame_points(sweep.lit_points, np.eye(3), view, size, real.lens, real.distance)
     image = spread(expose(sweep, camera, falloff=True), point_spread(size[1]))
     return float(image[size[1] // 2 - 3 : size[1] // 2 + 3, size[0] // 2, 0].max()) * real.factor(
         camera
@@ -36,13 +36,13 @@ def test_a_led_at_photographers_settings_is_four_stops_over():
 
     That is with a core of 1 px, of which a line's ridge is 0.35; ours is a little wider.
     """
-    sharper = 0.35 / point_spread(1081).of_line
+    sharper = 0.35 / point_spread(1081).line_peak
     assert ridge("f/8,iso100,35mm,1cd,2.2m") * sharper == pytest.approx(18.0, rel=0.1)
     # and by hand: illuminance on the sensor times time, over H = 78 / S, times the core's ridge
     pitch, r = 0.036 / 1920, 2.2
     lux_seconds = math.pi / 4 * (0.035 / 8) ** 2 * 0.9 / r**2 / pitch**2
     seconds_a_pixel = 1 / (0.23 * 0.035 / 0.036 * 1920 / r)
-    by_hand = lux_seconds * seconds_a_pixel * 100 / 78 * point_spread(1081).of_line
+    by_hand = lux_seconds * seconds_a_pixel * 100 / 78 * point_spread(1081).line_peak
     assert ridge("35mm,2.2m") == pytest.approx(by_hand, rel=0.01)
 
 
@@ -63,9 +63,11 @@ def test_twice_as_far_a_line_is_half_as_bright():
 
 def test_a_step_nearer_to_the_camera_is_brighter_by_its_distance_squared():
     sweep = line()
-    camera = frame(sweep.lit_points, np.eye(3), View(60.0, 0.0), (640, 360))
-    plain, real = ([p.energy for p in sweep.towards(camera, falloff)] for falloff in (False, True))
-    middle = 0.5 * (sweep.points[1:] + sweep.points[:-1])
+    camera = frame_points(sweep.lit_points, np.eye(3), View(60.0, 0.0), (640, 360))
+    plain, real = (
+        [p.energy for p in sweep.emission_to(camera, falloff)] for falloff in (False, True)
+    )
+    middle = 0.5 * (sweep.positions[1:] + sweep.positions[:-1])
     r = np.linalg.norm(middle - camera.position, axis=1)
     np.testing.assert_allclose(real[0][:, 0], plain[0][:, 0] / r**2, rtol=1e-12)
     assert r.max() > 1.3 * r.min()
@@ -74,7 +76,7 @@ def test_a_step_nearer_to_the_camera_is_brighter_by_its_distance_squared():
 def test_distance_and_focal_length_are_those_of_the_camera():
     sweep = line()
     real = parse_exposure("50mm,1.5m")
-    camera = frame(
+    camera = frame_points(
         sweep.lit_points, np.eye(3), VIEWS["front"], (900, 600), real.lens, real.distance
     )
     assert camera.focal == pytest.approx(50 / 36 * 900)
@@ -87,13 +89,13 @@ def test_advice_gives_back_what_it_was_asked():
     """The automatic's factor, taken as real settings, is the same picture."""
     real = Exposure(candela=0.13)
     sweep = line()
-    camera = frame(sweep.lit_points, np.eye(3), VIEWS["front"], (1280, 720))
+    camera = frame_points(sweep.lit_points, np.eye(3), VIEWS["front"], (1280, 720))
     distance = float(camera.position[2])
     factor = real.factor(camera) / distance**2
-    assert advice(factor, camera, distance) == (
+    assert equivalent_exposure(factor, camera, distance) == (
         f"as f/8, ISO 100, 40 mm at {distance:.2g} m with an LED of 0.13 cd"
     )
-    assert "13 mcd" in advice(0.1 * factor, camera, distance)
+    assert "13 mcd" in equivalent_exposure(0.1 * factor, camera, distance)
 
 
 def test_settings_read_as_they_are_written():

@@ -3,7 +3,7 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from dqpaint.light.camera.camera import NEAR
+from dqpaint.light.camera.camera import NEAREST_DEPTH
 from dqpaint.light.film.film import PAD, expose
 from dqpaint.light.sources.emission import Light
 from tests.support.film_scene import HEIGHT, WIDTH, at_pixels, drawn, flat_camera, line
@@ -155,7 +155,7 @@ def test_what_is_left_of_a_cut_step_lies_where_the_step_did():
 
 def test_light_behind_the_camera_is_lost_as_whole_steps():
     """The camera stands at z = 1; the third and the fourth step have an end behind it."""
-    z = [0.0, 0.1, 0.2, 1.5, 0.2, 0.1, 1.0 - NEAR / 2]
+    z = [0.0, 0.1, 0.2, 1.5, 0.2, 0.1, 1.0 - NEAREST_DEPTH / 2]
     points = np.column_stack([np.zeros((7, 2)), z])
     film = expose(Light(points, np.diag([1, 2, 4, 8, 16, 32])[:, :3] + 1.0), CAMERA)
     assert_conserved(film)

@@ -3,14 +3,22 @@
 import numpy as np
 import pytest
 
-from dqpaint.light.images.contact_sheet import hues, note, overlay, png, sheet, window, with_key
+from dqpaint.light.images.contact_sheet import (
+    encode_png,
+    hues,
+    lit_window,
+    message_picture,
+    overlay,
+    sheet,
+    with_key,
+)
 from dqpaint.light.images.image_difference import (
     decode_picture,
     decode_planes,
-    differ,
+    difference_picture,
     encode_planes,
-    similarity,
-    where_they_differ,
+    measure_difference,
+    structural_similarity,
 )
 
 
@@ -20,7 +28,7 @@ def noisy(rng, height=40, width=60):
 
 def test_similarity_is_its_formula_at_a_window(rng):
     one, other = noisy(rng), noisy(rng)
-    got = similarity(one, other)[20, 30]
+    got = structural_similarity(one, other)[20, 30]
     grey = np.array([0.299, 0.587, 0.114])
     a, b = (np.rint(p[15:26, 25:36] @ grey) for p in (one, other))
     x = np.arange(-5, 6)
@@ -37,32 +45,32 @@ def test_similarity_is_its_formula_at_a_window(rng):
 def test_each_number_is_what_it_says(rng):
     light = rng.uniform(0, 2, (40, 60, 3)).astype(np.float32)
     shown = noisy(rng)
-    same = differ(light, light, shown, shown)
+    same = measure_difference(light, light, shown, shown)
     assert (same.film_max, same.film_l1, same.energy, same.u8_max) == (0, 0, 0, 0)
     assert same.ssim_min == pytest.approx(1.0)
     other, new = light.copy(), shown.copy()
     other[3, 4, 1] += 0.5
     other[5, 6, 2] -= 0.25
     shown[7, 8], new[7, 8] = 10, 250  # where 8 bits would wrap round
-    got = differ(light, other, shown, new)
+    got = measure_difference(light, other, shown, new)
     assert got.film_max == pytest.approx(0.5 / light.max(), rel=1e-6)
     assert got.film_l1 == pytest.approx(0.75 / light.sum(dtype=float), rel=1e-6)
     assert got.energy == pytest.approx(0.25 / light.sum(dtype=float), rel=1e-6)
     assert got.u8_max == 240
-    gap, factor = where_they_differ(light, other)
+    gap, factor = difference_picture(light, other)
     assert gap[3, 4, 1] == 255
     assert gap[5, 6, 2] == int(255 * 0.5 ** (1 / 2.2))
     assert np.count_nonzero(gap) == 2
     assert factor == pytest.approx(light.max() / 0.5)
-    assert not where_they_differ(light, light)[0].any()
+    assert not difference_picture(light, light)[0].any()
 
 
 def test_files_come_back_bit_for_bit(rng):
     planes = rng.normal(size=(3, 20, 30)).astype(np.float32)
     np.testing.assert_array_equal(decode_planes(encode_planes(planes)), planes)
     picture = noisy(rng)
-    np.testing.assert_array_equal(decode_picture(png(picture)), picture)
-    for wrong in (b"", b"text", png(picture)[:50]):
+    np.testing.assert_array_equal(decode_picture(encode_png(picture)), picture)
+    for wrong in (b"", b"text", encode_png(picture)[:50]):
         with pytest.raises(ValueError, match="no picture"):
             decode_planes(wrong)
     with pytest.raises(ValueError, match="no picture"):
@@ -103,7 +111,7 @@ def test_a_sheet_shows_every_picture_whole_under_its_label(rng):
 
 
 def test_a_note_is_readable_and_fits():
-    picture = note("failed: " + "word " * 60 + "x" * 300, 120, 200)
+    picture = message_picture("failed: " + "word " * 60 + "x" * 300, 120, 200)
     assert picture.shape == (120, 200, 3)
     assert picture.max() > 150
     assert not picture[:, -3:].any()
@@ -113,14 +121,14 @@ def test_a_window_holds_all_that_is_lit_in_any_picture():
     pictures = [np.zeros((100, 200, 3), np.uint8) for _ in range(2)]
     pictures[0][40:44, 90:100] = 200
     pictures[1][60:64, 120:150, 2] = 90
-    rows, columns = window(pictures)
+    rows, columns = lit_window(pictures)
     assert rows.start < 40
     assert 64 < rows.stop < 90
     assert columns.start < 90
     assert 150 < columns.stop < 180
     pictures[1][:, 0] = 255
-    assert window(pictures)[0] == slice(0, 100)
-    assert window([np.zeros((100, 200, 3), np.uint8)]) == (slice(0, 100), slice(0, 200))
+    assert lit_window(pictures)[0] == slice(0, 100)
+    assert lit_window([np.zeros((100, 200, 3), np.uint8)]) == (slice(0, 100), slice(0, 200))
 
 
 def test_a_key_names_every_colour_on_as_many_lines_as_it_takes():

@@ -29,7 +29,7 @@ def ring(samples, radius=120.0):
 def test_a_coarse_circle_is_round(samples):
     """Chords of 25 samples are off by a pixel; the smooth way by a twentieth."""
     steps = next(moving(ring(samples)).steps(1e-4))
-    pixels, _ = CAMERA.project(steps.place)
+    pixels, _ = CAMERA.project(steps.position)
     inner = pixels[len(pixels) // samples : -len(pixels) // samples]  # the ends have one neighbour
     radius = np.linalg.norm(inner - CAMERA.centre, axis=1)
     sagitta = 120.0 * (1 - np.cos(np.pi / (samples - 1)))
@@ -38,8 +38,8 @@ def test_a_coarse_circle_is_round(samples):
 
 def test_a_fine_circle_is_left_as_it_is():
     sweep = moving(ring(721))
-    steps = next(sweep.steps(sweep.resolution(CAMERA)))
-    assert np.array_equal(steps.place, sweep.points)
+    steps = next(sweep.steps(sweep.chord_tolerance(CAMERA)))
+    assert np.array_equal(steps.position, sweep.positions)
     plain = drawn(ring(721), np.full((720, 3), 0.005), CAMERA)
     assert np.array_equal(expose(sweep, CAMERA).planes, expose(plain, CAMERA).planes)
 
@@ -47,7 +47,7 @@ def test_a_fine_circle_is_left_as_it_is():
 def test_corners_stay_sharp_and_straight_lines_straight():
     corner = np.array([[50, 50], [150, 50], [250, 50], [250, 150], [250, 250]], float)
     steps = next(moving(corner).steps(1e-7))
-    pixels, _ = CAMERA.project(steps.place)
+    pixels, _ = CAMERA.project(steps.position)
     off = np.minimum(np.abs(pixels[:, 1] - 50), np.abs(pixels[:, 0] - 250))
     assert off.max() < 1e-9
 
@@ -60,8 +60,8 @@ def test_smoothing_keeps_all_energy_and_every_sample():
     assert sum(len(s.energy) for s in steps) > 600
     total = sum(s.energy.sum(axis=0) for s in steps)
     np.testing.assert_allclose(total, 299 * 0.005, rtol=1e-12)
-    places = np.concatenate([s.place for s in steps])
-    assert all((np.abs(places - p).max(axis=1) < 1e-15).any() for p in sweep.points)
+    places = np.concatenate([s.position for s in steps])
+    assert all((np.abs(places - p).max(axis=1) < 1e-15).any() for p in sweep.positions)
 
 
 def test_a_fast_turning_bar_has_no_chords():
@@ -72,7 +72,7 @@ def test_a_fast_turning_bar_has_no_chords():
     emitters = read_brush("bar:length=200mm,leds=2,joined=0").emitters()
     sweep = Sweep(0.01, pose, np.ones((12, 3)), emitters)
     steps = next(sweep.steps(1e-5))
-    lamps = sweep.places(steps.place, steps.rotation, emitters.places)
+    lamps = sweep.base_positions(steps.position, steps.rotation, emitters.positions)
     np.testing.assert_allclose(np.linalg.norm(lamps, axis=2), 0.05, rtol=1e-12)
     gaps = np.linalg.norm(np.diff(lamps, axis=0), axis=2)
     assert (0.05 - np.sqrt(0.05**2 - gaps**2 / 4)).max() < 1.1e-5
@@ -109,9 +109,9 @@ def test_batches_do_not_show():
     parts = [slice(0, 150), slice(150, 151), slice(151, 399)]
 
     class Parts:
-        def towards(self, camera, falloff=False):
+        def emission_to(self, camera, falloff=False):
             for part in parts:
-                yield from sweep.towards(camera, falloff, part)
+                yield from sweep.emission_to(camera, falloff, part)
 
     cut = expose(Parts(), camera)
     np.testing.assert_allclose(cut.emitted, whole.emitted, rtol=1e-12)

@@ -5,7 +5,7 @@ import pytest
 from dqpaint.errors import DqpaintError
 from dqpaint.light.film.develop import develop
 from dqpaint.light.film.looks import LOOKS, with_noise
-from dqpaint.light.film.starburst import SHARE, with_starburst
+from dqpaint.light.film.starburst import RAY_ENERGY, with_starburst
 
 
 def flat(value, shape=(64, 64)):
@@ -96,7 +96,7 @@ def test_an_aperture_draws_its_rays_and_keeps_its_light(blades, rays):
     values = cv2.remap(shown[..., 1], ring[0][None], ring[1][None], cv2.INTER_LINEAR)[0]
     high = values > 0.5 * values.max()
     assert np.count_nonzero(high & ~np.roll(high, 1)) == rays
-    assert shown[180, 240, 1] > (1 - SHARE) * 50 - 1e-3
+    assert shown[180, 240, 1] > (1 - RAY_ENERGY) * 50 - 1e-3
 
 
 def test_rays_of_an_even_field_do_not_show():

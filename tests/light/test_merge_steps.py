@@ -8,7 +8,7 @@ import pytest
 from dqpaint.light.camera.camera import Camera
 from dqpaint.light.film import merge_steps, projection
 from dqpaint.light.film.film import PAD, expose
-from dqpaint.light.film.merge_steps import MOST, SHORT, joined
+from dqpaint.light.film.merge_steps import LONGEST_MERGED, MOST_MERGED, merge_short_steps
 from dqpaint.light.film.point_spread import point_spread, spread
 from dqpaint.light.sources.emission import Light
 from tests.support.film_scene import HEIGHT, WIDTH, drawn, flat_camera
@@ -47,25 +47,29 @@ def test_joined_steps_are_short_wherever_they_are(seed):
     camera = random_camera(rng)
     points = walk(rng, 3000, 10.0 ** rng.uniform(-6.5, -4.5))
     energy = rng.uniform(0, 1, (3000, 3)) * rng.integers(0, 2, (3000, 1))
-    fewer, sums = joined(points, energy, camera, MARGIN)
+    fewer, sums = merge_short_steps(points, energy, camera, MARGIN)
     many = -(-len(energy) // len(sums))
     first = np.arange(0, len(energy), many)
     assert len(fewer) == len(sums) + 1 == len(first) + 1
     np.testing.assert_array_equal(fewer, points[np.append(first, len(energy))])
     np.testing.assert_allclose(sums, np.add.reduceat(energy, first, axis=0), rtol=1e-14)
     if many > 1:
-        assert np.add.reduceat(seen_lengths(points, camera), first).max() <= SHORT
+        assert np.add.reduceat(seen_lengths(points, camera), first).max() <= LONGEST_MERGED
 
 
 def test_as_many_are_joined_as_may_be():
     """The bound takes the longest step along one axis for one along all: less than twice it."""
     for many in (2, 5, 30):
-        pixels = np.column_stack([30 + np.arange(1001) * SHORT / many, np.full(1001, 40.0)])
+        pixels = np.column_stack(
+            [30 + np.arange(1001) * LONGEST_MERGED / many, np.full(1001, 40.0)]
+        )
         light = drawn(pixels, np.ones((1000, 3)), FLAT)
-        sums = joined(light.points, light.energy, FLAT, MARGIN)[1]
+        sums = merge_short_steps(light.points, light.energy, FLAT, MARGIN)[1]
         assert many // 2 <= -(-1000 // len(sums)) <= many
     still = np.zeros((1001, 3))
-    assert len(joined(still, np.ones((1000, 3)), FLAT, MARGIN)[1]) == -(-1000 // MOST)
+    assert len(merge_short_steps(still, np.ones((1000, 3)), FLAT, MARGIN)[1]) == -(
+        -1000 // MOST_MERGED
+    )
 
 
 def test_steps_aslant_to_the_axes_are_as_long_as_others():
@@ -75,8 +79,8 @@ def test_steps_aslant_to_the_axes_are_as_long_as_others():
     back = np.cross(right, up)
     camera = Camera(back, np.stack([right, up, back]), 1e5, [119.5, 89.5], WIDTH, HEIGHT)
     for many in (1, 3, 10, 20):
-        points = np.arange(1001)[:, None] * (0.999 * SHORT / many / camera.focal) * right
-        sums = joined(points, np.ones((1000, 3)), camera, MARGIN)[1]
+        points = np.arange(1001)[:, None] * (0.999 * LONGEST_MERGED / many / camera.focal) * right
+        sums = merge_short_steps(points, np.ones((1000, 3)), camera, MARGIN)[1]
         assert -(-1000 // len(sums)) == many
 
 
@@ -88,7 +92,7 @@ def test_what_may_be_seen_is_left_as_it_is(place):
     else:
         points[:, 2] += np.linspace(0, 1.1, 1000)
     energy = np.ones((999, 3))
-    same, whole = joined(points, energy, FLAT, MARGIN)
+    same, whole = merge_short_steps(points, energy, FLAT, MARGIN)
     assert same is points
     assert whole is energy
 
@@ -103,7 +107,7 @@ def test_a_film_of_joined_steps_is_the_film(monkeypatch):
         light = drawn(pixels, rng.uniform(0.9, 1, (60_000, 3)), FLAT)
         quick = expose(light, FLAT)
         with monkeypatch.context() as patch:
-            patch.setattr(merge_steps, "SHORT", 0.0)
+            patch.setattr(merge_steps, "LONGEST_MERGED", 0.0)
             whole = expose(light, FLAT)
         assert not np.array_equal(quick.planes, whole.planes)
         assert_same_picture(quick, whole, tolerance)
@@ -114,7 +118,7 @@ def test_brightness_is_inverse_to_speed_where_steps_are_joined():
     slow, fast = np.linspace(20, 110, 9001), np.linspace(110, 200, 3001)[1:]
     x = np.concatenate([slow, fast])
     light = drawn(np.column_stack([x, 50.0 + 0.1 * x]), np.ones((12_000, 3)), FLAT)
-    assert len(joined(light.points, light.energy, FLAT, MARGIN)[1]) < 9000
+    assert len(merge_short_steps(light.points, light.energy, FLAT, MARGIN)[1]) < 9000
     columns = expose(light, FLAT).planes[0].sum(axis=0)[PAD:-PAD]
     np.testing.assert_allclose(columns[25:105], 100.0, rtol=1e-3)
     np.testing.assert_allclose(columns[115:195], 100.0 / 3.0, rtol=1e-3)
@@ -125,7 +129,7 @@ def test_blocks_that_are_read_at_once_fit_together(monkeypatch):
     pixels = np.column_stack([120 + 60 * np.cos(turn), 90 + 60 * np.sin(turn)])
     light = drawn(pixels, np.ones((10_000, 3)), FLAT)
     whole = expose(light, FLAT)
-    monkeypatch.setattr(projection, "READ", 999)
+    monkeypatch.setattr(projection, "MERGE_BATCH", 999)
     monkeypatch.setattr(projection, "BATCH", 100)
     parts = expose(light, FLAT)
     assert_same_picture(parts, whole, 5e-3)
@@ -162,11 +166,11 @@ def test_light_that_only_just_counts_is_joined_in_the_margin_too():
     along = np.linspace(0, 0.3, 4001)
     points = np.column_stack([2.9 * (1 - along), np.zeros(4001), along])
     points[:, 0] = 3.0 * np.cos(along)
-    fewer, _ = joined(points, np.ones((4000, 3)), camera, MARGIN)
+    fewer, _ = merge_short_steps(points, np.ones((4000, 3)), camera, MARGIN)
     many = -(-4000 // (len(fewer) - 1))
     assert many > 1
     lengths = seen_lengths(points, camera)
-    assert np.add.reduceat(lengths, np.arange(0, 4000, many)).max() <= SHORT
+    assert np.add.reduceat(lengths, np.arange(0, 4000, many)).max() <= LONGEST_MERGED
     assert Light(points, np.ones((4000, 3))).energy.sum() == 12_000
 
 
@@ -176,7 +180,10 @@ def test_the_nearest_steps_decide(count, fewest):
     points = np.zeros((count + 1, 3))
     points[1::2, 0] = 0.8 / count
     points[:, 2] = np.linspace(0, 0.8, count + 1)
-    fewer, _ = joined(points, np.ones((count, 3)), FLAT, MARGIN)
+    fewer, _ = merge_short_steps(points, np.ones((count, 3)), FLAT, MARGIN)
     many = -(-count // (len(fewer) - 1))
     assert many >= fewest
-    assert np.add.reduceat(seen_lengths(points, FLAT), np.arange(0, count, many)).max() <= SHORT
+    assert (
+        np.add.reduceat(seen_lengths(points, FLAT), np.arange(0, count, many)).max()
+        <= LONGEST_MERGED
+    )

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
-from dqpaint.light.camera.camera import View, frame
+from dqpaint.light.camera.camera import View, frame_points
 from dqpaint.light.film.film import PAD, expose
 from dqpaint.light.sources.brushes import read_brush
-from dqpaint.light.sources.occlusion import Shade
+from dqpaint.light.sources.occlusion import Occlusion
 from dqpaint.light.sources.sweep import Sweep
 
 N, PERIOD = 201, 0.01
@@ -50,7 +50,7 @@ def sweep(brush, strobe=None, pwm=0.0):
 
 
 def camera(light):
-    return frame(light.lit_points, np.eye(3), View(10.0, 8.0), (160, 90))
+    return frame_points(light.lit_points, np.eye(3), View(10.0, 8.0), (160, 90))
 
 
 @pytest.mark.parametrize("falloff", [False, True])
@@ -62,11 +62,11 @@ def test_all_light_is_on_the_film_lost_or_hidden(brush, how, falloff):
     eye = camera(light)
     bare = expose(light, eye, falloff)
     wall = Wall(-0.05, 0.05)
-    behind = light.behind(wall, eye.position)
+    behind = light.occluded_by(wall, eye.position)
     film = expose(behind, eye, falloff)
-    hidden = behind.shade.hidden
+    hidden = behind.occlusion.hidden
     np.testing.assert_allclose(film.on_film + film.lost + hidden.sum(0), bare.emitted, rtol=1e-9)
-    np.testing.assert_allclose(behind.shade.emitted.sum(0), bare.emitted, rtol=1e-9)
+    np.testing.assert_allclose(behind.occlusion.emitted.sum(0), bare.emitted, rtol=1e-9)
     assert hidden.min() >= -1e-18
     assert 0.0 < hidden.sum() < bare.emitted.sum()
     assert wall.calls == 1  # however steps are cut
@@ -79,10 +79,10 @@ def test_of_a_bar_what_is_above_the_wall_is_hidden(brush):
     """A bar of 200 mm under a wall that rises from -0.1 m to 0.1 m: its light by its height."""
     light = sweep(brush)
     eye = camera(light)
-    behind = light.behind(Wall(-0.1, 0.1), eye.position)
+    behind = light.occluded_by(Wall(-0.1, 0.1), eye.position)
     expose(behind, eye)
     middle = (np.arange(N - 1) + 0.5) * PERIOD
-    shown = 1.0 - behind.shade.hidden.sum(1)[20:] / behind.shade.emitted.sum(1)[20:]
+    shown = 1.0 - behind.occlusion.hidden.sum(1)[20:] / behind.occlusion.emitted.sum(1)[20:]
     if brush == "bar":  # its colours are not of one brightness, so its ends are looked at
         assert shown[0] < 0.15
         assert shown[-1] > 0.99
@@ -93,8 +93,8 @@ def test_of_a_bar_what_is_above_the_wall_is_hidden(brush):
 
 def test_which_part_of_a_bar_is_dark_on_the_film():
     light = sweep("ribbon")
-    eye = frame(light.lit_points, np.eye(3), View(0.0, 0.0), (160, 90))
-    film = expose(light.behind(Wall(0.02), eye.position), eye)
+    eye = frame_points(light.lit_points, np.eye(3), View(0.0, 0.0), (160, 90))
+    film = expose(light.occluded_by(Wall(0.02), eye.position), eye)
     lit = film.planes[0].sum(axis=1)
     rows = np.flatnonzero(lit > 0.5 * lit.max()) - PAD
     for row, height in ((rows.min(), 0.02), (rows.max(), -0.1)):
@@ -105,7 +105,7 @@ def test_shade_that_hides_nothing_changes_nothing():
     for brush in BRUSHES:
         light = sweep(brush)
         eye = camera(light)
-        film, bare = expose(light.behind(Wall(9.0), eye.position), eye), expose(light, eye)
+        film, bare = expose(light.occluded_by(Wall(9.0), eye.position), eye), expose(light, eye)
         np.testing.assert_allclose(film.planes, bare.planes, rtol=1e-9, atol=1e-12)
 
 
@@ -113,9 +113,9 @@ def test_hidden_light_is_counted_in_its_own_step():
     light = sweep("point", np.tile([7.0, 0.3], (N - 1, 1)))
     share = np.ones((N - 1, 1))
     share[100:110] = 0.25
-    behind = replace(light, shade=Shade(PERIOD, share))
+    behind = replace(light, occlusion=Occlusion(PERIOD, share))
     expose(behind, camera(light))
-    hidden, emitted = behind.shade.hidden, behind.shade.emitted
+    hidden, emitted = behind.occlusion.hidden, behind.occlusion.emitted
     np.testing.assert_allclose(hidden[100:110], 0.75 * emitted[100:110], rtol=1e-12)
     assert not hidden[:100].any()
     assert not hidden[110:].any()
@@ -126,5 +126,5 @@ def test_what_lights_a_scene_is_all_of_the_brush(brush):
     light = sweep(brush, np.tile([37.0, 0.4], (N - 1, 1)))
     if light.emitters.lobe == 0.0:
         whole = expose(light, camera(light)).emitted
-        found = sum(energy.sum(axis=0) for _, energy in light.lights())
+        found = sum(energy.sum(axis=0) for _, energy in light.lamp_paths())
         np.testing.assert_allclose(found, whole, rtol=1e-9)

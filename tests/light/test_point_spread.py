@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from dqpaint.light.film.film import PAD, Film, expose
-from dqpaint.light.film.point_spread import SHARPEST, point_spread, spread
+from dqpaint.light.film.point_spread import NARROWEST_CORE, point_spread, spread
 from tests.support.film_scene import drawn, flat_camera, line, sampled
 
 ENERGY_TOLERANCE = 1e-6
@@ -60,14 +60,14 @@ def test_a_line_has_an_even_ridge_of_the_height_foretold(angle):
         image = spread(expose(light, CAMERA), PSF)[..., 1].astype(float)
         ridge = sampled(image, middle + np.linspace(-80, 80, 481)[:, None] * along)
         assert np.ptp(ridge) / ridge.mean() < RIPPLE_TOLERANCE
-        np.testing.assert_allclose(ridge.mean(), PSF.of_line, rtol=0.01)
+        np.testing.assert_allclose(ridge.mean(), PSF.line_peak, rtol=0.01)
 
 
 def test_the_peak_of_a_point_is_foretold():
     for offset in ([0.0, 0.0], [0.5, 0.5], [0.2, -0.4]):
         place = np.array([250.0, 180.0]) + offset
         image = spread(expose(drawn([place, place], [[1, 1, 1]], CAMERA), CAMERA), PSF)[..., 0]
-        np.testing.assert_allclose(sampled(image, place[None]), PSF.of_point, rtol=0.025)
+        np.testing.assert_allclose(sampled(image, place[None]), PSF.point_peak, rtol=0.025)
 
 
 def test_joints_leave_no_beads():
@@ -104,7 +104,7 @@ def test_halos_have_the_same_share_of_every_picture():
     np.testing.assert_allclose(heights[0][2:], heights[1][2:], rtol=0.01)
     for height in (36, 360, 720, 1080, 2160, 4320):
         psf = point_spread(height)
-        assert psf.widths[0] >= SHARPEST
+        assert psf.widths[0] >= NARROWEST_CORE
         np.testing.assert_allclose(sum(psf.weights), 1.0, rtol=1e-12)
 
 

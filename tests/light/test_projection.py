@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from dqpaint.light.film.projection import BATCH, Projection, bins
+from dqpaint.light.film.projection import BATCH, Projection, cut_into_bins
 
 
 def trail_of(pixels, energy, breaks=()):
@@ -57,7 +57,7 @@ def test_pieces_hold_what_was_left_between_their_ends(scale, seed):
     energy = rng.uniform(0, 1, (50, 3))
     energy[rng.integers(0, 50, 12)] = 0.0
     trail = trail_of(50 + np.vstack([[0, 0], np.cumsum(walk, axis=0)]), energy, [7, 8, 30, 41])
-    found = list(bins(trail, 1.0))
+    found = list(cut_into_bins(trail, 1.0))
     position = np.concatenate([one.position for one in found], axis=1).T
     energy = np.concatenate([one.energy for one in found], axis=1).T
     wanted = by_hand(trail, 1.0)
@@ -71,7 +71,7 @@ def test_a_piece_with_next_to_nothing_lies_where_it_is():
     """What cancels must not throw its centre off the film."""
     pixels = np.column_stack([np.linspace(0, 1.0 + 1e-13, 4), np.full(4, 5.0)])
     for energy in (np.diag([1e9, 1e-9, 1e9]), np.diag([1e-200, 1e9, 1e-200])):
-        for found in bins(trail_of(pixels, energy), 0.25):
+        for found in cut_into_bins(trail_of(pixels, energy), 0.25):
             assert (found.energy >= 0).all()
             assert (found.position[0] >= 0).all()
             assert (found.position[0] <= 1.0 + 1e-12).all()
@@ -80,6 +80,6 @@ def test_a_piece_with_next_to_nothing_lies_where_it_is():
 
 def test_long_ways_come_in_pieces_that_fit_the_cache():
     pixels = np.random.default_rng(5).uniform(0, 1000, (2000, 2))
-    found = list(bins(trail_of(pixels, np.ones((1999, 3))), 1.0))
+    found = list(cut_into_bins(trail_of(pixels, np.ones((1999, 3))), 1.0))
     assert max(len(one.length) for one in found) < 2 * BATCH
     np.testing.assert_allclose(sum(one.energy.sum() for one in found), 3 * 1999.0, rtol=1e-12)

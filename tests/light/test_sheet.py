@@ -7,7 +7,7 @@ import pytest
 from dqpaint import dq
 from dqpaint.light.film.film import PAD, expose
 from dqpaint.light.sources.brushes import read_brush
-from dqpaint.light.sources.sheet import Sheet, cells
+from dqpaint.light.sources.sheet import Sheet, sheet_cells
 from tests.support.camera_motion import camera_for, screw, swept
 from tests.support.film_scene import at_pixels, flat_camera, sampled
 
@@ -66,7 +66,7 @@ def test_a_plain_rectangle_is_even_to_a_part_in_a_thousand():
     )
     ends = np.stack([a, b])
     sheet = Sheet(ends, np.array([[6.0, 3.0, 0.0]]), np.full((1, 4, 3), 0.25), np.zeros(1, int))
-    parts = list(cells(sheet, camera, 30.0))
+    parts = list(sheet_cells(sheet, camera, 30.0))
     energy = np.concatenate([p.energy for p in parts], axis=1)
     np.testing.assert_allclose(energy.sum(axis=1), [6, 3, 0], rtol=1e-12)
 
@@ -75,7 +75,7 @@ def test_a_plain_rectangle_is_even_to_a_part_in_a_thousand():
     np.testing.assert_allclose(centroid, [(50.3 + 350.9) / 2, (40.2 + 240.7) / 2], atol=1e-6)
 
     class Once:
-        def towards(self, _camera, falloff=False):
+        def emission_to(self, _camera, falloff=False):
             yield sheet
 
     image = on_sensor(expose(Once(), camera))[PAD:-PAD, PAD:-PAD]
@@ -89,7 +89,7 @@ def test_colours_along_the_line_stay_where_they_are():
     tints = np.zeros((1, 2, 3))
     tints[0, 0, 0] = tints[0, 1, 2] = 0.5
     sheet = Sheet(corners, np.ones((1, 3)), tints, np.zeros(1, int))
-    parts = list(cells(sheet, camera, 30.0))
+    parts = list(sheet_cells(sheet, camera, 30.0))
     x = np.concatenate([p.position[0] for p in parts])
     energy = np.concatenate([p.energy for p in parts], axis=1)
     assert energy[0, x > 101].sum() == 0
@@ -108,7 +108,7 @@ def test_what_is_behind_the_camera_or_outside_is_lost():
         np.ones((1, 3)), np.ones((1, 1, 3)), np.zeros(1, int),
     )  # fmt: skip
     for sheet in (behind, beside):
-        parts = list(cells(sheet, camera, 30.0))
+        parts = list(sheet_cells(sheet, camera, 30.0))
         np.testing.assert_allclose(sum(p.lost for p in parts), 1.0)
         assert sum(p.energy.size for p in parts) == 0
 
@@ -117,5 +117,5 @@ def test_a_huge_sheet_needs_little_time_and_loses_nothing():
     camera = flat_camera()
     corners = at_pixels([[-1e5, -1e5], [1e5, -1e5], [-1e5, 1e5], [1e5, 1e5]], camera)
     sheet = Sheet(corners.reshape(2, 2, 3), np.ones((1, 3)), np.ones((1, 1, 3)), np.zeros(1, int))
-    total = sum(p.lost + p.energy.sum(axis=1) for p in cells(sheet, camera, 30.0))
+    total = sum(p.lost + p.energy.sum(axis=1) for p in sheet_cells(sheet, camera, 30.0))
     np.testing.assert_allclose(total, 1.0, rtol=1e-9)

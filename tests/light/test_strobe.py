@@ -100,6 +100,6 @@ def test_dark_strokes_stay_dark_and_steady_ones_steady():
 def test_crossings_are_found_once_each():
     rng = np.random.default_rng(2)
     ends = np.cumsum(rng.uniform(0, 3, 200))
-    step, part = gates.crossings(ends[:-1], ends[1:])
+    step, part = gates.integer_crossings(ends[:-1], ends[1:])
     values = ends[step] + part * np.diff(ends)[step]
     np.testing.assert_allclose(np.sort(values), np.arange(np.ceil(ends[0]), ends[-1]), atol=1e-9)

@@ -207,15 +207,15 @@ def test_a_video_grows_to_the_picture(monkeypatch):
 
 def test_what_has_shone_by_the_last_frame_is_the_film(monkeypatch):
     """The pieces of a video add up to the whole film, whatever the brush."""
-    from dqpaint.light.film.film import Exposing
+    from dqpaint.light.film.film import FilmAccumulator
 
     for brush in ("point", "ball:size=5mm", "bar:length=50mm", "pixelstick:length=40mm,along=y"):
         painting = dqpaint.draw("star", plant="ideal", size=(160, 90), brush=brush)
-        exposing = Exposing(painting.picture.camera)
+        exposing = FilmAccumulator(painting.picture.camera)
         for sweep in painting.scene.light:
             n = len(sweep.colours)
             for i in range(7):
-                for piece in sweep.towards(
+                for piece in sweep.emission_to(
                     painting.picture.camera, False, slice(n * i // 7, n * (i + 1) // 7)
                 ):
                     exposing.add(piece)

@@ -7,9 +7,9 @@ from dqpaint import dq
 from dqpaint.diagnostics import SourceLine
 from dqpaint.errors import DqpaintError
 from dqpaint.language import parse
-from dqpaint.light.camera.camera import FILL
-from dqpaint.light.sources.from_motion import BESIDE_ARM
-from dqpaint.light.sources.sweep import ALL
+from dqpaint.light.camera.camera import FRAME_FILL
+from dqpaint.light.sources.from_motion import FILL_WITH_ARM
+from dqpaint.light.sources.sweep import ALL_SAMPLES
 from dqpaint.motion import plan
 from dqpaint.painting.picture import photograph
 from dqpaint.painting.scene import SETTLING, arrange
@@ -68,7 +68,7 @@ def test_light_is_counted_in_full():
 class Screen:
     """A stage on which the arm hides what is right of the middle, and looks like a grey wall."""
 
-    solid = True
+    can_occlude = True
     remarks = ()
 
     def __init__(self, motion):
@@ -79,7 +79,7 @@ class Screen:
         right = places[..., 1]  # of the iiwa's canvas, seen from its front
         return (right < eye[1]).astype(float)
 
-    def photograph(self, camera, lights, exposure, falloff):
+    def render_still(self, camera, lights, exposure, falloff):
         self.lights, self.falloff = lights, falloff
         return np.full((camera.height, camera.width, 3), 0.1 / exposure, np.float32)
 
@@ -137,7 +137,7 @@ def test_ghost_and_occlusion_are_chosen_apart(ghost, occlusion, seen, traced):
 def test_what_cannot_be_traced_in_full_is_not_counted_at_all():
     motion = asked(HALF)
     screen = Screen(motion)
-    screen.solid, screen.remarks = False, ("warning: a mesh",)
+    screen.can_occlude, screen.remarks = False, ("warning: a mesh",)
     picture = staged(motion, screen=screen)
     assert picture.hidden is None
     assert picture.remarks == ("warning: a mesh",)
@@ -149,7 +149,7 @@ def test_the_arm_is_lit_by_all_light_and_leaves_the_film_alone():
     with_arm = staged(motion, screen=screen)
     bare = take(motion, motion.pose, GHOST)
     np.testing.assert_allclose(
-        sum(e.sum(0) for _, e in screen.lights(ALL)), bare.emitted, rtol=1e-9
+        sum(e.sum(0) for _, e in screen.lights(ALL_SAMPLES)), bare.emitted, rtol=1e-9
     )
     assert with_arm.film.on_film[0] == pytest.approx(bare.film.on_film[0], rel=1e-9)
     assert with_arm.image.min() > 20
@@ -163,8 +163,8 @@ def test_the_camera_leaves_room_for_the_arm_whether_or_not_it_is_there():
     motion = asked(HALF)
     far_away, close = (take(motion, motion.pose, s).camera for s in (GHOST, SETTINGS))
     wide, narrow = (np.ptp(c.project(motion.points)[0][:, 0]) / 319 for c in (far_away, close))
-    assert wide == pytest.approx(BESIDE_ARM, rel=0.02)
-    assert narrow == pytest.approx(FILL, rel=0.02)
+    assert wide == pytest.approx(FILL_WITH_ARM, rel=0.02)
+    assert narrow == pytest.approx(FRAME_FILL, rel=0.02)
 
 
 def test_a_picture_without_light_is_refused():

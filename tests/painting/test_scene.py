@@ -42,7 +42,7 @@ def test_each_brush_of_a_drawing_shines_in_its_own_strokes():
     motion = motion_of({"brush": Bar(0.1, (0.0, 1.0, 0.0))}, {"brush": Point()})
     scene = arrange(motion, motion.pose, make_settings(**SMALL))
     bar, point = scene.light
-    assert len(bar.emitters.places) == 14
+    assert len(bar.emitters.positions) == 14
     assert point.emitters.single
     assert not bar.colours[:, 2].any()
     assert not point.colours[:, 0].any()
@@ -103,7 +103,7 @@ def test_colours_tell_and_every_millimetre_is_equally_bright(by):
     assert np.abs(a / a.max() - b / b.max()).max() > 0.2
     assert scene.legend.title.startswith({"speed": "speed [mm/s]", "line": "line"}[by])
     even = arrange(motion, motion.pose, make_settings(colour_by="line", **SMALL)).light[0]
-    lightness = even.colours.sum(axis=1) / even.walked
+    lightness = even.colours.sum(axis=1) / even.lamp_travel
     assert lightness[50] == pytest.approx(lightness[150], rel=0.5)
 
 

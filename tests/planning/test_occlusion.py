@@ -9,7 +9,7 @@ from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.language import parse
 from dqpaint.light.camera.views import parse_views
-from dqpaint.light.sources.from_motion import stand
+from dqpaint.light.sources.from_motion import view_camera
 from dqpaint.motion import plan
 from dqpaint.planning.forecast import forecast
 from dqpaint.planning.forecast_report import HIDDEN
@@ -120,7 +120,7 @@ def test_ten_random_drawings(seed):
     free = Kinematics(lifted(arm.card))
     run = track(motion, free, start, PLANTS["ideal"], law, law.read_gains({}))
     front = dq.matrix_from_quaternion(motion.front)
-    eye = stand(motion.points[:-1], front, make_settings(), parse_views("front")[0]).position
+    eye = view_camera(motion.points[:-1], front, make_settings(), parse_views("front")[0]).position
     seen = traced(arm, run, eye)
     for one in foreseen(seed):
         rows = np.flatnonzero(motion.source.line[:-1] == one.line.line)

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
-from dqpaint.light.camera.camera import View, frame
+from dqpaint.light.camera.camera import View, frame_points
 from dqpaint.render import geometry_buffer
 from dqpaint.render.arm_shapes import Arm
-from dqpaint.render.geometry_buffer import Box, measure, projection_matrix, view_matrix
+from dqpaint.render.geometry_buffer import Box, measure_surfaces, projection_matrix, view_matrix
 from dqpaint.render.ray_casting import RayCaster
 from dqpaint.robots.bullet.client import bullet
 from dqpaint.robots.kinematics.kinematics import Kinematics
@@ -21,7 +21,7 @@ SEEN_ELSEWHERE = 0.004  # of the arm: single pixels of the outline
 
 def camera_at(rng, size=(320, 180), spread=0.4, fill=0.6):
     view = View(rng.uniform(-180, 180), rng.uniform(-5, 60))
-    return frame(MIDDLE + rng.uniform(-spread, spread, (20, 3)), np.eye(3), view, size, fill)
+    return frame_points(MIDDLE + rng.uniform(-spread, spread, (20, 3)), np.eye(3), view, size, fill)
 
 
 def test_the_matrices_are_the_camera_s_own(rng):
@@ -47,9 +47,9 @@ def test_small_balls_are_where_the_camera_projects_them(rng):
             bullet.GEOM_SPHERE, radius=0.02, physicsClientId=world.client
         )
         body = bullet.createMultiBody(0, -1, ball, place.tolist(), physicsClientId=world.client)
-        box = geometry_buffer._find(world, camera)
+        box = geometry_buffer._find_arm(world, camera)
         rows, columns = np.nonzero(
-            geometry_buffer._look(world, camera, box, 1.0, (0, 0, 1)).segment >= 0
+            geometry_buffer._render_box(world, camera, box, 1.0, (0, 0, 1)).segment >= 0
         )
         found = np.array([box.left + columns.mean(), box.top + rows.mean()])
         assert np.abs(found - camera.project([place])[0][0]).max() < 0.3  # px
@@ -84,9 +84,9 @@ def test_rays_meet_what_is_seen(robot, rng, tmp_path):
     path = urdf(tmp_path, second=BALL) if robot == "plain" else data / robot
     with Arm(path) as arm, RayCaster(arm) as twins:
         arm.whiten()
-        twins.stand(rng.normal(size=len(arm.joints)) * 0.5)
+        twins.set_posture(rng.normal(size=len(arm.joints)) * 0.5)
         camera = camera_at(rng, (640, 360))
-        found = measure(arm, camera)
+        found = measure_surfaces(arm, camera)
         way = rays(camera, found.box)
         eye = np.broadcast_to(camera.position, way.shape)
         hit = twins.blocked(eye, camera.position + 20 * way).reshape(found.sure.shape)
@@ -95,7 +95,7 @@ def test_rays_meet_what_is_seen(robot, rng, tmp_path):
         assert wrong.sum() < SEEN_ELSEWHERE * found.sure.sum()
         assert found.sure.sum() > 500
         # and a ray to just before each place is free, to just behind it is not
-        place = found.place.astype(float)
+        place = found.position.astype(float)
         to = (place - camera.position) / np.linalg.norm(place - camera.position, axis=1)[:, None]
         begin = np.broadcast_to(camera.position, place.shape)
         gap = 0.004 if robot == "plain" else 0.002  # primitives have a margin
@@ -109,9 +109,11 @@ def test_normals_and_links_of_a_ball(rng, tmp_path):
         arm.whiten()
         posture = np.array([0.4, -0.7])
         centre = dq.translation(dq.mul(arm.frames(posture[None])[0, 2], arm.shapes[0].frame))
-        camera = frame(centre + rng.uniform(-0.1, 0.1, (9, 3)), np.eye(3), View(20, 30), (320, 180))
-        found = measure(arm, camera)
-    outwards = found.place - centre
+        camera = frame_points(
+            centre + rng.uniform(-0.1, 0.1, (9, 3)), np.eye(3), View(20, 30), (320, 180)
+        )
+        found = measure_surfaces(arm, camera)
+    outwards = found.position - centre
     outwards /= np.linalg.norm(outwards, axis=1)[:, None]
     angle = np.degrees(np.arccos(np.clip((outwards * found.normal).sum(axis=1), -1, 1)))
     assert np.median(angle) < 1.5
@@ -121,12 +123,12 @@ def test_normals_and_links_of_a_ball(rng, tmp_path):
 
 @pytest.mark.slow
 def test_an_arm_out_of_the_picture_is_none(tmp_path):
-    far = frame(np.array([[5.0, 5, 5], [5.1, 5, 5.1]]), np.eye(3), View(0, 0), (64, 64))
+    far = frame_points(np.array([[5.0, 5, 5], [5.1, 5, 5.1]]), np.eye(3), View(0, 0), (64, 64))
     with Arm(urdf(tmp_path)) as arm:
-        assert measure(arm, far) is None
+        assert measure_surfaces(arm, far) is None
     with Arm(urdf(tmp_path, "", "", "")) as arm:
         assert arm.shapes == []
-        assert measure(arm, far) is None
+        assert measure_surfaces(arm, far) is None
 
 
 @pytest.mark.slow

@@ -5,7 +5,7 @@ import xml.etree.ElementTree as Xml
 import numpy as np
 import pytest
 
-from dqpaint.render.meshes import AROUND, BENDS, SHAPES, mesh, rounded
+from dqpaint.render.meshes import RINGS, SHAPES, SIDES, revolution_mesh, with_fine_meshes
 from tests.support.urdf_shapes import BOX, CAPSULE, urdf
 
 RADIUS, LENGTH = 0.3, 0.8
@@ -22,7 +22,9 @@ VOLUMES = {
 
 
 def read(kind):
-    rows = [line.split() for line in mesh(SHAPES[kind](RADIUS, LENGTH)).decode().splitlines()]
+    rows = [
+        line.split() for line in revolution_mesh(SHAPES[kind](RADIUS, LENGTH)).decode().splitlines()
+    ]
     points, normals = (np.array([r[1:] for r in rows if r[0] == w], float) for w in ("v", "vn"))
     faces = np.array([[int(part.split("//")[0]) for part in r[1:]] for r in rows if r[0] == "f"])
     return points, normals, faces - 1
@@ -42,7 +44,7 @@ def test_it_is_closed_faces_outwards_and_has_the_size(kind):
     smooth = normals[faces].mean(axis=1)
     kept = area > 1e-9  # at a pole two corners of a facet are one
     cosine = (flat * smooth).sum(axis=1)[kept]
-    assert cosine.min() > np.cos(np.pi / min(AROUND, 2 * BENDS))
+    assert cosine.min() > np.cos(np.pi / min(SIDES, 2 * RINGS))
 
 
 def test_each_normal_stands_on_its_surface():
@@ -54,7 +56,7 @@ def test_each_normal_stands_on_its_surface():
 
 def test_a_description_keeps_all_but_its_round_shapes(tmp_path):
     path = urdf(tmp_path, base=BOX, first=CAPSULE)
-    files = rounded(path.read_bytes())
+    files = with_fine_meshes(path.read_bytes())
     assert sorted(files) == ["0.obj", "1.obj", "2.obj", "arm.urdf"]
     tree, before = Xml.fromstring(files["arm.urdf"]), Xml.parse(path).getroot()
     assert len(tree.findall(".//mesh")) == 3
@@ -64,4 +66,4 @@ def test_a_description_keeps_all_but_its_round_shapes(tmp_path):
 
 def test_a_description_with_meshes_is_left_alone(tmp_path):
     own = '<visual><geometry><mesh filename="own.stl"/></geometry></visual>'
-    assert rounded(urdf(tmp_path, base=own).read_bytes()) is None
+    assert with_fine_meshes(urdf(tmp_path, base=own).read_bytes()) is None

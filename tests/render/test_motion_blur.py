@@ -7,8 +7,8 @@ import pytest
 
 from dqpaint.render import motion_blur
 from dqpaint.render.arm_shapes import Arm
-from dqpaint.render.motion_blur import MOMENTS, blurred, moments
-from dqpaint.render.still import glow, photograph
+from dqpaint.render.motion_blur import MOST_MOMENTS, blurred_arm, moments
+from dqpaint.render.still import gather_glow, render_arm
 from tests.support.ring_of_light import ring, seen
 from tests.support.urdf_shapes import urdf
 
@@ -20,13 +20,13 @@ def test_moments_follow_each_other_over_the_whole_run(rng):
     edges = moments(np.cumsum(rng.normal(size=(900, 3)), axis=0))
     assert (edges[0], edges[-1]) == (0, 899)
     assert (np.diff(edges) > 0).all()
-    assert len(edges) == MOMENTS + 1
+    assert len(edges) == MOST_MOMENTS + 1
 
 
 def test_where_the_arm_moves_it_is_looked_at_more_often():
     turned = np.concatenate([np.zeros(900), np.linspace(0, 1, 100)])[:, None]
     edges = moments(turned)
-    assert (edges > 900).sum() > 0.7 * MOMENTS
+    assert (edges > 900).sum() > 0.7 * MOST_MOMENTS
     assert (edges < 900).sum() >= 3  # and where it stands, too
 
 
@@ -48,7 +48,7 @@ def shining(energy):
 def veil(tmp_path, postures, energy, **choices):
     with Arm(urdf(tmp_path)) as arm:
         arm.whiten()
-        return blurred(arm, postures, seen(size=(480, 360)), shining(energy), 2.0, **choices)
+        return blurred_arm(arm, postures, seen(size=(480, 360)), shining(energy), 2.0, **choices)
 
 
 EVEN = np.full((N, 3), 1.0 / N)
@@ -69,7 +69,9 @@ def test_it_is_the_same_every_time(tmp_path):
 @pytest.mark.parametrize("part", [0.5, 0.2])
 def test_each_place_is_as_bright_as_the_arm_was_there_long(part, tmp_path, monkeypatch):
     """In the room's light alone; where it stood a fifth of the time it is a fifth as bright."""
-    monkeypatch.setattr(motion_blur, "glow", lambda lights: replace(glow(lights), gain=0.0))
+    monkeypatch.setattr(
+        motion_blur, "gather_glow", lambda lights: replace(gather_glow(lights), gain=0.0)
+    )
     postures = np.where(np.arange(N + 1)[:, None] <= part * N, A, B)
     both = veil(tmp_path, postures, EVEN)
     parts = part * veil(tmp_path, HERE, EVEN) + (1 - part) * veil(tmp_path, THERE, EVEN)
@@ -82,8 +84,8 @@ def test_an_arm_that_stands_still_is_as_bright_as_one_that_is_flashed(tmp_path):
     camera = seen(size=(480, 360))
     with Arm(urdf(tmp_path)) as arm:
         arm.whiten()
-        arm.stand(A)
-        flashed = photograph(arm, camera, glow(shining(EVEN)(slice(None))), 2.0)
+        arm.set_posture(A)
+        flashed = render_arm(arm, camera, gather_glow(shining(EVEN)(slice(None))), 2.0)
     still = veil(tmp_path, HERE, EVEN)
     assert still.mean() == pytest.approx(flashed.mean(), rel=0.03)
     body = flashed.max(axis=2) > 0.05 * flashed.max()

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
-from dqpaint.light.camera.camera import View, frame
+from dqpaint.light.camera.camera import View, frame_points
 from dqpaint.render.arm_shapes import Arm
-from dqpaint.render.geometry_buffer import measure
+from dqpaint.render.geometry_buffer import measure_surfaces
 from dqpaint.render.ray_casting import RayCaster
 from dqpaint.robots.model.card import read_card
 from dqpaint.robots.urdf.prepare import urdf_file
@@ -38,7 +38,7 @@ def many_rays(rng, n, around):
 def test_a_ball_on_a_link_blocks_what_goes_through_it(rng, tmp_path):
     with Arm(urdf(tmp_path, base="", first="", second=BALL)) as arm, RayCaster(arm) as twins:
         for posture in rng.uniform(-1, 1, (4, 2)):
-            twins.stand(posture)
+            twins.set_posture(posture)
             centre = dq.translation(dq.mul(arm.frames(posture[None])[0, 2], arm.shapes[0].frame))
             start, end = many_rays(rng, 2000, centre)
             deep = through_ball(start, end, centre, 0.06)
@@ -52,7 +52,7 @@ def test_a_ball_on_a_link_blocks_what_goes_through_it(rng, tmp_path):
 
 def test_a_base_whose_weight_is_elsewhere_blocks_where_it_is_drawn(rng, tmp_path):
     with Arm(urdf(tmp_path, base=BOX, first="", second="")) as arm, RayCaster(arm) as twins:
-        twins.stand(np.zeros(2))
+        twins.set_posture(np.zeros(2))
         turn = np.array([np.cos(0.2), 0, 0, np.sin(0.2)])
         start, near = many_rays(rng, 4000, [0, 0, 0.1])
         end = 3 * near - 2 * start  # well outside
@@ -79,9 +79,9 @@ def test_rays_and_the_depth_buffer_agree(name, rng):
         arm.whiten()
         for view in (View(30, 15), View(-70, 40)):
             place = rng.uniform([-0.4, -0.4, 0], [0.8, 0.4, 1.2], (2000, 3))
-            camera = frame(place, np.eye(3)[[1, 2, 0]].T, view, (640, 360), 0.9)
-            twins.stand(card.home + 0.3 * rng.normal(size=card.joints))
-            found = measure(arm, camera)
+            camera = frame_points(place, np.eye(3)[[1, 2, 0]].T, view, (640, 360), 0.9)
+            twins.set_posture(card.home + 0.3 * rng.normal(size=card.joints))
+            found = measure_surfaces(arm, camera)
             pixels, depth = camera.project(place)
             x, y = np.rint(pixels).astype(int).T - np.array([[found.box.left], [found.box.top]])
             height, width = found.sure.shape
@@ -98,7 +98,7 @@ def test_rays_and_the_depth_buffer_agree(name, rng):
 
 def test_more_rays_than_one_call_takes_and_as_many_answers(rng, tmp_path):
     with Arm(urdf(tmp_path)) as arm, RayCaster(arm) as twins:
-        twins.stand(np.array([0.3, -0.2]))
+        twins.set_posture(np.array([0.3, -0.2]))
         start, end = many_rays(rng, 33_000, [0, 0, 0.3])
         whole = twins.blocked(start, end)
         parts = [twins.blocked(start[i : i + 400], end[i : i + 400]) for i in range(0, 33_000, 400)]
@@ -129,7 +129,7 @@ def test_a_collada_mesh_blocks_where_its_triangles_are(rng, tmp_path):
     mesh = '<visual><geometry><mesh filename="a.dae" scale="2 1.5 1"/></geometry></visual>'
     with Arm(urdf(tmp_path, base="", first="", second=mesh)) as arm, RayCaster(arm) as twins:
         assert not twins.unread
-        twins.stand(np.array([0.4, -0.7]))
+        twins.set_posture(np.array([0.4, -0.7]))
         frame_of = dq.mul(arm.frames(np.array([[0.4, -0.7]]))[0, 2], arm.shapes[0].frame)
         corners = dq.rotate(dq.rotation(frame_of), CORNERS * [2, 1.5, 1])
         corners = corners + dq.translation(frame_of)
@@ -150,4 +150,4 @@ def test_a_file_that_is_no_mesh_has_no_twin(tmp_path):
     mesh = '<visual><geometry><mesh filename="junk.stl"/></geometry></visual>'
     with Arm(urdf(tmp_path, second=mesh)) as arm, RayCaster(arm) as twins:
         assert [shape.link for shape in twins.unread] == [1]
-        twins.stand(np.zeros(2))
+        twins.set_posture(np.zeros(2))

@@ -14,7 +14,7 @@ from dqpaint.outputs.summary import summarise
 from dqpaint.painting import video
 from dqpaint.painting.picture import lights_of
 from dqpaint.render.arm_shapes import Arm
-from dqpaint.render.scene_arm import SceneArm, account
+from dqpaint.render.scene_arm import SceneArm, hidden_by_line
 from tests.support.shadow import EYE, Wall
 from tests.support.urdf_shapes import urdf
 
@@ -35,13 +35,13 @@ def test_hidden_light_is_accounted_to_its_lines():
     hidden = np.array([[1.0, 0, 0], [0, 2, 0], [0, 0, 0], [3, 0, 0]])
     seven, three, five = SourceLine(0, 7), SourceLine(1, 3), SourceLine(0, 5)
     source = RowLines.of([seven, three, five, seven])
-    found = account(hidden, np.full((4, 3), 2.0), source)
+    found = hidden_by_line(hidden, np.full((4, 3), 2.0), source)
     np.testing.assert_array_equal(found.energy, [4, 2, 0])
     assert found.lines == ((seven, 4 / 24), (three, 2 / 24))
 
 
 def test_no_light_hides_nothing():
-    found = account(
+    found = hidden_by_line(
         np.zeros((2, 3)), np.zeros((2, 3)), RowLines.of([SourceLine(0, 1), SourceLine(0, 2)])
     )
     assert found.lines == ()
@@ -59,7 +59,7 @@ def test_the_posture_is_that_of_the_time():
     places[:, 0, 0] = [0.45, 1.1, 1.65, 2.5]
     for posture, expected in (([0] * 5, [1, 0, 0, 0]), ([0, 0, 0.2, 0.6, 0.6], [1, 1, 1, 0])):
         staging = SceneArm("", np.array(posture, float)[:, None], 0.1)
-        staging.__dict__["twins"] = Wall(0.5, 9)
+        staging.__dict__["ray_caster"] = Wall(0.5, 9)
         share = staging.visible(time, places, np.ones(4, bool), EYE)
         np.testing.assert_array_equal(share[:, 0], expected)
 
@@ -214,10 +214,10 @@ def test_the_arm_moves_in_a_movie_and_stands_in_each_frame_as_it_stood_then(draw
     camera, exposure = picture.camera, picture.exposure
     shine = partial(lights_of, scene)
     with painting.staged() as staging:
-        moving = list(staging.frames(camera, shine, exposure, False, rows))
+        moving = list(staging.render_frames(camera, shine, exposure, False, rows))
         for row, frame in zip(rows, moving, strict=True):
             staging._posture = posture[: row + 1]
-            still = staging.photograph(camera, shine, exposure)
+            still = staging.render_still(camera, shine, exposure)
             a, b = (image.max(axis=2) * exposure > 0.01 for image in (frame, still))
             assert (a & b).sum() > 0.9 * (a | b).sum()
     assert np.abs(moving[0] - moving[-1]).max() * exposure > 0.05
@@ -239,7 +239,7 @@ def test_meshes_that_are_not_there_are_a_remark(tmp_path):
             (remark,) = staging.remarks
             assert remark.startswith("warning: ")
             assert said in remark
-            assert not staging.solid
+            assert not staging.can_occlude
     with SceneArm(urdf(tmp_path), np.zeros((3, 2)), 0.01) as staging:
         assert staging.remarks == []
-        assert staging.solid
+        assert staging.can_occlude

@@ -37,7 +37,7 @@ SMALL = [
 TABLES = [Rows("error", [["error", "paper", "here"], ["a", "3 ± 0.5", "0.1"], ["b", "1.5", "-"],
           ["c", "2", "40"]], (1, 2), "2 of 3 pairs."),
           Rows("w", [["pose", "here"], ["first", "1"]])]  # fmt: skip
-PNG = contact_sheet.png(np.full((30, 1200, 3), 90, dtype=np.uint8))
+PNG = contact_sheet.encode_png(np.full((30, 1200, 3), 90, dtype=np.uint8))
 HOSTILE = """</script <b>$x_$</script><script>document.title="owned"</script>
 <img src=x onerror="document.title=1">
 '"&amp;--><!--</pre></table></noscript>$x_$ $]]> \u2028 ümläut"""

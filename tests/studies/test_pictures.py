@@ -120,7 +120,7 @@ def test_overlays_of_many_are_apart_and_named_below(tmp_path):
     cells = study(tmp_path, labels)
     made = pictures.pictures(cells, tmp_path, settings)
     assert list(made) == ["-sheet", "-overlay", "-errors"]
-    sheet, overlay = (contact_sheet.opened(made[end].picture) for end in ("-sheet", "-overlay"))
+    sheet, overlay = (contact_sheet.decode_png(made[end].picture) for end in ("-sheet", "-overlay"))
     assert sheet.shape[1] < 4 * WIDTH  # four beside each other, cut to what is lit
     assert overlay.shape[1] == sheet.shape[1]  # so that they stand below each other
     # eight spots of white; four pairs that differ, each of two hues
@@ -139,8 +139,8 @@ def test_overlays_of_many_are_apart_and_named_below(tmp_path):
         below[name] = np.argwhere(differ > 100)[:, 0].mean()
     assert below["1"] < below["2"]  # as they lie, each in the colour that the key names
     lone = pictures.pictures(cells[:1], tmp_path, settings)
-    assert contact_sheet.opened(lone["-overlay"].picture).shape == (HEIGHT, WIDTH, 3)
+    assert contact_sheet.decode_png(lone["-overlay"].picture).shape == (HEIGHT, WIDTH, 3)
     failed = [Cell({"cell": "x"}, (Result("x", "failed", "too far"),))]
     assert pictures.pictures(failed, tmp_path, settings) == {}
     mixed = pictures.pictures([*cells, *failed], tmp_path, settings)
-    assert contact_sheet.opened(mixed["-sheet"].picture).shape[0] > sheet.shape[0]
+    assert contact_sheet.decode_png(mixed["-sheet"].picture).shape[0] > sheet.shape[0]

@@ -3,7 +3,7 @@
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.light.camera.camera import frame
+from dqpaint.light.camera.camera import frame_points
 from dqpaint.light.camera.views import parse_views
 from dqpaint.light.sources.sweep import Sweep
 
@@ -37,4 +37,4 @@ def swept(emitters, samples=400, period=0.01, colours=None, **how):
 
 
 def camera_for(sweep, view="20,15", size=(320, 180)):
-    return frame(sweep.lit_points, FRONT, parse_views(view)[0].view, size)
+    return frame_points(sweep.lit_points, FRONT, parse_views(view)[0].view, size)

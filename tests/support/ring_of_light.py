@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from dqpaint.light.camera.camera import View, frame
+from dqpaint.light.camera.camera import View, frame_points
 
 
 def ring(colour=(1.0, 0.2, 0.1), n=200):
@@ -13,4 +13,4 @@ def ring(colour=(1.0, 0.2, 0.1), n=200):
 
 def seen(fill=0.3, size=(240, 180)):
     front = np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]])
-    return frame(ring()[0], front, View(15, 20), size, fill)
+    return frame_points(ring()[0], front, View(15, 20), size, fill)

@@ -11,7 +11,7 @@ class Wall:
     def __init__(self, low, high):
         self.low, self.high, self.at, self.stood = low, high, 0.0, []
 
-    def stands(self, postures):
+    def each_posture(self, postures):
         for row, posture in enumerate(postures):
             self.at = posture[0]
             self.stood.append(posture[0])

@@ -1,16 +1,16 @@
 """Views and camera settings -> a camera: points in space -> pixels, and how bright they are."""
 
-from dqpaint.light.camera.camera import Camera, View, frame
-from dqpaint.light.camera.exposure_settings import advice, parse_exposure
+from dqpaint.light.camera.camera import Camera, View, frame_points
+from dqpaint.light.camera.exposure_settings import equivalent_exposure, parse_exposure
 from dqpaint.light.camera.views import Shot, distance_to, parse_views
 
 __all__ = [
     "Camera",
     "Shot",
     "View",
-    "advice",
     "distance_to",
-    "frame",
+    "equivalent_exposure",
+    "frame_points",
     "parse_exposure",
     "parse_views",
 ]

@@ -10,18 +10,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.light.arrays import Floats, kept
+from dqpaint.light.arrays import Floats, checked_array
 
-NEAR = 1e-3
+NEAREST_DEPTH = 1e-3
 """A point closer than this to the plane of the pinhole is not seen [m]."""
-FILL = 0.72
+FRAME_FILL = 0.72
 """Share of the limiting dimension of the picture that a framed drawing takes."""
-LENS = 40.0 / 36.0
+DEFAULT_LENS = 40.0 / 36.0
 """Focal length over the long side of the sensor: a 40 mm lens on full frame, which neither flattens
 a drawing nor throws its near parts at the viewer."""
-SMALLEST = 0.04
+SMALLEST_DRAWING = 0.04
 """A drawing smaller than this is framed as though it had this size [m]."""
-SLENDEREST = 0.25
+LEAST_SEEN_SHARE = 0.25
 """So is one seen smaller than this share of its true size, as a line that runs at the viewer."""
 
 
@@ -68,7 +68,7 @@ class Camera:
 
     def __post_init__(self) -> None:
         for name, shape in (("position", (3,)), ("rotation", (3, 3)), ("centre", (2,))):
-            values = kept(f"camera {name}", getattr(self, name), shape)
+            values = checked_array(f"camera {name}", getattr(self, name), shape)
             object.__setattr__(self, name, values)
         if not np.allclose(self.rotation @ self.rotation.T, np.eye(3), atol=1e-6):
             raise ValueError("camera rotation has rows that are not orthonormal")
@@ -79,7 +79,7 @@ class Camera:
         if self.width < 1 or self.height < 1:
             raise UsageError(f"picture size {self.width}x{self.height} must be at least 1x1")
 
-    def coarser(self, scale: float) -> Camera:
+    def scaled(self, scale: float) -> Camera:
         """The same camera with pixels 1 / scale times as wide, as many as it takes."""
         size = (math.ceil(self.width * scale), math.ceil(self.height * scale))
         centre = (self.centre + 0.5) * scale - 0.5
@@ -95,26 +95,27 @@ class Camera:
 
         Returns:
             (N, 2) pixels, x right and y down, pixel centres at integers, and (N,) depths -Z in
-            front of the pinhole [m]. Where the depth is not above `NEAR`, the pixel is NaN.
+            front of the pinhole [m]. Where the depth is not above `NEAREST_DEPTH`, the
+            pixel is NaN.
         """
         seen = self.rotation @ np.asarray(points, dtype=np.float64).T
         seen -= (self.rotation @ self.position)[:, None]
         depth = -seen[2]
         pixels = seen[:2]  # in place: of a million points a copy takes longer than the arithmetic
-        pixels *= self.focal / np.where(depth > NEAR, depth, np.nan)
+        pixels *= self.focal / np.where(depth > NEAREST_DEPTH, depth, np.nan)
         pixels[0] += self.centre[0]
         np.subtract(self.centre[1], pixels[1], out=pixels[1])
         return pixels.T, depth
 
 
-def frame(
+def frame_points(
     points: ArrayLike,
     canvas_rotation: ArrayLike,
     view: View,
     size: tuple[int, int],
-    lens: float = LENS,
+    lens: float = DEFAULT_LENS,
     distance: float | None = None,
-    fill: float = FILL,
+    fill: float = FRAME_FILL,
 ) -> Camera:
     """The camera that sees all `points` from `view`, in the middle and as large as `fill` allows.
 
@@ -132,14 +133,14 @@ def frame(
     Raises:
         DqpaintError: If there is no point, or one is not finite.
     """
-    cloud = kept("framed point", points, (None, 3))
+    cloud = checked_array("framed point", points, (None, 3))
     if len(cloud) == 0:
         raise DqpaintError("nothing is lit, so there is nothing to frame")
     width, height = size
     if width < 1 or height < 1:
         raise UsageError(f"picture size {width}x{height} must be at least 1x1")
     focal = lens * max(width, height)
-    rotation = look(view) @ kept("canvas rotation", canvas_rotation, (3, 3)).T
+    rotation = view_axes(view) @ checked_array("canvas rotation", canvas_rotation, (3, 3)).T
 
     right, up, back = rotation @ cloud.T
     centre = 0.5 * np.array([width - 1.0, height - 1.0])
@@ -150,7 +151,7 @@ def frame(
     slopes = fill * 0.5 * np.array([width, height]) / focal  # half the field that is to be filled
     nearest = float(back.max())
     diameter = float(np.linalg.norm([np.ptp(axis) for axis in (right, up, back)]))
-    extent = max(SMALLEST, SLENDEREST * diameter)
+    extent = max(SMALLEST_DRAWING, LEAST_SEEN_SHARE * diameter)
     away = max(
         _tightest(right, back, float(slopes[0])),
         _tightest(up, back, float(slopes[1])),
@@ -160,7 +161,7 @@ def frame(
     return Camera(place @ rotation, rotation, focal, centre, width, height)
 
 
-def look(view: View) -> Floats:
+def view_axes(view: View) -> Floats:
     """(3, 3) rows: the picture's right, up and back as unit vectors of the canvas."""
     a, e = np.radians(view)
     right = np.array([np.cos(a), 0.0, -np.sin(a)])  # level at any elevation, so the pole is no case

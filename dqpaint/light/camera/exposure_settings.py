@@ -7,9 +7,9 @@ import re
 from dataclasses import dataclass
 
 from dqpaint.errors import UsageError
-from dqpaint.light.camera.camera import LENS, Camera
+from dqpaint.light.camera.camera import DEFAULT_LENS, Camera
 
-SENSOR = 0.036
+SENSOR_WIDTH = 0.036
 """Long side of the sensor: full frame [m]."""
 SATURATION = 78.0
 """Exposure times speed that saturates: H = 78 / S lux s (ISO 12232:2019)."""
@@ -32,7 +32,7 @@ class Exposure:
 
     f_number: float = 8.0
     iso: float = 100.0
-    focal: float = LENS * SENSOR
+    focal: float = DEFAULT_LENS * SENSOR_WIDTH
     nd: float = 0.0
     candela: float = 1.0
     distance: float | None = None
@@ -40,7 +40,7 @@ class Exposure:
     @property
     def lens(self) -> float:
         """Focal length over the long side of the sensor."""
-        return self.focal / SENSOR
+        return self.focal / SENSOR_WIDTH
 
     def factor(self, camera: Camera) -> float:
         """From lamp s / (m^2 px^2), light over its distance squared, to sensor saturation.
@@ -50,7 +50,7 @@ class Exposure:
         Illuminance on the sensor is what the aperture catches of the lamp's flux, over the area of
         a pixel; I [cd], r [m], pixel pitch p [m].
         """
-        pitch = SENSOR / max(camera.width, camera.height)
+        pitch = SENSOR_WIDTH / max(camera.width, camera.height)
         aperture = math.pi / 4.0 * (self.focal / self.f_number) ** 2
         caught = self.candela * aperture * TRANSMISSION * 2.0**-self.nd
         return float(caught / pitch**2 * self.iso / SATURATION)
@@ -59,7 +59,7 @@ class Exposure:
         parts = [f"f/{self.f_number:g}", f"ISO {self.iso:g}", f"{1e3 * self.focal:g} mm"]
         if self.nd:
             parts.append(f"ND {self.nd:g} stops")
-        return f"{', '.join(parts)}, LED of {brightness(self.candela)}"
+        return f"{', '.join(parts)}, LED of {format_intensity(self.candela)}"
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ class _Part:
 
 
 NUMBER = r"(\d+(?:\.\d+)?|\.\d+)"
-PARTS = (
+EXPOSURE_PARTS = (
     _Part(rf"f/{NUMBER}", "f_number", 0.5, 128.0, 1.0, "f/8"),
     _Part(rf"iso{NUMBER}", "iso", 1.0, 1e6, 1.0, "iso100"),
     _Part(rf"{NUMBER}mm", "focal", 4.0, 2000.0, 1e-3, "35mm"),
@@ -83,7 +83,7 @@ PARTS = (
     _Part(rf"{NUMBER}cd", "candela", 1e-6, 1e6, 1.0, "0.1cd"),
     _Part(rf"{NUMBER}m", "distance", 0.01, 100.0, 1.0, "2.2m"),
 )
-MEANINGS = (
+EXPOSURE_HELP = (
     "f/8 (aperture), iso100, 35mm (focal length), nd3 (filter, in stops), "
     "0.1cd (the lamp), 2.2m (distance)"
 )
@@ -110,16 +110,16 @@ def parse_exposure(text: str) -> Exposure | None:
 
 
 def _read(text: str, word: str) -> tuple[_Part, float]:
-    for part in PARTS:
+    for part in EXPOSURE_PARTS:
         found = re.fullmatch(part.pattern, word, re.IGNORECASE)
         if found is not None:
             return part, float(found[1])
     raise UsageError(
-        f"exposure '{text[:60]}': '{word[:20]}' is no part of one; its parts: {MEANINGS}"
+        f"exposure '{text[:60]}': '{word[:20]}' is no part of one; its parts: {EXPOSURE_HELP}"
     )
 
 
-def advice(factor: float, camera: Camera, distance: float) -> str:
+def equivalent_exposure(factor: float, camera: Camera, distance: float) -> str:
     """An exposure by the camera's automatic, in a photographer's terms.
 
     Args:
@@ -128,14 +128,14 @@ def advice(factor: float, camera: Camera, distance: float) -> str:
         distance: From it to the drawing [m].
     """
     lens = camera.focal / max(camera.width, camera.height)
-    one = Exposure(focal=lens * SENSOR)
+    one = Exposure(focal=lens * SENSOR_WIDTH)
     candela = factor * distance**2 / one.factor(camera)
     return (
         f"as f/8, ISO 100, {1e3 * one.focal:.0f} mm at {distance:.2g} m "
-        f"with an LED of {brightness(candela)}"
+        f"with an LED of {format_intensity(candela)}"
     )
 
 
-def brightness(candela: float) -> str:
+def format_intensity(candela: float) -> str:
     """Luminous intensity in the unit that suits it."""
     return f"{1e3 * candela:.2g} mcd" if candela < 0.1 else f"{candela:.3g} cd"

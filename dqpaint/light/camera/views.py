@@ -9,19 +9,28 @@ from itertools import count
 import numpy as np
 
 from dqpaint.errors import UsageError
-from dqpaint.light.arrays import Floats, kept
-from dqpaint.light.camera.camera import FILL, LENS, NEAR, VIEWS, Camera, View, frame, look
+from dqpaint.light.arrays import Floats, checked_array
+from dqpaint.light.camera.camera import (
+    DEFAULT_LENS,
+    FRAME_FILL,
+    NEAREST_DEPTH,
+    VIEWS,
+    Camera,
+    View,
+    frame_points,
+    view_axes,
+)
 
-EYES = 1.0 / 30.0
+EYE_DISTANCE_RATIO = 1.0 / 30.0
 """Distance of the eyes of a stereo pair over that to the drawing: the rule of photographers."""
-ROUND = 12
+DEFAULT_ORBIT_VIEWS = 12
 """Views of an orbit where no number is said."""
-MOST = 360
-CLOSEST = 0.01
+MOST_ORBIT_VIEWS = 360
+CLOSEST_TARGET = 0.01
 """A camera is at least so far from what it looks at [m]."""
-FARTHEST = 100.0
+FARTHEST_COORDINATE = 100.0
 """And at most so far from anything [m]."""
-RAISED = 15.0
+DEFAULT_ORBIT_ELEVATION = 15.0
 """Elevation of an orbit where none is said [deg]."""
 
 
@@ -35,7 +44,7 @@ class Shot:
         eye: Half the distance of the eyes, with its sign, over that to the drawing.
         orbit: Whether all of it must be seen from the same distance as from all round.
         series: Shots of one series have one exposure; 0 is by itself.
-        place: Of the camera, base frame [m]; None: where the drawing fills the picture.
+        position: Of the camera, base frame [m]; None: where the drawing fills the picture.
         target: What is in the middle of the picture then, likewise; None: the drawing's middle.
     """
 
@@ -44,7 +53,7 @@ class Shot:
     eye: float = 0.0
     orbit: bool = False
     series: int = 0
-    place: tuple[float, float, float] | None = None
+    position: tuple[float, float, float] | None = None
     target: tuple[float, float, float] | None = None
 
 
@@ -68,7 +77,7 @@ def parse_views(text: str) -> tuple[Shot, ...]:
         elif kind == "orbit":
             shots += _orbit(text, word, choices, next(series))
         elif kind == "at":
-            shots.append(_placed(word, choices))
+            shots.append(_at_position(word, choices))
         elif word in VIEWS:
             shots.append(Shot(word, VIEWS[word]))
         else:
@@ -102,21 +111,23 @@ def _angles(text: str, first: str, second: str) -> View:
     return View(azimuth, _elevation(elevation))
 
 
-def _placed(word: str, choices: list[str]) -> Shot:
+def _at_position(word: str, choices: list[str]) -> Shot:
     numbers = [_number(choice) for choice in choices]
-    known = [number for number in numbers if number is not None and abs(number) <= FARTHEST]
+    known = [
+        number for number in numbers if number is not None and abs(number) <= FARTHEST_COORDINATE
+    ]
     if len(numbers) not in (3, 6) or len(known) != len(numbers):
         raise UsageError(
             f"view '{word[:60]}' is not at:X:Y:Z or at:X:Y:Z:X:Y:Z, the camera's place and what it "
-            f"looks at, in metres from the robot's base, {FARTHEST:g} at most"
+            f"looks at, in metres from the robot's base, {FARTHEST_COORDINATE:g} at most"
         )
     place, target = (known[0], known[1], known[2]), None
     if len(known) == 6:
         target = (known[3], known[4], known[5])
-        if math.dist(place, target) < CLOSEST:
+        if math.dist(place, target) < CLOSEST_TARGET:
             raise UsageError(f"view '{word}': the camera stands in what it looks at")
     name = "_".join(["at", *(f"{number:g}" for number in known)])
-    return Shot(name, VIEWS["front"], place=place, target=target)
+    return Shot(name, VIEWS["front"], position=place, target=target)
 
 
 def _elevation(value: float) -> float:
@@ -133,17 +144,20 @@ def _stereo(text: str, word: str, choices: list[str], series: int) -> list[Shot]
         view = VIEWS[name]
     else:
         raise UsageError(f"view '{word}' is not stereo, stereo:NAME or stereo:AZ:EL")
-    eyes = (("left", -0.5 * EYES), ("right", 0.5 * EYES))
+    eyes = (("left", -0.5 * EYE_DISTANCE_RATIO), ("right", 0.5 * EYE_DISTANCE_RATIO))
     return [Shot(f"stereo-{side}", view, eye, series=series) for side, eye in eyes]
 
 
 def _orbit(text: str, word: str, choices: list[str], series: int) -> list[Shot]:
     numbers = [_number(choice) for choice in choices]
-    around, raised = (*numbers, *((float(ROUND), RAISED)[len(numbers) :]))[:2]
+    around, raised = (
+        *numbers,
+        *((float(DEFAULT_ORBIT_VIEWS), DEFAULT_ORBIT_ELEVATION)[len(numbers) :]),
+    )[:2]
     if len(choices) > 2 or around is None or raised is None or around != int(around):
         raise UsageError(f"view '{word}' is not orbit, orbit:N or orbit:N:EL")
-    if not 2 <= around <= MOST:
-        raise UsageError(f"view '{word}': an orbit has 2 to {MOST} views")
+    if not 2 <= around <= MOST_ORBIT_VIEWS:
+        raise UsageError(f"view '{word}': an orbit has 2 to {MOST_ORBIT_VIEWS} views")
     n, elevation = int(around), _elevation(raised)
     digits = len(str(n - 1))
     return [
@@ -152,21 +166,21 @@ def _orbit(text: str, word: str, choices: list[str], series: int) -> list[Shot]:
     ]
 
 
-def camera_of(
+def camera_for_shot(
     shot: Shot,
     points: Floats,
     canvas_rotation: Floats,
     size: tuple[int, int],
-    lens: float = LENS,
+    lens: float = DEFAULT_LENS,
     distance: float | None = None,
-    fill: float = FILL,
+    fill: float = FRAME_FILL,
 ) -> Camera:
-    """The camera of a shot that sees all points; arguments as those of `frame`."""
-    if shot.place is not None:
-        return _standing(shot, points, canvas_rotation, size, lens)
+    """The camera of a shot that sees all points; arguments as those of `frame_points`."""
+    if shot.position is not None:
+        return _fixed_camera(shot, points, canvas_rotation, size, lens)
     if shot.orbit and distance is None:
-        return _circling(shot, points, canvas_rotation, size, lens, fill)
-    camera = frame(points, canvas_rotation, shot.view, size, lens, distance, fill)
+        return _orbit_camera(shot, points, canvas_rotation, size, lens, fill)
+    camera = frame_points(points, canvas_rotation, shot.view, size, lens, distance, fill)
     if shot.eye == 0.0:
         return camera
     away = distance_to(camera, points)
@@ -178,31 +192,31 @@ def camera_of(
     return Camera(position, camera.rotation, camera.focal, centre, camera.width, camera.height)
 
 
-def _standing(
+def _fixed_camera(
     shot: Shot, points: Floats, canvas_rotation: Floats, size: tuple[int, int], lens: float
 ) -> Camera:
     """A camera that stands where it was put, upright as the canvas is."""
-    axes = kept("canvas rotation", canvas_rotation, (3, 3))
-    place = np.array(shot.place)
+    axes = checked_array("canvas rotation", canvas_rotation, (3, 3))
+    place = np.array(shot.position)
     if shot.target is None:
         local = points @ axes
         target = axes @ (0.5 * (local.min(axis=0) + local.max(axis=0)))
     else:
         target = np.array(shot.target)
     away = float(np.linalg.norm(place - target))
-    if away < CLOSEST:
+    if away < CLOSEST_TARGET:
         raise UsageError(f"view '{shot.name}': the camera stands in what it looks at")
     right, up, back = axes.T @ (place - target) / away
     azimuth = math.degrees(math.atan2(right, back)) if math.hypot(right, back) > 1e-9 else 0.0
     view = View(azimuth, math.degrees(math.asin(np.clip(up, -1.0, 1.0))))
     centre = 0.5 * np.array([size[0] - 1.0, size[1] - 1.0])
-    camera = Camera(place, look(view) @ axes.T, lens * max(size), centre, *size)
-    if camera.project(points)[1].max() <= NEAR:
+    camera = Camera(place, view_axes(view) @ axes.T, lens * max(size), centre, *size)
+    if camera.project(points)[1].max() <= NEAREST_DEPTH:
         raise UsageError(f"view '{shot.name}': the camera looks away from the drawing")
     return camera
 
 
-def _circling(
+def _orbit_camera(
     shot: Shot,
     points: Floats,
     canvas_rotation: Floats,
@@ -211,13 +225,13 @@ def _circling(
     fill: float,
 ) -> Camera:
     """A camera on a circle round the middle, far enough to see a ball round all points."""
-    axes = kept("canvas rotation", canvas_rotation, (3, 3))
+    axes = checked_array("canvas rotation", canvas_rotation, (3, 3))
     local = points @ axes
     middle = 0.5 * (local.min(axis=0) + local.max(axis=0))
     radius = max(float(np.sqrt(((local - middle) ** 2).sum(axis=1)).max()), 1e-3)
     focal = lens * max(size)
     away = radius / math.sin(math.atan(fill * 0.5 * min(size) / focal))
-    rotation = look(shot.view)
+    rotation = view_axes(shot.view)
     position = axes @ (middle + away * rotation[2])
     centre = 0.5 * np.array([size[0] - 1.0, size[1] - 1.0])
     return Camera(position, rotation @ axes.T, focal, centre, *size)

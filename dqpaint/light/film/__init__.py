@@ -3,19 +3,19 @@
 A new look is a function in `looks` under `@LOOKS.add(name)`.
 """
 
-from dqpaint.light.film.auto_exposure import CORE, automatic_exposure
-from dqpaint.light.film.film import PAD, Exposing, Film, expose
+from dqpaint.light.film.auto_exposure import CORE_EXPOSURE, automatic_exposure
+from dqpaint.light.film.film import PAD, Film, FilmAccumulator, expose
 from dqpaint.light.film.looks import LOOKS, with_noise
 from dqpaint.light.film.point_spread import point_spread, spread
-from dqpaint.light.film.starburst import BLADES, with_starburst
+from dqpaint.light.film.starburst import BLADE_RANGE, with_starburst
 
 __all__ = [
-    "BLADES",
-    "CORE",
+    "BLADE_RANGE",
+    "CORE_EXPOSURE",
     "LOOKS",
     "PAD",
-    "Exposing",
     "Film",
+    "FilmAccumulator",
     "automatic_exposure",
     "expose",
     "point_spread",

@@ -8,22 +8,22 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from dqpaint.light.arrays import Floats
-from dqpaint.light.camera.camera import NEAR, Camera
+from dqpaint.light.camera.camera import NEAREST_DEPTH, Camera
 from dqpaint.light.film.point_spread import PointSpread
-from dqpaint.light.film.projection import bins, trace
+from dqpaint.light.film.projection import cut_into_bins, project_light
 from dqpaint.light.sources.emission import Emission, Light
 from dqpaint.light.sources.sweep import Steps, Sweep
 
-CORE = 12.0
+CORE_EXPOSURE = 12.0
 """What the core of the median stroke is exposed to; 1 saturates the sensor. Photographers' usual
 settings give 10 to 20 for a small LED."""
-SURFACE = 0.9
+SURFACE_EXPOSURE = 0.9
 """What a surface swept by a bar is exposed to: as bright as a line it would be all white."""
-WIDE = 8.0
+SURFACE_WIDTH = 8.0
 """A stroke this many line widths wide is a surface; between the two it is some of both."""
-PARTS = 8
+METERED_PARTS = 8
 """Parts of a bar that are metered by themselves."""
-DARK = 0.02
+METERED_SHARE = 0.02
 """Of a bar's brightest part: dimmer ones are the ground of an image, and are not metered."""
 
 
@@ -33,14 +33,14 @@ def automatic_exposure(
     """The factor from lamp s / px^2 to sensor saturation that suits `light`.
 
     A stroke of energy lambda per pixel has a ridge of lambda psf.of_line. Of that, in its strongest
-    channel, the median over the lit path length on the picture is put at `CORE`.
+    channel, the median over the lit path length on the picture is put at `CORE_EXPOSURE`.
 
     A lamp that stands still has no path length. Its peak is energy x psf.of_point, which is that of
     a line when the energy is laid out over of_line / of_point, about the width of the core; so
     path is measured in pieces of this length, and a shorter stroke counts as one whole piece.
 
     What is wider than a line is as bright as its light over its area, counts by its area, and is
-    put the nearer to `SURFACE` the wider it is. What an image leaves dark does not count.
+    put the nearer to `SURFACE_EXPOSURE` the wider it is. What an image leaves dark does not count.
 
     Args:
         light: What was asked, so that an arm's faults do not change the exposure.
@@ -56,56 +56,62 @@ def automatic_exposure(
             values.append(value)
             lengths.append(length)
     ridge = _weighted_median(np.concatenate(values), np.concatenate(lengths))
-    return CORE / ridge if ridge > 0.0 else 1.0
+    return CORE_EXPOSURE / ridge if ridge > 0.0 else 1.0
 
 
 def _metered(
     emission: Emission, camera: Camera, psf: PointSpread
 ) -> Iterator[tuple[Floats, Floats]]:
     """Brightness (M,) of parts of a light, as of lines, and their lengths (M,)."""
-    piece = psf.of_line / psf.of_point
-    if isinstance(emission, Sweep) and len(emission.emitters.places) > 1:
-        for steps in emission.steps(emission.resolution(camera)):
+    piece = psf.line_peak / psf.point_peak
+    if isinstance(emission, Sweep) and len(emission.emitters.positions) > 1:
+        for steps in emission.steps(emission.chord_tolerance(camera)):
             yield _surface(emission, steps, camera, psf)
         return
-    for light in emission.towards(camera):
+    for light in emission.emission_to(camera):
         assert isinstance(light, Light)
-        lower = _lower(light, camera, psf)
-        for trail in trace(light, camera, margin=0.0):
-            for part in bins(trail, piece):
+        lower = _disc_share(light, camera, psf)
+        for trail in project_light(light, camera, margin=0.0):
+            for part in cut_into_bins(trail, piece):
                 length = np.where(part.alone, piece, part.length)
-                value = part.energy.max(axis=0) / length * psf.of_line
+                value = part.energy.max(axis=0) / length * psf.line_peak
                 yield (value * lower if light.size else value), length
 
 
-def _lower(light: Light, camera: Camera, psf: PointSpread) -> float:
+def _disc_share(light: Light, camera: Camera, psf: PointSpread) -> float:
     """By how much a line of discs counts less than one of points: it is wider, and aims lower."""
     _, depth = camera.project(light.lit_points)
-    seen = depth[depth > NEAR]
+    seen = depth[depth > NEAREST_DEPTH]
     if light.size == 0.0 or len(seen) == 0:
         return 1.0
     diameter = light.size * camera.focal / float(np.median(seen))
-    width = math.hypot(1.0 / psf.of_line, math.pi / 4.0 * diameter)  # its ridge by its chord
-    return CORE / float(_aim(np.array(width * psf.of_line))) / (width * psf.of_line)
+    width = math.hypot(1.0 / psf.line_peak, math.pi / 4.0 * diameter)  # its ridge by its chord
+    return (
+        CORE_EXPOSURE
+        / float(_target_exposure(np.array(width * psf.line_peak)))
+        / (width * psf.line_peak)
+    )
 
 
-def _aim(widths: Floats) -> Floats:
+def _target_exposure(widths: Floats) -> Floats:
     """What a stroke as wide as so many lines is exposed to."""
-    filled = np.clip((widths - 1.0) / (WIDE - 1.0), 0.0, 1.0)
-    return np.asarray(CORE ** (1.0 - filled) * SURFACE**filled)
+    filled = np.clip((widths - 1.0) / (SURFACE_WIDTH - 1.0), 0.0, 1.0)
+    return np.asarray(CORE_EXPOSURE ** (1.0 - filled) * SURFACE_EXPOSURE**filled)
 
 
 def _surface(sweep: Sweep, steps: Steps, camera: Camera, psf: PointSpread) -> tuple[Floats, Floats]:
     """Brightness and length, as of lines, of the parts of what some lamps sweep over."""
     e = sweep.emitters
-    line = 1.0 / psf.of_line  # width of a line [px]
-    piece = psf.of_line / psf.of_point
-    u = np.linspace(0.0, 1.0, PARTS + 1)
+    line = 1.0 / psf.line_peak  # width of a line [px]
+    piece = psf.line_peak / psf.point_peak
+    u = np.linspace(0.0, 1.0, METERED_PARTS + 1)
     first, last = e.extent
     across = first + u[:, None] * (last - first)
-    pixels, depth = camera.project(sweep.places(steps.place, steps.rotation, across).reshape(-1, 3))
-    pixels = np.where(depth > NEAR, pixels.T, 0.0).T.reshape(-1, PARTS + 1, 2)
-    seen = (depth > NEAR).reshape(-1, PARTS + 1).all(axis=1)
+    pixels, depth = camera.project(
+        sweep.base_positions(steps.position, steps.rotation, across).reshape(-1, 3)
+    )
+    pixels = np.where(depth > NEAREST_DEPTH, pixels.T, 0.0).T.reshape(-1, METERED_PARTS + 1, 2)
+    seen = (depth > NEAREST_DEPTH).reshape(-1, METERED_PARTS + 1).all(axis=1)
     inside = np.all((pixels >= 0.0) & (pixels < [camera.width, camera.height]), axis=2)
     seen &= inside.any(axis=1)
     used = seen[1:] & seen[:-1] & steps.energy.any(axis=1)
@@ -129,20 +135,20 @@ def _surface(sweep: Sweep, steps: Steps, camera: Camera, psf: PointSpread) -> tu
     length, area, energy, given = (
         np.add.reduceat(values[used], begins, axis=0) for values in (length, area, energy, given)
     )
-    lit = energy > DARK * given * (energy / given).max()
+    lit = energy > METERED_SHARE * given * (energy / given).max()
     path = np.maximum(length, piece)
-    wide = area / path * PARTS  # of the whole brush, as seen [px]
-    threads = np.inf if e.joined > 0.2 else len(e.places)
+    wide = area / path * METERED_PARTS  # of the whole brush, as seen [px]
+    threads = np.inf if e.joined > 0.2 else len(e.positions)
     covered = np.clip(wide, line, max(line, min(threads * line, 1e9)))
-    value = energy * PARTS / (path * covered)
-    aim = _aim(covered / line)
-    return (value * CORE / aim)[lit], (path * covered / line / PARTS)[lit]
+    value = energy * METERED_PARTS / (path * covered)
+    aim = _target_exposure(covered / line)
+    return (value * CORE_EXPOSURE / aim)[lit], (path * covered / line / METERED_PARTS)[lit]
 
 
 def _shares(tints: Floats) -> Floats:
     """(R, PARTS, 3) of tints (R, K, 3), summed over even parts of the line of lamps."""
     sums = np.concatenate([np.zeros((len(tints), 1, 3)), np.cumsum(tints, axis=1)], axis=1)
-    at = np.linspace(0.0, tints.shape[1], PARTS + 1)
+    at = np.linspace(0.0, tints.shape[1], METERED_PARTS + 1)
     below = np.minimum(at.astype(np.int64), tints.shape[1] - 1)
     part = (at - below)[None, :, None]
     return np.diff((1.0 - part) * sums[:, below] + part * sums[:, below + 1], axis=1)

@@ -24,7 +24,7 @@ SPILL = 0.12
 """Share of what a full channel cannot hold that spills into each of the other two."""
 TOE = 0.008
 """Brightness under which the response bends down to black."""
-STRIP = 64
+STRIP_ROWS = 64
 """Rows that are worked on at once, so that they stay in the cache."""
 
 
@@ -52,37 +52,37 @@ def develop(image: Image, exposure: float, ev: float = 0.0) -> Picture:
         raise DqpaintError("the image has a value that is not finite")
     own, others = np.eye(3), 1.0 - np.eye(3)
     filters = gain * ((1.0 - 2.0 * LEAK) * own + LEAK * others)
-    curve = _curve()
+    curve = _response_curve()
     picture = np.empty(image.shape, dtype=np.uint8)
-    for top in range(0, len(image), STRIP):
-        rows = slice(top, top + STRIP)
+    for top in range(0, len(image), STRIP_ROWS):
+        rows = slice(top, top + STRIP_ROWS)
         light = cast(Image, cv2.transform(image[rows], filters))
-        rejected = light - _filled(light)
+        rejected = light - _saturated(light)
         light += cast(Image, cv2.transform(rejected, SPILL * others))
-        index = cast(Image, cv2.sqrt(_filled(light)))
+        index = cast(Image, cv2.sqrt(_saturated(light)))
         index *= len(curve) - 1
         level = curve[index.astype(np.uint16)]
-        level += _dither(level.shape)
+        level += _dither_thresholds(level.shape)
         picture[rows] = level >> 8
     return picture
 
 
-def _filled(light: Image) -> Image:
+def _saturated(light: Image) -> Image:
     """1 - exp(-light), not below 0."""
     empty = cv2.exp(-light)
     return cast(Image, np.maximum(np.subtract(np.float32(1.0), empty, out=empty), 0.0, out=empty))
 
 
-def encode(shown: Image) -> Picture:
+def encode(display: Image) -> Picture:
     """8-bit sRGB, dithered, of some rows (H, W, 3) of display light from 0 to 1."""
-    srgb = np.where(shown <= 0.0031308, 12.92 * shown, 1.055 * shown ** (1.0 / 2.4) - 0.055)
+    srgb = np.where(display <= 0.0031308, 12.92 * display, 1.055 * display ** (1.0 / 2.4) - 0.055)
     level = np.floor(255.0 * 256.0 * srgb + 0.5).astype(np.uint16)
-    level += _dither((STRIP, *shown.shape[1:]))[: len(shown)]
+    level += _dither_thresholds((STRIP_ROWS, *display.shape[1:]))[: len(display)]
     return np.asarray(level >> 8, dtype=np.uint8)
 
 
 @cache
-def _curve() -> NDArray[np.uint16]:
+def _response_curve() -> NDArray[np.uint16]:
     """Toe and sRGB in 8.8 bits over the root of y: even steps there are fine in the darks."""
     y = np.linspace(0.0, 1.0, 1 << 16) ** 2
     z = y * y * (1.0 + TOE) / (y + TOE)
@@ -91,7 +91,7 @@ def _curve() -> NDArray[np.uint16]:
 
 
 @cache
-def _dither(shape: tuple[int, int, int]) -> NDArray[np.uint16]:
+def _dither_thresholds(shape: tuple[int, int, int]) -> NDArray[np.uint16]:
     """(H, W, 3) thresholds from 0 to 255 of the eight bits that are to be dropped.
 
     The R2 sequence: multiples of the inverse powers of the plastic number p are spread evenly over
@@ -100,5 +100,5 @@ def _dither(shape: tuple[int, int, int]) -> NDArray[np.uint16]:
     that they do not step together.
     """
     y, x, channel = np.ogrid[: shape[0], : shape[1], : shape[2]]
-    phase = x / 1.324717957244746 + y * (37.0 / STRIP) + channel / 3.0
+    phase = x / 1.324717957244746 + y * (37.0 / STRIP_ROWS) + channel / 3.0
     return (256.0 * (phase % 1.0)).astype(np.uint16)

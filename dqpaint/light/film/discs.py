@@ -15,33 +15,33 @@ import cv2
 import numpy as np
 
 from dqpaint.light.arrays import Floats
-from dqpaint.light.camera.camera import NEAR, Camera
+from dqpaint.light.camera.camera import NEAREST_DEPTH, Camera
 
 if TYPE_CHECKING:
     from dqpaint.light.sources.emission import Light
 
-RATIO = 1.15
+DIAMETER_RATIO = 1.15
 """From the diameter of one layer to the next."""
-SMALLEST = 1.0
+SMALLEST_DISC = 1.0
 """A smaller disc is a point [px]."""
-LARGEST = 2000.0
+LARGEST_DISC = 2000.0
 """No disc is larger [px]."""
-FINE = 8
+RIM_SUBPIXELS = 8
 """Parts of a pixel that the rim of a disc is drawn with."""
 
 
-def layers(light: Light, camera: Camera) -> Iterator[tuple[int | None, Floats]]:
+def disc_layers(light: Light, camera: Camera) -> Iterator[tuple[int | None, Floats]]:
     """The layers (None: points) a light falls on, with the share (N-1,) of each step in them.
 
     A step between two layers goes to both, such that the mean diameter is its own.
     """
     _, depth = camera.project(0.5 * (light.points[1:] + light.points[:-1]))
-    diameter = light.size * camera.focal / np.maximum(depth, NEAR)
-    diameter = np.minimum(diameter, LARGEST)
-    small = diameter < SMALLEST
-    nearest = np.floor(np.log(np.maximum(diameter, SMALLEST)) / math.log(RATIO))
+    diameter = light.size * camera.focal / np.maximum(depth, NEAREST_DEPTH)
+    diameter = np.minimum(diameter, LARGEST_DISC)
+    small = diameter < SMALLEST_DISC
+    nearest = np.floor(np.log(np.maximum(diameter, SMALLEST_DISC)) / math.log(DIAMETER_RATIO))
     lower = nearest.astype(np.int64)
-    above = (diameter / RATIO**nearest - 1.0) / (RATIO - 1.0)
+    above = (diameter / DIAMETER_RATIO**nearest - 1.0) / (DIAMETER_RATIO - 1.0)
     above = np.clip(above, 0.0, 1.0)
     if small.any():
         yield None, small.astype(np.float64)
@@ -52,7 +52,7 @@ def layers(light: Light, camera: Camera) -> Iterator[tuple[int | None, Floats]]:
             yield int(layer), share
 
 
-def spread(planes: Floats, layer: int) -> Floats:
+def spread_discs(planes: Floats, layer: int) -> Floats:
     """(3, H, W) planes with a disc of the layer's diameter for every point."""
     kernel = _disc(layer)
     spread = [
@@ -64,9 +64,11 @@ def spread(planes: Floats, layer: int) -> Floats:
 @cache
 def _disc(layer: int) -> Floats:
     """An even disc, its rim by the area in each pixel; it adds up to 1."""
-    radius = 0.5 * RATIO**layer
+    radius = 0.5 * DIAMETER_RATIO**layer
     half = math.ceil(radius)
-    fine = (np.arange((2 * half + 1) * FINE) + 0.5) / FINE - (half + 0.5)
+    fine = (np.arange((2 * half + 1) * RIM_SUBPIXELS) + 0.5) / RIM_SUBPIXELS - (half + 0.5)
     inside = (fine[:, None] ** 2 + fine[None, :] ** 2 <= radius**2).astype(np.float64)
-    kernel = inside.reshape(2 * half + 1, FINE, 2 * half + 1, FINE).mean(axis=(1, 3))
+    kernel = inside.reshape(2 * half + 1, RIM_SUBPIXELS, 2 * half + 1, RIM_SUBPIXELS).mean(
+        axis=(1, 3)
+    )
     return np.asarray(kernel / kernel.sum())

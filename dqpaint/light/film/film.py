@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dqpaint.light.arrays import Floats, summed
+from dqpaint.light.arrays import Floats, sum_rows
 from dqpaint.light.camera.camera import Camera
 from dqpaint.light.film import discs
-from dqpaint.light.film.projection import bins, trace
+from dqpaint.light.film.projection import cut_into_bins, project_light
 from dqpaint.light.sources import sheet
 from dqpaint.light.sources.emission import Emission, Light
 from dqpaint.light.sources.sheet import Sheet
@@ -18,7 +18,7 @@ from dqpaint.light.sources.sheet import Sheet
 PAD = 64
 """Guard band round the picture [px]: light just outside still blooms into it, and what the
 spreading does at the film's border stays out of sight."""
-SPACING = 1.0
+DEPOSIT_SPACING = 1.0
 """Path from one deposit to the next [px]; along a diagonal it leaves a ripple of 1 % from pixel to
 pixel, which the spreading takes away."""
 SPLINE_VARIANCE = 0.25
@@ -57,14 +57,14 @@ def expose(light: Emission | Iterable[Emission], camera: Camera, falloff: bool =
         camera: Where it is seen from.
         falloff: Whether light is divided by its distance squared [lamp s / m^2].
     """
-    exposing = Exposing(camera)
+    exposing = FilmAccumulator(camera)
     for emission in light if isinstance(light, Iterable) else (light,):
-        for piece in emission.towards(camera, falloff):
+        for piece in emission.emission_to(camera, falloff):
             exposing.add(piece)
     return exposing.film()
 
 
-class Exposing:
+class FilmAccumulator:
     """A film in the camera: light is added piece by piece, and the film can be taken at any time.
 
     Args:
@@ -83,15 +83,15 @@ class Exposing:
         margin = PAD - 1.0  # a spline needs a pixel on either side
         if isinstance(piece, Sheet):
             self._emitted += piece.emitted
-            for part in sheet.cells(piece, self.camera, margin):
+            for part in sheet.sheet_cells(piece, self.camera, margin):
                 self._lost += part.lost
                 _deposit(self._planes, part.position + PAD, part.energy)
             return
-        self._emitted += summed(piece.energy)
+        self._emitted += sum_rows(piece.energy)
         for planes, light in self._layers(piece):
-            for trail in trace(light, self.camera, margin):
+            for trail in project_light(light, self.camera, margin):
                 self._lost += trail.lost
-                for bit in bins(trail, SPACING):
+                for bit in cut_into_bins(trail, DEPOSIT_SPACING):
                     _deposit(planes, bit.position + PAD, bit.energy)
 
     def _layers(self, light: Light) -> Iterator[tuple[Floats, Light]]:
@@ -99,7 +99,7 @@ class Exposing:
         if light.size == 0.0:
             yield self._planes, light
             return
-        for layer, share in discs.layers(light, self.camera):
+        for layer, share in discs.disc_layers(light, self.camera):
             planes = self._planes
             if layer is not None:
                 planes = self._discs.setdefault(layer, np.zeros(self._shape))
@@ -109,7 +109,7 @@ class Exposing:
         """What the film holds by now."""
         planes, lost = self._planes.copy() if self._discs else self._planes, self._lost.copy()
         for layer, points in sorted(self._discs.items()):
-            spread = discs.spread(points, layer)
+            spread = discs.spread_discs(points, layer)
             lost += points.sum(axis=(1, 2)) - spread.sum(axis=(1, 2))
             planes += spread
         film = Film(planes.view(), self._emitted.copy(), np.maximum(lost, 0.0))
@@ -122,7 +122,7 @@ def _deposit(planes: Floats, position: Floats, energy: Floats) -> None:
     """Add energy (3, B) at film positions (2, B) x, y to planes."""
     width = planes.shape[2]
     x, y = np.rint(position)
-    across, down = _spline(position[0] - x), _spline(position[1] - y)
+    across, down = _spline_weights(position[0] - x), _spline_weights(position[1] - y)
     pixel = (y * width + x).astype(np.int64)
     around = np.array([[-1], [0], [1]])
     index = (pixel + width * around[:, None] + around[None, :]).ravel()
@@ -132,7 +132,7 @@ def _deposit(planes: Floats, position: Floats, energy: Floats) -> None:
         np.add.at(plane, index, (weight * colour).ravel())
 
 
-def _spline(t: Floats) -> Floats:
+def _spline_weights(t: Floats) -> Floats:
     """(3, B) weights of the pixels at -1, 0, 1 for a deposit at t, -1/2 <= t <= 1/2.
 
     The quadratic B-spline; Unser, Splines: a perfect fit for signal processing, IEEE SPM 1999.

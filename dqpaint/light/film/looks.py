@@ -15,7 +15,7 @@ import numpy as np
 from dqpaint.core import Registry
 from dqpaint.errors import DqpaintError
 from dqpaint.light.arrays import Image, Picture
-from dqpaint.light.film.develop import STRIP, develop, encode
+from dqpaint.light.film.develop import STRIP_ROWS, develop, encode
 
 Look = Callable[[Image], Image]
 Develop = Callable[[Image, float, float], Picture]
@@ -104,8 +104,8 @@ def _developed(look: Look, image: Image, exposure: float, ev: float) -> Picture:
     if not np.isfinite(cv2.sumElems(image)).all():
         raise DqpaintError("the image has a value that is not finite")
     picture = np.empty(image.shape, dtype=np.uint8)
-    for top in range(0, len(image), STRIP):
-        rows = slice(top, top + STRIP)
+    for top in range(0, len(image), STRIP_ROWS):
+        rows = slice(top, top + STRIP_ROWS)
         shown = look(image[rows] * np.float32(gain))
         shown = np.where(image[rows].any(axis=2, keepdims=True), shown, np.float32(0.0))
         picture[rows] = encode(np.clip(shown, 0.0, 1.0).astype(np.float32))
@@ -124,11 +124,11 @@ def with_noise(image: Image, exposure: float, seed: int) -> Image:
         seed: Of the noise.
     """
     random = np.random.default_rng(seed)
-    electrons = image * np.float32(exposure * FULL)
-    spread = np.sqrt(electrons + np.float32(READ * READ))
+    electrons = image * np.float32(exposure * FULL_WELL)
+    spread = np.sqrt(electrons + np.float32(READ_NOISE * READ_NOISE))
     noisy = electrons + spread * random.standard_normal(image.shape, dtype=np.float32)
-    return np.asarray(np.maximum(noisy, 0.0) / np.float32(exposure * FULL), dtype=np.float32)
+    return np.asarray(np.maximum(noisy, 0.0) / np.float32(exposure * FULL_WELL), dtype=np.float32)
 
 
-FULL = 50_000.0
-READ = 3.0
+FULL_WELL = 50_000.0
+READ_NOISE = 3.0

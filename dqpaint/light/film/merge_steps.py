@@ -5,16 +5,18 @@ from __future__ import annotations
 import numpy as np
 
 from dqpaint.light.arrays import Floats
-from dqpaint.light.camera.camera import NEAR, Camera
+from dqpaint.light.camera.camera import NEAREST_DEPTH, Camera
 
-SHORT = 0.25
+LONGEST_MERGED = 0.25
 """Steps are joined that are no longer than this together, seen from the camera [px]: light may
 move by half of it, along its own path. The spreading is wider by far."""
-MOST = 64
+MOST_MERGED = 64
 """Steps that become one at most."""
 
 
-def joined(points: Floats, energy: Floats, camera: Camera, margin: float) -> tuple[Floats, Floats]:
+def merge_short_steps(
+    points: Floats, energy: Floats, camera: Camera, margin: float
+) -> tuple[Floats, Floats]:
     """The same light in fewer steps, if all of them are short.
 
     Every so many steps become one straight step with their energy, added up.
@@ -28,7 +30,7 @@ def joined(points: Floats, energy: Floats, camera: Camera, margin: float) -> tup
     Returns:
         Points (M+1, 3) and energies (M, 3), M <= N.
     """
-    many = _how_many(points, camera, margin)
+    many = _mergeable_steps(points, camera, margin)
     if many < 2:
         return points, energy
     whole = len(energy) - len(energy) % many
@@ -39,8 +41,8 @@ def joined(points: Floats, energy: Floats, camera: Camera, margin: float) -> tup
     return np.concatenate([points[:-1:many], points[-1:]]), sums
 
 
-def _how_many(points: Floats, camera: Camera, margin: float) -> int:
-    """How many steps in a row are shorter than `SHORT`, wherever one begins to count.
+def _mergeable_steps(points: Floats, camera: Camera, margin: float) -> int:
+    """How many steps in a row are shorter than `LONGEST_MERGED`, wherever one begins to count.
 
     A step dp at a depth Z and a slope s = (X, Y) / Z is seen as f / Z |dX, dY - s dZ|, which is at
     most f / Z |dp| sqrt(1 + s^2).
@@ -48,13 +50,13 @@ def _how_many(points: Floats, camera: Camera, margin: float) -> int:
     import cv2  # a third of numpy's time; late, as a forecast reads this and takes no picture
 
     step = np.sqrt(3.0) * cv2.norm(points[1:], points[:-1], cv2.NORM_INF)
-    depth = (camera.position - points[::MOST]) @ camera.rotation[2]
-    nearest = float(depth.min()) - MOST * step
-    if nearest <= NEAR:
+    depth = (camera.position - points[::MOST_MERGED]) @ camera.rotation[2]
+    nearest = float(depth.min()) - MOST_MERGED * step
+    if nearest <= NEAREST_DEPTH:
         return 1
     size = np.array([camera.width, camera.height])
     corner = np.maximum(camera.centre, size - camera.centre) + margin
     slope = float(np.sqrt((corner**2).sum())) / camera.focal
     seen = camera.focal / nearest * step * np.sqrt(1.0 + slope * slope)
-    most = min(MOST, len(points) - 1)
-    return min(int(SHORT / seen), most) if seen > 0.0 else most
+    most = min(MOST_MERGED, len(points) - 1)
+    return min(int(LONGEST_MERGED / seen), most) if seen > 0.0 else most

@@ -18,16 +18,16 @@ import numpy as np
 from dqpaint.light.arrays import Floats, Image
 from dqpaint.light.film.film import PAD, SPLINE_VARIANCE, Film
 
-LINES = 1080
+REFERENCE_HEIGHT = 1080
 """Rows of the picture for which the next two are given."""
-WIDTHS = (1.35, 4.0, 12.0, 36.0, 108.0)
+CORE_AND_HALO_WIDTHS = (1.35, 4.0, 12.0, 36.0, 108.0)
 """Standard deviation of the core and of the halos [px]."""
-HALOS = (0.15, 0.065, 0.04, 0.03)
+HALO_ENERGIES = (0.15, 0.065, 0.04, 0.03)
 """Energy in each halo; the core has the rest. Chosen by eye."""
-SHARPEST = 1.35
+NARROWEST_CORE = 1.35
 """A narrower core would show the pixel grid: at this width the ridge of a slanted line ripples by
 0.9 %, at 1.25 by 1.3 % [px]."""
-RESIDUE = 2.5
+WIDEST_LEVEL_BLUR = 2.5
 """Widest blur done on one level of the pyramid [px there]; wider ones go a level down."""
 BORDER = cv2.BORDER_CONSTANT
 """Light that leaves the film does not come back."""
@@ -46,13 +46,13 @@ class PointSpread:
     weights: tuple[float, ...]
 
     @property
-    def of_point(self) -> float:
+    def point_peak(self) -> float:
         """Brightest value that a unit of energy in one place makes [1/px^2]."""
         pairs = zip(self.widths, self.weights, strict=True)
         return sum(w / (2.0 * math.pi * s * s) for s, w in pairs)
 
     @property
-    def of_line(self) -> float:
+    def line_peak(self) -> float:
         """Value on the ridge of a long straight line of a unit of energy per pixel [1/px].
 
         The integral of the point's image along a line through it: sum_i w_i / (s_i sqrt(2 pi)).
@@ -70,12 +70,12 @@ def point_spread(height: int) -> PointSpread:
 
         (a w_i / k s_i) / ((1 - a h) / core) = (w_i / s_i) / ((1 - h) / s_0),  h = sum of halos w_i
     """
-    scale = height / LINES
-    core = max(SHARPEST, WIDTHS[0] * scale)
-    sharp, h = WIDTHS[0] * scale / core, sum(HALOS)
+    scale = height / REFERENCE_HEIGHT
+    core = max(NARROWEST_CORE, CORE_AND_HALO_WIDTHS[0] * scale)
+    sharp, h = CORE_AND_HALO_WIDTHS[0] * scale / core, sum(HALO_ENERGIES)
     a = sharp / (1.0 - h + sharp * h)
-    halos = tuple(a * w for w in HALOS)
-    widths = tuple(max(core, s * scale) for s in WIDTHS)
+    halos = tuple(a * w for w in HALO_ENERGIES)
+    widths = tuple(max(core, s * scale) for s in CORE_AND_HALO_WIDTHS)
     return PointSpread(widths, (1.0 - sum(halos), *halos))
 
 
@@ -96,7 +96,7 @@ def spread(film: Film, psf: PointSpread) -> Image:
     for level in reversed(range(len(pyramid))):
         image = pyramid[level]
         halos = [
-            (weight, cv2.GaussianBlur(image, (0, 0), _residue(s, level), borderType=BORDER))
+            (weight, cv2.GaussianBlur(image, (0, 0), _level_blur(s, level), borderType=BORDER))
             for s, weight, at in zip(sharp, psf.weights, levels, strict=True)
             if at == level
         ]
@@ -111,7 +111,7 @@ def spread(film: Film, psf: PointSpread) -> Image:
     return total[PAD:-PAD, PAD:-PAD]
 
 
-def _residue(width: float, level: int) -> float:
+def _level_blur(width: float, level: int) -> float:
     """What is left to blur at a level of the pyramid for a Gaussian of `width` in all [px there].
 
     NaN where the pyramid alone is already wider.
@@ -122,7 +122,7 @@ def _residue(width: float, level: int) -> float:
 
 def _level(width: float) -> int:
     """The level of the pyramid at which a Gaussian of `width` is blurred."""
-    return next(level for level in range(32) if _residue(width, level) <= RESIDUE)
+    return next(level for level in range(32) if _level_blur(width, level) <= WIDEST_LEVEL_BLUR)
 
 
 def _interleaved(planes: Floats) -> Image:

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.light.arrays import BATCH, Floats
-from dqpaint.light.camera.camera import NEAR, Camera
-from dqpaint.light.film.merge_steps import joined
+from dqpaint.light.camera.camera import NEAREST_DEPTH, Camera
+from dqpaint.light.film.merge_steps import merge_short_steps
 from dqpaint.light.sources.emission import Light
 
-READ = 2 * BATCH
+MERGE_BATCH = 2 * BATCH
 """How many steps are looked through at once for whether they can be joined. With twice as many
 matrix products would be spread over threads, for more than they take."""
 
@@ -42,7 +42,7 @@ class Projection:
         way = self.end - self.start
         return cast(Floats, np.sqrt(way[0] ** 2 + way[1] ** 2))
 
-    def part(self, steps: slice) -> Projection:
+    def select(self, steps: slice) -> Projection:
         """Some of the steps; what fell outside is not among them."""
         start, end, energy = (of[:, steps] for of in (self.start, self.end, self.energy))
         return Projection(start, end, energy, np.zeros(3))
@@ -65,7 +65,7 @@ class Bins:
     alone: NDArray[np.bool_]
 
 
-def trace(light: Light, camera: Camera, margin: float) -> Iterator[Projection]:
+def project_light(light: Light, camera: Camera, margin: float) -> Iterator[Projection]:
     """What of `light` falls on the picture and a margin round it, a batch at a time.
 
     A step that crosses the edge is cut there and keeps its share by length. A step with an end
@@ -76,22 +76,22 @@ def trace(light: Light, camera: Camera, margin: float) -> Iterator[Projection]:
         camera: Where it is seen from.
         margin: How far outside the outermost pixel centres light still counts [px].
     """
-    for first in range(0, len(light.energy), READ):
-        energy = light.energy[first : first + READ]
+    for first in range(0, len(light.energy), MERGE_BATCH):
+        energy = light.energy[first : first + MERGE_BATCH]
         points = light.points[first : first + len(energy) + 1]
-        points, energy = joined(points, energy, camera, margin)
+        points, energy = merge_short_steps(points, energy, camera, margin)
         for begin in range(0, len(energy), BATCH):
             some = energy[begin : begin + BATCH]
-            yield _trace(points[begin : begin + len(some) + 1], some, camera, margin)
+            yield _project_batch(points[begin : begin + len(some) + 1], some, camera, margin)
 
 
-def _trace(points: Floats, energy: Floats, camera: Camera, margin: float) -> Projection:
+def _project_batch(points: Floats, energy: Floats, camera: Camera, margin: float) -> Projection:
     """The same for one batch: points (N, 3), energy (N-1, 3)."""
     pixels, depth = camera.project(points)
     start, end = pixels[:-1].T, pixels[1:].T
     left = energy.T.copy()  # with a row for each channel numpy is ten times as quick
     lit = left.any(axis=0)
-    seen = depth > NEAR
+    seen = depth > NEAREST_DEPTH
     imaged = lit & seen[:-1] & seen[1:]
     lost = np.zeros(3)
     if not imaged.all():
@@ -134,7 +134,7 @@ def _clip(start: Floats, end: Floats, low: Floats, high: Floats) -> tuple[Floats
     return np.clip(enter, 0.0, 1.0), np.clip(leave, 0.0, 1.0)
 
 
-def bins(trail: Projection, step: float) -> Iterator[Bins]:
+def cut_into_bins(trail: Projection, step: float) -> Iterator[Bins]:
     """The trail in pieces at most `step` long, a batch at a time.
 
     The profile of the lamp has no say in where a path is cut: each unbroken run of steps is cut
@@ -149,18 +149,18 @@ def bins(trail: Projection, step: float) -> Iterator[Bins]:
     if steps == 0:
         return
     if steps + trail.length.sum() / step <= BATCH:
-        yield _bin(trail, step)
+        yield _cut_batch(trail, step)
         return
     work = np.cumsum(1.0 + trail.length / step)
     ends = np.searchsorted(work, np.arange(BATCH, work[-1] + BATCH, BATCH))
     first = 0
     for last in sorted({*ends.tolist(), steps}):
         if last > first:
-            yield _bin(trail.part(slice(first, last)), step)
+            yield _cut_batch(trail.select(slice(first, last)), step)
             first = last
 
 
-def _bin(trail: Projection, step: float) -> Bins:
+def _cut_batch(trail: Projection, step: float) -> Bins:
     """The same for one batch: whole steps are added up from cut to cut, those with cuts shared."""
     start, end, energy, length = trail.start, trail.end, trail.energy, trail.length
     path = np.cumsum(length)  # walked at the end of each step
@@ -187,7 +187,7 @@ def _bin(trail: Projection, step: float) -> Bins:
     total = np.add.reduceat(held, begins, axis=1)
 
     part = np.clip(1.0 - (path[on] - cut) / length[on], 0.0, 1.0)
-    _share(total, after, trail, on, part)
+    _share_cut_steps(total, after, trail, on, part)
     mass = total[:3].sum(axis=0)
     lit = mass > 0.0
     return Bins(
@@ -198,7 +198,7 @@ def _bin(trail: Projection, step: float) -> Bins:
     )
 
 
-def _share(
+def _share_cut_steps(
     total: Floats, after: NDArray[np.int64], trail: Projection, on: NDArray[np.int64], part: Floats
 ) -> None:
     """Add steps with cuts to the bins at either side of each cut.

@@ -10,11 +10,11 @@ import numpy as np
 
 from dqpaint.light.arrays import Floats, Image
 
-SHARE = 0.05
+RAY_ENERGY = 0.05
 """Of the light that goes into the rays."""
-LENGTH = 0.16
+RAY_LENGTH = 0.16
 """How far a ray reaches, over the height of the picture."""
-BLADES = (3, 24)
+BLADE_RANGE = (3, 24)
 """Fewest and most of them."""
 
 
@@ -35,7 +35,7 @@ def with_starburst(image: Image, blades: int) -> Image:
         Image,
         cv2.resize(image, ((width + 1) // 2, (height + 1) // 2), interpolation=cv2.INTER_AREA),
     )
-    kernel = _rays(blades, max(8, round(0.5 * LENGTH * height)))
+    kernel = _rays(blades, max(8, round(0.5 * RAY_LENGTH * height)))
     reach = kernel.shape[0] // 2
     size = (half.shape[0] + 2 * reach, half.shape[1] + 2 * reach)
     rows, columns = (cv2.getOptimalDFTSize(n) for n in size)
@@ -47,7 +47,7 @@ def with_starburst(image: Image, blades: int) -> Image:
         rays[..., channel] = whole[reach : reach + half.shape[0], reach : reach + half.shape[1]]
     np.maximum(rays, 0.0, out=rays)
     full = cast(Image, cv2.resize(rays, (width, height), interpolation=cv2.INTER_LINEAR))
-    return np.asarray((1.0 - SHARE) * image + SHARE * full, dtype=np.float32)
+    return np.asarray((1.0 - RAY_ENERGY) * image + RAY_ENERGY * full, dtype=np.float32)
 
 
 def _rays(blades: int, reach: int) -> Floats:

@@ -1,31 +1,31 @@
 """Finished pictures -> legends, contact sheets, differences, encoded files."""
 
 from dqpaint.light.images import contact_sheet
-from dqpaint.light.images.colour_maps import amounts, colour_amounts, colour_kinds
-from dqpaint.light.images.contact_sheet import opened
+from dqpaint.light.images.colour_maps import categorical_colours, sequential_colours, sequential_map
+from dqpaint.light.images.contact_sheet import decode_png
 from dqpaint.light.images.image_difference import (
     Difference,
     decode_picture,
     decode_planes,
-    differ,
+    difference_picture,
     encode_planes,
-    where_they_differ,
+    measure_difference,
 )
-from dqpaint.light.images.legend import RIDGE, Legend, with_legend
+from dqpaint.light.images.legend import LEGEND_EXPOSURE, Legend, with_legend
 
 __all__ = [
-    "RIDGE",
+    "LEGEND_EXPOSURE",
     "Difference",
     "Legend",
-    "amounts",
-    "colour_amounts",
-    "colour_kinds",
+    "categorical_colours",
     "contact_sheet",
     "decode_picture",
     "decode_planes",
-    "differ",
+    "decode_png",
+    "difference_picture",
     "encode_planes",
-    "opened",
-    "where_they_differ",
+    "measure_difference",
+    "sequential_colours",
+    "sequential_map",
     "with_legend",
 ]

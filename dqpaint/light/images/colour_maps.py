@@ -14,13 +14,13 @@ import numpy as np
 
 from dqpaint.light.arrays import Floats
 
-STEPS = 256
-LIGHTNESS = (0.48, 0.95)
-HUES = ((0.0, 264.0), (0.45, 350.0), (0.75, 410.0), (1.0, 465.0))
+MAP_STEPS = 256
+LIGHTNESS_RANGE = (0.48, 0.95)
+HUE_STOPS = ((0.0, 264.0), (0.45, 350.0), (0.75, 410.0), (1.0, 465.0))
 """Place on the path and hue there [deg]."""
 MOST_CHROMA = 0.24
-KINDS_LIGHTNESS, KINDS_CHROMA = 0.76, 0.15
-GOLDEN = 180.0 * (3.0 - 5.0**0.5)
+CATEGORY_LIGHTNESS, CATEGORY_CHROMA = 0.76, 0.15
+GOLDEN_ANGLE = 180.0 * (3.0 - 5.0**0.5)
 """The golden angle: turns by it never come close to each other [deg]."""
 
 _TO_LMS = np.array([
@@ -42,7 +42,7 @@ def rgb_from_oklch(lightness: Floats, chroma: Floats, hue: Floats) -> Floats:
     return np.asarray((lab @ _TO_LMS.T) ** 3 @ _TO_RGB.T)
 
 
-def _within(lightness: Floats, hue: Floats, most: float) -> Floats:
+def _largest_chroma(lightness: Floats, hue: Floats, most: float) -> Floats:
     """The largest chroma up to `most` that linear sRGB can show, for each colour."""
     low, high = np.zeros_like(lightness), np.full_like(lightness, most)
     for _ in range(40):
@@ -54,35 +54,37 @@ def _within(lightness: Floats, hue: Floats, most: float) -> Floats:
 
 
 @cache
-def amounts() -> Floats:
-    """(STEPS, 3) linear RGB from little to much."""
+def sequential_map() -> Floats:
+    """(MAP_STEPS, 3) linear RGB from little to much."""
     t = np.linspace(0.0, 1.0, 4001)
-    lightness = LIGHTNESS[0] + (LIGHTNESS[1] - LIGHTNESS[0]) * t
-    at, turned = np.array(HUES).T
+    lightness = LIGHTNESS_RANGE[0] + (LIGHTNESS_RANGE[1] - LIGHTNESS_RANGE[0]) * t
+    at, turned = np.array(HUE_STOPS).T
     hue = np.interp(t, at, turned)
-    chroma = _within(lightness, hue, MOST_CHROMA)
+    chroma = _largest_chroma(lightness, hue, MOST_CHROMA)
     kernel = np.ones(401) / 401.0  # the border of what can be shown has edges that would be seen
     smooth = np.convolve(np.pad(chroma, 200, mode="edge"), kernel, mode="valid")
     chroma = np.minimum(chroma, smooth)
     h = np.radians(hue)
     lab = np.stack([lightness, chroma * np.cos(h), chroma * np.sin(h)], axis=1)
     walked = np.append(0.0, np.cumsum(np.sqrt((np.diff(lab, axis=0) ** 2).sum(axis=1))))
-    even = np.interp(np.linspace(0.0, walked[-1], STEPS), walked, t)
+    even = np.interp(np.linspace(0.0, walked[-1], MAP_STEPS), walked, t)
     rgb = rgb_from_oklch(*(np.interp(even, t, v) for v in (lightness, chroma, hue)))
     return np.clip(rgb, 0.0, 1.0)
 
 
-def colour_amounts(values: Floats) -> Floats:
+def sequential_colours(values: Floats) -> Floats:
     """(..., 3) linear RGB of values from 0 to 1; what is beyond has the colour of the end."""
-    at = np.clip(values, 0.0, 1.0) * (STEPS - 1)
-    below = np.minimum(at.astype(np.int64), STEPS - 2)
+    at = np.clip(values, 0.0, 1.0) * (MAP_STEPS - 1)
+    below = np.minimum(at.astype(np.int64), MAP_STEPS - 2)
     part = (at - below)[..., None]
-    table = amounts()
+    table = sequential_map()
     return np.asarray((1.0 - part) * table[below] + part * table[below + 1])
 
 
-def colour_kinds(count: int) -> Floats:
+def categorical_colours(count: int) -> Floats:
     """(count, 3) linear RGB of things without an order: one lightness, hues far apart."""
-    hue: Floats = np.asarray((250.0 + GOLDEN * np.arange(count)) % 360.0, dtype=np.float64)
-    lightness = np.full(count, KINDS_LIGHTNESS)
-    return np.clip(rgb_from_oklch(lightness, _within(lightness, hue, KINDS_CHROMA), hue), 0.0, 1.0)
+    hue: Floats = np.asarray((250.0 + GOLDEN_ANGLE * np.arange(count)) % 360.0, dtype=np.float64)
+    lightness = np.full(count, CATEGORY_LIGHTNESS)
+    return np.clip(
+        rgb_from_oklch(lightness, _largest_chroma(lightness, hue, CATEGORY_CHROMA), hue), 0.0, 1.0
+    )

@@ -15,23 +15,23 @@ import numpy as np
 
 from dqpaint.errors import DqpaintError
 from dqpaint.light.arrays import Image, Picture
-from dqpaint.light.images.legend import inks, text_length, write_text
+from dqpaint.light.images.legend import look_colours, text_length, write_text
 
-GROUND = 22
+BACKGROUND = 22
 """Grey of the sheet: the pictures' edges are seen on it."""
 FIRST_HUE = 30.0
 """Orange, so that two pictures are orange and azure [deg]."""
 LEAST_TEXT = 11
-LIT = 40
+LIT_LEVEL = 40
 """Of 255: the halo round a line is less."""
-MARGIN, LEAST_PART = 0.08, 0.3
+CROP_MARGIN, LEAST_CROP = 0.08, 0.3
 """Round what is lit, as a part of it; and the least of a picture that is shown."""
 PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
 
 Colour = tuple[float, float, float]
 
 
-SETS: dict[int, list[Colour]] = {
+HUE_SETS: dict[int, list[Colour]] = {
     4: [(1, 0, 0.1), (0.1, 1, 1), (0.1, 0.1, 1), (0.9, 1, 0)],
     5: [(1, 1, 0), (0.3, 0, 1), (0.3, 0.45, 1), (1, 0, 0.05), (0, 1, 0.55)],
     6: [(0.75, 0, 1), (0.25, 0.65, 1), (0.6, 1, 0), (0, 1, 0.6), (1, 0.75, 0.25), (1, 0.05, 0.5)],
@@ -41,7 +41,7 @@ SETS: dict[int, list[Colour]] = {
 
 def hues(count: int) -> list[Colour]:
     """Colours that add up to grey, all but, as linear RGB; many are hues round the circle."""
-    return SETS.get(count) or [
+    return HUE_SETS.get(count) or [
         colorsys.hsv_to_rgb((FIRST_HUE / 360 + i / count) % 1.0, 1, 1) for i in range(count)
     ]
 
@@ -73,23 +73,25 @@ def sheet(
     size = max(LEAST_TEXT, round(height / 24))
     head, gap = 2 * size, max(2, size // 3)
     shape = (rows * (head + height) + gap, columns * (width + gap) + gap, 3)
-    whole = np.full(shape, GROUND, dtype=np.uint8)
+    whole = np.full(shape, BACKGROUND, dtype=np.uint8)
     for i, (picture, label) in enumerate(zip(pictures, labels, strict=True)):
         top, left = (i // columns) * (head + height), gap + (i % columns) * (width + gap)
-        write_text(whole, _fitting(label, width, size), left, top + round(1.4 * size), size)
+        write_text(whole, _truncated(label, width, size), left, top + round(1.4 * size), size)
         whole[top + head : top + head + height, left : left + width] = picture
     return whole
 
 
-def window(pictures: Sequence[Picture]) -> tuple[slice, slice]:
+def lit_window(pictures: Sequence[Picture]) -> tuple[slice, slice]:
     """Where some of pictures of one size is lit, with a margin: rows and columns."""
-    lit = np.max([picture.max(axis=2) for picture in pictures], axis=0) >= LIT
+    lit = np.max([picture.max(axis=2) for picture in pictures], axis=0) >= LIT_LEVEL
     found = []
     for axis in (1, 0):
         size = lit.shape[1 - axis]
         at = np.flatnonzero(lit.any(axis=axis))
         low, high = (int(at[0]), int(at[-1]) + 1) if at.size else (0, size)
-        margin = max(round(MARGIN * (high - low)), (round(LEAST_PART * size) - (high - low)) // 2)
+        margin = max(
+            round(CROP_MARGIN * (high - low)), (round(LEAST_CROP * size) - (high - low)) // 2
+        )
         found.append(slice(max(0, low - margin), min(size, high + margin)))
     return found[0], found[1]
 
@@ -105,16 +107,16 @@ def with_key(picture: Picture, named: Sequence[tuple[str, Colour]], look: str) -
             x, line = size, line + 1
         places.append((x, 2 * size * line + size))
         x += length
-    strip = np.full((2 * size * (line + 1) + size, width, 3), GROUND, dtype=np.uint8)
-    drawn = inks([colour for _, colour in named], look)
+    strip = np.full((2 * size * (line + 1) + size, width, 3), BACKGROUND, dtype=np.uint8)
+    drawn = look_colours([colour for _, colour in named], look)
     for (name, _), ink, (left, top) in zip(named, drawn, places, strict=True):
         strip[top : top + size, left : left + 2 * size] = ink
-        name = _fitting(name, width - left - round(2.6 * size), size)
+        name = _truncated(name, width - left - round(2.6 * size), size)
         write_text(strip, name, left + round(2.6 * size), top + size, size)
     return np.concatenate([picture, strip])
 
 
-def note(text: str, height: int, width: int) -> Picture:
+def message_picture(text: str, height: int, width: int) -> Picture:
     """A dark picture that says why there is none."""
     blank = np.zeros((height, width, 3), dtype=np.uint8)
     size = max(LEAST_TEXT, round(height / 28))
@@ -126,11 +128,11 @@ def note(text: str, height: int, width: int) -> Picture:
         else:
             lines[-1] = longer
     for i, line in enumerate(lines[: max(1, height // (2 * size) - 1)]):
-        write_text(blank, _fitting(line, width - size, size), size, (2 * i + 2) * size, size)
+        write_text(blank, _truncated(line, width - size, size), size, (2 * i + 2) * size, size)
     return blank
 
 
-def png(picture: Picture) -> bytes:
+def encode_png(picture: Picture) -> bytes:
     """A picture (H, W, 3) as a PNG file."""
     done, data = cv2.imencode(".png", np.ascontiguousarray(picture[..., ::-1]), PNG)
     if not done:
@@ -138,12 +140,12 @@ def png(picture: Picture) -> bytes:
     return bytes(data.tobytes())
 
 
-def opened(data: bytes) -> Picture:
+def decode_png(data: bytes) -> Picture:
     """The picture (H, W, 3) of a PNG file."""
     return np.ascontiguousarray(cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR_RGB))
 
 
-def _fitting(text: str, width: int, size: int) -> str:
+def _truncated(text: str, width: int, size: int) -> str:
     if text_length(text, size) <= width:
         return text
     while text and text_length(text + "...", size) > width:

@@ -14,7 +14,7 @@ import numpy as np
 from dqpaint.errors import DqpaintError
 from dqpaint.light.arrays import Image, Picture
 
-WINDOW, SIGMA = 11, 1.5
+SSIM_WINDOW, SSIM_SIGMA = 11, 1.5
 C1, C2 = (0.01 * 255) ** 2, (0.03 * 255) ** 2
 TIFF = [cv2.IMWRITE_TIFF_COMPRESSION, 8]  # deflate, which loses nothing
 
@@ -38,7 +38,9 @@ class Difference:
     ssim_min: float
 
 
-def differ(light: Image, new_light: Image, shown: Picture, new_shown: Picture) -> Difference:
+def measure_difference(
+    light: Image, new_light: Image, shown: Picture, new_shown: Picture
+) -> Difference:
     """The difference of two pictures, linear (H, W, 3) and developed (H, W, 3)."""
     before, after = light.astype(np.float64), new_light.astype(np.float64)
     gap = np.abs(after - before)
@@ -49,11 +51,11 @@ def differ(light: Image, new_light: Image, shown: Picture, new_shown: Picture) -
         float(gap.sum()) / whole,
         abs(float(after.sum()) - float(before.sum())) / whole,
         int(steps.max()),
-        float(similarity(shown, new_shown).min()),
+        float(structural_similarity(shown, new_shown).min()),
     )
 
 
-def similarity(one: Picture, other: Picture) -> Image:
+def structural_similarity(one: Picture, other: Picture) -> Image:
     """The map (H, W) of structural similarity of the greys.
 
     Wang et al., Image quality assessment: from error visibility to structural similarity, IEEE
@@ -62,7 +64,7 @@ def similarity(one: Picture, other: Picture) -> Image:
     a, b = (cv2.cvtColor(p, cv2.COLOR_RGB2GRAY).astype(np.float64) for p in (one, other))
 
     def mean(values: np.ndarray) -> np.ndarray:
-        return cv2.GaussianBlur(values, (WINDOW, WINDOW), SIGMA)
+        return cv2.GaussianBlur(values, (SSIM_WINDOW, SSIM_WINDOW), SSIM_SIGMA)
 
     m, n = mean(a), mean(b)
     va, vb, vab = mean(a * a) - m * m, mean(b * b) - n * n, mean(a * b) - m * n
@@ -70,7 +72,7 @@ def similarity(one: Picture, other: Picture) -> Image:
     return np.asarray(over / ((m * m + n * n + C1) * (va + vb + C2)))
 
 
-def where_they_differ(light: Image, new_light: Image) -> tuple[Picture, float]:
+def difference_picture(light: Image, new_light: Image) -> tuple[Picture, float]:
     """Their linear difference (H, W, 3) as a picture, its largest value white; and how amplified.
 
     Linear, because lines are burnt out in a developed picture, and what is lost there is not seen.

@@ -11,16 +11,16 @@ import numpy as np
 from dqpaint.light.arrays import Floats, Image, Picture
 from dqpaint.light.film.looks import LOOKS
 
-LINES = 720
+REFERENCE_HEIGHT = 720
 """Rows of the picture for which sizes are given."""
 MARGIN, WIDTH, THICK, TEXT, GAP = 28, 220, 8, 15, 9
 """Of the legend [px at that size]."""
 LEAST_TEXT = 9
 """No text is smaller [px]."""
-RIDGE = 0.8
+LEGEND_EXPOSURE = 0.8
 """The strip is as bright as the lines: what a stroke of such a picture is exposed to."""
-INK = (208, 208, 212)
-MOST_NAMED = 12
+TEXT_COLOUR = (208, 208, 212)
+MOST_LABELS = 12
 
 
 @dataclass(frozen=True)
@@ -42,12 +42,14 @@ class Legend:
 
 def with_legend(picture: Picture, legend: Legend, look: str) -> Picture:
     """A copy of a picture with a legend; a picture too small for one comes back as it is."""
-    scale = picture.shape[0] / LINES
+    scale = picture.shape[0] / REFERENCE_HEIGHT
     size = max(LEAST_TEXT, round(TEXT * scale))
     margin, gap, thick = (max(3, round(v * scale)) for v in (MARGIN, GAP, THICK))
     width = max(round(WIDTH * scale), 12 * size)
     rows = (
-        1 if legend.amounts else len(legend.labels[:MOST_NAMED]) + (len(legend.labels) > MOST_NAMED)
+        1
+        if legend.amounts
+        else len(legend.labels[:MOST_LABELS]) + (len(legend.labels) > MOST_LABELS)
     )
     height = size + gap + (thick + gap + size if legend.amounts else rows * (size + gap))
     if width + 2 * margin > picture.shape[1] or height + 2 * margin > picture.shape[0]:
@@ -58,30 +60,30 @@ def with_legend(picture: Picture, legend: Legend, look: str) -> Picture:
     below = top + size + gap
     if legend.amounts:
         along = np.linspace(0, len(legend.colours) - 1, width).round().astype(int)
-        strip = inks(np.array(legend.colours)[along], look)
+        strip = look_colours(np.array(legend.colours)[along], look)
         shown[below : below + thick, margin : margin + width] = strip
         baseline = below + thick + gap + size - round(0.25 * size)
         write_text(shown, legend.labels[0], margin, baseline, size)
         right = margin + width - text_length(legend.labels[-1], size)
         write_text(shown, legend.labels[-1], right, baseline, size)
         return shown
-    drawn = inks(legend.colours, look)
-    for i, label in enumerate(legend.labels[:MOST_NAMED]):
+    drawn = look_colours(legend.colours, look)
+    for i, label in enumerate(legend.labels[:MOST_LABELS]):
         line = below + i * (size + gap)
         middle = line + size // 2 + 1
         shown[middle - thick // 2 : middle + (thick + 1) // 2, margin : margin + 3 * size] = drawn[
             i
         ]
         write_text(shown, label, margin + 4 * size, line + size, size)
-    if len(legend.labels) > MOST_NAMED:
-        line = below + MOST_NAMED * (size + gap)
-        write_text(shown, f"and {len(legend.labels) - MOST_NAMED} more", margin, line + size, size)
+    if len(legend.labels) > MOST_LABELS:
+        line = below + MOST_LABELS * (size + gap)
+        write_text(shown, f"and {len(legend.labels) - MOST_LABELS} more", margin, line + size, size)
     return shown
 
 
-def inks(colours: Floats | Sequence[tuple[float, float, float]], look: str) -> Picture:
+def look_colours(colours: Floats | Sequence[tuple[float, float, float]], look: str) -> Picture:
     """(C, 3) 8-bit sRGB of linear RGB colours (C, 3) as lines of them look."""
-    image: Image = np.ascontiguousarray(np.array(colours)[None] * RIDGE, dtype=np.float32)
+    image: Image = np.ascontiguousarray(np.array(colours)[None] * LEGEND_EXPOSURE, dtype=np.float32)
     return np.asarray(LOOKS[look](image, 1.0, 0.0)[0])
 
 
@@ -89,13 +91,13 @@ def write_text(picture: Picture, text: str, x: int, baseline: int, size: int) ->
     """Text in a picture, in its place."""
     if hasattr(cv2, "FontFace"):
         face = cv2.FontFace("sans")
-        cv2.putText(picture, text, (x, baseline), INK, face, size, 400)
+        cv2.putText(picture, text, (x, baseline), TEXT_COLOUR, face, size, 400)
         return
     # an older OpenCV has but plotter's letters: drawn large and made small they are even
     fine, height = 4, picture.shape[0]
     patch = np.zeros((fine * 2 * size, fine * (text_length(text, size) + 2), 3), np.uint8)
     place, scale = (fine, fine * round(1.5 * size)), fine * size / 30.0
-    cv2.putText(patch, text, place, cv2.FONT_HERSHEY_SIMPLEX, scale, INK, fine, cv2.LINE_AA)
+    cv2.putText(patch, text, place, cv2.FONT_HERSHEY_SIMPLEX, scale, TEXT_COLOUR, fine, cv2.LINE_AA)
     small = cv2.resize(patch, None, fx=1 / fine, fy=1 / fine, interpolation=cv2.INTER_AREA)
     top = min(max(baseline - round(1.5 * size), 0), height - small.shape[0])
     region = picture[top : top + small.shape[0], x : x + small.shape[1]]

@@ -33,7 +33,7 @@ AXES = {
 }
 
 
-def _length(given: object) -> object:
+def _parse_length(given: object) -> object:
     if not isinstance(given, str):
         return given
     found = re.fullmatch(r"\s*([0-9.eE+-]+)\s*(mm|cm|m)\s*", given)
@@ -45,13 +45,13 @@ def _length(given: object) -> object:
         raise ValueError(f"'{given}' is not a length with a unit, for example 300mm") from None
 
 
-def _direction(given: object) -> object:
+def _parse_direction(given: object) -> object:
     if isinstance(given, str) and given not in AXES:
         raise ValueError(f"'{given}' is no axis of the tool; known: {', '.join(AXES)}")
     return AXES[given] if isinstance(given, str) else given
 
 
-def _shades(given: object) -> object:
+def _parse_colours(given: object) -> object:
     if not isinstance(given, str):
         return given
     found = []
@@ -63,17 +63,19 @@ def _shades(given: object) -> object:
     return tuple(found)
 
 
-def _several(leds: int) -> int:
+def _more_than_one(leds: int) -> int:
     if leds == 1:
         raise ValueError("should be 2 or more, or 0 for 144 a metre; one is a point")
     return leds
 
 
-Length = Annotated[float, BeforeValidator(_length), Field(gt=0.0, le=10.0, allow_inf_nan=False)]
-Direction = Annotated[tuple[float, float, float], BeforeValidator(_direction)]
-Shades = Annotated[tuple[Colour, ...], BeforeValidator(_shades)]
+Length = Annotated[
+    float, BeforeValidator(_parse_length), Field(gt=0.0, le=10.0, allow_inf_nan=False)
+]
+Direction = Annotated[tuple[float, float, float], BeforeValidator(_parse_direction)]
+Shades = Annotated[tuple[Colour, ...], BeforeValidator(_parse_colours)]
 Lobe = Annotated[float, Field(ge=0.0, le=200.0, allow_inf_nan=False)]
-Leds = Annotated[int, Field(ge=0, le=2000), AfterValidator(_several)]
+Leds = Annotated[int, Field(ge=0, le=2000), AfterValidator(_more_than_one)]
 X: tuple[float, float, float] = (1.0, 0.0, 0.0)
 Z = np.array([0.0, 0.0, 1.0])
 
@@ -126,7 +128,7 @@ class Line(Brush):
         description="from one end to the other, a/b/c; the stroke's colour dims them",
     )
 
-    def line(self, leds: int, tints: Floats, joined: float) -> Emitters:
+    def lamps_on_line(self, leds: int, tints: Floats, joined: float) -> Emitters:
         """As many lamps, with tints (R, leds, 3) of 1 for full brightness."""
         along = np.array(self.along) / np.linalg.norm(self.along)
         across = Z - along * along[2]  # a bar shines towards the tool's z, as far as it can
@@ -144,7 +146,7 @@ class Line(Brush):
         shades = np.array(self.colours)
         return np.stack([np.interp(u, stops, channel) for channel in shades.T], axis=1)[None]
 
-    def count(self, leds: int) -> int:
+    def led_count(self, leds: int) -> int:
         """How many LEDs there are where none are asked for."""
         return leds or max(2, round(self.length * LEDS_PER_METRE))
 
@@ -160,8 +162,8 @@ class Bar(Line):
 
     def emitters(self) -> Emitters:
         """LEDs and what joins them."""
-        leds = self.count(self.leds)
-        return self.line(leds, self.gradient(leds), self.joined)
+        leds = self.led_count(self.leds)
+        return self.lamps_on_line(leds, self.gradient(leds), self.joined)
 
 
 @BRUSHES.add("ribbon")
@@ -171,7 +173,7 @@ class Ribbon(Line):
     def emitters(self) -> Emitters:
         """Only what joins."""
         fine = 128 if len(self.colours) > 1 else 2
-        return self.line(fine, self.gradient(fine), 1.0)
+        return self.lamps_on_line(fine, self.gradient(fine), 1.0)
 
 
 @BRUSHES.add("pixelstick")
@@ -187,9 +189,9 @@ class Pixelstick(Line):
 
     def emitters(self) -> Emitters:
         """A row of tints for each column of the image."""
-        leds = self.count(self.leds)
-        columns = _columns(self.image, leds) if self.image else stripes(leds)
-        return self.line(
+        leds = self.led_count(self.leds)
+        columns = _columns(self.image, leds) if self.image else striped_image(leds)
+        return self.lamps_on_line(
             leds, np.tile(columns, (self.times, 1, 1)) * self.gradient(leds), self.joined
         )
 
@@ -217,7 +219,7 @@ class Fibre(Brush):
         return Emitters(places, tints, lobe=self.lobe)
 
 
-LONGEST = 2000
+MOST_COLUMNS = 2000
 """Columns of an image at most."""
 
 
@@ -237,12 +239,12 @@ def _columns(path: str, leds: int) -> Floats:
         )
     encoded = np.asarray(image[::-1, :, ::-1], dtype=np.float64) / 255.0
     linear = np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
-    size = (min(image.shape[1], LONGEST), leds)
+    size = (min(image.shape[1], MOST_COLUMNS), leds)
     sized = cv2.resize(linear, size, interpolation=cv2.INTER_AREA)
     return np.clip(cast(Floats, sized), 0.0, 1.0).transpose(1, 0, 2)
 
 
-def stripes(leds: int) -> Floats:
+def striped_image(leds: int) -> Floats:
     """(110, leds, 3) a woven pattern: bands along the way, hues across it."""
     row, u = np.arange(110)[:, None], (np.arange(leds) + 0.5)[None, :] / leds
     level = np.where(row % 2 == 0, 1.0, 0.12)
@@ -294,7 +296,7 @@ def _choices(name: str, kind: type[Brush]) -> str:
     return f"{name} has: {', '.join(kind.model_fields)}"
 
 
-def brush_of(words: BrushWords) -> Brush:
+def program_brush(words: BrushWords) -> Brush:
     """The brush that a drawing's text asks for."""
     if isinstance(words, BarWords):
         return Bar.model_validate({"length": words.length, "along": words.along})
@@ -303,15 +305,15 @@ def brush_of(words: BrushWords) -> Brush:
     )
 
 
-def choices_of(kind: type[Brush]) -> list[str]:
+def describe_fields(kind: type[Brush]) -> list[str]:
     """What can be said of a brush, with its default, in words."""
     return [
-        f"{name} = {_shown(field.default, field.description or '')}"
+        f"{name} = {_format_default(field.default, field.description or '')}"
         for name, field in kind.model_fields.items()
     ]
 
 
-def _shown(default: object, about: str) -> str:
+def _format_default(default: object, about: str) -> str:
     if default == X:
         return f"x  {about}"
     if default == (named.WHITE,):

@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from dqpaint.errors import DqpaintError
-from dqpaint.light.arrays import Floats, kept
+from dqpaint.light.arrays import Floats, checked_array
 from dqpaint.light.camera.camera import Camera
 from dqpaint.light.sources.sheet import Sheet
 
@@ -17,7 +17,7 @@ from dqpaint.light.sources.sheet import Sheet
 class Emission(Protocol):
     """Anything that shines: asked for a camera, it says what that camera is sent."""
 
-    def towards(self, camera: Camera, falloff: bool = False) -> Iterator[Light | Sheet]:
+    def emission_to(self, camera: Camera, falloff: bool = False) -> Iterator[Light | Sheet]:
         """What goes to the camera, piece by piece in the order of time.
 
         Args:
@@ -46,10 +46,10 @@ class Light:
     size: float = 0.0
 
     def __post_init__(self) -> None:
-        points = kept("lamp position", self.points, (None, 3))
+        points = checked_array("lamp position", self.points, (None, 3))
         if len(points) == 0:
             raise ValueError("lamp position has no instant; at least one is needed")
-        energy = kept("lamp energy", self.energy, (len(points) - 1, 3))
+        energy = checked_array("lamp energy", self.energy, (len(points) - 1, 3))
         if energy.min(initial=0.0) < 0.0:
             raise DqpaintError(f"lamp energy {energy.min()} is negative")
         object.__setattr__(self, "points", points)
@@ -60,7 +60,7 @@ class Light:
         """(K, 3) the points at either end of a step in which the lamp burns [m]."""
         return self.points[lit_instants(self.energy)]
 
-    def towards(self, camera: Camera, falloff: bool = False) -> Iterator[Light | Sheet]:
+    def emission_to(self, camera: Camera, falloff: bool = False) -> Iterator[Light | Sheet]:
         """See `Emission`."""
         if not falloff:
             yield self

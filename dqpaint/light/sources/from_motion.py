@@ -9,10 +9,10 @@ import numpy as np
 
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
-from dqpaint.light.camera.camera import FILL, LENS, Camera
+from dqpaint.light.camera.camera import DEFAULT_LENS, FRAME_FILL, Camera
 from dqpaint.light.camera.exposure_settings import parse_exposure
-from dqpaint.light.camera.views import Shot, camera_of
-from dqpaint.light.sources.brushes import brush_of, read_brush
+from dqpaint.light.camera.views import Shot, camera_for_shot
+from dqpaint.light.sources.brushes import program_brush, read_brush
 from dqpaint.light.sources.emitters import Emitters
 from dqpaint.light.sources.sweep import Sweep
 from dqpaint.motion import Motion
@@ -20,11 +20,11 @@ from dqpaint.program import Brush as BrushWords
 from dqpaint.settings import Settings
 
 MOST_FLASHES = 2_000_000
-FLOOR = 0.02  # of the usual speed: light that tells shows what stands still, too
-BESIDE_ARM = 0.45  # of the limiting dimension a drawing takes that leaves room for the arm
+LEAST_BRIGHTNESS = 0.02  # of the usual speed: light that tells shows what stands still, too
+FILL_WITH_ARM = 0.45  # of the limiting dimension a drawing takes that leaves room for the arm
 
 
-def stand(points: Floats, front: Floats, settings: Settings, shot: Shot) -> Camera:
+def view_camera(points: Floats, front: Floats, settings: Settings, shot: Shot) -> Camera:
     """The camera of one view.
 
     Args:
@@ -34,10 +34,10 @@ def stand(points: Floats, front: Floats, settings: Settings, shot: Shot) -> Came
         shot: From where.
     """
     real = parse_exposure(settings.exposure or "auto")
-    lens, distance = (LENS, None) if real is None else (real.lens, real.distance)
+    lens, distance = (DEFAULT_LENS, None) if real is None else (real.lens, real.distance)
     size = (settings.width, settings.height)
-    fill = BESIDE_ARM if settings.ghost else FILL
-    return camera_of(shot, points, front, size, lens, distance, fill)
+    fill = FILL_WITH_ARM if settings.ghost else FRAME_FILL
+    return camera_for_shot(shot, points, front, size, lens, distance, fill)
 
 
 def sweeps(
@@ -70,7 +70,7 @@ def sweeps(
         if used is not None and not shone.any():
             continue
         sweep = Sweep(motion.period, pose, shone, emitters, strobe, settings.pwm)
-        found.append(evened(sweep) if even else sweep)
+        found.append(even_by_length(sweep) if even else sweep)
     return tuple(found)
 
 
@@ -81,17 +81,18 @@ def _brushes(motion: Motion, settings: Settings) -> list[tuple[Emitters, Floats 
     words: list[BrushWords] = [segment.brush for segment in motion.program.segments]
     kinds = list(dict.fromkeys(words))
     if len(kinds) == 1:
-        return [(brush_of(kinds[0]).emitters(), None)]
+        return [(program_brush(kinds[0]).emitters(), None)]
     of = np.array([kinds.index(word) for word in words])[motion.stroke[:-1]]
     return [
-        (brush_of(kind).emitters(), (of == i).astype(np.float64)) for i, kind in enumerate(kinds)
+        (program_brush(kind).emitters(), (of == i).astype(np.float64))
+        for i, kind in enumerate(kinds)
     ]
 
 
-def evened(sweep: Sweep) -> Sweep:
+def even_by_length(sweep: Sweep) -> Sweep:
     """The sweep with every millimetre equally bright: its light goes by way, not by time."""
     lit = sweep.colours.any(axis=1)
-    rates = sweep.walked / sweep.period
+    rates = sweep.lamp_travel / sweep.period
     moving = rates[lit & (rates > 0.0)]
     usual = float(np.median(moving)) if len(moving) else 1.0
-    return replace(sweep, colours=sweep.colours * (rates / usual + FLOOR)[:, None])
+    return replace(sweep, colours=sweep.colours * (rates / usual + LEAST_BRIGHTNESS)[:, None])

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from dqpaint.light.arrays import Floats
 
-CORNER = float(np.cos(np.radians(35.0)))
+CORNER_COSINE = float(np.cos(np.radians(35.0)))
 """Where two steps differ by more, the way has a corner: no tangent goes across."""
-FINEST = 64
+MOST_PARTS = 64
 """Parts of one step at most."""
 
 
@@ -29,7 +29,7 @@ def tangents(points: Floats) -> tuple[Floats, Floats]:
     unit = way / np.where(length > 0.0, length, 1.0)[:, None]
     begin, end = unit.copy(), unit.copy()
     before, after = unit[:-1], unit[1:]
-    smooth = (before * after).sum(axis=1) > CORNER
+    smooth = (before * after).sum(axis=1) > CORNER_COSINE
     weight = length[:-1] / np.where(smooth, length[:-1] + length[1:], 1.0)
     mean = (1.0 - weight)[:, None] * before + weight[:, None] * after
     size = np.sqrt((mean * mean).sum(axis=1))
@@ -39,7 +39,7 @@ def tangents(points: Floats) -> tuple[Floats, Floats]:
     return begin, end
 
 
-def bulge(points: Floats, tangent: tuple[Floats, Floats]) -> Floats:
+def chord_deviation(points: Floats, tangent: tuple[Floats, Floats]) -> Floats:
     """(N-1,) how far the cubic is from the chord in the middle of each step [m]."""
     way = np.diff(points, axis=0)
     length = np.sqrt((way * way).sum(axis=1))
@@ -47,20 +47,20 @@ def bulge(points: Floats, tangent: tuple[Floats, Floats]) -> Floats:
     return np.asarray(length * np.sqrt((turn * turn).sum(axis=1)) / 8.0)
 
 
-def turning(rotation: Floats, reach: float) -> Floats:
+def rotation_deviation(rotation: Floats, reach: float) -> Floats:
     """(N-1,) how far a lamp at a distance from the tool bulges from its chord by turning [m]."""
     dot = np.abs((rotation[1:] * rotation[:-1]).sum(axis=1))
     angle = 2.0 * np.arccos(np.minimum(dot, 1.0))
     return np.asarray(reach * angle * angle / 8.0)
 
 
-def parts(bulges: Floats, tolerance: float) -> NDArray[np.int64]:
+def part_counts(bulges: Floats, tolerance: float) -> NDArray[np.int64]:
     """(M,) into how many even parts a step is cut so that no chord is off by more."""
     count = np.ceil(np.sqrt(bulges / tolerance))
-    return np.clip(count, 1, FINEST).astype(np.int64)
+    return np.clip(count, 1, MOST_PARTS).astype(np.int64)
 
 
-def place_at(
+def position_at(
     points: Floats, tangent: tuple[Floats, Floats], step: NDArray[np.int64], part: Floats
 ) -> Floats:
     """(M, 3) places at parts of steps: Hermite's cubic with tangents as long as the chord."""

@@ -12,12 +12,12 @@ from dqpaint.light.arrays import Floats
 if TYPE_CHECKING:
     from dqpaint.light.sources.sweep import Sweep
 
-APART = 0.007
+SAMPLE_SPACING = 0.007
 """Places along a brush that are asked are no farther apart: the LEDs of a dense strip. Farther
 apart, edges of shade come out scalloped [m]."""
 
 
-class Opaque(Protocol):
+class Occluder(Protocol):
     """Something that moves and may stand before a light."""
 
     def visible(self, time: Floats, places: Floats, lit: NDArray[np.bool_], eye: Floats) -> Floats:
@@ -32,7 +32,7 @@ class Opaque(Protocol):
         ...
 
 
-class Shade:
+class Occlusion:
     """Shares of the light of one sweep that reach one camera, and the count of what did not.
 
     It is known for each step between two samples at some places along the brush, and what lies
@@ -58,7 +58,7 @@ class Shade:
         """(N-1, P) as given."""
         return self._share
 
-    def of_lamps(self, time: Floats, energy: Floats) -> Floats:
+    def attenuate_lamps(self, time: Floats, energy: Floats) -> Floats:
         """What arrives (M, K, 3) of the energy of lamps on a line, or close together, and count.
 
         Args:
@@ -70,7 +70,7 @@ class Shade:
         self._count(of, energy.sum(axis=1), seen.sum(axis=1))
         return np.asarray(seen)
 
-    def of_line(
+    def attenuate_line(
         self, time: Floats, energy: Floats, tints: Floats, row: NDArray[np.int64]
     ) -> tuple[Floats, NDArray[np.int64]]:
         """The tints and rows of a line whose parts are more or less hidden, and count.
@@ -118,11 +118,11 @@ class Shade:
         np.add.at(self.hidden, of, sent - seen)
 
 
-def shade_of(sweep: Sweep, body: Opaque, eye: Floats) -> Shade:
+def occlusion_by(sweep: Sweep, body: Occluder, eye: Floats) -> Occlusion:
     """The shade a body casts for an eye (3,) on the light of a sweep, asked once."""
-    asked = sweep.emitters.along(APART)
-    places = sweep.places(sweep.points, sweep.turns, asked)
+    asked = sweep.emitters.positions_along(SAMPLE_SPACING)
+    places = sweep.base_positions(sweep.positions, sweep.rotations, asked)
     middle = 0.5 * (places[1:] + places[:-1])
     time = sweep.time[:-1] + 0.5 * sweep.period
     lit = np.asarray(sweep.colours.any(axis=1))
-    return Shade(sweep.period, body.visible(time, middle, lit, eye))
+    return Occlusion(sweep.period, body.visible(time, middle, lit, eye))

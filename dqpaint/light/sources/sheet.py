@@ -13,15 +13,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.light.arrays import Floats
-from dqpaint.light.camera.camera import NEAR, Camera
+from dqpaint.light.camera.camera import NEAREST_DEPTH, Camera
 
-CELLS = 1 << 18
+CELLS_PER_BATCH = 1 << 18
 """How many cells of a grid are worked on at once. It is fixed, as the order of sums is."""
-FINEST = 8192
+MOST_CELLS_PER_SIDE = 8192
 """Cells along a line, or along a step, at most: beyond that they are wider than a pixel."""
-MOST = 1 << 20
+MOST_CELLS_PER_STEP = 1 << 20
 """Cells of one step at most: of a line that leaps right before the lens."""
-SPACING = 1.0
+CELL_SIDE = 1.0
 """Side of a cell [px]."""
 
 
@@ -62,7 +62,7 @@ class Cells:
     lost: Floats
 
 
-def cells(sheet: Sheet, camera: Camera, margin: float) -> Iterator[Cells]:
+def sheet_cells(sheet: Sheet, camera: Camera, margin: float) -> Iterator[Cells]:
     """The sheet as an even grid of points at most a pixel apart.
 
     A step with a corner behind the pinhole has no image and is lost as a whole.
@@ -79,7 +79,7 @@ def cells(sheet: Sheet, camera: Camera, margin: float) -> Iterator[Cells]:
     )
     whole = sheet.energy * sums[sheet.row, -1]
     lit = sheet.energy.max(axis=1) > 0.0
-    seen = depth.min(axis=1) > NEAR
+    seen = depth.min(axis=1) > NEAREST_DEPTH
     low = np.full(2, -margin)
     high = np.array([camera.width - 1.0, camera.height - 1.0]) + margin
     with np.errstate(invalid="ignore"):  # a pixel behind the pinhole is not a number
@@ -95,7 +95,7 @@ def cells(sheet: Sheet, camera: Camera, margin: float) -> Iterator[Cells]:
     moved = _length(pixels[index + 1] - pixels[index]).max(axis=1)
     long = _length(pixels[:, 1] - pixels[:, 0])
     along = _count(np.maximum(long[index], long[index + 1]))
-    steps = np.minimum(_count(moved), np.maximum(MOST // along, 1))
+    steps = np.minimum(_count(moved), np.maximum(MOST_CELLS_PER_STEP // along, 1))
     # one row a part of a step: it is worked on as a whole
     of = np.repeat(index, steps)
     nth = np.arange(len(of)) - np.repeat(np.cumsum(steps) - steps, steps)
@@ -105,7 +105,7 @@ def cells(sheet: Sheet, camera: Camera, margin: float) -> Iterator[Cells]:
     first = 0
     while first < len(of):
         before = done[first - 1] if first else 0
-        last = max(first + 1, int(np.searchsorted(done, before + CELLS, side="right")))
+        last = max(first + 1, int(np.searchsorted(done, before + CELLS_PER_BATCH, side="right")))
         part = slice(first, last)
         yield _cells(sheet, camera, sums, (of[part], when[part], share[part], across[part]), margin)
         first = last
@@ -128,7 +128,9 @@ def _cells(
     points = (1.0 - u) * line[owner, 0] + u * line[owner, 1]
     pixels, _ = camera.project(points)
     row = sheet.row[of][owner]
-    held = _at(sums, row, (nth + 1.0) * size) - _at(sums, row, nth * size)
+    held = _cumulative_light(sums, row, (nth + 1.0) * size) - _cumulative_light(
+        sums, row, nth * size
+    )
     energy = held * (sheet.energy[of] * share[:, None])[owner]
     np.maximum(energy, 0.0, out=energy)  # a difference of equal sums may be -1e-17
     low = np.full(2, -margin)
@@ -138,7 +140,7 @@ def _cells(
     return Cells(pixels[inside].T.copy(), energy[inside].T.copy(), lost)
 
 
-def _at(sums: Floats, row: NDArray[np.int64], u: Floats) -> Floats:
+def _cumulative_light(sums: Floats, row: NDArray[np.int64], u: Floats) -> Floats:
     """(M, 3) what the line holds from its beginning to u (M,), of sums (R, C+1, 3)."""
     x = np.minimum(u, 1.0) * (sums.shape[1] - 1)
     cell = np.minimum(x.astype(np.int64), sums.shape[1] - 2)
@@ -147,7 +149,7 @@ def _at(sums: Floats, row: NDArray[np.int64], u: Floats) -> Floats:
 
 
 def _count(length: Floats) -> NDArray[np.int64]:
-    return np.clip(np.ceil(length / SPACING), 1, FINEST).astype(np.int64)
+    return np.clip(np.ceil(length / CELL_SIDE), 1, MOST_CELLS_PER_SIDE).astype(np.int64)
 
 
 def _length(way: Floats) -> Floats:

@@ -17,13 +17,13 @@ Cuts = tuple[NDArray[np.int64], Floats]
 """Steps and the parts of them, 0 to 1, at which they are cut."""
 
 
-def switches(period: float, frequency: Floats) -> NDArray[np.int64]:
+def most_cuts(period: float, frequency: Floats) -> NDArray[np.int64]:
     """How often each step (M,) of one period is cut at most: for budgets."""
     span = period * frequency
     return np.where(span > 0.0, 2.0 * np.ceil(span) + 2.0, 0.0).astype(np.int64)
 
 
-def edges(begin: Floats, end: Floats, frequency: Floats, duty: Floats) -> Cuts:
+def switch_cuts(begin: Floats, end: Floats, frequency: Floats, duty: Floats) -> Cuts:
     """Where a gate switches within steps.
 
     It is on from m / f until (m + duty) / f for every whole m.
@@ -36,12 +36,12 @@ def edges(begin: Floats, end: Floats, frequency: Floats, duty: Floats) -> Cuts:
     """
     flashing = (frequency > 0.0) & (duty > 0.0) & (duty < 1.0)
     rate = np.where(flashing, frequency, 0.0)
-    on = crossings(begin * rate, end * rate)
-    off = crossings(begin * rate - duty, end * rate - duty)
+    on = integer_crossings(begin * rate, end * rate)
+    off = integer_crossings(begin * rate - duty, end * rate - duty)
     return np.concatenate([on[0], off[0]]), np.concatenate([on[1], off[1]])
 
 
-def crossings(low: Floats, high: Floats) -> Cuts:
+def integer_crossings(low: Floats, high: Floats) -> Cuts:
     """Where values that go evenly from low (M,) up to high (M,) pass a whole number."""
     first = np.floor(low).astype(np.int64) + 1
     last = np.ceil(high).astype(np.int64) - 1

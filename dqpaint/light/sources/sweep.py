@@ -11,21 +11,21 @@ from numpy.typing import NDArray
 
 from dqpaint import dq
 from dqpaint.errors import DqpaintError
-from dqpaint.light.arrays import BATCH, Floats, kept
-from dqpaint.light.camera.camera import NEAR, Camera
+from dqpaint.light.arrays import BATCH, Floats, checked_array
+from dqpaint.light.camera.camera import NEAREST_DEPTH, Camera
 from dqpaint.light.sources import interpolation
 from dqpaint.light.sources import strobe as gates
 from dqpaint.light.sources.emission import Light, inverse_square, lit_instants
 from dqpaint.light.sources.emitters import POINT, Emitters
-from dqpaint.light.sources.occlusion import Opaque, Shade, shade_of
+from dqpaint.light.sources.occlusion import Occluder, Occlusion, occlusion_by
 from dqpaint.light.sources.sheet import Sheet
 
-ALL = slice(None)
-CHORD = 0.15
+ALL_SAMPLES = slice(None)
+CHORD_TOLERANCE = 0.15
 """A chord may be this far from the smooth way [px]."""
-GROUPS = 8
+LAMP_GROUPS = 8
 """Parts of a brush that stand for it where it lights a scene."""
-SOFT = 0.005
+LAMP_CHORD_TOLERANCE = 0.005
 """How far a chord may be from the smooth way there [m]."""
 
 
@@ -35,14 +35,14 @@ class Steps:
 
     Attributes:
         time: (M+1,) [s].
-        place: (M+1, 3) of the tool [m].
+        position: (M+1, 3) of the tool [m].
         rotation: (M+1, 4) of the tool.
         energy: (M, 3) of the whole brush, before its tints [lamp s].
         row: (M,) which row of the tints holds.
     """
 
     time: Floats
-    place: Floats
+    position: Floats
     rotation: Floats
     energy: Floats
     row: NDArray[np.int64]
@@ -59,7 +59,7 @@ class Sweep:
         emitters: what the tool carries.
         strobe: (N-1, 2) frequency [Hz], 0 for a steady light, and duty from 0 to 1.
         pwm: frequency at which the lamps are dimmed [Hz]; 0 dims them evenly.
-        shade: what hides it from the one camera it is for; None: nothing does.
+        occlusion: what hides it from the one camera it is for; None: nothing does.
     """
 
     period: float
@@ -68,21 +68,23 @@ class Sweep:
     emitters: Emitters = POINT
     strobe: Floats | None = None
     pwm: float = 0.0
-    shade: Shade | None = None
+    occlusion: Occlusion | None = None
 
     def __post_init__(self) -> None:
         if not (np.isfinite(self.period) and self.period > 0.0):
             raise DqpaintError(f"period {self.period} s must be positive")
-        pose = kept("tool pose", self.pose, (None, 8))
+        pose = checked_array("tool pose", self.pose, (None, 8))
         if len(pose) == 0:
             raise ValueError("tool pose has no instant; at least one is needed")
         object.__setattr__(self, "pose", pose)
-        colours = kept("lamp colour", self.colours, (len(pose) - 1, 3))
+        colours = checked_array("lamp colour", self.colours, (len(pose) - 1, 3))
         if colours.min(initial=0.0) < 0.0:
             raise DqpaintError(f"lamp colour {colours.min()} is negative")
         object.__setattr__(self, "colours", colours)
         if self.strobe is not None:
-            object.__setattr__(self, "strobe", kept("strobe", self.strobe, (len(colours), 2)))
+            object.__setattr__(
+                self, "strobe", checked_array("strobe", self.strobe, (len(colours), 2))
+            )
         if not (np.isfinite(self.pwm) and self.pwm >= 0.0):
             raise DqpaintError(f"PWM frequency {self.pwm} Hz must not be negative")
 
@@ -92,23 +94,23 @@ class Sweep:
         return np.arange(len(self.pose), dtype=np.float64) * self.period
 
     @cached_property
-    def points(self) -> Floats:
+    def positions(self) -> Floats:
         """(N, 3) the places of the tool [m]."""
         return dq.translation(self.pose)
 
     @cached_property
-    def turns(self) -> Floats:
+    def rotations(self) -> Floats:
         """(N, 4) the rotations of the tool."""
         return dq.rotation(self.pose)
 
     @cached_property
     def _tangents(self) -> tuple[Floats, Floats]:
-        return interpolation.tangents(self.points)
+        return interpolation.tangents(self.positions)
 
     @cached_property
-    def walked(self) -> Floats:
+    def lamp_travel(self) -> Floats:
         """(N-1,) how far the lamps move from one instant to the next, in the mean [m]."""
-        ends = self.places(self.points, self.turns, self.emitters.outermost)
+        ends = self.base_positions(self.positions, self.rotations, self.emitters.outermost)
         return np.asarray(np.sqrt((np.diff(ends, axis=0) ** 2).sum(axis=2)).mean(axis=1))
 
     @cached_property
@@ -118,31 +120,31 @@ class Sweep:
         The way is the mean of what the ends of the brush walk, so that a bar that only turns gets
         on, too.
         """
-        walked = np.where(self.colours.any(axis=1), self.walked, 0.0)
+        walked = np.where(self.colours.any(axis=1), self.lamp_travel, 0.0)
         total = walked.sum()
         if total == 0.0:
             return np.zeros(len(self.pose))
         return np.concatenate([[0.0], np.minimum(np.cumsum(walked) / total, 1.0)])
 
-    def places(self, place: Floats, rotation: Floats, of: Floats) -> Floats:
-        """(M, K, 3) where places `of` (K, 3) in the tool frame are, base frame [m]."""
-        return np.asarray(place[:, None, :] + dq.rotate(rotation[:, None, :], of[None, :, :]))
+    def base_positions(self, position: Floats, rotation: Floats, local: Floats) -> Floats:
+        """(M, K, 3) where places `local` (K, 3) in the tool frame are, base frame [m]."""
+        return np.asarray(position[:, None, :] + dq.rotate(rotation[:, None, :], local[None, :, :]))
 
-    def behind(self, body: Opaque, eye: Floats) -> Sweep:
+    def occluded_by(self, body: Occluder, eye: Floats) -> Sweep:
         """The same, as it is seen by an eye (3,) past a body [m]."""
-        return replace(self, shade=shade_of(self, body, eye))
+        return replace(self, occlusion=occlusion_by(self, body, eye))
 
-    def lights(self, samples: slice = ALL) -> Iterator[tuple[Floats, Floats]]:
+    def lamp_paths(self, samples: slice = ALL_SAMPLES) -> Iterator[tuple[Floats, Floats]]:
         """Paths (N, 3) and energies (N-1, 3) of lamps that light a scene as the brush does.
 
         All of its energy, in a few groups of its lamps; beams are not regarded [m, lamp s].
         """
-        groups = np.array_split(np.arange(len(self.emitters.places)), GROUPS)
-        for steps in self.steps(SOFT, samples):
+        groups = np.array_split(np.arange(len(self.emitters.positions)), LAMP_GROUPS)
+        for steps in self.steps(LAMP_CHORD_TOLERANCE, samples):
             for group in groups:
                 if len(group):
-                    middle = self.emitters.places[group].mean(axis=0, keepdims=True)
-                    points = self.places(steps.place, steps.rotation, middle)[:, 0]
+                    middle = self.emitters.positions[group].mean(axis=0, keepdims=True)
+                    points = self.base_positions(steps.position, steps.rotation, middle)[:, 0]
                     tints = self.emitters.tints[:, group].sum(axis=1)
                     yield points, steps.energy * tints[steps.row]
 
@@ -151,28 +153,30 @@ class Sweep:
         """(K, 3) outermost lamps at either end of every lit step [m]: what a camera must see."""
         lit = lit_instants(self.colours)
         if self.emitters.single:
-            return np.asarray(self.points[lit])
-        rotation = self.turns[lit]
-        return self.places(self.points[lit], rotation, self.emitters.outermost).reshape(-1, 3)
+            return np.asarray(self.positions[lit])
+        rotation = self.rotations[lit]
+        return self.base_positions(self.positions[lit], rotation, self.emitters.outermost).reshape(
+            -1, 3
+        )
 
-    def resolution(self, camera: Camera) -> float:
-        """What `CHORD` is at the nearest lit place [m]."""
+    def chord_tolerance(self, camera: Camera) -> float:
+        """What `CHORD_TOLERANCE` is at the nearest lit place [m]."""
         lit = lit_instants(self.colours)
-        _, depth = camera.project(self.points[lit])
-        seen = depth[depth > NEAR]
-        return CHORD * float(seen.min() if len(seen) else 1.0) / camera.focal
+        _, depth = camera.project(self.positions[lit])
+        seen = depth[depth > NEAREST_DEPTH]
+        return CHORD_TOLERANCE * float(seen.min() if len(seen) else 1.0) / camera.focal
 
-    def steps(self, tolerance: float, samples: slice = ALL) -> Iterator[Steps]:
+    def steps(self, tolerance: float, samples: slice = ALL_SAMPLES) -> Iterator[Steps]:
         """The steps in the order of time, some at a time, cut where the light switches.
 
         Args:
             tolerance: How far a chord may be from the smooth way [m].
             samples: Which of the N-1 steps between samples.
         """
-        bulges = interpolation.bulge(self.points, self._tangents)
+        bulges = interpolation.chord_deviation(self.positions, self._tangents)
         if not self.emitters.single:
-            bulges = bulges + interpolation.turning(self.turns, self.emitters.reach)
-        count = np.where(self.colours.any(axis=1), interpolation.parts(bulges, tolerance), 1)
+            bulges = bulges + interpolation.rotation_deviation(self.rotations, self.emitters.reach)
+        count = np.where(self.colours.any(axis=1), interpolation.part_counts(bulges, tolerance), 1)
         for rows in self._batches(count, samples):
             yield self._steps(rows, count[rows])
 
@@ -180,10 +184,10 @@ class Sweep:
         """Runs of samples whose steps, cut and times lamps, stay within a fixed number."""
         work = count.copy()
         for frequency, _ in self._gates(slice(None)):
-            work += gates.switches(self.period, frequency)
+            work += gates.most_cuts(self.period, frequency)
         if len(self.emitters.tints) > 1:
             work += np.ceil(np.diff(self.progress) * len(self.emitters.tints)).astype(np.int64)
-        lamps = len(self.emitters.places)
+        lamps = len(self.emitters.positions)
         budget = BATCH if lamps == 1 else max(1, 4 * BATCH // lamps)
         done = np.cumsum(work)
         first, end, _ = samples.indices(len(work))
@@ -207,14 +211,14 @@ class Sweep:
         begin = self.time[:-1][rows]
         instants = slice(rows.start, rows.start + len(begin) + 1)
         step, part = self._cuts(rows, count)
-        place, rotation = self.points[instants], self.turns[instants]
+        place, rotation = self.positions[instants], self.rotations[instants]
         of, enter, leave = _pieces(len(begin), step, part)
         time = self.time[instants]
         if len(step):
             at = step + 1  # an instant is put before the end of its step
             cut = begin[step] + part * self.period
             tangent = self._tangents[0][rows], self._tangents[1][rows]
-            inner = interpolation.place_at(place, tangent, step, part)
+            inner = interpolation.position_at(place, tangent, step, part)
             turned = interpolation.rotation_at(rotation, step, part)
             place = np.insert(place, at, inner, axis=0)
             rotation = np.insert(rotation, at, turned, axis=0)
@@ -230,13 +234,13 @@ class Sweep:
         steps, where = [even], [(nth + 1.0) / count[even]]
         begin, end = self.time[:-1][rows], self.time[1:][rows]
         for frequency, duty in self._gates(rows):
-            step, part = gates.edges(begin, end, frequency, duty)
+            step, part = gates.switch_cuts(begin, end, frequency, duty)
             steps.append(step)
             where.append(part)
         if len(self.emitters.tints) > 1:
             looks = len(self.emitters.tints)
             low, high = self.progress[:-1][rows] * looks, self.progress[1:][rows] * looks
-            step, part = gates.crossings(low, high)
+            step, part = gates.integer_crossings(low, high)
             steps.append(step)
             where.append(part)
         step, part = np.concatenate(steps), np.concatenate(where)
@@ -266,13 +270,13 @@ class Sweep:
         middle = low + 0.5 * (enter + leave) * (high - low)
         return np.minimum((middle * looks).astype(np.int64), looks - 1)
 
-    def towards(
-        self, camera: Camera, falloff: bool = False, samples: slice = ALL
+    def emission_to(
+        self, camera: Camera, falloff: bool = False, samples: slice = ALL_SAMPLES
     ) -> Iterator[Light | Sheet]:
         """See `Emission`; `samples` says which of the N-1 steps between samples."""
         if not self.colours[samples].any():
             return
-        for steps in self.steps(self.resolution(camera), samples):
+        for steps in self.steps(self.chord_tolerance(camera), samples):
             if self.emitters.joined < 1.0:
                 yield self._lamps(steps, camera, falloff)
             if self.emitters.joined > 0.0:
@@ -282,34 +286,34 @@ class Sweep:
         """Every lamp by itself: one after the other, with dark ways from the last to the next."""
         e = self.emitters
         if e.single:
-            points, energy = steps.place[:, None, :], steps.energy[:, None, :]
+            points, energy = steps.position[:, None, :], steps.energy[:, None, :]
         else:
-            points = self.places(steps.place, steps.rotation, e.places)
+            points = self.base_positions(steps.position, steps.rotation, e.positions)
             energy = steps.energy[:, None, :] * e.tints[steps.row]
         if e.joined > 0.0:
             energy = energy * (1.0 - e.joined)
         if falloff or e.lobe > 0.0:
             middle = 0.5 * (points[1:] + points[:-1])
             energy = energy * self._sent(middle, steps, camera, falloff)[..., None]
-        if self.shade is not None:
-            energy = self.shade.of_lamps(steps.time, energy)
-        if len(e.places) == 1:
+        if self.occlusion is not None:
+            energy = self.occlusion.attenuate_lamps(steps.time, energy)
+        if len(e.positions) == 1:
             return Light(points[:, 0], energy[:, 0], e.size)
-        dark = np.zeros((len(e.places), 1, 3))
+        dark = np.zeros((len(e.positions), 1, 3))
         apart = np.concatenate([energy.transpose(1, 0, 2), dark], axis=1).reshape(-1, 3)[:-1]
         return Light(points.transpose(1, 0, 2).reshape(-1, 3), apart, e.size)
 
     def _line(self, steps: Steps, camera: Camera, falloff: bool) -> Sheet:
         """The part of the light that a diffuser spreads along the line of lamps."""
         e = self.emitters
-        ends = self.places(steps.place, steps.rotation, e.extent)
+        ends = self.base_positions(steps.position, steps.rotation, e.extent)
         energy = steps.energy * e.joined
         if falloff or e.lobe > 0.0:
             middle = 0.25 * (ends[1:] + ends[:-1]).sum(axis=1, keepdims=True)
             energy = energy * self._sent(middle, steps, camera, falloff)
         tints, row = e.tints, steps.row
-        if self.shade is not None:
-            tints, row = self.shade.of_line(steps.time, energy, tints, row)
+        if self.occlusion is not None:
+            tints, row = self.occlusion.attenuate_line(steps.time, energy, tints, row)
         return Sheet(ends, energy, tints, row)
 
     def _sent(self, middle: Floats, steps: Steps, camera: Camera, falloff: bool) -> Floats:
@@ -320,7 +324,7 @@ class Sweep:
             normal = 0.5 * (normal[1:] + normal[:-1])[:, None, :]
             ray = camera.position - middle
             length = np.sqrt((ray * ray).sum(axis=-1))
-            cosine = (ray * normal).sum(axis=-1) / np.maximum(length, NEAR)
+            cosine = (ray * normal).sum(axis=-1) / np.maximum(length, NEAREST_DEPTH)
             sent *= np.clip(cosine, 0.0, 1.0) ** self.emitters.lobe
         if falloff:
             sent *= inverse_square(middle, camera)

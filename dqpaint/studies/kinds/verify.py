@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from dqpaint.errors import DqpaintError, OutputError
-from dqpaint.light.images import contact_sheet, where_they_differ
+from dqpaint.light.images import contact_sheet, difference_picture
 from dqpaint.outputs import files
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.report.page import Page, Rows, Shot, Words, html
@@ -152,11 +152,11 @@ def save_differences(
         if not one.faults or one.reference is None or one.made is None or one.measured is None:
             continue
         lights = [developed_from(planes) for planes in (one.reference.planes, one.made["planes"])]
-        gap, factor = where_they_differ(*lights)
+        gap, factor = difference_picture(*lights)
         labels = [f"{one.case.name}: reference", f"new: {', '.join(one.faults)}",
                   f"difference of the light, {factor:.3g} times"]  # fmt: skip
         pictures = [one.reference.picture, one.made["picture"], gap]
-        data = contact_sheet.png(contact_sheet.sheet(pictures, labels, columns=3))
+        data = contact_sheet.encode_png(contact_sheet.sheet(pictures, labels, columns=3))
         _make(out)
         written += files.write(out / one.case.name, {"-differs.png": data})
         shots.append(Shot(f"{one.case.name}: reference, new, and where they differ", data))
@@ -199,7 +199,7 @@ def update(verdicts: Sequence[Verdict], folder: Path) -> list[str]:
         if one.made is None or not (one.faults or one.remarks):
             lines.append(f"{one.case.name}: unchanged")
             continue
-        png = contact_sheet.png(one.made["picture"])
+        png = contact_sheet.encode_png(one.made["picture"])
         files.write(folder / one.case.name, encode_reference(one.case, one.result, one.made, png))
         lines.append(f"{one.case.name}: {_change(one)}")
     return lines

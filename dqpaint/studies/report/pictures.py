@@ -99,7 +99,7 @@ def pictures(found: Sequence[Cell], folder: Path, settings: Settings) -> dict[st
     images = [
         by_label[cell.label]
         if cell.label in by_label
-        else contact_sheet.note(cell.why, settings.height, settings.width)
+        else contact_sheet.message_picture(cell.why, settings.height, settings.width)
         for cell in found
     ]
     split = groups(drawn)
@@ -120,15 +120,17 @@ def pictures(found: Sequence[Cell], folder: Path, settings: Settings) -> dict[st
         overlay = with_legend(over[0], legend, settings.look)
         sheet = contact_sheet.sheet(images, labels)
     else:
-        window = contact_sheet.window([*by_label.values(), *over])
+        window = contact_sheet.lit_window([*by_label.values(), *over])
         sheet = contact_sheet.sheet([image[window] for image in images], labels, columns(labels))
         overlay = contact_sheet.sheet([image[window] for image in over], [g.title for g in split],
                                 min(len(split), MOST_TOGETHER))  # fmt: skip
         overlay = contact_sheet.with_key(overlay, list(split[0].colours.items()), settings.look)
     apart = "" if len(split) == 1 else ", within each picture"
     return {
-        "-sheet": Shot("All pictures, at one exposure", contact_sheet.png(sheet)),
-        "-overlay": Shot(f"Laid over each other{apart}: {ALIKE}", contact_sheet.png(overlay)),
+        "-sheet": Shot("All pictures, at one exposure", contact_sheet.encode_png(sheet)),
+        "-overlay": Shot(
+            f"Laid over each other{apart}: {ALIKE}", contact_sheet.encode_png(overlay)
+        ),
         "-errors": errors(drawn),
     }
 

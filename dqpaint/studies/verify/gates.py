@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dqpaint.light.film import PAD, Film, point_spread, spread
-from dqpaint.light.images import Difference, differ
+from dqpaint.light.images import Difference, measure_difference
 from dqpaint.studies.runner.run import Result
 from dqpaint.studies.verify.references import Arrays, Reference
 
@@ -62,7 +62,7 @@ GATES = (
 def measure(reference: Reference, result: Result, made: Arrays) -> GateResult:
     """A new result beside its reference; both pictures have the same size."""
     light, new_light = (developed_from(planes) for planes in (reference.planes, made["planes"]))
-    pictures = differ(light, new_light, reference.picture, made["picture"])
+    pictures = measure_difference(light, new_light, reference.picture, made["picture"])
     before = figures(reference.facts["figures"], reference.facts["light"])
     after = figures(result.figures, made)
     change, worst = changed(before, after)

@@ -258,7 +258,7 @@ def _sweeps(arrays: Arrays, group: str, sweeps: tuple[Facts, ...]) -> Iterator[S
         strobe = array("strobe") if facts.strobe else None
         colours = array("colours")
         sweep = Sweep(facts.period, array("pose"), colours, emitters, strobe, facts.pwm)
-        if (np.abs(np.linalg.norm(sweep.turns, axis=1) - 1) > UNIT).any():
+        if (np.abs(np.linalg.norm(sweep.rotations, axis=1) - 1) > UNIT).any():
             raise ValueError("pose")
         yield sweep
 

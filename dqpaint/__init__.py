@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from dqpaint.api import develop, draw, preview, save
     from dqpaint.language.writing.builder import Drawing
     from dqpaint.painting.paint import Painting
-    from dqpaint.studies.api import compare, sweep, tune, verify
+    from dqpaint.studies.api import compare, replay, sweep, tune, verify
 
 __version__ = "0.1.0"
 
@@ -42,6 +42,7 @@ __all__ = [
     "develop",
     "draw",
     "preview",
+    "replay",
     "save",
     "sweep",
     "tune",
@@ -56,7 +57,7 @@ _ROOMS = {
     "draw": "dqpaint.api",
     "preview": "dqpaint.api",
     "save": "dqpaint.api",
-    **dict.fromkeys(("compare", "sweep", "tune", "verify"), "dqpaint.studies.api"),
+    **dict.fromkeys(("compare", "replay", "sweep", "tune", "verify"), "dqpaint.studies.api"),
 }
 
 

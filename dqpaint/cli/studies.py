@@ -4,16 +4,12 @@ import shlex
 import shutil
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from dqpaint.cli.options import Choices, Drawing, MadeWhenCalled, takes
 from dqpaint.cli.painting import app
-from dqpaint.errors import UsageError
-
-if TYPE_CHECKING:
-    from dqpaint.settings import Settings
 
 __all__ = ["app"]
 
@@ -34,6 +30,23 @@ Measure = Annotated[
     ),
 ]
 
+Laws = Annotated[
+    str | None,
+    typer.Option(
+        metavar="A,B(GAIN=VALUE),...", help="the laws, with gains of their own [default: hinf]"
+    ),
+]
+Plants = Annotated[
+    str | None, typer.Option(metavar="A,B(KEY=VALUE),...", help="the plants [default: stiff]")
+]
+Robots = Annotated[str | None, typer.Option(metavar="A,B,...", help="the arms")]
+Disturbs = Annotated[
+    str | None,
+    typer.Option(
+        metavar="A(KEY=VALUE),...",
+        help="disturbances, one at a time: none,payload(2),payload(2)+latency(3)",
+    ),
+]
 Report = Annotated[bool, typer.Option("--report", help="one HTML page of it all, as well")]
 
 COMPARE_EXAMPLES = """Examples:
@@ -49,11 +62,10 @@ COMPARE_EXAMPLES = """Examples:
 def compare(
     choices: Choices,
     file: Drawing,
-    controllers: Annotated[
-        str, typer.Option(metavar="A,B(GAIN=VALUE),...", help="the laws, with gains of their own")
-    ] = "hinf",
-    plants: Annotated[str | None, typer.Option(metavar="A,B,...", help="the plants")] = None,
-    robots: Annotated[str | None, typer.Option(metavar="A,B,...", help="the arms")] = None,
+    controllers: Laws = None,
+    plants: Plants = None,
+    robots: Robots = None,
+    disturbs: Disturbs = None,
     runs: Runs = 1,
     figure: Measure = "error_integral",
     jobs: Jobs = None,
@@ -61,22 +73,20 @@ def compare(
     out: Folder = None,
     report: Report = False,
 ) -> None:
-    """Paint one drawing by several laws, plants or arms: pictures, overlay, errors, one table.
+    """Paint one drawing by several laws, plants, arms or disturbances: pictures, errors, a table.
 
     With --runs each is done with several seeds, and the table has means and standard deviations.
     """
-    from dqpaint.studies.experiment import Axis, check_figure, parse_laws, parse_list
+    from dqpaint.studies.experiment import check_figure, requests
     from dqpaint.studies.kinds import compare as study
 
     check_figure(figure)
-    axes = [Axis("controller", tuple(parse_laws(controllers)))]
-    for name, values in (("plant", plants), ("robot", robots)):
-        if values is not None:
-            axes.append(Axis(name, tuple(parse_list(values))))
-    base = _settings(choices, size=(640, 360))
+    several = {"controller": controllers, "plant": plants, "robot": robots, "disturb": disturbs}
+    axes, base = requests.compared(choices, several, size=study.SIZE)
     compared = study.compare(
-        file, axes, base, _folder(out, file, "compare"), runs, _workers(jobs, cluster)
-    )
+        file, axes, base, _folder(out, file, "compare"), runs, requests.workers(jobs, cluster),
+        StudyProgress(),
+    )  # fmt: skip
     _finish(study.told(compared, figure, _columns()), study.save(compared, figure, _again(report)))
 
 
@@ -89,18 +99,22 @@ SWEEP_EXAMPLES = """Examples:
 
 
 @app.command(cls=MadeWhenCalled, epilog=SWEEP_EXAMPLES)
-@takes("sweep")
+@takes("sweep", without=("controller", "plant", "robot"))
 def sweep(
     choices: Choices,
     file: Drawing,
     vary: Annotated[
-        list[str],
+        list[str] | None,
         typer.Option(
             metavar="NAME=VALUES",
             help="a gain, plant, robot, disturb.NAME.VALUE ...: k=5,10,20 or k=1..100:log:9; "
             "once or twice",
         ),
-    ],
+    ] = None,
+    controllers: Laws = None,
+    plants: Plants = None,
+    robots: Robots = None,
+    disturbs: Disturbs = None,
     runs: Runs = 1,
     figure: Measure = "position_error_rms_m",
     jobs: Jobs = None,
@@ -112,15 +126,16 @@ def sweep(
 
     Unstable points are marked. A sweep that was stopped goes on where it was.
     """
-    from dqpaint.studies.experiment import check_figure, parse_axis
+    from dqpaint.studies.experiment import check_figure, requests
     from dqpaint.studies.kinds import sweep as study
 
     check_figure(figure)
-    axes = [parse_axis(text) for text in vary]
-    base = _settings(choices)
+    several = {"controller": controllers, "plant": plants, "robot": robots, "disturb": disturbs}
+    axes, base = requests.swept(vary or (), choices, several)
     swept = study.sweep(
-        file, axes, base, _folder(out, file, "sweep"), runs, _workers(jobs, cluster)
-    )
+        file, axes, base, _folder(out, file, "sweep"), runs, requests.workers(jobs, cluster),
+        StudyProgress(),
+    )  # fmt: skip
     _finish(study.told(swept, figure, _columns()), study.save(swept, figure, _again(report)))
 
 
@@ -166,17 +181,17 @@ def tune(
     The bound is 1 for the effort of an arm that does exactly what the drawing asks. Seeded; a
     search that was stopped goes on where it was.
     """
-    from dqpaint.studies.experiment import check_figure
+    from dqpaint.painting import validate
+    from dqpaint.studies.experiment import check_figure, requests
     from dqpaint.studies.kinds import tune as study
     from dqpaint.studies.kinds import tune_report
 
     check_figure(figure)
     check_figure(effort_figure)
-    base = _settings(choices)
     tuned = study.tune(
-        file, vary or [], base, _folder(out, file, "tune"), factor=effort, error=figure,
-        effort=effort_figure, count=runs, budget=budget,
-        jobs=_workers(jobs, cluster),
+        file, vary or [], validate.chosen(choices), _folder(out, file, "tune"), factor=effort,
+        error=figure, effort=effort_figure, count=runs, budget=budget,
+        jobs=requests.workers(jobs, cluster), reporter=StudyProgress(),
     )  # fmt: skip
     _finish(tune_report.told(tuned, _columns()), tune_report.save(tuned, _again(report)))
     if tuned.best is None:
@@ -209,31 +224,46 @@ def replay(
     Every verdict follows from the numbers of this run; the paper's own are judged alike.
     """
     from dqpaint.settings import read_choices
+    from dqpaint.studies.experiment import requests
     from dqpaint.studies.kinds import replay as study
     from dqpaint.studies.replay.measures import MeasureRequest
 
-    changed = read_choices(choices)
     folder = Path(out) if out else Path(f"{name}-replay")
-    replayed = study.replay(name, MeasureRequest(folder, runs, _workers(jobs, cluster), changed))
+    crew = requests.workers(jobs, cluster)
+    replayed = study.replay(
+        name, MeasureRequest(folder, runs, crew, read_choices(choices), StudyProgress())
+    )
     _finish(study.told(replayed, _columns()), study.save(replayed, _again(report)))
 
 
-def _settings(choices: Choices, **usual: Any) -> "Settings":
-    """What was typed, or else is in the file of settings, or else is usual for the command."""
-    from dqpaint.painting import validate
+class StudyProgress:
+    """What a study tells, for a person at a terminal: a bar, and notes on standard error."""
 
-    return validate.chosen(choices, **usual)
+    def __init__(self) -> None:
+        self._bar: Any = None
+
+    def begin(self, title: str) -> None:
+        """Begin a bar."""
+        from dqpaint.cli.terminal import Progress
+
+        self._bar = Progress(title)
+
+    def show(self, done: float) -> None:
+        """Let it grow."""
+        self._bar(done)
+
+    def note(self, text: str, aside: bool = False) -> None:
+        """Print a note; an aside only to a terminal."""
+        if not aside or sys.stderr.isatty():
+            print(f"note: {text}", file=sys.stderr)
+
+    def end(self) -> None:
+        """Wipe the bar."""
+        self._bar.__exit__()
 
 
 def _folder(out: str | None, file: str, what: str) -> Path:
     return Path(out) if out else Path(f"{Path(file).stem}-{what}")
-
-
-def _workers(jobs: int | None, cluster: str | None) -> int | str | None:
-    """How many processes, or a cluster's address."""
-    if jobs is not None and cluster is not None:
-        raise UsageError("--jobs is how many processes here, --cluster asks others: not both")
-    return jobs if cluster is None else cluster
 
 
 def _again(report: bool) -> str | None:
@@ -273,9 +303,11 @@ def verify(
     report: Report = False,
 ) -> None:
     """Draw a folder again and compare it with its references, gate by gate."""
+    from dqpaint.studies.experiment import requests
     from dqpaint.studies.kinds import verify as study
 
-    verdicts = study.verify(Path(folder), _workers(jobs, cluster), lenient=update)
+    crew = requests.workers(jobs, cluster)
+    verdicts = study.verify(Path(folder), crew, lenient=update, reporter=StudyProgress())
     for text in study.remarks(verdicts):
         print(text, file=sys.stderr)
     if update:

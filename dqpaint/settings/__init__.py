@@ -17,7 +17,13 @@ from dqpaint.settings.model import (
     make_settings,
     read_choices,
 )
-from dqpaint.settings.options import DevelopOptions, DrawOptions, PreviewOptions, RunOptions
+from dqpaint.settings.options import (
+    DevelopOptions,
+    DrawOptions,
+    PreviewOptions,
+    ReplayOptions,
+    RunOptions,
+)
 from dqpaint.settings.readers import parse_disturbances, parse_gains
 
 __all__ = [
@@ -29,6 +35,7 @@ __all__ = [
     "DrawOptions",
     "Option",
     "PreviewOptions",
+    "ReplayOptions",
     "RunOptions",
     "Setting",
     "Settings",

@@ -128,5 +128,9 @@ class DevelopOptions(CameraOptions, FilmOptions, GhostOptions, OcclusionOptions)
     """Of `develop`."""
 
 
+class ReplayOptions(DisturbanceOptions, ArmOptions, MotionOptions, DrawingOptions):
+    """Of `replay`."""
+
+
 class RunOptions(LawOptions, DisturbanceOptions, ArmOptions, MotionOptions, DrawingOptions):
     """Of a run without pictures."""

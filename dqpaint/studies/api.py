@@ -5,36 +5,48 @@ notebook. Settings are named as those of `dqpaint.draw`.
 """
 
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, TypeVar, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.errors import UsageError
 from dqpaint.language.writing import builder
 from dqpaint.light.images import decode_png
 from dqpaint.outputs import files
-from dqpaint.settings import Settings, make_settings
-from dqpaint.studies.experiment import cells
-from dqpaint.studies.experiment.axes import Axis, parse_axis
+from dqpaint.painting import validate
+from dqpaint.settings import (
+    DrawOptions,
+    ReplayOptions,
+    RunOptions,
+    SettingsFile,
+    keywords,
+    read_choices,
+)
+from dqpaint.studies.experiment import cells, requests
+from dqpaint.studies.experiment.requests import Vary, workers
 from dqpaint.studies.kinds import compare as comparing
+from dqpaint.studies.kinds import replay as replaying
 from dqpaint.studies.kinds import sweep as sweeping
 from dqpaint.studies.kinds import tune as tuning
 from dqpaint.studies.kinds import tune_report
 from dqpaint.studies.kinds import verify as verifying
 from dqpaint.studies.kinds.compare import Comparison
+from dqpaint.studies.kinds.replay import Replay
 from dqpaint.studies.kinds.sweep import Sweep
 from dqpaint.studies.kinds.tune import Tuning
 from dqpaint.studies.kinds.verify import Verdict
-from dqpaint.studies.runner.engine import Workers
+from dqpaint.studies.replay.measure import MeasureRequest
+from dqpaint.studies.runner.reporter import SILENT, Callback, Reporter
 
-S = TypeVar("S", Comparison, Sweep, Tuning)
+S = TypeVar("S", Comparison, Sweep, Tuning, Replay)
 Where = str | PathLike[str]
+Several = Sequence[str] | str
+Progress = Callable[[float], None]
 WIDE = 100_000  # columns: a table as wide as it is
 
 
@@ -57,7 +69,7 @@ class FinishedStudy(Generic[S]):
     @property
     def table(self) -> dict[str, Any]:
         """The columns of the CSV: choices as texts, figures as arrays (N,) in SI units."""
-        columns = cells.columns(self.study.cells)
+        columns = cells.columns(self.study.cells) if self.study.cells else {}
         numbers = {"runs", "done"} | {n for n in columns if n.endswith(("_mean", "_std"))}
         return {n: np.array(v) if n in numbers else v for n, v in columns.items()}
 
@@ -95,97 +107,123 @@ class FinishedStudy(Generic[S]):
         return self.files["-table.md"].decode()
 
 
+@keywords("compare")
 def compare(
     drawing: Where | builder.Drawing,
-    controllers: Sequence[str] = ("hinf",),
+    controllers: Several | None = None,
     *,
-    plants: Sequence[str] | None = None,
-    robots: Sequence[str] | None = None,
+    plants: Several | None = None,
+    robots: Several | None = None,
+    disturbs: Several | None = None,
     runs: int = 1,
     figure: str = "error_integral",
-    size: tuple[int, int] = (640, 360),
     folder: Where | None = None,
     jobs: int | None = None,
     cluster: str | None = None,
-    **settings: Any,
+    progress: Progress | None = None,
+    settings: Where | SettingsFile | None = None,
+    **options: Unpack[DrawOptions],
 ) -> FinishedStudy[Comparison]:
-    """Paint one drawing by several laws, plants or arms, as `dqpaint compare` does.
+    """Paint one drawing by several laws, plants, arms or disturbances, as `dqpaint compare` does.
+
+    The pictures are 640 x 360, if nothing else is said.
 
     Args:
         drawing: a .traj file, the name of an example, or a `dqpaint.Drawing`.
-        controllers: laws, with gains of their own as in "p(k=5)".
-        plants: how the arm answers.
+        controllers: laws, with gains of their own as in "p(k=5)"; a list, or a text with commas.
+        plants: how the arm answers, likewise, such as "compliant(frequency=60)".
         robots: the arms.
+        disturbs: disturbances, one of them at a time, besides those of `disturb`: "none",
+            "payload(2)", "payload(2)+latency(3)".
         runs: how many of each, with the seeds that follow.
         figure: that is tested for differences.
-        size: width and height of the pictures [px].
         folder: where the runs are kept, so that a study that was stopped goes on; else nowhere.
         jobs: how many processes; None is one a core.
         cluster: address of a Dask scheduler, instead.
-        settings: as those of `dqpaint.draw`, alike for all runs.
+        progress: called with the part done, 0 to 1.
+        settings: a file of settings; what is said here wins.
+        options:
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.
     """
     cells.check_figure(figure)
-    axes = [
-        Axis(name, tuple(_texts(name, values)))
-        for name, values in (("controller", controllers), ("plant", plants), ("robot", robots))
-        if values is not None
-    ]
-    base = _settings({**settings, "width": size[0], "height": size[1]})
+    several = {"controller": controllers, "plant": plants, "robot": robots, "disturb": disturbs}
+    given = {**options, "settings": settings}
+    axes, base = requests.compared(given, several, size=comparing.SIZE)
     with _kept(folder) as place:
-        made = comparing.compare(_name(drawing), axes, base, place, runs, _workers(jobs, cluster))
+        made = comparing.compare(
+            _name(drawing), axes, base, place, runs, workers(jobs, cluster), _reporter(progress)
+        )
         text = comparing.told(made, figure, WIDE)
         again = _call(
-            "compare", drawing, list(controllers), plants=plants, robots=robots, runs=runs,
-            figure=figure, size=size, **settings,
+            "compare", drawing, controllers, plants=plants, robots=robots, disturbs=disturbs,
+            runs=runs, figure=figure, **given,
         )  # fmt: skip
         files = comparing.contents(made, figure, again)
     return FinishedStudy(made, text, files, comparing.stem(made))
 
 
+@keywords("sweep")
 def sweep(
     drawing: Where | builder.Drawing,
-    vary: Sequence[str] | str,
+    vary: Vary = (),
     *,
+    controllers: Several | None = None,
+    plants: Several | None = None,
+    robots: Several | None = None,
+    disturbs: Several | None = None,
     runs: int = 1,
     figure: str = "position_error_rms_m",
     folder: Where | None = None,
     jobs: int | None = None,
     cluster: str | None = None,
-    **settings: Any,
+    progress: Progress | None = None,
+    settings: Where | SettingsFile | None = None,
+    **options: Unpack[DrawOptions],
 ) -> FinishedStudy[Sweep]:
     """Run a drawing over one or two axes of values, as `dqpaint sweep` does.
 
     Args:
         drawing: a .traj file, the name of an example, or a `dqpaint.Drawing`.
-        vary: one or two axes, as in "k=5..400:log:7".
+        vary: axes, as in "k=5..400:log:7" or {"k": [5, 10, 20]}.
+        controllers: an axis of laws, as those of `compare`.
+        plants: likewise.
+        robots: likewise.
+        disturbs: likewise.
         runs: how many of each, with the seeds that follow.
         figure: that is drawn.
-        folder: where the runs are kept; else nowhere.
+        folder: where the runs are kept, so that a study that was stopped goes on; else nowhere.
         jobs: how many processes; None is one a core.
         cluster: address of a Dask scheduler, instead.
-        settings: as those of `dqpaint.draw`, such as controller="p".
+        progress: called with the part done, 0 to 1.
+        settings: a file of settings; what is said here wins.
+        options:
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.
     """
     cells.check_figure(figure)
-    axes = [parse_axis(text) for text in ([vary] if isinstance(vary, str) else vary)]
+    several = {"controller": controllers, "plant": plants, "robot": robots, "disturb": disturbs}
+    given = {**options, "settings": settings}
+    axes, base = requests.swept(vary, given, several)
     with _kept(folder) as place:
         made = sweeping.sweep(
-            _name(drawing), axes, _settings(settings), place, runs, _workers(jobs, cluster)
+            _name(drawing), axes, base, place, runs, workers(jobs, cluster), _reporter(progress)
         )
         text = sweeping.told(made, figure, WIDE)
-        again = _call("sweep", drawing, vary, runs=runs, figure=figure, **settings)
+        again = _call(
+            "sweep", drawing, vary, controllers=controllers, plants=plants, robots=robots,
+            disturbs=disturbs, runs=runs, figure=figure, **given,
+        )  # fmt: skip
         files = sweeping.contents(made, figure, again)
     return FinishedStudy(made, text, files, sweeping.stem(made))
 
 
+@keywords("tune")
 def tune(
     drawing: Where | builder.Drawing,
-    vary: Sequence[str] | str = (),
+    vary: Vary = (),
     *,
     effort: float = 1.1,
     runs: int = 1,
@@ -195,22 +233,27 @@ def tune(
     folder: Where | None = None,
     jobs: int | None = None,
     cluster: str | None = None,
-    **settings: Any,
+    progress: Progress | None = None,
+    settings: Where | SettingsFile | None = None,
+    **options: Unpack[RunOptions],
 ) -> FinishedStudy[Tuning]:
     """Seek the gains with the least error within an effort bound, as `dqpaint tune` does.
 
     Args:
         drawing: a .traj file, the name of an example, or a `dqpaint.Drawing`.
-        vary: where gains are sought, as in "k=1..100"; if not given, all of the law's.
+        vary: where gains are sought, as in "k=1..100" or {"k": (1, 100)}; if not given, all of the
+            law's.
         effort: at most, times what the drawing itself needs.
         runs: how many of each, with the seeds that follow.
         figure: that is to be small.
         effort_figure: that is bounded.
         budget: the most runs.
-        folder: where the runs are kept; else nowhere.
+        folder: where the runs are kept, so that a study that was stopped goes on; else nowhere.
         jobs: how many processes; None is one a core.
         cluster: address of a Dask scheduler, instead.
-        settings: as those of `dqpaint.draw`, such as controller="p".
+        progress: called with the part done, 0 to 1.
+        settings: a file of settings; what is said here wins.
+        options:
 
     Returns:
         A study whose `study.best` has the gains in `choice`; None if nothing keeps the bound.
@@ -220,19 +263,57 @@ def tune(
     """
     for name in (figure, effort_figure):
         cells.check_figure(name)
-    texts = [vary] if isinstance(vary, str) else vary
+    texts = requests.vary_texts(vary, span=True)
+    given = {**options, "settings": settings}
+    requests.check_named(given.get("controller"))
     with _kept(folder) as place:
         made = tuning.tune(
-            _name(drawing), texts, _settings(settings), place, factor=effort, error=figure,
-            effort=effort_figure, count=runs, budget=budget, jobs=_workers(jobs, cluster),
+            _name(drawing), texts, validate.chosen(given), place, factor=effort, error=figure,
+            effort=effort_figure, count=runs, budget=budget, jobs=workers(jobs, cluster),
+            reporter=_reporter(progress),
         )  # fmt: skip
         text = tune_report.told(made, WIDE)
         again = _call(
             "tune", drawing, vary, effort=effort, runs=runs, figure=figure,
-            effort_figure=effort_figure, budget=budget, **settings,
+            effort_figure=effort_figure, budget=budget, **given,
         )  # fmt: skip
         files = tune_report.contents(made, again)
     return FinishedStudy(made, text, files, tune_report.stem(made))
+
+
+@keywords("replay")
+def replay(
+    name: str,
+    *,
+    runs: int | None = None,
+    folder: Where | None = None,
+    jobs: int | None = None,
+    cluster: str | None = None,
+    progress: Progress | None = None,
+    **options: Unpack[ReplayOptions],
+) -> FinishedStudy[Replay]:
+    """Do a paper's experiment again, as `dqpaint replay` does: its numbers beside ours, its claims.
+
+    Args:
+        name: of the replay; `dqpaint list replays` tells them.
+        runs: how many of each, with the seeds that follow; None leaves it to the replay.
+        folder: where the runs are kept, so that a study that was stopped goes on; else nowhere.
+        jobs: how many processes; None is one a core.
+        cluster: address of a Dask scheduler, instead.
+        progress: called with the part done, 0 to 1.
+        options:
+
+    Raises:
+        DqpaintError: a fault in the choices or the folder, or nothing could be run.
+    """
+    with _kept(folder) as place:
+        asked = MeasureRequest(
+            place, runs, workers(jobs, cluster), read_choices(options), _reporter(progress)
+        )
+        made = replaying.replay(name, asked)
+        text = replaying.told(made, WIDE)
+        files = replaying.contents(made, _call("replay", name, runs=runs, **options))
+    return FinishedStudy(made, text, files, replaying.stem(made))
 
 
 def verify(
@@ -241,6 +322,7 @@ def verify(
     out: Where | None = None,
     jobs: int | None = None,
     cluster: str | None = None,
+    progress: Progress | None = None,
 ) -> list[Verdict]:
     """Draw a folder again and compare it with its references, as `dqpaint verify` does.
 
@@ -249,6 +331,7 @@ def verify(
         out: where pictures of what differs go; else nowhere.
         jobs: how many processes; None is one a core.
         cluster: address of a Dask scheduler, instead.
+        progress: called with the part done, 0 to 1.
 
     Returns:
         A verdict a case; one without `faults` is alike.
@@ -256,48 +339,29 @@ def verify(
     Raises:
         DqpaintError: the folder has no cases, or a reference is damaged.
     """
-    verdicts = verifying.verify(Path(folder), _workers(jobs, cluster))
+    crew = workers(jobs, cluster)
+    verdicts = verifying.verify(Path(folder), crew, reporter=_reporter(progress))
     if out is not None:
         verifying.save_differences(verdicts, Path(out), _call("verify", Path(folder)))
     return verdicts
+
+
+def _reporter(progress: Progress | None) -> Reporter:
+    return SILENT if progress is None else Callback(progress)
 
 
 def _call(name: str, *given: Any, **choices: Any) -> str:
     """The call, as a report says it; what was left as usual is left out."""
     shown = [str(one) if isinstance(one, Path) else one for one in given]
     words = ["drawing" if isinstance(one, builder.Drawing) else repr(one) for one in shown]
+    while words and words[-1] in ("None", "()"):
+        words.pop()
     words += [f"{key}={value!r}" for key, value in choices.items() if value is not None]
     return f"dqpaint.{name}({', '.join(words)})"
 
 
 def _name(drawing: Where | builder.Drawing) -> str | builder.Drawing:
     return drawing if isinstance(drawing, builder.Drawing) else str(drawing)
-
-
-def _texts(name: str, values: Sequence[str]) -> list[str]:
-    if isinstance(values, str):
-        raise UsageError(f"{name}s {values!r} is one text; a list of names is needed")
-    for value in values:
-        if not isinstance(value, str):
-            raise UsageError(
-                f"{name} {value!r} is no name: runs go to other processes, so a law of one's own "
-                "is a file, as in 'mylaw.py'"
-            )
-    if not values or len(set(values)) < len(values):
-        raise UsageError(f"{name}s {list(values)}: at least one is needed, and each once")
-    return list(values)
-
-
-def _settings(choices: dict[str, Any]) -> Settings:
-    if "controller" in choices:
-        _texts("controller", [choices["controller"]])
-    return make_settings(**choices)
-
-
-def _workers(jobs: int | None, cluster: str | None) -> Workers:
-    if jobs is not None and cluster is not None:
-        raise UsageError("jobs is how many processes here, cluster asks others: not both")
-    return jobs if cluster is None else cluster
 
 
 @contextmanager

@@ -1,11 +1,15 @@
 """Studies from Python: the same as on the command line."""
 
+import html
+
 import numpy as np
 import pytest
 
 import dqpaint
 from dqpaint.errors import UsageError
 from dqpaint.metrics import all_figures
+from dqpaint.studies.experiment import requests
+from dqpaint.studies.experiment.axes import Axis
 from tests.support import guarded
 
 LINE = "period 10 ms\nspeed 60 mm/s\nstart at (0, 0) mm\nline to (40, 20) mm\n"
@@ -13,7 +17,7 @@ FEW = {"plant": "ideal", "jobs": 1}
 
 
 @pytest.mark.slow
-def test_studies_return_tables_and_pictures(tmp_path):
+def test_studies_return_tables_and_pictures(tmp_path, capfd):
     (tmp_path / "line.traj").write_text(LINE)
     drawing = tmp_path / "line.traj"
     compared = dqpaint.compare(drawing, ["p", "pff"], size=(160, 90), folder=tmp_path / "s", **FEW)
@@ -29,7 +33,7 @@ def test_studies_return_tables_and_pictures(tmp_path):
     assert "| p |" in compared._repr_markdown_()
     assert compared.page.startswith("<!doctype html>")
     assert "dqpaint.compare(" in compared.page
-    assert "plant=&#x27;ideal&#x27;)" in compared.page
+    assert "plant='ideal')" in html.unescape(compared.page)
     assert (tmp_path / "s/runs.jsonl").is_file()
     written = compared.save(tmp_path / "out")
     assert tmp_path / "out/line-report.html" in written
@@ -37,9 +41,12 @@ def test_studies_return_tables_and_pictures(tmp_path):
     made = dqpaint.Drawing("mine", period=0.01)
     made.start(at=(0, 0))
     made.line(to=(0.04, 0.02))
-    swept = dqpaint.sweep(made, "k=10,20", controller="p", **FEW)
+    told = []
+    swept = dqpaint.sweep(made, {"k": [10, 20]}, controller="p", progress=told.append, **FEW)
+    assert told[-1] == 1.0
     assert swept.table["k"] == ["10", "20"]
     assert np.diff(swept.table["position_error_rms_m_mean"]) < 0
+    assert capfd.readouterr() == ("", "")  # nothing is said to who did not ask
     assert list(tmp_path.glob("**/mine*")) == []  # nothing is written that was not asked for
 
 
@@ -78,13 +85,74 @@ def test_every_figure_of_a_run_may_be_asked_for(tmp_path, law, plant):
     assert set(run.metrics.figures) <= set(all_figures())
 
 
+@pytest.mark.slow
+def test_disturbances_and_plants_are_axes(tmp_path):
+    (tmp_path / "line.traj").write_text(LINE)
+    drawing = tmp_path / "line.traj"
+    compared = dqpaint.compare(
+        drawing, "p", disturbs="none,twist(sine,x=0.02,frequency=2)", runs=2, size="64x36",
+        overlay=True, magnify=2, ghost=True, colour_by="speed", **FEW,
+    )  # fmt: skip
+    assert compared.table["disturb"] == ["none", "twist(sine,x=0.02,frequency=2)"]
+    assert compared.table["runs"].tolist() == [1, 2]  # nothing is random without a disturbance
+    still, moved = compared.table["error_integral_mean"]
+    assert moved > still
+
+    swept = dqpaint.sweep(
+        drawing, plants=["ideal", "compliant(frequency=60)"], controllers="p", jobs=1,
+        disturbs="none,latency(3)",
+    )  # fmt: skip
+    assert swept.table["plant"] == ["ideal"] * 2 + ["compliant(frequency=60)"] * 2
+    assert swept.table["disturb"] == ["none", "latency(3)"] * 2
+    assert len(set(swept.table["position_error_rms_m_mean"])) == 4
+
+
+def test_what_callers_ask_is_the_same_on_both_ways(tmp_path):
+    several = dict.fromkeys(requests.SEVERAL)
+    axes, base = requests.compared({"plant": "ideal"}, several, size=(64, 36))
+    assert axes == [Axis("controller", ("hinf",))]
+    assert (base.plant, base.width) == ("ideal", 64)
+    listed = requests.compared({}, {**several, "controller": ["p(k=5)", "hinf"]})
+    assert listed == requests.compared({}, {**several, "controller": "p(k=5),hinf"})
+    assert listed == requests.compared({"controller": ["p(k=5)", "hinf"]}, several)
+
+    axes, base = requests.swept("k=1,2", {}, {**several, "plant": "ideal", "controller": "p(c=3)"})
+    assert axes == [Axis("k", ("1", "2"))]  # one alone is no axis
+    assert (base.plant, base.controller, base.gains) == ("ideal", "p", {"c": 3})
+    axes, _ = requests.swept({"k": np.array([1.0, 2.0]), "plant": "stiff,ideal"}, {}, several)
+    assert axes == [Axis("k", ("1.0", "2.0")), Axis("plant", ("stiff", "ideal"))]
+    assert requests.vary_texts({"k": (1, 100), "c": "1..2:lin"}, span=True) == [
+        "k=1..100", "c=1..2:lin",
+    ]  # fmt: skip
+
+
+def test_gains_of_a_file_go_with_its_law(tmp_path):
+    (tmp_path / "a.toml").write_text(
+        'controller = "p"\ngain.k = 7\nsize = "80x45"\nplant = "ideal"\n'
+    )
+    given = {"settings": str(tmp_path / "a.toml")}
+    several = dict.fromkeys(requests.SEVERAL)
+    axes, base = requests.compared(given, several, size=(64, 36))
+    assert (axes[0].texts, base.gains, base.width) == (("p",), {"k": 7.0}, 80)
+    axes, base = requests.compared(given, {**several, "controller": "p,p(k=3),hinf"})
+    assert axes[0].texts == ("p(k=7)", "p(k=3.0)", "hinf")
+    assert (base.controller, base.gains, base.plant) == ("hinf", {}, "ideal")
+
+
 def test_slips_are_told():
     for call, fault in (
-        (lambda: dqpaint.compare("star", "p"), "is one text; a list of names"),
+        (lambda: dqpaint.compare("star", 3), "controllers 3 is no list of names"),
+        (lambda: dqpaint.compare("star", "p,"), "at least one is needed, and each once"),
+        (lambda: dqpaint.compare("star", "p", controller="p"), "controller or controllers, not b"),
+        (lambda: dqpaint.sweep("star"), "0 axes; a sweep has one --vary or two"),
+        (lambda: dqpaint.sweep("star", 3), "vary 3 is not 'k=5,10,20'"),
+        (lambda: dqpaint.sweep("star", {"k": 3}), "vary 'k': 3 is not a list of values"),
+        (lambda: dqpaint.replay("thesis-spiral", look="film"), "replay takes no 'look'"),
+        (lambda: dqpaint.replay("thesis-timing", place="auto"), "takes no --place"),
         (lambda: dqpaint.compare("star", [print]), "a law of one's own is a file"),
         (lambda: dqpaint.compare("star", []), "at least one is needed"),
         (lambda: dqpaint.sweep("star", "k=1,2", controller=print), "a law of one's own is a file"),
-        (lambda: dqpaint.sweep("star", "k=1,2", colour=3), "no setting named 'colour'"),
+        (lambda: dqpaint.sweep("star", "k=1,2", colour=3), "sweep takes no 'colour'"),
         (lambda: dqpaint.sweep("star", "k=1", jobs=1, cluster="a:1"), "not both"),
         (lambda: dqpaint.tune("star", "k=5"), "is not NAME=LOW..HIGH"),
     ):

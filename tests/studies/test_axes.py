@@ -11,8 +11,7 @@ from dqpaint.studies.experiment.axes import (
     combinations,
     label,
     parse_axis,
-    parse_laws,
-    parse_list,
+    parse_texts,
     settings_of,
     split_law,
 )
@@ -43,14 +42,38 @@ def test_bad_axes_are_told(text, fault):
 
 
 def test_laws_have_gains_of_their_own():
-    assert parse_laws("hinf, p(k=5),p(k=20)") == ["hinf", "p(k=5)", "p(k=20)"]
+    assert parse_texts("controller", "hinf, p(k=5),p(k=20)") == ["hinf", "p(k=5)", "p(k=20)"]
     assert split_law("lqr(Q=1,1,4,R=0.01)") == ("lqr", {"Q": "1,1,4", "R": 0.01})
     assert split_law("my.py:law(k=5..20@10%)") == ("my.py:law", {"k": "5..20@10%"})
     for wrong in ("p(k=5", "p(k)", "p(k=5)x", "p,p", "", "p,,q"):
         with pytest.raises(UsageError):
-            parse_laws(wrong)
-    with pytest.raises(UsageError):
-        parse_list("a,,b")
+            parse_texts("controller", wrong)
+    for wrong in ("a,,b", "a,a", "", [], 3, [3]):
+        with pytest.raises(UsageError):
+            parse_texts("robot", wrong)
+
+
+def test_plants_have_values_of_their_own():
+    both = ["stiff", "compliant(frequency=60,damping=1)"]
+    assert parse_texts("plant", ",".join(both)) == both
+    written = "compliant:frequency=60,damping=1,stiff,compliant:gravity=0"
+    listed = ["compliant:frequency=60,damping=1", "stiff", "compliant:gravity=0"]
+    assert parse_texts("plant", written) == listed
+    made = settings_of(make_settings(), {"plant": both[1]})
+    assert made.plant == "compliant:frequency=60,damping=1"
+
+
+def test_disturbances_are_alternatives():
+    text = "none,payload(2),payload(2)+twist(sine,x=1e+0)"
+    assert parse_texts("disturb", text) == ["none", "payload(2)", "payload(2)+twist(sine,x=1e+0)"]
+    base = make_settings(disturb="latency=1")
+    latency, payload = {"latency": {"": 1.0}}, {"payload": {"": 2.0}}
+    assert settings_of(base, {"disturb": "none"}).disturb == latency
+    assert settings_of(base, {"disturb": "payload(2)"}).disturb == {**latency, **payload}
+    both = settings_of(make_settings(), {"disturb": "payload(2)+twist(sine,x=1e+0)"}).disturb
+    assert both == {**payload, "twist": {"": "sine", "x": 1.0}}
+    with pytest.raises(UsageError, match="is not NAME=VALUE"):
+        settings_of(base, {"disturb": "payload"})
 
 
 def test_choices_go_where_they_belong():

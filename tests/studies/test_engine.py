@@ -14,6 +14,7 @@ from dqpaint.settings.model import make_settings
 from dqpaint.studies.runner import process_pool
 from dqpaint.studies.runner.engine import carry_out_study
 from dqpaint.studies.runner.journal import NAME, Journal
+from dqpaint.studies.runner.reporter import Callback
 from dqpaint.studies.runner.run import Result, Run, drawing_text, result_of, run_of, seeded
 from dqpaint.studies.runner.run_arrays import kept, place
 from tests.support.processes import start, wait_for_lines, wait_for_the_end
@@ -46,14 +47,37 @@ def test_results_are_those_of_draw_whatever_the_number_of_workers(tmp_path):
     assert [result.status for result in one] == ["done", "done", "unstable"]
 
 
-def test_what_was_done_is_not_done_again(tmp_path, capsys):
+class Listener(Callback):
+    """A reporter that keeps what it is told."""
+
+    def __init__(self):
+        self.heard = []
+        super().__init__(lambda done: self.heard.append(done))
+
+    def begin(self, title):
+        self.heard.append(title)
+
+    def note(self, text, aside=False):
+        self.heard.append(text)
+
+    def end(self):
+        self.heard.append("end")
+
+
+def test_what_was_done_is_not_done_again(tmp_path, capfd):
     carry_out_study([run(5.0), run(10.0)], tmp_path, 1)
+    assert capfd.readouterr() == ("", "")  # nobody has asked to be told
     before = (tmp_path / NAME).read_bytes()
-    more = carry_out_study([run(10.0), run(20.0), run(10.0)], tmp_path, 1)
+    listener = Listener()
+    more = carry_out_study([run(10.0), run(20.0), run(10.0)], tmp_path, 1, "study", listener)
     assert more[0] == more[2]
     assert (tmp_path / NAME).read_bytes().startswith(before)
     assert (tmp_path / NAME).read_text().count("\n") == 3
-    assert "1 of 2 runs were done before" in capsys.readouterr().err
+    first, known, *parts, end, took = listener.heard
+    assert (first, known, end) == ("study, 3 runs", "1 of 2 runs were done before", "end")
+    assert took.startswith("1 runs took ")
+    assert parts == sorted(parts)
+    assert 0 < parts[-1] <= 1
 
 
 def test_one_failed_run_does_not_lose_the_rest(tmp_path, monkeypatch):

@@ -12,7 +12,7 @@ from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.light.images.contact_sheet import hues
 from dqpaint.settings.model import make_settings
 from dqpaint.studies.experiment import cells
-from dqpaint.studies.experiment.axes import parse_axis, parse_laws
+from dqpaint.studies.experiment.axes import parse_axis, parse_texts
 from dqpaint.studies.experiment.cells import Cell, listed_figures
 from dqpaint.studies.kinds import compare, sweep
 from dqpaint.studies.report.charts import ALARM
@@ -174,7 +174,7 @@ def test_tables_of_text():
     assert cells.markdown(lines).splitlines()[:3] == ["| law | error |", "|---|---|",
                                                       "| p\\|q | 1 |"]  # fmt: skip
     assert cells.narrow(lines, 8).splitlines()[0] == "law    p|q  hinf"
-    assert parse_laws("p") == ["p"]
+    assert parse_texts("controller", "p") == ["p"]
 
 
 def test_an_old_report_beside_new_tables_is_told(tmp_path, capsys):

@@ -252,7 +252,9 @@ def keyword_types():
         fields = [f"    {s.keyword}: {python_type(s)} | None" for s in settings_of(group)]
         head = f'class {name(group)}(TypedDict, total=False):\n    """{group.__doc__}"""\n'
         parts.append("\n".join([head, *fields, ""]))
-    whole = {n.title(): COMMANDS[n] for n in ("draw", "preview", "develop")} | {"Run": OF_RUN}
+    whole = {n.title(): COMMANDS[n] for n in ("draw", "preview", "develop", "replay")} | {
+        "Run": OF_RUN
+    }
     about = {command: f"Of `{command.lower()}`." for command in whole}
     about["Run"] = "Of a run without pictures."
     for command, groups in whole.items():

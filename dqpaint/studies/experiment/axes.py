@@ -3,7 +3,8 @@
 k=5,10,20                     a gain of the law
 k=1..100:log:9                nine values from 1 to 100, each the same factor apart
 k=0..10:6                     six, the same step apart
-plant=ideal,stiff             a choice, by the name of its setting
+plant=ideal,compliant(frequency=60)   a choice, by the name of its setting
+disturb=none,payload(2)+latency(3)    disturbances, several at once with +
 disturb.twist.x=0,0.01        a value of a disturbance
 gain.seed=...                 a gain whose name is that of a setting
 """
@@ -20,13 +21,14 @@ import numpy as np
 from dqpaint.controllers import find_controller
 from dqpaint.disturbances import DISTURBANCES
 from dqpaint.errors import UsageError
-from dqpaint.settings import Settings, make_settings, parse_gains
+from dqpaint.settings import Settings, make_settings, parse_disturbances, parse_gains
 
 MOST_VALUES = 10_000
 LAW = re.compile(r"(?P<name>[^()]+?)(\((?P<gains>[^()]*)\))?")
 SPAN = re.compile(r"(?P<low>[^:]+?)\.\.(?P<high>[^:]+?)(:(?P<kind>log|lin))?:(?P<count>\d{1,6})")
 UNIT = re.compile(r"(1/s\^2|1/s|s\^2|m/s|rad/s|rad|kg|Hz|m|s|N)(?=$|[ ,])")
-NOT_VARIED = ("gains", "disturb", "width", "height", "view", "ev", "look", "overlay", "exposure")
+NONE = "none"  # no disturbance
+NOT_VARIED = ("gains", "width", "height", "view", "ev", "look", "overlay", "exposure")
 
 
 @dataclass(frozen=True)
@@ -85,42 +87,56 @@ def _span(text: str, span: re.Match[str]) -> list[str]:
     return texts
 
 
-def _parts(text: str) -> list[str]:
+def _parts(text: str, sign: str = ",") -> list[str]:
     """What commas part, outside of brackets: `p(k=5),hinf`; a diagonal is written `[1,1,4]`."""
     parts, depth = [""], 0
     for letter in text:
         depth += (letter in "([") - (letter in ")]")
-        if letter == "," and depth == 0:
+        if letter == sign and depth == 0:
             parts.append("")
         else:
             parts[-1] += letter
     return parts
 
 
-def parse_laws(text: str) -> list[str]:
-    """The laws of a list such as `hinf,p(k=5),p(k=20)`.
+def parse_texts(name: str, values: object) -> list[str]:
+    """The alternatives for a setting, from a list or from a text like `hinf,p(k=5),p(k=20)`.
+
+    Args:
+        name: of the setting: controller, plant, robot or disturb.
+        values: a text, or several.
 
     Raises:
-        UsageError: anything else.
+        UsageError: anything else, or one that is empty, there twice or not of its form.
     """
-    laws = [part.strip() for part in _parts(text)]
-    if len(set(laws)) < len(laws):
-        raise UsageError(f"'{text}': a law is there twice")
-    for law in laws:
-        split_law(law)
-    return laws
+    if isinstance(values, str):
+        found = [part.strip() for part in _parts(values)]
+        values = _joined(found) if name == "plant" else found
+    if not isinstance(values, Sequence):
+        raise UsageError(f"{name}s {values!r} is no list of names")
+    for value in values:
+        if not isinstance(value, str):
+            raise UsageError(
+                f"{name} {value!r} is no name: runs go to other processes, so a law of one's own "
+                "is a file, as in 'mylaw.py'"
+            )
+    texts = list(values)
+    if not texts or "" in texts or len(set(texts)) < len(texts):
+        raise UsageError(f"{name}s {', '.join(texts)!r}: at least one is needed, and each once")
+    for text in texts if name == "controller" else ():
+        split_law(text)
+    return texts
 
 
-def parse_list(text: str) -> list[str]:
-    """The names of a list with commas.
-
-    Raises:
-        UsageError: one is empty or there twice.
-    """
-    names = [part.strip() for part in text.split(",")]
-    if "" in names or len(set(names)) < len(names):
-        raise UsageError(f"'{text}': a list has names with commas between, each once")
-    return names
+def _joined(parts: Sequence[str]) -> list[str]:
+    """Parts like `compliant:frequency=60`, `damping=1`: a value belongs to the plant before it."""
+    found: list[str] = []
+    for part in parts:
+        if found and ":" in found[-1] and re.match(r"\w+\s*=", part):
+            found[-1] += f",{part}"
+        else:
+            found.append(part)
+    return found
 
 
 def split_law(text: str) -> tuple[str, dict[str, float | str]]:
@@ -153,6 +169,10 @@ def settings_of(base: Settings, choice: Mapping[str, str]) -> Settings:
         if name == "controller":
             changed["controller"], gains = split_law(text)
             changed["gains"] = {**changed["gains"], **gains}
+        elif name == "plant":
+            changed["plant"] = _plain(text, ":")
+        elif name == "disturb":
+            changed["disturb"] = {**changed["disturb"], **_disturbances(text)}
         elif name.startswith("disturb."):
             _disturb(changed, name, text)
         elif name in Settings.model_fields and name not in NOT_VARIED:
@@ -163,6 +183,19 @@ def settings_of(base: Settings, choice: Mapping[str, str]) -> Settings:
                 **changed["gains"], **parse_gains([f"{name.removeprefix('gain.')}={value}"])
             }  # fmt: skip
     return make_settings(**changed)
+
+
+def _plain(text: str, sign: str) -> str:
+    """`compliant(frequency=60)` as other options have it: `compliant:frequency=60`."""
+    found = LAW.fullmatch(text.strip())
+    return f"{found['name'].strip()}{sign}{found['gains']}" if found and found["gains"] else text
+
+
+def _disturbances(text: str) -> dict[str, dict[str, float | str]]:
+    """`payload(2)+twist(sine,x=0.02)`, or `none`."""
+    if text == NONE:
+        return {}
+    return parse_disturbances([_plain(part, "=") for part in _parts(text, "+")])
 
 
 def about(name: str, base: Settings) -> str:

@@ -18,7 +18,10 @@ from dqpaint.studies.experiment.statistics import LEVEL, holm, welch
 from dqpaint.studies.report.page import Block, Page, Pictured, Rows, Words, files_of, html
 from dqpaint.studies.report.pictures import pictures
 from dqpaint.studies.runner.engine import Workers, carry_out_study
-from dqpaint.studies.runner.run import Run, drawing_text, seeded
+from dqpaint.studies.runner.reporter import SILENT, Reporter
+from dqpaint.studies.runner.run import Run, drawing_text, repeated
+
+SIZE = (640, 360)  # of its pictures, if nothing else is said
 
 
 @dataclass(frozen=True)
@@ -47,6 +50,7 @@ def compare(
     folder: Path,
     count: int,
     jobs: Workers,
+    reporter: Reporter = SILENT,
 ) -> Comparison:
     """Paint a drawing with every combination of the axes' values.
 
@@ -57,18 +61,18 @@ def compare(
         folder: of the study.
         count: how many runs each, with the seeds that follow.
         jobs: how many processes, None is one a core; or the address of a Dask cluster.
+        reporter: is told how far it is.
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.
     """
     name, text = drawing_text(drawing)
     choices = combinations(axes)
-    runs = [
-        seeded(Run(name, text, settings_of(base, choice), ("series", "light")), count)
-        for choice in choices
-    ]
+    keep = ("series", "light")
+    runs = repeated([Run(name, text, settings_of(base, one), keep) for one in choices], count)
     several = [axis.name for axis in axes if len(axis.texts) > 1] or [axes[0].name]
-    results = iter(carry_out_study([run for row in runs for run in row], folder, jobs, "compare"))
+    whole = [run for row in runs for run in row]
+    results = iter(carry_out_study(whole, folder, jobs, "compare", reporter))
     found = tuple(
         Cell({n: choice[n] for n in several}, tuple(next(results) for _ in row))
         for choice, row in zip(choices, runs, strict=True)

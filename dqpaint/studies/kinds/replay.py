@@ -54,6 +54,16 @@ class Replay:
     verdicts: tuple[tuple[Claim, ClaimVerdict, ClaimVerdict], ...]
     folder: Path
 
+    @property
+    def name(self) -> str:
+        """Of the replay."""
+        return self.paper.name
+
+    @property
+    def cells(self) -> tuple[cells.Cell, ...]:
+        """Of its study, with every run; none where nothing was run."""
+        return self.measured.cells
+
 
 def replay(name: str, asked: MeasureRequest) -> Replay:
     """Do a paper's experiment again.
@@ -320,22 +330,33 @@ def page(replayed: Replay, again: str) -> Page:
 
 
 def save(replayed: Replay, again: str | None = None) -> list[Path]:
-    """Write tables, verdicts and pictures; returns the paths.
-
-    Args:
-        replayed: from `replay`.
-        again: the command that does it again, for a report; None for no report.
+    """Write the files; returns their paths. Arguments as those of `contents`.
 
     Raises:
         DqpaintError: the folder cannot be written.
     """
     replayed.folder.mkdir(parents=True, exist_ok=True)
-    contents = {
+    return files.write(replayed.folder / stem(replayed), contents(replayed, again))
+
+
+def stem(replayed: Replay) -> str:
+    """What the files of a replay begin with."""
+    return replayed.paper.name
+
+
+def contents(replayed: Replay, again: str | None = None) -> dict[str, bytes]:
+    """Tables, verdicts and pictures by the ends of their names.
+
+    Args:
+        replayed: from `replay`.
+        again: the command that does it again, for a report; None for no report.
+    """
+    made = {
         **files_of(replayed.measured.shown),
         "-table.csv": numbers_csv(replayed),
         "-claims.csv": verdicts_csv(replayed),
         "-table.md": markdown(replayed).encode(),
     }
     if again is not None:
-        contents["-report.html"] = html(page(replayed, again))
-    return files.write(replayed.folder / replayed.paper.name, contents)
+        made["-report.html"] = html(page(replayed, again))
+    return made

@@ -28,7 +28,8 @@ from dqpaint.studies.report.page import (
     html,
 )
 from dqpaint.studies.runner.engine import Workers, carry_out_study
-from dqpaint.studies.runner.run import Run, drawing_text, seeded
+from dqpaint.studies.runner.reporter import SILENT, Reporter
+from dqpaint.studies.runner.run import Run, drawing_text, repeated
 
 MOST_RUNS = 100_000
 EFFORT = "command_integral_rad"  # of laws that command torque, theirs
@@ -53,6 +54,7 @@ def sweep(
     folder: Path,
     count: int,
     jobs: Workers,
+    reporter: Reporter = SILENT,
 ) -> Sweep:
     """Run a drawing with every combination of the axes' values; pictures are not kept.
 
@@ -63,12 +65,15 @@ def sweep(
         folder: of the study.
         count: how many runs each, with the seeds that follow.
         jobs: how many processes, None is one a core; or the address of a Dask cluster.
+        reporter: is told how far it is.
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.
     """
     if not 1 <= len(axes) <= 2:
-        raise UsageError(f"{len(axes)} axes; a sweep has one --vary or two")
+        raise UsageError(
+            f"{len(axes)} axes; a sweep has one --vary or two, or --plants and the like"
+        )
     if len({axis.name for axis in axes}) < len(axes):
         raise UsageError(f"'{axes[0].name}' is varied twice")
     if math.prod(len(axis.texts) for axis in axes) * max(count, 1) > MOST_RUNS:
@@ -76,8 +81,9 @@ def sweep(
     name, text = drawing_text(drawing)
     small = base.model_copy(update={"width": SMALLEST, "height": SMALLEST})
     choices = combinations(axes)
-    runs = [seeded(Run(name, text, settings_of(small, choice)), count) for choice in choices]
-    results = iter(carry_out_study([run for row in runs for run in row], folder, jobs, "sweep"))
+    runs = repeated([Run(name, text, settings_of(small, choice)) for choice in choices], count)
+    whole = [run for row in runs for run in row]
+    results = iter(carry_out_study(whole, folder, jobs, "sweep", reporter))
     found = tuple(
         Cell(choice, tuple(next(results) for _ in row))
         for choice, row in zip(choices, runs, strict=True)

@@ -14,7 +14,6 @@ number of workers.
 
 import math
 import re
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -36,6 +35,7 @@ from dqpaint.settings import SMALLEST, Settings
 from dqpaint.studies.experiment.axes import settings_of
 from dqpaint.studies.experiment.cells import Cell, TableFigure, find_figure
 from dqpaint.studies.runner.engine import Study, Workers, check
+from dqpaint.studies.runner.reporter import SILENT, Reporter
 from dqpaint.studies.runner.run import Run, drawing_text, seeded
 
 EFFORT = "command_integral_rad"  # of laws that command torque, theirs
@@ -146,6 +146,7 @@ def tune(
     count: int = 1,
     budget: int = 300,
     jobs: Workers = None,
+    reporter: Reporter = SILENT,
 ) -> Tuning:
     """Seek gains of a law.
 
@@ -160,6 +161,7 @@ def tune(
         count: how many runs each, with the seeds that follow.
         budget: the most runs.
         jobs: how many processes, None is one a core; or the address of a Dask cluster.
+        reporter: is told how far it is.
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.
@@ -184,7 +186,7 @@ def tune(
 
     ends = [tuple(r.low for r in ranges), tuple(r.high for r in ranges)]
     check([reference, *(run for end in ends for run in runs_of(end)[:1])])
-    with Study(folder, jobs, "tune", budget) as study:
+    with Study(folder, jobs, "tune", budget, reporter) as study:
         (first,) = study.results([reference])
         if first.status != "done":
             raise DqpaintError(f"the effort that the drawing needs is not known: {first.message}")
@@ -201,7 +203,7 @@ def tune(
         settled = search.seek(usual, base.seed)
     if study.known:
         tried = 1 + len(search.cells) * count
-        print(f"note: {study.known} of {tried} runs were done before", file=sys.stderr)
+        reporter.note(f"{study.known} of {tried} runs were done before")
     return Tuning(
         Path(name).name, base, ranges, tuple(search.cells.values()),
         search.cells[usual] if usual else None,

@@ -12,6 +12,7 @@ from dqpaint.outputs import files
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.report.page import Page, Rows, Shot, Words, html
 from dqpaint.studies.runner.engine import Workers, carry_out_study
+from dqpaint.studies.runner.reporter import SILENT, Reporter
 from dqpaint.studies.runner.run import Result
 from dqpaint.studies.runner.run_arrays import kept
 from dqpaint.studies.verify.gates import GATES, GateResult, developed_from, measure, spoke
@@ -50,13 +51,16 @@ class Verdict:
     remarks: tuple[str, ...] = ()
 
 
-def verify(folder: Path, jobs: Workers = None, lenient: bool = False) -> list[Verdict]:
+def verify(
+    folder: Path, jobs: Workers = None, lenient: bool = False, reporter: Reporter = SILENT
+) -> list[Verdict]:
     """Draw every case of a folder again and compare.
 
     Args:
         folder: of drawings and references.
         jobs: how many processes, None is one a core; or the address of a Dask cluster.
         lenient: a reference that cannot be read counts as none, for it will be made again.
+        reporter: is told how far it is.
 
     Raises:
         DqpaintError: the folder has no cases, or a reference is damaged.
@@ -65,7 +69,9 @@ def verify(folder: Path, jobs: Workers = None, lenient: bool = False) -> list[Ve
     cases = read_cases(folder)
     references = [_reference(folder, case, lenient) for case in cases]
     with tempfile.TemporaryDirectory(prefix="dqpaint-verify-") as scratch:
-        results = carry_out_study([case.run for case in cases], Path(scratch), jobs, "verify")
+        results = carry_out_study(
+            [case.run for case in cases], Path(scratch), jobs, "verify", reporter
+        )
         return [
             _judge(case, result, reference, kept(Path(scratch), result.key))
             if result.figures

@@ -13,6 +13,7 @@ from dqpaint.studies.replay.claims import Numbers
 from dqpaint.studies.replay.papers import Paper
 from dqpaint.studies.report.page import Pictured
 from dqpaint.studies.runner.engine import Workers
+from dqpaint.studies.runner.reporter import SILENT, Reporter
 
 
 @dataclass(frozen=True)
@@ -24,12 +25,14 @@ class MeasureRequest:
         runs: how many of each, with the seeds that follow; None leaves it to the replay.
         jobs: how many processes, None is one a core; or the address of a Dask cluster.
         settings: that take the place of the paper's, by their names.
+        reporter: is told how far it is.
     """
 
     folder: Path
     runs: int | None = None
     jobs: Workers = None
     settings: Mapping[str, Any] = field(default_factory=dict)
+    reporter: Reporter = SILENT
 
     def nothing_but(self, paper: Paper, *names: str) -> None:
         """Refuse all settings but some; and runs and workers, for such a replay has no study.

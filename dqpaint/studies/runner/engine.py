@@ -4,17 +4,16 @@ What is done lies in the study's folder (see `record`), by the key of the run (s
 same study again finds its runs there, and so does a larger one that shares some of them.
 """
 
-import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Protocol, Self
 
-from dqpaint.cli import terminal
 from dqpaint.studies.runner.batches import Task
 from dqpaint.studies.runner.journal import Journal
 from dqpaint.studies.runner.process_pool import Pool, check_jobs
+from dqpaint.studies.runner.reporter import SILENT, Reporter
 from dqpaint.studies.runner.run import Result, Run
 from dqpaint.studies.runner.run_arrays import place
 
@@ -23,7 +22,11 @@ Workers = int | str | None
 
 
 def carry_out_study(
-    runs: Sequence[Run], folder: Path, jobs: Workers = None, what: str = "study"
+    runs: Sequence[Run],
+    folder: Path,
+    jobs: Workers = None,
+    what: str = "study",
+    reporter: Reporter = SILENT,
 ) -> list[Result]:
     """The results of runs, in their order.
 
@@ -31,7 +34,8 @@ def carry_out_study(
         runs: what to paint; all are checked before the first begins.
         folder: where the record lies; made if it is not there.
         jobs: how many processes, None is one a core; or the address of a Dask cluster.
-        what: is being done, for the progress bar.
+        what: is being done, for the reporter.
+        reporter: is told how far it is.
 
     Raises:
         UsageError: a choice that is none; nothing has been run.
@@ -41,27 +45,31 @@ def carry_out_study(
     if not isinstance(jobs, str):
         check_jobs(jobs)
     check(runs)
-    with Study(folder, jobs, what, len(runs)) as study:
+    with Study(folder, jobs, what, len(runs), reporter) as study:
         return study.results(runs, tell_known=True)
 
 
 class Study:
-    """A study at work: runs in, results out, as often as one likes; with one progress bar.
+    """A study at work: runs in, results out, as often as one likes; reported as one.
 
     Args:
         folder: where the record lies; made if it is not there.
         jobs: how many processes, None is one a core; or the address of a Dask cluster.
-        what: is being done, for the progress bar.
+        what: is being done, for the reporter.
         total: how many runs it will be at most.
+        reporter: is told how far it is.
 
     Raises:
         DqpaintError: the folder cannot be written.
     """
 
-    def __init__(self, folder: Path, jobs: Workers, what: str, total: int) -> None:
+    def __init__(
+        self, folder: Path, jobs: Workers, what: str, total: int, reporter: Reporter = SILENT
+    ) -> None:
         self._folder, self._total = folder, total
         self._begin = time.monotonic()
-        self._progress = terminal.Progress(f"{what}, {total} runs")
+        self._reporter = reporter
+        reporter.begin(f"{what}, {total} runs")
         self._crew = _crew(folder, jobs)
         try:
             self._record = Journal(folder)
@@ -92,11 +100,11 @@ class Study:
         self._known |= known
         self._total -= len(known)
         if known and tell_known:
-            print(f"note: {len(known)} of {len(set(keys))} runs were done before", file=sys.stderr)
+            self._reporter.note(f"{len(known)} of {len(set(keys))} runs were done before")
         before = len(self._done)
 
         def tell(count: float) -> None:
-            self._progress(min(1.0, (before + count) / max(1, self._total)))
+            self._reporter.show(min(1.0, (before + count) / max(1, self._total)))
 
         for result in self._crew.carry_out(list(tasks.items()), tell):
             self._record.add(result)
@@ -119,17 +127,16 @@ class Study:
     ) -> None:
         """End the workers; after a Ctrl-C, say what is kept."""
         self._crew.close()
-        self._progress.__exit__()
+        self._reporter.end()
         self._record.close()
-        if kind is None and self._done and sys.stderr.isatty():
+        if kind is None and self._done:
             seconds = time.monotonic() - self._begin
-            print(f"note: {len(self._done)} runs took {seconds:.1f} s", file=sys.stderr)
+            self._reporter.note(f"{len(self._done)} runs took {seconds:.1f} s", aside=True)
         if kind is KeyboardInterrupt:
             done = len(self._known | self._done)
-            print(
-                f"note: {done} runs are done and kept in '{self._folder}'; "
-                "the same command goes on from there",
-                file=sys.stderr,
+            self._reporter.note(
+                f"{done} runs are done and kept in '{self._folder}'; "
+                "the same command goes on from there"
             )
 
 

@@ -7,6 +7,7 @@ kept can be trusted to be what the run would give again, and a study that was st
 
 import hashlib
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache
 from pathlib import Path
@@ -171,6 +172,16 @@ def seeded(run: Run, count: int) -> list[Run]:
         )
         for i in range(count)
     ]
+
+
+def repeated(runs: Sequence[Run], count: int) -> list[list[Run]]:
+    """Repetitions of each run; one among disturbed ones in which nothing is random stays alone.
+
+    Raises:
+        UsageError: there is nothing random in any.
+    """
+    random = any(run.settings.disturb for run in runs)
+    return [seeded(run, count if run.settings.disturb or not random else 1) for run in runs]
 
 
 @lru_cache(maxsize=8)

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from dqpaint.cli import terminal
 from dqpaint.controllers import find_controller
 from dqpaint.dq import Floats
 from dqpaint.language import parse
@@ -68,10 +67,11 @@ def timing(paper: Paper, asked: MeasureRequest) -> MeasureResult:
     """Each law for a while at each period, in real time."""
     asked.nothing_but(paper, "robot")
     clocks = {}
-    with terminal.Progress(paper.name) as progress:
-        for i, cell in enumerate(paper.cells):
-            clocks[cell.name] = loop(cell, asked.settings)
-            progress((i + 1) / len(paper.cells))
+    asked.reporter.begin(paper.name)
+    for i, cell in enumerate(paper.cells):
+        clocks[cell.name] = loop(cell, asked.settings)
+        asked.reporter.show((i + 1) / len(paper.cells))
+    asked.reporter.end()
     numbers = {
         name: {"period_s": spread(np.diff(clock.woke).tolist()),
                "computing_s": spread(clock.computed)}

@@ -64,7 +64,7 @@ def carry_out(
         row = seeded(Run(name, text, settings, (*always, *keep)), count)
         rows.append([replace(run, keep=run.keep or always) for run in row])
     runs = [run for row in rows for run in row]
-    results = iter(carry_out_study(runs, asked.folder, asked.jobs, paper.name))
+    results = iter(carry_out_study(runs, asked.folder, asked.jobs, paper.name, asked.reporter))
     found = tuple(
         Cell({"cell": name}, tuple(next(results) for _ in row))
         for name, row in zip(choices, rows, strict=True)

@@ -43,7 +43,7 @@ class LawSettings(Group):
     controller: Annotated[
         str,
         Option(
-            "control law: see dqpaint list controllers; or a function of your own",
+            "control law: see dqpaint list controllers; or a function or class of your own",
             "NAME|FILE.py[:NAME]",
             read=read_path,
             python="str | PathLike[str] | Callable[..., Any]",

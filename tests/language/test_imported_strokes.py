@@ -1,14 +1,11 @@
 """Letters and drawings from elsewhere, through the command line: messages, and soon."""
 
-import resource
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
-from tests.support.clock import children_time
 from tests.support.svg import OPEN, nested_uses
+from tests.support.work import checked
 
 CASES = {
     'text "Müller" height 9 mm': ("E261", "1:8", '= help: use "Mueller"'),
@@ -35,22 +32,15 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return made
 
 
-def limited() -> None:
-    """300 MB of memory for the data of the process, numpy and all."""
-    resource.setrlimit(resource.RLIMIT_DATA, (300_000_000, 300_000_000))
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("text", CASES)
 def test_refused_at_once(folder: Path, text: str) -> None:
     code, place, words = CASES[text]
     file = folder / "a.traj"
     file.write_text(text + "\n", "utf-8")
-    begin = children_time()
-    command = [sys.executable, "-m", "dqpaint", "check", str(file)]
-    run = subprocess.run(command, capture_output=True, text=True, preexec_fn=limited)
-    assert children_time() - begin < 2
-    assert run.returncode == 1
-    assert run.stdout.startswith(f"error[{code}]: ")
-    assert f"a.traj:{place}\n" in run.stdout
-    assert words in run.stdout
+    answer = checked(file)
+    assert answer.calls < 4_000_000
+    assert answer.code == 1
+    assert answer.said.startswith(f"error[{code}]: ")
+    assert f"a.traj:{place}\n" in answer.said
+    assert words in answer.said

@@ -2,7 +2,6 @@
 
 import io
 import json
-import time
 import zipfile
 
 import cv2
@@ -17,6 +16,7 @@ from dqpaint.outputs import files, registry
 from dqpaint.painting import film_file, video
 from dqpaint.painting.picture import linear
 from dqpaint.painting.scene import Scene
+from tests.support.work import Calls
 
 TEXT = "period 20 ms\nline to (30, 10) mm in 1 s\nline by (0, -20) mm light red to blue\n"
 CHOICES = {
@@ -84,9 +84,8 @@ def test_developing_simulates_nothing_and_is_quick(tmp_path, monkeypatch):
     dqpaint.save(painting, f"{tmp_path}/a", "film")
     monkeypatch.setattr("dqpaint.simulation.closed_loop.track", None)
     dqpaint.develop(tmp_path / "a-film.npz")
-    begin = time.process_time()
-    dqpaint.develop(tmp_path / "a-film.npz", view="iso", look="clip")
-    assert time.process_time() - begin < 1.0
+    with Calls(10_000):
+        dqpaint.develop(tmp_path / "a-film.npz", view="iso", look="clip")
 
 
 def broken(tmp_path):

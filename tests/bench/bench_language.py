@@ -3,7 +3,8 @@
 First reading alone, then `dqpaint check` as a process of its own, for several kinds of lines. Both
 read as many lines of the same numbers; rounds are interleaved, as the clock of a shared machine
 swings, and times are those of the processor. The target for a whole check is less than a second on
-two cores; two large SVG drawings follow. With the environment variable PYTHONDONTWRITEBYTECODE every start compiles anew.
+two cores; two large SVG drawings follow. With the environment variable PYTHONDONTWRITEBYTECODE
+every start compiles anew.
 """
 
 import os

@@ -18,7 +18,8 @@ COMMAND = "python -m tests.tools.snapshots"
 HEAD = f"Written by {COMMAND}; a test compares it with what is said now.\n\n"
 FIGURE = re.compile(r"(?<![\w.])-?\d+(,\d{3})*(\.\d+)?(e[+-]?\d+)?(?!\w)")
 OF_OTHERS = re.compile(
-    r"\b(known|its gains|its values|the examples|near it|cannot be (?:read|written)): [^\n]*"
+    r"\b(known|its gains|its values|the examples|near it|without one|cannot be (?:read|written))"
+    r": [^\n]*"
 )
 WIDEST = 72  # of the heads
 

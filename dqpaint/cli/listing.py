@@ -130,7 +130,7 @@ def _null() -> list[dict[str, Any]]:
 
 
 def _brushes() -> list[dict[str, Any]]:
-    from dqpaint.light.sources import BRUSHES, describe_fields
+    from dqpaint.brushes import BRUSHES, describe_fields
 
     return [
         {
@@ -273,9 +273,9 @@ def lists(what: str) -> dict[str, list[dict[str, Any]]]:
 
 def faults(what: str) -> list[str]:
     """What is wrong with the plugins of a list, or of `all`: a sentence each."""
+    from dqpaint.brushes import BRUSHES
     from dqpaint.controllers import CONTROLLERS
     from dqpaint.disturbances import DISTURBANCES
-    from dqpaint.light.sources import BRUSHES
     from dqpaint.metrics import METRICS
     from dqpaint.outputs import WRITERS
     from dqpaint.plants import PLANTS

@@ -50,14 +50,41 @@ def completions(text: str, offset: int) -> list[Entry]:
         return units
     if RENAMED.get(last, last) == "profile":
         return _of("profile")
+    if last == "brush":
+        return _brushes()
     if last == "light" or (last == "to" and "light" in tokens):
         return [*_of("colour", "function"), *_little("on", "off")]
     if last == "tool":
         return [*_little("keep", "follow", "look"), *_of("function")]
-    found = [*(_little("auto") if last == "place" else ()), *_next_parts(tokens)]
+    found = [*(_little("auto") if last == "place" else ()), *_brush_values(tokens)]
+    found += _next_parts(tokens)
     if last == ")":
         found += units
     return [*found, *_values(text)]
+
+
+def _brushes() -> list[Entry]:
+    from dqpaint.brushes import BRUSHES  # not before a drawing has a brush
+
+    return [
+        Entry(name, "word", (model.__doc__ or "").splitlines()[0], f"brush {name}")
+        for name, model in BRUSHES.items()
+    ]
+
+
+def _brush_values(tokens: list[str]) -> list[Entry]:
+    """The values that the brush of this line may still have."""
+    if "brush" not in tokens[:-1]:
+        return []
+    from dqpaint.brushes import BRUSHES
+
+    name, *said = tokens[tokens.index("brush") + 1 :]
+    fields = BRUSHES[name].model_fields if name in BRUSHES else {}
+    return [
+        Entry(key, "part", field.description or "", f"brush {name} {key}")
+        for key, field in fields.items()
+        if key not in said
+    ]
 
 
 def _next_parts(tokens: list[str]) -> list[Entry]:

@@ -11,7 +11,7 @@ from dqpaint.motion.geometry.paths import Indices
 from dqpaint.motion.profiles import Rates, rate_at, turns_back
 from dqpaint.motion.sampling import Rows
 from dqpaint.motion.schedule import Schedule, part_at
-from dqpaint.program import Bar, Dwell, Light, Step
+from dqpaint.program import Dwell, Light, Step
 
 NEAR_END = 0.01  # of the length: how bright the ends of a stroke are is told there
 DARK = Light((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
@@ -26,7 +26,7 @@ class StrokeLight:
         last: and at the last (M, 3).
         even: whether it is dimmed where the tool is slow (M,).
         way: the length of each stroke (S,) that even light is even over; 0 where it stays. A point
-            of light that turns on the spot has none, a bar has its angle.
+            of light that turns on the spot has none, a brush of several has its angle.
         peak: and its largest speed, where its profile says it, in the time that was asked for (S,).
     """
 
@@ -121,7 +121,7 @@ def glow(table: Schedule) -> StrokeLight:
     for stroke in np.flatnonzero(way == 0.0).tolist():
         segment = segments[table.first[stroke]]
         turns = not isinstance(segment.path, Dwell | Step)
-        way[stroke] = float(turns and isinstance(segment.brush, Bar))
+        way[stroke] = float(turns and segment.brush.several)
     # as fast as it was to be before its time was rounded up: else a short stroke is the brightest
     fastest = table.peak_rates * way / np.minimum(table.wanted, table.time)
     return StrokeLight(table, first, last, even, way, fastest)

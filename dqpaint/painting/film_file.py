@@ -15,11 +15,12 @@ from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field
 
 from dqpaint import __version__
+from dqpaint.brushes import Emitters
 from dqpaint.diagnostics import SourceLine
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.light.images import Legend
-from dqpaint.light.sources import Emitters, Sweep
+from dqpaint.light.sources import Sweep
 from dqpaint.motion import RowLines
 from dqpaint.painting.picture import Picture, RenderCache, linear
 from dqpaint.painting.scene import Scene

@@ -2,10 +2,10 @@
 
 from typing import Any
 
+from dqpaint.brushes import BRUSHES
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.core import Registry
 from dqpaint.disturbances import DISTURBANCES
-from dqpaint.light.sources import BRUSHES
 from dqpaint.metrics import METRICS
 from dqpaint.plants import PLANTS
 from dqpaint.program import Program
@@ -19,7 +19,7 @@ def plugins_of(settings: Settings, program: Program) -> dict[str, str]:
     chosen: list[tuple[Registry[Any], str | None]] = [
         (CONTROLLERS, settings.controller),
         (PLANTS, settings.plant),
-        (BRUSHES, settings.brush),
+        *((BRUSHES, name) for name in _brushes(settings, program)),
         *((DISTURBANCES, name) for name in settings.disturb),
     ]
     found = {}
@@ -34,3 +34,10 @@ def plugins_of(settings: Settings, program: Program) -> dict[str, str]:
     if robot and robot not in card_names() and robot in (brought := plugin_cards()):
         found[f"robot {robot}"] = brought[robot][1]
     return found
+
+
+def _brushes(settings: Settings, program: Program) -> list[str]:
+    """The brush of the settings, else those of the drawing."""
+    if settings.brush:
+        return [settings.brush]
+    return list(dict.fromkeys(segment.brush.name for segment in program.segments))

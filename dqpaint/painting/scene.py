@@ -9,12 +9,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from dqpaint import dq
+from dqpaint.brushes import Emitters, read_brush
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.light.camera import parse_exposure, parse_views
 from dqpaint.light.film import BLADE_RANGE, CORE_EXPOSURE, LOOKS
 from dqpaint.light.images import LEGEND_EXPOSURE, Legend
-from dqpaint.light.sources import Emitters, Sweep, even_by_length, read_brush, sweeps
+from dqpaint.light.sources import Sweep, even_by_length, sweeps
 from dqpaint.metrics import Table, asked_columns
 from dqpaint.motion import Motion
 from dqpaint.painting.colour_by import colours_of, magnified, read_colour_by

@@ -225,22 +225,23 @@ class Light:
 # What shines. Brushes stand in the tool frame.
 
 
-@record
-class Point:
-    """A single lamp at the tool's origin; `size` [m] across, 0 for a point."""
-
-    size: float = 0.0
+BrushValue = float | str | Vector | tuple[Colour, ...]
 
 
 @record
-class Bar:
-    """A bar of lamps, `length` [m] long, centred on the tool, along a unit vector."""
+class Brush:
+    """A brush by the name it is registered under in `dqpaint.brushes`.
 
-    length: float
-    along: Vector = (1.0, 0.0, 0.0)
+    Attributes:
+        name: of the brush.
+        values: names and values that are not the usual ones, in the brush's order: metres, unit
+            vectors in the tool frame, linear colours, paths of files.
+        several: whether it has lamps apart from each other, so that a turn on the spot draws.
+    """
 
-
-Brush = Point | Bar
+    name: str = "point"
+    values: tuple[tuple[str, BrushValue], ...] = ()
+    several: bool = False
 
 
 @record
@@ -278,7 +279,7 @@ class Segment:
     end: Pose
     span: Span  # the words of the file that asked for it
     line: SourceLine  # where these words begin
-    brush: Brush = Point()
+    brush: Brush = Brush()
     strobe: Strobe | None = None  # None: it burns steadily
     stroke: ContinuousStroke | None = None  # None: it has profile and timing for itself
 

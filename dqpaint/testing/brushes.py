@@ -3,11 +3,12 @@
 import numpy as np
 
 from dqpaint import dq
+from dqpaint.brushes import BRUSHES, Brush, Emitters, describe_fields
 from dqpaint.core import subclass
 from dqpaint.dq import Floats
 from dqpaint.light.camera import Camera, View, frame_points
 from dqpaint.light.film import Film, expose
-from dqpaint.light.sources import BRUSHES, Brush, Emitters, Sweep, describe_fields
+from dqpaint.light.sources import Sweep
 from dqpaint.testing.runs import require
 
 SAMPLES = 120

@@ -9,12 +9,12 @@ import cv2
 import numpy as np
 
 from dqpaint import dq
+from dqpaint.brushes import read_brush
 from dqpaint.light.camera.camera import Camera, frame_points, parse_view
 from dqpaint.light.film.auto_exposure import automatic_exposure
 from dqpaint.light.film.develop import develop
 from dqpaint.light.film.film import Film, expose
 from dqpaint.light.film.point_spread import point_spread, spread
-from dqpaint.light.sources.brushes import read_brush
 from dqpaint.light.sources.emission import Light, shine
 from dqpaint.light.sources.sweep import Sweep
 

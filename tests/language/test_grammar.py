@@ -9,10 +9,11 @@ import pytest
 from lark import Lark
 from lark.exceptions import LarkError
 
+from dqpaint.brushes import BRUSHES, takes
 from dqpaint.diagnostics.collector import EnoughError, Findings
 from dqpaint.language.syntax.parser import parse_statements
 from dqpaint.language.vocabulary.units import UNITS
-from dqpaint.language.vocabulary.words import RESERVED
+from dqpaint.language.vocabulary.words import FREE, RESERVED
 from tests.support.drawing_texts import FILES, MIXED, SCRAPS, TOKEN, WHOLE
 from tests.support.wrong_drawings import ENTRIES
 
@@ -30,6 +31,8 @@ BEYOND = {
     "E201": "a number too large",
     "E217": "a brightness beyond 100%",
     "E230": "a name twice in one bracket",
+    "E264": "a brush that is not there",
+    "E265": "a value that the brush does not have",
     "E241": "a time twice",
     "E247": "an arc with centre and end",
     "E248": "parts of two forms",
@@ -42,10 +45,14 @@ def grammar() -> Lark:
     units = "|".join(sorted(UNITS.keys() - {"°"}, key=len, reverse=True))
     unit = rf"(?:°|(?:{units})(?![A-Za-z0-9_]))"
     not_free = "|".join(sorted({*RESERVED, *UNITS} - {"°"}, key=len, reverse=True))
+    others = {*RESERVED, *FREE, "colours"}
+    keys = "|".join({key for brush in BRUSHES.values() for key in takes(brush)} - others)
     number = r"((0|[1-9]\d*)(\.\d*)?|\.\d+)([eE][+-]?\d+)?"
     text += rf"""
 NAME: /(?!(?:{not_free})(?![A-Za-z0-9_]))[A-Za-z_][A-Za-z0-9_]*/
 ANY: /[A-Za-z_][A-Za-z0-9_]*/
+KEY.2: /(?:{keys})(?![A-Za-z0-9_])/
+SHADES.2: /colours(?![A-Za-z0-9_])/
 UNIT: /{unit}/
 LENGTH: /(mm|cm|m)(?![A-Za-z0-9_])/
 NUMBER: /{number}(?:(?={unit})|(?![\w.°]))/

@@ -2,34 +2,37 @@
 
 import pytest
 
-from dqpaint.program.program import Bar, Light, Point, Strobe
+from dqpaint.program.program import Brush, Light, Strobe
 from tests.support.drawn import drawn, last, only
 
 RED, BLUE, WHITE = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (1.0, 1.0, 1.0)
 
 
 @pytest.mark.parametrize(("words", "brush"), [
-    ("brush point", Point()),
-    ("brush point 3 mm", Point(0.003)),
-    ("brush bar 120 mm", Bar(pytest.approx(0.12))),
-    ("brush bar 12 cm along y", Bar(pytest.approx(0.12), (0, 1, 0))),
-    ("brush bar 12 cm along (0, 3, -4)", Bar(pytest.approx(0.12), pytest.approx((0, 0.6, -0.8)))),
+    ("brush point", Brush()),
+    ("brush point 3 mm", Brush("ball", (("size", 0.003),))),
+    ("brush bar 120 mm", Brush("bar", (("length", 0.12),), True)),
+    ("brush bar 12 cm along y", Brush("bar", (("length", 0.12), ("along", (0, 1, 0))), True)),
+    (
+        "brush bar along (0, 3, -4) length 12 cm",
+        Brush("bar", (("length", 0.12), ("along", (0, 0.6, -0.8))), True),
+    ),
 ])  # fmt: skip
 def test_brushes_as_setting_as_clause_and_in_a_block(words, brush):
     line = "line by (9, 0) mm"
     assert only(f"{words}\n{line}").brush == brush
     first, second = drawn(f"{line} {words} speed 5 mm/s\n{line}").segments
-    assert (first.brush, second.brush) == (brush, Point())
+    assert (first.brush, second.brush) == (brush, Brush())
     assert first.timing.speed == pytest.approx(0.005)
     block = drawn(f"with {words} scale 2 rotate 90 deg\n{line}\nend\n{line}").segments
-    assert [s.brush for s in block] == [brush, Point()]  # a lamp is a thing: it is not scaled
+    assert [s.brush for s in block] == [brush, Brush()]  # a lamp is a thing: it is not scaled
     assert last(f"{line}\nhold 1 s {words}").brush == brush
 
 
 def test_words_of_arcs_may_be_names():
     text = "let radius = 3 mm\nlet left = 9 mm\nbrush bar radius\n"
     segment = only(f"{text}arc radius radius to (left/2, 0) left")
-    assert segment.brush == Bar(pytest.approx(0.003))
+    assert segment.brush == Brush("bar", (("length", 0.003),), True)
     assert segment.end.position == pytest.approx((0.0045, 0, 0))
 
 

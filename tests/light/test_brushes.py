@@ -5,13 +5,13 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
+from dqpaint.brushes import BRUSHES, read_brush
+from dqpaint.brushes.images import striped_image
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.light.camera.camera import VIEWS
 from dqpaint.light.film.auto_exposure import automatic_exposure
 from dqpaint.light.film.film import expose
 from dqpaint.light.film.point_spread import point_spread
-from dqpaint.light.sources.brushes import BRUSHES, program_brush, read_brush, striped_image
-from dqpaint.program.program import Bar, Point
 from tests.support.camera_motion import camera_for, swept
 
 ENERGY_TOLERANCE = 1e-9
@@ -166,14 +166,6 @@ def test_an_image_goes_along_the_way_and_along_the_bar(tmp_path):
     assert red[first_run][: half - 2].all()
     assert not red[first_run][half + 2 :].any()
     assert blue[: runs - 1][half + 2 :].all()
-
-
-def test_what_the_language_says_becomes_a_brush():
-    assert program_brush(Point()).emitters().single
-    assert program_brush(Point(0.04)).emitters().size == 0.04
-    bar = program_brush(Bar(0.3, (0.0, 1.0, 0.0))).emitters()
-    np.testing.assert_allclose(np.ptp(bar.extent, axis=0), [0, 0.3, 0], atol=1e-12)
-    assert len(bar.positions) == 43
 
 
 def test_colours_run_from_end_to_end():

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
+from dqpaint.brushes import read_brush
 from dqpaint.errors import UsageError
 from dqpaint.light.camera.camera import VIEWS, View, frame_points
 from dqpaint.light.camera.exposure_settings import Exposure, equivalent_exposure, parse_exposure
 from dqpaint.light.film.film import expose
 from dqpaint.light.film.point_spread import point_spread, spread
-from dqpaint.light.sources.brushes import read_brush
 from dqpaint.light.sources.sweep import Sweep
 
 

@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
+from dqpaint.brushes import Emitters, read_brush
 from dqpaint.light.film.film import expose
 from dqpaint.light.sources import interpolation
-from dqpaint.light.sources.brushes import read_brush
-from dqpaint.light.sources.emitters import Emitters
 from dqpaint.light.sources.sweep import Sweep
 from tests.support.camera_motion import camera_for, swept
 from tests.support.film_scene import at_pixels, drawn, flat_camera

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
+from dqpaint.brushes import read_brush
 from dqpaint.light.camera.camera import View, frame_points
 from dqpaint.light.film.film import PAD, expose
-from dqpaint.light.sources.brushes import read_brush
 from dqpaint.light.sources.occlusion import Occlusion
 from dqpaint.light.sources.sweep import Sweep
 

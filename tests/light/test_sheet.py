@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
+from dqpaint.brushes import read_brush
 from dqpaint.light.film.film import PAD, expose
-from dqpaint.light.sources.brushes import read_brush
 from dqpaint.light.sources.sheet import Sheet, sheet_cells
 from tests.support.camera_motion import camera_for, screw, swept
 from tests.support.film_scene import at_pixels, flat_camera, sampled

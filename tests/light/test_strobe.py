@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
+from dqpaint.brushes import Emitters
 from dqpaint.light.film.film import PAD, expose
 from dqpaint.light.sources import strobe as gates
-from dqpaint.light.sources.emitters import Emitters
 from dqpaint.light.sources.sweep import Sweep
 from tests.support.film_scene import at_pixels, flat_camera
 

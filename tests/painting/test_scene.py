@@ -16,7 +16,7 @@ from dqpaint.painting.colour_by import colour_columns, common_delay, limits, mag
 from dqpaint.painting.picture import photograph, place_camera
 from dqpaint.painting.preview import sketch
 from dqpaint.painting.scene import arrange, check_choices
-from dqpaint.program.program import Bar, Point, Strobe
+from dqpaint.program.program import Brush, Strobe
 from dqpaint.robots.model.card import read_card
 from dqpaint.settings.model import make_settings
 from tests.support.pictures import take
@@ -38,8 +38,11 @@ def motion_of(*changes, text=TEXT):
     return plan(program(text, *changes), CANVAS)
 
 
+BAR = Brush("bar", (("length", 0.1), ("along", (0.0, 1.0, 0.0))), several=True)
+
+
 def test_each_brush_of_a_drawing_shines_in_its_own_strokes():
-    motion = motion_of({"brush": Bar(0.1, (0.0, 1.0, 0.0))}, {"brush": Point()})
+    motion = motion_of({"brush": BAR}, {"brush": Brush()})
     scene = arrange(motion, motion.pose, make_settings(**SMALL))
     bar, point = scene.light
     assert len(bar.emitters.positions) == 14
@@ -53,7 +56,7 @@ def test_each_brush_of_a_drawing_shines_in_its_own_strokes():
 
 
 def test_the_option_beats_the_drawing_s_brush():
-    motion = motion_of({"brush": Bar(0.1)})
+    motion = motion_of({"brush": BAR})
     scene = arrange(motion, motion.pose, make_settings(brush="ball:size=10mm", **SMALL))
     assert [s.emitters.size for s in scene.light] == [0.01]
 

@@ -176,10 +176,22 @@ period 20 s|E257|1:8 20 s|help
 profile cubic(1e300 mm/s, 0 mm/s)|E201|1:15 1e300 mm/s|
 line by (5,0) mm by (0,5) mm samples 1|E256|1:1 line by (5,0) mm by (0,5) mm samples 1|help
 repeat 10001~line by (1,0) mm~end|E303|1:8 10001|help
-brush disc 3 mm|E109|1:7 disc|help
-brush bar|E105|1:7 bar|help
+brush disc 3 mm|E264|1:7 disc|help
+brush fiber|E264|1:7 fiber|help fix
+brush 3 mm|E109|1:7 3|help
+line by (1, 0) mm brush bar 20 mm leds light red|E105|1:40 light|help
+brush bar 120 mm led 40|E265|1:18 led|help fix
+brush bar 120 mm wide 40|E265|1:18 wide|help
+brush bar 120 mm leds 40 leds 3|E113|1:26 leds|help
+brush bar 120 mm leds 1|E258|1:23 1|help
+brush bar 120 mm leds 2.5|E221|1:23 2.5|
+brush bar 120 mm along (0, 0)|E215|1:24 (0, 0)|
+brush bar 120 mm colours red to 3|E218|1:33 3|help
+brush pixelstick image 3|E218|1:24 3|help
+brush pixelstick image "none.png"|E293|1:24 "none.png"|
+brush pixelstick image "../a.png"|E292|1:24 "../a.png"|help
 brush bar 120|E218|1:11 120|help fix
-brush bar 0 mm|E220|1:11 0 mm|
+brush bar 0 mm|E258|1:11 0 mm|help
 brush bar 20 m|E258|1:11 20 m|help
 strobe 10|E218|1:8 10|help fix
 strobe 0 Hz|E220|1:8 0 Hz|

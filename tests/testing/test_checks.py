@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
+from dqpaint.brushes import BRUSHES, Brush, Emitters
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.disturbances import DISTURBANCES, Disturbance
 from dqpaint.errors import DqpaintError
-from dqpaint.light.sources import BRUSHES, Brush
-from dqpaint.light.sources.emitters import Emitters
 from dqpaint.outputs import WRITERS, Writer
 from dqpaint.plants import PLANTS
 from dqpaint.plants.ideal import Ideal

@@ -191,7 +191,7 @@ def _values(model):
 
 
 def brushes():
-    from dqpaint.light.sources.brushes import BRUSHES
+    from dqpaint.brushes import BRUSHES
 
     rows = [
         [

@@ -21,9 +21,9 @@ from dqpaint.language.expansion.definitions import called, drawing_of, frame_of,
 from dqpaint.language.pen import tool_orientation
 from dqpaint.language.pen.durations import timing
 from dqpaint.language.pen.pen import Pen
-from dqpaint.language.pen.stroke_state import PERIOD, changed
 from dqpaint.language.strokes import corner_blending, curves, imported_strokes, strokes
-from dqpaint.language.syntax.tree import Part, Statement
+from dqpaint.language.strokes.modal_words import changed, tool_mode
+from dqpaint.language.syntax.tree import Part, Statement, ToolWords
 from dqpaint.language.values import typed_values
 from dqpaint.language.values.evaluate import evaluate
 from dqpaint.language.values.scope import BUILTINS, Scope, UnknownError
@@ -33,6 +33,7 @@ from dqpaint.language.vocabulary.units import PLAIN
 from dqpaint.language.vocabulary.words import MODAL, STATEMENTS
 from dqpaint.program import AutoPlacement, Pose, Program, Segment
 
+PERIOD = 0.008  # [s]
 NAMELESS = ("robot", "place", "curve", "repeat", "call")  # their name is none that they give
 ALIKE = ("text", "path", "svg", "move")  # in each pass as much as in the first
 SHORTEST_PERIOD = 1e-5  # [s]
@@ -251,7 +252,7 @@ class Expander:
     def _change(self, part: Part, frame: Frame) -> None:
         pen = self._pen
         pen.check_pace(part)
-        pen.state = changed(pen.state, part, self._scope, frame)
+        pen.state = changed(pen.state, part, self._scope, pen, frame)
 
     def _stroke(self, statement: Statement) -> None:
         pen = self._pen
@@ -341,7 +342,8 @@ class Expander:
         position = pen.frame.point(typed_values.place(at, self._scope, "at"))
         orientation = None
         if tool is not None:
-            mode = changed(pen.state, tool, self._scope, pen.frame).tool
+            assert isinstance(tool.value, ToolWords)
+            mode = tool_mode(tool.value, self._scope, pen.frame)
             orientation = tool_orientation.told(mode, position, tool.value.span)
             if orientation is None:
                 message = "'start' needs to know how the tool is held"

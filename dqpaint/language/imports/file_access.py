@@ -73,6 +73,19 @@ def contents(node: Quoted, pen: Pen, most_bytes: int) -> bytes:
     return data
 
 
+def readable(node: Quoted, pen: Pen, most_bytes: int) -> Path:
+    """The path of a file that the drawing may read, and that is there and not too large."""
+    path = path_of(node, pen)
+    try:
+        with path.open("rb") as file:
+            size = file.seek(0, 2)
+    except (OSError, ValueError) as fault:
+        raise _unread(node, path, fault) from None
+    if size > most_bytes:
+        raise too_large(node, f"larger than {most_bytes // 1_000_000} MB")
+    return path
+
+
 def _unread(node: Quoted, path: Path, fault: Exception) -> Problem:
     reason = (fault.strerror if isinstance(fault, OSError) else None) or str(fault)
     cure = ""

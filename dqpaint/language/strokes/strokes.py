@@ -5,8 +5,9 @@ from dqpaint.diagnostics import problem
 from dqpaint.language.pen import tool_orientation
 from dqpaint.language.pen.durations import timing
 from dqpaint.language.pen.pen import SAME_PLACE, SAME_TURN, Pen
-from dqpaint.language.pen.stroke_state import StrokeState, changed, light_of, standing
+from dqpaint.language.pen.stroke_state import StrokeState
 from dqpaint.language.strokes import arcs, curves, imported_strokes, lines
+from dqpaint.language.strokes.modal_words import changed, light_of, standing
 from dqpaint.language.syntax.tree import Expression, LightWords, Statement
 from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.scope import Scope
@@ -49,7 +50,7 @@ def draw(statement: Statement, pen: Pen, scope: Scope) -> None:
 def _with_clauses(statement: Statement, state: StrokeState, pen: Pen, scope: Scope) -> StrokeState:
     for part in statement.parts:
         if part.word in MODAL and not _own_light(statement, part.word):
-            state = changed(state, part, scope, pen.frame)
+            state = changed(state, part, scope, pen, pen.frame)
     return state
 
 

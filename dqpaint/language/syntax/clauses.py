@@ -4,11 +4,11 @@ import re
 from collections.abc import Callable
 
 from dqpaint.diagnostics import Fix, Problem, Span, problem
+from dqpaint.language.syntax import brush_clause
 from dqpaint.language.syntax.cursor import Cursor, found, no_value
 from dqpaint.language.syntax.expressions import expression
 from dqpaint.language.syntax.tree import (
     BlendWords,
-    BrushWords,
     ColourWords,
     Expression,
     LightWords,
@@ -16,7 +16,7 @@ from dqpaint.language.syntax.tree import (
     ToolWords,
     Words,
 )
-from dqpaint.language.vocabulary.words import PARTS, RESERVED
+from dqpaint.language.vocabulary.words import PARTS
 
 # A colour that has become a comment for want of quotes.
 _COMMENTED_COLOUR = re.compile(r"[^\S\n]*(#[0-9a-fA-F]{3,8})\b")
@@ -121,35 +121,6 @@ def _no_colour(cursor: Cursor) -> Problem:
     return problem("E108", "'light' needs a colour", span, "", cure, fix)
 
 
-def _brush(cursor: Cursor) -> BrushWords:
-    token = cursor.take()
-    along = None
-    if token.text == "point" and token.kind == "name":
-        size = None if _ends_here(cursor) else _value(cursor, "brush point")
-    elif token.text == "bar" and token.kind == "name":
-        if _ends_here(cursor):
-            message, cure = "'brush bar' needs its length", f"for example: {_EXAMPLE}"
-            raise problem("E105", message, token.span, "nothing follows", cure)
-        size = _value(cursor, "brush bar")
-        if cursor.is_word("along"):
-            cursor.take()
-            along = _value(cursor, "along")
-    else:
-        message = f"expected a kind of brush but found {found(token)}"
-        cure = f"write: brush point, or {_EXAMPLE}"
-        span = token.span if token.kind != "end" else cursor.before.span
-        raise problem("E109", message, span, "", cure)
-    return BrushWords(token.text, size, along, cursor.span_from(token.start))
-
-
-_EXAMPLE = PARTS["brush"].example
-
-
-def _ends_here(cursor: Cursor) -> bool:
-    """Whether the line ends, or another part begins."""
-    return cursor.at_end or (cursor.token.kind == "name" and cursor.token.text in RESERVED)
-
-
 def _strobe(cursor: Cursor) -> StrobeWords:
     start = cursor.token.start
     if cursor.is_word("off"):
@@ -177,7 +148,7 @@ def _blend(cursor: Cursor) -> BlendWords:
 READERS: dict[str, Callable[[Cursor], Words]] = {
     "tool": _tool,
     "light": _light,
-    "brush": _brush,
+    "brush": brush_clause.brush,
     "strobe": _strobe,
     "blend": _blend,
 }

@@ -30,6 +30,11 @@ class Cursor:
         return self._tokens[min(self._at + 1, len(self._tokens) - 1)]
 
     @property
+    def first(self) -> Token:
+        """The first token of the line."""
+        return self._tokens[0]
+
+    @property
     def before(self) -> Token:
         """The token that was read last."""
         return self._tokens[self._at - 1 if self._at else 0]

@@ -123,6 +123,14 @@ def _children(node: Expression) -> tuple[Expression, ...]:
 
 
 @record
+class Word:
+    """A word that names something: in `let`, `repeat`, `curve`, `robot`."""
+
+    text: str
+    span: Span
+
+
+@record
 class ToolWords:
     """`keep`, `follow`, `look` (point, up), `look line` (point, along) or `turn` (orientation)."""
 
@@ -152,12 +160,22 @@ class LightWords:
 
 
 @record
-class BrushWords:
-    """`point` with its size, or `bar` with its length and perhaps its direction."""
+class BrushPart:
+    """A value of a brush: its name, and several expressions where it is a row of colours.
 
-    kind: str
-    size: Expression | None
-    along: Expression | None
+    The span of a value that was written without its name is its own.
+    """
+
+    key: Word
+    values: tuple[Expression, ...]
+
+
+@record
+class BrushWords:
+    """The name of a brush and its values."""
+
+    name: Word
+    parts: tuple[BrushPart, ...]
     span: Span
 
 
@@ -182,14 +200,6 @@ Words = ToolWords | LightWords | BrushWords | StrobeWords | BlendWords
 
 
 # Statements.
-
-
-@record
-class Word:
-    """A word that names something: in `let`, `repeat`, `curve`, `robot`."""
-
-    text: str
-    span: Span
 
 
 @record

@@ -52,8 +52,6 @@ _OTHERS = {
     "hold": TIME,
     "strobe": FREQUENCY,
     "blend": LENGTH,
-    "brush point": LENGTH,
-    "brush bar": LENGTH,
 }
 # Of lengths [m], angles [rad] and times [s]: far above any drawing, and the fourth power of it,
 # scaled as much again, is still a computer's number.
@@ -182,8 +180,8 @@ def profile(node: Expression, scope: Scope) -> Profile:
     raise problem("E218", message, node.span, "", f"one of: {', '.join(PROFILES)}")
 
 
-def colour(node: Expression, scope: Scope, after_to: bool = False) -> Colour:
-    """The colour after `light`: a colour, a text with one, or a temperature."""
+def colour(node: Expression, scope: Scope, after_to: bool = False, word: str = "light") -> Colour:
+    """The colour after a word: a colour, a text with one, or a temperature."""
     value = evaluate(node, scope, colours.NAMES)
     if isinstance(value, ColourValue):
         return value.rgb
@@ -195,8 +193,8 @@ def colour(node: Expression, scope: Scope, after_to: bool = False) -> Colour:
             message = "a colour temperature goes from 1000 K to 15000 K"
             raise problem("E217", message, node.span, f"this is {kelvin:g} K")
         return colours.from_temperature(kelvin)
-    message = f"'light' needs a colour, but this is {describe(value)}"
-    cure = 'for example: light red, light hsv(30 deg), light "#ff8800", light 5600 K'
+    message = f"'{word}' needs a colour, but this is {describe(value)}"
+    cure = f'for example: {word} red, {word} hsv(30 deg), {word} "#ff8800", {word} 5600 K'
     if after_to and isinstance(value, PointValue):
         cure = "after a colour, 'to' says which colour comes next; write 'light' after the point"
     raise problem("E218", message, node.span, "", cure)

@@ -104,7 +104,7 @@ PARTS = {
         PartWord("align", "alignment", "which end of each line stands at `at`", "align centre"),
         PartWord("unit", "unit", "of the numbers in a file", "unit mm"),
         PartWord("smooth", "flag", "bends from point to point, but for sharp corners", "smooth"),
-        PartWord("brush", "brush", "what shines: a point, or a bar", "brush bar 120 mm along x"),
+        PartWord("brush", "brush", "what shines, with its values", "brush bar 120 mm along x"),
         PartWord(
             "strobe", "strobe", "the light flashes, for a part of the time", "strobe 10 Hz 30%"
         ),

@@ -10,6 +10,7 @@ from contextlib import suppress
 from typing import NamedTuple
 
 from dqpaint.diagnostics import EnoughError, Findings, ScriptError
+from dqpaint.language.syntax.brush_clause import is_key
 from dqpaint.language.syntax.lexer import TOKEN, Token, lines
 from dqpaint.language.syntax.parser import parse_statements
 from dqpaint.language.vocabulary.words import RENAMED, RESERVED, STATEMENTS
@@ -32,13 +33,14 @@ class _State(NamedTuple):
     """How a line has gone so far."""
 
     statement: str  # its first word
+    brush: str  # in whose clause it is
     before: Token | None
     is_word: bool  # of the language, not a name in a formula
     unary: bool  # the sign of a number, not of a sum
     ends_value: bool  # so that a + or - which follows is one of a sum
 
 
-_NOTHING = _State("", None, False, False, False)
+_NOTHING = _State("", "", None, False, False, False)
 
 
 def formatted(text: str, name: str = "<text>") -> str:
@@ -148,17 +150,23 @@ def _joined(tokens: list[Token], state: _State) -> tuple[str, _State]:
 
 def _after(state: _State, token: Token) -> _State:
     """What is to be known of a token by the one that follows it."""
-    statement = state.statement or token.text
+    statement, brush = state.statement or token.text, state.brush
     is_word = is_sum = False
     if token.kind == "name":
         known = STATEMENTS.get(statement)
         part = known is not None and token.text in known.parts  # but it may be a name in a formula
         opens = state.before is not None and (state.before.text == statement or state.ends_value)
         is_word = token.text in RESERVED or (part and opens)
+        if state.before is not None and state.before.text == "brush":
+            brush, is_word = token.text, True
+        elif brush and is_key(brush, token.text):
+            is_word = is_word or opens or state.before is None or state.before.text == brush
+        elif token.text in RESERVED and token.text != "to":
+            brush = ""  # another part
     elif token.kind == "sign":
         is_sum = token.text in _SUMS
     ends_value = token.text in (")", "%") if token.kind == "sign" else not is_word
-    return _State(statement, token, is_word, is_sum and not state.ends_value, ends_value)
+    return _State(statement, brush, token, is_word, is_sum and not state.ends_value, ends_value)
 
 
 def _gap(state: _State, token: Token) -> str:

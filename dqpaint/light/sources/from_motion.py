@@ -7,16 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from dqpaint.brushes import Emitters, make_brush, read_brush
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.light.camera.camera import DEFAULT_LENS, FRAME_FILL, Camera
 from dqpaint.light.camera.exposure_settings import parse_exposure
 from dqpaint.light.camera.views import Shot, camera_for_shot
-from dqpaint.light.sources.brushes import program_brush, read_brush
-from dqpaint.light.sources.emitters import Emitters
 from dqpaint.light.sources.sweep import Sweep
 from dqpaint.motion import Motion
-from dqpaint.program import Brush as BrushWords
 from dqpaint.settings import Settings
 
 MOST_FLASHES = 2_000_000
@@ -78,14 +76,13 @@ def _brushes(motion: Motion, settings: Settings) -> list[tuple[Emitters, Floats 
     """The brushes of a drawing with where (N-1,) each is used; None: everywhere."""
     if settings.brush is not None:
         return [(read_brush(settings.brush).emitters(), None)]
-    words: list[BrushWords] = [segment.brush for segment in motion.program.segments]
+    words = [segment.brush for segment in motion.program.segments]
     kinds = list(dict.fromkeys(words))
     if len(kinds) == 1:
-        return [(program_brush(kinds[0]).emitters(), None)]
+        return [(make_brush(kinds[0]).emitters(), None)]
     of = np.array([kinds.index(word) for word in words])[motion.stroke[:-1]]
     return [
-        (program_brush(kind).emitters(), (of == i).astype(np.float64))
-        for i, kind in enumerate(kinds)
+        (make_brush(kind).emitters(), (of == i).astype(np.float64)) for i, kind in enumerate(kinds)
     ]
 
 

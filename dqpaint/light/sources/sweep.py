@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint import dq
+from dqpaint.brushes import POINT, Emitters
 from dqpaint.errors import DqpaintError
 from dqpaint.light.arrays import BATCH, Floats, checked_array
 from dqpaint.light.camera.camera import NEAREST_DEPTH, Camera
 from dqpaint.light.sources import interpolation
 from dqpaint.light.sources import strobe as gates
 from dqpaint.light.sources.emission import Light, inverse_square, lit_instants
-from dqpaint.light.sources.emitters import POINT, Emitters
 from dqpaint.light.sources.occlusion import Occluder, Occlusion, occlusion_by
 from dqpaint.light.sources.sheet import Sheet
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from dqpaint import __version__
+from dqpaint.brushes import read_brush
 from dqpaint.controllers import find_controller
 from dqpaint.core import file_digest, find_drawing, library_versions, read_choice
 from dqpaint.disturbances import make_disturbances
@@ -21,7 +22,6 @@ from dqpaint.errors import UsageError
 from dqpaint.language import parse, read
 from dqpaint.language.imports import files_of
 from dqpaint.language.writing import builder
-from dqpaint.light.sources import read_brush
 from dqpaint.painting import plugins, scene
 from dqpaint.plants import choose_plant
 from dqpaint.program import Program

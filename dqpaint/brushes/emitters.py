@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from dqpaint.core.arrays import Floats, checked_array
 from dqpaint.errors import DqpaintError
-from dqpaint.light.arrays import Floats, checked_array
 
 ORIGIN = ((0.0, 0.0, 0.0),)
 WHITE_TINT = (((1.0, 1.0, 1.0),),)

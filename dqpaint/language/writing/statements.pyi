@@ -38,7 +38,7 @@ class Statements:
     def light(self, *values: Any) -> None:
         """The colour, or from one colour to another, from here on: `d.light("red")`."""
     def brush(self, *values: Any) -> None:
-        """What shines: a point, or a bar, from here on: `d.brush("bar 120 mm along x")`."""
+        """What shines, with its values, from here on: `d.brush("bar 120 mm along x")`."""
     def strobe(self, *values: Any) -> None:
         """The light flashes, for a part of the time, from here on: `d.strobe("10 Hz 30%")`."""
     def line(self, *, to: Any = ..., by: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:

@@ -70,15 +70,18 @@ def parse(text: str, name: str = "<text>", path: Path | None = None) -> Program:
 
 @contextmanager
 def _collector_at_rest() -> Iterator[None]:
-    """Trees and strokes hold no cycles; looking for some takes a third of the time."""
+    """Trees and strokes hold no cycles: with the collector on, a long file takes 1.6 times as long.
+
+    For callers from Python; the command line has it off.
+    """
     was_on = gc.isenabled()
     gc.disable()
     try:
         yield
     finally:
         if was_on:
-            if not gc.get_freeze_count():  # what was made is old at once, so the next
-                gc.freeze()  # collection of the young does not look through it either
+            if not gc.get_freeze_count():  # what was made is old at once, so that the next
+                gc.freeze()  # collection of the young leaves it out; without, 1.2 times as long
                 gc.unfreeze()
             gc.enable()
 

@@ -223,7 +223,7 @@ def test_saving_from_python(painting, tmp_path):
     assert [path.name for path in written] == ["corner-hinf.png", "corner-hinf.json"]
     assert repr(painting).startswith("<Painting of ")
     assert len(repr(painting)) < 200
-    with pytest.raises(dqpaint.DqpaintError, match="size '3x3' is not"):
+    with pytest.raises(dqpaint.DqpaintError, match="width 3 should be greater"):
         dqpaint.draw("star", size="3x3")
 
 

@@ -7,9 +7,8 @@ from dataclasses import dataclass, field, replace
 from time import perf_counter
 from typing import Any
 
-from dqpaint.controllers import Controller, Schedule, find_controller
-from dqpaint.disturbances import Disturbance, make_disturbances
-from dqpaint.dq import Floats
+from dqpaint.controllers import Controller
+from dqpaint.disturbances import Disturbance
 from dqpaint.light.film import Film
 from dqpaint.metrics import (
     METRICS,
@@ -21,18 +20,18 @@ from dqpaint.metrics import (
     measure,
     set_points,
 )
-from dqpaint.motion import Motion, plan
+from dqpaint.motion import Motion
 from dqpaint.painting.picture import Picture, PictureSet, photograph
-from dqpaint.painting.scene import Scene, arrange, check_choices
-from dqpaint.planning import placement, reachability, retiming
-from dqpaint.plants import ConfiguredPlant, Takes, choose_plant
+from dqpaint.painting.scene import Scene, arrange
+from dqpaint.painting.validate import RunChoices, check_run
+from dqpaint.planning import placement, prepared_motion, reachability, retiming
 from dqpaint.program import Program
 from dqpaint.render import ArmMotion, SceneArm, scene_arm_of_run
-from dqpaint.robots.kinematics import Clamp, Kinematics, read_null
+from dqpaint.robots.kinematics import Clamp, Kinematics
 from dqpaint.robots.loading import card_for, find_card
 from dqpaint.robots.model import DEFAULT_ROBOT
-from dqpaint.settings import Settings, check_recorded
-from dqpaint.simulation import RECORDED, Recording, Track, read_recording, replay, track
+from dqpaint.settings import Settings
+from dqpaint.simulation import Recording, Track, read_recording, replay, track
 
 UNSEEN = "poses alone say nothing of the joints: the arm and what it hides are left out"
 
@@ -123,28 +122,27 @@ def paint(
 class PreparedRun:
     """A drawing and everything that its run needs, checked and worked out."""
 
-    program: Program
     settings: Settings
     clock: "Stopwatch"
-    controller: Controller[Any]
-    gains: Schedule[Any]
-    plant: ConfiguredPlant
-    disturbances: dict[str, Disturbance]
+    choices: RunChoices
     kinematics: Kinematics
-    motion: Motion
-    start: Floats  # posture (n,) [rad]
-    slowed: retiming.Retiming | None
-    placed: placement.Placement | None
+    prepared: prepared_motion.PreparedMotion
     recording: Recording | None
+
+    @property
+    def motion(self) -> Motion:
+        """What the arm is to follow."""
+        return self.prepared.motion
 
     def follow(self, progress: Callable[[float], None] = lambda _done: None) -> Track:
         """The run."""
         if self.recording is not None:
             return replay(self.recording, self.motion, self.kinematics)
-        settings = self.settings
+        settings, chosen = self.settings, self.choices
         run = track(
-            self.motion, self.kinematics, self.start, self.plant, self.controller, self.gains,
-            progress, self.disturbances, settings.seed, settings.null, settings.on_limit == "stop",
+            self.motion, self.kinematics, self.prepared.start, chosen.plant,
+            chosen.controller, chosen.gains, progress, chosen.disturbances, settings.seed,
+            settings.null, settings.on_limit == "stop",
         )  # fmt: skip
         reachability.check_worst(run, self.kinematics, settings.null)
         return run
@@ -156,50 +154,29 @@ def prepare(
     """What comes before the arm moves; arguments and errors as those of `paint`."""
     clock = Stopwatch()
     program = replace(program, most_samples=settings.max_samples)
-    check_choices(settings)  # a slip there is told before anything is simulated
-    check_recorded(settings)
+    choices = check_run(settings, controller)  # a slip is told before anything is simulated
     card = card_for(program, settings.robot, settings.tool)
-    recording = None
-    if settings.recorded is not None:
-        recording, controller = read_recording(settings.recorded, card.joints), RECORDED
-    controller = controller or find_controller(settings.controller)
-    gains = controller.read_gains(settings.gains)
-    takes: Takes = "torque" if controller.drives_torque else "rates"
-    plant = choose_plant(settings.plant, takes)
-    disturbances = make_disturbances(settings.disturb)
-    for name, one in disturbances.items():
-        plant.need(one.needs, name)
-    read_null(settings.null)
+    recorded = settings.recorded
+    recording = None if recorded is None else read_recording(recorded, card.joints)
     with clock("place"):
         kinematics = Kinematics(card)
-        program, placed = placement.settle(program, kinematics, settings)
-    with clock("motion"):
-        motion = plan(program, card.canvas.pose)
-    slowed, start = None, card.home
-    if recording is None:
-        with clock("start"):
-            best = reachability.begin(motion, kinematics, settings.null).posture
-            start = card.home if settings.start == "home" else best
-            if settings.on_limit == "slow":
-                slowed = retiming.slow_down(motion, kinematics, start, settings.null, plant.motors)
-                motion = slowed.motion
-    return PreparedRun(
-        program, settings, clock, controller, gains, plant, disturbances, kinematics, motion,
-        start, slowed, placed, recording,
-    )  # fmt: skip
+    motors = choices.plant.motors
+    ready = prepared_motion.prepare_motion(program, kinematics, settings, motors, clock)
+    return PreparedRun(settings, clock, choices, kinematics, ready, recording)
 
 
 def finish(ready: PreparedRun, run: Track) -> Painting:
     """What comes after the arm has moved: numbers and pictures."""
     settings, motion, clock = ready.settings, ready.motion, ready.clock
+    chosen = ready.choices
     card, recording = ready.kinematics.card, ready.recording
     notes = ready.kinematics.notes + (recording.notes(motion) if recording else ())
     with clock("metrics"):
         metrics = measure(run)
         notes += tuple(METRICS.faults)
-        came_through = attenuation(run, ready.gains.promise())
+        came_through = attenuation(run, chosen.gains.promise())
         steps = set_points(run)
-    robot = settings.robot or ready.program.robot or DEFAULT_ROBOT
+    robot = settings.robot or motion.program.robot or DEFAULT_ROBOT
     cast = ArmMotion(robot, run.posture, motion.source, motion.period)
     if settings.staged and not cast.has_joints:
         notes += (UNSEEN,)
@@ -207,11 +184,12 @@ def finish(ready: PreparedRun, run: Track) -> Painting:
         scene = arrange(motion, run.pose, settings, metrics.table)
         pictures = tuple(photograph(scene, settings, staging))
     return Painting(
-        settings, ready.controller, card.name,
-        "recorded" if recording else ready.plant.name,
-        {} if recording else ready.plant.shown(card),
-        ready.disturbances, ready.gains.shown(), motion, run, metrics, came_through, steps, scene,
-        cast, pictures, ready.slowed, clock.seconds, notes, ready.placed, recording,
+        settings, chosen.controller, card.name,
+        "recorded" if recording else chosen.plant.name,
+        {} if recording else chosen.plant.shown(card),
+        chosen.disturbances, chosen.gains.shown(), motion, run, metrics, came_through, steps, scene,
+        cast, pictures, ready.prepared.slowed, clock.seconds, notes, ready.prepared.placed,
+        recording,
     )  # fmt: skip
 
 
@@ -226,4 +204,4 @@ class Stopwatch:
         """Time what happens inside."""
         begin = perf_counter()
         yield
-        self.seconds[stage] = perf_counter() - begin
+        self.seconds[stage] = self.seconds.get(stage, 0.0) + perf_counter() - begin

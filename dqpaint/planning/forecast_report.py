@@ -6,13 +6,14 @@ from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
 from dqpaint.diagnostics import Diagnostic, SourceLine, Span
-from dqpaint.motion import Motion, plan
+from dqpaint.motion import Motion
 from dqpaint.planning.forecast import Extreme, Forecast, forecast
 from dqpaint.planning.ideal_run import WORTH_A_LOOK
 from dqpaint.planning.occlusion import PLAIN
-from dqpaint.planning.placement import Placement, settle
-from dqpaint.planning.reachability import begin, check_row
-from dqpaint.planning.retiming import Retiming, slow_down
+from dqpaint.planning.placement import Placement
+from dqpaint.planning.prepared_motion import prepare_motion
+from dqpaint.planning.reachability import check_row
+from dqpaint.planning.retiming import Retiming
 from dqpaint.plants import DEFAULT_PLANTS, find_plant
 from dqpaint.program import Program
 from dqpaint.robots.kinematics import THRESHOLD, Kinematics, shapes_of
@@ -103,25 +104,19 @@ def look_ahead(
         ScriptError: the drawing leaves the arm's reach.
         UsageError: an unknown plant, or values it does not take.
     """
-    program, placed = settle(program, kinematics, settings)
-    motion = plan(program, kinematics.card.canvas.pose)
     plant = find_plant(settings.plant) if settings.plant else None
     springs = plant.springs_of(kinematics.card) if plant else None
-    best = begin(motion, kinematics, settings.null).posture
-    start = kinematics.card.home if settings.start == "home" else best
-    slowed = None
-    if settings.on_limit == "slow":
-        motors = plant.motors if plant else "sudden"
-        slowed = slow_down(motion, kinematics, start, settings.null, motors)
-        motion = slowed.motion
+    motors = plant.motors if plant else "sudden"
+    ready = prepare_motion(program, kinematics, settings, motors)
+    motion, start = ready.motion, ready.start
     lines = forecast(motion, kinematics, start, settings, plant)
     farthest = max(lines, key=lambda one: one.stray)
     if farthest.stray >= WORTH_A_LOOK:
         check_row(motion, kinematics, farthest.stray_row, settings.null)
     return ForecastReport(
         motion,
-        placed,
-        slowed,
+        ready.placed,
+        ready.slowed,
         kinematics.card.name,
         plant.name if plant else DEFAULT_PLANTS["rates"],
         springs is None or springs.seen,

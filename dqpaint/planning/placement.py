@@ -25,6 +25,7 @@ from dqpaint.language import parse
 from dqpaint.motion import Motion, moved, plan, scaled, straight
 from dqpaint.planning.forecast import Forecast, forecast
 from dqpaint.planning.ideal_run import WORTH_A_LOOK, set_out
+from dqpaint.planning.occlusion import PLAIN
 from dqpaint.program import AutoPlacement, Pose, Program
 from dqpaint.robots.kinematics import (
     PULL,
@@ -50,7 +51,6 @@ FEEBLE = 0.01  # of a torque counts as left where an arm can't bear its weight: 
 FEW_SCALES = (0.75, 0.5, 0.25)  # that are tried where there is no room
 CLOSE = 1e-3  # [rad, m] counts as reached
 IN_SIGHT = 0.01  # of the light may be hidden
-PLAIN = Settings()
 
 
 @dataclass(frozen=True)

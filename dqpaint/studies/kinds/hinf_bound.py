@@ -15,8 +15,7 @@ from dqpaint.disturbances import DISTURBANCES
 from dqpaint.dq import Floats
 from dqpaint.language import parse
 from dqpaint.metrics import attenuation
-from dqpaint.motion import plan
-from dqpaint.planning import reachability
+from dqpaint.planning import prepared_motion
 from dqpaint.plants import PLANTS
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.model import DEFAULT_ROBOT, read_card
@@ -54,15 +53,16 @@ def curves(hertz: Floats = HERTZ, products: tuple[float, ...] = PRODUCTS) -> lis
     In rotation the loop's rate is K_O / 2, so K_O = 2 K_T makes both loops equally fast.
     """
     kinematics = Kinematics(read_card(DEFAULT_ROBOT))
-    motion = plan(parse(DRAWING, "still.traj"), kinematics.card.canvas.pose)
-    start = reachability.begin(motion, kinematics).posture
+    ready = prepared_motion.prepare_motion(parse(DRAWING, "still.traj"), kinematics)
     law = CONTROLLERS["hinf"]
     found = []
     for part, (axis, size) in SMALL.items():
         for product in products:
             rate = product / PERIOD
             schedule = law.read_gains({"gamma_O": 1 / rate, "gamma_T": np.sqrt(2) / rate})
-            run = partial(track, motion, kinematics, start, PLANTS["ideal"], law, schedule)
+            run = partial(
+                track, ready.motion, kinematics, ready.start, PLANTS["ideal"], law, schedule
+            )
             ratios = []
             for frequency in hertz:
                 values = {"form": "sine", axis: size, "frequency": float(frequency)}

@@ -77,11 +77,12 @@ def carry_out_batch(
     begin = time.perf_counter()
     first = tasks[0][1]
     ready = paint.prepare(first.program(), first.settings)
+    chosen = ready.choices
     seeds = [run.settings.seed for _, run in tasks]
     try:
         tracks = track_many(
-            ready.motion, ready.kinematics, ready.start, ready.plant, ready.controller,
-            ready.gains, ready.disturbances, seeds, ready.settings.null, progress,
+            ready.motion, ready.kinematics, ready.prepared.start, chosen.plant, chosen.controller,
+            chosen.gains, chosen.disturbances, seeds, ready.settings.null, progress,
         )  # fmt: skip
     except ModelsDifferError:
         return None

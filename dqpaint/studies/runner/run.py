@@ -17,13 +17,11 @@ from dqpaint import __version__
 from dqpaint.brushes import read_brush
 from dqpaint.controllers import find_controller
 from dqpaint.core import file_digest, find_drawing, library_versions, read_choice
-from dqpaint.disturbances import make_disturbances
 from dqpaint.errors import UsageError
 from dqpaint.language import parse, read
 from dqpaint.language.imports import files_of
 from dqpaint.language.writing import builder
-from dqpaint.painting import plugins, scene
-from dqpaint.plants import choose_plant
+from dqpaint.painting import plugins, validate
 from dqpaint.program import Program
 from dqpaint.robots.loading import card_for
 from dqpaint.settings import Settings
@@ -89,13 +87,8 @@ class Run:
             UsageError: an unknown name or a value out of its range.
             ScriptError: a mistake in the drawing.
         """
-        settings = self.settings
-        scene.check_choices(settings)
-        law = find_controller(settings.controller)
-        law.read_gains(settings.gains)
-        choose_plant(settings.plant, "torque" if law.drives_torque else "rates")
-        make_disturbances(settings.disturb)
-        card_for(self.program(), settings.robot, settings.tool)
+        validate.check_run(self.settings)
+        card_for(self.program(), self.settings.robot, self.settings.tool)
 
 
 def run_of(data: dict[str, Any]) -> Run:

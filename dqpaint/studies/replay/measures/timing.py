@@ -9,8 +9,7 @@ import numpy as np
 from dqpaint.controllers import find_controller
 from dqpaint.dq import Floats
 from dqpaint.language import parse
-from dqpaint.motion import plan
-from dqpaint.planning import reachability
+from dqpaint.planning import prepared_motion
 from dqpaint.plants import Ideal, PlantMaker
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.loading import card_for
@@ -98,11 +97,10 @@ def loop(cell: Cell, settings: Mapping[str, Any]) -> Clock:
     program = parse(text, "arc")
     card: Card = card_for(program, settings.get("robot"), None)
     kinematics = Kinematics(card)
-    motion = plan(program, card.canvas.pose)
+    ready = prepared_motion.prepare_motion(program, kinematics)
     law = find_controller(cell.settings["controller"])
     clock = Clock(period)
-    start = reachability.begin(motion, kinematics).posture
-    track(motion, kinematics, start, paced(clock), law, law.read_gains({}))
+    track(ready.motion, kinematics, ready.start, paced(clock), law, law.read_gains({}))
     return clock
 
 

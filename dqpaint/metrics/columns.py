@@ -9,96 +9,74 @@ from dqpaint.metrics.registry import Values, column, motion_column
 from dqpaint.motion import Motion
 from dqpaint.simulation import Track
 
-XYZ = ("x_m", "y_m", "z_m")
-QUATERNION = ("qw", "qx", "qy", "qz")
-
-
-def _desired(names: tuple[str, ...]) -> tuple[str, ...]:
-    return tuple(f"desired_{name}" for name in names)
-
-
 # What was asked.
 
 
-@motion_column("t_s", unit="s", title="time", meaning="time", coloured=False, study="kept")
+@motion_column("t_s", "s", "time", "time", coloured=False, study="kept")
 def _time(motion: Motion) -> Floats:
     return motion.t
 
 
-@motion_column(
-    "line", unit="", title="line of the drawing",
-    meaning="the line of the drawing that asks for what follows",
-)  # fmt: skip
+@motion_column("line", "", "line of the drawing",
+               "the line of the drawing that asks for what follows")  # fmt: skip
 def _line(motion: Motion) -> Values:
     return motion.source.line
 
 
-@motion_column(
-    "file", unit="", title="file of the drawing", coloured=False,
-    meaning="which file `line` is of, where the drawing includes others: 0 is the main one",
-)  # fmt: skip
+@motion_column("file", "", "file of the drawing",
+               "which file `line` is of, where the drawing includes others: 0 is the main one",
+               coloured=False)  # fmt: skip
 def _file(motion: Motion) -> Values | None:
     file = motion.source.file
     return file if file.any() else None
 
 
-@motion_column(
-    "lit", unit="", title="light", coloured=False,
-    meaning="1 while the light shines until the next row",
-)  # fmt: skip
+@motion_column("lit", "", "light", "1 while the light shines until the next row", coloured=False)
 def _lit(motion: Motion) -> Values:
     return motion.lit
 
 
-@motion_column(*_desired(XYZ), unit="m", title="asked place", meaning="asked place")
+@motion_column("desired_x_m desired_y_m desired_z_m", "m", "asked place", "asked place")
 def _asked_place(motion: Motion) -> Floats:
     return motion.points
 
 
-@motion_column(
-    *_desired(QUATERNION), unit="", title="asked orientation",
-    meaning="asked orientation, scalar first",
-)  # fmt: skip
+@motion_column("desired_qw desired_qx desired_qy desired_qz", "", "asked orientation",
+               "asked orientation, scalar first")  # fmt: skip
 def _asked_orientation(motion: Motion) -> Floats:
     return dq.rotation(motion.pose)
 
 
-@motion_column(
-    *_desired(("wx_rad_s", "wy_rad_s", "wz_rad_s")), unit="rad/s", title="asked angular velocity",
-    meaning="asked angular velocity: the first half of the spatial twist", extra=True,
-)  # fmt: skip
-def _asked_rotation(motion: Motion) -> Floats:
+@motion_column("desired_wx_rad_s desired_wy_rad_s desired_wz_rad_s", "rad/s", "asked turning",
+               "asked angular velocity: the first half of the spatial twist",
+               extra=True)  # fmt: skip
+def _asked_turning(motion: Motion) -> Floats:
     return motion.twist[:, :3]
 
 
-@motion_column(
-    *_desired(("vx_m_s", "vy_m_s", "vz_m_s")), unit="m/s", title="asked velocity",
-    meaning="asked velocity at the base's origin: the second half of the spatial twist", extra=True,
-)  # fmt: skip
-def _asked_translation(motion: Motion) -> Floats:
+@motion_column("desired_vx_m_s desired_vy_m_s desired_vz_m_s", "m/s", "asked velocity",
+               "asked velocity at the base's origin: the second half of the spatial twist",
+               extra=True)  # fmt: skip
+def _asked_velocity(motion: Motion) -> Floats:
     return motion.twist[:, 3:]
 
 
-@motion_column(
-    *_desired(("wx_dot_rad_s2", "wy_dot_rad_s2", "wz_dot_rad_s2")), unit="rad/s^2",
-    title="asked angular acceleration", meaning="and its plain derivative", extra=True,
-)  # fmt: skip
-def _asked_rotation_rate(motion: Motion) -> Floats:
+@motion_column("desired_wx_dot_rad_s2 desired_wy_dot_rad_s2 desired_wz_dot_rad_s2", "rad/s^2",
+               "asked angular acceleration", "plain derivative of the twist's first half",
+               extra=True)  # fmt: skip
+def _asked_turning_rate(motion: Motion) -> Floats:
     return motion.acceleration[:, :3]
 
 
-@motion_column(
-    *_desired(("vx_dot_m_s2", "vy_dot_m_s2", "vz_dot_m_s2")), unit="m/s^2",
-    title="asked acceleration", meaning="and its plain derivative", extra=True,
-)  # fmt: skip
-def _asked_translation_rate(motion: Motion) -> Floats:
+@motion_column("desired_vx_dot_m_s2 desired_vy_dot_m_s2 desired_vz_dot_m_s2", "m/s^2",
+               "asked acceleration", "and of its second half", extra=True)  # fmt: skip
+def _asked_velocity_rate(motion: Motion) -> Floats:
     return motion.acceleration[:, 3:]
 
 
-@motion_column(
-    "light_r", "light_g", "light_b", unit="", title="colour",
-    meaning="linear red, green and blue of the light until the next row", extra=True,
-)  # fmt: skip
+@motion_column("light_r light_g light_b", "", "colour",
+               "linear red, green and blue of the light until the next row",
+               extra=True)  # fmt: skip
 def _colour(motion: Motion) -> Floats:
     return motion.light
 
@@ -106,37 +84,30 @@ def _colour(motion: Motion) -> Floats:
 # What was reached.
 
 
-@column(*XYZ, unit="m", title="place", meaning="place of the light, the true one")
+@column("x_m y_m z_m", "m", "place", "place of the light, the true one")
 def _place(track: Track) -> Floats:
     return track.points
 
 
-@column(*QUATERNION, unit="", title="orientation", meaning="true orientation")
+@column("qw qx qy qz", "", "orientation", "true orientation")
 def _orientation(track: Track) -> Floats:
     return dq.rotation(track.pose)
 
 
-@column(
-    "position_error_m", unit="m", shown="mm", title="position error", from_zero=True,
-    study="drawn", meaning="distance from the asked place",
-)  # fmt: skip
+@column("position_error_m", "m", "position error", "distance from the asked place",
+        shown="mm", from_zero=True, study="drawn")  # fmt: skip
 def _position_error(track: Track) -> Floats:
     return _norm(track.points - track.motion.points)
 
 
-@column(
-    "orientation_error_rad", unit="rad", shown="deg", title="orientation error", from_zero=True,
-    study="drawn", meaning="angle from the asked orientation",
-)  # fmt: skip
+@column("orientation_error_rad", "rad", "orientation error", "angle from the asked orientation",
+        shown="deg", from_zero=True, study="drawn")  # fmt: skip
 def _orientation_error(track: Track) -> Floats:
-    turned = dq.log(dq.mul(track.pose, dq.conj(track.motion.pose)))[:, :3]
-    return 2 * _norm(turned)
+    return 2 * _norm(dq.log(dq.mul(track.pose, dq.conj(track.motion.pose)))[:, :3])
 
 
-@column(
-    "invariant_error", unit="", title="invariant error", from_zero=True, study="kept",
-    meaning="norm of 1 - x* x_d",
-)  # fmt: skip
+@column("invariant_error", "", "invariant error", "norm of 1 - x* x_d",
+        from_zero=True, study="kept")  # fmt: skip
 def _invariant_error(track: Track) -> Floats:
     return _norm(invariant_error(track.pose, track.motion.pose))
 
@@ -145,17 +116,13 @@ def _asked_speed(motion: Motion) -> Floats:
     return _norm(_velocity(motion.points, motion.period))
 
 
-@column(
-    "speed_m_s", unit="m/s", shown="mm/s", title="speed", from_zero=True, asked=_asked_speed,
-    meaning="of the light, until the next row",
-)  # fmt: skip
+@column("speed_m_s", "m/s", "speed", "of the light, until the next row",
+        shown="mm/s", from_zero=True, asked=_asked_speed)  # fmt: skip
 def _speed(track: Track) -> Floats:
     return _norm(_velocity(track.points, track.motion.period))
 
 
-@column(
-    "acceleration_m_s2", unit="m/s^2", title="acceleration", from_zero=True, meaning="of the light"
-)
+@column("acceleration_m_s2", "m/s^2", "acceleration", "of the light", from_zero=True)
 def _acceleration(track: Track) -> Floats:
     """Second differences about each row; the first and last row repeat."""
     points = track.points
@@ -165,75 +132,56 @@ def _acceleration(track: Track) -> Floats:
     return _norm(np.concatenate([inside[:1], inside, inside[-1:]]))
 
 
-@column(
-    "effort_rad", unit="rad", title="effort", from_zero=True,
-    meaning="how far the joints move until the next row",
-)  # fmt: skip
+@column("effort_rad", "rad", "effort", "how far the joints move until the next row",
+        from_zero=True)  # fmt: skip
 def _effort(track: Track) -> Floats | None:
-    if not _has_joints(track):
-        return None
-    return _norm(np.diff(track.posture, axis=0, append=track.posture[-1:]))
+    moved = np.diff(track.posture, axis=0, append=track.posture[-1:])
+    return _norm(moved) if _has_joints(track) else None
 
 
-@column(
-    "manipulability", unit="", title="manipulability", meaning="square root of det(J J')",
-)  # fmt: skip
+@column("manipulability", "", "manipulability", "square root of det(J J')")
 def _manipulability(track: Track) -> Floats | None:
     return track.manipulability if _has_joints(track) else None
 
 
-@column("q{joint}_rad", unit="rad", title="joint angles", meaning="joint angles, the true ones")
+@column("q{joint}_rad", "rad", "joint angles", "joint angles, the true ones")
 def _angles(track: Track) -> Floats:
     return track.posture
 
 
-@column(
-    "command{joint}_rad_s", unit="rad/s", title="joint rates",
-    meaning="joint rates the arm is given",
-)  # fmt: skip
+@column("command{joint}_rad_s", "rad/s", "joint rates", "joint rates the arm is given")
 def _rates(track: Track) -> Floats | None:
     return None if track.torques else track.command
 
 
-@column(
-    "torque{joint}_Nm", unit="Nm", title="torques",
-    meaning="in place of rates: torques, by a law that commands them",
-)  # fmt: skip
+@column("torque{joint}_Nm", "Nm", "torques",
+        "in place of rates: torques, by a law that commands them")  # fmt: skip
 def _torques(track: Track) -> Floats | None:
     return track.command if track.torques else None
 
 
-@column(
-    "read{joint}_rad", unit="rad", title="angles read",
-    meaning="joint angles as the encoders read them, where these err",
-)  # fmt: skip
+@column("read{joint}_rad", "rad", "angles read",
+        "joint angles as the encoders read them, where these err")  # fmt: skip
 def _readings(track: Track) -> Floats | None:
     return track.read if (track.read != track.posture).any() else None
 
 
-@column(
-    *(f"believed_{name}" for name in XYZ), unit="m", title="believed place",
-    meaning="where the law's model has the light at these angles, if that is elsewhere",
-)  # fmt: skip
+@column("believed_x_m believed_y_m believed_z_m", "m", "believed place",
+        "where the law's model has the light at these angles, if that is elsewhere")  # fmt: skip
 def _believed_place(track: Track) -> Floats | None:
     return dq.translation(track.believed) if _errs(track) else None
 
 
-@column(
-    *(f"believed_{name}" for name in QUATERNION), unit="", title="believed orientation",
-    meaning="and its orientation there",
-)  # fmt: skip
+@column("believed_qw believed_qx believed_qy believed_qz", "", "believed orientation",
+        "and its orientation there")  # fmt: skip
 def _believed_orientation(track: Track) -> Floats | None:
     return dq.rotation(track.believed) if _errs(track) else None
 
 
-@column(
-    "drawing_time_s", unit="s", title="time of the drawing", coloured=False,
-    meaning="the drawing's own time, where it was slowed down",
-)  # fmt: skip
+@column("drawing_time_s", "s", "time of the drawing",
+        "the drawing's own time, where it was slowed down", coloured=False)  # fmt: skip
 def _clock(track: Track) -> Floats | None:
-    motion = track.motion
-    return None if motion.clock is motion.t else motion.clock
+    return None if track.motion.clock is track.motion.t else track.motion.clock
 
 
 def _has_joints(track: Track) -> bool:

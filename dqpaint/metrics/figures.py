@@ -5,7 +5,7 @@ command, effort, speed and acceleration) and of Chandra 2020 (root mean square a
 deviation of position and orientation error).
 """
 
-from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -13,77 +13,65 @@ from dqpaint.dq import Floats
 from dqpaint.metrics.registry import Table, figure
 from dqpaint.simulation import Track
 
+TOLD = "the norm of what the joints are told, over time"
+PLACE = "how far the light is from where it is asked to be at the time"
+TURN = "by which angle the tool is turned from what is asked at the time"
 
-@figure(
-    "error_integral", unit="", title="error integral", kind="error", listed=True,
-    meaning="of the invariant error, the norm of 1 - x* x_d, over time",
-)  # fmt: skip
+
+@figure("error_integral", "", "error integral",
+        "of the invariant error, the norm of 1 - x* x_d, over time",
+        kind="error", listed=True)  # fmt: skip
 def _error(track: Track, table: Table) -> float:
     return _integral(table["invariant_error"], track)
 
 
-@figure(
-    "command_integral_rad", unit="rad", title="command", kind="cost", listed=True,
-    meaning="the norm of what the joints are told, over time",
-)  # fmt: skip
+@figure("command_integral_rad", "rad", "command", TOLD, listed=True)
 def _rates(track: Track, _table: Table) -> float | None:
     return None if track.torques else _commanded(track)
 
 
-@figure(
-    "torque_integral_Nm_s", unit="Nm s", title="command", kind="cost", listed=True,
-    meaning="the norm of what the joints are told, over time",
-)  # fmt: skip
+@figure("torque_integral_Nm_s", "Nm s", "command", TOLD, listed=True)
 def _torque(track: Track, _table: Table) -> float | None:
     return _commanded(track) if track.torques else None
 
 
-@figure(
-    "effort_integral", unit="rad s", title="effort", kind="cost", listed=True,
-    meaning="how far the joints move in a step, over time",
-)  # fmt: skip
+@figure("effort_integral", "rad s", "effort", "how far the joints move in a step, over time",
+        listed=True)  # fmt: skip
 def _effort(track: Track, table: Table) -> float | None:
     return _integral(table["effort_rad"], track) if "effort_rad" in table else None
 
 
-@figure(
-    "speed_integral_m", unit="m", title="way", kind="cost", listed=True,
-    meaning="how far the light goes",
-)  # fmt: skip
+@figure("speed_integral_m", "m", "way", "how far the light goes", listed=True)
 def _way(track: Track, table: Table) -> float:
     return _integral(table["speed_m_s"], track)
 
 
-@figure(
-    "acceleration_integral", unit="m/s", title="acceleration integral", kind="cost", listed=True,
-    meaning="of the light, over time",
-)  # fmt: skip
+@figure("acceleration_integral", "m/s", "acceleration integral", "of the light, over time",
+        listed=True)  # fmt: skip
 def _acceleration(track: Track, table: Table) -> float:
     return _integral(table["acceleration_m_s2"], track)
 
 
-PLACE = "how far the light is from where it is asked to be at the time"
-TURN = "by which angle the tool is turned from what is asked at the time"
-SPREADS: tuple[tuple[str, str, Callable[[Floats], float]], ...] = (
-    ("rms", "rms", lambda values: float(np.sqrt((values**2).mean()))),
-    ("std", "standard deviation", lambda values: float(values.std())),
-    ("max", "largest", lambda values: float(values.max())),
-)
+def _spreads(name: str, unit: str, shown: str, meaning: str, largest: bool) -> None:
+    """Register the root mean square, standard deviation and largest value of an error."""
+    column = f"{name}_error_{unit}"
+    known: dict[str, Any] = {"meaning": meaning, "shown": shown, "kind": "error"}
+
+    @figure(f"{name}_error_rms_{unit}", unit, f"{name} rms", **known, listed=True)
+    def _rms(_track: Track, table: Table) -> float:
+        return float(np.sqrt((table[column] ** 2).mean()))
+
+    @figure(f"{name}_error_std_{unit}", unit, f"{name} standard deviation", **known)
+    def _std(_track: Track, table: Table) -> float:
+        return float(table[column].std())
+
+    @figure(f"{name}_error_max_{unit}", unit, f"{name} largest", **known, listed=largest)
+    def _max(_track: Track, table: Table) -> float:
+        return float(table[column].max())
 
 
-def _of_column(reduce: Callable[[Floats], float], name: str) -> Callable[[Track, Table], float]:
-    return lambda _track, table: reduce(table[name])
-
-
-for _name, _unit, _shown, _meaning in (
-    ("position", "m", "mm", PLACE), ("orientation", "rad", "deg", TURN)
-):  # fmt: skip
-    for _kind, _word, _reduce in SPREADS:
-        figure(
-            f"{_name}_error_{_kind}_{_unit}", unit=_unit, shown=_shown, title=f"{_name} {_word}",
-            meaning=_meaning, kind="error",
-            listed=_kind == "rms" or (_name, _kind) == ("position", "max"),
-        )(_of_column(_reduce, f"{_name}_error_{_unit}"))  # fmt: skip
+_spreads("position", "m", "mm", PLACE, largest=True)
+_spreads("orientation", "rad", "deg", TURN, largest=False)
 
 
 def _commanded(track: Track) -> float | None:

@@ -38,9 +38,10 @@ class Metric:
     unit: str
     title: str
     meaning: str
-    shown: str
+    shown: str = ""
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "shown", self.shown or self.unit)
         if self.shown != self.unit and (self.unit, self.shown) not in SCALES:
             raise ValueError(f"{self.title}: [{self.unit}] cannot be shown in [{self.shown}]")
 
@@ -71,8 +72,8 @@ class Column(Metric):
     """
 
     names: tuple[str, ...]
-    of: Callable[[Track], Values | None] | None
-    asked: Callable[[Motion], Values | None] | None
+    of: Callable[[Track], Values | None] | None = None
+    asked: Callable[[Motion], Values | None] | None = None
     extra: bool = False
     from_zero: bool = False
     coloured: bool = True
@@ -139,7 +140,7 @@ class Figure(Metric):
 
     name: str
     of: Callable[[Track, Table], float | None]
-    kind: Literal["error", "cost"]
+    kind: Literal["error", "cost"] = "cost"
     listed: bool = False
 
 
@@ -153,93 +154,56 @@ METRICS: Registry[Column | Figure] = Registry("metric", "dqpaint.metrics", _not_
 An entry point has the name of a metric and is loaded for its module, which may register others.
 """
 
-Run = TypeVar("Run", bound=Callable[[Track], Values | None])
-Asked = TypeVar("Asked", bound=Callable[[Motion], Values | None])
-Value = TypeVar("Value", bound=Callable[[Track, Table], float | None])
+OfRun = TypeVar("OfRun", bound=Callable[[Track], Values | None])
+OfMotion = TypeVar("OfMotion", bound=Callable[[Motion], Values | None])
+OfBoth = TypeVar("OfBoth", bound=Callable[[Track, Table], float | None])
 
 
 def column(
-    *names: str,
-    unit: str,
-    title: str,
-    meaning: str,
-    shown: str | None = None,
-    asked: Callable[[Motion], Values | None] | None = None,
-    from_zero: bool = False,
-    coloured: bool = True,
-    study: Literal["", "kept", "drawn"] = "",
-) -> Callable[[Run], Run]:
-    """A decorator: what is below it measures columns of a run. Arguments as `Column` has them.
+    names: str, unit: str, title: str, meaning: str, **more: Any
+) -> Callable[[OfRun], OfRun]:
+    """A decorator: the function below it measures columns of a run.
+
+    Args:
+        names: their headers, with blanks between.
+        unit: as `Metric` has it, and so `title` and `meaning`.
+        title: see there.
+        meaning: see there.
+        more: what else `Column` has.
 
     Raises:
-        ValueError: there is a column of that name, or a figure.
+        ValueError: there is a metric of that name.
     """
-
-    def record(function: Run) -> Run:
-        _add(
-            Column(
-                names=names, of=function, asked=asked, unit=unit, title=title, meaning=meaning,
-                shown=shown or unit, from_zero=from_zero, coloured=coloured, study=study,
-            )
-        )  # fmt: skip
-        return function
-
-    return record
+    return _registered(lambda of: Column(
+        names=tuple(names.split()), unit=unit, title=title, meaning=meaning, of=of, **more
+    ))  # fmt: skip
 
 
 def motion_column(
-    *names: str,
-    unit: str,
-    title: str,
-    meaning: str,
-    extra: bool = False,
-    coloured: bool = True,
-    study: Literal["", "kept"] = "",
-) -> Callable[[Asked], Asked]:
+    names: str, unit: str, title: str, meaning: str, **more: Any
+) -> Callable[[OfMotion], OfMotion]:
     """The same for what was asked, which is known before there is a run."""
-
-    def record(function: Asked) -> Asked:
-        _add(
-            Column(
-                names=names, of=None, asked=function, unit=unit, title=title, meaning=meaning,
-                shown=unit, extra=extra, coloured=coloured, study=study,
-            )
-        )  # fmt: skip
-        return function
-
-    return record
+    return _registered(lambda asked: Column(
+        names=tuple(names.split()), unit=unit, title=title, meaning=meaning, asked=asked, **more
+    ))  # fmt: skip
 
 
 def figure(
-    name: str,
-    *,
-    unit: str,
-    title: str,
-    meaning: str,
-    kind: Literal["error", "cost"],
-    shown: str | None = None,
-    listed: bool = False,
-) -> Callable[[Value], Value]:
-    """A decorator: what is below it measures a figure of a run. Arguments as `Figure` has them.
+    name: str, unit: str, title: str, meaning: str, **more: Any
+) -> Callable[[OfBoth], OfBoth]:
+    """The same for a figure: the function below takes the run and its table."""
+    return _registered(lambda of: Figure(
+        name=name, unit=unit, title=title, meaning=meaning, of=of, **more
+    ))  # fmt: skip
 
-    Raises:
-        ValueError: there is a figure of that name, or a column.
-    """
 
-    def record(function: Value) -> Value:
-        METRICS.add(name)(
-            Figure(
-                name=name, of=function, unit=unit, title=title, meaning=meaning, kind=kind,
-                shown=shown or unit, listed=listed,
-            )
-        )  # fmt: skip
+def _registered(make: Callable[[Any], Column | Figure]) -> Callable[[Any], Any]:
+    def record(function: Any) -> Any:
+        one = make(function)
+        METRICS.add(one.name)(one)
         return function
 
     return record
-
-
-def _add(one: Column) -> None:
-    METRICS.add(one.name)(one)
 
 
 def all_columns() -> tuple[Column, ...]:

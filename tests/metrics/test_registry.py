@@ -93,11 +93,11 @@ def added(monkeypatch):
 
 
 def test_a_new_metric_is_measured_in_its_place(ideal, added):
-    @column("height_m", unit="m", shown="mm", title="height", meaning="of the light")
+    @column("height_m", "m", "height", "of the light", shown="mm")
     def height(track):
         return track.points[:, 2]
 
-    @figure("height_max_m", unit="m", title="height", meaning="of the light", kind="cost")
+    @figure("height_max_m", "m", "height", "of the light", kind="cost")
     def highest(track, table):
         return table["height_m"].max()
 
@@ -119,24 +119,24 @@ def test_a_new_metric_is_measured_in_its_place(ideal, added):
     (lambda track: track.nothing, "metric 'x_length_m' of gauges 1.2 failed: AttributeError: "),
 ])  # fmt: skip
 def test_a_metric_of_a_package_that_fails_is_told_in_a_sentence(ideal, added, wrong, said):
-    column("x_length_m", unit="m", title="x", meaning="x")(wrong)
+    column("x_length_m", "m", "x", "x")(wrong)
     added("x_length_m")
     with pytest.raises(DqpaintError, match=said):
         measure(ideal)
 
 
 def test_a_figure_that_is_no_number_is_refused(ideal, added):
-    figure("depth_m", unit="m", title="x", meaning="x", kind="cost")(lambda *_: np.nan)
+    figure("depth_m", "m", "x", "x", kind="cost")(lambda *_: np.nan)
     with pytest.raises(DqpaintError, match="metric 'depth_m' came out as nan"):
         measure(ideal)
 
 
 def test_two_of_a_name_are_refused(ideal, added):
     with pytest.raises(ValueError, match="two metrics named 'speed_m_s'"):
-        column("speed_m_s", unit="m/s", title="x", meaning="x")(lambda track: track.points[:, 0])
+        column("speed_m_s", "m/s", "x", "x")(lambda track: track.points[:, 0])
     with pytest.raises(ValueError, match=r"\[m\] cannot be shown in \[deg\]"):
-        column("z_m", unit="m", shown="deg", title="x", meaning="x")(lambda track: None)
-    column("a_m", "q3_rad", unit="m", title="x", meaning="x")(lambda track: track.points[:, :2])
+        column("z_m", "m", "x", "x", shown="deg")(lambda track: None)
+    column("a_m q3_rad", "m", "x", "x")(lambda track: track.points[:, :2])
     with pytest.raises(DqpaintError, match="two columns named 'q3_rad', one of them with 'a_m, q3"):
         measure(ideal)
 
@@ -180,12 +180,12 @@ def test_faultless_metrics_pass():
 GAUGES = """
 from dqpaint.metrics import column, figure
 
-@column("reach_m", unit="m", shown="mm", title="reach", meaning="from the base", from_zero=True,
+@column("reach_m", "m", "reach", "from the base", shown="mm", from_zero=True,
         study="drawn")
 def reach(track):
     return (track.points ** 2).sum(axis=1) ** 0.5
 
-@figure("reach_max_m", unit="m", shown="mm", title="reach largest", meaning="from the base",
+@figure("reach_max_m", "m", "reach largest", "from the base", shown="mm",
         kind="cost", listed=True)
 def farthest(track, table):
     return float(table["reach_m"].max())

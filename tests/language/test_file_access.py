@@ -47,7 +47,6 @@ def test_a_name_is_seen_from_the_file_it_stands_in(tmp_path: Path) -> None:
 
 
 def test_a_drawing_too(tmp_path: Path) -> None:
-    pytest.importorskip("svgelements")
     assert read(files(tmp_path, 'include "in/b.traj"', 'svg "s.svg"\n')).segments
 
 

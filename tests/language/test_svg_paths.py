@@ -9,18 +9,10 @@ from numpy.typing import NDArray
 
 from dqpaint.language.imports.svg import paths, values
 from dqpaint.program import piecewise
-from dqpaint.program.program import Chain
+from tests.support.svg import G, by_library, outline
 
 Floats = NDArray[np.float64]
-G = np.linspace(0.0, 1.0, 9)
 UNIT = np.eye(3)[None], np.zeros((1, 3))
-
-
-def outline(path: Chain) -> Floats:
-    """Places (N, 2) along all pieces of a line."""
-    piece = np.repeat(np.arange(len(path.cubic)), len(G))
-    at = piecewise.derivatives(path, piece, np.tile(G, len(path.cubic)))[0]
-    return np.asarray(at[:, :2])
 
 
 def read(data: str) -> list[Floats]:
@@ -30,21 +22,9 @@ def read(data: str) -> list[Floats]:
     return [outline(line) for _, line in pieces.lines(*UNIT)]
 
 
-def by_library(data: str) -> list[Floats]:
+def wanted(data: str) -> list[Floats]:
     """The same, as svgelements has it."""
-    lines: list[list[Floats]] = []
-    lifted = True
-    for segment in svgelements.Path(data):
-        if isinstance(segment, svgelements.Move):
-            lifted = True
-            continue
-        at = np.array([[p.x, p.y] for p in map(segment.point, G)])
-        if np.abs(at - at[0]).max() > 0.0:
-            if lifted:
-                lines.append([])
-            lines[-1].append(at)
-            lifted = isinstance(segment, svgelements.Close)
-    return [np.concatenate(line) for line in lines]
+    return by_library(svgelements.Path(data))
 
 
 @pytest.mark.parametrize(
@@ -63,9 +43,9 @@ def by_library(data: str) -> list[Floats]:
     ],
 )
 def test_paths_are_as_the_library_has_them(data: str) -> None:
-    made, wanted = read(data), by_library(data)
-    assert len(made) == len(wanted)
-    for one, other in zip(made, wanted, strict=True):
+    made, others = read(data), wanted(data)
+    assert len(made) == len(others)
+    for one, other in zip(made, others, strict=True):
         # radii that do not reach are made larger: there the library has seven digits
         np.testing.assert_allclose(
             one, other, atol=1e-6 if "a1 2" in data or "A5" in data else 1e-9
@@ -100,8 +80,7 @@ def test_an_arc_to_almost_its_start_is_all_round_or_nothing(
     chords = 8 * 100 * np.sin(np.pi / 8) if large else 0.0
     assert length - np.hypot(9, 59) == pytest.approx(chords, abs=1e-5)
     if large:  # to the right first, round below if clockwise, as y goes down
-        wanted = [50, 0 if sweep else -100]
-        np.testing.assert_allclose(line[2], wanted, atol=1e-5)
+        np.testing.assert_allclose(line[2], [50, 0 if sweep else -100], atol=1e-5)
 
 
 def test_random_paths_too() -> None:
@@ -117,7 +96,7 @@ def test_random_paths_too() -> None:
                 own[:2] = [f"{chance.uniform(50, 90):.3f}" for _ in range(2)]
                 own[3:5] = [chance.choice("01") for _ in range(2)]
             data += letter + " ".join(own)
-        for one, other in zip(read(data), by_library(data), strict=True):
+        for one, other in zip(read(data), wanted(data), strict=True):
             np.testing.assert_allclose(one, other, atol=1e-6, err_msg=data)
 
 
@@ -128,11 +107,11 @@ def test_shapes_run_as_svg_says() -> None:
     paths.draw_ellipse(pieces, (3.0, 4.0), 2.0, 1.0)
     paths.draw_rectangle(pieces, 1.0, 2.0, (30.0, 20.0), 5.0, 50.0)
     (_, ellipse), (_, rectangle) = pieces.lines(*UNIT)
-    wanted = np.stack([3 + 2 * np.cos(np.pi * 2 * G), 4 + np.sin(np.pi * 2 * G)], axis=1)
-    np.testing.assert_allclose(outline(ellipse), wanted, atol=1e-12)
+    round_ = np.stack([3 + 2 * np.cos(np.pi * 2 * G), 4 + np.sin(np.pi * 2 * G)], axis=1)
+    np.testing.assert_allclose(outline(ellipse), round_, atol=1e-12)
     # the radii are at most half a side; then two sides have no length
     same = "M6 2H26A5 10 0 0 1 31 12 5 10 0 0 1 26 22H6A5 10 0 0 1 1 12 5 10 0 0 1 6 2"
-    np.testing.assert_allclose(outline(rectangle), by_library(same)[0], atol=1e-9)
+    np.testing.assert_allclose(outline(rectangle), wanted(same)[0], atol=1e-9)
 
 
 def test_pieces_meet_to_the_last_digit() -> None:

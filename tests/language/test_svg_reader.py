@@ -2,13 +2,11 @@
 
 import math
 import re
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from dqpaint.diagnostics.diagnostic import Span
 from dqpaint.language import Program, ScriptError, parse
 from dqpaint.program import piecewise
 from dqpaint.program.program import Chain, Light, Segment
@@ -262,6 +260,28 @@ def test_what_is_not_seen(tmp_path: Path, hidden: str) -> None:
     assert len(strokes(program)) == 1
 
 
+@pytest.mark.parametrize(
+    "rectangle",
+    [
+        '<rect x="2" width="100" height="100" fill="red"/>',
+        '<rect width="98" height="100" fill="red"/>',
+        '<rect width="100" height="98" fill="red"/>',
+        '<rect width="100" height="100" fill="red" stroke="blue"/>',
+        '<rect width="100" height="100" transform="rotate(10)" fill="red"/>',
+        '<path d="M0 0H100V100H0Z" fill="red"/>',
+    ],
+)
+def test_what_is_no_paper(tmp_path: Path, rectangle: str) -> None:
+    assert len(strokes(made(tmp_path, rectangle))) == 1
+
+
+@pytest.mark.parametrize("stroke", ["", 'stroke="red" stroke-opacity="0"'])
+def test_paper(tmp_path: Path, stroke: str) -> None:
+    turned = f'<rect x="-1" width="101" height="200" {stroke} transform="rotate(-90) scale(-1 1)"/>'
+    body = f'<rect y="-5" width="999" height="999" {stroke}/>{turned}'
+    assert len(strokes(made(tmp_path, f'{body}<line x2="9" stroke="red"/>'))) == 1
+
+
 def test_a_symbol_shows_where_it_is_used(tmp_path: Path) -> None:
     body = '<symbol id="s"><line x2="9" stroke="red"/></symbol><use href="#s" x="20" y="30"/>'
     assert same_way(corners(drawn(tmp_path, body)), [[20, 30], [29, 30]])
@@ -278,7 +298,7 @@ def fault(folder: Path, body: str) -> str:
     return diagnostic.message
 
 
-def test_the_file_that_hangs_the_library(tmp_path: Path) -> None:
+def test_a_file_that_asks_for_too_much(tmp_path: Path) -> None:
     (tmp_path / "b.svg").write_text(nested_uses(30))
     with Calls(100_000), pytest.raises(ScriptError, match=r"E298.*'use'"):
         parse('svg "b.svg"', "a.traj", tmp_path / "a.traj")
@@ -304,13 +324,3 @@ def test_numbers_that_are_none(tmp_path: Path, body: str) -> None:
     assert re.search(
         r"line 1: \w+ of a <\w+>: '\w+' is|'-2' is negative|a place in it is not finite", message
     )
-
-
-def test_without_the_library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "svgelements", None)
-    with pytest.raises(ScriptError) as caught:
-        made(tmp_path, '<line x2="9" stroke="red"/>')
-    (diagnostic,) = caught.value.diagnostics
-    assert diagnostic.code == "E297"
-    assert diagnostic.help == 'pip install "dqpaint[svg]"'
-    assert (diagnostic.span or Span(0, 0)).of(caught.value.text) == '"a.svg"'

@@ -1,12 +1,13 @@
-"""Attributes of SVG: read by its grammar, written plainly; the library reads both as the same."""
+"""Attributes of SVG, read by its grammar; transforms as another library multiplies them."""
 
 import math
+import random
 
 import pytest
 import svgelements
 
 from dqpaint.language.imports.svg import values
-from dqpaint.language.imports.svg.values import UnreadableError
+from dqpaint.language.imports.svg.values import Length, UnreadableError
 
 
 @pytest.mark.parametrize(
@@ -20,9 +21,27 @@ from dqpaint.language.imports.svg.values import UnreadableError
     ],
 )
 def test_transforms_mean_the_same(text: str) -> None:
-    one, other = (svgelements.Matrix(t) for t in (text, values.transform(text)))
-    for name in "abcdef":
-        assert getattr(one, name) == pytest.approx(getattr(other, name), abs=1e-12)
+    wanted = svgelements.Matrix(text)
+    assert values.transform(text) == pytest.approx([wanted[i] for i in range(6)], abs=1e-12)
+
+
+def test_lists_of_transforms_too() -> None:
+    chance = random.Random(2)
+    counts = {"matrix": (6,), "translate": (1, 2), "scale": (1, 2), "rotate": (1, 3)}
+    counts |= dict.fromkeys(
+        ("translateX", "translateY", "scaleX", "scaleY", "skewX", "skewY"), (1,)
+    )
+    for _ in range(200):
+        names = chance.choices(list(counts), k=chance.randint(1, 4))
+        given = [[chance.uniform(-2, 2) for _ in range(chance.choice(counts[n]))] for n in names]
+        text = ", ".join(
+            f"{n}({' '.join(map(repr, g))})" for n, g in zip(names, given, strict=True)
+        )
+        one, two = (text.partition(")")[i] for i in (0, 2))  # the first, and those that stand in it
+        outer, inner = values.transform(f"{one})"), values.transform(two)
+        wanted = pytest.approx([svgelements.Matrix(text)[i] for i in range(6)], abs=1e-12)
+        assert values.transform(text) == wanted
+        assert values.times(outer, inner) == wanted
 
 
 def test_units() -> None:
@@ -30,12 +49,15 @@ def test_units() -> None:
         ("7", 7), ("7px", 7), ("1in", 96), ("2.54cm", 96), ("25.4 mm".replace(" ", ""), 96),
         ("72pt", 96), ("6pc", 96), ("101.6Q", 96), (" -1e1 ", -10),
     ):  # fmt: skip
-        assert float(values.length(text)) == pytest.approx(pixels)
-    assert values.length("50%") == "50.0%"
-    assert values.size_or_auto("auto") == ""
+        assert values.length(text) == pytest.approx((pixels, 0))
+    assert values.length("50%") == Length(percent=50.0)
+    assert values.size_or_auto("auto") is None
     turned = values.transform("rotate(0.25turn) translate(1in, 2)")
-    assert turned == "rotate(90.0) translate(96.0, 2.0)"
-    assert values.transform("rotate(1.5707963267948966rad)") == "rotate(90.0)"
+    assert turned == pytest.approx((0, 1, -1, 0, -2, 96))
+    quarter = values.transform("rotate(1.5707963267948966rad)")
+    assert quarter == values.transform("rotate(90)") == values.transform("rotate(100grad)")
+    for nothing in ("", " ", "none"):
+        assert values.transform(nothing) == values.IDENTITY
 
 
 @pytest.mark.parametrize(
@@ -50,18 +72,21 @@ def test_units() -> None:
         ("rgba(300,-5,0,.5)", "#ff000080"),
         ("hsl(120deg, 100%, 50%)", "#00ff00ff"),
         ("hsl(0.5turn 100% 50%)", "#00ffffff"),
-        ("none", "none"),
-        ("transparent", "none"),
-        ("CurrentColor", "currentColor"),
     ],
 )
 def test_paints(text: str, made: str) -> None:
-    assert values.paint(text) == made
+    assert values.paint(text) == bytes.fromhex(made[1:])
+
+
+def test_paints_that_are_no_colours() -> None:
+    assert values.paint("none") is values.paint("transparent") is None
+    assert values.paint("CurrentColor") == values.CURRENT
 
 
 def test_a_gradient_s_mean() -> None:
-    assert values.mean(["#ff0000ff", "none", "#0000ff00"]) == "#80008080"
-    assert values.mean(["none"]) == "#000000ff"
+    red, blue = b"\xff\0\0\xff", b"\0\0\xff\0"
+    assert values.mean([red, None, values.CURRENT, blue]) == b"\x80\0\x80\x80"
+    assert values.mean([None]) == b"\0\0\0\xff"
 
 
 @pytest.mark.parametrize(

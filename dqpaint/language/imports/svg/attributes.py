@@ -1,4 +1,4 @@
-"""Every attribute of an SVG drawing that matters, read by SVG's own grammar and written plainly.
+"""The elements of an SVG drawing -> a tree of what may be drawn, every attribute of it read.
 
 A number, a path or a transform that can't be read is an error with its line: another shape than
 was meant is worse than none. What SVG itself says to pass over (a colour that is none, a `use` of
@@ -6,201 +6,291 @@ nothing) is passed over so, and told.
 """
 
 from collections.abc import Callable, Mapping
-from typing import NamedTuple, TypeVar
-from xml.etree.ElementTree import Element
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
 from dqpaint.language.imports.svg import values
-from dqpaint.language.imports.svg.style_sheets import Remark, tag_of
-from dqpaint.language.imports.svg.values import Commands, SvgError, UnreadableError
+from dqpaint.language.imports.svg.guard import LESS, SHAPES, Element, by_ids
+from dqpaint.language.imports.svg.style_sheets import TooManyRulesError, inline
+from dqpaint.language.imports.svg.values import (
+    Commands,
+    Length,
+    Matrix,
+    Paint,
+    SvgError,
+    UnreadableError,
+)
 
-NUMBER = "data-number"  # of a path in `Attributes.paths`: the library need not read it
-LINK = ("href", "{http://www.w3.org/1999/xlink}href")
-Read = TypeVar("Read")
-Reader = Callable[[str], str]
+Lines = dict[str, list[int]]  # of a file, where something stands
 
-_PLACE: Mapping[str, Reader] = {"x": values.length, "y": values.length}
-_SIZE: Mapping[str, Reader] = dict.fromkeys(("width", "height"), values.size_or_auto)
-_ROUND: Mapping[str, Reader] = {"rx": values.size_or_auto, "ry": values.size_or_auto}
-_CENTRE: Mapping[str, Reader] = {"cx": values.length, "cy": values.length}
-GEOMETRY: Mapping[str, Mapping[str, Reader]] = {
-    "line": dict.fromkeys(("x1", "y1", "x2", "y2"), values.length),
-    "rect": {**_PLACE, **_SIZE, **_ROUND},
-    "circle": {**_CENTRE, "r": values.size},
-    "ellipse": {**_CENTRE, **_ROUND},
-    "use": {**_PLACE, **_SIZE},
-    "svg": {**_PLACE, **_SIZE, "viewBox": values.view_box},
+VIEWPORTS = ("svg", "symbol")
+PLACED = ("use", *VIEWPORTS)
+_LENGTHS: Mapping[str, Callable[[str], Any]] = {
+    **dict.fromkeys(("x", "y", "x1", "y1", "x2", "y2", "cx", "cy"), values.length),
+    **dict.fromkeys(("width", "height", "rx", "ry"), values.size_or_auto),
+    "r": values.size,
 }
-SHAPES = ("path", "line", "polyline", "polygon", "rect", "circle", "ellipse")
-OUTLINES: Mapping[str, tuple[str, Callable[[str], Commands]]] = {
-    "path": ("d", values.path),
-    "polyline": ("points", values.points),
-    "polygon": ("points", values.closed),
+_READERS: Mapping[str, Callable[[str], Any]] = {
+    **_LENGTHS,
+    "d": values.path,
+    "points": values.points,
+    "viewBox": values.view_box,
+    "transform": values.transform,
 }
+_READ = {  # the attributes that are read, of all elements the transform
+    "path": ("d",),
+    **dict.fromkeys(("polyline", "polygon"), ("points",)),
+    "line": ("x1", "y1", "x2", "y2"),
+    "rect": ("x", "y", "width", "height", "rx", "ry"),
+    "circle": ("cx", "cy", "r"),
+    "ellipse": ("cx", "cy", "rx", "ry"),
+    "use": ("x", "y", "width", "height"),
+    **dict.fromkeys(VIEWPORTS, ("x", "y", "width", "height", "viewBox")),
+}
+_SIDES = {"rect": 2, "circle": 1, "ellipse": 1, **dict.fromkeys(VIEWPORTS, 0)}  # it must say
+_NOWHERE = ("defs", "clipPath", "mask", "pattern", "marker")  # nor is a symbol where it stands
+_MISSED = ("text", "image", "foreignObject", "flowRoot")
+_NO_LINES = (
+    *(*_MISSED, "linearGradient", "radialGradient"),
+    *("style", "script", "video", "audio", "canvas"),
+)
 _PAINTS = ("stroke", "fill", "color")
 _OPACITIES = ("stroke-opacity", "fill-opacity", "opacity")
-_SIZES = {"rect": ("width", "height"), "circle": ("r",), "ellipse": ("rx", "ry")}
+_INHERITED = ("inherit", "context-stroke", "context-fill", "")
+_HIDDEN = {"hidden": True, "collapse": True, "visible": False}
 _CURE = "mend it, or save the drawing as plain SVG in the program it was made with"
-_KEPT = ("id", "visibility", "preserveAspectRatio", *LINK)
-NOT_FOLLOWED = ("clip-path", "mask", "stroke-dasharray", "transform-origin")
+_NOT_FOLLOWED = ("clip-path", "mask", "stroke-dasharray", "transform-origin")
 STYLED = frozenset((
-    *(*_PAINTS, *_OPACITIES, *NOT_FOLLOWED, "stop-color", "transform", "display", "visibility"),
-    *(name for readers in GEOMETRY.values() for name in readers),
-)) - {"points", "viewBox", "d"}  # fmt: skip
+    *(*_PAINTS, *_OPACITIES, *_NOT_FOLLOWED, *_LENGTHS),
+    *("stop-color", "transform", "display", "visibility"),
+))  # fmt: skip
 
 
-class Opacities(NamedTuple):
-    """Of strokes and of fillings, which are inherited, and of all that stands around."""
+class Style(NamedTuple):
+    """What an element has from those around it, unless it says otherwise; opacities multiply."""
 
-    stroke: float
-    fill: float
-    whole: float
+    color: Paint = values.BLACK
+    stroke: Paint = None
+    fill: Paint = values.BLACK
+    stroke_opacity: float = 1.0
+    fill_opacity: float = 1.0
+    opacity: float = 1.0
+    hidden: bool = False
 
 
-OPAQUE = Opacities(1.0, 1.0, 1.0)
+@dataclass(eq=False, slots=True)
+class Node:
+    """An element that may be drawn.
 
-
-class Attributes:
-    """Reads the attributes of a drawing's elements.
-
-    Args:
-        root: with the styles in the attributes.
-        lines: of the file, where each element begins.
-        remark: takes what is passed over as SVG says.
-        not_followed: takes what is drawn otherwise than SVG says.
+    Attributes:
+        tag: without its namespace.
+        transform: its own.
+        outline: of a path or a polygon.
+        box: its view box; empty without one.
+        ratio: how that lies in its viewport.
+        lengths: its place and its size, as far as they are said.
+        said: what it says of its style.
+        shown: whether there is something to see of it.
+        children: what is shown in it, or by a `use`.
     """
 
-    def __init__(
-        self, root: Element, lines: Mapping[Element, int], remark: Remark, not_followed: Remark
-    ) -> None:
-        self._by_id = {e.attrib["id"]: e for e in root.iter() if "id" in e.attrib}
-        self._lines, self._remark, self._not_followed = lines, remark, not_followed
-        self.paths: list[Commands] = []
+    tag: str
+    transform: Matrix
+    outline: Commands
+    box: list[float]
+    ratio: str
+    lengths: dict[str, Length]
+    said: dict[str, Any]
+    shown: bool = True
+    children: list["Node"] = field(default_factory=list)
 
-    def write(self, element: Element, light: Opacities = OPAQUE) -> None:
-        """Writes the attributes of an element and of all in it anew.
+
+@dataclass
+class Notes:
+    """What of a drawing is not drawn as it stands there.
+
+    Attributes:
+        left_out: texts, images ..., and the lines they stand on.
+        otherwise: what is drawn, but not as SVG says, and the lines.
+        passed_over: what SVG itself passes over, each with its line.
+    """
+
+    left_out: Lines = field(default_factory=dict)
+    otherwise: Lines = field(default_factory=dict)
+    passed_over: list[str] = field(default_factory=list)
+
+
+def read(root: Element) -> tuple[Node, Notes]:
+    """A drawing with all its attributes, and what of it is not drawn as it stands there.
+
+    Raises:
+        SvgError: an attribute can't be read, or the drawing has no size.
+    """
+    reader = _Reader(root)
+    try:
+        inline(root, STYLED, reader.remark)
+    except TooManyRulesError:
+        raise SvgError("its style has too many rules for so many elements", LESS) from None
+    made = reader.tree(root)
+    if not _has_size(made, "svg"):
+        cure = "give its viewBox the width and height of what it shows, or take it away"
+        raise SvgError(f"line {root.line}: it has no size, so SVG shows nothing of it", cure)
+    return made, reader.notes
+
+
+def _is_hidden(element: Element) -> bool:
+    return "}" in element.tag or element.has.get("display", "").strip() == "none"
+
+
+def _has_size(node: Node, tag: str) -> bool:
+    """Whether a shape or a viewport of a tag has sides; SVG shows nothing of one that has not."""
+    names = ("rx", "ry") if tag == "ellipse" else ("width", "height", "r")
+    sides = [node.lengths[name] for name in names if name in node.lengths]
+    return tag not in _SIDES or (
+        len(sides) >= _SIDES[tag] and all(map(any, sides)) and all(node.box[2:])
+    )
+
+
+class _Reader:
+    """Reads the elements of a drawing."""
+
+    def __init__(self, root: Element) -> None:
+        self._by_id = by_ids(root)
+        self._nodes: dict[Element, Node] = {}
+        self._uses: list[tuple[Node, Element]] = []
+        self.notes = Notes()
+
+    def remark(self, element: Element, text: str) -> None:
+        """Notes what is passed over as SVG says."""
+        self.notes.passed_over.append(f"line {element.line}: {text}")
+
+    def tree(self, root: Element) -> Node:
+        """An element and all that is shown in it, its styles in the attributes.
 
         Raises:
-            SvgError: one of them can't be read.
+            SvgError: an attribute can't be read.
         """
-        tag, has = tag_of(element), element.attrib
-        if tag in ("linearGradient", "radialGradient"):
-            return
-        made = {name: has[name] for name in _KEPT if name in has}
-        for name, reader in {**GEOMETRY.get(tag, {}), "transform": values.transform}.items():
-            if name in has:
-                made[name] = self._read(element, name, reader)
-        if tag in OUTLINES:
-            name, letters = OUTLINES[tag]
-            self.paths.append(self._read(element, name, letters) if name in has else [])
-        paints = self._paints(element)
-        light = self._opacities(element, light)
-        for name in NOT_FOLLOWED:
-            if has.get(name, "none").strip() not in ("none", "", "0"):
-                self._not_followed(element, name)
-        if tag == "symbol" and "viewBox" in has:
-            self._not_followed(element, "symbol")
-        if tag == "use":
-            self._check_link(element)
-            if light.whole < 1.0:
-                self._not_followed(element, "opacity")
-        has.clear()
-        has.update({name: value for name, value in made.items() if value}, **paints)
-        if tag in SHAPES:
-            _shade(has, light)
-        self._complete(element, tag)
-        if tag in OUTLINES:
-            has.update({"d": "", NUMBER: str(len(self.paths) - 1)})
-            element.tag = str(element.tag).replace(tag, "path")
-        for child in element:
-            self.write(child, light)
-
-    def _read(self, element: Element, name: str, reader: Callable[[str], Read]) -> Read:
-        try:
-            return reader(element.attrib[name])
-        except UnreadableError as fault:
-            where = f"line {self._lines.get(element, 0)}: {name} of a <{tag_of(element)}>"
-            raise SvgError(f"{where}: {fault}", _CURE) from None
-
-    def _opacities(self, element: Element, outside: Opacities) -> Opacities:
-        """Of strokes and fillings: said here, else outside; and of all there is."""
-        found = []
-        for name, otherwise in zip(_OPACITIES, (outside.stroke, outside.fill, 1.0), strict=True):
-            found.append(otherwise)
-            if name in element.attrib:
-                try:
-                    found[-1] = values.opacity(element.attrib[name])
-                except UnreadableError as fault:
-                    self._remark(element, f"{name}: {fault}")
-        stroke, fill, own = found
-        return Opacities(stroke, fill, own * outside.whole)
-
-    def _paints(self, element: Element) -> dict[str, str]:
-        """The paints that are some; the others are inherited, as SVG has it."""
-        made: dict[str, str] = {}
-        for name in _PAINTS:
-            text = element.attrib.get(name, "inherit").strip()
-            if text in ("inherit", "context-stroke", "context-fill", ""):
-                continue
-            try:
-                link = values.reference(text)
-                made[name] = self._linked(element, name, *link) if link else values.paint(text)
-            except UnreadableError as fault:
-                self._remark(element, f"{name}: {fault}")
+        made = self._node(root)
+        for use, target in self._uses:  # they grow by what is not shown where it stands
+            if not _is_hidden(target) and target.tag not in (*_NO_LINES, *_NOWHERE):
+                use.children.append(self._nodes.get(target) or self._node(target))
         return made
 
-    def _check_link(self, use: Element) -> None:
-        """SVG draws nothing for a `use` of nothing."""
-        link = next((use.attrib[key] for key in LINK if key in use.attrib), "")
-        if not link:
-            self._remark(use, "a <use> of nothing")
-        elif not link.startswith("#"):
-            self._remark(use, "a <use> of another file")
-        elif link[1:] not in self._by_id:
-            self._remark(use, f"there is no {values.shown(link[1:])} to be used")
+    def _node(self, element: Element) -> Node:
+        """An element and all that is shown in it."""
+        tag, has = element.tag, element.has
+        names = [name for name in (*_READ.get(tag, ()), "transform") if name in has]
+        read = {name: self._read(element, name) for name in names}
+        node = self._nodes[element] = Node(
+            tag,
+            read.pop("transform", values.IDENTITY),
+            read.pop("d", None) or read.pop("points", []),
+            read.pop("viewBox", []),
+            has.get("preserveAspectRatio", ""),
+            {name: length for name, length in read.items() if length is not None},
+            self._style(element),
+        )
+        for name in _NOT_FOLLOWED:
+            if has.get(name, "none").strip() not in ("none", "", "0"):
+                self._not_followed(element, name)
+        if tag == "use":
+            self._follow(element, node)
+        elif tag not in SHAPES:
+            self._enter(element, node)
+        self._show(element, node)
+        return node
 
-    def _linked(self, element: Element, name: str, id_: str, instead: str) -> str:
+    def _read(self, element: Element, name: str) -> Any:
+        try:
+            return _READERS[name](element.has[name])
+        except UnreadableError as fault:
+            where = f"line {element.line}: {name} of a <{element.tag}>"
+            raise SvgError(f"{where}: {fault}", _CURE) from None
+
+    def _style(self, element: Element) -> dict[str, Any]:
+        """The fields of Style that an element says, and its own opacity."""
+        made: dict[str, Any] = {}
+        for name in (*_PAINTS, *_OPACITIES):
+            text = element.has.get(name, "inherit").strip()
+            try:
+                if name in _OPACITIES and name in element.has:
+                    made[name.replace("-", "_")] = values.opacity(text)
+                elif text not in _INHERITED and (name, text.lower()) != ("color", "currentcolor"):
+                    made[name] = self._paint(element, name, text)
+            except UnreadableError as fault:
+                self.remark(element, f"{name}: {fault}")
+        visibility = element.has.get("visibility", "").strip()
+        if visibility in _HIDDEN:
+            made["hidden"] = _HIDDEN[visibility]
+        return made
+
+    def _paint(self, element: Element, name: str, text: str) -> Paint:
         """A gradient as its mean colour; a pattern is no light, and what is not there no paint."""
-        target = self._by_id.get(id_)
+        link = values.reference(text)
+        if link is None:
+            return values.paint(text)
+        id_, instead = link
+        target = self._by_id.get(f"#{id_}")
         if target is None:
-            self._remark(element, f"{name}: there is no '{id_[:24]}' in the file")
-            return values.paint(instead) if instead.strip() else "none"
+            self.remark(element, f"{name}: there is no '{id_[:24]}' in the file")
+            return values.paint(instead) if instead.strip() else None
         stops = self._stops(target, 0)
-        if not stops:
-            self._not_followed(element, tag_of(target))
-            return "#000000ff"
-        self._not_followed(element, "gradient")
+        self._not_followed(element, "gradient" if stops else target.tag)
         return values.mean(stops)
 
-    def _stops(self, gradient: Element, depth: int) -> list[str]:
+    def _stops(self, gradient: Element, depth: int) -> list[Paint]:
         """The colours of a gradient, or of the one it takes them from."""
-        stops = [stop for stop in gradient if tag_of(stop) == "stop"]
-        link = next((gradient.attrib[key] for key in LINK if key in gradient.attrib), "")
-        if not stops and depth < 8 and link[1:] in self._by_id:
-            return self._stops(self._by_id[link[1:]], depth + 1)
+        stops = [stop for stop in gradient.children if stop.tag == "stop"]
+        other = self._by_id.get(gradient.link)
+        if not stops and depth < 8 and other is not None:
+            return self._stops(other, depth + 1)
         made = []
         for stop in stops:
             try:
-                made.append(values.paint(stop.attrib.get("stop-color", "black")))
+                made.append(values.paint(stop.has.get("stop-color", "black")))
             except UnreadableError as fault:
-                self._remark(stop, f"stop-color: {fault}")
+                self.remark(stop, f"stop-color: {fault}")
         return made
 
-    def _complete(self, element: Element, tag: str) -> None:
-        """Writes what is not said, which the library would take from the elements around."""
-        has = element.attrib
-        if tag in ("rect", "ellipse"):
-            for one, other in (("rx", "ry"), ("ry", "rx")):
-                if one not in has and other in has:
-                    has[one] = has[other]
-        for name in GEOMETRY.get(tag, {}) if tag in SHAPES else ():
-            has.setdefault(name, "0")
-        if any(float(has[name].rstrip("%")) == 0.0 for name in _SIZES.get(tag, ())):
-            self._remark(element, f"a <{tag}> without a size")
+    def _show(self, element: Element, node: Node) -> None:
+        """Finds whether there is something to see, be it of what is in it."""
+        a, b, c, d, _, _ = node.transform
+        target = self._by_id.get(element.link)
+        used = node.tag == "use" and target is not None and target.tag in VIEWPORTS
+        if not _has_size(node, "svg" if used else node.tag):
+            article = "an" if node.tag in ("ellipse", "svg") else "a"
+            self.remark(element, f"{article} <{node.tag}> without a size")
+            node.shown = False
+        elif a * d == b * c:
+            self.remark(element, "a transform that leaves nothing to see")
+            node.shown = False
 
+    def _follow(self, use: Element, node: Node) -> None:
+        """SVG draws nothing for a `use` of nothing."""
+        link, target = use.link, self._by_id.get(use.link)
+        if target is not None:
+            self._uses.append((node, target))
+        elif not link:
+            self.remark(use, "a <use> of nothing")
+        elif not link.startswith("#"):
+            self.remark(use, "a <use> of another file")
+        else:
+            self.remark(use, f"there is no {values.shown(link[1:])} to be used")
 
-def _shade(has: dict[str, str], light: Opacities) -> None:
-    """Writes the opacities of a shape, with those of its colours in them."""
-    for paint, own in (("stroke", light.stroke), ("fill", light.fill)):
-        alpha = int(has[paint][7:], 16) / 255 if has.get(paint, "").startswith("#") else 1.0
-        if own * light.whole * alpha < 1.0:
-            has[f"{paint}-opacity"] = repr(own * light.whole * alpha)
+    def _enter(self, element: Element, node: Node) -> None:
+        """Reads what is in an element."""
+        for child in element.children:
+            tag = child.tag
+            if _is_hidden(child):
+                continue
+            if tag in _MISSED:
+                self.notes.left_out.setdefault(tag, []).append(child.line)
+            if tag not in _NO_LINES:
+                made = self._node(child)
+                if tag not in (*_NOWHERE, "symbol"):
+                    node.children.append(made)
+                if node.tag == "switch":
+                    return
+
+    def _not_followed(self, element: Element, name: str) -> None:
+        self.notes.otherwise.setdefault(name, []).append(element.line)

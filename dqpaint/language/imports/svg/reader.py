@@ -1,29 +1,29 @@
 """SVG drawings -> chains with their colours, in metres, x to the right and y up.
 
-The only door to the SVG library, which is an extra: `pip install "dqpaint[svg]"`. Arcs stay arcs
-and Bezier curves Bezier curves, whatever transforms they stand under.
+Arcs stay arcs and Bezier curves Bezier curves, whatever transforms they stand under.
 """
 
-import io
 from array import array
-from collections.abc import Iterator
-from dataclasses import replace
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from dqpaint.diagnostics import Problem, problem
+from dqpaint.diagnostics import problem
 from dqpaint.language.imports import stroke_order
 from dqpaint.language.imports.file_access import contents
-from dqpaint.language.imports.svg import paths
-from dqpaint.language.imports.svg.attributes import NUMBER
-from dqpaint.language.imports.svg.guard import MOST_BYTES, GuardedFile, Lines, guard
+from dqpaint.language.imports.stroke_order import ColouredCurve
+from dqpaint.language.imports.svg import attributes, nested_svg, paths, values
+from dqpaint.language.imports.svg.attributes import PLACED, Lines, Node, Notes, Style
+from dqpaint.language.imports.svg.guard import MOST_BYTES, SHAPES, guard
+from dqpaint.language.imports.svg.nested_svg import View
 from dqpaint.language.imports.svg.paths import Pieces
-from dqpaint.language.imports.svg.values import LARGEST, SvgError
+from dqpaint.language.imports.svg.values import LARGEST, Commands, Length, Matrix, Paint, SvgError
 from dqpaint.language.pen.pen import Pen
 from dqpaint.language.syntax.tree import Quoted
-from dqpaint.program import Chain, Colour, Floats, colours, piecewise
+from dqpaint.program import Colour, Floats, colours, piecewise
 
 PIXEL = 0.0254 / 96.0  # [m] as CSS has it
 DARKEST = 0.02  # of linear light: what is darker is ink, not a colour of light
@@ -33,55 +33,46 @@ _OTHERWISE = {
     "stroke-dasharray": "dashes are drawn as whole lines",
     "gradient": "a gradient is drawn in its mean colour",
     "pattern": "a pattern is drawn in the light that holds",
-    "opacity": "the opacity of a 'use' is not followed",
     "transform-origin": "transforms are about the origin: write the place into the transform",
-    "symbol": "a symbol is drawn in its own size, whatever its viewBox",
 }
 
 
-class Line(NamedTuple):
-    """What is drawn without lifting the pen; no colour for what was drawn in black."""
+class State(NamedTuple):
+    """What a shape has from all that it stands in."""
 
-    chain: Chain
-    colour: Colour | None
-
-
-class Drawing(NamedTuple):
-    """The lines of a file, in an order with short ways, and what was left out of it."""
-
-    lines: list[Line]
-    guarded: GuardedFile
+    matrix: Matrix
+    view: View
+    style: Style
+    sizes: dict[str, Length]  # of the `use` that shows it, which go before its own
 
 
-def read(node: Quoted, pen: Pen) -> list[Line]:
+def read(node: Quoted, pen: Pen) -> list[ColouredCurve]:
     """The lines of a drawing, in an order with short ways between them."""
     data = contents(node, pen, MOST_BYTES)
     try:
-        lines, guarded = _read(data)
+        lines, notes = _read(data)
     except SvgError as fault:
         message = f"can't draw {node.text}: {fault.message}"
         raise problem("E298", message, node.span, "", fault.cure) from None
-    except ImportError:
-        raise _no_library(node) from None
-    _warn(guarded, node, pen)
+    _warn(notes, node, pen)
     return lines
 
 
-def _warn(guarded: GuardedFile, node: Quoted, pen: Pen) -> None:
+def _warn(notes: Notes, node: Quoted, pen: Pen) -> None:
     """Says what of the file is not drawn, or not as it stands there."""
-    if guarded.left_out:
-        message = f"left out of {node.text}: {_counted(guarded.left_out)}"
-        pen.warn("W420", message, node.span, "", _said(guarded))
-    if guarded.passed_over:
-        some = "; ".join(guarded.passed_over[:MOST_SAID])
-        more = len(guarded.passed_over) - MOST_SAID
+    if notes.left_out:
+        message = f"left out of {node.text}: {_counted(notes.left_out)}"
+        pen.warn("W420", message, node.span, "", _said(notes))
+    if notes.passed_over:
+        some = "; ".join(notes.passed_over[:MOST_SAID])
+        more = len(notes.passed_over) - MOST_SAID
         message = f"passed over in {node.text}, as SVG says: {some}"
         label = f"and {more} more" if more > 0 else ""
         cure = "mend it in the file, or leave it: browsers draw it so, too"
         pen.warn("W421", message, node.span, label, cure)
-    if guarded.otherwise:
-        names = sorted(guarded.otherwise)
-        message = f"drawn otherwise than in {node.text}: {_counted(guarded.otherwise)}"
+    if notes.otherwise:
+        names = sorted(notes.otherwise)
+        message = f"drawn otherwise than in {node.text}: {_counted(notes.otherwise)}"
         cure = "; ".join(dict.fromkeys(_OTHERWISE.get(name, _WHOLE) for name in names))
         pen.warn("W422", message, node.span, "", cure)
 
@@ -95,56 +86,69 @@ def _counted(found: Lines) -> str:
 
 
 @lru_cache(maxsize=4)  # as in a `repeat`
-def _read(data: bytes) -> Drawing:
-    guarded = guard(data)
-    lines = list(_lines(guarded))
+def _read(data: bytes) -> tuple[list[ColouredCurve], Notes]:
+    root, notes = attributes.read(guard(data))
+    lines = list(_lines(root))
     if not lines:
-        raise SvgError("there are no lines in it", _said(guarded))
-    ordered = [Line(chain, colour) for chain, colour in stroke_order.in_order(lines)]
-    return Drawing(ordered, replace(guarded, xml=b"", paths=[]))
+        raise SvgError("there are no lines in it", _said(notes))
+    return stroke_order.in_order(lines), notes
 
 
-def _said(guarded: GuardedFile) -> str:
+def _said(notes: Notes) -> str:
     cures = []
-    if set(guarded.left_out) - {"image"}:
+    if set(notes.left_out) - {"image"}:
         cures.append("in the program it was made with, convert texts to paths")
-    if "image" in guarded.left_out:
+    if "image" in notes.left_out:
         cures.append("trace an image to paths, or draw without it")
     return "; ".join(cures) or "only paths and shapes are drawn"
 
 
-def _no_library(node: Quoted) -> Problem:
-    message = "reading SVG needs the package svgelements, which is not installed"
-    return problem("E297", message, node.span, "", 'pip install "dqpaint[svg]"')
-
-
-def _lines(guarded: GuardedFile) -> Iterator[tuple[Chain, Colour | None]]:
-    import svgelements
-
-    pieces, transforms, lights = paths.Pieces(), array("d"), []
-    try:
-        drawing = svgelements.SVG.parse(io.BytesIO(guarded.xml), reify=False, ppi=96.0)
-        paper = float(drawing.width), float(drawing.height)
-        for shape in drawing.elements():
-            if not isinstance(shape, svgelements.Shape):
-                continue
-            if _is_seen(shape) and not _is_paper(shape, paper):
-                pieces.begin()
-                if isinstance(shape, svgelements.Path):
-                    paths.draw_path(pieces, guarded.paths[int(shape.values[NUMBER])])
-                else:
-                    _DRAW[type(shape).__name__](pieces, shape)
-                m = shape.transform
-                transforms.extend((m.a, m.b, m.c, m.d, m.e, m.f))
-                lights.append(_colour(shape))
-    except SvgError:
-        raise
-    except Exception as fault:  # of many kinds: the library takes much on trust
-        raise SvgError("the SVG library can't read it", "save it as plain SVG") from fault
+def _lines(root: Node) -> Iterator[ColouredCurve]:
+    pieces, transforms, lights = Pieces(), array("d"), []
+    paper = nested_svg.paper(root)
+    for node, state in _shapes(root, paper):
+        at = _measured(node, state.view)
+        stroke, fill = _paints(state.style)
+        paint = stroke or (None if _is_paper(at, state.matrix, paper) else fill)
+        if paint:
+            pieces.begin()
+            _draw(pieces, node, at)
+            transforms.extend(state.matrix)
+            lights.append(_colour(paint))
     found = list(pieces.lines(*_in_metres(np.array(transforms).reshape(-1, 3, 2))))
     if found and not piecewise.farthest([chain for _, chain in found]) <= LARGEST * PIXEL:
         raise SvgError("a place in it is not finite, or far too large")
     return ((chain, lights[number]) for number, chain in found)
+
+
+def _shapes(root: Node, paper: View) -> Iterator[tuple[Node, State]]:
+    """The shapes of a drawing in their order, those of a `use` at each of its places."""
+    whole = {"x": 0.0, "y": 0.0, **paper._asdict()}
+    sizes = {name: Length(pixels) for name, pixels in whole.items()}
+    todo = [(root, State(values.IDENTITY, paper, Style(), sizes))]
+    while todo:
+        node, around = todo.pop()
+        if node.shown:
+            state = _inside(node, around)
+            if node.tag in SHAPES:
+                yield node, state
+            todo.extend((child, state) for child in reversed(node.children))
+
+
+def _inside(node: Node, around: State) -> State:
+    """What holds for a node and for all in it."""
+    matrix, view, style, sizes = around
+    matrix = values.times(matrix, node.transform)
+    if node.said:
+        opacity = node.said.get("opacity", 1.0) * style.opacity
+        style = style._replace(**{**node.said, "opacity": opacity})
+    if node.tag in PLACED:
+        placed, within = nested_svg.placed(node, view, sizes)
+        matrix = values.times(matrix, placed)
+        view = view if node.tag == "use" else within
+    names = View._fields if node.tag == "use" else ()
+    sizes = {name: node.lengths[name] for name in names if name in node.lengths}
+    return State(matrix, view, style, sizes)
 
 
 def _in_metres(transforms: Floats) -> tuple[Floats, Floats]:
@@ -160,51 +164,58 @@ def _in_metres(transforms: Floats) -> tuple[Floats, Floats]:
 # Colours.
 
 
-def _is_seen(shape: Any) -> bool:
-    if shape.values.get("visibility") in ("hidden", "collapse"):
-        return False
-    return any(paint.value is not None and paint.alpha for paint in (shape.stroke, shape.fill))
+def _paints(style: Style) -> tuple[Paint, Paint]:
+    """What is to be seen of a stroke and of a filling, with all opacities in it."""
+    if style.hidden:
+        return None, None
+    stroke = _seen(style.stroke, style.stroke_opacity, style)
+    return stroke, _seen(style.fill, style.fill_opacity, style)
 
 
-def _colour(shape: Any) -> Colour | None:
-    """The stroke's colour, else the filling's; None for black, which can't shine."""
-    paint = shape.stroke if shape.stroke.value is not None else shape.fill
-    red, green, blue = (colours.linear(c / 255) for c in (paint.red, paint.green, paint.blue))
+def _seen(paint: Paint, own: float, style: Style) -> Paint:
+    paint = style.color if paint == values.CURRENT else paint
+    alpha = round(255 * (own * style.opacity * (paint[3] / 255))) if paint else 0
+    return paint[:3] + bytes([alpha]) if paint and alpha else None
+
+
+def _colour(paint: bytes) -> Colour | None:
+    """The colour of light; None for black, which can't shine."""
+    red, green, blue = (colours.linear(channel / 255) for channel in paint[:3])
     if max(red, green, blue) < DARKEST:
         return None
-    return colours.dimmed((red, green, blue), paint.alpha / 255)
+    return colours.dimmed((red, green, blue), paint[3] / 255)
 
 
-def _is_paper(shape: Any, paper: tuple[float, float]) -> bool:
-    """Whether it is a filled rectangle as large as the drawing, to draw upon."""
-    if type(shape).__name__ != "Rect" or shape.stroke.value is not None:
-        return False
-    box = [float(side) for side in shape.bbox()]
+def _is_paper(at: Mapping[str, float], matrix: Matrix, paper: View) -> bool:
+    """Whether it is a rectangle (no other shape has a width) as large as the drawing, under it."""
+    a, b, c, d, e, f = matrix
+    sides = ((at["x"], at["x"] + at["width"]), (at["y"], at["y"] + at["height"]))
+    corners = [(a * x + c * y + e, b * x + d * y + f) for x in sides[0] for y in sides[1]]
+    least, most = (tuple(map(of, zip(*corners, strict=True))) for of in (min, max))
     slack = 0.01 * max(paper)
-    return (
-        max(box[0], box[1]) <= slack and box[2] >= paper[0] - slack and box[3] >= paper[1] - slack
-    )
+    far = all(side >= whole - slack for side, whole in zip(most, paper, strict=True))
+    return far and max(least) <= slack
 
 
 # Shapes.
 
 
-def _draw_line(pieces: Pieces, shape: Any) -> None:
-    paths.draw_line(pieces, (shape.x1, shape.y1), (shape.x2, shape.y2))
+def _draw(pieces: Pieces, node: Node, at: Mapping[str, float]) -> None:
+    if node.tag == "line":
+        paths.draw_line(pieces, (at["x1"], at["y1"]), (at["x2"], at["y2"]))
+    elif node.tag == "rect":
+        size = at["width"], at["height"]
+        paths.draw_rectangle(pieces, at["x"], at["y"], size, at["rx"], at["ry"])
+    elif node.tag in ("circle", "ellipse"):
+        paths.draw_ellipse(pieces, (at["cx"], at["cy"]), at["rx"], at["ry"])
+    else:
+        closed: Commands = [("Z", [])] if node.tag == "polygon" and node.outline else []
+        paths.draw_path(pieces, node.outline + closed)
 
 
-def _draw_ellipse(pieces: Pieces, shape: Any) -> None:
-    paths.draw_ellipse(pieces, (shape.cx, shape.cy), shape.rx, shape.ry)
-
-
-def _draw_rectangle(pieces: Pieces, shape: Any) -> None:
-    size = shape.width, shape.height
-    paths.draw_rectangle(pieces, shape.x, shape.y, size, shape.rx, shape.ry)
-
-
-_DRAW = {
-    "SimpleLine": _draw_line,
-    "Circle": _draw_ellipse,
-    "Ellipse": _draw_ellipse,
-    "Rect": _draw_rectangle,
-}
+def _measured(node: Node, view: View) -> Mapping[str, float]:
+    """The lengths of a shape [px]; 0 for those that it does not say."""
+    at = defaultdict(float, {n: view.pixels(n, length) for n, length in node.lengths.items()})
+    at["rx"] = at.get("rx", at.get("ry", at["r"]))
+    at["ry"] = at.get("ry", at["rx"])
+    return at

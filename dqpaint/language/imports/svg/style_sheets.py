@@ -8,7 +8,8 @@ others are named, not followed.
 import re
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
-from xml.etree.ElementTree import Element
+
+from dqpaint.language.imports.svg.guard import Element
 
 Remark = Callable[[Element, str], None]
 
@@ -44,11 +45,6 @@ class _Rule(NamedTuple):
     declared: _Declared
 
 
-def tag_of(element: Element) -> str:
-    """The tag without its namespace."""
-    return str(element.tag).rpartition("}")[2]
-
-
 def inline(root: Element, known: frozenset[str], remark: Remark) -> None:
     """Writes the declarations of all styles into attributes; `known` are those that matter.
 
@@ -56,18 +52,18 @@ def inline(root: Element, known: frozenset[str], remark: Remark) -> None:
         TooManyRulesError: it would take too long.
     """
     rules: dict[str, list[_Rule]] = {}  # by the first of their names; "" for those of all
-    for sheet in root.iter():
-        if tag_of(sheet) == "style":
+    for sheet in root:
+        if sheet.tag == "style":
             for rule in _rules(sheet, known, remark):
                 rules.setdefault(min(rule.names, default=""), []).append(rule)
     work = 0
-    for element in root.iter():
-        has = element.attrib
+    for element in root:
+        has = element.has
         own = _declared(has.pop("style", ""), known)
         holding: list[_Declared] = []
         if rules:
             names = {f".{one}" for one in has.get("class", "").split()}
-            names |= {tag_of(element), f"#{has.get('id', '')}"}
+            names |= {element.tag, f"#{has.get('id', '')}"}
             tried = [rule for name in ("", *names) for rule in rules.get(name, ())]
             work += len(tried)
             if work > MOST_WORK:
@@ -81,7 +77,7 @@ def inline(root: Element, known: frozenset[str], remark: Remark) -> None:
 
 
 def _rules(sheet: Element, known: frozenset[str], remark: Remark) -> Iterator[_Rule]:
-    text = _COMMENT.sub(" ", sheet.text or "").replace("<!--", " ").replace("-->", " ")
+    text = _COMMENT.sub(" ", "".join(sheet.text)).replace("<!--", " ").replace("-->", " ")
     for order, (selectors, body) in enumerate(_blocks(text, sheet, remark)):
         declared = _declared(body, known)
         for selector in map(str.strip, selectors.split(",") if any(declared) else ()):

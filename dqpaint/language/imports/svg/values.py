@@ -1,12 +1,13 @@
-"""What stands in the attributes of an SVG drawing: numbers, lengths, paths, transforms, paints.
+"""The attributes of an SVG drawing -> numbers, lengths, paths, transforms and paints.
 
-Each is read by SVG's own grammar and written again in its plainest form, so that the library after
-it reads what was understood here. What can't be read is an error that says which part of it.
+Each is read by SVG's own grammar. What can't be read is an error that says which part of it.
 """
 
 import colorsys
 import math
 import re
+from collections.abc import Callable, Mapping
+from typing import NamedTuple
 
 from dqpaint.program import colours
 
@@ -23,33 +24,29 @@ _GAP = r"(?>\s*,?\s*)"
 NUMBER = re.compile(_N, re.ASCII)
 _LENGTH = re.compile(rf"({_N})([a-zA-Z]*|%)", re.ASCII)
 _LIST = re.compile(rf"\s*(?:(?>{_N}){_GAP})*+", re.ASCII)
-_ARCS = re.compile(
-    rf"\s*(?:(?>{_N}){_GAP}(?>{_N}){_GAP}(?>{_N}){_GAP}[01]{_GAP}[01]{_GAP}"
-    rf"(?>{_N}){_GAP}(?>{_N}){_GAP})*+",
-    re.ASCII,
-)
-_ARC = re.compile(
-    rf"({_N}){_GAP}({_N}){_GAP}({_N}){_GAP}([01]){_GAP}([01]){_GAP}({_N}){_GAP}({_N}){_GAP}",
-    re.ASCII,
-)
+_PARTS = 3 * [f"((?>{_N}))"] + 2 * ["([01])"] + 2 * [f"((?>{_N}))"]  # flags need no gap
+_ARC = re.compile(_GAP.join(_PARTS) + _GAP, re.ASCII)
+_ARCS = re.compile(rf"\s*(?:{_ARC.pattern})*+", re.ASCII)
 Commands = list[tuple[str, list[float]]]  # the letters of a path, with their numbers
 COUNTS = {"m": 2, "l": 2, "h": 1, "v": 1, "c": 6, "s": 4, "q": 4, "t": 2, "a": 7}
 _COMMAND = re.compile(r"([MmZzLlHhVvCcSsQqTtAa])([^MmZzLlHhVvCcSsQqTtAa]*)")
 _FUNCTION = re.compile(r"[\s,]*([a-zA-Z]+)\s*\(([^()]*)\)")
-_COUNTS_OF = {  # of a transform's numbers, and whether they are angles or lengths
-    "matrix": ((6,), "n"),
-    "translate": ((1, 2), "l"),
-    "translateX": ((1,), "l"),
-    "translateY": ((1,), "l"),
-    "scale": ((1, 2), "n"),
-    "scaleX": ((1,), "n"),
-    "scaleY": ((1,), "n"),
-    "rotate": ((1, 3), "a"),
-    "skewX": ((1,), "a"),
-    "skewY": ((1,), "a"),
-}
 _COLOUR = re.compile(r"(rgb|hsl)a?\(([^()]*)\)", re.IGNORECASE)
 _URL = re.compile(r"url\(\s*[\"']?#?([^\"')]*)[\"']?\s*\)\s*(.*)", re.DOTALL)
+
+
+Matrix = tuple[float, float, float, float, float, float]  # a to f, as SVG has them
+IDENTITY: Matrix = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
+Paint = bytes | None  # red, green, blue and alpha; None for no paint
+CURRENT = b""  # the paint that `color` says
+BLACK = b"\0\0\0\xff"
+
+
+class Length(NamedTuple):
+    """Pixels, or hundredths of what the length is measured by."""
+
+    pixels: float = 0.0
+    percent: float = 0.0
 
 
 class SvgError(Exception):
@@ -83,29 +80,29 @@ def _bounded(value: float, text: str) -> float:
     return value
 
 
-def length(text: str) -> str:
+def length(text: str) -> Length:
     """A length in pixels, or a percentage of what it is measured by."""
     match = _LENGTH.fullmatch(text.strip())
     if not match:
         raise UnreadableError(f"{shown(text)} is no length")
     if match[2] == "%":
-        return f"{number(match[1])!r}%"
+        return Length(percent=number(match[1]))
     if match[2].lower() not in _UNITS:
         raise UnreadableError(f"the unit of {shown(text)} is none of px, mm, cm, in, pt, pc, %")
-    return repr(_bounded(float(match[1]) * _UNITS[match[2].lower()], text))
+    return Length(_bounded(float(match[1]) * _UNITS[match[2].lower()], text))
 
 
-def size(text: str) -> str:
+def size(text: str) -> Length:
     """A length that is not negative."""
     made = length(text)
-    if made.startswith("-") and float(made.rstrip("%")) < 0.0:
+    if min(made) < 0.0:
         raise UnreadableError(f"{shown(text)} is negative")
     return made
 
 
-def size_or_auto(text: str) -> str:
-    """A length that is not negative; nothing for `auto`, which is as if it were not said."""
-    return "" if text.strip() == "auto" else size(text)
+def size_or_auto(text: str) -> Length | None:
+    """A length that is not negative; None for `auto`, which is as if it were not said."""
+    return None if text.strip() == "auto" else size(text)
 
 
 def numbers(text: str, what: str = "a number", after: str = "") -> list[float]:
@@ -131,20 +128,14 @@ def points(text: str) -> Commands:
     return [("M", found)] if found else []
 
 
-def closed(text: str) -> Commands:
-    """The corners of a polygon, and back to the first."""
-    made = points(text)
-    return [*made, ("Z", [])] if made else []
-
-
-def view_box(text: str) -> str:
+def view_box(text: str) -> list[float]:
     """Four numbers, the last two of them sizes."""
     found = numbers(text)
     if len(found) != 4:
         raise UnreadableError(f"it has {len(found)} numbers instead of 4")
     if min(found[2:]) < 0.0:
         raise UnreadableError(f"its size is negative: {shown(text)}")
-    return _joined(found)
+    return found
 
 
 def path(text: str) -> Commands:
@@ -197,53 +188,88 @@ def _wrong_count(command: str, text: str, count: int) -> UnreadableError:
     return UnreadableError(f"its {command} needs {times}, and has {count}: {shown(command + text)}")
 
 
-def transform(text: str) -> str:
-    """Turns, shifts and scales, in degrees and pixels; the names as SVG or CSS have them."""
-    if not text.strip() or text.strip() == "none":
-        return ""
-    made: list[str] = []
-    at = 0
+def transform(text: str) -> Matrix:
+    """Turns, shifts and scales, one in the other; the names are those of SVG and of CSS."""
+    if text.strip() == "none":
+        return IDENTITY
+    made, count, at = IDENTITY, 0, 0
     while match := _FUNCTION.match(text, at):
-        if len(made) == MOST_TRANSFORMS:
+        if count == MOST_TRANSFORMS:
             raise UnreadableError(f"more than {MOST_TRANSFORMS:,} transforms one after the other")
-        made.append(_function(match[1], match[2]))
-        at = match.end()
+        made = times(made, _function(match[1], match[2]))
+        count, at = count + 1, match.end()
     if text[at:].strip():
         raise UnreadableError(f"{shown(text[at:])} is no transform")
-    return " ".join(made)
+    return made
 
 
-def _function(name: str, text: str) -> str:
-    if name not in _COUNTS_OF:
-        raise UnreadableError(f"'{name[:24]}' is none of {', '.join(_COUNTS_OF)}")
-    counts, kind = _COUNTS_OF[name]
+def times(outer: Matrix, inner: Matrix) -> Matrix:
+    """The transform of what stands in another one."""
+    a, b, c, d, e, f = outer
+    g, h, i, j, k, m = inner
+    return (
+        *(a * g + c * h, b * g + d * h, a * i + c * j, b * i + d * j),
+        *(a * k + c * m + e, b * k + d * m + f),
+    )
+
+
+def _function(name: str, text: str) -> Matrix:
+    if name not in _FUNCTIONS:
+        raise UnreadableError(f"'{name[:24]}' is none of {', '.join(_FUNCTIONS)}")
+    counts, first, other, made = _FUNCTIONS[name]
     given = [
         one for one in re.split(r"[\s,]+", re.sub(r"(?<=[^eE\s,(])(?=[-+])", " ", text)) if one
     ]
     if len(given) not in counts:
         wanted = " or ".join(map(str, counts))
         raise UnreadableError(f"{name} needs {wanted} numbers, and has {len(given)}")
-    if kind == "n":
-        values = [repr(number(one)) for one in given]
-    elif kind == "a":
-        values = [_degrees(given[0]), *map(_pixels, given[1:])]
-    else:
-        values = [_pixels(one) for one in given]
-    return f"{name}({', '.join(values)})"
+    return made(first(given[0]), *map(other, given[1:]))
 
 
-def _pixels(text: str) -> str:
+def _pixels(text: str) -> float:
     made = length(text)
-    if made.endswith("%"):
+    if text.endswith("%"):
         raise UnreadableError(f"{shown(text)} of what is not known")
-    return made
+    return made.pixels
 
 
-def _degrees(text: str) -> str:
+def _degrees(text: str) -> float:
     match = _LENGTH.fullmatch(text)
     if not match or match[2] not in _ANGLES:
         raise UnreadableError(f"{shown(text)} is no angle")
-    return repr(_bounded(float(match[1]) * _ANGLES[match[2]], text))
+    return _bounded(float(match[1]) * _ANGLES[match[2]], text)
+
+
+def _radians(text: str) -> float:
+    return math.tau * _degrees(text) / 360.0
+
+
+def _turned(angle: float, x: float = 0.0, y: float = 0.0) -> Matrix:
+    """A turn about a place."""
+    c, s = math.cos(angle), math.sin(angle)
+    return c, s, -s, c, s * y - c * x + x, -s * x - c * y + y
+
+
+_FUNCTIONS: Mapping[
+    str,  # how many numbers; how the first and the others are read; what is made of them
+    tuple[tuple[int, ...], Callable[[str], float], Callable[[str], float], Callable[..., Matrix]],
+] = {
+    "matrix": ((6,), number, number, lambda *six: six),
+    "translate": ((1, 2), _pixels, _pixels, lambda x, y=0.0: (1.0, 0.0, 0.0, 1.0, x, y)),
+    "translateX": ((1,), _pixels, _pixels, lambda x: (1.0, 0.0, 0.0, 1.0, x, 0.0)),
+    "translateY": ((1,), _pixels, _pixels, lambda y: (1.0, 0.0, 0.0, 1.0, 0.0, y)),
+    "scale": (
+        (1, 2),
+        number,
+        number,
+        lambda x, y=None: (x, 0.0, 0.0, x if y is None else y, 0.0, 0.0),
+    ),
+    "scaleX": ((1,), number, number, lambda x: (x, 0.0, 0.0, 1.0, 0.0, 0.0)),
+    "scaleY": ((1,), number, number, lambda y: (1.0, 0.0, 0.0, y, 0.0, 0.0)),
+    "rotate": ((1, 3), _radians, _pixels, _turned),
+    "skewX": ((1,), _radians, _pixels, lambda a: (1.0, 0.0, math.tan(a), 1.0, 0.0, 0.0)),
+    "skewY": ((1,), _radians, _pixels, lambda a: (1.0, math.tan(a), 0.0, 1.0, 0.0, 0.0)),
+}
 
 
 def opacity(text: str) -> float:
@@ -259,24 +285,24 @@ def reference(text: str) -> tuple[str, str] | None:
     return (match[1], match[2]) if match else None
 
 
-def paint(text: str) -> str:
-    """A colour as #rrggbbaa, `none` or `currentColor`."""
+def paint(text: str) -> Paint:
+    """A colour, `none` or CURRENT."""
     word = text.strip().lower()
     if word in ("none", "transparent"):
-        return "none"
+        return None
     if word == "currentcolor":
-        return "currentColor"
-    if word in colours.DIGITS:
-        return f"#{colours.DIGITS[word]}ff"
+        return CURRENT
     if match := re.fullmatch(r"#([0-9a-f]{3,4}|[0-9a-f]{6}|[0-9a-f]{8})", word):
         digits = match[1] if len(match[1]) > 4 else "".join(2 * one for one in match[1])
-        return f"#{digits:f<8}"
+        return bytes.fromhex(f"{digits:f<8}")
+    if word in colours.DIGITS:
+        return bytes.fromhex(f"{colours.DIGITS[word]}ff")
     if match := _COLOUR.fullmatch(word):
         return _mixed(match[1], match[2], text)
     raise UnreadableError(f"{shown(text)} is no colour")
 
 
-def _mixed(kind: str, text: str, whole: str) -> str:
+def _mixed(kind: str, text: str, whole: str) -> bytes:
     """The values of rgb(...) or hsl(...), with commas or blanks between them."""
     given = [one for one in re.split(r"[\s,/]+", text) if one]
     if len(given) not in (3, 4):
@@ -285,26 +311,17 @@ def _mixed(kind: str, text: str, whole: str) -> str:
     if kind == "hsl":
         share = [number(one.rstrip("%")) / 100.0 for one in given[1:3]]
         s, light = (min(1.0, max(0.0, one)) for one in share)
-        turned = float(_degrees(given[0])) / 360.0 % 1.0
-        channels = colorsys.hls_to_rgb(turned, light, s)
+        channels = colorsys.hls_to_rgb(_degrees(given[0]) / 360.0 % 1.0, light, s)
     else:
         scales = [100.0 if one.endswith("%") else 255.0 for one in given[:3]]
         r, g, b = (number(o.rstrip("%")) / s for o, s in zip(given[:3], scales, strict=True))
         channels = (r, g, b)
-    return "#" + "".join(
-        f"{round(255 * min(1.0, max(0.0, one))):02x}" for one in (*channels, alpha)
-    )
+    return bytes(round(255 * min(1.0, max(0.0, one))) for one in (*channels, alpha))
 
 
-def mean(paints: list[str]) -> str:
-    """The mean of colours #rrggbbaa, of their values; those that are none of them don't count."""
-    known = [bytes.fromhex(one[1:]) for one in paints if one.startswith("#")]
+def mean(paints: list[Paint]) -> bytes:
+    """The mean of colours, of their values; what is none of them doesn't count."""
+    known = [one for one in paints if one]
     if not known:
-        return "#000000ff"
-    return "#" + "".join(
-        f"{round(sum(channel) / len(known)):02x}" for channel in zip(*known, strict=True)
-    )
-
-
-def _joined(found: list[float]) -> str:
-    return " ".join(map(repr, found))
+        return BLACK
+    return bytes(round(sum(channel) / len(known)) for channel in zip(*known, strict=True))

@@ -135,7 +135,7 @@ EVERY_GAIN = [(name, gain) for name, c in CONTROLLERS.items() for gain in c.gain
 )
 def test_bad_gains_are_refused_with_the_law_s_own_list(name, gain, value):
     chosen = CONTROLLERS[name]
-    with pytest.raises(UsageError, match=f"gain '{gain}' of controller '{name}' ") as caught:
+    with pytest.raises(UsageError, match=f"'{gain}' .*'{name}' ") as caught:
         chosen.read_gains({gain: value})
     assert chosen.list_gains() in str(caught.value)
 
@@ -146,7 +146,7 @@ def test_a_gain_of_zero_is_refused_where_it_means_nothing(name, gain):
     if gain in ("s", "feed_forward"):
         assert getattr(chosen.read_gains({gain: 0.0}).first, gain) == 0
     else:
-        with pytest.raises(UsageError, match=f"gain '{gain}' of controller '{name}' is 0; a "):
+        with pytest.raises(UsageError, match=f"'{gain}' .*'{name}' is 0"):
             chosen.read_gains({gain: 0.0})
 
 
@@ -161,8 +161,8 @@ def test_a_unit_on_a_gain_is_answered_with_what_to_write():
 
 
 def test_unknown_names_list_the_known_ones():
-    with pytest.raises(UnknownNameError, match="no controller named 'pd'; known: "):
+    with pytest.raises(UnknownNameError, match="'pd'"):
         CONTROLLERS["pd"]
     for value in (3.0, "3", "3deg", "1..2"):
-        with pytest.raises(UsageError, match=r"no gain named 'k'; its gains: gamma_O = 0.05 \(s, "):
+        with pytest.raises(UsageError, match=r"'k'; .*gamma_O = 0.05 \(s, "):
             CONTROLLERS["hinf"].read_gains({"k": value})

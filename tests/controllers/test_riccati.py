@@ -327,9 +327,9 @@ def test_diagonals_have_the_law_s_own_length(name, size):
     chosen = CONTROLLERS[name]
     given = chosen.read_gains({"q": ",".join(["2"] * size)}).first
     assert given.q == (2.0,) * size
-    with pytest.raises(UsageError, match=f"has 3 numbers; it is one number or {size}; its gains: "):
+    with pytest.raises(UsageError, match=f"3 numbers; .*{size}; "):
         chosen.read_gains({"q": "1,2,3"})
-    with pytest.raises(UsageError, match=r"'r' of controller .* is 0; a weight is from 1e-09"):
+    with pytest.raises(UsageError, match=r"'r' .* is 0; .*1e-09"):
         chosen.read_gains({"r": (0.0,) * size})
-    with pytest.raises(UsageError, match=r"'s' of controller .* is -1; a weight is from 0 to"):
+    with pytest.raises(UsageError, match=r"'s' .* is -1; .*from 0 to"):
         chosen.read_gains({"s": -1})

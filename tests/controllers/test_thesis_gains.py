@@ -56,9 +56,9 @@ def test_table_5_12(given, read, wanted):
 def test_a_gain_and_its_gamma_are_refused_together():
     for law in ("hinf", "hinf-set"):
         for both in ({"gamma_O": 0.1, "K_O": "2.8..5.3@10%"}, {"gamma_O": "1..2", "K_O": 3.0}):
-            with pytest.raises(UsageError, match=f"'{law}': takes gamma_O or K_O, not both; its"):
+            with pytest.raises(UsageError, match=f"'{law}': .*gamma_O or K_O"):
                 CONTROLLERS[law].read_gains(both)
-        with pytest.raises(UsageError, match="takes gamma_T or K_T, not both"):
+        with pytest.raises(UsageError, match="gamma_T or K_T"):
             CONTROLLERS[law].read_gains({"gamma_T": 0.1, "K_T": 3.0, "K_O": 3.0})
         CONTROLLERS[law].read_gains({"gamma_T": 0.1, "K_O": 3.0})
 
@@ -95,5 +95,5 @@ def test_diagonals_change_too_and_what_follows_is_shown():
     "text", ["1..2@110%", "1..2@50", "..", "1..", "1,2..3,4,5", "1..2..3", "@5%"]
 )
 def test_what_is_no_schedule_is_refused(text):
-    with pytest.raises(UsageError, match="write a number without a unit, or a ramp such as"):
+    with pytest.raises(UsageError, match="without a unit"):
         CONTROLLERS["lqr"].read_gains({"q": text})

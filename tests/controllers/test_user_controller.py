@@ -88,16 +88,16 @@ def test_parameters_are_gains_with_units(rng):
     seen = seen_at(rng)
     gains = chosen.read_gains({"k": "0..4@50%"})
     np.testing.assert_allclose(started(chosen)(seen, gains.at(0.25)), 2 * seen.twist_d - 1)
-    with pytest.raises(UsageError, match=r"no gain named 'K'; its gains: k = 2 \(1/s"):
+    with pytest.raises(UsageError, match=r"'K'; .*k = 2 \(1/s"):
         chosen.read_gains({"K": 1.0})
-    with pytest.raises(UsageError, match=r"gain 'k' of controller 'law' is nan; .* finite num"):
+    with pytest.raises(UsageError, match=r"'k' .*nan"):
         chosen.read_gains({"k": float("nan")})
 
 
 @pytest.mark.parametrize("law", [lambda seen, k: 0, lambda seen, *k: 0, lambda seen, k=True: 0,
                                  lambda seen, k="a": 0, lambda seen, **k: 0])  # fmt: skip
 def test_other_parameters_are_refused(law):
-    with pytest.raises(UsageError, match="parameter 'k' has no number; a law is a function of"):
+    with pytest.raises(UsageError, match="'k' has no number"):
         make_controller(law, "law")
 
 
@@ -120,7 +120,7 @@ def test_a_law_says_what_it_commands(rng):
     assert make_controller(torque, "torque").drives_torque
     seen = seen_at(rng, joints=5)
     np.testing.assert_array_equal(asked(chosen, seen), -seen.posture)
-    with pytest.raises(ValueError, match="can't command 'force'; known: twist, rates, acc"):
+    with pytest.raises(ValueError, match="'force'"):
         commands("force")
 
 
@@ -179,22 +179,22 @@ def test_faults_of_a_file_are_told(tmp_path, text, said):
 
 
 def test_files_that_cannot_be_read(tmp_path):
-    with pytest.raises(DqpaintError, match="cannot be read: No such file"):
+    with pytest.raises(DqpaintError, match="cannot be read"):
         find_controller(str(tmp_path / "none.py"))
     (tmp_path / "latin.py").write_bytes(b"# M\xfcller\n")
-    with pytest.raises(DqpaintError, match="not a text in UTF-8"):
+    with pytest.raises(DqpaintError, match="UTF-8"):
         find_controller(str(tmp_path / "latin.py"))
 
 
 @pytest.mark.parametrize(("default", "said"), [("float('nan')", "nan"), ("10**400", "1000")])
 def test_a_default_is_finite(tmp_path, default, said):
-    with pytest.raises(UsageError, match=f"parameter 'k' is {said}.*, not a finite number"):
+    with pytest.raises(UsageError, match=f"parameter 'k' is {said}"):
         find_controller(written(tmp_path, f"def f(seen, k={default}): return seen.twist_d\n"))
 
 
 def test_commands_that_are_none_are_refused(tmp_path):
     spec = written(tmp_path, "def f(seen): return seen.twist_d\nf.commands = 'force'\n")
-    with pytest.raises(UsageError, match="can't command 'force'; known: twist, rates, "):
+    with pytest.raises(UsageError, match="'force'"):
         find_controller(spec)
 
 
@@ -264,13 +264,13 @@ def test_a_function_can_be_handed_over_from_python(tmp_path):
 def test_a_gain_has_no_name_of_the_model_s_own(name):
     scope = {}
     exec(f"def law(seen, {name}=1.0): pass", scope)
-    with pytest.raises(UsageError, match=f"a gain can't be called '{name}'; choose another"):
+    with pytest.raises(UsageError, match=f"'{name}'"):
         make_controller(scope["law"], "law")
 
 
 def test_complex_answers_are_refused(rng):
     law = make_controller(lambda seen: seen.twist_d + 1j, "law")
-    with pytest.raises(DqpaintError, match="complex numbers, not real ones"):
+    with pytest.raises(DqpaintError, match="complex"):
         asked(law, seen_at(rng))
 
 

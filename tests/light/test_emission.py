@@ -30,7 +30,7 @@ def test_one_instant_emits_nothing():
 def test_numbers_that_are_none_are_refused(bad):
     points, energy = np.zeros((3, 3)), np.ones((2, 3))
     points[1, 2] = bad
-    with pytest.raises(DqpaintError, match=r"lamp position (nan|inf) at \(1, 2\) is not finite"):
+    with pytest.raises(DqpaintError, match=r"position (nan|inf) at \(1, 2\)"):
         Light(points, energy)
     with pytest.raises(DqpaintError, match=r"lamp energy (nan|inf) at \(1, 2\) is not finite"):
         Light(np.zeros((4, 3)), points)

@@ -80,7 +80,7 @@ def test_without_a_target_it_looks_at_the_middle_of_the_drawing_even_from_right_
 
 def test_a_camera_with_the_drawing_at_its_back_is_refused():
     (shot,) = parse_views("at:3:0:0.4:4:0:0.4")
-    with pytest.raises(UsageError, match="the camera looks away from the drawing"):
+    with pytest.raises(UsageError, match="looks away"):
         camera_for_shot(shot, POINTS, FRONT, SIZE)
 
 

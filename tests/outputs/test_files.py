@@ -183,10 +183,10 @@ def test_nothing_is_half_written(tmp_path, monkeypatch):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.csv", "a.png"]
 
     def full(*_):
-        raise OSError(28, "No space left on device")
+        raise OSError(28, "No space left")
 
     monkeypatch.setattr(os, "replace", full)
-    with pytest.raises(OutputError, match="No space left on device"):
+    with pytest.raises(OutputError, match="No space left"):
         files.write(tmp_path / "b", {".png": b"after"})
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.csv", "a.png"]
 
@@ -201,7 +201,7 @@ def test_places_for_files(tmp_path, monkeypatch):
     for end in ("png", "csv", "json", "webm", "webp", "hdr", "script"):
         assert files.stem_for(f"new/mine.{end}", "star-p").resolve() == tmp_path / "new/mine"
     assert files.stem_for("new/mine.2", "star-p").resolve() == tmp_path / "new/mine.2"
-    with pytest.raises(OutputError, match="folder 'no/such' does not exist"):
+    with pytest.raises(OutputError, match="'no/such'"):
         files.stem_for("no/such/stem", "star-p")
     (tmp_path / "file").write_text("")
     with pytest.raises(OutputError, match="cannot be written"):

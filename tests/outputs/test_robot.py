@@ -277,7 +277,7 @@ def test_the_program_leads_along_the_path(by_a_universal_robot):
 
 
 def test_only_for_universal_robots(painting):
-    with pytest.raises(UsageError, match="iiwa is none"):
+    with pytest.raises(UsageError, match="iiwa"):
         files_of(painting, "urscript")
     own = ("shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3")
     assert is_universal(tuple(f"left_{name}_joint" for name in own))
@@ -289,7 +289,7 @@ def test_steps_too_short_for_servoj(tmp_path_factory):
     if read_card("ur5").missing:
         pytest.skip("ur5 is not installed")
     short = drawn(tmp_path_factory, TEXT.replace("10 ms", "1 ms"), robot="ur5")
-    with pytest.raises(UsageError, match="steps of 2 ms or more"):
+    with pytest.raises(UsageError, match="2 ms"):
         files_of(short, "urscript")
 
 
@@ -336,7 +336,7 @@ def test_a_strobe_stands_in_its_columns(painting):
 
 
 def refused(painting):
-    with pytest.raises(DqpaintError, match="not exported: iiwa could not do this") as caught:
+    with pytest.raises(DqpaintError, match="not exported: iiwa") as caught:
         files_of(painting, "csv")
     return str(caught.value)
 

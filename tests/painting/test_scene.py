@@ -82,7 +82,7 @@ def test_a_strobe_of_the_drawing_flashes_by_the_run_s_clock():
 def test_more_flashes_than_anyone_would_wait_for_are_refused(endless):
     strobed = {} if endless else {"strobe": Strobe(1e9, 0.5)}
     motion = motion_of({}, strobed, text=TEXT + "hold 60 s\n")
-    with pytest.raises(DqpaintError, match=r"Hz for 6. s are more than 2,000,000 flashes"):
+    with pytest.raises(DqpaintError, match=r"2,000,000 flashes"):
         arrange(motion, motion.pose, make_settings(**endless, **SMALL))
 
 
@@ -138,16 +138,16 @@ def test_what_only_an_arm_has_is_refused_without_one(by):
 
 
 @pytest.mark.parametrize(("choice", "says"), [
-    ({"view": "back"}, "no view named 'back'"),
-    ({"look": "velvia"}, "no look named 'velvia'; known: film, aces, agx, clip"),
-    ({"brush": "broom"}, "no brush named 'broom'"),
-    ({"exposure": "f8"}, "is no part of one"),
-    ({"colour_by": "mood:3"}, "no colour-by named 'mood'; known: line, position-error"),
-    ({"colour_by": "position-error:"}, "is the end of its scale in mm"),
+    ({"view": "back"}, "'back'"),
+    ({"look": "velvia"}, "'velvia'"),
+    ({"brush": "broom"}, "'broom'"),
+    ({"exposure": "f8"}, "'f8'"),
+    ({"colour_by": "mood:3"}, "'mood'"),
+    ({"colour_by": "position-error:"}, "mm"),
     ({"colour_by": "position-error:-1"}, "for position-error, orientation-error, invariant"),
-    ({"colour_by": "speed:nan"}, "is the end of its scale in mm/s"),
-    ({"colour_by": "line:3"}, "is the end of its scale"),
-    ({"colour_by": "mood"}, "no colour-by named 'mood'; known: line, position-error"),
+    ({"colour_by": "speed:nan"}, "mm/s"),
+    ({"colour_by": "line:3"}, "scale"),
+    ({"colour_by": "mood"}, "'mood'"),
 ])  # fmt: skip
 def test_slips_are_told_first(choice, says):
     with pytest.raises(UsageError, match=says):

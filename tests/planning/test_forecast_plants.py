@@ -143,9 +143,9 @@ def test_on_limit_slow_counts_the_motors_of_the_plant(tmp_path):
 
 
 @pytest.mark.parametrize(("plant", "said"), [
-    ("rubber", "no plant named 'rubber'; known: compliant, ideal, stiff, torque"),
+    ("rubber", "'rubber'; .*stiff"),
     ("ideal:frequency=3", "takes no values"), ("compliant:stiffness=3/4", "iiwa has 7 joints"),
-    ("compliant:frequency=1e9", "springs this stiff on iiwa need physics steps of"),
+    ("compliant:frequency=1e9", "iiwa .*steps of"),
 ])  # fmt: skip
 def test_a_plant_that_is_none(tmp_path, plant, said):
     path = tmp_path / "a.traj"

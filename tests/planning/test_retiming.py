@@ -85,7 +85,7 @@ def test_one_too_fast_stops_with_joint_time_line_and_amount(draw):
 
 @pytest.mark.slow
 def test_a_motor_that_saturates_stops_the_run(draw):
-    with pytest.raises(ScriptError, match=r"joint \d would have to bear more than \d+ Nm"):
+    with pytest.raises(ScriptError, match=r"joint \d .*\d+ Nm"):
         draw(FAST.replace("1500", "500 mm/s profile constant #"), "stop", plant="stiff")
 
 
@@ -99,7 +99,7 @@ def test_one_through_a_singularity(draw, plant):
     assert not slow.limits
     assert worst(slow) < 1e-3  # what the damping costs
     assert 0.5 < slow.slowed.longer < 2
-    with pytest.raises(ScriptError, match="joint 4 would have to turn at"):
+    with pytest.raises(ScriptError, match=r"E312.*joint 4 "):
         draw(text, "stop", plant=plant)
 
 
@@ -111,7 +111,7 @@ def test_one_across_a_joint_limit(draw):
             ("position", 7, 3)
         }
         assert painting.track.posture[:, 6].max() <= np.radians(175) + 1e-9
-    with pytest.raises(ScriptError, match=r"joint 7 would have to go to 17\d.* limit is 175 deg"):
+    with pytest.raises(ScriptError, match=r"joint 7 .*17\d.*175 deg"):
         draw(BEYOND, "stop", start="home")
 
 
@@ -131,7 +131,7 @@ def test_a_joint_held_at_its_end_does_not_slow_the_rest_down(draw):
 @pytest.mark.parametrize("how", ["clip", "slow", "stop"])
 def test_one_out_of_reach_is_refused_whatever_is_asked(draw, how):
     text = far_out()
-    with pytest.raises(ScriptError, match=r"E310.*outside the reach of iiwa"):
+    with pytest.raises(ScriptError, match=r"E310.*iiwa"):
         draw(text, how)
 
 
@@ -235,5 +235,5 @@ def test_a_motor_s_share_is_worked_out_as_it_is():
 
 
 def test_unknown_words_are_refused(draw):
-    with pytest.raises(DqpaintError, match="on_limit 'wait' should be 'clip', 'slow' or 'stop'"):
+    with pytest.raises(DqpaintError, match="'wait'"):
         draw(GENTLE, "wait")

@@ -73,7 +73,7 @@ def test_a_way_along_which_the_arm_is_beside_the_path_is_none():
     far = motion_of("period 8 ms\n" + home + out + home)
     assert set_out(*far).margin > 0  # at the poses looked at first
     assert not can_draw(*far)
-    with pytest.raises(ScriptError, match=r"E310\]: sample \d+ .* is 2 mm outside"):
+    with pytest.raises(ScriptError, match=r"E310\]: sample \d+ .*2 mm"):
         look_ahead(far[0].program, far[1])
     near = out.replace(f"{z:.3f}", f"{z - 20:.3f}")
     assert can_draw(*motion_of("period 8 ms\n" + home + near + home))

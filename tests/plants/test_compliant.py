@@ -240,15 +240,15 @@ def test_a_motor_at_its_torque_winds_no_further():
 
 
 @pytest.mark.parametrize(("text", "said"), [
-    ("compliant:frequency=0", "plant 'compliant': frequency 0.0 should be greater than 0; its val"),
-    ("compliant:gravity=2", "gravity 2.0 should be less than or equal to 1"),
-    ("compliant:stiffness=3/x", "stiffness '3/x' should be positive numbers, as in 300"),
-    ("compliant:stiffness=-3", "stiffness -3.0 should be positive numbers"),
-    ("compliant:damper=air", "damper 'air' should be 'motor' or 'ground'"),
-    ("compliant:k=3", "has no value named 'k'; its values: frequency"),
-    ("compliant:frequency=40,frequency=50", "'frequency=50' is not KEY=VALUE, each once"),
-    ("stiff:frequency=3", "plant 'stiff' takes no values"),
-    ("compliant frequency=3", "is not NAME or NAME:KEY=VALUE, for example compliant:freq"),
+    ("compliant:frequency=0", "plant 'compliant': frequency 0.0"),
+    ("compliant:gravity=2", "gravity 2.0 .*1"),
+    ("compliant:stiffness=3/x", "stiffness '3/x'"),
+    ("compliant:stiffness=-3", "stiffness -3.0"),
+    ("compliant:damper=air", "damper 'air'"),
+    ("compliant:k=3", "'k'"),
+    ("compliant:frequency=40,frequency=50", "'frequency=50'"),
+    ("stiff:frequency=3", "'stiff' takes no"),
+    ("compliant frequency=3", "NAME:KEY=VALUE"),
 ])  # fmt: skip
 def test_bad_values_are_refused(text, said):
     with pytest.raises(UsageError, match=said):

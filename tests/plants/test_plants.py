@@ -33,11 +33,9 @@ def test_a_plant_is_chosen_to_suit_the_commands():
     assert choose_plant(None, "rates").make is PLANTS["stiff"]
     assert choose_plant(None, "torque").make is PLANTS["torque"]
     assert choose_plant("ideal", "rates").make is PLANTS["ideal"]
-    with pytest.raises(UsageError, match=r"'stiff' takes joint rates, but .* for it: torque"):
+    with pytest.raises(UsageError, match=r"'stiff' takes joint rates, .*torque"):
         choose_plant("stiff", "torque")
-    with pytest.raises(
-        UsageError, match=r"'torque' takes torques, .* for it: compliant, ideal, stiff"
-    ):
+    with pytest.raises(UsageError, match=r"'torque' takes torques, .*stiff"):
         choose_plant("torque", "rates")
     with pytest.raises(UnknownNameError):
         choose_plant("rubber", "rates")

@@ -42,7 +42,7 @@ def test_home_is_before_the_canvas(name):
 
 
 def test_an_unknown_robot_lists_the_known_ones():
-    with pytest.raises(UnknownNameError, match=r"no robot named 'ur7'; known: .*iiwa, "):
+    with pytest.raises(UnknownNameError, match=r"'ur7'; .*iiwa, "):
         read_card("ur7")
 
 
@@ -58,9 +58,7 @@ def test_an_arm_of_an_extra_is_listed_and_says_how_to_get_it(monkeypatch):
     assert "ur5" in card_names()
     assert "ur5" not in installed_names()
     assert "iiwa" in installed_names()
-    with pytest.raises(
-        UsageError, match=r"which is not installed; pip install 'dqpaint\[robots\]'"
-    ):
+    with pytest.raises(UsageError, match=r"pip install 'dqpaint\[robots\]'"):
         Kinematics(ur5)
     rows = {row["name"]: row for row in lists("robots")["robots"]}
     assert rows["ur5"]["missing"] == "pip install 'dqpaint[robots]'"
@@ -70,14 +68,14 @@ def test_an_arm_of_an_extra_is_listed_and_says_how_to_get_it(monkeypatch):
 
 def test_a_missing_package_is_named():
     file = read_card("iiwa").urdf.model_copy(update={"package": "no_such_package"})
-    with pytest.raises(UsageError, match=r"needs model[.]urdf of the package 'no_such_package'"):
+    with pytest.raises(UsageError, match=r"model[.]urdf .*'no_such_package'"):
         file.path  # noqa: B018
 
 
 def test_a_link_that_is_not_there_is_named():
     card = read_card("iiwa")
     file = card.urdf.model_copy(update={"link": "hand"})
-    with pytest.raises(UsageError, match=r"model[.]urdf has no link named 'hand'; known: lbr_"):
+    with pytest.raises(UsageError, match=r"model[.]urdf .*'hand'; .*lbr_"):
         Kinematics(card.model_copy(update={"urdf": file}))
 
 

@@ -104,7 +104,7 @@ def test_a_home_posture_is_found_for_a_canvas(write):
     there = dq.matrix_from_pose(Kinematics(card).pose(card.home))
     np.testing.assert_allclose(there, dq.matrix_from_pose(card.canvas.pose), atol=5e-3)
     far = CANVAS.replace("0.7, 0, 0.5", "2.7, 0, 0.5")
-    with pytest.raises(DqpaintError, match=r"viper does not reach its canvas: it stays 1\d{3} mm"):
+    with pytest.raises(DqpaintError, match=r"viper .*canvas: .*1\d{3} mm"):
         read_file(write("viper.toml", VIPER + LIMITS + far))
 
 
@@ -154,9 +154,7 @@ def test_the_only_end_of_a_urdf_is_found_and_several_are_listed(write):
     assert card.link == "tip2"
     assert card.notes[0] == "the light sits on link 'tip2', the last one"
     two = alone.replace("</robot>", joint.format("l6"))
-    with pytest.raises(
-        UsageError, match=r"ends in several links: tip, tip2; .* for example arm.urdf:tip"
-    ):
+    with pytest.raises(UsageError, match=r"tip, tip2; .*arm.urdf:tip"):
         read_file(write("arm.urdf", two))
 
 
@@ -170,27 +168,27 @@ def test_a_round_joint_turns_either_way(write):
 
 
 @pytest.mark.parametrize(("text", "message"), [
-    (VIPER, "mine.toml: limits is missing: it holds lower_deg, upper_deg, speed_deg_s, effort_Nm"),
-    (LIMITS, r"mine.toml: an arm needs one of the tables \[urdf\]"),
+    (VIPER, "mine.toml: limits .*lower_deg"),
+    (LIMITS, r"mine.toml: .*\[urdf\]"),
     (VIPER.replace("d_m = 0.080", "d = 0.080") + LIMITS,
-     r"denavit_hartenberg.rows\[6\].d is not known; known: theta_deg, d_m, a_m, alpha_deg"),
+     r"denavit_hartenberg.rows\[6\].d .*d_m"),
     (VIPER.replace("0.365", "'long'") + LIMITS,
-     r"denavit_hartenberg.rows\[2\].a_m should be a valid number"),
+     r"denavit_hartenberg.rows\[2\].a_m"),
     (VIPER + LIMITS.replace("25, 25, 12]", "25, 25, 0]"),
-     r"limits.effort_Nm\[6\] should be greater than 0"),
-    (VIPER + LIMITS.replace("25, 25, 12]", "25]"), "every limit needs one number for each joint"),
-    (VIPER + LIMITS.replace("-170, ", "-170, 3, "), "every limit needs one number"),
-    (VIPER.replace("    { d_m = 0.080 },\n", "") + LIMITS, "limits need .* of the 5 joints"),
-    ("home_deg = [0, 0]\n" + VIPER + LIMITS, "home_deg needs one number for each of the 6 joints"),
-    ("colour = 'red'\n" + VIPER + LIMITS, "colour is not known; known: name, title"),
-    (VIPER + LIMITS + "[canvas]\nat_m = [1, 2]\n", r"canvas.at_m\[3\] is missing"),
-    ("home_deg = [0, 90, 0, 0, 0, 0]\n" + VIPER + LIMITS, "home_deg must lie inside the limits"),
+     r"limits.effort_Nm\[6\]"),
+    (VIPER + LIMITS.replace("25, 25, 12]", "25]"), "each joint"),
+    (VIPER + LIMITS.replace("-170, ", "-170, 3, "), "limit .*one number"),
+    (VIPER.replace("    { d_m = 0.080 },\n", "") + LIMITS, "limits .*5 joints"),
+    ("home_deg = [0, 0]\n" + VIPER + LIMITS, "home_deg .*6 joints"),
+    ("colour = 'red'\n" + VIPER + LIMITS, "colour is not known"),
+    (VIPER + LIMITS + "[canvas]\nat_m = [1, 2]\n", r"canvas.at_m\[3\]"),
+    ("home_deg = [0, 90, 0, 0, 0, 0]\n" + VIPER + LIMITS, "home_deg .*inside"),
     ("[denavit_hartenberg\n", "mine.toml is no TOML: "),
-    ('[urdf]\nfile = "not-there.urdf"\n', "not-there.urdf' cannot be read: No such file"),
+    ('[urdf]\nfile = "not-there.urdf"\n', "not-there.urdf' cannot be read"),
     ("[urdf]\nlink = 'l6'\n", "urdf.file is missing"),
-    ("urdf = 3\n", "mine.toml: urdf is not a table, which holds package, file, link"),
+    ("urdf = 3\n", "mine.toml: urdf is not a table"),
     (VIPER.replace("    { d_m = 0.080 },\n", "    [0.080],\n") + LIMITS,
-     r"rows\[6\] is not a table, which holds theta_deg, d_m, a_m, alpha_deg"),
+     r"rows\[6\] is not a table"),
 ])  # fmt: skip
 def test_faults_of_a_card_are_told_by_their_field(write, text, message):
     tomllib.loads(text) if "no TOML" not in message else None
@@ -201,8 +199,8 @@ def test_faults_of_a_card_are_told_by_their_field(write, text, message):
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("none.toml", "none.toml' cannot be read: No such file"),
-        ("none.urdf:tip", "none.urdf' cannot be read: No such file"),
+        ("none.toml", "none.toml' cannot be read"),
+        ("none.urdf:tip", "none.urdf' cannot be read"),
     ],
 )
 def test_a_missing_file_is_named(name, message):
@@ -216,27 +214,27 @@ def test_a_name_is_not_a_file():
 
 
 @pytest.mark.parametrize(("old", "new", "link", "message"), [
-    ("</robot>", "", "l6", r"arm\.urdf is no URDF: no element found"),
-    ("<robot ", "<rowboat ", "l6", "is no URDF: mismatched tag"),
-    ('<parent link="base"/>', '<parent link="l6"/>', "l6", "a loop of links is no arm"),
-    ('<parent link="l2"/>', '<parent link="l9"/>', "l6", "names the parent 'l9', which is no link"),
-    ('<parent link="l2"/>', "", "l6", "joint 'j3' has no parent"),
-    ('<child link="l3"/>', '<child link="l2"/>', "l6", "'j2' and 'j3' both carry link 'l2'"),
-    ('<link name="l2">', '<link name="l1">', "l6", "two links named 'l1'"),
-    ('<link name="tip"/>', '<link name="tip"/><link name="alone"/>', "l6", "are not joined to"),
+    ("</robot>", "", "l6", r"arm\.urdf .*no element found"),
+    ("<robot ", "<rowboat ", "l6", "mismatched tag"),
+    ('<parent link="base"/>', '<parent link="l6"/>', "l6", "loop of links"),
+    ('<parent link="l2"/>', '<parent link="l9"/>', "l6", "'l9'"),
+    ('<parent link="l2"/>', "", "l6", "'j3' has no parent"),
+    ('<child link="l3"/>', '<child link="l2"/>', "l6", "'j2' and 'j3' .*'l2'"),
+    ('<link name="l2">', '<link name="l1">', "l6", "two .*'l1'"),
+    ('<link name="tip"/>', '<link name="tip"/><link name="alone"/>', "l6", "not joined"),
     ('velocity="2" effort="400"', 'velocity="0" effort="400"', "l6",
-     "joint 'j1' cannot move with its velocity of 0: .* above 0, in rad/s"),
-    ('velocity="2" effort="400"', 'velocity="2"', "l6", "joint 'j1' has no effort limit above 0"),
+     "joint 'j1' .*velocity of 0.*rad/s"),
+    ('velocity="2" effort="400"', 'velocity="2"', "l6", "joint 'j1' .*effort"),
     ('lower="-2.5" upper="2.1"', 'lower="0" upper="0"', "l6", "lower below upper"),
-    ('upper="2.1"', 'upper="far"', "l6", "joint 'j1': upper 'far' is not a number"),
-    ('xyz="0 0 0.3"', 'xyz="0 0"', "l6", "joint 'j1': origin xyz=\"0 0\" is not three numbers"),
-    ('<axis xyz="0 0 1"/>', '<axis xyz="0 0 0"/>', "l6", "is not three numbers, not all zero"),
-    ('mass value="6"', 'mass value="-6"', "l6", "the mass of link 'l1' is '-6'"),
-    ('ixx="0.02"', 'ixx="much"', "l6", "the inertia of link 'l1' is not six numbers"),
-    ('"j3" type="revolute"', '"j3" type="prismatic"', "l6", "joint 'j3' is prismatic, and lies"),
+    ('upper="2.1"', 'upper="far"', "l6", "joint 'j1': upper 'far'"),
+    ('xyz="0 0 0.3"', 'xyz="0 0"', "l6", "joint 'j1': origin xyz=\"0 0\""),
+    ('<axis xyz="0 0 1"/>', '<axis xyz="0 0 0"/>', "l6", "not all zero"),
+    ('mass value="6"', 'mass value="-6"', "l6", "mass .*'l1' .*'-6'"),
+    ('ixx="0.02"', 'ixx="much"', "l6", "inertia .*'l1'"),
+    ('"j3" type="revolute"', '"j3" type="prismatic"', "l6", "'j3' is prismatic"),
     ("<link", "<link", "finger", "joint 'grip' is prismatic"),
-    ("<link", "<link", "l5", "5 joints cannot hold a place and an orientation"),
-    ("<link", "<link", "hand", "arm.urdf has no link named 'hand'; known: base, l1"),
+    ("<link", "<link", "l5", "5 joints"),
+    ("<link", "<link", "hand", "arm.urdf .*'hand'; .*l1"),
     ("<link", f"{XACRO}<link", "l6", "is a xacro file"),
 ])  # fmt: skip
 def test_faults_of_a_urdf_are_told_by_their_place(write, old, new, link, message):
@@ -247,7 +245,7 @@ def test_faults_of_a_urdf_are_told_by_their_place(write, old, new, link, message
 
 
 def test_an_arm_of_five_joints_is_told_so(write):
-    with pytest.raises(DqpaintError, match=r"holds no arm of 6 or more joints that turn; .* has 5"):
+    with pytest.raises(DqpaintError, match=r"6 or more joints.* has 5"):
         read_file(write("arm.urdf", arm_urdf(5)))
 
 

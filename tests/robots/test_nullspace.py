@@ -173,7 +173,7 @@ def test_texts():
     ):  # fmt: skip
         with pytest.raises(UsageError, match=said):
             read_null(text)
-    with pytest.raises(UnknownNameError, match="no null-space objective named 'elbow'; known: st"):
+    with pytest.raises(UnknownNameError, match=r"'elbow'; .*st"):
         read_null("elbow")
 
 

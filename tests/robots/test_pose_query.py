@@ -80,14 +80,14 @@ def test_radians_are_degrees():
 
 
 @pytest.mark.parametrize(("deg", "rad", "message"), [
-    ("1,2", None, "viper850 has 6 joints, but --deg gives 2 angles"),
-    (None, "1", "viper850 has 6 joints, but --rad gives 1 angle"),
-    ("", None, "but --deg gives 0 angles"),
-    ("1,2,3,4,5,6,7", None, "gives 7 angles"),
-    ("1,2,3,x,5,6", None, "--deg: 'x' is not a number"),
-    ("1,2,3,nan,5,6", None, "--deg: 'nan' is not an angle"),
-    (None, "1,2,3,inf,5,6", "--rad: 'inf' is not an angle"),
-    ("1", "1", "with --deg or with --rad, not with both"),
+    ("1,2", None, "6 joints, .*--deg .*2 angles"),
+    (None, "1", "6 joints, .*--rad .*1 angle"),
+    ("", None, "--deg .*0 angles"),
+    ("1,2,3,4,5,6,7", None, "7 angles"),
+    ("1,2,3,x,5,6", None, "--deg: 'x'"),
+    ("1,2,3,nan,5,6", None, "--deg: 'nan'"),
+    (None, "1,2,3,inf,5,6", "--rad: 'inf'"),
+    ("1", "1", "not with both"),
 ])  # fmt: skip
 def test_what_is_no_posture_is_refused(deg, rad, message):
     with pytest.raises(UsageError, match=message):
@@ -95,7 +95,7 @@ def test_what_is_no_posture_is_refused(deg, rad, message):
 
 
 def test_angles_that_are_slips_are_refused():
-    with pytest.raises(UsageError, match=r"--rad .*: an angle is at most 1e.06 rad either way"):
+    with pytest.raises(UsageError, match=r"--rad .*1e.06 rad"):
         pose_query.read_posture(read_card("iiwa"), None, "1e9 0 0 0 0 0 0")
 
 

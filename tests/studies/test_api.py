@@ -72,7 +72,7 @@ def test_a_figure_that_is_none_is_refused_before_the_first_run(tmp_path):
         lambda: dqpaint.tune("lag", "k=1..2", controller="p", figure="colour", folder=place),
         lambda: dqpaint.tune("lag", controller="p", effort_figure="colour", folder=place),
     ):
-        with pytest.raises(UsageError, match="no figure named 'colour'; known: error_integral"):
+        with pytest.raises(UsageError, match=r"'colour'; .*error_integral"):
             study()
     assert not place.exists()
 

@@ -31,8 +31,8 @@ def test_lists_and_ranges():
 @pytest.mark.parametrize(
     ("text", "fault"),
     [
-        ("k", "is not NAME=VALUES"), ("k=", "is not NAME=VALUES"), ("=1,2", "is not NAME=VALUES"),
-        ("k=1,,2", "an empty value"), ("k=5,5", "there twice"), ("k=0..10:log:3", "above 0"),
+        ("k", "NAME=VALUES"), ("k=", "NAME=VALUES"), ("=1,2", "NAME=VALUES"),
+        ("k=1,,2", "empty"), ("k=5,5", "twice"), ("k=0..10:log:3", "above 0"),
         ("k=1..2:1", "2 to"), ("k=a..b:3", "are numbers"), ("k=1..inf:3", "finite"),
     ],
 )  # fmt: skip

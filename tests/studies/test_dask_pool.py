@@ -108,7 +108,7 @@ def test_files_that_are_not_alike_are_refused(tmp_path):
     ((given, kept),) = dask_pool.carry_out_there([(key, run.data)])
     assert (given["status"], kept) == ("done", None)
     (tmp_path / "law.py").write_text("def law(seen, k=2.0):\n    return seen.twist_d\n")
-    with pytest.raises(DqpaintError, match=r"the files of line[.]traj are not those here"):
+    with pytest.raises(DqpaintError, match=r"files of line[.]traj"):
         dask_pool.carry_out_there([(key, run.data)])
     (tmp_path / "law.py").unlink()
     with pytest.raises(DqpaintError, match=r"on a worker of the cluster: .*law\.py"):
@@ -117,16 +117,16 @@ def test_files_that_are_not_alike_are_refused(tmp_path):
 
 def test_a_cluster_without_workers_is_told(tmp_path, no_workers, monkeypatch):
     monkeypatch.setattr(dask_pool, "PATIENCE", 1.0)
-    with pytest.raises(DqpaintError, match="has no workers; to start one"):
+    with pytest.raises(DqpaintError, match="no workers"):
         dask_pool.Cluster(tmp_path, no_workers[0])
 
 
 def test_addresses_where_nobody_answers_are_told(tmp_path, monkeypatch):
     monkeypatch.setattr(dask_pool, "PATIENCE", 0.5)
-    with pytest.raises(DqpaintError, match=r"no Dask scheduler answers at 'tcp://127\.0\.0\.1:9'"):
+    with pytest.raises(DqpaintError, match=r"'tcp://127\.0\.0\.1:9'"):
         dask_pool.Cluster(tmp_path, "tcp://127.0.0.1:9")
     for address in ("nonsense", "foo://bar:9", "", "tcp://", "tcp://a b:1"):
-        with pytest.raises(UsageError, match="is no address of a Dask scheduler"):
+        with pytest.raises(UsageError, match="no address"):
             dask_pool.Cluster(tmp_path, address)
 
 

@@ -41,7 +41,7 @@ from tests.support.random_poses import random_poses
 def test_every_paper_s_measure_is_there():
     for name in paper_names():
         assert read_paper(name).measure in MEASURES
-    with pytest.raises(UnknownNameError, match="no replay named 'x'; known: chandra"):
+    with pytest.raises(UnknownNameError, match=r"'x'; .*chandra"):
         read_paper("x")
 
 

@@ -141,14 +141,14 @@ def test_ranges():
 @pytest.mark.parametrize(
     ("texts", "choices", "given", "fault"),
     [
-        (["q=1..2"], {}, {}, "no gain named 'q'"),
-        (["k=1..2", "k=1..3"], {}, {}, "'k' is chosen twice"),
-        (["k=1..2"], {}, {"gains": {"k": 3.0}}, "'k' is chosen twice"),
-        ([], {}, {"gains": {"k": 3.0}}, "0 gains to tune"),
-        (["k=1..2"], {"budget": 24}, {}, "a budget of 24 runs"),
+        (["q=1..2"], {}, {}, "'q'"),
+        (["k=1..2", "k=1..3"], {}, {}, "'k' .*twice"),
+        (["k=1..2"], {}, {"gains": {"k": 3.0}}, "'k' .*twice"),
+        ([], {}, {"gains": {"k": 3.0}}, "0 gains"),
+        (["k=1..2"], {"budget": 24}, {}, "24 runs"),
         (["k=1..2"], {"factor": math.nan}, {}, "is no bound"),
-        (["k=1..2"], {"count": 2}, {}, "nothing in them is random"),
-        (["k=-2..2"], {}, {}, "gain 'k' of controller 'p' is -2"),
+        (["k=1..2"], {"count": 2}, {}, "random"),
+        (["k=-2..2"], {}, {}, "'k' .*'p' is -2"),
     ],
 )
 def test_slips_are_told_before_anything_runs(tmp_path, texts, choices, given, fault):

@@ -152,7 +152,7 @@ def test_a_run_that_fails_is_a_fault_and_no_reference(folder):
     assert one.faults[0].startswith("run failed: mylaw.py:1")
     assert "differs: run failed" in study.told([one])
     before = (folder / "corner.json").read_bytes()
-    with pytest.raises(DqpaintError, match="no reference was changed"):
+    with pytest.raises(DqpaintError, match="no reference"):
         study.update([one], folder)
     assert (folder / "corner.json").read_bytes() == before
 
@@ -162,7 +162,7 @@ def test_damaged_references_and_folders_are_told(folder, tmp_path):
     for end, data in ((".png", b"no"), (".tiff", b""), (".json", b"{}"), (".json", b"\xff")):
         whole = (folder / f"corner{end}").read_bytes()
         (folder / f"corner{end}").write_bytes(data)
-        with pytest.raises(DqpaintError, match="--update makes it again"):
+        with pytest.raises(DqpaintError, match="--update"):
             read_reference(folder, case)
         (folder / f"corner{end}").write_bytes(whole)
     (folder / "corner.png").unlink()
@@ -179,10 +179,10 @@ def test_damaged_references_and_folders_are_told(folder, tmp_path):
 @pytest.mark.parametrize(
     ("text", "fault"),
     [
-        ("[a]\n", "a case says drawing"), ("a = 3\n", "a case says drawing"),
+        ("[a]\n", "drawing"), ("a = 3\n", "drawing"),
         ('["../a"]\ndrawing = "star"\n', "a case's name"),
-        ('[a]\ndrawing = "star"\nspeed = 3\n', r"\[a\]: no setting named 'speed'"),
-        ('[a]\ndrawing = "none"\n', "no file 'none'"), ("[a\n", "cases.toml"),
+        ('[a]\ndrawing = "star"\nspeed = 3\n', r"\[a\]: .*'speed'"),
+        ('[a]\ndrawing = "none"\n', "'none'"), ("[a\n", "cases.toml"),
     ],
 )  # fmt: skip
 def test_bad_cases_are_told(tmp_path, text, fault):

@@ -29,7 +29,7 @@ from dqpaint.motion.profiles import (
     scale_rates,
 )
 from dqpaint.motion.stroke_errors import MOST_SECONDS, Faults
-from dqpaint.program import CruiseSpeed, Dwell, Program, Samples, Segment, Step
+from dqpaint.program import STANDING, CruiseSpeed, Program, Samples, Segment, Step
 
 ENDLESS = 1e15  # samples
 NAMES = tuple(PROFILES)
@@ -284,7 +284,7 @@ def _profiles(table: Schedule, wrong: Faults) -> tuple[Indices, Floats]:
         extent = sum(angles.tolist()) if segment.profile.angular else float(table.length[stroke])
         if extent != 0:
             rates[stroke, : len(given)] = np.array(given) / extent
-        elif not isinstance(segment.path, Dwell | Step):
+        elif not isinstance(segment.path, STANDING):
             wrong[stroke] = (told.no_extent(segment),)
     return profile, rates
 

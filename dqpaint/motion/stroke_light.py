@@ -11,7 +11,7 @@ from dqpaint.motion.geometry.paths import Indices
 from dqpaint.motion.profiles import Rates, rate_at, turns_back
 from dqpaint.motion.sampling import Rows
 from dqpaint.motion.schedule import Schedule, part_at
-from dqpaint.program import Dwell, Light, Step
+from dqpaint.program import STANDING, Light
 
 NEAR_END = 0.01  # of the length: how bright the ends of a stroke are is told there
 DARK = Light((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
@@ -120,7 +120,7 @@ def glow(table: Schedule) -> StrokeLight:
     way = table.length.copy()
     for stroke in np.flatnonzero(way == 0.0).tolist():
         segment = segments[table.first[stroke]]
-        turns = not isinstance(segment.path, Dwell | Step)
+        turns = not isinstance(segment.path, STANDING)
         way[stroke] = float(turns and segment.brush.several)
     # as fast as it was to be before its time was rounded up: else a short stroke is the brightest
     fastest = table.peak_rates * way / np.minimum(table.wanted, table.time)

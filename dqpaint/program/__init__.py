@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from dqpaint.program.program import (
         IDENTITY,
         LOOKING,
+        STANDING,
         Arc,
         AutoPlacement,
         Brush,
@@ -61,6 +62,7 @@ __all__ = [
     "IDENTITY",
     "LOOKING",
     "NODES",
+    "STANDING",
     "WEIGHTS",
     "Arc",
     "AutoPlacement",

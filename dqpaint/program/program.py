@@ -128,6 +128,7 @@ class Chain:
 
 
 Path = Straight | Arc | Curve | Screw | ScrewTo | Dwell | Step | Chain
+STANDING = (Dwell, Step)  # paths on which the point does not travel
 
 
 # What the tool does meanwhile. `Screw` and `ScrewTo` say it themselves and carry `FollowHeading`.

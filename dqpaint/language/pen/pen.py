@@ -21,6 +21,7 @@ from dqpaint.language.values import vectors
 from dqpaint.language.vocabulary.words import PACE, PARTS
 from dqpaint.program import (
     IDENTITY,
+    STANDING,
     ContinuousStroke,
     CruiseSpeed,
     Dwell,
@@ -146,7 +147,7 @@ class Pen:
 
     def _check_goes_on(self, path: Path, span: Span) -> None:
         """Raises if the point stands still within a `stroke`."""
-        if isinstance(path, Dwell | Step) or path == Straight(vectors.ZERO):
+        if isinstance(path, STANDING) or path == Straight(vectors.ZERO):
             what = {Dwell: "a pause", Step: "a jump"}.get(type(path), "a turn on the spot")
             message = f"{what} can't be part of a stroke, which does not stop"
             raise problem("E282", message, span, "", "end the stroke before it")

@@ -18,6 +18,7 @@ from dqpaint.language.strokes import arcs
 from dqpaint.language.values import vectors
 from dqpaint.program import (
     LOOKING,
+    STANDING,
     Arc,
     Chain,
     Colour,
@@ -25,7 +26,6 @@ from dqpaint.program import (
     CruiseSpeed,
     Curve,
     Duration,
-    Dwell,
     FollowHeading,
     Formula,
     Light,
@@ -35,7 +35,6 @@ from dqpaint.program import (
     Samples,
     Segment,
     SlerpOrientation,
-    Step,
     Straight,
     Taylor,
     Timing,
@@ -135,7 +134,7 @@ def _told(findings: Findings, segment: Segment, code: str, message: str, cure: s
 
 def _rests(segment: Segment) -> bool:
     path = segment.path
-    return isinstance(path, Dwell | Step) or path == Straight(vectors.ZERO)
+    return isinstance(path, STANDING) or path == Straight(vectors.ZERO)
 
 
 def _is_known(path: Path) -> bool:

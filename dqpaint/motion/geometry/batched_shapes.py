@@ -1,11 +1,13 @@
 """The shapes of all segments of a drawing; those of one kind are computed at once.
 
 A drawing of ten thousand lines holds a handful of kinds: their parameters stand in arrays, one row
-a segment, and a formula is asked for all rows in one call. A curve is a kind for itself.
+a segment, and a formula is asked for all rows in one call. A curve is a kind for itself. A new kind
+of path is a line in `PATH_KINDS`.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +22,7 @@ from dqpaint.motion.geometry.paths import (
     Indices,
     Places,
     column,
+    paths_of,
     place_arc,
     place_straight,
 )
@@ -34,6 +37,7 @@ from dqpaint.program import (
     Dwell,
     FixedOrientation,
     FollowHeading,
+    Path,
     Screw,
     ScrewTo,
     Segment,
@@ -184,39 +188,97 @@ def _least_seconds(segment: Segment, extent: Extent) -> float:
 
 
 def _kind(number: int, segment: Segment) -> Kind:
-    path = segment.path
-    if isinstance(path, Curve):
-        return (number,)
-    if isinstance(path, Straight | Arc | Chain):
-        return type(path), type(segment.tool), isinstance(path, Arc) and path.grow != 0
-    return (type(path),)
+    alike = PATH_KINDS[type(segment.path)].alike
+    return (number,) if alike is None else (type(segment.path), *alike(segment))
 
 
 def _shape(segments: Sequence[Segment]) -> Shape:
     """The shape of segments of one kind, one a row."""
-    path, tool = segments[0].path, segments[0].tool
     start = dq.pose_from(
         column([s.start.position for s in segments]),
         column([s.start.orientation for s in segments]),
     )
-    if isinstance(path, Dwell):
-        return Rigid(start, np.zeros((len(segments), 6)))
-    if isinstance(path, ScrewTo):
-        return Rigid(start, 2 * dq.log(dq.mul(_ends(segments), dq.conj(start))))
-    if isinstance(path, Step):
-        return Jump(start, _ends(segments))
-    if isinstance(path, Straight) and isinstance(tool, FixedOrientation | FollowHeading):
-        by = column([s.path.by for s in segments if isinstance(s.path, Straight)])
-        return Rigid(start, np.concatenate([np.zeros_like(by), by], axis=1))
-    if isinstance(path, Screw):
-        screws = [s.path for s in segments if isinstance(s.path, Screw)]
-        lines = [(s.point, s.axis, s.angle, s.advance) for s in screws]
-        return Rigid(start, _screws(lines))
-    if isinstance(path, Arc) and isinstance(tool, FollowHeading) and path.grow == 0:
-        arcs = [s.path for s in segments if isinstance(s.path, Arc)]
-        return Rigid(start, _screws([(a.centre, a.axis, a.angle, a.rise) for a in arcs]))
-    places = _places(segments)
+    return PATH_KINDS[type(segments[0].path)].shape(segments, start)
+
+
+# One function for each kind of path: segments, and the poses (K, 8) where they start -> shape.
+
+
+def _dwell(segments: Sequence[Segment], start: Floats) -> Shape:
+    return Rigid(start, np.zeros((len(segments), 6)))
+
+
+def _step(segments: Sequence[Segment], start: Floats) -> Shape:
+    return Jump(start, _ends(segments))
+
+
+def _screw_to(segments: Sequence[Segment], start: Floats) -> Shape:
+    return Rigid(start, 2 * dq.log(dq.mul(_ends(segments), dq.conj(start))))
+
+
+def _screw(segments: Sequence[Segment], start: Floats) -> Shape:
+    screws = paths_of(segments, Screw)
+    return Rigid(start, _screws([(s.point, s.axis, s.angle, s.advance) for s in screws]))
+
+
+def _straight(segments: Sequence[Segment], start: Floats) -> Shape:
+    if not isinstance(segments[0].tool, FixedOrientation | FollowHeading):
+        return _loose(segments, place_straight(segments))
+    by = column([path.by for path in paths_of(segments, Straight)])
+    return Rigid(start, np.concatenate([np.zeros_like(by), by], axis=1))
+
+
+def _arc(segments: Sequence[Segment], start: Floats) -> Shape:
+    arcs = paths_of(segments, Arc)
+    if not isinstance(segments[0].tool, FollowHeading) or arcs[0].grow != 0:
+        return _loose(segments, place_arc(segments))
+    return Rigid(start, _screws([(a.centre, a.axis, a.angle, a.rise) for a in arcs]))
+
+
+def _curve(segments: Sequence[Segment], _start: Floats) -> Shape:
+    (curve,) = paths_of(segments, Curve)
+    return _loose(segments, Formula(curve))
+
+
+def _chain(segments: Sequence[Segment], _start: Floats) -> Shape:
+    return _loose(segments, place_chains(paths_of(segments, Chain)))
+
+
+def _loose(segments: Sequence[Segment], places: Places) -> Shape:
     return Loose(places, orientation(segments, places))
+
+
+def _of_one_tool(segment: Segment) -> Kind:
+    return (type(segment.tool),)
+
+
+def _arcs_alike(segment: Segment) -> Kind:
+    return type(segment.tool), isinstance(segment.path, Arc) and segment.path.grow != 0
+
+
+class PathKind(NamedTuple):
+    """What is to be known of a kind of path.
+
+    Attributes:
+        shape: of segments that are alike, from the poses where they start.
+        alike: what segments have in common that are computed at once, besides their kind of path;
+            None: each is computed by itself.
+    """
+
+    shape: Callable[[Sequence[Segment], Floats], Shape]
+    alike: Callable[[Segment], Kind] | None = lambda _segment: ()
+
+
+PATH_KINDS: dict[type[Path], PathKind] = {
+    Dwell: PathKind(_dwell),
+    Step: PathKind(_step),
+    ScrewTo: PathKind(_screw_to),
+    Screw: PathKind(_screw),
+    Straight: PathKind(_straight, _of_one_tool),
+    Arc: PathKind(_arc, _arcs_alike),
+    Chain: PathKind(_chain, _of_one_tool),
+    Curve: PathKind(_curve, None),
+}
 
 
 def _ends(segments: Sequence[Segment]) -> Floats:
@@ -232,17 +294,6 @@ def _screws(lines: Sequence[tuple[Vector, Vector, float, float]]) -> Floats:
     return np.asarray(
         turn + advances[:, None] * np.concatenate([np.zeros_like(axes), axes], axis=1)
     )
-
-
-def _places(segments: Sequence[Segment]) -> Places:
-    path = segments[0].path
-    if isinstance(path, Arc):
-        return place_arc(segments)
-    if isinstance(path, Curve):
-        return Formula(path)
-    if isinstance(path, Chain):
-        return place_chains([s.path for s in segments if isinstance(s.path, Chain)])
-    return place_straight(segments)
 
 
 def _alike(values: Indices) -> Iterator[tuple[int, Rows]]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.motion.geometry.paths import Indices, Lines, Places, Rowed, column
+from dqpaint.motion.geometry.paths import Indices, Lines, Places, Rowed, column, paths_of
 from dqpaint.program import (
     Arc,
     FixedOrientation,
@@ -55,7 +55,7 @@ def orientation(segments: Sequence[Segment], places: Places) -> Spin:
     if isinstance(first, LookLine):
         at = [s.tool for s in segments if isinstance(s.tool, LookLine)]
         return LookAtLine(column([t.point for t in at]), column([t.along for t in at]))
-    arcs = [s.path for s in segments if isinstance(s.path, Arc)]
+    arcs = paths_of(segments, Arc)
     if arcs:
         return Turning(r0, column([[a.angle] for a in arcs]) * column([a.axis for a in arcs]))
     assert isinstance(first, FollowHeading)

@@ -6,13 +6,13 @@ own, and the strokes of a whole drawing are computed at once.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Protocol, Self
+from typing import ClassVar, Protocol, Self, TypeVar
 
 import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.program import Arc, Curve, Segment, Straight, Taylor
+from dqpaint.program import Arc, Chain, Curve, Screw, Segment, Straight, Taylor
 from dqpaint.program import Indices as Indices
 
 
@@ -54,6 +54,14 @@ class Rowed:
         """The largest of the numbers of each row (K,), without its sign."""
         rows = [np.abs(parameter).max(axis=1) for parameter in vars(self).values()]
         return np.asarray(np.max(rows, axis=0))
+
+
+P = TypeVar("P", Straight, Arc, Curve, Screw, Chain)
+
+
+def paths_of(segments: Sequence[Segment], kind: type[P]) -> list[P]:
+    """The paths of segments that have all this kind of path."""
+    return [segment.path for segment in segments if isinstance(segment.path, kind)]
 
 
 def column(values: Sequence[object]) -> Floats:
@@ -146,13 +154,13 @@ class Spirals(Arcs):
 
 def place_straight(segments: Sequence[Segment]) -> Lines:
     """The places of straight lines."""
-    ways = [s.path.by for s in segments if isinstance(s.path, Straight)]
+    ways = [path.by for path in paths_of(segments, Straight)]
     return Lines(column([s.start.position for s in segments]), column(ways))
 
 
 def place_arc(segments: Sequence[Segment]) -> Arcs:
     """The places of arcs, of one radius all or none."""
-    paths = [s.path for s in segments if isinstance(s.path, Arc)]
+    paths = paths_of(segments, Arc)
     p0 = column([s.start.position for s in segments])
     axis = column([path.axis for path in paths])
     arm = p0 - column([path.centre for path in paths])

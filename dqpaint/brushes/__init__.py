@@ -5,7 +5,16 @@ A new brush is a class in `kinds` under `@BRUSHES.add(name)`: fields with their 
 """
 
 from dqpaint.brushes import kinds as _built_in  # noqa: F401  they register themselves
-from dqpaint.brushes.brush import BRUSHES, Brush, first_value, takes
+from dqpaint.brushes.brush import (
+    BRUSHES,
+    Brush,
+    Direction,
+    ImageFile,
+    Length,
+    Shades,
+    first_value,
+    takes,
+)
 from dqpaint.brushes.emitters import POINT, Emitters
 from dqpaint.brushes.text import describe_fields, make_brush, read_brush
 
@@ -13,7 +22,11 @@ __all__ = [
     "BRUSHES",
     "POINT",
     "Brush",
+    "Direction",
     "Emitters",
+    "ImageFile",
+    "Length",
+    "Shades",
     "describe_fields",
     "first_value",
     "make_brush",

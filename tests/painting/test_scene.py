@@ -61,6 +61,24 @@ def test_the_option_beats_the_drawing_s_brush():
     assert [s.emitters.size for s in scene.light] == [0.01]
 
 
+@pytest.mark.parametrize(("option", "words"), [
+    ("ball:size=8mm", "ball 8 mm"),
+    ("bar:length=90mm,leds=5,along=y", "bar 90 mm leds 5 along y"),
+    ("ribbon:length=90mm,colours=red/blue", "ribbon 90 mm colours red to blue"),
+    ("pixelstick:length=90mm,leds=9,times=2", "pixelstick 90 mm leds 9 times 2"),
+    ("fibre:fibres=7,seed=3", "fibre fibres 7 seed 3"),
+])  # fmt: skip
+def test_a_brush_of_the_drawing_and_of_the_option_have_one_picture(option, words):
+    plain = "period 10 ms\nstart at (0, 0) mm\nscrew about (0, 9) mm along y angle 90 deg in 0.4 s"
+    films = []
+    for text, choice in ((f"brush {words}\n{plain}", None), (plain, option)):
+        motion, settings = plan(parse(text, "a"), CANVAS), make_settings(brush=choice, **SMALL)
+        scene = arrange(motion, motion.pose, settings)
+        films.append(expose(scene.light, place_camera(scene, settings, parse_views("iso")[0])))
+    assert films[0].on_film.any()
+    np.testing.assert_array_equal(films[0].planes, films[1].planes)
+
+
 def test_a_strobe_of_the_drawing_flashes_by_the_run_s_clock():
     motion = motion_of({}, {"strobe": Strobe(8.0, 0.25)})
     sweep = arrange(motion, motion.pose, make_settings(**SMALL)).light[0]

@@ -192,3 +192,21 @@ def test_public_names_are_real():
     assert all(callable(getattr(dqpaint, name)) for name in dqpaint.__all__)
     with pytest.raises(AttributeError, match="no attribute 'paintings'"):
         dqpaint.paintings  # noqa: B018
+
+
+@pytest.mark.parametrize("page", ["docs/architecture.md", "CONTRIBUTING.md"])
+def test_files_that_pages_name_are_there(page):
+    text = (ROOT / page).read_text("utf-8")
+    for name in set(re.findall(r"`((?:dqpaint|tests|docs)/[\w./-]+\.\w+)`", text)):
+        assert (ROOT / name).is_file(), name
+
+
+def test_the_table_of_rooms_has_them_in_the_order_of_the_contract():
+    page = (ROOT / "docs/architecture.md").read_text("utf-8")
+    rows = [set(re.findall(r"`(\w+)`", row)) for row in page.splitlines() if row[:3] == "| `"]
+    layers = CONTRACTS["contracts"][0]["layers"]
+    order = [set(re.findall(r"dqpaint\.(\w+)", layer)) for layer in reversed(layers)]
+    assert set().union(*rows) == set().union(*order) == {*ROOMS, "dq", "errors", "api"}
+    place = {name: i for i, layer in enumerate(order) for name in layer}
+    places = [place[name] for row in rows for name in sorted(row, key=place.get)]
+    assert places == sorted(places)

@@ -80,7 +80,11 @@ def explain(
     """Tell what a message means, with a drawing that leads to it and one that does not."""
     from dqpaint.diagnostics import catalogue
 
-    print(catalogue.listed() if code is None else catalogue.told(catalogue.explanation(code)))
+    print(
+        catalogue.list_explanations()
+        if code is None
+        else catalogue.format_explanation(catalogue.explanation(code))
+    )
 
 
 @_command(epilog="Examples:\n\n  dqpaint new flower\n\n  dqpaint new drawings/flower.traj")

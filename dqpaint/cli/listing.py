@@ -114,15 +114,15 @@ def _values(model: Any) -> list[dict[str, Any]]:
 
 
 def _null() -> list[dict[str, Any]]:
-    from dqpaint.robots.kinematics import DEFAULT_NULL, OBJECTIVES
+    from dqpaint.robots.kinematics import DEFAULT_OBJECTIVE, OBJECTIVES
 
     return [
         {
             "name": name,
             "about": _about(objective),
-            "default": name == DEFAULT_NULL,
-            "values": [{"name": "gain", "default": objective.usual, "about": objective.unit}]
-            if objective.usual
+            "default": name == DEFAULT_OBJECTIVE,
+            "values": [{"name": "gain", "default": objective.default_gain, "about": objective.unit}]
+            if objective.default_gain
             else [],
         }
         for name, objective in OBJECTIVES.items()

@@ -246,7 +246,7 @@ def pose(
         raise UsageError("--flange leaves the tool out: give it or --tool, not both")
     card = with_tool(find_card(robot), tool)
     posed = pose_query.pose_arm(card, pose_query.read_posture(card, deg, rad), flange)
-    for kind, sentences in (("note", posed.notes), ("warning", posed.beyond)):
+    for kind, sentences in (("note", posed.notes), ("warning", posed.limit_violations)):
         for sentence in sentences:
             print(f"{kind}: {sentence}", file=sys.stderr)
     print(json.dumps(pose_query.as_json(posed), indent=2) if as_json else pose_text.text(posed))

@@ -13,7 +13,7 @@ from dqpaint.robots.kinematics import manipulability
 
 def text(posed: pose_query.PoseReport) -> str:
     """As a person reads it: degrees, and six decimals."""
-    screw = pose_query.screw_of(posed.pose)
+    screw = pose_query.screw_from_pose(posed.pose)
     joints = [f"q{i}" for i in range(1, len(posed.posture) + 1)]
     where = "flange" if posed.flange else "tool"
     rows = [

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from dqpaint.cli.terminal import table
-from dqpaint.diagnostics import SourceLine, line_named
+from dqpaint.diagnostics import SourceLine, line_name
 from dqpaint.language import render
 from dqpaint.metrics import all_figures
 from dqpaint.motion import Motion, summary_line
@@ -86,7 +86,7 @@ def _pace(painting: paint.Painting) -> list[tuple[str, str]]:
 def _steps(painting: paint.Painting) -> list[tuple[str, str]]:
     """How each jump of the set point was taken."""
     rows: list[tuple[str, str]] = []
-    where = painting.motion.program.where
+    where = painting.motion.program.line_name
     for jump in painting.set_points[:MOST_NAMED]:
         parts = ((jump.translation, 1e3, "mm"), (jump.rotation, math.degrees(1), "deg"))
         for part, scale, unit in parts:
@@ -175,7 +175,7 @@ def remarks(painting: paint.Painting) -> list[str]:
     texts += notes(painting.motion)
     for (kind, line), held in _grouped(painting).items():
         joints = "".join(f"\n    {clamp}" for clamp in held)
-        where = painting.motion.program.where(line)
+        where = painting.motion.program.line_name(line)
         texts.append(f"warning: line {where} runs into {kind} limits:{joints}{CURES[kind]}")
     period = painting.motion.period
     if painting.track.torques and period > LONGEST_TORQUE_PERIOD * (1 + 1e-9):
@@ -212,7 +212,7 @@ def _hidden(shot: picture.Picture, where: str, source: str) -> list[str]:
         return []
     lines = shot.hidden.lines
     named = ", ".join(
-        f"{line_named(source, line)} ({part:.0%})" for line, part in lines[:MOST_NAMED]
+        f"{line_name(source, line)} ({part:.0%})" for line, part in lines[:MOST_NAMED]
     )
     more = f" and {len(lines) - MOST_NAMED} more" if len(lines) > MOST_NAMED else ""
     word = "lines" if len(lines) > 1 else "line"
@@ -243,7 +243,7 @@ def _limits_line(painting: paint.Painting) -> str:
         return "not known of a recorded run"
     if not groups:
         return "none reached"
-    where = painting.motion.program.where
+    where = painting.motion.program.line_name
     parts = (f"{kind} (line {where(line)})" for kind, line in list(groups)[:MOST_NAMED])
     more = f" and {len(groups) - MOST_NAMED} more" if len(groups) > MOST_NAMED else ""
     return f"{', '.join(parts)}{more} reached: there the arm could not follow"
@@ -259,7 +259,7 @@ def _spread(figures: dict[str, float], name: str, unit: str) -> str:
 def _worst(painting: paint.Painting) -> str:
     motion = painting.motion
     row = int(painting.table["position_error_m"].argmax())
-    return f"{motion.t[row]:.3f} s, line {motion.program.where(motion.source.at(row))}"
+    return f"{motion.t[row]:.3f} s, line {motion.program.line_name(motion.source.at(row))}"
 
 
 def _files(written: Sequence[Path]) -> list[tuple[str, str]]:

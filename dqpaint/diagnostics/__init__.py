@@ -6,49 +6,49 @@ needs an entry in `catalogue.toml` with an example.
 
 from dqpaint.diagnostics import catalogue
 from dqpaint.diagnostics.catalogue import url
-from dqpaint.diagnostics.collector import EnoughError, Findings
+from dqpaint.diagnostics.collector import DiagnosticCollector, ErrorLimitError
 from dqpaint.diagnostics.diagnostic import (
     Diagnostic,
     Fix,
-    PlaceProblem,
     Problem,
     ScriptError,
     Severity,
     Source,
     SourceLine,
     Span,
-    called_here,
+    UnknownPositionProblem,
+    at_call,
     file_at,
     file_number,
-    line_named,
-    place,
+    line_name,
+    locate,
     problem,
     render,
     text_of_line,
 )
-from dqpaint.diagnostics.did_you_mean import closest, did_you_mean, listed
+from dqpaint.diagnostics.did_you_mean import closest, did_you_mean, join_words
 
 __all__ = [
     "Diagnostic",
-    "EnoughError",
-    "Findings",
+    "DiagnosticCollector",
+    "ErrorLimitError",
     "Fix",
-    "PlaceProblem",
     "Problem",
     "ScriptError",
     "Severity",
     "Source",
     "SourceLine",
     "Span",
-    "called_here",
+    "UnknownPositionProblem",
+    "at_call",
     "catalogue",
     "closest",
     "did_you_mean",
     "file_at",
     "file_number",
-    "line_named",
-    "listed",
-    "place",
+    "join_words",
+    "line_name",
+    "locate",
     "problem",
     "render",
     "text_of_line",

@@ -78,7 +78,7 @@ def url(code: str) -> str:
     return f"{PAGE}#{code.lower()}"
 
 
-def told(found: Explanation) -> str:
+def format_explanation(found: Explanation) -> str:
     """One message as a person reads it."""
     parts = [f"{found.code}: {found.title}", found.says]
     if found.wrong:
@@ -88,7 +88,7 @@ def told(found: Explanation) -> str:
     return "\n\n".join(parts)
 
 
-def listed() -> str:
+def list_explanations() -> str:
     """All messages, a line each."""
     return "\n".join(f"{found.code}  {found.title}" for found in explanations().values())
 

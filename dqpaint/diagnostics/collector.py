@@ -4,17 +4,17 @@ from dataclasses import replace
 
 from dqpaint.diagnostics.diagnostic import Diagnostic, Severity, Span
 
-MOST = 20  # errors, and warnings; after so many a person reads no more
+MOST_MESSAGES = 20  # errors, and warnings; after so many a person reads no more
 
 
-LONGEST = 240  # of the texts of a message, in which a file's own words may be quoted
+LONGEST_TEXT = 240  # of the texts of a message, in which a file's own words may be quoted
 
 
-class EnoughError(Exception):
+class ErrorLimitError(Exception):
     """So many errors were found that the search is over."""
 
 
-class Findings:
+class DiagnosticCollector:
     """Collects messages; the same one about the same place, as in a loop, counts once."""
 
     def __init__(self) -> None:
@@ -23,39 +23,39 @@ class Findings:
         self._warnings = 0
 
     def add(self, diagnostic: Diagnostic) -> None:
-        """Keeps a message; raises `EnoughError` when the list of errors is full."""
-        diagnostic = _readable(diagnostic)
+        """Keeps a message; raises `ErrorLimitError` when the list of errors is full."""
+        diagnostic = _shortened(diagnostic)
         key = diagnostic.code, diagnostic.span
         if key in self._found:
             return
         if diagnostic.severity is Severity.ERROR:
             self._found[key] = diagnostic
             self.errors += 1
-            if self.errors >= MOST:
-                raise EnoughError
-        elif self._warnings < MOST:
+            if self.errors >= MOST_MESSAGES:
+                raise ErrorLimitError
+        elif self._warnings < MOST_MESSAGES:
             self._found[key] = diagnostic
             self._warnings += 1
 
     def ordered(self) -> tuple[Diagnostic, ...]:
-        """All of them by their place; with errors at most `MOST`, errors before warnings."""
+        """All messages by position; if there are errors, at most `MOST_MESSAGES`, errors first."""
         found = list(self._found.values())
         if self.errors:
             found.sort(key=lambda d: d.severity is Severity.WARNING)
-            found = found[:MOST]
+            found = found[:MOST_MESSAGES]
         found.sort(key=lambda d: d.span.start if d.span is not None else 1 << 60)
         return tuple(found)
 
 
-def _readable(diagnostic: Diagnostic) -> Diagnostic:
+def _shortened(diagnostic: Diagnostic) -> Diagnostic:
     """The message without the endless words that it may quote."""
     texts = diagnostic.message, diagnostic.label, diagnostic.help
-    if max(map(len, texts)) <= LONGEST:
+    if max(map(len, texts)) <= LONGEST_TEXT:
         return diagnostic
     message, label, cure = (_cut(text) for text in texts)
     return replace(diagnostic, message=message, label=label, help=cure, fix=None)
 
 
 def _cut(text: str) -> str:
-    half = LONGEST // 2
-    return text if len(text) <= LONGEST else f"{text[:half]} … {text[-half:]}"
+    half = LONGEST_TEXT // 2
+    return text if len(text) <= LONGEST_TEXT else f"{text[:half]} … {text[-half:]}"

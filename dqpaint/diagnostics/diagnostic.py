@@ -16,7 +16,7 @@ class Span:
     start: int
     end: int
 
-    def of(self, text: str) -> str:
+    def text_in(self, text: str) -> str:
         """What stands there."""
         return text[self.start : self.end]
 
@@ -94,7 +94,7 @@ class Place(NamedTuple):
     column: int
 
 
-def place(text: str, offset: int) -> Place:
+def locate(text: str, offset: int) -> Place:
     """Line and column of an offset, in its own file."""
     line_start = text.rfind("\n", 0, offset) + 1
     first = file_at(text, offset, "")[0]
@@ -128,7 +128,7 @@ def file_number(text: str, offset: int) -> int:
     return bisect_right(included, offset, key=lambda file: file[0])
 
 
-def line_named(text: str, at: SourceLine) -> str:
+def line_name(text: str, at: SourceLine) -> str:
     """A line as a person reads it: `12`, or `petal.traj:3` of an included file."""
     if not at.file:
         return str(at.line)
@@ -152,13 +152,13 @@ def render(diagnostic: Diagnostic, name: str, text: str) -> str:
         lines = [head, f" --> {name}"]
         margin = " "
     else:
-        at = place(text, diagnostic.span.start)
+        at = locate(text, diagnostic.span.start)
         margin = " " * (len(str(at.line)) + 1)
         file = file_at(text, diagnostic.span.start, name)[1]
         lines = [head, f"{margin[:-1]}--> {file}:{at.line}:{at.column}"]
         lines += _excerpt(diagnostic, text, at, margin)
     for span, label in diagnostic.related:
-        there = place(text, span.start)
+        there = locate(text, span.start)
         file = file_at(text, span.start, name)[1]
         lines.append(f"{margin}= {label}: {file}:{there.line}:{there.column}")
     if diagnostic.help:
@@ -166,7 +166,7 @@ def render(diagnostic: Diagnostic, name: str, text: str) -> str:
     return "\n".join(lines)
 
 
-WIDEST_LINE = 160  # of the source, as it is shown; a longer one is cut round the caret
+WIDEST_EXCERPT = 160  # of the source, as it is shown; a longer one is cut round the caret
 
 
 def _excerpt(diagnostic: Diagnostic, text: str, at: Place, margin: str) -> list[str]:
@@ -176,9 +176,9 @@ def _excerpt(diagnostic: Diagnostic, text: str, at: Place, margin: str) -> list[
     source = text[start : end if end >= 0 else len(text)].rstrip("\r")
     width = max(1, min(diagnostic.span.end - diagnostic.span.start, len(source) - at.column + 1))
     column = at.column
-    if len(source) > WIDEST_LINE:
-        cut = max(0, column - WIDEST_LINE // 2)
-        source, column = source[cut : cut + WIDEST_LINE], column - cut
+    if len(source) > WIDEST_EXCERPT:
+        cut = max(0, column - WIDEST_EXCERPT // 2)
+        source, column = source[cut : cut + WIDEST_EXCERPT], column - cut
         width = min(width, len(source) - column + 1)
     source = "".join(c if c.isprintable() else " " for c in source)
     caret = " " * (column - 1) + "^" * max(1, width)
@@ -206,11 +206,11 @@ class Problem(Exception):  # noqa: N818  a message on its way to the list, not a
         self.diagnostic = diagnostic
 
 
-class PlaceProblem(Problem):
+class UnknownPositionProblem(Problem):
     """The same, where it depends on where the tool is: not worth a word if that is not known."""
 
 
-def called_here(mistake: Problem, span: Span) -> Problem:
+def at_call(mistake: Problem, span: Span) -> Problem:
     """The same mistake, which came out because of a call from elsewhere."""
     diagnostic = mistake.diagnostic
     if len(diagnostic.related) < MOST_CALLS_SHOWN:

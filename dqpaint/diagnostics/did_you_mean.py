@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 
-LIKENESS = 0.6
+LEAST_SIMILARITY = 0.6
 
 
 def closest(word: str, known: Iterable[str], aliases: Mapping[str, str] | None = None) -> str:
@@ -15,7 +15,7 @@ def closest(word: str, known: Iterable[str], aliases: Mapping[str, str] | None =
     for spelling in (word, word.lower(), word.upper() if len(word) < 3 else word):
         if spelling in aliases:
             return aliases[spelling]
-    matches = get_close_matches(word.lower()[:40], lowered, n=1, cutoff=LIKENESS)
+    matches = get_close_matches(word.lower()[:40], lowered, n=1, cutoff=LEAST_SIMILARITY)
     return lowered[matches[0]] if matches else ""
 
 
@@ -24,7 +24,7 @@ def did_you_mean(suggestion: str) -> str:
     return f"did you mean '{suggestion}'?" if suggestion else ""
 
 
-def listed(words: Iterable[str]) -> str:
+def join_words(words: Iterable[str]) -> str:
     """Up to six words."""
     shown = list(words)
     return ", ".join(shown[:6]) + (", …" if len(shown) > 6 else "")

@@ -77,7 +77,7 @@ class Disturbance(BaseModel):
         """What the arm and its surroundings truly are."""
         return world
 
-    def belief(self, kinematics: Kinematics, rng: "np.random.Generator") -> Kinematics:
+    def law_model(self, kinematics: Kinematics, rng: "np.random.Generator") -> Kinematics:
         """What the law's model of the arm believes."""
         return kinematics
 

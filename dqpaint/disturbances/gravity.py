@@ -25,6 +25,6 @@ class GravityError(Disturbance):
         """The arm's own model errs."""
         return replace(world, model_gravity=world.model_gravity * (1 + self.error))
 
-    def belief(self, kinematics: Kinematics, rng: np.random.Generator) -> Kinematics:
+    def law_model(self, kinematics: Kinematics, rng: np.random.Generator) -> Kinematics:
         """And the law's."""
-        return kinematics.changed(gravity=1 + self.error) if self.error else kinematics
+        return kinematics.with_model_error(gravity=1 + self.error) if self.error else kinematics

@@ -20,11 +20,11 @@ class LinkLengths(Disturbance):
         0.0, description="m, rms error of each joint's place along each axis"
     )
 
-    def belief(self, kinematics: Kinematics, rng: np.random.Generator) -> Kinematics:
+    def law_model(self, kinematics: Kinematics, rng: np.random.Generator) -> Kinematics:
         """Every length errs by a random number of its own."""
         if not (self.part or self.offset):
             return kinematics
         lengths = kinematics.lengths
         stretched = self.part * rng.standard_normal((len(lengths), 1)) * lengths
         moved = self.offset * rng.standard_normal(lengths.shape)
-        return kinematics.changed(lengths=stretched + moved)
+        return kinematics.with_model_error(lengths=stretched + moved)

@@ -13,8 +13,8 @@ from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 
-WAVES = 64  # of different frequencies in a noise
-LEAST = 1e-9  # below it a size is a slip, and its square soon no number
+NOISE_WAVES = 64  # of different frequencies in a noise
+LEAST_SIZE = 1e-9  # below it a size is a slip, and its square soon no number
 Number = Annotated[float, Field(ge=-1e3, le=1e3, allow_inf_nan=False)]
 
 
@@ -44,8 +44,8 @@ class UnmodelledTwist(Disturbance):
     def _is_something(self) -> Self:
         if not self.size.any():
             raise ValueError("it moves nothing; give for example x=0.01, in m/s")
-        if ((self.size != 0) & (np.abs(self.size) < LEAST)).any():
-            raise ValueError(f"a size is 0, or from {LEAST:g} to 1000 m/s or rad/s either way")
+        if ((self.size != 0) & (np.abs(self.size) < LEAST_SIZE)).any():
+            raise ValueError(f"a size is 0, or from {LEAST_SIZE:g} to 1000 m/s or rad/s either way")
         return self
 
     def twist(self, t: Floats, period: float, rng: np.random.Generator) -> Floats:
@@ -65,9 +65,9 @@ class UnmodelledTwist(Disturbance):
 
 def _noise(t: Floats, edge: float, rng: np.random.Generator) -> Floats:
     """Six signals (N, 6) of unit rms without any part above `edge` [Hz]: waves of random phase."""
-    frequencies = edge * (np.arange(WAVES) + 0.5) / WAVES
-    phases = rng.uniform(0, 2 * np.pi, (WAVES, 6))
+    frequencies = edge * (np.arange(NOISE_WAVES) + 0.5) / NOISE_WAVES
+    phases = rng.uniform(0, 2 * np.pi, (NOISE_WAVES, 6))
     out = np.zeros((len(t), 6))
     for frequency, phase in zip(frequencies, phases, strict=True):
         out += np.cos(2 * np.pi * frequency * t[:, None] + phase)
-    return out * math.sqrt(2 / WAVES)
+    return out * math.sqrt(2 / NOISE_WAVES)

@@ -28,7 +28,7 @@ def meaning_at(text: str, offset: int) -> tuple[Entry, Span] | None:
         return None
     start, _ = _line(text, offset)
     first = not text[start : span.start].strip()
-    known = [entry for entry in vocabulary() if entry.word == span.of(text)]
+    known = [entry for entry in vocabulary() if entry.word == span.text_in(text)]
     if not known:
         return None
     return next((e for e in known if (e.kind == "statement") is first), known[0]), span

@@ -16,7 +16,7 @@ from pygls.lsp.server import LanguageServer
 from pygls.workspace import PositionCodec
 
 from dqpaint import __version__
-from dqpaint.diagnostics import Severity, Span, file_at, place
+from dqpaint.diagnostics import Severity, Span, file_at, locate
 from dqpaint.editors import completion
 from dqpaint.editors.analysis import Analysis, understand
 from dqpaint.language import Diagnostic, ScriptError
@@ -49,7 +49,7 @@ class _Document:
         self._codec = codec
 
     def position(self, offset: int) -> lsp.Position:
-        line, column = place(self.text, offset)
+        line, column = locate(self.text, offset)
         before = self._lines[line - 1][: column - 1]
         return lsp.Position(line - 1, self._codec.client_num_units(before))
 
@@ -113,7 +113,7 @@ class _Server(LanguageServer):
 def _message(found: Diagnostic, document: _Document, uri: str, source: str) -> lsp.Diagnostic:
     text = found.message + (f" ({found.label})" if found.label else "")
     if found.span is not None and found.span.start > len(document.text):
-        at = place(source, found.span.start)
+        at = locate(source, found.span.start)
         text = f"{file_at(source, found.span.start, '')[1]}:{at.line}:{at.column}: {text}"
     return lsp.Diagnostic(
         range=document.range(found.span),

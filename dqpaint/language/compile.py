@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from dqpaint.diagnostics import Diagnostic, EnoughError, Findings, ScriptError, Span
+from dqpaint.diagnostics import Diagnostic, DiagnosticCollector, ErrorLimitError, ScriptError, Span
 from dqpaint.language.expansion.expander import Expander
 from dqpaint.language.expansion.includes import MOST_LINES, Loader
 from dqpaint.language.syntax.source import MOST_BYTES, STDIN_NAME, decoded, load, load_input
@@ -47,7 +47,7 @@ def parse(text: str, name: str = "<text>", path: Path | None = None) -> Program:
     Raises:
         ScriptError: with every mistake that was found, in the order of the text.
     """
-    findings = Findings()
+    findings = DiagnosticCollector()
     loader = Loader(text, path, _text_of, findings)
     expander: Expander | None = None
     fault: Exception | None = None
@@ -58,7 +58,7 @@ def parse(text: str, name: str = "<text>", path: Path | None = None) -> Program:
                 statements = loader.statements()
                 expander = Expander(name, loader.source, findings, path)
                 program = expander.program(statements)
-    except EnoughError:
+    except ErrorLimitError:
         pass
     except Exception as unexpected:
         fault = unexpected
@@ -86,7 +86,7 @@ def _collector_at_rest() -> Iterator[None]:
             gc.enable()
 
 
-def _fits(text: str, findings: Findings) -> bool:
+def _fits(text: str, findings: DiagnosticCollector) -> bool:
     if len(text) > MOST_BYTES:
         message = f"this file is larger than {MOST_BYTES // 1_000_000} MB"
         findings.add(Diagnostic("E305", message, None))
@@ -111,6 +111,6 @@ def _internal(fault: Exception, at: Span | None) -> Diagnostic:
     return Diagnostic("E999", message, at, "", "please send this file along with the message")
 
 
-def _add(findings: Findings, diagnostic: Diagnostic) -> None:
-    with suppress(EnoughError):
+def _add(findings: DiagnosticCollector, diagnostic: Diagnostic) -> None:
+    with suppress(ErrorLimitError):
         findings.add(diagnostic)

@@ -10,7 +10,7 @@ from dqpaint.diagnostics import Diagnostic, Span
 from dqpaint.dq import Floats
 from dqpaint.motion.geometry.paths import Indices
 from dqpaint.motion.schedule import Schedule
-from dqpaint.program import Arc, Chain, CruiseSpeed, Segment, Straight
+from dqpaint.program import Arc, CruiseSpeed, PiecewiseCurve, Segment, Straight
 
 LEAST_JUMP = 1e-4  # [m/s] worth a word,
 LEAST_PART = 0.01  # and of the speed
@@ -117,7 +117,7 @@ def slow(table: Schedule) -> Iterator[Diagnostic]:
     speed = np.array([s.timing.speed if isinstance(s.timing, CruiseSpeed) else 0.0 for s in firsts])
     lit = np.array([segment.light is not None for segment in table.program.segments])
     lit_strokes = np.logical_or.reduceat(lit, table.first)
-    chains = np.array([isinstance(segment.path, Chain) for segment in firsts])
+    chains = np.array([isinstance(segment.path, PiecewiseCurve) for segment in firsts])
     peak, time = table.peak_rates, table.time
     reached = peak * table.length / time
     below = (speed > 0.0) & (table.length > 0.0) & lit_strokes & (reached < REACHED * speed)

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint import dq
-from dqpaint.diagnostics import Diagnostic, EnoughError, Findings, ScriptError
+from dqpaint.diagnostics import Diagnostic, DiagnosticCollector, ErrorLimitError, ScriptError
 from dqpaint.dq import Floats
 from dqpaint.motion.corner_warnings import jumps, slow
 from dqpaint.motion.geometry.shapes import pose_array
@@ -108,7 +108,7 @@ def plan(program: Program, canvas: Floats, pace: Pace | None = None) -> Motion:
     Raises:
         ScriptError: a stroke without a timetable, or more samples than the budget.
     """
-    findings = Findings()
+    findings = DiagnosticCollector()
     faults: Faults = {}
     table, ticks, sheet = None, None, None
     try:
@@ -119,7 +119,7 @@ def plan(program: Program, canvas: Floats, pace: Pace | None = None) -> Motion:
             if not (faults or findings.errors):
                 sheet.add(rows)
         tell(faults, findings)
-    except EnoughError:
+    except ErrorLimitError:
         pass
     if findings.errors or table is None or sheet is None:
         raise ScriptError(program.name, program.text, findings.ordered())

@@ -81,7 +81,7 @@ def sampled(
             with np.errstate(all="ignore"):  # what is not finite is told below
                 flow, fraction = table.flow(stroke[own], tau[own], of_segments)
             if ticks is not None:
-                flow = flow.at_rates(*_paces(some))
+                flow = flow.reparametrised(*_paces(some))
             _note(table, stroke[own], flow, of_segments, faults)
             yield Rows(stroke[own], tau[own], flow, fraction, last[own])
 

@@ -12,11 +12,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.diagnostics import Diagnostic, Findings
+from dqpaint.diagnostics import Diagnostic, DiagnosticCollector
 from dqpaint.dq import Floats
 from dqpaint.motion import stroke_errors as told
 from dqpaint.motion.geometry.arc_length import has_cusp, length_fraction
-from dqpaint.motion.geometry.batched_shapes import Flags, Shapes, gather
+from dqpaint.motion.geometry.batched_shapes import Flags, Shapes, gather_shapes
 from dqpaint.motion.geometry.paths import Indices
 from dqpaint.motion.geometry.shapes import Flow
 from dqpaint.motion.profiles import (
@@ -159,9 +159,9 @@ class Schedule:
         number, f = self.inside(stroke, progress.value)
         flow = self.shapes.flow(number, f, self.by_length, faults)
         if (self.size[stroke] > 1).any():
-            flow = flow.at_rates(1.0 / (self.end - self.begin)[number], np.zeros(len(tau)))
+            flow = flow.reparametrised(1.0 / (self.end - self.begin)[number], np.zeros(len(tau)))
         fraction = self._by_length(stroke, progress.value, faults)
-        return flow.at_rates(progress.rate, progress.slope), fraction
+        return flow.reparametrised(progress.rate, progress.slope), fraction
 
     def _by_length(self, stroke: Indices, fraction: Floats, faults: Faults) -> Floats:
         """Fractions of the parameter as those of the length, where the light changes over it."""
@@ -171,14 +171,14 @@ class Schedule:
             if rows.start < rows.stop and int(self.first[number]) not in faults:
                 out = out.copy() if out is fraction else out
                 first = int(self.first[number])
-                form, extent = self.shapes.shape(first), self.shapes.uneven[first]
+                form, extent = self.shapes.shape(first), self.shapes.nonuniform[first]
                 out[rows] = length_fraction(form, extent, fraction[rows])
         return out
 
     def _changing(self) -> list[int]:
         """The strokes that are not run by their length, but whose light is a matter of it."""
         found = []
-        for first in self.shapes.uneven:
+        for first in self.shapes.nonuniform:
             light = self.program.segments[first].light
             changes = light is not None and (light.first != light.last or light.even)
             if changes and not self.by_length[first]:
@@ -197,7 +197,7 @@ def part_at(edges: Floats, f: Floats) -> Indices:
     return np.clip(np.searchsorted(edges, f, side="right") - 1, 0, len(edges) - 2)
 
 
-def timetable(program: Program, findings: Findings) -> Schedule:
+def timetable(program: Program, findings: DiagnosticCollector) -> Schedule:
     """The strokes of a program; what is wrong or worth saying about their times is added.
 
     Strokes that are wrong are left out.
@@ -207,7 +207,7 @@ def timetable(program: Program, findings: Findings) -> Schedule:
     """
     segments = program.segments
     faults: Faults = {}  # of segments
-    shapes = gather(segments, faults, program.most_samples * program.period)
+    shapes = gather_shapes(segments, faults, program.most_samples * program.period)
     first, size = _strokes(segments)
     by_length = _by_length(shapes, faults)
     begin, end, length = _joined(shapes, first, size)
@@ -235,7 +235,7 @@ def _strokes(segments: Sequence[Segment]) -> tuple[Indices, Indices]:
 def _by_length(shapes: Shapes, faults: Faults) -> Flags:
     """Which segments (M,) are run by their length; not one may come to a point on its way."""
     out = np.zeros(len(shapes.segments), dtype=bool)
-    for number, extent in shapes.uneven.items():
+    for number, extent in shapes.nonuniform.items():
         segment = shapes.segments[number]
         profile = segment.profile
         cruises = segment.stroke is not None or isinstance(segment.timing, CruiseSpeed)
@@ -337,7 +337,7 @@ def _counts(firsts: Sequence[Segment], seconds: Floats, program: Program) -> NDA
     return count
 
 
-def _told(table: Schedule, wrong: Faults, findings: Findings) -> Flags:
+def _told(table: Schedule, wrong: Faults, findings: DiagnosticCollector) -> Flags:
     """Says what is wrong, and what is rounded by much; gives which strokes (S,) are left."""
     period, most, firsts = table.program.period, table.program.most_samples, table.firsts
     good = np.array([stroke not in wrong for stroke in range(len(table))])

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from dqpaint.core import MOST_ALLOWED
-from dqpaint.diagnostics import Diagnostic, Findings, ScriptError
+from dqpaint.diagnostics import Diagnostic, DiagnosticCollector, ScriptError
 from dqpaint.program import Duration, Segment, Step
 
 MOST_SECONDS = 86_400.0  # of a drawing
@@ -114,7 +114,7 @@ def endless(segment: Segment, most: int) -> Diagnostic:
     return too_many(segment, math.inf, most)
 
 
-def beyond_budget(findings: Findings) -> bool:
+def beyond_budget(findings: DiagnosticCollector) -> bool:
     """Whether a drawing is refused for its size, so that no sample of it need be computed."""
     return any(found.code in ("E302", "E325") for found in findings.ordered())
 

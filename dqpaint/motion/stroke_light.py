@@ -100,7 +100,7 @@ class StrokeLight:
         return [
             of
             for of in np.unique(stroke[table.size[stroke] == 1]).tolist()
-            if table.first[of] in table.shapes.uneven
+            if table.first[of] in table.shapes.nonuniform
             and not table.by_length[table.first[of]]
             and table.length[of] > 0.0
         ]

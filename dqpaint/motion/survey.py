@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.diagnostics import Diagnostic, EnoughError, Findings, ScriptError
+from dqpaint.diagnostics import Diagnostic, DiagnosticCollector, ErrorLimitError, ScriptError
 from dqpaint.dq import Floats
 from dqpaint.motion.corner_warnings import jumps, slow
 from dqpaint.motion.geometry.batched_shapes import Flags
@@ -58,7 +58,7 @@ def survey(program: Program) -> Survey:
     Raises:
         ScriptError: a stroke without a timetable, or more samples than the budget.
     """
-    findings = Findings()
+    findings = DiagnosticCollector()
     faults: Faults = {}
     box = _Box()
     try:
@@ -67,7 +67,7 @@ def survey(program: Program) -> Survey:
         for rows in sampled(table.of(doubtful), None, faults, parted=True):
             box.add(dq.translation(rows.flow.pose))
         tell(faults, findings)
-    except EnoughError:
+    except ErrorLimitError:
         pass
     if findings.errors:
         raise ScriptError(program.name, program.text, findings.ordered())
@@ -86,7 +86,7 @@ def survey(program: Program) -> Survey:
     )
 
 
-def tell(faults: Faults, findings: Findings) -> None:
+def tell(faults: Faults, findings: DiagnosticCollector) -> None:
     """Adds faults in the order of the strokes."""
     for stroke in sorted(faults):
         for diagnostic in faults[stroke]:
@@ -113,7 +113,7 @@ class _Box:
 def _doubtful(table: Schedule) -> Flags:
     """Which strokes (S,) may leave the numbers on their way, or have a box that is not simple."""
     shapes = table.shapes
-    largest = [shape.largest() for shape in shapes.families]
+    largest = [shape.largest_parameter() for shape in shapes.families]
     of_segment = np.full(len(shapes.segments), np.inf)
     for family, sizes in enumerate(largest):
         own = shapes.family == family
@@ -137,7 +137,7 @@ def _bound(table: Schedule, strokes: Indices, box: _Box) -> None:
 
     add(np.repeat(strokes, 2), np.tile([0.0, 1.0], len(strokes)))
     alone = (table.size[strokes] == 1) & ~table.rates[strokes].any(axis=1)
-    leaves = table.shapes.may_leave(table.first[strokes], box.least, box.most)
+    leaves = table.shapes.may_leave_box(table.first[strokes], box.least, box.most)
     others = strokes[leaves | ~alone]
     for some in blocks(table.count[others]):
         add(*every_sample(table.count, others[some]))

@@ -58,14 +58,14 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
         "set_points": [
             {
                 "time_s": jump.time,
-                "line": program.told(jump.line),
+                "line": program.line_reference(jump.line),
                 "translation": _response(jump.translation, "m"),
                 "rotation": _response(jump.rotation, "rad"),
             }
             for jump in painting.set_points
         ],
         "limits": [
-            {**vars(clamp), "line": program.told(clamp.line), "unit": UNITS[clamp.kind]}
+            {**vars(clamp), "line": program.line_reference(clamp.line), "unit": UNITS[clamp.kind]}
             for clamp in painting.limits
         ],
         "light": {

@@ -96,7 +96,7 @@ def _unit(column: Column) -> str:
 def _labelled(motion: Motion, line: SourceLine) -> str:
     program = motion.program
     text = " ".join(text_of_line(program.text, line).split("#")[0].split())
-    return f"{program.where(line)}  {text if len(text) <= 28 else text[:27] + '…'}"
+    return f"{program.line_name(line)}  {text if len(text) <= 28 else text[:27] + '…'}"
 
 
 def _tuples(colours: Floats) -> tuple[tuple[float, float, float], ...]:

@@ -158,10 +158,10 @@ def prepare(
     card = card_for(program, settings.robot, settings.tool)
     recorded = settings.recorded
     recording = None if recorded is None else read_recording(recorded, card.joints)
-    with clock("place"):
+    with clock("pose"):
         kinematics = Kinematics(card)
-    motors = choices.plant.motors
-    ready = prepared_motion.prepare_motion(program, kinematics, settings, motors, clock)
+    motor_torque_use = choices.plant.motor_torque_use
+    ready = prepared_motion.prepare_motion(program, kinematics, settings, motor_torque_use, clock)
     return PreparedRun(settings, clock, choices, kinematics, ready, recording)
 
 
@@ -186,8 +186,8 @@ def finish(ready: PreparedRun, run: Track) -> Painting:
     return Painting(
         settings, chosen.controller, card.name,
         "recorded" if recording else chosen.plant.name,
-        {} if recording else chosen.plant.shown(card),
-        chosen.disturbances, chosen.gains.shown(), motion, run, metrics, came_through, steps, scene,
+        {} if recording else chosen.plant.summary(card),
+        chosen.disturbances, chosen.gains.summary(), motion, run, metrics, came_through, steps, scene,
         cast, pictures, ready.prepared.slowed, clock.seconds, notes, ready.prepared.placed,
         recording,
     )  # fmt: skip

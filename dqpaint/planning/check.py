@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from dqpaint import __version__
 from dqpaint.core import find_drawing
-from dqpaint.diagnostics import Severity, Span, file_at, place, url
+from dqpaint.diagnostics import Severity, Span, file_at, locate, url
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.language import Diagnostic, Program, ScriptError, read, read_input, render
 from dqpaint.language.syntax import STDIN
@@ -206,5 +206,5 @@ def _unread(result: CheckResult) -> dict[str, Any]:
 def _range(text: str, span: Span | None) -> dict[str, Any]:
     if span is None:
         return {"start": None, "end": None}
-    ends = (place(text, offset) for offset in (span.start, span.end))
+    ends = (locate(text, offset) for offset in (span.start, span.end))
     return dict(zip(("start", "end"), (at._asdict() for at in ends), strict=True))

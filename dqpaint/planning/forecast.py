@@ -20,15 +20,15 @@ from dqpaint.planning.occlusion import LOOKS, PLAIN, OcclusionForecast, hide, lo
 from dqpaint.planning.retiming import TAKEN_UP
 from dqpaint.plants import ConfiguredPlant
 from dqpaint.robots.kinematics import (
-    DEFAULT_NULL,
-    LENGTH,
+    CHARACTERISTIC_LENGTH,
+    DEFAULT_OBJECTIVE,
     Dynamics,
     Kinematics,
     Nearest,
-    make_wish,
+    collision_shapes,
+    make_secondary_task,
     manipulability,
-    shapes_of,
-    to_tool,
+    tool_jacobian_map,
 )
 from dqpaint.settings import Settings
 
@@ -118,7 +118,7 @@ def forecast(
         One entry for each line of the file that moves, in the order they are first drawn.
     """
     run = _Run(motion, kinematics, start, settings.null, plant)
-    shapes = shapes_of(kinematics)
+    shapes = collision_shapes(kinematics)
     looks = looks_at(run.source.index, LOOKS)
     near = shapes.nearest(run.posture[looks])
     hiding = hide(shapes, motion, run.rows, run.posture, settings)
@@ -137,7 +137,7 @@ class _Run:
         motion: Motion,
         kinematics: Kinematics,
         start: Floats,
-        null: str = DEFAULT_NULL,
+        null: str = DEFAULT_OBJECTIVE,
         plant: ConfiguredPlant | None = None,
     ) -> None:
         self.card = kinematics.card
@@ -147,11 +147,11 @@ class _Run:
         self.period = stride * motion.period
         joined = jumps(motion, self.rows)
         self.posture, self.points, J = follow(
-            motion, kinematics, start, self.rows, make_wish(null, self.card, start)
+            motion, kinematics, start, self.rows, make_secondary_task(null, self.card, start)
         )
         self.stray = np.linalg.norm(self.points - motion.points[self.rows], axis=1)
         self.manipulability = manipulability(J)
-        at_tool = to_tool(self.points) @ J
+        at_tool = tool_jacobian_map(self.points) @ J
         self.singular = np.linalg.svd(at_tool, compute_uv=False)[:, -1]
         self.rates = np.zeros_like(self.posture)
         self.rates[:-1] = np.diff(self.posture, axis=0) / self.period
@@ -178,7 +178,7 @@ class _Run:
         self.effort: Floats | None = None
         self.jolt: Floats | None = None
         self.sag: Floats | None = None
-        motors = plant.motors if plant else "sudden"
+        motors = plant.motor_torque_use if plant else "sudden"
         if motors == "none":
             return
         if motors == "sudden":
@@ -187,12 +187,12 @@ class _Run:
             return
         smooth = _without_corners(change, motion.stroke[self.rows])
         self.effort = self._torques(dynamics, smooth / self.period)
-        springs = plant.springs_of(self.card) if plant else None
+        springs = plant.springs_for(self.card) if plant else None
         if springs is not None:
             # at first only the dampers answer a motor that turns at a new rate
             self.jolt = self.effort + springs.damping * (change - smooth)
             sunk = np.matvec(at_tool, (1 - springs.share) * self.weight / springs.stiffness)
-            self.sag = LENGTH * np.linalg.norm(sunk[:, 3:], axis=1)
+            self.sag = CHARACTERISTIC_LENGTH * np.linalg.norm(sunk[:, 3:], axis=1)
 
     def _torques(self, dynamics: Dynamics, accelerations: Floats) -> Floats:
         rows = zip(self.posture, self.rates, accelerations, strict=True)

@@ -16,13 +16,13 @@ from dqpaint.planning.reachability import check_row
 from dqpaint.planning.retiming import Retiming
 from dqpaint.plants import DEFAULT_PLANTS, find_plant
 from dqpaint.program import Program
-from dqpaint.robots.kinematics import THRESHOLD, Kinematics, shapes_of
+from dqpaint.robots.kinematics import DAMPING_THRESHOLD, Kinematics, collision_shapes
 from dqpaint.robots.model import Card
 from dqpaint.settings import Settings
 
 CLOSE = 0.9  # of a limit
 CLOSE_ANGLE = math.radians(5.0)
-CLOSE_SINGULAR = 2 * THRESHOLD
+CLOSE_SINGULAR = 2 * DAMPING_THRESHOLD
 CLOSE_LINKS = 5e-3  # [m]
 CLOSE_HIDDEN = 0.005  # of a line's light
 HIDDEN = 0.01
@@ -105,9 +105,9 @@ def look_ahead(
         UsageError: an unknown plant, or values it does not take.
     """
     plant = find_plant(settings.plant) if settings.plant else None
-    springs = plant.springs_of(kinematics.card) if plant else None
-    motors = plant.motors if plant else "sudden"
-    ready = prepare_motion(program, kinematics, settings, motors)
+    springs = plant.springs_for(kinematics.card) if plant else None
+    motor_torque_use = plant.motor_torque_use if plant else "sudden"
+    ready = prepare_motion(program, kinematics, settings, motor_torque_use)
     motion, start = ready.motion, ready.start
     lines = forecast(motion, kinematics, start, settings, plant)
     farthest = max(lines, key=lambda one: one.stray)
@@ -123,7 +123,7 @@ def look_ahead(
         tuple(start.tolist()),
         lines,
         tuple(_warnings(motion, kinematics.card, lines)),
-        kinematics.notes + shapes_of(kinematics).notes,
+        kinematics.notes + collision_shapes(kinematics).notes,
     )
 
 
@@ -174,7 +174,7 @@ def _singular(one: Forecast, _card: Card) -> str:
     beside = f", up to {one.stray * 1e3:.1f} mm beside" if one.stray >= WORTH_A_LOOK else ""
     return (
         f"the arm comes close to a singularity (smallest singular value {one.singular:.2g}, "
-        f"below {THRESHOLD:g}): there it follows inexactly{beside}"
+        f"below {DAMPING_THRESHOLD:g}): there it follows inexactly{beside}"
     )
 
 
@@ -220,7 +220,7 @@ RULES = (
     ),
     _Rule(
         "W505",
-        lambda one: 2.0 - one.singular / THRESHOLD,
+        lambda one: 2.0 - one.singular / DAMPING_THRESHOLD,
         _singular,
         "move the drawing with place, or hold the tool another way",
     ),
@@ -248,7 +248,7 @@ def _warnings(motion: Motion, card: Card, lines: Sequence[Forecast]) -> list[Dia
         if not bad:
             continue
         worst = max(bad, key=rule.badness)
-        others = [motion.program.where(one.line) for one in bad if one is not worst]
+        others = [motion.program.line_name(one.line) for one in bad if one is not worst]
         found.append(
             Diagnostic(
                 rule.code,
@@ -280,9 +280,9 @@ def _extremes(lines: Sequence[Forecast], program: Program, seen: bool) -> str:
     least = min(lines, key=lambda one: one.manipulability)
     parts = [
         f"joint {speed.speed.joint} at {speed.speed_part:.0%} of its speed "
-        f"(line {program.where(speed.line)})",
+        f"(line {program.line_name(speed.line)})",
         *_bearing(lines, program, seen),
-        f"manipulability {least.manipulability:.2g} (line {program.where(least.line)})",
+        f"manipulability {least.manipulability:.2g} (line {program.line_name(least.line)})",
     ]
     clear = [one for one in lines if one.clearance is not None]
     if clear:
@@ -296,12 +296,12 @@ def _bearing(lines: Sequence[Forecast], program: Program, seen: bool) -> list[st
     parts = []
     most = max(lines, key=lambda one: one.effort_part or 0.0)
     if most.effort is not None:
-        part, line = most.effort_part or 0.0, program.where(most.line)
+        part, line = most.effort_part or 0.0, program.line_name(most.line)
         parts.append(f"joint {most.effort.joint} at {part:.0%} of its torque (line {line})")
     sunk = max(lines, key=lambda one: one.sag or 0.0)
     if sunk.sag is not None:
         how = "" if seen else ", which no encoder sees"
-        millimetres, line = sunk.sag * 1e3, program.where(sunk.line)
+        millimetres, line = sunk.sag * 1e3, program.line_name(sunk.line)
         parts.append(f"springs give way by {millimetres:.2g} mm{how} (line {line})")
     return parts
 
@@ -335,7 +335,7 @@ def _table(lines: Sequence[Forecast], program: Program) -> str:
     heads = list(dict.fromkeys(head for cells in close.values() for head in cells))
     rows = [["line", *heads]]
     rows += [
-        [program.where(line), *(cells.get(head, "") for head in heads)]
+        [program.line_name(line), *(cells.get(head, "") for head in heads)]
         for line, cells in list(close.items())[:MOST_LINES]
     ]
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
@@ -358,7 +358,7 @@ def _figures(one: Forecast, program: Program) -> dict[str, Any]:
         sudden: (one.jolt, one.jolt_part),
     }
     return {
-        "line": program.told(one.line),
+        "line": program.line_reference(one.line),
         "room": one.room,
         "start_s": one.start,
         **{

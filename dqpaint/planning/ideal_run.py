@@ -11,18 +11,18 @@ from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
 from dqpaint.robots.kinematics import (
-    DEFAULT_NULL,
-    ON_THE_WAY,
+    DEFAULT_OBJECTIVE,
+    PATH_TOLERANCE,
     Kinematics,
     NoPosture,
     SecondaryTask,
     StartPosture,
     find_start,
-    make_pull,
-    make_wish,
+    make_batched_task,
+    make_secondary_task,
     resolve,
+    return_to_start,
     solve_posture,
-    to_start,
     waypoints,
 )
 
@@ -32,7 +32,7 @@ BEYOND = np.radians(0.05)  # of a joint's end count as its end
 
 
 def set_out(
-    motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL
+    motion: Motion, kinematics: Kinematics, null: str = DEFAULT_OBJECTIVE
 ) -> StartPosture | NoPosture:
     """The posture that leaves the most margin over a drawing, or the pose that is not reached.
 
@@ -42,11 +42,11 @@ def set_out(
         null: what the arm does with its freedom.
     """
     rows = waypoints(motion.stroke)
-    pull = to_start if null == DEFAULT_NULL else make_pull(null, kinematics)
+    pull = return_to_start if null == DEFAULT_OBJECTIVE else make_batched_task(null, kinematics)
     return find_start(kinematics, motion.pose[rows], motion.t[rows], pull)
 
 
-def can_draw(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL) -> bool:
+def can_draw(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_OBJECTIVE) -> bool:
     """Whether an arm gets along a drawing, no joint beyond its end and no millimetre beside it.
 
     Arguments as those of `set_out`.
@@ -55,7 +55,7 @@ def can_draw(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL) -
     if isinstance(start, NoPosture) or start.margin < 0:
         return False
     rows = np.arange(0, len(motion.t), -(-len(motion.t) // MOST_ROWS))
-    wish = make_wish(null, kinematics.card, start.posture)
+    wish = make_secondary_task(null, kinematics.card, start.posture)
     postures, points, _ = follow(motion, kinematics, start.posture, rows, wish)
     card = kinematics.card
     inside = (postures >= card.lower - BEYOND) & (postures <= card.upper + BEYOND)
@@ -84,16 +84,16 @@ def follow(
     postures, jacobians = np.empty((len(rows), len(start))), np.empty((len(rows), 6, len(start)))
     points = np.empty((len(rows), 3))
     still, jump = np.zeros((1, len(start))), jumps(motion, rows)
-    q = solve_posture(kinematics, motion.pose[0], start[None], still, ON_THE_WAY)[0][0]
+    q = solve_posture(kinematics, motion.pose[0], start[None], still, PATH_TOLERANCE)[0][0]
     for k in range(len(rows)):
         x, J = kinematics.pose_and_jacobian(q)
         p = dq.translation(x)
         postures[k], jacobians[k], points[k] = q, J, p
         if k + 1 == len(rows):
             break
-        ahead, drawn = motion.pose[rows[k + 1]], wish.over(period, q, J, p)
+        ahead, drawn = motion.pose[rows[k + 1]], wish.displacement(period, q, J, p)
         if jump[k]:
-            q = solve_posture(kinematics, ahead, q[None], drawn[None], ON_THE_WAY)[0][0]
+            q = solve_posture(kinematics, ahead, q[None], drawn[None], PATH_TOLERANCE)[0][0]
         else:
             way = 2 * dq.log(dq.mul(dq.nearest(ahead, x), dq.conj(x)))
             q = q + resolve(J, p, way, drawn)

@@ -13,7 +13,7 @@ from dqpaint.dq import Floats
 from dqpaint.light.camera import parse_views
 from dqpaint.light.sources import sweeps, view_camera
 from dqpaint.motion import Motion
-from dqpaint.robots.kinematics import Shapes
+from dqpaint.robots.kinematics import CollisionShapes
 from dqpaint.settings import Settings
 
 LOOKS = 400  # at the arm's shapes in a whole drawing
@@ -57,7 +57,11 @@ def looks_at(line: NDArray[np.int64], most: int) -> NDArray[np.intp]:
 
 
 def hide(
-    shapes: Shapes, motion: Motion, rows: NDArray[np.intp], postures: Floats, settings: Settings
+    shapes: CollisionShapes,
+    motion: Motion,
+    rows: NDArray[np.intp],
+    postures: Floats,
+    settings: Settings,
 ) -> OcclusionForecast:
     """Which of a motion's light an arm hides that follows it.
 
@@ -91,6 +95,6 @@ def hide(
         sent[shone] += energy[shone]
         for view, camera in enumerate(cameras):
             for k in range(len(lamps)):
-                behind = shapes.hides(postures[looks[shone]], places[:, k], camera.position)
+                behind = shapes.occludes(postures[looks[shone]], places[:, k], camera.position)
                 hidden[view, shone] += energy[shone] * behind / len(lamps)
     return OcclusionForecast(looks, sent, hidden, names)

@@ -28,7 +28,7 @@ from dqpaint.planning.ideal_run import WORTH_A_LOOK, set_out
 from dqpaint.planning.occlusion import PLAIN
 from dqpaint.program import AutoPlacement, Pose, Program
 from dqpaint.robots.kinematics import (
-    PULL,
+    START_GAIN,
     Dynamics,
     Kinematics,
     NoPosture,
@@ -299,7 +299,7 @@ class _Follow:
         alive = self.alive
         wish = np.zeros_like(self._q[alive])
         if pause is not None:
-            wish = (1.0 - np.exp(-PULL * pause)) * (self._start[alive] - self._q[alive])
+            wish = (1.0 - np.exp(-START_GAIN * pause)) * (self._start[alive] - self._q[alive])
         q, measure, reached = self._newton(poses[alive], self._q[alive], wish)
         room = np.minimum(q - self._card.lower, self._card.upper - q) / self._half
         self._q[alive] = q

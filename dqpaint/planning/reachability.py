@@ -11,13 +11,13 @@ from dqpaint.motion import Motion
 from dqpaint.planning.ideal_run import WORTH_A_LOOK, set_out
 from dqpaint.planning.suggestions import advise
 from dqpaint.robots.kinematics import (
-    DEFAULT_NULL,
-    ON_THE_WAY,
+    DEFAULT_OBJECTIVE,
+    PATH_TOLERANCE,
     Kinematics,
     NoPosture,
     StartPosture,
+    least_errors,
     shortfall,
-    strays,
     waypoints,
 )
 
@@ -42,7 +42,7 @@ class Unreachable:
     alone: bool = True
 
 
-def begin(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL) -> StartPosture:
+def begin(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_OBJECTIVE) -> StartPosture:
     """The posture that leaves the most margin over the whole drawing.
 
     Args:
@@ -66,7 +66,7 @@ def begin(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_NULL) -> S
     return found
 
 
-def check_worst(track: "Track", kinematics: Kinematics, null: str = DEFAULT_NULL) -> None:
+def check_worst(track: "Track", kinematics: Kinematics, null: str = DEFAULT_OBJECTIVE) -> None:
     """Look again where a run strayed most: the forecast sees a drawing at some of its rows alone.
 
     A pose that is out of reach keeps the arm at least as far away as its shortfall.
@@ -86,13 +86,15 @@ def worst_row(track: "Track") -> int | None:
     return row if stray[row] >= WORTH_A_LOOK else None
 
 
-def check_row(motion: Motion, kinematics: Kinematics, row: int, null: str = DEFAULT_NULL) -> None:
+def check_row(
+    motion: Motion, kinematics: Kinematics, row: int, null: str = DEFAULT_OBJECTIVE
+) -> None:
     """See that the arm reaches the pose of a row.
 
     Raises:
         ScriptError: no posture does; it tells all lines that are out of reach.
     """
-    if strays(kinematics, motion.pose[row : row + 1])[0] >= ON_THE_WAY:
+    if least_errors(kinematics, motion.pose[row : row + 1])[0] >= PATH_TOLERANCE:
         rows = np.unique(np.append(waypoints(motion.stroke), row))
         outside = _outside(motion, kinematics, rows)
         if outside:
@@ -107,8 +109,8 @@ def _outside(motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp]) -> 
         its = np.flatnonzero(motion.stroke == stroke)
         rows = np.append(rows, its[np.linspace(0, len(its) - 1, looks).astype(int)])
     rows = np.unique(rows)
-    left = strays(kinematics, motion.pose[rows])
-    beyond = np.flatnonzero(left >= ON_THE_WAY)
+    left = least_errors(kinematics, motion.pose[rows])
+    beyond = np.flatnonzero(left >= PATH_TOLERANCE)
     found: list[Unreachable] = []
     source = motion.source.index[rows[beyond]]
     for line in np.unique(source):
@@ -119,14 +121,17 @@ def _outside(motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp]) -> 
             continue
         few = rows[np.unique([its[0], worst, its[-1]])].tolist()
         misses = [(shortfall(kinematics, motion.pose[row]), row) for row in few]
-        miss, row = max(misses, key=lambda pair: pair[0].badness)
-        if miss.badness >= ON_THE_WAY:
+        miss, row = max(misses, key=lambda pair: pair[0].combined_error)
+        if miss.combined_error >= PATH_TOLERANCE:
             found.append(Unreachable(row, miss))
     return found
 
 
 def out_of_reach(
-    motion: Motion, kinematics: Kinematics, outside: list[Unreachable], null: str = DEFAULT_NULL
+    motion: Motion,
+    kinematics: Kinematics,
+    outside: list[Unreachable],
+    null: str = DEFAULT_OBJECTIVE,
 ) -> ScriptError:
     """The error for lines of a motion, some of whose rows no posture reaches."""
     program = motion.program
@@ -137,7 +142,7 @@ def out_of_reach(
         last = one is told[-1]
         label = "farthest point of this line"
         if last and others:
-            lines = [program.where(motion.source.at(other.row)) for other in others]
+            lines = [program.line_name(motion.source.at(other.row)) for other in others]
             more = f" and {len(lines) - MOST_NAMED} more" if len(lines) > MOST_NAMED else ""
             label += f"; likewise line{'s' if len(lines) > 1 else ''} "
             label += ", ".join(lines[:MOST_NAMED]) + more
@@ -156,8 +161,8 @@ def out_of_reach(
 def _fault(one: Unreachable, name: str) -> str:
     """How far it is away, in words."""
     assert one.miss is not None
-    far, angle = one.miss.shortfall * 1e3, np.degrees(one.miss.turned)
-    turned = one.miss.turned > WORTH_SAYING
+    far, angle = one.miss.shortfall * 1e3, np.degrees(one.miss.angle)
+    turned = one.miss.angle > WORTH_SAYING
     if not one.alone:
         away = f"{far:.0f} mm" + (f" and {angle:.0f} deg" if turned else "")
         return f"is not reached by {name} from the strokes before it: it stays {away} away"

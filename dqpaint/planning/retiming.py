@@ -16,7 +16,13 @@ from dqpaint import dq
 from dqpaint.diagnostics import SourceLine
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion, Pace, plan, smooth
-from dqpaint.robots.kinematics import Dynamics, Kinematics, drift_acceleration, make_wish, resolve
+from dqpaint.robots.kinematics import (
+    Dynamics,
+    Kinematics,
+    drift_acceleration,
+    make_secondary_task,
+    resolve,
+)
 
 SHARE = 0.9  # of a limit is planned with; the rest is for what a law adds
 LEAST = 0.3  # of that at least is taken for the drawing, whatever the rest takes
@@ -50,13 +56,13 @@ class Retiming:
     @property
     def as_json(self) -> dict[str, Any]:
         """For a summary."""
-        lines = [self.motion.program.told(line) for line in self.lines]
+        lines = [self.motion.program.line_reference(line) for line in self.lines]
         return {"longer_s": self.longer, "slowest": self.slowest, "lines": lines}
 
     def __str__(self) -> str:
         if not self.lines:
             return "as asked: no joint needs more time"
-        where = ", ".join(map(self.motion.program.where, self.lines[:MOST_NAMED]))
+        where = ", ".join(map(self.motion.program.line_name, self.lines[:MOST_NAMED]))
         more = f" and {len(self.lines) - MOST_NAMED} more" if len(self.lines) > MOST_NAMED else ""
         said = f"{self.longer:.3g} s longer, down to {self.slowest:.2g} of the asked speed"
         return f"{said} (line{'s' if len(self.lines) > 1 else ''} {where}{more})"
@@ -108,7 +114,7 @@ def _needed(
     would be too much.
     """
     card, period = kinematics.card, motion.period
-    wish, zero = make_wish(null, card, start), np.zeros(card.joints)
+    wish, zero = make_secondary_task(null, card, start), np.zeros(card.joints)
     speed = SHARE * card.speed
     torques = _Torques(kinematics) if motors != "none" else None
     growth = np.gradient(slowness, period) if len(slowness) > 1 else np.zeros(1)

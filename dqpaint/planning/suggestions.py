@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from dqpaint.motion import Motion, plan, scaled, straight
 from dqpaint.planning.ideal_run import can_draw
 from dqpaint.planning.placement import FEW_SCALES, has_room
-from dqpaint.robots.kinematics import DEFAULT_NULL, ON_THE_WAY, Kinematics, strays
+from dqpaint.robots.kinematics import DEFAULT_OBJECTIVE, PATH_TOLERANCE, Kinematics, least_errors
 from dqpaint.robots.model import installed_names, read_card
 from dqpaint.settings import Settings
 
@@ -21,7 +21,7 @@ NOTHING = "no smaller scale, other place, straight tool or other arm helps: draw
 
 
 def advise(
-    motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp], null: str = DEFAULT_NULL
+    motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp], null: str = DEFAULT_OBJECTIVE
 ) -> str:
     """What to change, each of which takes the error away.
 
@@ -49,7 +49,7 @@ def _scale(
 ) -> float | None:
     """The largest scale about the drawing's origin at which the arm draws all of it."""
     poses = np.concatenate([scaled(motion, scale).pose[rows] for scale in SCALES])
-    reached = (strays(kinematics, poses) < ON_THE_WAY).reshape(len(SCALES), len(rows))
+    reached = (least_errors(kinematics, poses) < PATH_TOLERANCE).reshape(len(SCALES), len(rows))
     for scale in SCALES[reached.all(axis=1)]:
         if can_draw(scaled(motion, scale), kinematics, null):
             return float(scale)
@@ -79,5 +79,5 @@ def _last(
 
 def _draws(motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp], null: str) -> bool:
     """Whether an arm can draw a motion; a few rows are looked at first, which is quicker."""
-    reached = strays(kinematics, motion.pose[rows]) < ON_THE_WAY
+    reached = least_errors(kinematics, motion.pose[rows]) < PATH_TOLERANCE
     return bool(reached.all()) and can_draw(motion, kinematics, null)

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from dqpaint.dq import Floats
-from dqpaint.plants.bullet_loads import TimedPush, check_pushes, loaded
+from dqpaint.plants.bullet_loads import TimedPush, check_pushes, with_payloads
 from dqpaint.plants.plant import Options, Trait
 from dqpaint.plants.world import UNDISTURBED, World
 from dqpaint.robots.bullet import Client, bullet, joint_indices, quiet
@@ -16,15 +16,15 @@ from dqpaint.robots.model import Card
 from dqpaint.robots.urdf import urdf_file
 
 LONGEST_STEP = 1e-3  # [s] of physics
-UNBOUND = 1e9  # [rad/s]
-STOP = 0.02  # [rad] of the mechanical stop beyond a joint's limit: commands end at the limit
-POSTURES, SEED = 64, 1988  # that stand for all of an arm's
+NO_SPEED_LIMIT = 1e9  # [rad/s]
+STOP_DISTANCE = 0.02  # [rad] from a joint's limit to its mechanical stop; commands end at the limit
+SAMPLE_COUNT, SEED = 64, 1988  # that stand for all of an arm's
 
 
-def some_postures(card: Card) -> Floats:
+def sample_postures(card: Card) -> Floats:
     """Postures (65, n) [rad]: home, and others all over the arm's range."""
     rng = np.random.default_rng(SEED)
-    others = rng.uniform(card.lower, card.upper, (POSTURES, card.joints))
+    others = rng.uniform(card.lower, card.upper, (SAMPLE_COUNT, card.joints))
     return np.vstack([card.home, others])
 
 
@@ -71,8 +71,8 @@ class RigidArm(Client):
             bullet.changeDynamics(
                 self.body,
                 joint,
-                jointLowerLimit=lower - STOP,
-                jointUpperLimit=upper + STOP,
+                jointLowerLimit=lower - STOP_DISTANCE,
+                jointUpperLimit=upper + STOP_DISTANCE,
                 physicsClientId=self.client,
             )
             bullet.resetJointState(self.body, joint, angle, 0.0, self.client)
@@ -105,32 +105,32 @@ class RigidArm(Client):
             | bullet.URDF_IGNORE_VISUAL_SHAPES
             | bullet.URDF_IGNORE_COLLISION_SHAPES
         )
-        with urdf_file(card, partial(loaded, card=card, payloads=world.payloads)) as path:
+        with urdf_file(card, partial(with_payloads, card=card, payloads=world.payloads)) as path:
             body: int = bullet.loadURDF(path, useFixedBase=True, flags=flags, **here)
         return body
 
-    def measure(self) -> Any:
+    def read_joints(self) -> Any:
         """Read the joints; of each its angle [rad], rate, forces, motor torque [Nm]."""
         states = bullet.getJointStates(self.body, self.joints, self.client)
         self.posture = np.array([state[0] for state in states])
         self.rates = np.array([state[1] for state in states])
         return states
 
-    def free(self) -> None:
+    def disable_motors(self) -> None:
         """Leave the joints to torques: no motors, and no damping but the file's own friction."""
         here = {"physicsClientId": self.client}
         for link in range(-1, bullet.getNumJoints(self.body, **here)):
             bullet.changeDynamics(self.body, link, linearDamping=0, angularDamping=0, **here)
         for joint in self.joints:  # PyBullet would end every rate at 100 rad/s
-            bullet.changeDynamics(self.body, joint, maxJointVelocity=UNBOUND, **here)
+            bullet.changeDynamics(self.body, joint, maxJointVelocity=NO_SPEED_LIMIT, **here)
         idle = [0.0] * len(self.joints)
         bullet.setJointMotorControlArray(
             self.body, self.joints, bullet.VELOCITY_CONTROL, forces=idle, **here
         )
 
-    def displace(self, way: Floats) -> None:
+    def displace(self, angles: Floats) -> None:
         """Carry the joints along by some angles (n,) [rad], their rates kept."""
-        self.measure()
-        moved = (self.posture + way).tolist()
+        self.read_joints()
+        moved = (self.posture + angles).tolist()
         for joint, angle, rate in zip(self.joints, moved, self.rates.tolist(), strict=True):
             bullet.resetJointState(self.body, joint, angle, rate, self.client)

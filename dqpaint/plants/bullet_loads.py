@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from dqpaint.plants.bullet_arm import RigidArm
 
 
-def loaded(text: str, card: Card, payloads: tuple[Payload, ...]) -> str:
+def with_payloads(text: str, card: Card, payloads: tuple[Payload, ...]) -> str:
     """The URDF of a card's arm with payloads fixed to it, their centres where the light sits."""
     if not payloads:
         return text

@@ -16,21 +16,21 @@ from pydantic import Field, field_validator
 
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
-from dqpaint.plants.bullet_arm import LONGEST_STEP, RigidArm, some_postures
-from dqpaint.plants.plant import PLANTS, Options, Springs, Takes, Trait, Values
+from dqpaint.plants.bullet_arm import LONGEST_STEP, RigidArm, sample_postures
+from dqpaint.plants.plant import PLANTS, Options, PlantOptions, Springs, Takes, Trait
 from dqpaint.plants.world import UNDISTURBED, World
 from dqpaint.robots.bullet import bullet
 from dqpaint.robots.kinematics import Dynamics, Kinematics
 from dqpaint.robots.model import Card
 
-FINE = 0.02  # of a joint's own swing, in radians of its phase, fits one physics step
-STABLE = 0.5  # of the longest step that is stable, for the quickest mode of any posture
+LARGEST_PHASE_STEP = 0.02  # of a joint's own swing, in radians of its phase, fits one physics step
+STABLE_SHARE = 0.5  # of the longest step that is stable, for the quickest mode of any posture
 SHORTEST_STEP = 1e-5  # [s]
 
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 
 
-class CompliantOptions(Values):
+class CompliantOptions(PlantOptions):
     """The springs of a compliant arm."""
 
     frequency: Positive = Field(
@@ -63,14 +63,14 @@ class CompliantOptions(Values):
             raise ValueError(f"{given!r} should be positive numbers, as in 300 or 300/300/200")
         return given
 
-    def shown(self, card: Card) -> dict[str, Any]:
+    def summary(self, card: Card) -> dict[str, Any]:
         """The values, and the springs they mean for an arm."""
         inertia = np.diag(Dynamics(Kinematics(card)).inertia(card.home))
         k, d = self.springs(card, inertia)
         found = {"stiffness_Nm_rad": k.tolist(), "damping_Nm_s_rad": d.tolist()}
         return {**self.model_dump(exclude={"stiffness"}), **found}
 
-    def springs_of(self, card: Card) -> Springs:
+    def springs_for(self, card: Card) -> Springs:
         """For a forecast.
 
         Raises:
@@ -141,8 +141,8 @@ class Compliant(RigidArm):
         self.stiffness, self.damping = chosen.springs(card, inertia)
         longest = _longest_step(card, dynamics, self.stiffness, self.damping)
         super().__init__(card, posture, period, world, longest)
-        self.free()
-        self._own = Dynamics(model.changed(gravity=world.model_gravity))
+        self.disable_motors()
+        self._own = Dynamics(model.with_model_error(gravity=world.model_gravity))
         self._share = chosen.gravity
         self._grounded = chosen.damper == "ground"
         self._at_motor = chosen.encoder == "motor"
@@ -194,7 +194,7 @@ class Compliant(RigidArm):
                 self.displace(self.step * drift)
             middle = [m + way for m, way in zip(middle, turn, strict=True)]
         self._before = before
-        self.measure()
+        self.read_joints()
         self.posture = self.posture - 0.5 * self.step * self.rates
         efforts = np.array(carried)
         self.effort = efforts[np.abs(efforts).argmax(axis=0), np.arange(len(command))]
@@ -228,13 +228,13 @@ def _longest_step(card: Card, dynamics: Dynamics, k: Floats, d: Floats) -> float
         UsageError: springs that need steps too short to be simulated.
     """
     own = np.sqrt(k / np.diag(dynamics.inertia(card.home)))
-    longest = min(LONGEST_STEP, FINE / float(own.max()))
-    for q in some_postures(card):
+    longest = min(LONGEST_STEP, LARGEST_PHASE_STEP / float(own.max()))
+    for q in sample_postures(card):
         H = dynamics.inertia(q)
         swing = float(np.linalg.eigvals(np.linalg.solve(H, np.diag(k))).real.max())
         loss = dynamics.decay(q, d)
         stable = 2 * (np.sqrt(loss**2 + swing) - loss) / swing
-        longest = min(longest, STABLE * stable)
+        longest = min(longest, STABLE_SHARE * stable)
     if longest < SHORTEST_STEP:
         raise UsageError(
             f"plant 'compliant': springs this stiff on {card.name} need physics steps of "

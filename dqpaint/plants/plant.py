@@ -22,7 +22,7 @@ from dqpaint.plants.world import UNDISTURBED, World
 from dqpaint.robots.model import Card
 
 Takes = Literal["rates", "torque"]
-HOW = "a plant is a class with takes, traits and options, as dqpaint.plants.Plant has it"
+PLANT_RULE = "a plant is a class with takes, traits and options, as dqpaint.plants.Plant has it"
 Trait = Literal["masses", "a model of gravity", "sudden motors"]
 
 
@@ -43,21 +43,21 @@ class Springs:
     seen: bool
 
 
-class Values(BaseModel):
+class PlantOptions(BaseModel):
     """What a plant takes besides its name; each field's description says the unit."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    def shown(self, card: Card) -> dict[str, Any]:
+    def summary(self, card: Card) -> dict[str, Any]:
         """The values as a summary shows them, with what follows from them for an arm."""
         return self.model_dump()
 
-    def springs_of(self, card: Card) -> Springs | None:
+    def springs_for(self, card: Card) -> Springs | None:
         """What stands between an arm's motors and joints; None where they are one."""
         return None
 
 
-Options = type[Values] | None
+Options = type[PlantOptions] | None
 DEFAULT_PLANTS: dict[Takes, str] = {"rates": "stiff", "torque": "torque"}
 
 
@@ -141,7 +141,7 @@ def _of_name(name: str) -> PlantMaker:
     """A plant by its name, or by `FILE.py` or `FILE.py:NAME`."""
     if split_spec(name) is None:
         return PLANTS[name]
-    thing, _, _ = find_in_file("plant", name, lambda thing: hasattr(thing, "takes"), HOW)
+    thing, _, _ = find_in_file("plant", name, lambda thing: hasattr(thing, "takes"), PLANT_RULE)
     return as_plant_maker(name, thing)
 
 
@@ -157,28 +157,28 @@ class ConfiguredPlant:
 
     name: str
     make: PlantMaker
-    options: Values | None = None
+    options: PlantOptions | None = None
 
     def __call__(self, card: Card, posture: Floats, period: float, world: World) -> Plant:
         """Build it; arguments as those of a `PlantMaker`."""
         return self.make(card, posture, period, world, self.options)
 
     @property
-    def motors(self) -> Literal["none", "smooth", "sudden"]:
+    def motor_torque_use(self) -> Literal["none", "smooth", "sudden"]:
         """What its motors' torques are needed for: for nothing, smooth motion, or new rates too."""
         if "masses" not in self.make.traits:
             return "none"
         return "sudden" if "sudden motors" in self.make.traits else "smooth"
 
-    def shown(self, card: Card) -> dict[str, Any]:
+    def summary(self, card: Card) -> dict[str, Any]:
         """The plant's values, for an arm."""
-        return self.options.shown(card) if self.options else {}
+        return self.options.summary(card) if self.options else {}
 
-    def springs_of(self, card: Card) -> Springs | None:
+    def springs_for(self, card: Card) -> Springs | None:
         """What stands between an arm's motors and joints; None where they are one."""
-        return self.options.springs_of(card) if self.options else None
+        return self.options.springs_for(card) if self.options else None
 
-    def need(self, trait: Trait | None, disturbance: str) -> None:
+    def require_trait(self, trait: Trait | None, disturbance: str) -> None:
         """See that a disturbance can show.
 
         Raises:

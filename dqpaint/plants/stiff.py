@@ -45,6 +45,6 @@ class Stiff(RigidArm):
         first = bullet.getJointStates(self.body, self.joints, self.client)
         for _ in range(self.steps - 1):
             self.advance()
-        last = self.measure()
+        last = self.read_joints()
         torques = ((a[3], b[3]) for a, b in zip(first, last, strict=True))
         self.effort = np.array([a if abs(a) >= abs(b) else b for a, b in torques])

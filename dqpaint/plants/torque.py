@@ -3,7 +3,7 @@
 from typing import ClassVar
 
 from dqpaint.dq import Floats
-from dqpaint.plants.bullet_arm import LONGEST_STEP, RigidArm, some_postures
+from dqpaint.plants.bullet_arm import LONGEST_STEP, RigidArm, sample_postures
 from dqpaint.plants.plant import PLANTS, Takes, Trait
 from dqpaint.plants.world import UNDISTURBED, World
 from dqpaint.robots.bullet import bullet
@@ -32,7 +32,7 @@ class Torque(RigidArm):
         options: None = None,
     ) -> None:
         super().__init__(card, posture, period, world, _longest_step(card))
-        self.free()
+        self.disable_motors()
 
     def run(self, command: Floats, drift: Floats | None = None) -> None:
         """One period at joint torques (n,) [Nm]."""
@@ -48,12 +48,12 @@ class Torque(RigidArm):
             self.advance()
             if drift is not None:
                 self.displace(self.step * drift)
-        self.measure()
+        self.read_joints()
         self.effort = command
 
 
 def _longest_step(card: Card) -> float:
     """The physics step [s] in which the quickest joint loses its speed to friction, or 1 ms."""
     dynamics = Dynamics(Kinematics(card))
-    decay = max(dynamics.decay(q) for q in some_postures(card))
+    decay = max(dynamics.decay(q) for q in sample_postures(card))
     return min(LONGEST_STEP, 1 / decay) if decay > 0 else LONGEST_STEP

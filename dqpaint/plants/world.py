@@ -53,7 +53,7 @@ class World:
     model_gravity: float = 1.0
 
     @cached_property
-    def displaced(self) -> bool:
+    def is_displaced(self) -> bool:
         """Whether the base is elsewhere than believed."""
         return bool((self.base != dq.IDENTITY).any())
 
@@ -64,7 +64,7 @@ class World:
 
     def in_base(self, vector: Floats) -> Floats:
         """A vector (3,) of the believed base along the axes of the true one."""
-        if not self.displaced:
+        if not self.is_displaced:
             return vector
         R = dq.matrix_from_quaternion(dq.rotation(self.base))
         return np.asarray(R.T @ vector)

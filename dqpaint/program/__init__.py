@@ -12,15 +12,15 @@ if TYPE_CHECKING:
         NODES,
         WEIGHTS,
         Indices,
+        concatenate,
         derivatives,
-        is_uneven,
+        is_nonuniform,
         speeds,
-        stretches,
-        together,
+        stretch_lengths,
     )
     from dqpaint.program.program import (
         IDENTITY,
-        LOOKING,
+        LOOK_MODES,
         STANDING,
         Arc,
         AutoPlacement,
@@ -60,7 +60,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "IDENTITY",
-    "LOOKING",
+    "LOOK_MODES",
     "NODES",
     "STANDING",
     "WEIGHTS",
@@ -102,13 +102,13 @@ __all__ = [
     "Value",
     "Vector",
     "colours",
+    "concatenate",
     "derivatives",
-    "is_uneven",
+    "is_nonuniform",
     "piecewise",
     "speeds",
-    "stretches",
+    "stretch_lengths",
     "taylor",
-    "together",
 ]
 
 _MODULES = ("program", "piecewise", "taylor")

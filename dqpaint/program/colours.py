@@ -100,7 +100,7 @@ def from_temperature(kelvin: float) -> Colour:
     return red, green, blue
 
 
-def mixed(first: Colour, last: Colour, share: float) -> Colour:
+def mix(first: Colour, last: Colour, share: float) -> Colour:
     """The colour at a share, 0 to 1, of the way from one to another."""
     return (
         first[0] + (last[0] - first[0]) * share,
@@ -109,6 +109,6 @@ def mixed(first: Colour, last: Colour, share: float) -> Colour:
     )
 
 
-def dimmed(colour: Colour, brightness: float) -> Colour:
+def dim(colour: Colour, brightness: float) -> Colour:
     """A colour with its light multiplied."""
     return colour[0] * brightness, colour[1] * brightness, colour[2] * brightness

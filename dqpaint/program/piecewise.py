@@ -9,18 +9,18 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.program.program import Chain, Vector
+from dqpaint.program.program import PiecewiseCurve, Vector
 from dqpaint.program.taylor import Floats
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
-ROUND = 1e-14  # an ellipse whose radii differ by less, in their squares, is a circle
-AT_ONCE = 10_000  # pieces, for the sake of memory
-CORNER = np.radians(60.0)  # a smooth line keeps the corners that turn by more than this
+CIRCLE_TOLERANCE = 1e-14  # an ellipse whose radii differ by less, in their squares, is a circle
+BATCH = 10_000  # pieces, for the sake of memory
+CORNER_ANGLE = np.radians(60.0)  # a smooth line keeps the corners that turn by more than this
 
 Indices = NDArray[np.intp]
 
 
-def derivatives(chain: Chain, piece: Indices, g: Floats) -> Floats:
+def derivatives(chain: PiecewiseCurve, piece: Indices, g: Floats) -> Floats:
     """Places (4, N, 3) and derivatives over g, of pieces (N,) at their own parameters (N,)."""
     c0, c1, c2, c3 = chain.cubic[piece].transpose(1, 0, 2)
     h = g[:, None]
@@ -44,7 +44,7 @@ def derivatives(chain: Chain, piece: Indices, g: Floats) -> Floats:
     return out
 
 
-def speeds(chain: Chain, piece: Indices, g: Floats) -> Floats:
+def speeds(chain: PiecewiseCurve, piece: Indices, g: Floats) -> Floats:
     """The lengths (N, K) of the first derivatives of pieces (N,) at parameters of theirs (N, K)."""
     c1, c2, c3 = chain.cubic[piece, 1:].transpose(1, 2, 0)[:, :, :, None]  # (3, N, 1) each
     u, v = chain.ellipse[piece].transpose(1, 2, 0)[:, :, :, None]
@@ -65,20 +65,22 @@ def speeds(chain: Chain, piece: Indices, g: Floats) -> Floats:
 # Made.
 
 
-def _of_cubic(cubic: Floats) -> Chain:
+def _of_cubic(cubic: Floats) -> PiecewiseCurve:
     none = np.zeros(())  # no arcs, without room for each
     count = len(cubic)
-    return Chain(cubic, np.broadcast_to(none, (count, 2, 3)), np.broadcast_to(none, (count, 2)))
+    return PiecewiseCurve(
+        cubic, np.broadcast_to(none, (count, 2, 3)), np.broadcast_to(none, (count, 2))
+    )
 
 
-def straight(points: Floats) -> Chain:
+def straight(points: Floats) -> PiecewiseCurve:
     """Straight lines from each point (N, 3) to the next; none of them has no length."""
     cubic = np.zeros((len(points) - 1, 4, 3))
     cubic[:, 0], cubic[:, 1] = points[:-1], np.diff(points, axis=0)
     return _of_cubic(cubic)
 
 
-def bezier(points: Floats) -> Chain:
+def bezier(points: Floats) -> PiecewiseCurve:
     """One Bezier curve by its 3 or 4 control points."""
     return _of_cubic(coefficients(points[None]))
 
@@ -95,14 +97,16 @@ def coefficients(control: Floats) -> Floats:
     return np.stack([p0, c1, c2, p3 - p0 - c1 - c2], axis=1)
 
 
-def arc(centre: Floats, u: Floats, v: Floats, start: float, turn: float) -> Chain:
+def arc(centre: Floats, u: Floats, v: Floats, start: float, turn: float) -> PiecewiseCurve:
     """An arc of the ellipse centre + u cos(a) + v sin(a), from a = start over `turn` [rad]."""
     cubic = np.zeros((1, 4, 3))
     cubic[0, 0] = centre
-    return Chain(cubic, np.array([[u, v]]), np.array([[start, turn]]))
+    return PiecewiseCurve(cubic, np.array([[u, v]]), np.array([[start, turn]]))
 
 
-def smooth(points: Floats, keep: NDArray[np.bool_] | None = None, stiff: float = np.inf) -> Chain:
+def smooth_curve(
+    points: Floats, keep: NDArray[np.bool_] | None = None, stiff: float = np.inf
+) -> PiecewiseCurve:
     """A line through points (N, 3), without corners but where it turns sharply.
 
     The direction at a point is that of the circle through it and its neighbours; between two
@@ -111,7 +115,7 @@ def smooth(points: Floats, keep: NDArray[np.bool_] | None = None, stiff: float =
 
     Args:
         points: (N, 3), N at least 2, none of them the same as the next.
-        keep: which of them (N,) keep their corner; else those that turn by more than `CORNER`.
+        keep: points (N,) that keep their corner; by default turns above `CORNER_ANGLE`.
         stiff: a line so many times longer than its neighbour stays straight.
     """
     way = np.diff(points, axis=0)
@@ -119,7 +123,7 @@ def smooth(points: Floats, keep: NDArray[np.bool_] | None = None, stiff: float =
     u = way / size[:, None]
     closed = len(points) > 3 and bool((points[0] == points[-1]).all())
     if keep is None:
-        keep = turns(points) > CORNER
+        keep = turn_angles(points) > CORNER_ANGLE
     keep = keep.copy()
     if not closed:
         keep[[0, -1]] = True
@@ -128,10 +132,10 @@ def smooth(points: Floats, keep: NDArray[np.bool_] | None = None, stiff: float =
     cubic = np.empty((len(way), 4, 3))
     cubic[:, 0] = points[:-1]
     t0, t1, free0, free1 = tangent[:-1], tangent[1:], keep[:-1], keep[1:]
-    for begin in range(0, len(way), AT_ONCE):
-        own = slice(begin, begin + AT_ONCE)
+    for begin in range(0, len(way), BATCH):
+        own = slice(begin, begin + BATCH)
         turned = t0[own], t1[own], free0[own], free1[own]
-        cubic[own, 1:] = _bow(way[own], u[own], size[own], *turned)
+        cubic[own, 1:] = _bend(way[own], u[own], size[own], *turned)
     return _of_cubic(cubic)
 
 
@@ -146,7 +150,7 @@ def _tangents(u: Floats, size: Floats, stiff: float) -> Floats:
     return np.asarray(tangent / np.where(norm > 0.0, norm, 1.0))
 
 
-def _bow(
+def _bend(
     way: Floats,
     u: Floats,
     size: Floats,
@@ -171,7 +175,7 @@ def _mirrored(t: Floats, u: Floats) -> Floats:
     return np.asarray(2.0 * (t * u).sum(1, keepdims=True) * u - t)
 
 
-def turns(points: Floats) -> Floats:
+def turn_angles(points: Floats) -> Floats:
     """The angle [rad] by which a line turns at each point (N,); of the ends, if it is closed."""
     u = np.diff(points, axis=0)
     u = u / np.linalg.norm(u, axis=1, keepdims=True)
@@ -183,47 +187,51 @@ def turns(points: Floats) -> Floats:
 # Changed.
 
 
-def joined(chains: Sequence[Chain]) -> Chain:
+def join(chains: Sequence[PiecewiseCurve]) -> PiecewiseCurve:
     """One chain of several that follow each other; a start is moved to the end before it."""
     if len(chains) == 1:
         return chains[0]
-    whole, first, _ = together(chains)
+    whole, first, _ = concatenate(chains)
     _move(whole, first[1:])
     return whole
 
 
-def link(whole: Chain, starts: Indices) -> None:
+def link_pieces(whole: PiecewiseCurve, starts: Indices) -> None:
     """Moves the start of each piece to the end before it, but of those that start a chain."""
     _move(whole, np.delete(np.arange(len(whole.cubic)), starts))
 
 
-def _move(whole: Chain, heads: Indices) -> None:
+def _move(whole: PiecewiseCurve, heads: Indices) -> None:
     """Moves the starts of pieces to the ends before them."""
     gap = _at(whole, heads - 1, 1.0) - _at(whole, heads, 0.0)
     whole.cubic[heads, 0] += gap
     whole.cubic[heads, 1] -= gap
 
 
-def reversed_(chain: Chain) -> Chain:
+def reverse(chain: PiecewiseCurve) -> PiecewiseCurve:
     """The same way, from its end to its start."""
     c0, c1, c2, c3 = chain.cubic[::-1].transpose(1, 0, 2)
     cubic = np.stack([c0 + c1 + c2 + c3, -(c1 + 2.0 * c2 + 3.0 * c3), c2 + 3.0 * c3, -c3], axis=1)
     start, turn = chain.angles[::-1].T
-    return Chain(cubic, chain.ellipse[::-1].copy(), np.stack([start + turn, -turn], axis=1))
+    return PiecewiseCurve(
+        cubic, chain.ellipse[::-1].copy(), np.stack([start + turn, -turn], axis=1)
+    )
 
 
-def mapped(chain: Chain, matrix: Floats, shift: Floats) -> Chain:
+def transform(chain: PiecewiseCurve, matrix: Floats, shift: Floats) -> PiecewiseCurve:
     """Every point p goes to matrix (3, 3) p + shift (3,); too far for a number is infinite."""
     with np.errstate(over="ignore", invalid="ignore"):
         cubic = chain.cubic @ matrix.T
         cubic[:, 0] += shift
         arcs = chain.ellipse.any()
-        return Chain(cubic, chain.ellipse @ matrix.T if arcs else chain.ellipse, chain.angles)
+        return PiecewiseCurve(
+            cubic, chain.ellipse @ matrix.T if arcs else chain.ellipse, chain.angles
+        )
 
 
-def farthest(chains: Sequence[Chain]) -> float:
+def largest_coordinate(chains: Sequence[PiecewiseCurve]) -> float:
     """The largest number of all pieces [m]; NaN if one of them is none."""
-    whole = together(chains)[0]
+    whole = concatenate(chains)[0]
     parts = whole.cubic, whole.ellipse
     return float(max(max(part.max(), -part.min()) for part in parts))
 
@@ -231,7 +239,7 @@ def farthest(chains: Sequence[Chain]) -> float:
 # Measured.
 
 
-def _at(chain: Chain, piece: Indices, g: float) -> Floats:
+def _at(chain: PiecewiseCurve, piece: Indices, g: float) -> Floats:
     """Where pieces are (N, 3) at the same parameter of theirs."""
     places = np.array([1.0, g, g**2, g**3]) @ chain.cubic[piece]
     (arcs,) = np.nonzero(chain.ellipse[piece].any(axis=(1, 2)))
@@ -241,21 +249,21 @@ def _at(chain: Chain, piece: Indices, g: float) -> Floats:
     return np.asarray(places)
 
 
-def ends(chain: Chain) -> tuple[Vector, Vector]:
+def ends(chain: PiecewiseCurve) -> tuple[Vector, Vector]:
     """The first and the last point."""
     first, last = all_ends([chain])[0].tolist()
     return (first[0], first[1], first[2]), (last[0], last[1], last[2])
 
 
-def all_ends(chains: Sequence[Chain]) -> Floats:
+def all_ends(chains: Sequence[PiecewiseCurve]) -> Floats:
     """The first and the last points (N, 2, 3) of many chains."""
-    whole, first, last = together(chains)
+    whole, first, last = concatenate(chains)
     return np.stack([_at(whole, first, 0.0), _at(whole, last, 1.0)], axis=1)
 
 
-def directions(chains: Sequence[Chain]) -> Floats:
+def directions(chains: Sequence[PiecewiseCurve]) -> Floats:
     """Unit vectors (N, 2, 3) into each chain from its start and from its end."""
-    whole, *pieces = together(chains)
+    whole, *pieces = concatenate(chains)
     ways = [
         sign * derivatives(whole, piece, np.full(len(piece), g))[1]
         for piece, g, sign in zip(pieces, (1e-3, 1.0 - 1e-3), (1.0, -1.0), strict=True)
@@ -265,11 +273,11 @@ def directions(chains: Sequence[Chain]) -> Floats:
     return np.asarray(out / np.where(norm > 0.0, norm, 1.0))
 
 
-def together(chains: Sequence[Chain]) -> tuple[Chain, Indices, Indices]:
+def concatenate(chains: Sequence[PiecewiseCurve]) -> tuple[PiecewiseCurve, Indices, Indices]:
     """All pieces of many chains, and which are the first and the last of each."""
     whole = chains[0]
     if len(chains) > 1:  # else it is there already, and may be long
-        whole = Chain(
+        whole = PiecewiseCurve(
             np.concatenate([chain.cubic for chain in chains]),
             np.concatenate([chain.ellipse for chain in chains]),
             np.concatenate([chain.angles for chain in chains]),
@@ -278,34 +286,36 @@ def together(chains: Sequence[Chain]) -> tuple[Chain, Indices, Indices]:
     return whole, np.concatenate([[0], stop[:-1]]), stop - 1
 
 
-def parted(whole: Chain, starts: Indices) -> Iterator[Chain]:
+def split(whole: PiecewiseCurve, starts: Indices) -> Iterator[PiecewiseCurve]:
     """The chains that were put together, by the first piece of each; they share its arrays."""
     ends = [*starts[1:].tolist(), len(whole.cubic)]
     for own in map(slice, starts.tolist(), ends):
-        yield Chain(whole.cubic[own], whole.ellipse[own], whole.angles[own])
+        yield PiecewiseCurve(whole.cubic[own], whole.ellipse[own], whole.angles[own])
 
 
-def lengths(chains: Sequence[Chain]) -> list[float]:
+def lengths(chains: Sequence[PiecewiseCurve]) -> list[float]:
     """The lengths of chains, good enough to share out time and colour by them."""
-    whole, first, _ = together(chains)
+    whole, first, _ = concatenate(chains)
     every = np.arange(len(whole.cubic))
-    size = stretches(whole, is_uneven(whole), every, np.zeros(len(every)), np.ones(len(every)))
+    size = stretch_lengths(
+        whole, is_nonuniform(whole), every, np.zeros(len(every)), np.ones(len(every))
+    )
     return list(np.add.reduceat(size, first).tolist())
 
 
-def is_uneven(chain: Chain) -> NDArray[np.bool_]:
+def is_nonuniform(chain: PiecewiseCurve) -> NDArray[np.bool_]:
     """Which pieces (M,) do not run at one speed: all but straight lines and arcs of circles."""
     out = np.asarray(chain.cubic[:, 2:].any(axis=(1, 2)))
     (arcs,) = np.nonzero(chain.angles[:, 1])
     u, v = chain.ellipse[arcs].transpose(1, 0, 2)
     uu, vv, uv = ((a * b).sum(1) for a, b in ((u, u), (v, v), (u, v)))
-    oval = np.maximum(np.abs(uu - vv), np.abs(uv)) > ROUND * uu
+    oval = np.maximum(np.abs(uu - vv), np.abs(uv)) > CIRCLE_TOLERANCE * uu
     out[arcs] |= oval | chain.cubic[arcs, 1].any(axis=1)
     return out
 
 
-def stretches(
-    chain: Chain, uneven: NDArray[np.bool_], piece: Indices, lower: Floats, upper: Floats
+def stretch_lengths(
+    chain: PiecewiseCurve, uneven: NDArray[np.bool_], piece: Indices, lower: Floats, upper: Floats
 ) -> Floats:
     """The lengths (N,) of pieces (N,) between parameters (N,).
 
@@ -314,7 +324,7 @@ def stretches(
     out = np.empty(len(piece))
     for hard in (False, True):
         (which,) = np.nonzero(uneven[piece] == hard)
-        for some in np.split(which, range(AT_ONCE, len(which), AT_ONCE)):
+        for some in np.split(which, range(BATCH, len(which), BATCH)):
             size = (upper[some] - lower[some])[:, None]
             at = lower[some, None] + (0.5 * size * (1.0 + NODES) if hard else 0.0 * size)
             speed = speeds(chain, piece[some], at)
@@ -322,9 +332,9 @@ def stretches(
     return out
 
 
-def box(chains: Sequence[Chain]) -> tuple[Floats, Floats]:
+def bounding_box(chains: Sequence[PiecewiseCurve]) -> tuple[Floats, Floats]:
     """The least and the greatest coordinates (3,), exact where a curve bulges out as well."""
-    whole = together(chains)[0]
+    whole = concatenate(chains)[0]
     every = np.arange(len(whole.cubic))
     found = [_at(whole, every, 0.0), _at(whole, every, 1.0)]
     for axis in range(3):
@@ -336,7 +346,7 @@ def box(chains: Sequence[Chain]) -> tuple[Floats, Floats]:
     return points.min(axis=0), points.max(axis=0)
 
 
-def _still_cubic(chain: Chain, axis: int) -> tuple[Indices, Floats]:
+def _still_cubic(chain: PiecewiseCurve, axis: int) -> tuple[Indices, Floats]:
     """Where a coordinate of the cubic stands still: the roots of c1 + 2 c2 g + 3 c3 g^2."""
     (piece,) = np.nonzero(chain.cubic[:, 2:, axis].any(axis=1))
     c, b, a = (k * chain.cubic[piece, k, axis] for k in (1, 2, 3))
@@ -347,7 +357,7 @@ def _still_cubic(chain: Chain, axis: int) -> tuple[Indices, Floats]:
     return np.concatenate([piece, piece]), np.where(np.isfinite(g), g, 0.0)
 
 
-def _still_arc(chain: Chain, axis: int) -> tuple[Indices, Floats]:
+def _still_arc(chain: PiecewiseCurve, axis: int) -> tuple[Indices, Floats]:
     """Where a coordinate of the ellipse stands still: tan a = v / u."""
     (piece,) = np.nonzero(chain.ellipse[:, :, axis].any(axis=1) & (chain.angles[:, 1] != 0.0))
     u, v = chain.ellipse[piece, :, axis].T

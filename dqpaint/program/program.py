@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dqpaint.core import MOST_SAMPLES, record
-from dqpaint.diagnostics import Diagnostic, SourceLine, Span, line_named
+from dqpaint.diagnostics import Diagnostic, SourceLine, Span, line_name
 from dqpaint.program.colours import Colour as Colour
 from dqpaint.program.taylor import Floats, Taylor
 
@@ -95,7 +95,7 @@ class Step:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Chain:
+class PiecewiseCurve:
     """Smooth pieces end to end: one profile over all, no stop where one passes into the next.
 
     Over its own g in [0, 1] a piece is at  c0 + c1 g + c2 g^2 + c3 g^3 + u cos(a) + v sin(a)  with
@@ -114,7 +114,7 @@ class Chain:
     angles: Floats
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Chain) and all(
+        return isinstance(other, PiecewiseCurve) and all(
             np.array_equal(mine, theirs)
             for mine, theirs in (
                 (self.cubic, other.cubic),
@@ -127,7 +127,7 @@ class Chain:
         return hash(self.cubic.tobytes())
 
 
-Path = Straight | Arc | Curve | Screw | ScrewTo | Dwell | Step | Chain
+Path = Straight | Arc | Curve | Screw | ScrewTo | Dwell | Step | PiecewiseCurve
 STANDING = (Dwell, Step)  # paths on which the point does not travel
 
 
@@ -168,7 +168,7 @@ class LookLine:
 
 
 Tool = FixedOrientation | SlerpOrientation | FollowHeading | Look | LookLine
-LOOKING = (Look, LookLine)  # what a tool does whose turn depends on where it is
+LOOK_MODES = (Look, LookLine)  # what a tool does whose turn depends on where it is
 
 
 # How long it takes.
@@ -310,10 +310,10 @@ class Program:
     notes: tuple[Diagnostic, ...]  # warnings; errors are raised
     most_samples: int = MOST_SAMPLES
 
-    def where(self, line: SourceLine) -> str:
+    def line_name(self, line: SourceLine) -> str:
         """A line as a person reads it: `12`, `petal.traj:3`."""
-        return line_named(self.text, line)
+        return line_name(self.text, line)
 
-    def told(self, line: SourceLine) -> int | str:
+    def line_reference(self, line: SourceLine) -> int | str:
         """The same for a program: a number for a line of the main file."""
-        return self.where(line) if line.file else line.line
+        return self.line_name(line) if line.file else line.line

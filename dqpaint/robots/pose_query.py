@@ -13,8 +13,8 @@ from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability
 from dqpaint.robots.model.card import Card
 from dqpaint.robots.model.fields import Mount
 
-FARTHEST = 1e6  # [rad]; beyond it an angle is a slip, and its turns no longer exact
-NO_TURN = 1e-9  # [rad] below which a screw is a translation
+LARGEST_ANGLE = 1e6  # [rad]; beyond it an angle is a slip, and its turns no longer exact
+LEAST_TURN = 1e-9  # [rad] below which a screw is a translation
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class PoseReport:
     notes: tuple[str, ...]
 
     @property
-    def beyond(self) -> list[str]:
+    def limit_violations(self) -> list[str]:
         """The joints beyond their limits, a sentence each."""
         limits = zip(*np.degrees([self.posture, self.card.lower, self.card.upper]), strict=True)
         return [
@@ -92,16 +92,18 @@ def read_posture(card: Card, deg: str | None, rad: str | None) -> Floats:
         count = "1 angle" if len(angles) == 1 else f"{len(angles)} angles"
         raise UsageError(f"{card.name} has {card.joints} joints, but {option} gives {count}")
     posture = np.radians(angles) if deg is not None else np.array(angles)
-    if np.abs(posture).max(initial=0.0) > FARTHEST:
-        raise UsageError(f"{option} '{text[:60]}': an angle is at most {FARTHEST:g} rad either way")
+    if np.abs(posture).max(initial=0.0) > LARGEST_ANGLE:
+        raise UsageError(
+            f"{option} '{text[:60]}': an angle is at most {LARGEST_ANGLE:g} rad either way"
+        )
     return posture
 
 
-def screw_of(pose: Floats) -> Screw:
+def screw_from_pose(pose: Floats) -> Screw:
     """The screw of a pose (8,): 2 log(x) = [theta l; d l + theta m], m = p x l."""
     displacement = 2.0 * dq.log(pose)
     angle = float(np.linalg.norm(displacement[:3]))
-    if angle < NO_TURN:
+    if angle < LEAST_TURN:
         way = dq.translation(pose)
         length = float(np.linalg.norm(way))
         return Screw(way / length if length > 0 else np.array([0.0, 0, 1]), None, 0.0, length)
@@ -111,17 +113,17 @@ def screw_of(pose: Floats) -> Screw:
     return Screw(axis, dq.cross(axis, moment), angle, advance)
 
 
-def as_json(posed: PoseReport) -> dict[str, Any]:
+def as_json(report: PoseReport) -> dict[str, Any]:
     """All of it, in SI units; what does not exist of a pure translation is null."""
-    screw = screw_of(posed.pose)
+    screw = screw_from_pose(report.pose)
     return {
         "version": 1,
         "tool": f"dqpaint {__version__}",
-        "robot": posed.card.name,
-        "frame": "flange" if posed.flange else "tool",
-        "posture_rad": posed.posture.tolist(),
-        "pose": posed.pose.tolist(),
-        "matrix": dq.matrix_from_pose(posed.pose).tolist(),
+        "robot": report.card.name,
+        "frame": "flange" if report.flange else "tool",
+        "posture_rad": report.posture.tolist(),
+        "pose": report.pose.tolist(),
+        "matrix": dq.matrix_from_pose(report.pose).tolist(),
         "screw": {
             "axis": screw.axis.tolist(),
             "point_m": None if screw.point is None else screw.point.tolist(),
@@ -129,8 +131,8 @@ def as_json(posed: PoseReport) -> dict[str, Any]:
             "advance_m": screw.advance,
             "pitch_m_rad": screw.pitch,
         },
-        "jacobian": posed.jacobian.tolist(),
-        "manipulability": float(manipulability(posed.jacobian)),
-        "warnings": posed.beyond,
-        "notes": list(posed.notes),
+        "jacobian": report.jacobian.tolist(),
+        "manipulability": float(manipulability(report.jacobian)),
+        "warnings": report.limit_violations,
+        "notes": list(report.notes),
     }

@@ -18,11 +18,11 @@ from dqpaint.errors import UnstableError
 from dqpaint.motion import Motion
 from dqpaint.plants import ConfiguredPlant, Plant, PlantMaker
 from dqpaint.robots.kinematics import (
-    DEFAULT_NULL,
+    DEFAULT_OBJECTIVE,
     Clamp,
     Kinematics,
-    clamps,
-    make_wish,
+    find_clamps,
+    make_secondary_task,
     manipulability,
     resolve,
 )
@@ -105,7 +105,7 @@ def track(
     progress: Callable[[float], None] = lambda _done: None,
     disturbances: Mapping[str, Disturbance] = MappingProxyType({}),
     seed: int = 0,
-    null: str = DEFAULT_NULL,
+    null: str = DEFAULT_OBJECTIVE,
     stop: bool = False,
 ) -> Track:
     """Drive the arm along a motion.
@@ -157,7 +157,7 @@ def track_many(
     gains: Schedule[Any],
     disturbances: Mapping[str, Disturbance],
     seeds: Sequence[int],
-    null: str = DEFAULT_NULL,
+    null: str = DEFAULT_OBJECTIVE,
     progress: Callable[[float], None] = lambda _done: None,
 ) -> list[Track | None]:
     """The same run with several seeds at once, as arrays (B, ...) through the same laws.
@@ -215,7 +215,7 @@ def _simulate(
     n, card = len(motion.t), sensors.model.card
     arm = Arm(sensors.model)
     law = controller.start(arm, motion, gains)
-    wish = make_wish(null, card, start)
+    wish = make_secondary_task(null, card, start)
     drive = make_drive(controller, law, sensors.model, wish, motion.period)
     late = DelayLine(total_delay(disturbances), drive.hold(start))
     parts = motion.clock / motion.clock[-1] if n > 1 else motion.clock
@@ -300,7 +300,7 @@ class _Log:
 
     def clamps(self, rows: slice, card: Card, motion: Motion, torques: bool) -> tuple[Clamp, ...]:
         """The limits that held a joint in some rows."""
-        return clamps(
+        return find_clamps(
             card, motion.t[rows], motion.source[rows],
             (self.posture if torques else self.read)[rows], self.wanted[rows], self.command[rows],
             self.effort[rows], torques, motion.period,

@@ -8,10 +8,10 @@ from dqpaint import dq
 from dqpaint.controllers import Controller, Law, Seen
 from dqpaint.dq import Floats
 from dqpaint.robots.kinematics import (
-    PULL,
-    Bounds,
+    START_GAIN,
     Dynamics,
     Kinematics,
+    RateBounds,
     SecondaryTask,
     drift_acceleration,
     resolve,
@@ -73,7 +73,7 @@ class RateDrive:
         self._resolved = controller.commands == "twist"
         self._leaves_null = controller.leaves_null
         self._wish = wish
-        self._bounds = Bounds(kinematics.card, period)
+        self._bounds = RateBounds(kinematics.card, period)
 
     def command(self, seen: Seen, gains: Any) -> Floats:
         """Joint rates (n,) [rad/s]."""
@@ -128,7 +128,7 @@ class TorqueDrive:
             return torque
         wanted = self._law(seen, gains) - drift_acceleration(seen.jacobian, rates)
         point = dq.translation(seen.pose)
-        wish = PULL * self._wish(q, seen.jacobian, point) - 2 * PULL * rates
+        wish = START_GAIN * self._wish(q, seen.jacobian, point) - 2 * START_GAIN * rates
         bend = resolve(seen.jacobian, point, wanted, wish)
         return self._dynamics.torque(q, rates, bend, self._period)
 

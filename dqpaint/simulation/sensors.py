@@ -56,7 +56,7 @@ class Sensors:
         for name, one in disturbances.items():
             one.check(t)
             self.world = one.world(self.world)
-            self.model = one.belief(self.model, random_numbers(seed, name))
+            self.model = one.law_model(self.model, random_numbers(seed, name))
             encoder = one.encoder(len(t), kinematics.card.joints, random_numbers(seed, name))
             if encoder is not None:
                 self._encoders.append(encoder)
@@ -86,7 +86,7 @@ class Sensors:
 
     def truth(self, plant: Plant, measured: Measurement) -> tuple[Floats, Floats]:
         """The light's true pose (8,) and Jacobian (6, n), in the law's own base frame."""
-        displaced = self.world.displaced
+        displaced = self.world.is_displaced
         if self.exact and not displaced and measured.posture is plant.posture:
             return measured.pose, measured.jacobian
         x, J = self._truth(plant)

@@ -5,7 +5,7 @@ import numpy as np
 from dqpaint.dq import Floats
 from dqpaint.language import Diagnostic, ScriptError
 from dqpaint.motion import Motion
-from dqpaint.robots.kinematics import AT_LIMIT, Clamp
+from dqpaint.robots.kinematics import LIMIT_TOLERANCE, Clamp
 from dqpaint.robots.model import Card
 
 SAYS = {
@@ -19,7 +19,9 @@ def meets_limit(
     card: Card, posture: Floats, wanted: Floats, command: Floats, effort: Floats, torques: bool
 ) -> bool:
     """Whether a row of a run (n,) met a limit; arguments as those of `limits.clamps`."""
-    held = (wanted != command).any() or (np.abs(effort) >= card.effort * (1 - AT_LIMIT)).any()
+    held = (wanted != command).any() or (
+        np.abs(effort) >= card.effort * (1 - LIMIT_TOLERANCE)
+    ).any()
     beyond = torques and ((posture > card.upper) | (posture < card.lower)).any()
     return bool(held or beyond)
 

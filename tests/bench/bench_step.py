@@ -19,7 +19,7 @@ from dqrobotics.robot_modeling import DQ_SerialManipulatorDH
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS, Seen
 from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.kinematics.nullspace import make_wish
+from dqpaint.robots.kinematics.nullspace import make_secondary_task
 from dqpaint.robots.model.card import read_card
 from dqpaint.simulation.drives import make_drive
 
@@ -41,7 +41,7 @@ def peer_arm(kinematics):
 def ours(kinematics, poses, twists):
     chosen = CONTROLLERS["pff"]
     gains = chosen.read_gains({"k": K}).first
-    wish = make_wish("start", kinematics.card, kinematics.card.home)
+    wish = make_secondary_task("start", kinematics.card, kinematics.card.home)
     drive = make_drive(chosen, chosen.law, kinematics, wish, 0.008)
     still, rates = np.zeros(6), np.zeros(7)
 

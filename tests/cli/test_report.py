@@ -99,5 +99,5 @@ def test_lines_of_included_files_are_named(tmp_path):
     alone.write_text("line by (0, 9) mm\n")
     program = read(alone)
     line = SourceLine(0, 12)
-    assert (program.where(line), program.told(line)) == ("12", 12)
+    assert (program.line_name(line), program.line_reference(line)) == ("12", 12)
     assert "file" not in asked_columns(plan(program, read_card("iiwa").canvas.pose))

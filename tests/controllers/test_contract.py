@@ -9,7 +9,7 @@ from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.plants import PLANTS
 from dqpaint.robots.kinematics.jacobians import pose_map
 from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.kinematics.nullspace import make_wish
+from dqpaint.robots.kinematics.nullspace import make_secondary_task
 from dqpaint.robots.model.card import installed_names, read_card
 from dqpaint.simulation.drives import make_drive
 from tests.support.control import ARM, STILL, body_sees, law, seen_by, started
@@ -60,7 +60,9 @@ def test_commands_are_finite_everywhere(name, robot, rng):
     arm = Kinematics(read_card(robot))
     chosen = CONTROLLERS[name]
     gains, said = chosen.read_gains({}).first, started(chosen, arm)
-    drive = make_drive(chosen, said, arm, make_wish("start", arm.card, arm.card.home), 0.005)
+    drive = make_drive(
+        chosen, said, arm, make_secondary_task("start", arm.card, arm.card.home), 0.005
+    )
     special = [np.zeros(arm.card.joints), arm.card.home, arm.card.lower, arm.card.upper]
     for q in [*special, *rng.uniform(arm.card.lower, arm.card.upper, (20, arm.card.joints))]:
         x = arm.pose(q)
@@ -89,7 +91,7 @@ def test_every_law_converges_on_a_set_point(name, robot, rng):
         x, J = arm.pose_and_jacobian(arm.card.home)
         seconds = 16.0 / (gains.k * np.linalg.svd(pose_map(x) @ J)[1][5] ** 2)
         period = 0.008
-    drive = make_drive(chosen, said, arm, make_wish("start", arm.card, start), period)
+    drive = make_drive(chosen, said, arm, make_secondary_task("start", arm.card, start), period)
     plant = PLANTS["torque" if chosen.drives_torque else "ideal"](arm.card, start, period)
     for _ in range(int(seconds / period)):
         q = plant.posture

@@ -7,7 +7,13 @@ from pathlib import Path
 import pytest
 
 import dqpaint
-from dqpaint.diagnostics.catalogue import STAGES, explanation, explanations, listed, told
+from dqpaint.diagnostics.catalogue import (
+    STAGES,
+    explanation,
+    explanations,
+    format_explanation,
+    list_explanations,
+)
 from dqpaint.errors import UsageError
 from dqpaint.language import ScriptError, read
 from dqpaint.language.writing.formatter import formatted
@@ -78,13 +84,13 @@ def test_entries_are_of_the_house():
 
 
 def test_told():
-    text = told(explanation("e245"))
+    text = format_explanation(explanation("e245"))
     assert text.startswith("E245: an arc through three points that ends where it starts\n\n")
     assert "\n\nwrong:\n\n  arc via (80, 10) mm to (0, 0)\n\nright:\n\n  arc centre" in text
-    assert "wrong" not in told(explanation("E001"))
+    assert "wrong" not in format_explanation(explanation("E001"))
     beside = replace(explanation("E245"), files={"points.csv": "1,2\n3,4"})
-    assert told(beside).endswith("\n\nand points.csv beside it:\n\n  1,2\n  3,4")
-    assert listed().count("\n") + 1 == len(ALL)
+    assert format_explanation(beside).endswith("\n\nand points.csv beside it:\n\n  1,2\n  3,4")
+    assert list_explanations().count("\n") + 1 == len(ALL)
 
 
 @pytest.mark.parametrize(("wrong", "near"), [("E2445", "E244"), ("", ""), ("x" * 999, "")])

@@ -88,10 +88,10 @@ def test_one_that_cannot_show_is_refused(name):
     for plant in PLANTS:
         chosen = choose_plant(plant, PLANTS[plant].takes)
         if needs is None or needs in PLANTS[plant].traits:
-            chosen.need(needs, name)
+            chosen.require_trait(needs, name)
         else:
             with pytest.raises(UsageError, match=f"'{name}' changes nothing on plant '{plant}'"):
-                chosen.need(needs, name)
+                chosen.require_trait(needs, name)
 
 
 @pytest.mark.parametrize(("name", "values", "said"), [
@@ -176,7 +176,7 @@ def test_late_commands_come_late(plant):
 
 def test_wrong_lengths_are_of_their_size_and_the_law_s_alone(rng):
     model = make_disturbances({"links": {"part": 0.05, "offset": 0.003}})["links"]
-    wrong = [model.belief(ARM, np.random.default_rng(seed)) for seed in range(200)]
+    wrong = [model.law_model(ARM, np.random.default_rng(seed)) for seed in range(200)]
     stretched = np.array([arm.lengths for arm in wrong]) - ARM.lengths
     far = np.linalg.norm(ARM.lengths, axis=1) > 0.05
     along = (stretched * ARM.lengths).sum(-1)[:, far] / (ARM.lengths**2).sum(-1)[far]
@@ -191,7 +191,7 @@ def test_wrong_lengths_are_of_their_size_and_the_law_s_alone(rng):
 
 def test_a_believed_arm_s_jacobian_goes_with_its_poses(rng):
     q, h = rng.uniform(-1, 1, 7), 1e-6
-    wrong = ARM.changed(lengths=rng.normal(size=(8, 3)) * 0.02)
+    wrong = ARM.with_model_error(lengths=rng.normal(size=(8, 3)) * 0.02)
     _, J = wrong.pose_and_jacobian(q)
     for joint in range(7):
         step = h * np.eye(7)[joint]

@@ -27,7 +27,7 @@ def cursor(text):
 def test_meanings(text, word, kind):
     text, at = cursor(text)
     entry, span = completion.meaning_at(text, at)
-    assert (entry.word, entry.kind, span.of(text)) == (word, kind, word)
+    assert (entry.word, entry.kind, span.text_in(text)) == (word, kind, word)
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from dqpaint.diagnostics.collector import Findings
-from dqpaint.diagnostics.diagnostic import Span, place
+from dqpaint.diagnostics.collector import DiagnosticCollector
+from dqpaint.diagnostics.diagnostic import Span, locate
 from dqpaint.language import ScriptError, parse, read
 from dqpaint.language.syntax.parser import parse_statements
 from dqpaint.language.vocabulary.words import PARTS, STATEMENTS
@@ -84,7 +84,7 @@ def test_advice(case: str) -> None:
         parse(text)
     (finding,) = caught.value.diagnostics
     assert finding.span is not None
-    where = place(text, finding.span.start)
+    where = locate(text, finding.span.start)
     assert (finding.code, f"{where.line}:{where.column}") == (code, at)
     assert finding.help.startswith(advice)
 
@@ -96,7 +96,7 @@ def test_a_part_s_example_is_one(part: str) -> None:
         parse(f"{part} 5")
     example = caught.value.diagnostics[0].help.partition("stands on its line: ")[2]
     assert example
-    findings = Findings()
+    findings = DiagnosticCollector()
     end = "\nend" if STATEMENTS[example.split()[0]].block else ""
     parse_statements(example + end, findings)
     assert not findings.ordered(), example

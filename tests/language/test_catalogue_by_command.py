@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from dqpaint.diagnostics.diagnostic import Diagnostic, place
+from dqpaint.diagnostics.diagnostic import Diagnostic, locate
 from tests.support.wrong_drawings import ENTRIES, FILES, LARGE, OF_FILES, found, only, write
 
 KINDS = {
@@ -46,7 +46,7 @@ def same(finding: dict, diagnostic: Diagnostic, text: str) -> None:
         assert [finding[end] for end in ends] == [None, None]
         return
     for end in ends:
-        line, column = place(text, getattr(diagnostic.span, end))
+        line, column = locate(text, getattr(diagnostic.span, end))
         assert finding[end] == {"line": line, "column": column}
 
 

@@ -100,8 +100,8 @@ def test_a_mistake_in_a_def_shows_the_calls_that_led_there():
     with pytest.raises(ScriptError) as caught:
         parse(text, "a.traj")
     (found,) = caught.value.diagnostics
-    assert (found.code, found.span.of(text)) == ("E218", "(n, 0)")
-    assert [span.of(text) for span, _ in found.related] == ["a(n)", "b(5)"]
+    assert (found.code, found.span.text_in(text)) == ("E218", "(n, 0)")
+    assert [span.text_in(text) for span, _ in found.related] == ["a(n)", "b(5)"]
     assert "= called from: a.traj:5:1\n" in str(caught.value)
 
 

@@ -44,7 +44,7 @@ def test_star() -> None:
         assert segment.timing == CruiseSpeed(pytest.approx(0.06), pytest.approx(math.pi / 3))
         assert segment.profile == Profile("trapezoid")
         assert segment.line.line == 8
-        assert segment.span.of(program.text).startswith("line to polar(")
+        assert segment.span.text_in(program.text).startswith("line to polar(")
         assert segment.light is not None
         assert segment.light.first == segment.light.last
     assert program.segments[-1].light == Light((1.0, 0.0, 0.0), (1.0, 0.0, 0.0))  # 360 deg is red

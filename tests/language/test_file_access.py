@@ -7,7 +7,7 @@ import pytest
 
 from dqpaint.language import ScriptError, read
 from dqpaint.program.piecewise import ends
-from dqpaint.program.program import Chain
+from dqpaint.program.program import PiecewiseCurve
 
 SQUARE = (
     '<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm" viewBox="0 0 10 10">'
@@ -29,7 +29,7 @@ def files(folder: Path, main: str, inner: str) -> Path:
 def lengths(path: Path) -> list[float]:
     out = []
     for segment in read(path).segments:
-        if isinstance(segment.path, Chain):
+        if isinstance(segment.path, PiecewiseCurve):
             start, end = ends(segment.path)
             out.append(round(1e3 * math.dist(start, end), 6))
     return out

@@ -10,7 +10,7 @@ from lark import Lark
 from lark.exceptions import LarkError
 
 from dqpaint.brushes import BRUSHES, takes
-from dqpaint.diagnostics.collector import EnoughError, Findings
+from dqpaint.diagnostics.collector import DiagnosticCollector
 from dqpaint.language.syntax.parser import parse_statements
 from dqpaint.language.vocabulary.units import UNITS
 from dqpaint.language.vocabulary.words import FREE, RESERVED
@@ -76,8 +76,8 @@ def lark_takes(line: str) -> bool:
 
 
 def codes(line: str) -> list[str]:
-    findings = Findings()
-    with suppress(EnoughError):
+    findings = DiagnosticCollector()
+    with suppress(ErrorLimitError):
         parse_statements(line, findings)
     return [diagnostic.code for diagnostic in findings.ordered()]
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from dqpaint.diagnostics.diagnostic import file_at, place
+from dqpaint.diagnostics.diagnostic import file_at, locate
 from dqpaint.language import Program, ScriptError, read, render
 from dqpaint.program.program import Straight
 from tests.support.wrong_drawings import OF_FILES, write
@@ -24,8 +24,8 @@ def test_messages(tmp_path: Path, code: str, files: dict[str, str], file: str, c
     assert found.code == code
     assert found.span is not None
     at, _, words = caret.partition(" ")
-    assert "{}:{}".format(*place(error.text, found.span.start)) == at
-    assert found.span.of(error.text) == words
+    assert "{}:{}".format(*locate(error.text, found.span.start)) == at
+    assert found.span.text_in(error.text) == words
     assert file_at(error.text, found.span.start, error.name)[1] == str(tmp_path / file)
     assert f"--> {tmp_path / file}:{at}\n" in render(found, error.name, error.text)
 
@@ -44,10 +44,10 @@ def test_lines_stand_where_they_are_included(tmp_path: Path) -> None:
         pytest.approx(p, abs=1e-15)
         for p in [(0.012, 0, 0), (0.005, 0, 0)] * 2 + [(0.008, 0.003, 0)]
     ]
-    where = [program.where(segment.line) for segment in program.segments]
+    where = [program.line_name(segment.line) for segment in program.segments]
     b, c = (str(tmp_path / "in" / name) for name in ("b.traj", "c.traj"))
     assert where == [f"{c}:2", f"{c}:3"] * 2 + [f"{b}:5"]
-    words = [segment.span.of(program.text) for segment in program.segments]
+    words = [segment.span.text_in(program.text) for segment in program.segments]
     assert words == ["line to (q, 0)", "line to (0, 0)"] * 2 + ["line by (a, a)"]
     assert pickle.loads(pickle.dumps(program.text)).included == program.text.included
 

@@ -8,7 +8,15 @@ import pytest
 from dqpaint.language import parse
 from dqpaint.language.imports import lettering
 from dqpaint.program import piecewise
-from dqpaint.program.program import Chain, CruiseSpeed, Light, Program, Samples, Segment, Straight
+from dqpaint.program.program import (
+    CruiseSpeed,
+    Light,
+    PiecewiseCurve,
+    Program,
+    Samples,
+    Segment,
+    Straight,
+)
 from tests.support.drawn import drawn
 
 FONTS = lettering.font_names()
@@ -16,12 +24,12 @@ MM = 1e-3
 
 
 def strokes(program: Program) -> list[Segment]:
-    return [s for s in program.segments if isinstance(s.path, Chain)]
+    return [s for s in program.segments if isinstance(s.path, PiecewiseCurve)]
 
 
 def box(program: Program) -> np.ndarray:
     """Least and greatest coordinates (2, 3) of all that shines [mm]."""
-    return np.array(piecewise.box([s.path for s in strokes(program)])) / MM
+    return np.array(piecewise.bounding_box([s.path for s in strokes(program)])) / MM
 
 
 def inked(line: str) -> np.ndarray:

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from dqpaint import language
-from dqpaint.diagnostics.diagnostic import Diagnostic, Span, place
+from dqpaint.diagnostics.diagnostic import Diagnostic, Span, locate
 from dqpaint.language import render
 from tests.support.wrong_drawings import ENTRIES, LARGE, OF_FILES, found, only, text_and_path
 
@@ -15,8 +15,8 @@ def stands(diagnostic: Diagnostic, text: str) -> str:
     """Where the caret is and what is there, as the tables write it."""
     if diagnostic.span is None:
         return ""
-    at = "{}:{}".format(*place(text, diagnostic.span.start))
-    return f"{at} {diagnostic.span.of(text)}"
+    at = "{}:{}".format(*locate(text, diagnostic.span.start))
+    return f"{at} {diagnostic.span.text_in(text)}"
 
 
 @pytest.mark.parametrize("entry", ENTRIES, ids=[f"{e[1]}-{e[0][:24]}" for e in ENTRIES])
@@ -93,7 +93,7 @@ move to (2, nix) mm
 curve (1 mm, t) for t from 0 to 3 mm
 line to (1, 1) mm extra
 """
-    lines = [place(text, d.span.start)[0] for d in found(text)]
+    lines = [locate(text, d.span.start)[0] for d in found(text)]
     assert lines == [1, 4, 7, 8, 9, 11, 12, 15, 16, 18]
 
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from dqpaint.language import Program, ScriptError, parse
 from dqpaint.language.strokes import imported_strokes
 from dqpaint.program import piecewise
-from dqpaint.program.program import Chain, CruiseSpeed, Duration, Samples, Straight
+from dqpaint.program.program import CruiseSpeed, Duration, PiecewiseCurve, Samples, Straight
 from tests.support.work import FAR_TOO_LONG, Calls
 
 CHECK = """
@@ -37,7 +37,7 @@ def made(folder: Path, line: str, **files: str | bytes) -> Program:
 
 def points(program: Program) -> np.ndarray:
     """The places of a path's rows [mm]."""
-    (segment,) = (s for s in program.segments if isinstance(s.path, Chain))
+    (segment,) = (s for s in program.segments if isinstance(s.path, PiecewiseCurve))
     return np.vstack([segment.path.cubic[:, 0], piecewise.ends(segment.path)[1]]) / 1e-3
 
 

@@ -57,7 +57,7 @@ def test_messages_point_at_what_was_written(text, code, words):
     with pytest.raises(ScriptError) as caught:
         parse(text, "a.traj")
     (found,) = (d for d in caught.value.diagnostics if d.code != "E140")
-    assert (found.code, found.span.of(text)) == (code, words)
+    assert (found.code, found.span.text_in(text)) == (code, words)
 
 
 def test_calls_from_python_too():

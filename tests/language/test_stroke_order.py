@@ -5,21 +5,21 @@ import pytest
 
 from dqpaint.language.imports import stroke_order
 from dqpaint.program import piecewise
-from dqpaint.program.program import Chain
+from dqpaint.program.program import PiecewiseCurve
 
 RED, BLUE = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
 
 
-def line(*points: tuple[float, float]) -> Chain:
+def line(*points: tuple[float, float]) -> PiecewiseCurve:
     return piecewise.straight(np.array([(*p, 0.0) for p in points]))
 
 
-def corners(chain: Chain) -> list[tuple[float, float]]:
+def corners(chain: PiecewiseCurve) -> list[tuple[float, float]]:
     ends = np.vstack([chain.cubic[:, 0], piecewise.ends(chain)[1]])
     return [(round(x, 6), round(y, 6)) for x, y, _ in ends.tolist()]
 
 
-def dark(lines: list[tuple[Chain, object]]) -> float:
+def dark(lines: list[tuple[PiecewiseCurve, object]]) -> float:
     ends = np.array([piecewise.ends(chain) for chain, _ in lines])
     return float(np.linalg.norm(ends[1:, 0] - ends[:-1, 1], axis=1).sum())
 
@@ -77,7 +77,7 @@ def test_a_small_gap_is_closed_a_larger_one_is_not() -> None:
     assert count(1e-4) == 2
 
 
-def scattered(rng: np.random.Generator, count: int) -> list[tuple[Chain, None]]:
+def scattered(rng: np.random.Generator, count: int) -> list[tuple[PiecewiseCurve, None]]:
     starts = rng.uniform(0, 1, (count, 2))
     return [(line(tuple(p), tuple(p + rng.normal(0, 0.02, 2))), None) for p in starts]
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from dqpaint.language import ScriptError, parse
 from dqpaint.language.imports.svg import reader
-from dqpaint.program.program import Chain
+from dqpaint.program.program import PiecewiseCurve
 from tests.support.work import Calls
 
 FILES = [
@@ -38,7 +38,7 @@ def sound(folder: Path) -> bool:
         return False
     for segment in program.segments:
         assert np.isfinite(segment.end.position).all()
-        if isinstance(segment.path, Chain):
+        if isinstance(segment.path, PiecewiseCurve):
             for numbers in (segment.path.cubic, segment.path.ellipse, segment.path.angles):
                 assert np.isfinite(numbers).all()
     return True

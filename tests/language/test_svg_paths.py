@@ -146,7 +146,15 @@ def test_the_work_on_arrays_is_the_same_for_few_pieces_and_for_many(
 ) -> None:
     """Arrays are made of all pieces at once: one by one they took eight seconds of 20,000 dots."""
     count = 0
-    for name in ("coefficients", "_at", "_move", "together", "derivatives", "speeds", "mapped"):
+    for name in (
+        "coefficients",
+        "_at",
+        "_move",
+        "concatenate",
+        "derivatives",
+        "speeds",
+        "transform",
+    ):
         inner = getattr(piecewise, name)
 
         def counted(*given: object, inner: object = inner) -> object:

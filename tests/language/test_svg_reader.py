@@ -9,7 +9,7 @@ import pytest
 
 from dqpaint.language import Program, ScriptError, parse
 from dqpaint.program import piecewise
-from dqpaint.program.program import Chain, Light, Segment
+from dqpaint.program.program import Light, PiecewiseCurve, Segment
 from tests.support.svg import WITH, nested_uses
 from tests.support.work import Calls
 
@@ -26,11 +26,11 @@ def made(folder: Path, body: str, clause: str = "", root: str = PX) -> Program:
 
 def strokes(program: Program) -> list[Segment]:
     """What is drawn, but for the marks."""
-    drawn = [s for s in program.segments if isinstance(s.path, Chain)]
+    drawn = [s for s in program.segments if isinstance(s.path, PiecewiseCurve)]
     return [s for s in drawn if piecewise.lengths([s.path])[0] > 1e-8]
 
 
-def places(path: Chain, count: int = 101) -> np.ndarray:
+def places(path: PiecewiseCurve, count: int = 101) -> np.ndarray:
     """Places (N, 2) along a stroke, in the drawing's own pixels, y down."""
     pieces = len(path.cubic)
     g = np.tile(np.linspace(0, 1, count), pieces)
@@ -187,7 +187,7 @@ def test_fitted_and_placed(tmp_path: Path) -> None:
 
     def box(clause: str) -> list[float]:
         (stroke,) = strokes(made(tmp_path, body, clause, root=""))
-        least, most = piecewise.box([stroke.path])
+        least, most = piecewise.bounding_box([stroke.path])
         return (1e3 * np.concatenate([least[:2], most[:2]])).tolist()
 
     assert box("height 40 mm") == pytest.approx([-30, -20, 30, 20])

@@ -11,7 +11,7 @@ from dqpaint.editors.analysis import understand
 from dqpaint.language import ScriptError, parse, read
 from dqpaint.language.writing.builder import Drawing, DrawingError
 from dqpaint.motion import plan
-from dqpaint.program.program import Chain
+from dqpaint.program.program import PiecewiseCurve
 from dqpaint.robots.model.card import read_card
 from tests.support.wrong_drawings import FILES
 
@@ -89,7 +89,7 @@ def test_a_drawing_from_python_names_files(tmp_path: Path) -> None:
     drawing = Drawing("wave", folder=tmp_path)
     drawing.line(by=(0.02, 0))
     drawing.path("orbit.csv", height=0.05)
-    assert any(isinstance(s.path, Chain) for s in drawing.program().segments)
+    assert any(isinstance(s.path, PiecewiseCurve) for s in drawing.program().segments)
     drawing.include("bad.traj")
     with pytest.raises(DrawingError) as caught:
         drawing.program()

@@ -3,27 +3,27 @@
 import numpy as np
 import pytest
 
-from dqpaint.motion.geometry.piecewise_paths import place_chains
+from dqpaint.motion.geometry.piecewise_paths import piecewise_positions
 from dqpaint.program import piecewise
-from dqpaint.program.program import Chain
+from dqpaint.program.program import PiecewiseCurve
 from tests.support.strokes import BEZIER, HALF_AXES
 
 CUSP = np.array([[0, 0, 0], [1, 1, 0], [0, 1, 0], [1, 0, 0]], dtype=float)  # at (0.5, 0.75)
 POINTS = np.array([[0, 0, 0], [3, 0, 0], [3, 4, 0], [3, 4, 12]], dtype=float)
 
 
-def place_chain(chain: Chain):
-    return place_chains([chain]).of(0)
+def place_chain(chain: PiecewiseCurve):
+    return piecewise_positions([chain]).select(0)
 
 
-def mixed() -> Chain:
+def mixed() -> PiecewiseCurve:
     """A line, a Bezier curve, an arc and a line, end to end."""
     centre = BEZIER[3] - np.cos(0.4) * HALF_AXES[0] - np.sin(0.4) * HALF_AXES[1]
     arc = piecewise.arc(centre, *HALF_AXES, 0.4, 2.2)
     to = np.array(piecewise.ends(arc)[1])
     lines = [np.array([[0.5, 0.1, 0.0], BEZIER[0]]), np.array([to, to + 0.1])]
     first, last = map(piecewise.straight, lines)
-    return piecewise.joined([first, piecewise.bezier(BEZIER), arc, last])
+    return piecewise.join([first, piecewise.bezier(BEZIER), arc, last])
 
 
 def test_a_polyline_by_hand():
@@ -59,7 +59,9 @@ def test_places_are_on_the_curves(rng):
     arc = chain.cubic[2, 0]
     near = np.linalg.lstsq(HALF_AXES.T, (at - arc).T, rcond=None)[0].T
     flat = np.linalg.norm(near @ HALF_AXES - (at - arc), axis=1) < 1e-12
-    lengths = piecewise.lengths([Chain(*(a[i : i + 1] for a in parts(chain))) for i in range(4)])
+    lengths = piecewise.lengths(
+        [PiecewiseCurve(*(a[i : i + 1] for a in parts(chain))) for i in range(4)]
+    )
     s = np.linspace(0, 1, 20_001) * sum(lengths)
     on = (s > lengths[0] + lengths[1] + 1e-3) & (s < sum(lengths[:3]) - 1e-3)
     assert on.sum() > 1000

@@ -8,7 +8,7 @@ import pytest
 from dqpaint import dq
 from dqpaint.language import ScriptError, parse
 from dqpaint.motion import plan
-from dqpaint.motion.geometry.batched_shapes import gather
+from dqpaint.motion.geometry.batched_shapes import gather_shapes
 from tests.support import strokes
 
 PERIOD = 0.008
@@ -217,7 +217,7 @@ def test_even_light_is_the_same_on_short_strokes_as_on_long(text):
     for number, segment in enumerate(motion.program.segments):
         if segment.light is not None:
             light = motion.light[:-1, 0][motion.stroke[:-1] == number].sum() * motion.period
-            given.append(light / gather((segment,), {}).length[0])
+            given.append(light / gather_shapes((segment,), {}).length[0])
     assert len(given) > 2
     fastest = 0.125 if "0.94" in text else 0.1  # [m/s]
     np.testing.assert_allclose(given, 1 / fastest, rtol=1e-6)
@@ -256,13 +256,13 @@ def test_the_velocity_s_jump_at_a_corner_is_told_with_its_size():
     two = f"{text}line by (50, 0) mm\nline by (0, 50) mm"
     note = notes(two)["W403"]
     assert note.message == "the velocity jumps by 70.7 mm/s here"
-    assert note.span.of(two) == "line by (0, 50) mm"
+    assert note.span.text_in(two) == "line by (0, 50) mm"
     assert note.help == "use profile trapezoid to stop at corners, or round them: blend 5 mm"
     note = notes(f"{two}\nline by (-50, 0) mm\nline by (40, 0) mm")["W403"]
     assert note.message == "the velocity jumps by 100 mm/s here, the largest of 3 such corners"
     alike = f"{two}\nline by (50, 0) mm\nline by (0, 50) mm"
     note = notes(alike)["W403"]  # the last of those that are alike
-    assert (note.span.start, note.span.of(alike)) == (len(alike) - 18, "line by (0, 50) mm")
+    assert (note.span.start, note.span.text_in(alike)) == (len(alike) - 18, "line by (0, 50) mm")
     assert "W403" not in notes(f"{text}line by (50, 0) mm\nline by (50, 0) mm")
     assert "W403" not in notes(f"{text}line by (50, 0) mm\nhold 1 s\nline by (0, 50) mm")
     assert "W403" not in notes("line by (50, 0) mm by (0, 50) mm")
@@ -274,7 +274,7 @@ def test_a_corner_within_a_stroke_is_run_through_and_told():
     note = notes(text)["W403"]
     # both corners are passed at the full speed, which rounding to whole samples lowers a little
     assert float(note.message.split()[4]) == pytest.approx(100 * math.sin(math.pi / 8), abs=0.2)
-    assert note.span.of(text) == "line by (50, 50) mm"
+    assert note.span.text_in(text) == "line by (50, 50) mm"
     assert note.help == "end the stroke before it, or round the corner: blend 5 mm"
 
 
@@ -299,7 +299,7 @@ def test_what_can_t_be_run_by_length_is_refused(line, code):
         plan(parse(text, "a"), dq.IDENTITY)
     (found,) = caught.value.diagnostics
     assert found.code == code
-    assert found.span.of(text) == line
+    assert found.span.text_in(text) == line
 
 
 @pytest.mark.parametrize(

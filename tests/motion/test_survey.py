@@ -10,11 +10,11 @@ import pytest
 from dqpaint import dq
 from dqpaint.language import ScriptError, parse, read
 from dqpaint.motion import Motion, plan, survey
-from dqpaint.motion.geometry.arc_length import measure
-from dqpaint.motion.geometry.batched_shapes import gather
+from dqpaint.motion.geometry.arc_length import measure_stroke
+from dqpaint.motion.geometry.batched_shapes import gather_shapes
 from dqpaint.motion.geometry.orientations import LookAtLine, LookAtPoint
 from dqpaint.motion.geometry.paths import Lines
-from dqpaint.motion.geometry.shapes import Loose
+from dqpaint.motion.geometry.shapes import PositionAndOrientation
 from dqpaint.program.program import CruiseSpeed, Program
 from tests.support.drawings import drawing
 from tests.support.strokes import KINDS, PROFILES, program, segment
@@ -180,12 +180,12 @@ def looks(*forms: str, count: int) -> Program:
 def test_the_angles_of_many_tools_at_once_are_those_of_each_alone():
     """Against panels ever finer, which took 0.3 ms a line; and so are the timetables."""
     drawing = looks(*LOOKS, count=80)
-    shapes = gather(drawing.segments, {})
+    shapes = gather_shapes(drawing.segments, {})
     for number in range(len(drawing.segments)):
         form = shapes.shape(number)
-        if not form.even:
-            assert form.steady
-            alone = measure(form)
+        if not form.uniform:
+            assert form.uniform_position
+            alone = measure_stroke(form)
             assert shapes.length[number] == pytest.approx(alone.length, rel=1e-14)
             assert shapes.angle[number] == pytest.approx(alone.angle, rel=1e-11)
     assert same(drawing) is not None
@@ -195,9 +195,9 @@ def test_a_tool_that_must_turn_at_once_is_measured_too():
     """It passes 0.3 mm beside the line of 'up': there it turns by nearly half a turn."""
     look = "tool look (0, 0, 0) up y"
     drawing = parse(f"start at (-10, 5, 0) mm {look}\nline to (10, 25, 1) mm {look}", "up.traj")
-    shapes = gather(drawing.segments, {})
+    shapes = gather_shapes(drawing.segments, {})
     assert shapes.angle[0] > 2.5
-    assert shapes.angle[0] == pytest.approx(measure(shapes.shape(0)).angle, rel=1e-9)
+    assert shapes.angle[0] == pytest.approx(measure_stroke(shapes.shape(0)).angle, rel=1e-9)
     assert same(drawing) is not None
 
 
@@ -213,11 +213,11 @@ def test_a_look_is_steep_where_a_line_comes_close():
     ]:
         line = Lines(np.array([start], dtype=float), np.array([by], dtype=float))
         with np.errstate(all="ignore"):
-            assert (LookAtPoint(point, up).steepest(line)[0] > 1e9) == steep
+            assert (LookAtPoint(point, up).largest_parameter_along(line)[0] > 1e9) == steep
     for start, steep in [((-1, 5, 0), True), ((-1, 5, 1), False)]:
         line = Lines(np.array([start], dtype=float), np.array([[2.0, 3.0, 0.0]]))
         with np.errstate(all="ignore"):
-            assert (LookAtLine(point, up).steepest(line)[0] > 1e9) == steep
+            assert (LookAtLine(point, up).largest_parameter_along(line)[0] > 1e9) == steep
 
 
 def test_one_more_line_on_which_the_tool_looks_costs_few_calls():
@@ -280,7 +280,7 @@ def test_a_curve_with_a_corner_or_many_bends_has_one(formula):
 
 
 def shapes(text: str):
-    return gather(parse(text, "a").segments, {}).families
+    return gather_shapes(parse(text, "a").segments, {}).families
 
 
 ANY = """line by (30, 10, 5) mm tool rpy(0, 20 deg, 30 deg)
@@ -295,10 +295,10 @@ text "S" height 20 mm at (0, 0)
 
 def test_the_velocity_alone_is_the_one_of_all_derivatives() -> None:
     f = np.linspace(0.03, 0.98, 57)
-    loose = [form.places for form in shapes(ANY) if isinstance(form, Loose)]
+    loose = [form.positions for form in shapes(ANY) if isinstance(form, PositionAndOrientation)]
     assert len({type(places) for places in loose}) >= 4
     for places in loose:
-        one = places.of(0)
+        one = places.select(0)
         assert np.array_equal(one.velocity(f), one(f)[1])
 
 
@@ -307,8 +307,8 @@ def test_curves_that_come_after_too_many_samples_are_not_measured(
 ) -> None:
     measured = []
     monkeypatch.setattr(
-        "dqpaint.motion.geometry.batched_shapes.measure",
-        lambda shape: measured.append(shape) or measure(shape),
+        "dqpaint.motion.geometry.batched_shapes.measure_stroke",
+        lambda shape: measured.append(shape) or measure_stroke(shape),
     )
     text = (
         "repeat 60\ncurve (t*t*1 mm, t*1 mm) for t from 0 to 9 speed 1 mm/s\nend\nline by (9, 0) mm"
@@ -318,7 +318,8 @@ def test_curves_that_come_after_too_many_samples_are_not_measured(
         survey(few)
     assert len(measured) == 5
     monkeypatch.setattr(
-        "dqpaint.motion.schedule.gather", lambda segments, faults, _: gather(segments, faults)
+        "dqpaint.motion.schedule.gather_shapes",
+        lambda segments, faults, _: gather_shapes(segments, faults),
     )
     with pytest.raises(ScriptError) as told:
         survey(few)

@@ -12,7 +12,7 @@ from dqpaint.motion import plan
 from dqpaint.planning.forecast import _Run, forecast
 from dqpaint.planning.reachability import begin
 from dqpaint.plants import PLANTS
-from dqpaint.robots.kinematics.differential_ik import LENGTH
+from dqpaint.robots.kinematics.differential_ik import CHARACTERISTIC_LENGTH
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import Card, read_card
 from dqpaint.settings.model import make_settings
@@ -173,7 +173,7 @@ def test_the_singular_value_is_measured_at_the_tool():
     run = _Run(motion, arm, start)
     x, J = arm.pose_and_jacobian(run.posture[7])
     p = dq.translation(x)
-    at_tool = np.concatenate([J[:3], (J[3:] + np.cross(J[:3].T, p).T) / LENGTH])
+    at_tool = np.concatenate([J[:3], (J[3:] + np.cross(J[:3].T, p).T) / CHARACTERISTIC_LENGTH])
     assert run.singular[7] == pytest.approx(np.linalg.svd(at_tool)[1][-1], rel=1e-12)
 
 

@@ -18,8 +18,8 @@ from dqpaint.planning.reachability import begin
 from dqpaint.plants import PLANTS
 from dqpaint.render.scene_arm import SceneArm
 from dqpaint.robots.bullet.client import bullet, joint_indices, quiet
-from dqpaint.robots.kinematics.collisions import shapes_of
-from dqpaint.robots.kinematics.differential_ik import LENGTH, THRESHOLD
+from dqpaint.robots.kinematics.collisions import collision_shapes
+from dqpaint.robots.kinematics.differential_ik import CHARACTERISTIC_LENGTH, DAMPING_THRESHOLD
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
 from dqpaint.robots.urdf.prepare import urdf_file
@@ -70,7 +70,7 @@ def foreseen(seed):
 
 def clearances(arm, postures):
     """PyBullet's least distances (N,) of the links that the forecast looks at."""
-    geometry = shapes_of(arm)._shapes
+    geometry = collision_shapes(arm)._shapes
     links_of = [shape.parentJoint for shape in geometry.geometryObjects]
     pairs = {(links_of[p.first], links_of[p.second]) for p in geometry.collisionPairs}
     with quiet():
@@ -107,7 +107,9 @@ def traced(arm, run, eye):
 
 def smallest(arm, posture):
     x, J = arm.pose_and_jacobian(posture)
-    at_tool = np.concatenate([J[:3], (J[3:] + np.cross(J[:3].T, dq.translation(x)).T) / LENGTH])
+    at_tool = np.concatenate(
+        [J[:3], (J[3:] + np.cross(J[:3].T, dq.translation(x)).T) / CHARACTERISTIC_LENGTH]
+    )
     return np.linalg.svd(at_tool)[1][-1]
 
 
@@ -126,8 +128,8 @@ def test_ten_random_drawings(seed):
         rows = np.flatnonzero(motion.source.line[:-1] == one.line.line)
         least = min(smallest(arm, q) for q in run.posture[rows])
         assert one.singular == pytest.approx(least, abs=SINGULAR)
-        assert (one.singular < THRESHOLD) == (least < THRESHOLD) or abs(
-            least - THRESHOLD
+        assert (one.singular < DAMPING_THRESHOLD) == (least < DAMPING_THRESHOLD) or abs(
+            least - DAMPING_THRESHOLD
         ) < SINGULAR
         near = clearances(arm, run.posture[rows[::4]]).min()
         # Coal's hulls collide where the meshes do not: then the forecast says 0, PyBullet less
@@ -141,7 +143,7 @@ def test_ten_random_drawings(seed):
 def test_the_wild_drawings_are_not_all_alike():
     """Else the comparison would say little."""
     found = [line for seed in SEEDS for line in foreseen(seed)]
-    assert any(line.singular < 2 * THRESHOLD for line in found)
+    assert any(line.singular < 2 * DAMPING_THRESHOLD for line in found)
     assert any(line.clearance < 0 for line in found)
     assert any(HIDDEN < line.hidden < 0.9 for line in found)
     assert len([line for line in found if line.hidden == 0]) > 5
@@ -185,7 +187,7 @@ class Eyes:
     def __init__(self):
         self.seen = []
 
-    def hides(self, postures, points, eye):
+    def occludes(self, postures, points, eye):
         self.seen.append(eye)
         return np.zeros(len(points), dtype=bool)
 
@@ -219,5 +221,5 @@ def test_a_dark_drawing_hides_nothing(still):
     motion = plan(parse("light off\nline to (10, 0) mm\n", "t"), still[1].card.canvas.pose)
     rows = np.arange(len(motion.t))
     postures = np.tile(still[2], (len(rows), 1))
-    found = hide(shapes_of(still[1]), motion, rows, postures, make_settings())
+    found = hide(collision_shapes(still[1]), motion, rows, postures, make_settings())
     assert found.of(rows) == (None, "")

@@ -15,7 +15,7 @@ from dqpaint.planning.ideal_run import can_draw, set_out
 from dqpaint.planning.placement import has_room
 from dqpaint.planning.suggestions import NOTHING, advise
 from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.kinematics.start_posture import ON_THE_WAY, strays
+from dqpaint.robots.kinematics.start_posture import PATH_TOLERANCE, least_errors
 from dqpaint.robots.model.card import read_card
 from dqpaint.settings.model import make_settings
 
@@ -113,7 +113,7 @@ def test_a_scale_at_which_only_the_farthest_point_is_reached_is_not_advised():
     motion, arm = motion_of(PLACE + strokes, "viper850")
     rows = np.array([388])  # the one that is told
     half = scaled(motion, 0.5)
-    assert strays(arm, half.pose[rows])[0] < ON_THE_WAY
+    assert least_errors(arm, half.pose[rows])[0] < PATH_TOLERANCE
     assert not can_draw(half, arm)
     scale = re.search(r"with scale ([\d.]+) ... end", advise(motion, arm, rows))[1]
     assert can_draw(*motion_of(f"{PLACE}with scale {scale}\n{strokes}end\n", "viper850"))

@@ -101,7 +101,7 @@ def test_half_the_step_leaves_a_quarter_of_the_error(one_joint, rng, monkeypatch
     rates = rng.normal(size=40)
     errors = []
     for fine in (0.03, 0.01):
-        monkeypatch.setattr(compliant, "FINE", fine)
+        monkeypatch.setattr(compliant, "LARGEST_PHASE_STEP", fine)
         plant = PLANTS["compliant"](
             card, card.home, PERIOD, options=options(frequency=w, damping=z, gravity=0)
         )
@@ -266,7 +266,7 @@ def test_springs_that_do_not_fit_the_arm_are_refused():
 
 def test_the_summary_shows_the_springs():
     chosen = choose_plant("compliant:stiffness=900/900/500/500/100/50/10,damping=0.2", "rates")
-    shown = chosen.shown(IIWA)
+    shown = chosen.summary(IIWA)
     assert chosen.name.startswith("compliant:stiffness=900")
     assert shown["stiffness_Nm_rad"] == [900, 900, 500, 500, 100, 50, 10]
     inertia = np.diag(Dynamics(Kinematics(IIWA)).inertia(IIWA.home))

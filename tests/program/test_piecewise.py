@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from dqpaint.program import piecewise
-from dqpaint.program.program import Chain
+from dqpaint.program.program import PiecewiseCurve
 from tests.support.drawn import rotation
 
 CONTROL = np.array([[0.1, 0.2, 0.3], [1.0, -0.5, 0.2], [0.4, 2.0, -1.0], [2.0, 1.0, 0.5]])
 HALF = np.array([[2.0, 0.5, 0.1], [-0.3, 1.0, 0.4]])
 
 
-def at(chain: Chain, count: int = 201) -> np.ndarray:
+def at(chain: PiecewiseCurve, count: int = 201) -> np.ndarray:
     """Places all along a chain, piece by piece."""
     pieces = len(chain.cubic)
     g = np.tile(np.linspace(0, 1, count), pieces)
@@ -31,7 +31,7 @@ def test_bezier_against_bernstein() -> None:
 
 
 def test_derivatives_are_derivatives() -> None:
-    chain = Chain(piecewise.bezier(CONTROL).cubic, HALF[None], np.array([[0.4, -2.7]]))
+    chain = PiecewiseCurve(piecewise.bezier(CONTROL).cubic, HALF[None], np.array([[0.4, -2.7]]))
     g, h, piece = np.linspace(0.1, 0.9, 9), 1e-5, np.zeros(9, dtype=int)
     now, ahead, behind = (piecewise.derivatives(chain, piece, g + d) for d in (0, h, -h))
     for order in range(3):
@@ -39,30 +39,30 @@ def test_derivatives_are_derivatives() -> None:
         np.testing.assert_allclose(slope, now[order + 1], rtol=1e-6, atol=1e-6)
 
 
-def mixed() -> Chain:
+def mixed() -> PiecewiseCurve:
     arc = piecewise.arc(CONTROL[3] - HALF[0], *HALF, 0.0, 2.0)
-    return piecewise.joined([piecewise.bezier(CONTROL), arc])
+    return piecewise.join([piecewise.bezier(CONTROL), arc])
 
 
 def test_reversed() -> None:
     chain = mixed()
-    back = at(piecewise.reversed_(chain))
+    back = at(piecewise.reverse(chain))
     np.testing.assert_allclose(back, at(chain)[::-1], atol=1e-14)
-    ends = np.array(piecewise.ends(piecewise.reversed_(chain)))
+    ends = np.array(piecewise.ends(piecewise.reverse(chain)))
     np.testing.assert_allclose(ends, piecewise.ends(chain)[::-1], atol=1e-14)
 
 
 def test_mapped() -> None:
     matrix = rotation((1, 2, -1), 40) @ np.diag([1.0, 3.0, -2.0])
     shift = np.array([5.0, -1.0, 2.0])
-    mapped = piecewise.mapped(mixed(), matrix, shift)
+    mapped = piecewise.transform(mixed(), matrix, shift)
     np.testing.assert_allclose(at(mapped), at(mixed()) @ matrix.T + shift, atol=1e-13)
 
 
 def test_joined_closes_a_gap_and_leaves_the_far_end() -> None:
     first = piecewise.straight(np.array([[0, 0, 0], [1, 0, 0.0]]))
     second = piecewise.bezier(CONTROL + np.array([1e-4, 0, 0]))
-    chain = piecewise.joined([first, second])
+    chain = piecewise.join([first, second])
     ends = at(chain, 2).reshape(2, 2, 3)
     np.testing.assert_allclose(
         ends[1], [[1, 0, 0], CONTROL[3] + np.array([1e-4, 0, 0])], atol=1e-15
@@ -76,7 +76,7 @@ def test_box_against_many_places() -> None:
         piecewise.arc(CONTROL[0], *HALF, a, t) for a in (0.1, 2, -3) for t in (0.5, 2, -4, 6.28)
     ]
     for chain in made:
-        least, most = piecewise.box([chain])
+        least, most = piecewise.bounding_box([chain])
         places = at(chain, 20_001)
         np.testing.assert_allclose(least, places.min(axis=0), atol=1e-7)
         np.testing.assert_allclose(most, places.max(axis=0), atol=1e-7)
@@ -101,7 +101,7 @@ def circle(count: int, turn: float = 2 * np.pi) -> np.ndarray:
 
 @pytest.mark.parametrize(("turn", "count"), [(2 * np.pi, 9), (2 * np.pi, 13), (2.0, 5)])
 def test_points_of_a_circle_make_a_circle(turn: float, count: int) -> None:
-    places = at(piecewise.smooth(circle(count, turn)))
+    places = at(piecewise.smooth_curve(circle(count, turn)))
     step = turn / (count - 1)
     # a cubic comes this close to an arc: its error goes with the sixth power of the angle
     assert np.abs(np.linalg.norm(places, axis=1) - 1).max() < 4e-4 * (step / 1.57) ** 6 + 1e-12
@@ -110,7 +110,7 @@ def test_points_of_a_circle_make_a_circle(turn: float, count: int) -> None:
 def test_uneven_points_of_a_circle_make_a_circle() -> None:
     """At each point the direction is that of the circle, whatever the distances."""
     a = np.cumsum([0.0, 0.3, 0.6, 0.2, 0.5, 0.7])
-    chain = piecewise.smooth(np.stack([np.cos(a), np.sin(a), 0 * a], axis=1))
+    chain = piecewise.smooth_curve(np.stack([np.cos(a), np.sin(a), 0 * a], axis=1))
     way = piecewise.derivatives(chain, np.arange(5), np.zeros(5))[1][1:]
     way /= np.linalg.norm(way, axis=1)[:, None]
     tangent = np.stack([-np.sin(a), np.cos(a), 0 * a], axis=1)[1:5]
@@ -121,8 +121,8 @@ def test_a_smooth_line_goes_through_its_points_without_corners(
     rng: np.random.Generator,
 ) -> None:
     points = np.cumsum(rng.uniform(0.2, 1.0, (40, 3)), axis=0)
-    chain = piecewise.smooth(points)
-    sharp = piecewise.turns(points)[1:-1] > piecewise.CORNER
+    chain = piecewise.smooth_curve(points)
+    sharp = piecewise.turn_angles(points)[1:-1] > piecewise.CORNER_ANGLE
     np.testing.assert_allclose(at(chain, 2)[::2], points[:-1], atol=1e-12)
     np.testing.assert_allclose(at(chain, 2)[1::2], points[1:], atol=1e-12)
     piece = np.arange(39)
@@ -135,18 +135,18 @@ def test_a_smooth_line_goes_through_its_points_without_corners(
 
 def test_corners_stay_and_what_is_straight_stays_straight() -> None:
     square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 0.0]])
-    chain = piecewise.smooth(square)
+    chain = piecewise.smooth_curve(square)
     assert not chain.cubic[:, 2:].any()
     line = np.array([[0, 0, 0], [1, 0, 0], [3, 0, 0.0]])
-    assert not piecewise.smooth(line).cubic[:, 2:].any()
+    assert not piecewise.smooth_curve(line).cubic[:, 2:].any()
 
 
 def test_a_stem_stays_straight_where_a_bow_begins() -> None:
     bow = circle(7, np.pi) - np.array([1, 0, 0])  # from (0, 0) upwards
     points = np.concatenate([[[0, -4, 0]], bow])
-    stem = piecewise.smooth(points, stiff=2.2).cubic[0]
+    stem = piecewise.smooth_curve(points, stiff=2.2).cubic[0]
     assert not stem[2:].any()
-    assert piecewise.smooth(points).cubic[0, 2:].any()
+    assert piecewise.smooth_curve(points).cubic[0, 2:].any()
 
 
 def test_the_length_of_an_ellipse_is_its_integral_and_that_of_a_circle_its_radius() -> None:
@@ -160,10 +160,10 @@ def test_the_length_of_an_ellipse_is_its_integral_and_that_of_a_circle_its_radiu
     axes = np.array([a, 0.0, 0.0]), np.array([0.0, b, 0.0])
     for quarter in range(4):
         arc = piecewise.arc(np.ones(3), *axes, 0.5 * np.pi * quarter, 0.5 * np.pi)
-        assert piecewise.is_uneven(arc).all()
+        assert piecewise.is_nonuniform(arc).all()
         assert piecewise.lengths([arc])[0] == pytest.approx(perimeter / 4, rel=1e-6)
     circle = piecewise.arc(np.ones(3), 2 * axes[0], 6 * axes[1], 0.3, -2.0)
-    assert not piecewise.is_uneven(circle).any()
+    assert not piecewise.is_nonuniform(circle).any()
     assert piecewise.lengths([circle])[0] == pytest.approx(12.0, rel=1e-15)
     skewed = piecewise.arc(np.ones(3), axes[0], np.array([0.1, 3.0, 0.0]), 0.3, -2.0)
-    assert piecewise.is_uneven(skewed).all()
+    assert piecewise.is_nonuniform(skewed).all()

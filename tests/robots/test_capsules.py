@@ -7,8 +7,8 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.robots.model.screws import Screws
-from dqpaint.robots.urdf.capsules import SHORTEST, Capsule, build_links
-from dqpaint.robots.urdf.prepare import possible
+from dqpaint.robots.urdf.capsules import SHORTEST_ROD, Capsule, build_links
+from dqpaint.robots.urdf.prepare import is_valid_inertia
 from tests.support.robot_cards import CARDS
 
 
@@ -46,7 +46,7 @@ def test_a_link_weighs_what_its_capsules_do():
         np.testing.assert_allclose(
             moved(link.inertia, link.mass, link.centre), sum(parts), atol=1e-14
         )
-        assert possible(link.inertia)
+        assert is_valid_inertia(link.inertia)
 
 
 @pytest.mark.parametrize("name", CARDS)
@@ -58,12 +58,12 @@ def test_a_chain_hangs_together_from_the_base_to_the_flange(name):
     assert len(links) == card.joints + 1
     for link, axis in zip(links[1:], screws.axes, strict=True):
         np.testing.assert_allclose(
-            dq.cross(link.place, axis[:3]), axis[3:], atol=1e-12
+            dq.cross(link.pose, axis[:3]), axis[3:], atol=1e-12
         )  # on the line
     for here, there in pairwise(links):
         ends = [end for s in here.solids for end in (s.start, s.end)]
-        reach = min(np.linalg.norm(end - there.place) for end in ends)
-        assert reach < 2 * SHORTEST or np.linalg.norm(here.place - there.place) < SHORTEST
+        reach = min(np.linalg.norm(end - there.pose) for end in ends)
+        assert reach < 2 * SHORTEST_ROD or np.linalg.norm(here.pose - there.pose) < SHORTEST_ROD
     tip = dq.translation(screws.home)
     ends = [end for s in links[-1].solids for end in (s.start, s.end)]
     assert min(np.linalg.norm(end - tip) for end in ends) < card.body.radius_m[-1]
@@ -73,8 +73,8 @@ def test_a_long_offset_is_shared_by_its_two_links():
     """The upper arm of the LWR: half of it turns with joint 2, half with joint 3."""
     card = CARDS["lwr4"]
     links = build_links(card.axes, card.body.mass_kg, card.body.radius_m)
-    np.testing.assert_allclose(links[3].place, [0, 0, 0.31 + 0.2], atol=1e-12)
-    np.testing.assert_allclose(links[1].place, [0, 0, 0.155], atol=1e-12)
+    np.testing.assert_allclose(links[3].pose, [0, 0, 0.31 + 0.2], atol=1e-12)
+    np.testing.assert_allclose(links[1].pose, [0, 0, 0.155], atol=1e-12)
 
 
 def test_parallel_axes_are_joined_where_the_arm_arrives():
@@ -86,13 +86,13 @@ def test_parallel_axes_are_joined_where_the_arm_arrives():
     axes = dq.twist_from_screw(directions, points, np.zeros(3))
     arm = Screws(axes, dq.pose_from([0.5, 0.5, 0.3], [1, 0, 0, 0]))
     links = build_links(arm, [1] * 3, [0.05] * 4)
-    np.testing.assert_allclose(links[2].place, [0, 0.5, 0.3], atol=1e-12)
-    np.testing.assert_allclose(links[3].place, [0.4, 0.5, 0.3], atol=1e-12)
+    np.testing.assert_allclose(links[2].pose, [0, 0.5, 0.3], atol=1e-12)
+    np.testing.assert_allclose(links[3].pose, [0.4, 0.5, 0.3], atol=1e-12)
 
 
 def test_parallel_axes_are_joined_straight_across():
     axes = dq.twist_from_screw([[0, 1, 0]] * 2, [[0, 0.7, 0.1], [0.4, -3, 0.1]], np.zeros(2))
     arm = Screws(axes, dq.pose_from([0.5, 0, 0.1], [1, 0, 0, 0]))
     links = build_links(arm, [1, 1], [0.05] * 3)
-    np.testing.assert_allclose(links[1].place, [0, 0, 0.1], atol=1e-12)
-    np.testing.assert_allclose(links[2].place, [0.4, 0, 0.1], atol=1e-12)
+    np.testing.assert_allclose(links[1].pose, [0, 0, 0.1], atol=1e-12)
+    np.testing.assert_allclose(links[2].pose, [0.4, 0, 0.1], atol=1e-12)

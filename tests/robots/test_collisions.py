@@ -4,7 +4,11 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
-from dqpaint.robots.kinematics.collisions import APART, LAMP, Shapes
+from dqpaint.robots.kinematics.collisions import (
+    LAMP_CLEARANCE,
+    LEAST_JOINTS_BETWEEN,
+    CollisionShapes,
+)
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.loading.load_file import read_file
 from dqpaint.robots.model.card import read_card
@@ -22,7 +26,7 @@ def test_distances_are_those_of_pybullet():
     from dqpaint.robots.bullet.client import bullet, joint_indices, quiet
 
     card = read_card("iiwa")
-    shapes = Shapes(Kinematics(card))
+    shapes = CollisionShapes(Kinematics(card))
     postures = random_postures(card, 40)
     found = shapes.nearest(postures)
     with quiet():
@@ -38,7 +42,7 @@ def test_distances_are_those_of_pybullet():
         near = [
             point[8]
             for i in range(len(links))
-            for j in range(i + APART, len(links))
+            for j in range(i + LEAST_JOINTS_BETWEEN, len(links))
             for point in bullet.getClosestPoints(
                 body, body, 2.0, links[i], links[j], physicsClientId=client
             )
@@ -68,7 +72,7 @@ def test_distances_of_capsules():
     card = read_card("meka-a2")
     arm = Kinematics(card)
     links = build_links(card.axes, card.body.mass_kg, card.body.radius_m)
-    shapes = Shapes(arm)
+    shapes = CollisionShapes(arm)
     looked = {
         (shapes._shapes.geometryObjects[p.first].parentJoint,
          shapes._shapes.geometryObjects[p.second].parentJoint)
@@ -99,7 +103,7 @@ def test_distances_of_capsules():
 
 
 def test_the_pair_that_is_nearest_is_named():
-    shapes = Shapes(Kinematics(read_card("iiwa")))
+    shapes = CollisionShapes(Kinematics(read_card("iiwa")))
     folded = np.radians([0, 60, 0, -120, 0, 118, 0])
     near = shapes.nearest(folded[None])
     assert all(name.startswith("lbr_iiwa_link") for name in near.pair[0])
@@ -108,35 +112,35 @@ def test_the_pair_that_is_nearest_is_named():
 def test_home_is_free_of_collisions():
     for name in ("iiwa", "panda", "xarm6", "viper850", "meka-a2", "lwr4"):
         card = read_card(name)
-        assert Shapes(Kinematics(card)).nearest(card.home[None]).distance[0] > 0, name
+        assert CollisionShapes(Kinematics(card)).nearest(card.home[None]).distance[0] > 0, name
 
 
 def test_what_stands_between_hides():
     arm = Kinematics(read_card("iiwa"))
-    shapes = Shapes(arm)
+    shapes = CollisionShapes(arm)
     home = arm.card.home
     light = dq.translation(arm.pose(home))
     front, behind = light + np.array([2.0, 0.1, 0.05]), light - np.array([3.0, 0, 0])
-    assert not shapes.hides(home[None], light[None], front)[0]
-    assert shapes.hides(home[None], light[None], behind)[0]
+    assert not shapes.occludes(home[None], light[None], front)[0]
+    assert shapes.occludes(home[None], light[None], behind)[0]
     # a light far beside the arm is seen from everywhere; one behind the base's column is not
     aside, column = np.array([0.0, 1.5, 0.3]), np.array([-0.5, 0.0, 0.1])
-    assert not shapes.hides(home[None], aside[None], front)[0]
-    assert shapes.hides(home[None], column[None], np.array([3.0, 0.0, 0.1]))[0]
+    assert not shapes.occludes(home[None], aside[None], front)[0]
+    assert shapes.occludes(home[None], column[None], np.array([3.0, 0.0, 0.1]))[0]
 
 
 def test_the_lamp_itself_hides_nothing():
     """A line of sight ends where the lamp begins; 3 mm of housing round the light are no matter."""
     arm = Kinematics(read_card("lwr4"))
-    shapes = Shapes(arm)
+    shapes = CollisionShapes(arm)
     home = arm.card.home
     light = dq.translation(arm.pose(home))
     hidden = [
-        bool(shapes.hides(home[None], light[None], light + 2.0 * way)[0])
+        bool(shapes.occludes(home[None], light[None], light + 2.0 * way)[0])
         for way in dq.matrix_from_pose(arm.pose(home))[:3, :3].T
     ]
     assert not hidden[2]  # along the tool's own axis
-    assert LAMP < 0.02
+    assert LAMP_CLEARANCE < 0.02
 
 
 def in_the_last_link(tmp_path, shape):
@@ -161,18 +165,20 @@ def test_a_plain_shape_that_the_lamp_sits_in_does_not_hide_it_but_one_before_it_
     arm = in_the_last_link(tmp_path, shape)
     home = arm.card.home[None]
     light = dq.translation(arm.pose(arm.card.home))
-    shapes = Shapes(arm)
+    shapes = CollisionShapes(arm)
     away = np.array([0.3, 0.9, 0.5])
-    assert not shapes.hides(home, light[None], light + away)[0]
-    assert shapes.hides(home, light[None] - 0.2 * away, light + away)[0]
+    assert not shapes.occludes(home, light[None], light + away)[0]
+    assert shapes.occludes(home, light[None] - 0.2 * away, light + away)[0]
 
 
 def test_a_mesh_that_cannot_be_read_is_left_out_and_named(tmp_path):
     (tmp_path / "broken.stl").write_bytes(b"solid nonsense")
     arm = in_the_last_link(tmp_path, '<mesh filename="broken.stl"/>')
-    shapes = Shapes(arm)
+    shapes = CollisionShapes(arm)
     assert shapes.notes == (
         "mesh 'broken.stl' cannot be read: what it meets and hides is left out",
     )
     light = dq.translation(arm.pose(arm.card.home))
-    assert not shapes.hides(arm.card.home[None], light[None], light + np.array([0.3, 0.9, 0.5]))[0]
+    assert not shapes.occludes(arm.card.home[None], light[None], light + np.array([0.3, 0.9, 0.5]))[
+        0
+    ]

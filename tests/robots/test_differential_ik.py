@@ -5,11 +5,11 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.robots.kinematics.differential_ik import (
-    LENGTH,
-    THRESHOLD,
+    CHARACTERISTIC_LENGTH,
+    DAMPING_THRESHOLD,
     damped_inverse,
     resolve,
-    to_tool,
+    tool_jacobian_map,
 )
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
@@ -26,7 +26,10 @@ def healthy(arm, rng, n):
     while len(out) < n:
         q = rng.uniform(arm.card.lower, arm.card.upper)
         x, J = arm.pose_and_jacobian(q)
-        if np.linalg.svd(to_tool(dq.translation(x)) @ J, compute_uv=False).min() > 1.5 * THRESHOLD:
+        if (
+            np.linalg.svd(tool_jacobian_map(dq.translation(x)) @ J, compute_uv=False).min()
+            > 1.5 * DAMPING_THRESHOLD
+        ):
             out.append(q)
     return np.array(out)
 
@@ -57,9 +60,11 @@ def test_any_leading_shape_gives_the_same(arm, rng):
 
 def test_shift_measures_the_twist_at_the_tool(rng):
     p, twist = rng.normal(size=3), rng.normal(size=6)
-    moved = to_tool(p) @ twist
+    moved = tool_jacobian_map(p) @ twist
     np.testing.assert_allclose(moved[:3], twist[:3])
-    np.testing.assert_allclose(moved[3:] * LENGTH, dq.point_velocity(twist, p), atol=1e-14)
+    np.testing.assert_allclose(
+        moved[3:] * CHARACTERISTIC_LENGTH, dq.point_velocity(twist, p), atol=1e-14
+    )
 
 
 def test_rates_stay_bounded_into_a_singularity_and_change_smoothly(arm):
@@ -74,13 +79,15 @@ def test_rates_stay_bounded_into_a_singularity_and_change_smoothly(arm):
         rates.append(resolve(J, dq.translation(x), u, np.zeros(7)))
     size = np.linalg.norm(rates, axis=1)
     assert np.isfinite(rates).all()
-    assert size.max() <= 0.1 / LENGTH / THRESHOLD * 1.3  # 1/s of the largest damped gain
+    assert (
+        size.max() <= 0.1 / CHARACTERISTIC_LENGTH / DAMPING_THRESHOLD * 1.3
+    )  # 1/s of the largest damped gain
     assert np.abs(np.diff(size)).max() < 0.2 * size.max()
     assert size[-1] < 0.2 * size.max()
 
 
 def test_damping_is_what_it_says():
-    t = THRESHOLD
+    t = DAMPING_THRESHOLD
     squares = np.array([0.0, (0.5 * t) ** 2, t**2, (2 * t) ** 2])
     damped = [4 / t**2, 1 / (0.25 * t**2 + 0.25 * 0.75 * t**2), 1 / t**2, 0.25 / t**2]
     np.testing.assert_allclose(damped_inverse(squares), damped, rtol=1e-12)
@@ -90,10 +97,10 @@ def test_damping_is_what_it_says():
 def test_directions_that_are_healthy_stay_exact_at_a_singularity(arm):
     q = np.array([0.3, 0.5, -0.2, 0.0, 0.4, 0.7, 0.1])  # stretched: one direction is lost
     x, J = arm.pose_and_jacobian(q)
-    shifted = to_tool(dq.translation(x)) @ J
+    shifted = tool_jacobian_map(dq.translation(x)) @ J
     axes, singular, _ = np.linalg.svd(shifted)
-    assert singular[-1] < 0.05 * THRESHOLD
-    for i in np.flatnonzero(singular > THRESHOLD):
-        u = np.linalg.solve(to_tool(dq.translation(x)), axes[:, i])
+    assert singular[-1] < 0.05 * DAMPING_THRESHOLD
+    for i in np.flatnonzero(singular > DAMPING_THRESHOLD):
+        u = np.linalg.solve(tool_jacobian_map(dq.translation(x)), axes[:, i])
         rates = resolve(J, dq.translation(x), u, np.zeros(7))
         np.testing.assert_allclose(shifted @ rates, axes[:, i], atol=1e-9)

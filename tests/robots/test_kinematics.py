@@ -8,7 +8,7 @@ from dqpaint import dq
 from dqpaint.robots.bullet.client import bullet, joint_indices, quiet
 from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability
 from dqpaint.robots.model.card import installed_names, read_card
-from dqpaint.robots.urdf.prepare import possible, urdf_file
+from dqpaint.robots.urdf.prepare import is_valid_inertia, urdf_file
 
 AGREES = 1e-9  # [m, rad] between pinocchio and PyBullet
 
@@ -83,7 +83,7 @@ def test_what_moves_can_be_made_of_matter(arm):
     assert (np.array(arm.model.damping) * PHYSICS_STEP < weights).all()  # else a step overshoots
     for inertia in list(arm.model.inertias)[1:]:
         assert inertia.mass > 0
-        assert possible(inertia.inertia)
+        assert is_valid_inertia(inertia.inertia)
 
 
 def _matrix(place, quaternion):

@@ -8,14 +8,14 @@ import pytest
 
 from dqpaint.diagnostics import SourceLine
 from dqpaint.motion import RowLines
-from dqpaint.robots.kinematics.limits import Bounds, clamps
+from dqpaint.robots.kinematics.limits import RateBounds, find_clamps
 from dqpaint.robots.model.card import read_card
 
 CARD = read_card("iiwa")
 
 
 def test_rates_are_cut_to_speed_and_to_what_ends_inside():
-    bounds = Bounds(CARD, 0.01)
+    bounds = RateBounds(CARD, 0.01)
     q = np.zeros(7)
     q[0] = CARD.upper[0] - 0.001
     q[1] = CARD.lower[1] + 0.002
@@ -28,12 +28,12 @@ def test_rates_are_cut_to_speed_and_to_what_ends_inside():
 def test_a_joint_beyond_its_limit_may_only_come_back():
     q = np.zeros(7)
     q[0] = CARD.upper[0] + 0.5
-    bounds = Bounds(CARD, 0.01)
+    bounds = RateBounds(CARD, 0.01)
     assert bounds.clip(np.array([1.0, 0, 0, 0, 0, 0, 0]), q)[0] == pytest.approx(-CARD.speed[0])
 
 
 def test_a_joint_far_beyond_its_limit_comes_back_at_its_speed():
-    bounds = Bounds(CARD, 0.01)
+    bounds = RateBounds(CARD, 0.01)
     for side, edge in ((1, CARD.upper), (-1, CARD.lower)):
         out = bounds.clip(side * np.ones(7), edge + side * 0.5)
         np.testing.assert_allclose(out, -side * CARD.speed)
@@ -48,7 +48,7 @@ def test_each_kind_is_named_with_joint_time_line_and_amount():
     wanted[2:4, 3], command[2:4, 3] = [-2.0, -3.0], -CARD.speed[3]  # the worst is told
     posture[6, 1], wanted[6, 1], command[6, 1] = CARD.upper[1] - 0.01, 1.4, 1.0
     effort[8, 5] = -CARD.effort[5]
-    speed, position, motor = clamps(CARD, t, source, posture, wanted, command, effort, False)
+    speed, position, motor = find_clamps(CARD, t, source, posture, wanted, command, effort, False)
     assert (speed.kind, speed.joint, speed.line) == ("speed", 4, three)
     assert speed.start == pytest.approx(0.02)
     assert speed.seconds == pytest.approx(0.02)

@@ -13,8 +13,8 @@ from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.kinematics.nullspace import (
     OBJECTIVES,
     SecondaryTask,
-    make_pull,
-    make_wish,
+    make_batched_task,
+    make_secondary_task,
     read_null,
 )
 from dqpaint.robots.model.card import installed_names, read_card
@@ -43,7 +43,7 @@ def test_slopes_are_the_derivatives(name, robot, rng):
             return one.value(q, J, dq.translation(x))
 
         x, J = arm.pose_and_jacobian(q)
-        found = one.slope(q, J, dq.translation(x))
+        found = one.gradient(q, J, dq.translation(x))
         steps = h * np.eye(card.joints)
         wanted = [(value(q + step) - value(q - step)) / (2 * h) for step in steps]
         np.testing.assert_allclose(found, wanted, atol=2e-6 * (1 + np.abs(wanted).max()))
@@ -56,10 +56,12 @@ def test_a_wish_goes_downhill(name, rng):
     x, J = ARM.pose_and_jacobian(q)
     place = (J, dq.translation(x))
     one = OBJECTIVES[name](CARD, start)
-    wish = make_wish(name, CARD, start)(q, *place)
-    np.testing.assert_allclose(wish, -OBJECTIVES[name].usual * one.slope(q, *place))
-    twice = make_wish(f"{name},gain=4" if name != "none" else name, CARD, start)(q, *place)
-    np.testing.assert_allclose(twice, -4 * one.slope(q, *place))
+    wish = make_secondary_task(name, CARD, start)(q, *place)
+    np.testing.assert_allclose(wish, -OBJECTIVES[name].default_gain * one.gradient(q, *place))
+    twice = make_secondary_task(f"{name},gain=4" if name != "none" else name, CARD, start)(
+        q, *place
+    )
+    np.testing.assert_allclose(twice, -4 * one.gradient(q, *place))
 
 
 def leaning(rng):
@@ -116,7 +118,7 @@ def test_without_a_wish_a_closed_drawing_does_not_close():
 def test_a_singular_posture_has_no_wish_for_manipulability():
     q = np.array([0.3, 0.5, 0, 0.0, 0.4, 0.0, 0.1])
     x, J = ARM.pose_and_jacobian(q)
-    slope = OBJECTIVES["manipulability"](CARD, q).slope(q, J, dq.translation(x))
+    slope = OBJECTIVES["manipulability"](CARD, q).gradient(q, J, dq.translation(x))
     assert np.isfinite(slope).all()
 
 
@@ -130,11 +132,13 @@ def test_pham_s_transpose_leaves_room_for_a_wish_and_is_the_paper_s_without(null
     goal = dq.mul(dq.exp(0.02 * rng.normal(size=6)), x)
     seen = Seen(x, goal, np.zeros(6), np.zeros(6), J, q, 0.0, 0.008, np.zeros(7))
     plain, wished = (
-        make_drive(law, law.law, ARM, make_wish(one, CARD, CARD.home), 0.008).command(seen, gains)
+        make_drive(law, law.law, ARM, make_secondary_task(one, CARD, CARD.home), 0.008).command(
+            seen, gains
+        )
         for one in ("none", null)
     )
     np.testing.assert_allclose(plain, law.law(seen, gains), atol=1e-15)
-    wish = make_wish(null, CARD, CARD.home)(q, J, dq.translation(x))
+    wish = make_secondary_task(null, CARD, CARD.home)(q, J, dq.translation(x))
     projected = wish - np.linalg.pinv(J) @ (J @ wish)
     np.testing.assert_allclose(wished - plain, projected, atol=1e-9)
     assert np.abs(projected).max() > 1e-3
@@ -145,26 +149,26 @@ def test_what_a_wish_does_in_a_time():
     """Of a pull towards a posture exactly e^-gt of the way is left, however long it takes."""
     q = CARD.home + 0.1
     x, J = ARM.pose_and_jacobian(q)
-    wish = make_wish("home,gain=3", CARD, CARD.home)
+    wish = make_secondary_task("home,gain=3", CARD, CARD.home)
     for seconds in (1e-6, 0.3, 50.0):
-        way = wish.over(seconds, q, J, dq.translation(x))
+        way = wish.displacement(seconds, q, J, dq.translation(x))
         np.testing.assert_allclose(q + way - CARD.home, 0.1 * np.exp(-3 * seconds), atol=1e-12)
-    pull = make_pull("home,gain=3", ARM)
+    pull = make_batched_task("home,gain=3", ARM)
     both = pull(np.array([q, CARD.home]), np.array([q, q]), 0.3)
-    np.testing.assert_allclose(both[0], wish.over(0.3, q, J, dq.translation(x)))
+    np.testing.assert_allclose(both[0], wish.displacement(0.3, q, J, dq.translation(x)))
     np.testing.assert_allclose(both[1], 0, atol=1e-15)
-    from dqpaint.robots.kinematics.start_posture import to_start
+    from dqpaint.robots.kinematics.start_posture import return_to_start
 
     starts = np.array([CARD.home, q])
     posture = np.array([q, CARD.home])
-    np.testing.assert_allclose(make_pull("start", ARM)(posture, starts, 0.4),
-                               to_start(posture, starts, 0.4), atol=1e-15)  # fmt: skip
+    np.testing.assert_allclose(make_batched_task("start", ARM)(posture, starts, 0.4),
+                               return_to_start(posture, starts, 0.4), atol=1e-15)  # fmt: skip
 
 
 def test_texts():
-    assert read_null("limits") == ("limits", OBJECTIVES["limits"].usual)
+    assert read_null("limits") == ("limits", OBJECTIVES["limits"].default_gain)
     assert read_null("limits,gain=3") == read_null("limits:gain=3") == ("limits", 3.0)
-    assert isinstance(make_wish("home", CARD, CARD.home), SecondaryTask)
+    assert isinstance(make_secondary_task("home", CARD, CARD.home), SecondaryTask)
     for text, said in (
         ("limits,gain=-1", "gain -1.0 should be greater than or equal to 0"),
         ("limits,gain=21", "gain 21.0 should be less than or equal to 20"),

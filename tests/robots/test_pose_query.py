@@ -40,7 +40,7 @@ def test_the_tool_sits_on_the_flange():
 def test_the_screw_gives_the_pose_back(rng):
     """Turn about the line and move along it: by the exponential of its own twist."""
     for x in random_poses(rng, 50):
-        screw = pose_query.screw_of(x)
+        screw = pose_query.screw_from_pose(x)
         assert 0 < screw.angle <= np.pi
         unit = dq.twist_from_screw(screw.axis, screw.point, screw.pitch)
         again = dq.exp(0.5 * screw.angle * unit)
@@ -50,10 +50,10 @@ def test_the_screw_gives_the_pose_back(rng):
 
 
 def test_a_translation_is_a_screw_without_a_turn():
-    screw = pose_query.screw_of(dq.pose_from([3.0, 0, 4], [1.0, 0, 0, 0]))
+    screw = pose_query.screw_from_pose(dq.pose_from([3.0, 0, 4], [1.0, 0, 0, 0]))
     np.testing.assert_allclose(screw.axis, [0.6, 0, 0.8])
     assert (screw.angle, screw.advance, screw.point, screw.pitch) == (0, 5, None, None)
-    nowhere = pose_query.screw_of(dq.IDENTITY)
+    nowhere = pose_query.screw_from_pose(dq.IDENTITY)
     assert (nowhere.angle, nowhere.advance) == (0, 0)
 
 
@@ -101,10 +101,10 @@ def test_angles_that_are_slips_are_refused():
 
 def test_joints_beyond_their_limits_are_named():
     posture = pose_query.read_posture(VIPER, "0,46,0,0,-121,0", None)
-    beyond = pose_query.pose_arm(VIPER, posture, flange=False).beyond
+    beyond = pose_query.pose_arm(VIPER, posture, flange=False).limit_violations
     assert beyond == [
         "joint 2 at 46 deg is beyond its limits, -190 to 45 deg",
         "joint 5 at -121 deg is beyond its limits, -120 to 120 deg",
     ]
     at_the_limit = pose_query.read_posture(VIPER, "-170,45,256,190,-120,360", None)
-    assert pose_query.pose_arm(VIPER, at_the_limit, flange=False).beyond == []
+    assert pose_query.pose_arm(VIPER, at_the_limit, flange=False).limit_violations == []

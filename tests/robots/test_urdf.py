@@ -13,7 +13,7 @@ from dqpaint.robots.bullet.client import bullet, joint_indices, quiet
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.loading.load_file import read_file
 from dqpaint.robots.model.card import read_card
-from dqpaint.robots.urdf.prepare import possible, prepare, urdf_file
+from dqpaint.robots.urdf.prepare import is_valid_inertia, prepare, urdf_file
 from tests.support.arm_files import arm_urdf
 
 INERTIAL = (
@@ -134,7 +134,7 @@ def test_products_with_the_other_sign_make_bodies_of_the_xarm_s_links():
 def test_a_body_obeys_the_triangle(moments, fine, rng):
     q = rng.normal(size=4)
     R = dq.matrix_from_quaternion(q / np.linalg.norm(q))
-    assert possible(R @ np.diag(moments) @ R.T) == fine
+    assert is_valid_inertia(R @ np.diag(moments) @ R.T) == fine
 
 
 @pytest.mark.slow

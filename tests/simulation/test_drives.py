@@ -10,7 +10,7 @@ from dqpaint.controllers.base.user_controller import make_controller
 from dqpaint.plants import PLANTS
 from dqpaint.robots.kinematics.dynamics import Dynamics
 from dqpaint.robots.kinematics.jacobians import drift_acceleration
-from dqpaint.robots.kinematics.nullspace import make_wish
+from dqpaint.robots.kinematics.nullspace import make_secondary_task
 from dqpaint.simulation.drives import make_drive
 from tests.support.control import ARM, law, seen_by, started, states
 
@@ -20,7 +20,7 @@ AT_ONCE = 1e-13  # [s], a period in which nothing changes
 
 def back_to(posture):
     """The wish to come back to a posture, as a run has it."""
-    return make_wish("start", ARM.card, posture)
+    return make_secondary_task("start", ARM.card, posture)
 
 
 def bend(posture, rates, torque):

@@ -15,7 +15,7 @@ from dqpaint.plants import PLANTS
 from dqpaint.robots.kinematics.batched import ManyKinematics
 from dqpaint.robots.kinematics.differential_ik import resolve
 from dqpaint.robots.kinematics.kinematics import Kinematics
-from dqpaint.robots.kinematics.nullspace import OBJECTIVES, make_wish
+from dqpaint.robots.kinematics.nullspace import OBJECTIVES, make_secondary_task
 from dqpaint.robots.model.card import installed_names, read_card
 from dqpaint.settings.model import make_settings
 from dqpaint.simulation.closed_loop import track, track_many
@@ -99,7 +99,7 @@ def test_wishes_of_many_are_those_of_each(name, arm, rng):
     card = kinematics.card
     q = rng.uniform(card.lower, card.upper, (5, card.joints))
     x, J = kinematics.poses_and_jacobians(q)
-    wish = make_wish(name, card, start)
+    wish = make_secondary_task(name, card, start)
     many = np.broadcast_to(wish(q, J, dq.translation(x)), q.shape)
     for i in range(5):
         one = wish(q[i], J[i], dq.translation(x[i]))

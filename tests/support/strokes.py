@@ -7,7 +7,7 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.diagnostics import SourceLine, Span
-from dqpaint.diagnostics.collector import Findings
+from dqpaint.diagnostics.collector import DiagnosticCollector
 from dqpaint.motion.geometry.batched_shapes import shape
 from dqpaint.motion.geometry.shapes import Flow
 from dqpaint.motion.profiles import Progress
@@ -120,7 +120,7 @@ def segment(path, tool, profile="trapezoid", timing=None, start=START):
     )
     if tool in ("look", "look-line"):  # the start lies on the look, as the language makes sure
         form = shape(made)
-        r = form.spin(np.zeros(1), form.places(np.zeros(1)))[0][0]
+        r = form.orientations(np.zeros(1), form.positions(np.zeros(1)))[0][0]
         made = replace(made, start=Pose(start.position, tuple(r)))
     last = shape(made).flow(np.ones(1)).pose[0]
     return replace(made, end=Pose(tuple(dq.translation(last)), tuple(last[:4])))
@@ -174,7 +174,7 @@ class Stroke:
 
 def strokes_of(drawing):
     """The strokes of a program without a fault."""
-    findings = Findings()
+    findings = DiagnosticCollector()
     table = timetable(drawing, findings)
     assert not findings.errors
     return [Stroke(table, number) for number in range(len(table))]

@@ -179,7 +179,11 @@ def null():
     from dqpaint.robots.kinematics.nullspace import OBJECTIVES
 
     rows = [
-        [f"`{name}`", one.__doc__.splitlines()[0], f"{one.usual:g} {one.unit}" if one.usual else ""]
+        [
+            f"`{name}`",
+            one.__doc__.splitlines()[0],
+            f"{one.default_gain:g} {one.unit}" if one.default_gain else "",
+        ]
         for name, one in OBJECTIVES.items()
     ]
     return table(["`--null`", "", "gain"], rows)

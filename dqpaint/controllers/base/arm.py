@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dqpaint.dq import Floats
-from dqpaint.robots.kinematics import Kinematics, Shapes
+from dqpaint.robots.kinematics import CollisionShapes, Kinematics
 
 
 class JointLimits(NamedTuple):
@@ -51,9 +51,9 @@ class Arm:
     @cached_property
     def kinematics(self) -> Kinematics:
         """Pose and Jacobian at any posture: a copy, so that nothing a law does to it is felt."""
-        return self._model.changed()
+        return self._model.with_model_error()
 
     @cached_property
-    def collisions(self) -> Shapes:
+    def collisions(self) -> CollisionShapes:
         """How near the links come to each other at any posture: `nearest(postures)`."""
-        return Shapes(self.kinematics)
+        return CollisionShapes(self.kinematics)

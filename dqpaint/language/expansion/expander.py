@@ -6,14 +6,14 @@ from pathlib import Path
 
 from dqpaint.diagnostics import (
     Diagnostic,
-    EnoughError,
-    Findings,
-    PlaceProblem,
+    DiagnosticCollector,
+    ErrorLimitError,
     Problem,
     Span,
-    called_here,
+    UnknownPositionProblem,
+    at_call,
     file_at,
-    place,
+    locate,
     problem,
 )
 from dqpaint.language.expansion import blocks
@@ -44,7 +44,9 @@ DEEPEST = 64  # blocks, calls and files within each other
 class Expander:
     """Works through a file's statements in order."""
 
-    def __init__(self, name: str, text: str, findings: Findings, path: Path | None = None) -> None:
+    def __init__(
+        self, name: str, text: str, findings: DiagnosticCollector, path: Path | None = None
+    ) -> None:
         self._name, self._text, self._findings = name, text, findings
         self._pen = Pen(name, text, findings, path)
         self._scope = Scope(text)
@@ -103,9 +105,9 @@ class Expander:
             elif STATEMENTS[statement.word].moves:
                 strokes.draw(statement, self._pen, self._scope)
         except Problem as mistake:
-            if not (isinstance(mistake, PlaceProblem) and self._pen.lost):
+            if not (isinstance(mistake, UnknownPositionProblem) and self._pen.lost):
                 for call in reversed(self._calls):
-                    mistake = called_here(mistake, call)
+                    mistake = at_call(mistake, call)
                 self._findings.add(mistake.diagnostic)
             self._pass_over(statement)
         except UnknownError:  # its cause was reported
@@ -115,7 +117,7 @@ class Expander:
         """Ends the work before it begins if the file is too much of it."""
         if size > blocks.MOST_STATEMENTS:
             self._findings.add(blocks.too_many_statements(statement, size))
-            raise EnoughError
+            raise ErrorLimitError
 
     def _pass_over(self, statement: Statement) -> None:
         """Goes on after a mistake: nothing that follows from it is to be reported again."""
@@ -280,7 +282,7 @@ class Expander:
 
     def _where(self, span: Span, seen_from: Span) -> str:
         """`line:column`, and the file if it is another one."""
-        line, column = place(self._text, span.start)
+        line, column = locate(self._text, span.start)
         begin, file = file_at(self._text, span.start, self._name)
         here = file_at(self._text, seen_from.start, self._name)[0]
         return f"{line}:{column}" if begin == here else f"{file}:{line}:{column}"

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
-from dqpaint.diagnostics import Findings, Problem, Source, closest, did_you_mean, problem
+from dqpaint.diagnostics import DiagnosticCollector, Problem, Source, closest, did_you_mean, problem
 from dqpaint.errors import DqpaintError
 from dqpaint.language.imports.file_access import below, is_relative
 from dqpaint.language.syntax.parser import parse_statements
@@ -33,7 +33,11 @@ class Loader:
     """
 
     def __init__(
-        self, text: str, path: Path | None, read: Callable[[Path], str], findings: Findings
+        self,
+        text: str,
+        path: Path | None,
+        read: Callable[[Path], str],
+        findings: DiagnosticCollector,
     ) -> None:
         self.source = Source(text)
         self._findings = findings

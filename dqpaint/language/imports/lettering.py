@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.program import Chain, Floats, piecewise
+from dqpaint.program import Floats, PiecewiseCurve, piecewise
 
 FONTS = Path(__file__).parent / "fonts"
 PLAINEST = "futural"
@@ -87,7 +87,7 @@ class Lettering(NamedTuple):
         width: of the longest line, as it is inked.
     """
 
-    strokes: list[Chain]
+    strokes: list[PiecewiseCurve]
     width: float
 
 
@@ -95,18 +95,18 @@ class Lettering(NamedTuple):
 def lay_out(lines: tuple[str, ...], name: str, align: str) -> Lettering:
     """Sets lines under each other; the ink of each begins, ends or is centred at x = 0."""
     font = read_font(name)
-    strokes: list[Chain] = []
+    strokes: list[PiecewiseCurve] = []
     longest = 0.0
     for number, line in enumerate(lines):
         placed, left, right = _line(line, font)
         edge = {"left": left, "right": right, "centre": 0.5 * (left + right)}[align]
         shift = np.array([-edge, -number * LINE_PITCH * font.cap, 0.0])
-        strokes += [piecewise.mapped(stroke, np.eye(3), shift) for stroke in placed]
+        strokes += [piecewise.transform(stroke, np.eye(3), shift) for stroke in placed]
         longest = max(longest, right - left)
     return Lettering(strokes, longest)
 
 
-def _line(line: str, font: Font) -> tuple[list[Chain], float, float]:
+def _line(line: str, font: Font) -> tuple[list[PiecewiseCurve], float, float]:
     """The strokes of a line, and where its ink begins and ends; blanks round it count as ink."""
     pen, inked = 0.0, []
     blank = [0.0, 0.0]  # before the first letter, after the last
@@ -118,7 +118,7 @@ def _line(line: str, font: Font) -> tuple[list[Chain], float, float]:
     if not inked:
         return [], 0.0, 0.0
     strokes = [_stroke(points, font.sharpest) for points in _continued(inked)]
-    left, right = (float(corner[0]) for corner in piecewise.box(strokes))
+    left, right = (float(corner[0]) for corner in piecewise.bounding_box(strokes))
     return strokes, left - blank[0], right + blank[1]
 
 
@@ -136,12 +136,12 @@ def _continued(strokes: list[Floats]) -> list[Floats]:
     return out
 
 
-def _stroke(points: Floats, sharpest: float) -> Chain:
+def _stroke(points: Floats, sharpest: float) -> PiecewiseCurve:
     """A polyline of a letter, with its round parts round."""
     flat = np.concatenate([points, np.zeros((len(points), 1))], axis=1)
     new = np.concatenate([[True], np.any(np.diff(flat, axis=0) != 0.0, axis=1)])
     flat = flat[new]
-    return piecewise.smooth(flat, _corners(flat, sharpest), STIFF)
+    return piecewise.smooth_curve(flat, _corners(flat, sharpest), STIFF)
 
 
 def _corners(points: Floats, sharpest: float) -> NDArray[np.bool_]:
@@ -150,7 +150,7 @@ def _corners(points: Floats, sharpest: float) -> NDArray[np.bool_]:
     shorter = np.minimum(np.roll(size, 1), size)
     longer = np.maximum(np.roll(size, 1), size)
     shorter, longer = (np.append(side, side[0]) for side in (shorter, longer))
-    turn = piecewise.turns(points)
+    turn = piecewise.turn_angles(points)
     corner = (turn > SHARP) & (shorter > SHORT) | (turn > 2.0 * SHARP) & (longer > LONG)
     return np.asarray(corner | (turn > sharpest))
 

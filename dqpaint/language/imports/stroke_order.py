@@ -12,9 +12,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.program import Chain, Colour, Floats, piecewise
+from dqpaint.program import Colour, Floats, PiecewiseCurve, piecewise
 
-ColouredCurve = tuple[Chain, Colour | None]
+ColouredCurve = tuple[PiecewiseCurve, Colour | None]
 
 TOUCHING = 1e-5  # of the size of the drawing
 SAME = 1e-12  # [m]
@@ -100,15 +100,15 @@ def _strung(
             side = 1 - side
             if first == number:
                 break
-        parts: list[Chain] = []
+        parts: list[PiecewiseCurve] = []
         at: tuple[int, int] | None = (first, side)
         while at is not None and at[0] not in done:
             line, entry = at
             done.add(line)
             chain = lines[line][0]
-            parts.append(chain if entry == 0 else piecewise.reversed_(chain))
+            parts.append(chain if entry == 0 else piecewise.reverse(chain))
             at = partner.get((line, 1 - entry))
-        out.append((piecewise.joined(parts), lines[number][1]))
+        out.append((piecewise.join(parts), lines[number][1]))
     return out
 
 
@@ -124,7 +124,7 @@ def _routed(lines: list[ColouredCurve]) -> list[ColouredCurve]:
     if _dark(ends, order, flipped) > _dark(ends, *as_given):
         order, flipped = as_given
     return [
-        (piecewise.reversed_(lines[i][0]) if back else lines[i][0], lines[i][1])
+        (piecewise.reverse(lines[i][0]) if back else lines[i][0], lines[i][1])
         for i, back in zip(order.tolist(), flipped.tolist(), strict=True)
     ]
 

@@ -6,11 +6,11 @@ from pathlib import Path as FilePath
 
 from dqpaint.diagnostics import (
     Diagnostic,
-    EnoughError,
-    Findings,
-    PlaceProblem,
+    DiagnosticCollector,
+    ErrorLimitError,
     SourceLine,
     Span,
+    UnknownPositionProblem,
     file_at,
     file_number,
     problem,
@@ -52,7 +52,7 @@ class Pen:
     """The state of the drawing: `state` and `frame` are changed from outside."""
 
     def __init__(
-        self, name: str, text: str, findings: Findings, path: FilePath | None = None
+        self, name: str, text: str, findings: DiagnosticCollector, path: FilePath | None = None
     ) -> None:
         self.file = name, text
         self.path = path  # of the main file, if the text is one
@@ -99,7 +99,7 @@ class Pen:
         """Adds a stroke from where the tool is to `end`."""
         if len(self.segments) >= MOST_SEGMENTS:
             self.findings.add(_too_many(span))
-            raise EnoughError
+            raise ErrorLimitError
         if max(map(abs, end.position)) > FARTHEST:
             raise here("E201", "this ends too far away", span)
         line, words = self._lines.line(span), first_line(self.text, span)
@@ -235,6 +235,8 @@ def _too_many(span: Span) -> Diagnostic:
     )
 
 
-def here(code: str, message: str, span: Span, label: str = "", cure: str = "") -> PlaceProblem:
+def here(
+    code: str, message: str, span: Span, label: str = "", cure: str = ""
+) -> UnknownPositionProblem:
     """A mistake that depends on where the tool is."""
-    return PlaceProblem(problem(code, message, span, label, cure).diagnostic)
+    return UnknownPositionProblem(problem(code, message, span, label, cure).diagnostic)

@@ -11,7 +11,7 @@ from dqpaint.language.pen.pen import SAME_PLACE, SAME_TURN, Pen, here
 from dqpaint.language.pen.stroke_state import ToolMode, TurnTo
 from dqpaint.language.values import vectors
 from dqpaint.program import (
-    LOOKING,
+    LOOK_MODES,
     FixedOrientation,
     FollowHeading,
     Look,
@@ -63,14 +63,14 @@ def told(mode: ToolMode, position: Vector, span: Span) -> Quaternion | None:
     """The orientation at a place, if the mode alone says it."""
     if isinstance(mode, TurnTo):
         return mode.orientation
-    if isinstance(mode, LOOKING):
+    if isinstance(mode, LOOK_MODES):
         return orientation_at(mode, position, span)
     return None
 
 
 def begin(pen: Pen, mode: ToolMode, span: Span) -> None:
     """Before a stroke: a tool that looks has to look already."""
-    if isinstance(mode, LOOKING):
+    if isinstance(mode, LOOK_MODES):
         pen.look(mode, orientation_at(mode, pen.pose.position, span), span)
 
 
@@ -84,7 +84,7 @@ def at_end(
     now = pen.pose.orientation
     if isinstance(mode, FollowHeading):
         return FollowHeading(axis), vectors.turn_product(vectors.turn_about(axis, turn), now)
-    if isinstance(mode, LOOKING):
+    if isinstance(mode, LOOK_MODES):
         return mode, orientation_at(mode, position, span)
     return turning(now, mode.orientation if isinstance(mode, TurnTo) else now)
 

@@ -12,15 +12,14 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
-from dqpaint.diagnostics import Diagnostic, Findings
+from dqpaint.diagnostics import Diagnostic, DiagnosticCollector
 from dqpaint.language.pen import tool_orientation
 from dqpaint.language.strokes import arcs
 from dqpaint.language.values import vectors
 from dqpaint.program import (
-    LOOKING,
+    LOOK_MODES,
     STANDING,
     Arc,
-    Chain,
     Colour,
     ContinuousStroke,
     CruiseSpeed,
@@ -30,6 +29,7 @@ from dqpaint.program import (
     Formula,
     Light,
     Path,
+    PiecewiseCurve,
     Pose,
     Quaternion,
     Samples,
@@ -58,7 +58,7 @@ _NO_JOINT = _Joint(joined=False, cut=0.0)
 
 
 def rounded(
-    segments: Sequence[Segment], corners: Sequence[float], findings: Findings
+    segments: Sequence[Segment], corners: Sequence[float], findings: DiagnosticCollector
 ) -> list[Segment]:
     """The segments with rounded corners.
 
@@ -107,12 +107,12 @@ def _pieces(
     return pieces
 
 
-def _joint(a: Segment, b: Segment, size: float, findings: Findings) -> _Joint:
+def _joint(a: Segment, b: Segment, size: float, findings: DiagnosticCollector) -> _Joint:
     """Whether and how a corner is rounded: not where the pen is lifted, nor at a pause.
 
     What comes from elsewhere begins and ends where it says.
     """
-    if isinstance(a.path, Chain) or isinstance(b.path, Chain):
+    if isinstance(a.path, PiecewiseCurve) or isinstance(b.path, PiecewiseCurve):
         return _NO_JOINT
     lifted = (a.light is None) != (b.light is None)
     if not size or lifted or a.stroke != b.stroke or _rests(a) or _rests(b):
@@ -127,7 +127,9 @@ def _joint(a: Segment, b: Segment, size: float, findings: Findings) -> _Joint:
     return _Joint(joined=True, cut=size if turn > SMOOTH else 0.0)
 
 
-def _told(findings: Findings, segment: Segment, code: str, message: str, cure: str) -> _Joint:
+def _told(
+    findings: DiagnosticCollector, segment: Segment, code: str, message: str, cure: str
+) -> _Joint:
     findings.add(Diagnostic(code, message, segment.span, "", cure))
     return _NO_JOINT
 
@@ -141,7 +143,9 @@ def _is_known(path: Path) -> bool:
     return isinstance(path, Straight) or (isinstance(path, Arc) and path.grow == 0.0)
 
 
-def _shares(segment: Segment, first: float, last: float, findings: Findings) -> tuple[float, float]:
+def _shares(
+    segment: Segment, first: float, last: float, findings: DiagnosticCollector
+) -> tuple[float, float]:
     """What is left of a segment without so much of its start and of its end [m]."""
     if not first and not last:
         return 0.0, 1.0
@@ -213,7 +217,7 @@ def _pose(segment: Segment, share: float) -> Pose:
 
 def _orientation(segment: Segment, share: float, position: Vector) -> Quaternion:
     tool, start = segment.tool, segment.start.orientation
-    if isinstance(tool, LOOKING):
+    if isinstance(tool, LOOK_MODES):
         return tool_orientation.orientation_at(tool, position, segment.span)
     if isinstance(tool, SlerpOrientation):
         return vectors.part_of_turn(start, segment.end.orientation, share)
@@ -243,7 +247,7 @@ def _part(segment: Segment, lower: float, upper: float) -> Segment:
 def _shade(light: Light, share: float) -> Colour:
     if light.first == light.last:
         return light.first
-    return colours.mixed(light.first, light.last, share)
+    return colours.mix(light.first, light.last, share)
 
 
 def _of_run(segment: Segment) -> bool:
@@ -266,7 +270,7 @@ def _bend(a: Segment, leaves: float, b: Segment, joins: float) -> Segment:
 
 def _tool(a: Tool, b: Tool, start: Pose, end: Pose) -> Tool:
     """A tool that looks goes on looking; another turns evenly from one stroke to the next."""
-    if a == b and isinstance(a, LOOKING):
+    if a == b and isinstance(a, LOOK_MODES):
         return a
     return tool_orientation.turning(start.orientation, end.orientation)[0]
 
@@ -304,7 +308,7 @@ def bezier(*points: Vector) -> Formula:
 
 
 def _as_run(
-    segments: Sequence[Segment], pieces: list[Segment], number: int, findings: Findings
+    segments: Sequence[Segment], pieces: list[Segment], number: int, findings: DiagnosticCollector
 ) -> list[Segment]:
     """The pieces of segments that were joined, with the time of all of them."""
     if len(segments) == 1 or segments[0].stroke is not None:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dqpaint.diagnostics import Diagnostic, EnoughError, Fix, Problem, Span, closest, problem
+from dqpaint.diagnostics import Diagnostic, ErrorLimitError, Fix, Problem, Span, closest, problem
 from dqpaint.language.imports import lettering
 from dqpaint.language.pen import tool_orientation
 from dqpaint.language.pen.durations import shared, timing
@@ -22,13 +22,13 @@ from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.scope import Scope
 from dqpaint.language.vocabulary.units import UNITS
 from dqpaint.program import (
-    LOOKING,
-    Chain,
+    LOOK_MODES,
     Colour,
     FixedOrientation,
     Floats,
     FollowHeading,
     Light,
+    PiecewiseCurve,
     Pose,
     Timing,
     Vector,
@@ -43,7 +43,7 @@ LOOKED_AT = 20_000  # places of a stroke, where a tool that looks is looked at
 class Trace(NamedTuple):
     """What is drawn without lifting the pen, and its own colour, if it has one."""
 
-    chain: Chain
+    chain: PiecewiseCurve
     colour: Colour | None = None
 
 
@@ -92,7 +92,7 @@ def path(statement: Statement, pen: Pen, scope: Scope) -> None:
         return
     chain = piecewise.straight(points)
     if statement.part("smooth"):
-        chain = piecewise.smooth(points)
+        chain = piecewise.smooth_curve(points)
     unit = statement.value("unit")
     if isinstance(unit, Name):
         scale, origin = UNITS[unit.name][0], np.zeros(3)
@@ -173,10 +173,10 @@ def _scale(statement: Statement, pen: Pen, scope: Scope, size: tuple[float, floa
 
 
 def _fitted(
-    statement: Statement, pen: Pen, scope: Scope, loose: list[Chain]
+    statement: Statement, pen: Pen, scope: Scope, loose: list[PiecewiseCurve]
 ) -> tuple[float, Floats]:
     """The scale of a drawing, and minus the middle of its box."""
-    least, most = piecewise.box(loose)
+    least, most = piecewise.bounding_box(loose)
     width, height, _ = (most - least).tolist()
     return _scale(statement, pen, scope, (width, height)), -0.5 * (least + most)
 
@@ -191,14 +191,14 @@ def _place_of(statement: Statement, pen: Pen, scope: Scope, origin: Floats) -> V
 
 
 def _drawn(
-    lines: Sequence[tuple[Chain, Colour | None]], pen: Pen, scale: float, shift: Vector
+    lines: Sequence[tuple[PiecewiseCurve, Colour | None]], pen: Pen, scale: float, shift: Vector
 ) -> list[Trace]:
     """Lines in the drawing frame."""
     columns = [pen.frame.vector(axis) for axis in ((1.0, 0.0, 0.0), vectors.Y, vectors.Z)]
-    whole, starts, _ = piecewise.together([chain for chain, _ in lines])
-    there = piecewise.mapped(whole, scale * np.array(columns).T, np.array(shift))
+    whole, starts, _ = piecewise.concatenate([chain for chain, _ in lines])
+    there = piecewise.transform(whole, scale * np.array(columns).T, np.array(shift))
     colours_of = (colour for _, colour in lines)
-    return list(map(Trace, piecewise.parted(there, starts), colours_of))
+    return list(map(Trace, piecewise.split(there, starts), colours_of))
 
 
 # The strokes.
@@ -218,7 +218,7 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
         raise here("E254", message, part.value.span if part else span, "", "use: tool keep")
     pen.pieces += sum(len(trace.chain.cubic) for trace in traces)
     check_pieces(pen.pieces, pen, span)
-    if not piecewise.farthest([trace.chain for trace in traces]) <= FARTHEST:
+    if not piecewise.largest_coordinate([trace.chain for trace in traces]) <= FARTHEST:
         raise here("E201", "this goes too far away", span)
     ends = piecewise.all_ends([trace.chain for trace in traces]).tolist()
     starts, stops = ([_vector(pair[side]) for pair in ends] for side in (0, 1))
@@ -235,7 +235,7 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
     for number, trace in enumerate(traces):
         _travel(pen, starts[number], span, times[2 * number - 1] if number else None)
         tool_orientation.begin(pen, mode, span)
-        if isinstance(mode, LOOKING):
+        if isinstance(mode, LOOK_MODES):
             tool_orientation.check_way(mode, _places(trace.chain), span)
         tool, orientation = tool_orientation.at_end(pen, mode, stops[number], span, vectors.Z, 0.0)
         end = Pose(stops[number], orientation)
@@ -248,7 +248,7 @@ def check_pieces(pieces: int, pen: Pen, span: Span) -> None:
         message = f"more than {MOST_PIECES:,} pieces of lines from elsewhere in all"
         cure = "draw it less often, or with fewer points"
         pen.findings.add(Diagnostic("E299", message, span, "", cure))
-        raise EnoughError
+        raise ErrorLimitError
 
 
 def _pen_up(statement: Statement, count: int) -> Problem:
@@ -292,7 +292,7 @@ def _glows(
             out.append(None)
         else:
             first, last = (
-                colours.mixed(light.first, light.last, float(done[number + i])) for i in (0, 1)
+                colours.mix(light.first, light.last, float(done[number + i])) for i in (0, 1)
             )
             out.append(Light(first, last, even=True))
     return out
@@ -317,7 +317,7 @@ def _vector(numbers: list[float]) -> Vector:
     return x, y, z
 
 
-def _places(chain: Chain) -> list[Vector]:
+def _places(chain: PiecewiseCurve) -> list[Vector]:
     """Places all along a chain."""
     count = len(chain.cubic)
     whole = np.linspace(0.0, count, min(16 * count, LOOKED_AT), endpoint=False)

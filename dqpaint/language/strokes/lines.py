@@ -9,7 +9,7 @@ from dqpaint.language.syntax.tree import Statement
 from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.scope import Scope
 from dqpaint.program import (
-    LOOKING,
+    LOOK_MODES,
     FixedOrientation,
     FollowHeading,
     Light,
@@ -99,14 +99,14 @@ def _legs(
         start = pen.pose.position
         tool, orientation = _tool_of_leg(pen, stop, statement.span, first, last)
         way = vectors.minus(stop, start)
-        if isinstance(mode, LOOKING):
+        if isinstance(mode, LOOK_MODES):
             places = (_nearest(mode, start, way), *tool_orientation.most_leaning(mode, start, way))
             tool_orientation.check_way(mode, places, statement.span)
         glow = light
         if light is not None and light.first != light.last and not _of_run(pen, light):
             glow = Light(
-                colours.mixed(light.first, light.last, first),
-                colours.mixed(light.first, light.last, last),
+                colours.mix(light.first, light.last, first),
+                colours.mix(light.first, light.last, last),
                 light.even,
             )
         pen.draw(Straight(way), tool, leg_time, glow, Pose(stop, orientation), statement.span)

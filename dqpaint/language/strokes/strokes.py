@@ -13,7 +13,7 @@ from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.scope import Scope
 from dqpaint.language.vocabulary.words import MODAL
 from dqpaint.program import (
-    LOOKING,
+    LOOK_MODES,
     Arc,
     Duration,
     Dwell,
@@ -124,7 +124,7 @@ def _axis(statement: Statement, pen: Pen, scope: Scope) -> Vector:
 def _draw_arc(statement: Statement, pen: Pen, scope: Scope, arc: Arc, end: Vector) -> None:
     mode, span = pen.state.tool, statement.span
     tool_orientation.begin(pen, mode, span)
-    if isinstance(mode, LOOKING) and not pen.lost:
+    if isinstance(mode, LOOK_MODES) and not pen.lost:
         tool_orientation.check_way(mode, arcs.places(arc, pen.pose.position), span)
     tool, orientation = tool_orientation.at_end(pen, mode, end, span, arc.axis, arc.angle)
     whole = timing(statement, pen.state, scope)
@@ -145,7 +145,7 @@ def _screw(statement: Statement, pen: Pen, scope: Scope) -> None:
         raise problem("E244", message, angle_node.span, "", "to go straight, use: line by")
     advance = frame.scale * typed_values.number(pitch, scope, "pitch") * angle if pitch else 0.0
     mode = pen.state.tool
-    if isinstance(mode, LOOKING) and not pen.oriented:
+    if isinstance(mode, LOOK_MODES) and not pen.oriented:
         tool_orientation.begin(pen, mode, statement.span)
     end = vectors.carried(pen.pose, point, axis, angle, advance)
     whole = timing(statement, pen.state, scope)
@@ -194,7 +194,7 @@ def _curve(statement: Statement, pen: Pen, scope: Scope) -> None:
     mode, turn = pen.state.tool, 0.0
     axis = pen.frame.direction(vectors.Z)
     tool_orientation.begin(pen, mode, statement.span)
-    if isinstance(mode, LOOKING):
+    if isinstance(mode, LOOK_MODES):
         tool_orientation.check_way(mode, places, statement.span)
     if isinstance(mode, FollowHeading):
         turn = curves.heading_change(curve, axis, span)

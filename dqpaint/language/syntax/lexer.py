@@ -199,13 +199,13 @@ def _glued(
     if letters[0].isdigit():
         message, cure, fix = _zeros_in_front(span, text)
     elif letters.startswith("."):
-        message, cure = f"'{span.of(text)}' is not a number", "write one decimal point"
+        message, cure = f"'{span.text_in(text)}' is not a number", "write one decimal point"
     elif letters in STATEMENTS or not re.fullmatch(r"[A-Za-z_]\w*", letters, re.ASCII):
         message = f"'{letters}' straight after the number {number.text} is not a unit"
         cure = f"put a blank between: {number.text} {letters}"
         fix = Fix("put a blank between", Span(number.end, number.end), " ")
     elif re.fullmatch(r"(_\d+)+", letters, re.ASCII):
-        message = f"'{span.of(text)}' is not a number"
+        message = f"'{span.text_in(text)}' is not a number"
         cure = f"write {number.text}{letters.replace('_', '')}"
         fix = Fix(cure, span, cure.removeprefix("write "))
     elif letters in SAME_UNITS:
@@ -221,7 +221,7 @@ def _glued(
 
 def _zeros_in_front(span: Span, text: str) -> tuple[str, str, Fix]:
     """What to say of `05`, and of `2,000` and `0,05`, whose zeros would be numbers of their own."""
-    written = span.of(text)
+    written = span.text_in(text)
     before = text[max(0, span.start - _LONG_NUMBER) : span.start]
     begin, rule = span.start, ""
     if len(written.partition(".")[0]) == 3 and (found := _THOUSANDS.search(before)):

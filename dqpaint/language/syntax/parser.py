@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from dqpaint.diagnostics import (
     Diagnostic,
-    Findings,
+    DiagnosticCollector,
     Fix,
     Problem,
     Span,
@@ -45,7 +45,9 @@ class _Block:
         self.body: list[Statement] = []
 
 
-def parse_statements(text: str, findings: Findings, begin: int = 0) -> tuple[Statement, ...]:
+def parse_statements(
+    text: str, findings: DiagnosticCollector, begin: int = 0
+) -> tuple[Statement, ...]:
     """The statements of a file, which begins at an offset and ends with the text.
 
     What is wrong with it goes to `findings`.
@@ -54,7 +56,7 @@ def parse_statements(text: str, findings: Findings, begin: int = 0) -> tuple[Sta
 
 
 class _Parser:
-    def __init__(self, text: str, findings: Findings) -> None:
+    def __init__(self, text: str, findings: DiagnosticCollector) -> None:
         self._text = text
         self._findings = findings
         self._body: list[Statement] = []  # of the innermost block
@@ -319,7 +321,7 @@ def _not_quoted(tokens: list[Token], text: str) -> Problem:
     if span.start == span.end:
         message = "expected the name of a file but found the end of the line"
         return problem("E109", message, tokens[0].span, "", 'for example: include "f.traj"')
-    message, cure = "the name of a file stands in quotes", f'include "{span.of(text)}"'
+    message, cure = "the name of a file stands in quotes", f'include "{span.text_in(text)}"'
     return problem("E109", message, span, "", f"write: {cure}")
 
 

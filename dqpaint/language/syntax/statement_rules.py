@@ -2,7 +2,7 @@
 
 import re
 
-from dqpaint.diagnostics import Fix, Problem, Span, place, problem
+from dqpaint.diagnostics import Fix, Problem, Span, locate, problem
 from dqpaint.language.syntax import trailing_tokens
 from dqpaint.language.syntax.cursor import Cursor
 from dqpaint.language.syntax.lexer import Token
@@ -44,7 +44,7 @@ def _once(statement: Statement, text: str) -> None:
     for part in statement.parts:
         word = "centre" if part.word == "center" else part.word
         if word in seen and word not in many:
-            line, column = place(text, seen[word].span.start)
+            line, column = locate(text, seen[word].span.start)
             raise problem(
                 "E113",
                 f"'{word}' is given twice",

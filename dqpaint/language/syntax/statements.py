@@ -1,7 +1,7 @@
 """One line of tokens -> one statement, as the tables of `words` say it is made."""
 
 from dqpaint.core import record
-from dqpaint.diagnostics import Fix, Problem, Span, closest, did_you_mean, listed, problem
+from dqpaint.diagnostics import Fix, Problem, Span, closest, did_you_mean, join_words, problem
 from dqpaint.language.syntax import clauses, import_clauses, statement_rules
 from dqpaint.language.syntax.cursor import Cursor, example_of, found, no_value
 from dqpaint.language.syntax.expressions import bracket, expression
@@ -127,7 +127,7 @@ def _repeat(cursor: Cursor) -> _Head:
     name = new_name(cursor, "repeat", example_of("repeat"))
     cursor.take()
     lower = _expression(cursor, "from")
-    written = lower.span.of(cursor.text)
+    written = lower.span.text_in(cursor.text)
     upper = cursor.token.text if cursor.token.kind == "number" else "5"
     example = f"repeat {name.text} from {written} to {upper}"
     _expect(cursor, "to", example)
@@ -263,7 +263,7 @@ def _unknown_part(cursor: Cursor, word: str) -> Problem:
         meant = closest(token.text, known.parts)
     if not meant and after_number and len(token.text) > 1:  # one letter is like any other
         meant = closest(token.text, UNITS)
-    cure = did_you_mean(meant) or f"its parts are: {listed(known.parts)}"
+    cure = did_you_mean(meant) or f"its parts are: {join_words(known.parts)}"
     fix = Fix(f"write {meant}", token.span, meant) if meant else None
     return problem("E110", message, token.span, "", cure, fix)
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable
 
-from dqpaint.diagnostics import Problem, Span, called_here, problem
+from dqpaint.diagnostics import Problem, Span, at_call, problem
 from dqpaint.language.syntax.tree import (
     Bracket,
     Call,
@@ -147,7 +147,7 @@ def _own_call(function: Function, node: Call, scope: Scope) -> Value:
     try:
         return evaluate(function.body, scope.within(names))
     except Problem as mistake:
-        raise called_here(mistake, node.span) from None
+        raise at_call(mistake, node.span) from None
     finally:
         budget.depth -= function.depth
 

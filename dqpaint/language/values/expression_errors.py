@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from dqpaint.diagnostics import Fix, Problem, Span, closest, did_you_mean, listed, problem
+from dqpaint.diagnostics import Fix, Problem, Span, closest, did_you_mean, join_words, problem
 from dqpaint.language.syntax.tree import Bracket, Call, Expression, Literal, Name, Negation
 from dqpaint.language.values import functions
 from dqpaint.language.values.scope import BUILTINS, Scope
@@ -53,7 +53,7 @@ def unknown(node: Name, scope: Scope, words: Iterable[str] = ()) -> Problem:
     if "keep" in words and not meant:
         cure += ", or write an orientation: rot(x, 180 deg)"
     if not meant and set(words) == set(PROFILES):
-        cure = f"the profiles are: {listed(PROFILES)}"
+        cure = f"the profiles are: {join_words(PROFILES)}"
     fix = Fix(f"write {meant}", node.span, meant) if meant else None
     return problem("E205", f"'{name}' is not known", node.span, "", cure, fix)
 

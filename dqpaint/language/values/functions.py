@@ -53,7 +53,7 @@ class Arguments:
     def written(self, i: int) -> str:
         """The text of a value."""
         span = self.nodes[i].span
-        return span.of(self._text)
+        return span.text_in(self._text)
 
     def number(self, i: int, dimension: Dimension = PLAIN) -> Scalar:
         """A value that must have this dimension."""

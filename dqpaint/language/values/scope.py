@@ -80,4 +80,4 @@ class Scope:
 
     def written(self, node: Expression) -> str:
         """An expression as it stands in the text, in one line."""
-        return " ".join(node.span.of(self.text).split())
+        return " ".join(node.span.text_in(self.text).split())

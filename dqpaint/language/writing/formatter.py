@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import NamedTuple
 
-from dqpaint.diagnostics import EnoughError, Findings, ScriptError
+from dqpaint.diagnostics import DiagnosticCollector, ScriptError
 from dqpaint.language.syntax.brush_clause import is_key
 from dqpaint.language.syntax.lexer import TOKEN, Token, lines
 from dqpaint.language.syntax.parser import parse_statements
@@ -57,8 +57,8 @@ def formatted(text: str, name: str = "<text>") -> str:
 
 
 def _check(text: str, name: str) -> None:
-    findings = Findings()
-    with suppress(EnoughError):
+    findings = DiagnosticCollector()
+    with suppress(ErrorLimitError):
         parse_statements(text, findings)
     if findings.errors:
         raise ScriptError(name, text, findings.ordered())

@@ -12,18 +12,18 @@ from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
 from dqpaint.motion.geometry.paths import Indices
-from dqpaint.motion.geometry.shapes import Flow, Loose, Shape
+from dqpaint.motion.geometry.shapes import Flow, PositionAndOrientation, Shape
 from dqpaint.program import NODES, WEIGHTS
 
 MOST_PANELS = 1024
-MOST_OF_ANGLES = 32  # panels, of a stroke whose length needs none
-EXACT_ANGLE = 1e-12  # relative
-AT_ONCE = 16_384  # places at which speeds are asked for
-IN_CACHE = 512  # places whose parameters are sought together: ten nodes each
-EXACT = 1e-13  # relative, of a length
-SETTLED = 0.01  # relative: a length that still changes by more at `MOST_PANELS` is none
+MOST_ANGLE_PANELS = 32  # panels, of a stroke whose length needs none
+ANGLE_TOLERANCE = 1e-12  # relative
+SPEED_BATCH = 16_384  # places at which speeds are asked for
+PARAMETER_BATCH = 512  # places whose parameters are sought together: ten nodes each
+LENGTH_TOLERANCE = 1e-13  # relative, of a length
+CONVERGED = 0.01  # relative: a length that still changes by more at `MOST_PANELS` is none
 LAST_STEP = 1e-10  # of Newton's method: the next would be about the square of it
-CUSP = 1e-6  # of the mean speed: a curve that is slower somewhere has a point there
+CUSP_SPEED = 1e-6  # of the mean speed: a curve that is slower somewhere has a point there
 
 
 @dataclass(frozen=True)
@@ -35,19 +35,19 @@ class Extent:
         angle: of the tool's turning, added up.
         edges: of the panels of `f`, (M + 1,).
         lengths: from the start to each edge [m], (M + 1,).
-        even: whether the point's speed over `f` is one number.
-        settled: whether finer panels say the same; beside a pole each says more than the last.
+        uniform: whether the point's speed over `f` is one number.
+        converged: whether finer panels say the same; beside a pole each says more than the last.
     """
 
     length: float
     angle: float
     edges: Floats
     lengths: Floats
-    even: bool
-    settled: bool = True
+    uniform: bool
+    converged: bool = True
 
 
-def measure(shape: Shape) -> Extent:
+def measure_stroke(shape: Shape) -> Extent:
     """Length and angle of one stroke, to the last digits or to what `MOST_PANELS` give."""
     panels, change = 16, 0.0
     before = _integrate(shape, panels)
@@ -56,12 +56,12 @@ def measure(shape: Shape) -> Extent:
         after = _integrate(shape, panels)
         change = abs(after.length - before.length)
         before = after
-        if change <= EXACT * after.length:
+        if change <= LENGTH_TOLERANCE * after.length:
             break
-    return replace(before, settled=bool(change <= SETTLED * before.length))
+    return replace(before, converged=bool(change <= CONVERGED * before.length))
 
 
-def measure_steady(shape: Shape, count: int) -> tuple[Floats, Floats]:
+def measure_uniform(shape: Shape, count: int) -> tuple[Floats, Floats]:
     """The lengths [m] (K,) of strokes whose points run evenly, and the angles [rad] (K,).
 
     Args:
@@ -71,10 +71,10 @@ def measure_steady(shape: Shape, count: int) -> tuple[Floats, Floats]:
     length = np.asarray(shape.speeds(np.zeros(count))[0])
     angle, left = _angles(shape, np.arange(count), 1), np.arange(count)
     panels = 1
-    while panels < MOST_OF_ANGLES and len(left):
+    while panels < MOST_ANGLE_PANELS and len(left):
         panels *= 2
         before, angle[left] = angle[left], _angles(shape, left, panels)
-        left = left[np.abs(angle[left] - before) > EXACT_ANGLE * angle[left]]
+        left = left[np.abs(angle[left] - before) > ANGLE_TOLERANCE * angle[left]]
     return length, angle
 
 
@@ -82,10 +82,10 @@ def _angles(shape: Shape, rows: Indices, panels: int) -> Floats:
     """The angles (N,) of some strokes, some at a time."""
     _, f, weights = _quadrature(panels)
     out = np.empty(len(rows))
-    at_once = max(1, AT_ONCE // len(f))
+    at_once = max(1, SPEED_BATCH // len(f))
     for begin in range(0, len(rows), at_once):
         own = slice(begin, begin + at_once)
-        asked = shape.of(np.repeat(rows[own], len(f)))
+        asked = shape.select(np.repeat(rows[own], len(f)))
         turning = asked.speeds(np.tile(f, len(rows[own])))[1].reshape(-1, len(f))
         out[own] = turning @ weights
     return out
@@ -118,7 +118,7 @@ def has_cusp(shape: Shape, extent: Extent) -> bool:
         around = np.clip(np.linspace(least - width, least + width, 17), 0.0, 1.0)
         least, width = _slowest(shape, around)
     speed = shape.speed(np.array([least]))[0]
-    return bool(speed < CUSP * extent.length)
+    return bool(speed < CUSP_SPEED * extent.length)
 
 
 def _slowest(shape: Shape, f: Floats) -> tuple[float, float]:
@@ -134,8 +134,8 @@ def _nodes(lower: Floats, upper: Floats) -> Floats:
 def parameter_at(shape: Shape, extent: Extent, distance: Floats) -> Floats:
     """The parameter f (N,) at distances (N,) along the path; beyond its ends it goes on."""
     f = np.interp(distance, extent.lengths, extent.edges)
-    for begin in range(0, len(f), IN_CACHE):
-        own = slice(begin, begin + IN_CACHE)
+    for begin in range(0, len(f), PARAMETER_BATCH):
+        own = slice(begin, begin + PARAMETER_BATCH)
         f[own] = _newton(shape, extent, distance[own], f[own])
     return f
 
@@ -173,20 +173,20 @@ def flow_by_length(shape: Shape, extent: Extent, fraction: Floats) -> Flow:
 
     With S(f) = fraction L and S' = |p'|: f' = L / |p'| and f'' = -(p' . p'') L^2 / |p'|^4.
     """
-    if extent.even:
+    if extent.uniform:
         return shape.flow(fraction)
-    assert isinstance(shape, Loose)
+    assert isinstance(shape, PositionAndOrientation)
     f = parameter_at(shape, extent, fraction * extent.length)
-    p = shape.places(f)
+    p = shape.positions(f)
     square = (p[1] ** 2).sum(1)
     rate = extent.length / np.sqrt(square)
     slope = -(p[1] * p[2]).sum(1) * extent.length**2 / square**2
-    return shape.flow(f).at_rates(rate, slope)
+    return shape.flow(f).reparametrised(rate, slope)
 
 
 def length_fraction(shape: Shape, extent: Extent, f: Floats) -> Floats:
     """The fraction of the length (N,) that lies before the parameters f (N,)."""
-    if extent.even or extent.length == 0:
+    if extent.uniform or extent.length == 0:
         return f
     panel = _panel(f, extent.edges)
     so_far = extent.lengths[panel] + _length(shape, extent.edges[panel], f)

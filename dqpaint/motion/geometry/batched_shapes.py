@@ -14,24 +14,25 @@ from numpy.typing import NDArray
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.motion.geometry.arc_length import Extent, flow_by_length, measure, measure_steady
-from dqpaint.motion.geometry.orientations import orientation
+from dqpaint.motion.geometry.arc_length import (
+    Extent,
+    flow_by_length,
+    measure_stroke,
+    measure_uniform,
+)
+from dqpaint.motion.geometry.orientations import orientation_along
 from dqpaint.motion.geometry.paths import (
     Arcs,
     Formula,
     Indices,
-    Places,
     column,
     paths_of,
     place_arc,
-    place_straight,
 )
-from dqpaint.motion.geometry.piecewise_paths import place_chains
-from dqpaint.motion.geometry.shapes import Flow, Jump, Loose, Rigid, Shape
+from dqpaint.motion.geometry.shapes import Flow, Jump, PositionAndOrientation, Rigid, Shape
 from dqpaint.motion.stroke_errors import Faults, StrokeError, pole, stroke_errors
 from dqpaint.program import (
     Arc,
-    Chain,
     CruiseSpeed,
     Curve,
     Dwell,
@@ -53,7 +54,7 @@ Rows = Indices | slice
 
 def shape(segment: Segment) -> Shape:
     """The stroke of one segment."""
-    return _shape((segment,)).of(0)
+    return _shape((segment,)).select(0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +68,7 @@ class Shapes:
         member: and its row there (M,).
         length: of each path [m] (M,).
         angle: that each tool turns through [rad] (M,).
-        uneven: the extents of those whose point does not run at one speed, by their number.
+        nonuniform: the extents of those whose point does not run at one speed, by their number.
     """
 
     segments: tuple[Segment, ...]
@@ -76,12 +77,12 @@ class Shapes:
     member: Indices
     length: Floats
     angle: Floats
-    uneven: dict[int, Extent]
+    nonuniform: dict[int, Extent]
 
     def shape(self, number: int) -> Shape:
         """The shape of one segment."""
         family: Shape = self.families[self.family[number]]
-        return family.of(int(self.member[number]))
+        return family.select(int(self.member[number]))
 
     def flow(self, number: Indices, f: Floats, by_length: Flags, faults: Faults) -> Flow:
         """Segments at fractions f (N,), per unit of f.
@@ -97,10 +98,10 @@ class Shapes:
             try:
                 with stroke_errors(self.segments[first]):
                     if whole:
-                        flow = flow_by_length(self.shape(first), self.uneven[first], f[rows])
+                        flow = flow_by_length(self.shape(first), self.nonuniform[first], f[rows])
                     else:
                         family = self.families[self.family[first]]
-                        flow = family.of(self.member[number[rows]]).flow(f[rows])
+                        flow = family.select(self.member[number[rows]]).flow(f[rows])
             except StrokeError as fault:
                 faults.setdefault(first, fault.diagnostics)
                 pose[rows] = twist[rows] = slope[rows] = np.nan
@@ -111,35 +112,35 @@ class Shapes:
     def points(self, number: Indices, f: Floats) -> Floats:
         """The places (N, 3) [m] of segments that are even."""
         out = np.empty((len(f), 3))
-        for family, rows in _alike(self.family[number]):
-            out[rows] = self.families[family].of(self.member[number[rows]]).points(f[rows])
+        for family, rows in _group_equal(self.family[number]):
+            out[rows] = self.families[family].select(self.member[number[rows]]).points(f[rows])
         return out
 
-    def may_leave(self, number: Indices, least: Floats, most: Floats) -> Flags:
+    def may_leave_box(self, number: Indices, least: Floats, most: Floats) -> Flags:
         """Which segments (N,) may go out of a box that their ends lie in, on their way."""
         out = np.ones(len(number), dtype=bool)
-        for family, rows in _alike(self.family[number]):
+        for family, rows in _group_equal(self.family[number]):
             form = self.families[family]
             if form.straight:
                 out[rows] = False
-            elif isinstance(form, Loose) and isinstance(form.places, Arcs):
-                lower, upper = form.places.of(self.member[number[rows]]).bounds()
+            elif isinstance(form, PositionAndOrientation) and isinstance(form.positions, Arcs):
+                lower, upper = form.positions.select(self.member[number[rows]]).bounds()
                 out[rows] = ((lower < least) | (upper > most)).any(axis=1)
         return out
 
     def _groups(self, number: Indices, by_length: Flags) -> Iterator[tuple[Rows, int, bool]]:
         """Rows that are computed at once, the first of their segments, whether by its length."""
-        for family, rows in _alike(self.family[number]):
+        for family, rows in _group_equal(self.family[number]):
             some = number[rows]
-            if self.families[family].even or not by_length[some].any():
+            if self.families[family].uniform or not by_length[some].any():
                 yield rows, int(some[0]), False
                 continue
-            for of, part in _alike(np.where(by_length[some], some, -1)):
+            for of, part in _group_equal(np.where(by_length[some], some, -1)):
                 inner = np.arange(len(number))[rows][part]
                 yield inner, int(number[inner][0]), bool(of >= 0)
 
 
-def gather(segments: tuple[Segment, ...], faults: Faults, most: float = np.inf) -> Shapes:
+def gather_shapes(segments: tuple[Segment, ...], faults: Faults, most: float = np.inf) -> Shapes:
     """The shapes of segments, and how long they are; what goes wrong is noted by the segment.
 
     Curves are measured one by one, which takes a while: not those that come after `most` seconds
@@ -158,18 +159,18 @@ def gather(segments: tuple[Segment, ...], faults: Faults, most: float = np.inf) 
         try:
             with stroke_errors(segments[members[0]]):
                 made = _shape([segments[number] for number in members])
-                if made.even:
+                if made.uniform:
                     length[members], angle[members] = made.speeds(np.zeros(len(members)))
-                elif made.steady:
-                    length[members], angle[members] = measure_steady(made, len(members))
+                elif made.uniform_position:
+                    length[members], angle[members] = measure_uniform(made, len(members))
                 elif spent <= most:
                     for row, number in enumerate(members):
-                        extent = measure(made.of(row))
+                        extent = measure_stroke(made.select(row))
                         spent += _least_seconds(segments[number], extent)
-                        if not extent.settled:
+                        if not extent.converged:
                             raise StrokeError(pole(segments[number]))
                         length[number], angle[number] = extent.length, extent.angle
-                        if not extent.even:
+                        if not extent.uniform:
                             uneven[number] = extent
         except StrokeError as fault:
             faults[members[0]] = fault.diagnostics
@@ -245,7 +246,7 @@ def _chain(segments: Sequence[Segment], _start: Floats) -> Shape:
 
 
 def _loose(segments: Sequence[Segment], places: Places) -> Shape:
-    return Loose(places, orientation(segments, places))
+    return PositionAndOrientation(places, orientation_along(segments, places))
 
 
 def _of_one_tool(segment: Segment) -> Kind:
@@ -296,7 +297,7 @@ def _screws(lines: Sequence[tuple[Vector, Vector, float, float]]) -> Floats:
     )
 
 
-def _alike(values: Indices) -> Iterator[tuple[int, Rows]]:
+def _group_equal(values: Indices) -> Iterator[tuple[int, Rows]]:
     """Each value that occurs, and the rows where it does, in order."""
     if not len(values):
         return

@@ -8,7 +8,14 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.motion.geometry.paths import Indices, Lines, Places, Rowed, column, paths_of
+from dqpaint.motion.geometry.paths import (
+    BatchedParameters,
+    Indices,
+    Lines,
+    Positions,
+    column,
+    paths_of,
+)
 from dqpaint.program import (
     Arc,
     FixedOrientation,
@@ -26,20 +33,20 @@ class Spin(Protocol):
     """How the tool turns over f (N,), at places (4, N, 3)."""
 
     @property
-    def even(self) -> bool:
+    def uniform(self) -> bool:
         """Whether its speed over f is one number."""
 
-    def of(self, rows: Indices | int) -> Self:
+    def select(self, rows: Indices | int) -> Self:
         """The parameters of some strokes, one a row; or of one."""
 
-    def steepest(self, places: Places, /) -> Floats:
-        """The largest of the numbers along places (K,), as `Places.largest` has it."""
+    def largest_parameter_along(self, places: Positions, /) -> Floats:
+        """The largest of the numbers along places (K,), as `Positions.largest_parameter` has it."""
 
     def __call__(self, f: Floats, at: Floats, /) -> Turns:
         """Orientation, angular velocity, and its derivative."""
 
 
-def orientation(segments: Sequence[Segment], places: Places) -> Spin:
+def orientation_along(segments: Sequence[Segment], places: Positions) -> Spin:
     """The tool of segments of one kind along their places, for strokes that are not one screw."""
     first = segments[0].tool
     r0 = column([segment.start.orientation for segment in segments])
@@ -63,16 +70,16 @@ def orientation(segments: Sequence[Segment], places: Places) -> Spin:
 
 
 @dataclass(frozen=True)
-class Turning(Rowed):
+class Turning(BatchedParameters):
     """A constant turn [rad], axis times angle, over the whole stroke."""
 
     r0: Floats
     turn: Floats
-    even: ClassVar[bool] = True
+    uniform: ClassVar[bool] = True
 
-    def steepest(self, _places: Places) -> Floats:
+    def largest_parameter_along(self, _places: Positions) -> Floats:
         """Of its own."""
-        return self.largest()
+        return self.largest_parameter()
 
     def __call__(self, f: Floats, _at: Floats) -> Turns:
         """From the first orientation on."""
@@ -81,7 +88,7 @@ class Turning(Rowed):
         return dq.quaternion_mul(dq.exp(half)[:, :4], self.r0), w, np.zeros((len(f), 3))
 
 
-def heading(r0: Floats, axis: Floats, places: Places) -> "Heading":
+def heading(r0: Floats, axis: Floats, places: Positions) -> "Heading":
     """The heading of a curve, which begins with the orientation r0 (4,)."""
     e1 = _across(axis)
     e2 = dq.cross(axis, e1)
@@ -98,13 +105,13 @@ class Heading:
     e1: Floats
     e2: Floats
     start: float
-    even: ClassVar[bool] = False
+    uniform: ClassVar[bool] = False
 
-    def of(self, _rows: Indices | int) -> Self:
+    def select(self, _rows: Indices | int) -> Self:
         """It is one stroke alone."""
         return self
 
-    def steepest(self, _places: Places) -> Floats:
+    def largest_parameter_along(self, _places: Positions) -> Floats:
         """It may leave the numbers anywhere."""
         return np.full(1, np.inf)
 
@@ -132,57 +139,57 @@ def _across(axis: Floats) -> Floats:
 
 
 @dataclass(frozen=True)
-class LookAtPoint(Rowed):
+class LookAtPoint(BatchedParameters):
     """Tool z towards `point`, x = up x z made a unit vector, y = z x x."""
 
     point: Floats
     up: Floats
-    even: ClassVar[bool] = False
+    uniform: ClassVar[bool] = False
 
-    def steepest(self, places: Places) -> Floats:
+    def largest_parameter_along(self, places: Positions) -> Floats:
         """A line may come close to the point, or to where it lies in the direction of `up`."""
         if not isinstance(places, Lines):
             return np.full(1, np.inf)
         start, way = self.point - places.start, -places.by
-        lean = _least(dq.cross(self.up, start), dq.cross(self.up, way))
+        lean = _least_distance(dq.cross(self.up, start), dq.cross(self.up, way))
         far = np.sqrt((start**2).sum(1)) + np.sqrt((way**2).sum(1))
         with np.errstate(all="ignore"):  # where it goes through one of them
-            steep = (1.0 + far) ** 2 / (lean * np.minimum(1.0, _least(start, way)))
-        return np.asarray(np.maximum(self.largest(), steep**3))
+            steep = (1.0 + far) ** 2 / (lean * np.minimum(1.0, _least_distance(start, way)))
+        return np.asarray(np.maximum(self.largest_parameter(), steep**3))
 
     def __call__(self, _f: Floats, at: Floats) -> Turns:
         """From where the point is, and how it moves."""
         z = _unit(np.stack([self.point - at[0], -at[1], -at[2]]))
         x = _unit(_cross(_fixed(self.up, z), z))
-        return _spin_of_frame(x, _cross(z, x), z)
+        return _frame_rates(x, _cross(z, x), z)
 
 
 @dataclass(frozen=True)
-class LookAtLine(Rowed):
+class LookAtLine(BatchedParameters):
     """Tool z square to the line and towards it, x along the line, y = z x x."""
 
     point: Floats
     along: Floats
-    even: ClassVar[bool] = False
+    uniform: ClassVar[bool] = False
 
-    def steepest(self, places: Places) -> Floats:
+    def largest_parameter_along(self, places: Positions) -> Floats:
         """A line may come close to the line that it looks at."""
         if not isinstance(places, Lines):
             return np.full(1, np.inf)
         start, way = (dq.cross(self.along, v) for v in (self.point - places.start, -places.by))
         with np.errstate(all="ignore"):  # where it goes through it
-            steep = (1.0 + np.sqrt((way**2).sum(1))) / np.minimum(1.0, _least(start, way))
-        return np.asarray(np.maximum(self.largest(), steep**3))
+            steep = (1.0 + np.sqrt((way**2).sum(1))) / np.minimum(1.0, _least_distance(start, way))
+        return np.asarray(np.maximum(self.largest_parameter(), steep**3))
 
     def __call__(self, _f: Floats, at: Floats) -> Turns:
         """From where the point is, and how it moves."""
         towards = np.stack([self.point - at[0], -at[1], -at[2]])
         z = _unit(towards - (towards * self.along).sum(-1, keepdims=True) * self.along)
         x = _fixed(self.along, z)
-        return _spin_of_frame(x, _cross(z, x), z)
+        return _frame_rates(x, _cross(z, x), z)
 
 
-def _least(start: Floats, way: Floats) -> Floats:
+def _least_distance(start: Floats, way: Floats) -> Floats:
     """The least length (K,) of vectors start + f way, 0 <= f <= 1."""
     size = (way**2).sum(1)
     f = np.divide(-(start * way).sum(1), size, out=np.zeros_like(size), where=size > 0.0)
@@ -218,7 +225,7 @@ def _cross(a: Floats, b: Floats) -> Floats:
     return np.stack([dq.cross(a[0], b[0]), first, second])
 
 
-def _spin_of_frame(x: Floats, y: Floats, z: Floats) -> tuple[Floats, Floats, Floats]:
+def _frame_rates(x: Floats, y: Floats, z: Floats) -> tuple[Floats, Floats, Floats]:
     """Of a moving frame: w = 1/2 sum e x e', and w' = 1/2 sum e x e'' as e' x e' = 0."""
     r = dq.quaternion_from_matrix(np.stack([x[0], y[0], z[0]], axis=-1))
     axes = (x, y, z)

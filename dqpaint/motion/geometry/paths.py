@@ -16,17 +16,17 @@ from dqpaint.program import Arc, Chain, Curve, Screw, Segment, Straight, Taylor
 from dqpaint.program import Indices as Indices
 
 
-class Places(Protocol):
+class Positions(Protocol):
     """A point over the fraction f (N,) of its parameter."""
 
     @property
-    def even(self) -> bool:
+    def uniform(self) -> bool:
         """Whether its speed over f is one number."""
 
-    def of(self, rows: Indices | int) -> Self:
+    def select(self, rows: Indices | int) -> Self:
         """The parameters of some strokes, one a row; or of one."""
 
-    def largest(self) -> Floats:
+    def largest_parameter(self) -> Floats:
         """Of the numbers of each row the largest (K,), without its sign.
 
         As long as it is small nothing that comes out leaves the numbers; infinite where that may
@@ -43,14 +43,14 @@ class Places(Protocol):
         """Its place and three derivatives (4, N, 3)."""
 
 
-class Rowed:
+class BatchedParameters:
     """A formula whose parameters are arrays, one row a stroke."""
 
-    def of(self, rows: Indices | int) -> Self:
+    def select(self, rows: Indices | int) -> Self:
         """The same formula with some of its rows; one of them belongs to every f."""
         return type(self)(*(parameter[rows] for parameter in vars(self).values()))
 
-    def largest(self) -> Floats:
+    def largest_parameter(self) -> Floats:
         """The largest of the numbers of each row (K,), without its sign."""
         rows = [np.abs(parameter).max(axis=1) for parameter in vars(self).values()]
         return np.asarray(np.max(rows, axis=0))
@@ -70,12 +70,12 @@ def column(values: Sequence[object]) -> Floats:
 
 
 @dataclass(frozen=True)
-class Lines(Rowed):
+class Lines(BatchedParameters):
     """Straight lines: p = p0 + f b."""
 
     start: Floats
     by: Floats
-    even: ClassVar[bool] = True
+    uniform: ClassVar[bool] = True
 
     def point(self, f: Floats) -> Floats:
         """The place."""
@@ -94,7 +94,7 @@ class Lines(Rowed):
 
 
 @dataclass(frozen=True)
-class Arcs(Rowed):
+class Arcs(BatchedParameters):
     """Circle and helix: p = c + f rise + r (cos(f A) e1 + sin(f A) e2), r = r0 + f grow.
 
     c is the foot of the start on the axis, e1 points from there to the start, e2 = axis x e1.
@@ -108,7 +108,7 @@ class Arcs(Rowed):
     radius: Floats
     angle: Floats
     grow: Floats
-    even: ClassVar[bool] = True
+    uniform: ClassVar[bool] = True
 
     def bounds(self) -> tuple[Floats, Floats]:
         """The least and the greatest coordinates (K, 3) of the whole circles that arcs are of."""
@@ -145,20 +145,20 @@ class Arcs(Rowed):
 class Spirals(Arcs):
     """The same with a radius that grows: flat spiral and cone."""
 
-    even: ClassVar[bool] = False
+    uniform: ClassVar[bool] = False
 
-    def largest(self) -> Floats:
+    def largest_parameter(self) -> Floats:
         """It may leave the numbers anywhere."""
         return np.full(1, np.inf)
 
 
-def place_straight(segments: Sequence[Segment]) -> Lines:
+def straight_positions(segments: Sequence[Segment]) -> Lines:
     """The places of straight lines."""
     ways = [path.by for path in paths_of(segments, Straight)]
     return Lines(column([s.start.position for s in segments]), column(ways))
 
 
-def place_arc(segments: Sequence[Segment]) -> Arcs:
+def arc_positions(segments: Sequence[Segment]) -> Arcs:
     """The places of arcs, of one radius all or none."""
     paths = paths_of(segments, Arc)
     p0 = column([s.start.position for s in segments])
@@ -182,13 +182,13 @@ class Formula:
     """
 
     path: Curve
-    even: ClassVar[bool] = False
+    uniform: ClassVar[bool] = False
 
-    def of(self, _rows: Indices | int) -> Self:
+    def select(self, _rows: Indices | int) -> Self:
         """It is one stroke alone."""
         return self
 
-    def largest(self) -> Floats:
+    def largest_parameter(self) -> Floats:
         """It may leave the numbers anywhere."""
         return np.full(1, np.inf)
 

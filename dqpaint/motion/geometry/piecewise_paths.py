@@ -15,17 +15,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
-from dqpaint.program import Chain, Indices, derivatives, is_uneven, speeds, stretches, together
+from dqpaint.program import (
+    Indices,
+    PiecewiseCurve,
+    concatenate,
+    derivatives,
+    is_nonuniform,
+    speeds,
+    stretch_lengths,
+)
 
-EXACT = 1e-14  # of the length of the chain: what halving a panel may change
+HALVING_TOLERANCE = 1e-14  # of the length of the chain: what halving a panel may change
 MOST_HALVINGS = 30
-AT_REST = 1e-6  # of a piece's mean speed: there its formula stands still
-NEXT_TO = 1e-4  # of the way to the middle of a piece: where a direction is taken instead
+REST_SPEED = 1e-6  # of a piece's mean speed: there its formula stands still
+REST_OFFSET = 1e-4  # of the way to the middle of a piece: where a direction is taken instead
 
 
-def place_chains(paths: Sequence[Chain]) -> "Pieces":
+def piecewise_positions(paths: Sequence[PiecewiseCurve]) -> "Pieces":
     """The places of chains, by the fraction of their length."""
-    whole, first, _ = together(paths)
+    whole, first, _ = concatenate(paths)
     chain = np.repeat(np.arange(len(paths)), np.diff(np.append(first, len(whole.cubic))))
     return Pieces(whole, _measure(whole, chain), np.arange(len(paths)))
 
@@ -44,16 +52,16 @@ class Pieces:
         chain: which of the chains each row is.
     """
 
-    path: Chain
+    path: PiecewiseCurve
     panels: "_Panels"
     chain: Indices
-    even: ClassVar[bool] = True
+    uniform: ClassVar[bool] = True
 
-    def of(self, rows: Indices | int) -> Self:
+    def select(self, rows: Indices | int) -> Self:
         """The same pieces, for other rows."""
         return replace(self, chain=np.asarray(self.chain[rows]))
 
-    def largest(self) -> Floats:
+    def largest_parameter(self) -> Floats:
         """It may leave the numbers anywhere."""
         return np.full(1, np.inf)
 
@@ -82,7 +90,7 @@ class Pieces:
         return out
 
 
-def _by_length(path: Chain, piece: Indices, g: Floats, mean_speed: Floats) -> Floats:
+def _by_length(path: PiecewiseCurve, piece: Indices, g: Floats, mean_speed: Floats) -> Floats:
     """Place (4, N, 3) and its derivatives over the length.
 
     Where a piece's formula stands still, as at the end of a Bezier curve whose handle has no
@@ -90,9 +98,9 @@ def _by_length(path: Chain, piece: Indices, g: Floats, mean_speed: Floats) -> Fl
     out, as the jump of the direction is at a vertex.
     """
     p = derivatives(path, piece, g)
-    rest = np.linalg.norm(p[1], axis=1) <= AT_REST * mean_speed
+    rest = np.linalg.norm(p[1], axis=1) <= REST_SPEED * mean_speed
     if rest.any():
-        beside = g[rest] + NEXT_TO * (0.5 - g[rest])
+        beside = g[rest] + REST_OFFSET * (0.5 - g[rest])
         p[1, rest] = derivatives(path, piece[rest], beside)[1]
         p[2:, rest] = 0.0
     g1 = 1.0 / np.linalg.norm(p[1], axis=1)[:, None]
@@ -146,18 +154,18 @@ class _Panels:
         return np.clip(panel + (distance >= self.end[panel]), first, last)
 
 
-def _measure(path: Chain, chain: Indices) -> _Panels:
+def _measure(path: PiecewiseCurve, chain: Indices) -> _Panels:
     """The panels of pieces, each of a chain (M,)."""
-    bent = is_uneven(path)
+    bent = is_nonuniform(path)
     piece = np.arange(len(path.cubic))
     lower, upper = np.zeros(len(piece)), np.ones(len(piece))
-    size = stretches(path, bent, piece, lower, upper)
-    close = EXACT * np.bincount(chain, weights=size)
+    size = stretch_lengths(path, bent, piece, lower, upper)
+    close = HALVING_TOLERANCE * np.bincount(chain, weights=size)
     done: list[tuple[Indices, Floats, Floats, Floats]] = []
     for halving in range(MOST_HALVINGS):
         middle = 0.5 * (lower + upper)
-        first = stretches(path, bent, piece, lower, middle)
-        second = stretches(path, bent, piece, middle, upper)
+        first = stretch_lengths(path, bent, piece, lower, middle)
+        second = stretch_lengths(path, bent, piece, middle, upper)
         good = np.abs(first + second - size) <= close[chain[piece]]
         good |= halving == MOST_HALVINGS - 1
         done.append((piece[good], lower[good], upper[good], (first + second)[good]))
@@ -186,7 +194,7 @@ def _measure(path: Chain, chain: Indices) -> _Panels:
 
 
 def _parameter(
-    path: Chain, panels: _Panels, chain: Indices, distance: Floats
+    path: PiecewiseCurve, panels: _Panels, chain: Indices, distance: Floats
 ) -> tuple[Indices, Floats]:
     """The piece (N,) and its parameter (N,) at distances (N,) along chains (N,).
 
@@ -203,7 +211,7 @@ def _parameter(
         if not len(bent):
             break
         now, of = g[bent], piece[bent]
-        excess = stretches(path, panels.bent, of, start[bent], now) - wanted[bent]
+        excess = stretch_lengths(path, panels.bent, of, start[bent], now) - wanted[bent]
         upper[bent] = np.where(excess > 0.0, now, upper[bent])
         lower[bent] = np.where(excess > 0.0, lower[bent], now)
         with np.errstate(divide="ignore", invalid="ignore"):

@@ -13,7 +13,7 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.motion.geometry.orientations import Spin, Turning
-from dqpaint.motion.geometry.paths import Indices, Lines, Places, Rowed
+from dqpaint.motion.geometry.paths import BatchedParameters, Indices, Lines, Positions
 from dqpaint.program import Pose
 
 
@@ -25,7 +25,7 @@ class Flow:
     twist: Floats
     slope: Floats
 
-    def at_rates(self, rate: Floats, slope: Floats) -> "Flow":
+    def reparametrised(self, rate: Floats, slope: Floats) -> "Flow":
         """The same poses over another parameter, given its first and second derivative (N,)."""
         twist = self.twist * rate[:, None]
         return Flow(self.pose, twist, self.slope * rate[:, None] ** 2 + self.twist * slope[:, None])
@@ -34,26 +34,26 @@ class Flow:
 class Shape(Protocol):
     """Strokes of one kind, as functions of the fraction f in [0, 1] of their own parameter.
 
-    The parameters belong to one stroke, or stand one a row, as in `places`.
+    The parameters belong to one stroke, or stand one a row, as in `positions`.
     """
 
     @property
-    def even(self) -> bool:
+    def uniform(self) -> bool:
         """Whether the point and the tool's turning each have one speed over f."""
 
     @property
-    def steady(self) -> bool:
+    def uniform_position(self) -> bool:
         """Whether the point has one speed over f, whatever the tool does."""
 
     @property
     def straight(self) -> bool:
         """Whether the point goes straight from the first place to the last."""
 
-    def of(self, rows: Indices | int) -> Self:
+    def select(self, rows: Indices | int) -> Self:
         """The parameters of some strokes, one a row of f; or of one."""
 
-    def largest(self) -> Floats:
-        """As of `Places`, (K,)."""
+    def largest_parameter(self) -> Floats:
+        """As of `Positions`, (K,)."""
 
     def flow(self, f: Floats) -> Flow:
         """Pose, twist per unit of f and its derivative at f (N,), in the drawing frame."""
@@ -69,13 +69,13 @@ class Shape(Protocol):
 
 
 @dataclass(frozen=True)
-class Rigid(Rowed):
+class Rigid(BatchedParameters):
     """One screw each: the displacement (K, 6) carries the start pose (K, 8) along."""
 
     start: Floats
     displacement: Floats
-    even: ClassVar[bool] = True
-    steady: ClassVar[bool] = True
+    uniform: ClassVar[bool] = True
+    uniform_position: ClassVar[bool] = True
 
     @property
     def straight(self) -> bool:
@@ -107,13 +107,13 @@ class Rigid(Rowed):
 
 
 @dataclass(frozen=True)
-class Jump(Rowed):
+class Jump(BatchedParameters):
     """A set point that is at one pose until the end, then at another; no impulse is invented."""
 
     start: Floats
     end: Floats
-    even: ClassVar[bool] = True
-    steady: ClassVar[bool] = True
+    uniform: ClassVar[bool] = True
+    uniform_position: ClassVar[bool] = True
     straight: ClassVar[bool] = True
 
     def flow(self, f: Floats) -> Flow:
@@ -135,57 +135,60 @@ class Jump(Rowed):
 
 
 @dataclass(frozen=True)
-class Loose:
+class PositionAndOrientation:
     """Place and orientation apart."""
 
-    places: Places
-    spin: Spin
+    positions: Positions
+    orientations: Spin
 
     @property
-    def even(self) -> bool:
+    def uniform(self) -> bool:
         """If both are."""
-        return self.places.even and self.spin.even
+        return self.positions.uniform and self.orientations.uniform
 
     @property
-    def steady(self) -> bool:
+    def uniform_position(self) -> bool:
         """If the places are even."""
-        return self.places.even
+        return self.positions.uniform
 
     @property
     def straight(self) -> bool:
         """If the places are."""
-        return isinstance(self.places, Lines)
+        return isinstance(self.positions, Lines)
 
-    def largest(self) -> Floats:
+    def largest_parameter(self) -> Floats:
         """Of both."""
-        return np.maximum(self.places.largest(), self.spin.steepest(self.places))
+        return np.maximum(
+            self.positions.largest_parameter(),
+            self.orientations.largest_parameter_along(self.positions),
+        )
 
-    def of(self, rows: Indices | int) -> Self:
+    def select(self, rows: Indices | int) -> Self:
         """Of both."""
-        return type(self)(self.places.of(rows), self.spin.of(rows))
+        return type(self)(self.positions.select(rows), self.orientations.select(rows))
 
     def flow(self, f: Floats) -> Flow:
         """The spatial twist from the point's and the orientation's own derivatives."""
-        p = self.places(f)
-        r, w, w_slope = self.spin(f, p)
+        p = self.positions(f)
+        r, w, w_slope = self.orientations(f, p)
         twist = dq.twist_from_point(w, p[1], p[0])
         slope = dq.acceleration_from_point(w, w_slope, p[1], p[2], p[0])
         return Flow(dq.pose_from(p[0], r), twist, slope)
 
     def speed(self, f: Floats) -> Floats:
         """Of the point alone, which is sooner known than both."""
-        return _size(self.places.velocity(f))
+        return _size(self.positions.velocity(f))
 
     def speeds(self, f: Floats) -> tuple[Floats, Floats]:
         """Of the two functions."""
-        if isinstance(self.spin, Turning):
-            return self.speed(f), _size(np.broadcast_to(self.spin.turn, (len(f), 3)))
-        p = self.places(f)
-        return _size(p[1]), _size(self.spin(f, p)[1])
+        if isinstance(self.orientations, Turning):
+            return self.speed(f), _size(np.broadcast_to(self.orientations.turn, (len(f), 3)))
+        p = self.positions(f)
+        return _size(p[1]), _size(self.orientations(f, p)[1])
 
     def points(self, f: Floats) -> Floats:
         """Whatever the tool does."""
-        return self.places.point(f)
+        return self.positions.point(f)
 
 
 def pose_array(pose: Pose) -> Floats:

@@ -28,7 +28,7 @@ def check_limits(painting: paint.Painting) -> None:
     """
     kinematics = kinematics_of(painting)
     card, motion, q = kinematics.card, painting.motion, painting.track.posture
-    where = motion.program.where
+    where = motion.program.line_name
     reasons = [
         f"line {where(one.line)}: the {one.kind} limit held {one}" for one in painting.limits
     ]
@@ -94,4 +94,4 @@ def _worst(values: Floats) -> tuple[int, int]:
 
 
 def _line(motion: Motion, row: int) -> str:
-    return f"line {motion.program.where(motion.source.at(row))}"
+    return f"line {motion.program.line_name(motion.source.at(row))}"

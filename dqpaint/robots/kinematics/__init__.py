@@ -1,69 +1,80 @@
 """A card -> pose, Jacobian, resolved rates, dynamics, limits and distances; door to pinocchio."""
 
 from dqpaint.robots.kinematics.batched import ManyKinematics
-from dqpaint.robots.kinematics.collisions import Nearest, Shapes, read_mesh, shapes_of
-from dqpaint.robots.kinematics.differential_ik import LENGTH, PULL, THRESHOLD, resolve, to_tool
+from dqpaint.robots.kinematics.collisions import (
+    CollisionShapes,
+    Nearest,
+    collision_shapes,
+    read_mesh,
+)
+from dqpaint.robots.kinematics.differential_ik import (
+    CHARACTERISTIC_LENGTH,
+    DAMPING_THRESHOLD,
+    START_GAIN,
+    resolve,
+    tool_jacobian_map,
+)
 from dqpaint.robots.kinematics.dynamics import Dynamics
 from dqpaint.robots.kinematics.jacobians import drift_acceleration, pose_map
 from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability
-from dqpaint.robots.kinematics.limits import AT_LIMIT, UNITS, Bounds, Clamp, clamps
+from dqpaint.robots.kinematics.limits import LIMIT_TOLERANCE, UNITS, Clamp, RateBounds, find_clamps
 from dqpaint.robots.kinematics.nullspace import (
-    DEFAULT_NULL,
+    DEFAULT_OBJECTIVE,
     OBJECTIVES,
     SecondaryTask,
-    make_pull,
-    make_wish,
+    make_batched_task,
+    make_secondary_task,
     read_null,
 )
 from dqpaint.robots.kinematics.small_matrices import inverse, solve
 from dqpaint.robots.kinematics.start_posture import (
-    ON_THE_WAY,
+    PATH_TOLERANCE,
     NoPosture,
     StartPosture,
     find_start,
+    least_errors,
+    return_to_start,
     shortfall,
     solve_posture,
-    strays,
-    to_start,
     waypoints,
 )
 
 __all__ = [
-    "AT_LIMIT",
-    "DEFAULT_NULL",
-    "LENGTH",
+    "CHARACTERISTIC_LENGTH",
+    "DAMPING_THRESHOLD",
+    "DEFAULT_OBJECTIVE",
+    "LIMIT_TOLERANCE",
     "OBJECTIVES",
-    "ON_THE_WAY",
-    "PULL",
-    "THRESHOLD",
+    "PATH_TOLERANCE",
+    "START_GAIN",
     "UNITS",
-    "Bounds",
     "Clamp",
+    "CollisionShapes",
     "Dynamics",
     "Kinematics",
     "ManyKinematics",
     "Nearest",
     "NoPosture",
+    "RateBounds",
     "SecondaryTask",
-    "Shapes",
     "StartPosture",
-    "clamps",
+    "collision_shapes",
     "drift_acceleration",
+    "find_clamps",
     "find_start",
     "inverse",
-    "make_pull",
-    "make_wish",
+    "least_errors",
+    "make_batched_task",
+    "make_secondary_task",
     "manipulability",
     "pose_map",
     "read_mesh",
     "read_null",
     "resolve",
-    "shapes_of",
+    "return_to_start",
     "shortfall",
     "solve",
     "solve_posture",
-    "strays",
-    "to_start",
-    "to_tool",
+    "tool_jacobian_map",
     "waypoints",
 ]

@@ -21,11 +21,12 @@ from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import Card
 from dqpaint.robots.urdf.prepare import prepare
 
-APART = 2  # joints between two links that may collide: neighbours touch by design
-TRIALS, MOSTLY, SEED = 32, 0.5, 1988  # postures in which two links show whether they always touch
-SIGHT = 1e-5  # [m] half the width of a line of sight, as thin as a ray
-POINT = coal.Sphere(SIGHT)
-LAMP = 0.010  # [m] round the light that hide nothing: what holds a lamp, as `stage.shadow` has it
+LEAST_JOINTS_BETWEEN = 2  # joints between two links that may collide: neighbours touch by design
+TRIAL_POSTURES, SEED = 32, 1988
+TOUCHING_SHARE = 0.5  # links that touch in more of the trial postures are not checked
+SIGHT_RADIUS = 1e-5  # [m] half the width of a line of sight, as thin as a ray
+SIGHT_END = coal.Sphere(SIGHT_RADIUS)
+LAMP_CLEARANCE = 0.010  # [m] around the light that occludes nothing: the holder of the lamp
 
 
 class Nearest(NamedTuple):
@@ -42,12 +43,12 @@ class Nearest(NamedTuple):
 
 
 @lru_cache(maxsize=1)
-def shapes_of(kinematics: Kinematics) -> "Shapes":
+def collision_shapes(kinematics: Kinematics) -> "CollisionShapes":
     """The shapes of an arm; of the last one that was asked for they are kept."""
-    return Shapes(kinematics)
+    return CollisionShapes(kinematics)
 
 
-class Shapes:
+class CollisionShapes:
     """The solid shapes of an arm.
 
     For distances a mesh counts as its convex hull, which is a hundred times faster.
@@ -97,14 +98,14 @@ class Shapes:
             pinocchio.computeDistances(self._model, self._data, self._shapes, known, posture)
             far = [result.min_distance for result in known.distanceResults]
             for i, hulls in enumerate(far):
-                if hulls <= 0 and not self._collide(i, known.oMg):
+                if hulls <= 0 and not self._exactly_collide(i, known.oMg):
                     far[i] = 0.0
             if far:
                 closest = int(np.argmin(far))
                 distance[k], pair[k] = far[closest], self._pair_names(closest)
         return Nearest(distance, pair)
 
-    def hides(self, postures: Floats, points: Floats, eye: Floats) -> NDArray[np.bool_]:
+    def occludes(self, postures: Floats, points: Floats, eye: Floats) -> NDArray[np.bool_]:
         """Whether the arm stands between an eye and a light (N,).
 
         Args:
@@ -132,13 +133,15 @@ class Shapes:
             (i, j)
             for i, first in enumerate(joints)
             for j in range(i + 1, len(joints))
-            if abs(first - joints[j]) >= APART
+            if abs(first - joints[j]) >= LEAST_JOINTS_BETWEEN
         ]
         for i, j in apart:
             self._shapes.addCollisionPair(pinocchio.CollisionPair(i, j))
-        trials = np.random.default_rng(SEED).uniform(card.lower, card.upper, (TRIALS, card.joints))
+        trials = np.random.default_rng(SEED).uniform(
+            card.lower, card.upper, (TRIAL_POSTURES, card.joints)
+        )
         at_home = self._touching(card.home[None])[0]
-        often = self._touching(trials).mean(axis=0) > MOSTLY
+        often = self._touching(trials).mean(axis=0) > TOUCHING_SHARE
         touching = {
             (joints[i], joints[j])
             for (i, j), touch in zip(apart, at_home | often, strict=True)
@@ -158,11 +161,11 @@ class Shapes:
             touch[k] = [result.min_distance <= 0 for result in known.distanceResults]
         return touch
 
-    def _collide(self, index: int, places: Sequence[pinocchio.SE3]) -> bool:
+    def _exactly_collide(self, index: int, places: Sequence[pinocchio.SE3]) -> bool:
         """Whether the two of a pair collide as they are, hulls apart."""
         pair = self._shapes.collisionPairs[index]
         one, other = pair.first, pair.second
-        return _meet(
+        return _intersect(
             self._solids[one], _transform(places[one]), self._solids[other],
             _transform(places[other]),
         )  # fmt: skip
@@ -183,10 +186,10 @@ def _line_of_sight(point: Floats, eye: Floats) -> Sight:
     side = np.cross(along, np.eye(3)[np.argmin(np.abs(along))])
     side /= np.linalg.norm(side)
     rotation = np.stack([side, np.cross(along, side), along], axis=1)
-    seen = max(length - LAMP, SIGHT)
+    seen = max(length - LAMP_CLEARANCE, SIGHT_RADIUS)
     middle, end = (eye + part * seen * along for part in (0.5, 1.0))
     place = coal.Transform3s(rotation, middle)
-    return coal.Capsule(SIGHT, seen), place, coal.Transform3s(rotation, end)
+    return coal.Capsule(SIGHT_RADIUS, seen), place, coal.Transform3s(rotation, end)
 
 
 def _blocks(
@@ -197,9 +200,9 @@ def _blocks(
     end: coal.Transform3s,
 ) -> bool:
     """Whether a shape is in the way; a plain one that the lamp sits in is not, as for a ray."""
-    if not _meet(line, place, solid, where):
+    if not _intersect(line, place, solid, where):
         return False
-    return isinstance(solid, coal.BVHModelBase) or not _meet(POINT, end, solid, where)
+    return isinstance(solid, coal.BVHModelBase) or not _intersect(SIGHT_END, end, solid, where)
 
 
 def without_broken_meshes(text: str, broken: dict[str, None]) -> str:
@@ -236,7 +239,7 @@ def _transform(placement: pinocchio.SE3) -> coal.Transform3s:
     return coal.Transform3s(placement.rotation, placement.translation)
 
 
-def _meet(
+def _intersect(
     one: coal.CollisionGeometry,
     here: coal.Transform3s,
     other: coal.CollisionGeometry,

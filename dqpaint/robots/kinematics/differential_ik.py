@@ -10,12 +10,12 @@ from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.robots.kinematics.small_matrices import inverse
 
-LENGTH = 0.3  # [m] weighs metres against radians where singular values are compared
-THRESHOLD = 0.04  # singular values [rad/rad] below it are damped
-PULL = 2.0  # [1/s] towards the start posture, in the null space
+CHARACTERISTIC_LENGTH = 0.3  # [m] weighs metres against radians where singular values are compared
+DAMPING_THRESHOLD = 0.04  # singular values [rad/rad] below it are damped
+START_GAIN = 2.0  # [1/s] towards the start posture, in the null space
 
 
-def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats | None) -> Floats:
+def resolve(jacobian: Floats, point: Floats, twist: Floats, secondary: Floats | None) -> Floats:
     """The joint rates (..., n) [rad/s] for a commanded twist.
 
     Args:
@@ -23,31 +23,30 @@ def resolve(jacobian: Floats, point: Floats, twist: Floats, wish: Floats | None)
         point: the tool's place (..., 3) [m]. Nearness to a singularity is measured there: about the
             base origin a healthy posture far out looks ill.
         twist: u (..., 6), spatial [rad/s, m/s].
-        wish: z (..., n) [rad/s], granted as far as it does not move the tool; None is the least
-            motion.
+        secondary: z (..., n) [rad/s], projected into the null space; None gives the least motion.
 
     Each singular direction of the Jacobian is damped by itself and only below THRESHOLD, so that
     the other directions stay exact (after Chiaverini, "Singularity-robust task-priority redundancy
     resolution", 1997).
     """
-    shift = to_tool(point)
+    shift = tool_jacobian_map(point)
     one = shift.ndim == jacobian.ndim == 2 and twist.ndim == 1
-    if one and wish is not None and wish.ndim == 1:
-        return _resolve_one(shift, jacobian, twist, wish)
+    if one and secondary is not None and secondary.ndim == 1:
+        return _resolve_one(shift, jacobian, twist, secondary)
     J = shift @ jacobian
     square = J @ J.mT
     left = np.matvec(shift, twist)
-    if wish is not None:
-        left = left - np.matvec(J, wish)
+    if secondary is not None:
+        left = left - np.matvec(J, secondary)
     rates: Floats = np.vecmat(_force(square, left), J)
-    return rates if wish is None else rates + wish
+    return rates if secondary is None else rates + secondary
 
 
-def _resolve_one(shift: Floats, jacobian: Floats, twist: Floats, wish: Floats) -> Floats:
+def _resolve_one(shift: Floats, jacobian: Floats, twist: Floats, secondary: Floats) -> Floats:
     """The same of one state, a control step: small products by np.dot take half the time."""
     J = np.dot(shift, jacobian)
-    force = _force(np.dot(J, J.T), np.dot(shift, twist) - np.dot(J, wish))
-    return np.asarray(np.dot(force, J) + wish)
+    force = _force(np.dot(J, J.T), np.dot(shift, twist) - np.dot(J, secondary))
+    return np.asarray(np.dot(force, J) + secondary)
 
 
 def _force(square: Floats, left: Floats) -> Floats:
@@ -61,7 +60,7 @@ def _force(square: Floats, left: Floats) -> Floats:
         found = inverse(square)
     except np.linalg.LinAlgError:
         return _damped(square, left)
-    plain = found.trace(axis1=-2, axis2=-1) <= 1.0 / THRESHOLD**2
+    plain = found.trace(axis1=-2, axis2=-1) <= 1.0 / DAMPING_THRESHOLD**2
     if left.ndim == 1:
         return np.asarray(np.dot(found, left)) if plain else _damped(square, left)
     if plain.all():
@@ -80,21 +79,26 @@ def _damped(square: Floats, left: Floats) -> Floats:
     return np.asarray(np.matvec(axes, damped_inverse(squares) * np.vecmat(left, axes)))
 
 
-def to_tool(point: Floats) -> Floats:
-    """The matrix (..., 6, 6) from a spatial twist to [w; (v0 + w x p) / LENGTH] at a point p."""
+def tool_jacobian_map(point: Floats) -> Floats:
+    """The matrix (..., 6, 6) from a spatial twist to [w; (v0 + w x p) / L] at a point p.
+
+    L is `CHARACTERISTIC_LENGTH`.
+    """
     return np.asarray(_AT_ORIGIN + np.dot(point, _PER_METRE).reshape(*point.shape[:-1], 6, 6))
 
 
 def _per_metre() -> Floats:
-    """(3, 36): how the matrix of `to_tool` grows with the point, w x p as a function of w."""
+    """(3, 36): change of `tool_jacobian_map` with the point, w x p as a function of w."""
     grows = np.zeros((3, 6, 6))
     for i in range(3):
         for j in range(3):
-            grows[i, 3:, j] = dq.cross(np.eye(3)[j], np.eye(3)[i]) / LENGTH
+            grows[i, 3:, j] = dq.cross(np.eye(3)[j], np.eye(3)[i]) / CHARACTERISTIC_LENGTH
     return grows.reshape(3, 36)
 
 
-_AT_ORIGIN = np.diag([1.0, 1.0, 1.0, 1 / LENGTH, 1 / LENGTH, 1 / LENGTH])
+_AT_ORIGIN = np.diag(
+    [1.0, 1.0, 1.0, 1 / CHARACTERISTIC_LENGTH, 1 / CHARACTERISTIC_LENGTH, 1 / CHARACTERISTIC_LENGTH]
+)
 _PER_METRE = _per_metre()
 
 
@@ -104,7 +108,7 @@ def damped_inverse(squares: Floats) -> Floats:
     l^2 = (t / 2)^2 (1 - (s / t)^2) below the threshold t and 0 above it: the joint rate for a unit
     twist never exceeds about 1 / t, and is continuous in s.
     """
-    limit = THRESHOLD**2
+    limit = DAMPING_THRESHOLD**2
     if squares.min() >= limit:
         return np.asarray(1.0 / squares)
     squares = np.maximum(squares, 0.0)

@@ -50,7 +50,7 @@ class Kinematics:
         tool = pinocchio.SE3(dq.matrix_from_pose(card.tool.pose))
         self._tool = frame.placement * tool
 
-    def changed(self, lengths: Floats | None = None, gravity: float = 1.0) -> Self:
+    def with_model_error(self, lengths: Floats | None = None, gravity: float = 1.0) -> Self:
         """The same arm with a model that differs, as one that errs would.
 
         Args:

@@ -11,7 +11,7 @@ from dqpaint.dq import Floats
 from dqpaint.motion import RowLines
 from dqpaint.robots.model.card import Card
 
-AT_LIMIT = 1e-6  # relative: a motor this close to its largest torque is saturated
+LIMIT_TOLERANCE = 1e-6  # relative: a motor this close to its largest torque is saturated
 DIGITS, MOST_DIGITS = 4, 10  # of an amount; the most where it hardly differs from its limit
 
 
@@ -59,7 +59,7 @@ class Clamp:
         return next((pair for pair in shown if pair[0] != pair[1]), (f"{both[0]:.{DIGITS}g}",) * 2)
 
 
-class Bounds:
+class RateBounds:
     """The largest and least joint rates an arm can be given, from a posture, for one period."""
 
     def __init__(self, card: Card, period: float) -> None:
@@ -79,7 +79,7 @@ class Bounds:
         return np.asarray(np.minimum(np.maximum(rates, low), high))
 
 
-def clamps(
+def find_clamps(
     card: Card,
     t: Floats,
     source: RowLines,
@@ -124,11 +124,13 @@ def _rate_clamps(
     card: Card, period: float, posture: Floats, wanted: Floats, command: Floats, effort: Floats
 ) -> list[Held]:
     held = wanted != command
-    fast = held & (np.abs(command) >= card.speed * (1 - AT_LIMIT))
+    fast = held & (np.abs(command) >= card.speed * (1 - LIMIT_TOLERANCE))
     ahead = posture + period * wanted
     limit = np.where(wanted > command, card.upper, card.lower)
     saturated = np.zeros_like(held)
-    saturated[:-1] = np.abs(effort[1:]) >= card.effort * (1 - AT_LIMIT)  # of the step from row k
+    saturated[:-1] = np.abs(effort[1:]) >= card.effort * (
+        1 - LIMIT_TOLERANCE
+    )  # of the step from row k
     torque = np.broadcast_to(card.effort, held.shape)
     return [
         ("position", held & ~fast, ahead, limit),

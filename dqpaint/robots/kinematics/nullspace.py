@@ -15,23 +15,23 @@ from dqpaint import dq
 from dqpaint.core import Registry, make_choice, read_choice
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
-from dqpaint.robots.kinematics.differential_ik import PULL, to_tool
+from dqpaint.robots.kinematics.differential_ik import START_GAIN, tool_jacobian_map
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import Card
 
-DEFAULT_NULL = "start"
-MOST = 20.0  # times the period must stay below 1, or the null space swings
+DEFAULT_OBJECTIVE = "start"
+MOST_GAIN = 20.0  # times the period must stay below 1, or the null space swings
 
 
 class Objective(Protocol):
     """One objective, for one arm and start posture; its slope takes arrays of any leading shape.
 
     Attributes:
-        usual: its gain where none is given.
+        default_gain: its gain where none is given.
         unit: of the gain.
     """
 
-    usual: ClassVar[float]
+    default_gain: ClassVar[float]
     unit: ClassVar[str]
 
     def __init__(self, card: Card, start: Floats) -> None: ...
@@ -42,7 +42,7 @@ class Objective(Protocol):
         Given are J_w (6, n) and the tool's place (3,) [m] there.
         """
 
-    def slope(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
+    def gradient(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
         """dh/dq (n,)."""
 
 
@@ -53,7 +53,7 @@ OBJECTIVES: Registry[type[Objective]] = Registry("null-space objective")
 class Start:
     """Back to the posture it began with, so that a closed drawing closes in the joints."""
 
-    usual: ClassVar[float] = PULL
+    default_gain: ClassVar[float] = START_GAIN
     unit: ClassVar[str] = "1/s"
 
     def __init__(self, card: Card, start: Floats) -> None:
@@ -63,7 +63,7 @@ class Start:
         """Half the squared distance [rad^2]."""
         return float(0.5 * ((posture - self._goal) ** 2).sum())
 
-    def slope(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
+    def gradient(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
         """The way from there (n,) [rad]."""
         return posture - self._goal
 
@@ -84,7 +84,7 @@ class Limits:
     middle, steep near a limit (after Liegeois 1977, who has u^2).
     """
 
-    usual: ClassVar[float] = 2.0
+    default_gain: ClassVar[float] = 2.0
     unit: ClassVar[str] = "1/s"
 
     def __init__(self, card: Card, start: Floats) -> None:
@@ -95,7 +95,7 @@ class Limits:
         u = (posture - self._middle) / self._half
         return float(0.25 * (self._half**2 * u**4).sum())
 
-    def slope(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
+    def gradient(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
         """Of each joint r u^3 (n,) [rad]."""
         u = (posture - self._middle) / self._half
         return np.asarray(self._half * u**3)
@@ -108,7 +108,7 @@ class Manipulability:
     h = -sqrt(det(J J')), J at the tool with lengths in units of 0.3 m (Yoshikawa 1985).
     """
 
-    usual: ClassVar[float] = 1.0
+    default_gain: ClassVar[float] = 1.0
     unit: ClassVar[str] = "rad^2/s"
 
     def __init__(self, card: Card, start: Floats) -> None:
@@ -116,16 +116,16 @@ class Manipulability:
 
     def value(self, posture: Floats, jacobian: Floats, point: Floats) -> float:
         """-w, without unit."""
-        J = to_tool(point) @ jacobian
+        J = tool_jacobian_map(point) @ jacobian
         return -float(np.sqrt(max(np.linalg.det(J @ J.T), 0.0)))
 
-    def slope(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
+    def gradient(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
         """-w tr((J J')^-1 dJ/dq_k J') for each k (n,); zero in a singular posture.
 
         The determinant is the same about every point, and column j of J_w changes with a joint k
         before it by s_k x s_j.
         """
-        shift = to_tool(point)
+        shift = tool_jacobian_map(point)
         J = shift @ jacobian
         square = J @ J.mT
         volume = np.linalg.det(square)
@@ -143,10 +143,10 @@ class Manipulability:
 
 
 @OBJECTIVES.add("none")
-class Nothing:
+class NoObjective:
     """The least motion alone: nothing is wished for, and the joints may drift."""
 
-    usual: ClassVar[float] = 0.0
+    default_gain: ClassVar[float] = 0.0
     unit: ClassVar[str] = "1/s"
 
     def __init__(self, card: Card, start: Floats) -> None:
@@ -156,7 +156,7 @@ class Nothing:
         """Always zero."""
         return 0.0
 
-    def slope(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
+    def gradient(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
         """Zero (n,)."""
         return self._zero
 
@@ -172,22 +172,24 @@ class SecondaryTask:
 
     def __call__(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
         """The wished joint rates -gain dh/dq (n,) [rad/s]."""
-        return self._gain * self._objective.slope(posture, jacobian, point)
+        return self._gain * self._objective.gradient(posture, jacobian, point)
 
-    def over(self, seconds: float, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
+    def displacement(
+        self, seconds: float, posture: Floats, jacobian: Floats, point: Floats
+    ) -> Floats:
         """How far it moves the joints (n,) [rad] in a time, left to itself.
 
         As though h were half a squared distance, which it is for pulls towards a posture: however
         long the time, none goes too far.
         """
         part = math.expm1(self._gain * seconds)
-        return part * self._objective.slope(posture, jacobian, point)
+        return part * self._objective.gradient(posture, jacobian, point)
 
 
 class _Gain(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
     gain: float | None = Field(
-        None, ge=0, le=MOST, allow_inf_nan=False, description="how strongly, 0 to 20"
+        None, ge=0, le=MOST_GAIN, allow_inf_nan=False, description="how strongly, 0 to 20"
     )
 
 
@@ -198,14 +200,14 @@ def read_null(text: str) -> tuple[str, float]:
         UsageError: an unknown objective, or no such gain.
     """
     name, values = read_choice("null-space objective", text, "limits,gain=3")
-    usual = OBJECTIVES[name].usual
+    usual = OBJECTIVES[name].default_gain
     if values and name == "none":
         raise UsageError("null-space objective 'none' takes no gain")
     given = make_choice("null-space objective", name, _Gain, values).gain
     return name, usual if given is None else given
 
 
-def make_wish(text: str, card: Card, start: Floats) -> SecondaryTask:
+def make_secondary_task(text: str, card: Card, start: Floats) -> SecondaryTask:
     """The wish of an arm that begins in a posture (n,) [rad].
 
     Raises:
@@ -215,7 +217,9 @@ def make_wish(text: str, card: Card, start: Floats) -> SecondaryTask:
     return SecondaryTask(OBJECTIVES[name](card, start), gain)
 
 
-def make_pull(text: str, kinematics: Kinematics) -> Callable[[Floats, Floats, float], Floats]:
+def make_batched_task(
+    text: str, kinematics: Kinematics
+) -> Callable[[Floats, Floats, float], Floats]:
     """The wish of many arms at once, as `robots.reach.find_start` takes it.
 
     Raises:
@@ -229,7 +233,7 @@ def make_pull(text: str, kinematics: Kinematics) -> Callable[[Floats, Floats, fl
         for posture, start in zip(postures, starts, strict=True):
             x, J = kinematics.pose_and_jacobian(posture)
             wish = SecondaryTask(OBJECTIVES[name](card, start), gain)
-            ways.append(wish.over(seconds, posture, J, dq.translation(x)))
+            ways.append(wish.displacement(seconds, posture, J, dq.translation(x)))
         return np.array(ways)
 
     return pull

@@ -12,25 +12,31 @@ from numpy.typing import NDArray
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.robots.kinematics.differential_ik import LENGTH, PULL, resolve, to_tool
+from dqpaint.robots.kinematics.differential_ik import (
+    CHARACTERISTIC_LENGTH,
+    START_GAIN,
+    resolve,
+    tool_jacobian_map,
+)
 from dqpaint.robots.kinematics.kinematics import Kinematics
 
 CANDIDATES = 16
 MORE_CANDIDATES = 160
-FEW, MANY = 4, 32  # postures from which a single pose is tried at first, and in the end
+FEW_SEEDS, MANY_SEEDS = 4, 32  # postures from which a single pose is tried at first, and in the end
 WAYPOINTS = 32
-EXACT = 1e-9  # [rad, m] from the pose where the arm begins, if it can be had
-GOOD = 1e-5  # [rad, m] is good enough to begin there: the law takes up the rest
-ON_THE_WAY = 1e-3  # [rad, m] is close enough for a forecast; farther off, a pose is missed
+EXACT_ERROR = 1e-9  # [rad, m] from the pose where the arm begins, if it can be had
+START_TOLERANCE = 1e-5  # [rad, m] is good enough to begin there: the law takes up the rest
+PATH_TOLERANCE = 1e-3  # [rad, m] is close enough for a forecast; farther off, a pose is missed
 ITERATIONS = 16
-DESCENT = 40  # steps towards a pose out of reach, with each of these weights
-KEPT_TURN, KEPT_PLACE = (0.3, 1.0, 3.0, 10.0), (0.3, 0.1, 0.03, 0.01)  # [m/rad] of its orientation
-NEAR = 0.05  # [m] ahead it is aimed: a place far off would be taken to lie where it does not
-DAMPING = 0.02  # [m/rad] of these steps
-HELD = 3  # times a step is worked out again with joints held at their limits
-TURN = 0.3  # [m] that count as much as a radian
-EQUAL = np.radians(1.0)  # margins that differ by less count as equal
-STEP = 0.6  # [rad] a joint moves at the most in one iteration
+DESCENT_STEPS = 40  # steps towards a pose out of reach, with each of these weights
+ORIENTATION_FIRST = (0.3, 1.0, 3.0, 10.0)  # [m/rad] weights of the orientation in a descent
+POSITION_FIRST = (0.3, 0.1, 0.03, 0.01)
+LONGEST_AIM = 0.05  # [m] ahead it is aimed: a place far off would be taken to lie where it does not
+DESCENT_DAMPING = 0.02  # [m/rad] of these steps
+MOST_RETRIES = 3  # times a step is worked out again with joints held at their limits
+METRES_PER_RADIAN = 0.3  # [m] that count as much as a radian
+EQUAL_MARGINS = np.radians(1.0)  # margins that differ by less count as equal
+LARGEST_STEP = 0.6  # [rad] a joint moves at the most in one iteration
 SEED = 1988
 
 
@@ -54,29 +60,32 @@ class NoPosture:
     Attributes:
         index: which of the asked poses.
         shortfall: how far the closest posture stays from it [m].
-        turned: and by which angle [rad].
+        angle: and by which angle [rad].
     """
 
     index: int
     shortfall: float
-    turned: float
+    angle: float
 
     @property
-    def badness(self) -> float:
+    def combined_error(self) -> float:
         """Distance and turn as one length [m]."""
-        return self.shortfall + TURN * self.turned
+        return self.shortfall + METRES_PER_RADIAN * self.angle
 
 
-Pull = Callable[[Floats, Floats, float], Floats]
+NullSpaceMotion = Callable[[Floats, Floats, float], Floats]
 
 
-def to_start(postures: Floats, starts: Floats, seconds: float) -> Floats:
+def return_to_start(postures: Floats, starts: Floats, seconds: float) -> Floats:
     """How far a null space is pulled (M, n) [rad] in a time, from postures to where they began."""
-    return np.asarray((1.0 - np.exp(-PULL * seconds)) * (starts - postures))
+    return np.asarray((1.0 - np.exp(-START_GAIN * seconds)) * (starts - postures))
 
 
 def find_start(
-    kinematics: Kinematics, poses: Floats, seconds: Floats, pull: Pull = to_start
+    kinematics: Kinematics,
+    poses: Floats,
+    seconds: Floats,
+    null_motion: NullSpaceMotion = return_to_start,
 ) -> StartPosture | NoPosture:
     """The posture to begin with, for poses (N, 8) asked at times (N,) [s].
 
@@ -87,19 +96,23 @@ def find_start(
         kinematics: of the arm.
         poses: to be reached one after another.
         seconds: when.
-        pull: what the null space does meanwhile.
+        null_motion: what the null space does meanwhile.
     """
-    found = _find_start(kinematics, poses, seconds, CANDIDATES, pull)
+    found = _find_start(kinematics, poses, seconds, CANDIDATES, null_motion)
     if isinstance(found, StartPosture) and found.margin >= 0:
         return found
-    again = _find_start(kinematics, poses, seconds, MORE_CANDIDATES, pull)
+    again = _find_start(kinematics, poses, seconds, MORE_CANDIDATES, null_motion)
     if isinstance(again, NoPosture) and isinstance(found, NoPosture):
         return max(found, again, key=lambda miss: miss.index)
     return again if isinstance(again, StartPosture) else found
 
 
 def _find_start(
-    kinematics: Kinematics, poses: Floats, seconds: Floats, candidates: int, pull: Pull
+    kinematics: Kinematics,
+    poses: Floats,
+    seconds: Floats,
+    candidates: int,
+    null_motion: NullSpaceMotion,
 ) -> StartPosture | NoPosture:
     card = kinematics.card
     rng = np.random.default_rng(SEED)
@@ -107,14 +120,14 @@ def _find_start(
     seeds = np.vstack([card.home, seeds])
     wish = np.zeros_like(seeds)
     inside = (card.lower, card.upper)
-    postures, errors = solve_posture(kinematics, poses[0], seeds, wish, EXACT, inside)
-    reached = (errors < GOOD) & (_margins(kinematics, postures) >= 0)
+    postures, errors = solve_posture(kinematics, poses[0], seeds, wish, EXACT_ERROR, inside)
+    reached = (errors < START_TOLERANCE) & (_margins(kinematics, postures) >= 0)
     if reached.any():
-        return _follow(kinematics, poses, seconds, postures[reached], pull)
+        return _follow(kinematics, poses, seconds, postures[reached], null_motion)
     # close to a limit Newton's steps are cut short; a patient descent may still arrive
     miss, posture = closest(kinematics, poses[0], postures)
-    if miss.badness < GOOD:
-        return _follow(kinematics, poses, seconds, posture[None], pull)
+    if miss.combined_error < START_TOLERANCE:
+        return _follow(kinematics, poses, seconds, posture[None], null_motion)
     return miss
 
 
@@ -129,24 +142,30 @@ def waypoints(strokes: NDArray[np.int64]) -> NDArray[np.intp]:
 
 
 def _follow(
-    kinematics: Kinematics, poses: Floats, seconds: Floats, starts: Floats, pull: Pull
+    kinematics: Kinematics,
+    poses: Floats,
+    seconds: Floats,
+    starts: Floats,
+    null_motion: NullSpaceMotion,
 ) -> StartPosture | NoPosture:
     """The best of the starts (M, n) by its least margin over the path."""
     postures, margin = starts.copy(), _margins(kinematics, starts)
     alive = np.arange(len(starts))
     before = seconds[0]
     for index in range(1, len(poses)):
-        wish = pull(postures[alive], starts[alive], float(seconds[index] - before))
+        wish = null_motion(postures[alive], starts[alive], float(seconds[index] - before))
         before = seconds[index]
-        moved, errors = solve_posture(kinematics, poses[index], postures[alive], wish, ON_THE_WAY)
-        reached = errors < ON_THE_WAY
+        moved, errors = solve_posture(
+            kinematics, poses[index], postures[alive], wish, PATH_TOLERANCE
+        )
+        reached = errors < PATH_TOLERANCE
         if not reached.any():
             return replace(closest(kinematics, poses[index], postures[alive])[0], index=index)
         alive = alive[reached]
         postures[alive] = moved[reached]
         margin[alive] = np.minimum(margin[alive], _margins(kinematics, postures[alive]))
     # an elbow limit is the same for all the postures of a redundant arm: of equals, the homeliest
-    good = alive[margin[alive] >= margin[alive].max() - EQUAL]
+    good = alive[margin[alive] >= margin[alive].max() - EQUAL_MARGINS]
     best = good[np.argmin(np.linalg.norm(starts[good] - kinematics.card.home, axis=1))]
     return StartPosture(starts[best], float(margin[best]))
 
@@ -160,30 +179,32 @@ def solve_posture(
     kinematics: Kinematics,
     pose: Floats,
     postures: Floats,
-    wish: Floats,
-    close: float,
-    within: tuple[Floats, Floats] | None = None,
+    null_step: Floats,
+    tolerance: float,
+    limits: tuple[Floats, Floats] | None = None,
 ) -> tuple[Floats, Floats]:
     """Newton's method from many postures (M, n) to one pose (8,), or to one each (M, 8).
 
     Returns the postures, and how far off each ended (M,).
 
-    The first step takes the null-space motion `wish` (M, n) [rad] along; the last one ends when
-    all are as `close` [rad, m] as asked, or after `ITERATIONS`. `within` are joint limits that no
-    step may leave.
+    The first step includes the null-space motion `null_step` (M, n) [rad]. The method ends when all
+    errors are below `tolerance` [rad, m], or after `ITERATIONS`. No step leaves the joint `limits`.
     """
     q = postures.copy()
     for iteration in range(ITERATIONS):
         x, J = kinematics.poses_and_jacobians(q)
         error = _error(pose, x)
         largest = np.abs(error).max(axis=1)
-        if iteration and largest.max() < close:
+        if iteration and largest.max() < tolerance:
             break
-        step = resolve(J, dq.translation(x), error, wish)
-        q += step * np.minimum(1.0, STEP / np.maximum(np.abs(step).max(axis=1), 1e-12))[:, None]
-        if within is not None:
-            q = np.clip(q, *within)
-        wish = np.zeros_like(q)
+        step = resolve(J, dq.translation(x), error, null_step)
+        q += (
+            step
+            * np.minimum(1.0, LARGEST_STEP / np.maximum(np.abs(step).max(axis=1), 1e-12))[:, None]
+        )
+        if limits is not None:
+            q = np.clip(q, *limits)
+        null_step = np.zeros_like(q)
     return q, largest
 
 
@@ -192,19 +213,19 @@ def _error(pose: Floats, x: Floats) -> Floats:
     return 2 * dq.log(dq.mul(pose, dq.conj(x)))
 
 
-def strays(kinematics: Kinematics, poses: Floats) -> Floats:
+def least_errors(kinematics: Kinematics, poses: Floats) -> Floats:
     """How far off poses (N, 8) the arm stays by itself, inside its limits.
 
     Each pose is tried from many postures, those that nothing reaches from more.
 
     Returns:
-        The least remaining error (N,) [rad, m], below `ON_THE_WAY` where the pose is reached.
+        The least remaining error (N,) [rad, m], below `PATH_TOLERANCE` where the pose is reached.
     """
     card = kinematics.card
     left = np.full(len(poses), np.inf)
     rng = np.random.default_rng(SEED)
-    for crowd in (FEW, CANDIDATES, MANY):
-        rows = np.flatnonzero(left >= ON_THE_WAY)
+    for crowd in (FEW_SEEDS, CANDIDATES, MANY_SEEDS):
+        rows = np.flatnonzero(left >= PATH_TOLERANCE)
         if not len(rows):
             break
         seeds = rng.uniform(card.lower, card.upper, (crowd, card.joints))
@@ -212,7 +233,7 @@ def strays(kinematics: Kinematics, poses: Floats) -> Floats:
         whose = np.repeat(rows, crowd)
         errors = solve_posture(
             kinematics, poses[whose], np.tile(seeds, (len(rows), 1)),
-            np.zeros((len(whose), card.joints)), ON_THE_WAY, (card.lower, card.upper),
+            np.zeros((len(whose), card.joints)), PATH_TOLERANCE, (card.lower, card.upper),
         )[1]  # fmt: skip
         left[rows] = np.minimum(left[rows], errors.reshape(-1, crowd).min(axis=1))
     return left
@@ -221,10 +242,10 @@ def strays(kinematics: Kinematics, poses: Floats) -> Floats:
 def shortfall(kinematics: Kinematics, pose: Floats) -> NoPosture:
     """How close the arm comes to a pose (8,) that nothing reaches."""
     card = kinematics.card
-    seeds = np.random.default_rng(SEED).uniform(card.lower, card.upper, (MANY, card.joints))
+    seeds = np.random.default_rng(SEED).uniform(card.lower, card.upper, (MANY_SEEDS, card.joints))
     still, inside = np.zeros_like(seeds), (card.lower, card.upper)
     return closest(
-        kinematics, pose, solve_posture(kinematics, pose, seeds, still, EXACT, inside)[0]
+        kinematics, pose, solve_posture(kinematics, pose, seeds, still, EXACT_ERROR, inside)[0]
     )[0]
 
 
@@ -238,26 +259,26 @@ def closest(kinematics: Kinematics, pose: Floats, postures: Floats) -> tuple[NoP
     errors = np.abs(_error(pose, kinematics.poses_and_jacobians(postures)[0])).max(axis=1)
     few = np.clip(postures[np.argsort(errors)[:CANDIDATES]], card.lower, card.upper)
     best, posture = NoPosture(0, np.inf, 0.0), few[0]
-    for weights in KEPT_TURN, KEPT_PLACE:
+    for weights in ORIENTATION_FIRST, POSITION_FIRST:
         q = few
-        for weight in np.repeat(weights, DESCENT):
+        for weight in np.repeat(weights, DESCENT_STEPS):
             x, J = kinematics.poses_and_jacobians(q)
-            error = _at_tool(pose, x)
+            error = _tool_error(pose, x)
             far, turned = np.linalg.norm(error[:, 3:], axis=1), np.linalg.norm(error[:, :3], axis=1)
-            i = int(np.argmin(far + TURN * turned))
+            i = int(np.argmin(far + METRES_PER_RADIAN * turned))
             here = NoPosture(0, float(far[i]), float(turned[i]))
-            if here.badness < best.badness:
+            if here.combined_error < best.combined_error:
                 best, posture = here, q[i]
             scale = np.array([weight] * 3 + [1.0] * 3)
-            shift = to_tool(dq.translation(x))
-            shift[:, 3:] *= LENGTH
+            shift = tool_jacobian_map(dq.translation(x))
+            shift[:, 3:] *= CHARACTERISTIC_LENGTH
             aim = error.copy()
-            aim[:, 3:] *= np.minimum(1.0, NEAR / np.maximum(far, 1e-12))[:, None]
+            aim[:, 3:] *= np.minimum(1.0, LONGEST_AIM / np.maximum(far, 1e-12))[:, None]
             q = _step(scale[:, None] * (shift @ J), scale * aim, q, card.lower, card.upper)
     return best, posture
 
 
-def _at_tool(pose: Floats, x: Floats) -> Floats:
+def _tool_error(pose: Floats, x: Floats) -> Floats:
     """From poses x (M, 8) to one pose: the turn [rad], and the way of the tool's point [m]."""
     turn = _error(pose, x)[:, :3]
     return np.concatenate([turn, dq.translation(pose) - dq.translation(x)], axis=1)
@@ -269,11 +290,11 @@ def _step(J: Floats, error: Floats, q: Floats, lower: Floats, upper: Floats) -> 
     Joints that would leave their range are held, and the others make up for them.
     """
     free = np.ones_like(q)
-    for _ in range(HELD):
+    for _ in range(MOST_RETRIES):
         columns = J * free[:, None, :]
-        square = columns @ columns.mT + DAMPING**2 * np.eye(6)
+        square = columns @ columns.mT + DESCENT_DAMPING**2 * np.eye(6)
         step = np.vecmat(np.linalg.solve(square, error[..., None])[..., 0], columns)
-        step = np.clip(step, -STEP, STEP)
+        step = np.clip(step, -LARGEST_STEP, LARGEST_STEP)
         out = ((q <= lower) & (step < 0)) | ((q >= upper) & (step > 0))
         if not out.any():
             break

@@ -5,23 +5,23 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
-from dqpaint.robots.kinematics.differential_ik import to_tool
+from dqpaint.robots.kinematics.differential_ik import tool_jacobian_map
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.kinematics.start_posture import NoPosture, find_start, solve_posture
 from dqpaint.robots.model.card import Canvas, Card
 
 SAMPLES = 20000  # postures that are looked at
 SEEDS = 8  # of them, the nearest to each place
-AHEAD = (0.65, 0.5, 0.8, 0.35)  # where a canvas may be, in parts of the arm's reach
-AROUND = (0.0, 90.0, -90.0, 180.0)  # [deg] to its left, where there is none before it
-ABOVE = (0.0, 0.2, -0.2, 0.4, -0.4)
-TRIES = 6  # places that are asked for a hand around them
-MIDDLE = 0.8  # of each joint's range
-ROOM = np.radians(30)  # margin that is as good as any
-HEALTHY = 0.15  # and singular value
-HAND = 0.1  # [m] to be reached around the canvas, or a sixth of the arm's reach
-GOOD = 0.6  # room, of 1, that a canvas should leave all around
-FAVOUR = 0.02  # for each place further down in AHEAD and ABOVE
+AHEAD_SHARES = (0.65, 0.5, 0.8, 0.35)  # where a canvas may be, in parts of the arm's reach
+AZIMUTHS = (0.0, 90.0, -90.0, 180.0)  # [deg] to its left, where there is none before it
+HEIGHT_SHARES = (0.0, 0.2, -0.2, 0.4, -0.4)
+MOST_TRIED = 6  # places that are asked for a hand around them
+RANGE_SHARE = 0.8  # of each joint's range
+AMPLE_MARGIN = np.radians(30)  # margin that is as good as any
+AMPLE_SINGULAR_VALUE = 0.15  # and singular value
+CANVAS_HALF_SIZE = 0.1  # [m] to be reached around the canvas, or a sixth of the arm's reach
+GOOD_CLEARANCE = 0.6  # room, of 1, that a canvas should leave all around
+ORDER_PENALTY = 0.02  # for each place further down in AHEAD and ABOVE
 SEED = 1873
 
 
@@ -37,7 +37,7 @@ def find_canvas(card: Card) -> tuple[Canvas, Floats]:
     arm = Kinematics(card)
     rng = np.random.default_rng(SEED)
     low, high = _one_turn(card)
-    middle, half = 0.5 * (low + high), 0.5 * MIDDLE * (high - low)
+    middle, half = 0.5 * (low + high), 0.5 * RANGE_SHARE * (high - low)
     q = rng.uniform(middle - half, middle + half, (SAMPLES, card.joints))
     poses = arm.screws().pose(q)
     points = dq.translation(poses)
@@ -45,19 +45,21 @@ def find_canvas(card: Card) -> tuple[Canvas, Floats]:
     reach = float(np.linalg.norm(points - centre, axis=1).max())
     facing = dq.rotation(_canvas(np.zeros(3)).pose)
     turned = 2 * np.arccos(np.minimum(1.0, np.abs((dq.rotation(poses) * facing).sum(-1))))
-    for azimuth in np.radians(AROUND):
+    for azimuth in np.radians(AZIMUTHS):
         way = np.array([np.cos(azimuth), np.sin(azimuth), 0])
         found = []
-        for i, ahead in enumerate(AHEAD):
-            for j, above in enumerate(ABOVE):
+        for i, ahead in enumerate(AHEAD_SHARES):
+            for j, above in enumerate(HEIGHT_SHARES):
                 place = np.round(centre + reach * (ahead * way + [0, 0, above]), 2)
                 far = np.linalg.norm(points - place, axis=1) / reach + turned / np.pi
                 seeds = q[np.argsort(far)[:SEEDS]]
-                room = _room_at(arm, dq.pose_from(place, facing), seeds) - FAVOUR * (i + j)
+                room = _clearance_at(arm, dq.pose_from(place, facing), seeds) - ORDER_PENALTY * (
+                    i + j
+                )
                 found.append((room, _canvas(place)))
         found.sort(key=lambda pair: -pair[0])
-        canvas = _first_with_room(
-            arm, [canvas for _, canvas in found[:TRIES]], min(HAND, reach / 6)
+        canvas = _first_with_clearance(
+            arm, [canvas for _, canvas in found[:MOST_TRIED]], min(CANVAS_HALF_SIZE, reach / 6)
         )
         if canvas is not None:
             return canvas, find_home(card, canvas)
@@ -66,14 +68,16 @@ def find_canvas(card: Card) -> tuple[Canvas, Floats]:
     )
 
 
-def _first_with_room(arm: Kinematics, canvases: list[Canvas], hand: float) -> Canvas | None:
+def _first_with_clearance(
+    arm: Kinematics, canvases: list[Canvas], half_size: float
+) -> Canvas | None:
     """The first with good room for a hand around it, else the best that has any."""
     best, most = None, 0.0
     for canvas in canvases:
-        room = _room_around(arm, canvas, hand)
+        room = _clearance_around(arm, canvas, half_size)
         if room > most:
             best, most = canvas, room
-        if room > GOOD:
+        if room > GOOD_CLEARANCE:
             break
     return best
 
@@ -113,26 +117,28 @@ def _one_turn(card: Card) -> tuple[Floats, Floats]:
     return np.where(far, middle - half, low), np.where(far, middle + half, high)
 
 
-def _room(arm: Kinematics, postures: Floats) -> Floats:
+def _clearance(arm: Kinematics, postures: Floats) -> Floats:
     """How far postures (M, n) are from limits and singularities: 1 is far, negative is beyond."""
     card = arm.card
     margin = np.minimum(postures - card.lower, card.upper - postures).min(axis=-1)
     poses, jacobians = arm.poses_and_jacobians(postures)
-    shifted = to_tool(dq.translation(poses)) @ jacobians
+    shifted = tool_jacobian_map(dq.translation(poses)) @ jacobians
     least = np.linalg.svd(shifted, compute_uv=False).min(axis=-1)
-    return np.asarray(np.minimum(1.0, np.minimum(margin / ROOM, least / HEALTHY)))
+    return np.asarray(
+        np.minimum(1.0, np.minimum(margin / AMPLE_MARGIN, least / AMPLE_SINGULAR_VALUE))
+    )
 
 
-def _room_at(arm: Kinematics, pose: Floats, seeds: Floats) -> float:
+def _clearance_at(arm: Kinematics, pose: Floats, seeds: Floats) -> float:
     """The room of the best posture for a pose (8,), from seeds (M, n); negative if none."""
     within = (arm.card.lower, arm.card.upper)
     postures, errors = solve_posture(arm, pose, seeds, np.zeros_like(seeds), 1e-9, within)
-    return float(np.where(errors < 1e-6, _room(arm, postures), -1.0).max())
+    return float(np.where(errors < 1e-6, _clearance(arm, postures), -1.0).max())
 
 
-def _room_around(arm: Kinematics, canvas: Canvas, hand: float) -> float:
+def _clearance_around(arm: Kinematics, canvas: Canvas, half_size: float) -> float:
     """The least room on a way around a hand's breadth of a canvas; negative if there is none."""
-    corners = hand * np.array(
+    corners = half_size * np.array(
         [[0, 0, 0], [1, 1, 0], [-1, 1, 0.5], [-1, -1, -0.5], [1, -1, 0], [1, 1, 0]], dtype=float
     )
     local = dq.pose_from(corners, np.array([1.0, 0, 0, 0]))
@@ -140,4 +146,4 @@ def _room_around(arm: Kinematics, canvas: Canvas, hand: float) -> float:
     found = find_start(arm, dq.mul(canvas.pose, local), 3.0 * seconds)
     if isinstance(found, NoPosture):
         return -1.0
-    return min(found.margin / float(ROOM), float(_room(arm, found.posture[None])[0]))
+    return min(found.margin / float(AMPLE_MARGIN), float(_clearance(arm, found.posture[None])[0]))

@@ -14,14 +14,16 @@ from pydantic import BaseModel, ValidationError
 
 from dqpaint.core import reason
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.robots.model.card import LEAST, Canvas, Card
+from dqpaint.robots.model.card import LEAST_JOINTS, Canvas, Card
 from dqpaint.robots.model.chain import Axes, Rows
 from dqpaint.robots.model.screws import Screws
 from dqpaint.robots.urdf.capsules import default_body
-from dqpaint.robots.urdf.tree import TURNING, Joint, Tree, some
+from dqpaint.robots.urdf.tree import REVOLUTE_KINDS, Joint, Tree, shortened_list
 
-ANYWHERE = Canvas(at_m=(0, 0, 0), right=(0, 1, 0), up=(0, 0, 1))  # until a better one is found
-ROUND = 360.0  # [deg] to either side, of a joint without ends
+PLACEHOLDER_CANVAS = Canvas(
+    at_m=(0, 0, 0), right=(0, 1, 0), up=(0, 0, 1)
+)  # until a better one is found
+UNLIMITED_RANGE = 360.0  # [deg] to either side, of a joint without ends
 
 
 def read_file(robot: str) -> Card:
@@ -77,8 +79,8 @@ def _complete(raw: dict[str, Any], path: Path) -> Card:
     if "tool" not in raw:
         raw["tool"] = {}
         notes.append(
-            f"{_lacks(path, '[tool]')}the light sits on the last frame itself, its z axis is the "
-            f"lamp's{_or(path, '--tool puts it elsewhere')}"
+            f"{_missing_note(path, '[tool]')}the light sits on the last frame, its z axis is the "
+            f"lamp's{_fix_note(path, '--tool puts it elsewhere')}"
         )
     _derive_body(raw, path, notes)
     limits = raw.get("limits")
@@ -86,24 +88,26 @@ def _complete(raw: dict[str, Any], path: Path) -> Card:
     if not home:
         raw["home_deg"] = _middles(limits)
     if not canvas:
-        raw["canvas"] = ANYWHERE
+        raw["canvas"] = PLACEHOLDER_CANVAS
     card = _validate(raw, path)
     if not (home and canvas):
-        card = _before_the_canvas(card, home, canvas, path, notes)
+        card = _find_home_and_canvas(card, home, canvas, path, notes)
     return card.model_copy(update={"notes": (*card.notes, *notes)})
 
 
-def _lacks(path: Path, what: str) -> str:
+def _missing_note(path: Path, what: str) -> str:
     """How a note begins of what a card leaves out; a URDF has no word for it."""
     return "" if path.suffix == ".urdf" else f"no {what}: "
 
 
-def _or(path: Path, cure: str) -> str:
+def _fix_note(path: Path, fix: str) -> str:
     """How a note ends where a URDF is all there is."""
-    return f"; {cure}" if path.suffix == ".urdf" else ""
+    return f"; {fix}" if path.suffix == ".urdf" else ""
 
 
-def _before_the_canvas(card: Card, home: bool, canvas: bool, path: Path, notes: list[str]) -> Card:
+def _find_home_and_canvas(
+    card: Card, home: bool, canvas: bool, path: Path, notes: list[str]
+) -> Card:
     """Find the home posture, the canvas, or both."""
     from dqpaint.robots.loading import defaults
 
@@ -118,8 +122,8 @@ def _before_the_canvas(card: Card, home: bool, canvas: bool, path: Path, notes: 
         card = card.model_copy(update={"canvas": found})
         x, y, z = found.at_m
         notes.append(
-            f"{_lacks(path, '[canvas]')}drawings go to ({x:g}, {y:g}, {z:g}) m, facing along x"
-            f"{_or(path, 'place puts them elsewhere')}"
+            f"{_missing_note(path, '[canvas]')}drawings go to ({x:g}, {y:g}, {z:g}) m, facing "
+            f"along x{_fix_note(path, 'place puts them elsewhere')}"
         )
     degrees = np.degrees(posture).round(9).tolist()
     taken = ", ".join(f"{angle:.4g}" for angle in np.round(degrees, 9) + 0.0)
@@ -147,7 +151,7 @@ def _derive_body(raw: dict[str, Any], path: Path, notes: list[str]) -> None:
             try:
                 chain = model.model_validate(raw[table]).chain
             except ValidationError as problem:
-                raise _told(problem, path, table) from None
+                raise _first_error(problem, path, table) from None
             raw["body"] = default_body(chain if isinstance(chain, Screws) else chain.screws())
             notes.append(
                 "no [body]: the arm is taken to be as thick and heavy as arms of its reach"
@@ -158,10 +162,10 @@ def _validate(raw: dict[str, Any], path: Path) -> Card:
     try:
         return Card.model_validate(raw)
     except ValidationError as problem:
-        raise _told(problem, path) from None
+        raise _first_error(problem, path) from None
 
 
-def _told(problem: ValidationError, path: Path, *above: str) -> DqpaintError:
+def _first_error(problem: ValidationError, path: Path, *above: str) -> DqpaintError:
     """The first fault of a card, with the name of its field; numbers in lists count from 1."""
     first = problem.errors()[0]
     steps = (*above, *first["loc"])
@@ -183,15 +187,15 @@ def _fields(steps: tuple[str | int, ...]) -> list[str]:
     model: Any = Card
     for step in steps:
         if isinstance(step, str):
-            model = _model_in(model.model_fields[step].annotation)
+            model = _nested_model(model.model_fields[step].annotation)
     return [name for name in model.model_fields if name != "notes"]
 
 
-def _model_in(annotation: Any) -> Any:
+def _nested_model(annotation: Any) -> Any:
     """The table a field's type speaks of."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return annotation
-    return next((m for m in map(_model_in, get_args(annotation)) if m is not None), None)
+    return next((m for m in map(_nested_model, get_args(annotation)) if m is not None), None)
 
 
 def _only_tip(tree: Tree) -> str:
@@ -200,26 +204,32 @@ def _only_tip(tree: Tree) -> str:
     arms = [
         tip
         for tip, joints in ends.items()
-        if len(joints) >= LEAST and all(j.kind in TURNING for j in joints)
+        if len(joints) >= LEAST_JOINTS and all(j.kind in REVOLUTE_KINDS for j in joints)
     ]
     if len(arms) == 1:
         return arms[0]
     name = tree.path.name
     if not arms:
         for joints in ends.values():
-            other = next((j for j in joints if j.kind not in TURNING), None)
-            if other is not None and len([j for j in joints if j.kind in TURNING]) >= LEAST:
+            other = next((j for j in joints if j.kind not in REVOLUTE_KINDS), None)
+            if (
+                other is not None
+                and len([j for j in joints if j.kind in REVOLUTE_KINDS]) >= LEAST_JOINTS
+            ):
                 raise DqpaintError(
                     f"{name}: joint '{other.name}' is {other.kind or 'of no type'}: only arms "
                     "whose joints all turn are known"
                 )
-        longest = max(len([j for j in joints if j.kind in TURNING]) for joints in ends.values())
+        longest = max(
+            len([j for j in joints if j.kind in REVOLUTE_KINDS]) for joints in ends.values()
+        )
         raise DqpaintError(
-            f"{name} holds no arm of {LEAST} or more joints that turn; its longest has {longest}"
+            f"{name} holds no arm of {LEAST_JOINTS} or more joints that turn; "
+            f"its longest has {longest}"
         )
     raise UsageError(
-        f"{name} ends in several links: {some(arms)}; name the one that carries the light, "
-        f"for example {name}:{arms[0]}"
+        f"{name} ends in several links: {shortened_list(arms)}; name the one that carries the "
+        f"light, for example {name}:{arms[0]}"
     )
 
 
@@ -227,8 +237,8 @@ def _limits(tree: Tree, link: str) -> dict[str, list[float]]:
     """The limits of the joints up to a link, as a card has them."""
     joints = tree.arm(link)
     return {
-        "lower_deg": [_end(tree, j, "lower", -ROUND) for j in joints],
-        "upper_deg": [_end(tree, j, "upper", ROUND) for j in joints],
+        "lower_deg": [_end(tree, j, "lower", -UNLIMITED_RANGE) for j in joints],
+        "upper_deg": [_end(tree, j, "upper", UNLIMITED_RANGE) for j in joints],
         "speed_deg_s": [math.degrees(_strength(tree, j, "velocity", "rad/s")) for j in joints],
         "effort_Nm": [_strength(tree, j, "effort", "Nm") for j in joints],
     }

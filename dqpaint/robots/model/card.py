@@ -17,7 +17,7 @@ from dqpaint.robots.model.fields import Finite, Mount, Part, Positive, Three
 from dqpaint.robots.model.screws import Screws
 
 DEFAULT_ROBOT = "iiwa"
-LEAST = 6  # joints: a pose has as many freedoms
+LEAST_JOINTS = 6  # joints: a pose has as many freedoms
 FLANGE = "flange"  # the last link of the arms we build ourselves
 
 
@@ -128,9 +128,9 @@ class Card(Part):
     @property
     def missing(self) -> str:
         """What to type before this arm can be used; empty where nothing is missing."""
-        if self.urdf is None or self.urdf.find() is not None:
+        if self.urdf is None or self.urdf.find_path() is not None:
             return ""
-        return self.urdf.cure
+        return self.urdf.install_hint
 
     @property
     def origin(self) -> str:
@@ -165,10 +165,11 @@ class Card(Part):
 
     @model_validator(mode="after")
     def _home_is_allowed(self) -> Self:
-        if self.joints < LEAST:
+        if self.joints < LEAST_JOINTS:
             count = "1 joint" if self.joints == 1 else f"{self.joints} joints"
             raise ValueError(
-                f"{count} cannot hold a place and an orientation: at least {LEAST} are needed"
+                f"{count} cannot hold a place and an orientation: "
+                f"at least {LEAST_JOINTS} are needed"
             )
         if len(self.limits.lower_deg) != self.joints:
             raise ValueError("home_deg needs one number for each joint of the limits")

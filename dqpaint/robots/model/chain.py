@@ -41,21 +41,21 @@ class UrdfFile(Part):
         Raises:
             UsageError: the package is not installed, or lacks the file.
         """
-        found = self.find()
+        found = self.find_path()
         if found is None:
             raise UsageError(
                 f"this robot needs {Path(self.file).name} of the package '{self.package}', "
-                f"which is not installed; {self.cure}"
+                f"which is not installed; {self.install_hint}"
             )
         return found
 
     @property
-    def cure(self) -> str:
+    def install_hint(self) -> str:
         """What to type for a package that is missing."""
         package = f"'dqpaint[{EXTRAS[self.package]}]'" if self.package in EXTRAS else self.package
         return f"pip install {package}"
 
-    def find(self) -> Path | None:
+    def find_path(self) -> Path | None:
         """Where the file is; None where its package is not installed."""
         if not self.package:
             return Path(self.file)

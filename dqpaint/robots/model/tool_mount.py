@@ -8,7 +8,7 @@ from dqpaint.robots.model.fields import Mount, Three
 
 LENGTHS = {"": 1.0, "m": 1.0, "cm": 0.01, "mm": 0.001}
 ANGLES = {"": 1.0, "deg": 1.0, "rad": math.degrees(1)}
-FARTHEST = 2.0  # [m] from the flange; more is a slip of units
+FARTHEST_TOOL = 2.0  # [m] from the flange; more is a slip of units
 _NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([a-z]*)", re.ASCII)
 
 
@@ -33,10 +33,10 @@ def parse_tool(text: str, turn: Three = (0.0, 0.0, 0.0)) -> Mount:
         )
     at = tuple(_value(word, LENGTHS, text) for word in words[:3])
     turned = tuple(_value(word, ANGLES, text) for word in words[3:]) or turn
-    if math.hypot(*at) > FARTHEST:
+    if math.hypot(*at) > FARTHEST_TOOL:
         raise UsageError(
             f"tool '{text[:60]}' is {math.hypot(*at):.4g} m from the flange, more than "
-            f"{FARTHEST:g} m; plain numbers are metres: write 80mm, or 0.08"
+            f"{FARTHEST_TOOL:g} m; plain numbers are metres: write 80mm, or 0.08"
         )
     return Mount.model_validate({"at_m": at, "rpy_deg": turned})
 

@@ -15,12 +15,12 @@ from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.robots.model.screws import Screws
 
-PARALLEL = 0.02  # sine of an angle between axes below which they count as parallel
-SHORTEST = 1e-6  # [m] of a rod
-HUB = 1.08  # a joint's hub is thicker than its link by this factor
-HUB_HALF = 0.6  # and reaches this part of the link's radius to either side, and its round ends
-SLENDER = (0.07, 0.035)  # a guessed arm's radii at base and flange, as parts of its length
-DENSITY = 900.0  # [kg/m^3] of a guessed arm: aluminium, motors and air
+PARALLEL_SINE = 0.02  # sine of an angle between axes below which they count as parallel
+SHORTEST_ROD = 1e-6  # [m] of a rod
+HUB_RADIUS_RATIO = 1.08  # a joint's hub is thicker than its link by this factor
+HUB_HALF_LENGTH_RATIO = 0.6  # half the length of a hub, in radii of the link, without round ends
+GUESSED_RADII = (0.07, 0.035)  # a guessed arm's radii at base and flange, as parts of its length
+GUESSED_DENSITY = 900.0  # [kg/m^3] of a guessed arm: aluminium, motors and air
 
 
 @dataclass(frozen=True)
@@ -61,14 +61,14 @@ class Link:
     """A rigid body at q = 0, in the base frame.
 
     Attributes:
-        place: of its joint (3,) [m]; the base's own is the origin.
+        pose: of its joint (3,) [m]; the base's own is the origin.
         solids: its shape.
         mass: [kg].
         centre: of mass (3,) [m].
         inertia: about the centre (3, 3) [kg m^2].
     """
 
-    place: Floats
+    pose: Floats
     solids: tuple[Capsule, ...]
     mass: float
     centre: Floats
@@ -87,14 +87,18 @@ def build_links(screws: Screws, masses: Sequence[float], radii: Sequence[float])
     links = []
     for i, (place, path) in enumerate(zip(places, paths, strict=True)):
         solids = [
-            Capsule(a, b, radii[i]) for a, b in pairwise(path) if np.linalg.norm(b - a) > SHORTEST
+            Capsule(a, b, radii[i])
+            for a, b in pairwise(path)
+            if np.linalg.norm(b - a) > SHORTEST_ROD
         ]
         if i > 0:
-            half = HUB_HALF * radii[i] * screws.axes[i - 1, :3]
-            solids.append(Capsule(place - half, place + half, HUB * radii[i], hub=True))
+            half = HUB_HALF_LENGTH_RATIO * radii[i] * screws.axes[i - 1, :3]
+            solids.append(
+                Capsule(place - half, place + half, HUB_RADIUS_RATIO * radii[i], hub=True)
+            )
         elif not solids:  # the first axis goes through the origin
             solids.append(Capsule(place, place, radii[i]))
-        links.append(_weigh(place, solids, masses[i - 1] if i else masses[0]))
+        links.append(_combine_solids(place, solids, masses[i - 1] if i else masses[0]))
     return links
 
 
@@ -102,14 +106,14 @@ def default_body(screws: Screws) -> dict[str, list[float]]:
     """Masses and radii, as a card has them, of an arm of which nothing but its axes is known."""
     places, paths = _paths(screws)
     lengths = [sum(float(np.linalg.norm(b - a)) for a, b in pairwise(path)) for path in paths]
-    reach = max(sum(lengths), SHORTEST)
-    radii = (reach * np.linspace(*SLENDER, len(places))).tolist()
+    reach = max(sum(lengths), SHORTEST_ROD)
+    radii = (reach * np.linspace(*GUESSED_RADII, len(places))).tolist()
     weightless = build_links(screws, [1.0] * (len(places) - 1), radii)
-    masses = [DENSITY * sum(s.volume for s in link.solids) for link in weightless[1:]]
+    masses = [GUESSED_DENSITY * sum(s.volume for s in link.solids) for link in weightless[1:]]
     return {"mass_kg": masses, "radius_m": radii}
 
 
-def _weigh(place: Floats, solids: list[Capsule], mass: float) -> Link:
+def _combine_solids(place: Floats, solids: list[Capsule], mass: float) -> Link:
     """One body of several solids, as if they did not overlap."""
     volumes = np.array([solid.volume for solid in solids])
     shares = mass * volumes / volumes.sum()
@@ -154,7 +158,7 @@ def _common_normal(
     """The nearest points of two lines; of parallel ones those across from where we arrived."""
     normal = dq.cross(u, v)
     sine = float(np.linalg.norm(normal))
-    if sine < PARALLEL:
+    if sine < PARALLEL_SINE:
         return arrived, _foot(arrived, q, v)
     here = p + u * (dq.cross(q - p, v) @ normal) / sine**2
     return here, _foot(here, q, v)

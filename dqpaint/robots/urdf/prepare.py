@@ -18,11 +18,11 @@ import numpy as np
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 from dqpaint.robots.model.card import Card
-from dqpaint.robots.urdf.tree import Joint, Tree, numbers
-from dqpaint.robots.urdf.write import WEIGHTLESS, write_urdf
+from dqpaint.robots.urdf.tree import Joint, Tree, parse_numbers
+from dqpaint.robots.urdf.write import LEAST_INERTIA, write_urdf
 
-BALL = 0.05  # [m], radius of the ball that stands for a shape nobody gave
-LIGHTEST = 0.1  # [kg], of a link that moves and has no mass
+GUESSED_BALL_RADIUS = 0.05  # [m], radius of the ball that stands for a shape nobody gave
+GUESSED_MASS = 0.1  # [kg], of a link that moves and has no mass
 
 
 class PreparedUrdf(NamedTuple):
@@ -50,14 +50,14 @@ def prepare(card: Card) -> PreparedUrdf:
             f"its card gives limits for {card.joints}"
         )
     _strip(tree)
-    _still(tree, arm, card)
+    _fix_other_joints(tree, arm, card)
     if card.urdf.products_negated:
         _negate_products(tree)
     if card.urdf.frictionless:
         for joint in tree.joints.values():
             for dynamics in joint.element.findall("dynamics"):
                 joint.element.remove(dynamics)
-    weighed, missing = list(_weigh(tree)), list(_find_meshes(tree))
+    weighed, missing = list(_add_masses(tree)), list(_find_meshes(tree))
     text = Xml.tostring(tree.robot, encoding="unicode")
     return PreparedUrdf(text, (*weighed, *missing), not missing)
 
@@ -84,7 +84,7 @@ def urdf_file(card: Card, change: Callable[[str], str] = str) -> Iterator[str]:
 def _strip(tree: Tree) -> None:
     """Leave out what has no part in moving and looks: libraries stumble over slips in it."""
     tree.robot.attrib.pop("version", None)
-    _colour(tree)
+    _set_materials(tree)
     for element in list(tree.robot):
         if element.tag not in ("link", "joint"):
             tree.robot.remove(element)
@@ -94,7 +94,7 @@ def _strip(tree: Tree) -> None:
                 joint.element.remove(element)
 
 
-def _colour(tree: Tree) -> None:
+def _set_materials(tree: Tree) -> None:
     """Give each shape that has a sound colour, or names one, a material with that colour alone."""
     known = {one.get("name", ""): _rgba(one) for one in tree.robot.iter("material") if _rgba(one)}
     for visual in tree.robot.iter("visual"):
@@ -111,12 +111,12 @@ def _rgba(material: Xml.Element) -> str:
     """A material's colour as it is written; nothing if it has none, or not four shares of one."""
     colour = material.find("color")
     written = "" if colour is None else colour.get("rgba", "")
-    shares = numbers(written)
+    shares = parse_numbers(written)
     sound = len(shares) == 4 and (shares >= 0.0).all() and (shares <= 1.0).all()
     return written if sound else ""
 
 
-def _still(tree: Tree, arm: list[Joint], card: Card) -> None:
+def _fix_other_joints(tree: Tree, arm: list[Joint], card: Card) -> None:
     """Fix every joint that is not of the arm; those that are turn within the card's limits."""
     for joint in tree.joints.values():
         mimic = joint.element.find("mimic")
@@ -143,7 +143,7 @@ def _negate_products(tree: Tree) -> None:
             inertia.set(name, value[1:] if value.startswith("-") else f"-{value}")
 
 
-def _weigh(tree: Tree) -> Iterator[str]:
+def _add_masses(tree: Tree) -> Iterator[str]:
     """Give every link a mass, and say which ones of it are guesses."""
     for body in _bodies(tree):
         weights = {name: _mass(tree, name) for name in body}
@@ -152,34 +152,34 @@ def _weigh(tree: Tree) -> Iterator[str]:
             element = tree.links[name]
             inertial = element.find("inertial")
             if inertial is None:
-                _set_inertial(element, 0.0, WEIGHTLESS)
+                _set_inertial(element, 0.0, LEAST_INERTIA)
             elif weights[name] == 0 and (
                 inertial.find("mass") is None or inertial.find("inertia") is None
             ):
-                _set_inertial(element, 0.0, WEIGHTLESS, keep_origin=True)
+                _set_inertial(element, 0.0, LEAST_INERTIA, keep_origin=True)
             elif weights[name] > 0 and (moving or inertial.find("inertia") is None):
-                yield from _judge(tree, name, weights[name])
+                yield from _check_inertia(tree, name, weights[name])
         if moving and sum(weights.values()) == 0:
-            ball = 0.4 * LIGHTEST * BALL**2
-            _set_inertial(tree.links[body[0]], LIGHTEST, ball)
+            ball = 0.4 * GUESSED_MASS * GUESSED_BALL_RADIUS**2
+            _set_inertial(tree.links[body[0]], GUESSED_MASS, ball)
             yield (
                 f"link '{body[0]}' moves and has no mass: "
-                f"{LIGHTEST} kg in a ball of {BALL * 1e3:.0f} mm is assumed"
+                f"{GUESSED_MASS} kg in a ball of {GUESSED_BALL_RADIUS * 1e3:.0f} mm is assumed"
             )
 
 
-def _judge(tree: Tree, name: str, mass: float) -> Iterator[str]:
+def _check_inertia(tree: Tree, name: str, mass: float) -> Iterator[str]:
     """Whether a link's inertia can be that of a body; if not, PyBullet would invent one."""
     moments = _moments(tree.links[name])
     if not np.isfinite(moments).all():
-        raise tree.fault(f"the inertia of link '{name}' is not six numbers")
+        raise tree.error(f"the inertia of link '{name}' is not six numbers")
     if not moments.any():
-        _set_inertial(tree.links[name], mass, 0.4 * mass * BALL**2, keep_origin=True)
+        _set_inertial(tree.links[name], mass, 0.4 * mass * GUESSED_BALL_RADIUS**2, keep_origin=True)
         yield (
             f"link '{name}' has a mass and no inertia: "
-            f"that of a ball of {BALL * 1e3:.0f} mm is assumed"
+            f"that of a ball of {GUESSED_BALL_RADIUS * 1e3:.0f} mm is assumed"
         )
-    elif not possible(moments):
+    elif not is_valid_inertia(moments):
         moment = float(np.abs(np.trace(moments))) / 3
         _set_inertial(tree.links[name], mass, moment, keep_origin=True)
         yield (
@@ -217,7 +217,7 @@ def _mass(tree: Tree, name: str) -> float:
     except ValueError:
         mass = math.nan
     if not (math.isfinite(mass) and mass >= 0):
-        raise tree.fault(f"the mass of link '{name}' is '{text}', not a number of kg")
+        raise tree.error(f"the mass of link '{name}' is '{text}', not a number of kg")
     return mass
 
 
@@ -261,7 +261,7 @@ def _is_file(path: Path) -> bool:
         return False
 
 
-def possible(moments: Floats) -> bool:
+def is_valid_inertia(moments: Floats) -> bool:
     """Whether an inertia (3, 3) can be a body's.
 
     Its principal moments are positive, and none exceeds the sum of the others.

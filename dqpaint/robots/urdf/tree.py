@@ -12,11 +12,12 @@ from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 
 MOST_NAMED = 12  # names in a message
-ROUND = {"radius": 1, "length": 1}
+ROUND_SIZES = {"radius": 1, "length": 1}
 SIZES: dict[str, dict[str, int]] = {
-    "box": {"size": 3}, "sphere": {"radius": 1}, "cylinder": ROUND, "capsule": ROUND, "mesh": {},
+    "box": {"size": 3}, "sphere": {"radius": 1}, "cylinder": ROUND_SIZES, "capsule": ROUND_SIZES,
+    "mesh": {},
 }  # fmt: skip
-TURNING = ("revolute", "continuous")
+REVOLUTE_KINDS = ("revolute", "continuous")
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,7 @@ class Tree:
         for element in self.robot.findall("link"):
             name = element.get("name", "")
             if not name or name in self.links:
-                raise self.fault(f"two links named '{name}'" if name else "a link has no name")
+                raise self.error(f"two links named '{name}'" if name else "a link has no name")
             self.links[name] = element
             self._check_shapes(element, name)
         self.joints: dict[str, Joint] = {}
@@ -71,13 +72,13 @@ class Tree:
         for element in self.robot.findall("joint"):
             joint = self._joint(element)
             if not joint.name or joint.name in named:
-                raise self.fault(
+                raise self.error(
                     f"two joints named '{joint.name}'" if joint.name else "a joint has no name"
                 )
             named.add(joint.name)
             if joint.child in self.joints:
                 other = self.joints[joint.child].name
-                raise self.fault(
+                raise self.error(
                     f"joints '{other}' and '{joint.name}' both carry link '{joint.child}': "
                     "a loop of links is no arm"
                 )
@@ -107,12 +108,12 @@ class Tree:
         """
         if link not in self.links:
             raise UsageError(
-                f"{self.path.name} has no link named '{link}'; known: {some(self.links)}"
+                f"{self.path.name} has no link named '{link}'; known: {shortened_list(self.links)}"
             )
         joints = [joint for joint in self.chain(link) if joint.kind != "fixed"]
         for joint in joints:
-            if joint.kind not in TURNING:
-                raise self.fault(
+            if joint.kind not in REVOLUTE_KINDS:
+                raise self.error(
                     f"joint '{joint.name}' is {joint.kind}, and lies between the base and "
                     f"'{link}': only joints that turn are known"
                 )
@@ -125,8 +126,8 @@ class Tree:
                 origin = element.find("origin")
                 for attribute in ("xyz", "rpy"):
                     text = "0 0 0" if origin is None else origin.get(attribute, "0 0 0")
-                    if len(numbers(text)) != 3:
-                        raise self.fault(
+                    if len(parse_numbers(text)) != 3:
+                        raise self.error(
                             f"link '{name}': {part} origin {attribute}=\"{text}\" is not three "
                             "numbers"
                         )
@@ -136,18 +137,20 @@ class Tree:
     def _check_geometry(self, shape: Xml.Element, where: str) -> None:
         geometry = shape.find("geometry")
         if geometry is None or len(geometry) == 0:
-            raise self.fault(f"{where} has no geometry")
+            raise self.error(f"{where} has no geometry")
         if geometry[0].tag not in SIZES:
-            raise self.fault(f"{where} is a {geometry[0].tag}; known: {', '.join(SIZES)}")
+            raise self.error(f"{where} is a {geometry[0].tag}; known: {', '.join(SIZES)}")
         scale = geometry[0].get("scale", "1 1 1")
-        if geometry[0].tag == "mesh" and (len(numbers(scale)) != 3 or not numbers(scale).all()):
-            raise self.fault(f'{where} mesh scale="{scale}" is not three numbers, none of them 0')
+        if geometry[0].tag == "mesh" and (
+            len(parse_numbers(scale)) != 3 or not parse_numbers(scale).all()
+        ):
+            raise self.error(f'{where} mesh scale="{scale}" is not three numbers, none of them 0')
         for attribute, count in SIZES[geometry[0].tag].items():
             text = geometry[0].get(attribute, "")
-            values = numbers(text)
+            values = parse_numbers(text)
             if len(values) != count or (values < 0).any():
                 what = "a number" if count == 1 else f"{count} numbers"
-                raise self.fault(
+                raise self.error(
                     f'{where} {geometry[0].tag} {attribute}="{text}" is not {what} from 0'
                 )
 
@@ -159,29 +162,29 @@ class Tree:
             named = "" if link is None else link.get("link", "")
             if named not in self.links:
                 what = f"names the {end} '{named}', which is no link" if named else f"has no {end}"
-                raise self.fault(f"joint '{name}' {what}")
+                raise self.error(f"joint '{name}' {what}")
             ends.append(named)
         for part, names in (("origin", ("xyz", "rpy")), ("axis", ("xyz",))):
             for attribute in names:
-                self._three(element, part, attribute)
+                self._check_triple(element, part, attribute)
         dynamics = element.find("dynamics")
         for what in ("damping", "friction"):
             text = "0" if dynamics is None else dynamics.get(what, "0")
-            said = numbers(text)
+            said = parse_numbers(text)
             if len(said) != 1 or said[0] < 0:
-                raise self.fault(f"joint '{name}': {what} '{text}' is not a number from 0")
+                raise self.error(f"joint '{name}': {what} '{text}' is not a number from 0")
         return Joint(name, kind, ends[0], ends[1], element, self.path.name)
 
-    def _three(self, joint: Xml.Element, part: str, attribute: str) -> None:
+    def _check_triple(self, joint: Xml.Element, part: str, attribute: str) -> None:
         """Look that a part of a joint, where there is one, holds three numbers."""
         element = joint.find(part)
         text = None if element is None else element.get(attribute)
         if text is None:
             return
-        values = numbers(text)
+        values = parse_numbers(text)
         idle = part == "axis" and not values.any() and joint.get("type") != "fixed"
         if len(values) != 3 or idle:
-            raise self.fault(
+            raise self.error(
                 f"joint '{joint.get('name')}': {part} {attribute}=\"{text}\" is not three numbers"
                 + (", not all zero" if part == "axis" else "")
             )
@@ -190,7 +193,7 @@ class Tree:
         """The one link that no joint carries, from which all others are reached."""
         roots = [name for name in self.links if name not in self.joints]
         if len(roots) > 1:
-            raise self.fault(f"links {some(roots)} are not joined to each other")
+            raise self.error(f"links {shortened_list(roots)} are not joined to each other")
         rooted: set[str] = set()
         for start in self.links:
             way = {start}
@@ -198,14 +201,14 @@ class Tree:
             while link in self.joints and link not in rooted:
                 link = self.joints[link].parent
                 if link in way:
-                    raise self.fault(f"link '{link}' carries itself: a loop of links is no arm")
+                    raise self.error(f"link '{link}' carries itself: a loop of links is no arm")
                 way.add(link)
             rooted |= way
         if not roots:
-            raise self.fault("it has no links")
+            raise self.error("it has no links")
         return roots[0]
 
-    def fault(self, text: str) -> DqpaintError:
+    def error(self, text: str) -> DqpaintError:
         """An error about this file."""
         return DqpaintError(f"{self.path.name}: {text}")
 
@@ -232,7 +235,7 @@ def _parse(path: Path) -> Xml.Element:
     return robot
 
 
-def numbers(text: str) -> Floats:
+def parse_numbers(text: str) -> Floats:
     """The numbers of a text, separated by spaces; none where one of its words is not a number."""
     try:
         values = np.array([float(word) for word in text.split()])
@@ -241,7 +244,7 @@ def numbers(text: str) -> Floats:
     return values if np.isfinite(values).all() else np.zeros(0)
 
 
-def some(names: Iterable[str]) -> str:
+def shortened_list(names: Iterable[str]) -> str:
     """A list of names, cut where it gets long."""
     listed = list(names)
     more = f" and {len(listed) - MOST_NAMED} more" if len(listed) > MOST_NAMED else ""

@@ -14,7 +14,7 @@ from dqpaint.dq import Floats
 from dqpaint.robots.model.card import FLANGE, Card
 from dqpaint.robots.urdf.capsules import Capsule, Link, build_links
 
-WEIGHTLESS = 1e-12  # [kg m^2]: PyBullet takes a link of nothing at all to weigh 1 kg
+LEAST_INERTIA = 1e-12  # [kg m^2]: PyBullet takes a link of nothing at all to weigh 1 kg
 COLOURS = {"shell": "0.86 0.87 0.88 1", "hub": "0.16 0.42 0.62 1"}
 
 
@@ -33,7 +33,7 @@ def write_urdf(card: Card) -> str:
         _link(robot, name, link)
     for i in range(1, len(links)):
         joint = _joint(robot, f"joint{i}", "revolute", names[i - 1], names[i])
-        _origin(joint, links[i].place - links[i - 1].place)
+        _origin(joint, links[i].pose - links[i - 1].pose)
         Xml.SubElement(joint, "axis", xyz=_text(screws.axes[i - 1, :3]))
         lower, upper, speed, effort = (
             repr(float(values[i - 1]))
@@ -41,10 +41,10 @@ def write_urdf(card: Card) -> str:
         )
         Xml.SubElement(joint, "limit", lower=lower, upper=upper, velocity=speed, effort=effort)
     flange = Xml.SubElement(robot, "link", name=FLANGE)
-    _inertial(flange, np.zeros(3), 0.0, WEIGHTLESS * np.eye(3))
+    _inertial(flange, np.zeros(3), 0.0, LEAST_INERTIA * np.eye(3))
     T = dq.matrix_from_pose(screws.home)
     joint = _joint(robot, FLANGE, "fixed", names[-1], FLANGE)
-    _origin(joint, T[:3, 3] - links[-1].place, T[:3, :3])
+    _origin(joint, T[:3, 3] - links[-1].pose, T[:3, :3])
     Xml.indent(robot)
     return Xml.tostring(robot, encoding="unicode")
 
@@ -58,9 +58,9 @@ def _joint(robot: Xml.Element, name: str, kind: str, parent: str, child: str) ->
 
 def _link(robot: Xml.Element, name: str, link: Link) -> None:
     element = Xml.SubElement(robot, "link", name=name)
-    _inertial(element, link.centre - link.place, link.mass, link.inertia)
+    _inertial(element, link.centre - link.pose, link.mass, link.inertia)
     for solid in link.solids:
-        _capsule(element, solid, link.place)
+        _capsule(element, solid, link.pose)
 
 
 def _inertial(link: Xml.Element, centre: Floats, mass: float, inertia: Floats) -> None:
@@ -80,7 +80,7 @@ def _capsule(link: Xml.Element, solid: Capsule, place: Floats) -> None:
     kinds = ("visual", "collision")
     material = "hub" if solid.hub else "shell"
     if length > 0:
-        rotation = _towards(along / length)
+        rotation = _rotation_to(along / length)
         for shape in _shapes(link, kinds, solid.centre - place, rotation, material):
             Xml.SubElement(shape, "cylinder", radius=radius, length=repr(length))
     for end in (solid.start, solid.end):
@@ -99,7 +99,7 @@ def _shapes(
             Xml.SubElement(element, "material", name=material)
 
 
-def _towards(direction: Floats) -> Floats:
+def _rotation_to(direction: Floats) -> Floats:
     """A rotation (3, 3) whose z axis is a unit vector."""
     side = np.eye(3)[np.argmin(np.abs(direction))]
     x = dq.cross(side, direction)

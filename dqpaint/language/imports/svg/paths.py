@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from dqpaint.language.imports.svg.values import COUNTS, Commands
-from dqpaint.program import Chain, Floats, piecewise
+from dqpaint.program import Floats, PiecewiseCurve, piecewise
 
 NO_LENGTH = 1e-12  # of the coordinates: what is smaller is no piece
 STRAIGHT = 1e-8  # chord of an arc, in diameters: it bends by half of that
@@ -65,7 +65,7 @@ class Pieces:
         self._size += 1
         return self._size - 1
 
-    def lines(self, matrices: Floats, shifts: Floats) -> Iterator[tuple[int, Chain]]:
+    def lines(self, matrices: Floats, shifts: Floats) -> Iterator[tuple[int, PiecewiseCurve]]:
         """Each line, with the number of its shape, where the shapes' transforms carry it.
 
         Within a line each piece begins where the one before it ends; what has no length is none.
@@ -85,11 +85,11 @@ class Pieces:
             if not long.any():
                 return
             starts = np.flatnonzero(np.diff(line[long], prepend=-1))
-            whole = Chain(cubic[long], ellipse[long], whole.angles[long])
-            piecewise.link(whole, starts)
-        yield from zip(shape[long][starts].tolist(), piecewise.parted(whole, starts), strict=True)
+            whole = PiecewiseCurve(cubic[long], ellipse[long], whole.angles[long])
+            piecewise.link_pieces(whole, starts)
+        yield from zip(shape[long][starts].tolist(), piecewise.split(whole, starts), strict=True)
 
-    def _arrays(self) -> tuple[Chain, np.ndarray[tuple[int], np.dtype[np.bool_]]]:
+    def _arrays(self) -> tuple[PiecewiseCurve, np.ndarray[tuple[int], np.dtype[np.bool_]]]:
         """All pieces, unmapped, and whether they have a length."""
         cubic, ellipse = np.zeros((self._size, 4, 3)), np.zeros((self._size, 2, 3))
         angles, long = np.zeros((self._size, 2)), np.ones(self._size, dtype=bool)
@@ -104,7 +104,7 @@ class Pieces:
         cubic[self._arcs_at, 0, :2] = arcs[:, :2]
         ellipse[self._arcs_at, :, :2] = arcs[:, 2:6].reshape(-1, 2, 2)
         angles[self._arcs_at] = arcs[:, 6:]
-        return Chain(cubic, ellipse, angles), long
+        return PiecewiseCurve(cubic, ellipse, angles), long
 
 
 # Shapes.

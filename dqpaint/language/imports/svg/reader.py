@@ -116,7 +116,7 @@ def _lines(root: Node) -> Iterator[ColouredCurve]:
             transforms.extend(state.matrix)
             lights.append(_colour(paint))
     found = list(pieces.lines(*_in_metres(np.array(transforms).reshape(-1, 3, 2))))
-    if found and not piecewise.farthest([chain for _, chain in found]) <= LARGEST * PIXEL:
+    if found and not piecewise.largest_coordinate([chain for _, chain in found]) <= LARGEST * PIXEL:
         raise SvgError("a place in it is not finite, or far too large")
     return ((chain, lights[number]) for number, chain in found)
 
@@ -183,7 +183,7 @@ def _colour(paint: bytes) -> Colour | None:
     red, green, blue = (colours.linear(channel / 255) for channel in paint[:3])
     if max(red, green, blue) < DARKEST:
         return None
-    return colours.dimmed((red, green, blue), paint[3] / 255)
+    return colours.dim((red, green, blue), paint[3] / 255)
 
 
 def _is_paper(at: Mapping[str, float], matrix: Matrix, paper: View) -> bool:

@@ -203,7 +203,7 @@ def timetable(program: Program, findings: DiagnosticCollector) -> Schedule:
     Strokes that are wrong are left out.
 
     Raises:
-        EnoughError: the list of errors is full.
+        ErrorLimitError: the list of errors is full.
     """
     segments = program.segments
     faults: Faults = {}  # of segments

@@ -187,7 +187,7 @@ def finish(ready: PreparedRun, run: Track) -> Painting:
         settings, chosen.controller, card.name,
         "recorded" if recording else chosen.plant.name,
         {} if recording else chosen.plant.summary(card),
-        chosen.disturbances, chosen.gains.summary(), motion, run, metrics, came_through, steps, scene,
+        chosen.disturbances, chosen.gains.shown(), motion, run, metrics, came_through, steps, scene,
         cast, pictures, ready.prepared.slowed, clock.seconds, notes, ready.prepared.placed,
         recording,
     )  # fmt: skip

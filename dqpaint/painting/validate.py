@@ -58,7 +58,7 @@ def check_run(settings: Settings, controller: Controller[Any] | None = None) -> 
     plant = choose_plant(settings.plant, "torque" if law.drives_torque else "rates")
     disturbances = make_disturbances(settings.disturb)
     for name, one in disturbances.items():
-        plant.need(one.needs, name)
+        plant.require_trait(one.needs, name)
     return RunChoices(law, gains, plant, disturbances)
 
 

@@ -10,7 +10,7 @@ from lark import Lark
 from lark.exceptions import LarkError
 
 from dqpaint.brushes import BRUSHES, takes
-from dqpaint.diagnostics.collector import DiagnosticCollector
+from dqpaint.diagnostics.collector import DiagnosticCollector, ErrorLimitError
 from dqpaint.language.syntax.parser import parse_statements
 from dqpaint.language.vocabulary.units import UNITS
 from dqpaint.language.vocabulary.words import FREE, RESERVED

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from dqpaint.language.imports.svg import attributes
 from dqpaint.language.imports.svg.attributes import Node
 from dqpaint.language.imports.svg.guard import guard
-from dqpaint.program import Chain, piecewise
+from dqpaint.program import PiecewiseCurve, piecewise
 
 G = np.linspace(0.0, 1.0, 9)  # along a piece of a line
 OPEN = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink">'
@@ -49,7 +49,7 @@ def tree(text: str) -> Node:
     return attributes.read(guard(text.encode()))[0]
 
 
-def outline(path: Chain) -> NDArray[np.float64]:
+def outline(path: PiecewiseCurve) -> NDArray[np.float64]:
     """Places (N, 2) along all pieces of a line."""
     piece = np.repeat(np.arange(len(path.cubic)), len(G))
     at = piecewise.derivatives(path, piece, np.tile(G, len(path.cubic)))[0]

@@ -83,7 +83,7 @@ def light_of(words: LightWords, state: StrokeState, scope: Scope) -> Light | Non
     if words.last is not None:
         last = _shade(words.last, state.shone.last, scope, after_to=True)
     elif words.first.word == "on":
-        last = colours.dimmed(state.shone.last, words.first.brightness)
+        last = colours.dim(state.shone.last, words.first.brightness)
     even = words.even or (words.first.word == "on" and state.shone.even)
     return Light(first, last, even) if (first, last) != (colours.DARK, colours.DARK) else None
 
@@ -103,7 +103,7 @@ def _shade(shade: ColourWords, on: Colour, scope: Scope, after_to: bool = False)
     if shade.word == "off":
         return colours.DARK
     colour = on if shade.value is None else typed_values.colour(shade.value, scope, after_to)
-    return colours.dimmed(colour, shade.brightness)
+    return colours.dim(colour, shade.brightness)
 
 
 def standing(light: Light | None) -> Light | None:

@@ -4,7 +4,7 @@
 keys is for the brush to say; a word that is none of its keys belongs to the statement.
 """
 
-from dqpaint.diagnostics import Fix, Problem, closest, did_you_mean, listed, problem
+from dqpaint.diagnostics import Fix, Problem, closest, did_you_mean, join_words, problem
 from dqpaint.errors import UsageError
 from dqpaint.language.syntax.cursor import Cursor, found, no_value
 from dqpaint.language.syntax.expressions import expression
@@ -60,7 +60,7 @@ def _values_of(token: Token) -> tuple[dict[str, str], str | None]:
     except UsageError as fault:  # a plugin that cannot be loaded
         raise problem("E264", str(fault), token.span) from None
     meant = closest(token.text, BRUSHES)
-    cure = did_you_mean(meant) or f"the brushes are: {listed(BRUSHES)}"
+    cure = did_you_mean(meant) or f"the brushes are: {join_words(BRUSHES)}"
     fix = Fix(f"write {meant}", token.span, meant) if meant else None
     raise problem("E264", f"there is no brush '{token.text}'", token.span, "", cure, fix)
 
@@ -111,7 +111,7 @@ def _check_next(cursor: Cursor, name: Token, takes: dict[str, str]) -> None:
     meant = closest(token.text, takes)
     if meant or not statement.parts:
         message = f"brush '{name.text}' has no value called '{token.text}'"
-        cure = did_you_mean(meant) or f"its values are: {listed(takes)}"
+        cure = did_you_mean(meant) or f"its values are: {join_words(takes)}"
         fix = Fix(f"write {meant}", token.span, meant) if meant else None
         raise problem("E265", message, token.span, "", cure, fix)
 
@@ -127,5 +127,5 @@ def _check_once(parts: list[BrushPart]) -> None:
 
 def _no_value(name: str, takes: dict[str, str], cursor: Cursor) -> Problem:
     message = f"a value of brush '{name}' stands behind its name"
-    cure = f"its values are: {listed(takes)}"
+    cure = f"its values are: {join_words(takes)}"
     return problem("E265", message, cursor.token.span, "", cure)

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import NamedTuple
 
-from dqpaint.diagnostics import DiagnosticCollector, ScriptError
+from dqpaint.diagnostics import DiagnosticCollector, ErrorLimitError, ScriptError
 from dqpaint.language.syntax.brush_clause import is_key
 from dqpaint.language.syntax.lexer import TOKEN, Token, lines
 from dqpaint.language.syntax.parser import parse_statements

@@ -25,10 +25,13 @@ from dqpaint.motion.geometry.paths import (
     Arcs,
     Formula,
     Indices,
+    Positions,
+    arc_positions,
     column,
     paths_of,
-    place_arc,
+    straight_positions,
 )
+from dqpaint.motion.geometry.piecewise_paths import piecewise_positions
 from dqpaint.motion.geometry.shapes import Flow, Jump, PositionAndOrientation, Rigid, Shape
 from dqpaint.motion.stroke_errors import Faults, StrokeError, pole, stroke_errors
 from dqpaint.program import (
@@ -39,6 +42,7 @@ from dqpaint.program import (
     FixedOrientation,
     FollowHeading,
     Path,
+    PiecewiseCurve,
     Screw,
     ScrewTo,
     Segment,
@@ -224,7 +228,7 @@ def _screw(segments: Sequence[Segment], start: Floats) -> Shape:
 
 def _straight(segments: Sequence[Segment], start: Floats) -> Shape:
     if not isinstance(segments[0].tool, FixedOrientation | FollowHeading):
-        return _loose(segments, place_straight(segments))
+        return _loose(segments, straight_positions(segments))
     by = column([path.by for path in paths_of(segments, Straight)])
     return Rigid(start, np.concatenate([np.zeros_like(by), by], axis=1))
 
@@ -232,7 +236,7 @@ def _straight(segments: Sequence[Segment], start: Floats) -> Shape:
 def _arc(segments: Sequence[Segment], start: Floats) -> Shape:
     arcs = paths_of(segments, Arc)
     if not isinstance(segments[0].tool, FollowHeading) or arcs[0].grow != 0:
-        return _loose(segments, place_arc(segments))
+        return _loose(segments, arc_positions(segments))
     return Rigid(start, _screws([(a.centre, a.axis, a.angle, a.rise) for a in arcs]))
 
 
@@ -242,10 +246,10 @@ def _curve(segments: Sequence[Segment], _start: Floats) -> Shape:
 
 
 def _chain(segments: Sequence[Segment], _start: Floats) -> Shape:
-    return _loose(segments, place_chains(paths_of(segments, Chain)))
+    return _loose(segments, piecewise_positions(paths_of(segments, PiecewiseCurve)))
 
 
-def _loose(segments: Sequence[Segment], places: Places) -> Shape:
+def _loose(segments: Sequence[Segment], places: Positions) -> Shape:
     return PositionAndOrientation(places, orientation_along(segments, places))
 
 
@@ -277,7 +281,7 @@ PATH_KINDS: dict[type[Path], PathKind] = {
     Screw: PathKind(_screw),
     Straight: PathKind(_straight, _of_one_tool),
     Arc: PathKind(_arc, _arcs_alike),
-    Chain: PathKind(_chain, _of_one_tool),
+    PiecewiseCurve: PathKind(_chain, _of_one_tool),
     Curve: PathKind(_curve, None),
 }
 

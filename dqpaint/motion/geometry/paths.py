@@ -12,7 +12,7 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
-from dqpaint.program import Arc, Chain, Curve, Screw, Segment, Straight, Taylor
+from dqpaint.program import Arc, Curve, PiecewiseCurve, Screw, Segment, Straight, Taylor
 from dqpaint.program import Indices as Indices
 
 
@@ -56,7 +56,7 @@ class BatchedParameters:
         return np.asarray(np.max(rows, axis=0))
 
 
-P = TypeVar("P", Straight, Arc, Curve, Screw, Chain)
+P = TypeVar("P", Straight, Arc, Curve, Screw, PiecewiseCurve)
 
 
 def paths_of(segments: Sequence[Segment], kind: type[P]) -> list[P]:

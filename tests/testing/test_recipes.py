@@ -1,13 +1,18 @@
-"""The recipes of CONTRIBUTING, carried out: a package outside the repository, as they have it."""
+"""The recipes of CONTRIBUTING, carried out.
+
+A package outside the repository, as they have it; and a copy of dqpaint, changed as they say.
+"""
 
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tomllib
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from tests.support.plugins import install
@@ -15,6 +20,7 @@ from tests.support.plugins import install
 ROOT = Path(__file__).parents[2]
 RECIPES = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
 TEXT = "period 10 ms\nline to (60, 20, 5) mm tool rot(y, 20 deg) in 1 s\n"
+CLI = ("-m", "dqpaint")
 pytestmark = pytest.mark.slow
 
 
@@ -23,14 +29,29 @@ def blocks(kind):
     return re.findall(rf"^```{kind}\n(.*?)^```$", RECIPES, re.DOTALL | re.MULTILINE)
 
 
-def files():
-    """The files that the blocks say they are: name -> text; one may come in several blocks."""
-    found = {}
-    for block in blocks("python"):
+def named(kind):
+    """The same, with the file that each says it is: (name, text)."""
+    for block in blocks(kind):
         first, _, text = block.partition("\n")
-        name = first.removeprefix("# ").strip()
+        yield first.removeprefix("# ").strip(), text
+
+
+def files():
+    """The files of the blocks: name -> text; one may come in several blocks."""
+    found = {}
+    for name, text in named("python"):
         found[name] = found.get(name, "") + text
     return found
+
+
+def changed(text, diff):
+    """A text after a change; the lines that are kept and taken away stand in it once."""
+    marked = [(line[:1], line[1:]) for line in diff.splitlines(keepends=True)]
+    assert {sign for sign, _ in marked} <= set("+- "), diff
+    before = "".join(line for sign, line in marked if sign != "+")
+    after = "".join(line for sign, line in marked if sign != "-")
+    assert text.count(before) == 1, f"not once in the file: {before}"
+    return text.replace(before, after)
 
 
 def entry_points():
@@ -125,3 +146,73 @@ def test_a_sweep_with_two_workers_gives_the_bits_of_single_runs(outside):
 
 def test_the_exported_checks_pass_on_it(outside):
     outside("check.py")
+
+
+@pytest.fixture(scope="module")
+def with_zigzag(tmp_path_factory):
+    """A function that runs Python with a dqpaint that has one more statement."""
+    folder = tmp_path_factory.mktemp("changed")
+    shutil.copytree(ROOT / "dqpaint", folder / "dqpaint")
+    for name, diff in named("diff"):
+        place = folder / name
+        place.write_text(changed(place.read_text("utf-8"), diff), "utf-8")
+    for name, text in files().items():
+        if name.startswith("dqpaint/"):
+            (folder / name).write_text(text, "utf-8")
+
+    def run(*words, code=0):
+        done = subprocess.run(
+            [sys.executable, *words], cwd=folder, env={**os.environ, "PYTHONPATH": str(folder)},
+            capture_output=True, text=True, check=False,
+        )  # fmt: skip
+        assert done.returncode == code, done.stdout + done.stderr
+        return done.stdout + done.stderr
+
+    run.folder = folder
+    return run
+
+
+ZIGZAG = "period 10 ms\nlet count = 2\nzigzag to (60, 0) mm height 10 mm count 2*count in 2 s\n"
+
+
+def test_a_new_statement_is_drawn(with_zigzag):
+    (with_zigzag.folder / "z.traj").write_text(ZIGZAG)
+    ends = json.loads(
+        with_zigzag(
+            "-c",
+            "import json, pathlib; from dqpaint.language import parse\n"
+            "program = parse(pathlib.Path('z.traj').read_text(), 'z')\n"
+            "print(json.dumps([segment.end.position for segment in program.segments]))",
+        )
+    )
+    corners = [(7.5, 5), (22.5, -5), (37.5, 5), (52.5, -5), (60, 0)]
+    np.testing.assert_allclose(ends, [(x / 1e3, y / 1e3, 0) for x, y in corners], atol=1e-12)
+    with_zigzag(*CLI, "draw", "z.traj", "--size", "64x36", "--plant", "ideal")
+    assert len((with_zigzag.folder / "z-hinf.csv").read_text().splitlines()) == 202
+    assert (with_zigzag.folder / "z-hinf.png").exists()
+
+
+@pytest.mark.parametrize(
+    ("line", "code", "told"),
+    [
+        ("zigzag to (60, 0) mm height 10 mm", "E115", "'count'"),
+        ("zigzag to (60, 0) mm height 10 mm count 2.5", "E221", "whole number"),
+        ("zigzag to (60, 0) mm height -1 mm count 2", "E220", "greater than 0"),
+        ("zigzag to (0, 0, 9) mm height 1 mm count 2", "E266", "no sides"),
+        ("zigzag by (60, 0) mm height 1 mm count 2", "E110", "'by'"),
+    ],
+)
+def test_mistakes_in_it_are_told(with_zigzag, line, code, told):
+    (with_zigzag.folder / "wrong.traj").write_text(f"{line}\n")
+    said = with_zigzag(*CLI, "check", "wrong.traj", code=1)
+    assert code in said
+    assert told in said
+
+
+def test_it_is_laid_out_listed_and_explained(with_zigzag):
+    (with_zigzag.folder / "f.traj").write_text("zigzag   to (60,0)mm height 10mm count 4\n")
+    with_zigzag(*CLI, "fmt", "f.traj")
+    text = (with_zigzag.folder / "f.traj").read_text()
+    assert text == "zigzag to (60, 0) mm height 10 mm count 4\n"
+    assert "drawn from side to side" in with_zigzag(*CLI, "list", "statements")
+    assert "a zigzag without sides" in with_zigzag(*CLI, "explain", "E266")

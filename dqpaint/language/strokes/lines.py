@@ -47,14 +47,14 @@ def _stops(statement: Statement, pen: Pen, scope: Scope) -> list[tuple[Vector, S
 def move(statement: Statement, pen: Pen, scope: Scope) -> None:
     """`move`: a line in the dark; the first one says where the drawing starts."""
     if not sets_start(statement, pen):
-        _legs(statement, _stops(statement, pen, scope), pen, scope, light=None)
+        legs(statement, _stops(statement, pen, scope), pen, scope, light=None)
         return
     pen.started, pen.moved = True, statement.span
     (first, span), *rest = _stops(statement, pen, scope)
     mode = pen.state.tool
     pen.start_at(first, tool_orientation.told(mode, first, span))
     if rest:
-        _legs(statement, rest, pen, scope, light=None)
+        legs(statement, rest, pen, scope, light=None)
         return
     timing(statement, pen.state, scope)
     for part in statement.parts:
@@ -68,33 +68,41 @@ def move(statement: Statement, pen: Pen, scope: Scope) -> None:
 
 def line(statement: Statement, pen: Pen, scope: Scope) -> None:
     """`line`: one stroke, or several."""
-    _legs(statement, _stops(statement, pen, scope), pen, scope, pen.state.light)
+    legs(statement, _stops(statement, pen, scope), pen, scope, pen.state.light)
 
 
-def _legs(
+def legs(
     statement: Statement,
     stops: list[tuple[Vector, Span]],
     pen: Pen,
     scope: Scope,
     light: Light | None,
 ) -> None:
-    """One segment for each leg; turn, light and time are spread over all by their lengths."""
-    legs, at = [], pen.pose.position
+    """One segment for each leg; turn, light and time are spread over all by their lengths.
+
+    Args:
+        statement: whose clauses hold for all of them.
+        stops: the end [m] of each leg in the drawing frame, and where it is written.
+        pen: begins where the tool is.
+        scope: of the values.
+        light: None is dark.
+    """
+    found, at = [], pen.pose.position
     for stop, span in stops:
         size = vectors.length(vectors.minus(stop, at))
         if size > SAME_PLACE:
-            legs.append((stop, size))
+            found.append((stop, size))
             at = stop
         elif len(stops) > 1:
             _no_length(statement.word, span, pen)
     whole = timing(statement, pen.state, scope)
-    if not legs:
+    if not found:
         _on_the_spot(statement, stops[0][1], pen, whole, light)
         return
     mode = pen.state.tool
-    sizes = [size for _, size in legs]
+    sizes = [size for _, size in found]
     times = shared(whole, sizes, statement.span)
-    for (stop, _), leg_time, (first, last) in zip(legs, times, _shares(sizes), strict=True):
+    for (stop, _), leg_time, (first, last) in zip(found, times, _shares(sizes), strict=True):
         tool_orientation.begin(pen, mode, statement.span)
         start = pen.pose.position
         tool, orientation = _tool_of_leg(pen, stop, statement.span, first, last)

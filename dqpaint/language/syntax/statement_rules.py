@@ -20,7 +20,9 @@ def check(statement: Statement, text: str) -> None:
     if len(statement.parts) > 1:
         _once(statement, text)
         _one_time(statement.parts)
-    checks = {"arc": _arc, "screw": _screw, "with": _with, "frame": _frame}
+    for part in STATEMENTS[statement.word].needs:
+        _needs(statement, part)
+    checks = {"arc": _arc, "screw": _screw, "with": _with, "frame": _frame, "place": _place}
     if statement.word in checks:
         checks[statement.word](statement)
     elif statement.word in ("line", "move"):
@@ -28,10 +30,6 @@ def check(statement: Statement, text: str) -> None:
             raise _to_or_by(statement.word, _first_word(statement))
     elif statement.word in ("text", "path", "svg"):
         _from_elsewhere(statement)
-    elif statement.word == "place" and statement.name is not None:
-        _place_auto(statement)
-    elif statement.word in ("step", "start", "place"):
-        _needs(statement, "to" if statement.word == "step" else "at")
 
 
 def _first_word(statement: Statement) -> Span:
@@ -165,8 +163,10 @@ def _screw(statement: Statement) -> None:
         raise problem("E248", message, tool.span, "", cure)
 
 
-def _place_auto(statement: Statement) -> None:
-    if at := statement.part("at"):
+def _place(statement: Statement) -> None:
+    if statement.name is None:
+        _needs(statement, "at")
+    elif at := statement.part("at"):
         message = "'place auto' finds the place itself; it takes no 'at'"
         cure = "write: place auto, or: place at POINT turned ORIENTATION"
         raise problem("E248", message, at.span, "", cure)

@@ -35,6 +35,7 @@ class StatementWord:
         example: a whole line, fit to be pasted.
         head: what stands between the word and its parts; empty for nothing.
         parts: the parts it may have.
+        needs: the parts that it can't be without.
         many: the parts that it may have several times.
         block: whether it holds the lines up to an `end`.
         moves: whether the tool moves, or time passes.
@@ -45,6 +46,7 @@ class StatementWord:
     example: str
     head: str = ""
     parts: tuple[str, ...] = ()
+    needs: tuple[str, ...] = ()
     many: tuple[str, ...] = ()
     block: bool = False
     moves: bool = False
@@ -137,6 +139,7 @@ STATEMENTS = {
             "where the drawing begins",
             "start at (0, 0, 0) tool rpy(0 deg, 0 deg, 0 deg)",
             parts=("at", "tool"),
+            needs=("at",),
         ),
         StatementWord("period", "the time between two samples", "period 8 ms", head="value"),
         *(
@@ -190,6 +193,7 @@ STATEMENTS = {
             "a jump of the set point",
             "step to (50, 50, -20) mm",
             parts=("to", "tool", *LAMP),
+            needs=("to",),
             moves=True,
         ),
         StatementWord(

@@ -156,6 +156,7 @@ def test_whatever_calls_whatever_it_ends(text):
         assert {d.code for d in found(text)} <= {"E304", "E308", "E309", "E127"}
 
 
+@pytest.mark.slow
 def test_ten_thousand_calls_are_quick():
     text = "let k = 2\ndef a(n)\nlet q = k*n\nmove by (q, 0)\nend\nrepeat 10000\na(1 mm)\nend"
     with Calls(3_000_000):  # twice what is needed

@@ -28,7 +28,9 @@ def test_catalogue(entry: list[str]) -> None:
     assert bool(diagnostic.fix) == ("fix" in beside)
 
 
-@pytest.mark.parametrize("name", LARGE)
+@pytest.mark.parametrize("name", [
+    pytest.param(name, marks=[pytest.mark.slow] * (name in ("work", "strokes"))) for name in LARGE
+])  # fmt: skip
 def test_large(name: str) -> None:
     text, code, at = LARGE[name]
     first = found(text)[0]

@@ -69,6 +69,7 @@ def test_depth() -> None:
     assert refused(f'{OPEN}<g id="a0"/>{back}</svg>') == wanted
 
 
+@pytest.mark.slow
 def test_size() -> None:
     assert refused(f"{OPEN}{'<g/>' * MOST_ELEMENTS}</svg>") == "more than 100,000 elements"
 

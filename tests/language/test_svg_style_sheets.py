@@ -70,6 +70,7 @@ def paints(body: str, root: str = "") -> list[tuple[str | None, ...]]:
     return [tuple(one and one.hex() for one in both) for both in seen]
 
 
+@pytest.mark.slow
 def test_too_many_rules_for_too_many_elements() -> None:
     with pytest.raises(Exception, match="style"):
         read(f"<style>{'*{stroke:red}' * 3000}</style>{'<g/>' * 3000}")

@@ -99,6 +99,7 @@ def test_colours_of_lines_are_seen_on_white_paper():
         assert 1.05 / (bright + 0.05) >= 2.95  # of 3 that WCAG 2.2, 1.4.11 asks
 
 
+@pytest.mark.slow
 def test_many_panels_stand_in_rows_under_one_legend():
     lines = [Line(X, X, "one"), Line(X, X**2, "two")]
     panels = [Panel(f"panel {i}", "x", "y", lines, span=(0, 100)) for i in range(5)]

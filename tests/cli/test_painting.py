@@ -120,7 +120,7 @@ def test_a_law_of_one_s_own(dqpaint, line, tmp_path):
         (
             ("mine.py",),
             2,
-            "usage: mine.py has 3 functions",
+            "usage: mine.py has 3 laws",
         ),
         (
             ("mine.py:wrong",),

@@ -84,8 +84,9 @@ def test_a_run_reads_no_law_plant_or_disturbance_but_its_own():
     ).stdout.split()
     for law in set(CONTROLLERS) - {"hinf", "hinf-set"}:
         assert f"dqpaint.controllers.laws.{law.replace('-', '_')}" not in read
-    for room, used in (("plants", "stiff"), ("disturbances", None)):
-        for name in set(PLANTS if room == "plants" else DISTURBANCES) - {used}:
+    # the ideal plant is a public base of others
+    for room, used in (("plants", {"stiff", "ideal"}), ("disturbances", set())):
+        for name in set(PLANTS if room == "plants" else DISTURBANCES) - used:
             assert f"dqpaint.{room}.{name}" not in read
 
 

@@ -11,9 +11,9 @@ def random_drawing(seed):
     text = "period 4 ms\nstart at (0, 0) mm\n"
     for _ in range(4):
         x, y, z = rng.uniform(-140, 140, 3) * [1, 1, 0.3]
-        law = rng.choice(["trapezoid", "quintic", "constant"], p=[0.5, 0.35, 0.15])
+        profile = rng.choice(["trapezoid", "quintic", "constant"], p=[0.5, 0.35, 0.15])
         speed = np.exp(rng.uniform(np.log(60), np.log(1200)))
-        text += f"line to ({x:.0f}, {y:.0f}, {z:.0f}) mm speed {speed:.0f} mm/s law {law}"
+        text += f"line to ({x:.0f}, {y:.0f}, {z:.0f}) mm speed {speed:.0f} mm/s profile {profile}"
         if rng.random() < 0.6:
             text += f" tool rot({rng.choice(list('xyz'))}, {rng.uniform(-60, 60):.0f} deg)"
         text += " light red\n"

@@ -117,13 +117,13 @@ def slow(table: Schedule) -> Iterator[Diagnostic]:
     speed = np.array([s.timing.speed if isinstance(s.timing, CruiseSpeed) else 0.0 for s in firsts])
     lit = np.array([segment.light is not None for segment in table.program.segments])
     lit_strokes = np.logical_or.reduceat(lit, table.first)
-    chains = np.array([isinstance(segment.path, PiecewiseCurve) for segment in firsts])
+    curves = np.array([isinstance(segment.path, PiecewiseCurve) for segment in firsts])
     peak, time = table.peak_rates, table.time
     reached = peak * table.length / time
     below = (speed > 0.0) & (table.length > 0.0) & lit_strokes & (reached < REACHED * speed)
     least = np.divide(peak * table.length, speed, out=np.zeros_like(time), where=speed > 0.0)
     rounded = time - table.wanted > 0.5 * (time - least)
-    found = np.flatnonzero(below & ~(rounded & chains))  # the dot of an i can't help it
+    found = np.flatnonzero(below & ~(rounded & curves))  # the dot of an i can't help it
     if len(found):
         worst = found[np.argmin(reached[found] / speed[found])]
         yield _slow(firsts[worst], float(reached[worst]), bool(rounded[worst]), len(found))

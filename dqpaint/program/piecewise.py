@@ -1,7 +1,7 @@
-"""Chains of smooth pieces: made from points, Bezier curves and arcs; joined, turned round, fitted.
+"""Piecewise curves: made from points, Bezier curves and arcs; joined, turned round, fitted.
 
-A chain that comes from a file has its coordinates in the file's own unit until it is mapped into
-the drawing frame. What the numbers of a piece mean is said at `program.Chain`.
+A curve that comes from a file has its coordinates in the file's own unit until it is mapped into
+the drawing frame. What the numbers of a piece mean is said at `program.PiecewiseCurve`.
 """
 
 from collections.abc import Iterator, Sequence
@@ -20,9 +20,9 @@ CORNER_ANGLE = np.radians(60.0)  # a smooth line keeps the corners that turn by 
 Indices = NDArray[np.intp]
 
 
-def derivatives(chain: PiecewiseCurve, piece: Indices, g: Floats) -> Floats:
+def derivatives(curve: PiecewiseCurve, piece: Indices, g: Floats) -> Floats:
     """Places (4, N, 3) and derivatives over g, of pieces (N,) at their own parameters (N,)."""
-    c0, c1, c2, c3 = chain.cubic[piece].transpose(1, 0, 2)
+    c0, c1, c2, c3 = curve.cubic[piece].transpose(1, 0, 2)
     h = g[:, None]
     out = np.stack([
         c0 + h * (c1 + h * (c2 + h * c3)),
@@ -30,11 +30,11 @@ def derivatives(chain: PiecewiseCurve, piece: Indices, g: Floats) -> Floats:
         2.0 * c2 + 6.0 * h * c3,
         6.0 * c3,
     ])  # fmt: skip
-    ellipse = chain.ellipse[piece]
+    ellipse = curve.ellipse[piece]
     (arcs,) = np.nonzero(ellipse.any(axis=(1, 2)))
     if len(arcs):
         u, v = ellipse[arcs].transpose(1, 0, 2)
-        start, turn = chain.angles[piece[arcs]].T[:, :, None]
+        start, turn = curve.angles[piece[arcs]].T[:, :, None]
         c, s = (wave(start + h[arcs] * turn) for wave in (np.cos, np.sin))
         outward, along = c * u + s * v, c * v - s * u
         out[0, arcs] += outward
@@ -44,11 +44,11 @@ def derivatives(chain: PiecewiseCurve, piece: Indices, g: Floats) -> Floats:
     return out
 
 
-def speeds(chain: PiecewiseCurve, piece: Indices, g: Floats) -> Floats:
+def speeds(curve: PiecewiseCurve, piece: Indices, g: Floats) -> Floats:
     """The lengths (N, K) of the first derivatives of pieces (N,) at parameters of theirs (N, K)."""
-    c1, c2, c3 = chain.cubic[piece, 1:].transpose(1, 2, 0)[:, :, :, None]  # (3, N, 1) each
-    u, v = chain.ellipse[piece].transpose(1, 2, 0)[:, :, :, None]
-    start, turn = chain.angles[piece].T[:, :, None]
+    c1, c2, c3 = curve.cubic[piece, 1:].transpose(1, 2, 0)[:, :, :, None]  # (3, N, 1) each
+    u, v = curve.ellipse[piece].transpose(1, 2, 0)[:, :, :, None]
+    start, turn = curve.angles[piece].T[:, :, None]
     (arcs,) = np.nonzero(turn[:, 0])
     if len(arcs):
         a = start[arcs] + g[arcs] * turn[arcs]
@@ -187,17 +187,17 @@ def turn_angles(points: Floats) -> Floats:
 # Changed.
 
 
-def join(chains: Sequence[PiecewiseCurve]) -> PiecewiseCurve:
-    """One chain of several that follow each other; a start is moved to the end before it."""
-    if len(chains) == 1:
-        return chains[0]
-    whole, first, _ = concatenate(chains)
+def join(curves: Sequence[PiecewiseCurve]) -> PiecewiseCurve:
+    """One curve of several that follow each other; a start is moved to the end before it."""
+    if len(curves) == 1:
+        return curves[0]
+    whole, first, _ = concatenate(curves)
     _move(whole, first[1:])
     return whole
 
 
 def link_pieces(whole: PiecewiseCurve, starts: Indices) -> None:
-    """Moves the start of each piece to the end before it, but of those that start a chain."""
+    """Moves the start of each piece to the end before it, but of those that start a curve."""
     _move(whole, np.delete(np.arange(len(whole.cubic)), starts))
 
 
@@ -208,30 +208,30 @@ def _move(whole: PiecewiseCurve, heads: Indices) -> None:
     whole.cubic[heads, 1] -= gap
 
 
-def reverse(chain: PiecewiseCurve) -> PiecewiseCurve:
+def reverse(curve: PiecewiseCurve) -> PiecewiseCurve:
     """The same way, from its end to its start."""
-    c0, c1, c2, c3 = chain.cubic[::-1].transpose(1, 0, 2)
+    c0, c1, c2, c3 = curve.cubic[::-1].transpose(1, 0, 2)
     cubic = np.stack([c0 + c1 + c2 + c3, -(c1 + 2.0 * c2 + 3.0 * c3), c2 + 3.0 * c3, -c3], axis=1)
-    start, turn = chain.angles[::-1].T
+    start, turn = curve.angles[::-1].T
     return PiecewiseCurve(
-        cubic, chain.ellipse[::-1].copy(), np.stack([start + turn, -turn], axis=1)
+        cubic, curve.ellipse[::-1].copy(), np.stack([start + turn, -turn], axis=1)
     )
 
 
-def transform(chain: PiecewiseCurve, matrix: Floats, shift: Floats) -> PiecewiseCurve:
+def transform(curve: PiecewiseCurve, matrix: Floats, shift: Floats) -> PiecewiseCurve:
     """Every point p goes to matrix (3, 3) p + shift (3,); too far for a number is infinite."""
     with np.errstate(over="ignore", invalid="ignore"):
-        cubic = chain.cubic @ matrix.T
+        cubic = curve.cubic @ matrix.T
         cubic[:, 0] += shift
-        arcs = chain.ellipse.any()
+        arcs = curve.ellipse.any()
         return PiecewiseCurve(
-            cubic, chain.ellipse @ matrix.T if arcs else chain.ellipse, chain.angles
+            cubic, curve.ellipse @ matrix.T if arcs else curve.ellipse, curve.angles
         )
 
 
-def largest_coordinate(chains: Sequence[PiecewiseCurve]) -> float:
+def largest_coordinate(curves: Sequence[PiecewiseCurve]) -> float:
     """The largest number of all pieces [m]; NaN if one of them is none."""
-    whole = concatenate(chains)[0]
+    whole = concatenate(curves)[0]
     parts = whole.cubic, whole.ellipse
     return float(max(max(part.max(), -part.min()) for part in parts))
 
@@ -239,31 +239,31 @@ def largest_coordinate(chains: Sequence[PiecewiseCurve]) -> float:
 # Measured.
 
 
-def _at(chain: PiecewiseCurve, piece: Indices, g: float) -> Floats:
+def _at(curve: PiecewiseCurve, piece: Indices, g: float) -> Floats:
     """Where pieces are (N, 3) at the same parameter of theirs."""
-    places = np.array([1.0, g, g**2, g**3]) @ chain.cubic[piece]
-    (arcs,) = np.nonzero(chain.ellipse[piece].any(axis=(1, 2)))
-    a = chain.angles[piece[arcs]] @ [1.0, g]
+    places = np.array([1.0, g, g**2, g**3]) @ curve.cubic[piece]
+    (arcs,) = np.nonzero(curve.ellipse[piece].any(axis=(1, 2)))
+    a = curve.angles[piece[arcs]] @ [1.0, g]
     waves = np.stack([np.cos(a), np.sin(a)], axis=1)
-    places[arcs] += (waves[:, :, None] * chain.ellipse[piece[arcs]]).sum(axis=1)
+    places[arcs] += (waves[:, :, None] * curve.ellipse[piece[arcs]]).sum(axis=1)
     return np.asarray(places)
 
 
-def ends(chain: PiecewiseCurve) -> tuple[Vector, Vector]:
+def ends(curve: PiecewiseCurve) -> tuple[Vector, Vector]:
     """The first and the last point."""
-    first, last = all_ends([chain])[0].tolist()
+    first, last = all_ends([curve])[0].tolist()
     return (first[0], first[1], first[2]), (last[0], last[1], last[2])
 
 
-def all_ends(chains: Sequence[PiecewiseCurve]) -> Floats:
-    """The first and the last points (N, 2, 3) of many chains."""
-    whole, first, last = concatenate(chains)
+def all_ends(curves: Sequence[PiecewiseCurve]) -> Floats:
+    """The first and the last points (N, 2, 3) of many curves."""
+    whole, first, last = concatenate(curves)
     return np.stack([_at(whole, first, 0.0), _at(whole, last, 1.0)], axis=1)
 
 
-def directions(chains: Sequence[PiecewiseCurve]) -> Floats:
-    """Unit vectors (N, 2, 3) into each chain from its start and from its end."""
-    whole, *pieces = concatenate(chains)
+def directions(curves: Sequence[PiecewiseCurve]) -> Floats:
+    """Unit vectors (N, 2, 3) into each curve from its start and from its end."""
+    whole, *pieces = concatenate(curves)
     ways = [
         sign * derivatives(whole, piece, np.full(len(piece), g))[1]
         for piece, g, sign in zip(pieces, (1e-3, 1.0 - 1e-3), (1.0, -1.0), strict=True)
@@ -273,29 +273,29 @@ def directions(chains: Sequence[PiecewiseCurve]) -> Floats:
     return np.asarray(out / np.where(norm > 0.0, norm, 1.0))
 
 
-def concatenate(chains: Sequence[PiecewiseCurve]) -> tuple[PiecewiseCurve, Indices, Indices]:
-    """All pieces of many chains, and which are the first and the last of each."""
-    whole = chains[0]
-    if len(chains) > 1:  # else it is there already, and may be long
+def concatenate(curves: Sequence[PiecewiseCurve]) -> tuple[PiecewiseCurve, Indices, Indices]:
+    """All pieces of many curves, and which are the first and the last of each."""
+    whole = curves[0]
+    if len(curves) > 1:  # else it is there already, and may be long
         whole = PiecewiseCurve(
-            np.concatenate([chain.cubic for chain in chains]),
-            np.concatenate([chain.ellipse for chain in chains]),
-            np.concatenate([chain.angles for chain in chains]),
+            np.concatenate([curve.cubic for curve in curves]),
+            np.concatenate([curve.ellipse for curve in curves]),
+            np.concatenate([curve.angles for curve in curves]),
         )
-    stop = np.cumsum([len(chain.cubic) for chain in chains])
+    stop = np.cumsum([len(curve.cubic) for curve in curves])
     return whole, np.concatenate([[0], stop[:-1]]), stop - 1
 
 
 def split(whole: PiecewiseCurve, starts: Indices) -> Iterator[PiecewiseCurve]:
-    """The chains that were put together, by the first piece of each; they share its arrays."""
+    """The curves that were put together, by the first piece of each; they share its arrays."""
     ends = [*starts[1:].tolist(), len(whole.cubic)]
     for own in map(slice, starts.tolist(), ends):
         yield PiecewiseCurve(whole.cubic[own], whole.ellipse[own], whole.angles[own])
 
 
-def lengths(chains: Sequence[PiecewiseCurve]) -> list[float]:
-    """The lengths of chains, good enough to share out time and colour by them."""
-    whole, first, _ = concatenate(chains)
+def lengths(curves: Sequence[PiecewiseCurve]) -> list[float]:
+    """The lengths of curves, good enough to share out time and colour by them."""
+    whole, first, _ = concatenate(curves)
     every = np.arange(len(whole.cubic))
     size = stretch_lengths(
         whole, is_nonuniform(whole), every, np.zeros(len(every)), np.ones(len(every))
@@ -303,19 +303,19 @@ def lengths(chains: Sequence[PiecewiseCurve]) -> list[float]:
     return list(np.add.reduceat(size, first).tolist())
 
 
-def is_nonuniform(chain: PiecewiseCurve) -> NDArray[np.bool_]:
+def is_nonuniform(curve: PiecewiseCurve) -> NDArray[np.bool_]:
     """Which pieces (M,) do not run at one speed: all but straight lines and arcs of circles."""
-    out = np.asarray(chain.cubic[:, 2:].any(axis=(1, 2)))
-    (arcs,) = np.nonzero(chain.angles[:, 1])
-    u, v = chain.ellipse[arcs].transpose(1, 0, 2)
+    out = np.asarray(curve.cubic[:, 2:].any(axis=(1, 2)))
+    (arcs,) = np.nonzero(curve.angles[:, 1])
+    u, v = curve.ellipse[arcs].transpose(1, 0, 2)
     uu, vv, uv = ((a * b).sum(1) for a, b in ((u, u), (v, v), (u, v)))
     oval = np.maximum(np.abs(uu - vv), np.abs(uv)) > CIRCLE_TOLERANCE * uu
-    out[arcs] |= oval | chain.cubic[arcs, 1].any(axis=1)
+    out[arcs] |= oval | curve.cubic[arcs, 1].any(axis=1)
     return out
 
 
 def stretch_lengths(
-    chain: PiecewiseCurve, uneven: NDArray[np.bool_], piece: Indices, lower: Floats, upper: Floats
+    curve: PiecewiseCurve, uneven: NDArray[np.bool_], piece: Indices, lower: Floats, upper: Floats
 ) -> Floats:
     """The lengths (N,) of pieces (N,) between parameters (N,).
 
@@ -327,14 +327,14 @@ def stretch_lengths(
         for some in np.split(which, range(BATCH, len(which), BATCH)):
             size = (upper[some] - lower[some])[:, None]
             at = lower[some, None] + (0.5 * size * (1.0 + NODES) if hard else 0.0 * size)
-            speed = speeds(chain, piece[some], at)
+            speed = speeds(curve, piece[some], at)
             out[some] = size[:, 0] * (speed @ (0.5 * WEIGHTS) if hard else speed[:, 0])
     return out
 
 
-def bounding_box(chains: Sequence[PiecewiseCurve]) -> tuple[Floats, Floats]:
+def bounding_box(curves: Sequence[PiecewiseCurve]) -> tuple[Floats, Floats]:
     """The least and the greatest coordinates (3,), exact where a curve bulges out as well."""
-    whole = concatenate(chains)[0]
+    whole = concatenate(curves)[0]
     every = np.arange(len(whole.cubic))
     found = [_at(whole, every, 0.0), _at(whole, every, 1.0)]
     for axis in range(3):
@@ -346,10 +346,10 @@ def bounding_box(chains: Sequence[PiecewiseCurve]) -> tuple[Floats, Floats]:
     return points.min(axis=0), points.max(axis=0)
 
 
-def _still_cubic(chain: PiecewiseCurve, axis: int) -> tuple[Indices, Floats]:
+def _still_cubic(curve: PiecewiseCurve, axis: int) -> tuple[Indices, Floats]:
     """Where a coordinate of the cubic stands still: the roots of c1 + 2 c2 g + 3 c3 g^2."""
-    (piece,) = np.nonzero(chain.cubic[:, 2:, axis].any(axis=1))
-    c, b, a = (k * chain.cubic[piece, k, axis] for k in (1, 2, 3))
+    (piece,) = np.nonzero(curve.cubic[:, 2:, axis].any(axis=1))
+    c, b, a = (k * curve.cubic[piece, k, axis] for k in (1, 2, 3))
     with np.errstate(divide="ignore", invalid="ignore"):
         root = np.sqrt(np.maximum(b * b - 4.0 * a * c, 0.0))
         q = -0.5 * (b + np.copysign(root, b))  # the form that loses no digits
@@ -357,11 +357,11 @@ def _still_cubic(chain: PiecewiseCurve, axis: int) -> tuple[Indices, Floats]:
     return np.concatenate([piece, piece]), np.where(np.isfinite(g), g, 0.0)
 
 
-def _still_arc(chain: PiecewiseCurve, axis: int) -> tuple[Indices, Floats]:
+def _still_arc(curve: PiecewiseCurve, axis: int) -> tuple[Indices, Floats]:
     """Where a coordinate of the ellipse stands still: tan a = v / u."""
-    (piece,) = np.nonzero(chain.ellipse[:, :, axis].any(axis=1) & (chain.angles[:, 1] != 0.0))
-    u, v = chain.ellipse[piece, :, axis].T
-    start, turn = chain.angles[piece].T
+    (piece,) = np.nonzero(curve.ellipse[:, :, axis].any(axis=1) & (curve.angles[:, 1] != 0.0))
+    u, v = curve.ellipse[piece, :, axis].T
+    start, turn = curve.angles[piece].T
     half_turns = np.arange(-4, 5)[:, None] * np.pi  # arcs are at most one turn
     base = np.arctan2(v, u)
     base = base + np.pi * np.round((start + 0.5 * turn - base) / np.pi)

@@ -148,13 +148,13 @@ def test_bows_stay_near_their_points(name: str) -> None:
     font = lettering.read_font(name)
     for glyph in font.glyphs.values():
         for points in glyph.strokes:
-            chain = lettering._stroke(points, font.sharpest)
-            count = len(chain.cubic)
+            curve = lettering._stroke(points, font.sharpest)
+            count = len(curve.cubic)
             g = np.tile(np.linspace(0, 1, 9), count)
             of = np.repeat(np.arange(count), 9)
-            at = piecewise.derivatives(chain, of, g)[0]
-            a = chain.cubic[of, 0]
-            b = a + chain.cubic[of, 1:].sum(axis=1) - a
+            at = piecewise.derivatives(curve, of, g)[0]
+            a = curve.cubic[of, 0]
+            b = a + curve.cubic[of, 1:].sum(axis=1) - a
             share = ((at - a) * b).sum(1) / (b * b).sum(1)
             assert np.linalg.norm(at - a - share[:, None] * b, axis=1).max() < 1.0
 

@@ -14,13 +14,13 @@ def line(*points: tuple[float, float]) -> PiecewiseCurve:
     return piecewise.straight(np.array([(*p, 0.0) for p in points]))
 
 
-def corners(chain: PiecewiseCurve) -> list[tuple[float, float]]:
-    ends = np.vstack([chain.cubic[:, 0], piecewise.ends(chain)[1]])
+def corners(curve: PiecewiseCurve) -> list[tuple[float, float]]:
+    ends = np.vstack([curve.cubic[:, 0], piecewise.ends(curve)[1]])
     return [(round(x, 6), round(y, 6)) for x, y, _ in ends.tolist()]
 
 
 def dark(lines: list[tuple[PiecewiseCurve, object]]) -> float:
-    ends = np.array([piecewise.ends(chain) for chain, _ in lines])
+    ends = np.array([piecewise.ends(curve) for curve, _ in lines])
     return float(np.linalg.norm(ends[1:, 0] - ends[:-1, 1], axis=1).sum())
 
 
@@ -53,7 +53,7 @@ def test_a_ring_of_lines_closes() -> None:
 def test_where_lines_cross_they_go_straight_on() -> None:
     arms = [((1, 0), (0, 0)), ((0, 1), (0, 0)), ((0, 0), (-1, 0)), ((0, 0), (0, -1))]
     ways = [
-        corners(chain) for chain, _ in stroke_order.in_order([(line(*arm), RED) for arm in arms])
+        corners(curve) for curve, _ in stroke_order.in_order([(line(*arm), RED) for arm in arms])
     ]
     assert len(ways) == 2
     for way in ways:
@@ -66,11 +66,11 @@ def test_a_small_gap_is_closed_a_larger_one_is_not() -> None:
     def count(gap: float) -> int:
         lines = [(line((0, 0), (1, 0)), RED), (line((1 + gap, 0), (2, 0)), RED)]
         made = stroke_order.in_order(lines)
-        for chain, _ in made:
+        for curve, _ in made:
             ends = piecewise.derivatives(
-                chain, np.arange(len(chain.cubic)), np.ones(len(chain.cubic))
+                curve, np.arange(len(curve.cubic)), np.ones(len(curve.cubic))
             )
-            np.testing.assert_allclose(ends[0][:-1], chain.cubic[1:, 0], atol=1e-15)
+            np.testing.assert_allclose(ends[0][:-1], curve.cubic[1:, 0], atol=1e-15)
         return len(made)
 
     assert count(1e-5) == 1
@@ -101,7 +101,7 @@ def test_a_good_order_is_kept() -> None:
 def test_the_nearest_is_the_nearest(rng: np.random.Generator) -> None:
     """The search by cells, against looking at all."""
     for count in (2, 7, 400):
-        ends = np.array([piecewise.ends(chain) for chain, _ in scattered(rng, count)])
+        ends = np.array([piecewise.ends(curve) for curve, _ in scattered(rng, count)])
         order, flipped = stroke_order._nearest(ends)
         left = set(range(1, count))
         for before, line, back, was in zip(order, order[1:], flipped[1:], flipped, strict=False):
@@ -120,7 +120,7 @@ def test_the_file_s_order_stays_where_it_is_better(monkeypatch: pytest.MonkeyPat
 
 def test_turning_stretches_round_helps(rng: np.random.Generator) -> None:
     lines = scattered(rng, 300)
-    ends = np.array([piecewise.ends(chain) for chain, _ in lines])
+    ends = np.array([piecewise.ends(curve) for curve, _ in lines])
     near = stroke_order._nearest(ends)
     better = stroke_order._turned(ends, *near)
     assert sorted(better[0]) == list(range(300))

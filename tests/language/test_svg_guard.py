@@ -62,9 +62,9 @@ def test_depth() -> None:
     for count in (DEEPEST, 9999):
         message = refused(f"{OPEN}{'<g>' * count}{'</g>' * count}</svg>")
         assert message == "more than 200 elements within each other"
-    chain = "".join(f'<g id="a{i}"><use href="#a{i + 1}"/></g>' for i in range(5000))
+    curve = "".join(f'<g id="a{i}"><use href="#a{i + 1}"/></g>' for i in range(5000))
     wanted = "more than 200 elements within each other by 'use'"
-    assert refused(f"{OPEN}{chain}</svg>") == wanted
+    assert refused(f"{OPEN}{curve}</svg>") == wanted
     back = "".join(f'<g id="a{i}"><use href="#a{i - 1}"/></g>' for i in range(1, 5000))
     assert refused(f'{OPEN}<g id="a0"/>{back}</svg>') == wanted
 

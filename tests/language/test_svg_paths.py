@@ -172,7 +172,7 @@ def test_the_work_on_arrays_is_the_same_for_few_pieces_and_for_many(
             pieces.begin()
             paths.draw_path(pieces, values.path(f"M{number} 0l1 1q1 1 2 2c1 1 2 2 3 4"))
         many = np.repeat(np.eye(3)[None], lines, axis=0), np.zeros((lines, 3))
-        made = [chain for _, chain in pieces.lines(*many)]
+        made = [curve for _, curve in pieces.lines(*many)]
         assert len(made) == lines
         piecewise.lengths(made)
         return count

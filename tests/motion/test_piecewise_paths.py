@@ -1,4 +1,4 @@
-"""Chains of smooth pieces: on their curves, at one speed, through corners without a stop."""
+"""Piecewise curves: on their curves, at one speed, through corners without a stop."""
 
 import numpy as np
 import pytest
@@ -12,8 +12,8 @@ CUSP = np.array([[0, 0, 0], [1, 1, 0], [0, 1, 0], [1, 0, 0]], dtype=float)  # at
 POINTS = np.array([[0, 0, 0], [3, 0, 0], [3, 4, 0], [3, 4, 12]], dtype=float)
 
 
-def place_chain(chain: PiecewiseCurve):
-    return piecewise_positions([chain]).select(0)
+def place_chain(curve: PiecewiseCurve):
+    return piecewise_positions([curve]).select(0)
 
 
 def mixed() -> PiecewiseCurve:
@@ -48,19 +48,19 @@ def test_one_speed_from_end_to_end(rng):
 
 def test_places_are_on_the_curves(rng):
     """By other means: de Casteljau's points, and the ellipse's implicit equation."""
-    chain = mixed()
-    at = place_chain(chain)(np.linspace(0, 1, 20_001))[0]
+    curve = mixed()
+    at = place_chain(curve)(np.linspace(0, 1, 20_001))[0]
     t = np.linspace(0, 1, 50)[:, None, None]
     points = np.broadcast_to(BEZIER, (50, 4, 3))
     while points.shape[1] > 1:
         points = (1 - t) * points[:, :-1] + t * points[:, 1:]
     gaps = np.linalg.norm(at[None] - points, axis=2).min(axis=1)
     assert gaps.max() < 3.2e-5  # half a step of the samples
-    arc = chain.cubic[2, 0]
+    arc = curve.cubic[2, 0]
     near = np.linalg.lstsq(HALF_AXES.T, (at - arc).T, rcond=None)[0].T
     flat = np.linalg.norm(near @ HALF_AXES - (at - arc), axis=1) < 1e-12
     lengths = piecewise.lengths(
-        [PiecewiseCurve(*(a[i : i + 1] for a in parts(chain))) for i in range(4)]
+        [PiecewiseCurve(*(a[i : i + 1] for a in parts(curve))) for i in range(4)]
     )
     s = np.linspace(0, 1, 20_001) * sum(lengths)
     on = (s > lengths[0] + lengths[1] + 1e-3) & (s < sum(lengths[:3]) - 1e-3)
@@ -69,12 +69,12 @@ def test_places_are_on_the_curves(rng):
     np.testing.assert_allclose((near[on] ** 2).sum(1), 1, atol=1e-12)
 
 
-def parts(chain):
-    return chain.cubic, chain.ellipse, chain.angles
+def parts(curve):
+    return curve.cubic, curve.ellipse, curve.angles
 
 
 def test_derivatives_are_derivatives():
-    """Up to the third, which no tool of a chain needs, but the shape promises."""
+    """Up to the third, which no tool of a curve needs, but the shape promises."""
     places, h = place_chain(piecewise.bezier(BEZIER)), 1e-5
     f = np.linspace(0.05, 0.95, 19)
     now, ahead, behind = (places(f + d) for d in (0, h, -h))

@@ -13,11 +13,11 @@ CONTROL = np.array([[0.1, 0.2, 0.3], [1.0, -0.5, 0.2], [0.4, 2.0, -1.0], [2.0, 1
 HALF = np.array([[2.0, 0.5, 0.1], [-0.3, 1.0, 0.4]])
 
 
-def at(chain: PiecewiseCurve, count: int = 201) -> np.ndarray:
-    """Places all along a chain, piece by piece."""
-    pieces = len(chain.cubic)
+def at(curve: PiecewiseCurve, count: int = 201) -> np.ndarray:
+    """Places all along a curve, piece by piece."""
+    pieces = len(curve.cubic)
     g = np.tile(np.linspace(0, 1, count), pieces)
-    return piecewise.derivatives(chain, np.repeat(np.arange(pieces), count), g)[0]
+    return piecewise.derivatives(curve, np.repeat(np.arange(pieces), count), g)[0]
 
 
 def test_bezier_against_bernstein() -> None:
@@ -31,9 +31,9 @@ def test_bezier_against_bernstein() -> None:
 
 
 def test_derivatives_are_derivatives() -> None:
-    chain = PiecewiseCurve(piecewise.bezier(CONTROL).cubic, HALF[None], np.array([[0.4, -2.7]]))
+    curve = PiecewiseCurve(piecewise.bezier(CONTROL).cubic, HALF[None], np.array([[0.4, -2.7]]))
     g, h, piece = np.linspace(0.1, 0.9, 9), 1e-5, np.zeros(9, dtype=int)
-    now, ahead, behind = (piecewise.derivatives(chain, piece, g + d) for d in (0, h, -h))
+    now, ahead, behind = (piecewise.derivatives(curve, piece, g + d) for d in (0, h, -h))
     for order in range(3):
         slope = (ahead[order] - behind[order]) / (2 * h)
         np.testing.assert_allclose(slope, now[order + 1], rtol=1e-6, atol=1e-6)
@@ -45,11 +45,11 @@ def mixed() -> PiecewiseCurve:
 
 
 def test_reversed() -> None:
-    chain = mixed()
-    back = at(piecewise.reverse(chain))
-    np.testing.assert_allclose(back, at(chain)[::-1], atol=1e-14)
-    ends = np.array(piecewise.ends(piecewise.reverse(chain)))
-    np.testing.assert_allclose(ends, piecewise.ends(chain)[::-1], atol=1e-14)
+    curve = mixed()
+    back = at(piecewise.reverse(curve))
+    np.testing.assert_allclose(back, at(curve)[::-1], atol=1e-14)
+    ends = np.array(piecewise.ends(piecewise.reverse(curve)))
+    np.testing.assert_allclose(ends, piecewise.ends(curve)[::-1], atol=1e-14)
 
 
 def test_mapped() -> None:
@@ -62,8 +62,8 @@ def test_mapped() -> None:
 def test_joined_closes_a_gap_and_leaves_the_far_end() -> None:
     first = piecewise.straight(np.array([[0, 0, 0], [1, 0, 0.0]]))
     second = piecewise.bezier(CONTROL + np.array([1e-4, 0, 0]))
-    chain = piecewise.join([first, second])
-    ends = at(chain, 2).reshape(2, 2, 3)
+    curve = piecewise.join([first, second])
+    ends = at(curve, 2).reshape(2, 2, 3)
     np.testing.assert_allclose(
         ends[1], [[1, 0, 0], CONTROL[3] + np.array([1e-4, 0, 0])], atol=1e-15
     )
@@ -75,17 +75,17 @@ def test_box_against_many_places() -> None:
     made += [
         piecewise.arc(CONTROL[0], *HALF, a, t) for a in (0.1, 2, -3) for t in (0.5, 2, -4, 6.28)
     ]
-    for chain in made:
-        least, most = piecewise.bounding_box([chain])
-        places = at(chain, 20_001)
+    for curve in made:
+        least, most = piecewise.bounding_box([curve])
+        places = at(curve, 20_001)
         np.testing.assert_allclose(least, places.min(axis=0), atol=1e-7)
         np.testing.assert_allclose(most, places.max(axis=0), atol=1e-7)
 
 
 def test_length() -> None:
-    for chain in (mixed(), piecewise.straight(CONTROL)):
-        steps = np.linalg.norm(np.diff(at(chain, 20_001), axis=0), axis=1).sum()
-        assert piecewise.lengths([chain]) == pytest.approx([steps], rel=1e-4)
+    for curve in (mixed(), piecewise.straight(CONTROL)):
+        steps = np.linalg.norm(np.diff(at(curve, 20_001), axis=0), axis=1).sum()
+        assert piecewise.lengths([curve]) == pytest.approx([steps], rel=1e-4)
 
 
 # Smooth lines.
@@ -110,8 +110,8 @@ def test_points_of_a_circle_make_a_circle(turn: float, count: int) -> None:
 def test_uneven_points_of_a_circle_make_a_circle() -> None:
     """At each point the direction is that of the circle, whatever the distances."""
     a = np.cumsum([0.0, 0.3, 0.6, 0.2, 0.5, 0.7])
-    chain = piecewise.smooth_curve(np.stack([np.cos(a), np.sin(a), 0 * a], axis=1))
-    way = piecewise.derivatives(chain, np.arange(5), np.zeros(5))[1][1:]
+    curve = piecewise.smooth_curve(np.stack([np.cos(a), np.sin(a), 0 * a], axis=1))
+    way = piecewise.derivatives(curve, np.arange(5), np.zeros(5))[1][1:]
     way /= np.linalg.norm(way, axis=1)[:, None]
     tangent = np.stack([-np.sin(a), np.cos(a), 0 * a], axis=1)[1:5]
     assert (way * tangent).sum(1).min() > math.cos(0.02)
@@ -121,13 +121,13 @@ def test_a_smooth_line_goes_through_its_points_without_corners(
     rng: np.random.Generator,
 ) -> None:
     points = np.cumsum(rng.uniform(0.2, 1.0, (40, 3)), axis=0)
-    chain = piecewise.smooth_curve(points)
+    curve = piecewise.smooth_curve(points)
     sharp = piecewise.turn_angles(points)[1:-1] > piecewise.CORNER_ANGLE
-    np.testing.assert_allclose(at(chain, 2)[::2], points[:-1], atol=1e-12)
-    np.testing.assert_allclose(at(chain, 2)[1::2], points[1:], atol=1e-12)
+    np.testing.assert_allclose(at(curve, 2)[::2], points[:-1], atol=1e-12)
+    np.testing.assert_allclose(at(curve, 2)[1::2], points[1:], atol=1e-12)
     piece = np.arange(39)
-    out = piecewise.derivatives(chain, piece, np.ones(39))[1][:-1]
-    into = piecewise.derivatives(chain, piece, np.zeros(39))[1][1:]
+    out = piecewise.derivatives(curve, piece, np.ones(39))[1][:-1]
+    into = piecewise.derivatives(curve, piece, np.zeros(39))[1][1:]
     out, into = (v / np.linalg.norm(v, axis=1)[:, None] for v in (out, into))
     np.testing.assert_allclose(out[~sharp], into[~sharp], atol=1e-12)
     assert (~sharp).sum() > 20
@@ -135,8 +135,8 @@ def test_a_smooth_line_goes_through_its_points_without_corners(
 
 def test_corners_stay_and_what_is_straight_stays_straight() -> None:
     square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 0.0]])
-    chain = piecewise.smooth_curve(square)
-    assert not chain.cubic[:, 2:].any()
+    curve = piecewise.smooth_curve(square)
+    assert not curve.cubic[:, 2:].any()
     line = np.array([[0, 0, 0], [1, 0, 0], [3, 0, 0.0]])
     assert not piecewise.smooth_curve(line).cubic[:, 2:].any()
 

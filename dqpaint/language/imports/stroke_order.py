@@ -33,14 +33,14 @@ def in_order(lines: list[ColouredCurve]) -> list[ColouredCurve]:
 
 def _merged(lines: list[ColouredCurve]) -> list[ColouredCurve]:
     """Lines whose ends touch become one."""
-    ends = piecewise.all_ends([chain for chain, _ in lines])
+    ends = piecewise.all_ends([curve for curve, _ in lines])
     tolerance = max(TOUCHING * float(np.ptp(ends.reshape(-1, 3), axis=0).max()), SAME)
     ends_at: dict[tuple[object, ...], list[tuple[int, int]]] = defaultdict(list)
     for number, knots in enumerate(_knots(ends, tolerance)):
         if knots[0] != knots[1]:  # a closed line has no ends
             for side in (0, 1):
                 ends_at[(lines[number][1], knots[side])].append((number, side))
-    directions = piecewise.directions([chain for chain, _ in lines])
+    directions = piecewise.directions([curve for curve, _ in lines])
     partner: dict[tuple[int, int], tuple[int, int]] = {}
     for meeting in ends_at.values():
         for one, other in _pairs(meeting, directions):
@@ -105,8 +105,8 @@ def _strung(
         while at is not None and at[0] not in done:
             line, entry = at
             done.add(line)
-            chain = lines[line][0]
-            parts.append(chain if entry == 0 else piecewise.reverse(chain))
+            curve = lines[line][0]
+            parts.append(curve if entry == 0 else piecewise.reverse(curve))
             at = partner.get((line, 1 - entry))
         out.append((piecewise.join(parts), lines[number][1]))
     return out
@@ -116,7 +116,7 @@ def _strung(
 
 
 def _routed(lines: list[ColouredCurve]) -> list[ColouredCurve]:
-    ends = piecewise.all_ends([chain for chain, _ in lines])
+    ends = piecewise.all_ends([curve for curve, _ in lines])
     order, flipped = _nearest(ends)
     if len(lines) <= MOST_TURNED:
         order, flipped = _turned(ends, order, flipped)

@@ -66,7 +66,7 @@ class Pen:
         self.corners: list[float] = []  # within what distance [m] the end of each is rounded
         self.stroke: ContinuousStroke | None = None  # of the `stroke` that is being drawn
         self._strokes = 0
-        self.pieces = 0  # of chains
+        self.pieces = 0  # of curves
         self.placed = False  # the file has said where the drawing starts
         self.started = False  # something has moved
         self.oriented = False  # the file has said how the tool is held at the start

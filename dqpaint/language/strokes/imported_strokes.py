@@ -1,7 +1,7 @@
 """Letters and drawings from elsewhere -> segments: `text`, `path` and `svg`.
 
-What is drawn without lifting the pen is one stroke, a `program.Chain`: it runs through its corners
-without a stop, and its light is even, so that nothing in it glows but what crosses.
+What is drawn without lifting the pen is one stroke, a `program.PiecewiseCurve`: it runs through its
+corners without a stop, and its light is even, so that nothing in it glows but what crosses.
 """
 
 from collections.abc import Sequence
@@ -43,7 +43,7 @@ LOOKED_AT = 20_000  # places of a stroke, where a tool that looks is looked at
 class Trace(NamedTuple):
     """What is drawn without lifting the pen, and its own colour, if it has one."""
 
-    chain: PiecewiseCurve
+    curve: PiecewiseCurve
     colour: Colour | None = None
 
 
@@ -74,7 +74,7 @@ def text(statement: Statement, pen: Pen, scope: Scope) -> None:
     if at is not None:
         pen.lost = False
     _draw(
-        statement, pen, scope, _drawn([(chain, None) for chain in made.strokes], pen, scale, shift)
+        statement, pen, scope, _drawn([(curve, None) for curve in made.strokes], pen, scale, shift)
     )
 
 
@@ -90,17 +90,17 @@ def path(statement: Statement, pen: Pen, scope: Scope) -> None:
         cure = "to wait, use: hold 1 s"
         pen.warn("W401", "this path has no length", nodes[0].span, "", cure)
         return
-    chain = piecewise.straight(points)
+    curve = piecewise.straight(points)
     if statement.part("smooth"):
-        chain = piecewise.smooth_curve(points)
+        curve = piecewise.smooth_curve(points)
     unit = statement.value("unit")
     if isinstance(unit, Name):
         scale, origin = UNITS[unit.name][0], np.zeros(3)
     else:
-        scale, origin = _fitted(statement, pen, scope, [chain])
+        scale, origin = _fitted(statement, pen, scope, [curve])
     shift = _place_of(statement, pen, scope, scale * origin)
-    (trace,) = _drawn([(chain, None)], pen, scale, shift)
-    start = piecewise.ends(trace.chain)[0]
+    (trace,) = _drawn([(curve, None)], pen, scale, shift)
+    start = piecewise.ends(trace.curve)[0]
     gap = vectors.length(vectors.minus(start, pen.pose.position))
     if pen.started and gap > GAP and not statement.part("at") and not pen.amid_stroke:
         message = f"the path starts {1e3 * gap:.3g} mm away from where the tool is"
@@ -116,7 +116,7 @@ def svg(statement: Statement, pen: Pen, scope: Scope) -> None:
     from dqpaint.language.imports.svg import reader
 
     drawing = reader.read(node, pen)
-    loose = [chain for chain, _ in drawing]
+    loose = [curve for curve, _ in drawing]
     scale, origin = _fitted(statement, pen, scope, loose)
     shift = _place_of(statement, pen, scope, scale * origin)
     _draw(statement, pen, scope, _drawn(drawing, pen, scale, shift))
@@ -195,7 +195,7 @@ def _drawn(
 ) -> list[Trace]:
     """Lines in the drawing frame."""
     columns = [pen.frame.vector(axis) for axis in ((1.0, 0.0, 0.0), vectors.Y, vectors.Z)]
-    whole, starts, _ = piecewise.concatenate([chain for chain, _ in lines])
+    whole, starts, _ = piecewise.concatenate([curve for curve, _ in lines])
     there = piecewise.transform(whole, scale * np.array(columns).T, np.array(shift))
     colours_of = (colour for _, colour in lines)
     return list(map(Trace, piecewise.split(there, starts), colours_of))
@@ -216,16 +216,16 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
         message = f"the tool can't follow a '{statement.word}': it would jump at every corner"
         part = statement.part("tool")
         raise here("E254", message, part.value.span if part else span, "", "use: tool keep")
-    pen.pieces += sum(len(trace.chain.cubic) for trace in traces)
+    pen.pieces += sum(len(trace.curve.cubic) for trace in traces)
     check_pieces(pen.pieces, pen, span)
-    if not piecewise.largest_coordinate([trace.chain for trace in traces]) <= FARTHEST:
+    if not piecewise.largest_coordinate([trace.curve for trace in traces]) <= FARTHEST:
         raise here("E201", "this goes too far away", span)
-    ends = piecewise.all_ends([trace.chain for trace in traces]).tolist()
+    ends = piecewise.all_ends([trace.curve for trace in traces]).tolist()
     starts, stops = ([_vector(pair[side]) for pair in ends] for side in (0, 1))
     if pen.stroke is not None and len(traces) > 1:
         raise _pen_up(statement, len(traces))
     _begin(pen, starts[0], span)
-    lengths = piecewise.lengths([trace.chain for trace in traces])
+    lengths = piecewise.lengths([trace.curve for trace in traces])
     ways = [
         vectors.length(vectors.minus(b, a))
         for a, b in zip(stops, (*starts[1:], stops[-1]), strict=True)
@@ -236,10 +236,10 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
         _travel(pen, starts[number], span, times[2 * number - 1] if number else None)
         tool_orientation.begin(pen, mode, span)
         if isinstance(mode, LOOK_MODES):
-            tool_orientation.check_way(mode, _places(trace.chain), span)
+            tool_orientation.check_way(mode, _places(trace.curve), span)
         tool, orientation = tool_orientation.at_end(pen, mode, stops[number], span, vectors.Z, 0.0)
         end = Pose(stops[number], orientation)
-        pen.draw(trace.chain, tool, times[2 * number], glows[number], end, span)
+        pen.draw(trace.curve, tool, times[2 * number], glows[number], end, span)
 
 
 def check_pieces(pieces: int, pen: Pen, span: Span) -> None:
@@ -317,9 +317,9 @@ def _vector(numbers: list[float]) -> Vector:
     return x, y, z
 
 
-def _places(chain: PiecewiseCurve) -> list[Vector]:
-    """Places all along a chain."""
-    count = len(chain.cubic)
+def _places(curve: PiecewiseCurve) -> list[Vector]:
+    """Places all along a curve."""
+    count = len(curve.cubic)
     whole = np.linspace(0.0, count, min(16 * count, LOOKED_AT), endpoint=False)
-    at = piecewise.derivatives(chain, whole.astype(np.intp), whole % 1.0)[0]
+    at = piecewise.derivatives(curve, whole.astype(np.intp), whole % 1.0)[0]
     return [(x, y, z) for x, y, z in at.tolist()]

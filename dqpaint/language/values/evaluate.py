@@ -160,7 +160,7 @@ def _sign(node: Negation, scope: Scope) -> Value:
     return result
 
 
-def _chain(node: SumOrProduct, scope: Scope) -> Value:
+def _sum_or_product(node: SumOrProduct, scope: Scope) -> Value:
     result, start = evaluate(node.first, scope), node.first
     for sign, child in node.rest:
         operand = evaluate(child, scope)
@@ -211,6 +211,6 @@ _EVALUATORS: dict[type, Callable[..., Value]] = {
     Bracket: _bracket,
     Call: _call,
     Negation: _sign,
-    SumOrProduct: _chain,
+    SumOrProduct: _sum_or_product,
     Power: _power,
 }

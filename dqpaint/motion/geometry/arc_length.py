@@ -1,6 +1,6 @@
 """How long a stroke is, and the way from a distance along it back to its parameter.
 
-Straight lines, screws, arcs of one radius and chains run evenly: their length is a speed. What does
+Straight lines, screws, arcs of one radius and curves run evenly: their length is a speed. What does
 not, such as a curve or an arc that grows, is integrated by Gauss-Legendre quadrature, panel by
 panel, and turned round by Newton's method; the derivatives of the way back are exact.
 """

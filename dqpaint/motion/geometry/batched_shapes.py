@@ -245,7 +245,7 @@ def _curve(segments: Sequence[Segment], _start: Floats) -> Shape:
     return _loose(segments, Formula(curve))
 
 
-def _chain(segments: Sequence[Segment], _start: Floats) -> Shape:
+def _piecewise(segments: Sequence[Segment], _start: Floats) -> Shape:
     return _loose(segments, piecewise_positions(paths_of(segments, PiecewiseCurve)))
 
 
@@ -281,7 +281,7 @@ PATH_KINDS: dict[type[Path], PathKind] = {
     Screw: PathKind(_screw),
     Straight: PathKind(_straight, _of_one_tool),
     Arc: PathKind(_arc, _arcs_alike),
-    PiecewiseCurve: PathKind(_chain, _of_one_tool),
+    PiecewiseCurve: PathKind(_piecewise, _of_one_tool),
     Curve: PathKind(_curve, None),
 }
 

@@ -1,7 +1,7 @@
-"""Where the point is along a chain of smooth pieces: by the fraction of the whole length.
+"""Where the point is along a curve of smooth pieces: by the fraction of the whole length.
 
-A chain has no parameter of its own that could be slow or fast somewhere, so the point runs evenly:
-speed over the fraction is the length of the chain, everywhere. Each piece is integrated by
+A curve has no parameter of its own that could be slow or fast somewhere, so the point runs evenly:
+speed over the fraction is the length of the curve, everywhere. Each piece is integrated by
 Gauss-Legendre quadrature on panels that are halved until halving changes nothing, which also
 closes in on the tip of a cusp; from a length back to the piece's parameter leads Newton's method,
 kept within a bracket.
@@ -25,17 +25,17 @@ from dqpaint.program import (
     stretch_lengths,
 )
 
-HALVING_TOLERANCE = 1e-14  # of the length of the chain: what halving a panel may change
+HALVING_TOLERANCE = 1e-14  # of the length of the curve: what halving a panel may change
 MOST_HALVINGS = 30
 REST_SPEED = 1e-6  # of a piece's mean speed: there its formula stands still
 REST_OFFSET = 1e-4  # of the way to the middle of a piece: where a direction is taken instead
 
 
 def piecewise_positions(paths: Sequence[PiecewiseCurve]) -> "Pieces":
-    """The places of chains, by the fraction of their length."""
+    """The places of curves, by the fraction of their length."""
     whole, first, _ = concatenate(paths)
-    chain = np.repeat(np.arange(len(paths)), np.diff(np.append(first, len(whole.cubic))))
-    return Pieces(whole, _measure(whole, chain), np.arange(len(paths)))
+    curve = np.repeat(np.arange(len(paths)), np.diff(np.append(first, len(whole.cubic))))
+    return Pieces(whole, _measure(whole, curve), np.arange(len(paths)))
 
 
 @dataclass(frozen=True)
@@ -44,22 +44,22 @@ class Pieces:
 
     With s the length and p(g) a piece: ds/dg = |p'|, and the inverse's derivatives are
     g1 = 1 / |p'|, g2 = -(p'.p'') g1^4, g3 = -(p''.p'' + p'.p''') g1^5 + 4 (p'.p'')^2 g1^7.
-    Beyond its ends a chain goes on straight.
+    Beyond its ends a curve goes on straight.
 
     Attributes:
-        path: the pieces of all chains.
+        path: the pieces of all curves.
         panels: their lengths.
-        chain: which of the chains each row is.
+        curve: which of the curves each row is.
     """
 
     path: PiecewiseCurve
     panels: "_Panels"
-    chain: Indices
+    curve: Indices
     uniform: ClassVar[bool] = True
 
     def select(self, rows: Indices | int) -> Self:
         """The same pieces, for other rows."""
-        return replace(self, chain=np.asarray(self.chain[rows]))
+        return replace(self, curve=np.asarray(self.curve[rows]))
 
     def largest_parameter(self) -> Floats:
         """It may leave the numbers anywhere."""
@@ -76,11 +76,11 @@ class Pieces:
     def __call__(self, f: Floats) -> Floats:
         """With its derivatives."""
         panels = self.panels
-        chain = np.broadcast_to(self.chain, f.shape)
-        total = panels.total[chain]
+        curve = np.broadcast_to(self.curve, f.shape)
+        total = panels.total[curve]
         distance = f * total
         inside = np.clip(distance, 0.0, total)
-        piece, g = _parameter(self.path, panels, chain, inside)
+        piece, g = _parameter(self.path, panels, curve, inside)
         out = _by_length(self.path, piece, g, panels.mean_speed[piece])
         beyond = distance - inside
         out[0] += beyond[:, None] * out[1]
@@ -121,12 +121,12 @@ class _Panels:
         piece: the piece of each (P,).
         lower: its parameter where the panel begins (P,).
         upper: and where it ends (P,).
-        begin: from the start of its chain to where each begins [m] (P,).
+        begin: from the start of its curve to where each begins [m] (P,).
         end: and to where it ends [m] (P,).
-        first: of each chain (K,).
-        last: of each chain (K,).
-        before: all chains before each, end to end [m] (K,).
-        total: the length of each chain [m] (K,).
+        first: of each curve (K,).
+        last: of each curve (K,).
+        before: all curves before each, end to end [m] (K,).
+        total: the length of each curve [m] (K,).
         mean_speed: of each piece (M,): its length [m].
         bent: whether it does not run at one speed (M,).
     """
@@ -143,30 +143,30 @@ class _Panels:
     mean_speed: Floats
     bent: NDArray[np.bool_]
 
-    def at(self, chain: Indices, distance: Floats) -> Indices:
-        """The panels at distances (N,) along chains (N,); at a joint the one that begins there."""
+    def at(self, curve: Indices, distance: Floats) -> Indices:
+        """The panels at distances (N,) along curves (N,); at a joint the one that begins there."""
         every = self.before[np.repeat(np.arange(len(self.first)), self.last - self.first + 1)]
-        near = np.searchsorted(every + self.begin, self.before[chain] + distance, side="right") - 1
-        first, last = self.first[chain], self.last[chain]
+        near = np.searchsorted(every + self.begin, self.before[curve] + distance, side="right") - 1
+        first, last = self.first[curve], self.last[curve]
         panel = np.clip(near, first, last)
-        # all chains in a row have more digits before the point than one by itself
+        # all curves in a row have more digits before the point than one by itself
         panel = np.clip(panel - (distance < self.begin[panel]), first, last)
         return np.clip(panel + (distance >= self.end[panel]), first, last)
 
 
-def _measure(path: PiecewiseCurve, chain: Indices) -> _Panels:
-    """The panels of pieces, each of a chain (M,)."""
+def _measure(path: PiecewiseCurve, curve: Indices) -> _Panels:
+    """The panels of pieces, each of a curve (M,)."""
     bent = is_nonuniform(path)
     piece = np.arange(len(path.cubic))
     lower, upper = np.zeros(len(piece)), np.ones(len(piece))
     size = stretch_lengths(path, bent, piece, lower, upper)
-    close = HALVING_TOLERANCE * np.bincount(chain, weights=size)
+    close = HALVING_TOLERANCE * np.bincount(curve, weights=size)
     done: list[tuple[Indices, Floats, Floats, Floats]] = []
     for halving in range(MOST_HALVINGS):
         middle = 0.5 * (lower + upper)
         first = stretch_lengths(path, bent, piece, lower, middle)
         second = stretch_lengths(path, bent, piece, middle, upper)
-        good = np.abs(first + second - size) <= close[chain[piece]]
+        good = np.abs(first + second - size) <= close[curve[piece]]
         good |= halving == MOST_HALVINGS - 1
         done.append((piece[good], lower[good], upper[good], (first + second)[good]))
         left = ~good
@@ -181,7 +181,7 @@ def _measure(path: PiecewiseCurve, chain: Indices) -> _Panels:
     piece, lower, upper, size = (np.concatenate(part) for part in zip(*done, strict=True))
     order = np.lexsort((lower, piece))
     piece, lower, upper, size = piece[order], lower[order], upper[order], size[order]
-    starts = np.searchsorted(chain[piece], np.arange(chain[-1] + 2))
+    starts = np.searchsorted(curve[piece], np.arange(curve[-1] + 2))
     end = np.concatenate([np.cumsum(own) for own in np.split(size, starts[1:-1])])
     begin = np.concatenate([[0.0], end[:-1]])
     begin[starts[:-1]] = 0.0
@@ -194,13 +194,13 @@ def _measure(path: PiecewiseCurve, chain: Indices) -> _Panels:
 
 
 def _parameter(
-    path: PiecewiseCurve, panels: _Panels, chain: Indices, distance: Floats
+    path: PiecewiseCurve, panels: _Panels, curve: Indices, distance: Floats
 ) -> tuple[Indices, Floats]:
-    """The piece (N,) and its parameter (N,) at distances (N,) along chains (N,).
+    """The piece (N,) and its parameter (N,) at distances (N,) along curves (N,).
 
     At a joint it is the piece that begins there.
     """
-    panel = panels.at(chain, distance)
+    panel = panels.at(curve, distance)
     piece, start = panels.piece[panel], panels.lower[panel]
     lower, upper = start.copy(), panels.upper[panel]
     wanted = distance - panels.begin[panel]

@@ -51,7 +51,7 @@ class Pieces:
         self.at = points[-1]
 
     def arc(self, centre: Spot, u: Spot, v: Spot, start: float, turn: float, end: Spot) -> None:
-        """An arc as in `program.Chain`, to its end."""
+        """An arc as in `program.PiecewiseCurve`, to its end."""
         self._arcs_at.append(self._next())
         self._arcs.extend((*centre, *u, *v, start, turn))
         self.at = end

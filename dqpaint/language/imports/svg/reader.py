@@ -1,4 +1,4 @@
-"""SVG drawings -> chains with their colours, in metres, x to the right and y up.
+"""SVG drawings -> curves with their colours, in metres, x to the right and y up.
 
 Arcs stay arcs and Bezier curves Bezier curves, whatever transforms they stand under.
 """
@@ -116,9 +116,9 @@ def _lines(root: Node) -> Iterator[ColouredCurve]:
             transforms.extend(state.matrix)
             lights.append(_colour(paint))
     found = list(pieces.lines(*_in_metres(np.array(transforms).reshape(-1, 3, 2))))
-    if found and not piecewise.largest_coordinate([chain for _, chain in found]) <= LARGEST * PIXEL:
+    if found and not piecewise.largest_coordinate([curve for _, curve in found]) <= LARGEST * PIXEL:
         raise SvgError("a place in it is not finite, or far too large")
-    return ((chain, lights[number]) for number, chain in found)
+    return ((curve, lights[number]) for number, curve in found)
 
 
 def _shapes(root: Node, paper: View) -> Iterator[tuple[Node, State]]:

@@ -215,10 +215,10 @@ def _examples() -> list[dict[str, Any]]:
 
 
 def _replays() -> list[dict[str, Any]]:
-    from dqpaint.studies.replay.papers import paper_names, read_paper
+    from dqpaint.studies.replay import papers
 
-    papers = [read_paper(name) for name in paper_names()]
-    return [{"name": p.name, "about": f"{p.source}: {p.title}", "source": p.source} for p in papers]
+    every = [papers.read_paper(name) for name in papers.paper_names()]
+    return [{"name": p.name, "about": f"{p.source}: {p.title}", "source": p.source} for p in every]
 
 
 def _statements() -> list[dict[str, Any]]:

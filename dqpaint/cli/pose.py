@@ -37,7 +37,7 @@ def text(posed: pose_query.PoseReport) -> str:
     rows += [(unit, _numbers(row)) for unit, row in zip(units, posed.jacobian, strict=True)]
     measure = float(manipulability(posed.jacobian))
     rows += [("", ""), ("manipulability", f"{measure:11.6f}   sqrt(det(J J'))")]
-    return "\n".join(line.rstrip() for line in table(rows).splitlines())
+    return table(rows)
 
 
 def _screw_rows(screw: pose_query.Screw) -> list[tuple[str, str]]:

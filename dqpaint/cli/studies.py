@@ -4,12 +4,15 @@ import shlex
 import shutil
 import sys
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from dqpaint.cli.options import Choices, Drawing, MadeWhenCalled, takes
 from dqpaint.cli.painting import app
+
+if TYPE_CHECKING:
+    from dqpaint.studies.kinds.study_result import StudyResult
 
 __all__ = ["app"]
 
@@ -85,9 +88,9 @@ def compare(
     axes, base = requests.compared(choices, several, size=study.SIZE)
     compared = study.compare(
         file, axes, base, _folder(out, file, "compare"), runs, requests.workers(jobs, cluster),
-        StudyProgress(),
+        StudyProgress(), figure,
     )  # fmt: skip
-    _finish(study.told(compared, figure, _columns()), study.save(compared, figure, _again(report)))
+    _save(compared, report)
 
 
 SWEEP_EXAMPLES = """Examples:
@@ -134,9 +137,9 @@ def sweep(
     axes, base = requests.swept(vary or (), choices, several)
     swept = study.sweep(
         file, axes, base, _folder(out, file, "sweep"), runs, requests.workers(jobs, cluster),
-        StudyProgress(),
+        StudyProgress(), figure,
     )  # fmt: skip
-    _finish(study.told(swept, figure, _columns()), study.save(swept, figure, _again(report)))
+    _save(swept, report)
 
 
 TUNE_EXAMPLES = """Examples:
@@ -184,7 +187,6 @@ def tune(
     from dqpaint.painting import validate
     from dqpaint.studies.experiment import check_figure, requests
     from dqpaint.studies.kinds import tune as study
-    from dqpaint.studies.kinds import tune_report
 
     check_figure(figure)
     check_figure(effort_figure)
@@ -193,7 +195,7 @@ def tune(
         error=figure, effort=effort_figure, count=runs, budget=budget,
         jobs=requests.workers(jobs, cluster), reporter=StudyProgress(),
     )  # fmt: skip
-    _finish(tune_report.told(tuned, _columns()), tune_report.save(tuned, _again(report)))
+    _save(tuned, report)
     if tuned.best is None:
         raise typer.Exit(1)
 
@@ -233,7 +235,7 @@ def replay(
     replayed = study.replay(
         name, MeasureRequest(folder, runs, crew, read_choices(choices), StudyProgress())
     )
-    _finish(study.told(replayed, _columns()), study.save(replayed, _again(report)))
+    _save(replayed, report)
 
 
 class StudyProgress:
@@ -271,9 +273,10 @@ def _again(report: bool) -> str | None:
     return shlex.join(["dqpaint", *sys.argv[1:]]) if report else None
 
 
-def _columns() -> int:
-    """How wide the terminal is; a file or a pipe takes any table."""
-    return shutil.get_terminal_size((100_000, 24)).columns
+def _save(study: "StudyResult", report: bool) -> None:
+    """Write the files of a study and print its tables, as wide as the terminal or any pipe."""
+    text = study.table_text(shutil.get_terminal_size((100_000, 24)).columns)
+    _finish(text, study.save(_again(report)))
 
 
 def _finish(text: str, paths: list[Path]) -> None:

@@ -9,6 +9,8 @@ from typing import Self, TextIO
 import numpy as np
 from numpy.typing import NDArray
 
+from dqpaint.core import tables
+
 BAR = 30  # characters of the progress bar
 WIDEST = 72  # columns of a picture
 TALLEST = 40  # and its rows
@@ -17,8 +19,7 @@ SHORTEST_WORTH_A_BAR = 0.5  # [s]
 
 def table(rows: Sequence[tuple[str, str]]) -> str:
     """Names and values below each other."""
-    width = max(len(name) for name, _ in rows)
-    return "\n".join(f"  {name:<{width}}  {value}" for name, value in rows)
+    return "\n".join(f"  {line}" for line in tables.align(rows))
 
 
 def shows_pictures(stream: TextIO) -> bool:

@@ -3,6 +3,7 @@
 Nothing here knows of robots, light or the language.
 """
 
+from dqpaint.core import tables
 from dqpaint.core.atomic_files import rewrite, stage, write_new
 from dqpaint.core.bounds import MOST_ALLOWED, MOST_SAMPLES
 from dqpaint.core.examples import example_names, examples_folder, find_drawing
@@ -47,5 +48,6 @@ __all__ = [
     "split_spec",
     "stage",
     "subclass",
+    "tables",
     "write_new",
 ]

@@ -58,6 +58,8 @@ def _stem_and_folder(out: str | None, name: str) -> tuple[Path, Path]:
 def write(stem: Path, contents: dict[str, bytes]) -> list[Path]:
     """Write files beside each other: each is made whole beside its place, then all move in.
 
+    Their folder is made if it is not there.
+
     Args:
         stem: path without endings.
         contents: the bytes of each file by its ending.
@@ -67,6 +69,7 @@ def write(stem: Path, contents: dict[str, bytes]) -> list[Path]:
     """
     made: list[tuple[Path, Path]] = []
     try:
+        stem.parent.mkdir(parents=True, exist_ok=True)
         for end, data in contents.items():
             path = stem.with_name(stem.name + end)
             made.append((stage(path, data), path))

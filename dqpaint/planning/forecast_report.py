@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
+from dqpaint.core import tables
 from dqpaint.diagnostics import Diagnostic, SourceLine, Span
 from dqpaint.motion import Motion
 from dqpaint.planning.forecast import Extreme, Forecast, forecast
@@ -338,12 +339,7 @@ def _table(lines: Sequence[Forecast], program: Program) -> str:
         [program.line_name(line), *(cells.get(head, "") for head in heads)]
         for line, cells in list(close.items())[:MOST_LINES]
     ]
-    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    text = "".join(
-        "\n  "
-        + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
-        for row in rows
-    )
+    text = "".join(f"\n  {line}" for line in tables.align(rows))
     more = len(close) - MOST_LINES
     return text + (f"\n  and {more} more lines: --json has them all" if more > 0 else "")
 

@@ -33,21 +33,20 @@ from dqpaint.studies.kinds import compare as comparing
 from dqpaint.studies.kinds import replay as replaying
 from dqpaint.studies.kinds import sweep as sweeping
 from dqpaint.studies.kinds import tune as tuning
-from dqpaint.studies.kinds import tune_report
 from dqpaint.studies.kinds import verify as verifying
 from dqpaint.studies.kinds.compare import Comparison
 from dqpaint.studies.kinds.replay import Replay
+from dqpaint.studies.kinds.study_result import StudyResult
 from dqpaint.studies.kinds.sweep import Sweep
-from dqpaint.studies.kinds.tune import Tuning
+from dqpaint.studies.kinds.tuning import Tuning
 from dqpaint.studies.kinds.verify import Verdict
 from dqpaint.studies.replay.measure import MeasureRequest
 from dqpaint.studies.runner.reporter import SILENT, Callback, Reporter
 
-S = TypeVar("S", Comparison, Sweep, Tuning, Replay)
+S = TypeVar("S", bound=StudyResult)
 Where = str | PathLike[str]
 Several = Sequence[str] | str
 Progress = Callable[[float], None]
-WIDE = 100_000  # columns: a table as wide as it is
 
 
 @dataclass(frozen=True, repr=False)
@@ -93,9 +92,7 @@ class FinishedStudy(Generic[S]):
         Raises:
             OutputError: the folder cannot be written.
         """
-        place = Path(folder)
-        place.mkdir(parents=True, exist_ok=True)
-        return files.write(place / self.stem, self.files)
+        return files.write(Path(folder) / self.stem, self.files)
 
     def __repr__(self) -> str:
         return f"<{type(self.study).__name__} of {self.study.name}: {len(self.study.cells)} cells>"
@@ -153,15 +150,14 @@ def compare(
     axes, base = requests.compared(given, several, size=comparing.SIZE)
     with _kept(folder) as place:
         made = comparing.compare(
-            _name(drawing), axes, base, place, runs, workers(jobs, cluster), _reporter(progress)
-        )
-        text = comparing.told(made, figure, WIDE)
-        again = _call(
+            _name(drawing), axes, base, place, runs, workers(jobs, cluster), _reporter(progress),
+            figure,
+        )  # fmt: skip
+        call = _call(
             "compare", drawing, controllers, plants=plants, robots=robots, disturbs=disturbs,
             runs=runs, figure=figure, **given,
         )  # fmt: skip
-        files = comparing.contents(made, figure, again)
-    return FinishedStudy(made, text, files, comparing.stem(made))
+        return _finished(made, call)
 
 
 @keywords("sweep")
@@ -209,15 +205,14 @@ def sweep(
     axes, base = requests.swept(vary, given, several)
     with _kept(folder) as place:
         made = sweeping.sweep(
-            _name(drawing), axes, base, place, runs, workers(jobs, cluster), _reporter(progress)
-        )
-        text = sweeping.told(made, figure, WIDE)
-        again = _call(
+            _name(drawing), axes, base, place, runs, workers(jobs, cluster), _reporter(progress),
+            figure,
+        )  # fmt: skip
+        call = _call(
             "sweep", drawing, vary, controllers=controllers, plants=plants, robots=robots,
             disturbs=disturbs, runs=runs, figure=figure, **given,
         )  # fmt: skip
-        files = sweeping.contents(made, figure, again)
-    return FinishedStudy(made, text, files, sweeping.stem(made))
+        return _finished(made, call)
 
 
 @keywords("tune")
@@ -272,13 +267,11 @@ def tune(
             effort=effort_figure, count=runs, budget=budget, jobs=workers(jobs, cluster),
             reporter=_reporter(progress),
         )  # fmt: skip
-        text = tune_report.told(made, WIDE)
-        again = _call(
+        call = _call(
             "tune", drawing, vary, effort=effort, runs=runs, figure=figure,
             effort_figure=effort_figure, budget=budget, **given,
         )  # fmt: skip
-        files = tune_report.contents(made, again)
-    return FinishedStudy(made, text, files, tune_report.stem(made))
+        return _finished(made, call)
 
 
 @keywords("replay")
@@ -311,9 +304,7 @@ def replay(
             place, runs, workers(jobs, cluster), read_choices(options), _reporter(progress)
         )
         made = replaying.replay(name, asked)
-        text = replaying.told(made, WIDE)
-        files = replaying.contents(made, _call("replay", name, runs=runs, **options))
-    return FinishedStudy(made, text, files, replaying.stem(made))
+        return _finished(made, _call("replay", name, runs=runs, **options))
 
 
 def verify(
@@ -344,6 +335,10 @@ def verify(
     if out is not None:
         verifying.save_differences(verdicts, Path(out), _call("verify", Path(folder)))
     return verdicts
+
+
+def _finished(study: S, call: str) -> FinishedStudy[S]:
+    return FinishedStudy(study, study.table_text(), study.contents(call), study.stem)
 
 
 def _reporter(progress: Progress | None) -> Reporter:

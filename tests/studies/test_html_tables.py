@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from dqpaint.studies.report.html_tables import LENGTH, Value, table, value_of
+from dqpaint.studies.report.html_tables import LENGTH, table, value_of
 
 HEAD = ["law", "error", "status"]
 
@@ -15,9 +15,9 @@ def drawn(rows, kind):
 
 
 def test_a_number_is_all_that_a_cell_holds():
-    assert value_of("0.876 ± 0.021") == Value(0.876, 0.021)
-    assert value_of("1.2e-05") == Value(1.2e-5, 0.0)
-    assert value_of("-3") == Value(-3.0, 0.0)
+    assert value_of("0.876 ± 0.021") == (0.876, 0.021)
+    assert value_of("1.2e-05") == (1.2e-5, 0.0)
+    assert value_of("-3") == (-3.0, 0.0)
     for word in ("-", "", "nan", "p", "3 mm", "5..7", "1 ± x", "4 x 4 matrix"):
         assert value_of(word) is None, word
 

@@ -200,7 +200,10 @@ def made_up(paper, numbers):
     measured = MeasureResult(
         {n: {f: spread([v]) for f, v in row.items()} for n, row in numbers.items()}, "x"
     )
-    return replay.Replay(paper, measured, replay.judged(paper, measured.numbers), Path())
+    return replay.Replay(
+        name=paper.name, cells=(), folder=Path(), paper=paper, measured=measured,
+        verdicts=replay.judged(paper, measured.numbers),
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -234,7 +237,7 @@ def test_the_cells_of_a_grid_have_a_table_of_their_own():
     paper = read_paper("thesis-lqr")
     names = gain_grid.grid(paper)
     replayed = made_up(paper, {name: {"error_integral": float(i)} for i, name in enumerate(names)})
-    assert all(name not in names for _, rows in replay.tables(replayed) for name, *_ in rows)
+    assert all(name not in names for _, rows in replay.numbers(replayed) for name, *_ in rows)
     ((figure, rows),) = replay.surfaces(replayed)
     assert figure.name == "error_integral"
     assert rows[0] == ["q \\ r", "0.05", "0.1", "0.5", "1", "5", "10", "50", "100"]
@@ -245,7 +248,7 @@ def test_the_cells_of_a_grid_have_a_table_of_their_own():
 
 def test_a_table_has_no_column_for_numbers_that_no_paper_prints():
     replayed = made_up(read_paper("ozgur-cost"), {"dual quaternion": {"storage": 8.0}})
-    heads = {figure.name: rows[0] for figure, rows in replay.tables(replayed)}
+    heads = {figure.name: rows[0] for figure, rows in replay.numbers(replayed)}
     assert heads["storage"] == ["numbers stored", "here"]
     assert heads["trigonometric"][1] == "paper: section 1"
 
@@ -258,7 +261,7 @@ def test_the_report_of_a_replay_has_curves(tmp_path):
     made = dataclasses.replace(
         replayed, measured=dataclasses.replace(replayed.measured, shown=shown), folder=tmp_path
     )
-    paths = {path.name for path in replay.save(made, "again")}
+    paths = {path.name for path in made.save("again")}
     assert "pham-setpoint-response.png" in paths
     text = (tmp_path / "pham-setpoint-report.html").read_text("utf-8")
     assert '<figure class="chart"' in text

@@ -1,6 +1,7 @@
 """compare and sweep as a person calls them: tables that agree with draw, pictures, messages."""
 
 import csv
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -12,7 +13,7 @@ from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.light.images.contact_sheet import hues
 from dqpaint.settings.model import make_settings
 from dqpaint.studies.experiment import cells
-from dqpaint.studies.experiment.axes import parse_axis, parse_texts
+from dqpaint.studies.experiment.axes import parse_axis
 from dqpaint.studies.experiment.cells import Cell, listed_figures
 from dqpaint.studies.kinds import compare, sweep
 from dqpaint.studies.report.charts import ALARM
@@ -48,7 +49,7 @@ def test_a_comparison_s_table_is_what_numpy_says_of_draws(line, tmp_path):
     base = make_settings(plant="ideal", disturb=NOISE, seed=5, width=320, height=180)
     axes = [parse_axis("controller=p,pff")]
     made = compare.compare(str(line), axes, base, tmp_path / "study", 3, 2)
-    paths = {path.name: path for path in compare.save(made, "error_integral")}
+    paths = {path.name: path for path in made.save()}
     assert sorted(paths) == [
         f"line-{end}" for end in
         ("errors.png", "overlay.png", "sheet.png", "table.csv", "table.md")
@@ -88,7 +89,7 @@ def test_one_exposure_for_all_pictures(line, tmp_path):
     base = make_settings(plant="ideal", width=320, height=180)
     axes = [parse_axis("controller=p,hinf")]
     made = compare.compare(str(line), axes, base, tmp_path / "study", 1, 2)
-    compare.save(made, "error_integral")
+    made.save()
     sheet = opened(tmp_path / "study/line-sheet.png")
     for law in ("p", "hinf"):
         drawn = package.draw(line, controller=law, plant="ideal", size=(320, 180)).image.astype(int)
@@ -107,24 +108,24 @@ def test_one_exposure_for_all_pictures(line, tmp_path):
 def test_a_sweep_marks_what_is_unstable(line, tmp_path):
     base = make_settings(controller="p", plant="ideal")
     made = sweep.sweep(str(line), [parse_axis("k=10,20,40,400")], base, tmp_path / "s", 1, 2)
-    paths = sweep.save(made, "position_error_rms_m")
+    paths = made.save()
     rows = read(tmp_path / "s/line-k-table.csv")
     assert [row["status"] for row in rows] == ["done", "done", "done", "unstable"]
     rms = [float(row["position_error_rms_m_mean"]) for row in rows]
     assert rms[0] > rms[1] > rms[2]  # a law without feed-forward lags by v / k
     assert rms[1] == pytest.approx(0.06 / 20, rel=0.2)
     assert has(opened(paths[0]), ALARM)
-    told = sweep.told(made, "position_error_rms_m", 200)
+    told = made.table_text(200)
     assert "unstable: commands alternate" in told
 
     axes = [parse_axis("k=10,400"), parse_axis("disturb.twist.x=0.01,0.02,0.04")]
     both = sweep.sweep(str(line), axes, base, tmp_path / "s", 1, 2)
-    paths = sweep.save(both, "position_error_rms_m")
+    paths = both.save()
     assert has(opened(paths[0]), ALARM)
     assert [cell.stable for cell in both.cells] == [True] * 3 + [False] * 3
     assert [cell.choice["disturb.twist.x"] for cell in both.cells][:3] == ["0.01", "0.02", "0.04"]
     with pytest.raises(UsageError, match=r"'colour'; .*error_integral"):
-        sweep.told(both, "colour", 200)
+        replace(both, figure="colour").table_text(200)
 
 
 def test_a_sweep_has_one_axis_or_two(line, tmp_path):
@@ -162,19 +163,10 @@ def test_cells_take_figures_from_runs_that_came_to_their_end():
     assert lines[0] == "k,runs,done,status,message,error_integral_mean,error_integral_std"
     assert lines[1].startswith('5,3,2,"2 done, 1 unstable",it rings,2.0,1.41421356237')
     assert lines[3] == "10,1,0,failed,too far,,"
-    made = sweep.Sweep("a.traj", (parse_axis("k=5,9,10"),), (mixed, alone, lost), Path())
+    made = swept(mixed, alone, lost, axes=["k=5,9,10"])
     assert sweep.curves(made, ERROR)[0].lines[0].marks.tolist() == [True, True, True]
     with pytest.raises(DqpaintError, match="every run failed; the first: too far"):
-        sweep.told(sweep.Sweep("a.traj", made.axes, (lost,), Path()), "error_integral", 80)
-
-
-def test_tables_of_text():
-    lines = [["law", "error"], ["p|q", "1"], ["hinf", "2.5"]]
-    assert cells.text(lines) == "law   error\np|q   1\nhinf  2.5"
-    assert cells.markdown(lines).splitlines()[:3] == ["| law | error |", "|---|---|",
-                                                      "| p\\|q | 1 |"]  # fmt: skip
-    assert cells.narrow(lines, 8).splitlines()[0] == "law    p|q  hinf"
-    assert parse_texts("controller", "p") == ["p"]
+        replace(made, cells=(lost,)).table_text(80)
 
 
 def test_an_old_report_beside_new_tables_is_told(tmp_path, capsys):
@@ -192,8 +184,10 @@ def test_an_old_report_beside_new_tables_is_told(tmp_path, capsys):
 
 
 def swept(*cells_of, axes):
-    return sweep.Sweep("a.traj", tuple(parse_axis(axis) for axis in axes), cells_of, Path(),
-                       make_settings(controller="p"))  # fmt: skip
+    return sweep.Sweep(
+        name="a.traj", axes=tuple(map(parse_axis, axes)), cells=cells_of, folder=Path(),
+        settings=make_settings(controller="p"), figure="error_integral",
+    )  # fmt: skip
 
 
 def test_a_curve_names_its_axes_and_joins_no_names():

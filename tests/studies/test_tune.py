@@ -14,8 +14,9 @@ import pytest
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.settings.model import make_settings
 from dqpaint.studies.experiment.cells import Cell
-from dqpaint.studies.kinds import tune_report
-from dqpaint.studies.kinds.tune import Range, generation, read_range, tune
+from dqpaint.studies.experiment.gain_range import Range, parse_range
+from dqpaint.studies.kinds import tuning
+from dqpaint.studies.kinds.tune import generation, tune
 from dqpaint.studies.runner.journal import NAME
 from dqpaint.studies.runner.run import Result
 from tests.support.processes import start, wait_for_lines, wait_for_the_end
@@ -65,7 +66,7 @@ def test_an_optimum_within_is_found(tmp_path):
     rings = [c for c in found.cells if float(c.choice["k"]) > 2 / 0.02]
     assert all(not cell.stable for cell in rings)
     assert rings
-    table = list(csv.DictReader(tune_report.save(found)[2].read_text().splitlines()))
+    table = list(csv.DictReader(found.save()[2].read_text().splitlines()))
     errors = [float(row["error_integral_mean"]) for row in table if row["status"] == "done"]
     assert found.best.of(found.error).mean == min(errors)
 
@@ -97,7 +98,7 @@ def test_an_optimum_at_the_bound_is_found_and_a_search_that_was_killed_finds_it_
 
     whole = tune(str(tmp_path / "ring.traj"), ["k=4..30"], base(), tmp_path / "whole",
                  factor=bound, effort="speed_integral_m", budget=50, jobs=2)  # fmt: skip
-    for path in tune_report.save(whole):
+    for path in whole.save():
         assert (tmp_path / "killed" / path.name).read_bytes() == path.read_bytes()
     k = float(whole.best.choice["k"])
     assert k == pytest.approx(gain_of(bound), rel=2e-3)
@@ -119,22 +120,22 @@ def test_a_bound_that_nothing_keeps_is_told(tmp_path):
     choices = {"factor": 0.1, "budget": 25, "jobs": 1}
     found = tune(str(tmp_path / "step.traj"), ["k=20..49"], base(), given, **choices)
     assert found.best is None
-    assert "No gains that were tried keep to it: the least was" in tune_report.answer(found)
+    assert "No gains that were tried keep to it: the least was" in tuning.answer(found)
     other = tune(str(tmp_path / "step.traj"), ["k=20..49"], base(seed=1), given, **choices)
     assert {c.label for c in other.cells} != {c.label for c in found.cells}  # seeded
 
 
 def test_ranges():
-    assert read_range("k = 1..100") == Range("k", 1.0, 100.0, True)
-    assert read_range("k=0..5") == Range("k", 0.0, 5.0, False)
-    assert read_range("k=1..5:lin") == Range("k", 1.0, 5.0, False)
+    assert parse_range("k = 1..100") == Range("k", 1.0, 100.0, True)
+    assert parse_range("k=0..5") == Range("k", 0.0, 5.0, False)
+    assert parse_range("k=1..5:lin") == Range("k", 1.0, 5.0, False)
     log = Range("k", 1.0, 100.0, True)
     assert [log.value(part) for part in (0.0, 0.5, 1.0)] == [1.0, 10.0, 100.0]
     assert log.value(1 / 3) == 4.642  # what is tried can be written
     assert log.part(10.0) == pytest.approx(0.5)
     for text in ("k", "k=", "k=1", "k=1..x", "k=5..1", "k=0..5:log", "k=1..inf", "k=1..2:9", ""):
         with pytest.raises(UsageError, match=r"\.\.|above"):
-            read_range(text)
+            parse_range(text)
     assert [generation(n) for n in (1, 2, 3, 4)] == [8, 16, 32, 32]
 
 
@@ -165,27 +166,29 @@ def test_what_is_told_of_made_up_results(tmp_path):
         return Cell({"k": str(k)}, (Result(str(k), status, "why", figures),))
 
     from dqpaint.studies.experiment.cells import listed_figures
-    from dqpaint.studies.kinds.tune import Tuning
 
     (error, *_), (command, *_) = listed_figures("error"), listed_figures("cost")
     tried = (cell(1, 9.0, 2.0), cell(5, 4.0, 3.0), cell(6, 5.0, 3.5), cell(8, 2.0, 4.5),
              cell(9, 0.1, 3.0, "unstable"))  # fmt: skip
-    made = Tuning("a.traj", base(), (read_range("k=1..5"),), tried, tried[2], error, command,
-                  2.0, 2.0, False, tmp_path)  # fmt: skip
+    made = tuning.Tuning(
+        name="a.traj", cells=tried, folder=tmp_path, settings=base(),
+        ranges=(parse_range("k=1..5"),), usual=tried[2], error=error, effort=command,
+        needed=2.0, factor=2.0, settled=False,
+    )  # fmt: skip
     assert made.best is tried[1]  # the unstable one does not count
     assert made.front == [tried[0], tried[1], tried[3]]
-    told = tune_report.told(made, 200)
+    told = made.table_text(200)
     assert "Best: --gain k=5\nk lies at the end of its range, 5" in told
     assert "The budget was spent" in told
-    assert [row[:2] for row in tune_report.rows(made)[1:]] == [
+    assert [row[:2] for row in tuning.rows(made)[1:]] == [
         ["usual", "6"], ["best", "5"], ["trade-off", "1"], ["trade-off", "8"]
     ]  # fmt: skip
-    assert [row[-1] for row in tune_report.rows(made)[1:]] == [
+    assert [row[-1] for row in tuning.rows(made)[1:]] == [
         "done", "done", "done", "done, beyond the bound"
     ]  # fmt: skip
-    trade, over = tune_report.panels(made)
+    trade, over = tuning.panels(made)
     assert (trade.wall, trade.limit) == (4.0, "most allowed")
     assert (trade.x_label, over.x_label) == ("command", "k [1/s]")
     lost = Cell({"k": "5"}, (Result("x", "failed", "too far"),))
     with pytest.raises(DqpaintError, match="every run failed; the first: too far"):
-        tune_report.told(replace(made, cells=(lost,), usual=None), 80)
+        replace(made, cells=(lost,), usual=None).table_text(80)

@@ -1,17 +1,16 @@
 """Repeated runs of one choice -> one row of a table: mean and spread of every figure."""
 
-import io
-import math
 import re
-from collections.abc import Sequence
-from csv import writer
+from collections import Counter, defaultdict
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 from dqpaint import metrics
-from dqpaint.errors import UsageError
+from dqpaint.core import tables
+from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.studies.experiment.statistics import Spread, spread
-from dqpaint.studies.runner.run import Result
+from dqpaint.studies.runner.run import Result, Run
 
 
 class TableFigure(NamedTuple):
@@ -27,15 +26,15 @@ KINDS = {"error": "Errors, of which less is better:", "cost": "What it costs:"}
 
 def listed_figures(*kinds: str) -> tuple[TableFigure, ...]:
     """The figures of some kinds, or all, that tables show; those of one title are one of them."""
-    by_title: dict[str, list[metrics.Figure]] = {}
-    for kind in kinds or KINDS:
-        for one in _listed(kind):
-            by_title.setdefault(one.title, []).append(one)
+    by_title = defaultdict(list)
+    for one in _listed(*kinds):
+        by_title[one.title].append(one)
     return tuple(map(_together, by_title.values()))
 
 
-def _listed(kind: str) -> list[metrics.Figure]:
-    return [one for one in metrics.all_figures().values() if one.listed and one.kind == kind]
+def _listed(*kinds: str) -> list[metrics.Figure]:
+    listed = [one for one in metrics.all_figures().values() if one.listed]
+    return [one for kind in kinds or KINDS for one in listed if one.kind == kind]
 
 
 def _together(figures: Sequence[metrics.Figure]) -> TableFigure:
@@ -94,11 +93,9 @@ class Cell:
     @property
     def status(self) -> str:
         """`done`, or what became of how many runs."""
-        counts: dict[str, int] = {}
-        for result in self.results:
-            counts[result.status] = counts.get(result.status, 0) + 1
+        counts = Counter(result.status for result in self.results)
         if len(counts) == 1:
-            return next(iter(counts))
+            return self.results[0].status
         return ", ".join(f"{count} {status}" for status, count in counts.items())
 
     @property
@@ -112,6 +109,24 @@ class Cell:
         chosen = self.done or [result for result in self.results if result.figures]
         rows = (result.figures for result in chosen)
         return spread([row[n] * figure.scale for row in rows for n in figure.names if n in row])
+
+
+def run_cells(
+    choices: Sequence[dict[str, str]],
+    runs: Sequence[Sequence[Run]],
+    carry_out: Callable[[list[Run]], Sequence[Result]],
+) -> tuple[Cell, ...]:
+    """One cell a choice, from the results of its runs; all runs are carried out together."""
+    results = iter(carry_out([run for row in runs for run in row]))
+    return tuple(
+        Cell(choice, tuple(next(results) for _ in row))
+        for choice, row in zip(choices, runs, strict=True)
+    )
+
+
+def every_run_failed(cells: Sequence[Cell]) -> DqpaintError:
+    """The fault of a study without any figure."""
+    return DqpaintError(f"every run failed; the first: {cells[0].results[0].message}")
 
 
 def family(label: str) -> tuple[str, str]:
@@ -185,29 +200,6 @@ def said(value: Spread) -> str:
     return f"{mean:.4g}" if value.n < 2 else f"{mean:.4g} ± {value.std:.2g}"
 
 
-def text(lines: Sequence[Sequence[str]]) -> str:
-    """Rows below each other, for a terminal."""
-    widths = [max(len(line[i]) for line in lines) for i in range(len(lines[0]))]
-    return "\n".join(
-        "  ".join(f"{word:<{width}}" for word, width in zip(line, widths, strict=True)).rstrip()
-        for line in lines
-    )
-
-
-def narrow(lines: Sequence[Sequence[str]], columns: int) -> str:
-    """The same turned round, one row a figure, where it would be wider than the terminal."""
-    wide = text(lines)
-    if max(len(line) for line in wide.splitlines()) <= columns:
-        return wide
-    return text([list(column) for column in zip(*lines, strict=True)])
-
-
-def markdown(lines: Sequence[Sequence[str]]) -> str:
-    """Rows as a table in Markdown."""
-    made = ["| " + " | ".join(word.replace("|", "\\|") for word in line) + " |" for line in lines]
-    return "\n".join([made[0], "|" + "---|" * len(lines[0]), *made[1:]])
-
-
 Columns = dict[str, list[str] | list[int] | list[float]]
 
 
@@ -228,9 +220,4 @@ def columns(cells: Sequence[Cell]) -> Columns:
 def csv(cells: Sequence[Cell]) -> bytes:
     """The columns as a file; all digits of a number, and nothing where there is none."""
     table = columns(cells)
-    file = io.StringIO()
-    out = writer(file, lineterminator="\n")
-    out.writerow(table)
-    for row in zip(*table.values(), strict=True):
-        out.writerow(["" if isinstance(v, float) and math.isnan(v) else v for v in row])
-    return file.getvalue().encode()
+    return tables.encode_csv([table, *zip(*table.values(), strict=True)])

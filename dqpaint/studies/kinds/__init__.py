@@ -1,3 +1,3 @@
 """The studies, one a file: drawings and choices -> runs -> tables, charts and verdicts."""
 
-__all__ = ["compare", "replay", "sweep", "tune", "tune_report", "verify"]
+__all__ = ["compare", "replay", "study_result", "sweep", "tune", "tuning", "verify"]

@@ -1,18 +1,16 @@
 """A paper's experiment again: its numbers beside ours, and what both say to its claims."""
 
-import io
 from collections.abc import Mapping, Sequence
-from csv import writer
 from dataclasses import dataclass
 from itertools import combinations
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from dqpaint.outputs import files
+from dqpaint.core import tables
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.statistics import Spread
+from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
 from dqpaint.studies.replay.claims import (
     ClaimVerdict,
     Numbers,
@@ -23,7 +21,7 @@ from dqpaint.studies.replay.claims import (
 )
 from dqpaint.studies.replay.measures import MEASURES, MeasureRequest, MeasureResult
 from dqpaint.studies.replay.papers import Claim, Figure, Paper, read_paper
-from dqpaint.studies.report.page import Block, Page, Rows, Tables, Words, files_of, html
+from dqpaint.studies.report.page import Block, Rows, Tables, Words, files_of
 
 RULE = (
     "holds, fails: as these numbers stand; not shown: they differ by less than chance explains "
@@ -38,31 +36,55 @@ BARS = (
 PRINTED = ClaimVerdict("holds", "its own numbers")
 
 
-@dataclass(frozen=True)
-class Replay:
-    """What came of a replay.
+@dataclass(frozen=True, kw_only=True)
+class Replay(StudyResult):
+    """A finished replay.
 
     Attributes:
         paper: the experiment.
         measured: here.
         verdicts: of each of its claims: the claim, by the paper's numbers, by ours.
-        folder: where files go.
     """
 
     paper: Paper
     measured: MeasureResult
     verdicts: tuple[tuple[Claim, ClaimVerdict, ClaimVerdict], ...]
-    folder: Path
 
     @property
-    def name(self) -> str:
-        """Of the replay."""
-        return self.paper.name
+    def title(self) -> str:
+        """The heading of its pages."""
+        return f"{self.name}: {self.paper.title}"
 
-    @property
-    def cells(self) -> tuple[cells.Cell, ...]:
-        """Of its study, with every run; none where nothing was run."""
-        return self.measured.cells
+    def table_text(self, width: int = ANY_WIDTH) -> str:
+        """Numbers, verdicts and what was not tested, for a terminal."""
+        paper, measured = self.paper, self.measured
+        parts = [f"{self.title}\n{paper.source}\n"
+                 f"  theirs  {paper.theirs}\n  here    {measured.ours}"]  # fmt: skip
+        parts += [f"{_aligned(rows)}\n{in_order(self, figure)}".rstrip()
+                  for figure, rows in numbers(self)]  # fmt: skip
+        parts += [f"{figure.says}\n{_aligned(rows)}" for figure, rows in surfaces(self)]
+        lines = tables.align(verdict_rows(self))
+        if max(map(len, lines)) > width:
+            lines = [
+                f"{claim.says}{f' ({claim.where})' if claim.where else ''}\n"
+                f"  paper  {theirs}\n  here   {ours}" for claim, theirs, ours in self.verdicts
+            ]  # fmt: skip
+        parts += ["\n".join([*lines, RULE, summary(self.verdicts)]), *_listed("  - ", self)]
+        return "\n\n".join(parts)
+
+    def files_and_blocks(self) -> tuple[dict[str, bytes], list[Block]]:
+        """Tables, verdicts and pictures by the ends of their names, and the same for a page."""
+        made = {
+            **files_of(self.measured.shown),
+            "-table.csv": numbers_csv(self),
+            "-claims.csv": verdicts_csv(self),
+            "-table.md": markdown(self).encode(),
+        }
+        return made, blocks(self)
+
+
+def _aligned(rows: Sequence[Sequence[str]]) -> str:
+    return "\n".join(tables.align(rows))
 
 
 def replay(name: str, asked: MeasureRequest) -> Replay:
@@ -78,7 +100,10 @@ def replay(name: str, asked: MeasureRequest) -> Replay:
     """
     paper = read_paper(name)
     found = MEASURES[paper.measure](paper, asked)
-    return Replay(paper, found, judged(paper, found.numbers), asked.folder)
+    return Replay(
+        name=name, cells=found.cells, folder=asked.folder, paper=paper, measured=found,
+        verdicts=judged(paper, found.numbers),
+    )  # fmt: skip
 
 
 def judged(paper: Paper, ours: Numbers) -> tuple[tuple[Claim, ClaimVerdict, ClaimVerdict], ...]:
@@ -94,7 +119,7 @@ def judged(paper: Paper, ours: Numbers) -> tuple[tuple[Claim, ClaimVerdict, Clai
     )
 
 
-def tables(replayed: Replay) -> list[tuple[Figure, list[list[str]]]]:
+def numbers(replayed: Replay) -> list[tuple[Figure, list[list[str]]]]:
     """A table a figure: cell, the paper's number, ours, and ours by the paper's, if it prints any.
 
     The cells of a grid have tables of their own, see `surfaces`.
@@ -220,27 +245,6 @@ def summary(verdicts: Sequence[tuple[Claim, ClaimVerdict, ClaimVerdict]]) -> str
     return f"{text}; {same} of {known} as by the paper's own numbers" if known else text
 
 
-def told(replayed: Replay, columns: int) -> str:
-    """The whole of it for a terminal."""
-    paper, measured = replayed.paper, replayed.measured
-    parts = [f"{paper.name}: {paper.title}\n{paper.source}\n"
-             f"  theirs  {paper.theirs}\n  here    {measured.ours}"]  # fmt: skip
-    parts += [f"{cells.text(rows)}\n{in_order(replayed, figure)}".rstrip()
-              for figure, rows in tables(replayed)]  # fmt: skip
-    parts += [f"{figure.says}\n{cells.text(rows)}" for figure, rows in surfaces(replayed)]
-    rows = verdict_rows(replayed)
-    if max(map(len, cells.text(rows).splitlines())) <= columns:
-        parts.append(cells.text(rows))
-    else:
-        parts.append("\n".join(
-            f"{claim.says}{f' ({claim.where})' if claim.where else ''}\n"
-            f"  paper  {theirs}\n  here   {ours}" for claim, theirs, ours in replayed.verdicts
-        ))  # fmt: skip
-    parts[-1] += f"\n{RULE}\n{summary(replayed.verdicts)}"
-    parts += _listed("  - ", replayed)
-    return "\n\n".join(parts)
-
-
 def _listed(bullet: str, replayed: Replay) -> list[str]:
     """What has no numbers, and what cannot be tested."""
     lost = [f"{bullet}{name}: {why}" for name, why in replayed.measured.lost.items()]
@@ -255,37 +259,32 @@ def _listed(bullet: str, replayed: Replay) -> list[str]:
 def markdown(replayed: Replay) -> str:
     """The whole of it as a page."""
     paper, measured = replayed.paper, replayed.measured
-    parts = [f"# {paper.name}: {paper.title}", paper.source,
+    parts = [f"# {replayed.title}", paper.source,
              f"- theirs: {paper.theirs}\n- here: {measured.ours}"]  # fmt: skip
-    for figure, rows in tables(replayed):
-        parts += [cells.markdown(rows), *filter(None, [in_order(replayed, figure)])]
+    for figure, rows in numbers(replayed):
+        parts += [tables.markdown(rows), *filter(None, [in_order(replayed, figure)])]
     for figure, rows in surfaces(replayed):
-        parts += [f"{figure.says}:", cells.markdown(rows)]
-    parts += [cells.markdown(verdict_rows(replayed)), f"{RULE}. {summary(replayed.verdicts)}."]
+        parts += [f"{figure.says}:", tables.markdown(rows)]
+    parts += [tables.markdown(verdict_rows(replayed)), f"{RULE}. {summary(replayed.verdicts)}."]
     parts += _listed("- ", replayed)
     if run_with := settings_rows(paper):
-        parts += ["What each cell was run with:", cells.markdown(run_with)]
+        parts += ["What each cell was run with:", tables.markdown(run_with)]
     return "\n\n".join(parts) + "\n"
 
 
 def numbers_csv(replayed: Replay) -> bytes:
     """Every number, all digits: cell, figure, table, the paper's, ours."""
-    theirs, ours = published(replayed.paper), replayed.measured.numbers
+    both = published(replayed.paper), replayed.measured.numbers
     where = {cell.name: cell.table for cell in replayed.paper.cells}
-    file = io.StringIO()
-    out = writer(file, lineterminator="\n")
-    names = ("runs", "mean", "std")
-    out.writerow(
-        ["cell", "figure", "table", *(f"paper_{n}" for n in names), *(f"here_{n}" for n in names)]
-    )
-    for cell in dict.fromkeys([*theirs, *ours]):
+    heads = [f"{whose}_{n}" for whose in ("paper", "here") for n in ("runs", "mean", "std")]
+    rows: list[list[object]] = [["cell", "figure", "table", *heads]]
+    for cell in dict.fromkeys(name for numbers in both for name in numbers):
         for figure in replayed.paper.figures:
-            pair = [table.get(cell, {}).get(figure.name) for table in (theirs, ours)]
+            pair = [numbers.get(cell, {}).get(figure.name) for numbers in both]
             if any(pair):
-                out.writerow(
-                    [cell, figure.name, where.get(cell, ""), *_row(pair[0]), *_row(pair[1])]
-                )
-    return file.getvalue().encode()
+                values = [value for one in pair for value in _row(one)]
+                rows.append([cell, figure.name, where.get(cell, ""), *values])
+    return tables.encode_csv(rows)
 
 
 def _row(value: Spread | None) -> list[object]:
@@ -296,67 +295,34 @@ def _row(value: Spread | None) -> list[object]:
 
 def verdicts_csv(replayed: Replay) -> bytes:
     """The claims and both verdicts."""
-    file = io.StringIO()
-    out = writer(file, lineterminator="\n")
-    out.writerow(["claim", "kind", "figure", "where", "paper", "paper_why", "here", "here_why"])
-    for claim, theirs, ours in replayed.verdicts:
-        facts = [claim.says, claim.kind, claim.figure, claim.where]
-        out.writerow([*facts, theirs.word, theirs.why, ours.word, ours.why])
-    return file.getvalue().encode()
+    heads = ["claim", "kind", "figure", "where", "paper", "paper_why", "here", "here_why"]
+    return tables.encode_csv([
+        heads,
+        *([claim.says, claim.kind, claim.figure, claim.where,
+           theirs.word, theirs.why, ours.word, ours.why]
+          for claim, theirs, ours in replayed.verdicts),
+    ])  # fmt: skip
 
 
-def page(replayed: Replay, again: str) -> Page:
-    """The whole of it as a report."""
+def blocks(replayed: Replay) -> list[Block]:
+    """The whole of it for a page."""
     paper, measured = replayed.paper, replayed.measured
-    numbers = [
+    compared = [
         Rows(one.says, rows, tuple(range(1, min(3, len(rows[0])))), in_order(replayed, one))
-        for one, rows in tables(replayed)
+        for one, rows in numbers(replayed)
     ]
-    blocks: list[Block] = [
+    shown: list[Block] = [
         Words(f"{paper.source}\nTheirs: {paper.theirs}\nHere: {measured.ours}"),
         Words(f"{summary(replayed.verdicts)}."),
         Rows("What the paper claims", verdict_rows(replayed)),
         Words(f"{RULE}."),
-        Tables("Its numbers, and ours", numbers),
+        Tables("Its numbers, and ours", compared),
         Words(BARS),
         *measured.shown.values(),
     ]  # fmt: skip
     if maps := surfaces(replayed):
-        blocks.append(Tables("The surfaces in numbers", [Rows(f.says, rows) for f, rows in maps]))
-    blocks += [Words(text) for text in _listed("  - ", replayed)]
+        shown.append(Tables("The surfaces in numbers", [Rows(f.says, rows) for f, rows in maps]))
+    shown += [Words(text) for text in _listed("  - ", replayed)]
     if run_with := settings_rows(paper):
-        blocks.append(Rows("What each cell was run with", run_with))
-    return Page(f"{paper.name}: {paper.title}", blocks, again=again)
-
-
-def save(replayed: Replay, again: str | None = None) -> list[Path]:
-    """Write the files; returns their paths. Arguments as those of `contents`.
-
-    Raises:
-        DqpaintError: the folder cannot be written.
-    """
-    replayed.folder.mkdir(parents=True, exist_ok=True)
-    return files.write(replayed.folder / stem(replayed), contents(replayed, again))
-
-
-def stem(replayed: Replay) -> str:
-    """What the files of a replay begin with."""
-    return replayed.paper.name
-
-
-def contents(replayed: Replay, again: str | None = None) -> dict[str, bytes]:
-    """Tables, verdicts and pictures by the ends of their names.
-
-    Args:
-        replayed: from `replay`.
-        again: the command that does it again, for a report; None for no report.
-    """
-    made = {
-        **files_of(replayed.measured.shown),
-        "-table.csv": numbers_csv(replayed),
-        "-claims.csv": verdicts_csv(replayed),
-        "-table.md": markdown(replayed).encode(),
-    }
-    if again is not None:
-        made["-report.html"] = html(page(replayed, again))
-    return made
+        shown.append(Rows("What each cell was run with", run_with))
+    return shown

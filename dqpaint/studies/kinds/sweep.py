@@ -7,26 +7,17 @@ from pathlib import Path
 
 import numpy as np
 
+from dqpaint.core import tables
 from dqpaint.dq import Floats
-from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.errors import UsageError
 from dqpaint.language.writing import builder
-from dqpaint.outputs import files
 from dqpaint.settings import SMALLEST, Settings
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.axes import Axis, about, combinations, label, settings_of
 from dqpaint.studies.experiment.cells import Cell, TableFigure, find_figure
+from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
 from dqpaint.studies.report.charts import HeatMap, Line, Panel
-from dqpaint.studies.report.page import (
-    Block,
-    Charts,
-    Map,
-    Page,
-    Pictured,
-    Rows,
-    Words,
-    files_of,
-    html,
-)
+from dqpaint.studies.report.page import Block, Charts, Map, Pictured, Rows, Words, files_of
 from dqpaint.studies.runner.engine import Workers, carry_out_study
 from dqpaint.studies.runner.reporter import SILENT, Reporter
 from dqpaint.studies.runner.run import Run, drawing_text, repeated
@@ -35,16 +26,57 @@ MOST_RUNS = 100_000
 EFFORT = "command_integral_rad"  # of laws that command torque, theirs
 
 
-@dataclass(frozen=True)
-class Sweep:
-    """What came of a sweep: one cell a combination, the last axis running fastest."""
+@dataclass(frozen=True, kw_only=True)
+class Sweep(StudyResult):
+    """A finished sweep: one cell a combination of the axes' values, the last axis running fastest.
 
-    name: str
+    `figure` is the name of the figure that is drawn.
+    """
+
+    settings: Settings
     axes: tuple[Axis, ...]
-    cells: tuple[Cell, ...]
-    folder: Path
-    settings: Settings | None = None
-    text: str = ""
+    figure: str
+
+    @property
+    def stem(self) -> str:
+        """The first part of the files' names."""
+        return "-".join([super().stem, *(axis.name for axis in self.axes)])
+
+    @property
+    def title(self) -> str:
+        """The heading of its pages."""
+        return f"{self.name} over {' and '.join(axis.name for axis in self.axes)}"
+
+    def table_text(self, width: int = ANY_WIDTH) -> str:
+        """The table for a terminal, and why points are unstable."""
+        find_figure(self.figure, self.cells)
+        if all(cell.status in ("failed", "died") for cell in self.cells):
+            raise cells.every_run_failed(self.cells)
+        rows = cells.rows(self.cells)
+        lines = tables.align(rows)
+        if max(map(len, lines)) > width:  # the columns that few characters have room for
+            heads = [*(axis.name for axis in self.axes), *cells.error_headings(self.cells)]
+            columns = [*map(rows[0].index, heads), len(rows[0]) - 1]
+            lines = tables.align([[row[i] for i in columns] for row in rows])
+        return "\n".join([*lines, *whys(self)])
+
+    def files_and_blocks(self) -> tuple[dict[str, bytes], list[Block]]:
+        """Chart and tables by the ends of their names, and the same for a page."""
+        figure = find_figure(self.figure, self.cells)
+        rows = cells.rows(self.cells)
+        over = f"Over {' and '.join(axis.name for axis in self.axes)}"
+        shown: Pictured = (
+            Charts(over, curves(self, figure))
+            if len(self.axes) == 1
+            else Map(over, surface(self, figure))
+        )
+        made = {
+            **files_of({"": shown}),
+            "-table.csv": cells.csv(self.cells),
+            "-table.md": f"# {self.title}\n\n{tables.markdown(rows)}\n".encode(),
+        }
+        words = Words("\n".join([*whys(self), *meanings(self)]))
+        return made, [shown, words, Rows("All points", rows, note=cells.meaning())]
 
 
 def sweep(
@@ -55,6 +87,7 @@ def sweep(
     count: int,
     jobs: Workers,
     reporter: Reporter = SILENT,
+    figure: str = "position_error_rms_m",
 ) -> Sweep:
     """Run a drawing with every combination of the axes' values; pictures are not kept.
 
@@ -65,7 +98,8 @@ def sweep(
         folder: of the study.
         count: how many runs each, with the seeds that follow.
         jobs: how many processes, None is one a core; or the address of a Dask cluster.
-        reporter: is told how far it is.
+        reporter: shows how far the study is.
+        figure: name of the figure that is drawn.
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.
@@ -82,54 +116,13 @@ def sweep(
     small = base.model_copy(update={"width": SMALLEST, "height": SMALLEST})
     choices = combinations(axes)
     runs = repeated([Run(name, text, settings_of(small, choice)) for choice in choices], count)
-    whole = [run for row in runs for run in row]
-    results = iter(carry_out_study(whole, folder, jobs, "sweep", reporter))
-    found = tuple(
-        Cell(choice, tuple(next(results) for _ in row))
-        for choice, row in zip(choices, runs, strict=True)
+    found = cells.run_cells(
+        choices, runs, lambda every: carry_out_study(every, folder, jobs, "sweep", reporter)
     )
-    return Sweep(Path(name).name, tuple(axes), found, folder, base, text)
-
-
-def save(swept: Sweep, measure: str, again: str | None = None) -> list[Path]:
-    """Write the files; returns their paths. Arguments as those of `contents`."""
-    return files.write(swept.folder / stem(swept), contents(swept, measure, again))
-
-
-def stem(swept: Sweep) -> str:
-    """What the files of a sweep begin with."""
-    return f"{Path(swept.name).stem}-{'-'.join(axis.name for axis in swept.axes)}"
-
-
-def contents(swept: Sweep, measure: str, again: str | None = None) -> dict[str, bytes]:
-    """Chart and tables by the ends of their names.
-
-    Args:
-        swept: from `sweep`.
-        measure: name of the figure that is drawn.
-        again: the command that does it again, for a report; None for no report.
-
-    Raises:
-        UsageError: no figure of that name.
-    """
-    figure = find_figure(measure, swept.cells)
-    title = f"{swept.name} over {' and '.join(axis.name for axis in swept.axes)}"
-    rows = cells.rows(swept.cells)
-    shown: Pictured = (
-        Charts(f"Over {swept.axes[0].name}", curves(swept, figure))
-        if len(swept.axes) == 1
-        else Map(f"Over {swept.axes[0].name} and {swept.axes[1].name}", surface(swept, figure))
-    )
-    made = {
-        **files_of({"": shown}),
-        "-table.csv": cells.csv(swept.cells),
-        "-table.md": f"# {title}\n\n{cells.markdown(rows)}\n".encode(),
-    }
-    if again is not None:
-        said = Words("\n".join([*whys(swept), *meanings(swept)]))
-        blocks: list[Block] = [shown, said, Rows("All points", rows, note=cells.meaning())]
-        made["-report.html"] = html(Page(title, blocks, swept.settings, swept.text, again))
-    return made
+    return Sweep(
+        name=Path(name).name, axes=tuple(axes), cells=found, folder=folder, settings=base,
+        text=text, figure=figure,
+    )  # fmt: skip
 
 
 def values(found: Sequence[Cell], figure: TableFigure) -> Floats:
@@ -171,13 +164,11 @@ def curves(swept: Sweep, figure: TableFigure) -> list[Panel]:
 
 
 def _named(axis: Axis, swept: Sweep) -> str:
-    return axis.name if swept.settings is None else label(axis.name, swept.settings)
+    return label(axis.name, swept.settings)
 
 
 def meanings(swept: Sweep) -> list[str]:
     """What is varied, a line an axis that has a description."""
-    if swept.settings is None:
-        return []
     told = [(axis.name, about(axis.name, swept.settings)) for axis in swept.axes]
     return [f"{name}: {text}." for name, text in told if text]
 
@@ -198,26 +189,6 @@ def surface(swept: Sweep, figure: TableFigure) -> HeatMap:
 def _spans(these: Floats) -> bool:
     """Whether values, all positive, are far enough apart for a logarithmic axis."""
     return bool(these.min() > 0) and bool(these.max() >= 20 * these.min())
-
-
-def told(swept: Sweep, measure: str, columns: int) -> str:
-    """The table for a terminal, and why points are unstable.
-
-    Raises:
-        UsageError: no figure of that name.
-        DqpaintError: every run failed.
-    """
-    find_figure(measure, swept.cells)
-    if all(cell.status in ("failed", "died") for cell in swept.cells):
-        raise DqpaintError(f"every run failed; the first: {swept.cells[0].results[0].message}")
-    table = cells.rows(swept.cells)
-    text = cells.text(table)
-    if max(map(len, text.splitlines())) > columns:  # what few columns can say of many rows
-        kept = [table[0].index(axis.name) for axis in swept.axes]
-        kept += [table[0].index(head) for head in cells.error_headings(swept.cells)]
-        kept.append(len(table[0]) - 1)
-        text = cells.text([[row[i] for i in kept] for row in table])
-    return "\n".join([text, *whys(swept)])
 
 
 def whys(swept: Sweep) -> list[str]:

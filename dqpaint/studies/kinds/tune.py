@@ -13,9 +13,7 @@ number of workers.
 """
 
 import math
-import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -33,7 +31,9 @@ from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.language.writing import builder
 from dqpaint.settings import SMALLEST, Settings
 from dqpaint.studies.experiment.axes import settings_of
-from dqpaint.studies.experiment.cells import Cell, TableFigure, find_figure
+from dqpaint.studies.experiment.cells import Cell, find_figure, run_cells
+from dqpaint.studies.experiment.gain_range import Range, parse_range
+from dqpaint.studies.kinds.tuning import Tuning
 from dqpaint.studies.runner.engine import Study, Workers, check
 from dqpaint.studies.runner.reporter import SILENT, Reporter
 from dqpaint.studies.runner.run import Run, drawing_text, seeded
@@ -41,7 +41,6 @@ from dqpaint.studies.runner.run import Run, drawing_text, seeded
 EFFORT = "command_integral_rad"  # of laws that command torque, theirs
 PER_GAIN = 8  # of a generation
 MOST_GAINS = 4
-DIGITS = 4  # of a gain: what is tried is what is written
 ALIKE = 0.3  # part of the error by which a generation differs when the region is found
 FIRST_STEP, LAST_STEP = 0.03, 2e-4  # of the second search, as parts of the ranges
 LOCAL = 16  # runs that are left to it, a gain
@@ -49,89 +48,8 @@ ABOUT = 10.0  # a gain nobody gave a range is sought from a tenth to ten times i
 BEYOND = 1e30  # above any error: gains that cost too much, the dearer the worse
 REFERENCE = "hinf"
 MOST_RUNS = 100_000
-SPAN = re.compile(
-    r"(?P<name>[^=]+?)\s*=\s*(?P<low>[^:]+?)\.\.(?P<high>[^:]+?)(:(?P<kind>log|lin))?"
-)
 Gains = tuple[float, ...]
 """Values of the gains that are sought, in the order of their ranges."""
-
-
-@dataclass(frozen=True)
-class Range:
-    """Where a gain is sought."""
-
-    name: str
-    low: float
-    high: float
-    log: bool
-
-    def value(self, part: float) -> float:
-        """The gain at a part of the range, 0 to 1, in few digits."""
-        if self.log:
-            found = self.low * (self.high / self.low) ** part
-        else:
-            found = self.low + part * (self.high - self.low)
-        return min(max(float(f"{found:.{DIGITS}g}"), self.low), self.high)
-
-    def part(self, value: float) -> float:
-        """The part of the range at which a gain lies."""
-        if self.log:
-            return math.log(value / self.low) / math.log(self.high / self.low)
-        return (value - self.low) / (self.high - self.low)
-
-
-@dataclass(frozen=True)
-class Tuning:
-    """What came of it.
-
-    Attributes:
-        name: of the drawing.
-        settings: all but the gains that were sought.
-        ranges: where they were sought.
-        cells: what was tried, in order, one a choice of gains.
-        usual: the law's own gains, if they lie within the ranges.
-        error: the figure that was to be small.
-        effort: the figure that was bounded.
-        needed: effort that the drawing itself needs.
-        factor: how many times that was allowed.
-        settled: whether the search came to its end; else the budget was spent.
-        folder: where the record lies.
-        text: of the drawing.
-    """
-
-    name: str
-    settings: Settings
-    ranges: tuple[Range, ...]
-    cells: tuple[Cell, ...]
-    usual: Cell | None
-    error: TableFigure
-    effort: TableFigure
-    needed: float
-    factor: float
-    settled: bool
-    folder: Path
-    text: str = ""
-
-    @property
-    def bound(self) -> float:
-        """The most effort, in the figure's unit."""
-        return self.factor * self.needed
-
-    @property
-    def best(self) -> Cell | None:
-        """The least error within the bound; None if nothing keeps it."""
-        within = [c for c in self.cells if c.stable and c.of(self.effort).mean <= self.bound]
-        return min(within, key=lambda cell: cell.of(self.error).mean, default=None)
-
-    @property
-    def front(self) -> list[Cell]:
-        """The trade-off: cells than which none has both less error and less effort."""
-        stable = [cell for cell in self.cells if cell.stable]
-        front: list[Cell] = []
-        for cell in sorted(stable, key=lambda c: (c.of(self.effort).mean, c.of(self.error).mean)):
-            if not front or cell.of(self.error).mean < front[-1].of(self.error).mean:
-                front.append(cell)
-        return front
 
 
 def tune(
@@ -205,9 +123,9 @@ def tune(
         tried = 1 + len(search.cells) * count
         reporter.note(f"{study.known} of {tried} runs were done before")
     return Tuning(
-        Path(name).name, base, ranges, tuple(search.cells.values()),
-        search.cells[usual] if usual else None,
-        *figures, needed, factor, settled, folder, text,
+        name=Path(name).name, settings=base, cells=tuple(search.cells.values()), folder=folder,
+        text=text, ranges=ranges, usual=search.cells[usual] if usual else None, error=figures[0],
+        effort=figures[1], needed=needed, factor=factor, settled=settled,
     )  # fmt: skip
 
 
@@ -276,40 +194,18 @@ class _Search:
         self._run([gains])
         return self._cost(self.cells[gains])
 
-    def _run(self, choices: Sequence[Gains]) -> None:
-        new = [gains for gains in dict.fromkeys(choices) if gains not in self.cells]
+    def _run(self, tried: Sequence[Gains]) -> None:
+        new = [gains for gains in dict.fromkeys(tried) if gains not in self.cells]
         if not new:
             return
-        runs = [self._runs_of(gains) for gains in new]
-        results = iter(self._study.results([run for row in runs for run in row]))
-        for gains, row in zip(new, runs, strict=True):
-            choice = _choice(self._ranges, gains)
-            self.cells[gains] = Cell(choice, tuple(next(results) for _ in row))
-
-
-def read_range(text: str) -> Range:
-    """A range from `NAME=LOW..HIGH[:log|:lin]`; logarithmic where it can be.
-
-    Raises:
-        UsageError: anything else.
-    """
-    found = SPAN.fullmatch(text.strip())
-    try:
-        low, high = float(found["low"]), float(found["high"])  # type: ignore[index]
-    except (TypeError, ValueError):
-        low = high = math.nan
-    if found is None or not (math.isfinite(low) and math.isfinite(high)):
-        raise UsageError(f"'{text}' is not NAME=LOW..HIGH, for example k=1..100")
-    if not low < high:
-        raise UsageError(f"'{text}': the second end is above the first")
-    if found["kind"] == "log" and low <= 0:
-        raise UsageError(f"'{text}': both ends of a logarithmic range are above 0")
-    return Range(found["name"], low, high, found["kind"] != "lin" and low > 0)
+        choices = [_choice(self._ranges, gains) for gains in new]
+        cells = run_cells(choices, [self._runs_of(gains) for gains in new], self._study.results)
+        self.cells.update(zip(new, cells, strict=True))
 
 
 def _ranges(texts: Sequence[str], base: Settings) -> tuple[Range, ...]:
     """Where gains are sought: as given, else about those that were not chosen."""
-    found = [read_range(text) for text in texts] or _about(base)
+    found = [parse_range(text) for text in texts] or _about(base)
     names = [one.name for one in found]
     twice = {n for n in names if names.count(n) > 1 or n in base.gains}
     if twice:

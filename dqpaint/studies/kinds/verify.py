@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from dqpaint.errors import DqpaintError, OutputError
+from dqpaint.core import tables
+from dqpaint.errors import DqpaintError
 from dqpaint.light.images import contact_sheet, difference_picture
 from dqpaint.outputs import files
-from dqpaint.studies.experiment import cells
 from dqpaint.studies.report.page import Page, Rows, Shot, Words, html
 from dqpaint.studies.runner.engine import Workers, carry_out_study
 from dqpaint.studies.runner.reporter import SILENT, Reporter
@@ -116,7 +116,7 @@ def _judge(case: Case, result: Result, reference: Reference | None, made: Arrays
 
 def told(verdicts: Sequence[Verdict]) -> str:
     """The table for a terminal."""
-    return cells.text(table(verdicts))
+    return "\n".join(tables.align(table(verdicts)))
 
 
 def table(verdicts: Sequence[Verdict]) -> list[list[str]]:
@@ -163,11 +163,9 @@ def save_differences(
                   f"difference of the light, {factor:.3g} times"]  # fmt: skip
         pictures = [one.reference.picture, one.made["picture"], gap]
         data = contact_sheet.encode_png(contact_sheet.sheet(pictures, labels, columns=3))
-        _make(out)
         written += files.write(out / one.case.name, {"-differs.png": data})
         shots.append(Shot(f"{one.case.name}: reference, new, and where they differ", data))
     if again is not None:
-        _make(out)
         written += files.write(out / "verify", {"-report.html": html(page(verdicts, shots, again))})
     return written
 
@@ -181,13 +179,6 @@ def page(verdicts: Sequence[Verdict], shots: Sequence[Shot], again: str) -> Page
         "Guarded pictures", [words, Rows("Gates", table(verdicts)), *shots],
         again=again,
     )  # fmt: skip
-
-
-def _make(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as problem:
-        raise OutputError(f"'{folder}' cannot be written: {problem.strerror}") from None
 
 
 def update(verdicts: Sequence[Verdict], folder: Path) -> list[str]:

@@ -18,15 +18,9 @@ def of_panel(panel: Panel, most: int = MOST_POINTS) -> dict[str, Any]:
     lines = [_of_line(thinned(line, most), next(colours)) for line in panel.lines]
     names = (
         "title", "x_label", "y_label", "log_x", "log_y", "decades", "bound", "wall", "limit",
-        "span",
+        "span", "ticks",
     )  # fmt: skip
-    ticks = None if panel.ticks is None else list(panel.ticks)
-    return {
-        "kind": "curves",
-        **{name: getattr(panel, name) for name in names},
-        "ticks": ticks,
-        "lines": lines,
-    }
+    return {"kind": "curves", **{name: getattr(panel, name) for name in names}, "lines": lines}
 
 
 def of_map(given: HeatMap) -> dict[str, Any]:

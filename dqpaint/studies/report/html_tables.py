@@ -17,13 +17,8 @@ NUMBER = re.compile(f"(-?{DIGITS})(?: ± ({DIGITS}))?")
 WIDE = 20.0  # from the least to the largest: beyond, bars could not be told apart
 LENGTH = 80  # of a bar [px]
 LEAST = 3  # rows that can be sorted
-
-
-class Value(NamedTuple):
-    """A number of a table, and its spread."""
-
-    mean: float
-    std: float
+Value = tuple[float, float]
+"""A number of a table and its standard deviation."""
 
 
 class Drawing(NamedTuple):
@@ -55,9 +50,9 @@ def table(lines: Sequence[Sequence[str]], bars: Sequence[int] = ()) -> str:
 
 
 def value_of(text: str) -> Value | None:
-    """The number that a cell holds, and its spread; None if it holds something else."""
+    """The number that a cell holds and its standard deviation; None if it is something else."""
     found = NUMBER.fullmatch(text)
-    return None if found is None else Value(float(found[1]), float(found[2] or 0.0))
+    return None if found is None else (float(found[1]), float(found[2] or 0.0))
 
 
 def _kind_of(row: Sequence[str]) -> str:
@@ -70,26 +65,20 @@ def _kind_of(row: Sequence[str]) -> str:
 
 
 def _drawn(values: Sequence[Value | None]) -> list[Drawing | None]:
-    """A small drawing a number, all to one scale; nothing where there is no number."""
-    known = [value.mean for value in values if value is not None]
-    if len(known) < 2 or min(known) < 0 or max(known) == 0:
+    """A small drawing a number, all to one scale; None where there is no number."""
+    known = [value for value in values if value is not None]
+    least, most = (end((mean for mean, _ in known), default=0.0) for end in (min, max))
+    if len(known) < 2 or least < 0 or most == 0:
         return [None] * len(values)
-    least, most = min(known), max(known)
-    reach = max(value.mean + value.std for value in values if value is not None)
-    apart = least > 0 and most > WIDE * least
+    if least > 0 and most > WIDE * least:
+        scale = (LENGTH - 8) / math.log(most / least)
+        return [value and Drawing(dot=4 + scale * math.log(value[0] / least)) for value in values]
+    scale = LENGTH / max(mean + std for mean, std in known)
     return [
-        None if value is None
-        else _dot(value.mean, least, most) if apart
-        else _bar(value, reach)
+        value and Drawing(scale * value[0], _ends(*value, scale) if value[1] else None)
         for value in values
-    ]  # fmt: skip
+    ]
 
 
-def _bar(value: Value, reach: float) -> Drawing:
-    ends = [LENGTH * (value.mean + sign * value.std) / reach for sign in (-1, 1)]
-    spread = (max(0.0, ends[0]), ends[1]) if value.std else None
-    return Drawing(LENGTH * value.mean / reach, spread)
-
-
-def _dot(value: float, least: float, most: float) -> Drawing:
-    return Drawing(dot=4 + (LENGTH - 8) * math.log(value / least) / math.log(most / least))
+def _ends(mean: float, std: float, scale: float) -> tuple[float, float]:
+    return max(0.0, scale * (mean - std)), scale * (mean + std)

@@ -69,9 +69,7 @@ def write_kept(folder: Path, key: str, data: bytes) -> None:
     Raises:
         OutputError: the folder cannot be written.
     """
-    path = place(folder, key)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    files.write(path.with_suffix(""), {".npz": data})
+    files.write(place(folder, key).with_suffix(""), {".npz": data})
 
 
 def kept(folder: Path, key: str) -> Mapping[str, NDArray[Any]]:

@@ -156,4 +156,4 @@ def find_paper_drawing(name: str) -> Path:
 
 
 def _folder() -> Path:
-    return Path(__file__).parent
+    return Path(__file__).with_suffix("")

@@ -1,23 +1,98 @@
-"""What a tuning found, told: the best gains, and what less error costs in effort."""
+"""Gains that were tried -> the best ones, the trade-off of error and effort, tables and charts."""
 
 from collections.abc import Sequence
-from pathlib import Path
+from dataclasses import dataclass
 
 import numpy as np
 
+from dqpaint.core import tables
 from dqpaint.dq import Floats
-from dqpaint.errors import DqpaintError
-from dqpaint.outputs import files
+from dqpaint.settings import Settings
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.axes import label
 from dqpaint.studies.experiment.cells import Cell, TableFigure
-from dqpaint.studies.kinds.tune import Tuning
+from dqpaint.studies.experiment.gain_range import Range
+from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
 from dqpaint.studies.report.charts import COLOURS, Line, Panel
-from dqpaint.studies.report.page import Block, Charts, Page, Rows, Words, files_of, html
+from dqpaint.studies.report.page import Block, Charts, Rows, Words, files_of
 
 MOST_ROWS = 12  # of the trade-off in a table; the CSV has all
 TRIED = "#9aa5b1"
 FRONT, USUAL, BEST = COLOURS[:3]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tuning(StudyResult):
+    """A finished search for gains; its cells are what was tried, in order, one a choice of gains.
+
+    Attributes:
+        ranges: where the gains were sought.
+        usual: the law's own gains, if they lie within the ranges.
+        error: the figure that was to be small.
+        effort: the figure that was bounded.
+        needed: effort that the drawing itself needs.
+        factor: how many times that was allowed.
+        settled: whether the search came to its end; else the budget was spent.
+    """
+
+    settings: Settings
+    ranges: tuple[Range, ...]
+    usual: Cell | None
+    error: TableFigure
+    effort: TableFigure
+    needed: float
+    factor: float
+    settled: bool
+
+    @property
+    def bound(self) -> float:
+        """The most effort, in the figure's unit."""
+        return self.factor * self.needed
+
+    @property
+    def best(self) -> Cell | None:
+        """The least error within the bound; None if nothing keeps it."""
+        within = [c for c in self.cells if c.stable and c.of(self.effort).mean <= self.bound]
+        return min(within, key=lambda cell: cell.of(self.error).mean, default=None)
+
+    @property
+    def front(self) -> list[Cell]:
+        """The trade-off: cells than which none has both less error and less effort."""
+        stable = [cell for cell in self.cells if cell.stable]
+        front: list[Cell] = []
+        for cell in sorted(stable, key=lambda c: (c.of(self.effort).mean, c.of(self.error).mean)):
+            if not front or cell.of(self.error).mean < front[-1].of(self.error).mean:
+                front.append(cell)
+        return front
+
+    @property
+    def stem(self) -> str:
+        """The first part of the files' names."""
+        return f"{super().stem}-{'-'.join(one.name for one in self.ranges)}-tuned"
+
+    @property
+    def title(self) -> str:
+        """The heading of its pages."""
+        return f"{self.name}, tuned"
+
+    def table_text(self, width: int = ANY_WIDTH) -> str:
+        """The outcome for a terminal."""
+        if all(cell.status in ("failed", "died") for cell in self.cells):
+            raise cells.every_run_failed(self.cells)
+        return "\n".join([*tables.fit(rows(self), width), "", answer(self)])
+
+    def files_and_blocks(self) -> tuple[dict[str, bytes], list[Block]]:
+        """The chart, the trade-off and all that was tried, and the same for a page."""
+        table, words = rows(self), answer(self)
+        shown = Charts("What less error costs in effort", panels(self))
+        made = {
+            **files_of({"": shown}),
+            "-tradeoff.csv": cells.csv(self.front or self.cells[:1]),
+            "-table.csv": cells.csv(self.cells),
+            "-table.md": f"# {self.title}\n\n{tables.markdown(table)}\n\n{words}\n".encode(),
+        }
+        heading = "The best, the usual, and the trade-off"
+        return made, [Words(words), shown, Rows(heading, table)]
 
 
 def answer(tuned: Tuning) -> str:
@@ -73,53 +148,6 @@ def rows(tuned: Tuning) -> list[list[str]]:
         status = cell.status + (", beyond the bound" if effort > tuned.bound else "")
         lines.append([what, *(cell.choice[n] for n in names), *values, share, status])
     return lines
-
-
-def told(tuned: Tuning, columns: int) -> str:
-    """The outcome for a terminal.
-
-    Raises:
-        DqpaintError: every run failed.
-    """
-    if all(cell.status in ("failed", "died") for cell in tuned.cells):
-        raise DqpaintError(f"every run failed; the first: {tuned.cells[0].results[0].message}")
-    return "\n\n".join([cells.narrow(rows(tuned), columns), answer(tuned)])
-
-
-def save(tuned: Tuning, again: str | None = None) -> list[Path]:
-    """Write the files; returns their paths. Arguments as those of `contents`."""
-    return files.write(tuned.folder / stem(tuned), contents(tuned, again))
-
-
-def stem(tuned: Tuning) -> str:
-    """What the files of a tuning begin with."""
-    return f"{Path(tuned.name).stem}-{'-'.join(one.name for one in tuned.ranges)}-tuned"
-
-
-def contents(tuned: Tuning, again: str | None = None) -> dict[str, bytes]:
-    """The chart, the trade-off and all that was tried, by the ends of their names.
-
-    Args:
-        tuned: from `tune`.
-        again: the command that does it again, for a report; None for no report.
-    """
-    title = f"{tuned.name}, tuned"
-    shown = Charts("What less error costs in effort", panels(tuned))
-    made = {
-        **files_of({"": shown}),
-        "-tradeoff.csv": cells.csv(tuned.front or tuned.cells[:1]),
-        "-table.csv": cells.csv(tuned.cells),
-        "-table.md": f"# {title}\n\n{cells.markdown(rows(tuned))}\n\n{answer(tuned)}\n".encode(),
-    }
-    if again is not None:
-        blocks: list[Block] = [
-            Words(answer(tuned)),
-            shown,
-            Rows("The best, the usual, and the trade-off", rows(tuned)),
-        ]
-        page = Page(title, blocks, tuned.settings, tuned.text, again)
-        made["-report.html"] = html(page)
-    return made
 
 
 def panels(tuned: Tuning) -> list[Panel]:

@@ -12,7 +12,7 @@ from dqpaint.cli.options import Choices, Drawing, MadeWhenCalled, takes
 from dqpaint.cli.painting import app
 
 if TYPE_CHECKING:
-    from dqpaint.studies.kinds.study_result import StudyResult
+    from dqpaint.studies.kinds import study_result
 
 __all__ = ["app"]
 
@@ -273,7 +273,7 @@ def _again(report: bool) -> str | None:
     return shlex.join(["dqpaint", *sys.argv[1:]]) if report else None
 
 
-def _save(study: "StudyResult", report: bool) -> None:
+def _save(study: "study_result.StudyResult", report: bool) -> None:
     """Write the files of a study and print its tables, as wide as the terminal or any pipe."""
     text = study.table_text(shutil.get_terminal_size((100_000, 24)).columns)
     _finish(text, study.save(_again(report)))

@@ -164,7 +164,7 @@ def test_a_robot_that_is_asked_for_beats_the_file_s_own(dqpaint, tmp_path):
 
 
 def test_a_view_that_is_unknown_is_told_before_anything_is_simulated(monkeypatch):
-    monkeypatch.setattr("dqpaint.painting.paint.plan", None)
+    monkeypatch.setattr("dqpaint.planning.prepared_motion.plan", None)
     with pytest.raises(package.DqpaintError, match="no view named 'back'"):
         package.draw("rose", view="back")
 

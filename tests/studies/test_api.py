@@ -142,7 +142,7 @@ def test_gains_of_a_file_go_with_its_law(tmp_path):
 def test_slips_are_told():
     for call, fault in (
         (lambda: dqpaint.compare("star", 3), "controllers 3 is no list of names"),
-        (lambda: dqpaint.compare("star", "p,"), "at least one is needed, and each once"),
+        (lambda: dqpaint.compare("star", "p,"), "at least one is needed, and none is e"),
         (lambda: dqpaint.compare("star", "p", controller="p"), "controller or controllers, not b"),
         (lambda: dqpaint.sweep("star"), "0 axes; a sweep has one --vary or two"),
         (lambda: dqpaint.sweep("star", 3), "vary 3 is not 'k=5,10,20'"),

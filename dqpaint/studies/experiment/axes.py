@@ -121,8 +121,10 @@ def parse_texts(name: str, values: object) -> list[str]:
                 "is a file, as in 'mylaw.py'"
             )
     texts = list(values)
-    if not texts or "" in texts or len(set(texts)) < len(texts):
-        raise UsageError(f"{name}s {', '.join(texts)!r}: at least one is needed, and each once")
+    if not texts or "" in texts:
+        raise UsageError(f"{name}s {', '.join(texts)!r}: at least one is needed, and none is empty")
+    if len(set(texts)) < len(texts):
+        raise UsageError(f"{name}s {', '.join(texts)!r}: one is there twice")
     for text in texts if name == "controller" else ():
         split_law(text)
     return texts

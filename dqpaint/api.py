@@ -90,9 +90,9 @@ def save(
             cannot be written. Nothing was changed.
     """
     name = f"{Path(painting.motion.program.name).stem}-{painting.controller.name}"
-    writers = registry.choose(what)
+    writers = registry.choose_writers(what)
     stem = files.stem_for(str(out), name)
-    return files.write(stem, registry.make(writers, painting))
+    return files.write(stem, registry.make_files(writers, painting))
 
 
 @keywords("preview")
@@ -120,7 +120,7 @@ def preview(
     from dqpaint.painting import preview as previews
 
     with _places(drawing):
-        return previews.sketch(program, chosen)
+        return previews.make_preview(program, chosen)
 
 
 def _given(settings: "str | PathLike[str] | SettingsFile | None") -> SettingsFile:
@@ -164,7 +164,7 @@ def develop(
 
     scene, before, cast, worked = film_file.read(str(film))
     settings = make_settings(**{**before.model_dump(), **read_choices(options)})
-    scenes.check_choices(settings)
+    scenes.check_light_settings(settings)
     staged, remark = _stage(settings, cast)
     with staged as staging:
         pictures = list(picture.photograph(scene, settings, staging, worked))

@@ -17,7 +17,7 @@ from dqpaint.language.vocabulary.words import STATEMENTS
 from dqpaint.motion import plan
 from dqpaint.outputs import WRITERS
 from dqpaint.outputs.summary import summarise
-from dqpaint.planning.reachability import begin
+from dqpaint.planning.reachability import reachable_start_posture
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
 from dqpaint.studies.gallery import SHOTS, page
@@ -68,7 +68,7 @@ def test_links_lead_somewhere(path):
 def test_the_readme_names_every_format():
     told = README.partition("`--save` takes")[2].partition("\n\nWith `--colour-by`")[0]
     assert all(f"`{name}`" in told for name in WRITERS)
-    forms = sorted(one.form for one in WRITERS.values() if one.form)
+    forms = sorted(one.export_name for one in WRITERS.values() if one.export_name)
     assert f"`export --format {'|'.join(forms)}`" in README
 
 
@@ -153,7 +153,7 @@ def test_every_statement_s_example_is_one(word, tmp_path):
     here = tmp_path / "example.traj"
     program = parse(text, str(here), here)
     motion = plan(program, read_card("iiwa").canvas.pose)
-    begin(motion, Kinematics(read_card("iiwa")))
+    reachable_start_posture(motion, Kinematics(read_card("iiwa")))
 
 
 def test_the_gallery_s_page_is_current():

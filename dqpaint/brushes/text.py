@@ -6,7 +6,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from dqpaint.brushes.brush import BRUSHES, Brush, X
-from dqpaint.core import FILE, find_in_file, reason, subclass
+from dqpaint.core import FILE_PATTERN, find_in_file, pydantic_reason, subclass
 from dqpaint.errors import UsageError
 from dqpaint.program import Brush as BrushWords
 from dqpaint.program import colours as named
@@ -21,7 +21,7 @@ def read_brush(text: str) -> Brush:
         UsageError: an unknown brush or choice, or a value that is none.
     """
     name, _, rest = text.strip().partition(":")
-    if own := re.fullmatch(rf"({FILE})(?::(.*))?", text.strip()):
+    if own := re.fullmatch(rf"({FILE_PATTERN})(?::(.*))?", text.strip()):
         name, rest = own[1], own[2] or ""
         thing, _, _ = find_in_file("brush", name, _is_brush, HOW)
         kind = subclass(Brush, name, thing)
@@ -44,7 +44,7 @@ def read_brush(text: str) -> Brush:
         key = str(first["loc"][0])
         if first["type"] == "extra_forbidden":
             raise UsageError(f"brush '{name}' has no '{key}'; {_choices(name, kind)}") from None
-        fault = reason(first)
+        fault = pydantic_reason(first)
         shown = "" if fault.startswith(("'", "no ")) else f"'{given.get(key)}' "
         raise UsageError(f"brush '{name}': {key} {shown}{fault}") from None
 

@@ -43,14 +43,16 @@ def export(
     from dqpaint.painting import validate
     from dqpaint.settings import DEFAULT_CONTROLLER
 
-    writer = registry.choose_form(form)  # an unknown one is told before anything is simulated
+    writer = registry.choose_export_writer(
+        form
+    )  # an unknown one is told before anything is simulated
     path = find_drawing(file)
     given = validate.settings_file(choices.pop("settings", None))
     law = given.under(choices).get("controller", DEFAULT_CONTROLLER)
     stem = files.stem_for(out, f"{path.stem}-{short_name(law)}")
     with Progress(path.name) as progress:
         painting = api.draw(path, **choices, size=(64, 36), settings=given, progress=progress)
-    written = files.write(stem, registry.make([writer], painting))
+    written = files.write(stem, registry.make_files([writer], painting))
 
     from dqpaint.cli import report
 

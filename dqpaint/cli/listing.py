@@ -148,7 +148,7 @@ def _columns() -> list[dict[str, Any]]:
 
     def about(one: "Column") -> str:
         colour = f" (--colour-by {one.colour_by})" if one.colour_by else ""
-        return f"{one.meaning}{colour}{' (in --save motion)' if one.extra else ''}"
+        return f"{one.meaning}{colour}{' (in --save motion)' if one.motion_only else ''}"
 
     return [
         {
@@ -197,7 +197,7 @@ def _formats() -> list[dict[str, Any]]:
             "about": one.about,
             "file": f"NAME{one.ending}",
             "needs": [need.words for need in one.needs],
-            "export": one.form,
+            "export": one.export_name,
             **_package(WRITERS, name),
         }
         for name, one in WRITERS.items()
@@ -235,7 +235,7 @@ def _functions() -> list[dict[str, Any]]:
 
     kinds = ("function", "law", "constant", "unit")
     return [
-        {"name": e.example, "about": e.says} for e in vocabulary.vocabulary() if e.kind in kinds
+        {"name": e.example, "about": e.meaning} for e in vocabulary.vocabulary() if e.kind in kinds
     ]
 
 

@@ -72,7 +72,7 @@ def draw(choices: Choices, file: Drawing, out: Out = None, save: Save = "png,csv
     from dqpaint.painting import validate
     from dqpaint.settings import DEFAULT_CONTROLLER
 
-    writers = registry.choose(save)
+    writers = registry.choose_writers(save)
     path = find_drawing(file)
     given = validate.settings_file(choices.pop("settings", None))
     both = given.under(choices)
@@ -81,7 +81,7 @@ def draw(choices: Choices, file: Drawing, out: Out = None, save: Save = "png,csv
     with Progress(path.name) as progress:
         painting = api.draw(path, **choices, settings=given, progress=progress)
     with Progress("movie") as progress:
-        written = files.write(stem, registry.make(writers, painting, progress))
+        written = files.write(stem, registry.make_files(writers, painting, progress))
 
     from dqpaint.cli import report
 
@@ -184,7 +184,7 @@ def check(choices: Choices, files: Drawings, as_json: AsJson = False) -> None:
         print(json.dumps(checking.as_json(results), indent=2))
     else:
         print("\n".join(result.text for result in results))
-        point_at([finding.code for result in results for finding in result.findings], sys.stdout)
+        point_at([finding.code for result in results for finding in result.diagnostics], sys.stdout)
     if any(result.errors for result in results):
         raise typer.Exit(1)
 

@@ -29,7 +29,7 @@ def of_painting(painting: paint.Painting, written: Sequence[Path]) -> str:
     gains = ", ".join(f"{name} = {_gain(value)}" for name, value in painting.gains.items())
     rows = [
         ("drawing", summary_line(painting.motion)),
-        *([("placed", one.line), ("", one.figures)] if (one := painting.placed) else []),
+        *([("placed", one.statement), ("", one.figures)] if (one := painting.placement) else []),
         ("arm", f"{painting.robot}, {painting.plant}"),
         ("controller", f"{painting.controller.name}  {gains}".rstrip()),
         *_disturbed(painting),
@@ -63,12 +63,14 @@ def _came_through(painting: paint.Painting) -> list[tuple[str, str]]:
     for part, one in painting.attenuation.items():
         said = f"{part} {one.ratio:.3g} s"
         if one.bound is not None:
-            kept = "kept" if one.kept else f"broken, {one.ratio / one.bound:.3g} times as much"
-            if not one.kept and one.bound < painting.motion.period:
+            kept = (
+                "kept" if one.bound_holds else f"broken, {one.ratio / one.bound:.3g} times as much"
+            )
+            if not one.bound_holds and one.bound < painting.motion.period:
                 kept += ", as the gain is above 1 a period"
-            if not one.kept and painting.limits:
+            if not one.bound_holds and painting.limits:
                 kept += "; limits held joints meanwhile"
-            if not one.kept and len(painting.disturbances) > 1:
+            if not one.bound_holds and len(painting.disturbances) > 1:
                 kept += "; other disturbances took part"
             said += f", promised at most {one.bound:.3g} s: {kept}"
         rows.append(("" if rows else "disturbance", said))
@@ -77,7 +79,7 @@ def _came_through(painting: paint.Painting) -> list[tuple[str, str]]:
 
 def _pace(painting: paint.Painting) -> list[tuple[str, str]]:
     """How much longer it takes, where a drawing may be slowed down."""
-    slowed = painting.slowed
+    slowed = painting.retiming
     if slowed is None:
         return []
     return [("pace", str(slowed))]
@@ -87,7 +89,7 @@ def _steps(painting: paint.Painting) -> list[tuple[str, str]]:
     """How each jump of the set point was taken."""
     rows: list[tuple[str, str]] = []
     where = painting.motion.program.line_name
-    for jump in painting.set_points[:MOST_NAMED]:
+    for jump in painting.step_responses[:MOST_NAMED]:
         parts = ((jump.translation, 1e3, "mm"), (jump.rotation, math.degrees(1), "deg"))
         for part, scale, unit in parts:
             if not part.size:
@@ -107,7 +109,7 @@ def _steps(painting: paint.Painting) -> list[tuple[str, str]]:
 def _commanded(figures: dict[str, float]) -> list[tuple[str, str]]:
     """What the joints were given in all, where they are known."""
     return [
-        ("commanded", f"{figures[name]:.3g} {known.shown} in all joints together")
+        ("commanded", f"{figures[name]:.3g} {known.display_unit} in all joints together")
         for name, known in all_figures().items()
         if known.title == "command" and name in figures
     ]
@@ -124,7 +126,7 @@ def of_export(painting: paint.Painting, written: Sequence[Path]) -> str:
     points = f"{len(painting.motion.t)} points, one every {painting.motion.period * 1e3:g} ms"
     rows = [
         ("drawing", summary_line(painting.motion)),
-        *([("placed", one.line), ("", one.figures)] if (one := painting.placed) else []),
+        *([("placed", one.statement), ("", one.figures)] if (one := painting.placement) else []),
         ("arm", f"{painting.robot}, {painting.plant}, {painting.controller.name}"),
         *_pace(painting),
         ("trajectory", f"{points}; from rest to rest, within the arm's limits"),
@@ -146,12 +148,12 @@ def of_developed(pictures: Sequence[picture.Picture], written: Sequence[Path]) -
 
 def _pictures(pictures: Sequence[picture.Picture]) -> list[tuple[str, str]]:
     """What the light and the exposure of the first picture are; the others are of the same run."""
-    return [("light", light_line(pictures[0])), ("exposure", pictures[0].told)]
+    return [("light", light_line(pictures[0])), ("exposure", pictures[0].exposure_text)]
 
 
 def light_line(shot: picture.Picture) -> str:
     """What of the light fell on the film, and how bright the picture came out."""
-    film, hidden = shot.film, shot.hidden
+    film, hidden = shot.film, shot.occluded
     emitted = shot.emitted.sum()
     red, green, blue = (shot.image[..., i] >= WHITE for i in range(3))
     white = float((red & green & blue).mean())
@@ -205,12 +207,12 @@ def of_arm(pictures: Sequence[picture.Picture], source: str = "") -> list[str]:
 
 def _hidden(shot: picture.Picture, where: str, source: str) -> list[str]:
     """A warning where much of the light was behind the arm."""
-    if shot.hidden is None:
+    if shot.occluded is None:
         return []
-    share = shot.hidden.energy.sum() / (shot.emitted.sum() or 1.0)
+    share = shot.occluded.energy.sum() / (shot.emitted.sum() or 1.0)
     if share <= WORTH_A_WARNING:
         return []
-    lines = shot.hidden.lines
+    lines = shot.occluded.lines
     named = ", ".join(
         f"{line_name(source, line)} ({part:.0%})" for line, part in lines[:MOST_NAMED]
     )
@@ -253,7 +255,7 @@ def _spread(figures: dict[str, float], name: str, unit: str) -> str:
     known = all_figures()[f"{name}_rms_{unit}"]
     rms, most = (figures[f"{name}_{kind}_{unit}"] * known.scale for kind in ("rms", "max"))
     rms, most = (0.0 if value < NOTHING else value for value in (rms, most))
-    return f"rms {rms:.3g} {known.shown}, largest {most:.3g} {known.shown}"
+    return f"rms {rms:.3g} {known.display_unit}, largest {most:.3g} {known.display_unit}"
 
 
 def _worst(painting: paint.Painting) -> str:

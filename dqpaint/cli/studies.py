@@ -191,7 +191,8 @@ def tune(
     check_figure(figure)
     check_figure(effort_figure)
     tuned = study.tune(
-        file, vary or [], validate.chosen(choices), _folder(out, file, "tune"), factor=effort,
+        file, vary or [], validate.settings_of_choices(choices), _folder(out, file, "tune"),
+        factor=effort,
         error=figure, effort=effort_figure, count=runs, budget=budget,
         jobs=requests.workers(jobs, cluster), reporter=StudyProgress(),
     )  # fmt: skip

@@ -4,16 +4,16 @@ Nothing here knows of robots, light or the language.
 """
 
 from dqpaint.core import tables
-from dqpaint.core.atomic_files import rewrite, stage, write_new
-from dqpaint.core.bounds import MOST_ALLOWED, MOST_SAMPLES
+from dqpaint.core.atomic_files import rewrite, write_temporary, write_new
+from dqpaint.core.bounds import LARGEST_MAX_SAMPLES, DEFAULT_MAX_SAMPLES
 from dqpaint.core.examples import example_names, examples_folder, find_drawing
-from dqpaint.core.named_values import FILE, Values, make_choice, number_or_text, read_choice, reason
+from dqpaint.core.named_values import FILE_PATTERN, Values, make_choice, number_or_text, read_choice, pydantic_reason
 from dqpaint.core.records import record, replaced
 from dqpaint.core.registry import Folder, Registry, subclass
 from dqpaint.core.user_files import (
     AnswerError,
     Guarded,
-    Running,
+    UserCode,
     file_digest,
     find_in_file,
     short_name,
@@ -22,14 +22,14 @@ from dqpaint.core.user_files import (
 from dqpaint.core.version import library_versions
 
 __all__ = [
-    "FILE",
-    "MOST_ALLOWED",
-    "MOST_SAMPLES",
+    "FILE_PATTERN",
+    "LARGEST_MAX_SAMPLES",
+    "DEFAULT_MAX_SAMPLES",
     "AnswerError",
     "Folder",
     "Guarded",
     "Registry",
-    "Running",
+    "UserCode",
     "Values",
     "example_names",
     "examples_folder",
@@ -40,13 +40,13 @@ __all__ = [
     "make_choice",
     "number_or_text",
     "read_choice",
-    "reason",
+    "pydantic_reason",
     "record",
     "replaced",
     "rewrite",
     "short_name",
     "split_spec",
-    "stage",
+    "write_temporary",
     "subclass",
     "tables",
     "write_new",

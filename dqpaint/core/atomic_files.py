@@ -7,7 +7,7 @@ from pathlib import Path
 from dqpaint.errors import OutputError
 
 
-def stage(path: Path, data: bytes) -> Path:
+def write_temporary(path: Path, data: bytes) -> Path:
     """Write a file beside its place under a passing name; the caller moves or removes it.
 
     Raises:
@@ -33,7 +33,7 @@ def rewrite(path: Path, data: bytes) -> None:
     """
     try:
         place = path.resolve(strict=True)
-        staged = stage(place, data)
+        staged = write_temporary(place, data)
         try:
             os.chmod(staged, place.stat().st_mode & 0o7777)
             os.replace(staged, place)
@@ -50,7 +50,7 @@ def write_new(path: Path, data: bytes) -> None:
         OutputError: it is there, or its place cannot be written.
     """
     try:
-        staged = stage(path, data)
+        staged = write_temporary(path, data)
         try:
             os.link(staged, path)  # unlike a move this fails if something is there
         finally:

@@ -8,7 +8,7 @@ from pydantic import BaseModel, ValidationError
 
 from dqpaint.errors import UsageError
 
-FILE = r"[^:=,]+\.py(?::[^\W\d]\w*(?=:|$))?"  # FILE.py or FILE.py:NAME, before values
+FILE_PATTERN = r"[^:=,]+\.py(?::[^\W\d]\w*(?=:|$))?"  # FILE.py or FILE.py:NAME, before values
 Values = Mapping[str, float | str]
 M = TypeVar("M", bound=BaseModel)
 
@@ -28,7 +28,7 @@ def read_choice(kind: str, text: str, example: str) -> tuple[str, dict[str, floa
     Raises:
         UsageError: anything else, or a value given twice.
     """
-    parts = re.fullmatch(rf"\s*({FILE}|[\w-]+)\s*(?:[:=,](.+))?", text)
+    parts = re.fullmatch(rf"\s*({FILE_PATTERN}|[\w-]+)\s*(?:[:=,](.+))?", text)
     if parts is None:
         raise UsageError(f"{kind} '{text}' is not NAME or NAME:KEY=VALUE, for example {example}")
     values: dict[str, float | str] = {}
@@ -48,7 +48,7 @@ def number_or_text(value: str) -> float | str:
         return value
 
 
-def reason(fault: Mapping[str, Any]) -> str:
+def pydantic_reason(fault: Mapping[str, Any]) -> str:
     """What pydantic says of a value (one of its `errors()`), without its own first words."""
     return str(fault["msg"]).removeprefix("Value error, ").removeprefix("Input ")
 
@@ -76,9 +76,9 @@ def make_choice(kind: str, name: str, model: type[M], values: Values) -> M:
         if first["type"] == "extra_forbidden":
             fault = f"has no value named '{field}'" if field else "takes no value"
         elif first["type"] == "value_error":
-            fault = f"{field} {reason(first)}".strip()
+            fault = f"{field} {pydantic_reason(first)}".strip()
         else:
-            fault = f"{field} {first['input']!r} {reason(first)}"
+            fault = f"{field} {first['input']!r} {pydantic_reason(first)}"
         fields = model.model_fields.items()
         known = ", ".join(f"{word} ({field.description})" for word, field in fields)
         known = f"; its values: {known}" if known else ""

@@ -13,9 +13,9 @@ from typing import Any
 from dqpaint.core.examples import examples_folder
 from dqpaint.errors import DqpaintError, UsageError
 
-LARGEST = 1_000_000  # bytes of a file
-WIDEST = 120  # columns of a line that is shown
-_busy: set[Path] = set()  # files that are being run
+LARGEST_FILE = 1_000_000  # bytes of a file
+LONGEST_LINE = 120  # columns of a line that is shown
+_running_files: set[Path] = set()  # files that are being run
 
 
 def split_spec(spec: str) -> tuple[Path, str | None] | None:
@@ -39,7 +39,7 @@ def short_name(spec: str) -> str:
 
 
 def find_in_file(
-    kind: str, spec: str, fits: Callable[[Any], bool], how: str
+    kind: str, spec: str, fits: Callable[[Any], bool], help_text: str
 ) -> tuple[Any, Path, str]:
     """The function or class that `FILE.py` or `FILE.py:NAME` means, its path and SHA-256.
 
@@ -49,7 +49,7 @@ def find_in_file(
         kind: what it should be, for messages.
         spec: the file and the name.
         fits: whether a function or class is of that kind.
-        how: a sentence on how to write one.
+        help_text: a sentence on how to write one.
 
     Raises:
         UsageError: the file has none, not the named one, or several and none was named.
@@ -67,7 +67,7 @@ def find_in_file(
         fault = f"has no {kind} named '{name}'" if name else f"has {len(fitting)} {kind}s"
         fix = "" if name or not fitting else f"; choose one: {path.name}:NAME"
         names = ", ".join(fitting) or "none"
-        raise UsageError(f"{path.name} {fault}{fix}; its {kind}s: {names}; {how}")
+        raise UsageError(f"{path.name} {fault}{fix}; its {kind}s: {names}; {help_text}")
     return things[name], path, digest
 
 
@@ -85,7 +85,7 @@ def read_definitions(path: Path, kind: str) -> tuple[dict[str, Any], str]:
     Raises:
         DqpaintError: the file cannot be read or run, or is being run.
     """
-    if path.absolute() in _busy:
+    if path.absolute() in _running_files:
         raise DqpaintError(f"{path.name} draws with itself: a {kind} can't be loaded while it runs")
     text, digest = _text(path, kind)
     module = ModuleType(f"dqpaint_own_{path.stem}")
@@ -94,7 +94,7 @@ def read_definitions(path: Path, kind: str) -> tuple[dict[str, Any], str]:
     folder = str(path.resolve().parent)
     if folder not in sys.path:
         sys.path.append(folder)  # its neighbours can be imported, as in a script
-    with Running(path):
+    with UserCode(path):
         exec(compile(text, str(path), "exec"), vars(module))
     found = {
         name: thing
@@ -110,7 +110,7 @@ class AnswerError(DqpaintError):
     """An answer that is none; it names its place by itself."""
 
 
-class Running:
+class UserCode:
     """While code of a file runs: its faults are told with its own lines, but for a Ctrl-C.
 
     Raises:
@@ -121,12 +121,12 @@ class Running:
         self._path, self._place = path, path.absolute()
 
     def __enter__(self) -> None:
-        _busy.add(self._place)
+        _running_files.add(self._place)
 
     def __exit__(self, kind: object, fault: BaseException | None, trace: object) -> None:
-        _busy.discard(self._place)
+        _running_files.discard(self._place)
         if fault is not None and not isinstance(fault, KeyboardInterrupt | AnswerError):
-            raise DqpaintError(_told(fault, self._path)) from None
+            raise DqpaintError(_located_fault(fault, self._path)) from None
 
 
 class Guarded:
@@ -138,7 +138,7 @@ class Guarded:
     """
 
     def __init__(self, thing: Any, path: Path) -> None:
-        self._thing, self._running = thing, Running(path)
+        self._thing, self._running = thing, UserCode(path)
         self._path = path
         self.__doc__ = thing.__doc__
 
@@ -159,8 +159,8 @@ def _text(path: Path, kind: str) -> tuple[str, str]:
     try:
         if path.exists() and not path.is_file():
             raise DqpaintError(f"{kind} '{path}' is not a file")
-        if path.stat().st_size > LARGEST:
-            raise DqpaintError(f"{kind} '{path}' is larger than {LARGEST // 1000} kB")
+        if path.stat().st_size > LARGEST_FILE:
+            raise DqpaintError(f"{kind} '{path}' is larger than {LARGEST_FILE // 1000} kB")
         data = path.read_bytes()
         return data.decode("utf-8-sig"), hashlib.sha256(data).hexdigest()
     except OSError as problem:
@@ -169,7 +169,7 @@ def _text(path: Path, kind: str) -> tuple[str, str]:
         raise DqpaintError(f"{kind} '{path}' is not a text in UTF-8") from None
 
 
-def _told(fault: BaseException, path: Path) -> str:
+def _located_fault(fault: BaseException, path: Path) -> str:
     """A fault with the file's own last line in it, without the lines of this package."""
     try:
         text = str(fault)
@@ -185,6 +185,6 @@ def _told(fault: BaseException, path: Path) -> str:
     if number is None:
         return f"{path.name}: {said}"
     code = linecache.getline(str(path), number).lstrip("\ufeff").rstrip()
-    code = code if len(code) <= WIDEST else f"{code[:WIDEST]} ..."
+    code = code if len(code) <= LONGEST_LINE else f"{code[:LONGEST_LINE]} ..."
     edge = " " * len(str(number))
     return f"{path.name}:{number}: {said}\n{edge} |\n{number} | {code}"

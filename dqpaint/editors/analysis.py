@@ -11,7 +11,7 @@ from dqpaint.robots.loading import card_for
 
 
 @dataclass(frozen=True)
-class Figures:
+class LineFigures:
     """Of one line of a drawing, all its passes together."""
 
     length: float  # [m]
@@ -34,11 +34,11 @@ class Analysis:
     text: str
     source: str  # the text, and those of the files it includes
     planned: bool  # its times were looked at, too
-    findings: tuple[Diagnostic, ...]
-    figures: dict[int, Figures] = field(default_factory=dict)  # by the line, from 1
+    diagnostics: tuple[Diagnostic, ...]
+    figures: dict[int, LineFigures] = field(default_factory=dict)  # by the line, from 1
 
 
-def understand(text: str, name: str, planned: bool) -> Analysis:
+def analyse(text: str, name: str, planned: bool) -> Analysis:
     """What there is to say about a text; `planned` also has its times looked at."""
     try:
         program = parse(text, name, Path(name))
@@ -47,10 +47,10 @@ def understand(text: str, name: str, planned: bool) -> Analysis:
         motion = plan(program, card_for(program, None).canvas.pose)
     except ScriptError as problem:
         return Analysis(text, problem.text, planned, problem.diagnostics)
-    return Analysis(text, program.text, True, motion.notes, figures(motion))
+    return Analysis(text, program.text, True, motion.notes, line_figures(motion))
 
 
-def figures(motion: Motion) -> dict[int, Figures]:
+def line_figures(motion: Motion) -> dict[int, LineFigures]:
     """How long each line is and takes; of the main file alone."""
     steps = np.linalg.norm(np.diff(motion.points, axis=0), axis=1)
     steps[motion.jump[:-1]] = 0.0
@@ -63,4 +63,4 @@ def figures(motion: Motion) -> dict[int, Figures]:
     lit = np.bincount(of, weights=motion.lit[:-1][rows]) > 0.0
     columns = (length, seconds, fastest / motion.period, lit)
     values = zip(*(column.tolist() for column in columns), strict=True)
-    return {line: Figures(*each) for line, each in zip(lines.tolist(), values, strict=True)}
+    return {line: LineFigures(*each) for line, each in zip(lines.tolist(), values, strict=True)}

@@ -43,20 +43,20 @@ def completions(text: str, offset: int) -> list[Entry]:
     if tokens and (tokens[-1].startswith("#") or _open_text(tokens[-1])):
         return []
     if not tokens:
-        return _of("statement")
+        return _entries("statement")
     last = tokens[-1]
-    units = _of("unit")
+    units = _entries("unit")
     if re.fullmatch(r"[\d.]+", last):
         return units
     if RENAMED.get(last, last) == "profile":
-        return _of("profile")
+        return _entries("profile")
     if last == "brush":
         return _brushes()
     if last == "light" or (last == "to" and "light" in tokens):
-        return [*_of("colour", "function"), *_little("on", "off")]
+        return [*_entries("colour", "function"), *_words("on", "off")]
     if last == "tool":
-        return [*_little("keep", "follow", "look"), *_of("function")]
-    found = [*(_little("auto") if last == "place" else ()), *_brush_values(tokens)]
+        return [*_words("keep", "follow", "look"), *_entries("function")]
+    found = [*(_words("auto") if last == "place" else ()), *_brush_values(tokens)]
     found += _next_parts(tokens)
     if last == ")":
         found += units
@@ -93,19 +93,19 @@ def _next_parts(tokens: list[str]) -> list[Entry]:
     if known is None:
         return []
     free = {p for p in known.parts if p in known.many or p not in tokens[1:]}
-    return [entry for entry in _of("part") if entry.word in free]
+    return [entry for entry in _entries("part") if entry.word in free]
 
 
 def _values(text: str) -> list[Entry]:
     named = (Entry(name, "name", "a name of this drawing", name) for name in _NAMED.findall(text))
-    return [*dict.fromkeys(named), *_of("function", "constant")]
+    return [*dict.fromkeys(named), *_entries("function", "constant")]
 
 
-def _of(*kinds: str) -> list[Entry]:
+def _entries(*kinds: str) -> list[Entry]:
     return [entry for entry in vocabulary() if entry.kind in kinds]
 
 
-def _little(*words: str) -> list[Entry]:
+def _words(*words: str) -> list[Entry]:
     return [entry for entry in vocabulary() if entry.kind == "word" and entry.word in words]
 
 

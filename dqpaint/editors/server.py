@@ -18,7 +18,7 @@ from pygls.workspace import PositionCodec
 from dqpaint import __version__
 from dqpaint.diagnostics import Severity, Span, file_at, locate
 from dqpaint.editors import completion
-from dqpaint.editors.analysis import Analysis, understand
+from dqpaint.editors.analysis import Analysis, analyse
 from dqpaint.language import Diagnostic, ScriptError
 from dqpaint.language.vocabulary import STATEMENTS
 from dqpaint.language.writing import formatter
@@ -79,7 +79,7 @@ class _Server(LanguageServer):
 
     def __init__(self) -> None:
         super().__init__("dqpaint", __version__)
-        self._understood: dict[str, Analysis] = {}
+        self._analyses: dict[str, Analysis] = {}
 
     def document(self, uri: str) -> _Document:
         return _Document(self.workspace.get_text_document(uri).source, self._codec)
@@ -88,25 +88,25 @@ class _Server(LanguageServer):
     def _codec(self) -> PositionCodec:
         return self.workspace.position_codec
 
-    def understood(self, uri: str, planned: bool) -> Analysis:
+    def analysis(self, uri: str, planned: bool) -> Analysis:
         """What there is to say about a text; nothing is worked out twice."""
         text = self.document(uri).text
-        known = self._understood.get(uri)
+        known = self._analyses.get(uri)
         if known is None or known.text != text or (planned and not known.planned):
-            known = understand(text, _name(uri), planned)
-            self._understood[uri] = known
+            known = analyse(text, _name(uri), planned)
+            self._analyses[uri] = known
         return known
 
     def publish(self, uri: str, planned: bool) -> None:
         """Send the messages about a text."""
         document = self.document(uri)
-        understood = self.understood(uri, planned)
-        found = [_message(d, document, uri, understood.source) for d in understood.findings]
+        understood = self.analysis(uri, planned)
+        found = [_message(d, document, uri, understood.source) for d in understood.diagnostics]
         self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, found))
 
     def forget(self, uri: str) -> None:
         """A text that was closed has no messages any more."""
-        self._understood.pop(uri, None)
+        self._analyses.pop(uri, None)
         self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, []))
 
 
@@ -158,7 +158,9 @@ def make_server() -> LanguageServer:
         document = server.document(params.text_document.uri)
         found = completion.completions(document.text, document.offset(params.position))
         return [
-            lsp.CompletionItem(e.word, kind=_KINDS[e.kind], detail=e.says, documentation=e.example)
+            lsp.CompletionItem(
+                e.word, kind=_KINDS[e.kind], detail=e.meaning, documentation=e.example
+            )
             for e in found
         ]
 
@@ -188,9 +190,9 @@ def _hover(server: _Server, uri: str, position: lsp.Position) -> lsp.Hover | Non
     if found is None:
         return None
     entry, span = found
-    parts = [f"**{entry.word}**: {entry.says}", f"```traj\n{entry.example}\n```"]
+    parts = [f"**{entry.word}**: {entry.meaning}", f"```traj\n{entry.example}\n```"]
     line = position.line + 1
-    figures = server.understood(uri, planned=True).figures.get(line)
+    figures = server.analysis(uri, planned=True).figures.get(line)
     if figures is not None:
         parts.insert(0, str(figures))
     if entry.kind == "statement" and STATEMENTS[entry.word].parts:
@@ -204,8 +206,8 @@ def _fixes(server: _Server, uri: str, asked: lsp.Range) -> list[lsp.CodeAction]:
     document = server.document(uri)
     start, end = document.offset(asked.start), document.offset(asked.end)
     found = []
-    understood = server.understood(uri, planned=False)
-    for diagnostic in understood.findings:
+    understood = server.analysis(uri, planned=False)
+    for diagnostic in understood.diagnostics:
         fix, span = diagnostic.fix, diagnostic.span
         if fix is None or span is None or span.end < start or span.start > end:
             continue

@@ -21,7 +21,7 @@ class Entry(NamedTuple):
 
     word: str
     kind: str  # statement, part, word, unit, function, profile, constant, colour, renamed
-    says: str
+    meaning: str
     example: str
 
 

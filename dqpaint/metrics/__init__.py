@@ -19,11 +19,11 @@ from dqpaint.metrics.registry import (
     column,
     figure,
     motion_column,
-    suffix,
+    unit_suffix,
 )
-from dqpaint.metrics.run_metrics import Metrics, asked_columns, measure, motion_columns
+from dqpaint.metrics.run_metrics import Metrics, measure, motion_columns, reference_columns
 from dqpaint.metrics.stability import instability
-from dqpaint.metrics.step_response import Response, SetPoint, set_points
+from dqpaint.metrics.step_response import PartResponse, StepResponse, step_responses
 
 __all__ = [
     "METRICS",
@@ -32,13 +32,12 @@ __all__ = [
     "Figure",
     "Metric",
     "Metrics",
-    "Response",
-    "SetPoint",
+    "PartResponse",
+    "StepResponse",
     "Table",
     "Values",
     "all_columns",
     "all_figures",
-    "asked_columns",
     "attenuation",
     "column",
     "figure",
@@ -46,6 +45,7 @@ __all__ = [
     "measure",
     "motion_column",
     "motion_columns",
-    "set_points",
-    "suffix",
+    "reference_columns",
+    "step_responses",
+    "unit_suffix",
 ]

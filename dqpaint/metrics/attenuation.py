@@ -28,19 +28,19 @@ class Attenuation:
     bound: float | None
 
     @property
-    def kept(self) -> bool | None:
+    def bound_holds(self) -> bool | None:
         """Whether the promise was kept; None where there is none."""
         return None if self.bound is None else self.ratio <= self.bound
 
 
-def attenuation(track: Track, promise: tuple[float, float] | None) -> dict[str, Attenuation]:
+def attenuation(track: Track, bounds: tuple[float, float] | None) -> dict[str, Attenuation]:
     """Rotation and translation, each where the disturbance is not zero.
 
     The disturbance from row k to row k + 1 shows in the error of row k + 1.
 
     Args:
         track: of a run.
-        promise: bounds [s] for rotation and translation, from the gains.
+        bounds: bounds [s] for rotation and translation, from the gains.
     """
     v = track.disturbance[:-1]
     x_e = spatial_error(track.pose[1:], track.motion.pose[1:])
@@ -48,10 +48,9 @@ def attenuation(track: Track, promise: tuple[float, float] | None) -> dict[str, 
         "rotation": (dq.rotation(x_e) - dq.rotation(dq.IDENTITY), v[:, :3]),
         "translation": (dq.translation(x_e), v[:, 3:]),
     }
-    bounds = promise or (None, None)
     return {
         name: Attenuation(_norm(error) / _norm(cause), bound)
-        for (name, (error, cause)), bound in zip(parts.items(), bounds, strict=True)
+        for (name, (error, cause)), bound in zip(parts.items(), bounds or (None, None), strict=True)
         if cause.any()
     }
 

@@ -37,46 +37,46 @@ def _lit(motion: Motion) -> Values:
 
 
 @motion_column("desired_x_m desired_y_m desired_z_m", "m", "asked place", "asked place")
-def _asked_place(motion: Motion) -> Floats:
+def _reference_position(motion: Motion) -> Floats:
     return motion.points
 
 
 @motion_column("desired_qw desired_qx desired_qy desired_qz", "", "asked orientation",
                "asked orientation, scalar first")  # fmt: skip
-def _asked_orientation(motion: Motion) -> Floats:
+def _reference_orientation(motion: Motion) -> Floats:
     return dq.rotation(motion.pose)
 
 
 @motion_column("desired_wx_rad_s desired_wy_rad_s desired_wz_rad_s", "rad/s", "asked turning",
                "asked angular velocity: the first half of the spatial twist",
-               extra=True)  # fmt: skip
-def _asked_turning(motion: Motion) -> Floats:
+               motion_only=True)  # fmt: skip
+def _reference_angular_velocity(motion: Motion) -> Floats:
     return motion.twist[:, :3]
 
 
 @motion_column("desired_vx_m_s desired_vy_m_s desired_vz_m_s", "m/s", "asked velocity",
                "asked velocity at the base's origin: the second half of the spatial twist",
-               extra=True)  # fmt: skip
-def _asked_velocity(motion: Motion) -> Floats:
+               motion_only=True)  # fmt: skip
+def _reference_velocity(motion: Motion) -> Floats:
     return motion.twist[:, 3:]
 
 
 @motion_column("desired_wx_dot_rad_s2 desired_wy_dot_rad_s2 desired_wz_dot_rad_s2", "rad/s^2",
                "asked angular acceleration", "plain derivative of the twist's first half",
-               extra=True)  # fmt: skip
-def _asked_turning_rate(motion: Motion) -> Floats:
+               motion_only=True)  # fmt: skip
+def _reference_angular_acceleration(motion: Motion) -> Floats:
     return motion.acceleration[:, :3]
 
 
 @motion_column("desired_vx_dot_m_s2 desired_vy_dot_m_s2 desired_vz_dot_m_s2", "m/s^2",
-               "asked acceleration", "and of its second half", extra=True)  # fmt: skip
-def _asked_velocity_rate(motion: Motion) -> Floats:
+               "asked acceleration", "and of its second half", motion_only=True)  # fmt: skip
+def _reference_acceleration(motion: Motion) -> Floats:
     return motion.acceleration[:, 3:]
 
 
 @motion_column("light_r light_g light_b", "", "colour",
                "linear red, green and blue of the light until the next row",
-               extra=True)  # fmt: skip
+               motion_only=True)  # fmt: skip
 def _colour(motion: Motion) -> Floats:
     return motion.light
 
@@ -85,7 +85,7 @@ def _colour(motion: Motion) -> Floats:
 
 
 @column("x_m y_m z_m", "m", "place", "place of the light, the true one")
-def _place(track: Track) -> Floats:
+def _position(track: Track) -> Floats:
     return track.points
 
 
@@ -95,13 +95,13 @@ def _orientation(track: Track) -> Floats:
 
 
 @column("position_error_m", "m", "position error", "distance from the asked place",
-        shown="mm", from_zero=True, study="drawn")  # fmt: skip
+        display_unit="mm", from_zero=True, study="drawn")  # fmt: skip
 def _position_error(track: Track) -> Floats:
     return _norm(track.points - track.motion.points)
 
 
 @column("orientation_error_rad", "rad", "orientation error", "angle from the asked orientation",
-        shown="deg", from_zero=True, study="drawn")  # fmt: skip
+        display_unit="deg", from_zero=True, study="drawn")  # fmt: skip
 def _orientation_error(track: Track) -> Floats:
     return 2 * _norm(dq.log(dq.mul(track.pose, dq.conj(track.motion.pose)))[:, :3])
 
@@ -112,12 +112,12 @@ def _invariant_error(track: Track) -> Floats:
     return _norm(invariant_error(track.pose, track.motion.pose))
 
 
-def _asked_speed(motion: Motion) -> Floats:
+def _reference_speed(motion: Motion) -> Floats:
     return _norm(_velocity(motion.points, motion.period))
 
 
 @column("speed_m_s", "m/s", "speed", "of the light, until the next row",
-        shown="mm/s", from_zero=True, asked=_asked_speed)  # fmt: skip
+        display_unit="mm/s", from_zero=True, reference=_reference_speed)  # fmt: skip
 def _speed(track: Track) -> Floats:
     return _norm(_velocity(track.points, track.motion.period))
 
@@ -162,20 +162,20 @@ def _torques(track: Track) -> Floats | None:
 
 @column("read{joint}_rad", "rad", "angles read",
         "joint angles as the encoders read them, where these err")  # fmt: skip
-def _readings(track: Track) -> Floats | None:
-    return track.read if (track.read != track.posture).any() else None
+def _measured_angles(track: Track) -> Floats | None:
+    return track.measured_posture if (track.measured_posture != track.posture).any() else None
 
 
 @column("believed_x_m believed_y_m believed_z_m", "m", "believed place",
         "where the law's model has the light at these angles, if that is elsewhere")  # fmt: skip
-def _believed_place(track: Track) -> Floats | None:
-    return dq.translation(track.believed) if _errs(track) else None
+def _measured_position(track: Track) -> Floats | None:
+    return dq.translation(track.measured_pose) if _has_measurement_errors(track) else None
 
 
 @column("believed_qw believed_qx believed_qy believed_qz", "", "believed orientation",
         "and its orientation there")  # fmt: skip
-def _believed_orientation(track: Track) -> Floats | None:
-    return dq.rotation(track.believed) if _errs(track) else None
+def _measured_orientation(track: Track) -> Floats | None:
+    return dq.rotation(track.measured_pose) if _has_measurement_errors(track) else None
 
 
 @column("drawing_time_s", "s", "time of the drawing",
@@ -189,9 +189,9 @@ def _has_joints(track: Track) -> bool:
     return bool(track.posture.shape[1] > 0)
 
 
-def _errs(track: Track) -> bool:
+def _has_measurement_errors(track: Track) -> bool:
     """Whether the law was told another pose than the true one."""
-    return bool((track.believed != track.pose).any())
+    return bool((track.measured_pose != track.pose).any())
 
 
 def _velocity(points: Floats, period: float) -> Floats:

@@ -13,9 +13,9 @@ from dqpaint.dq import Floats
 from dqpaint.metrics.registry import Table, figure
 from dqpaint.simulation import Track
 
-TOLD = "the norm of what the joints are told, over time"
-PLACE = "how far the light is from where it is asked to be at the time"
-TURN = "by which angle the tool is turned from what is asked at the time"
+COMMAND_MEANING = "the norm of what the joints are told, over time"
+POSITION_MEANING = "how far the light is from where it is asked to be at the time"
+ORIENTATION_MEANING = "by which angle the tool is turned from what is asked at the time"
 
 
 @figure("error_integral", "", "error integral",
@@ -25,12 +25,12 @@ def _error(track: Track, table: Table) -> float:
     return _integral(table["invariant_error"], track)
 
 
-@figure("command_integral_rad", "rad", "command", TOLD, listed=True)
+@figure("command_integral_rad", "rad", "command", COMMAND_MEANING, listed=True)
 def _rates(track: Track, _table: Table) -> float | None:
     return None if track.torques else _commanded(track)
 
 
-@figure("torque_integral_Nm_s", "Nm s", "command", TOLD, listed=True)
+@figure("torque_integral_Nm_s", "Nm s", "command", COMMAND_MEANING, listed=True)
 def _torque(track: Track, _table: Table) -> float | None:
     return _commanded(track) if track.torques else None
 
@@ -42,7 +42,7 @@ def _effort(track: Track, table: Table) -> float | None:
 
 
 @figure("speed_integral_m", "m", "way", "how far the light goes", listed=True)
-def _way(track: Track, table: Table) -> float:
+def _path_length(track: Track, table: Table) -> float:
     return _integral(table["speed_m_s"], track)
 
 
@@ -52,10 +52,10 @@ def _acceleration(track: Track, table: Table) -> float:
     return _integral(table["acceleration_m_s2"], track)
 
 
-def _spreads(name: str, unit: str, shown: str, meaning: str, largest: bool) -> None:
+def _error_statistics(name: str, unit: str, display_unit: str, meaning: str, largest: bool) -> None:
     """Register the root mean square, standard deviation and largest value of an error."""
     column = f"{name}_error_{unit}"
-    known: dict[str, Any] = {"meaning": meaning, "shown": shown, "kind": "error"}
+    known: dict[str, Any] = {"meaning": meaning, "display_unit": display_unit, "kind": "error"}
 
     @figure(f"{name}_error_rms_{unit}", unit, f"{name} rms", **known, listed=True)
     def _rms(_track: Track, table: Table) -> float:
@@ -70,8 +70,8 @@ def _spreads(name: str, unit: str, shown: str, meaning: str, largest: bool) -> N
         return float(table[column].max())
 
 
-_spreads("position", "m", "mm", PLACE, largest=True)
-_spreads("orientation", "rad", "deg", TURN, largest=False)
+_error_statistics("position", "m", "mm", POSITION_MEANING, largest=True)
+_error_statistics("orientation", "rad", "deg", ORIENTATION_MEANING, largest=False)
 
 
 def _commanded(track: Track) -> float | None:

@@ -32,28 +32,30 @@ class Metric:
         unit: of the SI; nothing if there is none.
         title: what it is called in legends, charts and tables, without its unit.
         meaning: what it is, in a few words.
-        shown: the unit in which people read it, if it is another one.
+        display_unit: the unit in which people read it, if it is another one.
     """
 
     unit: str
     title: str
     meaning: str
-    shown: str = ""
+    display_unit: str = ""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "shown", self.shown or self.unit)
-        if self.shown != self.unit and (self.unit, self.shown) not in SCALES:
-            raise ValueError(f"{self.title}: [{self.unit}] cannot be shown in [{self.shown}]")
+        object.__setattr__(self, "display_unit", self.display_unit or self.unit)
+        if self.display_unit != self.unit and (self.unit, self.display_unit) not in SCALES:
+            raise ValueError(
+                f"{self.title}: [{self.unit}] cannot be shown in [{self.display_unit}]"
+            )
 
     @property
     def scale(self) -> float:
         """What its value is multiplied by to be shown."""
-        return SCALES.get((self.unit, self.shown), 1.0)
+        return SCALES.get((self.unit, self.display_unit), 1.0)
 
     @property
     def heading(self) -> str:
         """The title with the unit that is shown."""
-        return f"{self.title} [{self.shown}]" if self.shown else self.title
+        return f"{self.title} [{self.display_unit}]" if self.display_unit else self.title
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,19 +64,19 @@ class Column(Metric):
 
     Attributes:
         names: their headers; `q{joint}_rad` stands for one of each joint.
-        of: its values (N,), or (N, k) of k columns, from a run; None where the run has none. Of
-            what was asked, and is known without an arm, there is `asked` alone.
-        asked: its values without an arm, if it has any.
-        extra: whether only the table of a motion has it.
+        measure: its values (N,), or (N, k) of k columns, from a run; None where the run has none. Of
+            what was asked, and is known without an arm, there is `reference` alone.
+        reference: its values without an arm, if it has any.
+        motion_only: whether only the table of a motion has it.
         from_zero: whether a scale of it begins at 0.
         coloured: whether the light can be coloured by it.
         study: what a study does with it: keep it of first runs, or draw it over time as well.
     """
 
     names: tuple[str, ...]
-    of: Callable[[Track], Values | None] | None = None
-    asked: Callable[[Motion], Values | None] | None = None
-    extra: bool = False
+    measure: Callable[[Track], Values | None] | None = None
+    reference: Callable[[Motion], Values | None] | None = None
+    motion_only: bool = False
     from_zero: bool = False
     coloured: bool = True
     study: Literal["", "kept", "drawn"] = ""
@@ -92,9 +94,9 @@ class Column(Metric):
     @property
     def colour_by(self) -> str | None:
         """What `--colour-by` calls it: its name without the unit, if it has one value a row."""
-        if len(self.names) > 1 or self._each_joint or self.extra or not self.coloured:
+        if len(self.names) > 1 or self._each_joint or self.motion_only or not self.coloured:
             return None
-        return self.name.removesuffix(suffix(self.unit)).replace("_", "-")
+        return self.name.removesuffix(unit_suffix(self.unit)).replace("_", "-")
 
     @property
     def _each_joint(self) -> bool:
@@ -102,11 +104,11 @@ class Column(Metric):
 
     def of_run(self, track: Track) -> Values | None:
         """Its values from a run."""
-        return self.of_motion(track.motion) if self.of is None else self.of(track)
+        return self.of_motion(track.motion) if self.measure is None else self.measure(track)
 
     def of_motion(self, motion: Motion) -> Values | None:
         """Its values without an arm."""
-        return None if self.asked is None else self.asked(motion)
+        return None if self.reference is None else self.reference(motion)
 
     def by_header(self, values: Values, rows: int) -> Table:
         """The columns (N,) from what was measured.
@@ -133,13 +135,13 @@ class Figure(Metric):
 
     Attributes:
         name: its key in the JSON.
-        of: its value, from the run and its table; None where the run has none.
+        measure: its value, from the run and its table; None where the run has none.
         kind: an error, of which less is better, or a cost.
         listed: whether the tables of studies show it. Figures of one title share a column there.
     """
 
     name: str
-    of: Callable[[Track, Table], float | None]
+    measure: Callable[[Track, Table], float | None]
     kind: Literal["error", "cost"] = "cost"
     listed: bool = False
 
@@ -154,14 +156,14 @@ METRICS: Registry[Column | Figure] = Registry("metric", "dqpaint.metrics", _not_
 An entry point has the name of a metric and is loaded for its module, which may register others.
 """
 
-OfRun = TypeVar("OfRun", bound=Callable[[Track], Values | None])
-OfMotion = TypeVar("OfMotion", bound=Callable[[Motion], Values | None])
-OfBoth = TypeVar("OfBoth", bound=Callable[[Track, Table], float | None])
+RunFunction = TypeVar("RunFunction", bound=Callable[[Track], Values | None])
+MotionFunction = TypeVar("MotionFunction", bound=Callable[[Motion], Values | None])
+FigureFunction = TypeVar("FigureFunction", bound=Callable[[Track, Table], float | None])
 
 
 def column(
     names: str, unit: str, title: str, meaning: str, **more: Any
-) -> Callable[[OfRun], OfRun]:
+) -> Callable[[RunFunction], RunFunction]:
     """A decorator: the function below it measures columns of a run.
 
     Args:
@@ -174,26 +176,26 @@ def column(
     Raises:
         ValueError: there is a metric of that name.
     """
-    return _registered(lambda of: Column(
-        names=tuple(names.split()), unit=unit, title=title, meaning=meaning, of=of, **more
+    return _registered(lambda measure: Column(
+        names=tuple(names.split()), unit=unit, title=title, meaning=meaning, measure=measure, **more
     ))  # fmt: skip
 
 
 def motion_column(
     names: str, unit: str, title: str, meaning: str, **more: Any
-) -> Callable[[OfMotion], OfMotion]:
+) -> Callable[[MotionFunction], MotionFunction]:
     """The same for what was asked, which is known before there is a run."""
-    return _registered(lambda asked: Column(
-        names=tuple(names.split()), unit=unit, title=title, meaning=meaning, asked=asked, **more
+    return _registered(lambda reference: Column(
+        names=tuple(names.split()), unit=unit, title=title, meaning=meaning, reference=reference, **more
     ))  # fmt: skip
 
 
 def figure(
     name: str, unit: str, title: str, meaning: str, **more: Any
-) -> Callable[[OfBoth], OfBoth]:
+) -> Callable[[FigureFunction], FigureFunction]:
     """The same for a figure: the function below takes the run and its table."""
-    return _registered(lambda of: Figure(
-        name=name, unit=unit, title=title, meaning=meaning, of=of, **more
+    return _registered(lambda measure: Figure(
+        name=name, unit=unit, title=title, meaning=meaning, measure=measure, **more
     ))  # fmt: skip
 
 
@@ -216,6 +218,6 @@ def all_figures() -> dict[str, Figure]:
     return {name: one for name, one in METRICS.items() if isinstance(one, Figure)}
 
 
-def suffix(unit: str) -> str:
+def unit_suffix(unit: str) -> str:
     """How a name says a unit: `_rad_s` of rad/s, `_m_s2` of m/s^2."""
     return f"_{unit}".replace("/", "_").replace(" ", "_").replace("^", "") if unit else ""

@@ -28,11 +28,11 @@ def measure(track: Track) -> Metrics:
     Raises:
         DqpaintError: a metric of another package fails.
     """
-    chosen = [one for one in all_columns() if not one.extra]
+    chosen = [one for one in all_columns() if not one.motion_only]
     table = _table({one: partial(one.of_run, track) for one in chosen}, track.motion)
     found: dict[str, float] = {}
     for name, figure in all_figures().items():
-        value = _guarded(name, partial(figure.of, track, table))
+        value = _guarded(name, partial(figure.measure, track, table))
         if value is None:
             continue
         if not math.isfinite(value):
@@ -41,14 +41,14 @@ def measure(track: Track) -> Metrics:
     return Metrics(table, found)
 
 
-def asked_columns(motion: Motion) -> Table:
+def reference_columns(motion: Motion) -> Table:
     """What is known without an arm: the asked columns, and the speed of a light that does it."""
-    return _of_motion(motion, [one for one in all_columns() if not one.extra])
+    return _of_motion(motion, [one for one in all_columns() if not one.motion_only])
 
 
 def motion_columns(motion: Motion) -> Table:
     """What was asked, with spatial twist and its derivative: the file of `--save motion`."""
-    return _of_motion(motion, [one for one in all_columns() if one.of is None])
+    return _of_motion(motion, [one for one in all_columns() if one.measure is None])
 
 
 def _of_motion(motion: Motion, chosen: list[Column]) -> Table:

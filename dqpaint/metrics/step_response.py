@@ -10,13 +10,13 @@ from dqpaint.diagnostics import SourceLine
 from dqpaint.dq import Floats
 from dqpaint.simulation import Track
 
-SETTLED = 0.02  # of the step: an error that stays below it has settled
-TAIL = 0.1  # of the time at the set point, at its end, counts for the steady error
-LEAST = 1e-9  # [m, rad] a smaller step is none
+SETTLING_BAND = 0.02  # of the step: an error that stays below it has settled
+STEADY_SHARE = 0.1  # of the time at the set point, at its end, counts for the steady error
+LEAST_STEP = 1e-9  # [m, rad] a smaller step is none
 
 
 @dataclass(frozen=True)
-class Response:
+class PartResponse:
     """How a part of a step, translation or rotation, was taken.
 
     Attributes:
@@ -34,59 +34,59 @@ class Response:
 
 
 @dataclass(frozen=True)
-class SetPoint:
+class StepResponse:
     """One jump: when [s], on which line, and how it was taken."""
 
     time: float
     line: SourceLine
-    translation: Response
-    rotation: Response
+    translation: PartResponse
+    rotation: PartResponse
 
 
-def set_points(track: Track) -> tuple[SetPoint, ...]:
+def step_responses(track: Track) -> tuple[StepResponse, ...]:
     """Every jump of the set point that was held for a while."""
     motion = track.motion
     found = []
     for before in np.flatnonzero(motion.jump):
-        rows = _held(motion.pose, int(before) + 1)
+        rows = _rows_of_set_point(motion.pose, int(before) + 1)
         if len(rows) < 2:
             continue
         old, new = motion.pose[before], motion.pose[rows[0]]
         times = motion.t[rows] - motion.t[rows[0]]
         way = dq.translation(new) - dq.translation(old)
-        turn = _turn(new, old)
+        turn = _rotation_vectors(new, old)
         found.append(
-            SetPoint(
+            StepResponse(
                 time=float(motion.t[rows[0]]),
                 line=motion.source.at(int(before)),
                 translation=_response(way, track.points[rows] - dq.translation(new), times),
-                rotation=_response(turn, _turn(track.pose[rows], new), times),
+                rotation=_response(turn, _rotation_vectors(track.pose[rows], new), times),
             )
         )
     return tuple(found)
 
 
-def _held(poses: Floats, first: int) -> NDArray[np.intp]:
+def _rows_of_set_point(poses: Floats, first: int) -> NDArray[np.intp]:
     """The rows from `first` on that ask for the same pose."""
     other = (poses[first:] != poses[first]).any(axis=1)
     last = first + int(np.argmax(other)) if other.any() else len(poses)
     return np.arange(first, last)
 
 
-def _turn(x: Floats, start: Floats) -> Floats:
+def _rotation_vectors(x: Floats, start: Floats) -> Floats:
     """The rotation vectors (..., 3) [rad] from one orientation to others, the short way."""
     return np.asarray(2 * dq.log(dq.mul(x, dq.conj(start)))[..., :3])
 
 
-def _response(step: Floats, errors: Floats, times: Floats) -> Response:
+def _response(step: Floats, errors: Floats, times: Floats) -> PartResponse:
     """From a step (3,), errors (N, 3) from its end, and times (N,) [s] since the jump."""
     size = float(np.linalg.norm(step))
     far = np.linalg.norm(errors, axis=1)
-    steady = float(far[times >= (1 - TAIL) * times[-1]].mean())
-    if size < LEAST:
-        return Response(0.0, None, 0.0, steady)
-    outside = np.flatnonzero(far > SETTLED * size)
+    steady = float(far[times >= (1 - STEADY_SHARE) * times[-1]].mean())
+    if size < LEAST_STEP:
+        return PartResponse(0.0, None, 0.0, steady)
+    outside = np.flatnonzero(far > SETTLING_BAND * size)
     after = int(outside[-1]) + 1 if len(outside) else 0
     settling = float(times[after]) if after < len(times) else None
     beyond = float((errors @ step).max()) / size**2
-    return Response(size, settling, max(beyond, 0.0), steady)
+    return PartResponse(size, settling, max(beyond, 0.0), steady)

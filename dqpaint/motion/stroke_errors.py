@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from dqpaint.core import MOST_ALLOWED
+from dqpaint.core import LARGEST_MAX_SAMPLES
 from dqpaint.diagnostics import Diagnostic, DiagnosticCollector, ScriptError
 from dqpaint.program import Duration, Segment, Step
 
@@ -99,7 +99,7 @@ def no_extent(segment: Segment) -> Diagnostic:
 def too_many(segment: Segment, count: float, most: int) -> Diagnostic:
     """E302; a stroke of so many samples is one too many for the budget."""
     alone = f"{count:,}" if isinstance(count, int) else "endlessly many"
-    more = "; to allow more: draw --max-samples N" if most + count <= MOST_ALLOWED else ""
+    more = "; to allow more: draw --max-samples N" if most + count <= LARGEST_MAX_SAMPLES else ""
     return Diagnostic(
         "E302",
         f"more than {most:,} samples in all",

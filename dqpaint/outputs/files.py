@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from dqpaint.core import stage
+from dqpaint.core import write_temporary
 from dqpaint.errors import OutputError
 from dqpaint.outputs.formats.pictures import encode_pictures
 from dqpaint.outputs.registry import WRITERS
@@ -72,7 +72,7 @@ def write(stem: Path, contents: dict[str, bytes]) -> list[Path]:
         stem.parent.mkdir(parents=True, exist_ok=True)
         for end, data in contents.items():
             path = stem.with_name(stem.name + end)
-            made.append((stage(path, data), path))
+            made.append((write_temporary(path, data), path))
         for _, path in made:
             if path.is_dir():
                 raise OutputError(f"'{path}' cannot be written: it is a folder")

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 Files = bytes | dict[str, bytes]
 """One file, or several by the endings that follow the stem."""
-Told = Callable[[float], None]
+Progress = Callable[[float], None]
 F = TypeVar("F", bound=Callable[..., Files])
 
 
@@ -39,21 +39,21 @@ class Writer:
         function: a painting -> its files; with a parameter `progress` it is told how to report
             the part done, 0 to 1.
         needs: checked before anything is written.
-        form: as `export --format` takes it; None: it is not for real arms.
+        export_name: as `export --format` takes it; None: it is not for real arms.
     """
 
     name: str
     ending: str
     function: Callable[..., Files]
     needs: tuple[Need, ...] = ()
-    form: str | None = None
+    export_name: str | None = None
 
     @property
     def about(self) -> str:
         """The first line of the function's docstring."""
         return (self.function.__doc__ or "").strip().splitlines()[0]
 
-    def make(self, painting: "paint.Painting", progress: Told) -> dict[str, bytes]:
+    def make(self, painting: "paint.Painting", progress: Progress) -> dict[str, bytes]:
         """Its files by their endings."""
         wants = "progress" in signature(self.function).parameters
         made = self.function(painting, **({"progress": progress} if wants else {}))
@@ -81,7 +81,7 @@ def writer(name: str, ending: str, *needs: Need) -> Callable[[F], F]:
     return record
 
 
-def choose(what: str) -> list[Writer]:
+def choose_writers(what: str) -> list[Writer]:
     """The writers of a list of names with commas.
 
     Raises:
@@ -93,13 +93,13 @@ def choose(what: str) -> list[Writer]:
     return [WRITERS[name] for name in names]
 
 
-def choose_form(form: str | None) -> Writer:
+def choose_export_writer(form: str | None) -> Writer:
     """The writer of a format for real arms.
 
     Raises:
         UsageError: an unknown format, or none.
     """
-    known = {one.form: one for one in WRITERS.values() if one.form}
+    known = {one.export_name: one for one in WRITERS.values() if one.export_name}
     if form is None:
         raise UsageError(f"export needs a --format: {', '.join(sorted(known))}")
     if form not in known:
@@ -107,13 +107,13 @@ def choose_form(form: str | None) -> Writer:
     return known[form]
 
 
-def make(
-    writers: Sequence[Writer], painting: "paint.Painting", progress: Told = lambda _done: None
+def make_files(
+    writers: Sequence[Writer], painting: "paint.Painting", progress: Progress = lambda _done: None
 ) -> dict[str, bytes]:
     """The files of some writers by their endings.
 
     Args:
-        writers: from `choose`.
+        writers: from `choose_writers`.
         painting: what to write.
         progress: called by what takes long, with the part done, 0 to 1.
 

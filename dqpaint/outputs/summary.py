@@ -9,7 +9,7 @@ from dqpaint.core import library_versions
 from dqpaint.robots.kinematics import UNITS, read_null
 
 if TYPE_CHECKING:
-    from dqpaint.metrics import Response
+    from dqpaint.metrics import PartResponse
     from dqpaint.painting import paint
 
 SCHEMA = "dqpaint-run-1"
@@ -18,7 +18,7 @@ SCHEMA = "dqpaint-run-1"
 def summarise(painting: "paint.Painting") -> dict[str, Any]:
     """The JSON summary: what was run, what came out."""
     motion, film = painting.motion, painting.picture.film
-    program, settings, hidden = motion.program, painting.settings, painting.picture.hidden
+    program, settings, hidden = motion.program, painting.settings, painting.picture.occluded
     return {
         "schema": SCHEMA,
         "file": Path(program.name).name,
@@ -47,12 +47,12 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
             "duration_s": float(motion.t[-1]),
             "length_m": motion.length,
             "box_m": motion.box.tolist(),
-            "place": painting.placed and painting.placed.as_json,
+            "place": painting.placement and painting.placement.as_json,
         },
-        "pace": _pace(painting),
+        "pace": _retiming(painting),
         **painting.metrics.figures,
         "attenuation": {
-            part: {"ratio_s": one.ratio, "bound_s": one.bound, "kept": one.kept}
+            part: {"ratio_s": one.ratio, "bound_s": one.bound, "kept": one.bound_holds}
             for part, one in painting.attenuation.items()
         },
         "set_points": [
@@ -62,7 +62,7 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
                 "translation": _response(jump.translation, "m"),
                 "rotation": _response(jump.rotation, "rad"),
             }
-            for jump in painting.set_points
+            for jump in painting.step_responses
         ],
         "limits": [
             {**vars(clamp), "line": program.line_reference(clamp.line), "unit": UNITS[clamp.kind]}
@@ -88,7 +88,7 @@ def _plugins(painting: "paint.Painting") -> dict[str, dict[str, str]]:
     return {"plugins": found} if found else {}
 
 
-def _response(part: "Response", unit: str) -> dict[str, float | None]:
+def _response(part: "PartResponse", unit: str) -> dict[str, float | None]:
     return {
         f"size_{unit}": part.size,
         "settling_s": part.settling,
@@ -107,6 +107,6 @@ def _law(painting: "paint.Painting") -> dict[str, str | None]:
     }
 
 
-def _pace(painting: "paint.Painting") -> dict[str, Any] | None:
+def _retiming(painting: "paint.Painting") -> dict[str, Any] | None:
     """How the drawing was slowed down; None where its clock ran as asked, come what may."""
-    return None if painting.slowed is None else painting.slowed.as_json
+    return None if painting.retiming is None else painting.retiming.as_json

@@ -15,11 +15,11 @@ from dqpaint.light.images import Legend, categorical_colours, sequential_colours
 from dqpaint.metrics import Column, Table, all_columns
 from dqpaint.motion import Motion
 
-MOST = 98.0
+SCALE_PERCENTILE = 98.0
 """Percentile of the lit values that gets the last colour: a peak does not hide the rest."""
-LEAST, GREATEST = 1e-6, 1e6
+LEAST_SCALE_END, LARGEST_SCALE_END = 1e-6, 1e6
 """Ends that a scale can be given."""
-NICE = (1.0, 2.0, 2.5, 5.0, 10.0)
+ROUND_STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 
 
 def colour_columns() -> dict[str, Column]:
@@ -44,7 +44,7 @@ def read_colour_by(text: str) -> tuple[str, float | None]:
         high = float(end)
     except ValueError:
         high = math.nan
-    if name not in scaled or not LEAST <= high <= GREATEST:
+    if name not in scaled or not LEAST_SCALE_END <= high <= LARGEST_SCALE_END:
         raise UsageError(
             f"colour by '{text[:40]}': what follows the colon is the end of its scale"
             f"{f' in {unit}' if unit else ''}, for {', '.join(scaled)}, as in position-error:20"
@@ -52,7 +52,7 @@ def read_colour_by(text: str) -> tuple[str, float | None]:
     return name, high
 
 
-def colours_of(motion: Motion, table: Table, by: str) -> tuple[Floats, Legend]:
+def colours_by_column(motion: Motion, table: Table, by: str) -> tuple[Floats, Legend]:
     """The colour (N, 3) of each row by a column of the run, dark where it is dark, and the legend.
 
     Raises:
@@ -68,9 +68,9 @@ def colours_of(motion: Motion, table: Table, by: str) -> tuple[Floats, Legend]:
         shown, legend = _by_line(motion, column.title)
     else:
         values = table[column.name] * column.scale
-        low, high = limits(values[lit], column.from_zero) if end is None else (0.0, end)
+        low, high = scale_limits(values[lit], column.from_zero) if end is None else (0.0, end)
         shown = sequential_colours((values - low) / (high - low))
-        title = column.title + (f" [{_unit(column)}]" if column.shown else "")
+        title = column.title + (f" [{_unit(column)}]" if column.display_unit else "")
         more = "≥ " if values[lit].max() > high * (1.0 + 1e-9) else ""
         labels = (f"{low:g}", f"{more}{high:g}")
         legend = Legend(title, labels, _tuples(sequential_map()), amounts=True)
@@ -90,7 +90,7 @@ def _by_line(motion: Motion, title: str) -> tuple[Floats, Legend]:
 
 
 def _unit(column: Column) -> str:
-    return column.shown.replace("deg", "°")
+    return column.display_unit.replace("deg", "°")
 
 
 def _labelled(motion: Motion, line: SourceLine) -> str:
@@ -103,13 +103,13 @@ def _tuples(colours: Floats) -> tuple[tuple[float, float, float], ...]:
     return tuple((float(r), float(g), float(b)) for r, g, b in colours)
 
 
-def limits(values: Floats, from_zero: bool) -> tuple[float, float]:
+def scale_limits(values: Floats, from_zero: bool) -> tuple[float, float]:
     """Round ends of a scale for values (N,)."""
-    high = float(np.percentile(values, MOST))
+    high = float(np.percentile(values, SCALE_PERCENTILE))
     low = 0.0 if from_zero else float(values.min())
     span = max(high - low, 1e-12, 1e-6 * abs(high))
     decade = 10.0 ** math.floor(math.log10(span))
-    step = next(n * decade for n in NICE if n * decade >= span * (1.0 - 1e-9))
+    step = next(n * decade for n in ROUND_STEPS if n * decade >= span * (1.0 - 1e-9))
     if from_zero:
         return 0.0, step
     unit = step / 10.0
@@ -117,10 +117,10 @@ def limits(values: Floats, from_zero: bool) -> tuple[float, float]:
 
 
 LONGEST_DELAY = 0.5  # [s] that is taken out
-MOST_ROWS = 500  # and so many rows
+MOST_DELAY_ROWS = 500  # and so many rows
 
 
-def magnified(motion: Motion, pose: Floats, times: float) -> Floats:
+def magnified_poses(motion: Motion, pose: Floats, times: float) -> Floats:
     """Poses (N, 8) whose deviation from what was asked is so many times as large.
 
     One delay, the same all along, is taken out before: a light that only comes late draws the right
@@ -149,7 +149,7 @@ def common_delay(motion: Motion, points: Floats) -> float:
     The least mean square over whole rows, then the vertex of the parabola through its neighbours.
     """
     asked, lit = motion.points, np.flatnonzero(motion.lit)
-    most = int(min(MOST_ROWS, LONGEST_DELAY / motion.period, len(points) - 1))
+    most = int(min(MOST_DELAY_ROWS, LONGEST_DELAY / motion.period, len(points) - 1))
     cost = [
         float(((points[lit] - asked[np.maximum(lit - rows, 0)]) ** 2).sum(axis=1).mean())
         for rows in range(most + 1)

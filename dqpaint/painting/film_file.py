@@ -22,26 +22,26 @@ from dqpaint.errors import DqpaintError
 from dqpaint.light.images import Legend
 from dqpaint.light.sources import Sweep
 from dqpaint.motion import RowLines
-from dqpaint.painting.picture import Picture, RenderCache, linear
+from dqpaint.painting.picture import Picture, RenderCache, linear_image
 from dqpaint.painting.scene import Scene
 from dqpaint.render import ArmMotion
 from dqpaint.settings import Settings
 
 SCHEMA = "dqpaint-film-1"
-GROUPS = ("light", "asked", "under")
-UNIT = 1e-6  # how far a rotation may be from one
-FARTHEST = 1e6  # of any number of an array
-Number = Annotated[float, Field(ge=0, le=FARTHEST, allow_inf_nan=False)]
+GROUPS = {"light": "light", "asked": "reference", "under": "overlay"}  # in a file: of a scene
+ROTATION_TOLERANCE = 1e-6  # how far a rotation may be from one
+LARGEST_NUMBER = 1e6  # of any number of an array
+Number = Annotated[float, Field(ge=0, le=LARGEST_NUMBER, allow_inf_nan=False)]
 Part = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
 Arrays = dict[str, NDArray[Any]]
-Shade = tuple[Number, Number, Number]
+LinearColour = tuple[Number, Number, Number]
 
 
-class Facts(BaseModel):
+class SweepFacts(BaseModel):
     """What a film says of one sweep besides its arrays."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
-    period: Annotated[float, Field(ge=1e-6, le=FARTHEST, allow_inf_nan=False)]
+    period: Annotated[float, Field(ge=1e-6, le=LARGEST_NUMBER, allow_inf_nan=False)]
     pwm: Number
     size: Number
     joined: Part
@@ -49,25 +49,25 @@ class Facts(BaseModel):
     strobe: bool
 
 
-class Key(BaseModel):
+class LegendFacts(BaseModel):
     """The legend of a film."""
 
     model_config = ConfigDict(extra="forbid")
     title: str
     labels: Annotated[tuple[str, ...], Field(min_length=1)]
-    colours: Annotated[tuple[Shade, ...], Field(min_length=1)]
+    colours: Annotated[tuple[LinearColour, ...], Field(min_length=1)]
     amounts: bool
 
 
-class Arm(BaseModel):
+class ArmFacts(BaseModel):
     """What a film says of the arm that may be shown in it."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
     robot: str
-    period: Annotated[float, Field(ge=1e-6, le=FARTHEST, allow_inf_nan=False)]
+    period: Annotated[float, Field(ge=1e-6, le=LARGEST_NUMBER, allow_inf_nan=False)]
 
 
-class Shown(BaseModel):
+class RenderFacts(BaseModel):
     """What a film says of the picture of the arm that is in it, and of what the arm hid."""
 
     model_config = ConfigDict(extra="forbid")
@@ -83,13 +83,13 @@ class About(BaseModel):
     version: str
     name: str
     settings: Settings
-    dimmer: Annotated[float, Field(ge=0, le=FARTHEST, allow_inf_nan=False)]
-    legend: Key | None
-    light: Annotated[tuple[Facts, ...], Field(min_length=1)]
-    asked: tuple[Facts, ...]
-    under: tuple[Facts, ...]
-    arm: Arm | None = None
-    shown: Shown | None = None
+    dimmer: Annotated[float, Field(ge=0, le=LARGEST_NUMBER, allow_inf_nan=False)]
+    legend: LegendFacts | None
+    light: Annotated[tuple[SweepFacts, ...], Field(min_length=1)]
+    asked: tuple[SweepFacts, ...]
+    under: tuple[SweepFacts, ...]
+    arm: ArmFacts | None = None
+    shown: RenderFacts | None = None
 
 
 TIFF = [cv2.IMWRITE_TIFF_COMPRESSION, 8]  # deflate
@@ -100,15 +100,15 @@ class FilmFile(NamedTuple):
 
     scene: Scene
     settings: Settings
-    cast: ArmMotion | None = None
-    worked: RenderCache | None = None
+    arm_motion: ArmMotion | None = None
+    render_cache: RenderCache | None = None
 
 
 def encode(
     scene: Scene,
     settings: Settings,
-    cast: ArmMotion | None = None,
-    worked: RenderCache | None = None,
+    arm_motion: ArmMotion | None = None,
+    render_cache: RenderCache | None = None,
 ) -> bytes:
     """A scene and how it was photographed, as a file; with the arm, if it is known how it moved."""
     arrays: dict[str, Any] = {"front": scene.front}
@@ -120,9 +120,9 @@ def encode(
         "dimmer": scene.dimmer,
         "legend": None if scene.legend is None else vars(scene.legend),
     }
-    for group in GROUPS:
+    for group, attribute in GROUPS.items():
         about[group] = []
-        for i, sweep in enumerate(getattr(scene, group)):
+        for i, sweep in enumerate(getattr(scene, attribute)):
             key, e = f"{group}{i}", sweep.emitters
             about[group].append(
                 {
@@ -137,17 +137,17 @@ def encode(
             if sweep.strobe is not None:
                 parts["strobe"] = sweep.strobe
             arrays.update({f"{key}-{name}": array for name, array in parts.items()})
-    if cast is not None and cast.has_joints:
-        about["arm"] = {"robot": cast.robot, "period": cast.period}
-        arrays.update({"arm-posture": cast.posture, "arm-line": cast.source.line})
-        if cast.source.file.any():
-            arrays["arm-file"] = cast.source.file
-    if worked is not None and settings.staged:
-        about["shown"] = {"shares": len(worked.shares), "remarks": worked.remarks}
-        arrays["shown-key"] = worked.key
-        arrays.update({f"shown-share{i}": share for i, share in enumerate(worked.shares)})
-        if worked.arm is not None:
-            arrays["shown-arm"] = worked.arm
+    if arm_motion is not None and arm_motion.has_joints:
+        about["arm"] = {"robot": arm_motion.robot, "period": arm_motion.period}
+        arrays.update({"arm-posture": arm_motion.posture, "arm-line": arm_motion.source.line})
+        if arm_motion.source.file.any():
+            arrays["arm-file"] = arm_motion.source.file
+    if render_cache is not None and settings.staged:
+        about["shown"] = {"shares": len(render_cache.shares), "remarks": render_cache.remarks}
+        arrays["shown-key"] = render_cache.key
+        arrays.update({f"shown-share{i}": share for i, share in enumerate(render_cache.shares)})
+        if render_cache.arm is not None:
+            arrays["shown-arm"] = render_cache.arm
     arrays["about"] = np.array(json.dumps(about))
     file = io.BytesIO()
     np.savez_compressed(file, **arrays)
@@ -188,17 +188,19 @@ def _arrays(data: bytes) -> Arrays:
 
 def _film(arrays: Arrays) -> FilmFile:
     about = About.model_validate_json(str(arrays.get("about")))
-    light, asked, under = (tuple(_sweeps(arrays, group, getattr(about, group))) for group in GROUPS)
+    light, reference, overlay = (
+        tuple(_sweeps(arrays, group, getattr(about, group))) for group in GROUPS
+    )
     legend = None if about.legend is None else Legend(**dict(about.legend))
     front = _numbers(arrays, "front")
-    if front.shape != (3, 3) or np.abs(front @ front.T - np.eye(3)).max() > UNIT:
+    if front.shape != (3, 3) or np.abs(front @ front.T - np.eye(3)).max() > ROTATION_TOLERANCE:
         raise ValueError("front")
-    scene = Scene(about.name, light, asked, under, front, legend, about.dimmer)
-    cast = _cast(arrays, about.arm, light[0])
-    return FilmFile(scene, about.settings, cast, _worked(arrays, about, light))
+    scene = Scene(about.name, light, reference, overlay, front, legend, about.dimmer)
+    cast = _arm_motion(arrays, about.arm, light[0])
+    return FilmFile(scene, about.settings, cast, _render_cache(arrays, about, light))
 
 
-def _cast(arrays: Arrays, facts: Arm | None, sweep: Sweep) -> ArmMotion | None:
+def _arm_motion(arrays: Arrays, facts: ArmFacts | None, sweep: Sweep) -> ArmMotion | None:
     if facts is None:
         return None
     posture = _numbers(arrays, "arm-posture")
@@ -212,7 +214,7 @@ def _cast(arrays: Arrays, facts: Arm | None, sweep: Sweep) -> ArmMotion | None:
     return ArmMotion(facts.robot, posture, source, facts.period)
 
 
-def _worked(arrays: Arrays, about: About, light: tuple[Sweep, ...]) -> RenderCache | None:
+def _render_cache(arrays: Arrays, about: About, light: tuple[Sweep, ...]) -> RenderCache | None:
     if about.shown is None:
         return None
     key = _numbers(arrays, "shown-key")
@@ -241,12 +243,12 @@ def _array(arrays: Arrays, name: str) -> NDArray[Any]:
 def _numbers(arrays: Arrays, name: str) -> Floats:
     """An array of a file as floats, each of which a picture can come from."""
     array = _array(arrays, name)
-    if array.dtype.kind != "f" or not (np.abs(array) <= FARTHEST).all():
+    if array.dtype.kind != "f" or not (np.abs(array) <= LARGEST_NUMBER).all():
         raise ValueError(name)
     return np.asarray(array, dtype=np.float64)
 
 
-def _sweeps(arrays: Arrays, group: str, sweeps: tuple[Facts, ...]) -> Iterator[Sweep]:
+def _sweeps(arrays: Arrays, group: str, sweeps: tuple[SweepFacts, ...]) -> Iterator[Sweep]:
     for i, facts in enumerate(sweeps):
 
         def array(name: str, key: str = f"{group}{i}") -> Floats:
@@ -259,7 +261,7 @@ def _sweeps(arrays: Arrays, group: str, sweeps: tuple[Facts, ...]) -> Iterator[S
         strobe = array("strobe") if facts.strobe else None
         colours = array("colours")
         sweep = Sweep(facts.period, array("pose"), colours, emitters, strobe, facts.pwm)
-        if (np.abs(np.linalg.norm(sweep.rotations, axis=1) - 1) > UNIT).any():
+        if (np.abs(np.linalg.norm(sweep.rotations, axis=1) - 1) > ROTATION_TOLERANCE).any():
             raise ValueError("pose")
         yield sweep
 
@@ -269,7 +271,9 @@ def encode_linear(scene: Scene, picture: Picture, settings: Settings, ending: st
 
     It is brought near to 1 for saturation by a power of two, which loses nothing.
     """
-    image = linear(scene, picture.film, picture.exposure, picture.camera, settings, arm=picture.arm)
+    image = linear_image(
+        scene, picture.film, picture.exposure, picture.camera, settings, arm=picture.arm
+    )
     stops = round(np.log2(picture.exposure) + settings.ev)
     image = image * np.float32(2.0**stops)
     options = TIFF if ending == ".tiff" else []

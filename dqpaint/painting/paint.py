@@ -14,15 +14,15 @@ from dqpaint.metrics import (
     METRICS,
     Attenuation,
     Metrics,
-    SetPoint,
+    StepResponse,
     Table,
     attenuation,
     measure,
-    set_points,
+    step_responses,
 )
 from dqpaint.motion import Motion
 from dqpaint.painting.picture import Picture, PictureSet, photograph
-from dqpaint.painting.scene import Scene, arrange
+from dqpaint.painting.scene import Scene, make_scene
 from dqpaint.painting.validate import RunChoices, check_run
 from dqpaint.planning import placement, prepared_motion, reachability, retiming
 from dqpaint.program import Program
@@ -33,7 +33,7 @@ from dqpaint.robots.model import DEFAULT_ROBOT
 from dqpaint.settings import Settings
 from dqpaint.simulation import Recording, Track, read_recording, replay, track
 
-UNSEEN = "poses alone say nothing of the joints: the arm and what it hides are left out"
+NO_JOINTS_NOTE = "poses alone say nothing of the joints: the arm and what it hides are left out"
 
 
 @dataclass(frozen=True, repr=False)
@@ -51,14 +51,14 @@ class Painting(PictureSet):
     track: Track
     metrics: Metrics
     attenuation: dict[str, Attenuation]  # of an unmodelled twist, in rotation and translation
-    set_points: tuple[SetPoint, ...]
+    step_responses: tuple[StepResponse, ...]
     scene: Scene
-    cast: ArmMotion
+    arm_motion: ArmMotion
     pictures: tuple[Picture, ...]  # one a view
-    slowed: retiming.Retiming | None = None  # where the drawing's clock may slow down
+    retiming: retiming.Retiming | None = None  # where the drawing's clock may slow down
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
     notes: tuple[str, ...] = ()  # what was assumed of the arm
-    placed: placement.Placement | None = None  # where `place auto` put the drawing
+    placement: placement.Placement | None = None  # where `place auto` put the drawing
     recording: Recording | None = None  # what was painted instead of a simulated run
 
     @property
@@ -81,9 +81,9 @@ class Painting(PictureSet):
         """Every limit of the arm that held a joint back."""
         return self.track.clamps
 
-    def staged(self) -> AbstractContextManager[SceneArm | None]:
+    def scene_arm(self) -> AbstractContextManager[SceneArm | None]:
         """The arm as it moved, if the settings show it or let it hide light."""
-        return scene_arm_of_run(self.settings, find_card(self.cast.robot), self.cast)
+        return scene_arm_of_run(self.settings, find_card(self.arm_motion.robot), self.arm_motion)
 
     def __repr__(self) -> str:
         name, rms = self.motion.program.name, self.metrics.figures["position_error_rms_m"]
@@ -113,8 +113,8 @@ def paint(
         DqpaintError: the run or the light came to nothing.
     """
     ready = prepare(program, settings, controller)
-    with ready.clock("arm"):
-        run = ready.follow(progress)
+    with ready.stopwatch("arm"):
+        run = ready.run(progress)
     return finish(ready, run)
 
 
@@ -123,7 +123,7 @@ class PreparedRun:
     """A drawing and everything that its run needs, checked and worked out."""
 
     settings: Settings
-    clock: "Stopwatch"
+    stopwatch: "Stopwatch"
     choices: RunChoices
     kinematics: Kinematics
     prepared: prepared_motion.PreparedMotion
@@ -134,7 +134,7 @@ class PreparedRun:
         """What the arm is to follow."""
         return self.prepared.motion
 
-    def follow(self, progress: Callable[[float], None] = lambda _done: None) -> Track:
+    def run(self, progress: Callable[[float], None] = lambda _done: None) -> Track:
         """The run."""
         if self.recording is not None:
             return replay(self.recording, self.motion, self.kinematics)
@@ -144,7 +144,7 @@ class PreparedRun:
             chosen.controller, chosen.gains, progress, chosen.disturbances, settings.seed,
             settings.null, settings.on_limit == "stop",
         )  # fmt: skip
-        reachability.check_worst(run, self.kinematics, settings.null)
+        reachability.check_largest_error(run, self.kinematics, settings.null)
         return run
 
 
@@ -167,28 +167,28 @@ def prepare(
 
 def finish(ready: PreparedRun, run: Track) -> Painting:
     """What comes after the arm has moved: numbers and pictures."""
-    settings, motion, clock = ready.settings, ready.motion, ready.clock
+    settings, motion, clock = ready.settings, ready.motion, ready.stopwatch
     chosen = ready.choices
     card, recording = ready.kinematics.card, ready.recording
     notes = ready.kinematics.notes + (recording.notes(motion) if recording else ())
     with clock("metrics"):
         metrics = measure(run)
         notes += tuple(METRICS.faults)
-        came_through = attenuation(run, chosen.gains.promise())
-        steps = set_points(run)
+        came_through = attenuation(run, chosen.gains.disturbance_bounds())
+        steps = step_responses(run)
     robot = settings.robot or motion.program.robot or DEFAULT_ROBOT
     cast = ArmMotion(robot, run.posture, motion.source, motion.period)
     if settings.staged and not cast.has_joints:
-        notes += (UNSEEN,)
+        notes += (NO_JOINTS_NOTE,)
     with clock("light"), scene_arm_of_run(settings, card, cast) as staging:
-        scene = arrange(motion, run.pose, settings, metrics.table)
+        scene = make_scene(motion, run.pose, settings, metrics.table)
         pictures = tuple(photograph(scene, settings, staging))
     return Painting(
         settings, chosen.controller, card.name,
         "recorded" if recording else chosen.plant.name,
         {} if recording else chosen.plant.summary(card),
-        chosen.disturbances, chosen.gains.shown(), motion, run, metrics, came_through, steps, scene,
-        cast, pictures, ready.prepared.slowed, clock.seconds, notes, ready.prepared.placed,
+        chosen.disturbances, chosen.gains.as_dict(), motion, run, metrics, came_through, steps, scene,
+        cast, pictures, ready.prepared.retiming, clock.seconds, notes, ready.prepared.placement,
         recording,
     )  # fmt: skip
 

@@ -39,8 +39,8 @@ from dqpaint.settings import Settings
 
 # run lengths suit black ground with dithered halos: smaller and faster than the default search
 PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
-FAINT = 0.25  # what the lines of the asked drawing under the reached one are exposed to
-KEPT = 1  # pictures of one painting whose films are kept; of the others only the sums are
+OVERLAY_EXPOSURE = 0.25  # what the lines of the asked drawing under the reached one are exposed to
+FILMS_KEPT = 1  # pictures of one painting whose films are kept; of the others only the sums are
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -53,9 +53,9 @@ class Picture:
         exposure: the factor that was applied to the film, `ev` not included.
         camera: where it was taken from.
         name: of the view.
-        told: the exposure in a photographer's terms.
+        exposure_text: the exposure in a photographer's terms.
         light: what shone, as this camera saw it.
-        hidden: what the arm's own body kept from the film; None if that was not traced.
+        occluded: what the arm's own body kept from the film; None if that was not traced.
         arm: (H, W, 3) linear light of the arm and the floor, if they are shown.
         remarks: what of the arm could not be shown or traced.
     """
@@ -65,23 +65,23 @@ class Picture:
     exposure: float
     camera: Camera
     name: str
-    told: str
+    exposure_text: str
     light: tuple[Sweep, ...] = ()
-    hidden: HiddenLight | None = None
+    occluded: HiddenLight | None = None
     arm: Image | None = None
     remarks: tuple[str, ...] = ()
 
     @property
     def emitted(self) -> Floats:
         """(3,) what the light gave off: on the film, lost and hidden, in the film's unit."""
-        return self.film.emitted + (0.0 if self.hidden is None else self.hidden.energy)
+        return self.film.emitted + (0.0 if self.occluded is None else self.occluded.energy)
 
-    def worked(self, ghost: bool | str) -> "RenderCache":
+    def render_cache(self, ghost: bool | str) -> "RenderCache":
         """What of the arm was worked out for it, where it was shown like this."""
         shades = [sweep.occlusion for sweep in self.light if sweep.occlusion is not None]
         shares = tuple(shade.share for shade in shades)
         return RenderCache(
-            key_of(self.camera, self.exposure), ghost, self.arm, shares, self.remarks
+            render_key(self.camera, self.exposure), ghost, self.arm, shares, self.remarks
         )
 
     @property
@@ -120,7 +120,7 @@ class RenderCache:
     """What of the arm was worked out for one picture, to be used again where that fits.
 
     Attributes:
-        key: (18,) the picture's camera and exposure, see `key_of`.
+        key: (18,) the picture's camera and exposure, see `render_key`.
         ghost: how the arm is shown in it.
         arm: (H, W, 3) linear light of the arm and the floor, if they are shown.
         shares: (N-1, P) of each sweep what the arm let through; none if that was not traced.
@@ -133,16 +133,16 @@ class RenderCache:
     shares: tuple[Floats, ...]
     remarks: tuple[str, ...]
 
-    def shows(self, key: Floats, settings: Settings) -> bool:
+    def has_render(self, key: Floats, settings: Settings) -> bool:
         """Whether the arm looks like this in another picture."""
         same = self.arm is not None and self.ghost == settings.ghost
         return same and bool(np.array_equal(key, self.key))
 
-    def hides(self, key: Floats) -> bool:
+    def has_occlusion(self, key: Floats) -> bool:
         """Whether it hides the same from another camera."""
         return bool(self.shares) and bool(np.array_equal(key[:3], self.key[:3]))
 
-    def shaded(self, light: tuple[Sweep, ...]) -> tuple[Sweep, ...]:
+    def with_occlusion(self, light: tuple[Sweep, ...]) -> tuple[Sweep, ...]:
         """Light with what is hidden of it."""
         return tuple(
             replace(sweep, occlusion=Occlusion(sweep.period, share))
@@ -150,7 +150,7 @@ class RenderCache:
         )
 
 
-def key_of(camera: Camera, exposure: float) -> Floats:
+def render_key(camera: Camera, exposure: float) -> Floats:
     """(18,) all that a picture of the arm depends on besides arm and light; first the eye."""
     numbers = (camera.focal, *camera.centre, camera.width, camera.height, exposure)
     return np.concatenate([camera.position, camera.rotation.ravel(), numbers])
@@ -159,8 +159,8 @@ def key_of(camera: Camera, exposure: float) -> Floats:
 def photograph(
     scene: Scene,
     settings: Settings,
-    staging: SceneArm | None = None,
-    worked: RenderCache | None = None,
+    scene_arm: SceneArm | None = None,
+    cache: RenderCache | None = None,
 ) -> Iterator[Picture]:
     """The pictures of a scene: one for each view of the settings, all of one run.
 
@@ -169,84 +169,88 @@ def photograph(
     Args:
         scene: what is photographed.
         settings: views, size, exposure, look, and whether the arm is seen and hides light.
-        staging: the arm; None is a picture without one, that hides nothing.
-        worked: what of the arm is known already.
+        scene_arm: the arm; None is a picture without one, that hides nothing.
+        cache: what of the arm is known already.
     """
     series: dict[int, float] = {}
     for i, shot in enumerate(parse_views(settings.view)):
-        picture = _shoot(scene, settings, shot, series.get(shot.series), staging, worked)
+        picture = _take_picture(scene, settings, shot, series.get(shot.series), scene_arm, cache)
         if shot.series:
             series.setdefault(shot.series, picture.exposure)
-        if i >= KEPT:
+        if i >= FILMS_KEPT:
             sums = picture.film.on_film[:, None, None]
             picture = replace(picture, film=replace(picture.film, planes=sums), light=(), arm=None)
         yield picture
 
 
-def place_camera(scene: Scene, settings: Settings, shot: Shot) -> Camera:
+def camera_of_view(scene: Scene, settings: Settings, shot: Shot) -> Camera:
     """The camera of one view."""
     return view_camera(scene.shown_points, scene.front, settings, shot)
 
 
-def _shoot(
+def _take_picture(
     scene: Scene,
     settings: Settings,
     shot: Shot,
-    given: float | None,
-    staging: SceneArm | None,
-    worked: RenderCache | None,
+    series_exposure: float | None,
+    scene_arm: SceneArm | None,
+    cache: RenderCache | None,
 ) -> Picture:
-    camera = place_camera(scene, settings, shot)
-    exposure, told = _exposure(scene, settings, camera, given)
-    staged = RenderCache(key_of(camera, exposure), False, None, (), ())
-    if staging is not None:
-        staged = _stage(scene, settings, camera, exposure, staging, worked)
-    light = staged.shaded(scene.light) if staged.shares else scene.light
-    film = expose(light, camera, _by_settings(settings))
-    hidden = _hidden(light, staging.source) if staging is not None and staged.shares else None
-    image = linear(scene, film, exposure, camera, settings, arm=staged.arm)
+    camera = camera_of_view(scene, settings, shot)
+    exposure, told = _exposure(scene, settings, camera, series_exposure)
+    staged = RenderCache(render_key(camera, exposure), False, None, (), ())
+    if scene_arm is not None:
+        staged = _render_arm(scene, settings, camera, exposure, scene_arm, cache)
+    light = staged.with_occlusion(scene.light) if staged.shares else scene.light
+    film = expose(light, camera, _is_manual_exposure(settings))
+    hidden = (
+        _occluded_light(light, scene_arm.source)
+        if scene_arm is not None and staged.shares
+        else None
+    )
+    image = linear_image(scene, film, exposure, camera, settings, arm=staged.arm)
     return Picture(
-        finish(scene, image, exposure, settings), film, exposure, camera, shot.name, told, light,
+        develop_image(scene, image, exposure, settings), film, exposure, camera, shot.name, told, light,
         hidden, staged.arm, staged.remarks,
     )  # fmt: skip
 
 
-def _stage(
+def _render_arm(
     scene: Scene,
     settings: Settings,
     camera: Camera,
     exposure: float,
-    staging: SceneArm,
-    worked: RenderCache | None,
+    scene_arm: SceneArm,
+    cache: RenderCache | None,
 ) -> RenderCache:
     """What of the arm is to be seen, and what it hides; what is known already is not asked."""
-    key, fresh = key_of(camera, exposure), False
+    key, fresh = render_key(camera, exposure), False
     arm: Image | None = None
     shares: tuple[Floats, ...] = ()
-    if settings.traced and worked is not None and worked.hides(key):
-        shares = worked.shares
+    if settings.traced and cache is not None and cache.has_occlusion(key):
+        shares = cache.shares
     elif settings.traced:
         fresh = True
-        if staging.can_occlude:
+        if scene_arm.can_occlude:
             shares = tuple(
-                occlusion_by(sweep, staging, camera.position).share for sweep in scene.light
+                occlusion_by(sweep, scene_arm, camera.position).share for sweep in scene.light
             )
-    if settings.ghost and worked is not None and worked.shows(key, settings):
-        arm = worked.arm
+    if settings.ghost and cache is not None and cache.has_render(key, settings):
+        arm = cache.arm
     elif settings.ghost:
         fresh = True
-        take = staging.render_blurred if settings.ghost == "motion" else staging.render_still
-        arm = take(camera, partial(lights_of, scene), exposure, _by_settings(settings))
-    remarks = tuple(staging.remarks) if fresh or worked is None else worked.remarks
+        take = scene_arm.render_blurred if settings.ghost == "motion" else scene_arm.render_still
+        arm = take(camera, partial(lamp_paths, scene), exposure, _is_manual_exposure(settings))
+    remarks = tuple(scene_arm.remarks) if fresh or cache is None else cache.remarks
     return RenderCache(key, settings.ghost, arm, shares, remarks)
 
 
-def lights_of(scene: Scene, samples: slice = ALL_SAMPLES) -> list[tuple[Floats, Floats]]:
+def lamp_paths(scene: Scene, samples: slice = ALL_SAMPLES) -> list[tuple[Floats, Floats]]:
     """The paths (N, 3) and energies (N-1, 3) of a scene's lamps, of some steps between samples."""
     return [lamp for sweep in scene.light for lamp in sweep.lamp_paths(samples)]
 
 
-def _hidden(light: Sequence[Sweep], source: RowLines) -> HiddenLight:
+def _occluded_light(light: Sequence[Sweep], source: RowLines) -> HiddenLight:
     """What of some sweeps their shades kept from the film, by the lines (N,) of the drawing."""
     shades = [sweep.occlusion for sweep in light if sweep.occlusion is not None]
     hidden = np.sum([shade.hidden for shade in shades], axis=0)
@@ -254,34 +258,34 @@ def _hidden(light: Sequence[Sweep], source: RowLines) -> HiddenLight:
     return hidden_by_line(hidden, emitted, source[:-1])
 
 
-def _by_settings(settings: Settings) -> bool:
+def _is_manual_exposure(settings: Settings) -> bool:
     return parse_exposure(settings.exposure or "auto") is not None
 
 
 def _exposure(
-    scene: Scene, settings: Settings, camera: Camera, given: float | None
+    scene: Scene, settings: Settings, camera: Camera, series_exposure: float | None
 ) -> tuple[float, str]:
     """The factor from film to saturation, and how a photographer would say it."""
     real = parse_exposure(settings.exposure or "auto")
     if real is not None:
         return real.factor(camera), str(real)
-    if given is None:
+    if series_exposure is None:
         psf = point_spread(settings.height)
-        given = automatic_exposure(scene.asked, camera, psf) * scene.dimmer
-    shown = given * 2.0**settings.ev
+        series_exposure = automatic_exposure(scene.reference, camera, psf) * scene.dimmer
+    shown = series_exposure * 2.0**settings.ev
     return (
-        given,
+        series_exposure,
         f"automatic, {equivalent_exposure(shown, camera, distance_to(camera, scene.shown_points))}",
     )
 
 
-def linear(
+def linear_image(
     scene: Scene,
     film: Film,
     exposure: float,
     camera: Camera,
     settings: Settings,
-    under: Image | None = None,
+    overlay: Image | None = None,
     arm: Image | None = None,
 ) -> Image:
     """(H, W, 3) linear light on the sensor, before it is developed.
@@ -292,12 +296,12 @@ def linear(
         exposure: Of the picture.
         camera: Where it was taken from.
         settings: Of the picture.
-        under: From `beneath`, where it is already there.
+        overlay: From `overlay_image`, where it is already there.
         arm: Light of the arm and the floor, where they are shown.
     """
     image = spread(film, point_spread(settings.height))
-    if scene.under:
-        image += beneath(scene, exposure, camera, settings) if under is None else under
+    if scene.overlay:
+        image += overlay_image(scene, exposure, camera, settings) if overlay is None else overlay
     if arm is not None:
         image += arm
     if settings.starburst:
@@ -305,15 +309,17 @@ def linear(
     return image
 
 
-def beneath(scene: Scene, exposure: float, camera: Camera, settings: Settings) -> Image:
+def overlay_image(scene: Scene, exposure: float, camera: Camera, settings: Settings) -> Image:
     """(H, W, 3) the faint lines of the asked drawing, on the same scale as the film's light."""
     psf = point_spread(settings.height)
-    ridge = automatic_exposure(scene.under, camera, psf) / CORE_EXPOSURE
-    faint = np.float32(FAINT * ridge / (exposure * 2.0**settings.ev))
-    return spread(expose(scene.under, camera), psf) * faint
+    ridge = automatic_exposure(scene.overlay, camera, psf) / CORE_EXPOSURE
+    faint = np.float32(OVERLAY_EXPOSURE * ridge / (exposure * 2.0**settings.ev))
+    return spread(expose(scene.overlay, camera), psf) * faint
 
 
-def finish(scene: Scene, image: Image, exposure: float, settings: Settings) -> NDArray[np.uint8]:
+def develop_image(
+    scene: Scene, image: Image, exposure: float, settings: Settings
+) -> NDArray[np.uint8]:
     """The picture of linear light: noise, look, legend."""
     if settings.noise is not None:
         image = with_noise(image, exposure * 2.0**settings.ev, settings.noise)

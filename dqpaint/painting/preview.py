@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 from dqpaint.motion import Motion, plan
 from dqpaint.painting.picture import Picture, PictureSet, photograph
-from dqpaint.painting.scene import Scene, arrange, check_choices
+from dqpaint.painting.scene import Scene, check_light_settings, make_scene
 from dqpaint.program import Program
 from dqpaint.robots.loading import card_for
 from dqpaint.settings import Settings
@@ -20,15 +20,15 @@ class Preview(PictureSet):
     pictures: tuple[Picture, ...]
 
 
-def sketch(program: Program, settings: Settings) -> Preview:
+def make_preview(program: Program, settings: Settings) -> Preview:
     """Take the asked pictures of a program.
 
     Raises:
         UsageError: an unknown robot, view, brush or look.
         DqpaintError: a fault in the drawing, or no light in it.
     """
-    check_choices(settings)
+    check_light_settings(settings)
     program = replace(program, most_samples=settings.max_samples)
     motion = plan(program, card_for(program, settings.robot, settings.tool).canvas.pose)
-    scene = arrange(motion, motion.pose, settings)
+    scene = make_scene(motion, motion.pose, settings)
     return Preview(settings, motion, scene, tuple(photograph(scene, settings)))

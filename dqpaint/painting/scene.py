@@ -16,13 +16,13 @@ from dqpaint.light.camera import parse_exposure, parse_views
 from dqpaint.light.film import BLADE_RANGE, CORE_EXPOSURE, LOOKS
 from dqpaint.light.images import LEGEND_EXPOSURE, Legend
 from dqpaint.light.sources import Sweep, even_by_length, sweeps
-from dqpaint.metrics import Table, asked_columns
+from dqpaint.metrics import Table, reference_columns
 from dqpaint.motion import Motion
-from dqpaint.painting.colour_by import colours_of, magnified, read_colour_by
+from dqpaint.painting.colour_by import colours_by_column, magnified_poses, read_colour_by
 from dqpaint.settings import Settings
 
-SETTLING = 0.25  # [s] in which a jump of the set point counts as drawn
-UNDER = (0.62, 0.8, 1.0)  # the colour of the asked drawing under the reached one
+JUMP_TIME = 0.25  # [s] in which a jump of the set point counts as drawn
+OVERLAY_COLOUR = (0.62, 0.8, 1.0)  # the colour of the asked drawing under the reached one
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,9 +32,9 @@ class Scene:
     Attributes:
         name: Of the drawing.
         light: What shines, one sweep a brush.
-        asked: The same as it was asked: it alone chooses camera and exposure, so that pictures of
+        reference: The same as it was asked: it alone chooses camera and exposure, so that pictures of
             two control laws can be laid over each other.
-        under: What is drawn beneath, as faint lines.
+        overlay: What is drawn beneath, as faint lines.
         front: (3, 3) columns: right, up and towards the viewer, base frame.
         legend: What the colours say, if they do.
         dimmer: Factor on the automatic exposure.
@@ -42,8 +42,8 @@ class Scene:
 
     name: str
     light: tuple[Sweep, ...]
-    asked: tuple[Sweep, ...]
-    under: tuple[Sweep, ...]
+    reference: tuple[Sweep, ...]
+    overlay: tuple[Sweep, ...]
     front: Floats
     legend: Legend | None = None
     dimmer: float = 1.0
@@ -51,7 +51,7 @@ class Scene:
     @property
     def shown_points(self) -> Floats:
         """(K, 3) what must be in the picture [m]."""
-        return np.concatenate([sweep.lit_points for sweep in self.asked])
+        return np.concatenate([sweep.lit_points for sweep in self.reference])
 
     @property
     def seconds(self) -> float:
@@ -59,7 +59,7 @@ class Scene:
         return max(float(sweep.time[-1]) for sweep in self.light)
 
 
-def check_choices(settings: Settings) -> None:
+def check_light_settings(settings: Settings) -> None:
     """Raise a UsageError for a slip in what concerns light, before anything is simulated."""
     shots = parse_views(settings.view)
     LOOKS[settings.look]
@@ -79,7 +79,9 @@ def check_choices(settings: Settings) -> None:
         read_colour_by(settings.colour_by)
 
 
-def arrange(motion: Motion, pose: Floats, settings: Settings, table: Table | None = None) -> Scene:
+def make_scene(
+    motion: Motion, pose: Floats, settings: Settings, table: Table | None = None
+) -> Scene:
     """The scene of a motion's light carried through poses (N, 8), base frame.
 
     Args:
@@ -98,13 +100,15 @@ def arrange(motion: Motion, pose: Floats, settings: Settings, table: Table | Non
     colours, legend, dimmer = motion.light, None, 1.0
     metered = colours
     if settings.colour_by is not None:
-        columns = asked_columns(motion) if table is None else table
-        colours, legend = colours_of(motion, columns, settings.colour_by)
+        columns = reference_columns(motion) if table is None else table
+        colours, legend = colours_by_column(motion, columns, settings.colour_by)
         dimmer = LEGEND_EXPOSURE / CORE_EXPOSURE
         metered = np.where(motion.lit[:, None], np.ones(3), 0.0)  # as bright as the legend's strip
     even = settings.colour_by is not None
-    shown = pose if settings.magnify == 1.0 else magnified(motion, pose, settings.magnify)
-    under = _thin(sweeps(motion, motion.pose, np.where(motion.lit[:, None], UNDER, 0.0), settings))
+    shown = pose if settings.magnify == 1.0 else magnified_poses(motion, pose, settings.magnify)
+    under = _thin_lines(
+        sweeps(motion, motion.pose, np.where(motion.lit[:, None], OVERLAY_COLOUR, 0.0), settings)
+    )
     return Scene(
         motion.program.name,
         sweeps(motion, shown, colours, settings, even),
@@ -120,13 +124,13 @@ def _metered(motion: Motion, colours: Floats) -> Floats:
     """The colours (N, 3) the exposure is chosen from.
 
     A set point that jumps leaves no line, but the arm that follows it does: the jump counts as a
-    line drawn in `SETTLING`.
+    line drawn in `JUMP_TIME`.
     """
-    weight = np.where(motion.jump, SETTLING / motion.period, 1.0)
+    weight = np.where(motion.jump, JUMP_TIME / motion.period, 1.0)
     return np.asarray(colours * weight[:, None])
 
 
-def _thin(sweeps: tuple[Sweep, ...]) -> tuple[Sweep, ...]:
+def _thin_lines(sweeps: tuple[Sweep, ...]) -> tuple[Sweep, ...]:
     """The same as lines, of the tool's point or the ends of its bar, equally bright all along."""
     thin = []
     for sweep in sweeps:

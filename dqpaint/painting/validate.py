@@ -7,7 +7,7 @@ from typing import Any
 
 from dqpaint.controllers import Controller, Schedule, find_controller
 from dqpaint.disturbances import Disturbance, make_disturbances
-from dqpaint.painting.scene import check_choices
+from dqpaint.painting.scene import check_light_settings
 from dqpaint.plants import ConfiguredPlant, choose_plant, find_plant
 from dqpaint.robots.kinematics import read_null
 from dqpaint.robots.loading import find_card
@@ -51,7 +51,7 @@ def check_run(settings: Settings, controller: Controller[Any] | None = None) -> 
         DqpaintError: an unknown name, a value outside its range, or choices that exclude one
             another.
     """
-    _check_alone(settings)
+    _check_independent(settings)
     check_recorded(settings)
     law = RECORDED if settings.recorded else controller or find_controller(settings.controller)
     gains = law.read_gains(settings.gains)
@@ -62,22 +62,22 @@ def check_run(settings: Settings, controller: Controller[Any] | None = None) -> 
     return RunChoices(law, gains, plant, disturbances)
 
 
-def check_each(settings: Settings) -> None:
+def check_settings(settings: Settings) -> None:
     """Check every choice as far as it can be understood by itself: others may still follow.
 
     Raises:
         DqpaintError: an unknown name, or a value outside its range.
     """
-    _check_alone(settings)
+    _check_independent(settings)
     find_controller(settings.controller).read_gains(settings.gains)
     if settings.plant is not None:
         find_plant(settings.plant)
     make_disturbances(settings.disturb)
 
 
-def _check_alone(settings: Settings) -> None:
+def _check_independent(settings: Settings) -> None:
     """What no other choice matters for."""
-    check_choices(settings)
+    check_light_settings(settings)
     if settings.robot is not None and "." not in settings.robot:  # files are read in their turn
         find_card(settings.robot)
     if settings.tool is not None:
@@ -93,10 +93,10 @@ def settings_file(given: str | PathLike[str] | SettingsFile | None) -> SettingsF
     """
     if given is None:
         return SettingsFile()
-    return given if isinstance(given, SettingsFile) else read_given(str(given), check_each)
+    return given if isinstance(given, SettingsFile) else read_given(str(given), check_settings)
 
 
-def chosen(choices: Mapping[str, Any], **usual: Any) -> Settings:
+def settings_of_choices(choices: Mapping[str, Any], **usual: Any) -> Settings:
     """The settings of choices: what is said wins over the file `settings` names among them.
 
     Args:

@@ -17,19 +17,19 @@ from dqpaint.errors import DqpaintError
 from dqpaint.light import Image
 from dqpaint.light.camera import parse_exposure
 from dqpaint.light.film import FilmAccumulator
-from dqpaint.painting.picture import Picture, beneath, finish, lights_of, linear
+from dqpaint.painting.picture import Picture, develop_image, lamp_paths, linear_image, overlay_image
 from dqpaint.painting.scene import Scene
 from dqpaint.render import SceneArm
 from dqpaint.settings import Settings
 
-RATE = 25  # frames a second
-LONGEST = 10.0  # [s]: a longer painting is shown faster
-LEAST = 2.0  # [s]: a shorter one slower
-REST = 1.5  # [s] the finished picture is shown
-SMALL = 640  # columns of an animation for a page
-SLOW_RATE = 12
+VIDEO_RATE = 25  # frames a second
+LONGEST_VIDEO = 10.0  # [s]: a longer painting is shown faster
+SHORTEST_VIDEO = 2.0  # [s]: a shorter one slower
+FINAL_TIME = 1.5  # [s] the finished picture is shown
+WEBP_WIDTH = 640  # columns of an animation for a page
+WEBP_RATE = 12
 
-Told = Callable[[float], None]
+Progress = Callable[[float], None]
 
 
 def frames(
@@ -37,8 +37,8 @@ def frames(
     picture: Picture,
     settings: Settings,
     count: int,
-    progress: Told,
-    staging: SceneArm | None = None,
+    progress: Progress,
+    scene_arm: SceneArm | None = None,
 ) -> Iterator[NDArray[np.uint8]]:
     """The picture as it grows, (H, W, 3) each; the last frame is the picture itself.
 
@@ -51,40 +51,40 @@ def frames(
         settings: of the picture.
         count: of frames.
         progress: called with the part done, 0 to 1.
-        staging: the arm; None leaves it out till the end.
+        scene_arm: the arm; None leaves it out till the end.
     """
     exposing = FilmAccumulator(picture.camera)
     falloff = parse_exposure(settings.exposure or "auto") is not None
     camera, exposure = picture.camera, picture.exposure
-    under = beneath(scene, exposure, camera, settings) if scene.under else None
+    under = overlay_image(scene, exposure, camera, settings) if scene.overlay else None
     steps = max(len(sweep.colours) for sweep in scene.light)
     edges = [steps * i // count for i in range(count)]
     arms: Iterator[Image | None] = repeat(None)
-    if staging is not None and settings.ghost:
-        arms = staging.render_frames(
-            camera, partial(lights_of, scene), exposure, falloff, edges[1:]
+    if scene_arm is not None and settings.ghost:
+        arms = scene_arm.render_frames(
+            camera, partial(lamp_paths, scene), exposure, falloff, edges[1:]
         )
     for i, (first, last) in enumerate(pairwise(edges)):
         for sweep in picture.light:
             for piece in sweep.emission_to(picture.camera, falloff, slice(first, last)):
                 exposing.add(piece)
-        image = linear(scene, exposing.film(), exposure, camera, settings, under, next(arms))
+        image = linear_image(scene, exposing.film(), exposure, camera, settings, under, next(arms))
         progress((i + 1) / count)
-        yield finish(scene, image, picture.exposure, settings)
+        yield develop_image(scene, image, picture.exposure, settings)
     yield picture.image
 
 
 def count_frames(scene: Scene, rate: int) -> int:
     """How many frames the growing takes."""
-    return max(2, round(min(max(scene.seconds, LEAST), LONGEST) * rate))
+    return max(2, round(min(max(scene.seconds, SHORTEST_VIDEO), LONGEST_VIDEO) * rate))
 
 
 def webm(
     scene: Scene,
     picture: Picture,
     settings: Settings,
-    progress: Told,
-    staging: SceneArm | None = None,
+    progress: Progress,
+    scene_arm: SceneArm | None = None,
 ) -> bytes:
     """A video browsers play: VP9 in WebM; arguments as those of `frames`.
 
@@ -97,16 +97,16 @@ def webm(
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "video.webm"
         fourcc = cv2.VideoWriter.fourcc(*"VP90")
-        with _hushed():
-            writer = cv2.VideoWriter(str(path), fourcc, float(RATE), (width, height))
+        with _silent_stderr():
+            writer = cv2.VideoWriter(str(path), fourcc, float(VIDEO_RATE), (width, height))
         if not writer.isOpened():
             raise DqpaintError("this build of OpenCV has no VP9 encoder for --save video")
         try:
-            count = count_frames(scene, RATE)
-            for frame in frames(scene, picture, settings, count, progress, staging):
+            count = count_frames(scene, VIDEO_RATE)
+            for frame in frames(scene, picture, settings, count, progress, scene_arm):
                 shown = np.ascontiguousarray(frame[:height, :width, ::-1])
                 writer.write(shown)
-            for _ in range(round(REST * RATE)):
+            for _ in range(round(FINAL_TIME * VIDEO_RATE)):
                 writer.write(shown)
         finally:
             writer.release()
@@ -114,7 +114,7 @@ def webm(
 
 
 @contextmanager
-def _hushed() -> Iterator[None]:
+def _silent_stderr() -> Iterator[None]:
     """Nothing on standard error: OpenCV's encoder warns there of the tag that WebM itself asks for.
 
     It writes past Python's streams.
@@ -138,8 +138,8 @@ def webp(
     scene: Scene,
     picture: Picture,
     settings: Settings,
-    progress: Told,
-    staging: SceneArm | None = None,
+    progress: Progress,
+    scene_arm: SceneArm | None = None,
 ) -> bytes:
     """An animation a README shows: WebP, small, over and over; arguments as those of `frames`.
 
@@ -149,16 +149,16 @@ def webp(
     if not hasattr(cv2, "imencodeanimation"):
         raise DqpaintError("this build of OpenCV writes no animated WebP; 4.12 and later do")
     height, width = picture.image.shape[:2]
-    scale = min(1.0, SMALL / width)
+    scale = min(1.0, WEBP_WIDTH / width)
     size = max(1, round(scale * width)), max(1, round(scale * height))
-    count = count_frames(scene, SLOW_RATE)
+    count = count_frames(scene, WEBP_RATE)
     shown = [
         cv2.resize(frame[..., ::-1], size, interpolation=cv2.INTER_AREA)
-        for frame in frames(scene, picture, settings, count, progress, staging)
+        for frame in frames(scene, picture, settings, count, progress, scene_arm)
     ]
     animation = cv2.Animation()
     animation.frames = shown
-    animation.durations = [1000 // SLOW_RATE] * (count - 1) + [round(1000 * REST)]
+    animation.durations = [1000 // WEBP_RATE] * (count - 1) + [round(1000 * FINAL_TIME)]
     done, data = cv2.imencodeanimation(".webp", animation, [cv2.IMWRITE_WEBP_QUALITY, 85])
     if not done:
         raise DqpaintError("the animation could not be encoded as WebP")

@@ -23,15 +23,15 @@ class CheckResult:
 
     file: str
     source: str
-    findings: tuple[Diagnostic, ...]
+    diagnostics: tuple[Diagnostic, ...]
     drawing: Motion | Survey | None
     fault: str = ""  # of a file that could not even be read
-    outlook: "ForecastReport | None" = None  # what the arm says of it, where an arm was asked
+    forecast: "ForecastReport | None" = None  # what the arm says of it, where an arm was asked
 
     @property
     def errors(self) -> int:
         """How many things stop this drawing."""
-        stopping = sum(d.severity is Severity.ERROR for d in self.findings)
+        stopping = sum(d.severity is Severity.ERROR for d in self.diagnostics)
         return stopping + bool(self.fault)
 
     @property
@@ -39,9 +39,9 @@ class CheckResult:
         """As a person reads it."""
         if self.fault:
             return f"error: {self.fault}"
-        parts = [render(finding, self.file, self.source) for finding in self.findings]
+        parts = [render(finding, self.file, self.source) for finding in self.diagnostics]
         if self.drawing is not None:
-            said = self.outlook.text if self.outlook else ""
+            said = self.forecast.text if self.forecast else ""
             parts.append(summary_line(self.drawing) + said + self._hint)
         return "\n\n".join(parts)
 
@@ -50,7 +50,7 @@ class CheckResult:
         """Of beads at the ends of strokes, which a light painter sees first."""
         assert self.drawing is not None
         times = self.drawing.unevenness
-        if times <= BEAD:
+        if times <= HINT_UNEVENNESS:
             return ""
         return (
             f"\nhint: near their ends strokes are {times:.2g} times as bright as in the middle, "
@@ -58,7 +58,7 @@ class CheckResult:
         )
 
 
-BEAD = 2.0  # times the brightness of the middle: less is no matter for a hint
+HINT_UNEVENNESS = 2.0  # times the brightness of the middle: less is no matter for a hint
 
 
 def check(name: str, **choices: Any) -> CheckResult:
@@ -74,13 +74,13 @@ def check(name: str, **choices: Any) -> CheckResult:
     Raises:
         UsageError: no such choice.
     """
-    settings = _chosen(choices)
+    settings = _make_settings(choices)
     try:
         program = read_input() if name == STDIN else read(find_drawing(name))
         if settings is not None:
             program = replace(program, most_samples=settings.max_samples)
-        asked = _is_of_a_run(settings) or program.robot is not None
-        outlook = _look_ahead(program, settings) if asked else None
+        asked = _chooses_a_run(settings) or program.robot is not None
+        outlook = _forecast(program, settings) if asked else None
         drawing: Motion | Survey = outlook.motion if outlook else survey(program)
     except ScriptError as problem:
         return CheckResult(problem.name, problem.text, problem.diagnostics, None)
@@ -89,10 +89,10 @@ def check(name: str, **choices: Any) -> CheckResult:
     except DqpaintError as problem:
         return CheckResult(name, "", (), None, str(problem))
     findings = drawing.notes + (outlook.warnings if outlook else ())
-    return CheckResult(program.name, program.text, findings, drawing, outlook=outlook)
+    return CheckResult(program.name, program.text, findings, drawing, forecast=outlook)
 
 
-def _chosen(choices: dict[str, Any]) -> "Settings | None":
+def _make_settings(choices: dict[str, Any]) -> "Settings | None":
     """The settings, if anything is chosen.
 
     Without a choice they are not even imported, which takes a while.
@@ -107,14 +107,14 @@ def _chosen(choices: dict[str, Any]) -> "Settings | None":
     return make_settings(**choices)
 
 
-def _is_of_a_run(settings: "Settings | None") -> bool:
+def _chooses_a_run(settings: "Settings | None") -> bool:
     """Whether more is chosen than how many samples a drawing may have."""
     return settings is not None and bool(
         settings.model_dump(exclude_defaults=True).keys() - {"max_samples"}
     )
 
 
-def _look_ahead(program: Program, settings: "Settings | None") -> "ForecastReport":
+def _forecast(program: Program, settings: "Settings | None") -> "ForecastReport":
     """What an arm says of a drawing; only this brings in the arms and their kinematics.
 
     Raises:
@@ -128,15 +128,15 @@ def _look_ahead(program: Program, settings: "Settings | None") -> "ForecastRepor
     card = card_for(program, settings.robot, settings.tool)
     survey(program)  # what is wrong with the drawing by itself goes before what an arm says
 
-    from dqpaint.planning.forecast_report import look_ahead
+    from dqpaint.planning.forecast_report import make_report
     from dqpaint.robots.kinematics import Kinematics
 
-    return look_ahead(program, Kinematics(card), settings)
+    return make_report(program, Kinematics(card), settings)
 
 
 def as_json(results: Sequence[CheckResult]) -> dict[str, Any]:
     """The findings of several drawings: 1-based, columns in code points, ends not included."""
-    findings = [(result, finding) for result in results for finding in result.findings]
+    findings = [(result, finding) for result in results for finding in result.diagnostics]
     warnings = sum(d.severity is Severity.WARNING for _, d in findings)
     surveyed = [result.drawing for result in results if result.drawing is not None]
     return {
@@ -144,7 +144,7 @@ def as_json(results: Sequence[CheckResult]) -> dict[str, Any]:
         "tool": f"dqpaint {__version__}",
         "files": [_file(result) for result in results if result.drawing is not None],
         "diagnostics": [_as_json(result, finding) for result, finding in findings]
-        + [_unread(result) for result in results if result.fault],
+        + [_unreadable(result) for result in results if result.fault],
         "summary": {
             "errors": sum(result.errors for result in results),
             "warnings": warnings,
@@ -194,11 +194,11 @@ def _file(result: CheckResult) -> dict[str, Any]:
         "length_m": drawing.length,
         "ends_over_middle": drawing.unevenness,
         "box_m": drawing.box.tolist(),
-        "forecast": result.outlook.as_json if result.outlook else None,
+        "forecast": result.forecast.as_json if result.forecast else None,
     }
 
 
-def _unread(result: CheckResult) -> dict[str, Any]:
+def _unreadable(result: CheckResult) -> dict[str, Any]:
     empty = Diagnostic("E001", result.fault, None)
     return _as_json(result, empty)
 

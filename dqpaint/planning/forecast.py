@@ -15,9 +15,15 @@ from numpy.typing import NDArray
 from dqpaint.diagnostics import SourceLine
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
-from dqpaint.planning.ideal_run import follow, jumps
-from dqpaint.planning.occlusion import LOOKS, PLAIN, OcclusionForecast, hide, looks_at
-from dqpaint.planning.retiming import TAKEN_UP
+from dqpaint.planning.ideal_run import follow, jumps_between
+from dqpaint.planning.occlusion import (
+    DEFAULT_SETTINGS,
+    MOST_OCCLUSION_ROWS,
+    OcclusionForecast,
+    forecast_occlusion,
+    sampled_rows,
+)
+from dqpaint.planning.retiming import SUDDEN_TIME
 from dqpaint.plants import ConfiguredPlant
 from dqpaint.robots.kinematics import (
     CHARACTERISTIC_LENGTH,
@@ -52,7 +58,7 @@ class Forecast:
         line: of the drawing.
         start: time of its first row [s].
         margin: least distance of a joint to its limits [rad]; negative beyond them.
-        room: the same as a part of half the joint's range: 0 at a limit, 1 in the middle.
+        relative_margin: the same as a part of half the joint's range: 0 at a limit, 1 in the middle.
         speed: largest joint rate [rad/s].
         speed_part: and as a part of the joint's limit; both of the joint nearest to its own.
         effort: largest torque of the motion itself, of the joint nearest to its limit [Nm]; None
@@ -61,16 +67,16 @@ class Forecast:
         jolt: the same where the speed changes at once, and as a part: motors of the plant `stiff`
             take up each new rate within a millisecond, dampers bear it where motors wind springs;
             None where it is for the law to say how soon it is taken up.
-        held_part: the largest part of a joint's torque that the arm's weight takes, at rest.
+        weight_part: the largest part of a joint's torque that the arm's weight takes, at rest.
         sag: how far the light sinks as springs give way under the arm's weight, at the most [m];
             None without springs.
-        singular: the smallest singular value of the Jacobian at the tool [rad/rad].
+        singular_value: the smallest singular value of the Jacobian at the tool [rad/rad].
         manipulability: the least sqrt(det(J J')).
-        stray: how far the arm is beside the path at the most [m]: at a singularity it is damped.
-        stray_row: and in which row of the motion.
+        path_error: how far the arm is beside the path at the most [m]: at a singularity it is damped.
+        path_error_row: and in which row of the motion.
         clearance: least distance between two links [m], and which; None where none can meet.
-        between: these two links.
-        hidden: part of the line's light that the arm stands before, in the view where that is most;
+        closest_links: these two links.
+        occluded: part of the line's light that the arm stands before, in the view where that is most;
             None for a dark line.
         view: that view.
     """
@@ -78,22 +84,22 @@ class Forecast:
     line: SourceLine
     start: float
     margin: Extreme
-    room: float
+    relative_margin: float
     speed: Extreme
     speed_part: float
     effort: Extreme | None
     effort_part: float | None
     jolt: Extreme | None
     jolt_part: float | None
-    held_part: float
+    weight_part: float
     sag: float | None
-    singular: float
+    singular_value: float
     manipulability: float
-    stray: float
-    stray_row: int
+    path_error: float
+    path_error_row: int
     clearance: float | None
-    between: tuple[str, str] | None
-    hidden: float | None
+    closest_links: tuple[str, str] | None
+    occluded: float | None
     view: str
 
 
@@ -101,7 +107,7 @@ def forecast(
     motion: Motion,
     kinematics: Kinematics,
     start: Floats,
-    settings: Settings = PLAIN,
+    settings: Settings = DEFAULT_SETTINGS,
     plant: ConfiguredPlant | None = None,
 ) -> tuple[Forecast, ...]:
     """Look ahead along a drawing.
@@ -119,11 +125,11 @@ def forecast(
     """
     run = _Run(motion, kinematics, start, settings.null, plant)
     shapes = collision_shapes(kinematics)
-    looks = looks_at(run.source.index, LOOKS)
+    looks = sampled_rows(run.source.index, MOST_OCCLUSION_ROWS)
     near = shapes.nearest(run.posture[looks])
-    hiding = hide(shapes, motion, run.rows, run.posture, settings)
+    hiding = forecast_occlusion(shapes, motion, run.rows, run.posture, settings)
     _, first = np.unique(run.source.index, return_index=True)
-    return tuple(_of_line(run, row, looks, near, hiding) for row in np.sort(first).tolist())
+    return tuple(_forecast_line(run, row, looks, near, hiding) for row in np.sort(first).tolist())
 
 
 class _Run:
@@ -145,14 +151,14 @@ class _Run:
         self.rows = np.arange(0, len(motion.t), stride)
         self.t, self.source = motion.t[self.rows], motion.source[self.rows]
         self.period = stride * motion.period
-        joined = jumps(motion, self.rows)
+        joined = jumps_between(motion, self.rows)
         self.posture, self.points, J = follow(
             motion, kinematics, start, self.rows, make_secondary_task(null, self.card, start)
         )
-        self.stray = np.linalg.norm(self.points - motion.points[self.rows], axis=1)
+        self.path_error = np.linalg.norm(self.points - motion.points[self.rows], axis=1)
         self.manipulability = manipulability(J)
         at_tool = tool_jacobian_map(self.points) @ J
-        self.singular = np.linalg.svd(at_tool, compute_uv=False)[:, -1]
+        self.singular_value = np.linalg.svd(at_tool, compute_uv=False)[:, -1]
         self.rates = np.zeros_like(self.posture)
         self.rates[:-1] = np.diff(self.posture, axis=0) / self.period
         self.rates[joined] = 0.0
@@ -162,11 +168,11 @@ class _Run:
         change[1:][joined[:-1]] = 0.0
         dynamics = Dynamics(kinematics)
         self.weight = np.array([dynamics.weight(q) for q in self.posture])
-        self._bear(change, motion, dynamics, at_tool, plant)
+        self._set_loads(change, motion, dynamics, at_tool, plant)
         self.margin = np.minimum(self.posture - self.card.lower, self.card.upper - self.posture)
-        self.room = 2 * self.margin / (self.card.upper - self.card.lower)
+        self.relative_margin = 2 * self.margin / (self.card.upper - self.card.lower)
 
-    def _bear(
+    def _set_loads(
         self,
         change: Floats,
         motion: Motion,
@@ -183,7 +189,7 @@ class _Run:
             return
         if motors == "sudden":
             self.effort = self._torques(dynamics, change / self.period)
-            self.jolt = self._torques(dynamics, change / min(self.period, TAKEN_UP))
+            self.jolt = self._torques(dynamics, change / min(self.period, SUDDEN_TIME))
             return
         smooth = _without_corners(change, motion.stroke[self.rows])
         self.effort = self._torques(dynamics, smooth / self.period)
@@ -207,7 +213,7 @@ def _without_corners(change: Floats, stroke: NDArray[np.int64]) -> Floats:
     return smooth
 
 
-def _of_line(
+def _forecast_line(
     run: _Run, first: int, looks: NDArray[np.intp], near: Nearest, hiding: OcclusionForecast
 ) -> Forecast:
     """What the line whose first row is given asks for."""
@@ -221,27 +227,27 @@ def _of_line(
     looked = np.flatnonzero(np.isin(looks, rows))
     closest = looked[near.distance[looked].argmin()]
     meets = bool(np.isfinite(near.distance[closest]))
-    hidden, view = hiding.of(rows)
+    hidden, view = hiding.largest_share(rows)
     return Forecast(
         line=run.source.at(first),
         start=float(run.t[rows[0]]),
         margin=margin,
-        room=float(run.room[rows].min()),
+        relative_margin=float(run.relative_margin[rows].min()),
         speed=speed,
         speed_part=speed_part,
         effort=effort,
         effort_part=effort_part,
         jolt=jolt,
         jolt_part=jolt_part,
-        held_part=_worst(run, rows, run.weight, card.effort)[1],
+        weight_part=_worst(run, rows, run.weight, card.effort)[1],
         sag=None if run.sag is None else float(run.sag[rows].max()),
-        singular=float(run.singular[rows].min()),
+        singular_value=float(run.singular_value[rows].min()),
         manipulability=float(run.manipulability[rows].min()),
-        stray=float(run.stray[rows].max()),
-        stray_row=int(run.rows[rows[run.stray[rows].argmax()]]),
+        path_error=float(run.path_error[rows].max()),
+        path_error_row=int(run.rows[rows[run.path_error[rows].argmax()]]),
         clearance=float(near.distance[closest]) if meets else None,
-        between=near.pair[closest] if meets else None,
-        hidden=hidden,
+        closest_links=near.pair[closest] if meets else None,
+        occluded=hidden,
         view=view,
     )
 

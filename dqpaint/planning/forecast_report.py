@@ -9,27 +9,31 @@ from dqpaint.core import tables
 from dqpaint.diagnostics import Diagnostic, SourceLine, Span
 from dqpaint.motion import Motion
 from dqpaint.planning.forecast import Extreme, Forecast, forecast
-from dqpaint.planning.ideal_run import WORTH_A_LOOK
-from dqpaint.planning.occlusion import PLAIN
+from dqpaint.planning.occlusion import DEFAULT_SETTINGS
 from dqpaint.planning.placement import Placement
 from dqpaint.planning.prepared_motion import prepare_motion
-from dqpaint.planning.reachability import check_row
+from dqpaint.planning.reachability import check_row_reached
 from dqpaint.planning.retiming import Retiming
 from dqpaint.plants import DEFAULT_PLANTS, find_plant
 from dqpaint.program import Program
-from dqpaint.robots.kinematics import DAMPING_THRESHOLD, Kinematics, collision_shapes
+from dqpaint.robots.kinematics import (
+    DAMPING_THRESHOLD,
+    PATH_TOLERANCE,
+    Kinematics,
+    collision_shapes,
+)
 from dqpaint.robots.model import Card
 from dqpaint.settings import Settings
 
-CLOSE = 0.9  # of a limit
+CLOSE_SHARE = 0.9  # of a limit
 CLOSE_ANGLE = math.radians(5.0)
 CLOSE_SINGULAR = 2 * DAMPING_THRESHOLD
 CLOSE_LINKS = 5e-3  # [m]
-CLOSE_HIDDEN = 0.005  # of a line's light
-HIDDEN = 0.01
+CLOSE_OCCLUDED = 0.005  # of a line's light
+MOST_OCCLUDED = 0.01
 MOST_LINES = 12  # of the table
 MOST_NAMED = 6  # lines in a warning
-FROM = ("front", "side", "top")  # where an eye may be said to be
+DIRECTIONS = ("front", "side", "top")  # where an eye may be said to be
 DEG = math.degrees(1)
 
 
@@ -39,11 +43,11 @@ class ForecastReport:
 
     Attributes:
         motion: what was asked, at its place.
-        placed: where `place auto` put it.
-        slowed: how it was slowed down, where it may be.
+        placement: where `place auto` put it.
+        retiming: how it was slowed down, where it may be.
         robot: its name.
         plant: the name of the plant whose motors were asked.
-        seen: whether its encoders see how far springs give way, where it has any.
+        sag_measured: whether its encoders see how far springs give way, where it has any.
         start: the posture it begins in [rad].
         lines: the forecast of each line.
         warnings: for the limits it would run into.
@@ -51,11 +55,11 @@ class ForecastReport:
     """
 
     motion: Motion
-    placed: Placement | None
-    slowed: Retiming | None
+    placement: Placement | None
+    retiming: Retiming | None
     robot: str
     plant: str
-    seen: bool
+    sag_measured: bool
     start: tuple[float, ...]
     lines: tuple[Forecast, ...]
     warnings: tuple[Diagnostic, ...]
@@ -72,10 +76,14 @@ class ForecastReport:
             else f"every joint {margin:.0f} deg or more from its limits"
         )
         notes = "".join(f"\nnote: {note}" for note in self.notes)
-        placed = f"  {self.placed.line}\n  {self.placed.figures}\n" if self.placed else ""
-        slowed = f"  pace: {self.slowed}\n" if self.slowed else ""
+        placed = (
+            f"  {self.placement.statement}\n  {self.placement.figures}\n" if self.placement else ""
+        )
+        slowed = f"  pace: {self.retiming}\n" if self.retiming else ""
         program = self.motion.program
-        figures = f"{_extremes(self.lines, program, self.seen)}{_table(self.lines, program)}"
+        figures = (
+            f"{_extremes(self.lines, program, self.sag_measured)}{_table(self.lines, program)}"
+        )
         return f"; {self.robot} reaches it, {said}\n{placed}{slowed}{figures}{notes}"
 
     @property
@@ -84,15 +92,15 @@ class ForecastReport:
         return {
             "robot": self.robot,
             "plant": self.plant,
-            "place": self.placed and self.placed.as_json,
-            "pace": self.slowed and self.slowed.as_json,
+            "place": self.placement and self.placement.as_json,
+            "pace": self.retiming and self.retiming.as_json,
             "start_rad": list(self.start),
             "lines": [_figures(line, self.motion.program) for line in self.lines],
         }
 
 
-def look_ahead(
-    program: Program, kinematics: Kinematics, settings: Settings = PLAIN
+def make_report(
+    program: Program, kinematics: Kinematics, settings: Settings = DEFAULT_SETTINGS
 ) -> ForecastReport:
     """The outlook of a drawing for an arm.
 
@@ -111,13 +119,13 @@ def look_ahead(
     ready = prepare_motion(program, kinematics, settings, motor_torque_use)
     motion, start = ready.motion, ready.start
     lines = forecast(motion, kinematics, start, settings, plant)
-    farthest = max(lines, key=lambda one: one.stray)
-    if farthest.stray >= WORTH_A_LOOK:
-        check_row(motion, kinematics, farthest.stray_row, settings.null)
+    farthest = max(lines, key=lambda one: one.path_error)
+    if farthest.path_error >= PATH_TOLERANCE:
+        check_row_reached(motion, kinematics, farthest.path_error_row, settings.null)
     return ForecastReport(
         motion,
-        ready.placed,
-        ready.slowed,
+        ready.placement,
+        ready.retiming,
         kinematics.card.name,
         plant.name if plant else DEFAULT_PLANTS["rates"],
         springs is None or springs.seen,
@@ -139,14 +147,16 @@ class _Rule(NamedTuple):
 
 def _position(one: Forecast, _card: Card) -> str:
     at = one.margin
-    return f"joint {at.joint} has to go {-at.value * DEG:.3g} deg beyond its limit{_when(at.time)}"
+    return (
+        f"joint {at.joint} has to go {-at.value * DEG:.3g} deg beyond its limit{_at_time(at.time)}"
+    )
 
 
 def _speed(one: Forecast, card: Card) -> str:
     at = one.speed
     most = card.speed[at.joint - 1] * DEG
     return (
-        f"joint {at.joint} has to turn at {at.value * DEG:.4g} deg/s{_when(at.time)}, "
+        f"joint {at.joint} has to turn at {at.value * DEG:.4g} deg/s{_at_time(at.time)}, "
         f"but goes to {most:.4g} deg/s"
     )
 
@@ -154,7 +164,7 @@ def _speed(one: Forecast, card: Card) -> str:
 def _effort(one: Forecast, card: Card) -> str:
     at = one.effort
     assert at is not None
-    return f"joint {at.joint} needs {at.value:.4g} Nm{_when(at.time)}, but {_has(at, card)}"
+    return f"joint {at.joint} needs {at.value:.4g} Nm{_at_time(at.time)}, but {_torque_limit(at, card)}"
 
 
 def _jolt(one: Forecast, card: Card) -> str:
@@ -162,35 +172,37 @@ def _jolt(one: Forecast, card: Card) -> str:
     assert at is not None
     how = "to follow within 1 ms" if one.sag is None else "with its spring's damper"
     return (
-        f"the speed changes at once{_when(at.time)}: {how} joint {at.joint} needs "
-        f"{at.value:.4g} Nm, but {_has(at, card)}"
+        f"the speed changes at once{_at_time(at.time)}: {how} joint {at.joint} needs "
+        f"{at.value:.4g} Nm, but {_torque_limit(at, card)}"
     )
 
 
-def _has(at: Extreme, card: Card) -> str:
+def _torque_limit(at: Extreme, card: Card) -> str:
     return f"has {card.effort[at.joint - 1]:.4g} Nm"
 
 
 def _singular(one: Forecast, _card: Card) -> str:
-    beside = f", up to {one.stray * 1e3:.1f} mm beside" if one.stray >= WORTH_A_LOOK else ""
+    beside = (
+        f", up to {one.path_error * 1e3:.1f} mm beside" if one.path_error >= PATH_TOLERANCE else ""
+    )
     return (
-        f"the arm comes close to a singularity (smallest singular value {one.singular:.2g}, "
+        f"the arm comes close to a singularity (smallest singular value {one.singular_value:.2g}, "
         f"below {DAMPING_THRESHOLD:g}): there it follows inexactly{beside}"
     )
 
 
 def _collision(one: Forecast, _card: Card) -> str:
-    first, second = one.between or ("", "")
+    first, second = one.closest_links or ("", "")
     depth = -(one.clearance or 0.0) * 1e3
     return f"link '{first}' runs into link '{second}' (by {depth:.0f} mm)"
 
 
 def _hidden(one: Forecast, _card: Card) -> str:
-    where = f"from the {one.view}" if one.view in FROM else f"in the view {one.view}"
-    return f"the arm stands before {one.hidden or 0:.0%} of the light, seen {where}"
+    where = f"from the {one.view}" if one.view in DIRECTIONS else f"in the view {one.view}"
+    return f"the arm stands before {one.occluded or 0:.0%} of the light, seen {where}"
 
 
-def _when(time: float) -> str:
+def _at_time(time: float) -> str:
     return f" at {time:.2f} s"
 
 
@@ -221,7 +233,7 @@ RULES = (
     ),
     _Rule(
         "W505",
-        lambda one: 2.0 - one.singular / DAMPING_THRESHOLD,
+        lambda one: 2.0 - one.singular_value / DAMPING_THRESHOLD,
         _singular,
         "move the drawing with place, or hold the tool another way",
     ),
@@ -233,7 +245,7 @@ RULES = (
     ),
     _Rule(
         "W507",
-        lambda one: (one.hidden or 0.0) / HIDDEN,
+        lambda one: (one.occluded or 0.0) / MOST_OCCLUDED,
         _hidden,
         "point the tool's z axis at the viewer, or move the drawing with place",
     ),
@@ -282,7 +294,7 @@ def _extremes(lines: Sequence[Forecast], program: Program, seen: bool) -> str:
     parts = [
         f"joint {speed.speed.joint} at {speed.speed_part:.0%} of its speed "
         f"(line {program.line_name(speed.line)})",
-        *_bearing(lines, program, seen),
+        *_loads(lines, program, seen),
         f"manipulability {least.manipulability:.2g} (line {program.line_name(least.line)})",
     ]
     clear = [one for one in lines if one.clearance is not None]
@@ -292,7 +304,7 @@ def _extremes(lines: Sequence[Forecast], program: Program, seen: bool) -> str:
     return f"  at most: {', '.join(parts)}"
 
 
-def _bearing(lines: Sequence[Forecast], program: Program, seen: bool) -> list[str]:
+def _loads(lines: Sequence[Forecast], program: Program, seen: bool) -> list[str]:
     """What motors and springs bear, where a plant has them."""
     parts = []
     most = max(lines, key=lambda one: one.effort_part or 0.0)
@@ -312,19 +324,19 @@ def _cells(one: Forecast) -> dict[str, str]:
     cells: dict[str, str] = {}
     if one.margin.value < CLOSE_ANGLE:
         cells["off limits"] = f"{one.margin.value * DEG:.1f} deg (joint {one.margin.joint})"
-    if one.speed_part > CLOSE:
+    if one.speed_part > CLOSE_SHARE:
         cells["speed"] = f"{one.speed_part:.0%} (joint {one.speed.joint})"
-    if one.effort is not None and (one.effort_part or 0.0) > CLOSE:
+    if one.effort is not None and (one.effort_part or 0.0) > CLOSE_SHARE:
         cells["torque"] = f"{one.effort_part:.0%} (joint {one.effort.joint})"
-    if one.jolt is not None and (one.jolt_part or 0.0) > CLOSE:
+    if one.jolt is not None and (one.jolt_part or 0.0) > CLOSE_SHARE:
         head = "torque within 1 ms" if one.sag is None else "torque at once"
         cells[head] = f"{one.jolt_part:.0%} (joint {one.jolt.joint})"
-    if one.singular < CLOSE_SINGULAR:
-        cells["singular value"] = f"{one.singular:.2g}"
+    if one.singular_value < CLOSE_SINGULAR:
+        cells["singular value"] = f"{one.singular_value:.2g}"
     if one.clearance is not None and one.clearance < CLOSE_LINKS:
         cells["links apart"] = f"{one.clearance * 1e3:.0f} mm"
-    if one.hidden is not None and one.hidden > CLOSE_HIDDEN:
-        cells["hidden"] = f"{one.hidden:.1%}"
+    if one.occluded is not None and one.occluded > CLOSE_OCCLUDED:
+        cells["hidden"] = f"{one.occluded:.1%}"
     return cells
 
 
@@ -355,17 +367,17 @@ def _figures(one: Forecast, program: Program) -> dict[str, Any]:
     }
     return {
         "line": program.line_reference(one.line),
-        "room": one.room,
+        "room": one.relative_margin,
         "start_s": one.start,
         **{
             name: value and asdict(value) | ({} if part is None else {"part_of_limit": part})
             for name, (value, part) in worst.items()
         },
         "sag_m": one.sag,
-        "smallest_singular_value": one.singular,
+        "smallest_singular_value": one.singular_value,
         "manipulability": one.manipulability,
-        "stray_m": one.stray,
+        "stray_m": one.path_error,
         "clearance_m": one.clearance,
-        "between": one.between,
-        "hidden": one.hidden,
+        "between": one.closest_links,
+        "hidden": one.occluded,
     }

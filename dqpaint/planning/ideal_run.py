@@ -26,12 +26,11 @@ from dqpaint.robots.kinematics import (
     waypoints,
 )
 
-WORTH_A_LOOK = 1e-3  # [m] from the path
 MOST_ROWS = 1500  # that are gone along to see whether an arm can draw something
-BEYOND = np.radians(0.05)  # of a joint's end count as its end
+JOINT_TOLERANCE = np.radians(0.05)  # of a joint's end count as its end
 
 
-def set_out(
+def find_start_posture(
     motion: Motion, kinematics: Kinematics, null: str = DEFAULT_OBJECTIVE
 ) -> StartPosture | NoPosture:
     """The posture that leaves the most margin over a drawing, or the pose that is not reached.
@@ -49,21 +48,21 @@ def set_out(
 def can_draw(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_OBJECTIVE) -> bool:
     """Whether an arm gets along a drawing, no joint beyond its end and no millimetre beside it.
 
-    Arguments as those of `set_out`.
+    Arguments as those of `find_start_posture`.
     """
-    start = set_out(motion, kinematics, null)
+    start = find_start_posture(motion, kinematics, null)
     if isinstance(start, NoPosture) or start.margin < 0:
         return False
     rows = np.arange(0, len(motion.t), -(-len(motion.t) // MOST_ROWS))
     wish = make_secondary_task(null, kinematics.card, start.posture)
     postures, points, _ = follow(motion, kinematics, start.posture, rows, wish)
     card = kinematics.card
-    inside = (postures >= card.lower - BEYOND) & (postures <= card.upper + BEYOND)
+    inside = (postures >= card.lower - JOINT_TOLERANCE) & (postures <= card.upper + JOINT_TOLERANCE)
     off = np.linalg.norm(points - motion.points[rows], axis=1)
-    return bool(inside.all() and off.max() < WORTH_A_LOOK)
+    return bool(inside.all() and off.max() < PATH_TOLERANCE)
 
 
-def jumps(motion: Motion, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
+def jumps_between(motion: Motion, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
     """Whether the set point jumps between each of some rows (N,) and the next."""
     return np.asarray(np.add.reduceat(motion.jump, rows) > 0)
 
@@ -83,7 +82,7 @@ def follow(
     period = motion.period * (rows[1] - rows[0] if len(rows) > 1 else 1)
     postures, jacobians = np.empty((len(rows), len(start))), np.empty((len(rows), 6, len(start)))
     points = np.empty((len(rows), 3))
-    still, jump = np.zeros((1, len(start))), jumps(motion, rows)
+    still, jump = np.zeros((1, len(start))), jumps_between(motion, rows)
     q = solve_posture(kinematics, motion.pose[0], start[None], still, PATH_TOLERANCE)[0][0]
     for k in range(len(rows)):
         x, J = kinematics.pose_and_jacobian(q)

@@ -16,10 +16,13 @@ from dqpaint.motion import Motion
 from dqpaint.robots.kinematics import CollisionShapes
 from dqpaint.settings import Settings
 
-LOOKS = 400  # at the arm's shapes in a whole drawing
-LEAST_LOOKS = 40  # in each view, where there are many
-LAMPS, APART = 5, 0.03  # places along a brush, at the most, and how far apart at least [m]
-PLAIN = Settings()
+MOST_OCCLUSION_ROWS = 400  # at the arm's shapes in a whole drawing
+LEAST_ROWS = 40  # in each view, where there are many
+MOST_POINTS, LEAST_SPACING = (
+    5,
+    0.03,
+)  # places along a brush, at the most, and how far apart at least [m]
+DEFAULT_SETTINGS = Settings()
 
 
 class OcclusionForecast(NamedTuple):
@@ -27,28 +30,28 @@ class OcclusionForecast(NamedTuple):
 
     Attributes:
         rows: of the forecast (S,).
-        sent: light that is sent at each (S,), in any unit.
-        hidden: and what of it each view does not get (V, S).
+        emitted: light that is sent at each (S,), in any unit.
+        occluded: and what of it each view does not get (V, S).
         views: their names, V.
     """
 
     rows: NDArray[np.intp]
-    sent: Floats
-    hidden: Floats
+    emitted: Floats
+    occluded: Floats
     views: tuple[str, ...]
 
-    def of(self, rows: NDArray[np.intp]) -> tuple[float | None, str]:
+    def largest_share(self, rows: NDArray[np.intp]) -> tuple[float | None, str]:
         """The largest share that a view does not get of the light at some rows, and that view."""
         these = np.isin(self.rows, rows)
-        sent = float(self.sent[these].sum())
+        sent = float(self.emitted[these].sum())
         if not sent:
             return None, ""
-        shares = self.hidden[:, these].sum(axis=1) / sent
+        shares = self.occluded[:, these].sum(axis=1) / sent
         worst = int(shares.argmax())
         return float(shares[worst]), self.views[worst]
 
 
-def looks_at(line: NDArray[np.int64], most: int) -> NDArray[np.intp]:
+def sampled_rows(line: NDArray[np.int64], most: int) -> NDArray[np.intp]:
     """Rows (of N) to look at: spread evenly, and the middle of every run of a line."""
     n = len(line)
     ends = np.flatnonzero(np.diff(line)) + 1
@@ -56,7 +59,7 @@ def looks_at(line: NDArray[np.int64], most: int) -> NDArray[np.intp]:
     return np.unique(np.concatenate([np.linspace(0, n - 1, min(n, most)).astype(int), middles]))
 
 
-def hide(
+def forecast_occlusion(
     shapes: CollisionShapes,
     motion: Motion,
     rows: NDArray[np.intp],
@@ -74,7 +77,9 @@ def hide(
     """
     shots = parse_views(settings.view)
     lit = np.append(motion.light[:-1].any(axis=1), False)[rows]
-    looks = looks_at(motion.source.index[rows], max(LOOKS // len(shots), LEAST_LOOKS))
+    looks = sampled_rows(
+        motion.source.index[rows], max(MOST_OCCLUSION_ROWS // len(shots), LEAST_ROWS)
+    )
     looks = looks[lit[looks]]
     names = tuple(shot.name for shot in shots)
     sent, hidden = np.zeros(len(looks)), np.zeros((len(shots), len(looks)))
@@ -90,7 +95,9 @@ def hide(
         if not len(shone):
             continue
         at = rows[looks[shone]]
-        lamps = sweep.emitters.positions_along(max(APART, 2 * sweep.emitters.reach / (LAMPS - 1)))
+        lamps = sweep.emitters.positions_along(
+            max(LEAST_SPACING, 2 * sweep.emitters.reach / (MOST_POINTS - 1))
+        )
         places = sweep.base_positions(sweep.positions[at], sweep.rotations[at], lamps)
         sent[shone] += energy[shone]
         for view, camera in enumerate(cameras):

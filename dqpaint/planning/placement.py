@@ -24,10 +24,11 @@ from dqpaint.dq import Floats
 from dqpaint.language import parse
 from dqpaint.motion import Motion, moved, plan, scaled, straight
 from dqpaint.planning.forecast import Forecast, forecast
-from dqpaint.planning.ideal_run import WORTH_A_LOOK, set_out
-from dqpaint.planning.occlusion import PLAIN
+from dqpaint.planning.ideal_run import find_start_posture
+from dqpaint.planning.occlusion import DEFAULT_SETTINGS
 from dqpaint.program import AutoPlacement, Pose, Program
 from dqpaint.robots.kinematics import (
+    PATH_TOLERANCE,
     START_GAIN,
     Dynamics,
     Kinematics,
@@ -40,17 +41,19 @@ from dqpaint.robots.urdf import roll_pitch_yaw
 from dqpaint.settings import Settings
 
 SEED = 1988
-TRIALS = 400  # random postures that tell how far the arm reaches
-PARTS = 5  # of the reach, in the grid of places, to either side of the base
-STARTS, MORE_STARTS = 4, 12  # postures each place is begun from, at first and in the end
-COARSE, FINE = 10, 32  # poses of the drawing that are looked at
-STEPS = 6  # times the search halves its step
-PROMISING = 8  # places that are looked at along the whole drawing, at the most
-NEWTON, STRIDE = 12, 0.6  # iterations, and the largest move of a joint in one [rad]
-FEEBLE = 0.01  # of a torque counts as left where an arm can't bear its weight: these come last
-FEW_SCALES = (0.75, 0.5, 0.25)  # that are tried where there is no room
-CLOSE = 1e-3  # [rad, m] counts as reached
-IN_SIGHT = 0.01  # of the light may be hidden
+RANDOM_POSTURES = 400  # random postures that tell how far the arm reaches
+GRID_STEPS = 5  # of the reach, in the grid of places, to either side of the base
+COARSE_STARTS, FINE_STARTS = 4, 12  # postures each place is begun from, at first and in the end
+COARSE_POSES, FINE_POSES = 10, 32  # poses of the drawing that are looked at
+HALVINGS = 6  # times the search halves its step
+MOST_CANDIDATES = 8  # places that are looked at along the whole drawing, at the most
+NEWTON_STEPS, LARGEST_STEP = 12, 0.6  # iterations, and the largest move of a joint in one [rad]
+LEAST_TORQUE_LEFT = (
+    0.01  # of a torque counts as left where an arm can't bear its weight: these come last
+)
+TRIED_SCALES = (0.75, 0.5, 0.25)  # that are tried where there is no room
+POSE_TOLERANCE = 1e-3  # [rad, m] counts as reached
+MOST_OCCLUDED = 0.01  # of the light may be hidden
 
 
 @dataclass(frozen=True)
@@ -58,34 +61,34 @@ class Placement:
     """Where a drawing was put, and how well it fits there.
 
     Attributes:
-        place: the drawing frame in the base frame.
-        line: the same as a line of the language, fit to be pasted: exactly this place.
-        merit: `manipulability` times `room` times `torque`.
+        pose: the drawing frame in the base frame.
+        statement: the same as a line of the language, fit to be pasted: exactly this place.
+        merit: `manipulability` times `relative_margin` times `torque_left`.
         manipulability: the least along the drawing.
-        room: the least of any joint, from 0 at a limit to 1 in the middle of its range.
-        torque: the least part of any joint's torque that the arm's weight leaves.
-        hidden: the largest part of a line's light that the arm hides, seen from the front.
+        relative_margin: the least of any joint, from 0 at a limit to 1 in the middle of its range.
+        torque_left: the least part of any joint's torque that the arm's weight leaves.
+        occluded: the largest part of a line's light that the arm hides, seen from the front.
     """
 
-    place: Pose
-    line: str
+    pose: Pose
+    statement: str
     merit: float
     manipulability: float
-    room: float
-    torque: float
-    hidden: float
+    relative_margin: float
+    torque_left: float
+    occluded: float
 
     @property
     def as_json(self) -> dict[str, Any]:
         """For a summary: the origin [m], the quaternion, the figures."""
         return {
-            "at_m": list(self.place.position),
-            "orientation": list(self.place.orientation),
-            "line": self.line,
+            "at_m": list(self.pose.position),
+            "orientation": list(self.pose.orientation),
+            "line": self.statement,
             "merit": self.merit,
             "manipulability": self.manipulability,
-            "room": self.room,
-            "torque": self.torque,
+            "room": self.relative_margin,
+            "torque": self.torque_left,
         }
 
     @property
@@ -93,20 +96,20 @@ class Placement:
         """How well it fits there, in words."""
         return (
             f"merit {self.merit:.3g}: manipulability {self.manipulability:.3g} or more, "
-            f"times {self.room:.2g} of a joint's room to its limits, "
-            f"times {self.torque:.2g} of its torque"
+            f"times {self.relative_margin:.2g} of a joint's room to its limits, "
+            f"times {self.torque_left:.2g} of its torque"
         )
 
 
-def settle(
-    program: Program, kinematics: Kinematics, settings: Settings = PLAIN
+def place_program(
+    program: Program, kinematics: Kinematics, settings: Settings = DEFAULT_SETTINGS
 ) -> tuple[Program, Placement | None]:
     """A program with its place found, if it is to be found.
 
     Args:
         program: the drawing.
         kinematics: of the arm.
-        settings: of the run; `place` finds a place whatever the file says.
+        settings: of the run; `pose` finds a place whatever the file says.
 
     Raises:
         ScriptError: the arm can draw it nowhere.
@@ -117,11 +120,13 @@ def settle(
     if not isinstance(wanted, AutoPlacement):
         return program, None
     program = replace(program, placement=wanted)
-    placed = find_place(program, kinematics, settings)
-    return replace(program, placement=placed.place), placed
+    placed = find_placement(program, kinematics, settings)
+    return replace(program, placement=placed.pose), placed
 
 
-def find_place(program: Program, kinematics: Kinematics, settings: Settings = PLAIN) -> Placement:
+def find_placement(
+    program: Program, kinematics: Kinematics, settings: Settings = DEFAULT_SETTINGS
+) -> Placement:
     """Where a drawing fits an arm best; the same answer each time.
 
     It is to be in sight from the front, as far as can be, from wherever it is looked at: pictures
@@ -132,64 +137,66 @@ def find_place(program: Program, kinematics: Kinematics, settings: Settings = PL
     """
     motion = plan(program, kinematics.card.canvas.pose)
     found = []
-    for origin in _Search(motion, kinematics).best_places():
-        place = _write(origin, dq.rotation(motion.canvas))
-        placed = _judge(program, kinematics, place, settings)
-        if placed is not None and placed.hidden <= IN_SIGHT:
+    for origin in _Search(motion, kinematics).best_origins():
+        place = _place_statement(origin, dq.rotation(motion.canvas))
+        placed = _evaluate(program, kinematics, place, settings)
+        if placed is not None and placed.occluded <= MOST_OCCLUDED:
             return placed
         found += [placed] if placed is not None else []
     if found:  # a tool that is turned away stands before its light everywhere
-        return min(found, key=lambda one: one.hidden)
-    raise _nowhere(program, kinematics, motion, settings)
+        return min(found, key=lambda one: one.occluded)
+    raise _no_placement_error(program, kinematics, motion, settings)
 
 
-def has_room(motion: Motion, kinematics: Kinematics, settings: Settings = PLAIN) -> bool:
+def can_be_placed(
+    motion: Motion, kinematics: Kinematics, settings: Settings = DEFAULT_SETTINGS
+) -> bool:
     """Whether `place auto` finds a place for a motion, which stays turned as it is."""
     search = _Search(motion, kinematics)
     return any(
-        _lines_if_good(moved(motion, origin), kinematics, settings)
-        for origin in search.best_places()
+        _forecast_if_valid(moved(motion, origin), kinematics, settings)
+        for origin in search.best_origins()
     )
 
 
-def _judge(
-    program: Program, kinematics: Kinematics, line: str, settings: Settings = PLAIN
+def _evaluate(
+    program: Program, kinematics: Kinematics, line: str, settings: Settings = DEFAULT_SETTINGS
 ) -> Placement | None:
     """A place looked at along the whole drawing; None where it does not do."""
     place = parse(f"{line}\nhold 1 s\n", "place").placement
     assert isinstance(place, Pose)
     motion = plan(replace(program, placement=place), kinematics.card.canvas.pose)
-    lines = _lines_if_good(motion, kinematics, settings)
+    lines = _forecast_if_valid(motion, kinematics, settings)
     if not lines:
         return None
-    room = min(one.room for one in lines)
+    room = min(one.relative_margin for one in lines)
     worst = min(one.manipulability for one in lines)
-    torque = min(_left(one.held_part) for one in lines)
-    hidden = max(one.hidden or 0.0 for one in lines)
+    torque = min(_torque_left(one.weight_part) for one in lines)
+    hidden = max(one.occluded or 0.0 for one in lines)
     return Placement(place, line, worst * room * torque, worst, room, torque, hidden)
 
 
-def _lines_if_good(
+def _forecast_if_valid(
     motion: Motion, kinematics: Kinematics, settings: Settings
 ) -> tuple[Forecast, ...]:
     """The forecast of a motion that may stay where it is; nothing of one that may not."""
-    start = set_out(motion, kinematics, settings.null)
+    start = find_start_posture(motion, kinematics, settings.null)
     if isinstance(start, NoPosture) or start.margin < 0:
         return ()
-    seen = PLAIN.model_copy(update={"null": settings.null, "brush": settings.brush})
+    seen = DEFAULT_SETTINGS.model_copy(update={"null": settings.null, "brush": settings.brush})
     lines = forecast(motion, kinematics, start.posture, seen)
-    return lines if all(_is_good(one) for one in lines) else ()
+    return lines if all(_is_valid(one) for one in lines) else ()
 
 
-def _is_good(one: Forecast) -> bool:
+def _is_valid(one: Forecast) -> bool:
     """Whether a line is reached, and no links meet on it."""
     apart = one.clearance is None or one.clearance >= 0
-    return one.room > 0 and one.stray < WORTH_A_LOOK and apart
+    return one.relative_margin > 0 and one.path_error < PATH_TOLERANCE and apart
 
 
-def _left(part: float) -> float:
+def _torque_left(part: float) -> float:
     """What a part of a torque leaves, or hardly anything: an arm may be run without masses."""
-    return max(1.0 - part, FEEBLE)
+    return max(1.0 - part, LEAST_TORQUE_LEFT)
 
 
 class _Search:
@@ -199,35 +206,35 @@ class _Search:
         self._arm, self._motion = kinematics, motion
         card = kinematics.card
         rng = np.random.default_rng(SEED)
-        trials = rng.uniform(card.lower, card.upper, (TRIALS, card.joints))
+        trials = rng.uniform(card.lower, card.upper, (RANDOM_POSTURES, card.joints))
         places = dq.translation(kinematics.poses_and_jacobians(trials)[0])
         self._middle = np.median(places, axis=0)
         self._reach = float(np.linalg.norm(places - self._middle, axis=1).max())
-        self._seeds = np.vstack([card.home, trials[: MORE_STARTS - 1]])
+        self._seeds = np.vstack([card.home, trials[: FINE_STARTS - 1]])
         corners = motion.points
         self._centre = 0.5 * (corners.max(axis=0) + corners.min(axis=0))
         self._lowest = float(corners[:, 2].min())
         self._origin = dq.translation(motion.canvas)
 
-    def best_places(self) -> Iterator[Floats]:
+    def best_origins(self) -> Iterator[Floats]:
         """Origins (3,) of the drawing frame, the most promising first.
 
         Those where all of the drawing is above z = 0 come before all others.
         """
         grid = self._grid()
         above = self._above(grid)
-        yield from self._best(grid[above], on_floor=True)
-        yield from self._best(grid[~above], on_floor=False)
+        yield from self._best_of(grid[above], on_floor=True)
+        yield from self._best_of(grid[~above], on_floor=False)
 
     def _above(self, shifts: Floats) -> NDArray[np.bool_]:
         return np.asarray(self._lowest + shifts[:, 2] >= 0)
 
-    def _best(self, shifts: Floats, on_floor: bool) -> Iterator[Floats]:
+    def _best_of(self, shifts: Floats, on_floor: bool) -> Iterator[Floats]:
         """Of some shifts (P, 3) the best, climbed from, and the most promising others."""
         if not len(shifts):
             return
-        merits = self._merits(shifts, COARSE, STARTS)
-        order = np.argsort(-merits, kind="stable")[:PROMISING]
+        merits = self._merits(shifts, COARSE_POSES, COARSE_STARTS)
+        order = np.argsort(-merits, kind="stable")[:MOST_CANDIDATES]
         found = [shifts[i] for i in order if merits[i] > 0]
         if found:
             yield self._origin + self._climb(found[0], on_floor)
@@ -235,19 +242,19 @@ class _Search:
 
     def _grid(self) -> Floats:
         """Shifts (P, 3) [m] of the drawing; none at all is the first."""
-        axis = np.linspace(-self._reach, self._reach, 2 * PARTS + 1)
+        axis = np.linspace(-self._reach, self._reach, 2 * GRID_STEPS + 1)
         cube = np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1).reshape(-1, 3)
         ball = cube[np.linalg.norm(cube, axis=1) <= self._reach]
         return np.vstack([np.zeros(3), self._middle + ball - self._centre])
 
     def _climb(self, shift: Floats, on_floor: bool) -> Floats:
         """Up to a place that has no better neighbour, in steps that halve."""
-        merit = float(self._merits(shift[None], FINE, MORE_STARTS)[0])
-        step = 0.5 * self._reach / PARTS
+        merit = float(self._merits(shift[None], FINE_POSES, FINE_STARTS)[0])
+        step = 0.5 * self._reach / GRID_STEPS
         directions = np.vstack([np.eye(3), -np.eye(3)])
-        for _ in range(STEPS):
+        for _ in range(HALVINGS):
             around = shift + step * directions
-            merits = self._merits(around, FINE, MORE_STARTS)
+            merits = self._merits(around, FINE_POSES, FINE_STARTS)
             if on_floor:
                 merits[~self._above(around)] = 0.0
             best = int(np.argmax(merits))
@@ -264,17 +271,17 @@ class _Search:
         whose = np.repeat(np.arange(len(shifts)), starts)
         moves = dq.pose_from(shifts, np.tile([1.0, 0, 0, 0], (len(shifts), 1)))[whose]
         first = np.tile(self._seeds[:starts], (len(shifts), 1))
-        follow = _Follow(self._arm, first)
+        follow = _BatchFollower(self._arm, first)
         seconds = self._motion.t[rows]
         for k, row in enumerate(rows):
             pause = seconds[k] - seconds[k - 1] if k else None
-            follow.go(dq.mul(moves, self._motion.pose[row]), pause)
+            follow.advance(dq.mul(moves, self._motion.pose[row]), pause)
         merits = np.zeros(len(shifts))
         np.maximum.at(merits, whose[follow.alive], follow.merit[follow.alive])
         return merits
 
 
-class _Follow:
+class _BatchFollower:
     """Arms (M, n) that go from pose to pose, each its own way, as long as they can."""
 
     def __init__(self, kinematics: Kinematics, postures: Floats) -> None:
@@ -282,17 +289,17 @@ class _Follow:
         self._q, self._start = postures, postures
         self._half = 0.5 * (self._card.upper - self._card.lower)
         self._worst = np.full(len(postures), np.inf)
-        self._room = np.ones(len(postures))
-        self._torque = np.ones(len(postures))
+        self._relative_margin = np.ones(len(postures))
+        self._torque_left = np.ones(len(postures))
         self._dynamics = Dynamics(kinematics)
         self.alive = np.arange(len(postures))
 
     @property
     def merit(self) -> Floats:
         """Least manipulability, room and torque so far, multiplied (M,)."""
-        return self._worst * self._room * self._torque
+        return self._worst * self._relative_margin * self._torque_left
 
-    def go(self, poses: Floats, pause: float | None) -> None:
+    def advance(self, poses: Floats, pause: float | None) -> None:
         """On to the next poses (M, 8), after a time [s]; None leads to the first ones."""
         if not len(self.alive):
             return
@@ -304,12 +311,12 @@ class _Follow:
         room = np.minimum(q - self._card.lower, self._card.upper - q) / self._half
         self._q[alive] = q
         self._worst[alive] = np.minimum(self._worst[alive], measure)
-        self._room[alive] = np.minimum(self._room[alive], room.min(axis=1))
-        good = reached & (self._room[alive] > 0)
+        self._relative_margin[alive] = np.minimum(self._relative_margin[alive], room.min(axis=1))
+        good = reached & (self._relative_margin[alive] > 0)
         self.alive = alive[good]
         for one, posture in zip(self.alive, q[good], strict=True):
             part = float(np.abs(self._dynamics.weight(posture) / self._card.effort).max())
-            self._torque[one] = min(self._torque[one], _left(part))
+            self._torque_left[one] = min(self._torque_left[one], _torque_left(part))
         if pause is None:
             self._start = self._q.copy()
 
@@ -319,41 +326,41 @@ class _Follow:
         """Postures, their manipulability, and whether they have come to their poses."""
         q, measure = q.copy(), np.zeros(len(q))
         busy = np.arange(len(q))
-        for iteration in range(NEWTON):
+        for iteration in range(NEWTON_STEPS):
             x, J = self._arm.poses_and_jacobians(q[busy])
             error = 2 * dq.log(dq.mul(poses[busy], dq.conj(x)))
             measure[busy] = manipulability(J)
-            there = (np.abs(error).max(axis=1) < CLOSE) & (iteration > 0)
+            there = (np.abs(error).max(axis=1) < POSE_TOLERANCE) & (iteration > 0)
             busy, x, J, error = busy[~there], x[~there], J[~there], error[~there]
             if not len(busy):
                 break
             step = resolve(J, dq.translation(x), error, wish[busy])
             wish[busy] = 0.0
             largest = np.maximum(np.abs(step).max(axis=1), 1e-12)
-            q[busy] += step * np.minimum(1.0, STRIDE / largest)[:, None]
+            q[busy] += step * np.minimum(1.0, LARGEST_STEP / largest)[:, None]
         reached = np.ones(len(q), dtype=bool)
         reached[busy] = False
         return q, measure, reached
 
 
-def _write(origin: Floats, orientation: Floats) -> str:
-    """A `place` line, to a tenth of a millimetre; plain where the drawing is not turned."""
+def _place_statement(origin: Floats, orientation: Floats) -> str:
+    """A `pose` line, to a tenth of a millimetre; plain where the drawing is not turned."""
     at = ", ".join(f"{x:.4f}" for x in np.round(origin, 4) + 0.0)
     angles = np.degrees(roll_pitch_yaw(dq.matrix_from_quaternion(orientation)))
     turned = ", ".join(f"{angle:.10g} deg" for angle in np.round(angles, 9) + 0.0)
     return f"place at ({at}) m turned rpy({turned})"
 
 
-def _nowhere(
+def _no_placement_error(
     program: Program, kinematics: Kinematics, motion: Motion, settings: Settings
 ) -> ScriptError:
     """The error, with advice that was tried."""
     assert isinstance(program.placement, AutoPlacement)
     box = " x ".join(f"{side * 1e3:.0f}" for side in motion.box)
     held = straight(motion)
-    fits = (s for s in FEW_SCALES if has_room(scaled(motion, s), kinematics, settings))
+    fits = (s for s in TRIED_SCALES if can_be_placed(scaled(motion, s), kinematics, settings))
     said = [f"make it smaller: with scale {scale:g} ... end" for scale in islice(fits, 1)]
-    if held is not None and has_room(held, kinematics, settings):
+    if held is not None and can_be_placed(held, kinematics, settings):
         said.append("hold the tool straight: without 'tool' there is room")
     problem = Diagnostic(
         "E313",

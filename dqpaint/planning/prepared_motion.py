@@ -10,10 +10,10 @@ from dataclasses import dataclass
 
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion, plan
-from dqpaint.planning.occlusion import PLAIN
-from dqpaint.planning.placement import Placement, settle
-from dqpaint.planning.reachability import begin
-from dqpaint.planning.retiming import Motors, Retiming, slow_down
+from dqpaint.planning.occlusion import DEFAULT_SETTINGS
+from dqpaint.planning.placement import Placement, place_program
+from dqpaint.planning.reachability import reachable_start_posture
+from dqpaint.planning.retiming import Motors, Retiming, retime
 from dqpaint.program import Program
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.settings import Settings
@@ -27,23 +27,23 @@ class PreparedMotion:
         program: the drawing, at its place.
         motion: the reference, retimed where it may be.
         start: posture to begin in (n,) [rad].
-        placed: where `place auto` put the drawing.
-        slowed: how it was slowed down, where it may be.
+        placement: where `place auto` put the drawing.
+        retiming: how it was slowed down, where it may be.
     """
 
     program: Program
     motion: Motion
     start: Floats
-    placed: Placement | None = None
-    slowed: Retiming | None = None
+    placement: Placement | None = None
+    retiming: Retiming | None = None
 
 
 def prepare_motion(
     program: Program,
     kinematics: Kinematics,
-    settings: Settings = PLAIN,
+    settings: Settings = DEFAULT_SETTINGS,
     motors: Motors = "sudden",
-    stage: Callable[[str], AbstractContextManager[None]] = lambda _name: nullcontext(),
+    stopwatch: Callable[[str], AbstractContextManager[None]] = lambda _name: nullcontext(),
 ) -> PreparedMotion:
     """Place and plan a drawing for an arm, and find where the arm begins.
 
@@ -54,22 +54,22 @@ def prepare_motion(
         kinematics: of the arm.
         settings: of the run: place, start, null, on_limit.
         motors: what of their torques counts where the drawing may be slowed down.
-        stage: times a stage by its name: place, motion, start.
+        stopwatch: times a stage by its name: place, motion, start.
 
     Raises:
         ScriptError: the drawing has no place, no timetable, or leaves the arm's reach.
     """
     card = kinematics.card
-    with stage("place"):
-        program, placed = settle(program, kinematics, settings)
-    with stage("motion"):
+    with stopwatch("place"):
+        program, placed = place_program(program, kinematics, settings)
+    with stopwatch("motion"):
         motion = plan(program, card.canvas.pose)
     if settings.recorded is not None:
         return PreparedMotion(program, motion, card.home, placed)
-    with stage("start"):
-        best = begin(motion, kinematics, settings.null).posture
+    with stopwatch("start"):
+        best = reachable_start_posture(motion, kinematics, settings.null).posture
         start = card.home if settings.start == "home" else best
         if settings.on_limit != "slow":
             return PreparedMotion(program, motion, start, placed)
-        slowed = slow_down(motion, kinematics, start, settings.null, motors)
+        slowed = retime(motion, kinematics, start, settings.null, motors)
     return PreparedMotion(program, slowed.motion, start, placed, slowed)

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from dqpaint.diagnostics import Diagnostic, ScriptError
 from dqpaint.motion import Motion
-from dqpaint.planning.ideal_run import WORTH_A_LOOK, set_out
-from dqpaint.planning.suggestions import advise
+from dqpaint.planning.ideal_run import find_start_posture
+from dqpaint.planning.suggestions import suggest
 from dqpaint.robots.kinematics import (
     DEFAULT_OBJECTIVE,
     PATH_TOLERANCE,
@@ -24,9 +24,9 @@ from dqpaint.robots.kinematics import (
 if TYPE_CHECKING:
     from dqpaint.simulation import Track
 
-LOOKS, MOST_LOOKS = 9, 96  # at a stroke, for its farthest point; at a drawing
-MOST_TOLD, MOST_NAMED = 5, 6  # lines with a message of their own; further ones by their numbers
-WORTH_SAYING = np.radians(0.5)
+ROWS_A_STROKE, MOST_ROWS = 9, 96  # at a stroke, for its farthest point; at a drawing
+MOST_MESSAGES, MOST_NAMED = 5, 6  # lines with a message of their own; further ones by their numbers
+LEAST_ANGLE_SHOWN = np.radians(0.5)
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,9 @@ class Unreachable:
     alone: bool = True
 
 
-def begin(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_OBJECTIVE) -> StartPosture:
+def reachable_start_posture(
+    motion: Motion, kinematics: Kinematics, null: str = DEFAULT_OBJECTIVE
+) -> StartPosture:
     """The posture that leaves the most margin over the whole drawing.
 
     Args:
@@ -53,20 +55,22 @@ def begin(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_OBJECTIVE)
     Raises:
         ScriptError: the drawing leaves the arm's reach, wherever it begins.
     """
-    found = set_out(motion, kinematics, null)
+    found = find_start_posture(motion, kinematics, null)
     if isinstance(found, StartPosture) and found.margin >= 0:
         return found
     rows = waypoints(motion.stroke)
-    outside = _outside(motion, kinematics, rows)
+    outside = _find_unreachable(motion, kinematics, rows)
     if outside:
-        raise out_of_reach(motion, kinematics, outside, null)
+        raise reach_error(motion, kinematics, outside, null)
     if isinstance(found, NoPosture):
         at = Unreachable(int(rows[found.index]), found, alone=found.index == 0)
-        raise out_of_reach(motion, kinematics, [at], null)
+        raise reach_error(motion, kinematics, [at], null)
     return found
 
 
-def check_worst(track: "Track", kinematics: Kinematics, null: str = DEFAULT_OBJECTIVE) -> None:
+def check_largest_error(
+    track: "Track", kinematics: Kinematics, null: str = DEFAULT_OBJECTIVE
+) -> None:
     """Look again where a run strayed most: the forecast sees a drawing at some of its rows alone.
 
     A pose that is out of reach keeps the arm at least as far away as its shortfall.
@@ -74,19 +78,19 @@ def check_worst(track: "Track", kinematics: Kinematics, null: str = DEFAULT_OBJE
     Raises:
         ScriptError: no posture reaches the pose of that row.
     """
-    row = worst_row(track)
+    row = largest_error_row(track)
     if row is not None:
-        check_row(track.motion, kinematics, row, null)
+        check_row_reached(track.motion, kinematics, row, null)
 
 
-def worst_row(track: "Track") -> int | None:
+def largest_error_row(track: "Track") -> int | None:
     """Where a run strayed most; None if that is not worth a look."""
     stray = np.linalg.norm(track.points - track.motion.points, axis=1)
     row = int(np.argmax(stray))
-    return row if stray[row] >= WORTH_A_LOOK else None
+    return row if stray[row] >= PATH_TOLERANCE else None
 
 
-def check_row(
+def check_row_reached(
     motion: Motion, kinematics: Kinematics, row: int, null: str = DEFAULT_OBJECTIVE
 ) -> None:
     """See that the arm reaches the pose of a row.
@@ -96,15 +100,17 @@ def check_row(
     """
     if least_errors(kinematics, motion.pose[row : row + 1])[0] >= PATH_TOLERANCE:
         rows = np.unique(np.append(waypoints(motion.stroke), row))
-        outside = _outside(motion, kinematics, rows)
+        outside = _find_unreachable(motion, kinematics, rows)
         if outside:
-            raise out_of_reach(motion, kinematics, outside, null)
+            raise reach_error(motion, kinematics, outside, null)
 
 
-def _outside(motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp]) -> list[Unreachable]:
+def _find_unreachable(
+    motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp]
+) -> list[Unreachable]:
     """The lines of which no posture reaches all, in order; looked at in some rows and between."""
     strokes = np.unique(motion.stroke[rows])
-    looks = min(LOOKS, max(2, MOST_LOOKS // len(strokes)))
+    looks = min(ROWS_A_STROKE, max(2, MOST_ROWS // len(strokes)))
     for stroke in strokes:
         its = np.flatnonzero(motion.stroke == stroke)
         rows = np.append(rows, its[np.linspace(0, len(its) - 1, looks).astype(int)])
@@ -116,7 +122,7 @@ def _outside(motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp]) -> 
     for line in np.unique(source):
         its = beyond[source == line]
         worst = its[left[its].argmax()]
-        if len(found) >= MOST_TOLD:
+        if len(found) >= MOST_MESSAGES:
             found.append(Unreachable(int(rows[worst])))
             continue
         few = rows[np.unique([its[0], worst, its[-1]])].tolist()
@@ -127,16 +133,16 @@ def _outside(motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp]) -> 
     return found
 
 
-def out_of_reach(
+def reach_error(
     motion: Motion,
     kinematics: Kinematics,
-    outside: list[Unreachable],
+    unreachable: list[Unreachable],
     null: str = DEFAULT_OBJECTIVE,
 ) -> ScriptError:
     """The error for lines of a motion, some of whose rows no posture reaches."""
     program = motion.program
-    told, others = outside[:MOST_TOLD], outside[MOST_TOLD:]
-    advice = advise(motion, kinematics, np.array([one.row for one in told]), null)
+    told, others = unreachable[:MOST_MESSAGES], unreachable[MOST_MESSAGES:]
+    advice = suggest(motion, kinematics, np.array([one.row for one in told]), null)
     problems = []
     for one in told:
         last = one is told[-1]
@@ -149,7 +155,7 @@ def out_of_reach(
         problems.append(
             Diagnostic(
                 "E310",
-                f"sample {one.row} ({motion.t[one.row]:.2f} s) {_fault(one, kinematics.card.name)}",
+                f"sample {one.row} ({motion.t[one.row]:.2f} s) {_describe(one, kinematics.card.name)}",
                 program.segments[int(motion.stroke[one.row])].span,
                 label=label,
                 help=advice if last else "",
@@ -158,11 +164,11 @@ def out_of_reach(
     return ScriptError(program.name, program.text, tuple(problems))
 
 
-def _fault(one: Unreachable, name: str) -> str:
+def _describe(one: Unreachable, name: str) -> str:
     """How far it is away, in words."""
     assert one.miss is not None
     far, angle = one.miss.shortfall * 1e3, np.degrees(one.miss.angle)
-    turned = one.miss.angle > WORTH_SAYING
+    turned = one.miss.angle > LEAST_ANGLE_SHOWN
     if not one.alone:
         away = f"{far:.0f} mm" + (f" and {angle:.0f} deg" if turned else "")
         return f"is not reached by {name} from the strokes before it: it stays {away} away"

@@ -24,15 +24,15 @@ from dqpaint.robots.kinematics import (
     resolve,
 )
 
-SHARE = 0.9  # of a limit is planned with; the rest is for what a law adds
-LEAST = 0.3  # of that at least is taken for the drawing, whatever the rest takes
-SLOWEST = 50.0  # times
-PASSES = 6
-ENOUGH = 1e-3
-RATE = 20.0  # [1/s] at which the arm comes back to the path, as every law does by itself
+LIMIT_SHARE = 0.9  # of a limit is planned with; the rest is for what a law adds
+LEAST_SHARE = 0.3  # of that at least is taken for the drawing, whatever the rest takes
+MOST_SLOWNESS = 50.0  # times
+MOST_PASSES = 6
+CONVERGED = 1e-3
+RETURN_RATE = 20.0  # [1/s] at which the arm comes back to the path, as every law does by itself
 MOST_NAMED = 3  # lines
-TAKEN_UP = 1e-3  # [s] in which the motors of the plant `stiff` take up a new rate
-SETTLED = 1e-3  # [rad, m] from the path: it has arrived there, and what it needs now counts
+SUDDEN_TIME = 1e-3  # [s] in which the motors of the plant `stiff` take up a new rate
+ON_PATH = 1e-3  # [rad, m] from the path: it has arrived there, and what it needs now counts
 
 Motors = Literal["none", "smooth", "sudden"]
 
@@ -43,32 +43,32 @@ class Retiming:
 
     Attributes:
         motion: re-timed.
-        longer: how much longer it takes [s].
-        slowest: the least pace, as a part of the asked one.
+        extra_time: how much longer it takes [s].
+        lowest_pace: the least pace, as a part of the asked one.
         lines: of the drawing that were slowed.
     """
 
     motion: Motion
-    longer: float
-    slowest: float
+    extra_time: float
+    lowest_pace: float
     lines: tuple[SourceLine, ...]
 
     @property
     def as_json(self) -> dict[str, Any]:
         """For a summary."""
         lines = [self.motion.program.line_reference(line) for line in self.lines]
-        return {"longer_s": self.longer, "slowest": self.slowest, "lines": lines}
+        return {"longer_s": self.extra_time, "slowest": self.lowest_pace, "lines": lines}
 
     def __str__(self) -> str:
         if not self.lines:
             return "as asked: no joint needs more time"
         where = ", ".join(map(self.motion.program.line_name, self.lines[:MOST_NAMED]))
         more = f" and {len(self.lines) - MOST_NAMED} more" if len(self.lines) > MOST_NAMED else ""
-        said = f"{self.longer:.3g} s longer, down to {self.slowest:.2g} of the asked speed"
+        said = f"{self.extra_time:.3g} s longer, down to {self.lowest_pace:.2g} of the asked speed"
         return f"{said} (line{'s' if len(self.lines) > 1 else ''} {where}{more})"
 
 
-def slow_down(
+def retime(
     motion: Motion, kinematics: Kinematics, start: Floats, null: str, motors: Motors
 ) -> Retiming:
     """The motion at a pace an arm can keep, as far as slowness helps.
@@ -85,21 +85,21 @@ def slow_down(
             rates need that are taken up at once.
     """
     slowness = np.ones(len(motion.t))
-    for turn in range(PASSES):
-        needed = _needed(motion, kinematics, start, null, motors, slowness, turn > 0)
-        needed = np.clip(needed, 1, SLOWEST)
-        if turn and (needed <= slowness * (1 + ENOUGH)).all():
+    for turn in range(MOST_PASSES):
+        needed = _needed_slowness(motion, kinematics, start, null, motors, slowness, turn > 0)
+        needed = np.clip(needed, 1, MOST_SLOWNESS)
+        if turn and (needed <= slowness * (1 + CONVERGED)).all():
             break
         slowness = np.maximum(slowness, smooth(needed, motion.period))
     if (slowness == 1).all():
         return Retiming(motion, 0.0, 1.0, ())
     placed = plan(motion.program, kinematics.card.canvas.pose, Pace(slowness, motion.period))
-    lines = motion.source[slowness > 1 + ENOUGH].present
+    lines = motion.source[slowness > 1 + CONVERGED].present
     longer = float(placed.t[-1] - motion.t[-1])
     return Retiming(placed, longer, float(1 / slowness.max()), tuple(lines))
 
 
-def _needed(
+def _needed_slowness(
     motion: Motion,
     kinematics: Kinematics,
     start: Floats,
@@ -115,7 +115,7 @@ def _needed(
     """
     card, period = kinematics.card, motion.period
     wish, zero = make_secondary_task(null, card, start), np.zeros(card.joints)
-    speed = SHARE * card.speed
+    speed = LIMIT_SHARE * card.speed
     torques = _Torques(kinematics) if motors != "none" else None
     growth = np.gradient(slowness, period) if len(slowness) > 1 else np.zeros(1)
     needed = np.empty(len(motion.t))
@@ -128,14 +128,16 @@ def _needed(
         x, J = kinematics.pose_and_jacobian(q)
         point = dq.translation(x)
         error = 2 * dq.log(dq.mul(dq.nearest(pose, x), dq.conj(x)))
-        settled = (settled or float(np.abs(error).max()) < SETTLED) and not jump
+        settled = (settled or float(np.abs(error).max()) < ON_PATH) and not jump
         back = resolve(J, point, error, zero)
         along = resolve(J, point, twist, zero)
         pull = resolve(J, point, np.zeros(6), wish(q, J, point))
-        room = np.maximum(speed - np.abs(pull), LEAST * speed)
+        room = np.maximum(speed - np.abs(pull), LEAST_SHARE * speed)
         needed[k] = (np.abs(along) / room).max()
         if settled and returning:
-            needed[k] = max(needed[k], (np.abs(along + slow * (pull + RATE * back)) / speed).max())
+            needed[k] = max(
+                needed[k], (np.abs(along + slow * (pull + RETURN_RATE * back)) / speed).max()
+            )
         if torques is not None:
             acceleration = slope / slow**2 - twist * (grow / slow**3)
             rates = along / slow + pull
@@ -143,7 +145,7 @@ def _needed(
             if motors == "sudden" and not jump:
                 needed[k] = max(needed[k], slow * torques.jolt(q, rates, before))
             before = rates
-        close = 1 - math.exp(-RATE * period * slow)
+        close = 1 - math.exp(-RETURN_RATE * period * slow)
         free = q + period * (along + slow * pull) + close * back
         q = np.clip(free, card.lower, card.upper)
         settled = settled and bool((q == free).all())  # a joint at its end: no pace helps it back
@@ -155,7 +157,7 @@ class _Torques:
 
     def __init__(self, kinematics: Kinematics) -> None:
         self._dynamics = Dynamics(kinematics)
-        self._most = SHARE * kinematics.card.effort
+        self._most = LIMIT_SHARE * kinematics.card.effort
 
     def excess(self, q: Floats, rates: Floats, J: Floats, point: Floats, slope: Floats) -> float:
         """By which factor, from joint rates (n,) and the tool's acceleration (6,)."""
@@ -168,11 +170,13 @@ class _Torques:
         The factor is that of a smooth motion, whose rates change with the square of the pace. At a
         corner they change with the pace itself, and it takes a few passes to get there.
         """
-        return self._slower(q, rates, (rates - before) / TAKEN_UP)
+        return self._slower(q, rates, (rates - before) / SUDDEN_TIME)
 
     def _slower(self, q: Floats, rates: Floats, bend: Floats) -> float:
         weight = self._dynamics.weight(q)
         moving = np.abs(self._dynamics.torque(q, rates, bend) - weight)
         room = self._most - np.abs(weight)
-        over = room > LEAST * self._most  # no pace helps a motor that can hardly bear the weight
+        over = (
+            room > LEAST_SHARE * self._most
+        )  # no pace helps a motor that can hardly bear the weight
         return float(np.sqrt(np.max(moving[over] / room[over], initial=0.0)))

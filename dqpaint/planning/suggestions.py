@@ -11,16 +11,18 @@ from numpy.typing import NDArray
 
 from dqpaint.motion import Motion, plan, scaled, straight
 from dqpaint.planning.ideal_run import can_draw
-from dqpaint.planning.placement import FEW_SCALES, has_room
+from dqpaint.planning.placement import TRIED_SCALES, can_be_placed
 from dqpaint.robots.kinematics import DEFAULT_OBJECTIVE, PATH_TOLERANCE, Kinematics, least_errors
 from dqpaint.robots.model import installed_names, read_card
 from dqpaint.settings import Settings
 
-SCALES = np.arange(0.95, 0.05, -0.05)
-NOTHING = "no smaller scale, other place, straight tool or other arm helps: draw it another way"
+SMALLER_SCALES = np.arange(0.95, 0.05, -0.05)
+NO_SUGGESTION = (
+    "no smaller scale, other place, straight tool or other arm helps: draw it another way"
+)
 
 
-def advise(
+def suggest(
     motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp], null: str = DEFAULT_OBJECTIVE
 ) -> str:
     """What to change, each of which takes the error away.
@@ -33,30 +35,34 @@ def advise(
     """
     settings = Settings(null=null)
     said = []
-    scale = _scale(motion, kinematics, rows, null)
+    scale = _reachable_scale(motion, kinematics, rows, null)
     if scale is not None:
         said.append(f"make it smaller: with scale {scale:.2g} ... end")
-    if has_room(motion, kinematics, settings):
+    if can_be_placed(motion, kinematics, settings):
         said.append("move it: place auto finds room")
     held = straight(motion)
     if held is not None and _draws(held, kinematics, rows, null):
         said.append("hold the tool straight: without 'tool' it is reached")
-    return "; or ".join(said) or next(_last(motion, held, kinematics, rows, settings), NOTHING)
+    return "; or ".join(said) or next(
+        _costly_suggestions(motion, held, kinematics, rows, settings), NO_SUGGESTION
+    )
 
 
-def _scale(
+def _reachable_scale(
     motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp], null: str
 ) -> float | None:
     """The largest scale about the drawing's origin at which the arm draws all of it."""
-    poses = np.concatenate([scaled(motion, scale).pose[rows] for scale in SCALES])
-    reached = (least_errors(kinematics, poses) < PATH_TOLERANCE).reshape(len(SCALES), len(rows))
-    for scale in SCALES[reached.all(axis=1)]:
+    poses = np.concatenate([scaled(motion, scale).pose[rows] for scale in SMALLER_SCALES])
+    reached = (least_errors(kinematics, poses) < PATH_TOLERANCE).reshape(
+        len(SMALLER_SCALES), len(rows)
+    )
+    for scale in SMALLER_SCALES[reached.all(axis=1)]:
         if can_draw(scaled(motion, scale), kinematics, null):
             return float(scale)
     return None
 
 
-def _last(
+def _costly_suggestions(
     motion: Motion,
     held: Motion | None,
     kinematics: Kinematics,
@@ -64,10 +70,10 @@ def _last(
     settings: Settings,
 ) -> Iterator[str]:
     """What is tried where nothing simple helps: two changes at once, or another arm."""
-    for scale in FEW_SCALES:
-        if has_room(scaled(motion, scale), kinematics, settings):
+    for scale in TRIED_SCALES:
+        if can_be_placed(scaled(motion, scale), kinematics, settings):
             yield f"make it smaller and move it: with scale {scale:g} ... end, and place auto"
-    if held is not None and has_room(held, kinematics, settings):
+    if held is not None and can_be_placed(held, kinematics, settings):
         yield "hold the tool straight, without 'tool', and move it: place auto finds room"
     for name in installed_names():
         if name == kinematics.card.name:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dqpaint.core import MOST_SAMPLES, record
+from dqpaint.core import DEFAULT_MAX_SAMPLES, record
 from dqpaint.diagnostics import Diagnostic, SourceLine, Span, line_name
 from dqpaint.program.colours import Colour as Colour
 from dqpaint.program.taylor import Floats, Taylor
@@ -308,7 +308,7 @@ class Program:
     start: Pose
     segments: tuple[Segment, ...]
     notes: tuple[Diagnostic, ...]  # warnings; errors are raised
-    most_samples: int = MOST_SAMPLES
+    most_samples: int = DEFAULT_MAX_SAMPLES
 
     def line_name(self, line: SourceLine) -> str:
         """A line as a person reads it: `12`, `petal.traj:3`."""

@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
-from dqpaint.core import MOST_ALLOWED, MOST_SAMPLES, reason
+from dqpaint.core import DEFAULT_MAX_SAMPLES, LARGEST_MAX_SAMPLES, pydantic_reason
 from dqpaint.errors import UsageError
 from dqpaint.settings.declaration import Option, Setting, Variant, settings_of
 from dqpaint.settings.readers import (
@@ -171,9 +171,9 @@ class DrawingSettings(Group):
 
     max_samples: Annotated[
         int,
-        Field(ge=1, le=MOST_ALLOWED),
+        Field(ge=1, le=LARGEST_MAX_SAMPLES),
         Option("samples that the drawing may have; each takes about 1 kB", "N"),
-    ] = MOST_SAMPLES
+    ] = DEFAULT_MAX_SAMPLES
 
 
 class LightSettings(Group):
@@ -378,7 +378,7 @@ def checked(fields: Mapping[str, object], strict: bool = False) -> Settings:
         if first["type"] == "extra_forbidden":
             known = ", ".join(SETTINGS)
             raise UsageError(f"no setting named '{name}'; known: {known}") from None
-        raise UsageError(f"{name} {first['input']!r} {reason(first)}") from None
+        raise UsageError(f"{name} {first['input']!r} {pydantic_reason(first)}") from None
 
 
 SIMULATED = ("controller", "gains", "plant", "disturb", "start", "null", "on_limit")

@@ -39,7 +39,7 @@ from dqpaint.simulation.sensors import (
 from dqpaint.simulation.stop_on_limit import limit_error, meets_limit
 
 REPORT_EVERY = 50  # rows
-BLOCK = 512  # rows whose Jacobians are kept
+JACOBIAN_ROWS = 512  # rows whose Jacobians are kept
 
 
 @dataclass(frozen=True)
@@ -53,8 +53,8 @@ class Track:
         motion: the reference.
         posture: true joint angles (N, n) [rad].
         pose: true tool poses (N, 8) in the base frame, signs continuous.
-        read: joint angles (N, n) [rad] as the encoders read them.
-        believed: tool poses (N, 8) as the law's model has them at these.
+        measured_posture: joint angles (N, n) [rad] as the encoders read them.
+        measured_pose: tool poses (N, 8) as the law's model has them at these.
         manipulability: sqrt(det(J J')) (N,) at the true postures.
         command: what the arm was given (N, n): joint rates [rad/s], or torques [Nm].
         torques: whether the commands are torques.
@@ -67,8 +67,8 @@ class Track:
     motion: Motion
     posture: Floats
     pose: Floats
-    read: Floats
-    believed: Floats
+    measured_posture: Floats
+    measured_pose: Floats
     manipulability: Floats
     command: Floats
     torques: bool
@@ -80,8 +80,8 @@ class Track:
         for array in (
             self.posture,
             self.pose,
-            self.read,
-            self.believed,
+            self.measured_posture,
+            self.measured_pose,
             self.manipulability,
             self.command,
             self.effort,
@@ -145,7 +145,7 @@ def track(
     )  # fmt: skip
     if not log.finite.all():
         raise _diverged(float(motion.t[-1]))
-    return _finished(log, motion, kinematics.card, controller.drives_torque)
+    return _make_track(log, motion, kinematics.card, controller.drives_torque)
 
 
 def track_many(
@@ -193,7 +193,7 @@ def track_many(
         lambda k: progress(k / len(motion.t)) if k % REPORT_EVERY == 0 else None,
     )  # fmt: skip
     return [
-        _finished(log.one(i), motion, kinematics.card, controller.drives_torque) if good else None
+        _make_track(log.one(i), motion, kinematics.card, controller.drives_torque) if good else None
         for i, good in enumerate(log.finite.tolist())
     ]
 
@@ -250,11 +250,11 @@ class _Log:
     def __init__(self, n: int, shape: tuple[int, ...], joints: int) -> None:
         of_joints = (n, *shape, joints)
         self.posture, self.effort = np.empty(of_joints), np.zeros(of_joints)
-        self.read, self.believed = np.empty(of_joints), np.empty((n, *shape, 8))
+        self.measured_posture, self.measured_pose = np.empty(of_joints), np.empty((n, *shape, 8))
         self.wanted, self.command = np.empty(of_joints), np.empty(of_joints)
         self.pose, self.manipulability = np.empty((n, *shape, 8)), np.empty((n, *shape))
         self.disturbance = np.zeros((n, *shape, 6))
-        self._jacobian = np.empty((BLOCK, *shape, 6, joints))
+        self._jacobian = np.empty((JACOBIAN_ROWS, *shape, 6, joints))
 
     @property
     def finite(self) -> NDArray[np.bool_]:
@@ -280,11 +280,11 @@ class _Log:
     ) -> None:
         """Record row k; manipulabilities are computed a block at a time, which costs less."""
         self.posture[k], self.effort[k] = plant.posture, plant.effort
-        self.read[k], self.believed[k] = measured.posture, measured.pose
-        self.pose[k], self._jacobian[k % BLOCK] = truth
+        self.measured_posture[k], self.measured_pose[k] = measured.posture, measured.pose
+        self.pose[k], self._jacobian[k % JACOBIAN_ROWS] = truth
         self.wanted[k], self.command[k] = wanted, given
-        if k % BLOCK == BLOCK - 1 or k == len(self.pose) - 1:
-            first = k - k % BLOCK
+        if k % JACOBIAN_ROWS == JACOBIAN_ROWS - 1 or k == len(self.pose) - 1:
+            first = k - k % JACOBIAN_ROWS
             self.manipulability[first : k + 1] = manipulability(self._jacobian[: k + 1 - first])
 
     def stop_at_limit(self, card: Card, motion: Motion, torques: bool, k: int) -> None:
@@ -302,7 +302,7 @@ class _Log:
         """The limits that held a joint in some rows."""
         return find_clamps(
             card, motion.t[rows], motion.source[rows],
-            (self.posture if torques else self.read)[rows], self.wanted[rows], self.command[rows],
+            (self.posture if torques else self.measured_posture)[rows], self.wanted[rows], self.command[rows],
             self.effort[rows], torques, motion.period,
         )  # fmt: skip
 
@@ -310,7 +310,7 @@ class _Log:
         """The joint rates (n,) of an unmodelled velocity (N, 6) of the tool at row k."""
         if drift is None:
             return None
-        point, J = dq.translation(self.pose[k]), self._jacobian[k % BLOCK]
+        point, J = dq.translation(self.pose[k]), self._jacobian[k % JACOBIAN_ROWS]
         self.disturbance[k] = dq.twist_from_point(drift[k, ..., :3], drift[k, ..., 3:], point)
         return resolve(J, point, self.disturbance[k], None)
 
@@ -331,13 +331,13 @@ def _drift(
     return found if found.any() else None
 
 
-def _finished(log: _Log, motion: Motion, card: Card, torques: bool) -> Track:
+def _make_track(log: _Log, motion: Motion, card: Card, torques: bool) -> Track:
     log.wanted[-1] = log.command[-1]  # the last command is never carried out
     held = log.clamps(slice(None), card, motion, torques)
-    for poses in (log.pose, log.believed):
+    for poses in (log.pose, log.measured_pose):
         poses[0] = dq.nearest(poses[0], motion.pose[0])
     return Track(
-        motion, log.posture, dq.continuous(log.pose), log.read, dq.continuous(log.believed),
+        motion, log.posture, dq.continuous(log.pose), log.measured_posture, dq.continuous(log.measured_pose),
         log.manipulability, log.command, torques, log.effort, held, log.disturbance,
     )  # fmt: skip
 

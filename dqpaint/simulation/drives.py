@@ -17,7 +17,7 @@ from dqpaint.robots.kinematics import (
     resolve,
 )
 
-STILL = np.zeros(6)  # the twist of a tool that stays
+NO_TWIST = np.zeros(6)  # the twist of a tool that stays
 
 
 class Drive(Protocol):
@@ -84,7 +84,7 @@ class RateDrive:
         wish = self._wish(seen.posture, seen.jacobian, point)
         if self._resolved:
             return resolve(seen.jacobian, point, answer, wish)
-        return answer + resolve(seen.jacobian, point, STILL, wish)
+        return answer + resolve(seen.jacobian, point, NO_TWIST, wish)
 
     def hold(self, posture: Floats) -> Floats:
         """No rates (n,)."""

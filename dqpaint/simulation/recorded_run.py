@@ -23,13 +23,18 @@ from dqpaint.motion import Motion
 from dqpaint.robots.kinematics import Kinematics, manipulability
 from dqpaint.simulation.closed_loop import Track
 
-LARGEST = 100_000_000  # bytes of a file
+LARGEST_FILE = 100_000_000  # bytes of a file
 POSE = ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz")
-UNIT = 1e-3  # a quaternion's norm may be off 1 by this: it was printed with few digits
+NORM_TOLERANCE = 1e-3  # a quaternion's norm may be off 1 by this: it was printed with few digits
 LONG_GAP = 0.05  # [s] between two rows that is worth a word, if it is several periods
 SAME_TIME = 1e-9  # [s]
 SHORTEST = 1e-6  # [s] between two rows
-MOST = {"_s": 1e13, "_rad": 1e4, "_deg": 1e6, "_m": 1e3}  # more is a slip, by a column's unit
+LARGEST_BY_UNIT = {
+    "_s": 1e13,
+    "_rad": 1e4,
+    "_deg": 1e6,
+    "_m": 1e3,
+}  # more is a slip, by a column's unit
 LARGEST_NUMBER = 1e9  # of the others
 MOST_NAMED = 8
 
@@ -91,12 +96,14 @@ class Recording:
         return tuple(found)
 
 
-def _no_law(_seen: Seen, _gains: Gains) -> Floats:
+def _refuse_to_command(_seen: Seen, _gains: Gains) -> Floats:
     """The law is not known: the arm was driven elsewhere."""
     raise UsageError("a recorded run has no law")
 
 
-RECORDED: Controller[Gains] = Controller("recorded", "a recorded run", Gains, _no_law, "rates")
+RECORDED: Controller[Gains] = Controller(
+    "recorded", "a recorded run", Gains, _refuse_to_command, "rates"
+)
 
 
 def read_recording(path: str, joints: int) -> Recording:
@@ -116,8 +123,8 @@ def read_recording(path: str, joints: int) -> Recording:
     """
     file = Path(path)
     try:
-        if file.stat().st_size > LARGEST:
-            raise DqpaintError(f"{file.name} is larger than {LARGEST // 10**6} MB")
+        if file.stat().st_size > LARGEST_FILE:
+            raise DqpaintError(f"{file.name} is larger than {LARGEST_FILE // 10**6} MB")
         data = file.read_bytes()
     except OSError as problem:
         raise UsageError(f"recorded run '{path}' cannot be read: {problem.strerror}") from None
@@ -183,7 +190,7 @@ class _Table:
             value = np.nan
         if not np.isfinite(value):
             raise self.fault(row, column, f"'{text.strip()[:40]}' is not a number")
-        most = MOST.get(column[column.rfind("_") :], LARGEST_NUMBER)
+        most = LARGEST_BY_UNIT.get(column[column.rfind("_") :], LARGEST_NUMBER)
         if abs(value) > most:
             raise self.fault(row, column, f"{value:.6g} is more than any arm does (up to {most:g})")
         return value
@@ -230,7 +237,7 @@ def _poses(table: _Table) -> Floats:
         )
     values = table.columns(POSE)
     length = np.linalg.norm(values[:, 3:], axis=1)
-    off = np.flatnonzero(np.abs(length - 1) > UNIT)
+    off = np.flatnonzero(np.abs(length - 1) > NORM_TOLERANCE)
     if len(off):
         text = f"the quaternion has the length {length[off[0]]:.6g}, not 1"
         raise table.fault(table.rows[int(off[0])], "qw", text)
@@ -270,15 +277,15 @@ def replay(recording: Recording, motion: Motion, kinematics: Kinematics) -> Trac
         posture = along_cubics(t, recording.postures, now)
         pose, J = kinematics.poses_and_jacobians(posture)
         measure = manipulability(J)
-        command = _given(recording, posture, motion)
+        command = _recorded_commands(recording, posture, motion)
     pose[0] = dq.nearest(pose[0], motion.pose[0])
     pose = dq.continuous(pose)
     return Track(
         motion=motion,
         posture=posture,
         pose=pose,
-        read=posture,
-        believed=pose,
+        measured_posture=posture,
+        measured_pose=pose,
         manipulability=measure,
         command=command,
         torques=recording.torques,
@@ -288,7 +295,7 @@ def replay(recording: Recording, motion: Motion, kinematics: Kinematics) -> Trac
     )
 
 
-def _given(recording: Recording, posture: Floats, motion: Motion) -> Floats:
+def _recorded_commands(recording: Recording, posture: Floats, motion: Motion) -> Floats:
     """What the joints were given at each row (N, n): what is recorded, else how they moved."""
     if recording.commands is None:
         rates = np.diff(posture, axis=0, append=posture[-1:]) / motion.period

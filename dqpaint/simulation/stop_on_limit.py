@@ -8,7 +8,7 @@ from dqpaint.motion import Motion
 from dqpaint.robots.kinematics import LIMIT_TOLERANCE, Clamp
 from dqpaint.robots.model import Card
 
-SAYS = {
+VERB_UNIT_FIX = {
     "position": ("go to", "deg", "turn the tool less, or move the drawing with place"),
     "speed": ("turn at", "deg/s", "draw it slower, or let --on-limit slow do it"),
     "torque": ("bear", "Nm", "a lower speed, a smoother law or lower gains need less torque"),
@@ -28,7 +28,7 @@ def meets_limit(
 
 def limit_error(motion: Motion, clamp: Clamp) -> ScriptError:
     """The error that names a limit: joint, time, line and amount."""
-    verb, unit, cure = SAYS[clamp.kind]
+    verb, unit, cure = VERB_UNIT_FIX[clamp.kind]
     limit, wanted = clamp.amounts
     amount = f"more than {limit}" if limit == wanted else wanted
     problem = Diagnostic(

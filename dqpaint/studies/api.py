@@ -263,7 +263,7 @@ def tune(
     requests.check_named(given.get("controller"))
     with _kept(folder) as place:
         made = tuning.tune(
-            _name(drawing), texts, validate.chosen(given), place, factor=effort, error=figure,
+            _name(drawing), texts, validate.settings_of_choices(given), place, factor=effort, error=figure,
             effort=effort_figure, count=runs, budget=budget, jobs=workers(jobs, cluster),
             reporter=_reporter(progress),
         )  # fmt: skip

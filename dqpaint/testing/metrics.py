@@ -8,7 +8,7 @@ from functools import cache, partial
 import numpy as np
 
 from dqpaint.errors import DqpaintError
-from dqpaint.metrics import METRICS, Column, Figure, Values, measure, suffix
+from dqpaint.metrics import METRICS, Column, Figure, Values, measure, unit_suffix
 from dqpaint.plants import PLANTS
 from dqpaint.simulation import Track
 from dqpaint.testing.runs import require, run
@@ -48,10 +48,10 @@ def two_runs() -> tuple[Track, Track]:
 def _check_name(name: str, unit: str) -> None:
     require(bool(NAME.fullmatch(name)), f"'{name}' is made of letters, digits and _")
     if unit:
-        said = name.endswith((suffix(unit), "_integral"))
-        require(said, f"'{name}' ends with its unit: {suffix(unit)}")
+        said = name.endswith((unit_suffix(unit), "_integral"))
+        require(said, f"'{name}' ends with its unit: {unit_suffix(unit)}")
     else:
-        bare = not name.endswith(tuple(map(suffix, UNITS)))
+        bare = not name.endswith(tuple(map(unit_suffix, UNITS)))
         require(bare, f"'{name}' does not end with a unit, as it has none")
 
 
@@ -66,11 +66,11 @@ def _has_values(one: Column | Figure, track: Track) -> bool:
 
 def _check_figure(one: Figure, track: Track) -> bool:
     table = measure(track).table
-    value = one.of(track, table)
+    value = one.measure(track, table)
     if value is None:
         return False
     require(math.isfinite(value), f"'{one.name}' is a finite number")
-    require(one.of(track, table) == value, f"'{one.name}' repeats itself bit for bit")
+    require(one.measure(track, table) == value, f"'{one.name}' repeats itself bit for bit")
     return True
 
 

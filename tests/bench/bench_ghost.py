@@ -9,7 +9,7 @@ import time
 from functools import partial
 
 import dqpaint
-from dqpaint.painting.picture import lights_of
+from dqpaint.painting.picture import lamp_paths
 from dqpaint.render.scene_arm import scene_arm_of_run
 from dqpaint.robots.model.card import read_card
 
@@ -23,16 +23,16 @@ def main():
         camera, exposure, scene = painting.picture.camera, painting.picture.exposure, painting.scene
         card = read_card(painting.robot)
         times = {"ghost": [], "motion": [], "occlusion": []}
-        shine = partial(lights_of, scene)
+        shine = partial(lamp_paths, scene)
         for _ in range(rounds):
             begin = time.perf_counter()
-            with scene_arm_of_run(painting.settings, card, painting.cast) as staging:
+            with scene_arm_of_run(painting.settings, card, painting.arm_motion) as staging:
                 staging.render_still(camera, shine, exposure)
             flashed = time.perf_counter()
-            with scene_arm_of_run(painting.settings, card, painting.cast) as staging:
+            with scene_arm_of_run(painting.settings, card, painting.arm_motion) as staging:
                 staging.render_blurred(camera, shine, exposure)
             middle = time.perf_counter()
-            with scene_arm_of_run(painting.settings, card, painting.cast) as staging:
+            with scene_arm_of_run(painting.settings, card, painting.arm_motion) as staging:
                 for sweep in scene.light:
                     sweep.occluded_by(staging, camera.position)
             times["ghost"].append(flashed - begin)

@@ -6,7 +6,7 @@ import dqpaint
 from dqpaint.cli import listing, report
 from dqpaint.diagnostics import SourceLine
 from dqpaint.language import read
-from dqpaint.metrics import asked_columns
+from dqpaint.metrics import reference_columns
 from dqpaint.motion import plan
 from dqpaint.outputs.summary import summarise
 from dqpaint.robots.model.card import read_card
@@ -44,21 +44,27 @@ def test_rows_of_disturbances_and_set_points_have_their_figures_and_units(tmp_pa
     from dataclasses import replace
 
     from dqpaint.metrics.attenuation import Attenuation
-    from dqpaint.metrics.step_response import Response, SetPoint
+    from dqpaint.metrics.step_response import PartResponse, StepResponse
 
     path = tmp_path / "dot.traj"
     path.write_text("period 8 ms\nhold 80 ms\n")
     painting = dqpaint.draw(path, plant="ideal", size=(64, 36), disturb={"twist": {"x": 0.01}})
-    jump = SetPoint(
-        0.2, SourceLine(0, 7), Response(0.04, 1.25, 0.125, 0.002), Response(0.5, None, 0.25, 0.1)
+    jump = StepResponse(
+        0.2,
+        SourceLine(0, 7),
+        PartResponse(0.04, 1.25, 0.125, 0.002),
+        PartResponse(0.5, None, 0.25, 0.1),
     )
-    none = SetPoint(
-        0.4, SourceLine(0, 9), Response(0.01, 0.5, 0.0, 1e-15), Response(0.0, None, 0.0, 0.0)
+    none = StepResponse(
+        0.4,
+        SourceLine(0, 9),
+        PartResponse(0.01, 0.5, 0.0, 1e-15),
+        PartResponse(0.0, None, 0.0, 0.0),
     )
     told = replace(
         painting,
         attenuation={"translation": Attenuation(0.3, 0.1), "rotation": Attenuation(0.05, 0.1)},
-        set_points=(jump, none),
+        step_responses=(jump, none),
     )
     text = report.of_painting(told, [])
     assert "promised at most 0.1 s: broken, 3 times as much" in text
@@ -100,4 +106,4 @@ def test_lines_of_included_files_are_named(tmp_path):
     program = read(alone)
     line = SourceLine(0, 12)
     assert (program.line_name(line), program.line_reference(line)) == ("12", 12)
-    assert "file" not in asked_columns(plan(program, read_card("iiwa").canvas.pose))
+    assert "file" not in reference_columns(plan(program, read_card("iiwa").canvas.pose))

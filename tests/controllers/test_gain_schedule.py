@@ -65,7 +65,7 @@ def test_every_value_on_the_way_is_checked(text):
 
 def test_what_is_shown_is_what_was_written():
     assert read(k="5..20@10%").shown() == {"k": "5..20@10%", "q": 1.0}
-    shown = CONTROLLERS["hinf"].read_gains({"gamma_O": "0.5..0.25@10%"}).shown()
+    shown = CONTROLLERS["hinf"].read_gains({"gamma_O": "0.5..0.25@10%"}).as_dict()
     assert shown["gamma_O"] == "0.5..0.25@10%"
     assert shown["K_O"] == "4..8@10%"  # follows
     assert shown["gamma_T"] == 0.0707
@@ -87,15 +87,15 @@ def test_what_stands_before_a_first_jump_holds_until_then(text, at):
 
 
 def test_what_follows_from_a_gain_that_comes_back_is_not_shown_as_constant():
-    shown = CONTROLLERS["hinf"].read_gains({"K_T": "20..40@50%..20"}).shown()
+    shown = CONTROLLERS["hinf"].read_gains({"K_T": "20..40@50%..20"}).as_dict()
     assert shown["gamma_T"] == "0.0707107..0.0353553@50%..0.0707107@100%"
     assert shown["K_O"] == 40
 
 
 def test_both_values_of_a_jump_count_for_the_promise():
     dip = CONTROLLERS["hinf"].read_gains({"K_T": "40..10@95%..40@95%"})
-    assert dip.promise()[1] == pytest.approx(0.1)
-    assert CONTROLLERS["hinf"].read_gains({"K_T": "10@50%..40@50%"}).promise()[1] == 0.1
+    assert dip.disturbance_bounds()[1] == pytest.approx(0.1)
+    assert CONTROLLERS["hinf"].read_gains({"K_T": "10@50%..40@50%"}).disturbance_bounds()[1] == 0.1
 
 
 def test_a_ramp_has_a_bounded_number_of_points():
@@ -113,8 +113,10 @@ def test_what_counts_at_the_end_alone_has_no_ramp(law):
 
 @pytest.mark.parametrize(("gamma", "weakest"), [("0.1..0.3@50%..0.2@60%", 0.3), ("0.3..0.1", 0.3)])
 def test_the_weakest_promise_of_rotation_counts(gamma, weakest):
-    promise = CONTROLLERS["hinf"].read_gains({"gamma_O": gamma}).promise()
-    assert promise == pytest.approx(CONTROLLERS["hinf"].read_gains({"gamma_O": weakest}).promise())
+    promise = CONTROLLERS["hinf"].read_gains({"gamma_O": gamma}).disturbance_bounds()
+    assert promise == pytest.approx(
+        CONTROLLERS["hinf"].read_gains({"gamma_O": weakest}).disturbance_bounds()
+    )
 
 
 def test_a_gain_that_has_no_value_is_not_shown():
@@ -122,5 +124,5 @@ def test_a_gain_that_has_no_value_is_not_shown():
         k: Gain = Field(1.0)
         limit: Gain | None = Field(None)
 
-    assert Some().shown() == {"k": 1.0}
-    assert Some(limit=2.0).shown() == {"k": 1.0, "limit": 2.0}
+    assert Some().as_dict() == {"k": 1.0}
+    assert Some(limit=2.0).as_dict() == {"k": 1.0, "limit": 2.0}

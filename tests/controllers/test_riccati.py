@@ -224,7 +224,7 @@ def test_the_gain_stays_to_the_end_unless_told_otherwise():
     motion, chosen = asked(SMOOTH), CONTROLLERS["lqr"]
     steady = lqr.riccati(motion, chosen.read_gains({"q": 9.0, "r": 0.04}))
     np.testing.assert_allclose(steady, 0.6, rtol=1e-12)
-    assert chosen.read_gains({"q": 9.0, "r": 0.04}).shown() == pytest.approx(
+    assert chosen.read_gains({"q": 9.0, "r": 0.04}).as_dict() == pytest.approx(
         {"q": 9.0, "r": 0.04, "s": 0.6}
     )
     dying = lqr.riccati(motion, chosen.read_gains({"q": 9.0, "r": 0.04, "s": 0}))

@@ -15,7 +15,7 @@ from dqpaint.controllers.base.controller import Controller
 from dqpaint.controllers.base.user_controller import make_controller
 from dqpaint.disturbances import make_disturbances
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.planning.retiming import slow_down
+from dqpaint.planning.retiming import retime
 from dqpaint.plants import PLANTS
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
@@ -242,8 +242,8 @@ def slowed():
     """A motion whose clock runs slower where the arm could not keep up."""
     text = "period 8 ms\nmove to (-90, 0) mm\nline to (90, 0) mm in 0.25 s\nhold 80 ms\n"
     motion = dqpaint.motion.plan(dqpaint.language.parse(text, "fast"), ARM.card.canvas.pose)
-    found = slow_down(motion, ARM, ARM.card.home, "start", "none")
-    assert found.longer > 0.1
+    found = retime(motion, ARM, ARM.card.home, "start", "none")
+    assert found.extra_time > 0.1
     return found.motion
 
 

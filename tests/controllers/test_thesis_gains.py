@@ -21,7 +21,7 @@ def test_equation_5_9():
     for law in ("hinf", "hinf-set"):
         np.testing.assert_allclose(gain(law, read="k_O", **given), 2.8 + 2.5 * early, atol=1e-12)
         np.testing.assert_allclose(gain(law, read="k_T", **given), 2.4 + 1.4 * early, atol=1e-12)
-    last = CONTROLLERS["hinf"].read_gains(given).at(1.0).shown()
+    last = CONTROLLERS["hinf"].read_gains(given).at(1.0).as_dict()
     assert last["gamma_O"] == pytest.approx(0.372, abs=0.006)  # the thesis rounds 0.3774
     assert last["gamma_T"] == pytest.approx(0.372, abs=0.001)
 
@@ -73,7 +73,7 @@ def test_any_gain_of_any_law_can_change_but_a_weight_of_the_end(law):
         np.testing.assert_allclose(
             [getattr(now, name) for now in schedule.over(PARTS)], wanted, atol=1e-12
         )
-        assert schedule.shown()[name] == "0.5..0.75@50%..1"
+        assert schedule.as_dict()[name] == "0.5..0.75@50%..1"
 
 
 def test_a_gain_that_stays_is_a_column_of_itself():
@@ -85,7 +85,7 @@ def test_a_gain_that_stays_is_a_column_of_itself():
 def test_diagonals_change_too_and_what_follows_is_shown():
     schedule = CONTROLLERS["lqr"].read_gains({"q": "4..1,1,1,4,4,4@50%", "r": 0.01})
     np.testing.assert_allclose(schedule.column("q", np.array([0.25])), [[2.5] * 3 + [4] * 3])
-    shown = schedule.shown()
+    shown = schedule.as_dict()
     assert shown["q"] == "4..1,1,1,4,4,4@50%"
     assert shown["s"] == "0.2,0.2,0.2,0.2,0.2,0.2..0.1,0.1,0.1,0.2,0.2,0.2@50%"
     assert shown["r"] == 0.01

@@ -46,7 +46,7 @@ def of_all(path):
     """The codes that `check` finds."""
     result = check(str(path))
     assert not result.fault
-    return [finding.code for finding in result.findings]
+    return [finding.code for finding in result.diagnostics]
 
 
 @CODES

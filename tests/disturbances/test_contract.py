@@ -16,7 +16,7 @@ from dqpaint.language import parse
 from dqpaint.metrics.run_metrics import measure
 from dqpaint.motion import plan
 from dqpaint.outputs.summary import summarise
-from dqpaint.planning.reachability import begin
+from dqpaint.planning.reachability import reachable_start_posture
 from dqpaint.plants import choose_plant
 from dqpaint.plants.plant import PLANTS
 from dqpaint.robots.kinematics.dynamics import Dynamics
@@ -120,12 +120,14 @@ def test_a_push_that_meets_nothing_is_refused(values, said):
 
 def test_noise_has_its_rms_and_steps_their_size():
     noisy = run({"noise": {"rms": 2e-4}}, "ideal")
-    errors = noisy.read - noisy.posture
+    errors = noisy.measured_posture - noisy.posture
     np.testing.assert_allclose(errors.std(), 2e-4, rtol=0.1)
     assert np.abs(np.corrcoef(errors[:-1].ravel(), errors[1:].ravel())[0, 1]) < 0.15
     stepped = run({"noise": {"step": 1e-3}}, "ideal")
-    np.testing.assert_allclose(stepped.read / 1e-3, np.round(stepped.read / 1e-3), atol=1e-9)
-    assert 3e-4 < np.abs(stepped.read - stepped.posture).max() <= 0.5e-3 + 1e-12
+    np.testing.assert_allclose(
+        stepped.measured_posture / 1e-3, np.round(stepped.measured_posture / 1e-3), atol=1e-9
+    )
+    assert 3e-4 < np.abs(stepped.measured_posture - stepped.posture).max() <= 0.5e-3 + 1e-12
 
 
 def test_speeds_are_told_as_the_readings_say():
@@ -144,9 +146,11 @@ def test_the_light_and_its_error_are_the_true_ones():
         dq.matrix_from_pose(noisy.pose), dq.matrix_from_pose(ARM.poses(noisy.posture)), atol=1e-12
     )
     np.testing.assert_allclose(
-        dq.matrix_from_pose(noisy.believed), dq.matrix_from_pose(ARM.poses(noisy.read)), atol=1e-12
+        dq.matrix_from_pose(noisy.measured_pose),
+        dq.matrix_from_pose(ARM.poses(noisy.measured_posture)),
+        atol=1e-12,
     )
-    assert np.abs(noisy.pose - noisy.believed).max() > 1e-3
+    assert np.abs(noisy.pose - noisy.measured_pose).max() > 1e-3
 
 
 def test_the_table_has_what_was_told_beside_what_is_true():
@@ -184,7 +188,7 @@ def test_wrong_lengths_are_of_their_size_and_the_law_s_alone(rng):
     np.testing.assert_allclose(along.std(axis=0), size, rtol=0.15)
     ran = run({"links": {"part": 0.01}}, "ideal")
     np.testing.assert_allclose(ran.points, dq.translation(ARM.poses(ran.posture)), atol=1e-12)
-    settled = dq.translation(ran.believed)[-1] - MOTION.points[-1]
+    settled = dq.translation(ran.measured_pose)[-1] - MOTION.points[-1]
     assert np.linalg.norm(settled) < 1e-3  # the law thinks it is there
     assert np.linalg.norm(ran.points[-1] - MOTION.points[-1]) > 2e-3
 
@@ -207,11 +211,11 @@ def test_a_displaced_base_carries_the_light_along():
     from_pin = pytest.importorskip("pinocchio").exp3(turn)
     t = np.array([values[k] for k in ("x", "y", "z")])
     np.testing.assert_allclose(
-        ran.points, dq.translation(ran.believed) @ from_pin.T + t, atol=1e-12
+        ran.points, dq.translation(ran.measured_pose) @ from_pin.T + t, atol=1e-12
     )
     turned = dq.matrix_from_pose(ran.pose)[:, :3, :3]
     np.testing.assert_allclose(
-        turned, from_pin @ dq.matrix_from_pose(ran.believed)[:, :3, :3], atol=1e-12
+        turned, from_pin @ dq.matrix_from_pose(ran.measured_pose)[:, :3, :3], atol=1e-12
     )
 
 
@@ -267,7 +271,7 @@ def test_a_payload_a_torque_law_knows_nothing_of_is_borne_by_its_error(name, law
     motion = plan(parse(text, "t.traj"), arm.card.canvas.pose)
     chosen = CONTROLLERS[law]
     run = track(
-        motion, arm, begin(motion, arm).posture, PLANTS["torque"], chosen, chosen.read_gains({}),
+        motion, arm, reachable_start_posture(motion, arm).posture, PLANTS["torque"], chosen, chosen.read_gains({}),
         disturbances=make_disturbances({"payload": {"mass": mass}}),
     )  # fmt: skip
     x, J = arm.pose_and_jacobian(run.posture[-1])

@@ -3,7 +3,7 @@
 import pytest
 
 from dqpaint.editors import completion
-from dqpaint.editors.analysis import understand
+from dqpaint.editors.analysis import analyse
 from dqpaint.language.vocabulary.words import PARTS, STATEMENTS
 
 MARK = "|"
@@ -75,7 +75,7 @@ def test_figures_of_lines():
         "period 10 ms\nmove to (30, 0) mm\nrepeat 3\narc centre (0, 0) angle 120 deg in 1 s\nend\n"
         "step to (0, 0)\nhold 2 s light off\nline to (0, 40) mm speed 20 mm/s profile constant"
     )
-    figures = understand(text, "a", planned=True).figures
+    figures = analyse(text, "a", planned=True).figures
     assert set(figures) == {4, 6, 7, 8}
     assert figures[4].length == pytest.approx(0.03 * 6.283185, rel=1e-3)
     assert (figures[4].seconds, figures[7].seconds) == pytest.approx((3.0, 2.0))
@@ -87,7 +87,7 @@ def test_figures_of_lines():
 
 def test_what_cannot_be_planned_has_messages_and_no_figures():
     for text, code in [("lin", "E120"), ("robot nix\nhold 1 s", "E311"), ("hold 9e8 s", "E302")]:
-        found = understand(text, "a", planned=True)
-        assert [d.code for d in found.findings] == [code]
+        found = analyse(text, "a", planned=True)
+        assert [d.code for d in found.diagnostics] == [code]
         assert found.figures == {}
-    assert understand("hold 9e8 s", "a", planned=False).findings == ()
+    assert analyse("hold 9e8 s", "a", planned=False).diagnostics == ()

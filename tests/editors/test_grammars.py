@@ -59,7 +59,7 @@ def scoped(line):
 def test_the_vocabulary_is_that_of_the_tables(kind):
     assert set(words(kind)) == set(TABLES[kind])
     assert {entry.kind for entry in vocabulary()} == set(TABLES)
-    assert all(entry.says and entry.example for entry in vocabulary())
+    assert all(entry.meaning and entry.example for entry in vocabulary())
 
 
 @pytest.mark.parametrize("kind", TABLES)

@@ -12,7 +12,7 @@ from dqpaint.language.vocabulary.words import STATEMENTS
 from dqpaint.language.writing.formatter import formatted
 from dqpaint.motion import plan
 from dqpaint.motion.profiles import PROFILES
-from dqpaint.planning.reachability import begin
+from dqpaint.planning.reachability import reachable_start_posture
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
 
@@ -30,7 +30,7 @@ def test_drawings_are_drawn_within_reach_and_without_a_word(text):
     motion = plan(parse(text, "page.traj"), card.canvas.pose)
     assert not motion.notes
     assert motion.lit.any()
-    assert begin(motion, Kinematics(card)).margin > 0
+    assert reachable_start_posture(motion, Kinematics(card)).margin > 0
     assert formatted(text) == text
 
 
@@ -68,7 +68,7 @@ def test_every_statement_is_taught_before_the_tables():
 
 
 def test_bounds_are_the_program_s():
-    from dqpaint.core.bounds import MOST_SAMPLES
+    from dqpaint.core.bounds import DEFAULT_MAX_SAMPLES
     from dqpaint.language.compile import MOST_LINES
     from dqpaint.language.expansion import blocks as language_blocks
     from dqpaint.language.pen.pen import MOST_SEGMENTS
@@ -81,7 +81,7 @@ def test_bounds_are_the_program_s():
     for number, after in [
         (MOST_BYTES // 1_000_000, " MB"), (MOST_LINES, " lines"), (DEEPEST_BLOCK, " deep"),
         (language_blocks.MOST_PASSES, " passes"), (language_blocks.MOST_STATEMENTS, " statements"),
-        (MOST_SEGMENTS, " strokes"), (MOST_SAMPLES, " samples"),
+        (MOST_SEGMENTS, " strokes"), (DEFAULT_MAX_SAMPLES, " samples"),
         (int(MOST_SECONDS) // 3600, " hours"),
     ]:  # fmt: skip
         assert f" {number:,}{after}" in text, after

@@ -14,10 +14,10 @@ def test_it_is_a_drawing_that_the_default_arm_reaches(tmp_path):
     assert text.startswith("# flower.traj - ")
     assert formatted(text) == text
     result = check(str(path), robot="iiwa")
-    assert (result.findings, result.fault) == ((), "")
-    assert result.outlook is not None
-    assert "iiwa reaches it" in result.outlook.text
-    assert 5 < result.outlook.motion.t[-1] < 30
+    assert (result.diagnostics, result.fault) == ((), "")
+    assert result.forecast is not None
+    assert "iiwa reaches it" in result.forecast.text
+    assert 5 < result.forecast.motion.t[-1] < 30
     assert text.count("#") > 6
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from dqpaint.core.examples import examples_folder
 from dqpaint.diagnostics.diagnostic import file_at
-from dqpaint.editors.analysis import understand
+from dqpaint.editors.analysis import analyse
 from dqpaint.language import ScriptError, parse, read
 from dqpaint.language.writing.builder import Drawing, DrawingError
 from dqpaint.motion import plan
@@ -73,12 +73,12 @@ def test_a_path_with_its_place_needs_no_word() -> None:
 def test_an_editor_s_lines_are_its_own(tmp_path: Path) -> None:
     (tmp_path / "b.traj").write_text("line by (50, 0) mm\n")
     text = 'include "b.traj"\nline by (0, 20) mm\n'
-    known = understand(text, str(tmp_path / "a.traj"), planned=True)
+    known = analyse(text, str(tmp_path / "a.traj"), planned=True)
     assert list(known.figures) == [2]
     assert known.figures[2].length == pytest.approx(0.02, rel=1e-6)
     (tmp_path / "b.traj").write_text("line by (50, 0)\n")
-    known = understand(text, str(tmp_path / "a.traj"), planned=True)
-    (found,) = known.findings
+    known = analyse(text, str(tmp_path / "a.traj"), planned=True)
+    (found,) = known.diagnostics
     assert found.span is not None
     assert file_at(known.source, found.span.start, "")[1] == str(tmp_path / "b.traj")
 

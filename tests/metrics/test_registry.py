@@ -13,7 +13,7 @@ from dqpaint.cli import listing
 from dqpaint.diagnostics import SourceLine
 from dqpaint.errors import DqpaintError
 from dqpaint.metrics import METRICS, all_columns, all_figures, measure
-from dqpaint.metrics.registry import Column, Figure, column, figure, suffix
+from dqpaint.metrics.registry import Column, Figure, column, figure, unit_suffix
 from dqpaint.motion import RowLines
 from dqpaint.outputs.summary import summarise
 from dqpaint.painting.colour_by import colour_columns
@@ -40,9 +40,9 @@ def special(name, track):
     if name == "drawing_time_s":
         return replace(track, motion=replace(motion, clock=0.5 * motion.t))
     if name == "read1_rad":
-        return replace(track, read=track.read + 1e-3)
+        return replace(track, measured_posture=track.measured_posture + 1e-3)
     if name.startswith("believed_"):
-        return replace(track, believed=-1.0 * track.believed)
+        return replace(track, measured_pose=-1.0 * track.measured_pose)
     return None
 
 
@@ -57,7 +57,7 @@ def test_what_every_metric_promises(name, ideal):
     ("rad/s^2", "_rad_s2"), ("Nm s", "_Nm_s"), ("m", "_m"), ("", ""),
 ])  # fmt: skip
 def test_a_name_says_its_unit(unit, end):
-    assert suffix(unit) == end
+    assert unit_suffix(unit) == end
 
 
 def test_no_figure_hides_what_else_a_summary_says(tmp_path):
@@ -93,7 +93,7 @@ def added(monkeypatch):
 
 
 def test_a_new_metric_is_measured_in_its_place(ideal, added):
-    @column("height_m", "m", "height", "of the light", shown="mm")
+    @column("height_m", "m", "height", "of the light", display_unit="mm")
     def height(track):
         return track.points[:, 2]
 
@@ -135,7 +135,7 @@ def test_two_of_a_name_are_refused(ideal, added):
     with pytest.raises(ValueError, match="two metrics named 'speed_m_s'"):
         column("speed_m_s", "m/s", "x", "x")(lambda track: track.points[:, 0])
     with pytest.raises(ValueError, match=r"\[m\] cannot be shown in \[deg\]"):
-        column("z_m", "m", "x", "x", shown="deg")(lambda track: None)
+        column("z_m", "m", "x", "x", display_unit="deg")(lambda track: None)
     column("a_m q3_rad", "m", "x", "x")(lambda track: track.points[:, :2])
     with pytest.raises(DqpaintError, match="two columns named 'q3_rad', one of them with 'a_m, q3"):
         measure(ideal)
@@ -157,13 +157,13 @@ NOISE = np.random.default_rng(1)
     (made(names=("a_mm",)), "'a_mm' ends with its unit: _m"),
     (made(unit=""), "'a_m' does not end with a unit, as it has none"),
     (made(names=("a-b_m",)), "is made of letters, digits and _"),
-    (made(of=lambda track: track.points[1:, 0]), "there are 121 rows"),
-    (made(of=lambda track: track.points[:, 0] / 0.0), "finite values in every row"),
-    (made(of=lambda track: NOISE.normal(size=len(track.points))), "repeats itself bit for bit"),
-    (made(of=lambda track: None), "has values in some run"),
-    (made(of=lambda track: track.points[:, 0], asked=lambda motion: motion.t[1:]), "121 rows"),
-    (made(Figure, of=lambda track, table: np.inf), "is a finite number"),
-    (made(Figure, of=lambda track, table: NOISE.normal()), "repeats itself bit for bit"),
+    (made(measure=lambda track: track.points[1:, 0]), "there are 121 rows"),
+    (made(measure=lambda track: track.points[:, 0] / 0.0), "finite values in every row"),
+    (made(measure=lambda track: NOISE.normal(size=len(track.points))), "repeats itself bit for bit"),
+    (made(measure=lambda track: None), "has values in some run"),
+    (made(measure=lambda track: track.points[:, 0], reference=lambda motion: motion.t[1:]), "121 rows"),
+    (made(Figure, measure=lambda track, table: np.inf), "is a finite number"),
+    (made(Figure, measure=lambda track, table: NOISE.normal()), "repeats itself bit for bit"),
     (made(Figure, unit="rad"), "ends with its unit: _rad"),
     (made(Figure, title=""), "has a title and a meaning"),
 ])  # fmt: skip
@@ -180,12 +180,12 @@ def test_faultless_metrics_pass():
 GAUGES = """
 from dqpaint.metrics import column, figure
 
-@column("reach_m", "m", "reach", "from the base", shown="mm", from_zero=True,
+@column("reach_m", "m", "reach", "from the base", display_unit="mm", from_zero=True,
         study="drawn")
 def reach(track):
     return (track.points ** 2).sum(axis=1) ** 0.5
 
-@figure("reach_max_m", "m", "reach largest", "from the base", shown="mm",
+@figure("reach_max_m", "m", "reach largest", "from the base", display_unit="mm",
         kind="cost", listed=True)
 def farthest(track, table):
     return float(table["reach_m"].max())

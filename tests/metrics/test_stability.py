@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import dqpaint
-from dqpaint.metrics.stability import FEWEST, instability
+from dqpaint.metrics.stability import LEAST_ROWS, instability
 from dqpaint.robots.kinematics.limits import Clamp
 
 PERIOD = 0.01
@@ -96,6 +96,6 @@ def test_a_far_start_is_none_and_an_arm_that_turns_away_is_one(lines, tmp_path):
 def test_a_short_run_is_not_judged(tmp_path):
     (tmp_path / "dot.traj").write_text("period 10 ms\nhold 50 ms\n")
     run = track(tmp_path / "dot.traj", 250.0)
-    assert len(run.command) < FEWEST
+    assert len(run.command) < LEAST_ROWS
     assert instability(run) is None
     assert np.isfinite(run.command).all()

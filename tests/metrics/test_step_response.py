@@ -9,7 +9,7 @@ from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.core.examples import find_drawing
 from dqpaint.language import parse, read
-from dqpaint.metrics.step_response import SETTLED, _turn, set_points
+from dqpaint.metrics.step_response import SETTLING_BAND, _rotation_vectors, step_responses
 from dqpaint.motion import plan
 from dqpaint.plants import PLANTS
 from dqpaint.robots.kinematics.kinematics import Kinematics
@@ -52,7 +52,7 @@ def answered(run, shape):
 
 
 def test_an_exponential_settles_after_ln_50_over_its_rate(run):
-    first, second = set_points(answered(run, lambda t: 1 - np.exp(-5.0 * t)))
+    first, second = step_responses(answered(run, lambda t: 1 - np.exp(-5.0 * t)))
     assert (first.line.line, second.line.line) == (4, 6)
     assert first.time == pytest.approx(0.501)
     for part, size in (
@@ -60,7 +60,7 @@ def test_an_exponential_settles_after_ln_50_over_its_rate(run):
         (first.rotation, 2 * np.arccos(abs(_dot(run, 0.4, 0.6)))),
     ):
         assert part.size == pytest.approx(size, rel=1e-6)
-        assert part.settling == pytest.approx(np.log(1 / SETTLED) / 5.0, abs=2e-3)
+        assert part.settling == pytest.approx(np.log(1 / SETTLING_BAND) / 5.0, abs=2e-3)
         assert part.overshoot == pytest.approx(0.0, abs=1e-6)
         # mean of exp(-5 t) over the last tenth of 1.999 s
         t = np.linspace(0.9, 1.0, 2001) * 1.999
@@ -81,24 +81,24 @@ def test_a_damped_oscillation_overshoots_by_its_closed_form(run):
             np.cos(wd * t) + zeta / np.sqrt(1 - zeta**2) * np.sin(wd * t)
         )
 
-    first, _ = set_points(answered(run, answer))
+    first, _ = step_responses(answered(run, answer))
     beyond = np.exp(-np.pi * zeta / np.sqrt(1 - zeta**2))
     for part in (first.translation, first.rotation):
         assert part.overshoot == pytest.approx(beyond, rel=1e-3)
         t = np.arange(0, 2, 1e-4)
-        last = t[np.flatnonzero(np.abs(answer(t) - 1) > SETTLED)[-1]]
+        last = t[np.flatnonzero(np.abs(answer(t) - 1) > SETTLING_BAND)[-1]]
         assert part.settling == pytest.approx(last, abs=3e-3)
 
 
 def test_a_response_that_stays_away_never_settles(run):
-    first, _ = set_points(answered(run, lambda t: 0.9))
+    first, _ = step_responses(answered(run, lambda t: 0.9))
     assert first.translation.settling is None
     assert first.translation.steady == pytest.approx(0.1 * first.translation.size, rel=1e-9)
     assert first.rotation.steady == pytest.approx(0.1 * first.rotation.size, rel=1e-6)
 
 
 def test_what_was_not_asked_to_move_has_no_settling(run):
-    _, second = set_points(answered(run, lambda t: 1 - np.exp(-5 * t)))
+    _, second = step_responses(answered(run, lambda t: 1 - np.exp(-5 * t)))
     assert second.rotation.size == 0
     assert second.rotation.settling is None
     assert second.translation.settling == pytest.approx(np.log(50) / 5, abs=2e-3)
@@ -108,7 +108,7 @@ def test_a_law_settles_at_its_own_rate(run):
     """`p` decays at k in both, small errors exactly so; slow enough for the joints' limits."""
     law = CONTROLLERS["p"]
     slow = track(run.motion, ARM, CARD.home, PLANTS["ideal"], law, law.read_gains({"k": 2.5}))
-    first, _ = set_points(slow)
+    first, _ = step_responses(slow)
     for part in (first.translation, first.rotation):
         assert part.settling == pytest.approx(np.log(50) / 2.5, rel=0.1)
         assert part.steady < 0.02 * part.size
@@ -119,7 +119,7 @@ def test_drawings_without_a_jump_have_none_and_the_example_has_one():
     motion = plan(parse("line to (10, 0) mm\n", "test.traj"), CARD.canvas.pose)
     law = CONTROLLERS["p"]
     none = track(motion, ARM, CARD.home, PLANTS["ideal"], law, law.read_gains({}))
-    assert set_points(none) == ()
+    assert step_responses(none) == ()
     assert plan(read(find_drawing("step")), CARD.canvas.pose).jump.sum() == 1
 
 
@@ -127,11 +127,11 @@ def test_a_turn_is_seen_along_the_base_s_axes_from_any_orientation(run):
     """Beyond the goal along the same turn overshoots; across it does not. By pinocchio's log."""
     import pinocchio
 
-    first, _ = set_points(answered(run, lambda t: 1.2 if t > 0.5 else 1.0 - np.exp(-9.0 * t)))
+    first, _ = step_responses(answered(run, lambda t: 1.2 if t > 0.5 else 1.0 - np.exp(-9.0 * t)))
     assert first.rotation.overshoot == pytest.approx(0.2, rel=1e-6)
     before = int(np.flatnonzero(run.motion.jump)[0])
     old, new = (dq.matrix_from_pose(run.motion.pose[i])[:3, :3] for i in (before, before + 1))
     wanted = pinocchio.log3(new @ old.T)
-    found = _turn(run.motion.pose[before + 1], run.motion.pose[before])
+    found = _rotation_vectors(run.motion.pose[before + 1], run.motion.pose[before])
     np.testing.assert_allclose(found, wanted, atol=1e-9)
     assert np.abs(wanted - pinocchio.log3(old.T @ new)).max() > 1e-2

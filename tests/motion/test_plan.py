@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
-from dqpaint.core.bounds import MOST_ALLOWED, MOST_SAMPLES
+from dqpaint.core.bounds import DEFAULT_MAX_SAMPLES, LARGEST_MAX_SAMPLES
 from dqpaint.diagnostics import ScriptError, SourceLine
 from dqpaint.errors import UsageError
 from dqpaint.motion import plan, survey
@@ -231,9 +231,9 @@ def test_a_drawing_s_own_budget():
         with pytest.raises(ScriptError):
             survey(replace(drawing, most_samples=11))
         assert len(asked) == 2 * measured  # measured, but not sampled
-    assert Settings().max_samples == MOST_SAMPLES
+    assert Settings().max_samples == DEFAULT_MAX_SAMPLES
     with pytest.raises(UsageError, match="100000000"):
-        make_settings(max_samples=MOST_ALLOWED + 1)
+        make_settings(max_samples=LARGEST_MAX_SAMPLES + 1)
 
 
 def test_a_long_stroke_is_surveyed_in_parts(monkeypatch):

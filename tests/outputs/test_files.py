@@ -32,7 +32,7 @@ def painting(tmp_path_factory):
 
 
 def made(painting, name):
-    return registry.make(registry.choose(name), painting)
+    return registry.make_files(registry.choose_writers(name), painting)
 
 
 @pytest.mark.parametrize("name", ["csv", "film", "hdr", "json", "motion", "png"])
@@ -74,7 +74,7 @@ def test_progress_is_told_to_a_writer_that_wants_it(painting, own):
         return {"-a.txt": b"a", "-b.txt": painting.sha256.encode()}
 
     told = []
-    files = registry.make(registry.choose("slow, quick"), painting, told.append)
+    files = registry.make_files(registry.choose_writers("slow, quick"), painting, told.append)
     assert told == [0.5]
     assert files == {"-slow.txt": b"done", "-a.txt": b"a", "-b.txt": painting.sha256.encode()}
     assert WRITERS["quick"] == Writer("quick", "-quick.txt", quick)
@@ -89,9 +89,9 @@ def test_what_a_writer_needs_is_asked_before_any_writes(painting, own):
     writer("first", ".a")(lambda painting: written.append(1) or b"a")
     writer("tulip", ".b", Need("tulips", none))(lambda painting: written.append(2) or b"b")
     with pytest.raises(UsageError, match="no tulips"):
-        registry.make(registry.choose("first,tulip"), painting)
+        registry.make_files(registry.choose_writers("first,tulip"), painting)
     assert not written
-    registry.make(registry.choose("first"), painting)
+    registry.make_files(registry.choose_writers("first"), painting)
     assert written == [1]
 
 
@@ -119,13 +119,13 @@ def test_another_package_brings_a_format(painting, own, tmp_path, monkeypatch):
 
 
 def test_formats_for_arms_are_those_of_export():
-    assert {one.form: one.name for one in WRITERS.values() if one.form} == {
+    assert {one.export_name: one.name for one in WRITERS.values() if one.export_name} == {
         "csv": "trajectory", "ros2": "ros2", "urscript": "urscript"
     }  # fmt: skip
-    assert registry.choose_form("csv") is WRITERS["trajectory"]
+    assert registry.choose_export_writer("csv") is WRITERS["trajectory"]
     for unknown in ("gcode", "png", "trajectory"):
         with pytest.raises(UnknownNameError, match=f"named '{unknown}'; known: csv, ros2, urscr"):
-            registry.choose_form(unknown)
+            registry.choose_export_writer(unknown)
 
 
 @pytest.mark.parametrize("name", ["csv", "motion"])
@@ -250,10 +250,10 @@ def test_the_summary_tells_the_disturbances_what_came_through_and_the_steps(step
     for part in ("rotation", "translation"):
         found = stepped.attenuation[part]
         assert said["attenuation"][part] == {
-            "ratio_s": found.ratio, "bound_s": found.bound, "kept": found.kept
+            "ratio_s": found.ratio, "bound_s": found.bound, "kept": found.bound_holds
         }  # fmt: skip
         assert found.ratio != found.bound
-    (jump,), (told,) = stepped.set_points, said["set_points"]
+    (jump,), (told,) = stepped.step_responses, said["set_points"]
     assert (told["time_s"], told["line"]) == (jump.time, 4)
     assert jump.time == pytest.approx(0.208)
     for part, unit in (("translation", "m"), ("rotation", "rad")):

@@ -14,7 +14,7 @@ from dqpaint import dq
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.outputs.formats.ros2 import ros2
 from dqpaint.outputs.formats.urscript import is_universal, urscript
-from dqpaint.outputs.registry import choose_form, make
+from dqpaint.outputs.registry import choose_export_writer, make_files
 from dqpaint.outputs.robot import Trajectory
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
@@ -39,7 +39,7 @@ def painting(tmp_path_factory):
 
 
 def files_of(painting, form):
-    return make([choose_form(form)], painting)
+    return make_files([choose_export_writer(form)], painting)
 
 
 def texts(painting, form):

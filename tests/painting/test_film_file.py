@@ -14,7 +14,7 @@ from dqpaint.diagnostics import SourceLine
 from dqpaint.errors import DqpaintError
 from dqpaint.outputs import files, registry
 from dqpaint.painting import film_file, video
-from dqpaint.painting.picture import linear
+from dqpaint.painting.picture import linear_image
 from dqpaint.painting.scene import Scene
 from tests.support.work import Calls
 
@@ -43,7 +43,7 @@ def test_a_film_developed_again_is_the_same_to_the_bit(painting, tmp_path):
     assert len(again) == len(painting.pictures)
     for new, old in zip(again, painting.pictures, strict=True):
         assert np.array_equal(new.image, old.image)
-        assert new.told == old.told
+        assert new.exposure_text == old.told
 
 
 def test_the_tiff_is_the_linear_film_exactly(painting, tmp_path):
@@ -51,7 +51,7 @@ def test_the_tiff_is_the_linear_film_exactly(painting, tmp_path):
     read = cv2.imread(f"{tmp_path}/a-film.tiff", cv2.IMREAD_UNCHANGED)[..., ::-1]
     assert read.dtype == np.float32
     picture = painting.picture
-    image = linear(
+    image = linear_image(
         painting.scene, picture.film, picture.exposure, picture.camera, painting.settings
     )
     ratio = read[image > 0] / image[image > 0]
@@ -74,7 +74,7 @@ def test_what_is_asked_for_anew_is_as_if_it_had_been_drawn_so(tmp_path):
     for new, old in zip(again, drawn.pictures, strict=True):
         assert np.array_equal(new.image, old.image)
     real = dqpaint.develop(tmp_path / "a-film.npz", exposure="f/8,35mm,0.1cd")[0]
-    assert real.told == "f/8, ISO 100, 35 mm, LED of 0.1 cd"
+    assert real.exposure_text == "f/8, ISO 100, 35 mm, LED of 0.1 cd"
     auto = dqpaint.develop(tmp_path / "a-film.npz", exposure="auto")[0]
     assert np.array_equal(auto.image, first.image)
 
@@ -149,9 +149,9 @@ def test_lines_of_included_files_are_kept(tmp_path):
     (tmp_path / "petal.traj").write_text("\nline by (30, 0) mm\n")
     (tmp_path / "a.traj").write_text('include "petal.traj"\nline by (0, 9) mm\n')
     painting = dqpaint.draw(tmp_path / "a.traj", plant="ideal", size=(64, 36))
-    whole = film_file.encode(painting.scene, painting.settings, painting.cast)
+    whole = film_file.encode(painting.scene, painting.settings, painting.arm_motion)
     (tmp_path / "a.npz").write_bytes(whole)
-    source = film_file.read(str(tmp_path / "a.npz")).cast.source
+    source = film_file.read(str(tmp_path / "a.npz")).arm_motion.source
     assert source.lines == (SourceLine(0, 2), SourceLine(1, 2))
     np.testing.assert_array_equal(source.index, painting.motion.source.index)
     arrays = dict(np.load(io.BytesIO(whole)))
@@ -229,7 +229,7 @@ def test_movies_are_written_in_formats_that_play(tmp_path, monkeypatch):
     monkeypatch.setattr(video, "LONGEST", 1.0)
     painting = dqpaint.draw("star", plant="ideal", size=(161, 91))
     told = []
-    movies = registry.make(registry.choose("video,webp"), painting, told.append)
+    movies = registry.make_files(registry.choose_writers("video,webp"), painting, told.append)
     assert list(movies) == [".webm", ".webp"]
     assert len(told) > 20
     assert movies[".webm"][:4] == b"\x1a\x45\xdf\xa3"  # EBML
@@ -239,7 +239,7 @@ def test_movies_are_written_in_formats_that_play(tmp_path, monkeypatch):
     frames = []
     while (read := film.read())[0]:
         frames.append(read[1])
-    assert len(frames) == 25 + round(video.REST * 25)
+    assert len(frames) == 25 + round(video.FINAL_TIME * 25)
     assert frames[-1].shape == (90, 160, 3)
     assert np.abs(frames[-1][..., ::-1].astype(int) - painting.image[:90, :160]).mean() < 4
     assert movies[".webp"][8:12] == b"WEBP"

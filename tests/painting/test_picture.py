@@ -12,7 +12,7 @@ from dqpaint.light.sources.from_motion import FILL_WITH_ARM
 from dqpaint.light.sources.sweep import ALL_SAMPLES
 from dqpaint.motion import plan
 from dqpaint.painting.picture import photograph
-from dqpaint.painting.scene import SETTLING, arrange
+from dqpaint.painting.scene import JUMP_TIME, make_scene
 from dqpaint.robots.model.card import read_card
 from dqpaint.settings.model import make_settings
 from tests.support.pictures import take
@@ -52,7 +52,7 @@ def test_a_placed_drawing_is_seen_from_the_robot_s_own_front():
 
 def test_a_jump_is_exposed_as_a_line_drawn_while_the_arm_settles():
     jump = asked("period 5 ms\nhold 0.5 s\nstep to (80, 0) mm\nhold 2 s\n")
-    line = asked(f"period 5 ms\nprofile constant\nline to (80, 0) mm in {SETTLING} s\n")
+    line = asked(f"period 5 ms\nprofile constant\nline to (80, 0) mm in {JUMP_TIME} s\n")
     exposures = [take(m, m.pose, SETTINGS).exposure for m in (jump, line)]
     assert exposures[0] == pytest.approx(exposures[1], rel=0.02)
 
@@ -89,7 +89,7 @@ GHOST = make_settings(width=320, height=180, ghost=True)
 
 
 def staged(motion, settings=GHOST, screen=None):
-    scene = arrange(motion, motion.pose, settings)
+    scene = make_scene(motion, motion.pose, settings)
     return next(photograph(scene, settings, Screen(motion) if screen is None else screen))
 
 
@@ -97,13 +97,13 @@ def test_what_the_arm_hides_is_counted_line_by_line():
     motion = asked(HALF)
     picture = staged(motion)
     emitted = motion.light[:-1].sum(0) * motion.period
-    together = picture.film.on_film + picture.film.lost + picture.hidden.energy
+    together = picture.film.on_film + picture.film.lost + picture.occluded.energy
     np.testing.assert_allclose(together, emitted, rtol=1e-9)
     np.testing.assert_allclose(picture.emitted, emitted, rtol=1e-9)
-    (line, share), *rest = picture.hidden.lines
+    (line, share), *rest = picture.occluded.lines
     assert line == SourceLine(0, 3)
     assert sum(part for _, part in rest) < 0.02
-    assert share == pytest.approx(picture.hidden.energy.sum() / emitted.sum(), abs=0.02)
+    assert share == pytest.approx(picture.occluded.energy.sum() / emitted.sum(), abs=0.02)
     assert 0.2 < share < 0.9
 
 
@@ -128,7 +128,7 @@ def test_ghost_and_occlusion_are_chosen_apart(ghost, occlusion, seen, traced):
     motion = asked(HALF)
     picture = staged(motion, make_settings(width=64, height=36, ghost=ghost, occlusion=occlusion))
     assert (picture.arm is not None) == seen
-    assert (picture.hidden is not None) == traced
+    assert (picture.occluded is not None) == traced
     if not traced:
         film = picture.film
         np.testing.assert_allclose(film.on_film + film.lost, picture.emitted, rtol=1e-9)
@@ -139,7 +139,7 @@ def test_what_cannot_be_traced_in_full_is_not_counted_at_all():
     screen = Screen(motion)
     screen.can_occlude, screen.remarks = False, ("warning: a mesh",)
     picture = staged(motion, screen=screen)
-    assert picture.hidden is None
+    assert picture.occluded is None
     assert picture.remarks == ("warning: a mesh",)
 
 

@@ -7,8 +7,8 @@ import dqpaint
 from dqpaint.errors import UsageError
 from dqpaint.language import parse
 from dqpaint.painting.paint import prepare
-from dqpaint.painting.validate import check_each, check_run
-from dqpaint.planning.forecast_report import look_ahead
+from dqpaint.painting.validate import check_run, check_settings
+from dqpaint.planning.forecast_report import make_report
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
 from dqpaint.settings.model import make_settings
@@ -38,7 +38,7 @@ def test_what_is_wrong_by_itself_is_told_to_every_caller(name):
     value, says = ALONE[name]
     settings = make_settings(**{name: value})
     run = Run("line.traj", FAST, settings)
-    for check in (check_each, check_run, lambda one: run.check()):
+    for check in (check_settings, check_run, lambda one: run.check()):
         with pytest.raises(UsageError, match=says):
             check(settings)
 
@@ -51,7 +51,7 @@ def test_what_is_wrong_by_itself_is_told_to_every_caller(name):
 ])  # fmt: skip
 def test_what_excludes_each_other_is_told_of_a_run(choices, says, tmp_path):
     settings = make_settings(**choices)
-    check_each(settings)  # another choice may follow
+    check_settings(settings)  # another choice may follow
     with pytest.raises(UsageError, match=says):
         check_run(settings)
     with pytest.raises(UsageError, match=says):
@@ -66,9 +66,9 @@ def test_a_forecast_and_a_run_begin_alike(choices):
     settings = make_settings(**choices)
     program = parse(FAST, "fast")
     ready = prepare(program, settings).prepared
-    report = look_ahead(program, Kinematics(read_card("iiwa")), settings)
+    report = make_report(program, Kinematics(read_card("iiwa")), settings)
     np.testing.assert_array_equal(report.start, ready.start)
     np.testing.assert_array_equal(report.motion.pose, ready.motion.pose)
-    assert (report.slowed is not None) == (ready.slowed is not None) == ("on_limit" in choices)
-    if ready.slowed:
+    assert (report.retiming is not None) == (ready.retiming is not None) == ("on_limit" in choices)
+    if ready.retiming:
         assert ready.motion.seconds > 0.2

@@ -10,7 +10,7 @@ from dqpaint.controllers import CONTROLLERS
 from dqpaint.language import parse
 from dqpaint.motion import plan
 from dqpaint.planning.forecast import _Run, forecast
-from dqpaint.planning.reachability import begin
+from dqpaint.planning.reachability import reachable_start_posture
 from dqpaint.plants import PLANTS
 from dqpaint.robots.kinematics.differential_ik import CHARACTERISTIC_LENGTH
 from dqpaint.robots.kinematics.kinematics import Kinematics
@@ -28,7 +28,7 @@ def look_and_run(text, plant, name="iiwa"):
     """The forecast, the run, and the run of the arm that has no limits."""
     arm = Kinematics(name if isinstance(name, Card) else read_card(name))
     motion = plan(parse(text, "test.traj"), arm.card.canvas.pose)
-    start = begin(motion, arm).posture
+    start = reachable_start_posture(motion, arm).posture
     law = CONTROLLERS["pff"]
     gains = law.read_gains({})
     runs = [
@@ -143,7 +143,7 @@ def test_other_arms(name):
 def prepared(text, name="iiwa"):
     arm = Kinematics(read_card(name))
     motion = plan(parse(text, "test.traj"), arm.card.canvas.pose)
-    return motion, arm, begin(motion, arm).posture
+    return motion, arm, reachable_start_posture(motion, arm).posture
 
 
 def test_the_arm_follows_exactly_and_its_torques_are_those_of_lagrange():
@@ -174,7 +174,7 @@ def test_the_singular_value_is_measured_at_the_tool():
     x, J = arm.pose_and_jacobian(run.posture[7])
     p = dq.translation(x)
     at_tool = np.concatenate([J[:3], (J[3:] + np.cross(J[:3].T, p).T) / CHARACTERISTIC_LENGTH])
-    assert run.singular[7] == pytest.approx(np.linalg.svd(at_tool)[1][-1], rel=1e-12)
+    assert run.singular_value[7] == pytest.approx(np.linalg.svd(at_tool)[1][-1], rel=1e-12)
 
 
 def test_a_jump_of_the_set_point_counts_as_no_speed():

@@ -11,7 +11,7 @@ from dqpaint.language import parse
 from dqpaint.motion import plan
 from dqpaint.planning.check import as_json, check
 from dqpaint.planning.forecast import forecast
-from dqpaint.planning.reachability import begin
+from dqpaint.planning.reachability import reachable_start_posture
 from dqpaint.plants.plant import find_plant
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
@@ -25,7 +25,7 @@ GAINS = {"k": 20.0}
 def look_and_run(text, plant, law, gains=None, name="iiwa"):
     arm = Kinematics(read_card(name))
     motion = plan(parse(text, "test.traj"), arm.card.canvas.pose)
-    start = begin(motion, arm).posture
+    start = reachable_start_posture(motion, arm).posture
     law, chosen = CONTROLLERS[law], find_plant(plant)
     run = track(
         motion, Kinematics(lifted(arm.card)), start, chosen, law, law.read_gains(gains or {})
@@ -77,7 +77,9 @@ def test_where_no_speed_changes_at_once_dampers_bear_nothing_more(law):
     text = f"period 8 ms\nlaw {law}\nspeed 400 mm/s\nstart at (0, 0) mm\nline to (100, 60) mm\n"
     arm = Kinematics(read_card("iiwa"))
     motion = plan(parse(text, "t"), arm.card.canvas.pose)
-    (one,) = forecast(motion, arm, begin(motion, arm).posture, plant=find_plant("compliant"))
+    (one,) = forecast(
+        motion, arm, reachable_start_posture(motion, arm).posture, plant=find_plant("compliant")
+    )
     assert one.jolt_part == pytest.approx(one.effort_part, rel=1e-6)
 
 
@@ -127,7 +129,7 @@ def test_corners_are_a_matter_of_the_plant(tmp_path, plant, codes, said):
     path = tmp_path / "a.traj"
     path.write_text(CORNERS)
     found = check(str(path), robot="iiwa", plant=plant)
-    assert {d.code for d in found.outlook.warnings} & {"W503", "W504"} == codes
+    assert {d.code for d in found.forecast.warnings} & {"W503", "W504"} == codes
     assert re.search(said, found.text)
     assert as_json([found])["files"][0]["forecast"]["plant"] == (plant or "stiff")
 
@@ -136,7 +138,9 @@ def test_on_limit_slow_counts_the_motors_of_the_plant(tmp_path):
     path = tmp_path / "a.traj"
     path.write_text(CORNERS)
     times = {
-        plant: check(str(path), robot="iiwa", plant=plant, on_limit="slow").outlook.slowed.longer
+        plant: check(
+            str(path), robot="iiwa", plant=plant, on_limit="slow"
+        ).forecast.retiming.extra_time
         for plant in ("ideal", "torque", "stiff")
     }
     assert times["ideal"] <= times["torque"] < times["stiff"]

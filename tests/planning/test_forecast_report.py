@@ -30,10 +30,10 @@ def checked(tmp_path):
 def test_limits_are_warnings_at_the_worst_line(checked):
     result = checked(FAST)
     assert result.errors == 0
-    codes = {d.code: d for d in result.outlook.warnings}
+    codes = {d.code: d for d in result.forecast.warnings}
     assert set(codes) == {"W502", "W503", "W504"}
     speed = codes["W502"]
-    lines = {line.line.line: line for line in result.outlook.lines}
+    lines = {line.line.line: line for line in result.forecast.lines}
     assert f"joint {lines[5].speed.joint} has to turn at" in speed.message
     assert "likewise line 4" in result.text
     assert ":5:1\n" in result.text.partition("W502")[2]
@@ -52,7 +52,7 @@ def test_the_table_speaks_of_what_is_close_alone(checked):
     assert [row.split()[0] for row in table[1:]] == ["4", "5"]
     assert "off limits" not in table[0]
     calm = checked("start at (0, 0) mm\nline to (40, 0) mm\n")
-    assert not calm.findings
+    assert not calm.diagnostics
     assert calm.text.partition("\nhint: ")[0].splitlines()[-1].startswith("  at most: joint")
 
 
@@ -75,24 +75,24 @@ def test_the_numbers_for_programs(checked):
 
 
 def test_without_an_arm_nothing_is_looked_ahead(checked):
-    assert checked(FAST, None, start="first", view="front").outlook is None  # the defaults
-    assert checked(FAST, None, start="home").outlook is not None
+    assert checked(FAST, None, start="first", view="front").forecast is None  # the defaults
+    assert checked(FAST, None, start="home").forecast is not None
     result = checked(FAST, None)
-    assert result.outlook is None
+    assert result.forecast is None
     assert as_json([result])["files"][0]["forecast"] is None
 
 
 def test_a_light_that_is_turned_away_is_hidden(checked):
     text = "start at (0, 0) mm tool rpy(0 deg, 150 deg, 0 deg)\nline to (30, 0) mm light red\n"
     result = checked("place at (0.1, 0.5, 0.5) m turned rpy(90 deg, 0 deg, 90 deg)\n" + text)
-    hidden = [d for d in result.findings if d.code == "W507"]
+    hidden = [d for d in result.diagnostics if d.code == "W507"]
     assert hidden
     assert "100% of the light" in hidden[0].message
 
 
 def test_links_that_meet_are_named(checked):
     """test_collisions looks at which postures collide; here, what is said of one."""
-    outlook = checked("start at (0, 0) mm\nline to (40, 0) mm\n").outlook
+    outlook = checked("start at (0, 0) mm\nline to (40, 0) mm\n").forecast
     assert not outlook.warnings
     meeting = replace(outlook.lines[0], clearance=-0.0123, between=("wrist", "base"))
     touching = replace(meeting, clearance=0.0)
@@ -108,14 +108,14 @@ def test_near_a_singularity(checked):
         "place at (0.9, 0, 0.36) m turned rpy(90 deg, 0 deg, 90 deg)\n"
         "start at (0, 0) mm\nline to (0, 0, 80.3) mm in 4 s\n"
     )
-    worst = min(line.singular for line in result.outlook.lines)
+    worst = min(line.singular_value for line in result.forecast.lines)
     assert worst < 0.04
-    assert "W505" in {d.code for d in result.findings}
+    assert "W505" in {d.code for d in result.diagnostics}
     assert "below 0.04): there it follows inexactly\n" in result.text
 
 
 def test_a_millimetre_beside_a_singularity_is_told(checked):
-    outlook = checked("start at (0, 0) mm\nline to (40, 0) mm\n").outlook
+    outlook = checked("start at (0, 0) mm\nline to (40, 0) mm\n").forecast
     beside = replace(outlook.lines[0], singular=0.01, stray=0.0031)
     (warning,) = _warnings(outlook.motion, read_card("iiwa"), [beside])
     assert warning.message.endswith("there it follows inexactly, up to 3.1 mm beside")

@@ -12,9 +12,9 @@ from dqpaint.light.camera.views import parse_views
 from dqpaint.light.sources.from_motion import view_camera
 from dqpaint.motion import plan
 from dqpaint.planning.forecast import forecast
-from dqpaint.planning.forecast_report import HIDDEN
-from dqpaint.planning.occlusion import hide, looks_at
-from dqpaint.planning.reachability import begin
+from dqpaint.planning.forecast_report import MOST_OCCLUDED
+from dqpaint.planning.occlusion import forecast_occlusion, sampled_rows
+from dqpaint.planning.reachability import reachable_start_posture
 from dqpaint.plants import PLANTS
 from dqpaint.render.scene_arm import SceneArm
 from dqpaint.robots.bullet.client import bullet, joint_indices, quiet
@@ -59,7 +59,7 @@ def drawable(seed):
     name, text = wild(seed)
     arm = Kinematics(read_card(name))
     motion = plan(parse(text, "wild.traj"), arm.card.canvas.pose)
-    return motion, arm, begin(motion, arm).posture
+    return motion, arm, reachable_start_posture(motion, arm).posture
 
 
 @cache
@@ -127,8 +127,8 @@ def test_ten_random_drawings(seed):
     for one in foreseen(seed):
         rows = np.flatnonzero(motion.source.line[:-1] == one.line.line)
         least = min(smallest(arm, q) for q in run.posture[rows])
-        assert one.singular == pytest.approx(least, abs=SINGULAR)
-        assert (one.singular < DAMPING_THRESHOLD) == (least < DAMPING_THRESHOLD) or abs(
+        assert one.singular_value == pytest.approx(least, abs=SINGULAR)
+        assert (one.singular_value < DAMPING_THRESHOLD) == (least < DAMPING_THRESHOLD) or abs(
             least - DAMPING_THRESHOLD
         ) < SINGULAR
         near = clearances(arm, run.posture[rows[::4]]).min()
@@ -136,17 +136,17 @@ def test_ten_random_drawings(seed):
         assert one.clearance == pytest.approx(near, abs=2 * APART) or (
             one.clearance == 0 and near < APART
         )
-        assert one.hidden == pytest.approx(1 - seen[rows].mean(), abs=SHARE)
+        assert one.occluded == pytest.approx(1 - seen[rows].mean(), abs=SHARE)
 
 
 @pytest.mark.slow
 def test_the_wild_drawings_are_not_all_alike():
     """Else the comparison would say little."""
     found = [line for seed in SEEDS for line in foreseen(seed)]
-    assert any(line.singular < 2 * DAMPING_THRESHOLD for line in found)
+    assert any(line.singular_value < 2 * DAMPING_THRESHOLD for line in found)
     assert any(line.clearance < 0 for line in found)
-    assert any(HIDDEN < line.hidden < 0.9 for line in found)
-    assert len([line for line in found if line.hidden == 0]) > 5
+    assert any(MOST_OCCLUDED < line.occluded < 0.9 for line in found)
+    assert len([line for line in found if line.occluded == 0]) > 5
 
 
 BEHIND = (
@@ -159,7 +159,7 @@ BEHIND = (
 def still():
     arm = Kinematics(read_card("iiwa"))
     motion = plan(parse(BEHIND, "t.traj"), arm.card.canvas.pose)
-    return motion, arm, begin(motion, arm).posture
+    return motion, arm, reachable_start_posture(motion, arm).posture
 
 
 def hidden(still, **choices):
@@ -169,16 +169,16 @@ def hidden(still, **choices):
 
 def test_the_view_decides(still):
     """Seen from behind, the arm stands before its light; of many views the worst is told."""
-    assert hidden(still).hidden == 0
+    assert hidden(still).occluded == 0
     behind = hidden(still, view="180,0", brush="point")
-    assert (behind.hidden, behind.view) == (1.0, "az180-el0")
+    assert (behind.occluded, behind.view) == (1.0, "az180-el0")
     both = hidden(still, view="front,180,0", brush="point")
-    assert (both.hidden, both.view) == (1.0, "az180-el0")
+    assert (both.occluded, both.view) == (1.0, "az180-el0")
 
 
 def test_the_brush_decides(still):
     """From behind a long bar shows on both sides of the arm; its middle does not."""
-    assert 0.1 < hidden(still, view="180,0").hidden < 0.9
+    assert 0.1 < hidden(still, view="180,0").occluded < 0.9
 
 
 class Eyes:
@@ -197,21 +197,21 @@ class Eyes:
     {"view": "30,12,stereo", "brush": "point"},
 ])  # fmt: skip
 def test_it_is_looked_at_from_where_the_picture_is_taken(still, choices):
-    from dqpaint.painting.picture import place_camera
-    from dqpaint.painting.scene import arrange
+    from dqpaint.painting.picture import camera_of_view
+    from dqpaint.painting.scene import make_scene
 
     motion, _, start = still
     settings, eyes = make_settings(**choices), Eyes()
     rows = np.arange(len(motion.t))
-    hide(eyes, motion, rows, np.tile(start, (len(rows), 1)), settings)
-    scene = arrange(motion, motion.pose, settings)
-    wanted = [place_camera(scene, settings, shot).position for shot in parse_views(settings.view)]
+    forecast_occlusion(eyes, motion, rows, np.tile(start, (len(rows), 1)), settings)
+    scene = make_scene(motion, motion.pose, settings)
+    wanted = [camera_of_view(scene, settings, shot).position for shot in parse_views(settings.view)]
     assert {tuple(eye) for eye in eyes.seen} == {tuple(eye) for eye in wanted}
 
 
 def test_every_line_is_looked_at():
     line = np.repeat([1, 2, 3, 2], [500, 1, 600, 2])
-    rows = looks_at(line, 40)
+    rows = sampled_rows(line, 40)
     assert set(line[rows]) == {1, 2, 3}
     assert len(rows) <= 44
     assert len(np.unique(rows)) == len(rows)
@@ -221,5 +221,5 @@ def test_a_dark_drawing_hides_nothing(still):
     motion = plan(parse("light off\nline to (10, 0) mm\n", "t"), still[1].card.canvas.pose)
     rows = np.arange(len(motion.t))
     postures = np.tile(still[2], (len(rows), 1))
-    found = hide(collision_shapes(still[1]), motion, rows, postures, make_settings())
-    assert found.of(rows) == (None, "")
+    found = forecast_occlusion(collision_shapes(still[1]), motion, rows, postures, make_settings())
+    assert found.largest_share(rows) == (None, "")

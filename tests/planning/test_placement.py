@@ -10,8 +10,8 @@ from dqpaint.language import ScriptError, parse
 from dqpaint.motion import plan
 from dqpaint.planning import placement
 from dqpaint.planning.forecast import forecast
-from dqpaint.planning.placement import find_place, settle
-from dqpaint.planning.reachability import begin
+from dqpaint.planning.placement import find_placement, place_program
+from dqpaint.planning.reachability import reachable_start_posture
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
 from dqpaint.settings.model import make_settings
@@ -28,18 +28,20 @@ def arm():
 
 @pytest.fixture(scope="module")
 def placed(arm):
-    return settle(parse(SMALL, "small.traj"), arm, AUTO)[1]
+    return place_program(parse(SMALL, "small.traj"), arm, AUTO)[1]
 
 
 @pytest.mark.slow
 def test_it_is_better_than_the_canvas_and_than_other_places(arm, placed):
     """Against the figures of the whole drawing, at places nobody chose for it."""
-    program = settle(parse(SMALL, "small.traj"), arm, AUTO)[0]
+    program = place_program(parse(SMALL, "small.traj"), arm, AUTO)[0]
     canvas = arm.card.canvas.pose
     turned = dq.rotation(canvas)
     rng = np.random.default_rng(9)
     places = [dq.translation(canvas), *rng.uniform([0.3, -0.6, 0], [0.8, 0.6, 0.9], (7, 3))]
-    others = [placement._judge(program, arm, placement._write(p, turned)) for p in places]
+    others = [
+        placement._evaluate(program, arm, placement._place_statement(p, turned)) for p in places
+    ]
     merits = [other.merit for other in others if other is not None]
     assert len(merits) > 2
     assert placed.merit > 1.5 * merits[0]
@@ -48,11 +50,11 @@ def test_it_is_better_than_the_canvas_and_than_other_places(arm, placed):
 
 @pytest.mark.slow
 def test_no_small_step_is_better(arm, placed):
-    program = settle(parse(SMALL, "small.traj"), arm, AUTO)[0]
-    at = np.array(placed.place.position)
+    program = place_program(parse(SMALL, "small.traj"), arm, AUTO)[0]
+    at = np.array(placed.pose.position)
     for way in np.vstack([np.eye(3), -np.eye(3)]):
-        line = placement._write(at + 0.02 * way, dq.rotation(arm.card.canvas.pose))
-        other = placement._judge(program, arm, line)
+        line = placement._place_statement(at + 0.02 * way, dq.rotation(arm.card.canvas.pose))
+        other = placement._evaluate(program, arm, line)
         assert other is None or other.merit < 1.05 * placed.merit
 
 
@@ -60,29 +62,31 @@ def test_the_search_climbs_from_the_grid(arm):
     motion = plan(parse(SMALL, "small.traj"), arm.card.canvas.pose)
     search = placement._Search(motion, arm)
     grid = search._grid()
-    rough = search._merits(grid, placement.COARSE, placement.STARTS)
+    rough = search._merits(grid, placement.COARSE_POSES, placement.COARSE_STARTS)
     best = grid[int(np.argmax(rough))]
     found = search._climb(best, on_floor=False)
-    before, after = search._merits(np.stack([best, found]), placement.FINE, placement.MORE_STARTS)
+    before, after = search._merits(
+        np.stack([best, found]), placement.FINE_POSES, placement.FINE_STARTS
+    )
     assert before > 0
     assert after > 1.01 * before
     assert (rough > 0).mean() < 0.9  # some places of the grid are out of reach
 
 
 def test_the_line_is_exactly_that_place(arm, placed):
-    program = parse(f"{placed.line}\n{SMALL}", "pasted.traj")
-    assert program.placement == placed.place
+    program = parse(f"{placed.statement}\n{SMALL}", "pasted.traj")
+    assert program.placement == placed.pose
     np.testing.assert_allclose(
-        dq.matrix_from_quaternion(np.array(placed.place.orientation)),
+        dq.matrix_from_quaternion(np.array(placed.pose.orientation)),
         dq.matrix_from_quaternion(dq.rotation(arm.card.canvas.pose)),
         atol=1e-9,
     )
 
 
 def test_the_figures_are_those_of_the_drawing_at_that_place(arm, placed):
-    program = parse(f"{placed.line}\n{SMALL}", "pasted.traj")
+    program = parse(f"{placed.statement}\n{SMALL}", "pasted.traj")
     motion = plan(program, arm.card.canvas.pose)
-    q = begin(motion, arm).posture
+    q = reachable_start_posture(motion, arm).posture
     worst, room = np.inf, 1.0
     card = arm.card
     for x_d in motion.pose[::4]:  # Newton by pinocchio's Jacobian alone
@@ -95,16 +99,18 @@ def test_the_figures_are_those_of_the_drawing_at_that_place(arm, placed):
         left = np.minimum(q - card.lower, card.upper - q) / (0.5 * (card.upper - card.lower))
         room = min(room, left.min())
     assert placed.manipulability == pytest.approx(worst, rel=0.05)
-    assert placed.room == pytest.approx(room, rel=0.05)
-    assert placed.merit == pytest.approx(placed.manipulability * placed.room * placed.torque)
+    assert placed.relative_margin == pytest.approx(room, rel=0.05)
+    assert placed.merit == pytest.approx(
+        placed.manipulability * placed.relative_margin * placed.torque_left
+    )
 
 
 def test_the_torque_that_the_weight_leaves_is_that_of_lifting_it(arm, placed):
     """By what the potential energy gains where a joint turns a little."""
     import pinocchio
 
-    motion = plan(parse(f"{placed.line}\n{SMALL}", "pasted.traj"), arm.card.canvas.pose)
-    q, model = begin(motion, arm).posture, arm.model
+    motion = plan(parse(f"{placed.statement}\n{SMALL}", "pasted.traj"), arm.card.canvas.pose)
+    q, model = reachable_start_posture(motion, arm).posture, arm.model
     data, left, step = model.createData(), 1.0, 1e-5
     for x_d in motion.pose[::8]:
         for _ in range(4):
@@ -115,7 +121,7 @@ def test_the_torque_that_the_weight_leaves_is_that_of_lifting_it(arm, placed):
             gained = pinocchio.computePotentialEnergy(model, data, q + turn)
             gained -= pinocchio.computePotentialEnergy(model, data, q - turn)
             left = min(left, 1 - abs(gained) / (2 * step) / most)
-    assert placed.torque == pytest.approx(left, abs=0.01)
+    assert placed.torque_left == pytest.approx(left, abs=0.01)
     assert left < 0.9
 
 
@@ -127,41 +133,41 @@ def test_a_weak_arm_is_given_a_place_where_its_weight_is_less(monkeypatch):
     weak = Kinematics(card.model_copy(update={
         "limits": card.limits.model_copy(update={"effort_Nm": effort})
     }))  # fmt: skip
-    found = settle(parse(SMALL, "small.traj"), weak, AUTO)[1]
+    found = place_program(parse(SMALL, "small.traj"), weak, AUTO)[1]
     with monkeypatch.context() as patched:
         patched.setattr(placement, "_left", lambda _part: 1.0)
-        blind = settle(parse(SMALL, "small.traj"), weak, AUTO)[1]
-    motion = plan(parse(f"{blind.line}\n{SMALL}", "t"), weak.card.canvas.pose)
-    lines = forecast(motion, weak, begin(motion, weak).posture)
-    assert found.torque > 1.5 * (1 - max(one.held_part for one in lines))
-    assert found.merit > blind.merit * (1 - max(one.held_part for one in lines))
+        blind = place_program(parse(SMALL, "small.traj"), weak, AUTO)[1]
+    motion = plan(parse(f"{blind.statement}\n{SMALL}", "t"), weak.card.canvas.pose)
+    lines = forecast(motion, weak, reachable_start_posture(motion, weak).posture)
+    assert found.torque_left > 1.5 * (1 - max(one.weight_part for one in lines))
+    assert found.merit > blind.merit * (1 - max(one.weight_part for one in lines))
 
 
 @pytest.mark.parametrize("bad", [{"stray": 2e-3}, {"room": -0.01}, {"clearance": -1e-3}])
 def test_a_place_that_does_not_do(arm, placed, bad):
-    motion = plan(parse(f"{placed.line}\n{SMALL}", "pasted.traj"), arm.card.canvas.pose)
-    one = forecast(motion, arm, begin(motion, arm).posture)[0]
-    assert placement._is_good(one)
-    assert not placement._is_good(replace(one, **bad))
+    motion = plan(parse(f"{placed.statement}\n{SMALL}", "pasted.traj"), arm.card.canvas.pose)
+    one = forecast(motion, arm, reachable_start_posture(motion, arm).posture)[0]
+    assert placement._is_valid(one)
+    assert not placement._is_valid(replace(one, **bad))
 
 
 @pytest.mark.slow
 def test_a_light_that_the_arm_hides_everywhere_is_placed_all_the_same(arm):
     text = "start at (0, 0) mm tool rpy(0 deg, 150 deg, 0 deg)\nline to (30, 0) mm light red\n"
-    placed = settle(parse(text, "t"), arm, AUTO)[1]
-    assert placed.hidden > placement.IN_SIGHT
-    assert placed.room > 0
+    placed = place_program(parse(text, "t"), arm, AUTO)[1]
+    assert placed.occluded > placement.MOST_OCCLUDED
+    assert placed.relative_margin > 0
 
 
 @pytest.mark.slow
 def test_a_drawing_too_wide_for_the_canvas_finds_its_place(arm):
     program = parse(WIDE, "wide.traj")
     with pytest.raises(ScriptError, match="E310"):
-        begin(plan(program, arm.card.canvas.pose), arm)
-    settled, first = settle(program, arm)
+        reachable_start_posture(plan(program, arm.card.canvas.pose), arm)
+    settled, first = place_program(program, arm)
     motion = plan(settled, arm.card.canvas.pose)
-    assert begin(motion, arm).margin > 0
-    assert find_place(program, arm) == first  # again the same
+    assert reachable_start_posture(motion, arm).margin > 0
+    assert find_placement(program, arm) == first  # again the same
     np.testing.assert_array_equal(motion.front, dq.rotation(arm.card.canvas.pose))
 
 
@@ -172,7 +178,7 @@ def test_a_drawing_stays_above_what_the_arm_stands_on_where_it_can(monkeypatch):
 
     def lowest_and_merit(half):
         text = f"start at (0, {half}) mm\nline to (0, -{half}) mm\n"
-        settled, placed = settle(parse(text, "t"), arm, AUTO)
+        settled, placed = place_program(parse(text, "t"), arm, AUTO)
         return plan(settled, arm.card.canvas.pose).points[:, 2].min(), placed.merit
 
     above, merit = lowest_and_merit(300)
@@ -186,29 +192,29 @@ def test_a_drawing_stays_above_what_the_arm_stands_on_where_it_can(monkeypatch):
 
 def test_turned_is_kept(arm):
     text = "place auto turned rpy(90 deg, 0 deg, 60 deg)\n" + SMALL
-    program, found = settle(parse(text, "turned.traj"), arm)
+    program, found = place_program(parse(text, "turned.traj"), arm)
     asked = parse(text.replace("auto", "at (0, 0) mm"), "t").placement
-    np.testing.assert_allclose(found.place.orientation, asked.orientation, atol=1e-9)
-    assert program.placement == found.place
+    np.testing.assert_allclose(found.pose.orientation, asked.orientation, atol=1e-9)
+    assert program.placement == found.pose
 
 
 def test_a_place_of_the_file_stays_unless_auto_is_asked_for(arm):
     text = "place at (700, 0, 500) mm turned rpy(90 deg, 0 deg, 90 deg)\n" + SMALL
     program = parse(text, "t")
-    assert settle(program, arm) == (program, None)
-    assert settle(program, arm, AUTO)[1].merit > 0
+    assert place_program(program, arm) == (program, None)
+    assert place_program(program, arm, AUTO)[1].merit > 0
 
 
 @pytest.mark.slow
 def test_nowhere(arm):
     with pytest.raises(ScriptError) as caught:
-        settle(parse("place auto\nline to (3, 0) m\n", "long.traj"), arm)
+        place_program(parse("place auto\nline to (3, 0) m\n", "long.traj"), arm)
     text = str(caught.value)
     assert "E313" in text
     assert "long.traj:1:1" in text
     assert "3000 x 0 x 0 mm" in text
     assert "make it smaller: with scale 0.25 ... end" in text
-    settle(parse("place auto\nwith scale 0.25\nline to (3, 0) m\nend\n", "long.traj"), arm)
+    place_program(parse("place auto\nwith scale 0.25\nline to (3, 0) m\nend\n", "long.traj"), arm)
 
 
 @pytest.mark.slow
@@ -217,7 +223,7 @@ def test_nowhere_with_the_tool_turned_so(arm):
     turns = "line to (60, 0) mm tool rot(x, 100 deg)\nline to (0, 0) mm tool rot(x, -100 deg)\n"
     turns += "line to (60, 0) mm tool rot(y, 150 deg)\nline to (0, 0) mm tool rot(y, -150 deg)\n"
     with pytest.raises(ScriptError) as caught:
-        settle(parse(f"place auto\n{turns}", "turns.traj"), arm)
+        place_program(parse(f"place auto\n{turns}", "turns.traj"), arm)
     assert "= help: hold the tool straight: without 'tool' there is room" in str(caught.value)
 
 

@@ -8,7 +8,7 @@ import pytest
 from dqpaint import dq
 from dqpaint.language import ScriptError, parse, read
 from dqpaint.painting.paint import paint
-from dqpaint.planning.forecast_report import look_ahead
+from dqpaint.planning.forecast_report import make_report
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.kinematics.start_posture import METRES_PER_RADIAN, shortfall
 from dqpaint.robots.model.card import read_card
@@ -140,7 +140,7 @@ def test_a_joint_s_end_counts_as_reach_before_the_run_as_in_it():
     )
     program = parse(text, "t.traj")
     said = []
-    for look in (lambda: paint(program, SETTINGS), lambda: look_ahead(program, arm_of("iiwa"))):
+    for look in (lambda: paint(program, SETTINGS), lambda: make_report(program, arm_of("iiwa"))):
         with pytest.raises(ScriptError) as caught:
             look()
         said.append(str(caught.value))
@@ -164,6 +164,6 @@ def test_what_the_stretched_arm_just_reaches_is_drawn(inside_mm):
     """The elbow is straight there, which is a singularity; forecast and run say the same."""
     z = 1e3 * (REACH - 0.539) - inside_mm
     program = parse(f"start at (0, -100, 0) mm\nline to (0, -140, {z:.3f}) mm\n", "t")
-    outlook = look_ahead(program, arm_of("iiwa"))
-    assert max(line.stray for line in outlook.lines) < 3e-4
+    outlook = make_report(program, arm_of("iiwa"))
+    assert max(line.path_error for line in outlook.lines) < 3e-4
     paint(program, SETTINGS)

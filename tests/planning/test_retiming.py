@@ -11,8 +11,8 @@ from dqpaint.language import ScriptError, parse
 from dqpaint.motion import plan
 from dqpaint.outputs.summary import summarise
 from dqpaint.outputs.tables import encode_csv
-from dqpaint.planning.reachability import begin
-from dqpaint.planning.retiming import SHARE, _Torques, slow_down
+from dqpaint.planning.reachability import reachable_start_posture
+from dqpaint.planning.retiming import LIMIT_SHARE, _Torques, retime
 from dqpaint.robots.kinematics.differential_ik import resolve
 from dqpaint.robots.kinematics.dynamics import Dynamics
 from dqpaint.robots.kinematics.kinematics import Kinematics
@@ -49,13 +49,13 @@ def test_one_too_fast(draw, plant):
     assert (np.abs(slow.track.command) <= speed).all()
     assert (
         np.abs(slow.track.command).max(axis=0) / speed
-    ).max() > 0.8 * SHARE  # no slower than due
-    assert slow.slowed.longer == pytest.approx(slow.motion.t[-1] - clip.motion.t[-1])
-    assert 1 < slow.slowed.longer < 3
-    assert {3, 5} <= {line.line for line in slow.slowed.lines}
+    ).max() > 0.8 * LIMIT_SHARE  # no slower than due
+    assert slow.retiming.extra_time == pytest.approx(slow.motion.t[-1] - clip.motion.t[-1])
+    assert 1 < slow.retiming.extra_time < 3
+    assert {3, 5} <= {line.line for line in slow.retiming.lines}
     assert slow.motion.clock[-1] == pytest.approx(clip.motion.t[-1])
     told = summarise(slow)["pace"]
-    assert told["longer_s"] == slow.slowed.longer
+    assert told["longer_s"] == slow.retiming.extra_time
     assert "s longer, down to 0.3" in of_painting(slow, [])
     assert "drawing_time_s" in slow.table
     assert "drawing_time_s" not in clip.table
@@ -98,7 +98,7 @@ def test_one_through_a_singularity(draw, plant):
     assert worst(clip) > 0.05
     assert not slow.limits
     assert worst(slow) < 1e-3  # what the damping costs
-    assert 0.5 < slow.slowed.longer < 2
+    assert 0.5 < slow.retiming.extra_time < 2
     with pytest.raises(ScriptError, match=r"E312.*joint 4 "):
         draw(text, "stop", plant=plant)
 
@@ -124,7 +124,7 @@ def test_a_joint_held_at_its_end_does_not_slow_the_rest_down(draw):
     )
     slow = draw(text, "slow", start="home")
     assert worst(slow) > 0.05
-    assert slow.slowed.longer < 0.5
+    assert slow.retiming.extra_time < 0.5
 
 
 @pytest.mark.slow
@@ -140,14 +140,18 @@ def test_a_drawing_that_meets_no_limit_is_drawn_as_ever(draw, how):
     clip, other = draw(GENTLE, "clip"), draw(GENTLE, how)
     assert encode_csv(clip.table) == encode_csv(other.table)
     if how == "slow":
-        assert (other.slowed.longer, other.slowed.slowest, other.slowed.lines) == (0.0, 1.0, ())
+        assert (other.retiming.extra_time, other.retiming.lowest_pace, other.retiming.lines) == (
+            0.0,
+            1.0,
+            (),
+        )
         assert "pace" in of_painting(other, [])
 
 
 def test_an_arm_that_begins_elsewhere_does_not_slow_the_drawing_down(draw):
     """The way to the path is no part of the drawing."""
     slow = draw(GENTLE, "slow", start="home")
-    assert slow.slowed.longer == 0
+    assert slow.retiming.extra_time == 0
 
 
 @commands("acceleration")
@@ -171,9 +175,9 @@ def test_a_law_of_torques_is_slowed_for_its_motors_too():
         "period 4 ms\nprofile quintic\nline to (80, 40) mm in 0.25 s\nline to (-60, 0) mm in 3 s\n"
     )
     motion = plan(parse(text, "t.traj"), card.canvas.pose)
-    start = begin(motion, arm).posture
+    start = reachable_start_posture(motion, arm).posture
     law = make_controller(stiff_law, "stiff_law")
-    slowed = slow_down(motion, arm, start, "start", "smooth")
+    slowed = retime(motion, arm, start, "start", "smooth")
     assert slowed.lines[0].line == 3
     clip, slow = (
         track(one, arm, start, PLANTS["torque"], law, law.read_gains({}))
@@ -184,8 +188,8 @@ def test_a_law_of_torques_is_slowed_for_its_motors_too():
     apart = [np.linalg.norm(run.points - run.motion.points, axis=1).max() for run in (clip, slow)]
     assert apart[1] < 1e-3 < apart[0]
     assert (np.abs(slow.effort) < arm.card.effort).all()
-    rates = slow_down(motion, arm, start, "start", "none")  # their speeds alone need less
-    assert rates.longer < slowed.longer
+    rates = retime(motion, arm, start, "start", "none")  # their speeds alone need less
+    assert rates.extra_time < slowed.extra_time
 
 
 SUDDEN = (
@@ -203,9 +207,9 @@ def test_motors_that_take_up_a_new_rate_at_once_are_spared_too(draw):
     assert worst(slow) < 1e-3
     effort = read_card("iiwa").effort
     assert 0.7 < (np.abs(slow.track.effort) / effort).max() < 1  # no slower than due
-    assert draw(SUDDEN, "slow", plant="ideal").slowed.longer == 0  # nobody's motors there
-    gentle = draw(SUDDEN, "slow", plant="compliant").slowed  # springs take a corner softly
-    assert gentle.longer < 0.5 * slow.slowed.longer
+    assert draw(SUDDEN, "slow", plant="ideal").retiming.extra_time == 0  # nobody's motors there
+    gentle = draw(SUDDEN, "slow", plant="compliant").retiming  # springs take a corner softly
+    assert gentle.extra_time < 0.5 * slow.retiming.extra_time
 
 
 def test_a_joint_driven_past_its_end_by_torques_meets_its_limit():
@@ -228,7 +232,7 @@ def test_a_motor_s_share_is_worked_out_as_it_is():
     bend = resolve(J, dq.translation(x), slope, np.zeros(7))
     weight = dynamics.weight(q)
     moving = np.abs(dynamics.torque(q, np.zeros(7), bend) - weight)
-    wanted = np.sqrt((moving / (SHARE * arm.card.effort - np.abs(weight))).max())
+    wanted = np.sqrt((moving / (LIMIT_SHARE * arm.card.effort - np.abs(weight))).max())
     found = motors.excess(q, np.zeros(7), J, dq.translation(x), slope)
     assert found == pytest.approx(wanted, rel=1e-9)
     assert abs(wanted - 1) > 0.1

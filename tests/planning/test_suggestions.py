@@ -10,10 +10,10 @@ from dqpaint.language import ScriptError, parse
 from dqpaint.motion import plan
 from dqpaint.motion.transform import moved, scaled, straight
 from dqpaint.painting.paint import prepare
-from dqpaint.planning.forecast_report import look_ahead
-from dqpaint.planning.ideal_run import can_draw, set_out
-from dqpaint.planning.placement import has_room
-from dqpaint.planning.suggestions import NOTHING, advise
+from dqpaint.planning.forecast_report import make_report
+from dqpaint.planning.ideal_run import can_draw, find_start_posture
+from dqpaint.planning.placement import can_be_placed
+from dqpaint.planning.suggestions import NO_SUGGESTION, suggest
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.kinematics.start_posture import PATH_TOLERANCE, least_errors
 from dqpaint.robots.model.card import read_card
@@ -71,10 +71,10 @@ def test_a_way_along_which_the_arm_is_beside_the_path_is_none():
     out = f"curve (0, -140 mm * sin(t), {z:.3f} mm * sin(t)) for t from 0 to 180 deg in 1 s\n"
     home = "repeat 40\n  line by (0.5, 0) mm in 0.1 s\n  line by (-0.5, 0) mm in 0.1 s\nend\n"
     far = motion_of("period 8 ms\n" + home + out + home)
-    assert set_out(*far).margin > 0  # at the poses looked at first
+    assert find_start_posture(*far).margin > 0  # at the poses looked at first
     assert not can_draw(*far)
     with pytest.raises(ScriptError, match=r"E310\]: sample \d+ .*2 mm"):
-        look_ahead(far[0].program, far[1])
+        make_report(far[0].program, far[1])
     near = out.replace(f"{z:.3f}", f"{z - 20:.3f}")
     assert can_draw(*motion_of("period 8 ms\n" + home + near + home))
 
@@ -96,14 +96,14 @@ def test_a_way_along_which_a_joint_goes_beyond_its_end_is_none():
         return motion, Kinematics(tied)
 
     assert can_draw(*turned(8))  # it begins 10 degrees from an end, whichever way it holds itself
-    assert set_out(*turned(60)).margin > 0
+    assert find_start_posture(*turned(60)).margin > 0
     assert not can_draw(*turned(60))
 
 
 @pytest.mark.slow
 def test_room_is_where_place_auto_finds_it():
-    assert has_room(*motion_of("start at (0, 0) mm\nline to (500, 0) mm\n"))
-    assert not has_room(*motion_of("start at (0, 0) mm\nline to (3, 0) m\n"))
+    assert can_be_placed(*motion_of("start at (0, 0) mm\nline to (500, 0) mm\n"))
+    assert not can_be_placed(*motion_of("start at (0, 0) mm\nline to (3, 0) m\n"))
 
 
 @pytest.mark.slow
@@ -115,7 +115,7 @@ def test_a_scale_at_which_only_the_farthest_point_is_reached_is_not_advised():
     half = scaled(motion, 0.5)
     assert least_errors(arm, half.pose[rows])[0] < PATH_TOLERANCE
     assert not can_draw(half, arm)
-    scale = re.search(r"with scale ([\d.]+) ... end", advise(motion, arm, rows))[1]
+    scale = re.search(r"with scale ([\d.]+) ... end", suggest(motion, arm, rows))[1]
     assert can_draw(*motion_of(f"{PLACE}with scale {scale}\n{strokes}end\n", "viper850"))
 
 
@@ -125,13 +125,13 @@ def test_another_arm_is_advised_where_nothing_else_helps(monkeypatch):
 
     motion, arm = motion_of("place at (0.6, 0, 1.25) m turned rpy(90 deg, 0 deg, 90 deg)\n"
                             "start at (0, 0) mm\nline to (10, 0) mm\n", "meka-a2")  # fmt: skip
-    monkeypatch.setattr(advice, "has_room", lambda *_: False)
+    monkeypatch.setattr(advice, "can_be_placed", lambda *_: False)
     monkeypatch.setattr(advice, "installed_names", lambda: ["meka-a2", "panda", "iiwa"])
-    said = advise(motion, arm, np.array([0]))
+    said = suggest(motion, arm, np.array([0]))
     reached = [
         name for name in ("panda", "iiwa") if can_draw(*motion_of(motion.program.text, name))
     ]
-    assert said == (f"take another arm: {reached[0]} reaches it" if reached else NOTHING)
+    assert said == (f"take another arm: {reached[0]} reaches it" if reached else NO_SUGGESTION)
 
 
 ARMS = ["iiwa", "panda", "viper850", "xarm6", "meka-a2", "lwr4"]
@@ -154,7 +154,7 @@ def too_far(seed):
 
 def draw(text, robot, place=None):
     ready = prepare(parse(text, "t"), make_settings(plant="ideal", robot=robot, place=place))
-    ready.follow()
+    ready.run()
 
 
 @pytest.mark.slow
@@ -177,7 +177,7 @@ def test_what_is_advised_helps(seed):
         if "without 'tool'" in one:
             wrapped = re.sub(r" tool rot\(.*?deg\)", "", strokes)
         other = re.search(r"take another arm: (\S+)", one)
-        if one == NOTHING:
+        if one == NO_SUGGESTION:
             continue
         assert smaller or other or "place auto" in one or "without 'tool'" in one, one
         place = "auto" if "place auto" in one else None

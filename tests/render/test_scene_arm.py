@@ -12,7 +12,7 @@ from dqpaint.diagnostics import SourceLine
 from dqpaint.motion import RowLines
 from dqpaint.outputs.summary import summarise
 from dqpaint.painting import video
-from dqpaint.painting.picture import lights_of
+from dqpaint.painting.picture import lamp_paths
 from dqpaint.render.arm_shapes import Arm
 from dqpaint.render.scene_arm import SceneArm, hidden_by_line
 from tests.support.shadow import EYE, Wall
@@ -82,13 +82,16 @@ def test_energy_is_on_the_film_lost_or_hidden(brush, exposure, drawing):
     for one, other in zip(traced.pictures, bare.pictures, strict=True):
         film = one.film
         np.testing.assert_allclose(
-            film.on_film + film.lost + one.hidden.energy, other.film.emitted, rtol=1e-9, atol=1e-15
+            film.on_film + film.lost + one.occluded.energy,
+            other.film.emitted,
+            rtol=1e-9,
+            atol=1e-15,
         )
         np.testing.assert_allclose(one.emitted, other.film.emitted, rtol=1e-9, atol=1e-15)
-        assert one.hidden.energy.min() >= 0.0
-    assert traced.picture.hidden.energy.sum() < 0.01 * traced.picture.emitted.sum()
+        assert one.occluded.energy.min() >= 0.0
+    assert traced.picture.occluded.energy.sum() < 0.01 * traced.picture.emitted.sum()
     if "lobe" not in brush:  # of a beam nothing goes that way
-        assert traced.pictures[1].hidden.energy.sum() > 0.5 * traced.pictures[1].emitted.sum()
+        assert traced.pictures[1].occluded.energy.sum() > 0.5 * traced.pictures[1].emitted.sum()
 
 
 @pytest.mark.slow
@@ -126,7 +129,7 @@ def test_the_arm_is_seen_in_the_picture_alone_and_the_same_each_time(drawing):
     np.testing.assert_array_equal(one.image, two.image)
     np.testing.assert_allclose(one.film.on_film, bare.film.on_film, rtol=1e-9)
     assert (one.image.max(axis=2) > 12).mean() > 2 * (bare.image.max(axis=2) > 12).mean()
-    assert one.picture.hidden is not None  # what is seen hides
+    assert one.picture.occluded is not None  # what is seen hides
 
 
 @pytest.mark.slow
@@ -135,7 +138,7 @@ def test_a_film_with_its_arm_is_developed_as_it_was_and_from_elsewhere(drawing, 
     dqpaint.save(painting, f"{tmp_path}/a", "film")
     (again,) = dqpaint.develop(tmp_path / "a-film.npz")
     np.testing.assert_array_equal(again.image, painting.image)
-    assert again.hidden.lines == painting.picture.hidden.lines
+    assert again.occluded.lines == painting.picture.occluded.lines
     (front,) = dqpaint.develop(tmp_path / "a-film.npz", view="front")
     drawn = dqpaint.draw(drawing, ghost=True, view="front", **SMALL)
     np.testing.assert_array_equal(front.image, drawn.image)
@@ -153,7 +156,7 @@ def test_what_was_worked_out_of_the_arm_is_not_asked_again(ghost, drawing, tmp_p
         (again,) = dqpaint.develop(tmp_path / "a-film.npz", **choices)
         drawn = dqpaint.draw(drawing, ghost=ghost, view="150,10", **SMALL, **choices)
         np.testing.assert_array_equal(again.image, drawn.image)
-        assert again.hidden.lines == painting.picture.hidden.lines
+        assert again.occluded.lines == painting.picture.occluded.lines
         asked_by_draw = len(asked)
         dqpaint.develop(tmp_path / "a-film.npz", **choices)
         assert len(asked) == asked_by_draw
@@ -175,7 +178,7 @@ def test_a_film_without_its_arm_can_show_it_and_the_other_way_round(drawing, tmp
     drawn = dqpaint.draw(drawing, ghost=True, **SMALL)
     np.testing.assert_array_equal(flashed.image, drawn.image)
     (open_,) = dqpaint.develop(tmp_path / "b-film.npz", occlusion=False)
-    assert open_.hidden is None
+    assert open_.occluded is None
     assert open_.arm is not None
 
 
@@ -183,14 +186,14 @@ def test_a_film_without_its_arm_can_show_it_and_the_other_way_round(drawing, tmp
 def test_a_film_whose_arm_is_gone_is_developed_without_and_that_is_said(drawing, tmp_path):
     painting = dqpaint.draw(drawing, ghost=True, **SMALL)
     for robot, reason in (("xarm6", "xarm6 has 6 joints"), ("gone.urdf", "gone.urdf")):
-        other = replace(painting, cast=replace(painting.cast, robot=robot))
+        other = replace(painting, arm_motion=replace(painting.arm_motion, robot=robot))
         dqpaint.save(other, f"{tmp_path}/a", "film")
         (without,) = dqpaint.develop(tmp_path / "a-film.npz")
         (said,) = report.of_arm([without])
         assert said.startswith("warning: the arm is left out, and what it hides is not traced: ")
         assert reason in said
         assert without.arm is None
-        assert without.hidden is None
+        assert without.occluded is None
 
 
 @pytest.mark.slow
@@ -209,11 +212,11 @@ def test_a_movie_ends_with_the_arm(drawing):
 def test_the_arm_moves_in_a_movie_and_stands_in_each_frame_as_it_stood_then(drawing):
     """Against the pictures of runs that end there: their arm is where the frame's is."""
     painting = dqpaint.draw(drawing, ghost=True, view="120,10", plant="ideal", **SMALL)
-    scene, picture, posture = painting.scene, painting.picture, painting.cast.posture
+    scene, picture, posture = painting.scene, painting.picture, painting.arm_motion.posture
     rows = [len(posture) * k // 4 for k in (1, 2, 3)]
     camera, exposure = picture.camera, picture.exposure
-    shine = partial(lights_of, scene)
-    with painting.staged() as staging:
+    shine = partial(lamp_paths, scene)
+    with painting.scene_arm() as staging:
         moving = list(staging.render_frames(camera, shine, exposure, False, rows))
         for row, frame in zip(rows, moving, strict=True):
             staging._posture = posture[: row + 1]
@@ -221,7 +224,7 @@ def test_the_arm_moves_in_a_movie_and_stands_in_each_frame_as_it_stood_then(draw
             a, b = (image.max(axis=2) * exposure > 0.01 for image in (frame, still))
             assert (a & b).sum() > 0.9 * (a | b).sum()
     assert np.abs(moving[0] - moving[-1]).max() * exposure > 0.05
-    with painting.staged() as staging:
+    with painting.scene_arm() as staging:
         films = list(
             video.frames(scene, picture, painting.settings, 4, lambda _done: None, staging)
         )

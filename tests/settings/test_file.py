@@ -9,7 +9,7 @@ import dqpaint
 from dqpaint import __version__
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.outputs.summary import summarise
-from dqpaint.painting.validate import check_each
+from dqpaint.painting.validate import check_settings
 from dqpaint.settings.file import SettingsFile, read_given
 from dqpaint.settings.model import Settings, make_settings
 from dqpaint.settings.readers import parse_disturbances, parse_gains
@@ -65,7 +65,7 @@ def file(tmp_path):
 
 
 def test_every_option_of_the_command_line_can_be_said(file):
-    assert make_settings(**read_given(file(TOML), check_each).choices) == CHOSEN
+    assert make_settings(**read_given(file(TOML), check_settings).choices) == CHOSEN
 
 
 def test_a_summary_says_all_that_its_run_was(file):
@@ -73,16 +73,16 @@ def test_a_summary_says_all_that_its_run_was(file):
         "schema": "dqpaint-run-1", "versions": {"dqpaint": __version__}, "sha256": "a" * 64,
         "settings": json.loads(CHOSEN.model_dump_json()),
     }  # fmt: skip
-    given = read_given(file(json.dumps(facts), "run.json"), check_each)
+    given = read_given(file(json.dumps(facts), "run.json"), check_settings)
     assert make_settings(**given.choices) == CHOSEN
     assert given.remarks("a" * 64) == ()
     assert given.remarks("b" * 64) == ("run.json was made with another text of this drawing",)
 
 
 def test_a_version_that_is_not_this_one_is_told(file):
-    given = read_given(file('dqpaint = "0.0.9"\n'), check_each)
+    given = read_given(file('dqpaint = "0.0.9"\n'), check_settings)
     assert given.remarks("") == (f"given.toml is for dqpaint 0.0.9, this is {__version__}",)
-    assert read_given(file(f'dqpaint = "{__version__}"\n'), check_each).remarks("") == ()
+    assert read_given(file(f'dqpaint = "{__version__}"\n'), check_settings).remarks("") == ()
     assert SettingsFile().remarks("") == ()
 
 
@@ -106,11 +106,11 @@ def test_a_file_that_is_named_is_looked_for_beside_the_settings(file, tmp_path, 
     monkeypatch.chdir("/")
     (tmp_path / "own.py").write_text("def own(seen, k=2.0):\n    return k * seen.twist_d\n")
     (tmp_path / "stripes.png").write_bytes(b"")
-    given = read_given(file('controller = "own.py:own"\ngain.k = 3\n'), check_each)
+    given = read_given(file('controller = "own.py:own"\ngain.k = 3\n'), check_settings)
     assert given.choices["controller"] == f"{tmp_path}/own.py:own"
     with pytest.raises(DqpaintError, match=r"given.toml:1: image .* is not a picture"):
         read_given(
-            file('brush = "pixelstick:length=140mm,image=stripes.png,along=y"\n'), check_each
+            file('brush = "pixelstick:length=140mm,image=stripes.png,along=y"\n'), check_settings
         )
 
 
@@ -160,7 +160,7 @@ def test_what_is_wrong_is_told_with_its_line(text, file, tmp_path):
             dqpaint.draw(tmp_path / "a.traj", settings=file(text))
         return
     with pytest.raises(DqpaintError) as caught:
-        read_given(file(text), check_each)
+        read_given(file(text), check_settings)
     assert not isinstance(caught.value, UsageError)  # it is the file that has a fault
     assert WRONG[text] in str(caught.value)
 
@@ -177,14 +177,14 @@ def test_what_is_wrong_is_told_with_its_line(text, file, tmp_path):
 def test_what_is_no_file_of_settings(name, data, says, tmp_path):
     (tmp_path / name).write_bytes(data)
     with pytest.raises(DqpaintError) as caught:
-        read_given(str(tmp_path / name), check_each)
+        read_given(str(tmp_path / name), check_settings)
     assert says in str(caught.value)
 
 
 @pytest.mark.parametrize("name", ["nowhere.toml", ".", "a\0b", "x" * 999])
 def test_what_is_not_there(name):
     with pytest.raises(DqpaintError, match="cannot be read"):
-        read_given(name, check_each)
+        read_given(name, check_settings)
 
 
 def test_a_picture_from_two_files_is_the_picture_bit_for_bit(file, tmp_path):

@@ -50,8 +50,8 @@ def test_a_simulated_run_recorded_gives_the_same_figures_and_picture(drawing, si
     path.write_bytes(encode_csv(simulated.table))
     again = dqpaint.draw(drawing, recorded=path, size=(160, 90))
     assert again.plant == "recorded"
-    np.testing.assert_array_equal(again.track.read, again.track.posture)
-    np.testing.assert_array_equal(again.track.believed, again.track.pose)
+    np.testing.assert_array_equal(again.track.measured_posture, again.track.posture)
+    np.testing.assert_array_equal(again.track.measured_pose, again.track.pose)
     for name, value in simulated.metrics.figures.items():
         assert again.metrics.figures[name] == pytest.approx(value, rel=1e-6, abs=1e-12), name
     assert again.metrics.figures["position_error_max_m"] > 1e-3
@@ -101,10 +101,10 @@ def test_poses_alone_leave_the_arm_out_of_the_picture(drawing, simulated, tmp_pa
     plain = dqpaint.draw(drawing, recorded=path, size=(160, 90))
     assert "the arm and what it hides are left out" in " ".join(again.notes)
     assert "left out" not in " ".join(plain.notes)
-    assert again.picture.hidden is None
+    assert again.picture.occluded is None
     np.testing.assert_array_equal(again.image, plain.image)
     film = tmp_path / "hook-film.npz"
-    film.write_bytes(film_file.encode(again.scene, again.settings, again.cast))
+    film.write_bytes(film_file.encode(again.scene, again.settings, again.arm_motion))
     (developed,) = dqpaint.develop(film)
     np.testing.assert_array_equal(developed.image, again.image)
     assert "does not say how its joints moved" in " ".join(developed.remarks)

@@ -10,7 +10,7 @@ from dqpaint.controllers import CONTROLLERS
 from dqpaint.disturbances import make_disturbances
 from dqpaint.language import parse
 from dqpaint.motion import plan
-from dqpaint.planning.reachability import begin
+from dqpaint.planning.reachability import reachable_start_posture
 from dqpaint.plants import PLANTS
 from dqpaint.robots.kinematics.batched import ManyKinematics
 from dqpaint.robots.kinematics.differential_ik import resolve
@@ -51,7 +51,7 @@ def arm():
     card = read_card("iiwa")
     kinematics = Kinematics(card)
     motion = plan(parse(ARC, "arc.traj"), card.canvas.pose)
-    return motion, kinematics, begin(motion, kinematics).posture
+    return motion, kinematics, reachable_start_posture(motion, kinematics).posture
 
 
 @pytest.mark.parametrize("name", installed_names())

@@ -7,7 +7,7 @@ import numpy as np
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.language import parse
 from dqpaint.motion import plan
-from dqpaint.planning.reachability import begin
+from dqpaint.planning.reachability import reachable_start_posture
 from dqpaint.plants import choose_plant
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
@@ -23,7 +23,7 @@ ARMS = ("iiwa", "meka-a2")
 def beside_its_circle(name):
     kinematics = Kinematics(read_card(name))
     motion = plan(parse(TEXT, "t.traj"), kinematics.card.canvas.pose)
-    return kinematics, motion, begin(motion, kinematics).posture + ASIDE
+    return kinematics, motion, reachable_start_posture(motion, kinematics).posture + ASIDE
 
 
 def error(arm, values, law="pff", k=20.0):

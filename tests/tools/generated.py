@@ -123,7 +123,7 @@ def hard():
             worst = run.table["position_error_m"].max() * 1e3
             turned = np.degrees(run.table["orientation_error_rad"].max())
             told = f"{float(f'{worst:.2g}'):g} mm" + (f", {turned:.2g} deg" if turned > 1 else "")
-            longer = run.slowed.longer if run.slowed else 0.0
+            longer = run.retiming.extra_time if run.retiming else 0.0
             cells.append(told + (f", {longer:.1f} s longer" if longer else ""))
         rows.append([name, *cells])
     return table(["drawing", "`clip`", "`slow`", "`stop`"], rows)
@@ -278,7 +278,7 @@ def _formatted(text):
 def columns():
     from dqpaint.metrics import all_columns
 
-    rows = [[f"`{one.headers}`", one.meaning] for one in all_columns() if not one.extra]
+    rows = [[f"`{one.headers}`", one.meaning] for one in all_columns() if not one.motion_only]
     return table(["column", ""], rows)
 
 

@@ -8,7 +8,7 @@ from dqpaint.controllers.base.controller import Commands
 from dqpaint.core import AnswerError
 from dqpaint.dq import Floats
 
-WORDS = {
+COMMAND_NAMES = {
     "twist": "a twist",
     "rates": "joint rates",
     "acceleration": "an acceleration",
@@ -16,11 +16,11 @@ WORDS = {
 }
 
 
-def check_answer(said: Any, wanted: tuple[int, ...], kind: Commands, where: str) -> Floats:
+def check_answer(answer: Any, wanted: tuple[int, ...], kind: Commands, where: str) -> Floats:
     """An answer as finite floats; its shape is seen before anything is copied.
 
     Args:
-        said: what the law returned.
+        answer: what the law returned.
         wanted: the shape, (6,) or (n,), with that of a batch before it.
         kind: what the law commands.
         where: the law's file and line, for messages.
@@ -28,19 +28,19 @@ def check_answer(said: Any, wanted: tuple[int, ...], kind: Commands, where: str)
     Raises:
         AnswerError: it is something else.
     """
-    shape = _shape(said)
+    shape = _shape(answer)
     answer = np.zeros(0)
     if shape in (None, wanted[:1], wanted):
         try:
-            answer = np.asarray(said)
+            answer = np.asarray(answer)
             shape = answer.shape or None
         except ValueError:  # a list of lists of several lengths
             shape = (*wanted, -1)
     if shape != wanted:
         count = f"{wanted[-1]} numbers" if len(wanted) == 1 else f"an array of shape {wanted}"
         raise AnswerError(
-            f"{where}: a law that commands {WORDS[kind]} returns {count}, "
-            f"this one returned {_described(said, shape)}"
+            f"{where}: a law that commands {COMMAND_NAMES[kind]} returns {count}, "
+            f"this one returned {_describe(answer, shape)}"
         )
     if answer.dtype.kind == "c":
         raise AnswerError(f"{where}: the law returned complex numbers, not real ones")
@@ -67,7 +67,7 @@ def _shape(said: Any) -> tuple[int, ...] | None:
     return (len(said),) if isinstance(said, list | tuple) else None
 
 
-def _described(said: Any, shape: tuple[int, ...] | None) -> str:
+def _describe(said: Any, shape: tuple[int, ...] | None) -> str:
     if said is None:
         return "nothing"
     if shape and min(shape) < 0:

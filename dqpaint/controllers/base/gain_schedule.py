@@ -17,13 +17,13 @@ import numpy as np
 from pydantic import ValidationError
 
 from dqpaint.controllers.base.gains import G, Value, list_gains
-from dqpaint.core import reason
+from dqpaint.core import pydantic_reason
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 
 GainText = Value | str
 MOST_KNOTS = 1000
-FORM = (
+RAMP_HELP = (
     "write a number without a unit, or a ramp such as 5..20@10% (from 5 to 20 over the first 10 %)"
 )
 
@@ -64,31 +64,31 @@ class Schedule(Generic[G]):
             for row in zip(*columns.values(), strict=True)
         ]
 
-    def promise(self) -> tuple[float, float] | None:
+    def disturbance_bounds(self) -> tuple[float, float] | None:
         """What the gains promise of disturbances all along: the weakest on the way."""
-        ends = [self.first.promise(), self.at(1.0).promise()]
+        ends = [self.first.disturbance_bounds(), self.at(1.0).disturbance_bounds()]
         for name, knots in self.knots.items():
             rows = self.over(np.array([knot.part for knot in knots]))
             for knot, row in zip(knots, rows, strict=True):  # at a jump both values count
-                ends.append(row.model_copy(update={name: knot.value}).promise())
+                ends.append(row.model_copy(update={name: knot.value}).disturbance_bounds())
         bounds = [end for end in ends if end is not None]
         return (max(b[0] for b in bounds), max(b[1] for b in bounds)) if bounds else None
 
     def column(self, name: str, parts: Floats) -> Floats:
         """One gain at parts (N,) of the drawing: numbers (N,), or diagonals (N, m)."""
         if name in self.knots:
-            return _along(self.knots[name], parts)
+            return _interpolated(self.knots[name], parts)
         value = np.asarray(getattr(self.first, name), dtype=np.float64)
         return np.broadcast_to(value, (len(parts), *value.shape))
 
     def _rows(self, name: str, parts: Floats) -> list[Value]:
-        rows = _along(self.knots[name], parts).tolist()
+        rows = _interpolated(self.knots[name], parts).tolist()
         return [tuple(row) if isinstance(row, list) else row for row in rows]
 
-    def shown(self) -> dict[str, Any]:
+    def as_dict(self) -> dict[str, Any]:
         """The gains as a summary shows them: one that changes as it was written."""
         parts = sorted({0.0, *(knot.part for knots in self.knots.values() for knot in knots)})
-        rows = [gains.shown() for gains in self.over(np.array(parts))]
+        rows = [gains.as_dict() for gains in self.over(np.array(parts))]
         shown: dict[str, Any] = dict(rows[0])
         for name in shown:
             values = [row[name] for row in rows]
@@ -96,12 +96,12 @@ class Schedule(Generic[G]):
                 shown[name] = self.texts[name]
             elif any(value != values[0] for value in values):  # it follows from one that changes
                 later = zip(parts[1:], values[1:], strict=True)
-                points = (f"{_said(value)}@{100 * part:g}%" for part, value in later)
-                shown[name] = "..".join([_said(values[0]), *points])
+                points = (f"{_gain_text(value)}@{100 * part:g}%" for part, value in later)
+                shown[name] = "..".join([_gain_text(values[0]), *points])
         return shown
 
 
-def _along(knots: tuple[Knot, ...], parts: Floats) -> Floats:
+def _interpolated(knots: tuple[Knot, ...], parts: Floats) -> Floats:
     """The values at parts (N,): straight from knot to knot, the later one where two coincide."""
     at = np.array([knot.part for knot in knots])
     values = np.array([knot.value for knot in knots], dtype=np.float64)
@@ -133,7 +133,11 @@ def read_schedule(model: type[G], given: Mapping[str, GainText], whose: str) -> 
     for name, value in given.items():
         if name not in model.model_fields:
             raise UsageError(f"{whose} has no gain named '{name}'; its gains: {list_gains(model)}")
-        points = _read(name, value, whose, model) if isinstance(value, str) else (Knot(0.0, value),)
+        points = (
+            _read_knots(name, value, whose, model)
+            if isinstance(value, str)
+            else (Knot(0.0, value),)
+        )
         fixed[name] = points[0].value
         if len(points) > 1 and name in model.constant:
             raise UsageError(
@@ -155,12 +159,12 @@ def _checked(model: type[G], values: Mapping[str, Value], whose: str) -> G:
     except ValidationError as problem:
         first = problem.errors()[0]
         if not first["loc"]:  # what the model itself says of several gains together
-            text = f"{whose}: {reason(first)}"
+            text = f"{whose}: {pydantic_reason(first)}"
         elif first["type"] == "value_error":
-            text = f"gain '{first['loc'][0]}' of {whose} {reason(first)}"
+            text = f"gain '{first['loc'][0]}' of {whose} {pydantic_reason(first)}"
         else:
             shown = values[str(first["loc"][0])]
-            said = shown if isinstance(shown, str) else _said(shown)
+            said = shown if isinstance(shown, str) else _gain_text(shown)
             text = (
                 f"gain '{first['loc'][0]}' of {whose} is {said}; {_range(model, first['loc'][0])}"
             )
@@ -177,7 +181,7 @@ def _range(model: type[G], name: Any) -> str:
     return f"a gain is a number from {low:g} to {high:g}"
 
 
-def _read(name: str, text: str, whose: str, model: type[G]) -> tuple[Knot, ...]:
+def _read_knots(name: str, text: str, whose: str, model: type[G]) -> tuple[Knot, ...]:
     """The knots of a text; one alone is a value that does not change."""
     pieces = text.split("..")
     if len(pieces) > MOST_KNOTS:
@@ -195,7 +199,8 @@ def _read(name: str, text: str, whose: str, model: type[G]) -> tuple[Knot, ...]:
         return tuple(Knot(p.part, _widened(p.value, size)) for p in points)
     except ValueError:
         raise UsageError(
-            f"gain '{name}' of {whose} is '{text[:60]}'; {FORM}; its gains: {list_gains(model)}"
+            f"gain '{name}' of {whose} is '{text[:60]}'; {RAMP_HELP}; "
+            f"its gains: {list_gains(model)}"
         ) from None
 
 
@@ -220,6 +225,6 @@ def _widened(value: Value, size: int) -> tuple[float, ...]:
     return wide
 
 
-def _said(value: Value) -> str:
+def _gain_text(value: Value) -> str:
     """A gain as it is written."""
     return ",".join(f"{part:.6g}" for part in value) if isinstance(value, tuple) else f"{value:.6g}"

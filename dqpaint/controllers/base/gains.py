@@ -4,8 +4,11 @@ from typing import Annotated, ClassVar, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
-LEAST, MOST = 1e-9, 1e9  # beyond these a gain is a slip, and its reciprocal soon no number
-Gain = Annotated[float, Field(ge=LEAST, le=MOST, allow_inf_nan=False)]
+LEAST_GAIN, LARGEST_GAIN = (
+    1e-9,
+    1e9,
+)  # beyond these a gain is a slip, and its reciprocal soon no number
+Gain = Annotated[float, Field(ge=LEAST_GAIN, le=LARGEST_GAIN, allow_inf_nan=False)]
 Value = float | tuple[float, ...]
 
 
@@ -15,12 +18,12 @@ class Gains(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
     constant: ClassVar[dict[str, str]] = {}  # gains that cannot change on the way, and why
 
-    def shown(self) -> dict[str, Value]:
+    def as_dict(self) -> dict[str, Value]:
         """The gains as a summary shows them: the ones given, then those that follow from them."""
         values = {name: getattr(self, name) for name in type(self).model_fields}
         return {name: value for name, value in values.items() if value is not None}
 
-    def promise(self) -> tuple[float, float] | None:
+    def disturbance_bounds(self) -> tuple[float, float] | None:
         """What the law promises of disturbances, where it does: bounds [s] on what comes through.
 
         Of ||1 - r_e||_2 / ||v_w||_2 and of ||p_e||_2 / ||v_t||_2, for an unmodelled twist v.

@@ -25,8 +25,8 @@ from dqpaint.dq import Floats
 from dqpaint.robots.kinematics import solve
 
 GAUSS = np.array([0.5 - np.sqrt(3) / 6, 0.5 + np.sqrt(3) / 6])  # of an interval
-SMALL = 0.5  # norm of an exponent whose exponential is a short series
-CONVERGENT = np.pi  # norm of an exponent beyond which Magnus' series means nothing
+SERIES_NORM = 0.5  # norm of an exponent whose exponential is a short series
+MAGNUS_NORM = np.pi  # norm of an exponent beyond which Magnus' series means nothing
 
 
 class Scattering(NamedTuple):
@@ -59,11 +59,11 @@ def scattering(A: Floats, W: Floats, Q: Floats, c: Floats, h: float) -> Scatteri
     K[..., m + i, i] = -Q / root**2
     K[..., :m, -1] = root * c
     exponent = 0.5 * h * (K[0] + K[1])
-    tame = np.abs(exponent).sum(-1).max(-1) < CONVERGENT
+    tame = np.abs(exponent).sum(-1).max(-1) < MAGNUS_NORM
     size = np.where(tame, np.sqrt(3) / 12 * h**2, 0.0)[:, None, None]
     exponent += size * (K[1] @ K[0] - K[0] @ K[1])
     norm = np.abs(exponent).sum(-1).max()
-    halvings = max(0, int(np.ceil(np.log2(max(norm, 1e-300) / SMALL))))
+    halvings = max(0, int(np.ceil(np.log2(max(norm, 1e-300) / SERIES_NORM))))
     piece = _scattered(_exponential(exponent / 2.0**halvings), m)
     for _ in range(halvings):
         piece = _doubled(piece)
@@ -73,7 +73,7 @@ def scattering(A: Floats, W: Floats, Q: Floats, c: Floats, h: float) -> Scatteri
 
 
 def _exponential(K: Floats) -> Floats:
-    """exp(K) (n, k, k) by its series of degree 8, for norms up to `SMALL`."""
+    """exp(K) (n, k, k) by its series of degree 8, for norms up to `SERIES_NORM`."""
     eye = np.eye(K.shape[-1])
     K2 = K @ K
     K3, K4 = K2 @ K, K2 @ K2
@@ -111,7 +111,7 @@ def _doubled(one: Scattering) -> Scattering:
     )
 
 
-def sweep(intervals: Scattering, P: Floats, g: Floats) -> tuple[Floats, Floats]:
+def solve_backwards(intervals: Scattering, P: Floats, g: Floats) -> tuple[Floats, Floats]:
     """P (n, m, m) and g (n, m) at the starts of n intervals, from those at the end of the last."""
     m = intervals.d.shape[-1]
     slack = np.linalg.inv(intervals.G)  # (I + G P)^-1 = (G^-1 + P)^-1 G^-1, and that is symmetric
@@ -127,7 +127,7 @@ def sweep(intervals: Scattering, P: Floats, g: Floats) -> tuple[Floats, Floats]:
     return prices[..., :m], prices[..., m]
 
 
-def sweep_elements(W: Floats, Q: Floats, P: Floats, h: float) -> Floats:
+def solve_elements_backwards(W: Floats, Q: Floats, P: Floats, h: float) -> Floats:
     """P (n + 1, m) of P_dot = W P^2 - Q, each element by itself, backwards from P (m,) at the end.
 
     Args:

@@ -39,7 +39,7 @@ from dqpaint.controllers.base.controller import (
 from dqpaint.controllers.base.gain_schedule import Schedule
 from dqpaint.controllers.base.gains import Gains
 from dqpaint.controllers.base.seen import Seen
-from dqpaint.core import AnswerError, Running, find_in_file, short_name, split_spec
+from dqpaint.core import AnswerError, UserCode, find_in_file, short_name, split_spec
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 from dqpaint.motion import Motion
@@ -47,11 +47,11 @@ from dqpaint.motion import Motion
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 
-HOW = (
+LAW_HELP = (
     "a law is a function of what it sees, and of gains with a number each: def law(seen, k=20.0); "
     "one that remembers is a class with def __call__(self, seen, k=20.0)"
 )
-START = "def start(self, arm, motion, gains)"
+START_SIGNATURE = "def start(self, arm, motion, gains)"
 
 
 def commands(kind: Commands) -> Callable[[Decorated], Decorated]:
@@ -80,7 +80,7 @@ def find_controller(spec: str) -> Controller[Any]:
     if split_spec(spec) is None:
         return CONTROLLERS[spec]
     law, path, digest = find_in_file(
-        "law", spec, lambda thing: not isinstance(thing, type) or _is_called(thing), HOW
+        "law", spec, lambda thing: not isinstance(thing, type) or _is_callable(thing), LAW_HELP
     )
     return make_controller(law, short_name(spec), path, digest)
 
@@ -101,9 +101,9 @@ def make_controller(
             commands are not those of a law.
     """
     title = getattr(law, "__name__", type(law).__name__)
-    if not (_is_called(law) if isinstance(law, type) else callable(law)):
+    if not (_is_callable(law) if isinstance(law, type) else callable(law)):
         what = f"class '{title}'" if isinstance(law, type) else f"controller {str(law)[:40]!r}"
-        raise UsageError(f"{what} can't be called: it has no __call__; {HOW}")
+        raise UsageError(f"{what} can't be called: it has no __call__; {LAW_HELP}")
     body, owner = _body(law), _owner(law)
     code = getattr(body, "__code__", None)
     path = path or Path(code.co_filename if code and Path(code.co_filename).is_file() else "?")
@@ -148,7 +148,7 @@ class UserController(Controller[Gains]):
 
     @override
     def start(self, arm: Arm, motion: Motion, gains: Schedule[Gains]) -> Law[Gains]:
-        with Running(self.path):
+        with UserCode(self.path):
             law = for_one_run(self.law)
             said = law.start(arm, motion, gains) if hasattr(type(law), "start") else None
         if said is not None:
@@ -164,7 +164,7 @@ class CheckedLaw:
 
     def __init__(self, law: Callable[..., Any], controller: UserController) -> None:
         self._law, self._kind, self._place = law, controller.commands, controller.place
-        self._running = Running(controller.path)
+        self._running = UserCode(controller.path)
 
     def __call__(self, seen: Seen, gains: Gains) -> Floats:
         """What the law returns, (..., 6) or (..., n)."""
@@ -196,7 +196,7 @@ def _body(law: Any) -> Any:
     return inspect.unwrap(law if inspect.isroutine(law) else law.__call__)
 
 
-def _is_called(kind: type) -> bool:
+def _is_callable(kind: type) -> bool:
     """Whether objects of a class can be called."""
     return any("__call__" in vars(base) for base in kind.__mro__)
 
@@ -209,7 +209,7 @@ def _check_returns(body: Any, where: str) -> None:
         (inspect.isasyncgenfunction, "is async"),
     ):
         if test(body):
-            raise UsageError(f"{where} {word}, but a law returns what it commands; {HOW}")
+            raise UsageError(f"{where} {word}, but a law returns what it commands; {LAW_HELP}")
 
 
 def _check_start(law: Any, owner: Any, where: str) -> None:
@@ -228,14 +228,14 @@ def _check_start(law: Any, owner: Any, where: str) -> None:
     try:
         inspect.signature(start).bind("self", "arm", "motion", "gains")
     except (TypeError, ValueError):
-        raise UsageError(f"{where}: its start is not {START}") from None
+        raise UsageError(f"{where}: its start is not {START_SIGNATURE}") from None
 
 
 def _parameters(called: Any, where: str) -> list[inspect.Parameter]:
     try:
         return list(inspect.signature(called).parameters.values())
     except (TypeError, ValueError):
-        raise UsageError(f"{where}: its parameters can't be read; {HOW}") from None
+        raise UsageError(f"{where}: its parameters can't be read; {LAW_HELP}") from None
 
 
 def _is_needed(parameter: inspect.Parameter) -> bool:
@@ -248,14 +248,14 @@ def _gains(law: Any, body: Any, where: str) -> type[Gains]:
     of_class = isinstance(law, type)
     parameters = _parameters(law.__call__ if of_class else law, where)[of_class:]  # without self
     if not parameters:
-        raise UsageError(f"{where} takes nothing; {HOW}")
+        raise UsageError(f"{where} takes nothing; {LAW_HELP}")
     fields: dict[str, Any] = {}
     hints = _hints(body)
     for parameter in parameters[1:]:
         default = parameter.default
         is_number = isinstance(default, int | float) and not isinstance(default, bool)
         if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD) or not is_number:
-            raise UsageError(f"{where}: parameter '{parameter.name}' has no number; {HOW}")
+            raise UsageError(f"{where}: parameter '{parameter.name}' has no number; {LAW_HELP}")
         if parameter.name.startswith("_") or hasattr(Gains, parameter.name):
             raise UsageError(
                 f"{where}: a gain can't be called '{parameter.name}'; choose another name"
@@ -264,7 +264,7 @@ def _gains(law: Any, body: Any, where: str) -> type[Gains]:
         if number is None:
             raise UsageError(
                 f"{where}: parameter '{parameter.name}' is {str(default)[:20]}, "
-                f"not a finite number; {HOW}"
+                f"not a finite number; {LAW_HELP}"
             )
         unit = getattr(hints.get(parameter.name), "__metadata__", ("",))[0]
         fields[parameter.name] = (Finite, Field(number, description=unit or "no unit said"))

@@ -6,7 +6,7 @@ import numpy as np
 from pydantic import Field, ValidationInfo, field_validator
 
 from dqpaint.controllers.base.gain_schedule import Schedule
-from dqpaint.controllers.base.gains import LEAST, MOST, Gains, Value
+from dqpaint.controllers.base.gains import LARGEST_GAIN, LEAST_GAIN, Gains, Value
 from dqpaint.controllers.base.riccati import GAUSS
 from dqpaint.dq import Floats
 
@@ -36,33 +36,35 @@ class Weights(Gains):
         numbers = value if isinstance(value, tuple) else () if value is None else (value,)
         if isinstance(value, tuple) and len(value) != cls.size:
             raise ValueError(f"has {len(value)} numbers; it is one number or {cls.size}")
-        least = 0.0 if info.field_name == "s" else LEAST
+        least = 0.0 if info.field_name == "s" else LEAST_GAIN
         for number in numbers:
-            if not least <= number <= MOST:
-                raise ValueError(f"is {number:g}; a weight is from {least:g} to {MOST:g}")
+            if not least <= number <= LARGEST_GAIN:
+                raise ValueError(f"is {number:g}; a weight is from {least:g} to {LARGEST_GAIN:g}")
         return value
 
     @property
-    def last(self) -> Value:
+    def end_weight(self) -> Value:
         """The weight s of the error at the end, given or not."""
         if self.s is not None:
             return self.s
         product = np.sqrt(np.multiply(self.q, self.r)).tolist()
         return tuple(product) if isinstance(product, list) else float(product)
 
-    def shown(self) -> dict[str, Value]:
+    def as_dict(self) -> dict[str, Value]:
         """The weights, s also where it is not given."""
-        return {**super().shown(), "s": self.last}
+        return {**super().as_dict(), "s": self.end_weight}
 
-    def end(self) -> Floats:
+    def end_diagonal(self) -> Floats:
         """The diagonal of S (size,)."""
-        return np.broadcast_to(np.asarray(self.last, dtype=np.float64), (self.size,))
+        return np.broadcast_to(np.asarray(self.end_weight, dtype=np.float64), (self.size,))
 
 
 W = TypeVar("W", bound=Weights)
 
 
-def within(gains: Schedule[W], first: int, last: int, rows: int) -> tuple[Floats, Floats]:
+def weights_at_gauss_points(
+    gains: Schedule[W], first: int, last: int, rows: int
+) -> tuple[Floats, Floats]:
     """The diagonals of R^-1 and Q (2, n, size) at the Gauss points of n intervals.
 
     Args:

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from dqpaint import dq
 from dqpaint.controllers.base.controller import controller
-from dqpaint.controllers.base.gains import LEAST, MOST, Gain, Gains, Value
+from dqpaint.controllers.base.gains import LARGEST_GAIN, LEAST_GAIN, Gain, Gains, Value
 from dqpaint.controllers.base.pose_errors import spatial_error
 from dqpaint.controllers.base.seen import Seen
 from dqpaint.dq import Floats
@@ -26,8 +26,12 @@ class GammaGains(Gains):
     gamma_T: Gain = Field(
         0.0707, description="s, bound on the translation error; K_T = sqrt(2) / gamma_T"
     )
-    K_O: float | None = Field(None, ge=LEAST, le=MOST, description="1/s, in place of gamma_O")
-    K_T: float | None = Field(None, ge=LEAST, le=MOST, description="1/s, in place of gamma_T")
+    K_O: float | None = Field(
+        None, ge=LEAST_GAIN, le=LARGEST_GAIN, description="1/s, in place of gamma_O"
+    )
+    K_T: float | None = Field(
+        None, ge=LEAST_GAIN, le=LARGEST_GAIN, description="1/s, in place of gamma_T"
+    )
 
     @model_validator(mode="after")
     def _one_of_each(self) -> Self:
@@ -46,7 +50,7 @@ class GammaGains(Gains):
         """Translation gain [1/s]; a translation error decays at k_T."""
         return math.sqrt(2.0) / self.gamma_T if self.K_T is None else self.K_T
 
-    def shown(self) -> dict[str, Value]:
+    def as_dict(self) -> dict[str, Value]:
         """Gammas and gains, those given and those that follow from them."""
         return {
             "gamma_O": 2.0 / self.k_O,
@@ -55,7 +59,7 @@ class GammaGains(Gains):
             "K_T": self.k_T,
         }
 
-    def promise(self) -> tuple[float, float]:
+    def disturbance_bounds(self) -> tuple[float, float]:
         """sqrt(2) / K_O and 1 / K_T [s]."""
         return math.sqrt(2.0) / self.k_O, 1.0 / self.k_T
 

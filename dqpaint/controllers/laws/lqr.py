@@ -9,9 +9,9 @@ from dqpaint.controllers.base.arm import Arm
 from dqpaint.controllers.base.controller import controller
 from dqpaint.controllers.base.gain_schedule import Schedule
 from dqpaint.controllers.base.pose_errors import spatial_error
-from dqpaint.controllers.base.riccati import sweep_elements
+from dqpaint.controllers.base.riccati import solve_elements_backwards
 from dqpaint.controllers.base.seen import Seen
-from dqpaint.controllers.base.weights import Weights, within
+from dqpaint.controllers.base.weights import Weights, weights_at_gauss_points
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
 
@@ -53,9 +53,9 @@ def riccati(motion: Motion, gains: Schedule[SixWeights]) -> Floats:
     """The diagonal of P (N, 6) [s] at every row: with diagonal weights P stays diagonal."""
     rows = len(motion.t)
     P = np.empty((rows, 6))
-    P[-1] = gains.at(1.0).end()
+    P[-1] = gains.at(1.0).end_diagonal()
     for last in range(rows - 1, 0, -BLOCK):
         first = max(0, last - BLOCK)
-        inverse, q = within(gains, first, last, rows)
-        P[first : last + 1] = sweep_elements(inverse, q, P[last], motion.period)
+        inverse, q = weights_at_gauss_points(gains, first, last, rows)
+        P[first : last + 1] = solve_elements_backwards(inverse, q, P[last], motion.period)
     return P

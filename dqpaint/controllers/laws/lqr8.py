@@ -9,9 +9,9 @@ from dqpaint.controllers.base.arm import Arm
 from dqpaint.controllers.base.controller import controller
 from dqpaint.controllers.base.gain_schedule import Schedule
 from dqpaint.controllers.base.pose_errors import invariant_error, twist_of_invariant_rate
-from dqpaint.controllers.base.riccati import GAUSS, scattering, sweep
+from dqpaint.controllers.base.riccati import GAUSS, scattering, solve_backwards
 from dqpaint.controllers.base.seen import Seen
-from dqpaint.controllers.base.weights import Weights, within
+from dqpaint.controllers.base.weights import Weights, weights_at_gauss_points
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
 
@@ -58,14 +58,14 @@ def riccati(motion: Motion, gains: Schedule[EightWeights]) -> tuple[Floats, Floa
     """P, as its upper triangle (N, 36) row by row, and g (N, 8) at every row [s]."""
     rows = len(motion.t)
     triangles, costs = np.empty((rows, 36)), np.empty((rows, 8))
-    P, g = np.diag(gains.at(1.0).end()), np.zeros(8)
+    P, g = np.diag(gains.at(1.0).end_diagonal()), np.zeros(8)
     triangles[-1], costs[-1] = P[UPPER], g
     for last in range(rows - 1, 0, -BLOCK):
         first = max(0, last - BLOCK)
         y = body_rates(motion, first, last)
-        inverse, q = within(gains, first, last, rows)
+        inverse, q = weights_at_gauss_points(gains, first, last, rows)
         passing = scattering(dq.hamilton_minus(y), inverse, q, -y, motion.period)
-        Ps, gs = sweep(passing, P, g)
+        Ps, gs = solve_backwards(passing, P, g)
         P, g = Ps[0], gs[0]
         triangles[first:last] = Ps[:, UPPER[0], UPPER[1]]
         costs[first:last] = gs

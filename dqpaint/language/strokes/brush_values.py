@@ -46,14 +46,16 @@ def brush_of(words: BrushWords, scope: Scope, pen: Pen) -> Brush:
 def _refused(words: BrushWords, fault: "ValidationError", model: "type[BrushModel]") -> Problem:
     """E258: what the model says of the first value that it does not take."""
     from dqpaint.brushes import takes
-    from dqpaint.core import reason
+    from dqpaint.core import pydantic_reason
 
     first = fault.errors()[0]
     key = str(first["loc"][0]) if first["loc"] else ""
     part = next((part for part in words.parts if part.key.text == key), None)
     bound = first["type"].startswith(("less_than", "greater_than"))
     unit = " m" if bound and takes(model).get(key) == "length" else ""
-    message = " ".join(filter(None, (f"brush '{words.name.text}':", key, reason(first) + unit)))
+    message = " ".join(
+        filter(None, (f"brush '{words.name.text}':", key, pydantic_reason(first) + unit))
+    )
     field = model.model_fields.get(key)
     cure = f"{key}: {field.description}" if field and field.description else ""
     return problem("E258", message, words.span if part is None else _span(part), "", cure)

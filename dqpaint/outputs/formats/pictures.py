@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from dqpaint.outputs.registry import Files, Told, writer
+from dqpaint.outputs.registry import Files, Progress, writer
 
 if TYPE_CHECKING:
     from dqpaint.painting import paint, picture
@@ -29,8 +29,8 @@ def film(painting: "paint.Painting") -> Files:
 
     scene, settings = painting.scene, painting.settings
     exact = film_file.encode_linear(scene, painting.picture, settings, ".tiff")
-    worked = painting.picture.worked(settings.ghost)
-    kept = film_file.encode(scene, settings, painting.cast, worked)
+    worked = painting.picture.render_cache(settings.ghost)
+    kept = film_file.encode(scene, settings, painting.arm_motion, worked)
     return {"-film.npz": kept, "-film.tiff": exact}
 
 
@@ -43,18 +43,18 @@ def hdr(painting: "paint.Painting") -> bytes:
 
 
 @writer("video", ".webm")
-def video(painting: "paint.Painting", progress: Told) -> bytes:
+def video(painting: "paint.Painting", progress: Progress) -> bytes:
     """The painting as it grows: VP9 in WebM."""
     from dqpaint.painting import video as movies
 
-    with painting.staged() as staging:
+    with painting.scene_arm() as staging:
         return movies.webm(painting.scene, painting.picture, painting.settings, progress, staging)
 
 
 @writer("webp", ".webp")
-def webp(painting: "paint.Painting", progress: Told) -> bytes:
+def webp(painting: "paint.Painting", progress: Progress) -> bytes:
     """The painting as it grows, small, as an animation for a page."""
     from dqpaint.painting import video as movies
 
-    with painting.staged() as staging:
+    with painting.scene_arm() as staging:
         return movies.webp(painting.scene, painting.picture, painting.settings, progress, staging)

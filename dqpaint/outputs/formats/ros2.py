@@ -5,7 +5,7 @@
 
 from collections.abc import Iterable
 
-from dqpaint.outputs.robot import Trajectory, commented, for_arm
+from dqpaint.outputs.robot import Trajectory, comment_lines, for_arm
 
 NANO = 1_000_000_000
 
@@ -14,7 +14,7 @@ NANO = 1_000_000_000
 def ros2(trajectory: Trajectory) -> str:
     """A trajectory_msgs/JointTrajectory in YAML, positions and velocities."""
     lines = [
-        commented((*trajectory.about, "trajectory_msgs/JointTrajectory of ROS 2.")) + "header:",
+        comment_lines((*trajectory.about, "trajectory_msgs/JointTrajectory of ROS 2.")) + "header:",
         "  stamp: {sec: 0, nanosec: 0}",
         f'  frame_id: "{trajectory.base}"',
         "joint_names:",

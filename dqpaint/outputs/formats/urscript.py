@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 
 from dqpaint.errors import UsageError
 from dqpaint.outputs.registry import Need
-from dqpaint.outputs.robot import Trajectory, commented, for_arm, trajectory_of
+from dqpaint.outputs.robot import Trajectory, comment_lines, for_arm, trajectory_of
 
 if TYPE_CHECKING:
     from dqpaint.painting import paint
 
 JOINTS = ("shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3")
-SHORTEST = 0.002  # [s] of a servoj
+SHORTEST_STEP = 0.002  # [s] of a servoj
 LOOKAHEAD = 0.03  # [s], the least: a longer one smooths corners away
 GAIN = 300
 APPROACH = "a=0.3, v=0.25"  # [rad/s^2, rad/s] to the first posture
@@ -30,14 +30,16 @@ def check_servoj(painting: "paint.Painting") -> None:
             f"URScript is for the arms of Universal Robots, and {trajectory.robot} is none; "
             "csv and ros2 are for any arm"
         )
-    if trajectory.period < SHORTEST:
+    if trajectory.period < SHORTEST_STEP:
         raise UsageError(
-            f"URScript's servoj takes steps of {SHORTEST * 1e3:g} ms or more, the drawing's are "
+            f"URScript's servoj takes steps of {SHORTEST_STEP * 1e3:g} ms or more, the drawing's are "
             f"{trajectory.period * 1e3:g} ms: write a longer period"
         )
 
 
-SERVOJ = Need(f"an arm of Universal Robots, steps of {SHORTEST * 1e3:g} ms or more", check_servoj)
+SERVOJ = Need(
+    f"an arm of Universal Robots, steps of {SHORTEST_STEP * 1e3:g} ms or more", check_servoj
+)
 
 
 @for_arm("urscript", ".script", SERVOJ)
@@ -56,7 +58,9 @@ def urscript(trajectory: Trajectory) -> str:
         '  textmsg("dqpaint: t = 0")  # the light cues count from here',
         *(f"  servoj({posture}, {step})" for posture in postures[1:]),
     ]
-    return commented((*trajectory.about, *notes)) + "\n".join(lines) + "\n" + END + f"{name}()\n"
+    return (
+        comment_lines((*trajectory.about, *notes)) + "\n".join(lines) + "\n" + END + f"{name}()\n"
+    )
 
 
 def is_universal(joints: tuple[str, ...]) -> bool:

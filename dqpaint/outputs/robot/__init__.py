@@ -4,6 +4,6 @@ A new format is a function in a new file of `outputs.formats` under `@for_arm(na
 `Trajectory` in, the text of its file out.
 """
 
-from dqpaint.outputs.robot.trajectory import Trajectory, commented, for_arm, trajectory_of
+from dqpaint.outputs.robot.trajectory import Trajectory, comment_lines, for_arm, trajectory_of
 
-__all__ = ["Trajectory", "commented", "for_arm", "trajectory_of"]
+__all__ = ["Trajectory", "comment_lines", "for_arm", "trajectory_of"]

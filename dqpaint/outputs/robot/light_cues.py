@@ -3,11 +3,11 @@
 import numpy as np
 
 from dqpaint.motion import Motion
-from dqpaint.outputs.robot.trajectory import commented
+from dqpaint.outputs.robot.trajectory import comment_lines
 from dqpaint.outputs.tables import encode_csv
 
 DIGITS = 6  # of a colour: what changes less is one cue
-HEADS = ("t_s", "red", "green", "blue", "strobe_Hz", "strobe_duty", "line")
+HEADERS = ("t_s", "red", "green", "blue", "strobe_Hz", "strobe_duty", "line")
 
 
 def cue_sheet(motion: Motion, about: tuple[str, ...]) -> str:
@@ -23,7 +23,7 @@ def cue_sheet(motion: Motion, about: tuple[str, ...]) -> str:
     segments = motion.program.segments
     strobes = [segments[stroke].strobe for stroke in motion.stroke.tolist()]
     file = motion.source.file
-    heads = (*HEADS, "file") if file.any() else HEADS
+    heads = (*HEADERS, "file") if file.any() else HEADERS
     rows = np.column_stack([
         np.round(motion.light, DIGITS),
         [strobe.frequency if strobe else 0.0 for strobe in strobes],
@@ -33,7 +33,7 @@ def cue_sheet(motion: Motion, about: tuple[str, ...]) -> str:
     ])  # fmt: skip
     changes = np.append(True, (np.diff(rows, axis=0) != 0).any(axis=1))
     values = np.column_stack([motion.t, rows])[changes]
-    head = commented((
+    head = comment_lines((
         *about,
         "Light cues: each holds until the next; linear colours from 0 to 1; t = 0 is the first "
         "point of the trajectory.",

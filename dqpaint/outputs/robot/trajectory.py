@@ -55,7 +55,7 @@ CAUTION = (
 
 
 def for_arm(
-    name: str, ending: str, *needs: Need, form: str | None = None
+    name: str, ending: str, *needs: Need, export_name: str | None = None
 ) -> Callable[[Format], Format]:
     """A decorator that registers the function below it as a writer of `draw` and of `export`.
 
@@ -66,7 +66,7 @@ def for_arm(
         name: as `draw --save` takes it.
         ending: of its file, after the stem.
         needs: what it needs besides.
-        form: as `export --format` takes it, if that is not `name`.
+        export_name: as `export --format` takes it, if that is not `name`.
     """
 
     def record(function: Format) -> Format:
@@ -79,7 +79,7 @@ def for_arm(
 
         written.__doc__ = function.__doc__
         every = (SIMULATED, *needs, WITHIN_LIMITS)
-        WRITERS.add(name)(Writer(name, ending, written, every, form or name))
+        WRITERS.add(name)(Writer(name, ending, written, every, export_name or name))
         return function
 
     return record
@@ -137,6 +137,6 @@ def kinematics_of(painting: "paint.Painting") -> "Kinematics":
     return Kinematics(card_for(painting.motion.program, settings.robot, settings.tool))
 
 
-def commented(about: tuple[str, ...]) -> str:
+def comment_lines(about: tuple[str, ...]) -> str:
     """Lines that every one of the formats takes for a comment."""
     return "".join(f"# {line}\n" for line in about)

@@ -12,7 +12,7 @@ from typing import Any, get_args
 import numpy as np
 from pydantic import BaseModel, ValidationError
 
-from dqpaint.core import reason
+from dqpaint.core import pydantic_reason
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.robots.model.card import LEAST_JOINTS, Canvas, Card
 from dqpaint.robots.model.chain import Axes, Rows
@@ -170,7 +170,7 @@ def _first_error(problem: ValidationError, path: Path, *above: str) -> DqpaintEr
     first = problem.errors()[0]
     steps = (*above, *first["loc"])
     name = "".join(f"[{s + 1}]" if isinstance(s, int) else f".{s}" for s in steps).lstrip(".")
-    fault = reason(first)
+    fault = pydantic_reason(first)
     if first["type"] == "missing":
         fault = "is missing"
         if name == "limits":

@@ -170,7 +170,7 @@ def fitted(figure: TableFigure, cells: Sequence[Cell]) -> TableFigure:
     if len(figure.names) == 1:
         return figure
     there, known = names_of(cells), metrics.all_figures()
-    units = ", ".join(known[name].shown for name in figure.names if name in there)
+    units = ", ".join(known[name].display_unit for name in figure.names if name in there)
     return figure._replace(heading=f"{figure.heading} [{units}]") if units else figure
 
 

@@ -121,7 +121,7 @@ def _split(
     for name in texts.keys() & said.keys() - {"disturb"}:
         raise UsageError(f"give {name} or {name}s, not both")
     check_named(said.get("controller"))
-    base = validate.chosen(said, **usual)
+    base = validate.settings_of_choices(said, **usual)
     if "controller" in texts:
         file = validate.settings_file(said.get("settings")).choices
         if of_file := file.get("gains"):

@@ -67,7 +67,9 @@ def curves(hertz: Floats = HERTZ, products: tuple[float, ...] = PRODUCTS) -> lis
             for frequency in hertz:
                 values = {"form": "sine", axis: size, "frequency": float(frequency)}
                 sine = DISTURBANCES["twist"].model_validate(values)
-                one = attenuation(run(disturbances={"twist": sine}), schedule.promise())[part]
+                one = attenuation(run(disturbances={"twist": sine}), schedule.disturbance_bounds())[
+                    part
+                ]
                 ratios.append(one.ratio / (one.bound or np.nan))
             gain = rate if part == "translation" else 2 * rate
             found.append(Curve(part, gain, hertz, np.array(ratios)))

@@ -103,9 +103,9 @@ def _result(
 ) -> Result:
     """Figures of one track, and what is kept of it; pictures only where they are kept."""
     try:
-        row = reachability.worst_row(track)
+        row = reachability.largest_error_row(track)
         if row is not None and row not in seen:
-            reachability.check_row(ready.motion, ready.kinematics, row, ready.settings.null)
+            reachability.check_row_reached(ready.motion, ready.kinematics, row, ready.settings.null)
             seen.add(row)
         if run.keep:
             painting = paint.finish(ready, track)

@@ -28,7 +28,9 @@ def series(painting: paint.Painting) -> Arrays:
 def light(painting: paint.Painting) -> Arrays:
     """The linear light on the sensor (H, W, 3) and the exposure, to be developed together."""
     shot = painting.picture
-    image = picture.linear(painting.scene, shot.film, shot.exposure, shot.camera, painting.settings)
+    image = picture.linear_image(
+        painting.scene, shot.film, shot.exposure, shot.camera, painting.settings
+    )
     return {"light": image, "exposure": np.array(shot.exposure)}
 
 

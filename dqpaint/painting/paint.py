@@ -24,7 +24,9 @@ from dqpaint.motion import Motion
 from dqpaint.painting.picture import Picture, PictureSet, photograph
 from dqpaint.painting.scene import Scene, make_scene
 from dqpaint.painting.validate import RunChoices, check_run
-from dqpaint.planning import placement, prepared_motion, reachability, retiming
+from dqpaint.planning import placement as place
+from dqpaint.planning import prepared_motion, reachability
+from dqpaint.planning import retiming as retime
 from dqpaint.program import Program
 from dqpaint.render import ArmMotion, SceneArm, scene_arm_of_run
 from dqpaint.robots.kinematics import Clamp, Kinematics
@@ -55,10 +57,10 @@ class Painting(PictureSet):
     scene: Scene
     arm_motion: ArmMotion
     pictures: tuple[Picture, ...]  # one a view
-    retiming: retiming.Retiming | None = None  # where the drawing's clock may slow down
+    retiming: retime.Retiming | None = None  # where the drawing's clock may slow down
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
     notes: tuple[str, ...] = ()  # what was assumed of the arm
-    placement: placement.Placement | None = None  # where `place auto` put the drawing
+    placement: place.Placement | None = None  # where `place auto` put the drawing
     recording: Recording | None = None  # what was painted instead of a simulated run
 
     @property
@@ -158,7 +160,7 @@ def prepare(
     card = card_for(program, settings.robot, settings.tool)
     recorded = settings.recorded
     recording = None if recorded is None else read_recording(recorded, card.joints)
-    with clock("pose"):
+    with clock("place"):
         kinematics = Kinematics(card)
     motor_torque_use = choices.plant.motor_torque_use
     ready = prepared_motion.prepare_motion(program, kinematics, settings, motor_torque_use, clock)

@@ -64,7 +64,7 @@ def test_every_value_on_the_way_is_checked(text):
 
 
 def test_what_is_shown_is_what_was_written():
-    assert read(k="5..20@10%").shown() == {"k": "5..20@10%", "q": 1.0}
+    assert read(k="5..20@10%").as_dict() == {"k": "5..20@10%", "q": 1.0}
     shown = CONTROLLERS["hinf"].read_gains({"gamma_O": "0.5..0.25@10%"}).as_dict()
     assert shown["gamma_O"] == "0.5..0.25@10%"
     assert shown["K_O"] == "4..8@10%"  # follows

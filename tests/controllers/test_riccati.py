@@ -66,7 +66,7 @@ def tiny_steps(motion, gains, steps=12):
     rows = len(motion.t)
     tau = np.arange(2 * steps + 1) / (2 * steps)
     ys = exact_body_rates(motion, np.clip(tau, 1e-12, 1 - 1e-12))
-    P, g, h = np.diag(schedule.at(1.0).end()), np.zeros(8), -motion.period / steps
+    P, g, h = np.diag(schedule.at(1.0).end_diagonal()), np.zeros(8), -motion.period / steps
     Ps, gs = np.empty((rows, 8, 8)), np.empty((rows, 8))
     Ps[-1], gs[-1] = P, g
     for k in range(rows - 2, -1, -1):
@@ -284,7 +284,7 @@ def test_no_other_gain_of_lqr8_costs_less(rng, gains, size):
     motion = asked(BRISK)
     P, g = solved(motion, **gains)
     weights = CONTROLLERS["lqr8"].read_gains(gains).first
-    q, r, s = (np.broadcast_to(v, 8) for v in (weights.q, weights.r, weights.end()))
+    q, r, s = (np.broadcast_to(v, 8) for v in (weights.q, weights.r, weights.end_diagonal()))
     some = [
         costs(motion, *perturbed(rng, P, g, 125, size), q, r, s, 0.2 * rng.normal(size=8), True)
         for _ in range(8)
@@ -312,7 +312,7 @@ def test_p_and_g_are_the_price_of_an_error(rng):
     motion = asked(BRISK)
     P, g = solved(motion, **UNEVEN)
     weights = CONTROLLERS["lqr8"].read_gains(UNEVEN).first
-    q, r, s = (np.broadcast_to(v, 8) for v in (weights.q, weights.r, weights.end()))
+    q, r, s = (np.broadcast_to(v, 8) for v in (weights.q, weights.r, weights.end_diagonal()))
     for e in rng.normal(size=(5, 8)):
         here, none = (
             costs(motion, P[None], g[None], q, r, s, start, True)[0] for start in (e, 0 * e)

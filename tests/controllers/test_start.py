@@ -52,7 +52,7 @@ def test_two_laws_of_one_controller_share_nothing(name, rng):
     ]
     other = [state._replace(pose_d=state.pose) for state in reversed(states)]
     alone = answers(started(controller), controller, states)
-    gain, plain = next(iter(controller.gains().shown().items()))
+    gain, plain = next(iter(controller.gains().as_dict().items()))
     first, second = started(controller), started(controller, motion=STILL, **{gain: plain / 2})
     gains, by_turns = controller.read_gains({}).first, []
     for state, another in zip(states, other, strict=True):
@@ -280,7 +280,7 @@ def test_a_law_that_looks_ahead_leads_where_it_looks():
         there = seen.ahead(rows).pose[-1]
         return 2 * dq.log(dq.mul(there, dq.conj(dq.nearest(seen.pose, there)))) / seen.period
 
-    start = dqpaint.planning.reachability.begin(motion, ARM).posture
+    start = dqpaint.planning.reachability.reachable_start_posture(motion, ARM).posture
     law = make_controller(early, "early")
     found = track(motion, ARM, start, PLANTS["ideal"], law, law.read_gains({}))
     later = motion.points[1 + rows :]  # what row 2 and the next ones are led to

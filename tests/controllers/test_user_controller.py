@@ -260,7 +260,9 @@ def test_a_function_can_be_handed_over_from_python(tmp_path):
     ]  # fmt: skip
 
 
-@pytest.mark.parametrize("name", ["_k", "shown", "promise", "copy", "json", "model_config"])
+@pytest.mark.parametrize(
+    "name", ["_k", "as_dict", "disturbance_bounds", "copy", "json", "model_config"]
+)
 def test_a_gain_has_no_name_of_the_model_s_own(name):
     scope = {}
     exec(f"def law(seen, {name}=1.0): pass", scope)

@@ -142,10 +142,12 @@ def test_two_of_a_name_are_refused(ideal, added):
 
 
 def made(kind=Column, **changed):
-    more = {"names": ("a_m",), "asked": None} if kind is Column else {"name": "a_m", "kind": "cost"}
-    of = (lambda track: track.points[:, 0]) if kind is Column else (lambda track, table: 1.0)
-    given = {"unit": "m", "title": "a", "meaning": "b", "of": of, **more, **changed}
-    return kind(**{"shown": given["unit"], **given})
+    more = {"names": ("a_m",), "reference": None}
+    if kind is not Column:
+        more = {"name": "a_m", "kind": "cost"}
+    function = (lambda track: track.points[:, 0]) if kind is Column else (lambda track, table: 1.0)
+    given = {"unit": "m", "title": "a", "meaning": "b", "measure": function, **more, **changed}
+    return kind(**{"display_unit": given["unit"], **given})
 
 
 NOISE = np.random.default_rng(1)

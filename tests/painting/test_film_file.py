@@ -43,7 +43,7 @@ def test_a_film_developed_again_is_the_same_to_the_bit(painting, tmp_path):
     assert len(again) == len(painting.pictures)
     for new, old in zip(again, painting.pictures, strict=True):
         assert np.array_equal(new.image, old.image)
-        assert new.exposure_text == old.told
+        assert new.exposure_text == old.exposure_text
 
 
 def test_the_tiff_is_the_linear_film_exactly(painting, tmp_path):
@@ -186,8 +186,8 @@ def test_choices_are_checked(tmp_path):
 
 def test_a_video_grows_to_the_picture(monkeypatch):
     painting = dqpaint.draw("star", plant="ideal", size=(161, 90), overlay=True)
-    monkeypatch.setattr(video, "LONGEST", 1.0)
-    monkeypatch.setattr(video, "LEAST", 0.5)
+    monkeypatch.setattr(video, "LONGEST_VIDEO", 1.0)
+    monkeypatch.setattr(video, "SHORTEST_VIDEO", 0.5)
     told = []
     frames = list(
         video.frames(painting.scene, painting.picture, painting.settings, 12, told.append)
@@ -226,7 +226,7 @@ def test_what_has_shone_by_the_last_frame_is_the_film(monkeypatch):
 
 @pytest.mark.slow
 def test_movies_are_written_in_formats_that_play(tmp_path, monkeypatch):
-    monkeypatch.setattr(video, "LONGEST", 1.0)
+    monkeypatch.setattr(video, "LONGEST_VIDEO", 1.0)
     painting = dqpaint.draw("star", plant="ideal", size=(161, 91))
     told = []
     movies = registry.make_files(registry.choose_writers("video,webp"), painting, told.append)

@@ -94,7 +94,7 @@ def test_links_that_meet_are_named(checked):
     """test_collisions looks at which postures collide; here, what is said of one."""
     outlook = checked("start at (0, 0) mm\nline to (40, 0) mm\n").forecast
     assert not outlook.warnings
-    meeting = replace(outlook.lines[0], clearance=-0.0123, between=("wrist", "base"))
+    meeting = replace(outlook.lines[0], clearance=-0.0123, closest_links=("wrist", "base"))
     touching = replace(meeting, clearance=0.0)
     found = _warnings(outlook.motion, read_card("iiwa"), [meeting])
     assert [d.code for d in found] == ["W506"]
@@ -116,7 +116,7 @@ def test_near_a_singularity(checked):
 
 def test_a_millimetre_beside_a_singularity_is_told(checked):
     outlook = checked("start at (0, 0) mm\nline to (40, 0) mm\n").forecast
-    beside = replace(outlook.lines[0], singular=0.01, stray=0.0031)
+    beside = replace(outlook.lines[0], singular_value=0.01, path_error=0.0031)
     (warning,) = _warnings(outlook.motion, read_card("iiwa"), [beside])
     assert warning.message.endswith("there it follows inexactly, up to 3.1 mm beside")
 

@@ -143,7 +143,9 @@ def test_a_weak_arm_is_given_a_place_where_its_weight_is_less(monkeypatch):
     assert found.merit > blind.merit * (1 - max(one.weight_part for one in lines))
 
 
-@pytest.mark.parametrize("bad", [{"stray": 2e-3}, {"room": -0.01}, {"clearance": -1e-3}])
+@pytest.mark.parametrize(
+    "bad", [{"path_error": 2e-3}, {"relative_margin": -0.01}, {"clearance": -1e-3}]
+)
 def test_a_place_that_does_not_do(arm, placed, bad):
     motion = plan(parse(f"{placed.statement}\n{SMALL}", "pasted.traj"), arm.card.canvas.pose)
     one = forecast(motion, arm, reachable_start_posture(motion, arm).posture)[0]

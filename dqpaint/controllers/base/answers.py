@@ -16,11 +16,11 @@ COMMAND_NAMES = {
 }
 
 
-def check_answer(answer: Any, wanted: tuple[int, ...], kind: Commands, where: str) -> Floats:
+def check_answer(returned: Any, wanted: tuple[int, ...], kind: Commands, where: str) -> Floats:
     """An answer as finite floats; its shape is seen before anything is copied.
 
     Args:
-        answer: what the law returned.
+        returned: what the law returned.
         wanted: the shape, (6,) or (n,), with that of a batch before it.
         kind: what the law commands.
         where: the law's file and line, for messages.
@@ -28,11 +28,11 @@ def check_answer(answer: Any, wanted: tuple[int, ...], kind: Commands, where: st
     Raises:
         AnswerError: it is something else.
     """
-    shape = _shape(answer)
+    shape = _shape(returned)
     answer = np.zeros(0)
     if shape in (None, wanted[:1], wanted):
         try:
-            answer = np.asarray(answer)
+            answer = np.asarray(returned)
             shape = answer.shape or None
         except ValueError:  # a list of lists of several lengths
             shape = (*wanted, -1)
@@ -40,15 +40,15 @@ def check_answer(answer: Any, wanted: tuple[int, ...], kind: Commands, where: st
         count = f"{wanted[-1]} numbers" if len(wanted) == 1 else f"an array of shape {wanted}"
         raise AnswerError(
             f"{where}: a law that commands {COMMAND_NAMES[kind]} returns {count}, "
-            f"this one returned {_describe(answer, shape)}"
+            f"this one returned {_describe(returned, shape)}"
         )
     if answer.dtype.kind == "c":
         raise AnswerError(f"{where}: the law returned complex numbers, not real ones")
     is_text = answer.dtype == object and any(isinstance(x, str | bytes) for x in answer.flat)
     if is_text or answer.dtype.kind not in "iufO":
         first = answer.flat[0]
-        kind_said = type(first if answer.dtype == object else first.item()).__name__
-        raise AnswerError(f"{where}: the law returned values of type {kind_said}, not numbers")
+        type_name = type(first if answer.dtype == object else first.item()).__name__
+        raise AnswerError(f"{where}: the law returned values of type {type_name}, not numbers")
     try:
         if answer.dtype == object and None in answer.ravel().tolist():
             raise TypeError
@@ -59,17 +59,17 @@ def check_answer(answer: Any, wanted: tuple[int, ...], kind: Commands, where: st
         raise AnswerError(f"{where}: the law returned values that are not numbers") from None
 
 
-def _shape(said: Any) -> tuple[int, ...] | None:
+def _shape(returned: Any) -> tuple[int, ...] | None:
     """Of an array or a list; None of anything else."""
-    shape = getattr(said, "shape", None)
+    shape = getattr(returned, "shape", None)
     if isinstance(shape, tuple):
         return shape or None
-    return (len(said),) if isinstance(said, list | tuple) else None
+    return (len(returned),) if isinstance(returned, list | tuple) else None
 
 
-def _describe(said: Any, shape: tuple[int, ...] | None) -> str:
-    if said is None:
+def _describe(returned: Any, shape: tuple[int, ...] | None) -> str:
+    if returned is None:
         return "nothing"
     if shape and min(shape) < 0:
         return "rows of several lengths"
-    return f"an array of shape {shape}" if shape else f"a {type(said).__name__}"
+    return f"an array of shape {shape}" if shape else f"a {type(returned).__name__}"

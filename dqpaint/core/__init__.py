@@ -4,10 +4,17 @@ Nothing here knows of robots, light or the language.
 """
 
 from dqpaint.core import tables
-from dqpaint.core.atomic_files import rewrite, write_temporary, write_new
-from dqpaint.core.bounds import LARGEST_MAX_SAMPLES, DEFAULT_MAX_SAMPLES
+from dqpaint.core.atomic_files import rewrite, write_new, write_temporary
+from dqpaint.core.bounds import DEFAULT_MAX_SAMPLES, LARGEST_MAX_SAMPLES
 from dqpaint.core.examples import example_names, examples_folder, find_drawing
-from dqpaint.core.named_values import FILE_PATTERN, Values, make_choice, number_or_text, read_choice, pydantic_reason
+from dqpaint.core.named_values import (
+    FILE_PATTERN,
+    Values,
+    make_choice,
+    number_or_text,
+    pydantic_reason,
+    read_choice,
+)
 from dqpaint.core.records import record, replaced
 from dqpaint.core.registry import Folder, Registry, subclass
 from dqpaint.core.user_files import (
@@ -22,9 +29,9 @@ from dqpaint.core.user_files import (
 from dqpaint.core.version import library_versions
 
 __all__ = [
+    "DEFAULT_MAX_SAMPLES",
     "FILE_PATTERN",
     "LARGEST_MAX_SAMPLES",
-    "DEFAULT_MAX_SAMPLES",
     "AnswerError",
     "Folder",
     "Guarded",
@@ -39,15 +46,15 @@ __all__ = [
     "library_versions",
     "make_choice",
     "number_or_text",
-    "read_choice",
     "pydantic_reason",
+    "read_choice",
     "record",
     "replaced",
     "rewrite",
     "short_name",
     "split_spec",
-    "write_temporary",
     "subclass",
     "tables",
     "write_new",
+    "write_temporary",
 ]

@@ -64,10 +64,10 @@ class Column(Metric):
 
     Attributes:
         names: their headers; `q{joint}_rad` stands for one of each joint.
-        measure: its values (N,), or (N, k) of k columns, from a run; None where the run has none. Of
-            what was asked, and is known without an arm, there is `reference` alone.
-        reference: its values without an arm, if it has any.
-        motion_only: whether only the table of a motion has it.
+        measure: track -> values (N,), or (N, k) for k columns; None where the run has none. A
+            column of the reference motion itself has `reference` alone.
+        reference: motion -> values, where they are known without an arm.
+        motion_only: whether only the table of a motion has it (`--save motion`).
         from_zero: whether a scale of it begins at 0.
         coloured: whether the light can be coloured by it.
         study: what a study does with it: keep it of first runs, or draw it over time as well.
@@ -186,7 +186,8 @@ def motion_column(
 ) -> Callable[[MotionFunction], MotionFunction]:
     """The same for what was asked, which is known before there is a run."""
     return _registered(lambda reference: Column(
-        names=tuple(names.split()), unit=unit, title=title, meaning=meaning, reference=reference, **more
+        names=tuple(names.split()), unit=unit, title=title, meaning=meaning,
+        reference=reference, **more
     ))  # fmt: skip
 
 

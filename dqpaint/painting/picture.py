@@ -210,8 +210,8 @@ def _take_picture(
     )
     image = linear_image(scene, film, exposure, camera, settings, arm=staged.arm)
     return Picture(
-        develop_image(scene, image, exposure, settings), film, exposure, camera, shot.name, told, light,
-        hidden, staged.arm, staged.remarks,
+        develop_image(scene, image, exposure, settings), film, exposure, camera, shot.name, told,
+        light, hidden, staged.arm, staged.remarks,
     )  # fmt: skip
 
 

@@ -32,11 +32,11 @@ class Scene:
     Attributes:
         name: Of the drawing.
         light: What shines, one sweep a brush.
-        reference: The same as it was asked: it alone chooses camera and exposure, so that pictures of
-            two control laws can be laid over each other.
-        overlay: What is drawn beneath, as faint lines.
+        reference: The light of the reference motion: it alone sets camera and exposure, so that
+            pictures of two control laws can be laid over each other.
+        overlay: The reference drawn as faint lines below the light.
         front: (3, 3) columns: right, up and towards the viewer, base frame.
-        legend: What the colours say, if they do.
+        legend: What the colours mean, if they show a column.
         dimmer: Factor on the automatic exposure.
     """
 

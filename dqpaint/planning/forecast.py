@@ -58,26 +58,27 @@ class Forecast:
         line: of the drawing.
         start: time of its first row [s].
         margin: least distance of a joint to its limits [rad]; negative beyond them.
-        relative_margin: the same as a part of half the joint's range: 0 at a limit, 1 in the middle.
+        relative_margin: the same, divided by half the joint's range: 0 at a limit, 1 in the middle.
         speed: largest joint rate [rad/s].
-        speed_part: and as a part of the joint's limit; both of the joint nearest to its own.
+        speed_part: the same as a part of the joint's limit; both of the joint nearest to its own.
         effort: largest torque of the motion itself, of the joint nearest to its limit [Nm]; None
             on a plant without masses.
-        effort_part: and as a part of that limit.
-        jolt: the same where the speed changes at once, and as a part: motors of the plant `stiff`
-            take up each new rate within a millisecond, dampers bear it where motors wind springs;
-            None where it is for the law to say how soon it is taken up.
+        effort_part: the same as a part of that limit.
+        jolt: largest torque [Nm] where the speed changes at once: motors of the plant `stiff` reach
+            each new rate within a millisecond; where motors wind springs, the dampers bear it. None
+            where the law decides how fast the rate changes.
+        jolt_part: the same as a part of that limit.
         weight_part: the largest part of a joint's torque that the arm's weight takes, at rest.
-        sag: how far the light sinks as springs give way under the arm's weight, at the most [m];
-            None without springs.
+        sag: the largest distance [m] that the light sinks because springs yield to the arm's
+            weight; None without springs.
         singular_value: the smallest singular value of the Jacobian at the tool [rad/rad].
         manipulability: the least sqrt(det(J J')).
-        path_error: how far the arm is beside the path at the most [m]: at a singularity it is damped.
-        path_error_row: and in which row of the motion.
-        clearance: least distance between two links [m], and which; None where none can meet.
+        path_error: largest distance of the arm from the path [m]: it is damped at a singularity.
+        path_error_row: the row of the motion where that is.
+        clearance: least distance between two links [m]; None where no links can meet.
         closest_links: these two links.
-        occluded: part of the line's light that the arm stands before, in the view where that is most;
-            None for a dark line.
+        occluded: largest share of the line's light that the arm hides in one view; None for a dark
+            line.
         view: that view.
     """
 

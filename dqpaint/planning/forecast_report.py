@@ -164,7 +164,8 @@ def _speed(one: Forecast, card: Card) -> str:
 def _effort(one: Forecast, card: Card) -> str:
     at = one.effort
     assert at is not None
-    return f"joint {at.joint} needs {at.value:.4g} Nm{_at_time(at.time)}, but {_torque_limit(at, card)}"
+    limit = _torque_limit(at, card)
+    return f"joint {at.joint} needs {at.value:.4g} Nm{_at_time(at.time)}, but {limit}"
 
 
 def _jolt(one: Forecast, card: Card) -> str:

@@ -152,10 +152,11 @@ def reach_error(
             more = f" and {len(lines) - MOST_NAMED} more" if len(lines) > MOST_NAMED else ""
             label += f"; likewise line{'s' if len(lines) > 1 else ''} "
             label += ", ".join(lines[:MOST_NAMED]) + more
+        fault = _describe(one, kinematics.card.name)
         problems.append(
             Diagnostic(
                 "E310",
-                f"sample {one.row} ({motion.t[one.row]:.2f} s) {_describe(one, kinematics.card.name)}",
+                f"sample {one.row} ({motion.t[one.row]:.2f} s) {fault}",
                 program.segments[int(motion.stroke[one.row])].span,
                 label=label,
                 help=advice if last else "",

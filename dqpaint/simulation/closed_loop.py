@@ -302,8 +302,8 @@ class _Log:
         """The limits that held a joint in some rows."""
         return find_clamps(
             card, motion.t[rows], motion.source[rows],
-            (self.posture if torques else self.measured_posture)[rows], self.wanted[rows], self.command[rows],
-            self.effort[rows], torques, motion.period,
+            (self.posture if torques else self.measured_posture)[rows], self.wanted[rows],
+            self.command[rows], self.effort[rows], torques, motion.period,
         )  # fmt: skip
 
     def drift_rates(self, k: int, drift: Floats | None) -> Floats | None:
@@ -337,8 +337,8 @@ def _make_track(log: _Log, motion: Motion, card: Card, torques: bool) -> Track:
     for poses in (log.pose, log.measured_pose):
         poses[0] = dq.nearest(poses[0], motion.pose[0])
     return Track(
-        motion, log.posture, dq.continuous(log.pose), log.measured_posture, dq.continuous(log.measured_pose),
-        log.manipulability, log.command, torques, log.effort, held, log.disturbance,
+        motion, log.posture, dq.continuous(log.pose), log.measured_posture,
+        dq.continuous(log.measured_pose), log.manipulability, log.command, torques, log.effort, held, log.disturbance,
     )  # fmt: skip
 
 

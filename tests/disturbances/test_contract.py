@@ -271,7 +271,8 @@ def test_a_payload_a_torque_law_knows_nothing_of_is_borne_by_its_error(name, law
     motion = plan(parse(text, "t.traj"), arm.card.canvas.pose)
     chosen = CONTROLLERS[law]
     run = track(
-        motion, arm, reachable_start_posture(motion, arm).posture, PLANTS["torque"], chosen, chosen.read_gains({}),
+        motion, arm, reachable_start_posture(motion, arm).posture, PLANTS["torque"], chosen,
+        chosen.read_gains({}),
         disturbances=make_disturbances({"payload": {"mass": mass}}),
     )  # fmt: skip
     x, J = arm.pose_and_jacobian(run.posture[-1])

@@ -161,9 +161,15 @@ NOISE = np.random.default_rng(1)
     (made(names=("a-b_m",)), "is made of letters, digits and _"),
     (made(measure=lambda track: track.points[1:, 0]), "there are 121 rows"),
     (made(measure=lambda track: track.points[:, 0] / 0.0), "finite values in every row"),
-    (made(measure=lambda track: NOISE.normal(size=len(track.points))), "repeats itself bit for bit"),
+    (
+        made(measure=lambda track: NOISE.normal(size=len(track.points))),
+        "repeats itself bit for bit",
+    ),
     (made(measure=lambda track: None), "has values in some run"),
-    (made(measure=lambda track: track.points[:, 0], reference=lambda motion: motion.t[1:]), "121 rows"),
+    (
+        made(measure=lambda track: track.points[:, 0], reference=lambda motion: motion.t[1:]),
+        "121 rows",
+    ),
     (made(Figure, measure=lambda track, table: np.inf), "is a finite number"),
     (made(Figure, measure=lambda track, table: NOISE.normal()), "repeats itself bit for bit"),
     (made(Figure, unit="rad"), "ends with its unit: _rad"),

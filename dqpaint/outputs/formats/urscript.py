@@ -32,8 +32,8 @@ def check_servoj(painting: "paint.Painting") -> None:
         )
     if trajectory.period < SHORTEST_STEP:
         raise UsageError(
-            f"URScript's servoj takes steps of {SHORTEST_STEP * 1e3:g} ms or more, the drawing's are "
-            f"{trajectory.period * 1e3:g} ms: write a longer period"
+            f"URScript's servoj takes steps of {SHORTEST_STEP * 1e3:g} ms or more, the drawing's "
+            f"are {trajectory.period * 1e3:g} ms: write a longer period"
         )
 
 

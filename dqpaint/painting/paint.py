@@ -190,8 +190,8 @@ def finish(ready: PreparedRun, run: Track) -> Painting:
         "recorded" if recording else chosen.plant.name,
         {} if recording else chosen.plant.summary(card),
         chosen.disturbances, chosen.gains.as_dict(), motion, run, metrics, came_through, steps,
-        scene, cast, pictures, ready.prepared.retiming, clock.seconds, notes, ready.prepared.placement,
-        recording,
+        scene, cast, pictures, ready.prepared.retiming, clock.seconds, notes,
+        ready.prepared.placement, recording,
     )  # fmt: skip
 
 

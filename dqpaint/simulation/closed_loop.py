@@ -338,7 +338,8 @@ def _make_track(log: _Log, motion: Motion, card: Card, torques: bool) -> Track:
         poses[0] = dq.nearest(poses[0], motion.pose[0])
     return Track(
         motion, log.posture, dq.continuous(log.pose), log.measured_posture,
-        dq.continuous(log.measured_pose), log.manipulability, log.command, torques, log.effort, held, log.disturbance,
+        dq.continuous(log.measured_pose), log.manipulability, log.command, torques,
+        log.effort, held, log.disturbance,
     )  # fmt: skip
 
 

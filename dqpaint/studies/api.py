@@ -264,8 +264,8 @@ def tune(
     with _kept(folder) as place:
         made = tuning.tune(
             _name(drawing), texts, validate.settings_of_choices(given), place, factor=effort,
-            error=figure, effort=effort_figure, count=runs, budget=budget, jobs=workers(jobs, cluster),
-            reporter=_reporter(progress),
+            error=figure, effort=effort_figure, count=runs, budget=budget,
+            jobs=workers(jobs, cluster), reporter=_reporter(progress),
         )  # fmt: skip
         call = _call(
             "tune", drawing, vary, effort=effort, runs=runs, figure=figure,

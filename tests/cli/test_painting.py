@@ -373,7 +373,7 @@ def test_help_and_check_start_without_the_heavy_libraries(dqpaint, words):
 def test_looking_ahead_needs_neither_the_simulator_nor_the_image_library(dqpaint):
     code = (
         "import sys; from dqpaint.planning.check import check\n"
-        "assert check('star', robot='iiwa').outlook\n"
+        "assert check('star', robot='iiwa').forecast\n"
         "print('LOADED', [m for m in ('cv2', 'pybullet') if m in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

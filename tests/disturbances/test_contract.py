@@ -64,7 +64,7 @@ def test_it_vanishes_at_size_zero(name):
         return
     assert given
     plain, none = run({}, plant_for(name)), run({name: zero}, plant_for(name))
-    for field in ("posture", "pose", "read", "believed", "command", "effort"):
+    for field in ("posture", "pose", "measured_posture", "measured_pose", "command", "effort"):
         np.testing.assert_array_equal(getattr(plain, field), getattr(none, field))
 
 

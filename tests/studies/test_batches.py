@@ -36,7 +36,10 @@ DISTURB = {
     "latency": {"periods": 1},
     "base": {"z": 0.01, "wx": 0.02},
 }
-ARRAYS = ("posture", "pose", "read", "believed", "manipulability", "command", "disturbance")
+ARRAYS = (
+    "posture", "pose", "measured_posture", "measured_pose", "manipulability", "command",
+    "disturbance",
+)  # fmt: skip
 CLOSE = 1e-11
 RATE_LAWS = [name for name, law in CONTROLLERS.items() if not law.drives_torque]
 

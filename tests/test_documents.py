@@ -20,7 +20,7 @@ from dqpaint.outputs.summary import summarise
 from dqpaint.planning.reachability import reachable_start_posture
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
-from dqpaint.studies.gallery import SHOTS, page
+from dqpaint.studies.gallery import page, read_shots
 from dqpaint.studies.kinds.verify import told, verify
 from tests.tools import generated
 
@@ -158,13 +158,13 @@ def test_every_statement_s_example_is_one(word, tmp_path):
 
 def test_the_gallery_s_page_is_current():
     assert (ROOT / "gallery/README.md").read_text("utf-8") == page()
-    assert {shot.example for shot in SHOTS} == set(example_names())
+    assert {shot.example for shot in read_shots()} == set(example_names())
 
 
 def test_the_gallery_s_cases_are_current_and_small():
     assert generated.CASES.read_text("utf-8") == generated.cases()
     files = list(generated.CASES.parent.iterdir())
-    assert {path.stem for path in files} == {"cases", *(shot.name for shot in SHOTS)}
+    assert {path.stem for path in files} == {"cases", *(shot.name for shot in read_shots())}
     assert sum(path.stat().st_size for path in files) < 3.5e6
 
 
@@ -175,9 +175,9 @@ def test_the_gallery_is_what_its_references_guard():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("shot", SHOTS, ids=lambda shot: shot.name)
+@pytest.mark.parametrize("shot", read_shots(), ids=lambda shot: shot.name)
 def test_the_gallery_is_what_its_commands_paint(shot):
-    painting = dqpaint.draw(shot.example, **shot.choices)
+    painting = dqpaint.draw(shot.example, **shot.options)
     kept = cv2.imread(str(ROOT / f"gallery/{shot.name}.png"))[..., ::-1].astype(int)
     assert np.abs(kept - painting.image).max() <= NUMERIC_NOISE, "dqpaint gallery"
     facts = json.loads((ROOT / f"gallery/{shot.name}.json").read_text("utf-8"))

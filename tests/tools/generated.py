@@ -347,12 +347,12 @@ def renewed(page, tables=PAGES):
 
 def cases():
     """The gallery as cases of `dqpaint verify tests/references`."""
-    from dqpaint.studies.gallery import SHOTS
+    from dqpaint.studies.gallery import read_shots
 
     lines = ["# The pictures of the gallery, small. Written by python -m tests.tools.generated."]
-    for shot in SHOTS:
+    for shot in read_shots():
         lines += ["", f"[{shot.name}]", f"drawing = {json.dumps(shot.example)}"]
-        choices = {**shot.choices, **CASE_SIZE}
+        choices = {**shot.options, **CASE_SIZE}
         lines += [f"{name} = {json.dumps(value)}" for name, value in choices.items()]
     return "\n".join(lines) + "\n"
 

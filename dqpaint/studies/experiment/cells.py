@@ -6,8 +6,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+import numpy as np
+
 from dqpaint import metrics
 from dqpaint.core import tables
+from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.studies.experiment.statistics import Spread, spread
 from dqpaint.studies.runner.run import Result, Run
@@ -136,6 +139,11 @@ def family(label: str) -> tuple[str, str]:
     """
     first, _, rest = FAMILY.match(label).groups("")  # type: ignore[union-attr]
     return first, rest
+
+
+def means_of(cells: Sequence[Cell], figure: TableFigure) -> Floats:
+    """The means (N,) of a figure; nan where no run has it."""
+    return np.array([cell.of(figure).mean for cell in cells])
 
 
 def check_figure(name: str) -> None:

@@ -11,6 +11,7 @@ from functools import partial
 import numpy as np
 
 from dqpaint.controllers import CONTROLLERS
+from dqpaint.core import tables
 from dqpaint.disturbances import DISTURBANCES
 from dqpaint.dq import Floats
 from dqpaint.language import parse
@@ -99,18 +100,15 @@ def picture(found: list[Curve]) -> bytes:
 
 def table(found: list[Curve]) -> str:
     """The largest of each curve, in Markdown."""
-    rows = [
-        "| part | gain | gain x period | largest part of the bound | at | promise |",
-        "|---|---|---|---|---|---|",
-    ]
+    rows = [["part", "gain", "gain x period", "largest part of the bound", "at", "promise"]]
     for curve in found:
         worst = int(np.argmax(curve.of_bound))
         most = curve.of_bound[worst]
         rows.append(
-            f"| {curve.part} | {curve.gain:.4g} 1/s | {curve.gain * PERIOD:.3g} | {most:.3f} | "
-            f"{curve.hertz[worst]:.3g} Hz | {'kept' if most <= 1 else 'broken'} |"
-        )
-    return "\n".join(rows)
+            [curve.part, f"{curve.gain:.4g} 1/s", f"{curve.gain * PERIOD:.3g}", f"{most:.3f}",
+             f"{curve.hertz[worst]:.3g} Hz", "kept" if most <= 1 else "broken"]
+        )  # fmt: skip
+    return tables.markdown(rows)
 
 
 def page(found: list[Curve]) -> str:

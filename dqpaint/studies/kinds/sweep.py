@@ -8,15 +8,14 @@ from pathlib import Path
 import numpy as np
 
 from dqpaint.core import tables
-from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 from dqpaint.language.writing import builder
 from dqpaint.settings import SMALLEST, Settings
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.axes import Axis, about, combinations, label, settings_of
-from dqpaint.studies.experiment.cells import Cell, TableFigure, find_figure
+from dqpaint.studies.experiment.cells import TableFigure, find_figure, means_of
 from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
-from dqpaint.studies.report.charts import HeatMap, Line, Panel
+from dqpaint.studies.report.charts import HeatMap, Line, Panel, wide
 from dqpaint.studies.report.page import Block, Charts, Map, Pictured, Rows, Words, files_of
 from dqpaint.studies.runner.engine import Workers, carry_out_study
 from dqpaint.studies.runner.reporter import SILENT, Reporter
@@ -125,11 +124,6 @@ def sweep(
     )  # fmt: skip
 
 
-def values(found: Sequence[Cell], figure: TableFigure) -> Floats:
-    """The means (N,) of a figure; nan where no run came to one."""
-    return np.array([cell.of(figure).mean for cell in found])
-
-
 def curves(swept: Sweep, figure: TableFigure) -> list[Panel]:
     """The figure, and the command beside it, over one axis."""
     axis = swept.axes[0]
@@ -141,7 +135,7 @@ def curves(swept: Sweep, figure: TableFigure) -> list[Panel]:
     effort = find_figure(EFFORT, swept.cells)
     panels = []
     for one in dict.fromkeys((figure, effort)):
-        y = values(chosen, one)
+        y = means_of(chosen, one)
         # where there is no number the mark stands at the top
         top = np.nanmax(y) if np.isfinite(y).any() else 1.0
         shown = np.where(np.isfinite(y), y, top)
@@ -152,19 +146,15 @@ def curves(swept: Sweep, figure: TableFigure) -> list[Panel]:
         panels.append(
             Panel(
                 f"{name} over {axis.name}",
-                _named(axis, swept),
+                label(axis.name, swept.settings),
                 one.heading,
                 [line],
-                log_x=bool(numbers) and _spans(x),
-                log_y=bool((shown > 0).all()) and _spans(shown),
+                log_x=bool(numbers) and wide(x),
+                log_y=wide(shown),
                 ticks=None if numbers else axis.texts,
             )
         )
     return panels
-
-
-def _named(axis: Axis, swept: Sweep) -> str:
-    return label(axis.name, swept.settings)
 
 
 def meanings(swept: Sweep) -> list[str]:
@@ -177,18 +167,12 @@ def surface(swept: Sweep, figure: TableFigure) -> HeatMap:
     """The figure as a heat map: the first axis upwards, the second to the right."""
     up, right = swept.axes
     shape = len(up.texts), len(right.texts)
-    means = values(swept.cells, figure).reshape(shape)
+    means = means_of(swept.cells, figure).reshape(shape)
     marked = np.array([not cell.stable for cell in swept.cells]).reshape(shape)
     good = means[~marked & np.isfinite(means)]
-    log = good.size > 0 and bool((good > 0).all()) and _spans(good)
     title = f"{swept.name}: {figure.heading}"
-    names = _named(right, swept), _named(up, swept)
-    return HeatMap(title, *names, right.texts, up.texts, means, marked, log)
-
-
-def _spans(these: Floats) -> bool:
-    """Whether values, all positive, are far enough apart for a logarithmic axis."""
-    return bool(these.min() > 0) and bool(these.max() >= 20 * these.min())
+    heads = label(right.name, swept.settings), label(up.name, swept.settings)
+    return HeatMap(title, *heads, right.texts, up.texts, means, marked, wide(good))
 
 
 def whys(swept: Sweep) -> list[str]:

@@ -13,7 +13,7 @@ from dqpaint.studies.experiment.axes import label
 from dqpaint.studies.experiment.cells import Cell, TableFigure
 from dqpaint.studies.experiment.gain_range import Range
 from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
-from dqpaint.studies.report.charts import COLOURS, Line, Panel
+from dqpaint.studies.report.charts import COLOURS, Line, Panel, wide
 from dqpaint.studies.report.page import Block, Charts, Rows, Words, files_of
 
 MOST_ROWS = 12  # of the trade-off in a table; the CSV has all
@@ -98,13 +98,13 @@ class Tuning(StudyResult):
 def answer(tuned: Tuning) -> str:
     """The outcome in a few sentences."""
     sentences = [
-        f"{tuned.effort.heading}: the drawing itself needs {_said(tuned.needed)}; "
-        f"{tuned.factor:g} times that, {_said(tuned.bound)}, was allowed."
+        f"{tuned.effort.heading}: the drawing itself needs {tuned.needed:.4g}; "
+        f"{tuned.factor:g} times that, {tuned.bound:.4g}, was allowed."
     ]
     best = tuned.best
     if best is None:
         stable = [cell.of(tuned.effort).mean for cell in tuned.cells if cell.stable]
-        least = f"the least was {_said(min(stable))}" if stable else "none was stable"
+        least = f"the least was {min(stable):.4g}" if stable else "none was stable"
         sentences.append(f"No gains that were tried keep to it: {least}.")
     else:
         gains = " ".join(f"--gain {name}={value}" for name, value in best.choice.items())
@@ -155,16 +155,17 @@ def panels(tuned: Tuning) -> list[Panel]:
     tried = [cell for cell in tuned.cells if np.isfinite(cell.of(tuned.error).mean)]
     stable = [cell for cell in tried if cell.stable]  # of the others effort says nothing
     error = tuned.error.heading
+    effort, least = (cells.means_of(tuned.front, x) for x in (tuned.effort, tuned.error))
     made = [
         Panel(
             "the trade-off", tuned.effort.heading, error,
             [
                 _dots(tuned, stable, "tried", tuned.effort, TRIED),
-                _line(tuned.front, tuned, tuned.effort),
+                Line(effort, least, "least error for an effort", FRONT),
                 *_named(tuned, tuned.effort),
             ],
-            wall=tuned.bound, limit="most allowed", log_x=_wide(_values(stable, tuned.effort)),
-            log_y=_wide(_values(stable, tuned.error)),
+            wall=tuned.bound, limit="most allowed", log_x=wide(_values(stable, tuned.effort)),
+            log_y=wide(_values(stable, tuned.error)),
         )
     ]  # fmt: skip
     for one in tuned.ranges:
@@ -172,7 +173,7 @@ def panels(tuned: Tuning) -> list[Panel]:
             Panel(
                 f"over {one.name}", label(one.name, tuned.settings), error,
                 [_dots(tuned, tried, "tried", one.name, TRIED), *_named(tuned, one.name)],
-                log_x=one.log, log_y=_wide(_values(tried, tuned.error)),
+                log_x=one.log, log_y=wide(_values(tried, tuned.error)),
             )
         )  # fmt: skip
     return made
@@ -181,7 +182,7 @@ def panels(tuned: Tuning) -> list[Panel]:
 def _values(found: Sequence[Cell], of: TableFigure | str) -> Floats:
     if isinstance(of, str):
         return np.array([float(cell.choice[of]) for cell in found])
-    return np.array([cell.of(of).mean for cell in found])
+    return cells.means_of(found, of)
 
 
 def _dots(
@@ -191,10 +192,6 @@ def _dots(
     return Line(_values(found, x), _values(found, tuned.error), label, colour, marks, width=0.0)
 
 
-def _line(front: Sequence[Cell], tuned: Tuning, x: TableFigure | str) -> Line:
-    return Line(_values(front, x), _values(front, tuned.error), "least error for an effort", FRONT)
-
-
 def _named(tuned: Tuning, x: TableFigure | str) -> list[Line]:
     """The usual gains and the best ones."""
     return [
@@ -202,11 +199,3 @@ def _named(tuned: Tuning, x: TableFigure | str) -> list[Line]:
         for label, cell, colour in (("usual", tuned.usual, USUAL), ("best", tuned.best, BEST))
         if cell is not None and np.isfinite(cell.of(tuned.error).mean)
     ]
-
-
-def _wide(values: Floats) -> bool:
-    return bool(values.size and values.min() > 0 and values.max() >= 20 * values.min())
-
-
-def _said(value: float) -> str:
-    return f"{value:.4g}"

@@ -77,9 +77,9 @@ def judge(claim: Claim, paper: Paper, numbers: Numbers) -> ClaimVerdict:
 def _order(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> ClaimVerdict:
     steps = list(pairwise(values))
     signs = ["<" if a.mean < b.mean else ">" if a.mean > b.mean else "=" for a, b in steps]
-    why = _said(values[0].mean)
+    why = f"{values[0].mean:.4g}"
     for sign, (_, b) in zip(signs, steps, strict=True):
-        why += f" {sign} {_said(b.mean)}"
+        why += f" {sign} {b.mean:.4g}"
     differ = [told_apart(a, b) for a, b in steps]
     if any(sign != "<" and sure for sign, sure in zip(signs, differ, strict=True)):
         return ClaimVerdict("fails", why)
@@ -100,7 +100,9 @@ def _spread(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -
     if not np.isfinite(stds).all():
         return ClaimVerdict("no numbers", "needs several runs")
     rises = all(a < b for a, b in pairwise(stds))
-    return ClaimVerdict("holds" if rises else "fails", "deviations " + ", ".join(map(_said, stds)))
+    return ClaimVerdict(
+        "holds" if rises else "fails", "deviations " + ", ".join(f"{std:.4g}" for std in stds)
+    )
 
 
 @RULES.add("ratio")
@@ -110,7 +112,7 @@ def _ratio(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) ->
         return ClaimVerdict("no numbers", "divided by 0")
     found = first.mean / second.mean
     good = abs(found / claim.value - 1) <= claim.tolerance
-    why = f"{_said(found)} for {_said(claim.value)} ± {claim.tolerance:.0%}"
+    why = f"{found:.4g} for {claim.value:.4g} ± {claim.tolerance:.0%}"
     return ClaimVerdict("holds" if good else "fails", why)
 
 
@@ -132,7 +134,7 @@ def _equals(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -
         return ClaimVerdict("no numbers", "the paper prints none")
     gaps = [abs(a.mean - b.mean) for a, b in zip(values, printed, strict=True)]
     good = max(gaps) <= claim.tolerance
-    why = f"{_said(max(gaps))} apart at the most, for {_said(claim.tolerance)}"
+    why = f"{max(gaps):.4g} apart at the most, for {claim.tolerance:.4g}"
     return ClaimVerdict("holds" if good else "fails", why)
 
 
@@ -140,7 +142,7 @@ def _equals(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -
 def _below(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> ClaimVerdict:
     most = max(value.mean for value in values)
     return ClaimVerdict("holds" if most <= claim.value else "fails",
-                   f"{_said(most)} for at most {_said(claim.value)}")  # fmt: skip
+                   f"{most:.4g} for at most {claim.value:.4g}")  # fmt: skip
 
 
 def _trend(claim: Claim, paper: Paper, numbers: Numbers) -> ClaimVerdict:
@@ -171,7 +173,3 @@ def lines_of(paper: Paper, axis: str) -> list[list[str]]:
         [cell_name({n: (a if n == axis else b) for n in paper.axes}) for a in paper.axes[axis]]
         for b in paper.axes[other]
     ]
-
-
-def _said(value: float) -> str:
-    return f"{value:.4g}"

@@ -90,6 +90,11 @@ class HeatMap:
     log: bool = False
 
 
+def wide(values: Floats, ratio: float = 20.0) -> bool:
+    """Whether values are all positive and so far apart that a logarithmic axis shows them."""
+    return bool(values.size and values.min() > 0 and values.max() >= ratio * values.min())
+
+
 def beside(count: int) -> int:
     """How many of some panels stand beside each other."""
     return count if count <= MOST_BESIDE else 2 if count == 4 else MOST_BESIDE

@@ -5,17 +5,20 @@ same study again finds its runs there, and so does a larger one that shares some
 """
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
+from contextlib import ExitStack, closing
 from pathlib import Path
 from types import TracebackType
-from typing import Protocol, Self
+from typing import TYPE_CHECKING, Self
 
-from dqpaint.studies.runner.batches import Task
 from dqpaint.studies.runner.journal import Journal
 from dqpaint.studies.runner.process_pool import Pool, check_jobs
 from dqpaint.studies.runner.reporter import SILENT, Reporter
 from dqpaint.studies.runner.run import Result, Run
 from dqpaint.studies.runner.run_arrays import place
+
+if TYPE_CHECKING:
+    from dqpaint.studies.runner.dask_pool import Cluster
 
 Workers = int | str | None
 """How many processes, None for one a core; or the address of a Dask cluster."""
@@ -70,12 +73,10 @@ class Study:
         self._begin = time.monotonic()
         self._reporter = reporter
         reporter.begin(f"{what}, {total} runs")
-        self._crew = _crew(folder, jobs)
-        try:
-            self._record = Journal(folder)
-        except BaseException:
-            self._crew.close()
-            raise
+        with ExitStack() as opened:
+            self._workers = opened.enter_context(closing(_workers(folder, jobs)))
+            self._journal = opened.enter_context(Journal(folder))
+            self._opened = opened.pop_all()
         self._known: set[str] = set()  # keys of runs that were done before
         self._done: set[str] = set()
 
@@ -90,7 +91,7 @@ class Study:
             DqpaintError: the folder cannot be written, or the workers do not start.
         """
         keys = [run.key for run in runs]
-        found = self._record.results
+        found = self._journal.results
         tasks = {
             key: run
             for key, run in zip(keys, runs, strict=True)
@@ -106,8 +107,8 @@ class Study:
         def tell(count: float) -> None:
             self._reporter.show(min(1.0, (before + count) / max(1, self._total)))
 
-        for result in self._crew.carry_out(list(tasks.items()), tell):
-            self._record.add(result)
+        for result in self._workers.carry_out(list(tasks.items()), tell):
+            self._journal.add(result)
             self._done.add(result.key)
         return [found[key] for key in keys]
 
@@ -126,9 +127,8 @@ class Study:
         trace: TracebackType | None,
     ) -> None:
         """End the workers; after a Ctrl-C, say what is kept."""
-        self._crew.close()
+        self._opened.close()
         self._reporter.end()
-        self._record.close()
         if kind is None and self._done:
             seconds = time.monotonic() - self._begin
             self._reporter.note(f"{len(self._done)} runs took {seconds:.1f} s", aside=True)
@@ -140,19 +140,7 @@ class Study:
             )
 
 
-class WorkerPool(Protocol):
-    """Who carries out runs: processes here, or a cluster."""
-
-    def carry_out(
-        self, tasks: Sequence[Task], progress: Callable[[float], None]
-    ) -> Iterator[Result]:
-        """The results, each as soon as it is there."""
-
-    def close(self) -> None:
-        """End what is under way."""
-
-
-def _crew(folder: Path, jobs: Workers) -> WorkerPool:
+def _workers(folder: Path, jobs: Workers) -> "Pool | Cluster":
     if isinstance(jobs, str):
         from dqpaint.studies.runner.dask_pool import Cluster
 

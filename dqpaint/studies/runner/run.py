@@ -61,20 +61,20 @@ class Run:
 
     def files(self) -> dict[str, str]:
         """The hashes of files: those the drawing names, a law, an arm or an image of one's own."""
-        law = find_controller(self.settings.controller).sha256 or ""
-        arm = Path(self.settings.robot or "")
-        known = arm.suffix in (".urdf", ".toml")
-        brush = read_brush(self.settings.brush) if self.settings.brush else None
-        image = getattr(brush, "image", "")
-        found = {name: _sha256(path) for name, path in _named(self.name, self.text)}
-        found |= {"law": law, "arm": _sha256(arm) if known else ""}
-        found |= {
-            kind: file_digest(read_choice(kind, text, text)[0]) if text else ""
-            for kind, text in (("plant", self.settings.plant), ("brush", self.settings.brush))
+        settings = self.settings
+        arm = settings.robot or ""
+        brush = read_brush(settings.brush) if settings.brush else None
+        return {
+            **{name: _sha256(path) for name, path in _named(self.name, self.text)},
+            "law": find_controller(settings.controller).sha256 or "",
+            "arm": _sha256(arm) if arm.endswith((".urdf", ".toml")) else "",
+            **{
+                kind: file_digest(read_choice(kind, text, text)[0]) if text else ""
+                for kind, text in (("plant", settings.plant), ("brush", settings.brush))
+            },
+            "recorded": _sha256(settings.recorded or ""),
+            "image": _sha256(getattr(brush, "image", "")),
         }
-        recorded = self.settings.recorded
-        found |= {"recorded": _sha256(Path(recorded)) if recorded else ""}
-        return {**found, "image": _sha256(Path(image)) if image else ""}
 
     def program(self) -> Program:
         """The drawing, understood; from its file where that still says the same."""
@@ -208,15 +208,12 @@ def code() -> dict[str, str]:
         if path.is_file() and path.suffix != ".pyc":
             whole.update(path.relative_to(package).as_posix().encode())
             whole.update(path.read_bytes())
-    return {
-        "dqpaint": f"{__version__} {whole.hexdigest()}",
-        **library_versions(),
-    }
+    return {"dqpaint": f"{__version__} {whole.hexdigest()}", **library_versions()}
 
 
-def _sha256(path: Path) -> str:
-    """Of a file; empty where there is none, for what stands in quotes need not be a file."""
+def _sha256(path: str | Path) -> str:
+    """The digest of a file; "" where there is none, for a text in quotes need not name a file."""
     try:
-        return hashlib.sha256(path.read_bytes()).hexdigest()
+        return hashlib.sha256(Path(path).read_bytes()).hexdigest()
     except (OSError, ValueError):
         return ""

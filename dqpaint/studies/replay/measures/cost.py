@@ -12,11 +12,11 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.studies.experiment.statistics import Spread, spread
-from dqpaint.studies.replay.claims import Numbers
 from dqpaint.studies.replay.measure import MEASURES, MeasureRequest, MeasureResult
 from dqpaint.studies.replay.papers import Paper
 
@@ -89,47 +89,41 @@ def dual_quaternions(a: Sequence[Any], b: Sequence[Any]) -> list[Any]:
 
 def whole_matrices(a: Sequence[Any], b: Sequence[Any]) -> list[Any]:
     """Of 16 numbers each, row by row."""
-    return _product(a, b, 4, 4, 4)
+    return _numbers(_matrix(a, 4) @ _matrix(b, 4))
 
 
 def matrices(a: Sequence[Any], b: Sequence[Any]) -> list[Any]:
     """Of 12 numbers each, the row 0 0 0 1 left out."""
-    turned = _product(a, b, 3, 3, 4)
-    return [turned[4 * i + j] + a[4 * i + 3] if j == 3 else turned[4 * i + j]
-            for i in range(3) for j in range(4)]  # fmt: skip
-
-
-def _product(a: Sequence[Any], b: Sequence[Any], rows: int, inner: int, columns: int) -> list[Any]:
-    wide = len(a) // rows
-    out = []
-    for i in range(rows):
-        for j in range(columns):
-            total = a[wide * i] * b[j]
-            for k in range(1, inner):
-                total = total + a[wide * i + k] * b[columns * k + j]
-            out.append(total)
-    return out
+    A = _matrix(a, 3)
+    product = A[:, :3] @ _matrix(b, 3)
+    product[:, 3] += A[:, 3]
+    return _numbers(product)
 
 
 def hamilton(a: Sequence[Any], b: Sequence[Any]) -> list[Any]:
     """A Hamilton operator H+ (64 numbers) by the 8 numbers of the other pose."""
-    return _product(a, b, 8, 8, 1)
+    return _numbers(_matrix(a, 8) @ _matrix(b, 8))
+
+
+def _matrix(numbers: Sequence[Any], rows: int) -> NDArray[np.object_]:
+    """A matrix of any kind of number: numpy multiplies and adds as they do."""
+    return np.array(numbers, dtype=object).reshape(rows, -1)
+
+
+def _numbers(matrix: NDArray[np.object_]) -> list[Any]:
+    return list(matrix.ravel().tolist())
 
 
 def axis_angles(a: Sequence[Any], b: Sequence[Any]) -> list[Any]:
-    """Of 7 numbers each: translation, axis, angle, after Rodrigues; singular without a turn."""
-    t, axis, angle = a[:3], a[3:6], a[6]
+    """Of 7 numbers each: translation, axis, angle, after Rodrigues; singular without a rotation."""
+    (t, axis), p, angle = _matrix(a[:6], 2), _matrix(b[:3], 1)[0], a[6]
     first, second = ([cos(h), *(sin_h * n for n in x[3:6])] for x in (a, b)
                      for h in [x[6] * 0.5] for sin_h in [sin(h)])  # fmt: skip
     w, *v = quaternions(first, second)
     length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
     s, c = sin(angle), cos(angle)
-    p = b[:3]
-    along = (axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2]) * (1.0 - c)
-    across = [axis[1] * p[2] - axis[2] * p[1], axis[2] * p[0] - axis[0] * p[2],
-              axis[0] * p[1] - axis[1] * p[0]]  # fmt: skip
-    place = [p[i] * c + across[i] * s + axis[i] * along + t[i] for i in range(3)]
-    return [*place, *(x / length for x in v), acos(w) * 2.0]
+    position = p * c + np.cross(axis, p) * s + axis * ((axis @ p) * (1.0 - c)) + t
+    return [*position, *(x / length for x in v), acos(w) * 2.0]
 
 
 def screw_dual_quaternion(screw: Sequence[Any], angle: Any) -> list[Any]:
@@ -151,8 +145,7 @@ def screw_matrix(screw: Sequence[Any], angle: Any) -> list[Any]:
     xx, xy, xz, yy, yz, zz = (rest * x for x in squares)
     x, y, z = (s * a for a in l)
     R = [xx + c, xy - z, xz + y, xy + z, yy + c, yz - x, xz - y, yz + x, zz + c]
-    turned = _product(R, q, 3, 3, 1)
-    t = [q[i] - turned[i] for i in range(3)]
+    t = np.array(q, dtype=object) - _matrix(R, 3) @ np.array(q, dtype=object)
     return [*R[:3], t[0], *R[3:6], t[1], *R[6:], t[2]]
 
 
@@ -241,10 +234,8 @@ def cost(paper: Paper, asked: MeasureRequest) -> MeasureResult:
         tally = counted(compose, sizes)
         row = {
             "storage": storage,
-            "multiplications": tally["multiplications"],
             "operations": tally["multiplications"] + tally["additions"],
-            "trigonometric": tally["trigonometric"],
-            "square_roots": tally["square_roots"],
+            **{kind: tally[kind] for kind in ("multiplications", "trigonometric", "square_roots")},
         }
         numbers[name] = {figure: spread([value]) for figure, value in row.items()}
     for name in ("dual quaternion", "4 x 4 matrix", "3 x 4 matrix"):
@@ -253,7 +244,6 @@ def cost(paper: Paper, asked: MeasureRequest) -> MeasureResult:
         numbers[name]["seconds"] = seconds
     for name, drift in drifts().items():
         numbers[name]["drift"] = spread([drift])
-    found: Numbers = numbers
     return MeasureResult(
-        found, f"counted on written-out products; measured on numpy {np.__version__}"
+        numbers, f"counted on written-out products; measured on numpy {np.__version__}"
     )

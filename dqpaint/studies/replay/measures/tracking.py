@@ -7,14 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from dqpaint.errors import DqpaintError
 from dqpaint.robots.model import DEFAULT_ROBOT
 from dqpaint.settings import Settings, make_settings
-from dqpaint.studies.experiment.cells import Cell, TableFigure, family
+from dqpaint.studies.experiment.cells import Cell, TableFigure, every_run_failed, family, run_cells
 from dqpaint.studies.replay.claims import Numbers, published
 from dqpaint.studies.replay.measure import MEASURES, MeasureRequest, MeasureResult
 from dqpaint.studies.replay.papers import Paper, find_paper_drawing
-from dqpaint.studies.report.charts import COLOURS, Line, Panel
+from dqpaint.studies.report.charts import COLOURS, Line, Panel, wide
 from dqpaint.studies.report.page import Charts, Pictured
 from dqpaint.studies.report.pictures import pictures
 from dqpaint.studies.runner.engine import carry_out_study
@@ -63,14 +62,14 @@ def carry_out(
         count = (asked.runs or 1) if settings.disturb else 1
         row = seeded(Run(name, text, settings, (*always, *keep)), count)
         rows.append([replace(run, keep=run.keep or always) for run in row])
-    runs = [run for row in rows for run in row]
-    results = iter(carry_out_study(runs, asked.folder, asked.jobs, paper.name, asked.reporter))
-    found = tuple(
-        Cell({"cell": name}, tuple(next(results) for _ in row))
-        for name, row in zip(choices, rows, strict=True)
-    )
+    found = run_cells(
+        [{"cell": name} for name in choices], rows,
+        lambda runs: carry_out_study(
+            runs, asked.folder, asked.jobs, paper.name, asked.reporter
+        ),
+    )  # fmt: skip
     if all(not result.figures for cell in found for result in cell.results):
-        raise DqpaintError(f"every run failed; the first: {found[0].results[0].message}")
+        raise every_run_failed(found)
     return found
 
 
@@ -115,12 +114,8 @@ def beside_published(paper: Paper, ours: Numbers) -> Charts:
             x, y = (np.array([t[n][figure.name].mean for n in these]) for t in (theirs, ours))
             lines.append(Line(x, y, first, colour, marks=np.zeros(len(x), dtype=bool)))
         if lines:
-            wide_x, wide_y = (_spans([v for line in lines for v in getattr(line, axis)])
-                              for axis in "xy")  # fmt: skip
+            log_x, log_y = (wide(np.concatenate([getattr(line, axis) for line in lines]), WIDE)
+                            for axis in "xy")  # fmt: skip
             heads = f"the paper's {figure.says}", f"{figure.says} here"
-            panels.append(Panel(figure.says, *heads, lines, log_x=wide_x, log_y=wide_y))
+            panels.append(Panel(figure.says, *heads, lines, log_x=log_x, log_y=log_y))
     return Charts("Ours over the paper's: what stands in the same order rises", panels, True)
-
-
-def _spans(values: Sequence[float]) -> bool:
-    return bool(min(values) > 0 and max(values) > WIDE * min(values))

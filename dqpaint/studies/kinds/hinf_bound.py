@@ -22,6 +22,7 @@ from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.model import DEFAULT_ROBOT, read_card
 from dqpaint.simulation import track
 from dqpaint.studies.report.charts import Line, Panel, chart
+from dqpaint.studies.report.templates import render
 
 PERIOD = 0.008  # [s]
 SECONDS = 20.0
@@ -113,21 +114,6 @@ def table(found: list[Curve]) -> str:
 
 def page(found: list[Curve]) -> str:
     """The study in Markdown, beside its picture `promise.png`."""
-    return f"""# The H-infinity promise, measured
-
-The law `hinf` promises that of an unmodelled twist v = [v_w; v_t] no more comes through than
-‖p_e‖₂ ≤ ‖v_t‖₂ / K_T and ‖1 - r_e‖₂ ≤ √2 ‖v_w‖₂ / K_O (Pereira 2016, 3.3). Here a sine of each
-frequency carries the tool of the ideal arm for {SECONDS:g} s, at a period of {PERIOD * 1e3:g} ms.
-The dashed line is the promise.
-
-![Error as a part of the bound, over frequency](promise.png)
-
-{table(found)}
-
-In translation the bound is all but reached at low frequency; in rotation 1/√2 of it, while errors
-are small. The promise is one of continuous time. In steps of T the loop is
-e(k+1) = (1 - K T) e(k) + T v(k): beyond K_T T = 1 it lets most through at half the sampling rate,
-T / (2 - K_T T), which is more than 1 / K_T; in rotation, whose rate is K_O / 2, the bound gives way
-later, at K_O T = 2.34. For one's own run: `dqpaint draw FILE --plant ideal --disturb
-twist=sine,y=0.01,frequency=60 --gain gamma_T=0.00862`.
-"""
+    return render(
+        "promise.md", seconds=f"{SECONDS:g}", period_ms=f"{PERIOD * 1e3:g}", table=table(found)
+    )

@@ -100,9 +100,8 @@ def _spread(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -
     if not np.isfinite(stds).all():
         return ClaimVerdict("no numbers", "needs several runs")
     rises = all(a < b for a, b in pairwise(stds))
-    return ClaimVerdict(
-        "holds" if rises else "fails", "deviations " + ", ".join(f"{std:.4g}" for std in stds)
-    )
+    why = f"deviations {', '.join(f'{std:.4g}' for std in stds)}"
+    return ClaimVerdict("holds" if rises else "fails", why)
 
 
 @RULES.add("ratio")

@@ -4,6 +4,7 @@ A few share one chart and one overlay. Many are split by the first part of their
 law of `HIR, 20 %`: a panel each, all with the same axes, exposure and place.
 """
 
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,6 +24,7 @@ from dqpaint.studies.report.charts import Line, Panel
 from dqpaint.studies.report.page import Charts, Pictured, Shot
 from dqpaint.studies.runner.run_arrays import kept
 
+Arrays = Mapping[str, NDArray[Any]]
 MOST_TOGETHER = 6  # cells of one overlay and one chart
 DIM = 0.72  # of a hue on white paper
 DARKER = -2.0  # stops, so that a hue is seen and not burnt out
@@ -35,48 +37,33 @@ ALIKE = "what all drew alike is white"
 
 
 @dataclass(frozen=True)
-class DrawnRun:
-    """A cell that came to something: its name, and what is kept of its first run."""
-
-    label: str
-    arrays: Mapping[str, NDArray[Any]]
-
-
-@dataclass(frozen=True)
 class Group:
-    """Cells that are shown together: a title, cells by what tells them apart, their colours."""
+    """Cells that are shown together: a title, runs by the rest of their labels, their colours."""
 
     title: str
-    members: Mapping[str, DrawnRun]
+    members: Mapping[str, Arrays]
     colours: Mapping[str, contact_sheet.Colour]
 
 
-def read_drawn(found: Sequence[Cell], folder: Path) -> list[DrawnRun]:
-    """What is kept of the first runs of those cells that have figures."""
-    return [
-        DrawnRun(cell.label, kept(folder, cell.results[0].key))
-        for cell in found
-        if cell.results[0].figures
-    ]
+def read_first_runs(found: Sequence[Cell], folder: Path) -> dict[str, Arrays]:
+    """The arrays of the first runs by the labels of their cells, of those that have figures."""
+    return {
+        cell.label: kept(folder, cell.results[0].key) for cell in found if cell.results[0].figures
+    }
 
 
-def groups(drawn: Sequence[DrawnRun]) -> list[Group]:
-    """All of a few cells together; many by the first part of their names, or each alone."""
+def groups(drawn: Mapping[str, Arrays]) -> list[Group]:
+    """All of a few cells together; many by the first part of their labels, or each alone."""
     if len(drawn) <= MOST_TOGETHER:
-        names = [one.label for one in drawn]
-        colours = dict(zip(names, contact_sheet.hues(len(names)), strict=True))
-        return [Group("", dict(zip(names, drawn, strict=True)), colours)]
-    titles = list(dict.fromkeys(family(one.label)[0] for one in drawn))
-    rests = list(dict.fromkeys(family(one.label)[1] for one in drawn))
+        colours = dict(zip(drawn, contact_sheet.hues(len(drawn)), strict=True))
+        return [Group("", drawn, colours)]
+    rests = list(dict.fromkeys(family(label)[1] for label in drawn))
     colours = dict(zip(rests, contact_sheet.hues(len(rests)), strict=True))
-    return [
-        Group(
-            title,
-            {family(one.label)[1]: one for one in drawn if family(one.label)[0] == title},
-            colours,
-        )
-        for title in titles
-    ]
+    members: dict[str, dict[str, Arrays]] = defaultdict(dict)
+    for label, arrays in drawn.items():
+        title, rest = family(label)
+        members[title][rest] = arrays
+    return [Group(title, these, colours) for title, these in members.items()]
 
 
 def pictures(found: Sequence[Cell], folder: Path, settings: Settings) -> dict[str, Pictured]:
@@ -87,15 +74,17 @@ def pictures(found: Sequence[Cell], folder: Path, settings: Settings) -> dict[st
         folder: of the study.
         settings: what all have in common.
     """
-    drawn = read_drawn(found, folder)
+    drawn = read_first_runs(found, folder)
     if not drawn:
         return {}
-    exposure = float(drawn[0].arrays["exposure"])  # one for all, or they could not be compared
+    exposure = float(
+        next(iter(drawn.values()))["exposure"]
+    )  # one for all, or they could not be compared
 
     def developed(light: NDArray[np.float32], ev: float) -> Picture:
         return LOOKS[settings.look](light, exposure, ev)
 
-    by_label = {one.label: developed(one.arrays["light"], settings.ev) for one in drawn}
+    by_label = {label: developed(run["light"], settings.ev) for label, run in drawn.items()}
     images = [
         by_label[cell.label]
         if cell.label in by_label
@@ -106,7 +95,7 @@ def pictures(found: Sequence[Cell], folder: Path, settings: Settings) -> dict[st
     over = [
         developed(
             contact_sheet.overlay(
-                [one.arrays["light"] for one in group.members.values()],
+                [run["light"] for run in group.members.values()],
                 [group.colours[name] for name in group.members],
             ),
             settings.ev + DARKER,
@@ -145,18 +134,17 @@ def columns(labels: Sequence[str]) -> int | None:
     return sizes.pop() if len(sizes) == 1 and sizes != {1} else None
 
 
-def errors(drawn: Sequence[DrawnRun]) -> Charts:
+def errors(drawn: Mapping[str, Arrays]) -> Charts:
     """Errors over time, one below the other, a panel a group."""
     split = groups(drawn)
     panels = []
     for column in all_columns():
         name, title, scale = column.name, column.title, column.scale
-        if column.study != "drawn" or any(name not in one.arrays for one in drawn):
+        if column.study != "drawn" or any(name not in run for run in drawn.values()):
             continue
-        least = min(float(np.median(one.arrays[name])) for one in drawn)
-        most = max(float(one.arrays[name].max()) for one in drawn)
-        log = 0 < least < most / WIDE
-        span = None if len(split) == 1 else _span([scale * one.arrays[name] for one in drawn], log)
+        values = [run[name] for run in drawn.values()]
+        log = 0 < min(map(np.median, values)) < max(map(np.max, values)) / WIDE
+        span = None if len(split) == 1 else _span(scale * np.concatenate(values), log)
         for group in split:
             lines = _lines(group, name, scale, len(split) > 1)
             head = f"{group.title}: {title}" if group.title else title
@@ -174,20 +162,19 @@ def _lines(group: Group, name: str, scale: float, small: bool) -> list[Line]:
     widths = np.geomspace(thick, THIN, len(group.members)).tolist()
     return [
         Line(
-            one.arrays["t_s"], scale * one.arrays[name], label or group.title,
+            run["t_s"], scale * run[name], label or group.title,
             on_paper(group.colours[label]), width=width,
         )
-        for (label, one), width in zip(group.members.items(), widths, strict=True)
+        for (label, run), width in zip(group.members.items(), widths, strict=True)
     ]  # fmt: skip
 
 
-def _span(values: Sequence[Floats], log: bool) -> tuple[float, float]:
+def _span(values: Floats, log: bool) -> tuple[float, float]:
     """The ends of an axis for all."""
-    every = np.concatenate(values)
-    top = ROOM * float(every.max())
+    top = ROOM * float(values.max())
     if not log:
         return 0.0, top or 1.0
-    positive = every[every > 0]
+    positive = values[values > 0]
     return max(float(np.quantile(positive, 0.001)) / ROOM, top * 10.0**-DECADES), top
 
 

@@ -1,4 +1,4 @@
-"""The name of a template and values -> HTML, in which every text is escaped."""
+"""The name of a template and values -> HTML, in which every text is escaped, or Markdown."""
 
 import base64
 from functools import cache
@@ -24,7 +24,7 @@ def _environment() -> "Environment":
     folder = files("dqpaint.studies.report") / "templates"
     made = Environment(
         loader=FunctionLoader(lambda name: (folder / name).read_text("utf-8")),
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
+        autoescape=lambda name: name is None or name.endswith(".html"), undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
         keep_trailing_newline=True,
     )  # fmt: skip
     made.filters["base64"] = lambda data: base64.b64encode(data).decode()

@@ -11,7 +11,7 @@ from dqpaint.studies.replay.measure import MEASURES, MeasureRequest, MeasureResu
 from dqpaint.studies.replay.measures.tracking import beside_published, carry_out, measured
 from dqpaint.studies.replay.papers import Paper
 from dqpaint.studies.report.page import Pictured
-from dqpaint.studies.report.pictures import errors, read_drawn
+from dqpaint.studies.report.pictures import errors, read_first_runs
 from dqpaint.studies.runner.run_arrays import kept
 
 LATE = 0.1  # of the run
@@ -35,7 +35,7 @@ def late(paper: Paper, asked: MeasureRequest) -> MeasureResult:
     }
     shown: dict[str, Pictured] = {
         "-published": beside_published(paper, numbers),
-        "-errors": errors(read_drawn(found, asked.folder)),
+        "-errors": errors(read_first_runs(found, asked.folder)),
     }
     return replace(made, numbers=numbers, shown=shown)
 

@@ -69,10 +69,7 @@ def test_the_cells_of_the_spiral_stand_by_their_laws():
     for group in split:
         assert list(group.members) == ["ln2^2", "ln2", "best"]
         for name, arrays in group.members.items():
-            assert (
-                arrays["position_error_m"][0]
-                == made[f"{group.title}, {name}"]["position_error_m"][0]
-            )
+            assert arrays is made[f"{group.title}, {name}"]
     assert pictures.columns(names) == 6  # a law below itself
     by_set = [f"{law}, {n}" for law in ("HIR", "HIRT") for n in "12345"]
     assert pictures.columns(by_set) == 5  # a law a line

@@ -77,9 +77,8 @@ def pictures(found: Sequence[Cell], folder: Path, settings: Settings) -> dict[st
     drawn = read_first_runs(found, folder)
     if not drawn:
         return {}
-    exposure = float(
-        next(iter(drawn.values()))["exposure"]
-    )  # one for all, or they could not be compared
+    first = next(iter(drawn.values()))
+    exposure = float(first["exposure"])  # one for all, or they could not be compared
 
     def developed(light: NDArray[np.float32], ev: float) -> Picture:
         return LOOKS[settings.look](light, exposure, ev)

@@ -24,7 +24,8 @@ def _environment() -> "Environment":
     folder = files("dqpaint.studies.report") / "templates"
     made = Environment(
         loader=FunctionLoader(lambda name: (folder / name).read_text("utf-8")),
-        autoescape=lambda name: name is None or name.endswith(".html"), undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
+        autoescape=lambda name: name is None or name.endswith(".html"),
+        undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True,
         keep_trailing_newline=True,
     )  # fmt: skip
     made.filters["base64"] = lambda data: base64.b64encode(data).decode()

@@ -1,4 +1,4 @@
-"""Brushes: a name and values -> `Emitters`, the lamps that a tool carries, in the tool frame.
+"""The name of a brush and its values -> `Emitters`, the lamps on a tool, in the tool frame.
 
 A new brush is a class in `kinds` under `@BRUSHES.add(name)`: fields with their descriptions and
 `emitters`. From then on `--brush NAME:KEY=VALUE` and the statement `brush NAME KEY VALUE` take it.

@@ -79,7 +79,7 @@ X: tuple[float, float, float] = (1.0, 0.0, 0.0)
 
 
 class Brush(BaseModel):
-    """What every brush has; each field's description says what it is.
+    """The base of all brushes; each field's description says what it means.
 
     Attributes:
         several: whether it has lamps apart from each other, so that a turn on the spot draws.
@@ -92,7 +92,7 @@ class Brush(BaseModel):
     lobe: Lobe = Field(0.0, description="m of a beam cos^m; 0 shines to all sides")
 
     def emitters(self) -> Emitters:
-        """The lamps."""
+        """The lamps of the brush."""
         raise NotImplementedError
 
 
@@ -100,7 +100,7 @@ BRUSHES: Registry[type[Brush]] = Registry("brush", "dqpaint.brushes", partial(su
 
 
 def takes(kind: type[Brush]) -> dict[str, str]:
-    """What each value of a brush is in a drawing.
+    """The kind of each value of a brush in a drawing.
 
     Returns:
         By name: length, direction, colours, file, count, number or text.

@@ -1,4 +1,4 @@
-"""Emitters: the one data model of everything that shines, in the tool frame."""
+"""The data of everything that shines: lamps and their tints in the tool frame."""
 
 from __future__ import annotations
 
@@ -53,12 +53,12 @@ class Emitters:
 
     @property
     def single(self) -> bool:
-        """Whether this is one lamp at the tool's origin, to which turning the tool is nothing."""
+        """Whether this is one lamp at the tool's origin, so that rotation has no effect."""
         return len(self.positions) == 1 and not self.positions.any() and self.lobe == 0.0
 
     @property
     def straight(self) -> bool:
-        """Whether the lamps stand on one straight line."""
+        """Whether the lamps are on one straight line."""
         away = self.positions - self.positions[0]
         axis = away[-1]
         off = away * (axis @ axis) - np.outer(away @ axis, axis)
@@ -66,7 +66,7 @@ class Emitters:
 
     @property
     def extent(self) -> Floats:
-        """(2, 3) ends of a line of lamps, half a gap beyond the outer ones [m].
+        """The ends (2, 3) of a line of lamps, half a gap beyond the outer lamps [m].
 
         Of a bundle it is a width that bears as much light, whichever way the tool moves.
         """
@@ -78,7 +78,7 @@ class Emitters:
         return np.stack([first - half, last + half])
 
     def positions_along(self, spacing: float) -> Floats:
-        """(P, 3) places from end to end, at most so far apart [m]; the middle of a small brush."""
+        """Positions (P, 3) from end to end, at most `spacing` [m] apart; or the centre."""
         first, last = self.extent
         if len(self.positions) == 1 or not self.straight:
             return np.asarray(self.positions.mean(axis=0, keepdims=True))
@@ -87,7 +87,7 @@ class Emitters:
 
     @property
     def outermost(self) -> Floats:
-        """(E, 3) places between which everything shines [m]."""
+        """Positions (E, 3) that enclose everything that shines [m]."""
         return self.extent if self.straight else np.asarray(self.positions)
 
     @property

@@ -1,4 +1,4 @@
-"""An image file -> columns of tints for a row of LEDs; and a pattern where there is none."""
+"""An image file -> columns of tints for a row of LEDs; a pattern if there is no file."""
 
 from pathlib import Path
 from typing import cast
@@ -10,11 +10,11 @@ from dqpaint.errors import DqpaintError
 from dqpaint.program import colours as named
 
 MOST_COLUMNS = 2000
-"""Columns of an image at most."""
+"""Largest number of columns of an image."""
 
 
 def columns(path: str, leds: int) -> Floats:
-    """(R, leds, 3) an image file in linear light: its columns in order, its foot first."""
+    """An image file in linear light, (R, leds, 3): its columns in order, from its foot up."""
     import cv2
 
     try:
@@ -35,7 +35,7 @@ def columns(path: str, leds: int) -> Floats:
 
 
 def striped_image(leds: int) -> Floats:
-    """(110, leds, 3) a woven pattern: bands along the way, hues across it."""
+    """A woven pattern (110, leds, 3): bands along the path, hues across it."""
     row, u = np.arange(110)[:, None], (np.arange(leds) + 0.5)[None, :] / leds
     level = np.where(row % 2 == 0, 1.0, 0.12)
     hue = 0.13 + 0.42 * (0.5 + 0.5 * np.cos(2.0 * np.pi * (u + 0.25 * np.sin(row / 17.0))))

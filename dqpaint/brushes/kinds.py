@@ -1,4 +1,4 @@
-"""The brushes that come along: values -> `Emitters` in the tool frame, a class each."""
+"""The built-in brushes, one class each: values -> `Emitters` in the tool frame."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from dqpaint.core.arrays import Floats
 from dqpaint.program import colours as named
 
 LEDS_PER_METRE = 144.0
-"""Of the densest common LED strips."""
+"""Density of the densest common LED strips."""
 Z = np.array([0.0, 0.0, 1.0])
 
 
@@ -53,7 +53,7 @@ class StraightBrush(Brush):
     )
 
     def lamps_on_line(self, leds: int, tints: Floats, joined: float) -> Emitters:
-        """As many lamps, with tints (R, leds, 3) of 1 for full brightness."""
+        """`leds` lamps on the line, with tints (R, leds, 3) relative to full brightness."""
         along = np.array(self.along) / np.linalg.norm(self.along)
         across = Z - along * along[2]  # a bar shines towards the tool's z, as far as it can
         if across @ across < 1e-12:
@@ -64,14 +64,14 @@ class StraightBrush(Brush):
         return Emitters(places, tints / leds, 0.0, joined, normal, self.lobe)
 
     def gradient(self, leds: int) -> Floats:
-        """(1, leds, 3) the colours from end to end."""
+        """The colours (1, leds, 3) from end to end."""
         stops = np.linspace(0.0, 1.0, len(self.colours))
         u = (np.arange(leds) + 0.5) / leds
         shades = np.array(self.colours)
         return np.stack([np.interp(u, stops, channel) for channel in shades.T], axis=1)[None]
 
     def led_count(self, leds: int) -> int:
-        """How many LEDs there are where none are asked for."""
+        """The number of LEDs, or the default number if `leds` is 0."""
         return leds or max(2, round(self.length * LEDS_PER_METRE))
 
 
@@ -85,7 +85,7 @@ class Bar(StraightBrush):
     )
 
     def emitters(self) -> Emitters:
-        """LEDs and what joins them."""
+        """The LEDs and the diffuse light between them."""
         leds = self.led_count(self.leds)
         return self.lamps_on_line(leds, self.gradient(leds), self.joined)
 
@@ -95,7 +95,7 @@ class Ribbon(StraightBrush):
     """An even line of light without gaps."""
 
     def emitters(self) -> Emitters:
-        """Only what joins."""
+        """Only the diffuse light."""
         fine = 128 if len(self.colours) > 1 else 2
         return self.lamps_on_line(fine, self.gradient(fine), 1.0)
 

@@ -15,7 +15,7 @@ HOW = "a brush is a subclass of dqpaint.brushes.Brush with a method emitters"
 
 
 def read_brush(text: str) -> Brush:
-    """The brush of a text `NAME[:key=value,...]`.
+    """Parse the brush of a text `NAME[:key=value,...]`.
 
     Raises:
         UsageError: an unknown brush or choice, or a value that is none.
@@ -58,12 +58,12 @@ def _choices(name: str, kind: type[Brush]) -> str:
 
 
 def make_brush(words: BrushWords) -> Brush:
-    """The brush that a drawing asks for; its values were checked as the drawing was read."""
+    """The brush of a drawing; its values were checked when the drawing was read."""
     return BRUSHES[words.name].model_validate(dict(words.values))
 
 
 def describe_fields(kind: type[Brush]) -> list[str]:
-    """What can be said of a brush, with its default, in words."""
+    """The values of a brush with their defaults and meanings, as text."""
     return [
         f"{name} = {_format_default(field.default, field.description or '')}"
         for name, field in kind.model_fields.items()

@@ -1,18 +1,15 @@
-"""The light at the tool becomes a long-exposure picture.
+"""Tool poses, colours and brushes -> long-exposure pictures, (H, W, 3) of 8-bit sRGB.
 
-In comes where the tool was at N instants, what it carried and in which colours it shone; out goes
-an (H, W, 3) array of 8-bit sRGB. Between the two there is one noun a step, each linear in the light
-until the last:
+Each step has one noun, and is linear in the light until the last:
 
     poses, colours, Emitters -> Sweep -emission_to-> Light, Sheet -expose-> Film -spread-> image
                   points -frame-> Camera ~^                ~^               ^~ automatic_exposure
                                                                     image -LOOKS-> picture
 
-`brushes` name what a tool carries. A `Sweep` cuts time where a lamp switches and where a chord
-would show, and knows by `Steps.time` when each bit was emitted; `Sweep._sent` is the one place that
-says which share of it goes to the camera.
+A `Sweep` cuts time where a lamp switches and where a chord would show; `Steps.time` says when each
+part was emitted. `Sweep._sent` alone computes which share of it goes to the camera.
 
-Nothing here knows of robots: the light may come from what was asked or from what an arm achieved.
+Nothing here knows of robots: the light may come from the reference or from an arm's motion.
 """
 
 from dqpaint.light.arrays import Image, Picture

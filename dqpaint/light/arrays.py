@@ -1,4 +1,4 @@
-"""Array types of the light, the size of its batches, and sums of long rows."""
+"""Any array -> a checked, read-only copy; the array types and batch size of the light room."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ Picture = NDArray[np.uint8]
 """(H, W, 3) sRGB."""
 ROWS_PER_SUM = 64  # short rows that are added as one
 BATCH = 1 << 15
-"""How many steps, or pieces, are worked on at once: what fits the cache. It is fixed, so that sums
-are made in the same order whatever machine they are made on."""
+"""Number of steps, or pieces, in one batch; it fits the processor's cache. The size is fixed, so
+that sums are made in the same order on every machine."""
 
 
 def sum_rows(rows: Floats) -> Floats:
-    """(3,) the sum of rows (N, 3): numpy adds long rows ten times as fast as short ones."""
+    """The sum (3,) of rows (N, 3): numpy adds long rows ten times as fast as short ones."""
     whole = len(rows) - len(rows) % ROWS_PER_SUM
     long = rows[:whole].reshape(-1, 3 * ROWS_PER_SUM).sum(axis=0)
     return np.asarray(long.reshape(-1, 3).sum(axis=0) + rows[whole:].sum(axis=0))

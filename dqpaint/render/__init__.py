@@ -1,4 +1,4 @@
-"""The arm before the camera: postures and lamps -> light of arm and floor, and what the arm hides.
+"""Postures, lamps and a camera -> linear light of arm and floor, and occlusion by the arm.
 
     Arm -measure-> Surfaces -photograph-> linear light of arm and floor, lit by Lamps
     Arm -> copies for ray casting -visible-> the share of each lamp's light that reaches the camera

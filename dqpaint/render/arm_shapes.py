@@ -1,4 +1,4 @@
-"""The shapes of an arm, in a world of their own that has no physics."""
+"""A URDF -> the visual shapes of an arm, loaded into a PyBullet world without physics."""
 
 import tempfile
 import xml.etree.ElementTree as Xml
@@ -19,7 +19,7 @@ WHITE = [1.0, 1.0, 1.0, 1.0]
 
 @dataclass(frozen=True)
 class Shape:
-    """One visual shape of a link, as the file describes it.
+    """One visual shape of a link, as in the URDF.
 
     Attributes:
         link: its number; -1 is the base.
@@ -39,7 +39,7 @@ class Shape:
 
 
 class Arm(Client):
-    """An arm that stands still where it is told to.
+    """An arm that can be put into a posture and rendered.
 
     Where a mesh is not there, or of a kind that cannot be read, all meshes are left out.
 
@@ -75,7 +75,7 @@ class Arm(Client):
         return body
 
     def _use_fine_meshes(self, urdf: str | PathLike[str]) -> None:
-        """Put a body with finer shapes in the place of this one, if it has no meshes."""
+        """Replace the body by one with finer shapes, if it has no meshes."""
         files = with_fine_meshes(Path(urdf).read_bytes())
         if files is None:
             return
@@ -86,12 +86,12 @@ class Arm(Client):
             self.body = self._load(Path(folder) / "arm.urdf")
 
     def set_posture(self, posture: Floats) -> None:
-        """Take a posture (n,) [rad]."""
+        """Move the arm to a posture (n,) [rad]."""
         angles = [(angle,) for angle in posture.tolist()]
         bullet.resetJointStatesMultiDof(self.body, self.joints, angles, physicsClientId=self.client)
 
     def frames(self, postures: Floats) -> Floats:
-        """The poses (M, L + 1, 8) of the base and of each link at postures (M, n), base frame."""
+        """The poses (M, L + 1, 8) of base and links at postures (M, n), in the base frame."""
         here = {"physicsClientId": self.client}
         rows = np.empty((len(postures), len(self.links) + 1, 7))
         rows[:, 0] = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0
@@ -105,7 +105,7 @@ class Arm(Client):
         return dq.pose_from(rows[..., :3], rows[..., [6, 3, 4, 5]])  # PyBullet has w last
 
     def whiten(self) -> None:
-        """Paint every shape white, so that a picture of it tells how it is lit and nothing else."""
+        """Paint every shape white, so that its picture shows only the lighting."""
         for shape in self.shapes:
             bullet.changeVisualShape(
                 self.body, shape.link, rgbaColor=WHITE, textureUniqueId=-1,
@@ -114,7 +114,7 @@ class Arm(Client):
 
 
 def _without_meshes(urdf: str | PathLike[str]) -> bytes:
-    """A description without the shapes that come from other files."""
+    """The description without shapes from mesh files."""
     tree = Xml.parse(urdf).getroot()
     for link in tree.iter("link"):
         for shape in [*link.findall("visual"), *link.findall("collision")]:

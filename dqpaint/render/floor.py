@@ -1,4 +1,4 @@
-"""The floor under the arm: dark, lit by the painting alone, and polished enough to mirror it."""
+"""Lamps and a camera -> light of the floor under the arm: dark, polished, lit by the painting."""
 
 import cv2
 import numpy as np
@@ -10,17 +10,18 @@ from dqpaint.render.lamps import Lamps
 from dqpaint.render.shading import fresnel, points_seen_from, shade_by_lamps
 
 ALBEDO = 0.55
-"""Of its dull light. A real dark floor has a tenth of it; but one wants to see where the arm is."""
+"""Albedo of the floor's diffuse light. A real dark floor has a tenth of it, but the arm's position
+should be visible."""
 MIRROR_SHARE = 1.0
-"""Of what a mirror of lacquer would show."""
+"""Share of the mirror image that a lacquered mirror would show."""
 FLOOR_SCALE = 4
-"""Pixels of the picture to one of the floor: its light is soft."""
+"""Pixels of the picture per pixel of the floor; its light is soft."""
 MIRROR_BLUR = 0.012
-"""Blur of what is mirrored, as a share of the picture's height."""
+"""Blur of the mirror image, as a share of the picture's height."""
 VERTICAL_BLUR_RATIO = 3.0
-"""It is that much wider upright, as in wet streets."""
+"""Vertical blur over horizontal blur, as on wet streets."""
 FARTHEST_FLOOR = 12.0
-"""Of the floor that is seen [m]."""
+"""Farthest visible floor [m]."""
 UP = np.array([0.0, 0.0, 1.0], np.float32)
 
 
@@ -32,7 +33,7 @@ def floor_light(
     exposure: float,
     falloff: bool = False,
 ) -> Image | None:
-    """(H, W, 3) what a floor at z = 0 sends to the camera; None if it is out of sight.
+    """Light (H, W, 3) that a floor at z = 0 sends to the camera; None if it is not visible.
 
     It is also None where a lamp was below it: there can be no floor then.
 
@@ -73,7 +74,7 @@ def floor_light(
 def _mirror_image(
     camera: Camera, path: Lamps, shape: tuple[int, int], falloff: bool = False
 ) -> Image:
-    """(h, w, 3) the hazy image of the lamps under the floor, in the film's unit."""
+    """The blurred mirror image (h, w, 3) of the lamps in the floor, in the film's unit."""
     below = path.position * [1.0, 1.0, -1.0]
     pixels, _ = camera.project(below)
     energy = path.energy * inverse_square(below, camera)[:, None] if falloff else path.energy

@@ -1,4 +1,4 @@
-"""What of an arm a camera sees: for each pixel the place, the normal and the link.
+"""An arm and a camera -> position, normal and link for each pixel.
 
 PyBullet's software renderer is asked for no picture but for measurements. Painted white and lit
 from one side alone, with neither ambient light nor gloss, a surface is as bright as its normal
@@ -20,27 +20,27 @@ from dqpaint.render.arm_shapes import Arm
 from dqpaint.robots.bullet import bullet
 
 NEAR_PLANE, FAR_PLANE = 0.02, 50.0
-"""Nearer or farther than this from the camera nothing is seen [m]."""
+"""Nothing nearer or farther than this is visible [m]."""
 SEARCH_COLUMNS = 240
-"""Columns of the look that finds where in the picture the arm is."""
+"""Columns of the coarse picture in which the arm is located."""
 SEARCH_MARGIN = 2
-"""Columns of that look by which it might miss."""
+"""Columns of that picture by which the location can be wrong."""
 CREASE_START, CREASE_FULL = float(np.cos(np.radians(14.0))), float(np.cos(np.radians(28.0)))
-"""Cosines of the angles between smooth and flat normals from which an edge begins to count as one,
-and counts in full."""
+"""Cosines of the angle between smooth and flat normals at which an edge begins to count, and counts
+in full."""
 SUBPIXEL_SHIFTS = ((-0.125, -0.375), (0.125, 0.375), (0.375, -0.125), (-0.375, 0.125))
-"""Where in a pixel each of the four looks goes, right and down of its middle: a rotated square, so
-that outlines come out smooth at no cost [px]."""
+"""Shifts of the four renderings within a pixel, right and down of its centre: a rotated square, for
+smooth outlines [px]."""
 NORMAL_BLUR = (5, 5)
-"""Pixels over which a glance takes the mean of normals, so that facets do not show."""
+"""Pixels over which a quick rendering averages normals, to hide facets."""
 LINK_BITS = 24
-"""The segmentation has the body's number below and the link's, plus one, above these bits."""
+"""In the segmentation, the body number is below these bits, the link number plus one above."""
 
 Numbers = NDArray[np.float32]
 
 
 class Box(NamedTuple):
-    """A part of a picture: columns left to right - 1, rows top to bottom - 1."""
+    """A region of a picture: columns left to right - 1, rows top to bottom - 1."""
 
     left: int
     top: int
@@ -48,13 +48,13 @@ class Box(NamedTuple):
     bottom: int
 
     def crop(self, image: NDArray[Any]) -> NDArray[Any]:
-        """This part of a picture (H, W, ...), to be written to."""
+        """This region of a picture (H, W, ...), as a writable view."""
         return image[self.top : self.bottom, self.left : self.right]
 
 
 @dataclass(frozen=True, eq=False)
 class Surfaces:
-    """The P points of an arm's surface that are seen.
+    """The P visible points of an arm's surface.
 
     Attributes:
         box: the part of the picture that was looked at.
@@ -76,7 +76,7 @@ class Surfaces:
 
 
 def measure_surfaces(arm: Arm, camera: Camera) -> Surfaces | None:
-    """The surfaces of an arm that was painted white; None if it is not in the picture.
+    """The visible surfaces of a white arm; None if it is not in the picture.
 
     Args:
         arm: in its posture.
@@ -117,7 +117,7 @@ def measure_surfaces(arm: Arm, camera: Camera) -> Surfaces | None:
 
 
 def quick_surfaces(arm: Arm, camera: Camera, shift: tuple[float, float]) -> Surfaces | None:
-    """What `measure_surfaces` finds, from one look instead of four, with hard outlines.
+    """As `measure_surfaces`, from one rendering instead of four, with hard outlines.
 
     Args:
         arm: in its posture.
@@ -149,7 +149,7 @@ def quick_surfaces(arm: Arm, camera: Camera, shift: tuple[float, float]) -> Surf
 
 
 def _facet_normals(camera: Camera, box: Box, depth: Numbers) -> Numbers:
-    """(h, w, 3) the normals of the facets themselves, in the camera's axes, from their depth.
+    """Normals (h, w, 3) of the facets in camera axes, from their depth.
 
     A plane's inverse depth is linear in the picture, 1/Z = a + b x + c y with x right and y down
     over the focal length, and its normal is (-b, c, a) up to its length. Of the slopes to either
@@ -181,7 +181,7 @@ def _smaller_difference(values: Numbers, axis: int) -> Numbers:
 
 
 def _creased(smooth: Numbers, flat: Numbers) -> Numbers:
-    """Smooth normals (P, 3), but flat ones where the two differ as they do along a sharp edge.
+    """Normals (P, 3): smooth, but flat at sharp edges.
 
     Files that give one normal a corner make machined faces look as if they had melted.
     """
@@ -224,7 +224,7 @@ def _render_box(
     light: Sequence[float],
     shift: tuple[float, float] = (0.0, 0.0),
 ) -> _LitImage:
-    """A part of the picture, lit from one direction, by rays beside the middles of pixels."""
+    """Render a region of the picture, lit from one direction, with shifted pixel centres."""
     width = max(1, round((box.right - box.left) * scale))
     height = max(1, round((box.bottom - box.top) * scale))
     lens = projection_matrix(camera, box)
@@ -255,7 +255,7 @@ def _render_box(
 
 
 def _find_arm(arm: Arm, camera: Camera) -> Box | None:
-    """The part of the picture that the arm is in."""
+    """The region of the picture that contains the arm."""
     whole = Box(0, 0, camera.width, camera.height)
     scale = min(1.0, SEARCH_COLUMNS / camera.width)
     seen = _render_box(arm, camera, whole, scale, (0.0, 0.0, 1.0)).segment >= 0
@@ -273,7 +273,7 @@ def _find_arm(arm: Arm, camera: Camera) -> Box | None:
 
 
 def view_matrix(camera: Camera) -> Floats:
-    """(4, 4) from the base frame to the camera's axes, as OpenGL has them."""
+    """The matrix (4, 4) from the base frame to camera axes, as in OpenGL."""
     matrix = np.eye(4)
     matrix[:3, :3] = camera.rotation
     matrix[:3, 3] = -camera.rotation @ camera.position
@@ -281,7 +281,7 @@ def view_matrix(camera: Camera) -> Floats:
 
 
 def projection_matrix(camera: Camera, box: Box) -> Floats:
-    """(4, 4) OpenGL's projection of a part of the camera's picture.
+    """OpenGL's projection matrix (4, 4) for a region of the camera's picture.
 
     A pixel's middle is at an integer, so that the box begins half a pixel before its first:
     x' = 2 (x + 1/2 - left) / (right - left) - 1, and y' is that of the rows, upwards.
@@ -299,6 +299,6 @@ def projection_matrix(camera: Camera, box: Box) -> Floats:
 
 
 def _depth(value: Numbers) -> Numbers:
-    """From the depth buffer, 0 near to 1 far, to metres."""
+    """Depth-buffer values, 0 near to 1 far, in metres."""
     near, far = np.float32(NEAR_PLANE), np.float32(FAR_PLANE)
     return np.asarray(far * near / (far - (far - near) * value), np.float32)

@@ -1,4 +1,4 @@
-"""A painting's own light, gathered into a few lamps."""
+"""Many steps of light -> a few lamps that light a scene."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -8,12 +8,12 @@ import numpy as np
 from dqpaint.dq import Floats
 
 MOST_LAMPS = 128
-"""Lamps that a painting is gathered into."""
+"""Largest number of lamps for a painting."""
 
 
 @dataclass(frozen=True, eq=False)
 class Lamps:
-    """Points that shine to all sides.
+    """Points that shine in all directions.
 
     Attributes:
         position: (K, 3) base frame [m].
@@ -25,18 +25,18 @@ class Lamps:
 
     @property
     def total(self) -> Floats:
-        """(3,) of all of them [lamp s]."""
+        """Energy (3,) of all lamps [lamp s]."""
         return np.asarray(self.energy.sum(axis=0))
 
     @property
     def middle(self) -> Floats:
-        """(3,) where half of the light is to any side, or nearly [m]."""
+        """The approximate median position (3,) of the light [m]."""
         weight = self.energy.sum(axis=1)
         return np.asarray((weight[:, None] * self.position).sum(axis=0) / weight.sum())
 
 
 def gather_lamps(lights: Iterable[tuple[Floats, Floats]], most: int = MOST_LAMPS) -> Lamps:
-    """Few lamps that light a scene as many steps do: all of the energy, each where its steps were.
+    """A few lamps that light a scene as many steps do, with the same energy and position.
 
     Args:
         lights: of each light its points (N, 3) [m] and the energy (N-1, 3) of the steps between.

@@ -1,4 +1,4 @@
-"""Balls, cylinders and capsules as fine meshes: the renderer's own have a dozen sides."""
+"""Spheres, cylinders and capsules -> fine meshes; the renderer's own have a dozen sides."""
 
 import xml.etree.ElementTree as Xml
 from collections.abc import Callable, Sequence
@@ -7,13 +7,13 @@ from typing import NamedTuple
 import numpy as np
 
 SIDES = 40
-"""Sides of what is round."""
+"""Number of sides of round shapes."""
 RINGS = 10
-"""Rings from the equator of a ball to its pole."""
+"""Number of rings from the equator of a sphere to its pole."""
 
 
 class Ring(NamedTuple):
-    """A circle about z: radius, height, and the normal's parts outwards and along z."""
+    """A circle about z: radius, height, and the normal's components outwards and along z."""
 
     radius: float
     height: float
@@ -22,11 +22,11 @@ class Ring(NamedTuple):
 
 
 Strips = Sequence[Sequence[Ring]]
-"""Rings that are joined, from below to above; between two strips there is an edge."""
+"""Connected rings from bottom to top; there is an edge between two strips."""
 
 
 def with_fine_meshes(description: bytes) -> dict[str, bytes] | None:
-    """The files of the same description with fine meshes; None if it has meshes of its own.
+    """The files of the description with fine meshes; None if it has its own meshes.
 
     Args:
         description: a URDF.
@@ -69,7 +69,7 @@ def _capsule(radius: float, length: float) -> Strips:
 
 
 def _cap(radius: float, z: float, side: int) -> list[Ring]:
-    """Half a ball about (0, 0, z), its pole above or below."""
+    """Half a sphere about (0, 0, z), with its pole above or below."""
     angles = np.linspace(0.0, 0.5 * np.pi, RINGS + 1)[::side]
     return [
         Ring(float(radius * c), float(z + side * radius * s), float(c), float(side * s))
@@ -83,7 +83,7 @@ SHAPES: dict[str, Callable[[float, float], Strips]] = {
 
 
 def revolution_mesh(strips: Strips) -> bytes:
-    """A surface of revolution about z as Wavefront OBJ, its normals smooth along each strip."""
+    """A surface of revolution about z as Wavefront OBJ, with smooth normals on each strip."""
     turn = 2.0 * np.pi * np.arange(SIDES) / SIDES
     x, y = np.cos(turn), np.sin(turn)
     points, normals, faces = [], [], []

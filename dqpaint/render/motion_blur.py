@@ -1,4 +1,4 @@
-"""The arm as a motion ghost: seen all through the exposure, and so a veil where it moved.
+"""A moving arm -> its light during the whole exposure: a veil where it moved.
 
 It is what a photographer gets who leaves a little light on in the room. At each of some moments
 the arm is looked at once. It is lit by what its lamp emitted meanwhile, and by the room for as long
@@ -23,15 +23,15 @@ from dqpaint.render.geometry_buffer import quick_surfaces
 from dqpaint.render.still import Lights, gather_glow, light_surfaces, render_floor, to_picture_size
 
 MOST_MOMENTS = 48
-"""Moments at which the arm is looked at, at most."""
+"""Largest number of moments at which the arm is rendered."""
 BLUR_SIDE = 512
-"""Pixels of the longer side that a moment is worked out on: a veil is soft."""
+"""Pixels of the longer side of one rendering; the veil is soft."""
 LAMPS_PER_MOMENT = 4
-"""Lamps that what was painted in one moment is gathered into."""
+"""Number of lamps for the light of one moment."""
 TIME_SHARE = 0.25
-"""Share of the moments that are spread over time; the others are spread over the motion."""
+"""Share of the moments distributed over time; the others are distributed over the motion."""
 JITTER_STEP = (0.7548776662466927, 0.5698402909980532)
-"""Multiples of these are spread evenly over a pixel: outlines come out smooth (Roberts 2018)."""
+"""Multiples of these are distributed evenly over a pixel, for smooth outlines (Roberts 2018)."""
 
 
 def blurred_arm(
@@ -42,7 +42,7 @@ def blurred_arm(
     exposure: float,
     falloff: bool = False,
 ) -> Image:
-    """(H, W, 3) linear light of arm and floor, to be added before the picture is developed.
+    """Linear light (H, W, 3) of arm and floor, to be added before development.
 
     Args:
         arm: white.
@@ -79,7 +79,7 @@ def blurred_arm(
 
 
 def moments(postures: Floats) -> NDArray[np.int64]:
-    """(K+1,) rows of postures (N, n) at which moments begin and end.
+    """Rows (K+1,) of postures (N, n) at which moments begin and end.
 
     In each the arm moves about as far, and where it stands still it is looked at, too.
     """

@@ -1,6 +1,6 @@
-"""What the arm's own body hides of its light from a camera, at each instant.
+"""Postures, lamps and an eye -> the share of light that the arm does not occlude.
 
-At each of some instants the arm's twins take the posture it had, and a ray from each lamp says
+At each of some instants the arm's caster take the posture it had, and a ray from each lamp says
 whether the camera sees it. The instants are so close that neither lamp nor links get far between
 them; where a lamp is hidden at one and seen at the next, instants between them are tried until the
 moment is known to a sample. Between equal answers nothing is asked: what is thinner than the way
@@ -14,20 +14,20 @@ from dqpaint.dq import Floats
 from dqpaint.render.ray_casting import RayCaster
 
 LONGEST_LAMP_STEP = 0.004
-"""Farthest that a lamp goes between two instants that are tried [m]."""
+"""Largest distance of a lamp between two tested instants [m]."""
 LARGEST_TURN = np.radians(1.0)
-"""Farthest that the joints turn meanwhile, all together [rad]."""
+"""Largest total joint rotation between two tested instants [rad]."""
 CLEARANCE = 0.01
-"""A ray begins so far from its lamp: what holds the lamp does not hide it [m]."""
+"""Distance between a lamp and the start of its ray, so that its holder does not hide it [m]."""
 
 
 def visible_share(
-    twins: RayCaster, postures: Floats, places: Floats, eye: Floats, lit: NDArray[np.bool_]
+    caster: RayCaster, postures: Floats, places: Floats, eye: Floats, lit: NDArray[np.bool_]
 ) -> Floats:
-    """The share (M, K) of the light of K lamps that reaches the eye at each of M instants, 0 to 1.
+    """The share (M, K) of the light of K lamps that reaches the eye at M instants, 0 to 1.
 
     Args:
-        twins: of the arm.
+        caster: of the arm.
         postures: (M, n) at these instants [rad].
         places: (M, K, 3) of the lamps, base frame [m].
         eye: (3,) of the camera [m].
@@ -41,8 +41,8 @@ def visible_share(
 
     def ask(rows: NDArray[np.int64]) -> None:
         start, end = _rays(places[rows], eye)
-        for i in twins.each_posture(postures[rows]):
-            seen[rows[i]] = ~twins.blocked(start[i], end[i])
+        for i in caster.each_posture(postures[rows]):
+            seen[rows[i]] = ~caster.blocked(start[i], end[i])
         tried[rows] = True
 
     ask(_instants(postures, places, rows))
@@ -59,7 +59,7 @@ def visible_share(
 
 
 def _instants(postures: Floats, places: Floats, rows: NDArray[np.int64]) -> NDArray[np.int64]:
-    """The rows to try: both ends of each lit run, and steps within it that are short enough."""
+    """The rows to test: both ends of each lit run, and sufficiently small steps within it."""
     way = np.sqrt((np.diff(places, axis=0) ** 2).sum(axis=2)).max(axis=1) / LONGEST_LAMP_STEP
     turn = np.abs(np.diff(postures, axis=0)).sum(axis=1) / LARGEST_TURN
     gone = np.concatenate([[0.0], np.cumsum(np.maximum(way, turn))])[rows]
@@ -72,7 +72,7 @@ def _instants(postures: Floats, places: Floats, rows: NDArray[np.int64]) -> NDAr
 
 
 def _rays(places: Floats, eye: Floats) -> tuple[Floats, Floats]:
-    """From places (..., K, 3), a little way off, to the eye."""
+    """Ray starts near positions (..., K, 3), towards the eye."""
     way = eye - places
     length = np.sqrt((way * way).sum(axis=-1, keepdims=True))
     start = places + way * (CLEARANCE / np.maximum(length, CLEARANCE))
@@ -80,7 +80,7 @@ def _rays(places: Floats, eye: Floats) -> tuple[Floats, Floats]:
 
 
 def _interpolated(seen: Floats, tried: NDArray[np.bool_], lit: NDArray[np.bool_]) -> Floats:
-    """Rows that were not tried get what lies between their neighbours in the same lit run."""
+    """Interpolate untested rows between their neighbours in the same lit run."""
     known = np.flatnonzero(tried)
     rows = np.arange(len(tried))
     filled = np.stack([np.interp(rows, known, column[known]) for column in seen.T], axis=1)

@@ -1,4 +1,4 @@
-"""Twins of an arm's shapes that rays can hit, in a world of their own."""
+"""Shapes of an arm and rays -> hits: copies of the shapes in a world for ray casting."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -13,13 +13,13 @@ from dqpaint.robots.bullet import Client, bullet, quiet
 from dqpaint.robots.kinematics import read_mesh
 
 MOST_RAYS = 16_000
-"""Rays of one call: PyBullet loses one of 16,384 and refuses more."""
+"""Rays of one call: PyBullet loses one of 16,384 and rejects more."""
 LEAST_RAYS_FOR_THREADS = 500
-"""With fewer rays it costs more to wake a second thread than it saves."""
+"""With fewer rays, starting a second thread costs more than it saves."""
 
 
 class RayCaster(Client):
-    """Immovable bodies in the shape of an arm's links, as the file draws them.
+    """Static bodies with the shapes of an arm's links.
 
     Meshes are taken as they are. The convex hulls that the physics would make of them stand proud
     by some millimetres, and rays against them take eight times as long.
@@ -55,12 +55,12 @@ class RayCaster(Client):
         return body
 
     def set_posture(self, posture: Floats) -> None:
-        """Take a posture (n,) [rad], the arm along with it."""
+        """Move the bodies and the arm to a posture (n,) [rad]."""
         for _ in self.each_posture(posture[None]):
             pass
 
     def each_posture(self, postures: Floats) -> Iterator[int]:
-        """Take postures (M, n) [rad], one after the other; says which it is in."""
+        """Move through postures (M, n) [rad], one after the other, and yield the index of each."""
         poses = dq.mul(self._arm.frames(postures)[:, self._links], self._frames)
         places = dq.translation(poses).tolist()
         turns = np.roll(dq.rotation(poses), -1, axis=-1).tolist()  # PyBullet has w last
@@ -70,7 +70,7 @@ class RayCaster(Client):
             yield row
 
     def blocked(self, start: Floats, end: Floats) -> NDArray[np.bool_]:
-        """Which (R,) of the straight ways from start (R, 3) to end (R, 3) meet the arm."""
+        """Whether the segments (R,) from start (R, 3) to end (R, 3) hit the arm."""
         hit = np.empty(len(start), dtype=bool)
         for first in range(0, len(start), MOST_RAYS):
             rows = slice(first, first + MOST_RAYS)
@@ -85,7 +85,7 @@ class RayCaster(Client):
 
 
 def _triangles(shape: Shape) -> dict[str, Any]:
-    """A mesh by its corners.
+    """The vertices and triangles of a mesh.
 
     Raises:
         ValueError: it cannot be read, or is none.
@@ -96,7 +96,7 @@ def _triangles(shape: Shape) -> dict[str, Any]:
 
 
 def _dimensions(shape: Shape) -> dict[str, Any]:
-    """A shape's size in the words of PyBullet."""
+    """The size of a shape, as PyBullet's arguments."""
     size = shape.size
     if shape.kind == bullet.GEOM_MESH:
         concave = bullet.GEOM_FORCE_CONCAVE_TRIMESH

@@ -1,4 +1,4 @@
-"""An arm on the stage of one painting: what it hides, and how it looks at the end."""
+"""The motion of an arm in a run -> its occlusion of the light and its look in the picture."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ if TYPE_CHECKING:
 
 Shine = Callable[[slice], Sequence[tuple[Floats, Floats]]]
 MOVIE_SIDE = 480
-"""Pixels of the longer side that the arm is worked out on in a moving picture."""
+"""Pixels of the longer side at which the arm is rendered in a movie."""
 MOVIE_LAMPS = 32
-"""Lamps that stand for what was painted, there."""
+"""Number of lamps for the painting in a movie."""
 
 
 @dataclass(frozen=True, eq=False)
 class HiddenLight:
-    """Light that the arm's own body kept from the camera.
+    """Light that the arm's own body occluded.
 
     Attributes:
         energy: (3,) of it, linear RGB [lamp s].
@@ -48,7 +48,7 @@ class HiddenLight:
 
 
 def hidden_by_line(hidden: Floats, emitted: Floats, source: RowLines) -> HiddenLight:
-    """What was hidden, by the source lines it comes from.
+    """The hidden light of each source line.
 
     Args:
         hidden: (M, 3) of each step, linear RGB [lamp s].
@@ -64,7 +64,7 @@ def hidden_by_line(hidden: Floats, emitted: Floats, source: RowLines) -> HiddenL
 
 
 class SceneArm(ExitStack):
-    """An arm with the postures of a run. Its shapes are loaded when first needed, till the end.
+    """An arm with the postures of a run. Its shapes are loaded when they are first needed.
 
     Args:
         urdf: its description.
@@ -95,7 +95,7 @@ class SceneArm(ExitStack):
 
     @cached_property
     def arm(self) -> Arm:
-        """The arm, white."""
+        """The arm, painted white."""
         from dqpaint.render.arm_shapes import Arm
 
         arm = self.enter_context(Arm(self._urdf))
@@ -104,14 +104,14 @@ class SceneArm(ExitStack):
 
     @cached_property
     def ray_caster(self) -> RayCaster:
-        """What rays hit."""
+        """The arm's shapes for ray casting."""
         from dqpaint.render.ray_casting import RayCaster
 
         return self.enter_context(RayCaster(self.arm))
 
     @property
     def can_occlude(self) -> bool:
-        """Whether every shape of the arm can be asked what it hides, and there is one."""
+        """Whether the arm has shapes and rays can hit all of them."""
         return self._complete and bool(self.arm.shapes) and not self.ray_caster.unread
 
     @property
@@ -120,7 +120,7 @@ class SceneArm(ExitStack):
 
     @property
     def remarks(self) -> list[str]:
-        """What of the arm cannot be shown, a sentence each."""
+        """The parts of the arm that cannot be shown, one sentence each."""
         untraced = "and what it hides is not traced"
         if not self._complete:
             return [f"warning: a mesh of the arm cannot be read: it is shown without, {untraced}"]
@@ -147,7 +147,7 @@ class SceneArm(ExitStack):
     def render_still(
         self, camera: Camera, shine: Shine, exposure: float, falloff: bool = False
     ) -> Image:
-        """(H, W, 3) linear light of arm and floor, to be added before the picture is developed.
+        """Linear light (H, W, 3) of arm and floor, to be added before development.
 
         The arm is flashed at the end.
 
@@ -166,7 +166,7 @@ class SceneArm(ExitStack):
     def render_blurred(
         self, camera: Camera, shine: Shine, exposure: float, falloff: bool = False
     ) -> Image:
-        """The same of an arm that is not flashed, but seen all the time as it moves."""
+        """The same for an arm that is visible during its whole motion, without a flash."""
         from dqpaint.render.motion_blur import blurred_arm
 
         return blurred_arm(self.arm, self._posture, camera, shine, exposure, falloff)
@@ -174,7 +174,7 @@ class SceneArm(ExitStack):
     def render_frames(
         self, camera: Camera, shine: Shine, exposure: float, falloff: bool, rows: Sequence[int]
     ) -> Iterator[Image]:
-        """The same at some instants of the run, each lit by what was painted until then.
+        """The same at some instants of the run, each lit by the light painted until then.
 
         They are coarser, for a moving picture.
         """
@@ -190,7 +190,7 @@ class SceneArm(ExitStack):
 
 @dataclass(frozen=True, eq=False)
 class ArmMotion:
-    """How an arm moved in a run: all that is needed, beside its card, to put it on the stage.
+    """The motion of an arm in a run: with its card, all data needed to render it.
 
     Attributes:
         robot: what `find_card` finds its card by.
@@ -207,13 +207,13 @@ class ArmMotion:
 
     @property
     def has_joints(self) -> bool:
-        """Whether it is known how the joints moved."""
+        """Whether the motion of the joints is known."""
         return len(self.posture.T) > 0
 
 
 @contextmanager
 def scene_arm_of_run(settings: Settings, card: Card, cast: ArmMotion) -> Iterator[SceneArm | None]:
-    """The arm of a run, if the settings have a use for it, and the run has its joints.
+    """The arm of a run, if the settings use it and the run has joint angles.
 
     Raises:
         DqpaintError: the arm's description is not there, or cannot be read.

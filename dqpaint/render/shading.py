@@ -1,4 +1,4 @@
-"""How lit surfaces look: a dull body under a coat of lacquer."""
+"""Surface points and lamps -> reflected light: a diffuse body under a coat of lacquer."""
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -11,18 +11,18 @@ from dqpaint.render.geometry_buffer import Numbers
 from dqpaint.render.lamps import Lamps
 
 COAT_REFLECTANCE = 0.04
-"""Share of the light that lacquer reflects straight on; Schlick's approximation has the rest."""
+"""Reflectance of the lacquer at normal incidence; Schlick's approximation gives the rest."""
 BATCH, BATCH_LAMPS = 512, 128
-"""Points that are worked on at once with so many lamps, whatever the machine, so that they stay in
-the cache; with fewer lamps there are more points."""
+"""Points in one batch with this many lamps, so that they fit the cache on every machine; with fewer
+lamps a batch has more points."""
 NEAREST_LAMP = 0.05
-"""Nearer than this a lamp gets no brighter: it stands for a stretch of path [m]."""
+"""Below this distance a lamp gets no brighter, as it represents a length of path [m]."""
 THREADS = 2
 
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """Points of surfaces as someone sees them.
+    """Surface points as an eye sees them.
 
     Attributes:
         position: (P, 3) base frame [m].
@@ -36,29 +36,29 @@ class Points:
 
     @cached_property
     def cosine_to_eye(self) -> Numbers:
-        """(P,) cosine between normal and eye, 0 to 1."""
+        """Cosine (P,) of the angle between normal and eye, 0 to 1."""
         return np.asarray(np.clip((self.normal * self.to_eye).sum(axis=1), 0.0, 1.0), np.float32)
 
     @cached_property
     def mirrored_to_eye(self) -> Numbers:
-        """(P, 3) the way to the eye, mirrored about the normal."""
+        """The direction (P, 3) to the eye, mirrored about the normal."""
         return np.asarray(2.0 * self.cosine_to_eye[:, None] * self.normal - self.to_eye, np.float32)
 
 
 def points_seen_from(eye: Floats, place: Numbers, normal: Numbers) -> Points:
-    """Points (P, 3) with unit normals as an eye (3,) sees them."""
+    """Points (P, 3) with unit normals, as an eye (3,) sees them."""
     toward = eye.astype(np.float32) - place
     toward /= np.sqrt((toward * toward).sum(axis=1))[:, None]
     return Points(place, normal, toward)
 
 
 def fresnel(facing: Numbers) -> Numbers:
-    """(P,) what of the light the coat reflects: F = F_0 + (1 - F_0) (1 - cos)^5 (Schlick 1994)."""
+    """Reflectance (P,) of the coat: F = F_0 + (1 - F_0) (1 - cos)^5 (Schlick 1994)."""
     return np.asarray(COAT_REFLECTANCE + (1.0 - COAT_REFLECTANCE) * (1.0 - facing) ** 5, np.float32)
 
 
 def shade_by_lamps(points: Points, lamps: Lamps, sharpness: int) -> tuple[Numbers, Numbers]:
-    """What lamps send to points: dull and glossy.
+    """Diffuse and specular light of points, from lamps.
 
         dull   = 1/pi sum_k E_k max(n.l_k, 0) / d_k^2
         glossy = (m + 2) / 2 pi sum_k E_k max(r.l_k, 0)^m / d_k^2     (modified Phong)
@@ -101,7 +101,7 @@ def shade_by_lamps(points: Points, lamps: Lamps, sharpness: int) -> tuple[Number
 
 
 def shade_by_direction(points: Points, way: Floats, sharpness: int) -> tuple[Numbers, Numbers]:
-    """What a lamp far away sends to points: dull max(n.l, 0) and glossy max(r.l, 0)^m, (P, 1) each.
+    """Diffuse max(n.l, 0) and specular max(r.l, 0)^m, (P, 1) each, from a distant lamp.
 
     Args:
         points: P of them.
@@ -117,12 +117,12 @@ def shade_by_direction(points: Points, way: Floats, sharpness: int) -> tuple[Num
 
 
 def _along(vectors: Numbers, place: Numbers, at: Numbers) -> Numbers:
-    """(B, K) v . (p_k - x)."""
+    """Dot products v . (p_k - x), (B, K)."""
     return np.asarray(vectors @ at.T - (vectors * place).sum(axis=1)[:, None])
 
 
 def _geometry(place: Numbers, normal: Numbers, at: Numbers) -> tuple[Numbers, Numbers]:
-    """(B, K) 1 / d^2, where nearness ends at `NEAREST_LAMP`, and d max(n.l, 0)."""
+    """1 / d^2 (B, K) with d at least `NEAREST_LAMP`, and d max(n.l, 0)."""
     squared = place @ (-2.0 * at.T)
     squared += (place * place).sum(axis=1)[:, None]
     squared += (at * at).sum(axis=1)

@@ -1,4 +1,4 @@
-"""The arm in its own painting: lit by the light it carried, seen as it stood at the end.
+"""An arm and the light it painted -> linear light of arm and floor at the end of the run.
 
 A long exposure of a dark room shows no arm: it moves, and nothing shines on it but its lamp. So a
 photographer flashes it once, when the light is out (rear-curtain flash). Here the flash is faint,
@@ -27,40 +27,41 @@ from dqpaint.render.lamps import Lamps, gather_lamps
 from dqpaint.render.shading import fresnel, points_seen_from, shade_by_direction, shade_by_lamps
 
 KEY_EXPOSURE = 0.6
-"""What all of a painting's light makes of a white surface at its own distance; 1 saturates."""
+"""Exposure of a white surface by all of the painting's light at `LAMP_CLEARANCE` plus its spread; 1
+saturates."""
 LAMP_CLEARANCE = 0.15
-"""That distance, on top of how far the light is spread: about a flange and a lamp's stub [m]."""
+"""Distance in addition to the spread of the light: about a flange and a lamp holder [m]."""
 BLACK_ALBEDO, ALBEDO_SHARE = 0.04, 0.22
-"""Albedo of a black body, and how much of its colour's brightness another has on top."""
+"""Albedo of a black body, and the share of its colour's brightness that a body adds."""
 GREY_SHARE = 0.7
-"""Share of the colour in a file that goes grey."""
+"""Share of a file's colour that is replaced by grey."""
 COAT_SHARPNESS = 64
-"""Sharpness of the coat's highlights."""
+"""Specular exponent of the coat."""
 FLASH, FLASH_COLOUR = 0.012, (1.0, 0.95, 0.88)
 FLASH_DIRECTION = (-0.4, 0.8, 0.6)
-"""Whence the flash comes: right, up, back towards the viewer."""
+"""Direction of the flash: right, up, back towards the viewer."""
 FLASH_GLINT = 40.0
 RIM, RIM_DULL, RIM_GLINT, RIM_GLOSS = 0.33, 0.6, 4.0, 4
 RIM_DIRECTION = (0.8, 0.3, -0.75)
-"""Whence the right lamp behind the arm comes; the left one is its mirror image."""
+"""Direction of the right lamp behind the arm; the left one is its mirror image."""
 RIM_COLOUR_SPREAD = 8
-"""How much the rims' colours are those of the painting's outermost light."""
+"""How strongly the rims take the colours of the painting's outermost light."""
 ARM_BLUR = 0.7
-"""Blur of the arm, less than the lens does to a line [px]."""
+"""Blur of the arm; the lens blurs a line more [px]."""
 OUTLINE_REACH = (5, 5)
-"""Pixels around an outline that lend it their colour."""
+"""Pixels around an outline that take its colour."""
 LEAST_RIM_LUMINANCE = 0.28
 """Least luminance of a rim's colour."""
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 MIRROR_POINTS = 4096
-"""Points that stand for the painting in the floor's mirror."""
+"""Number of points that represent the painting in the mirror of the floor."""
 
 Lights = Sequence[tuple[Floats, Floats]]
 
 
 @dataclass(frozen=True, eq=False)
 class Glow:
-    """A painting's light, as it falls on what is near.
+    """A painting's light as it falls on nearby surfaces.
 
     Attributes:
         lamps: few, for what is lit.
@@ -75,14 +76,14 @@ class Glow:
     whole: Lamps
 
     def part(self, lights: Lights, most: int) -> Glow:
-        """A part of this light, as strong as it is in it, in so many lamps."""
+        """A part of this light at the same gain, in at most `most` lamps."""
         return Glow(
             gather_lamps(lights, most), gather_lamps(lights, MIRROR_POINTS), self.gain, self.whole
         )
 
 
 def gather_glow(lights: Lights) -> Glow:
-    """The light of lamps on their ways.
+    """The glow of lamps along their paths.
 
     Its gain does not depend on a camera: several views of one painting show one arm.
 
@@ -110,7 +111,7 @@ def render_arm(
     falloff: bool = False,
     scale: float = 1.0,
 ) -> Image:
-    """(H, W, 3) linear light of arm and floor, to be added to the picture before it is developed.
+    """Linear light (H, W, 3) of arm and floor, to be added before development.
 
     Args:
         arm: in its posture, white.
@@ -132,13 +133,13 @@ def render_arm(
 
 
 def render_floor(camera: Camera, light: Glow, exposure: float, falloff: bool) -> Image:
-    """(H, W, 3) what the floor sends to the camera; 1 saturates it. Arguments as above."""
+    """Light (H, W, 3) of the floor for the camera; 1 saturates it. Arguments as above."""
     shown = floor_light(camera, light.lamps, light.path, light.gain, exposure, falloff)
     return np.zeros((camera.height, camera.width, 3), np.float32) if shown is None else shown
 
 
 def to_picture_size(shown: Image, camera: Camera, exposure: float, scale: float = 1.0) -> Image:
-    """Light of arm and floor in the picture's unit and size, as sharp as a lens would have it."""
+    """Light of arm and floor in the picture's unit, size and sharpness."""
     soft = cv2.GaussianBlur(shown, (0, 0), ARM_BLUR)
     if scale != 1.0:
         whole = cv2.resize(soft, None, fx=1 / scale, fy=1 / scale, interpolation=cv2.INTER_LINEAR)
@@ -149,7 +150,7 @@ def to_picture_size(shown: Image, camera: Camera, exposure: float, scale: float 
 def light_surfaces(
     arm: Arm, surfaces: Surfaces, camera: Camera, light: Glow, room: float = 1.0
 ) -> Numbers:
-    """(P, 3) what the arm's surfaces send to the camera; 1 saturates it.
+    """Light (P, 3) that the arm's surfaces send to the camera; 1 saturates it.
 
     Args:
         arm: in its posture.
@@ -176,7 +177,7 @@ def light_surfaces(
 
 
 def _spread(colours: Numbers, sure: NDArray[np.bool_]) -> Image:
-    """(h, w, 3) of colours (P, 3) where they are sure, and between and beside them their mean."""
+    """Colours (h, w, 3) of points (P, 3); pixels between and beside them get their mean."""
     image = np.zeros((*sure.shape, 3), np.float32)
     image[sure] = colours
     weight = cv2.blur(sure.astype(np.float32), OUTLINE_REACH, borderType=cv2.BORDER_CONSTANT)
@@ -187,7 +188,7 @@ def _spread(colours: Numbers, sure: NDArray[np.bool_]) -> Image:
 
 
 def _rims(lamps: Lamps, camera: Camera) -> tuple[Numbers, Numbers]:
-    """The colours (3,) of the painting's right and left ends, as bright as a colour can be."""
+    """The colours (3,) of the painting's right and left ends, at full brightness."""
     if len(lamps.position) == 0:
         return np.ones(3, np.float32), np.ones(3, np.float32)
     side = (lamps.position - lamps.middle) @ camera.rotation[0]
@@ -201,7 +202,7 @@ def _rims(lamps: Lamps, camera: Camera) -> tuple[Numbers, Numbers]:
 
 
 def _outline_colour(colour: Floats) -> Numbers:
-    """A colour (3,) that draws an outline: a deep blue gets some white, and more strength."""
+    """A colour (3,) for an outline: deep blue gets some white and more strength."""
     luminance = float(LUMINANCE @ colour)
     white = max(0.0, LEAST_RIM_LUMINANCE - luminance) / (1.0 - luminance + 1e-9)
     pale = colour + white * (1.0 - colour)
@@ -209,7 +210,7 @@ def _outline_colour(colour: Floats) -> Numbers:
 
 
 def _albedo(arm: Arm) -> Numbers:
-    """(L + 1, 3) of each link: its file's colour, faded and dark."""
+    """Albedo (L + 1, 3) of each link: its colour in the file, greyer and darker."""
     found = np.full((len(arm.links) + 1, 3), 0.5, np.float32)
     for shape in arm.shapes:
         linear = np.asarray(shape.colour, np.float32) ** 2.2

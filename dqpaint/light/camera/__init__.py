@@ -1,4 +1,4 @@
-"""Views and camera settings -> a camera: points in space -> pixels, and how bright they are."""
+"""Views and camera settings -> cameras: points in space -> pixels, and their brightness."""
 
 from dqpaint.light.camera.camera import Camera, View, frame_points
 from dqpaint.light.camera.exposure_settings import equivalent_exposure, parse_exposure

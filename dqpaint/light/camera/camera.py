@@ -1,4 +1,4 @@
-"""The camera: points of the base frame in, pixels and depths out; and how it frames a drawing."""
+"""Points in the base frame -> pixels and depths; points to frame -> a camera."""
 
 from __future__ import annotations
 
@@ -13,20 +13,21 @@ from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.light.arrays import Floats, checked_array
 
 NEAREST_DEPTH = 1e-3
-"""A point closer than this to the plane of the pinhole is not seen [m]."""
+"""A point nearer to the pinhole's plane than this is not visible [m]."""
 FRAME_FILL = 0.72
-"""Share of the limiting dimension of the picture that a framed drawing takes."""
+"""Share of the picture's limiting dimension that a framed drawing fills."""
 DEFAULT_LENS = 40.0 / 36.0
-"""Focal length over the long side of the sensor: a 40 mm lens on full frame, which neither flattens
-a drawing nor throws its near parts at the viewer."""
+"""Focal length over the long side of the sensor: a 40 mm lens on full frame. It neither flattens a
+drawing nor exaggerates its near parts."""
 SMALLEST_DRAWING = 0.04
-"""A drawing smaller than this is framed as though it had this size [m]."""
+"""A smaller drawing is framed as if it had this size [m]."""
 LEAST_SEEN_SHARE = 0.25
-"""So is one seen smaller than this share of its true size, as a line that runs at the viewer."""
+"""A drawing whose visible size is a smaller share of its true size is framed as if it had this
+share; for example a line that points at the camera."""
 
 
 class View(NamedTuple):
-    """From where the canvas is seen; (0, 0) is square on.
+    """Direction from which the canvas is viewed; (0, 0) is square on.
 
     Attributes:
         azimuth: How far the viewer has walked to the right round the canvas' y [deg].
@@ -47,7 +48,7 @@ VIEWS = {
 
 @dataclass(frozen=True, eq=False)
 class Camera:
-    """A pinhole that looks along -z of its own axes.
+    """A pinhole camera that looks along -z of its own axes.
 
     Attributes:
         position: (3,) of the pinhole, base frame [m].
@@ -80,13 +81,13 @@ class Camera:
             raise UsageError(f"picture size {self.width}x{self.height} must be at least 1x1")
 
     def scaled(self, scale: float) -> Camera:
-        """The same camera with pixels 1 / scale times as wide, as many as it takes."""
+        """The same camera with its resolution multiplied by `scale`, rounded up to whole pixels."""
         size = (math.ceil(self.width * scale), math.ceil(self.height * scale))
         centre = (self.centre + 0.5) * scale - 0.5
         return Camera(self.position, self.rotation, self.focal * scale, centre, *size)
 
     def project(self, points: ArrayLike) -> tuple[Floats, Floats]:
-        """Where points are seen.
+        """Project points to pixels and depths.
 
             [X Y Z] = rotation (p - position),  x = c_x + f X / -Z,  y = c_y - f Y / -Z
 
@@ -117,7 +118,7 @@ def frame_points(
     distance: float | None = None,
     fill: float = FRAME_FILL,
 ) -> Camera:
-    """The camera that sees all `points` from `view`, in the middle and as large as `fill` allows.
+    """The camera that shows all `points` from `view`, centred and as large as `fill` allows.
 
     Args:
         points: (N, 3) what the picture is of, base frame [m]: the lit points of what was asked,
@@ -162,7 +163,7 @@ def frame_points(
 
 
 def view_axes(view: View) -> Floats:
-    """(3, 3) rows: the picture's right, up and back as unit vectors of the canvas."""
+    """The axes (3, 3) of a view, in rows: right, up and back, as unit vectors of the canvas."""
     a, e = np.radians(view)
     right = np.array([np.cos(a), 0.0, -np.sin(a)])  # level at any elevation, so the pole is no case
     back = np.array([np.sin(a) * np.cos(e), np.sin(e), np.cos(a) * np.cos(e)])
@@ -170,7 +171,7 @@ def view_axes(view: View) -> Floats:
 
 
 def _tightest(across: Floats, back: Floats, slope: float) -> float:
-    """How far back a pinhole must be at least to see all points within +-slope of its axis [m].
+    """The least distance [m] at which a pinhole has all points within +-slope of its axis.
 
     Point i is inside if |x_i - c| <= slope (d - z_i), which for all i is
 
@@ -182,7 +183,7 @@ def _tightest(across: Floats, back: Floats, slope: float) -> float:
 
 
 def _middle(across: Floats, back: Floats, distance: float) -> float:
-    """Where a pinhole at `distance` must be to see as far to one side as to the other [m].
+    """The position across [m] of a pinhole at `distance` that centres the points in the picture.
 
     The two equations of `_tightest` with d given and the slope unknown: Newton's method on a
     convex function made of straight pieces, which ends after a few steps, on the root's own piece.

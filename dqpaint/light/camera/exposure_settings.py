@@ -1,4 +1,4 @@
-"""Real camera settings: from candela, f-number and ISO to what saturates the sensor."""
+"""Real camera settings (candela, f-number, ISO) -> the exposure factor of a picture."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from dqpaint.errors import UsageError
 from dqpaint.light.camera.camera import DEFAULT_LENS, Camera
 
 SENSOR_WIDTH = 0.036
-"""Long side of the sensor: full frame [m]."""
+"""Long side of a full-frame sensor [m]."""
 SATURATION = 78.0
-"""Exposure times speed that saturates: H = 78 / S lux s (ISO 12232:2019)."""
+"""Exposure times speed at saturation: H = 78 / S lux s (ISO 12232:2019)."""
 TRANSMISSION = 0.9
-"""Of the glass of a usual lens."""
+"""Share of light that the glass of a usual lens transmits."""
 
 
 @dataclass(frozen=True)
 class Exposure:
-    """What a photographer sets.
+    """Exposure settings of a real camera, and the light source it photographs.
 
     Attributes:
         f_number: Focal length over the diameter of the aperture.
@@ -43,7 +43,7 @@ class Exposure:
         return self.focal / SENSOR_WIDTH
 
     def factor(self, camera: Camera) -> float:
-        """From lamp s / (m^2 px^2), light over its distance squared, to sensor saturation.
+        """The exposure factor: lamp s / (m^2 px^2), with inverse-square falloff, to saturation.
 
             dH / H_sat = I dt (pi/4) (f/N)^2 T 2^-ND / (r^2 p^2) S / 78
 
@@ -64,7 +64,7 @@ class Exposure:
 
 @dataclass(frozen=True)
 class _Part:
-    """A part of an exposure's text: how it is written, what it sets, its bounds and unit."""
+    """One part of an exposure's text: its pattern, field, bounds and unit."""
 
     pattern: str
     field: str
@@ -90,7 +90,7 @@ EXPOSURE_HELP = (
 
 
 def parse_exposure(text: str) -> Exposure | None:
-    """The settings of a text such as `f/8,iso100,35mm,nd3,1cd,2.2m`, in any order; None for `auto`.
+    """Parse settings such as `f/8,iso100,35mm,nd3,1cd,2.2m`, in any order; None for `auto`.
 
     Raises:
         UsageError: a part that is none, is given twice or is out of bounds.
@@ -120,7 +120,7 @@ def _read(text: str, word: str) -> tuple[_Part, float]:
 
 
 def equivalent_exposure(factor: float, camera: Camera, distance: float) -> str:
-    """An exposure by the camera's automatic, in a photographer's terms.
+    """Real camera settings that are equivalent to an automatic exposure, as text.
 
     Args:
         factor: From lamp s / px^2 to sensor saturation.
@@ -137,5 +137,5 @@ def equivalent_exposure(factor: float, camera: Camera, distance: float) -> str:
 
 
 def format_intensity(candela: float) -> str:
-    """Luminous intensity in the unit that suits it."""
+    """Luminous intensity as text, in cd or mcd."""
     return f"{1e3 * candela:.2g} mcd" if candela < 0.1 else f"{candela:.3g} cd"

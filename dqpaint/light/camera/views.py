@@ -1,4 +1,4 @@
-"""Views: several pictures of one painting, from one simulation."""
+"""A text such as `front,orbit:12` -> shots, and each shot -> its camera."""
 
 from __future__ import annotations
 
@@ -22,21 +22,22 @@ from dqpaint.light.camera.camera import (
 )
 
 EYE_DISTANCE_RATIO = 1.0 / 30.0
-"""Distance of the eyes of a stereo pair over that to the drawing: the rule of photographers."""
+"""Distance between the eyes of a stereo pair over the distance to the drawing: the photographers'
+rule."""
 DEFAULT_ORBIT_VIEWS = 12
-"""Views of an orbit where no number is said."""
+"""Default number of views in an orbit."""
 MOST_ORBIT_VIEWS = 360
 CLOSEST_TARGET = 0.01
-"""A camera is at least so far from what it looks at [m]."""
+"""Least distance from a camera to its target [m]."""
 FARTHEST_COORDINATE = 100.0
-"""And at most so far from anything [m]."""
+"""Largest coordinate of a camera or its target [m]."""
 DEFAULT_ORBIT_ELEVATION = 15.0
-"""Elevation of an orbit where none is said [deg]."""
+"""Default elevation of an orbit [deg]."""
 
 
 @dataclass(frozen=True)
 class Shot:
-    """One picture to take.
+    """One picture to take: the name and the placement of its camera.
 
     Attributes:
         name: Of the view, as it goes into the name of its file.
@@ -58,7 +59,7 @@ class Shot:
 
 
 def parse_views(text: str) -> tuple[Shot, ...]:
-    """The pictures of a text: names with commas, such as `front,iso,20,30,stereo:side,orbit:12`.
+    """Parse the shots of a text: names with commas, such as `front,iso,20,30,stereo:side`.
 
     Two numbers that follow each other are azimuth and elevation in degrees; `at:X:Y:Z[:X:Y:Z]` are
     the camera's place and what it looks at, in metres from the robot's base.
@@ -175,7 +176,7 @@ def camera_for_shot(
     distance: float | None = None,
     fill: float = FRAME_FILL,
 ) -> Camera:
-    """The camera of a shot that sees all points; arguments as those of `frame_points`."""
+    """The camera of a shot that shows all points; arguments as in `frame_points`."""
     if shot.position is not None:
         return _fixed_camera(shot, points, canvas_rotation, size, lens)
     if shot.orbit and distance is None:
@@ -195,7 +196,7 @@ def camera_for_shot(
 def _fixed_camera(
     shot: Shot, points: Floats, canvas_rotation: Floats, size: tuple[int, int], lens: float
 ) -> Camera:
-    """A camera that stands where it was put, upright as the canvas is."""
+    """A camera at a given position, upright with respect to the canvas."""
     axes = checked_array("canvas rotation", canvas_rotation, (3, 3))
     place = np.array(shot.position)
     if shot.target is None:
@@ -224,7 +225,7 @@ def _orbit_camera(
     lens: float,
     fill: float,
 ) -> Camera:
-    """A camera on a circle round the middle, far enough to see a ball round all points."""
+    """A camera on a circle around the centre, far enough to show a sphere around all points."""
     axes = checked_array("canvas rotation", canvas_rotation, (3, 3))
     local = points @ axes
     middle = 0.5 * (local.min(axis=0) + local.max(axis=0))
@@ -238,6 +239,6 @@ def _orbit_camera(
 
 
 def distance_to(camera: Camera, points: Floats) -> float:
-    """How far in front of the camera the middle of some points is [m]."""
+    """Distance in front of the camera of the middle of some points [m]."""
     _, depth = camera.project(points)
     return float(0.5 * (depth.min() + depth.max()))

@@ -1,4 +1,4 @@
-"""Light on its way to a camera -> linear film -> spread by the lens -> developed picture.
+"""Light sent to a camera -> linear film -> image spread by the lens -> developed picture.
 
 A new look is a function in `looks` under `@LOOKS.add(name)`.
 """

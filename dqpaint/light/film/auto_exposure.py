@@ -1,4 +1,4 @@
-"""Automatic exposure: how bright the picture must be for its lines to have white cores."""
+"""Light sent to a camera -> the exposure factor that gives its lines white cores."""
 
 from __future__ import annotations
 
@@ -15,22 +15,23 @@ from dqpaint.light.sources.emission import Emission, Light
 from dqpaint.light.sources.sweep import Steps, Sweep
 
 CORE_EXPOSURE = 12.0
-"""What the core of the median stroke is exposed to; 1 saturates the sensor. Photographers' usual
-settings give 10 to 20 for a small LED."""
+"""Exposure of the core of the median stroke; 1 saturates the sensor. Photographers' usual settings
+give 10 to 20 for a small LED."""
 SURFACE_EXPOSURE = 0.9
-"""What a surface swept by a bar is exposed to: as bright as a line it would be all white."""
+"""Exposure of a surface swept by a bar: as bright as a line it would be all white."""
 SURFACE_WIDTH = 8.0
-"""A stroke this many line widths wide is a surface; between the two it is some of both."""
+"""A stroke this many line widths wide is exposed as a surface; a narrower one is exposed between
+line and surface."""
 METERED_PARTS = 8
-"""Parts of a bar that are metered by themselves."""
+"""Number of parts of a bar that are metered separately."""
 METERED_SHARE = 0.02
-"""Of a bar's brightest part: dimmer ones are the ground of an image, and are not metered."""
+"""Share of a bar's brightest part: dimmer parts are background and are not metered."""
 
 
 def automatic_exposure(
     light: Emission | Iterable[Emission], camera: Camera, psf: PointSpread
 ) -> float:
-    """The factor from lamp s / px^2 to sensor saturation that suits `light`.
+    """The exposure factor from lamp s / px^2 to sensor saturation that suits `light`.
 
     A stroke of energy lambda per pixel has a ridge of lambda psf.of_line. Of that, in its strongest
     channel, the median over the lit path length on the picture is put at `CORE_EXPOSURE`.
@@ -62,7 +63,7 @@ def automatic_exposure(
 def _metered(
     emission: Emission, camera: Camera, psf: PointSpread
 ) -> Iterator[tuple[Floats, Floats]]:
-    """Brightness (M,) of parts of a light, as of lines, and their lengths (M,)."""
+    """Brightness (M,) of the parts of a light, each treated as a line, and their lengths (M,)."""
     piece = psf.line_peak / psf.point_peak
     if isinstance(emission, Sweep) and len(emission.emitters.positions) > 1:
         for steps in emission.steps(emission.chord_tolerance(camera)):
@@ -79,7 +80,7 @@ def _metered(
 
 
 def _disc_share(light: Light, camera: Camera, psf: PointSpread) -> float:
-    """By how much a line of discs counts less than one of points: it is wider, and aims lower."""
+    """Brightness of a line of discs relative to a line of points: wider, with a lower target."""
     _, depth = camera.project(light.lit_points)
     seen = depth[depth > NEAREST_DEPTH]
     if light.size == 0.0 or len(seen) == 0:
@@ -94,13 +95,13 @@ def _disc_share(light: Light, camera: Camera, psf: PointSpread) -> float:
 
 
 def _target_exposure(widths: Floats) -> Floats:
-    """What a stroke as wide as so many lines is exposed to."""
+    """Target exposure of strokes with the given widths, in line widths."""
     filled = np.clip((widths - 1.0) / (SURFACE_WIDTH - 1.0), 0.0, 1.0)
     return np.asarray(CORE_EXPOSURE ** (1.0 - filled) * SURFACE_EXPOSURE**filled)
 
 
 def _surface(sweep: Sweep, steps: Steps, camera: Camera, psf: PointSpread) -> tuple[Floats, Floats]:
-    """Brightness and length, as of lines, of the parts of what some lamps sweep over."""
+    """Brightness and length of the parts of a swept surface, each treated as a line."""
     e = sweep.emitters
     line = 1.0 / psf.line_peak  # width of a line [px]
     piece = psf.line_peak / psf.point_peak
@@ -146,7 +147,7 @@ def _surface(sweep: Sweep, steps: Steps, camera: Camera, psf: PointSpread) -> tu
 
 
 def _shares(tints: Floats) -> Floats:
-    """(R, PARTS, 3) of tints (R, K, 3), summed over even parts of the line of lamps."""
+    """Tints (R, K, 3) summed over equal parts of the line of lamps: (R, METERED_PARTS, 3)."""
     sums = np.concatenate([np.zeros((len(tints), 1, 3)), np.cumsum(tints, axis=1)], axis=1)
     at = np.linspace(0.0, tints.shape[1], METERED_PARTS + 1)
     below = np.minimum(at.astype(np.int64), tints.shape[1] - 1)
@@ -155,7 +156,7 @@ def _shares(tints: Floats) -> Floats:
 
 
 def _weighted_median(values: Floats, weights: Floats) -> float:
-    """The value that has half of the weight at or below it; 0 if there is none."""
+    """The value with half of the weight at or below it; 0 for no values."""
     if len(values) == 0:
         return 0.0
     order = np.argsort(values, kind="stable")

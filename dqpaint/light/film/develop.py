@@ -1,4 +1,4 @@
-"""Develop: linear light becomes the picture one looks at.
+"""Linear light -> an 8-bit sRGB picture with white cores and coloured halos.
 
 A pure blue LED alone would never turn white, however bright. On sensors and on film it does, for
 two reasons: each colour's filter lets a little of the others through, and what a full pixel cannot
@@ -21,15 +21,15 @@ from dqpaint.light.arrays import Image, Picture
 LEAK = 0.018
 """Share of each channel that leaks into each of the other two."""
 SPILL = 0.12
-"""Share of what a full channel cannot hold that spills into each of the other two."""
+"""Share of a full channel's excess that spills into each of the other two."""
 TOE = 0.008
 """Brightness under which the response bends down to black."""
 STRIP_ROWS = 64
-"""Rows that are worked on at once, so that they stay in the cache."""
+"""Rows of one batch, so that they stay in the processor's cache."""
 
 
 def develop(image: Image, exposure: float, ev: float = 0.0) -> Picture:
-    """The sRGB picture of a linear image.
+    """Develop a linear image to an sRGB picture.
 
         x = 2^ev exposure F image      F: 1 - 2 leak on the diagonal, leak beside it
         r = x - (1 - exp(-x))          what does not fit into a sensor that fills up
@@ -68,13 +68,13 @@ def develop(image: Image, exposure: float, ev: float = 0.0) -> Picture:
 
 
 def _saturated(light: Image) -> Image:
-    """1 - exp(-light), not below 0."""
+    """1 - exp(-light), at least 0."""
     empty = cv2.exp(-light)
     return cast(Image, np.maximum(np.subtract(np.float32(1.0), empty, out=empty), 0.0, out=empty))
 
 
 def encode(display: Image) -> Picture:
-    """8-bit sRGB, dithered, of some rows (H, W, 3) of display light from 0 to 1."""
+    """Encode rows (H, W, 3) of display light from 0 to 1 as dithered 8-bit sRGB."""
     srgb = np.where(display <= 0.0031308, 12.92 * display, 1.055 * display ** (1.0 / 2.4) - 0.055)
     level = np.floor(255.0 * 256.0 * srgb + 0.5).astype(np.uint16)
     level += _dither_thresholds((STRIP_ROWS, *display.shape[1:]))[: len(display)]
@@ -83,7 +83,7 @@ def encode(display: Image) -> Picture:
 
 @cache
 def _response_curve() -> NDArray[np.uint16]:
-    """Toe and sRGB in 8.8 bits over the root of y: even steps there are fine in the darks."""
+    """Toe and sRGB curve in 8.8 bits over the square root of y, which resolves the darks."""
     y = np.linspace(0.0, 1.0, 1 << 16) ** 2
     z = y * y * (1.0 + TOE) / (y + TOE)
     srgb = np.where(z <= 0.0031308, 12.92 * z, 1.055 * z ** (1.0 / 2.4) - 0.055)
@@ -92,7 +92,7 @@ def _response_curve() -> NDArray[np.uint16]:
 
 @cache
 def _dither_thresholds(shape: tuple[int, int, int]) -> NDArray[np.uint16]:
-    """(H, W, 3) thresholds from 0 to 255 of the eight bits that are to be dropped.
+    """Thresholds (H, W, 3) from 0 to 255 for the eight bits that are dropped.
 
     The R2 sequence: multiples of the inverse powers of the plastic number p are spread evenly over
     the plane (Roberts, The unreasonable effectiveness of quasirandom sequences, 2018). Instead of

@@ -1,4 +1,4 @@
-"""Lamps with a size: seen from anywhere a diffuse ball is an even disc, smaller where it is far.
+"""Lamps with a size -> layers of discs: a diffuse ball appears as an even disc.
 
 The light is sorted into layers by the diameter of its disc on the picture, and each layer is
 spread at once: a point of it becomes a disc with the same energy.
@@ -21,17 +21,17 @@ if TYPE_CHECKING:
     from dqpaint.light.sources.emission import Light
 
 DIAMETER_RATIO = 1.15
-"""From the diameter of one layer to the next."""
+"""Ratio between the diameters of adjacent layers."""
 SMALLEST_DISC = 1.0
-"""A smaller disc is a point [px]."""
+"""A smaller disc is drawn as a point [px]."""
 LARGEST_DISC = 2000.0
-"""No disc is larger [px]."""
+"""Largest diameter of a disc [px]."""
 RIM_SUBPIXELS = 8
-"""Parts of a pixel that the rim of a disc is drawn with."""
+"""Subpixels along each axis for the rim of a disc."""
 
 
 def disc_layers(light: Light, camera: Camera) -> Iterator[tuple[int | None, Floats]]:
-    """The layers (None: points) a light falls on, with the share (N-1,) of each step in them.
+    """The layers of a light (None for points), each with its share (N-1,) of each step.
 
     A step between two layers goes to both, such that the mean diameter is its own.
     """
@@ -53,7 +53,7 @@ def disc_layers(light: Light, camera: Camera) -> Iterator[tuple[int | None, Floa
 
 
 def spread_discs(planes: Floats, layer: int) -> Floats:
-    """(3, H, W) planes with a disc of the layer's diameter for every point."""
+    """Planes (3, H, W) with every point replaced by a disc of the layer's diameter."""
     kernel = _disc(layer)
     spread = [
         cv2.filter2D(plane, cv2.CV_64F, kernel, borderType=cv2.BORDER_CONSTANT) for plane in planes
@@ -63,7 +63,7 @@ def spread_discs(planes: Floats, layer: int) -> Floats:
 
 @cache
 def _disc(layer: int) -> Floats:
-    """An even disc, its rim by the area in each pixel; it adds up to 1."""
+    """An even disc with its rim weighted by pixel coverage; it sums to 1."""
     radius = 0.5 * DIAMETER_RATIO**layer
     half = math.ceil(radius)
     fine = (np.arange((2 * half + 1) * RIM_SUBPIXELS) + 0.5) / RIM_SUBPIXELS - (half + 0.5)

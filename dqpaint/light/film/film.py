@@ -1,4 +1,4 @@
-"""The film: it adds up light, in linear RGB, and can say where every bit of it went."""
+"""Light sent to a camera -> film: energy accumulated in linear RGB, with its balance."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ from dqpaint.light.sources.emission import Emission, Light
 from dqpaint.light.sources.sheet import Sheet
 
 PAD = 64
-"""Guard band round the picture [px]: light just outside still blooms into it, and what the
-spreading does at the film's border stays out of sight."""
+"""Guard band around the picture [px]: light just outside still blooms into it, and the border
+effects of the spreading stay out of the picture."""
 DEPOSIT_SPACING = 1.0
-"""Path from one deposit to the next [px]; along a diagonal it leaves a ripple of 1 % from pixel to
-pixel, which the spreading takes away."""
+"""Distance between deposits along a path [px]; on a diagonal it leaves a ripple of 1 % from pixel
+to pixel, which the spreading removes."""
 SPLINE_VARIANCE = 0.25
-"""Variance of a deposit along each axis [px^2], whatever its place between pixels."""
+"""Variance of a deposit along each axis [px^2], for any position between pixels."""
 
 
 @dataclass(frozen=True, eq=False)
 class Film:
-    """What fell on the film, linear RGB, and what did not [lamp s].
+    """The energy on the film and the energy that missed it, linear RGB [lamp s].
 
     Attributes:
         planes: (3, H + 2 PAD, W + 2 PAD) energy in each pixel, with the guard band.
@@ -41,12 +41,12 @@ class Film:
 
     @property
     def on_film(self) -> Floats:
-        """(3,) what is on the film, counted there: emitted = on_film + lost."""
+        """The energy (3,) on the film, from its pixels: emitted = on_film + lost."""
         return np.asarray(self.planes.sum(axis=(1, 2)))
 
 
 def expose(light: Emission | Iterable[Emission], camera: Camera, falloff: bool = False) -> Film:
-    """A film of the camera's size, plus the guard band, that saw all of `light`.
+    """Expose a film of the camera's size, plus the guard band, to all of `light`.
 
     A deposit is spread over 3x3 pixels by the quadratic B-spline. That is the smoothest weight of
     its size, and unlike the bilinear one it has the same variance between pixels as on them, so
@@ -65,7 +65,7 @@ def expose(light: Emission | Iterable[Emission], camera: Camera, falloff: bool =
 
 
 class FilmAccumulator:
-    """A film in the camera: light is added piece by piece, and the film can be taken at any time.
+    """A film under exposure: light is added piece by piece; the film can be read at any time.
 
     Args:
         camera: Where the light is seen from.
@@ -79,7 +79,7 @@ class FilmAccumulator:
         self._emitted, self._lost = np.zeros(3), np.zeros(3)
 
     def add(self, piece: Light | Sheet) -> None:
-        """Let some light in."""
+        """Expose the film to one piece of light."""
         margin = PAD - 1.0  # a spline needs a pixel on either side
         if isinstance(piece, Sheet):
             self._emitted += piece.emitted
@@ -95,7 +95,7 @@ class FilmAccumulator:
                     _deposit(planes, bit.position + PAD, bit.energy)
 
     def _layers(self, light: Light) -> Iterator[tuple[Floats, Light]]:
-        """Where to put a light: lamps that are seen as discs go to a layer for each diameter."""
+        """The layers for a light: one per diameter if its lamps appear as discs."""
         if light.size == 0.0:
             yield self._planes, light
             return
@@ -106,7 +106,7 @@ class FilmAccumulator:
             yield planes, Light(light.points, light.energy * share[:, None])
 
     def film(self) -> Film:
-        """What the film holds by now."""
+        """The film so far."""
         planes, lost = self._planes.copy() if self._discs else self._planes, self._lost.copy()
         for layer, points in sorted(self._discs.items()):
             spread = discs.spread_discs(points, layer)
@@ -119,7 +119,7 @@ class FilmAccumulator:
 
 
 def _deposit(planes: Floats, position: Floats, energy: Floats) -> None:
-    """Add energy (3, B) at film positions (2, B) x, y to planes."""
+    """Add energy (3, B) at film positions (2, B) (x, y) to the planes."""
     width = planes.shape[2]
     x, y = np.rint(position)
     across, down = _spline_weights(position[0] - x), _spline_weights(position[1] - y)
@@ -133,7 +133,7 @@ def _deposit(planes: Floats, position: Floats, energy: Floats) -> None:
 
 
 def _spline_weights(t: Floats) -> Floats:
-    """(3, B) weights of the pixels at -1, 0, 1 for a deposit at t, -1/2 <= t <= 1/2.
+    """Weights (3, B) of the pixels -1, 0 and 1 for a deposit at t, -1/2 <= t <= 1/2.
 
     The quadratic B-spline; Unser, Splines: a perfect fit for signal processing, IEEE SPM 1999.
     """

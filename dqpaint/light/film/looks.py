@@ -1,4 +1,4 @@
-"""Looks: how linear light becomes a picture. `film` is the default; the others are the field's.
+"""Linear light and the name of a look -> a picture; `film` is the default.
 
 A new look is a function here under `@_add(name)`: from light in which 1 saturates the sensor to
 display values from 0 to 1 before the sRGB curve, both (H, W, 3) linear.
@@ -36,7 +36,7 @@ def _add(name: str) -> Callable[[Look], Look]:
 
 @LOOKS.add("film")
 def film(image: Image, exposure: float, ev: float = 0.0) -> Picture:
-    """White cores, coloured halos, black ground: filters leak, full pixels spill."""
+    """White cores, coloured halos, black background: channels leak and full pixels spill."""
     return develop(image, exposure, ev)
 
 
@@ -50,7 +50,7 @@ ACES_OUT = np.array(
 
 @_add("aces")
 def aces(light: Image) -> Image:
-    """The cinema's curve: deep blacks, vivid halos, the poster look.
+    """The cinema's tone curve: deep blacks and vivid halos.
 
     Hill's fit of the ACES reference and output transforms (in BakingLab, 2016).
     """
@@ -74,7 +74,7 @@ PUNCH = 1.35, 1.4
 
 @_add("agx")
 def agx(light: Image) -> Image:
-    """The look of Blender: colours fade to white gently; the punchy variant.
+    """The look of Blender: colours fade gently to white; the punchy variant.
 
     Sobotka's AgX (2022) with Wrensch's polynomial for its curve (Minimal AgX implementation, 2023).
     """
@@ -93,7 +93,7 @@ def agx(light: Image) -> Image:
 
 @_add("clip")
 def clip(light: Image) -> Image:
-    """A plain sensor: what is above 1 is cut, channel by channel; pure colours never whiten."""
+    """A plain sensor: each channel is clipped at 1, so pure colours never turn white."""
     return light
 
 
@@ -113,7 +113,7 @@ def _developed(look: Look, image: Image, exposure: float, ev: float) -> Picture:
 
 
 def with_noise(image: Image, exposure: float, seed: int) -> Image:
-    """The image as a sensor reads it: shot noise of its electrons, and the noise of the reading.
+    """The image with sensor noise: shot noise of the electrons and read noise.
 
     A pixel that is full holds 50,000 electrons; those that come are Poisson distributed (here: a
     Gaussian of the same variance), and reading adds 3.

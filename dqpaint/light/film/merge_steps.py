@@ -1,4 +1,4 @@
-"""Steps too short for a camera to tell apart, as one: a million samples cost what they show."""
+"""Many short steps -> fewer steps that the camera cannot distinguish from them."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from dqpaint.light.arrays import Floats
 from dqpaint.light.camera.camera import NEAREST_DEPTH, Camera
 
 LONGEST_MERGED = 0.25
-"""Steps are joined that are no longer than this together, seen from the camera [px]: light may
-move by half of it, along its own path. The spreading is wider by far."""
+"""Largest length of merged steps, as the camera sees it [px]: light may move by half of it along
+its own path, much less than the spreading."""
 MOST_MERGED = 64
-"""Steps that become one at most."""
+"""Largest number of steps merged into one."""
 
 
 def merge_short_steps(
     points: Floats, energy: Floats, camera: Camera, margin: float
 ) -> tuple[Floats, Floats]:
-    """The same light in fewer steps, if all of them are short.
+    """The same light in fewer steps, if all steps are short.
 
     Every so many steps become one straight step with their energy, added up.
 
@@ -42,7 +42,7 @@ def merge_short_steps(
 
 
 def _mergeable_steps(points: Floats, camera: Camera, margin: float) -> int:
-    """How many steps in a row are shorter than `LONGEST_MERGED`, wherever one begins to count.
+    """The number of consecutive steps that always stay shorter than `LONGEST_MERGED`.
 
     A step dp at a depth Z and a slope s = (X, Y) / Z is seen as f / Z |dX, dY - s dZ|, which is at
     most f / Z |dp| sqrt(1 + s^2).

@@ -1,4 +1,4 @@
-"""Spread: the lens and the glass behind it turn every point of light into a core with halos.
+"""Film -> image: the lens spreads every point of light into a core with halos.
 
 The point spread is a sum of five Gaussians. Real lenses have a sharp core on wings that fall with
 r^-2 to r^-3 (Spencer et al., Physically-based glare effects for digital images, SIGGRAPH 1995), and
@@ -19,23 +19,23 @@ from dqpaint.light.arrays import Floats, Image
 from dqpaint.light.film.film import PAD, SPLINE_VARIANCE, Film
 
 REFERENCE_HEIGHT = 1080
-"""Rows of the picture for which the next two are given."""
+"""Rows of the picture for which the widths and energies below are given."""
 CORE_AND_HALO_WIDTHS = (1.35, 4.0, 12.0, 36.0, 108.0)
-"""Standard deviation of the core and of the halos [px]."""
+"""Standard deviations of the core and of the halos [px]."""
 HALO_ENERGIES = (0.15, 0.065, 0.04, 0.03)
 """Energy in each halo; the core has the rest. Chosen by eye."""
 NARROWEST_CORE = 1.35
-"""A narrower core would show the pixel grid: at this width the ridge of a slanted line ripples by
-0.9 %, at 1.25 by 1.3 % [px]."""
+"""Least standard deviation of the core: at this width the ridge of a slanted line ripples by 0.9 %,
+at 1.25 by 1.3 % [px]."""
 WIDEST_LEVEL_BLUR = 2.5
-"""Widest blur done on one level of the pyramid [px there]; wider ones go a level down."""
+"""Widest blur on one level of the pyramid [px there]; wider blurs are done on a lower level."""
 BORDER = cv2.BORDER_CONSTANT
-"""Light that leaves the film does not come back."""
+"""OpenCV's border mode: light that leaves the film does not come back."""
 
 
 @dataclass(frozen=True)
 class PointSpread:
-    """The image of a point of light: sum_i w_i exp(-r^2 / 2 s_i^2) / (2 pi s_i^2).
+    """Point spread function: sum_i w_i exp(-r^2 / 2 s_i^2) / (2 pi s_i^2).
 
     Attributes:
         widths: s_i, the film's own B-spline included [px].
@@ -47,13 +47,13 @@ class PointSpread:
 
     @property
     def point_peak(self) -> float:
-        """Brightest value that a unit of energy in one place makes [1/px^2]."""
+        """Peak value of a unit of energy at one point [1/px^2]."""
         pairs = zip(self.widths, self.weights, strict=True)
         return sum(w / (2.0 * math.pi * s * s) for s, w in pairs)
 
     @property
     def line_peak(self) -> float:
-        """Value on the ridge of a long straight line of a unit of energy per pixel [1/px].
+        """Peak value across a long straight line of one unit of energy per pixel [1/px].
 
         The integral of the point's image along a line through it: sum_i w_i / (s_i sqrt(2 pi)).
         """
@@ -62,7 +62,7 @@ class PointSpread:
 
 
 def point_spread(height: int) -> PointSpread:
-    """The spread of a picture of `height` rows: the same share of any picture.
+    """The point spread for a picture of `height` rows; it scales with the picture.
 
     A small picture cannot have a core as narrow as its size asks for. Its lines are then wider
     and, exposed to the same ridge, would have stronger halos. So halos give part of their energy,
@@ -80,7 +80,7 @@ def point_spread(height: int) -> PointSpread:
 
 
 def spread(film: Film, psf: PointSpread) -> Image:
-    """The picture on the sensor, (H, W, 3) linear RGB without the guard band [lamp s / px^2].
+    """Spread a film to an image (H, W, 3), linear RGB without the guard band [lamp s / px^2].
 
     pyrDown's [1 4 6 4 1]/16 falls evenly on both phases, so that energy and centroid survive
     exactly and each way adds a variance of 1 px^2 a level; at level L the Gaussian that is left to
@@ -112,7 +112,7 @@ def spread(film: Film, psf: PointSpread) -> Image:
 
 
 def _level_blur(width: float, level: int) -> float:
-    """What is left to blur at a level of the pyramid for a Gaussian of `width` in all [px there].
+    """Blur left for a level of the pyramid, for a Gaussian of `width` in total [px there].
 
     NaN where the pyramid alone is already wider.
     """
@@ -121,12 +121,12 @@ def _level_blur(width: float, level: int) -> float:
 
 
 def _level(width: float) -> int:
-    """The level of the pyramid at which a Gaussian of `width` is blurred."""
+    """The level of the pyramid on which a Gaussian of `width` is applied."""
     return next(level for level in range(32) if _level_blur(width, level) <= WIDEST_LEVEL_BLUR)
 
 
 def _interleaved(planes: Floats) -> Image:
-    """(3, H, W) float64 as the (H, W, 3) float32 that cv2 wants."""
+    """Planes (3, H, W) float64 as (H, W, 3) float32, the layout of OpenCV."""
     image = np.empty((*planes.shape[1:], 3), dtype=np.float32)
     for channel, plane in enumerate(planes):
         image[..., channel] = plane

@@ -1,4 +1,4 @@
-"""The trail: what the lens draws of a light, as straight steps on the picture plane."""
+"""Light and a camera -> straight steps on the picture plane -> bins of nearly equal length."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from dqpaint.light.film.merge_steps import merge_short_steps
 from dqpaint.light.sources.emission import Light
 
 MERGE_BATCH = 2 * BATCH
-"""How many steps are looked through at once for whether they can be joined. With twice as many
-matrix products would be spread over threads, for more than they take."""
+"""Steps that are examined together for merging. With twice as many, numpy would use threads for the
+matrix products and lose time."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,19 +38,19 @@ class Projection:
 
     @cached_property
     def length(self) -> Floats:
-        """(M,) [px]. Unlike np.hypot this is quick; no path is long enough to overflow."""
+        """Lengths (M,) [px]. Unlike np.hypot this is quick; no path is long enough to overflow."""
         way = self.end - self.start
         return cast(Floats, np.sqrt(way[0] ** 2 + way[1] ** 2))
 
     def select(self, steps: slice) -> Projection:
-        """Some of the steps; what fell outside is not among them."""
+        """A slice of the steps, without the energy that fell outside."""
         start, end, energy = (of[:, steps] for of in (self.start, self.end, self.energy))
         return Projection(start, end, energy, np.zeros(3))
 
 
 @dataclass(frozen=True, eq=False)
 class Bins:
-    """A trail cut into B pieces of nearly one length.
+    """A projection cut into B pieces of nearly equal length.
 
     Attributes:
         position: (2, B) centre of the energy in each [px].
@@ -66,7 +66,7 @@ class Bins:
 
 
 def project_light(light: Light, camera: Camera, margin: float) -> Iterator[Projection]:
-    """What of `light` falls on the picture and a margin round it, a batch at a time.
+    """Project light to the picture plus a margin, one batch at a time.
 
     A step that crosses the edge is cut there and keeps its share by length. A step with an end
     behind the pinhole has no image and is lost as a whole. Dark steps are left out.
@@ -86,7 +86,7 @@ def project_light(light: Light, camera: Camera, margin: float) -> Iterator[Proje
 
 
 def _project_batch(points: Floats, energy: Floats, camera: Camera, margin: float) -> Projection:
-    """The same for one batch: points (N, 3), energy (N-1, 3)."""
+    """Project one batch: points (N, 3), energy (N-1, 3)."""
     pixels, depth = camera.project(points)
     start, end = pixels[:-1].T, pixels[1:].T
     left = energy.T.copy()  # with a row for each channel numpy is ten times as quick
@@ -118,7 +118,7 @@ def _project_batch(points: Floats, energy: Floats, camera: Camera, margin: float
 
 
 def _clip(start: Floats, end: Floats, low: Floats, high: Floats) -> tuple[Floats, Floats]:
-    """Where between start (0) and end (1) each step enters and leaves the box from low to high.
+    """Parameters, 0 at start and 1 at end, at which each step enters and leaves the box.
 
     Liang and Barsky, A new concept and method for line clipping, ACM TOG 3(1), 1984. A step that
     stays outside enters after it leaves.
@@ -135,7 +135,7 @@ def _clip(start: Floats, end: Floats, low: Floats, high: Floats) -> tuple[Floats
 
 
 def cut_into_bins(trail: Projection, step: float) -> Iterator[Bins]:
-    """The trail in pieces at most `step` long, a batch at a time.
+    """Cut a projection into pieces at most `step` long, one batch at a time.
 
     The profile of the lamp has no say in where a path is cut: each unbroken run of steps is cut
     evenly along its length, however many samples it came in, and each piece gets the energy that
@@ -161,7 +161,7 @@ def cut_into_bins(trail: Projection, step: float) -> Iterator[Bins]:
 
 
 def _cut_batch(trail: Projection, step: float) -> Bins:
-    """The same for one batch: whole steps are added up from cut to cut, those with cuts shared."""
+    """Cut one batch: whole steps are summed between cuts, steps with cuts are shared."""
     start, end, energy, length = trail.start, trail.end, trail.energy, trail.length
     path = np.cumsum(length)  # walked at the end of each step
     breaks = np.ones(len(length), dtype=bool)  # where a run begins: not where the last step ended
@@ -201,7 +201,7 @@ def _cut_batch(trail: Projection, step: float) -> Bins:
 def _share_cut_steps(
     total: Floats, after: NDArray[np.int64], trail: Projection, on: NDArray[np.int64], part: Floats
 ) -> None:
-    """Add steps with cuts to the bins at either side of each cut.
+    """Add steps that contain cuts to the bins on both sides of each cut.
 
     Args:
         total: (5, B) energy of each bin, and twice its moments about the axes.

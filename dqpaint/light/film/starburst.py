@@ -1,4 +1,4 @@
-"""Starburst: an aperture of straight blades draws rays round every light that stands out."""
+"""An image and a number of aperture blades -> the image with rays around its bright lights."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ import numpy as np
 from dqpaint.light.arrays import Floats, Image
 
 RAY_ENERGY = 0.05
-"""Of the light that goes into the rays."""
+"""Share of the light that goes into the rays."""
 RAY_LENGTH = 0.16
-"""How far a ray reaches, over the height of the picture."""
+"""Length of a ray over the height of the picture."""
 BLADE_RANGE = (3, 24)
-"""Fewest and most of them."""
+"""Least and greatest number of blades."""
 
 
 def with_starburst(image: Image, blades: int) -> Image:
-    """The image with a part of its light in the rays of an aperture with so many blades.
+    """The image with part of its light in the rays of an aperture with `blades` blades.
 
     Each edge of the aperture diffracts light along the line across it, with r^-2 from the core
     (the far field of a straight edge); so an even number of blades makes as many rays, an odd one
@@ -51,7 +51,7 @@ def with_starburst(image: Image, blades: int) -> Image:
 
 
 def _rays(blades: int, reach: int) -> Floats:
-    """(2 reach + 1, ...) the rays of a point; they add up to 1."""
+    """The rays of a point, (2 reach + 1, 2 reach + 1); they sum to 1."""
     y, x = np.mgrid[-reach : reach + 1, -reach : reach + 1].astype(np.float64)
     radius = np.sqrt(x * x + y * y)
     total = np.zeros_like(radius)

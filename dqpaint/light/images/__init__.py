@@ -1,4 +1,4 @@
-"""Finished pictures -> legends, contact sheets, differences, encoded files."""
+"""Finished pictures -> legends, contact sheets, differences and encoded files."""
 
 from dqpaint.light.images import contact_sheet
 from dqpaint.light.images.colour_maps import categorical_colours, sequential_colours, sequential_map

@@ -1,4 +1,4 @@
-"""Colour maps for light on black: equal steps of value look equally different.
+"""Values or categories -> colours on black, with perceptually equal steps.
 
 The map of amounts is a path through OKLab (Ottosson, A perceptual color space for image
 processing, 2020), from blue over magenta and orange to pale yellow, lightness 0.48 to 0.95 and
@@ -17,11 +17,11 @@ from dqpaint.light.arrays import Floats
 MAP_STEPS = 256
 LIGHTNESS_RANGE = (0.48, 0.95)
 HUE_STOPS = ((0.0, 264.0), (0.45, 350.0), (0.75, 410.0), (1.0, 465.0))
-"""Place on the path and hue there [deg]."""
+"""Positions along the path and their hues [deg]."""
 MOST_CHROMA = 0.24
 CATEGORY_LIGHTNESS, CATEGORY_CHROMA = 0.76, 0.15
 GOLDEN_ANGLE = 180.0 * (3.0 - 5.0**0.5)
-"""The golden angle: turns by it never come close to each other [deg]."""
+"""The golden angle: rotations by it never come close to each other [deg]."""
 
 _TO_LMS = np.array([
     [1.0, 0.3963377774, 0.2158037573],
@@ -36,14 +36,14 @@ _TO_RGB = np.array([
 
 
 def rgb_from_oklch(lightness: Floats, chroma: Floats, hue: Floats) -> Floats:
-    """(..., 3) linear RGB of lightness, chroma and hue [deg], each (...)."""
+    """Linear RGB (..., 3) of lightness, chroma and hue [deg], each (...)."""
     h = np.radians(hue)
     lab = np.stack([lightness, chroma * np.cos(h), chroma * np.sin(h)], axis=-1)
     return np.asarray((lab @ _TO_LMS.T) ** 3 @ _TO_RGB.T)
 
 
 def _largest_chroma(lightness: Floats, hue: Floats, most: float) -> Floats:
-    """The largest chroma up to `most` that linear sRGB can show, for each colour."""
+    """The largest chroma up to `most` that linear sRGB can represent, for each colour."""
     low, high = np.zeros_like(lightness), np.full_like(lightness, most)
     for _ in range(40):
         middle = 0.5 * (low + high)
@@ -55,7 +55,7 @@ def _largest_chroma(lightness: Floats, hue: Floats, most: float) -> Floats:
 
 @cache
 def sequential_map() -> Floats:
-    """(MAP_STEPS, 3) linear RGB from little to much."""
+    """The sequential colour map (MAP_STEPS, 3), linear RGB from low to high."""
     t = np.linspace(0.0, 1.0, 4001)
     lightness = LIGHTNESS_RANGE[0] + (LIGHTNESS_RANGE[1] - LIGHTNESS_RANGE[0]) * t
     at, turned = np.array(HUE_STOPS).T
@@ -73,7 +73,7 @@ def sequential_map() -> Floats:
 
 
 def sequential_colours(values: Floats) -> Floats:
-    """(..., 3) linear RGB of values from 0 to 1; what is beyond has the colour of the end."""
+    """Linear RGB (..., 3) of values from 0 to 1; values outside get the end colours."""
     at = np.clip(values, 0.0, 1.0) * (MAP_STEPS - 1)
     below = np.minimum(at.astype(np.int64), MAP_STEPS - 2)
     part = (at - below)[..., None]
@@ -82,7 +82,7 @@ def sequential_colours(values: Floats) -> Floats:
 
 
 def categorical_colours(count: int) -> Floats:
-    """(count, 3) linear RGB of things without an order: one lightness, hues far apart."""
+    """Linear RGB (count, 3) of categories: equal lightness, distant hues."""
     hue: Floats = np.asarray((250.0 + GOLDEN_ANGLE * np.arange(count)) % 360.0, dtype=np.float64)
     lightness = np.full(count, CATEGORY_LIGHTNESS)
     return np.clip(

@@ -1,4 +1,4 @@
-"""Several pictures as one: a contact sheet with labels, and pictures laid over each other.
+"""Several pictures -> one: a contact sheet with labels, or an overlay.
 
 sheet     beside each other, each under its label
 overlay   the light of each in a colour of its own, added up: what all drew alike is white
@@ -18,14 +18,14 @@ from dqpaint.light.arrays import Image, Picture
 from dqpaint.light.images.legend import look_colours, text_length, write_text
 
 BACKGROUND = 22
-"""Grey of the sheet: the pictures' edges are seen on it."""
+"""Grey of the sheet, so that the edges of the pictures are visible."""
 FIRST_HUE = 30.0
-"""Orange, so that two pictures are orange and azure [deg]."""
+"""First hue: orange, so that two pictures are orange and azure [deg]."""
 LEAST_TEXT = 11
 LIT_LEVEL = 40
-"""Of 255: the halo round a line is less."""
+"""Least brightness of a lit pixel, of 255; the halo of a line is dimmer."""
 CROP_MARGIN, LEAST_CROP = 0.08, 0.3
-"""Round what is lit, as a part of it; and the least of a picture that is shown."""
+"""Margin around the lit part, relative to it; and the least share of a picture that is shown."""
 PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
 
 Colour = tuple[float, float, float]
@@ -36,18 +36,19 @@ HUE_SETS: dict[int, list[Colour]] = {
     5: [(1, 1, 0), (0.3, 0, 1), (0.3, 0.45, 1), (1, 0, 0.05), (0, 1, 0.55)],
     6: [(0.75, 0, 1), (0.25, 0.65, 1), (0.6, 1, 0), (0, 1, 0.6), (1, 0.75, 0.25), (1, 0.05, 0.5)],
 }
-"""Found by a search: told apart by those who see no red, no green or no blue, too."""
+"""Colours found by a search; people with red, green or blue colour blindness can distinguish them,
+too."""
 
 
 def hues(count: int) -> list[Colour]:
-    """Colours that add up to grey, all but, as linear RGB; many are hues round the circle."""
+    """Colours that add up to nearly grey, as linear RGB; for large counts, hues in a circle."""
     return HUE_SETS.get(count) or [
         colorsys.hsv_to_rgb((FIRST_HUE / 360 + i / count) % 1.0, 1, 1) for i in range(count)
     ]
 
 
 def overlay(lights: Sequence[Image], colours: Sequence[Colour] | None = None) -> Image:
-    """(H, W, 3) linear light of several pictures, each in its colour, one of `hues` if not said.
+    """Linear light (H, W, 3) of several pictures, each in its own colour (default: `hues`).
 
     A picture's own colours give way to its brightest channel.
     """
@@ -60,7 +61,7 @@ def overlay(lights: Sequence[Image], colours: Sequence[Colour] | None = None) ->
 def sheet(
     pictures: Sequence[Picture], labels: Sequence[str], columns: int | None = None
 ) -> Picture:
-    """Pictures of one size beside each other, each under its label.
+    """A contact sheet: pictures of one size, each under its label.
 
     Args:
         pictures: (H, W, 3) each.
@@ -82,7 +83,7 @@ def sheet(
 
 
 def lit_window(pictures: Sequence[Picture]) -> tuple[slice, slice]:
-    """Where some of pictures of one size is lit, with a margin: rows and columns."""
+    """Rows and columns of the region where any of the pictures is lit, with a margin."""
     lit = np.max([picture.max(axis=2) for picture in pictures], axis=0) >= LIT_LEVEL
     found = []
     for axis in (1, 0):
@@ -97,7 +98,7 @@ def lit_window(pictures: Sequence[Picture]) -> tuple[slice, slice]:
 
 
 def with_key(picture: Picture, named: Sequence[tuple[str, Colour]], look: str) -> Picture:
-    """A picture with lines below it that name colours."""
+    """A picture with lines of text below it that name the colours."""
     width = picture.shape[1]
     size = max(LEAST_TEXT, round(width / 110))
     places, x, line = [], size, 0
@@ -117,7 +118,7 @@ def with_key(picture: Picture, named: Sequence[tuple[str, Colour]], look: str) -
 
 
 def message_picture(text: str, height: int, width: int) -> Picture:
-    """A dark picture that says why there is none."""
+    """A dark picture with the reason why there is no picture."""
     blank = np.zeros((height, width, 3), dtype=np.uint8)
     size = max(LEAST_TEXT, round(height / 28))
     words, lines = text.split(), [""]
@@ -133,7 +134,7 @@ def message_picture(text: str, height: int, width: int) -> Picture:
 
 
 def encode_png(picture: Picture) -> bytes:
-    """A picture (H, W, 3) as a PNG file."""
+    """Encode a picture (H, W, 3) as PNG."""
     done, data = cv2.imencode(".png", np.ascontiguousarray(picture[..., ::-1]), PNG)
     if not done:
         raise DqpaintError("the picture could not be encoded as PNG")
@@ -141,7 +142,7 @@ def encode_png(picture: Picture) -> bytes:
 
 
 def decode_png(data: bytes) -> Picture:
-    """The picture (H, W, 3) of a PNG file."""
+    """Decode a PNG file to a picture (H, W, 3)."""
     return np.ascontiguousarray(cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR_RGB))
 
 

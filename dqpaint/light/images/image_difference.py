@@ -1,4 +1,4 @@
-"""How much two pictures of the same thing differ, in the terms that see small faults on black.
+"""Two pictures of one scene -> measures of their difference that show small faults on black.
 
 The mean of a picture that is mostly black says nothing: a visible hole leaves the mean structural
 similarity at 0.9999. So it is the largest difference, the sum of all, and the *least* similarity.
@@ -21,7 +21,7 @@ TIFF = [cv2.IMWRITE_TIFF_COMPRESSION, 8]  # deflate, which loses nothing
 
 @dataclass(frozen=True)
 class Difference:
-    """Between a reference and a new picture of one size.
+    """Difference between a reference and a new picture of the same size.
 
     Attributes:
         film_max: largest difference of the linear light, by the reference's largest value.
@@ -41,7 +41,7 @@ class Difference:
 def measure_difference(
     light: Image, new_light: Image, shown: Picture, new_shown: Picture
 ) -> Difference:
-    """The difference of two pictures, linear (H, W, 3) and developed (H, W, 3)."""
+    """Measure the difference of two pictures, linear (H, W, 3) and developed (H, W, 3)."""
     before, after = light.astype(np.float64), new_light.astype(np.float64)
     gap = np.abs(after - before)
     most, whole = max(float(before.max()), 1e-300), max(float(before.sum()), 1e-300)
@@ -56,7 +56,7 @@ def measure_difference(
 
 
 def structural_similarity(one: Picture, other: Picture) -> Image:
-    """The map (H, W) of structural similarity of the greys.
+    """The map (H, W) of structural similarity of the grey pictures.
 
     Wang et al., Image quality assessment: from error visibility to structural similarity, IEEE
     Trans. Image Processing 13, 2004.
@@ -73,7 +73,7 @@ def structural_similarity(one: Picture, other: Picture) -> Image:
 
 
 def difference_picture(light: Image, new_light: Image) -> tuple[Picture, float]:
-    """Their linear difference (H, W, 3) as a picture, its largest value white; and how amplified.
+    """The linear difference (H, W, 3) as a picture scaled to white, and the scale factor.
 
     Linear, because lines are burnt out in a developed picture, and what is lost there is not seen.
     """
@@ -86,7 +86,7 @@ def difference_picture(light: Image, new_light: Image) -> tuple[Picture, float]:
 
 
 def encode_planes(planes: Image) -> bytes:
-    """Film planes (3, H, W) as a float TIFF, exact."""
+    """Encode film planes (3, H, W) as a float TIFF, without loss."""
     image = np.ascontiguousarray(np.moveaxis(planes, 0, -1)[..., ::-1], dtype=np.float32)
     done, data = cv2.imencode(".tiff", image, TIFF)
     if not done:
@@ -95,7 +95,7 @@ def encode_planes(planes: Image) -> bytes:
 
 
 def decode_planes(data: bytes) -> Image:
-    """The planes (3, H, W) that `encode_planes` wrote.
+    """Decode planes (3, H, W) that `encode_planes` wrote.
 
     Raises:
         ValueError: it is something else.
@@ -104,7 +104,7 @@ def decode_planes(data: bytes) -> Image:
 
 
 def decode_picture(data: bytes) -> Picture:
-    """A picture (H, W, 3) of 8 bits from a PNG file.
+    """Decode an 8-bit picture (H, W, 3) from a PNG file.
 
     Raises:
         ValueError: it is something else.
@@ -113,7 +113,7 @@ def decode_picture(data: bytes) -> Picture:
 
 
 def _decoded(data: bytes, kind: type) -> np.ndarray:
-    """An image (H, W, 3), RGB."""
+    """Decode an image (H, W, 3), RGB."""
     found = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED) if data else None
     if found is None or found.ndim != 3 or found.shape[2] != 3 or found.dtype != kind:
         raise ValueError("no picture of three channels")

@@ -1,4 +1,4 @@
-"""The legend: what the colours of a picture say, in its lower left corner."""
+"""A picture and the meaning of its colours -> the picture with a legend, bottom left."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from dqpaint.light.arrays import Floats, Image, Picture
 from dqpaint.light.film.looks import LOOKS
 
 REFERENCE_HEIGHT = 720
-"""Rows of the picture for which sizes are given."""
+"""Rows of the picture for which the sizes below are given."""
 MARGIN, WIDTH, THICK, TEXT, GAP = 28, 220, 8, 15, 9
-"""Of the legend [px at that size]."""
+"""Sizes of the legend [px at that height]."""
 LEAST_TEXT = 9
-"""No text is smaller [px]."""
+"""Least height of text [px]."""
 LEGEND_EXPOSURE = 0.8
-"""The strip is as bright as the lines: what a stroke of such a picture is exposed to."""
+"""Exposure of the legend's strip and of the strokes of a picture with a legend."""
 TEXT_COLOUR = (208, 208, 212)
 MOST_LABELS = 12
 
 
 @dataclass(frozen=True)
 class Legend:
-    """What colours mean.
+    """The meaning of the colours of a picture.
 
     Attributes:
         title: What is shown, with its unit.
@@ -41,7 +41,7 @@ class Legend:
 
 
 def with_legend(picture: Picture, legend: Legend, look: str) -> Picture:
-    """A copy of a picture with a legend; a picture too small for one comes back as it is."""
+    """A copy of a picture with a legend; a picture that is too small is returned unchanged."""
     scale = picture.shape[0] / REFERENCE_HEIGHT
     size = max(LEAST_TEXT, round(TEXT * scale))
     margin, gap, thick = (max(3, round(v * scale)) for v in (MARGIN, GAP, THICK))
@@ -82,13 +82,13 @@ def with_legend(picture: Picture, legend: Legend, look: str) -> Picture:
 
 
 def look_colours(colours: Floats | Sequence[tuple[float, float, float]], look: str) -> Picture:
-    """(C, 3) 8-bit sRGB of linear RGB colours (C, 3) as lines of them look."""
+    """The 8-bit sRGB (C, 3) of lines with linear RGB colours (C, 3) in a look."""
     image: Image = np.ascontiguousarray(np.array(colours)[None] * LEGEND_EXPOSURE, dtype=np.float32)
     return np.asarray(LOOKS[look](image, 1.0, 0.0)[0])
 
 
 def write_text(picture: Picture, text: str, x: int, baseline: int, size: int) -> None:
-    """Text in a picture, in its place."""
+    """Write text into a picture, in place."""
     if hasattr(cv2, "FontFace"):
         face = cv2.FontFace("sans")
         cv2.putText(picture, text, (x, baseline), TEXT_COLOUR, face, size, 400)
@@ -105,7 +105,7 @@ def write_text(picture: Picture, text: str, x: int, baseline: int, size: int) ->
 
 
 def text_length(text: str, size: int) -> int:
-    """How long a text is [px]."""
+    """Length of a text [px]."""
     if hasattr(cv2, "FontFace"):
         box = cv2.getTextSize((10_000, 1_000), text, (0, 0), cv2.FontFace("sans"), size, 400)
         return int(box[2])

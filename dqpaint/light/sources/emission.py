@@ -1,4 +1,4 @@
-"""What lamps emit on their way: the straight steps that a camera is shown."""
+"""Lamps along their paths -> emission: the straight steps of light sent to a camera."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from dqpaint.light.sources.sheet import Sheet
 
 
 class Emission(Protocol):
-    """Anything that shines: asked for a camera, it says what that camera is sent."""
+    """Anything that shines: it returns the light that it sends to a given camera."""
 
     def emission_to(self, camera: Camera, falloff: bool = False) -> Iterator[Light | Sheet]:
-        """What goes to the camera, piece by piece in the order of time.
+        """Yield the light sent to the camera, piece by piece in the order of time.
 
         Args:
             camera: Who is looking.
@@ -30,7 +30,7 @@ class Emission(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Light:
-    """What one lamp emitted on its way through N instants.
+    """The light that one lamp emits along its path through N instants.
 
     Between two instants the lamp moves straight and evenly. Arrays are copied and read-only.
 
@@ -57,7 +57,7 @@ class Light:
 
     @property
     def lit_points(self) -> Floats:
-        """(K, 3) the points at either end of a step in which the lamp burns [m]."""
+        """The points (K, 3) at both ends of every step in which the lamp is on [m]."""
         return self.points[lit_instants(self.energy)]
 
     def emission_to(self, camera: Camera, falloff: bool = False) -> Iterator[Light | Sheet]:
@@ -70,7 +70,7 @@ class Light:
 
 
 def lit_instants(energy: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Whether each of N instants is an end of a step, of energy (N-1, 3), that is lit."""
+    """Whether each of N instants is an end of a lit step, for step energies (N-1, 3)."""
     burning = energy.any(axis=1)
     lit = np.zeros(len(energy) + 1, dtype=bool)
     lit[:-1] |= burning
@@ -79,6 +79,6 @@ def lit_instants(energy: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
 
 
 def inverse_square(points: Floats, camera: Camera) -> Floats:
-    """1 / r^2 (...) of points (..., 3) seen from the camera [1/m^2]; none is nearer than 1 mm."""
+    """1 / r^2 (...) for points (..., 3) and a camera [1/m^2], with r at least 1 mm."""
     away = points - camera.position
     return np.asarray(1.0 / np.maximum((away * away).sum(axis=-1), 1e-6))

@@ -1,4 +1,4 @@
-"""What shines as a drawing is drawn, and from where a camera looks at it.
+"""A motion and settings -> the sweeps of light of a drawing, and the camera of each view.
 
 Of the light alone, and without the image library: a forecast needs it as a picture does.
 """
@@ -41,7 +41,7 @@ def view_camera(points: Floats, front: Floats, settings: Settings, shot: Shot) -
 def sweeps(
     motion: Motion, pose: Floats, colours: Floats, settings: Settings, even: bool = False
 ) -> tuple[Sweep, ...]:
-    """One sweep for each brush of the drawing; the others are dark in it.
+    """One sweep for each brush of the drawing; each is dark where another brush is used.
 
     Args:
         motion: What was asked.
@@ -73,7 +73,7 @@ def sweeps(
 
 
 def _brushes(motion: Motion, settings: Settings) -> list[tuple[Emitters, Floats | None]]:
-    """The brushes of a drawing with where (N-1,) each is used; None: everywhere."""
+    """The brushes of a drawing, each with its use (N-1,); None means everywhere."""
     if settings.brush is not None:
         return [(read_brush(settings.brush).emitters(), None)]
     words = [segment.brush for segment in motion.program.segments]
@@ -87,7 +87,7 @@ def _brushes(motion: Motion, settings: Settings) -> list[tuple[Emitters, Floats 
 
 
 def even_by_length(sweep: Sweep) -> Sweep:
-    """The sweep with every millimetre equally bright: its light goes by way, not by time."""
+    """The sweep with equal brightness per length: light by path length, not by time."""
     lit = sweep.colours.any(axis=1)
     rates = sweep.lamp_travel / sweep.period
     moving = rates[lit & (rates > 0.0)]

@@ -1,4 +1,4 @@
-"""The way between samples: smooth where the samples are, with corners where they have them.
+"""Sampled poses -> a smooth path between them, with corners where the samples have corners.
 
 A fast lamp leaves chords between its samples. Place goes along a cubic whose tangents come from the
 neighbouring samples, orientation along the short arc (slerp). Nothing is rounded where the way
@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 from dqpaint.light.arrays import Floats
 
 CORNER_COSINE = float(np.cos(np.radians(35.0)))
-"""Where two steps differ by more, the way has a corner: no tangent goes across."""
+"""Cosine of the angle between two steps at which the path has a corner; no tangent crosses it."""
 MOST_PARTS = 64
-"""Parts of one step at most."""
+"""Largest number of parts of one step."""
 
 
 def tangents(points: Floats) -> tuple[Floats, Floats]:
-    """Unit tangents (N-1, 3) at the begin and at the end of each step.
+    """Unit tangents (N-1, 3) at the beginning and at the end of each step.
 
     Inside a smooth run it is the tangent of the parabola through three neighbours, over the length
     of the chords; at a corner, a stop or an end it is the chord's own direction.
@@ -40,7 +40,7 @@ def tangents(points: Floats) -> tuple[Floats, Floats]:
 
 
 def chord_deviation(points: Floats, tangent: tuple[Floats, Floats]) -> Floats:
-    """(N-1,) how far the cubic is from the chord in the middle of each step [m]."""
+    """Deviation (N-1,) of the cubic from the chord in the middle of each step [m]."""
     way = np.diff(points, axis=0)
     length = np.sqrt((way * way).sum(axis=1))
     turn = tangent[0] - tangent[1]
@@ -48,14 +48,14 @@ def chord_deviation(points: Floats, tangent: tuple[Floats, Floats]) -> Floats:
 
 
 def rotation_deviation(rotation: Floats, reach: float) -> Floats:
-    """(N-1,) how far a lamp at a distance from the tool bulges from its chord by turning [m]."""
+    """Deviation (N-1,) from its chord of a lamp at `reach` from the tool, due to rotation [m]."""
     dot = np.abs((rotation[1:] * rotation[:-1]).sum(axis=1))
     angle = 2.0 * np.arccos(np.minimum(dot, 1.0))
     return np.asarray(reach * angle * angle / 8.0)
 
 
 def part_counts(bulges: Floats, tolerance: float) -> NDArray[np.int64]:
-    """(M,) into how many even parts a step is cut so that no chord is off by more."""
+    """The number (M,) of equal parts of each step that keeps deviations within `tolerance`."""
     count = np.ceil(np.sqrt(bulges / tolerance))
     return np.clip(count, 1, MOST_PARTS).astype(np.int64)
 
@@ -63,7 +63,7 @@ def part_counts(bulges: Floats, tolerance: float) -> NDArray[np.int64]:
 def position_at(
     points: Floats, tangent: tuple[Floats, Floats], step: NDArray[np.int64], part: Floats
 ) -> Floats:
-    """(M, 3) places at parts of steps: Hermite's cubic with tangents as long as the chord."""
+    """Positions (M, 3) within steps, on a Hermite cubic with tangents as long as the chord."""
     p, q = points[step], points[step + 1]
     way = q - p
     length = np.sqrt((way * way).sum(axis=1))[:, None]
@@ -76,7 +76,7 @@ def position_at(
 
 
 def rotation_at(rotation: Floats, step: NDArray[np.int64], part: Floats) -> Floats:
-    """(M, 4) orientations at parts of steps, the short way and evenly (Shoemake 1985)."""
+    """Orientations (M, 4) within steps, at a constant rate the short way (Shoemake 1985)."""
     a, b = rotation[step], rotation[step + 1]
     dot = (a * b).sum(axis=1)
     b = np.where(dot[:, None] < 0.0, -b, b)

@@ -1,4 +1,4 @@
-"""Shade: what of a brush's light gets past something opaque to one camera, and what does not."""
+"""A sweep, an occluder and a camera -> the share of the light that reaches the camera."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ if TYPE_CHECKING:
     from dqpaint.light.sources.sweep import Sweep
 
 SAMPLE_SPACING = 0.007
-"""Places along a brush that are asked are no farther apart: the LEDs of a dense strip. Farther
-apart, edges of shade come out scalloped [m]."""
+"""Largest distance between sampled positions along a brush: the spacing of a dense LED strip. With
+a larger one, edges of shadow have scallops [m]."""
 
 
 class Occluder(Protocol):
-    """Something that moves and may stand before a light."""
+    """A moving body that may occlude a light."""
 
     def visible(self, time: Floats, places: Floats, lit: NDArray[np.bool_], eye: Floats) -> Floats:
-        """The share (M, K) of the light at places (M, K, 3) that reaches an eye (3,), 0 to 1.
+        """The share (M, K) of the light at `places` (M, K, 3) that reaches an eye (3,), 0 to 1.
 
         Args:
             time: (M,) in order [s].
@@ -33,7 +33,7 @@ class Occluder(Protocol):
 
 
 class Occlusion:
-    """Shares of the light of one sweep that reach one camera, and the count of what did not.
+    """Shares of one sweep's light that reach one camera, and the balance of occluded light.
 
     It is known for each step between two samples at some places along the brush, and what lies
     between these is interpolated. So it is asked for once, however steps are cut and batched.
@@ -55,11 +55,11 @@ class Occlusion:
 
     @property
     def share(self) -> Floats:
-        """(N-1, P) as given."""
+        """The shares (N-1, P) as given."""
         return self._share
 
     def attenuate_lamps(self, time: Floats, energy: Floats) -> Floats:
-        """What arrives (M, K, 3) of the energy of lamps on a line, or close together, and count.
+        """Attenuate and count the energy (M, K, 3) of lamps on a line, or of lamps close together.
 
         Args:
             time: (M+1,) at which the steps begin and end [s].
@@ -73,7 +73,7 @@ class Occlusion:
     def attenuate_line(
         self, time: Floats, energy: Floats, tints: Floats, row: NDArray[np.int64]
     ) -> tuple[Floats, NDArray[np.int64]]:
-        """The tints and rows of a line whose parts are more or less hidden, and count.
+        """Tints and rows of a partly occluded line; its energy is counted.
 
         Args:
             time: (M+1,) at which the steps begin and end [s].
@@ -98,12 +98,12 @@ class Occlusion:
         return np.concatenate([parts, own]), rows
 
     def _samples(self, time: Floats) -> NDArray[np.int64]:
-        """(M,) the step between samples that each step is of."""
+        """The step (M,) between samples that contains each step."""
         middle = 0.5 * (time[1:] + time[:-1])
         return np.clip((middle / self._period).astype(np.int64), 0, len(self._share) - 1)
 
     def _along(self, of: NDArray[np.int64], count: int) -> Floats:
-        """(M, count) shares of so many equal parts of the brush, at their middles."""
+        """Shares (M, count) at the middles of `count` equal parts of the brush."""
         known = self._share.shape[1]
         if known == 1:
             return np.broadcast_to(self._share[of], (len(of), count))
@@ -119,7 +119,7 @@ class Occlusion:
 
 
 def occlusion_by(sweep: Sweep, body: Occluder, eye: Floats) -> Occlusion:
-    """The shade a body casts for an eye (3,) on the light of a sweep, asked once."""
+    """The occlusion of a sweep by a body for an eye (3,), computed once."""
     asked = sweep.emitters.positions_along(SAMPLE_SPACING)
     places = sweep.base_positions(sweep.positions, sweep.rotations, asked)
     middle = 0.5 * (places[1:] + places[:-1])

@@ -1,4 +1,4 @@
-"""A sheet: what a straight line of light sweeps over, filled without gaps.
+"""A straight line of light along its path -> an even grid of cells on the picture.
 
 Equal energies on an even grid of (u, t), place along the line and time, land on the film with the
 density 1 / |d(x, y) / d(u, t)|: a fold, and a sheet seen edge on, are bright of themselves.
@@ -16,18 +16,18 @@ from dqpaint.light.arrays import Floats
 from dqpaint.light.camera.camera import NEAREST_DEPTH, Camera
 
 CELLS_PER_BATCH = 1 << 18
-"""How many cells of a grid are worked on at once. It is fixed, as the order of sums is."""
+"""Cells of one batch. The number is fixed, so that sums keep their order."""
 MOST_CELLS_PER_SIDE = 8192
-"""Cells along a line, or along a step, at most: beyond that they are wider than a pixel."""
+"""Largest number of cells along a line or a step; beyond it they are wider than a pixel."""
 MOST_CELLS_PER_STEP = 1 << 20
-"""Cells of one step at most: of a line that leaps right before the lens."""
+"""Largest number of cells of one step, for a line that jumps close to the lens."""
 CELL_SIDE = 1.0
 """Side of a cell [px]."""
 
 
 @dataclass(frozen=True, eq=False)
 class Sheet:
-    """What a line of light emitted on its way through N instants.
+    """The light that a line emits along its path through N instants.
 
     Attributes:
         ends: (N, 2, 3) of the line at each instant, base frame [m].
@@ -43,13 +43,13 @@ class Sheet:
 
     @property
     def emitted(self) -> Floats:
-        """(3,) in all [lamp s]."""
+        """The emitted energy (3,) in total [lamp s]."""
         return np.asarray((self.energy * self.tints.sum(axis=1)[self.row]).sum(axis=0))
 
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """Some cells of a sheet on the picture, and what did not get there.
+    """Cells of a sheet on the picture, and the energy that fell outside.
 
     Attributes:
         position: (2, M) x and y [px].
@@ -63,7 +63,7 @@ class Cells:
 
 
 def sheet_cells(sheet: Sheet, camera: Camera, margin: float) -> Iterator[Cells]:
-    """The sheet as an even grid of points at most a pixel apart.
+    """Yield a sheet as an even grid of points at most one pixel apart.
 
     A step with a corner behind the pinhole has no image and is lost as a whole.
 
@@ -118,7 +118,7 @@ def _cells(
     parts: tuple[NDArray[np.int64], Floats, Floats, NDArray[np.int64]],
     margin: float,
 ) -> Cells:
-    """The cells of some parts of steps: the step each is of, its middle, its share, its cells."""
+    """The cells of parts of steps; each part has a step, a time, a share and a number of cells."""
     of, when, share, across = parts
     line = (1.0 - when)[:, None, None] * sheet.ends[of] + when[:, None, None] * sheet.ends[of + 1]
     owner = np.repeat(np.arange(len(of)), across)
@@ -141,7 +141,7 @@ def _cells(
 
 
 def _cumulative_light(sums: Floats, row: NDArray[np.int64], u: Floats) -> Floats:
-    """(M, 3) what the line holds from its beginning to u (M,), of sums (R, C+1, 3)."""
+    """Light (M, 3) of the line from its beginning to u (M,), from sums (R, C+1, 3)."""
     x = np.minimum(u, 1.0) * (sums.shape[1] - 1)
     cell = np.minimum(x.astype(np.int64), sums.shape[1] - 2)
     part = (x - cell)[:, None]

@@ -1,4 +1,4 @@
-"""Gates: when a lamp that flashes is on, exactly, whatever the samples of the motion are.
+"""Strobe or PWM frequency and duty -> the exact times within steps at which a lamp switches.
 
 A strobe shuts the whole lamp off for a part of each period. Pulse-width modulation (PWM) is how LED
 drivers dim: each channel is fully on for the part of a period that its colour value says. A lamp
@@ -14,17 +14,17 @@ from numpy.typing import NDArray
 from dqpaint.light.arrays import Floats
 
 Cuts = tuple[NDArray[np.int64], Floats]
-"""Steps and the parts of them, 0 to 1, at which they are cut."""
+"""Steps and the positions within them, 0 to 1, of the cuts."""
 
 
 def most_cuts(period: float, frequency: Floats) -> NDArray[np.int64]:
-    """How often each step (M,) of one period is cut at most: for budgets."""
+    """Largest number of cuts in each step (M,) of one period, for budgets."""
     span = period * frequency
     return np.where(span > 0.0, 2.0 * np.ceil(span) + 2.0, 0.0).astype(np.int64)
 
 
 def switch_cuts(begin: Floats, end: Floats, frequency: Floats, duty: Floats) -> Cuts:
-    """Where a gate switches within steps.
+    """The positions within steps at which a strobe switches.
 
     It is on from m / f until (m + duty) / f for every whole m.
 
@@ -42,7 +42,7 @@ def switch_cuts(begin: Floats, end: Floats, frequency: Floats, duty: Floats) -> 
 
 
 def integer_crossings(low: Floats, high: Floats) -> Cuts:
-    """Where values that go evenly from low (M,) up to high (M,) pass a whole number."""
+    """The positions at which values that rise evenly from low (M,) to high (M,) are integers."""
     first = np.floor(low).astype(np.int64) + 1
     last = np.ceil(high).astype(np.int64) - 1
     count = np.maximum(last - first + 1, 0)
@@ -54,7 +54,7 @@ def integer_crossings(low: Floats, high: Floats) -> Cuts:
 
 
 def is_on(middle: Floats, frequency: Floats, duty: Floats) -> NDArray[np.bool_]:
-    """Whether a gate is on in pieces (M,) that were cut at its edges, by the time of their middle.
+    """Whether a strobe is on at the middle times of pieces (M,) that do not contain a switch.
 
     A steady one is always on.
     """

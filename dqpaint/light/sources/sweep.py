@@ -1,4 +1,4 @@
-"""A sweep: a brush carried through the poses of a tool, and what it sends a camera."""
+"""Poses and a brush -> sweeps of light, cut where anything changes, and their emission."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from dqpaint.light.sources.sheet import Sheet
 
 ALL_SAMPLES = slice(None)
 CHORD_TOLERANCE = 0.15
-"""A chord may be this far from the smooth way [px]."""
+"""Largest deviation of a chord from the smooth path [px]."""
 LAMP_GROUPS = 8
-"""Parts of a brush that stand for it where it lights a scene."""
+"""Number of lamp groups that represent a brush when it lights a scene."""
 LAMP_CHORD_TOLERANCE = 0.005
-"""How far a chord may be from the smooth way there [m]."""
+"""Largest deviation of a chord from the smooth path for these groups [m]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +50,7 @@ class Steps:
 
 @dataclass(frozen=True, eq=False)
 class Sweep:
-    """A brush on its way through N instants a period apart. Arrays are copied and read-only.
+    """A brush carried through N instants a period apart. Arrays are copied and read-only.
 
     Attributes:
         period: [s].
@@ -90,17 +90,17 @@ class Sweep:
 
     @cached_property
     def time(self) -> Floats:
-        """(N,) of the run's clock [s]."""
+        """Times (N,) on the run's clock [s]."""
         return np.arange(len(self.pose), dtype=np.float64) * self.period
 
     @cached_property
     def positions(self) -> Floats:
-        """(N, 3) the places of the tool [m]."""
+        """Positions (N, 3) of the tool [m]."""
         return dq.translation(self.pose)
 
     @cached_property
     def rotations(self) -> Floats:
-        """(N, 4) the rotations of the tool."""
+        """Orientations (N, 4) of the tool."""
         return dq.rotation(self.pose)
 
     @cached_property
@@ -109,13 +109,13 @@ class Sweep:
 
     @cached_property
     def lamp_travel(self) -> Floats:
-        """(N-1,) how far the lamps move from one instant to the next, in the mean [m]."""
+        """Mean distance (N-1,) that the lamps move from one instant to the next [m]."""
         ends = self.base_positions(self.positions, self.rotations, self.emitters.outermost)
         return np.asarray(np.sqrt((np.diff(ends, axis=0) ** 2).sum(axis=2)).mean(axis=1))
 
     @cached_property
     def progress(self) -> Floats:
-        """(N,) how far along its lit way the brush is at each instant, 0 to 1.
+        """Progress (N,) of the brush along its lit path at each instant, 0 to 1.
 
         The way is the mean of what the ends of the brush walk, so that a bar that only turns gets
         on, too.
@@ -127,11 +127,11 @@ class Sweep:
         return np.concatenate([[0.0], np.minimum(np.cumsum(walked) / total, 1.0)])
 
     def base_positions(self, position: Floats, rotation: Floats, local: Floats) -> Floats:
-        """(M, K, 3) where places `local` (K, 3) in the tool frame are, base frame [m]."""
+        """Base-frame positions (M, K, 3) of points `local` (K, 3) in the tool frame [m]."""
         return np.asarray(position[:, None, :] + dq.rotate(rotation[:, None, :], local[None, :, :]))
 
     def occluded_by(self, body: Occluder, eye: Floats) -> Sweep:
-        """The same, as it is seen by an eye (3,) past a body [m]."""
+        """The same sweep as an eye (3,) [m] sees it, occluded by a body."""
         return replace(self, occlusion=occlusion_by(self, body, eye))
 
     def lamp_paths(self, samples: slice = ALL_SAMPLES) -> Iterator[tuple[Floats, Floats]]:
@@ -150,7 +150,7 @@ class Sweep:
 
     @property
     def lit_points(self) -> Floats:
-        """(K, 3) outermost lamps at either end of every lit step [m]: what a camera must see."""
+        """Outermost lamps (K, 3) at both ends of every lit step [m], to frame a picture."""
         lit = lit_instants(self.colours)
         if self.emitters.single:
             return np.asarray(self.positions[lit])
@@ -160,14 +160,14 @@ class Sweep:
         )
 
     def chord_tolerance(self, camera: Camera) -> float:
-        """What `CHORD_TOLERANCE` is at the nearest lit place [m]."""
+        """`CHORD_TOLERANCE` at the nearest lit position [m]."""
         lit = lit_instants(self.colours)
         _, depth = camera.project(self.positions[lit])
         seen = depth[depth > NEAREST_DEPTH]
         return CHORD_TOLERANCE * float(seen.min() if len(seen) else 1.0) / camera.focal
 
     def steps(self, tolerance: float, samples: slice = ALL_SAMPLES) -> Iterator[Steps]:
-        """The steps in the order of time, some at a time, cut where the light switches.
+        """Yield the steps in the order of time, in batches, cut where the light switches.
 
         Args:
             tolerance: How far a chord may be from the smooth way [m].
@@ -181,7 +181,7 @@ class Sweep:
             yield self._steps(rows, count[rows])
 
     def _batches(self, count: NDArray[np.int64], samples: slice) -> Iterator[slice]:
-        """Runs of samples whose steps, cut and times lamps, stay within a fixed number."""
+        """Slices of samples whose number of cut steps times lamps stays within a fixed budget."""
         work = count.copy()
         for frequency, _ in self._gates(slice(None)):
             work += gates.most_cuts(self.period, frequency)
@@ -228,7 +228,7 @@ class Sweep:
         return Steps(time, place, rotation, energy, self._row(rows, of, enter, leave))
 
     def _cuts(self, rows: slice, count: NDArray[np.int64]) -> gates.Cuts:
-        """Where steps are cut: for smoothness, where a gate switches, where a row of tints ends."""
+        """Cuts of steps: for smoothness, at switches, and at the ends of rows of tints."""
         even = np.repeat(np.arange(len(count)), count - 1)
         nth = np.arange(len(even)) - np.repeat(np.cumsum(count - 1) - (count - 1), count - 1)
         steps, where = [even], [(nth + 1.0) / count[even]]
@@ -250,7 +250,7 @@ class Sweep:
     def _energy(
         self, rows: slice, of: NDArray[np.int64], duration: Floats, middle: Floats
     ) -> Floats:
-        """(M, 3) of the brush in each piece of a step: colour times the time it was on."""
+        """Energy (M, 3) of the brush in each piece of a step: colour times its on time."""
         colour = self.colours[rows][of]
         if self.pwm > 0.0:
             on = gates.is_on(middle[:, None], np.full((1, 1), self.pwm), np.minimum(colour, 1.0))
@@ -273,7 +273,7 @@ class Sweep:
     def emission_to(
         self, camera: Camera, falloff: bool = False, samples: slice = ALL_SAMPLES
     ) -> Iterator[Light | Sheet]:
-        """See `Emission`; `samples` says which of the N-1 steps between samples."""
+        """See `Emission`; `samples` selects from the N-1 steps between samples."""
         if not self.colours[samples].any():
             return
         for steps in self.steps(self.chord_tolerance(camera), samples):
@@ -283,7 +283,7 @@ class Sweep:
                 yield self._line(steps, camera, falloff)
 
     def _lamps(self, steps: Steps, camera: Camera, falloff: bool) -> Light:
-        """Every lamp by itself: one after the other, with dark ways from the last to the next."""
+        """All lamps as one path, one after the other, with dark steps between them."""
         e = self.emitters
         if e.single:
             points, energy = steps.position[:, None, :], steps.energy[:, None, :]
@@ -317,7 +317,7 @@ class Sweep:
         return Sheet(ends, energy, tints, row)
 
     def _sent(self, middle: Floats, steps: Steps, camera: Camera, falloff: bool) -> Floats:
-        """(M, K) share of the light at places (M, K, 3) that goes the camera's way."""
+        """The share (M, K) of the light at positions (M, K, 3) that goes towards the camera."""
         sent = np.ones(middle.shape[:2])
         if self.emitters.lobe > 0.0:
             normal = dq.rotate(steps.rotation, np.array(self.emitters.normal))
@@ -334,7 +334,7 @@ class Sweep:
 def _pieces(
     count: int, step: NDArray[np.int64], part: Floats
 ) -> tuple[NDArray[np.int64], Floats, Floats]:
-    """The pieces of steps after some cuts in order: of which step, from where, to where."""
+    """The pieces between ordered cuts: the step of each, where it begins and where it ends."""
     of = np.insert(np.arange(count), step, step)
     enter, leave = np.zeros(len(of)), np.ones(len(of))
     ends = step + np.arange(len(step))

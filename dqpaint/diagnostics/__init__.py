@@ -1,4 +1,4 @@
-"""Errors and warnings at their place in a text -> messages with the line, a mark and a fix.
+"""Errors and warnings with their position in a text -> messages with line, mark and fix.
 
 A `Diagnostic` has a code, a message, spans and help; `catalogue` explains each code. A new code
 needs an entry in `catalogue.toml` with an example.

@@ -1,4 +1,4 @@
-"""What each message means: the rule, a text that breaks it and one that does not.
+"""A message's code -> its explanation: the rule, a wrong text and a right one.
 
 `catalogue.toml` is the one table of all messages; the tests run its examples, and hold it to the
 codes that are in use.
@@ -21,7 +21,7 @@ _INDENT = "  "
 
 @dataclass(frozen=True, slots=True)
 class Explanation:
-    """One message.
+    """The explanation of one message.
 
     Attributes:
         code: such as `E245`.
@@ -45,7 +45,7 @@ class Explanation:
 
 @cache
 def explanations() -> Mapping[str, Explanation]:
-    """All messages by their codes, in order."""
+    """All explanations by code, in order."""
     table = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
     found = {
         code: Explanation(code, **{key: _stripped(value) for key, value in row.items()})
@@ -59,7 +59,7 @@ def _stripped(value: Any) -> Any:
 
 
 def explanation(code: str) -> Explanation:
-    """One message by its code, in capitals or not.
+    """The explanation of a code, in upper or lower case.
 
     Raises:
         UsageError: no such code; names those near it.
@@ -74,12 +74,12 @@ def explanation(code: str) -> Explanation:
 
 
 def url(code: str) -> str:
-    """Where a message stands in the documents, from the folder of the package's source on."""
+    """The link to a message in the documents, relative to the package's source folder."""
     return f"{PAGE}#{code.lower()}"
 
 
 def format_explanation(found: Explanation) -> str:
-    """One message as a person reads it."""
+    """An explanation as text for people."""
     parts = [f"{found.code}: {found.title}", found.says]
     if found.wrong:
         parts += ["wrong:", _indented(found.wrong), "right:", _indented(found.right)]
@@ -89,7 +89,7 @@ def format_explanation(found: Explanation) -> str:
 
 
 def list_explanations() -> str:
-    """All messages, a line each."""
+    """All messages, one line each."""
     return "\n".join(f"{found.code}  {found.title}" for found in explanations().values())
 
 

@@ -1,4 +1,4 @@
-"""The messages of one run: each once, in the order of the text, and not too many."""
+"""Diagnostics of one run -> each once, in the order of the text, limited in number."""
 
 from dataclasses import replace
 
@@ -11,11 +11,11 @@ LONGEST_TEXT = 240  # of the texts of a message, in which a file's own words may
 
 
 class ErrorLimitError(Exception):
-    """So many errors were found that the search is over."""
+    """The limit on the number of errors is reached, and the search stops."""
 
 
 class DiagnosticCollector:
-    """Collects messages; the same one about the same place, as in a loop, counts once."""
+    """Collects diagnostics; repeated ones at the same position count once."""
 
     def __init__(self) -> None:
         self._found: dict[tuple[str, Span | None], Diagnostic] = {}
@@ -23,7 +23,7 @@ class DiagnosticCollector:
         self._warnings = 0
 
     def add(self, diagnostic: Diagnostic) -> None:
-        """Keeps a message; raises `ErrorLimitError` when the list of errors is full."""
+        """Add a message; raises `ErrorLimitError` when the list of errors is full."""
         diagnostic = _shortened(diagnostic)
         key = diagnostic.code, diagnostic.span
         if key in self._found:
@@ -48,7 +48,7 @@ class DiagnosticCollector:
 
 
 def _shortened(diagnostic: Diagnostic) -> Diagnostic:
-    """The message without the endless words that it may quote."""
+    """The diagnostic with long quoted words shortened."""
     texts = diagnostic.message, diagnostic.label, diagnostic.help
     if max(map(len, texts)) <= LONGEST_TEXT:
         return diagnostic

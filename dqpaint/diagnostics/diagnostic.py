@@ -1,4 +1,4 @@
-"""The one kind of message about a drawing: what, where, which rule, and what would help."""
+"""A message about a drawing and its span -> text with the line, the rule and a fix."""
 
 from bisect import bisect_right
 from dataclasses import dataclass, field, replace
@@ -11,18 +11,18 @@ from dqpaint.errors import DqpaintError
 
 @record
 class Span:
-    """A stretch of the text: code points, counted from 0, the end not included."""
+    """A stretch of the text in code points, from 0, without the end."""
 
     start: int
     end: int
 
     def text_in(self, text: str) -> str:
-        """What stands there."""
+        """The text of the span."""
         return text[self.start : self.end]
 
 
 class Source(str):
-    """The text of a drawing, and after it those of the files it includes.
+    """The text of a drawing, followed by the texts of the files that it includes.
 
     So an offset alone says which file it is in.
 
@@ -34,7 +34,7 @@ class Source(str):
     included: tuple[tuple[int, str], ...]
 
     def __new__(cls, text: str, included: tuple[tuple[int, str], ...] = ()) -> "Source":
-        """The whole text, one file behind the other, each on lines of its own."""
+        """The whole text: one file after the other, each on its own lines."""
         source = super().__new__(cls, text)
         source.included = included
         return source
@@ -44,7 +44,7 @@ class Source(str):
 
 
 class Severity(StrEnum):
-    """An error stops the drawing; a warning says what was assumed."""
+    """An error prevents the drawing; a warning reports an assumption."""
 
     ERROR = "error"
     WARNING = "warning"
@@ -52,7 +52,7 @@ class Severity(StrEnum):
 
 @record
 class Fix:
-    """An edit that would mend the text: replace `span` by `text`."""
+    """An edit that corrects the text: replace `span` by `text`."""
 
     title: str
     span: Span
@@ -83,7 +83,7 @@ class Diagnostic:
 
     @property
     def severity(self) -> Severity:
-        """Warnings are the codes that begin with W."""
+        """A warning if the code begins with W, otherwise an error."""
         return Severity.WARNING if self.code.startswith("W") else Severity.ERROR
 
 
@@ -95,14 +95,14 @@ class Place(NamedTuple):
 
 
 def locate(text: str, offset: int) -> Place:
-    """Line and column of an offset, in its own file."""
+    """The line and column of an offset, in its own file."""
     line_start = text.rfind("\n", 0, offset) + 1
     first = file_at(text, offset, "")[0]
     return Place(text.count("\n", first, offset) + 1, offset - line_start + 1)
 
 
 def file_at(text: str, offset: int, name: str) -> tuple[int, str]:
-    """Where the file of an offset begins, and its name; `name` is that of the first."""
+    """The start offset and the name of the file at an offset; `name` is that of the first file."""
     included = text.included if isinstance(text, Source) else ()
     if not included:
         return 0, name
@@ -129,7 +129,7 @@ def file_number(text: str, offset: int) -> int:
 
 
 def line_name(text: str, at: SourceLine) -> str:
-    """A line as a person reads it: `12`, or `petal.traj:3` of an included file."""
+    """The name of a line for people: `12`, or `petal.traj:3` in an included file."""
     if not at.file:
         return str(at.line)
     included = text.included if isinstance(text, Source) else ()
@@ -146,7 +146,7 @@ def text_of_line(text: str, at: SourceLine) -> str:
 
 
 def render(diagnostic: Diagnostic, name: str, text: str) -> str:
-    """The message as a person reads it in a terminal, with the line it speaks of and a caret."""
+    """A diagnostic as terminal text, with the source line and a caret."""
     head = f"{diagnostic.severity}[{diagnostic.code}]: {diagnostic.message}"
     if diagnostic.span is None:
         lines = [head, f" --> {name}"]
@@ -188,7 +188,7 @@ def _excerpt(diagnostic: Diagnostic, text: str, at: Place, margin: str) -> list[
 
 @dataclass(eq=False)  # an exception stays hashable
 class ScriptError(DqpaintError):
-    """A drawing that cannot be drawn, with every reason that was found in one pass."""
+    """A drawing that cannot be drawn, with all errors of one pass."""
 
     name: str
     text: str
@@ -199,7 +199,7 @@ class ScriptError(DqpaintError):
 
 
 class Problem(Exception):  # noqa: N818  a message on its way to the list, not an error of ours
-    """A statement that cannot be understood: carries the message that says why."""
+    """A statement with an error; it carries the diagnostic."""
 
     def __init__(self, diagnostic: Diagnostic) -> None:
         super().__init__(diagnostic.message)
@@ -207,11 +207,11 @@ class Problem(Exception):  # noqa: N818  a message on its way to the list, not a
 
 
 class UnknownPositionProblem(Problem):
-    """The same, where it depends on where the tool is: not worth a word if that is not known."""
+    """A problem that depends on the tool's position: not reported if that is unknown."""
 
 
 def at_call(mistake: Problem, span: Span) -> Problem:
-    """The same mistake, which came out because of a call from elsewhere."""
+    """The same problem, related to the call that caused it."""
     diagnostic = mistake.diagnostic
     if len(diagnostic.related) < MOST_CALLS_SHOWN:
         related = (*diagnostic.related, (span, "called from"))
@@ -231,5 +231,5 @@ def problem(
     fix: Fix | None = None,
     related: tuple[tuple[Span, str], ...] = (),
 ) -> Problem:
-    """A message, ready to be raised."""
+    """Make a problem, ready to be raised."""
     return Problem(Diagnostic(code, message, span, label, help, related, fix))

@@ -1,4 +1,4 @@
-"""What somebody may have meant."""
+"""An unknown word -> the known word that was probably meant."""
 
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
@@ -7,7 +7,7 @@ LEAST_SIMILARITY = 0.6
 
 
 def closest(word: str, known: Iterable[str], aliases: Mapping[str, str] | None = None) -> str:
-    """The known word or the alias's meaning that is most like this one; empty if none is."""
+    """The known word, or an alias's meaning, most similar to `word`; empty if none is similar."""
     aliases = aliases or {}
     lowered = {k.lower(): k for k in known if k}
     if word.lower() in lowered:
@@ -20,11 +20,11 @@ def closest(word: str, known: Iterable[str], aliases: Mapping[str, str] | None =
 
 
 def did_you_mean(suggestion: str) -> str:
-    """The question, or nothing."""
+    """The question "did you mean ...?", or an empty text."""
     return f"did you mean '{suggestion}'?" if suggestion else ""
 
 
 def join_words(words: Iterable[str]) -> str:
-    """Up to six words."""
+    """Up to six words as a list."""
     shown = list(words)
     return ", ".join(shown[:6]) + (", …" if len(shown) > 6 else "")

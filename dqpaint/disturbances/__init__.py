@@ -1,4 +1,4 @@
-"""Values and a seed -> what a run meets that its law does not know: errors of arm and world.
+"""Options and a seed -> disturbances of a run that no law knows: errors of arm and world.
 
 All are off by default and repeatable by their seed. A new disturbance is a model in a new file of
 this folder under `@DISTURBANCES.add(name)`; it is found by itself and brings what

@@ -1,4 +1,4 @@
-"""A base that stands elsewhere than the law believes."""
+"""An offset -> the true pose of the base, different from the pose the law assumes."""
 
 from dataclasses import replace
 from typing import Annotated
@@ -25,7 +25,7 @@ class BaseOffset(Disturbance):
     wz: Number = Field(0.0, description="rad about z")
 
     def world(self, world: World) -> World:
-        """With the base's true pose; gravity stays upright."""
+        """The world with the base's true pose; gravity remains vertical."""
         turn = np.array([self.wx, self.wy, self.wz, 0, 0, 0])
         moved = dq.pose_from((self.x, self.y, self.z), dq.rotation(dq.exp(turn / 2)))
         return replace(world, base=dq.mul(moved, world.base))

@@ -1,4 +1,4 @@
-"""What a disturbance is, and how one is made from its name and values."""
+"""The interface of disturbances, and their names and values -> checked disturbances."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from dqpaint.robots.kinematics import Kinematics
 
 @dataclass(frozen=True)
 class Encoder:
-    """How angles are read.
+    """Measurement errors of joint angles.
 
     Attributes:
         errors: what is added at each row (N, n) [rad]; of many runs (N, B, n).
@@ -27,13 +27,13 @@ class Encoder:
     step: float
 
     def read(self, row: int, angles: Floats) -> Floats:
-        """What is read at a row, of angles (n,) or (B, n) [rad]."""
+        """The measured angles at a row, from true angles (n,) or (B, n) [rad]."""
         found = angles + self.errors[row]
         return np.asarray(self.step * np.round(found / self.step) if self.step else found)
 
 
 class Disturbance(BaseModel):
-    """One disturbance; its fields are its values in SI units, each description says the unit.
+    """One disturbance; its fields are values in SI units, each description has the unit.
 
     A value that is given without a name is the first field's. A disturbance overrides the hooks of
     what it disturbs; at size zero each of them changes nothing. Random numbers come from `rng`
@@ -47,7 +47,7 @@ class Disturbance(BaseModel):
     needs: ClassVar[Trait | None] = None
 
     def twist(self, t: Floats, period: float, rng: "np.random.Generator") -> Floats:
-        """What is added to the motion: the tool's unmodelled velocity (N, 6).
+        """Twist (N, 6) added to the tool's motion.
 
         From each time (N,) [s] to the next; angular first [rad/s], then of the tool's own point
         [m/s], along the axes of the base.
@@ -58,27 +58,27 @@ class Disturbance(BaseModel):
         return np.zeros((len(t), 6))
 
     def check(self, t: Floats) -> None:
-        """See that it can show in a run at times (N,) [s].
+        """Check that the disturbance has an effect in a run with times (N,) [s].
 
         Raises:
             UsageError: it cannot.
         """
 
     def encoder(self, rows: int, joints: int, rng: "np.random.Generator") -> Encoder | None:
-        """What is measured, in a number of rows; None is the truth."""
+        """The encoder's errors in a number of rows; None for exact measurement."""
         return None
 
     @property
     def delay(self) -> int:
-        """What is commanded: how many periods late it comes to the motors."""
+        """Delay of commands on their way to the motors, in periods."""
         return 0
 
     def world(self, world: World) -> World:
-        """What the arm and its surroundings truly are."""
+        """The true state of the arm and its surroundings."""
         return world
 
     def law_model(self, kinematics: Kinematics, rng: "np.random.Generator") -> Kinematics:
-        """What the law's model of the arm believes."""
+        """The law's model of the arm."""
         return kinematics
 
 
@@ -88,7 +88,7 @@ DISTURBANCES: Registry[type[Disturbance]] = Folder(
 
 
 def make_disturbances(given: Mapping[str, Values]) -> dict[str, Disturbance]:
-    """Disturbances by their names, from the values given for each.
+    """Make disturbances from their names and values.
 
     Raises:
         UsageError: an unknown disturbance, an unknown value, or one outside its range.

@@ -1,4 +1,4 @@
-"""A model that takes gravity for stronger or weaker than it is."""
+"""A relative error -> models with wrong gravity."""
 
 from dataclasses import replace
 from typing import Annotated, ClassVar
@@ -22,9 +22,9 @@ class GravityError(Disturbance):
     )
 
     def world(self, world: World) -> World:
-        """The arm's own model errs."""
+        """The world with the error in the arm's own model."""
         return replace(world, model_gravity=world.model_gravity * (1 + self.error))
 
     def law_model(self, kinematics: Kinematics, rng: np.random.Generator) -> Kinematics:
-        """And the law's."""
+        """The law's model with the error."""
         return kinematics.with_model_error(gravity=1 + self.error) if self.error else kinematics

@@ -1,4 +1,4 @@
-"""Commands that come late."""
+"""A number of periods -> delayed commands."""
 
 from typing import Annotated
 
@@ -17,5 +17,5 @@ class Latency(Disturbance):
 
     @property
     def delay(self) -> int:
-        """In periods."""
+        """The delay in periods."""
         return self.periods

@@ -1,4 +1,4 @@
-"""A model whose links have the wrong lengths."""
+"""A relative or absolute error -> a law's model with wrong link lengths."""
 
 from typing import Annotated
 
@@ -21,7 +21,7 @@ class LinkLengths(Disturbance):
     )
 
     def law_model(self, kinematics: Kinematics, rng: np.random.Generator) -> Kinematics:
-        """Every length errs by a random number of its own."""
+        """The model with an independent random error for every length."""
         if not (self.part or self.offset):
             return kinematics
         lengths = kinematics.lengths

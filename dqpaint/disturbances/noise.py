@@ -1,4 +1,4 @@
-"""Encoders that err: noise, and steps of their own."""
+"""Noise and resolution -> encoders with errors."""
 
 from typing import Annotated
 
@@ -18,5 +18,5 @@ class EncoderNoise(Disturbance):
     step: Size = Field(0.0, description="rad, the smallest step an encoder tells apart")
 
     def encoder(self, rows: int, joints: int, rng: np.random.Generator) -> Encoder | None:
-        """Each reading has noise of its own, and is then rounded."""
+        """Independent noise for each measurement, then rounding."""
         return Encoder(self.rms * rng.standard_normal((rows, joints)), self.step)

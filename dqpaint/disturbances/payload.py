@@ -1,4 +1,4 @@
-"""A load the model does not know of."""
+"""A mass and a radius -> a load that no model knows."""
 
 from dataclasses import replace
 from typing import Annotated, ClassVar
@@ -21,7 +21,7 @@ class UnknownPayload(Disturbance):
     )
 
     def world(self, world: World) -> World:
-        """With the ball, if it weighs anything."""
+        """The world with the ball, if it has a mass."""
         if not self.mass:
             return world
         return replace(world, payloads=(*world.payloads, Payload(self.mass, self.radius)))

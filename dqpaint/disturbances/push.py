@@ -1,4 +1,4 @@
-"""A force on the arm for a while."""
+"""A force and a time -> a push on the arm."""
 
 from dataclasses import replace
 from typing import Annotated, ClassVar
@@ -30,7 +30,7 @@ class TimedForce(Disturbance):
     seconds: Time = Field(0.1, description="s, how long it lasts")
 
     def check(self, t: Floats) -> None:
-        """It begins before the end."""
+        """Check that the push begins before the end of the run."""
         if self.start >= t[-1]:
             raise UsageError(
                 f"disturbance 'push': it starts at {self.start:g} s, when the drawing is over "
@@ -38,7 +38,7 @@ class TimedForce(Disturbance):
             )
 
     def world(self, world: World) -> World:
-        """With the push, if it is any."""
+        """The world with the push, if it has a force."""
         if not (self.x or self.y or self.z):
             return world
         push = Push((self.x, self.y, self.z), self.link, self.start, self.seconds)

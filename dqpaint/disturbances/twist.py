@@ -1,4 +1,4 @@
-"""A twist nobody commanded, added to the arm's own: what the H-infinity laws make a promise about.
+"""A size and a form -> an unmodelled twist of the tool, as in the H-infinity bound.
 
 Pereira 2016, 3.3: x_dot = 1/2 (xi + v) x with v = [v_w; v_t] of bounded energy.
 """
@@ -37,7 +37,7 @@ class UnmodelledTwist(Disturbance):
 
     @property
     def size(self) -> Floats:
-        """Angular first [rad/s], then linear [m/s] (6,)."""
+        """The size (6,), angular [rad/s], then linear [m/s]."""
         return np.array([self.wx, self.wy, self.wz, self.x, self.y, self.z])
 
     @model_validator(mode="after")
@@ -49,7 +49,7 @@ class UnmodelledTwist(Disturbance):
         return self
 
     def twist(self, t: Floats, period: float, rng: np.random.Generator) -> Floats:
-        """The velocity (N, 6) of the tool, angular first; of a noise each axis is its own."""
+        """The velocity (N, 6) of the tool, angular first; noise is independent for each axis."""
         if self.form == "constant":
             return np.tile(self.size, (len(t), 1))
         half = 0.5 / period  # of a sine there, every row meets a zero

@@ -1,4 +1,4 @@
-"""A command -> how the arm answers: joint angles, rates and torques after each control period.
+"""Commands -> the arm's answer: joint angles, rates and torques after each control period.
 
 A new plant is a class in a new file of this folder under `@PLANTS.add(name)`; it is found by
 itself and brings what `plant.Plant` lists.

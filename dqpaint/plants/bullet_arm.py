@@ -1,4 +1,4 @@
-"""What the plants of PyBullet share: the arm as rigid bodies on joints with mechanical stops."""
+"""A card -> rigid bodies on joints with mechanical stops, the base of all PyBullet plants."""
 
 import math
 from collections.abc import Callable
@@ -22,14 +22,14 @@ SAMPLE_COUNT, SEED = 64, 1988  # that stand for all of an arm's
 
 
 def sample_postures(card: Card) -> Floats:
-    """Postures (65, n) [rad]: home, and others all over the arm's range."""
+    """Postures (65, n) [rad]: home, and others across the arm's range."""
     rng = np.random.default_rng(SEED)
     others = rng.uniform(card.lower, card.upper, (SAMPLE_COUNT, card.joints))
     return np.vstack([card.home, others])
 
 
 class RigidArm(Client):
-    """The bodies of a card's arm, at rest in a posture, in a world of their own.
+    """The bodies of a card's arm, at rest in a posture, in a PyBullet world of their own.
 
     Masses and inertias are the file's own. Shapes are left out: nothing touches anything in a
     light painting, and loading their meshes costs twenty times the rest. Physics steps are the
@@ -110,14 +110,14 @@ class RigidArm(Client):
         return body
 
     def read_joints(self) -> Any:
-        """Read the joints; of each its angle [rad], rate, forces, motor torque [Nm]."""
+        """Read angle [rad], rate, forces and motor torque [Nm] of each joint."""
         states = bullet.getJointStates(self.body, self.joints, self.client)
         self.posture = np.array([state[0] for state in states])
         self.rates = np.array([state[1] for state in states])
         return states
 
     def disable_motors(self) -> None:
-        """Leave the joints to torques: no motors, and no damping but the file's own friction."""
+        """Switch off motors and damping, except for the file's own friction."""
         here = {"physicsClientId": self.client}
         for link in range(-1, bullet.getNumJoints(self.body, **here)):
             bullet.changeDynamics(self.body, link, linearDamping=0, angularDamping=0, **here)
@@ -129,7 +129,7 @@ class RigidArm(Client):
         )
 
     def displace(self, angles: Floats) -> None:
-        """Carry the joints along by some angles (n,) [rad], their rates kept."""
+        """Add angles (n,) [rad] to the joints; their rates stay the same."""
         self.read_joints()
         moved = (self.posture + angles).tolist()
         for joint, angle, rate in zip(self.joints, moved, self.rates.tolist(), strict=True):

@@ -1,4 +1,4 @@
-"""What an arm of rigid bodies carries, and what pushes it."""
+"""Payloads and pushes of a world -> loads on an arm of rigid bodies."""
 
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree as Xml
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def with_payloads(text: str, card: Card, payloads: tuple[Payload, ...]) -> str:
-    """The URDF of a card's arm with payloads fixed to it, their centres where the light sits."""
+    """The URDF of a card's arm with payloads fixed to it, centred at the light."""
     if not payloads:
         return text
     robot = Xml.fromstring(text)
@@ -35,7 +35,7 @@ def with_payloads(text: str, card: Card, payloads: tuple[Payload, ...]) -> str:
 
 
 def check_pushes(world: World, card: Card) -> None:
-    """See that what is pushed is there.
+    """Check that the pushed links exist.
 
     Raises:
         UsageError: a link the arm does not have.
@@ -49,7 +49,7 @@ def check_pushes(world: World, card: Card) -> None:
 
 
 class TimedPush:
-    """Makes physics steps under pushes; PyBullet forgets a force after each of them."""
+    """Physics steps with pushes; PyBullet clears a force after each step."""
 
     def __init__(self, arm: "RigidArm", world: World) -> None:
         self._arm, self._pushes = arm, world.pushes
@@ -59,7 +59,7 @@ class TimedPush:
         self._done = 0  # steps
 
     def __call__(self) -> None:
-        """One step; a push begins and ends with the step that is nearest in time."""
+        """Run one step; a push begins and ends with the step nearest in time."""
         for push, force in zip(self._pushes, self._forces, strict=True):
             first = round(push.start / self._arm.step)
             if first <= self._done < first + round(push.seconds / self._arm.step):

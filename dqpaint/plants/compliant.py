@@ -1,4 +1,4 @@
-"""The compliant arm: series elastic joints between velocity-driven motors and rigid bodies.
+"""Joint-rate commands -> an arm with series elastic joints between motors and rigid bodies.
 
     motor   theta_dot = command
     spring  tau = k (theta - q) + d (theta_dot - q_dot) + share G_model(q)
@@ -64,14 +64,14 @@ class CompliantOptions(PlantOptions):
         return given
 
     def summary(self, card: Card) -> dict[str, Any]:
-        """The values, and the springs they mean for an arm."""
+        """The values, and the springs that result for an arm."""
         inertia = np.diag(Dynamics(Kinematics(card)).inertia(card.home))
         k, d = self.springs(card, inertia)
         found = {"stiffness_Nm_rad": k.tolist(), "damping_Nm_s_rad": d.tolist()}
         return {**self.model_dump(exclude={"stiffness"}), **found}
 
     def springs_for(self, card: Card) -> Springs:
-        """For a forecast.
+        """The springs of an arm, for a forecast.
 
         Raises:
             UsageError: springs that a run would refuse.
@@ -205,11 +205,11 @@ class Compliant(RigidArm):
         )
 
     def _compensation(self) -> Floats:
-        """(n,) [Nm] at the present posture, by the arm's own model."""
+        """Gravity torques (n,) [Nm] at the present posture, from the arm's own model."""
         return self._share * self._own.weight(self.posture)
 
     def _weigh(self, posture: Floats) -> Floats:
-        """What the arm, with all it carries, truly weighs on its joints (n,) [Nm]."""
+        """True gravity torques (n,) [Nm] of the arm and its load."""
         still = [0.0] * len(posture)
         needed = bullet.calculateInverseDynamics(
             self.body, posture.tolist(), still, still, physicsClientId=self.client

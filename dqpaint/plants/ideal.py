@@ -1,4 +1,4 @@
-"""The ideal arm: joints do exactly what they are told."""
+"""Joint-rate commands -> joints that follow them exactly."""
 
 from typing import ClassVar
 
@@ -47,4 +47,4 @@ class Ideal:
         self.posture = self.posture + self._period * self.rates
 
     def close(self) -> None:
-        """Nothing to give back."""
+        """Does nothing: there is nothing to release."""

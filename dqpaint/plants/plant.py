@@ -1,4 +1,4 @@
-"""What a plant is: an arm that is given commands, each for one period, and answers by moving."""
+"""The interface of plants, and `NAME[:key=value,...]` -> a configured plant."""
 
 import inspect
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ Trait = Literal["masses", "a model of gravity", "sudden motors"]
 
 @dataclass(frozen=True)
 class Springs:
-    """What stands between motors and joints, where something does.
+    """The springs between motors and joints.
 
     Attributes:
         stiffness: (n,) [Nm/rad].
@@ -44,16 +44,16 @@ class Springs:
 
 
 class PlantOptions(BaseModel):
-    """What a plant takes besides its name; each field's description says the unit."""
+    """The options of a plant; each field's description has its unit."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     def summary(self, card: Card) -> dict[str, Any]:
-        """The values as a summary shows them, with what follows from them for an arm."""
+        """The values for a run's summary, with what follows from them for an arm."""
         return self.model_dump()
 
     def springs_for(self, card: Card) -> Springs | None:
-        """What stands between an arm's motors and joints; None where they are one."""
+        """The springs between motors and joints; None for rigid joints."""
         return None
 
 
@@ -62,7 +62,7 @@ DEFAULT_PLANTS: dict[Takes, str] = {"rates": "stiff", "torque": "torque"}
 
 
 class Plant(Protocol):
-    """One arm under control, from its start posture on.
+    """One arm under control, from its start posture.
 
     Attributes:
         posture: true joint angles (n,) [rad].
@@ -91,23 +91,23 @@ class Plant(Protocol):
         """
 
     def close(self) -> None:
-        """Give back what the plant holds."""
+        """Release what the plant holds."""
 
 
 class PlantMaker(Protocol):
-    """How a plant is built."""
+    """The interface that builds a plant."""
 
     @property
     def takes(self) -> Takes:
-        """What its commands are."""
+        """The kind of its commands."""
 
     @property
     def traits(self) -> frozenset[Trait]:
-        """What it has that a disturbance may need, or that tells what its motors bear."""
+        """Properties that disturbances need, or that describe the motors' load."""
 
     @property
     def options(self) -> Options:
-        """The model of its own values, if it has any."""
+        """The model of its options, if it has any."""
 
     def __call__(
         self,
@@ -121,7 +121,7 @@ class PlantMaker(Protocol):
 
 
 def as_plant_maker(name: str, thing: Any) -> PlantMaker:
-    """A class or function that a plugin or a user's file brings, if it is a plant.
+    """The plant in a class or function of a plugin or user file, if it is one.
 
     Raises:
         UsageError: it lacks what `PlantMaker` lists.
@@ -147,7 +147,7 @@ def _of_name(name: str) -> PlantMaker:
 
 @dataclass(frozen=True)
 class ConfiguredPlant:
-    """A plant with its values.
+    """A plant with its options.
 
     Attributes:
         name: as it was asked for, values included.
@@ -160,12 +160,12 @@ class ConfiguredPlant:
     options: PlantOptions | None = None
 
     def __call__(self, card: Card, posture: Floats, period: float, world: World) -> Plant:
-        """Build it; arguments as those of a `PlantMaker`."""
+        """Build the plant; arguments as for a `PlantMaker`."""
         return self.make(card, posture, period, world, self.options)
 
     @property
     def motor_torque_use(self) -> Literal["none", "smooth", "sudden"]:
-        """What its motors' torques are needed for: for nothing, smooth motion, or new rates too."""
+        """What the motors' torques depend on: nothing, smooth motion, or new rates too."""
         if "masses" not in self.make.traits:
             return "none"
         return "sudden" if "sudden motors" in self.make.traits else "smooth"
@@ -175,11 +175,11 @@ class ConfiguredPlant:
         return self.options.summary(card) if self.options else {}
 
     def springs_for(self, card: Card) -> Springs | None:
-        """What stands between an arm's motors and joints; None where they are one."""
+        """The springs between motors and joints; None for rigid joints."""
         return self.options.springs_for(card) if self.options else None
 
     def require_trait(self, trait: Trait | None, disturbance: str) -> None:
-        """See that a disturbance can show.
+        """Check that the plant has the trait that a disturbance needs.
 
         Raises:
             UsageError: the plant lacks what it needs.
@@ -194,7 +194,7 @@ class ConfiguredPlant:
 
 
 def choose_plant(text: str | None, takes: Takes) -> ConfiguredPlant:
-    """The plant that was asked for, such as `compliant:frequency=60`, or the usual one.
+    """The requested plant, such as `compliant:frequency=60`, or the default for the commands.
 
     Raises:
         UsageError: an unknown plant or value, or one that takes other commands.
@@ -211,7 +211,7 @@ def choose_plant(text: str | None, takes: Takes) -> ConfiguredPlant:
 
 
 def find_plant(text: str) -> ConfiguredPlant:
-    """The plant that was asked for, whatever commands it takes.
+    """The requested plant, for any kind of commands.
 
     Raises:
         UsageError: an unknown plant or value.

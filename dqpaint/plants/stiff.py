@@ -1,4 +1,4 @@
-"""The stiff arm: PyBullet's rigid bodies under velocity motors."""
+"""Joint-rate commands -> PyBullet's rigid bodies under velocity motors."""
 
 from typing import ClassVar
 

@@ -1,4 +1,4 @@
-"""The torque-driven arm: PyBullet's rigid bodies, the joint motors off."""
+"""Joint-torque commands -> PyBullet's rigid bodies without joint motors."""
 
 from typing import ClassVar
 
@@ -53,7 +53,7 @@ class Torque(RigidArm):
 
 
 def _longest_step(card: Card) -> float:
-    """The physics step [s] in which the quickest joint loses its speed to friction, or 1 ms."""
+    """The physics step [s]: the time constant of the fastest friction, or 1 ms."""
     dynamics = Dynamics(Kinematics(card))
     decay = max(dynamics.decay(q) for q in sample_postures(card))
     return min(LONGEST_STEP, 1 / decay) if decay > 0 else LONGEST_STEP

@@ -1,4 +1,4 @@
-"""What an arm is under, besides its commands, and what its own model says of it."""
+"""Base pose, payloads and pushes of an arm: the surroundings in which a plant simulates it."""
 
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -13,7 +13,7 @@ GRAVITY = -9.81  # [m/s^2]
 
 @dataclass(frozen=True)
 class Payload:
-    """A ball at the light's place, of a mass [kg] and a radius [m]."""
+    """A ball at the light's position, with a mass [kg] and a radius [m]."""
 
     mass: float
     radius: float
@@ -21,7 +21,7 @@ class Payload:
 
 @dataclass(frozen=True)
 class Push:
-    """A force for a while.
+    """A force for a limited time.
 
     Attributes:
         force: (3,) [N], along the axes of the base the law believes in.
@@ -38,7 +38,7 @@ class Push:
 
 @dataclass(frozen=True)
 class World:
-    """What is true of an arm and its surroundings, where the law knows of none of it.
+    """The true surroundings of an arm, which no law knows.
 
     Attributes:
         base: pose (8,) of the arm's true base in the frame the law takes for it.
@@ -54,16 +54,16 @@ class World:
 
     @cached_property
     def is_displaced(self) -> bool:
-        """Whether the base is elsewhere than believed."""
+        """Whether the base differs from its assumed pose."""
         return bool((self.base != dq.IDENTITY).any())
 
     @property
     def gravity(self) -> Floats:
-        """(3,) [m/s^2] along the axes of the arm's true base."""
+        """Gravity (3,) [m/s^2] in the axes of the arm's true base."""
         return self.in_base(np.array([0.0, 0.0, GRAVITY]))
 
     def in_base(self, vector: Floats) -> Floats:
-        """A vector (3,) of the believed base along the axes of the true one."""
+        """A vector (3,) of the assumed base in the axes of the true base."""
         if not self.is_displaced:
             return vector
         R = dq.matrix_from_quaternion(dq.rotation(self.base))

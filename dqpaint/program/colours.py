@@ -1,4 +1,4 @@
-"""Colours as people name them -> linear RGB, 1 for full brightness.
+"""Names of colours, hex digits, HSV or temperatures -> linear RGB, 1 for full brightness.
 
 Names are those of CSS Color Module Level 4 (W3C); they and `#ff8800` are sRGB (IEC 61966-2-1).
 """
@@ -41,12 +41,12 @@ yellowgreen 9acd32
 
 
 def linear(encoded: float) -> float:
-    """One sRGB channel, 0 to 1, as an amount of light (IEC 61966-2-1)."""
+    """One sRGB channel, 0 to 1, as linear light (IEC 61966-2-1)."""
     return encoded / 12.92 if encoded <= 0.04045 else ((encoded + 0.055) / 1.055) ** 2.4
 
 
 def from_hex(digits: str) -> Colour | None:
-    """`ff8800` or `f80` as a colour; None if it is not one."""
+    """The colour of `ff8800` or `f80`; None if the text is not a colour."""
     if len(digits) == 3:
         digits = "".join(2 * digit for digit in digits)
     if len(digits) != 6 or not set(digits) <= set("0123456789abcdefABCDEF"):
@@ -64,7 +64,7 @@ DARK: Colour = (0.0, 0.0, 0.0)
 
 
 def from_hsv(turn: float, saturation: float, value: float) -> Colour:
-    """Hue (1 is all the way round), saturation and value, of the sRGB values as in CSS tools."""
+    """The colour of hue (1 is a full turn), saturation and value in sRGB, as in CSS tools."""
     red, green, blue = colorsys.hsv_to_rgb(turn % 1.0, saturation, value)
     return linear(red), linear(green), linear(blue)
 
@@ -73,7 +73,7 @@ COLDEST, HOTTEST = 1000.0, 15000.0  # [K] of `from_temperature`
 
 
 def from_temperature(kelvin: float) -> Colour:
-    """The colour of a glowing black body, its brightest channel 1.
+    """The colour of a black body at a temperature [K], with its brightest channel 1.
 
     Chromaticity on the Planckian locus by the polynomials of Krystek, A., "An algorithm to
     calculate correlated colour temperature", Color Res. Appl. 10 (1985) 38, good from 1000 K to
@@ -101,7 +101,7 @@ def from_temperature(kelvin: float) -> Colour:
 
 
 def mix(first: Colour, last: Colour, share: float) -> Colour:
-    """The colour at a share, 0 to 1, of the way from one to another."""
+    """The colour at a share, 0 to 1, between two colours."""
     return (
         first[0] + (last[0] - first[0]) * share,
         first[1] + (last[1] - first[1]) * share,
@@ -110,5 +110,5 @@ def mix(first: Colour, last: Colour, share: float) -> Colour:
 
 
 def dim(colour: Colour, brightness: float) -> Colour:
-    """A colour with its light multiplied."""
+    """A colour with its light multiplied by `brightness`."""
     return colour[0] * brightness, colour[1] * brightness, colour[2] * brightness

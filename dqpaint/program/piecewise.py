@@ -1,4 +1,4 @@
-"""Piecewise curves: made from points, Bezier curves and arcs; joined, turned round, fitted.
+"""Points, Bezier curves and arcs -> piecewise curves, which can be joined and transformed.
 
 A curve that comes from a file has its coordinates in the file's own unit until it is mapped into
 the drawing frame. What the numbers of a piece mean is said at `program.PiecewiseCurve`.
@@ -21,7 +21,7 @@ Indices = NDArray[np.intp]
 
 
 def derivatives(curve: PiecewiseCurve, piece: Indices, g: Floats) -> Floats:
-    """Places (4, N, 3) and derivatives over g, of pieces (N,) at their own parameters (N,)."""
+    """Positions (4, N, 3) and derivatives over g of pieces (N,) at their parameters (N,)."""
     c0, c1, c2, c3 = curve.cubic[piece].transpose(1, 0, 2)
     h = g[:, None]
     out = np.stack([
@@ -45,7 +45,7 @@ def derivatives(curve: PiecewiseCurve, piece: Indices, g: Floats) -> Floats:
 
 
 def speeds(curve: PiecewiseCurve, piece: Indices, g: Floats) -> Floats:
-    """The lengths (N, K) of the first derivatives of pieces (N,) at parameters of theirs (N, K)."""
+    """Norms (N, K) of the first derivatives of pieces (N,) at their parameters (N, K)."""
     c1, c2, c3 = curve.cubic[piece, 1:].transpose(1, 2, 0)[:, :, :, None]  # (3, N, 1) each
     u, v = curve.ellipse[piece].transpose(1, 2, 0)[:, :, :, None]
     start, turn = curve.angles[piece].T[:, :, None]
@@ -74,19 +74,19 @@ def _of_cubic(cubic: Floats) -> PiecewiseCurve:
 
 
 def straight(points: Floats) -> PiecewiseCurve:
-    """Straight lines from each point (N, 3) to the next; none of them has no length."""
+    """Straight lines between consecutive points (N, 3); no two of them may be equal."""
     cubic = np.zeros((len(points) - 1, 4, 3))
     cubic[:, 0], cubic[:, 1] = points[:-1], np.diff(points, axis=0)
     return _of_cubic(cubic)
 
 
 def bezier(points: Floats) -> PiecewiseCurve:
-    """One Bezier curve by its 3 or 4 control points."""
+    """One Bezier curve from its 3 or 4 control points."""
     return _of_cubic(coefficients(points[None]))
 
 
 def coefficients(control: Floats) -> Floats:
-    """c0 to c3 (M, 4, D) of lines or Bezier curves with 2, 3 or 4 control points (M, P, D)."""
+    """c0 to c3 (M, 4, D) of Bezier curves with control points (M, P, D), P = 2 to 4."""
     p0, *handles, p3 = control.transpose(1, 0, 2)
     if not handles:
         return np.stack([p0, p3 - p0, np.zeros_like(p0), np.zeros_like(p0)], axis=1)
@@ -107,7 +107,7 @@ def arc(centre: Floats, u: Floats, v: Floats, start: float, turn: float) -> Piec
 def smooth_curve(
     points: Floats, keep: NDArray[np.bool_] | None = None, stiff: float = np.inf
 ) -> PiecewiseCurve:
-    """A line through points (N, 3), without corners but where it turns sharply.
+    """A curve through points (N, 3), smooth except at sharp turns.
 
     The direction at a point is that of the circle through it and its neighbours; between two
     points runs the Bezier curve that is next to a circular arc. Lines to a point that keeps its
@@ -140,7 +140,7 @@ def smooth_curve(
 
 
 def _tangents(u: Floats, size: Floats, stiff: float) -> Floats:
-    """The directions (N, 3) at points between lines along u (N - 1, 3); zero where none is."""
+    """Tangents (N, 3) at points between lines along u (N - 1, 3); zero if there is none."""
     before, after = np.roll(u, 1, axis=0), u  # at the points but the last
     l0, l1 = np.roll(size, 1), size
     tangent = before * l1 + after * l0
@@ -159,7 +159,7 @@ def _bend(
     free0: NDArray[np.bool_],
     free1: NDArray[np.bool_],
 ) -> Floats:
-    """c1 to c3 (N, 3, 3) of lines that are bent from t0 to t1, where those are not free."""
+    """c1 to c3 (N, 3, 3) of lines bent from tangent t0 to t1, where the tangents are not free."""
     mirrored0, mirrored1 = _mirrored(t1, u), _mirrored(t0, u)
     t0 = np.where(free0[:, None], np.where(free1[:, None], u, mirrored0), t0)
     t1 = np.where(free1[:, None], np.where(free0[:, None], u, mirrored1), t1)
@@ -171,12 +171,12 @@ def _bend(
 
 
 def _mirrored(t: Floats, u: Floats) -> Floats:
-    """The direction at the other end of a circular arc with the chord's direction u."""
+    """The tangent at the other end of a circular arc whose chord has the direction u."""
     return np.asarray(2.0 * (t * u).sum(1, keepdims=True) * u - t)
 
 
 def turn_angles(points: Floats) -> Floats:
-    """The angle [rad] by which a line turns at each point (N,); of the ends, if it is closed."""
+    """The turn [rad] of a polyline at each point (N,), including the ends of a closed one."""
     u = np.diff(points, axis=0)
     u = u / np.linalg.norm(u, axis=1, keepdims=True)
     before = np.roll(u, 1, axis=0)
@@ -188,7 +188,7 @@ def turn_angles(points: Floats) -> Floats:
 
 
 def join(curves: Sequence[PiecewiseCurve]) -> PiecewiseCurve:
-    """One curve of several that follow each other; a start is moved to the end before it."""
+    """Join consecutive curves into one; the start of each is moved to the end before it."""
     if len(curves) == 1:
         return curves[0]
     whole, first, _ = concatenate(curves)
@@ -197,19 +197,19 @@ def join(curves: Sequence[PiecewiseCurve]) -> PiecewiseCurve:
 
 
 def link_pieces(whole: PiecewiseCurve, starts: Indices) -> None:
-    """Moves the start of each piece to the end before it, but of those that start a curve."""
+    """Move the start of each piece to the end before it, except at the start of a curve."""
     _move(whole, np.delete(np.arange(len(whole.cubic)), starts))
 
 
 def _move(whole: PiecewiseCurve, heads: Indices) -> None:
-    """Moves the starts of pieces to the ends before them."""
+    """Move the starts of pieces to the ends before them."""
     gap = _at(whole, heads - 1, 1.0) - _at(whole, heads, 0.0)
     whole.cubic[heads, 0] += gap
     whole.cubic[heads, 1] -= gap
 
 
 def reverse(curve: PiecewiseCurve) -> PiecewiseCurve:
-    """The same way, from its end to its start."""
+    """The same curve in the opposite direction."""
     c0, c1, c2, c3 = curve.cubic[::-1].transpose(1, 0, 2)
     cubic = np.stack([c0 + c1 + c2 + c3, -(c1 + 2.0 * c2 + 3.0 * c3), c2 + 3.0 * c3, -c3], axis=1)
     start, turn = curve.angles[::-1].T
@@ -219,7 +219,7 @@ def reverse(curve: PiecewiseCurve) -> PiecewiseCurve:
 
 
 def transform(curve: PiecewiseCurve, matrix: Floats, shift: Floats) -> PiecewiseCurve:
-    """Every point p goes to matrix (3, 3) p + shift (3,); too far for a number is infinite."""
+    """The curve with every point p mapped to matrix (3, 3) p + shift (3,); overflow gives inf."""
     with np.errstate(over="ignore", invalid="ignore"):
         cubic = curve.cubic @ matrix.T
         cubic[:, 0] += shift
@@ -230,7 +230,7 @@ def transform(curve: PiecewiseCurve, matrix: Floats, shift: Floats) -> Piecewise
 
 
 def largest_coordinate(curves: Sequence[PiecewiseCurve]) -> float:
-    """The largest number of all pieces [m]; NaN if one of them is none."""
+    """The largest absolute number of all pieces [m]; NaN if one of them is NaN."""
     whole = concatenate(curves)[0]
     parts = whole.cubic, whole.ellipse
     return float(max(max(part.max(), -part.min()) for part in parts))
@@ -240,7 +240,7 @@ def largest_coordinate(curves: Sequence[PiecewiseCurve]) -> float:
 
 
 def _at(curve: PiecewiseCurve, piece: Indices, g: float) -> Floats:
-    """Where pieces are (N, 3) at the same parameter of theirs."""
+    """Points (N, 3) of pieces at one common parameter."""
     places = np.array([1.0, g, g**2, g**3]) @ curve.cubic[piece]
     (arcs,) = np.nonzero(curve.ellipse[piece].any(axis=(1, 2)))
     a = curve.angles[piece[arcs]] @ [1.0, g]
@@ -250,7 +250,7 @@ def _at(curve: PiecewiseCurve, piece: Indices, g: float) -> Floats:
 
 
 def ends(curve: PiecewiseCurve) -> tuple[Vector, Vector]:
-    """The first and the last point."""
+    """The first and the last point of a curve."""
     first, last = all_ends([curve])[0].tolist()
     return (first[0], first[1], first[2]), (last[0], last[1], last[2])
 
@@ -262,7 +262,7 @@ def all_ends(curves: Sequence[PiecewiseCurve]) -> Floats:
 
 
 def directions(curves: Sequence[PiecewiseCurve]) -> Floats:
-    """Unit vectors (N, 2, 3) into each curve from its start and from its end."""
+    """Unit vectors (N, 2, 3) from the start and from the end into each curve."""
     whole, *pieces = concatenate(curves)
     ways = [
         sign * derivatives(whole, piece, np.full(len(piece), g))[1]
@@ -274,7 +274,7 @@ def directions(curves: Sequence[PiecewiseCurve]) -> Floats:
 
 
 def concatenate(curves: Sequence[PiecewiseCurve]) -> tuple[PiecewiseCurve, Indices, Indices]:
-    """All pieces of many curves, and which are the first and the last of each."""
+    """All pieces of many curves, with the first and the last piece of each."""
     whole = curves[0]
     if len(curves) > 1:  # else it is there already, and may be long
         whole = PiecewiseCurve(
@@ -287,14 +287,14 @@ def concatenate(curves: Sequence[PiecewiseCurve]) -> tuple[PiecewiseCurve, Indic
 
 
 def split(whole: PiecewiseCurve, starts: Indices) -> Iterator[PiecewiseCurve]:
-    """The curves that were put together, by the first piece of each; they share its arrays."""
+    """The curves of concatenated pieces, from the first piece of each; they share its arrays."""
     ends = [*starts[1:].tolist(), len(whole.cubic)]
     for own in map(slice, starts.tolist(), ends):
         yield PiecewiseCurve(whole.cubic[own], whole.ellipse[own], whole.angles[own])
 
 
 def lengths(curves: Sequence[PiecewiseCurve]) -> list[float]:
-    """The lengths of curves, good enough to share out time and colour by them."""
+    """The lengths of curves, exact enough to distribute time and colour."""
     whole, first, _ = concatenate(curves)
     every = np.arange(len(whole.cubic))
     size = stretch_lengths(
@@ -304,7 +304,7 @@ def lengths(curves: Sequence[PiecewiseCurve]) -> list[float]:
 
 
 def is_nonuniform(curve: PiecewiseCurve) -> NDArray[np.bool_]:
-    """Which pieces (M,) do not run at one speed: all but straight lines and arcs of circles."""
+    """Whether pieces (M,) have a varying speed: all but straight lines and circular arcs."""
     out = np.asarray(curve.cubic[:, 2:].any(axis=(1, 2)))
     (arcs,) = np.nonzero(curve.angles[:, 1])
     u, v = curve.ellipse[arcs].transpose(1, 0, 2)
@@ -317,7 +317,7 @@ def is_nonuniform(curve: PiecewiseCurve) -> NDArray[np.bool_]:
 def stretch_lengths(
     curve: PiecewiseCurve, uneven: NDArray[np.bool_], piece: Indices, lower: Floats, upper: Floats
 ) -> Floats:
-    """The lengths (N,) of pieces (N,) between parameters (N,).
+    """The lengths (N,) of pieces (N,) between two parameters (N,).
 
     `uneven` says which of all pieces (M,) need a quadrature for it.
     """
@@ -333,7 +333,7 @@ def stretch_lengths(
 
 
 def bounding_box(curves: Sequence[PiecewiseCurve]) -> tuple[Floats, Floats]:
-    """The least and the greatest coordinates (3,), exact where a curve bulges out as well."""
+    """The least and the greatest coordinates (3,), exact for bent pieces, too."""
     whole = concatenate(curves)[0]
     every = np.arange(len(whole.cubic))
     found = [_at(whole, every, 0.0), _at(whole, every, 1.0)]
@@ -347,7 +347,7 @@ def bounding_box(curves: Sequence[PiecewiseCurve]) -> tuple[Floats, Floats]:
 
 
 def _still_cubic(curve: PiecewiseCurve, axis: int) -> tuple[Indices, Floats]:
-    """Where a coordinate of the cubic stands still: the roots of c1 + 2 c2 g + 3 c3 g^2."""
+    """Parameters with zero derivative of a coordinate: the roots of c1 + 2 c2 g + 3 c3 g^2."""
     (piece,) = np.nonzero(curve.cubic[:, 2:, axis].any(axis=1))
     c, b, a = (k * curve.cubic[piece, k, axis] for k in (1, 2, 3))
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -358,7 +358,7 @@ def _still_cubic(curve: PiecewiseCurve, axis: int) -> tuple[Indices, Floats]:
 
 
 def _still_arc(curve: PiecewiseCurve, axis: int) -> tuple[Indices, Floats]:
-    """Where a coordinate of the ellipse stands still: tan a = v / u."""
+    """Parameters with zero derivative of a coordinate of the ellipse: tan a = v / u."""
     (piece,) = np.nonzero(curve.ellipse[:, :, axis].any(axis=1) & (curve.angles[:, 1] != 0.0))
     u, v = curve.ellipse[piece, :, axis].T
     start, turn = curve.angles[piece].T

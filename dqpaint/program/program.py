@@ -1,4 +1,4 @@
-"""What the language hands on: a drawing as plain data in SI units.
+"""The compiled drawing, from the language to the motion: plain data in SI units.
 
 Every point, direction and orientation stands in the drawing frame (x to the right of the picture,
 y up, z towards the viewer); `with` blocks are already worked in. Lengths are metres, angles
@@ -23,7 +23,7 @@ Formula = Callable[[Taylor], tuple[Taylor, Taylor, Taylor]]
 
 
 class Pose(NamedTuple):
-    """A place [m] and an orientation (unit quaternion, scalar first)."""
+    """A position [m] and an orientation (unit quaternion, scalar first)."""
 
     position: Vector
     orientation: Quaternion
@@ -37,14 +37,14 @@ IDENTITY = Pose((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
 
 @record
 class Straight:
-    """A straight line; `by` [m] from start to end. Zero length is a turn on the spot."""
+    """A straight line; `by` [m] from start to end. Zero length is a rotation on the spot."""
 
     by: Vector
 
 
 @record
 class Arc:
-    """A turn of `angle` [rad] about the line through `centre` along the unit vector `axis`.
+    """A rotation by `angle` [rad] about the line through `centre` along the unit vector `axis`.
 
     Evenly with the angle the point advances by `rise` [m] in all along the axis, and its distance
     from the axis changes by `grow` [m] in all: circle, helix, flat spiral, cone.
@@ -68,7 +68,7 @@ class Curve:
 
 @record
 class Screw:
-    """A rigid turn of `angle` [rad] about a line, and `advance` [m] along it; the tool goes along.
+    """A rigid rotation by `angle` [rad] about a line and a translation by `advance` [m] along it.
 
     The line goes through `point` along the unit vector `axis`.
     """
@@ -81,22 +81,22 @@ class Screw:
 
 @record
 class ScrewTo:
-    """The one screw that carries the start pose to the end pose, the short way round (ScLERP)."""
+    """The screw motion from the start pose to the end pose, the short way (ScLERP)."""
 
 
 @record
 class Dwell:
-    """Waiting at the start pose."""
+    """The tool stays at the start pose."""
 
 
 @record
 class Step:
-    """A jump of the set point to the end pose, within one sample."""
+    """A jump of the reference to the end pose, within one sample."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PiecewiseCurve:
-    """Smooth pieces end to end: one profile over all, no stop where one passes into the next.
+    """Smooth pieces end to end: one profile for all, without a stop at smooth joints.
 
     Over its own g in [0, 1] a piece is at  c0 + c1 g + c2 g^2 + c3 g^3 + u cos(a) + v sin(a)  with
     a = a0 + g a1: a straight line, a Bezier curve, an arc of a circle or of any ellipse. Where the
@@ -136,24 +136,24 @@ STANDING = (Dwell, Step)  # paths on which the point does not travel
 
 @record
 class FixedOrientation:
-    """The orientation stays as it is."""
+    """The orientation does not change."""
 
 
 @record
 class SlerpOrientation:
-    """The orientation goes evenly with the path, the short way, to the end orientation."""
+    """The orientation rotates evenly along the path, the short way, to the end orientation."""
 
 
 @record
 class FollowHeading:
-    """The tool turns rigidly with an arc about its axis, with a curve's heading about `axis`."""
+    """The tool rotates with an arc about its axis, or with a curve's heading about `axis`."""
 
     axis: Vector = (0.0, 0.0, 1.0)
 
 
 @record
 class Look:
-    """The tool's z axis points at `point`; its y axis leans as far as it can towards `up`."""
+    """The tool's z axis points at `point`; its y axis is as close as possible to `up`."""
 
     point: Vector
     up: Vector
@@ -161,7 +161,7 @@ class Look:
 
 @record
 class LookLine:
-    """The tool's z axis points at the line through `point`, its x axis lies along `along`."""
+    """The tool's z axis points at the line through `point`; its x axis is parallel to `along`."""
 
     point: Vector
     along: Vector
@@ -183,14 +183,14 @@ class Duration:
 
 @record
 class Samples:
-    """`samples N`: exactly that many new samples."""
+    """`samples N`: exactly N new samples."""
 
     count: int
 
 
 @record
 class CruiseSpeed:
-    """The speed [m/s] of the point, or [rad/s] where only the tool turns; never exceeded."""
+    """The largest speed [m/s] of the point, or [rad/s] if only the tool rotates."""
 
     speed: float
     turnspeed: float
@@ -201,7 +201,7 @@ Timing = Duration | Samples | CruiseSpeed
 
 @record
 class Profile:
-    """A profile by name, with its boundary rates in SI units (m or rad; `angular` says which).
+    """A profile by name, with its boundary rates in SI units (m, or rad if `angular`).
 
     `rates` is empty (rest to rest), (v0, v1) for cubic, (v0, v1, a0, a1) for quintic.
     """
@@ -213,7 +213,7 @@ class Profile:
 
 @record
 class Light:
-    """The colour at the first and at the last point of a stroke, and evenly between by length.
+    """The colours at the first and at the last point of a stroke, interpolated by length.
 
     `even` dims the light where the tool is slow, so that the line is equally bright all along.
     """
@@ -231,7 +231,7 @@ BrushValue = float | str | Vector | tuple[Colour, ...]
 
 @record
 class Brush:
-    """A brush by the name it is registered under in `dqpaint.brushes`.
+    """A brush, by its registered name in `dqpaint.brushes`.
 
     Attributes:
         name: of the brush.
@@ -247,7 +247,7 @@ class Brush:
 
 @record
 class Strobe:
-    """The light flashes: on for the part `duty` (0 to 1) of each period of the run's clock."""
+    """Flashing light: on for the share `duty` (0 to 1) of each period of the run's clock."""
 
     frequency: float  # [Hz]
     duty: float = 0.5
@@ -255,7 +255,7 @@ class Strobe:
 
 @record
 class ContinuousStroke:
-    """One profile over several segments in a row, which all carry it: no stop between them.
+    """One profile for several consecutive segments, without a stop between them.
 
     Profile and timing are those of the whole. A segment whose light is `light` has its part of that
     gradient, which goes over the whole length.
@@ -269,7 +269,7 @@ class ContinuousStroke:
 
 @record
 class Segment:
-    """One stroke or pause: what the point does, what the tool does, when, and in which light."""
+    """One stroke or pause: its path, orientation, timing and light."""
 
     path: Path
     tool: Tool
@@ -287,7 +287,7 @@ class Segment:
 
 @record
 class AutoPlacement:
-    """`place auto`: where the drawing fits the arm best, which only the arm can say."""
+    """`place auto`: the placement that suits the arm best, computed for the arm."""
 
     orientation: Quaternion | None  # of the drawing in the base frame; None: the robot's canvas'
     span: Span | None
@@ -311,9 +311,9 @@ class Program:
     most_samples: int = DEFAULT_MAX_SAMPLES
 
     def line_name(self, line: SourceLine) -> str:
-        """A line as a person reads it: `12`, `petal.traj:3`."""
+        """The name of a line for people: `12`, or `petal.traj:3`."""
         return line_name(self.text, line)
 
     def line_reference(self, line: SourceLine) -> int | str:
-        """The same for a program: a number for a line of the main file."""
+        """The name of a line for programs: a number for a line of the main file."""
         return self.line_name(line) if line.file else line.line

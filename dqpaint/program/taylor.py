@@ -1,4 +1,4 @@
-"""Taylor series of one parameter, so that a formula gives its exact derivatives.
+"""A formula of one parameter -> its Taylor series and exact derivatives.
 
 `Taylor` holds a function's value and its scaled derivatives f', f''/2!, f'''/3! at many parameter
 values at once. Sums, products and functions follow the classic recurrences of automatic
@@ -34,14 +34,14 @@ class Taylor:
 
     @classmethod
     def variable(cls, at: Floats, order: int = ORDER) -> Taylor:
-        """The parameter itself at the values `at` (N,), with so many derivatives."""
+        """The parameter itself at the values `at` (N,), with derivatives up to `order`."""
         c = np.zeros((order + 1, len(at)))
         c[0], c[1] = at, 1.0
         return cls(c)
 
     @property
     def derivatives(self) -> Floats:
-        """(K + 1, N): f, f', f'', f'''."""
+        """The derivatives f, f', f'', f''', (K + 1, N)."""
         return np.asarray(self.coefficients * FACTORIALS[: len(self.coefficients)])
 
     def _constant(self, value: Scalar) -> Taylor:
@@ -92,7 +92,7 @@ Value = Taylor | float
 
 
 def _integrate(first: Floats, slope: Callable[[Floats, int], Floats], like: Floats) -> Taylor:
-    """The series with c_0 = `first` and k c_k = `slope(c, k)`, each term from those before it."""
+    """The series with c_0 = `first` and k c_k = `slope(c, k)`, term by term."""
     c = np.zeros_like(like)
     c[0] = first
     for k in range(1, len(c)):
@@ -193,7 +193,7 @@ def _root(x: Taylor) -> Taylor:
 
 
 def power(x: Value, y: Value) -> Value:
-    """X to the power y. A whole-number exponent takes any base, another one a positive base."""
+    """X to the power y. An integer exponent takes any base, another exponent a positive base."""
     if not isinstance(x, Taylor) and not isinstance(y, Taylor):
         result = x**y
         if isinstance(result, complex):
@@ -216,7 +216,7 @@ def _whole_power(x: Taylor, n: int) -> Taylor:
 
 
 def _choose(x: Value, y: Value, first: NDArray[np.bool_]) -> Taylor:
-    """The series `x` where `first`, else `y`; at least one of them is a series."""
+    """The series `x` where `first` is true, else `y`; at least one of them is a series."""
     like = x if isinstance(x, Taylor) else y
     assert isinstance(like, Taylor)
     series = [v if isinstance(v, Taylor) else like._constant(v) for v in (x, y)]
@@ -228,19 +228,19 @@ def _first(x: Value) -> Floats:
 
 
 def minimum(x: Value, y: Value) -> Value:
-    """The smaller of two; where they are equal, the derivatives of the first."""
+    """The smaller of two; where they are equal, with the derivatives of the first."""
     if not isinstance(x, Taylor) and not isinstance(y, Taylor):
         return min(x, y)
     return _choose(x, y, _first(x) <= _first(y))
 
 
 def maximum(x: Value, y: Value) -> Value:
-    """The larger of two; where they are equal, the derivatives of the first."""
+    """The larger of two; where they are equal, with the derivatives of the first."""
     if not isinstance(x, Taylor) and not isinstance(y, Taylor):
         return max(x, y)
     return _choose(x, y, _first(x) >= _first(y))
 
 
 def absolute(x: Value) -> Value:
-    """The size of a number."""
+    """The absolute value."""
     return maximum(x, -x)

@@ -1,4 +1,4 @@
-"""A name or a file -> an arm: its card (data), its kinematics, dynamics, limits and shapes.
+"""The name or file of an arm -> its card, kinematics, dynamics, limits and shapes.
 
     model (cards) -> urdf -> bullet -> kinematics -> loading
 

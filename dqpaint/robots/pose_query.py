@@ -19,7 +19,7 @@ LEAST_TURN = 1e-9  # [rad] below which a screw is a translation
 
 @dataclass(frozen=True)
 class Screw:
-    """The screw that carries the base frame to a pose, the short way.
+    """The screw motion from the base frame to a pose, the short way.
 
     Attributes:
         axis: unit direction (3,); of a pure translation the way it goes.
@@ -35,13 +35,13 @@ class Screw:
 
     @property
     def pitch(self) -> float | None:
-        """The advance for each radian [m/rad]; None of a pure translation."""
+        """The advance per radian [m/rad]; None for a pure translation."""
         return None if self.point is None else self.advance / self.angle
 
 
 @dataclass(frozen=True)
 class PoseReport:
-    """An arm in a posture: where its tool or flange is, and how it can move from there."""
+    """An arm in a posture: the pose of its tool or flange, and its mobility there."""
 
     card: Card
     flange: bool
@@ -52,7 +52,7 @@ class PoseReport:
 
     @property
     def limit_violations(self) -> list[str]:
-        """The joints beyond their limits, a sentence each."""
+        """The joints beyond their limits, one sentence each."""
         limits = zip(*np.degrees([self.posture, self.card.lower, self.card.upper]), strict=True)
         return [
             f"joint {i} at {angle:.6g} deg is beyond its limits, {low:.6g} to {high:.6g} deg"
@@ -70,7 +70,7 @@ def pose_arm(card: Card, posture: Floats, flange: bool) -> PoseReport:
 
 
 def read_posture(card: Card, deg: str | None, rad: str | None) -> Floats:
-    """The posture (n,) [rad] that was typed; the home posture where none was.
+    """The posture (n,) [rad] of the given angles; by default the home posture.
 
     Raises:
         UsageError: both are given, something is no number, or the count is wrong.
@@ -114,7 +114,7 @@ def screw_from_pose(pose: Floats) -> Screw:
 
 
 def as_json(report: PoseReport) -> dict[str, Any]:
-    """All of it, in SI units; what does not exist of a pure translation is null."""
+    """The whole report in SI units; null for values that a pure translation does not have."""
     screw = screw_from_pose(report.pose)
     return {
         "version": 1,

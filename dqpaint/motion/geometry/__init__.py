@@ -1,1 +1,1 @@
-"""Strokes of a program -> places and orientations along them, with derivatives and lengths."""
+"""Segments of a program -> positions and orientations along them, derivatives and lengths."""

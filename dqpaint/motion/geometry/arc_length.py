@@ -1,4 +1,4 @@
-"""How long a stroke is, and the way from a distance along it back to its parameter.
+"""A stroke -> its length and angle; a distance along it -> its parameter.
 
 Straight lines, screws, arcs of one radius and curves run evenly: their length is a speed. What does
 not, such as a curve or an arc that grows, is integrated by Gauss-Legendre quadrature, panel by
@@ -48,7 +48,7 @@ class Extent:
 
 
 def measure_stroke(shape: Shape) -> Extent:
-    """Length and angle of one stroke, to the last digits or to what `MOST_PANELS` give."""
+    """Length and angle of one stroke, to rounding or as exact as `MOST_PANELS` allows."""
     panels, change = 16, 0.0
     before = _integrate(shape, panels)
     while panels < MOST_PANELS:
@@ -62,7 +62,7 @@ def measure_stroke(shape: Shape) -> Extent:
 
 
 def measure_uniform(shape: Shape, count: int) -> tuple[Floats, Floats]:
-    """The lengths [m] (K,) of strokes whose points run evenly, and the angles [rad] (K,).
+    """Lengths [m] (K,) of strokes with uniform speed, and their angles [rad] (K,).
 
     Args:
         shape: of all of them.
@@ -79,7 +79,7 @@ def measure_uniform(shape: Shape, count: int) -> tuple[Floats, Floats]:
 
 
 def _angles(shape: Shape, rows: Indices, panels: int) -> Floats:
-    """The angles (N,) of some strokes, some at a time."""
+    """Angles (N,) of some strokes, in batches."""
     _, f, weights = _quadrature(panels)
     out = np.empty(len(rows))
     at_once = max(1, SPEED_BATCH // len(f))
@@ -92,7 +92,7 @@ def _angles(shape: Shape, rows: Indices, panels: int) -> Floats:
 
 
 def _quadrature(panels: int) -> tuple[Floats, Floats, Floats]:
-    """Edges (M + 1,) of panels of 0 to 1, and the nodes (10 M,) with their weights."""
+    """Edges (M + 1,) of panels from 0 to 1, and the nodes (10 M,) with their weights."""
     edges = np.linspace(0.0, 1.0, panels + 1)
     weights = np.tile(0.5 * WEIGHTS / panels, panels)
     return edges, _nodes(edges[:-1], edges[1:]).ravel(), weights
@@ -109,7 +109,7 @@ def _integrate(shape: Shape, panels: int) -> Extent:
 
 
 def has_cusp(shape: Shape, extent: Extent) -> bool:
-    """Whether the point comes to rest somewhere on its way, as at the tip of a cardioid.
+    """Whether the point comes to rest within the path, as at the cusp of a cardioid.
 
     Looks for the least speed ever closer: around the slowest of 17 places, eight times.
     """
@@ -122,7 +122,7 @@ def has_cusp(shape: Shape, extent: Extent) -> bool:
 
 
 def _slowest(shape: Shape, f: Floats) -> tuple[float, float]:
-    """Where among f (N,) the point is slowest, and the distance to its neighbours."""
+    """The parameter of f (N,) at the least speed, and the distance to its neighbours."""
     return float(f[np.argmin(shape.speed(f))]), float(np.diff(f).max())
 
 
@@ -132,7 +132,7 @@ def _nodes(lower: Floats, upper: Floats) -> Floats:
 
 
 def parameter_at(shape: Shape, extent: Extent, distance: Floats) -> Floats:
-    """The parameter f (N,) at distances (N,) along the path; beyond its ends it goes on."""
+    """The parameter f (N,) at distances (N,) along the path, also beyond its ends."""
     f = np.interp(distance, extent.lengths, extent.edges)
     for begin in range(0, len(f), PARAMETER_BATCH):
         own = slice(begin, begin + PARAMETER_BATCH)
@@ -141,7 +141,7 @@ def parameter_at(shape: Shape, extent: Extent, distance: Floats) -> Floats:
 
 
 def _newton(shape: Shape, extent: Extent, distance: Floats, f: Floats) -> Floats:
-    """From estimates f (N,) to what `parameter_at` promises."""
+    """Refine estimates f (N,) to the accuracy of `parameter_at`."""
     before, beyond = distance < 0, distance > extent.length
     panel = _panel(distance, extent.lengths)
     start = extent.edges[panel]
@@ -156,20 +156,20 @@ def _newton(shape: Shape, extent: Extent, distance: Floats, f: Floats) -> Floats
 
 
 def _panel(values: Floats, edges: Floats) -> NDArray[np.intp]:
-    """Which panel (N,) each value lies in; the outer ones for what lies beyond."""
+    """The panel (N,) of each value; values outside belong to the outer panels."""
     inside = np.searchsorted(edges, values, side="right") - 1
     return np.clip(inside, 0, len(edges) - 2)
 
 
 def _length(shape: Shape, start: Floats, end: Floats) -> Floats:
-    """The length (N,) from parameters to parameters within a panel or close to one."""
+    """The lengths (N,) between two parameters within a panel or close to one."""
     at = _nodes(start, end)
     speed = shape.speed(at.ravel()).reshape(at.shape)
     return np.asarray((speed @ WEIGHTS) * 0.5 * (end - start))
 
 
 def flow_by_length(shape: Shape, extent: Extent, fraction: Floats) -> Flow:
-    """The stroke over the fraction of its length, whatever its own parameter does.
+    """The stroke over the fraction of its length instead of its own parameter.
 
     With S(f) = fraction L and S' = |p'|: f' = L / |p'| and f'' = -(p' . p'') L^2 / |p'|^4.
     """
@@ -185,7 +185,7 @@ def flow_by_length(shape: Shape, extent: Extent, fraction: Floats) -> Flow:
 
 
 def length_fraction(shape: Shape, extent: Extent, f: Floats) -> Floats:
-    """The fraction of the length (N,) that lies before the parameters f (N,)."""
+    """The fraction of the length (N,) before the parameters f (N,)."""
     if extent.uniform or extent.length == 0:
         return f
     panel = _panel(f, extent.edges)

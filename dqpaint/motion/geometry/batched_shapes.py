@@ -1,4 +1,4 @@
-"""The shapes of all segments of a drawing; those of one kind are computed at once.
+"""Segments of a drawing -> their shapes; segments of one kind are computed in one batch.
 
 A drawing of ten thousand lines holds a handful of kinds: their parameters stand in arrays, one row
 a segment, and a formula is asked for all rows in one call. A curve is a kind for itself. A new kind
@@ -57,13 +57,13 @@ Rows = Indices | slice
 
 
 def shape(segment: Segment) -> Shape:
-    """The stroke of one segment."""
+    """The shape of one segment."""
     return _shape((segment,)).select(0)
 
 
 @dataclass(frozen=True, eq=False)
 class Shapes:
-    """What the segments of a drawing are as motion.
+    """The shapes of all segments of a drawing, grouped by kind.
 
     Attributes:
         segments: all of them (M).
@@ -89,7 +89,7 @@ class Shapes:
         return family.select(int(self.member[number]))
 
     def flow(self, number: Indices, f: Floats, by_length: Flags, faults: Faults) -> Flow:
-        """Segments at fractions f (N,), per unit of f.
+        """The flow of segments at fractions f (N,), per unit of f.
 
         Args:
             number: which segment each row asks for (N,).
@@ -114,14 +114,14 @@ class Shapes:
         return Flow(pose, twist, slope)
 
     def points(self, number: Indices, f: Floats) -> Floats:
-        """The places (N, 3) [m] of segments that are even."""
+        """The positions (N, 3) [m] on segments with uniform speed."""
         out = np.empty((len(f), 3))
         for family, rows in _group_equal(self.family[number]):
             out[rows] = self.families[family].select(self.member[number[rows]]).points(f[rows])
         return out
 
     def may_leave_box(self, number: Indices, least: Floats, most: Floats) -> Flags:
-        """Which segments (N,) may go out of a box that their ends lie in, on their way."""
+        """Whether segments (N,) may leave a box that contains their ends."""
         out = np.ones(len(number), dtype=bool)
         for family, rows in _group_equal(self.family[number]):
             form = self.families[family]
@@ -133,7 +133,7 @@ class Shapes:
         return out
 
     def _groups(self, number: Indices, by_length: Flags) -> Iterator[tuple[Rows, int, bool]]:
-        """Rows that are computed at once, the first of their segments, whether by its length."""
+        """Rows that are computed together, the first of their segments, and whether by length."""
         for family, rows in _group_equal(self.family[number]):
             some = number[rows]
             if self.families[family].uniform or not by_length[some].any():
@@ -145,7 +145,7 @@ class Shapes:
 
 
 def gather_shapes(segments: tuple[Segment, ...], faults: Faults, most: float = np.inf) -> Shapes:
-    """The shapes of segments, and how long they are; what goes wrong is noted by the segment.
+    """The shapes and lengths of segments; errors are recorded for each segment.
 
     Curves are measured one by one, which takes a while: not those that come after `most` seconds
     of curves, with which the drawing is too long.
@@ -185,7 +185,7 @@ def gather_shapes(segments: tuple[Segment, ...], faults: Faults, most: float = n
 
 
 def _least_seconds(segment: Segment, extent: Extent) -> float:
-    """What a segment takes at least, as far as that is a matter of its length."""
+    """The least duration of a segment that follows from its length."""
     timing = segment.timing
     if segment.stroke is not None or not isinstance(timing, CruiseSpeed):
         return 0.0
@@ -262,7 +262,7 @@ def _arcs_alike(segment: Segment) -> Kind:
 
 
 class PathKind(NamedTuple):
-    """What is to be known of a kind of path.
+    """How the shapes of one kind of path are made and batched.
 
     Attributes:
         shape: of segments that are alike, from the poses where they start.
@@ -293,7 +293,7 @@ def _ends(segments: Sequence[Segment]) -> Floats:
 
 
 def _screws(lines: Sequence[tuple[Vector, Vector, float, float]]) -> Floats:
-    """The displacements (K, 6) of a turn and an advance along one line; an angle may be zero."""
+    """The displacements (K, 6) of rotations and advances along lines; an angle may be zero."""
     points, axes, angles, advances = (column(values) for values in zip(*lines, strict=True))
     turn = angles[:, None] * dq.twist_from_screw(axes, points)
     return np.asarray(
@@ -302,7 +302,7 @@ def _screws(lines: Sequence[tuple[Vector, Vector, float, float]]) -> Floats:
 
 
 def _group_equal(values: Indices) -> Iterator[tuple[int, Rows]]:
-    """Each value that occurs, and the rows where it does, in order."""
+    """Each distinct value and its rows, in order."""
     if not len(values):
         return
     if (values == values[0]).all():

@@ -1,4 +1,4 @@
-"""What the tool does along a stroke: orientation, angular velocity and its derivative."""
+"""Positions along a stroke -> orientation, angular velocity and its derivative."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -30,24 +30,24 @@ Turns = tuple[Floats, Floats, Floats]  # r (N, 4), w (N, 3) [rad per f], its der
 
 
 class Spin(Protocol):
-    """How the tool turns over f (N,), at places (4, N, 3)."""
+    """The orientation over f (N,), at positions (4, N, 3)."""
 
     @property
     def uniform(self) -> bool:
-        """Whether its speed over f is one number."""
+        """Whether the angular speed over f is constant."""
 
     def select(self, rows: Indices | int) -> Self:
-        """The parameters of some strokes, one a row; or of one."""
+        """The parameters of some strokes, one row each, or of one stroke."""
 
     def largest_parameter_along(self, places: Positions, /) -> Floats:
-        """The largest of the numbers along places (K,), as `Positions.largest_parameter` has it."""
+        """The largest number along positions (K,), as in `Positions.largest_parameter`."""
 
     def __call__(self, f: Floats, at: Floats, /) -> Turns:
         """Orientation, angular velocity, and its derivative."""
 
 
 def orientation_along(segments: Sequence[Segment], places: Positions) -> Spin:
-    """The tool of segments of one kind along their places, for strokes that are not one screw."""
+    """The orientation of segments of one kind along their positions, if not a single screw."""
     first = segments[0].tool
     r0 = column([segment.start.orientation for segment in segments])
     if isinstance(first, FixedOrientation):
@@ -71,25 +71,25 @@ def orientation_along(segments: Sequence[Segment], places: Positions) -> Spin:
 
 @dataclass(frozen=True)
 class Turning(BatchedParameters):
-    """A constant turn [rad], axis times angle, over the whole stroke."""
+    """A constant rotation [rad], axis times angle, over the whole stroke."""
 
     r0: Floats
     turn: Floats
     uniform: ClassVar[bool] = True
 
     def largest_parameter_along(self, _places: Positions) -> Floats:
-        """Of its own."""
+        """The largest of its own parameters."""
         return self.largest_parameter()
 
     def __call__(self, f: Floats, _at: Floats) -> Turns:
-        """From the first orientation on."""
+        """The rotation from the first orientation."""
         half = np.concatenate([0.5 * f[:, None] * self.turn, np.zeros((len(f), 3))], axis=1)
         w = np.broadcast_to(self.turn, (len(f), 3))
         return dq.quaternion_mul(dq.exp(half)[:, :4], self.r0), w, np.zeros((len(f), 3))
 
 
 def heading(r0: Floats, axis: Floats, places: Positions) -> "Heading":
-    """The heading of a curve, which begins with the orientation r0 (4,)."""
+    """The heading of a curve that begins with the orientation r0 (4,)."""
     e1 = _across(axis)
     e2 = dq.cross(axis, e1)
     tangent = places(np.zeros(1))[1, 0]
@@ -98,7 +98,7 @@ def heading(r0: Floats, axis: Floats, places: Positions) -> "Heading":
 
 @dataclass(frozen=True)
 class Heading:
-    """The turn about `axis` by which the tangent's direction across it has changed."""
+    """The rotation about `axis` that follows the tangent's component across it."""
 
     r0: Floats
     axis: Floats
@@ -108,15 +108,15 @@ class Heading:
     uniform: ClassVar[bool] = False
 
     def select(self, _rows: Indices | int) -> Self:
-        """It is one stroke alone."""
+        """Returns itself: it belongs to a single stroke."""
         return self
 
     def largest_parameter_along(self, _places: Positions) -> Floats:
-        """It may leave the numbers anywhere."""
+        """Infinite: its values have no bound."""
         return np.full(1, np.inf)
 
     def __call__(self, _f: Floats, at: Floats) -> Turns:
-        """From the tangent and its derivatives; FloatingPointError where there is none."""
+        """From the tangent and its derivatives; FloatingPointError if there is no tangent."""
         x, y = at[1:] @ self.e1, at[1:] @ self.e2  # (3, N): of the place's derivatives
         square = x[0] ** 2 + y[0] ** 2
         if not np.isfinite(at[3]).all() or not (square > 0).all():
@@ -132,7 +132,7 @@ class Heading:
 
 
 def _across(axis: Floats) -> Floats:
-    """A unit vector square to `axis`."""
+    """A unit vector perpendicular to `axis`."""
     least = np.eye(3)[np.argmin(np.abs(axis))]
     across = dq.cross(axis, least)
     return np.asarray(across / np.linalg.norm(across))
@@ -147,7 +147,7 @@ class LookAtPoint(BatchedParameters):
     uniform: ClassVar[bool] = False
 
     def largest_parameter_along(self, places: Positions) -> Floats:
-        """A line may come close to the point, or to where it lies in the direction of `up`."""
+        """A bound that grows near the point, and near its line along `up`."""
         if not isinstance(places, Lines):
             return np.full(1, np.inf)
         start, way = self.point - places.start, -places.by
@@ -158,7 +158,7 @@ class LookAtPoint(BatchedParameters):
         return np.asarray(np.maximum(self.largest_parameter(), steep**3))
 
     def __call__(self, _f: Floats, at: Floats) -> Turns:
-        """From where the point is, and how it moves."""
+        """From the position and velocity of the point."""
         z = _unit(np.stack([self.point - at[0], -at[1], -at[2]]))
         x = _unit(_cross(_fixed(self.up, z), z))
         return _frame_rates(x, _cross(z, x), z)
@@ -166,14 +166,14 @@ class LookAtPoint(BatchedParameters):
 
 @dataclass(frozen=True)
 class LookAtLine(BatchedParameters):
-    """Tool z square to the line and towards it, x along the line, y = z x x."""
+    """Tool z perpendicular to the line and towards it, x along the line, y = z x x."""
 
     point: Floats
     along: Floats
     uniform: ClassVar[bool] = False
 
     def largest_parameter_along(self, places: Positions) -> Floats:
-        """A line may come close to the line that it looks at."""
+        """A bound that grows near the line."""
         if not isinstance(places, Lines):
             return np.full(1, np.inf)
         start, way = (dq.cross(self.along, v) for v in (self.point - places.start, -places.by))
@@ -182,7 +182,7 @@ class LookAtLine(BatchedParameters):
         return np.asarray(np.maximum(self.largest_parameter(), steep**3))
 
     def __call__(self, _f: Floats, at: Floats) -> Turns:
-        """From where the point is, and how it moves."""
+        """From the position and velocity of the point."""
         towards = np.stack([self.point - at[0], -at[1], -at[2]])
         z = _unit(towards - (towards * self.along).sum(-1, keepdims=True) * self.along)
         x = _fixed(self.along, z)
@@ -201,14 +201,14 @@ def _least_distance(start: Floats, way: Floats) -> Floats:
 
 
 def _fixed(vector: Floats, like: Floats) -> Floats:
-    """Vectors (3,) or (N, 3) that do not move."""
+    """Constant vectors (3,) or (N, 3), with zero derivatives."""
     out = np.zeros_like(like)
     out[0] = vector
     return out
 
 
 def _unit(a: Floats) -> Floats:
-    """The direction of a moving vector: from a = r n, a' = r' n + r n', and once more."""
+    """The direction of a moving vector: from a = r n, a' = r' n + r n', and its derivative."""
     r = np.sqrt((a[0] ** 2).sum(-1, keepdims=True))
     n = a[0] / r
     r1 = (n * a[1]).sum(-1, keepdims=True)
@@ -226,7 +226,7 @@ def _cross(a: Floats, b: Floats) -> Floats:
 
 
 def _frame_rates(x: Floats, y: Floats, z: Floats) -> tuple[Floats, Floats, Floats]:
-    """Of a moving frame: w = 1/2 sum e x e', and w' = 1/2 sum e x e'' as e' x e' = 0."""
+    """Rates of a moving frame: w = 1/2 sum e x e', and w' = 1/2 sum e x e'' as e' x e' = 0."""
     r = dq.quaternion_from_matrix(np.stack([x[0], y[0], z[0]], axis=-1))
     axes = (x, y, z)
     w = 0.5 * sum(dq.cross(e[0], e[1]) for e in axes)

@@ -1,4 +1,4 @@
-"""Where the point is along a stroke: place and derivatives over the fraction of its parameter.
+"""The paths of segments -> positions and derivatives over the fraction of their parameter.
 
 The parameters belong to one stroke, or stand one a row: then each row of what comes out has its
 own, and the strokes of a whole drawing are computed at once.
@@ -17,41 +17,41 @@ from dqpaint.program import Indices as Indices
 
 
 class Positions(Protocol):
-    """A point over the fraction f (N,) of its parameter."""
+    """The position over the fraction f (N,) of its parameter."""
 
     @property
     def uniform(self) -> bool:
-        """Whether its speed over f is one number."""
+        """Whether the speed over f is constant."""
 
     def select(self, rows: Indices | int) -> Self:
-        """The parameters of some strokes, one a row; or of one."""
+        """The parameters of some strokes, one row each, or of one stroke."""
 
     def largest_parameter(self) -> Floats:
-        """Of the numbers of each row the largest (K,), without its sign.
+        """The largest absolute number of each row (K,).
 
         As long as it is small nothing that comes out leaves the numbers; infinite where that may
         happen anywhere.
         """
 
     def point(self, f: Floats) -> Floats:
-        """Its place (N, 3) [m]."""
+        """The position (N, 3) [m]."""
 
     def velocity(self, f: Floats) -> Floats:
-        """Its first derivative (N, 3) [m] alone."""
+        """The first derivative (N, 3) [m] only."""
 
     def __call__(self, f: Floats) -> Floats:
-        """Its place and three derivatives (4, N, 3)."""
+        """The position and three derivatives (4, N, 3)."""
 
 
 class BatchedParameters:
-    """A formula whose parameters are arrays, one row a stroke."""
+    """A formula with arrays as parameters, one row per stroke."""
 
     def select(self, rows: Indices | int) -> Self:
-        """The same formula with some of its rows; one of them belongs to every f."""
+        """The same formula with some of its rows; a single row applies to every f."""
         return type(self)(*(parameter[rows] for parameter in vars(self).values()))
 
     def largest_parameter(self) -> Floats:
-        """The largest of the numbers of each row (K,), without its sign."""
+        """The largest absolute number of each row (K,)."""
         rows = [np.abs(parameter).max(axis=1) for parameter in vars(self).values()]
         return np.asarray(np.max(rows, axis=0))
 
@@ -65,7 +65,7 @@ def paths_of(segments: Sequence[Segment], kind: type[P]) -> list[P]:
 
 
 def column(values: Sequence[object]) -> Floats:
-    """Numbers, or tuples of as many each, one a row (K, ...)."""
+    """Numbers, or tuples of equal length, as a column (K, ...)."""
     return np.array(values, dtype=np.float64)
 
 
@@ -78,7 +78,7 @@ class Lines(BatchedParameters):
     uniform: ClassVar[bool] = True
 
     def point(self, f: Floats) -> Floats:
-        """The place."""
+        """The position."""
         return np.asarray(self.start + f[:, None] * self.by)
 
     def velocity(self, f: Floats) -> Floats:
@@ -86,7 +86,7 @@ class Lines(BatchedParameters):
         return np.asarray(self(f)[1])
 
     def __call__(self, f: Floats) -> Floats:
-        """With its derivatives."""
+        """The position and its derivatives."""
         out = np.zeros((4, len(f), 3))
         out[0] = self.point(f)
         out[1] = self.by
@@ -111,14 +111,14 @@ class Arcs(BatchedParameters):
     uniform: ClassVar[bool] = True
 
     def bounds(self) -> tuple[Floats, Floats]:
-        """The least and the greatest coordinates (K, 3) of the whole circles that arcs are of."""
+        """The least and the greatest coordinates (K, 3) of the arcs' whole circles."""
         way = np.stack([self.foot, self.foot + self.rise])
         size = np.maximum(np.abs(self.radius), np.abs(self.radius + self.grow))
         reach = size * np.sqrt(self.e1**2 + self.e2**2)
         return way.min(axis=0) - reach, way.max(axis=0) + reach
 
     def point(self, f: Floats) -> Floats:
-        """The place."""
+        """The position."""
         f = f[:, None]
         outward = np.cos(f * self.angle) * self.e1 + np.sin(f * self.angle) * self.e2
         return np.asarray(self.foot + f * self.rise + (self.radius + f * self.grow) * outward)
@@ -128,7 +128,7 @@ class Arcs(BatchedParameters):
         return np.asarray(self(f)[1])
 
     def __call__(self, f: Floats) -> Floats:
-        """With its derivatives."""
+        """The position and its derivatives."""
         f, angle, grow = f[:, None], self.angle, self.grow
         c, s = np.cos(f * angle), np.sin(f * angle)
         outward, along = c * self.e1 + s * self.e2, c * self.e2 - s * self.e1
@@ -143,23 +143,23 @@ class Arcs(BatchedParameters):
 
 @dataclass(frozen=True)
 class Spirals(Arcs):
-    """The same with a radius that grows: flat spiral and cone."""
+    """Arcs whose radius grows: flat spiral and cone."""
 
     uniform: ClassVar[bool] = False
 
     def largest_parameter(self) -> Floats:
-        """It may leave the numbers anywhere."""
+        """Infinite: its values have no bound."""
         return np.full(1, np.inf)
 
 
 def straight_positions(segments: Sequence[Segment]) -> Lines:
-    """The places of straight lines."""
+    """The positions of straight lines."""
     ways = [path.by for path in paths_of(segments, Straight)]
     return Lines(column([s.start.position for s in segments]), column(ways))
 
 
 def arc_positions(segments: Sequence[Segment]) -> Arcs:
-    """The places of arcs, of one radius all or none."""
+    """The positions of arcs; all of them have a constant radius, or none."""
     paths = paths_of(segments, Arc)
     p0 = column([s.start.position for s in segments])
     axis = column([path.axis for path in paths])
@@ -176,7 +176,7 @@ def arc_positions(segments: Sequence[Segment]) -> Arcs:
 
 @dataclass(frozen=True)
 class Formula:
-    """A formula's own value and its exact derivatives, scaled from the parameter to f.
+    """The value and exact derivatives of a formula, scaled from its parameter to f.
 
     It raises FloatingPointError where place, velocity or acceleration is not finite.
     """
@@ -185,27 +185,27 @@ class Formula:
     uniform: ClassVar[bool] = False
 
     def select(self, _rows: Indices | int) -> Self:
-        """It is one stroke alone."""
+        """Returns itself: it belongs to a single stroke."""
         return self
 
     def largest_parameter(self) -> Floats:
-        """It may leave the numbers anywhere."""
+        """Infinite: its values have no bound."""
         return np.full(1, np.inf)
 
     def point(self, f: Floats) -> Floats:
-        """The place."""
+        """The position."""
         return np.asarray(self(f)[0])
 
     def velocity(self, f: Floats) -> Floats:
-        """The first derivative, without the work for the others."""
+        """The first derivative, without computing the others."""
         return np.asarray(self._derivatives(f, 1)[1])
 
     def __call__(self, f: Floats) -> Floats:
-        """With its derivatives."""
+        """The position and its derivatives."""
         return self._derivatives(f, 3)
 
     def _derivatives(self, f: Floats, order: int) -> Floats:
-        """The place and its derivatives up to an order (order + 1, N, 3)."""
+        """The position and its derivatives up to an order (order + 1, N, 3)."""
         path = self.path
         span = path.upper - path.lower
         scale = np.array([1.0, span, span**2, span**3])[: order + 1, None, None]

@@ -1,4 +1,4 @@
-"""Where the point is along a curve of smooth pieces: by the fraction of the whole length.
+"""Piecewise curves -> positions and derivatives over the fraction of the whole length.
 
 A curve has no parameter of its own that could be slow or fast somewhere, so the point runs evenly:
 speed over the fraction is the length of the curve, everywhere. Each piece is integrated by
@@ -32,7 +32,7 @@ REST_OFFSET = 1e-4  # of the way to the middle of a piece: where a direction is 
 
 
 def piecewise_positions(paths: Sequence[PiecewiseCurve]) -> "Pieces":
-    """The places of curves, by the fraction of their length."""
+    """The positions of piecewise curves over the fraction of their length."""
     whole, first, _ = concatenate(paths)
     curve = np.repeat(np.arange(len(paths)), np.diff(np.append(first, len(whole.cubic))))
     return Pieces(whole, _measure(whole, curve), np.arange(len(paths)))
@@ -40,7 +40,7 @@ def piecewise_positions(paths: Sequence[PiecewiseCurve]) -> "Pieces":
 
 @dataclass(frozen=True)
 class Pieces:
-    """Place and derivatives over the fraction of the length, by the chain rule.
+    """Position and derivatives over the fraction of the length, by the chain rule.
 
     With s the length and p(g) a piece: ds/dg = |p'|, and the inverse's derivatives are
     g1 = 1 / |p'|, g2 = -(p'.p'') g1^4, g3 = -(p''.p'' + p'.p''') g1^5 + 4 (p'.p'')^2 g1^7.
@@ -58,15 +58,15 @@ class Pieces:
     uniform: ClassVar[bool] = True
 
     def select(self, rows: Indices | int) -> Self:
-        """The same pieces, for other rows."""
+        """The same pieces with other rows."""
         return replace(self, curve=np.asarray(self.curve[rows]))
 
     def largest_parameter(self) -> Floats:
-        """It may leave the numbers anywhere."""
+        """Infinite: its values have no bound."""
         return np.full(1, np.inf)
 
     def point(self, f: Floats) -> Floats:
-        """The place."""
+        """The position."""
         return np.asarray(self(f)[0])
 
     def velocity(self, f: Floats) -> Floats:
@@ -74,7 +74,7 @@ class Pieces:
         return np.asarray(self(f)[1])
 
     def __call__(self, f: Floats) -> Floats:
-        """With its derivatives."""
+        """The position and its derivatives."""
         panels = self.panels
         curve = np.broadcast_to(self.curve, f.shape)
         total = panels.total[curve]
@@ -91,7 +91,7 @@ class Pieces:
 
 
 def _by_length(path: PiecewiseCurve, piece: Indices, g: Floats, mean_speed: Floats) -> Floats:
-    """Place (4, N, 3) and its derivatives over the length.
+    """Position and derivatives over the length (4, N, 3).
 
     Where a piece's formula stands still, as at the end of a Bezier curve whose handle has no
     length, the direction is the one next to it; the curvature may have no bound there and is left
@@ -115,7 +115,7 @@ def _by_length(path: PiecewiseCurve, piece: Indices, g: Floats, mean_speed: Floa
 
 @dataclass(frozen=True)
 class _Panels:
-    """Stretches of pieces, in order.
+    """Consecutive stretches of pieces.
 
     Attributes:
         piece: the piece of each (P,).
@@ -144,7 +144,7 @@ class _Panels:
     bent: NDArray[np.bool_]
 
     def at(self, curve: Indices, distance: Floats) -> Indices:
-        """The panels at distances (N,) along curves (N,); at a joint the one that begins there."""
+        """The panels at distances (N,) along curves (N,); at a joint the following panel."""
         every = self.before[np.repeat(np.arange(len(self.first)), self.last - self.first + 1)]
         near = np.searchsorted(every + self.begin, self.before[curve] + distance, side="right") - 1
         first, last = self.first[curve], self.last[curve]

@@ -1,4 +1,4 @@
-"""What a stroke is as a motion: pose and twist over the fraction of its path, in closed form.
+"""Positions and orientations of a stroke -> pose and twist over its parameter, closed form.
 
 Every stroke is one screw (Chasles) where the tool goes along rigidly: a line is a screw of infinite
 pitch, an arc one of none. There the twist per unit of path is constant. Where the tool does
@@ -26,7 +26,7 @@ class Flow:
     slope: Floats
 
     def reparametrised(self, rate: Floats, slope: Floats) -> "Flow":
-        """The same poses over another parameter, given its first and second derivative (N,)."""
+        """The same poses over a new parameter, from its first and second derivatives (N,)."""
         twist = self.twist * rate[:, None]
         return Flow(self.pose, twist, self.slope * rate[:, None] ** 2 + self.twist * slope[:, None])
 
@@ -39,38 +39,38 @@ class Shape(Protocol):
 
     @property
     def uniform(self) -> bool:
-        """Whether the point and the tool's turning each have one speed over f."""
+        """Whether the point's speed and the angular speed over f are constant."""
 
     @property
     def uniform_position(self) -> bool:
-        """Whether the point has one speed over f, whatever the tool does."""
+        """Whether the point's speed over f is constant, for any rotation."""
 
     @property
     def straight(self) -> bool:
-        """Whether the point goes straight from the first place to the last."""
+        """Whether the point moves straight from the first position to the last."""
 
     def select(self, rows: Indices | int) -> Self:
-        """The parameters of some strokes, one a row of f; or of one."""
+        """The parameters of some strokes, one row of f each, or of one stroke."""
 
     def largest_parameter(self) -> Floats:
-        """As of `Positions`, (K,)."""
+        """As in `Positions`, (K,)."""
 
     def flow(self, f: Floats) -> Flow:
         """Pose, twist per unit of f and its derivative at f (N,), in the drawing frame."""
 
     def speed(self, f: Floats) -> Floats:
-        """Of the point alone [m] (N,), which is sooner known than both."""
+        """The speed of the point only [m] (N,), which is faster to compute."""
 
     def speeds(self, f: Floats) -> tuple[Floats, Floats]:
-        """Speed of the point [m] and of the tool's turning [rad] per unit of f (N,)."""
+        """Speed of the point [m] and angular speed [rad] per unit of f (N,)."""
 
     def points(self, f: Floats) -> Floats:
-        """The places (N, 3) alone."""
+        """The positions (N, 3) only."""
 
 
 @dataclass(frozen=True)
 class Rigid(BatchedParameters):
-    """One screw each: the displacement (K, 6) carries the start pose (K, 8) along."""
+    """One screw each: the displacement (K, 6) moves the start pose (K, 8)."""
 
     start: Floats
     displacement: Floats
@@ -79,27 +79,27 @@ class Rigid(BatchedParameters):
 
     @property
     def straight(self) -> bool:
-        """If it does not turn."""
+        """Whether there is no rotation."""
         return not self.displacement[..., :3].any()
 
     def flow(self, f: Floats) -> Flow:
-        """With x = exp(f d / 2) x0 the twist per f is d itself."""
+        """With x = exp(f d / 2) x0 the twist per unit of f is d itself."""
         pose = dq.mul(dq.exp(0.5 * f[:, None] * self.displacement), self.start)
         twist = np.broadcast_to(self.displacement, (len(f), 6))
         return Flow(pose, twist, np.zeros((len(f), 6)))
 
     def speed(self, f: Floats) -> Floats:
-        """Of both."""
+        """The speed of the point [m]."""
         return self.speeds(f)[0]
 
     def speeds(self, f: Floats) -> tuple[Floats, Floats]:
-        """A screw runs evenly."""
+        """The constant speeds of a screw."""
         velocity = dq.point_velocity(self.displacement, dq.translation(self.start))
         speed, turning = _size(velocity), _size(self.displacement[..., :3])
         return np.broadcast_to(speed, f.shape), np.broadcast_to(turning, f.shape)
 
     def points(self, f: Floats) -> Floats:
-        """Without the turns, where there are none."""
+        """The positions, without computing rotations where there are none."""
         if self.straight:
             by = f[:, None] * self.displacement[..., 3:]
             return np.asarray(dq.translation(self.start) + by)
@@ -108,7 +108,7 @@ class Rigid(BatchedParameters):
 
 @dataclass(frozen=True)
 class Jump(BatchedParameters):
-    """A set point that is at one pose until the end, then at another; no impulse is invented."""
+    """A reference at one pose until the end, then at another; there is no impulse between."""
 
     start: Floats
     end: Floats
@@ -117,58 +117,58 @@ class Jump(BatchedParameters):
     straight: ClassVar[bool] = True
 
     def flow(self, f: Floats) -> Flow:
-        """The end pose at f = 1 alone, and no twist."""
+        """The end pose at f = 1 only, and zero twist."""
         still = np.zeros((len(f), 6))
         return Flow(np.where(f[:, None] < 1, self.start, self.end), still, still)
 
     def speed(self, f: Floats) -> Floats:
-        """Of both."""
+        """Zero."""
         return self.speeds(f)[0]
 
     def speeds(self, f: Floats) -> tuple[Floats, Floats]:
-        """None."""
+        """Zero."""
         return np.zeros_like(f), np.zeros_like(f)
 
     def points(self, f: Floats) -> Floats:
-        """Two places."""
+        """The two positions."""
         return dq.translation(self.flow(f).pose)
 
 
 @dataclass(frozen=True)
 class PositionAndOrientation:
-    """Place and orientation apart."""
+    """Position and orientation as separate functions."""
 
     positions: Positions
     orientations: Spin
 
     @property
     def uniform(self) -> bool:
-        """If both are."""
+        """Whether both are uniform."""
         return self.positions.uniform and self.orientations.uniform
 
     @property
     def uniform_position(self) -> bool:
-        """If the places are even."""
+        """Whether the position is uniform."""
         return self.positions.uniform
 
     @property
     def straight(self) -> bool:
-        """If the places are."""
+        """Whether the positions are straight lines."""
         return isinstance(self.positions, Lines)
 
     def largest_parameter(self) -> Floats:
-        """Of both."""
+        """The larger of both."""
         return np.maximum(
             self.positions.largest_parameter(),
             self.orientations.largest_parameter_along(self.positions),
         )
 
     def select(self, rows: Indices | int) -> Self:
-        """Of both."""
+        """A selection of rows of both."""
         return type(self)(self.positions.select(rows), self.orientations.select(rows))
 
     def flow(self, f: Floats) -> Flow:
-        """The spatial twist from the point's and the orientation's own derivatives."""
+        """The spatial twist, from the derivatives of position and orientation."""
         p = self.positions(f)
         r, w, w_slope = self.orientations(f, p)
         twist = dq.twist_from_point(w, p[1], p[0])
@@ -176,23 +176,23 @@ class PositionAndOrientation:
         return Flow(dq.pose_from(p[0], r), twist, slope)
 
     def speed(self, f: Floats) -> Floats:
-        """Of the point alone, which is sooner known than both."""
+        """The speed of the point only, which is faster to compute."""
         return _size(self.positions.velocity(f))
 
     def speeds(self, f: Floats) -> tuple[Floats, Floats]:
-        """Of the two functions."""
+        """The speeds of both functions."""
         if isinstance(self.orientations, Turning):
             return self.speed(f), _size(np.broadcast_to(self.orientations.turn, (len(f), 3)))
         p = self.positions(f)
         return _size(p[1]), _size(self.orientations(f, p)[1])
 
     def points(self, f: Floats) -> Floats:
-        """Whatever the tool does."""
+        """The positions, without the orientation."""
         return self.positions.point(f)
 
 
 def pose_array(pose: Pose) -> Floats:
-    """The language's pose as a dual quaternion (8,)."""
+    """A pose of the program as a dual quaternion (8,)."""
     return dq.pose_from(pose.position, pose.orientation)
 
 

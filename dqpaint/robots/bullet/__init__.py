@@ -1,4 +1,4 @@
-"""The door to PyBullet: a world of its own, and an arm's joints -> their numbers in it."""
+"""Access to PyBullet: a private world, and the arm's joints -> their indices in it."""
 
 from dqpaint.robots.bullet.client import Client, bullet, joint_indices, quiet
 

@@ -1,4 +1,4 @@
-"""The only door to pybullet. It writes remarks of its own: standard output is not for them."""
+"""The only import of pybullet: a connection to a world of its own, without PyBullet's output."""
 
 import ctypes
 import os
@@ -10,7 +10,7 @@ from typing import Any, Self
 
 @contextmanager
 def quiet() -> Iterator[None]:
-    """Send what C code prints meanwhile to nowhere; it is buffered, so it is flushed first."""
+    """Discard what C code prints meanwhile; its buffer is flushed first."""
     c_library = ctypes.CDLL(None)
     _flush(c_library)
     kept = {stream: os.dup(stream) for stream in (1, 2) if _is_open(stream)}
@@ -52,14 +52,14 @@ bullet: Any = _import_pybullet()
 
 
 class Client:
-    """A connection to a world of PyBullet's own, until it is closed."""
+    """A connection to a private PyBullet world, until it is closed."""
 
     def __init__(self) -> None:
         with quiet():
             self.client: int = bullet.connect(bullet.DIRECT)
 
     def close(self) -> None:
-        """Give the world back."""
+        """Disconnect from the world."""
         bullet.disconnect(self.client)
 
     def __enter__(self) -> Self:
@@ -71,7 +71,7 @@ class Client:
 
 
 def joint_indices(body: int, client: int) -> list[int]:
-    """The joints of a body that move, in the order of the chain."""
+    """The indices of a body's movable joints, in the order of the chain."""
     infos = (
         bullet.getJointInfo(body, i, physicsClientId=client)
         for i in range(bullet.getNumJoints(body, physicsClientId=client))

@@ -1,4 +1,4 @@
-"""A card -> pose, Jacobian, resolved rates, dynamics, limits and distances; door to pinocchio."""
+"""A card -> pose, Jacobian, joint rates, dynamics, limits and distances; imports pinocchio."""
 
 from dqpaint.robots.kinematics.batched import ManyKinematics
 from dqpaint.robots.kinematics.collisions import (

@@ -1,4 +1,4 @@
-"""Pose and Jacobian of one arm in many postures at once, in numpy.
+"""Many postures of one arm -> poses and Jacobians in one numpy computation.
 
 The product of exponentials, T = E_1(q_1) ... E_n(q_n) T_0, with matrices: for a joint about the
 line of direction l through p, with K = l^ (so K^3 = -K),
@@ -17,7 +17,7 @@ from dqpaint.robots.model.card import Card
 
 
 class ManyKinematics:
-    """Forward kinematics of a card's tool in postures (B, n).
+    """Forward kinematics of a card's tool for postures (B, n).
 
     Attributes:
         card: of the arm.
@@ -57,7 +57,7 @@ _EYE = np.eye(4)[:, :3]  # the transposed upper rows of T = I
 
 
 def _constants(axis: Floats) -> tuple[Floats, Floats]:
-    """Of a joint: (4, 12), by which T', sin q T' and (1 - cos q) T', stacked, are multiplied.
+    """The constants (4, 12) of a joint that multiply T', sin q T' and (1 - cos q) T', stacked.
 
     And (2, 4), which takes l and p from T'.
     """
@@ -93,7 +93,7 @@ _DUAL = 0.5 * np.stack([dq.hamilton_plus(e)[:4, :4].T for e in np.eye(8)[1:4]]).
 
 
 def _pose(T: Floats) -> Floats:
-    """Poses (B, 8) of matrices (4, 3, B); the quaternion from its best row, as `dq` takes it."""
+    """Poses (B, 8) of matrices (4, 3, B); the quaternion from its best row, as in `dq`."""
     count = T.shape[-1]
     K = (np.dot(_LINEAR, T[:3].reshape(9, count)) + _CONSTANT).reshape(4, 4, count)
     best = K[[0, 1, 2, 3], [0, 1, 2, 3]].argmax(axis=0)

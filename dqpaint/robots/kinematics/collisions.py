@@ -1,4 +1,4 @@
-"""An arm's solid shapes: how near its links come to each other, and what they hide.
+"""Postures and an arm's solid shapes -> distances between links, and occlusion of a light.
 
 What may collide are the collision shapes of the arm's description; what hides light are the visual
 ones, as in a picture. Both are looked at with Coal, which comes with pinocchio: it reads the model
@@ -30,7 +30,7 @@ LAMP_CLEARANCE = 0.010  # [m] around the light that occludes nothing: the holder
 
 
 class Nearest(NamedTuple):
-    """How near links come to each other, a row a posture.
+    """The least distances between links, one row per posture.
 
     Attributes:
         distance: of the nearest two (N,) [m]; negative where they collide, zero where only the
@@ -44,7 +44,7 @@ class Nearest(NamedTuple):
 
 @lru_cache(maxsize=1)
 def collision_shapes(kinematics: Kinematics) -> "CollisionShapes":
-    """The shapes of an arm; of the last one that was asked for they are kept."""
+    """The shapes of an arm; those of the latest arm are cached."""
     return CollisionShapes(kinematics)
 
 
@@ -82,7 +82,7 @@ class CollisionShapes:
     def _read(
         self, kind: pinocchio.GeometryType, unread: dict[str, None]
     ) -> pinocchio.GeometryModel:
-        """The shapes of one kind, without the meshes that cannot be read; these are named."""
+        """The shapes of one kind, without unreadable meshes; their names are recorded."""
         try:
             return pinocchio.buildGeomFromUrdfString(self._model, self._text, kind)
         except ValueError:
@@ -90,7 +90,7 @@ class CollisionShapes:
         return pinocchio.buildGeomFromUrdfString(self._model, self._text, kind)
 
     def nearest(self, postures: Floats) -> Nearest:
-        """The nearest links in postures (N, n) [rad]; infinity where no two can meet."""
+        """The nearest links at postures (N, n) [rad]; infinity if no pair can collide."""
         known = self._shapes.createData()
         distance = np.full(len(postures), np.inf)
         pair = [("", "")] * len(postures)
@@ -106,7 +106,7 @@ class CollisionShapes:
         return Nearest(distance, pair)
 
     def occludes(self, postures: Floats, points: Floats, eye: Floats) -> NDArray[np.bool_]:
-        """Whether the arm stands between an eye and a light (N,).
+        """Whether the arm is between an eye and a light (N,).
 
         Args:
             postures: of the arm (N, n) [rad].
@@ -127,7 +127,7 @@ class CollisionShapes:
         return hidden
 
     def _choose_pairs(self, card: Card) -> None:
-        """Look at every two links that are apart, by their joints and as postures show them."""
+        """Choose the pairs of links to check: not adjacent, and apart in most trial postures."""
         joints = [shape.parentJoint for shape in self._shapes.geometryObjects]
         apart = [
             (i, j)
@@ -153,7 +153,7 @@ class CollisionShapes:
                 self._shapes.addCollisionPair(pinocchio.CollisionPair(i, j))
 
     def _touching(self, postures: Floats) -> NDArray[np.bool_]:
-        """Which pairs touch, (N, pairs)."""
+        """Whether pairs touch, (N, pairs)."""
         known = self._shapes.createData()
         touch = np.zeros((len(postures), len(known.distanceResults)), dtype=bool)
         for k, posture in enumerate(postures):
@@ -162,7 +162,7 @@ class CollisionShapes:
         return touch
 
     def _exactly_collide(self, index: int, places: Sequence[pinocchio.SE3]) -> bool:
-        """Whether the two of a pair collide as they are, hulls apart."""
+        """Whether the original shapes of a pair collide, not only their convex hulls."""
         pair = self._shapes.collisionPairs[index]
         one, other = pair.first, pair.second
         return _intersect(
@@ -179,7 +179,7 @@ Sight = tuple[coal.Capsule, coal.Transform3s, coal.Transform3s]
 
 
 def _line_of_sight(point: Floats, eye: Floats) -> Sight:
-    """From the eye to where the lamp begins: a thin capsule, its place, and that end's."""
+    """A thin capsule from the eye to the lamp's surface, its pose, and the pose of its end."""
     way = point - eye
     length = float(np.linalg.norm(way))
     along = way / length
@@ -199,14 +199,14 @@ def _blocks(
     place: coal.Transform3s,
     end: coal.Transform3s,
 ) -> bool:
-    """Whether a shape is in the way; a plain one that the lamp sits in is not, as for a ray."""
+    """Whether a shape blocks the line of sight; a primitive around the lamp does not."""
     if not _intersect(line, place, solid, where):
         return False
     return isinstance(solid, coal.BVHModelBase) or not _intersect(SIGHT_END, end, solid, where)
 
 
 def without_broken_meshes(text: str, broken: dict[str, None]) -> str:
-    """A description without the shapes whose meshes cannot be read; their files are noted."""
+    """A description without shapes whose meshes cannot be read; their files are recorded."""
     robot = Xml.fromstring(text)
     loader = coal.MeshLoader()
     for link in robot.iter("link"):
@@ -224,7 +224,7 @@ def without_broken_meshes(text: str, broken: dict[str, None]) -> str:
 
 
 def read_mesh(path: str, scale: Sequence[float]) -> tuple[Floats, NDArray[np.int64]]:
-    """The corners (V, 3) [m] and triangles (T, 3) of a mesh file.
+    """The vertices (V, 3) [m] and triangles (T, 3) of a mesh file.
 
     Raises:
         ValueError: it cannot be read.

@@ -1,4 +1,4 @@
-"""One way from a commanded twist to joint rates, for every law and arm.
+"""A commanded twist -> joint rates, in the same way for every law and arm.
 
 q_dot = J^+ u + (I - J^+ J) z, with J^+ damped near singularities alone. Works on arrays of any
 leading shape: one state of a run, or a thousand of a batch.
@@ -43,14 +43,14 @@ def resolve(jacobian: Floats, point: Floats, twist: Floats, secondary: Floats | 
 
 
 def _resolve_one(shift: Floats, jacobian: Floats, twist: Floats, secondary: Floats) -> Floats:
-    """The same of one state, a control step: small products by np.dot take half the time."""
+    """The same for one state, a control step: np.dot halves the time of small products."""
     J = np.dot(shift, jacobian)
     force = _force(np.dot(J, J.T), np.dot(shift, twist) - np.dot(J, secondary))
     return np.asarray(np.dot(force, J) + secondary)
 
 
 def _force(square: Floats, left: Floats) -> Floats:
-    """(J J')^+ left (..., 6), damped where it is near a singularity.
+    """(J J')^+ left (..., 6), damped near a singularity.
 
     The trace of an inverse is the sum of 1 / s^2: up to 1 / THRESHOLD^2 no s is below THRESHOLD.
     An inverse costs a fifth of what the singular directions do. Of many, each is looked at by
@@ -74,7 +74,7 @@ def _force(square: Floats, left: Floats) -> Floats:
 
 
 def _damped(square: Floats, left: Floats) -> Floats:
-    """By the singular directions, each damped by itself."""
+    """The same in singular directions, each with its own damping."""
     squares, axes = np.linalg.eigh(square)
     return np.asarray(np.matvec(axes, damped_inverse(squares) * np.vecmat(left, axes)))
 

@@ -1,4 +1,4 @@
-"""Forces and accelerations of an arm, by pinocchio: H q_ddot + C q_dot + G + friction = tau."""
+"""Posture, rates and accelerations -> joint torques: H q_ddot + C q_dot + G + friction = tau."""
 
 import numpy as np
 import pinocchio
@@ -8,7 +8,7 @@ from dqpaint.robots.kinematics.kinematics import Kinematics
 
 
 class Dynamics:
-    """Inverse dynamics of a card's arm: the file's inertias, and its joints' viscous friction."""
+    """Inverse dynamics of a card's arm, with the file's inertias and viscous joint friction."""
 
     def __init__(self, kinematics: Kinematics) -> None:
         self._model = kinematics.model

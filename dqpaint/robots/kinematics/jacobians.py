@@ -1,4 +1,4 @@
-"""What follows from a spatial Jacobian J_w (..., 6, n) by algebra alone, for any leading shape.
+"""Spatial Jacobians J_w (..., 6, n) -> J8, time derivatives and drift, by algebra alone.
 
 Column i is the unit twist s_i of joint i as it stands now, seen from the base: xi = J_w q_dot.
 """
@@ -45,5 +45,5 @@ def jacobian_rate(jacobian: Floats, rates: Floats) -> Floats:
 
 
 def drift_acceleration(jacobian: Floats, rates: Floats) -> Floats:
-    """J_w_dot q_dot (..., 6): how the tool's twist changes at constant joint rates (..., n)."""
+    """J_w_dot q_dot (..., 6): the tool's acceleration at constant joint rates (..., n)."""
     return np.asarray(np.matvec(jacobian_rate(jacobian, rates), rates))

@@ -1,4 +1,4 @@
-"""The only door to pinocchio: pose and Jacobian of an arm's tool in the conventions of `dq`.
+"""Postures -> poses and Jacobians of an arm's tool, by pinocchio, in the conventions of `dq`.
 
 Pinocchio puts the linear part of a twist first; its WORLD frame is about the base origin. Here, and
 nowhere else, the halves change places.
@@ -51,7 +51,7 @@ class Kinematics:
         self._tool = frame.placement * tool
 
     def with_model_error(self, lengths: Floats | None = None, gravity: float = 1.0) -> Self:
-        """The same arm with a model that differs, as one that errs would.
+        """The same arm with other link lengths or gravity, as a wrong model has them.
 
         Args:
             lengths: what is added to each joint's place on the link before it, and to the tool's
@@ -70,7 +70,7 @@ class Kinematics:
 
     @property
     def lengths(self) -> Floats:
-        """Each joint's place on the link before it, then the tool's on the last joint (n+1, 3)."""
+        """Each joint's position on the link before it, then the tool's on the last (n+1, 3)."""
         places = [self.model.jointPlacements[i + 1].translation for i in range(self.model.nv)]
         return np.array([*places, self._tool.translation])
 
@@ -96,7 +96,7 @@ class Kinematics:
         return np.array([x for x, _ in pairs]), np.array([J for _, J in pairs])
 
     def screws(self) -> Screws:
-        """The arm as its screw axes, up to the tool."""
+        """The arm as screw axes, up to the tool."""
         home, axes = self.pose_and_jacobian(np.zeros(self.card.joints))
         return Screws(axes.T, home)
 

@@ -1,4 +1,4 @@
-"""What an arm's limits do to a command, and how a run says so."""
+"""Joint rates and torques -> commands within an arm's limits, and a record of each clamp."""
 
 import math
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ UNITS = {"position": "rad", "speed": "rad/s", "torque": "Nm"}
 
 @dataclass(frozen=True)
 class Clamp:
-    """A limit that held a joint back for a while.
+    """A joint limit that clipped commands for some time.
 
     Attributes:
         kind: `position`, `speed` or `torque`.
@@ -52,7 +52,7 @@ class Clamp:
 
     @property
     def amounts(self) -> tuple[str, str]:
-        """The limit and what was wanted, in deg, deg/s or Nm: with as many digits as differ."""
+        """The limit and the requested value in deg, deg/s or Nm, with the digits that differ."""
         scale = 1.0 if self.kind == "torque" else math.degrees(1)
         both = self.limit * scale, self.wanted * scale
         shown = ((f"{both[0]:.{d}g}", f"{both[1]:.{d}g}") for d in range(DIGITS, MOST_DIGITS))
@@ -60,14 +60,14 @@ class Clamp:
 
 
 class RateBounds:
-    """The largest and least joint rates an arm can be given, from a posture, for one period."""
+    """The bounds of joint rates at a posture for one period."""
 
     def __init__(self, card: Card, period: float) -> None:
         self._lower, self._upper, self._speed = card.lower, card.upper, card.speed
         self._period = period
 
     def clip(self, rates: Floats, posture: Floats) -> Floats:
-        """Rates (..., n) [rad/s] within the speed limits that end within the position limits.
+        """Clip rates (..., n) [rad/s] to the speed limits and, after a period, position limits.
 
         A joint that is beyond a limit already may only come back.
         """
@@ -90,7 +90,7 @@ def find_clamps(
     torques: bool,
     period: float | None = None,
 ) -> tuple[Clamp, ...]:
-    """Every limit that held a joint during a run, one entry for each joint, kind and line.
+    """All clamps of a run, one for each joint, kind and line.
 
     Args:
         card: with the limits.
@@ -140,7 +140,7 @@ def _rate_clamps(
 
 
 def _torque_clamps(card: Card, posture: Floats, wanted: Floats, command: Floats) -> list[Held]:
-    """An arm that is told torques meets its position limits as stops; nothing limits its speed."""
+    """Clamps with torque commands: position limits are mechanical stops; speed has no limit."""
     limit = np.where(posture > card.upper, card.upper, card.lower)
     beyond = (posture > card.upper) | (posture < card.lower)
     most = np.broadcast_to(card.effort, wanted.shape)

@@ -1,4 +1,4 @@
-"""What a redundant arm does with the freedom a drawing leaves it: `--null NAME[,gain=VALUE]`.
+"""`--null NAME[,gain=VALUE]` -> the secondary task of a redundant arm in its null space.
 
 Each objective is a number h(q) that should become small; the null space is given its negative
 gradient, z = -gain dh/dq. A new objective is a class here under `@OBJECTIVES.add(name)`.
@@ -24,7 +24,7 @@ MOST_GAIN = 20.0  # times the period must stay below 1, or the null space swings
 
 
 class Objective(Protocol):
-    """One objective, for one arm and start posture; its slope takes arrays of any leading shape.
+    """An objective for one arm and start posture; arrays may have any leading shape.
 
     Attributes:
         default_gain: its gain where none is given.
@@ -37,13 +37,13 @@ class Objective(Protocol):
     def __init__(self, card: Card, start: Floats) -> None: ...
 
     def value(self, posture: Floats, jacobian: Floats, point: Floats) -> float:
-        """What should become small, at a posture (n,) [rad].
+        """The value to be minimised, at a posture (n,) [rad].
 
         Given are J_w (6, n) and the tool's place (3,) [m] there.
         """
 
     def gradient(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
-        """dh/dq (n,)."""
+        """The gradient dh/dq (n,)."""
 
 
 OBJECTIVES: Registry[type[Objective]] = Registry("null-space objective")
@@ -51,7 +51,7 @@ OBJECTIVES: Registry[type[Objective]] = Registry("null-space objective")
 
 @OBJECTIVES.add("start")
 class Start:
-    """Back to the posture it began with, so that a closed drawing closes in the joints."""
+    """Back to the start posture, so that a closed drawing is closed in joint space, too."""
 
     default_gain: ClassVar[float] = START_GAIN
     unit: ClassVar[str] = "1/s"
@@ -64,7 +64,7 @@ class Start:
         return float(0.5 * ((posture - self._goal) ** 2).sum())
 
     def gradient(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
-        """The way from there (n,) [rad]."""
+        """The displacement from the start posture (n,) [rad]."""
         return posture - self._goal
 
 
@@ -91,19 +91,19 @@ class Limits:
         self._middle, self._half = (card.upper + card.lower) / 2, (card.upper - card.lower) / 2
 
     def value(self, posture: Floats, jacobian: Floats, point: Floats) -> float:
-        """The sum [rad^2]."""
+        """The sum over the joints [rad^2]."""
         u = (posture - self._middle) / self._half
         return float(0.25 * (self._half**2 * u**4).sum())
 
     def gradient(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
-        """Of each joint r u^3 (n,) [rad]."""
+        """R u^3 of each joint (n,) [rad]."""
         u = (posture - self._middle) / self._half
         return np.asarray(self._half * u**3)
 
 
 @OBJECTIVES.add("manipulability")
 class Manipulability:
-    """Towards postures that can move well in every direction, away from singularities.
+    """Away from singularities, towards good mobility in all directions.
 
     h = -sqrt(det(J J')), J at the tool with lengths in units of 0.3 m (Yoshikawa 1985).
     """
@@ -115,7 +115,7 @@ class Manipulability:
         pass
 
     def value(self, posture: Floats, jacobian: Floats, point: Floats) -> float:
-        """-w, without unit."""
+        """The negative manipulability, without unit."""
         J = tool_jacobian_map(point) @ jacobian
         return -float(np.sqrt(max(np.linalg.det(J @ J.T), 0.0)))
 
@@ -144,7 +144,7 @@ class Manipulability:
 
 @OBJECTIVES.add("none")
 class NoObjective:
-    """The least motion alone: nothing is wished for, and the joints may drift."""
+    """Least joint motion only: there is no objective, and the joints may drift."""
 
     default_gain: ClassVar[float] = 0.0
     unit: ClassVar[str] = "1/s"
@@ -165,19 +165,19 @@ _BEFORE = np.triu(np.ones((64, 64)), 1)
 
 
 class SecondaryTask:
-    """An objective with its gain: what the null space is asked for."""
+    """An objective with its gain."""
 
     def __init__(self, objective: Objective, gain: float) -> None:
         self._objective, self._gain = objective, -gain
 
     def __call__(self, posture: Floats, jacobian: Floats, point: Floats) -> Floats:
-        """The wished joint rates -gain dh/dq (n,) [rad/s]."""
+        """The joint rates -gain dh/dq (n,) [rad/s] for the null space."""
         return self._gain * self._objective.gradient(posture, jacobian, point)
 
     def displacement(
         self, seconds: float, posture: Floats, jacobian: Floats, point: Floats
     ) -> Floats:
-        """How far it moves the joints (n,) [rad] in a time, left to itself.
+        """The displacement of the joints (n,) [rad] in a time, without other motion.
 
         As though h were half a squared distance, which it is for pulls towards a posture: however
         long the time, none goes too far.
@@ -194,7 +194,7 @@ class _Gain(BaseModel):
 
 
 def read_null(text: str) -> tuple[str, float]:
-    """Name and gain of a text like `limits` or `limits,gain=3`.
+    """Parse the name and gain of a text like `limits` or `limits,gain=3`.
 
     Raises:
         UsageError: an unknown objective, or no such gain.
@@ -208,7 +208,7 @@ def read_null(text: str) -> tuple[str, float]:
 
 
 def make_secondary_task(text: str, card: Card, start: Floats) -> SecondaryTask:
-    """The wish of an arm that begins in a posture (n,) [rad].
+    """The secondary task of an arm with start posture (n,) [rad].
 
     Raises:
         UsageError: as `read_null`.
@@ -220,7 +220,7 @@ def make_secondary_task(text: str, card: Card, start: Floats) -> SecondaryTask:
 def make_batched_task(
     text: str, kinematics: Kinematics
 ) -> Callable[[Floats, Floats, float], Floats]:
-    """The wish of many arms at once, as `robots.reach.find_start` takes it.
+    """The same for many postures, in the form that `find_start` takes.
 
     Raises:
         UsageError: as `read_null`.

@@ -1,4 +1,4 @@
-"""The only door to eigenpy, which comes with pinocchio: small positive definite matrices.
+"""Small positive definite matrices -> inverses and solutions; the only import of eigenpy.
 
 A run inverts two 6 x 6 matrices a control step. Half of the step would go into numpy's checks of
 its arguments; Eigen's Cholesky takes a fifth of numpy's time. For batches numpy's own is as good.
@@ -25,7 +25,7 @@ def inverse(squares: Floats) -> Floats:
 
 
 def solve(square: Floats, right: Floats) -> Floats:
-    """X (m, k) with square X = right, for a symmetric positive definite matrix (m, m).
+    """Solve square X = right for X (m, k), with a symmetric positive definite matrix (m, m).
 
     Raises:
         numpy.linalg.LinAlgError: it is singular, as far as digits tell.

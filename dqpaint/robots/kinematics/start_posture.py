@@ -1,4 +1,4 @@
-"""From poses to postures: where an arm can begin a drawing so that it can go on to the end.
+"""Poses of a drawing -> a start posture from which an arm can follow all of them.
 
 A redundant arm has many postures for the first pose. Each candidate follows the whole path on the
 kinematic arm; the one that stays farthest from its joint limits is chosen.
@@ -42,7 +42,7 @@ SEED = 1988
 
 @dataclass(frozen=True)
 class StartPosture:
-    """Where to begin, and what the forecast along the path says.
+    """A start posture and its margin along the path.
 
     Attributes:
         posture: (n,) [rad].
@@ -55,7 +55,7 @@ class StartPosture:
 
 @dataclass(frozen=True)
 class NoPosture:
-    """A pose of the path for which no posture was found.
+    """A pose of the path without a posture that reaches it.
 
     Attributes:
         index: which of the asked poses.
@@ -69,7 +69,7 @@ class NoPosture:
 
     @property
     def combined_error(self) -> float:
-        """Distance and turn as one length [m]."""
+        """Distance and angle as one length [m]."""
         return self.shortfall + METRES_PER_RADIAN * self.angle
 
 
@@ -77,7 +77,7 @@ NullSpaceMotion = Callable[[Floats, Floats, float], Floats]
 
 
 def return_to_start(postures: Floats, starts: Floats, seconds: float) -> Floats:
-    """How far a null space is pulled (M, n) [rad] in a time, from postures to where they began."""
+    """Null-space motion (M, n) [rad] in a time, from postures towards their start postures."""
     return np.asarray((1.0 - np.exp(-START_GAIN * seconds)) * (starts - postures))
 
 
@@ -87,7 +87,7 @@ def find_start(
     seconds: Floats,
     null_motion: NullSpaceMotion = return_to_start,
 ) -> StartPosture | NoPosture:
-    """The posture to begin with, for poses (N, 8) asked at times (N,) [s].
+    """Find a start posture for poses (N, 8) at times (N,) [s].
 
     A second, larger crowd of candidates is tried where the first one does not reach, or would
     end beyond a joint limit.
@@ -132,7 +132,7 @@ def _find_start(
 
 
 def waypoints(strokes: NDArray[np.int64]) -> NDArray[np.intp]:
-    """Rows that stand for a path: evenly spread ones, and every first and last of a stroke."""
+    """Rows that represent a path: evenly spaced, and the first and last of each stroke."""
     n = len(strokes)
     even = np.linspace(0, n - 1, min(n, WAYPOINTS)).astype(np.intp)
     corners = np.flatnonzero(np.diff(strokes)) + 1
@@ -148,7 +148,7 @@ def _follow(
     starts: Floats,
     null_motion: NullSpaceMotion,
 ) -> StartPosture | NoPosture:
-    """The best of the starts (M, n) by its least margin over the path."""
+    """The start (M, n) with the largest margin along the path."""
     postures, margin = starts.copy(), _margins(kinematics, starts)
     alive = np.arange(len(starts))
     before = seconds[0]
@@ -183,7 +183,7 @@ def solve_posture(
     tolerance: float,
     limits: tuple[Floats, Floats] | None = None,
 ) -> tuple[Floats, Floats]:
-    """Newton's method from many postures (M, n) to one pose (8,), or to one each (M, 8).
+    """Newton's method from many postures (M, n) to one pose (8,), or to one pose each (M, 8).
 
     Returns the postures, and how far off each ended (M,).
 
@@ -214,7 +214,7 @@ def _error(pose: Floats, x: Floats) -> Floats:
 
 
 def least_errors(kinematics: Kinematics, poses: Floats) -> Floats:
-    """How far off poses (N, 8) the arm stays by itself, inside its limits.
+    """The least errors at which an arm can reach poses (N, 8) within its limits.
 
     Each pose is tried from many postures, those that nothing reaches from more.
 
@@ -240,7 +240,7 @@ def least_errors(kinematics: Kinematics, poses: Floats) -> Floats:
 
 
 def shortfall(kinematics: Kinematics, pose: Floats) -> NoPosture:
-    """How close the arm comes to a pose (8,) that nothing reaches."""
+    """The closest approach of the arm to an unreachable pose (8,)."""
     card = kinematics.card
     seeds = np.random.default_rng(SEED).uniform(card.lower, card.upper, (MANY_SEEDS, card.joints))
     still, inside = np.zeros_like(seeds), (card.lower, card.upper)
@@ -250,7 +250,7 @@ def shortfall(kinematics: Kinematics, pose: Floats) -> NoPosture:
 
 
 def closest(kinematics: Kinematics, pose: Floats, postures: Floats) -> tuple[NoPosture, Floats]:
-    """How close the arm comes to a pose (8,) inside its limits, and in which posture (n,).
+    """The closest approach to a pose (8,) within the limits, and its posture (n,).
 
     From the best few of some postures (M, n), once with the orientation kept, once with the place;
     what comes closer counts. The miss has the index 0.
@@ -279,13 +279,13 @@ def closest(kinematics: Kinematics, pose: Floats, postures: Floats) -> tuple[NoP
 
 
 def _tool_error(pose: Floats, x: Floats) -> Floats:
-    """From poses x (M, 8) to one pose: the turn [rad], and the way of the tool's point [m]."""
+    """Rotation [rad] and displacement of the tool's point [m] from poses x (M, 8) to one pose."""
     turn = _error(pose, x)[:, :3]
     return np.concatenate([turn, dq.translation(pose) - dq.translation(x)], axis=1)
 
 
 def _step(J: Floats, error: Floats, q: Floats, lower: Floats, upper: Floats) -> Floats:
-    """Postures (M, n) after a step of Levenberg and Marquardt's method inside the limits.
+    """Postures (M, n) after one Levenberg-Marquardt step within the limits.
 
     Joints that would leave their range are held, and the others make up for them.
     """

@@ -1,4 +1,4 @@
-"""A name, `.urdf` or `.toml` -> a checked card, with defaults for what the file does not say."""
+"""A name, `.urdf` or `.toml` -> a checked card, with defaults for missing parts."""
 
 from dqpaint.robots.loading.lookup import CARD_FOLDERS, card_for, find_card, plugin_cards, with_tool
 

@@ -1,4 +1,4 @@
-"""What an arm's file may leave out: where its drawings go, and the posture it has before them."""
+"""An arm without a canvas or home posture -> defaults for both."""
 
 import numpy as np
 
@@ -71,7 +71,7 @@ def find_canvas(card: Card) -> tuple[Canvas, Floats]:
 def _first_with_clearance(
     arm: Kinematics, canvases: list[Canvas], half_size: float
 ) -> Canvas | None:
-    """The first with good room for a hand around it, else the best that has any."""
+    """The first canvas with good clearance around it, else the one with the most."""
     best, most = None, 0.0
     for canvas in canvases:
         room = _clearance_around(arm, canvas, half_size)
@@ -83,7 +83,7 @@ def _first_with_clearance(
 
 
 def find_home(card: Card, canvas: Canvas) -> Floats:
-    """The posture (n,) [rad] with the tool on a canvas and the most room to the joint limits.
+    """The posture (n,) [rad] with the tool on a canvas and the largest margin to the joint limits.
 
     Raises:
         DqpaintError: the arm does not reach it.
@@ -97,7 +97,7 @@ def find_home(card: Card, canvas: Canvas) -> Floats:
 
 
 def canvas_at(card: Card) -> Canvas:
-    """The canvas at the tool of the home posture, turned as the tool is."""
+    """The canvas at the tool of the home posture, with the tool's orientation."""
     T = dq.matrix_from_pose(Kinematics(card).pose(card.home))
     at, right, up = (tuple(T[:3, i].tolist()) for i in (3, 0, 1))
     return Canvas(at_m=at, right=right, up=up)
@@ -109,7 +109,7 @@ def _canvas(place: Floats) -> Canvas:
 
 
 def _one_turn(card: Card) -> tuple[Floats, Floats]:
-    """At most one turn (n,) of every joint [rad]: round zero, or the middle of a range far off."""
+    """A range of at most one turn (n,) per joint [rad], around zero if possible."""
     low, high = np.maximum(card.lower, -np.pi), np.minimum(card.upper, np.pi)
     middle = 0.5 * (card.lower + card.upper)
     half = np.minimum(0.5 * (card.upper - card.lower), np.pi)
@@ -118,7 +118,7 @@ def _one_turn(card: Card) -> tuple[Floats, Floats]:
 
 
 def _clearance(arm: Kinematics, postures: Floats) -> Floats:
-    """How far postures (M, n) are from limits and singularities: 1 is far, negative is beyond."""
+    """Distance of postures (M, n) from limits and singularities: 1 is ample, negative is beyond."""
     card = arm.card
     margin = np.minimum(postures - card.lower, card.upper - postures).min(axis=-1)
     poses, jacobians = arm.poses_and_jacobians(postures)
@@ -130,14 +130,14 @@ def _clearance(arm: Kinematics, postures: Floats) -> Floats:
 
 
 def _clearance_at(arm: Kinematics, pose: Floats, seeds: Floats) -> float:
-    """The room of the best posture for a pose (8,), from seeds (M, n); negative if none."""
+    """The best clearance for a pose (8,), from seeds (M, n); negative if it is not reached."""
     within = (arm.card.lower, arm.card.upper)
     postures, errors = solve_posture(arm, pose, seeds, np.zeros_like(seeds), 1e-9, within)
     return float(np.where(errors < 1e-6, _clearance(arm, postures), -1.0).max())
 
 
 def _clearance_around(arm: Kinematics, canvas: Canvas, half_size: float) -> float:
-    """The least room on a way around a hand's breadth of a canvas; negative if there is none."""
+    """The least clearance on a path around a canvas; negative if it is not reachable."""
     corners = half_size * np.array(
         [[0, 0, 0], [1, 1, 0], [-1, 1, 0.5], [-1, -1, -0.5], [1, -1, 0], [1, 1, 0]], dtype=float
     )

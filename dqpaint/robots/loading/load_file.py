@@ -1,4 +1,4 @@
-"""An arm from a file of one's own: a URDF, or a card in TOML.
+"""A URDF, or a card in TOML -> the checked card of an arm.
 
 What a file leaves out is derived where that can be done, and said in the card's notes; else it is
 asked for by its name.
@@ -27,7 +27,7 @@ UNLIMITED_RANGE = 360.0  # [deg] to either side, of a joint without ends
 
 
 def read_file(robot: str) -> Card:
-    """The card of an arm described by a file.
+    """The card of the arm that a file describes.
 
     Args:
         robot: the path of a .toml or .urdf; a .urdf may be followed by a colon and the link that
@@ -65,7 +65,7 @@ def _read_toml(path: Path) -> dict[str, Any]:
 
 
 def _complete(raw: dict[str, Any], path: Path) -> Card:
-    """Fill in what a file leaves out, step by step, and say so."""
+    """Add missing parts step by step, with a note for each."""
     notes: list[str] = []
     raw = {"name": path.stem, "title": path.stem, "source": path.name, "licence": "", **raw}
     urdf = raw.get("urdf")
@@ -96,12 +96,12 @@ def _complete(raw: dict[str, Any], path: Path) -> Card:
 
 
 def _missing_note(path: Path, what: str) -> str:
-    """How a note begins of what a card leaves out; a URDF has no word for it."""
+    """The beginning of a note about a missing part of a card; empty for a URDF."""
     return "" if path.suffix == ".urdf" else f"no {what}: "
 
 
 def _fix_note(path: Path, fix: str) -> str:
-    """How a note ends where a URDF is all there is."""
+    """The end of a note for an arm that has only a URDF."""
     return f"; {fix}" if path.suffix == ".urdf" else ""
 
 
@@ -137,7 +137,7 @@ def _find_home_and_canvas(
 
 
 def _middles(limits: Any) -> list[float]:
-    """The middle of every joint's range, for as long as nothing better is known."""
+    """The middle of every joint's range, as a placeholder."""
     try:
         pairs = zip(limits["lower_deg"], limits["upper_deg"], strict=True)
         return [0.5 * (low + high) for low, high in pairs]
@@ -166,7 +166,7 @@ def _validate(raw: dict[str, Any], path: Path) -> Card:
 
 
 def _first_error(problem: ValidationError, path: Path, *above: str) -> DqpaintError:
-    """The first fault of a card, with the name of its field; numbers in lists count from 1."""
+    """The first error of a card, with the name of its field; list items count from 1."""
     first = problem.errors()[0]
     steps = (*above, *first["loc"])
     name = "".join(f"[{s + 1}]" if isinstance(s, int) else f".{s}" for s in steps).lstrip(".")
@@ -183,7 +183,7 @@ def _first_error(problem: ValidationError, path: Path, *above: str) -> DqpaintEr
 
 
 def _fields(steps: tuple[str | int, ...]) -> list[str]:
-    """The names a table of a card may hold."""
+    """The names that a table of a card may have."""
     model: Any = Card
     for step in steps:
         if isinstance(step, str):
@@ -192,14 +192,14 @@ def _fields(steps: tuple[str | int, ...]) -> list[str]:
 
 
 def _nested_model(annotation: Any) -> Any:
-    """The table a field's type speaks of."""
+    """The model of a nested table in a field's type."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return annotation
     return next((m for m in map(_nested_model, get_args(annotation)) if m is not None), None)
 
 
 def _only_tip(tree: Tree) -> str:
-    """The link at the end of the one arm a description holds."""
+    """The link at the end of the only arm in a description."""
     ends = {tip: [j for j in tree.chain(tip) if j.kind != "fixed"] for tip in tree.tips}
     arms = [
         tip
@@ -234,7 +234,7 @@ def _only_tip(tree: Tree) -> str:
 
 
 def _limits(tree: Tree, link: str) -> dict[str, list[float]]:
-    """The limits of the joints up to a link, as a card has them."""
+    """The limits of the joints up to a link, in the form of a card."""
     joints = tree.arm(link)
     return {
         "lower_deg": [_end(tree, j, "lower", -UNLIMITED_RANGE) for j in joints],

@@ -22,7 +22,7 @@ CARD_FOLDERS: Registry[Path] = Registry("folder of robots", "dqpaint.robots", _f
 
 
 def plugin_cards() -> dict[str, tuple[Path, str]]:
-    """The arms that other packages bring: name -> its card's file, and the package."""
+    """The arms of other packages: name -> the file of its card, and the package."""
     found = {
         file.stem: (file, CARD_FOLDERS.origin(name) or "")
         for name, folder in CARD_FOLDERS.items()
@@ -32,7 +32,7 @@ def plugin_cards() -> dict[str, tuple[Path, str]]:
 
 
 def find_card(robot: str) -> Card:
-    """The card of an arm by its name, or by a file: *.toml, *.urdf, or *.urdf:LINK.
+    """The card of an arm, by name or by file: *.toml, *.urdf, or *.urdf:LINK.
 
     Raises:
         UnknownNameError: no card has that name.
@@ -58,7 +58,7 @@ def find_card(robot: str) -> Card:
 
 
 def with_tool(card: Card, tool: str | None) -> Card:
-    """The same arm with its light elsewhere on the flange, as `tooling.parse_tool` reads it.
+    """The same arm with another tool frame, parsed by `parse_tool`.
 
     A place alone leaves the tool turned as it is on the card.
 
@@ -71,7 +71,7 @@ def with_tool(card: Card, tool: str | None) -> Card:
 
 
 def card_for(program: Program, robot: str | None, tool: str | None = None) -> Card:
-    """The card of the arm that was asked for, else of the file's own, else of the default.
+    """The card of the requested arm, else of the drawing's arm, else of the default arm.
 
     Args:
         program: the drawing.

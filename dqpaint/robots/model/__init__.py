@@ -1,4 +1,4 @@
-"""The data of an arm: card, chain, tool mount; Denavit-Hartenberg rows or screws -> a chain."""
+"""The data of an arm: card, tool mount; Denavit-Hartenberg rows or screws -> a chain."""
 
 from dqpaint.robots.model.card import DEFAULT_ROBOT, Card, card_names, installed_names, read_card
 from dqpaint.robots.model.fields import Mount

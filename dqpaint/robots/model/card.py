@@ -1,4 +1,4 @@
-"""A robot card: one arm as data, read from a TOML file and checked."""
+"""A TOML file -> a robot card: one arm as checked data."""
 
 import tomllib
 from functools import cache
@@ -22,7 +22,7 @@ FLANGE = "flange"  # the last link of the arms we build ourselves
 
 
 class Canvas(Part):
-    """The drawing's frame in the base frame: origin [m], and where its x and y axes point."""
+    """The drawing's frame in the base frame: origin [m] and the directions of x and y."""
 
     at_m: Three
     right: Three
@@ -30,7 +30,7 @@ class Canvas(Part):
 
     @property
     def pose(self) -> Floats:
-        """As a dual quaternion (8,); z = right x up points to the viewer."""
+        """The frame as a dual quaternion (8,); z = right x up points to the viewer."""
         right, up = np.array(self.right), np.array(self.up)
         R = np.stack([right, up, dq.cross(right, up)], axis=1)
         return dq.pose_from(self.at_m, dq.quaternion_from_matrix(R))
@@ -45,7 +45,7 @@ class Canvas(Part):
 
 
 class Limits(Part):
-    """What the joints can do: one number a joint."""
+    """Limits of the joints: one number per joint."""
 
     lower_deg: tuple[Finite, ...]
     upper_deg: tuple[Finite, ...]
@@ -63,7 +63,7 @@ class Limits(Part):
 
 
 class Card(Part):
-    """One arm: chain, tool, canvas, home posture, limits, and where the numbers come from.
+    """One arm: chain, tool, canvas, home posture, limits and sources.
 
     The chain is said in one of three ways: `urdf`, `denavit_hartenberg` or `screws`. An arm of the
     last two is built from them, with the masses and radii of `body`.
@@ -85,7 +85,7 @@ class Card(Part):
 
     @property
     def joints(self) -> int:
-        """How many joints move."""
+        """The number of joints that move."""
         return len(self.home_deg)
 
     @property
@@ -120,21 +120,21 @@ class Card(Part):
 
     @property
     def axes(self) -> Screws | None:
-        """The chain as screw axes, of a card that has rows or axes."""
+        """The chain as screw axes, for a card with rows or axes."""
         if self.denavit_hartenberg is not None:
             return self.denavit_hartenberg.chain.screws()
         return self.screws.chain if self.screws is not None else None
 
     @property
     def missing(self) -> str:
-        """What to type before this arm can be used; empty where nothing is missing."""
+        """What to install before this arm can be used; empty if nothing is missing."""
         if self.urdf is None or self.urdf.find_path() is not None:
             return ""
         return self.urdf.install_hint
 
     @property
     def origin(self) -> str:
-        """Where the arm's description comes from, in a few words."""
+        """The source of the arm's description, in a few words."""
         if self.urdf is None:
             rows = "Denavit-Hartenberg rows" if self.denavit_hartenberg else "screw axes"
             return f"built from its {rows}"
@@ -179,12 +179,12 @@ class Card(Part):
 
 
 def installed_names() -> list[str]:
-    """The names of the robots whose files are there."""
+    """The names of the robots whose files are installed."""
     return [name for name in card_names() if not read_card(name).missing]
 
 
 def card_names() -> list[str]:
-    """The names of the robots that have a card."""
+    """The names of all robots with a card."""
     folder = resources.files("dqpaint.robots") / "cards"
     return sorted(Path(f.name).stem for f in folder.iterdir() if f.name.endswith(".toml"))
 

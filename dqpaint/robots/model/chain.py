@@ -1,4 +1,4 @@
-"""The three ways a card says what its chain of joints is: a URDF file, rows, or screw axes."""
+"""A URDF file, Denavit-Hartenberg rows or screw axes -> the chain of joints of a card."""
 
 import importlib.util
 from contextlib import suppress
@@ -18,7 +18,7 @@ EXTRAS = {"example-robot-data": "robots"}  # packages that come with an extra of
 
 
 class UrdfFile(Part):
-    """A URDF inside an installed package, or a file by itself.
+    """A URDF in an installed package, or a separate file.
 
     Only the joints between its root and `link` move; all others are held at 0.
 
@@ -36,7 +36,7 @@ class UrdfFile(Part):
 
     @property
     def path(self) -> Path:
-        """Where the file is.
+        """The path of the file.
 
         Raises:
             UsageError: the package is not installed, or lacks the file.
@@ -51,12 +51,12 @@ class UrdfFile(Part):
 
     @property
     def install_hint(self) -> str:
-        """What to type for a package that is missing."""
+        """The command that installs a missing package."""
         package = f"'dqpaint[{EXTRAS[self.package]}]'" if self.package in EXTRAS else self.package
         return f"pip install {package}"
 
     def find_path(self) -> Path | None:
-        """Where the file is; None where its package is not installed."""
+        """The path of the file; None if its package is not installed."""
         if not self.package:
             return Path(self.file)
         places = []
@@ -73,7 +73,7 @@ class UrdfFile(Part):
 
 
 class Row(Part):
-    """One Denavit-Hartenberg row; what is left out is zero."""
+    """One Denavit-Hartenberg row; missing values are zero."""
 
     theta_deg: Finite = 0.0
     d_m: Finite = 0.0
@@ -82,7 +82,7 @@ class Row(Part):
 
 
 class Rows(Part):
-    """Denavit-Hartenberg rows, one a joint, standard or modified; where they begin and end."""
+    """Denavit-Hartenberg rows, one per joint, standard or modified, with base and flange frames."""
 
     convention: Literal["standard", "modified"] = "standard"
     rows: Annotated[tuple[Row, ...], Field(min_length=1)]
@@ -91,7 +91,7 @@ class Rows(Part):
 
     @property
     def chain(self) -> DenavitHartenberg:
-        """For arithmetic, in rad."""
+        """The numerical chain, in rad."""
         theta, d, a, alpha = np.array(
             [(np.radians(r.theta_deg), r.d_m, r.a_m, np.radians(r.alpha_deg)) for r in self.rows]
         ).T
@@ -109,7 +109,7 @@ class Axes(Part):
 
     @property
     def chain(self) -> Screws:
-        """For arithmetic; the directions become unit vectors."""
+        """The numerical chain, with unit directions."""
         directions = np.array(self.directions)
         unit = directions / np.linalg.norm(directions, axis=1, keepdims=True)
         return Screws(
@@ -126,7 +126,7 @@ class Axes(Part):
 
 
 class Body(Part):
-    """What rows and axes do not say: how heavy and how thick an arm is.
+    """Masses and radii that rows and axes do not have.
 
     Attributes:
         mass_kg: of the links that move, one number a joint.

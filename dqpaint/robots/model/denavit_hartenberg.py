@@ -1,4 +1,4 @@
-"""An arm as Denavit-Hartenberg rows, in dual quaternions.
+"""Denavit-Hartenberg rows -> poses and Jacobians of an arm, in dual quaternions.
 
 After Pham, Perdereau, Adorno and Fraisse, "Position and orientation control of robot manipulators
 using dual quaternion feedback" (2010) [30, 31, 35].
@@ -17,7 +17,7 @@ _Z = np.array([0.0, 0, 0, 1, 0, 0, 0, 0])  # the axis every joint turns about, i
 
 @dataclass(frozen=True)
 class DenavitHartenberg:
-    """A chain of joints that turn, one row a joint.
+    """A chain of revolute joints, one row per joint.
 
     Attributes:
         theta, d, a, alpha: (n,), the joint's offset [rad], the two lengths [m], the twist [rad].
@@ -56,12 +56,12 @@ class DenavitHartenberg:
         )
 
     def screws(self) -> Screws:
-        """The same arm as screw axes: its lines and its last pose at q = 0."""
+        """The same arm as screw axes: the axes and the last pose at q = 0."""
         zero = np.zeros(len(self.d))
         return Screws(self.jacobian(zero).T, self.pose(zero))
 
     def _frames(self, posture: Floats) -> tuple[list[Floats], Floats]:
-        """Where each joint turns about its z, after its own turn (..., 8), and the last frame."""
+        """The frame of each joint's z axis, after its own rotation (..., 8), and the last frame."""
         turns = _turn(posture + self.theta, _Z[:4])
         lean = dq.mul(_shift(self.a, 0), _turn(self.alpha, np.array([0.0, 1, 0, 0])))
         rise = _shift(self.d, 2)

@@ -1,4 +1,4 @@
-"""What cards are made of: checked numbers, and a place on a link."""
+"""The field types of cards: checked numbers, and a frame on a link."""
 
 from typing import Annotated
 
@@ -14,20 +14,20 @@ Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 
 
 class Part(BaseModel):
-    """One table of a card: nothing else stands in it, and it does not change."""
+    """One table of a card: unknown fields are rejected, and it is immutable."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 class Mount(Part):
-    """A frame on a link: place [m] and fixed-axis roll, pitch, yaw [deg]."""
+    """A frame on a link: position [m] and fixed-axis roll, pitch, yaw [deg]."""
 
     at_m: Three = (0.0, 0.0, 0.0)
     rpy_deg: Three = (0.0, 0.0, 0.0)
 
     @property
     def pose(self) -> Floats:
-        """As a dual quaternion (8,)."""
+        """The frame as a dual quaternion (8,)."""
         roll, pitch, yaw = np.radians(self.rpy_deg) / 2
         x = np.array([np.cos(roll), np.sin(roll), 0, 0])
         y = np.array([np.cos(pitch), 0, np.sin(pitch), 0])

@@ -1,4 +1,4 @@
-"""An arm as its joints' screw axes: the product of exponentials with dual quaternions.
+"""The screw axes of an arm -> poses and Jacobians: product of exponentials, dual quaternions.
 
 After Ozgur and Mezouar, "Kinematic modeling and control of a robot arm using unit dual quaternions"
 (2016) [18]: everything is said in one frame, the base, at one posture, q = 0.
@@ -14,7 +14,7 @@ from dqpaint.dq import Floats
 
 @dataclass(frozen=True)
 class Screws:
-    """A chain of joints that turn.
+    """A chain of revolute joints.
 
     Attributes:
         axes: the unit twists s_i0 (n, 6) of the joints at q = 0, in the base frame.
@@ -34,7 +34,7 @@ class Screws:
         return np.stack([dq.adjoint(x, s) for x, s in zip(before, self.axes, strict=True)], axis=-1)
 
     def _carried(self, posture: Floats) -> list[Floats]:
-        """What the first i joints have done to all that follows them, for i from 0 to n."""
+        """The displacement of the first i joints, for i from 0 to n."""
         done = [np.broadcast_to(dq.IDENTITY, (*posture.shape[:-1], 8))]
         for turn in np.moveaxis(dq.exp(0.5 * posture[..., None] * self.axes), -2, 0):
             done.append(dq.mul(done[-1], turn))

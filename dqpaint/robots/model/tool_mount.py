@@ -1,4 +1,4 @@
-"""Where the light sits on the flange, as it is typed: `X,Y,Z` or `X,Y,Z,ROLL,PITCH,YAW`."""
+"""A text `X,Y,Z` or `X,Y,Z,ROLL,PITCH,YAW` -> the frame of the light on the flange."""
 
 import math
 import re
@@ -13,7 +13,7 @@ _NUMBER = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([a-z]*)", 
 
 
 def parse_tool(text: str, turn: Three = (0.0, 0.0, 0.0)) -> Mount:
-    """The light's frame in that of the link that carries it.
+    """Parse the light's frame relative to the link that carries it.
 
     Plain numbers are metres and degrees, as on a robot's card; each may have a unit of its own
     (m, cm, mm; deg, rad). The angles are roll, pitch and yaw about the link's fixed x, y and z.

@@ -1,4 +1,4 @@
-"""What an arm of rows or axes looks like, and what it weighs: solid capsules along its links.
+"""Screw axes, masses and radii -> the links of an arm as solid capsules.
 
 A joint sits on its axis halfway between the two feet of the common normals to its neighbours: so a
 long offset along an axis is shared by the link before and the link after it, as in real arms. Each
@@ -25,7 +25,7 @@ GUESSED_DENSITY = 900.0  # [kg/m^3] of a guessed arm: aluminium, motors and air
 
 @dataclass(frozen=True)
 class Capsule:
-    """A rod with round ends, from `start` to `end` (3,) [m]; its `radius` [m] goes beyond both."""
+    """A rod with round ends, from `start` to `end` (3,) [m]; its `radius` [m] extends past both."""
 
     start: Floats
     end: Floats
@@ -34,17 +34,17 @@ class Capsule:
 
     @property
     def volume(self) -> float:
-        """Of the solid [m^3]."""
+        """Volume of the solid [m^3]."""
         length = float(np.linalg.norm(self.end - self.start))
         return np.pi * self.radius**2 * (length + 4 / 3 * self.radius)
 
     @property
     def centre(self) -> Floats:
-        """Of its mass (3,) [m]."""
+        """Centre of mass (3,) [m]."""
         return 0.5 * (self.start + self.end)
 
     def inertia(self, mass: float) -> Floats:
-        """About its centre (3, 3) [kg m^2], of a uniform solid."""
+        """Inertia about the centre (3, 3) [kg m^2], for a uniform solid."""
         along, r = self.end - self.start, self.radius
         length = float(np.linalg.norm(along))
         rod = mass * length / (length + 4 / 3 * r)
@@ -103,7 +103,7 @@ def build_links(screws: Screws, masses: Sequence[float], radii: Sequence[float])
 
 
 def default_body(screws: Screws) -> dict[str, list[float]]:
-    """Masses and radii, as a card has them, of an arm of which nothing but its axes is known."""
+    """Masses and radii, in the form of a card, for an arm with only axes."""
     places, paths = _paths(screws)
     lengths = [sum(float(np.linalg.norm(b - a)) for a, b in pairwise(path)) for path in paths]
     reach = max(sum(lengths), SHORTEST_ROD)
@@ -114,7 +114,7 @@ def default_body(screws: Screws) -> dict[str, list[float]]:
 
 
 def _combine_solids(place: Floats, solids: list[Capsule], mass: float) -> Link:
-    """One body of several solids, as if they did not overlap."""
+    """One body of several solids, without regard to overlaps."""
     volumes = np.array([solid.volume for solid in solids])
     shares = mass * volumes / volumes.sum()
     centre = sum((m * s.centre for m, s in zip(shares, solids, strict=True)), np.zeros(3)) / mass
@@ -126,7 +126,7 @@ def _combine_solids(place: Floats, solids: list[Capsule], mass: float) -> Link:
 
 
 def _paths(screws: Screws) -> tuple[list[Floats], list[list[Floats]]]:
-    """Where each joint sits (the base's first), and the corners each link goes through."""
+    """The position of each joint (the base's first), and the corners of each link."""
     directions = screws.axes[:, :3]
     points = dq.cross(directions, screws.axes[:, 3:])  # of each axis the nearest to the origin
     end = dq.translation(screws.home)
@@ -148,14 +148,14 @@ def _paths(screws: Screws) -> tuple[list[Floats], list[list[Floats]]]:
 
 
 def _foot(point: Floats, on: Floats, direction: Floats) -> Floats:
-    """The point of a line nearest to another point."""
+    """The point of a line that is nearest to another point."""
     return np.asarray(on + direction * ((point - on) @ direction))
 
 
 def _common_normal(
     arrived: Floats, p: Floats, u: Floats, q: Floats, v: Floats
 ) -> tuple[Floats, Floats]:
-    """The nearest points of two lines; of parallel ones those across from where we arrived."""
+    """The nearest points of two lines; for parallel lines, opposite the point of arrival."""
     normal = dq.cross(u, v)
     sine = float(np.linalg.norm(normal))
     if sine < PARALLEL_SINE:

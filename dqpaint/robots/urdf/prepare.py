@@ -1,4 +1,4 @@
-"""An arm's description as the libraries read it: whole, checked, and the same for all of them.
+"""The URDF of an arm -> a complete, checked description that all libraries read alike.
 
 PyBullet and pinocchio read one text. What they would answer differently, or with a guess of their
 own, is settled in it: joints off the arm stand still, every link has a mass, every mesh its path.
@@ -26,7 +26,7 @@ GUESSED_MASS = 0.1  # [kg], of a link that moves and has no mass
 
 
 class PreparedUrdf(NamedTuple):
-    """A description, and what had to be assumed for it, a sentence each."""
+    """A description, and the assumptions made for it, one sentence each."""
 
     text: str
     notes: tuple[str, ...]
@@ -64,7 +64,7 @@ def prepare(card: Card) -> PreparedUrdf:
 
 @contextmanager
 def urdf_file(card: Card, change: Callable[[str], str] = str) -> Iterator[str]:
-    """The description as a file of its own, for libraries that read nothing else; gone afterwards.
+    """The description as a temporary file, for libraries that read only files.
 
     Its name is new each time: PyBullet remembers files by their names.
 
@@ -82,7 +82,7 @@ def urdf_file(card: Card, change: Callable[[str], str] = str) -> Iterator[str]:
 
 
 def _strip(tree: Tree) -> None:
-    """Leave out what has no part in moving and looks: libraries stumble over slips in it."""
+    """Remove elements that affect neither motion nor looks: libraries fail on errors in them."""
     tree.robot.attrib.pop("version", None)
     _set_materials(tree)
     for element in list(tree.robot):
@@ -95,7 +95,7 @@ def _strip(tree: Tree) -> None:
 
 
 def _set_materials(tree: Tree) -> None:
-    """Give each shape that has a sound colour, or names one, a material with that colour alone."""
+    """Give each shape with a valid colour, or the name of one, a material with that colour."""
     known = {one.get("name", ""): _rgba(one) for one in tree.robot.iter("material") if _rgba(one)}
     for visual in tree.robot.iter("visual"):
         for material in visual.findall("material"):
@@ -108,7 +108,7 @@ def _set_materials(tree: Tree) -> None:
 
 
 def _rgba(material: Xml.Element) -> str:
-    """A material's colour as it is written; nothing if it has none, or not four shares of one."""
+    """The text of a material's colour; empty if it is missing or not four shares of one."""
     colour = material.find("color")
     written = "" if colour is None else colour.get("rgba", "")
     shares = parse_numbers(written)
@@ -117,7 +117,7 @@ def _rgba(material: Xml.Element) -> str:
 
 
 def _fix_other_joints(tree: Tree, arm: list[Joint], card: Card) -> None:
-    """Fix every joint that is not of the arm; those that are turn within the card's limits."""
+    """Fix every joint outside the arm; the arm's joints get the card's limits."""
     for joint in tree.joints.values():
         mimic = joint.element.find("mimic")
         if mimic is not None:
@@ -144,7 +144,7 @@ def _negate_products(tree: Tree) -> None:
 
 
 def _add_masses(tree: Tree) -> Iterator[str]:
-    """Give every link a mass, and say which ones of it are guesses."""
+    """Give every link a mass, and note which masses are guesses."""
     for body in _bodies(tree):
         weights = {name: _mass(tree, name) for name in body}
         moving = tree.root not in body
@@ -169,7 +169,7 @@ def _add_masses(tree: Tree) -> Iterator[str]:
 
 
 def _check_inertia(tree: Tree, name: str, mass: float) -> Iterator[str]:
-    """Whether a link's inertia can be that of a body; if not, PyBullet would invent one."""
+    """Check that a body can have a link's inertia; otherwise PyBullet would invent one."""
     moments = _moments(tree.links[name])
     if not np.isfinite(moments).all():
         raise tree.error(f"the inertia of link '{name}' is not six numbers")
@@ -189,7 +189,7 @@ def _check_inertia(tree: Tree, name: str, mass: float) -> Iterator[str]:
 
 
 def _bodies(tree: Tree) -> list[list[str]]:
-    """The links that move as one, the first of each being the one its joint carries."""
+    """The links that move together; the first of each group is the child of its joint."""
     heads: dict[str, str] = {}
 
     for name in tree.links:
@@ -209,7 +209,7 @@ def _bodies(tree: Tree) -> list[list[str]]:
 
 
 def _mass(tree: Tree, name: str) -> float:
-    """Of a link [kg]; 0 where the file does not say."""
+    """The mass of a link [kg]; 0 if the file has none."""
     element = tree.links[name].find("inertial/mass")
     text = "0" if element is None else element.get("value", "")
     try:
@@ -222,7 +222,7 @@ def _mass(tree: Tree, name: str) -> float:
 
 
 def _find_meshes(tree: Tree) -> Iterator[str]:
-    """Give each mesh its full path; leave out, and name, those that are not there."""
+    """Give each mesh its full path; remove and name missing meshes."""
     missing = []
     for link in tree.links.values():
         for shape in [*link.findall("visual"), *link.findall("collision")]:
@@ -262,7 +262,7 @@ def _is_file(path: Path) -> bool:
 
 
 def is_valid_inertia(moments: Floats) -> bool:
-    """Whether an inertia (3, 3) can be a body's.
+    """Whether a body can have an inertia (3, 3).
 
     Its principal moments are positive, and none exceeds the sum of the others.
     """
@@ -283,7 +283,7 @@ def _moments(link: Xml.Element) -> Floats:
 
 
 def _set_inertial(link: Xml.Element, mass: float, moment: float, keep_origin: bool = False) -> None:
-    """Replace what a link weighs by a ball's mass [kg] and moment [kg m^2]."""
+    """Replace the inertia of a link by a ball's mass [kg] and moment [kg m^2]."""
     old = link.find("inertial")
     new = Xml.Element("inertial")
     if old is not None:

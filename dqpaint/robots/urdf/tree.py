@@ -1,4 +1,4 @@
-"""The links and joints of a URDF file, found to be one tree, with numbers where they belong."""
+"""A URDF file -> its links and joints as one tree, with valid numbers."""
 
 import math
 from collections.abc import Iterable
@@ -22,7 +22,7 @@ REVOLUTE_KINDS = ("revolute", "continuous")
 
 @dataclass(frozen=True)
 class Joint:
-    """A joint of a description: what it joins, and its element."""
+    """A joint of a description, with its links and its XML element."""
 
     name: str
     kind: str
@@ -32,7 +32,7 @@ class Joint:
     file: str
 
     def limit(self, what: str) -> float | None:
-        """`lower`, `upper` [rad], `velocity` [rad/s] or `effort` [Nm]; None where not said."""
+        """`lower`, `upper` [rad], `velocity` [rad/s] or `effort` [Nm]; None if missing."""
         limit = self.element.find("limit")
         value = None if limit is None else limit.get(what)
         try:
@@ -47,7 +47,7 @@ class Joint:
 
 
 class Tree:
-    """The links and joints of a URDF file, found to be one tree.
+    """The links and joints of a URDF file, checked to be one tree.
 
     Attributes:
         path: of the file.
@@ -87,7 +87,7 @@ class Tree:
 
     @property
     def tips(self) -> list[str]:
-        """The links that carry no other."""
+        """The links without child links."""
         parents = {joint.parent for joint in self.joints.values()}
         return [name for name in self.links if name not in parents]
 
@@ -100,7 +100,7 @@ class Tree:
         return found[::-1]
 
     def arm(self, link: str) -> list[Joint]:
-        """The joints that move a link, all of which turn.
+        """The joints that move a link, all of which are revolute.
 
         Raises:
             UsageError: there is no such link.
@@ -120,7 +120,7 @@ class Tree:
         return joints
 
     def _check_shapes(self, link: Xml.Element, name: str) -> None:
-        """Look that a link's origins and shapes have finite numbers."""
+        """Check that a link's origins and shapes have finite numbers."""
         for part in ("inertial", "visual", "collision"):
             for element in link.findall(part):
                 origin = element.find("origin")
@@ -176,7 +176,7 @@ class Tree:
         return Joint(name, kind, ends[0], ends[1], element, self.path.name)
 
     def _check_triple(self, joint: Xml.Element, part: str, attribute: str) -> None:
-        """Look that a part of a joint, where there is one, holds three numbers."""
+        """Check that a part of a joint, if it exists, has three numbers."""
         element = joint.find(part)
         text = None if element is None else element.get(attribute)
         if text is None:
@@ -190,7 +190,7 @@ class Tree:
             )
 
     def _find_root(self) -> str:
-        """The one link that no joint carries, from which all others are reached."""
+        """The only link that is no child, from which all others are reachable."""
         roots = [name for name in self.links if name not in self.joints]
         if len(roots) > 1:
             raise self.error(f"links {shortened_list(roots)} are not joined to each other")
@@ -236,7 +236,7 @@ def _parse(path: Path) -> Xml.Element:
 
 
 def parse_numbers(text: str) -> Floats:
-    """The numbers of a text, separated by spaces; none where one of its words is not a number."""
+    """The numbers of a text, separated by spaces; empty if a word is not a number."""
     try:
         values = np.array([float(word) for word in text.split()])
     except ValueError:
@@ -245,7 +245,7 @@ def parse_numbers(text: str) -> Floats:
 
 
 def shortened_list(names: Iterable[str]) -> str:
-    """A list of names, cut where it gets long."""
+    """A list of names, shortened if it is long."""
     listed = list(names)
     more = f" and {len(listed) - MOST_NAMED} more" if len(listed) > MOST_NAMED else ""
     return ", ".join(listed[:MOST_NAMED]) + more

@@ -1,4 +1,4 @@
-"""The URDF of an arm that is given as rows or screw axes: its links are those of `bodies`.
+"""A card with rows or screw axes -> a URDF whose links are capsules.
 
 Every frame stands as the base does at q = 0, so each joint is a place and the direction of its
 axis; only the flange is turned.
@@ -19,7 +19,7 @@ COLOURS = {"shell": "0.86 0.87 0.88 1", "hub": "0.16 0.42 0.62 1"}
 
 
 def write_urdf(card: Card) -> str:
-    """The description of a card that has rows or axes; the same card gives the same text."""
+    """The URDF of a card with rows or axes; the same card gives the same text."""
     assert card.axes is not None
     assert card.body is not None
     screws = card.axes
@@ -74,7 +74,7 @@ def _inertial(link: Xml.Element, centre: Floats, mass: float, inertia: Floats) -
 
 
 def _capsule(link: Xml.Element, solid: Capsule, place: Floats) -> None:
-    """A cylinder and two balls: URDF itself knows no capsules."""
+    """A cylinder and two spheres, as URDF has no capsules."""
     along = solid.end - solid.start
     length, radius = float(np.linalg.norm(along)), repr(float(solid.radius))
     kinds = ("visual", "collision")
@@ -100,7 +100,7 @@ def _shapes(
 
 
 def _rotation_to(direction: Floats) -> Floats:
-    """A rotation (3, 3) whose z axis is a unit vector."""
+    """A rotation (3, 3) with a unit vector as its z axis."""
     side = np.eye(3)[np.argmin(np.abs(direction))]
     x = dq.cross(side, direction)
     x = x / np.linalg.norm(x)

@@ -34,7 +34,7 @@ def _parse_length(given: object) -> object:
 
 def _parse_direction(given: object) -> object:
     if isinstance(given, str) and given not in AXES:
-        raise ValueError(f"'{given}' is no axis of the tool; known: {', '.join(AXES)}")
+        raise ValueError(f"'{given}' is not an axis of the tool; known: {', '.join(AXES)}")
     return AXES[given] if isinstance(given, str) else given
 
 
@@ -52,7 +52,7 @@ def _parse_colours(given: object) -> object:
 
 def _more_than_one(leds: int) -> int:
     if leds == 1:
-        raise ValueError("should be 2 or more, or 0 for 144 a metre; one is a point")
+        raise ValueError("should be 2 or more, or 0 for 144 per metre; for one LED use brush point")
     return leds
 
 

@@ -46,7 +46,7 @@ class Emitters:
         if tints.min() < 0.0:
             raise DqpaintError(f"lamp tint {tints.min()} is negative")
         if self.joined > 0.0 and len(places) < 2:
-            raise ValueError("a line of lamps needs two of them")
+            raise ValueError("a line of lamps needs at least two lamps")
         object.__setattr__(self, "positions", places)
         object.__setattr__(self, "tints", tints)
         object.__setattr__(self, "normal", checked_array("lamp normal", self.normal, (3,)))

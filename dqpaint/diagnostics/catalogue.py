@@ -69,7 +69,7 @@ def explanation(code: str) -> Explanation:
     if wanted in known:
         return known[wanted]
     near = get_close_matches(wanted[:8], known, n=4, cutoff=0.6)
-    about = f"; near it: {', '.join(sorted(near))}" if near else ""
+    about = f"; similar: {', '.join(sorted(near))}" if near else ""
     raise UsageError(f"no message has the code '{code[:40]}'{about}; all: dqpaint explain")
 
 

@@ -43,9 +43,9 @@ class UnmodelledTwist(Disturbance):
     @model_validator(mode="after")
     def _is_something(self) -> Self:
         if not self.size.any():
-            raise ValueError("it moves nothing; give for example x=0.01, in m/s")
+            raise ValueError("it has no effect; give for example x=0.01, in m/s")
         if ((self.size != 0) & (np.abs(self.size) < LEAST_SIZE)).any():
-            raise ValueError(f"a size is 0, or from {LEAST_SIZE:g} to 1000 m/s or rad/s either way")
+            raise ValueError(f"sizes must be 0, or +-({LEAST_SIZE:g} to 1000) m/s or rad/s")
         return self
 
     def twist(self, t: Floats, period: float, rng: np.random.Generator) -> Floats:

@@ -237,7 +237,7 @@ def _longest_step(card: Card, dynamics: Dynamics, k: Floats, d: Floats) -> float
         longest = min(longest, STABLE_SHARE * stable)
     if longest < SHORTEST_STEP:
         raise UsageError(
-            f"plant 'compliant': springs this stiff on {card.name} need physics steps of "
-            f"{longest * 1e6:.2g} us; take softer ones, or plant stiff"
+            f"plant 'compliant': springs of this stiffness on {card.name} need physics steps of "
+            f"{longest * 1e6:.2g} us; use softer springs, or plant stiff"
         )
     return longest

@@ -188,8 +188,8 @@ class ConfiguredPlant:
             return
         suited = [name for name, plant in PLANTS.items() if trait in plant.traits]
         raise UsageError(
-            f"disturbance '{disturbance}' changes nothing on plant '{self.name}', which has no "
-            f"{trait.removeprefix('a ')}; plants that have: {', '.join(suited)}"
+            f"disturbance '{disturbance}' has no effect on plant '{self.name}', which has no "
+            f"{trait.removeprefix('a ')}; plants that have it: {', '.join(suited)}"
         )
 
 

@@ -197,7 +197,7 @@ def power(x: Value, y: Value) -> Value:
     if not isinstance(x, Taylor) and not isinstance(y, Taylor):
         result = x**y
         if isinstance(result, complex):
-            raise ValueError("a negative number to a broken power")
+            raise ValueError("a negative number to a non-integer power")
         return float(result)
     if isinstance(x, Taylor) and not isinstance(y, Taylor) and float(y).is_integer():
         return _whole_power(x, int(y))

@@ -123,9 +123,9 @@ class SceneArm(ExitStack):
         """The parts of the arm that cannot be shown, one sentence each."""
         untraced = "and what it hides is not traced"
         if not self._complete:
-            return [f"warning: a mesh of the arm cannot be read: it is shown without, {untraced}"]
+            return [f"warning: a mesh of the arm cannot be read and is not shown, {untraced}"]
         if not self.arm.shapes:
-            return [f"warning: the arm's file gives it no shape: it cannot be shown, {untraced}"]
+            return [f"warning: the arm's file has no shapes: the arm cannot be shown, {untraced}"]
         names = sorted({Path(shape.mesh).name for shape in self.ray_caster.unread})
         return [f"warning: {name} cannot be read: it is not shown, {untraced}" for name in names]
 

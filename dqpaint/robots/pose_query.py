@@ -93,9 +93,7 @@ def read_posture(card: Card, deg: str | None, rad: str | None) -> Floats:
         raise UsageError(f"{card.name} has {card.joints} joints, but {option} gives {count}")
     posture = np.radians(angles) if deg is not None else np.array(angles)
     if np.abs(posture).max(initial=0.0) > LARGEST_ANGLE:
-        raise UsageError(
-            f"{option} '{text[:60]}': an angle is at most {LARGEST_ANGLE:g} rad either way"
-        )
+        raise UsageError(f"{option} '{text[:60]}': angles must be within +-{LARGEST_ANGLE:g} rad")
     return posture
 
 

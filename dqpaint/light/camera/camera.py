@@ -72,9 +72,9 @@ class Camera:
             values = checked_array(f"camera {name}", getattr(self, name), shape)
             object.__setattr__(self, name, values)
         if not np.allclose(self.rotation @ self.rotation.T, np.eye(3), atol=1e-6):
-            raise ValueError("camera rotation has rows that are not orthonormal")
+            raise ValueError("the rows of the camera rotation are not orthonormal")
         if np.linalg.det(self.rotation) < 0.0:
-            raise ValueError("camera rotation mirrors the world")
+            raise ValueError("the camera rotation contains a reflection")
         if not (np.isfinite(self.focal) and self.focal > 0.0):
             raise ValueError(f"camera focal length {self.focal} px must be positive")
         if self.width < 1 or self.height < 1:

@@ -101,7 +101,7 @@ def parse_exposure(text: str) -> Exposure | None:
     for word in text.split(","):
         part, number = _read(text, word.strip())
         if part.field in given:
-            raise UsageError(f"exposure '{text}': {part.example}'s kind of part is given twice")
+            raise UsageError(f"exposure '{text}': a part like {part.example} is given twice")
         if not part.least <= number <= part.most:
             bounds = f"from {part.least:g} to {part.most:g}, as in {part.example}"
             raise UsageError(f"exposure '{text}': '{word.strip()}' must be {bounds}")
@@ -115,7 +115,8 @@ def _read(text: str, word: str) -> tuple[_Part, float]:
         if found is not None:
             return part, float(found[1])
     raise UsageError(
-        f"exposure '{text[:60]}': '{word[:20]}' is no part of one; its parts: {EXPOSURE_HELP}"
+        f"exposure '{text[:60]}': '{word[:20]}' is not a part of an exposure; "
+        f"its parts: {EXPOSURE_HELP}"
     )
 
 

@@ -119,14 +119,14 @@ def _at_position(word: str, choices: list[str]) -> Shot:
     ]
     if len(numbers) not in (3, 6) or len(known) != len(numbers):
         raise UsageError(
-            f"view '{word[:60]}' is not at:X:Y:Z or at:X:Y:Z:X:Y:Z, the camera's place and what it "
-            f"looks at, in metres from the robot's base, {FARTHEST_COORDINATE:g} at most"
+            f"view '{word[:60]}' is not at:X:Y:Z or at:X:Y:Z:X:Y:Z, the positions of the "
+            f"camera and of its target, in metres from the robot's base, {FARTHEST_COORDINATE:g} at most"
         )
     place, target = (known[0], known[1], known[2]), None
     if len(known) == 6:
         target = (known[3], known[4], known[5])
         if math.dist(place, target) < CLOSEST_TARGET:
-            raise UsageError(f"view '{word}': the camera stands in what it looks at")
+            raise UsageError(f"view '{word}': the camera is at its target")
     name = "_".join(["at", *(f"{number:g}" for number in known)])
     return Shot(name, VIEWS["front"], position=place, target=target)
 
@@ -206,7 +206,7 @@ def _fixed_camera(
         target = np.array(shot.target)
     away = float(np.linalg.norm(place - target))
     if away < CLOSEST_TARGET:
-        raise UsageError(f"view '{shot.name}': the camera stands in what it looks at")
+        raise UsageError(f"view '{shot.name}': the camera is at its target")
     right, up, back = axes.T @ (place - target) / away
     azimuth = math.degrees(math.atan2(right, back)) if math.hypot(right, back) > 1e-9 else 0.0
     view = View(azimuth, math.degrees(math.asin(np.clip(up, -1.0, 1.0))))

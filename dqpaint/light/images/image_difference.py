@@ -116,5 +116,5 @@ def _decoded(data: bytes, kind: type) -> np.ndarray:
     """Decode an image (H, W, 3), RGB."""
     found = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED) if data else None
     if found is None or found.ndim != 3 or found.shape[2] != 3 or found.dtype != kind:
-        raise ValueError("no picture of three channels")
+        raise ValueError("the picture does not have three channels")
     return np.asarray(found[..., ::-1])

@@ -48,7 +48,7 @@ class Light:
     def __post_init__(self) -> None:
         points = checked_array("lamp position", self.points, (None, 3))
         if len(points) == 0:
-            raise ValueError("lamp position has no instant; at least one is needed")
+            raise ValueError("the lamp has no positions; it needs at least one")
         energy = checked_array("lamp energy", self.energy, (len(points) - 1, 3))
         if energy.min(initial=0.0) < 0.0:
             raise DqpaintError(f"lamp energy {energy.min()} is negative")

@@ -59,8 +59,8 @@ def sweeps(
     fastest = max(settings.pwm, max(rate for rate, _ in rates))
     if fastest * motion.t[-1] > MOST_FLASHES:
         raise DqpaintError(
-            f"{motion.program.name}: {fastest:g} Hz for {motion.t[-1]:.0f} s are more than "
-            f"{MOST_FLASHES:,} flashes; so fast they are not seen: leave them out"
+            f"{motion.program.name}: {fastest:g} Hz for {motion.t[-1]:.0f} s give more than "
+            f"{MOST_FLASHES:,} flashes; flashing this fast is not visible: remove it"
         )
     found = []
     for emitters, used in _brushes(motion, settings):

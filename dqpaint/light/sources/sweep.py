@@ -75,7 +75,7 @@ class Sweep:
             raise DqpaintError(f"period {self.period} s must be positive")
         pose = checked_array("tool pose", self.pose, (None, 8))
         if len(pose) == 0:
-            raise ValueError("tool pose has no instant; at least one is needed")
+            raise ValueError("the tool has no poses; it needs at least one")
         object.__setattr__(self, "pose", pose)
         colours = checked_array("lamp colour", self.colours, (len(pose) - 1, 3))
         if colours.min(initial=0.0) < 0.0:

@@ -120,7 +120,7 @@ class Heading:
         x, y = at[1:] @ self.e1, at[1:] @ self.e2  # (3, N): of the place's derivatives
         square = x[0] ** 2 + y[0] ** 2
         if not np.isfinite(at[3]).all() or not (square > 0).all():
-            raise FloatingPointError("a heading, or one of its derivatives, is not finite")
+            raise FloatingPointError("a heading or one of its derivatives is not finite")
         turning = x[0] * y[1] - y[0] * x[1]
         rate = turning / square
         spread = 2 * (x[0] * x[1] + y[0] * y[1])

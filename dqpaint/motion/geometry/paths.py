@@ -213,5 +213,5 @@ class Formula:
             point = path.formula(Taylor.variable(path.lower + f * span, order))
             derivatives: Floats = np.stack([c.derivatives for c in point], axis=-1) * scale
         if not np.isfinite(derivatives[:3]).all():
-            raise FloatingPointError("a formula, or one of its derivatives, is not finite")
+            raise FloatingPointError("a formula or one of its derivatives is not finite")
         return derivatives

@@ -66,7 +66,7 @@ class CollisionShapes:
         self._shapes = self._read(pinocchio.GeometryType.COLLISION, unread)
         self._visual = self._read(pinocchio.GeometryType.VISUAL, unread)
         self.notes = tuple(
-            f"mesh '{Path(mesh).name}' cannot be read: what it meets and hides is left out"
+            f"mesh '{Path(mesh).name}' cannot be read: collisions and occlusion ignore it"
             for mesh in unread
         )
         self._solids = [shape.geometry for shape in self._shapes.geometryObjects]

@@ -64,7 +64,7 @@ def find_canvas(card: Card) -> tuple[Canvas, Floats]:
         if canvas is not None:
             return canvas, find_home(card, canvas)
     raise DqpaintError(
-        f"no place for a canvas was found around {card.name}: give [canvas] in a .toml file"
+        f"no place for a canvas was found around {card.name}: define [canvas] in a .toml file"
     )
 
 
@@ -91,7 +91,7 @@ def find_home(card: Card, canvas: Canvas) -> Floats:
     found = find_start(Kinematics(card), canvas.pose[None], np.zeros(1))
     if isinstance(found, NoPosture):
         raise DqpaintError(
-            f"{card.name} does not reach its canvas: it stays {found.shortfall * 1e3:.0f} mm away"
+            f"{card.name} cannot reach its canvas: it stays {found.shortfall * 1e3:.0f} mm away"
         )
     return np.clip(np.radians(np.round(np.degrees(found.posture), 1)), card.lower, card.upper)
 

@@ -57,7 +57,7 @@ def _read_toml(path: Path) -> dict[str, Any]:
     except OSError as problem:
         raise DqpaintError(f"robot '{path}' cannot be read: {problem.strerror}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
-        raise DqpaintError(f"{path.name} is no TOML: {problem}") from None
+        raise DqpaintError(f"{path.name} is not valid TOML: {problem}") from None
     urdf = raw.get("urdf")
     if isinstance(urdf, dict) and isinstance(urdf.get("file"), str) and not urdf.get("package"):
         urdf["file"] = str(path.parent / urdf["file"])
@@ -73,13 +73,13 @@ def _complete(raw: dict[str, Any], path: Path) -> Card:
         tree = Tree(Path(urdf["file"]))
         if "link" not in urdf:
             urdf["link"] = _only_tip(tree)
-            notes.append(f"the light sits on link '{urdf['link']}', the last one")
+            notes.append(f"the light is on link '{urdf['link']}', the last one")
         if "limits" not in raw:
             raw["limits"] = _limits(tree, urdf["link"])
     if "tool" not in raw:
         raw["tool"] = {}
         notes.append(
-            f"{_missing_note(path, '[tool]')}the light sits on the last frame, its z axis is the "
+            f"{_missing_note(path, '[tool]')}the light is on the last frame, whose z axis is the "
             f"lamp's{_fix_note(path, '--tool puts it elsewhere')}"
         )
     _derive_body(raw, path, notes)
@@ -174,9 +174,9 @@ def _first_error(problem: ValidationError, path: Path, *above: str) -> DqpaintEr
     if first["type"] == "missing":
         fault = "is missing"
         if name == "limits":
-            fault += f": it holds {', '.join(_fields(steps))}, one number a joint"
+            fault += f": it has {', '.join(_fields(steps))}, one number per joint"
     elif first["type"] == "model_type":
-        fault = f"is not a table, which holds {', '.join(_fields(steps))}"
+        fault = f"is not a table with {', '.join(_fields(steps))}"
     elif first["type"] == "extra_forbidden":
         fault = f"is not known; known: {', '.join(_fields(steps[:-1]))}"
     return DqpaintError(f"{path.name}: {name} {fault}".replace(":  ", ": "))
@@ -217,15 +217,15 @@ def _only_tip(tree: Tree) -> str:
                 and len([j for j in joints if j.kind in REVOLUTE_KINDS]) >= LEAST_JOINTS
             ):
                 raise DqpaintError(
-                    f"{name}: joint '{other.name}' is {other.kind or 'of no type'}: only arms "
+                    f"{name}: joint '{other.name}' is {other.kind or 'without a type'}: only arms "
                     "whose joints all turn are known"
                 )
         longest = max(
             len([j for j in joints if j.kind in REVOLUTE_KINDS]) for joints in ends.values()
         )
         raise DqpaintError(
-            f"{name} holds no arm of {LEAST_JOINTS} or more joints that turn; "
-            f"its longest has {longest}"
+            f"{name} has no arm with {LEAST_JOINTS} or more revolute joints; "
+            f"its longest chain has {longest}"
         )
     raise UsageError(
         f"{name} ends in several links: {shortened_list(arms)}; name the one that carries the "

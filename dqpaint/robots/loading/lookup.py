@@ -52,7 +52,7 @@ def find_card(robot: str) -> Card:
         for file in (f"{robot}.toml", f"{robot}.urdf"):
             if Path(file).is_file():
                 raise UsageError(
-                    f"no robot named '{robot}'; a file is named whole: {file}"
+                    f"no robot named '{robot}'; give the whole name of the file: {file}"
                 ) from None
         raise UnknownNameError("robot", robot, sorted({*card_names(), *brought})) from None
 

@@ -40,7 +40,7 @@ class Canvas(Part):
         right, up = np.array(self.right), np.array(self.up)
         gram = np.array([right @ right - 1, up @ up - 1, right @ up])
         if np.abs(gram).max() > 1e-9:
-            raise ValueError("right and up must be unit vectors, square to each other")
+            raise ValueError("right and up must be unit vectors, perpendicular to each other")
         return self
 
 
@@ -168,7 +168,7 @@ class Card(Part):
         if self.joints < LEAST_JOINTS:
             count = "1 joint" if self.joints == 1 else f"{self.joints} joints"
             raise ValueError(
-                f"{count} cannot hold a place and an orientation: "
+                f"{count} cannot control position and orientation: "
                 f"at least {LEAST_JOINTS} are needed"
             )
         if len(self.limits.lower_deg) != self.joints:

@@ -163,7 +163,7 @@ def _add_masses(tree: Tree) -> Iterator[str]:
             ball = 0.4 * GUESSED_MASS * GUESSED_BALL_RADIUS**2
             _set_inertial(tree.links[body[0]], GUESSED_MASS, ball)
             yield (
-                f"link '{body[0]}' moves and has no mass: "
+                f"link '{body[0]}' moves but has no mass: "
                 f"{GUESSED_MASS} kg in a ball of {GUESSED_BALL_RADIUS * 1e3:.0f} mm is assumed"
             )
 
@@ -176,14 +176,14 @@ def _check_inertia(tree: Tree, name: str, mass: float) -> Iterator[str]:
     if not moments.any():
         _set_inertial(tree.links[name], mass, 0.4 * mass * GUESSED_BALL_RADIUS**2, keep_origin=True)
         yield (
-            f"link '{name}' has a mass and no inertia: "
+            f"link '{name}' has a mass but no inertia: "
             f"that of a ball of {GUESSED_BALL_RADIUS * 1e3:.0f} mm is assumed"
         )
     elif not is_valid_inertia(moments):
         moment = float(np.abs(np.trace(moments))) / 3
         _set_inertial(tree.links[name], mass, moment, keep_origin=True)
         yield (
-            f"the inertia of link '{name}' is not that of any body: "
+            f"the inertia of link '{name}' is not physically possible: "
             "that of a ball with the same sum of moments is assumed"
         )
 
@@ -239,7 +239,7 @@ def _find_meshes(tree: Tree) -> Iterator[str]:
     if missing:
         others = len(set(missing)) - 1
         them = f" and {others} more are" if others else " is"
-        yield f"mesh '{missing[0]}'{them} not there: the arm is drawn without"
+        yield f"mesh '{missing[0]}'{them} missing: the arm is drawn without"
 
 
 def _find(tree: Tree, name: str) -> Path | None:

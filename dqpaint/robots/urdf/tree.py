@@ -79,8 +79,8 @@ class Tree:
             if joint.child in self.joints:
                 other = self.joints[joint.child].name
                 raise self.error(
-                    f"joints '{other}' and '{joint.name}' both carry link '{joint.child}': "
-                    "a loop of links is no arm"
+                    f"joints '{other}' and '{joint.name}' have the same child link '{joint.child}': "
+                    "a loop of links is not supported"
                 )
             self.joints[joint.child] = joint
         self.root = self._find_root()
@@ -114,8 +114,8 @@ class Tree:
         for joint in joints:
             if joint.kind not in REVOLUTE_KINDS:
                 raise self.error(
-                    f"joint '{joint.name}' is {joint.kind}, and lies between the base and "
-                    f"'{link}': only joints that turn are known"
+                    f"joint '{joint.name}' is {joint.kind}, and is between the base and "
+                    f"'{link}': only revolute joints are supported"
                 )
         return joints
 
@@ -161,7 +161,9 @@ class Tree:
             link = element.find(end)
             named = "" if link is None else link.get("link", "")
             if named not in self.links:
-                what = f"names the {end} '{named}', which is no link" if named else f"has no {end}"
+                what = (
+                    f"names the {end} '{named}', which is not a link" if named else f"has no {end}"
+                )
                 raise self.error(f"joint '{name}' {what}")
             ends.append(named)
         for part, names in (("origin", ("xyz", "rpy")), ("axis", ("xyz",))):
@@ -172,7 +174,7 @@ class Tree:
             text = "0" if dynamics is None else dynamics.get(what, "0")
             said = parse_numbers(text)
             if len(said) != 1 or said[0] < 0:
-                raise self.error(f"joint '{name}': {what} '{text}' is not a number from 0")
+                raise self.error(f"joint '{name}': {what} '{text}' is not a number of 0 or more")
         return Joint(name, kind, ends[0], ends[1], element, self.path.name)
 
     def _check_triple(self, joint: Xml.Element, part: str, attribute: str) -> None:
@@ -193,7 +195,7 @@ class Tree:
         """The only link that is no child, from which all others are reachable."""
         roots = [name for name in self.links if name not in self.joints]
         if len(roots) > 1:
-            raise self.error(f"links {shortened_list(roots)} are not joined to each other")
+            raise self.error(f"links {shortened_list(roots)} are not connected to each other")
         rooted: set[str] = set()
         for start in self.links:
             way = {start}
@@ -201,7 +203,9 @@ class Tree:
             while link in self.joints and link not in rooted:
                 link = self.joints[link].parent
                 if link in way:
-                    raise self.error(f"link '{link}' carries itself: a loop of links is no arm")
+                    raise self.error(
+                        f"link '{link}' is its own descendant: a loop of links is not supported"
+                    )
                 way.add(link)
             rooted |= way
         if not roots:
@@ -219,19 +223,17 @@ def _parse(path: Path) -> Xml.Element:
     except OSError as problem:
         raise DqpaintError(f"robot '{path}' cannot be read: {problem.strerror}") from None
     except (Xml.ParseError, ValueError, LookupError) as problem:  # the latter: of its encoding
-        raise DqpaintError(f"{path.name} is no URDF: {problem}") from None
+        raise DqpaintError(f"{path.name} is not a valid URDF: {problem}") from None
     if robot.tag != "robot":
         raise DqpaintError(
-            f"{path.name} is no URDF: it begins with <{robot.tag}>, not with <robot>"
+            f"{path.name} is not a URDF: it begins with <{robot.tag}>, not with <robot>"
         )
     if not robot.get("name"):
         robot.set(
             "name", path.stem or "robot"
         )  # libraries insist on one, and nothing depends on it
     if any("xacro" in child.tag for child in robot.iter()):
-        raise DqpaintError(
-            f"{path.name} is a xacro file: run xacro on it first, and give the result"
-        )
+        raise DqpaintError(f"{path.name} is a xacro file: run xacro on it first and use the result")
     return robot
 
 

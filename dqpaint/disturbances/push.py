@@ -33,8 +33,8 @@ class TimedForce(Disturbance):
         """Check that the push begins before the end of the run."""
         if self.start >= t[-1]:
             raise UsageError(
-                f"disturbance 'push': it starts at {self.start:g} s, not before the end of the drawing "
-                f"({t[-1]:.4g} s)"
+                f"disturbance 'push': it starts at {self.start:g} s, "
+                f"not before the end of the drawing ({t[-1]:.4g} s)"
             )
 
     def world(self, world: World) -> World:

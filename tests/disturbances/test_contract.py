@@ -60,7 +60,7 @@ def test_it_vanishes_at_size_zero(name):
     try:
         given = make_disturbances({name: zero})
     except UsageError:
-        assert name == "twist"  # it says itself that it moves nothing
+        assert name == "twist"  # it says itself that it has no effect
         return
     assert given
     plain, none = run({}, plant_for(name)), run({name: zero}, plant_for(name))
@@ -90,7 +90,7 @@ def test_one_that_cannot_show_is_refused(name):
         if needs is None or needs in PLANTS[plant].traits:
             chosen.require_trait(needs, name)
         else:
-            with pytest.raises(UsageError, match=f"'{name}' changes nothing on plant '{plant}'"):
+            with pytest.raises(UsageError, match=f"'{name}' has no effect on plant '{plant}'"):
                 chosen.require_trait(needs, name)
 
 

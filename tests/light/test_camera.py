@@ -129,7 +129,7 @@ def test_nothing_or_no_number_cannot_be_framed():
         frame_points([[0, np.nan, 0]], np.eye(3), VIEWS["front"], (640, 480))
     with pytest.raises(UsageError, match="0x480"):
         frame_points([[0, 0, 0]], np.eye(3), VIEWS["front"], (0, 480))
-    with pytest.raises(ValueError, match="mirrors"):
+    with pytest.raises(ValueError, match="reflection"):
         Camera([0, 0, 1], np.diag([1.0, 1.0, -1.0]), 100.0, [1, 1], 3, 3)
     with pytest.raises(ValueError, match="orthonormal"):
         Camera([0, 0, 1], 2 * np.eye(3), 100.0, [1, 1], 3, 3)

@@ -41,5 +41,5 @@ def test_wrong_shapes_and_negative_light_are_refused():
         Light(np.zeros((2, 3)), [[0, -1, 0]])
     with pytest.raises(ValueError, match="shape"):
         Light(np.zeros((2, 3)), np.zeros((2, 3)))
-    with pytest.raises(ValueError, match="no instant"):
+    with pytest.raises(ValueError, match="no positions"):
         Light(np.zeros((0, 3)), np.zeros((0, 3)))

@@ -107,15 +107,15 @@ def test_settings_read_as_they_are_written():
 
 
 @pytest.mark.parametrize(("text", "says"), [
-    ("", "'' is no part of one; its parts: f/8 (aperture), iso100, 35mm (focal length), nd3"),
-    ("f8", "'f8' is no part of one"),
-    ("f/8,,iso100", "'' is no part of one"),
-    ("f/8,f/11", "f/8's kind of part is given twice"),
+    ("", "'' is not a part of an exposure; its parts: f/8 (aperture), iso100, 35mm"),
+    ("f8", "'f8' is not a part"),
+    ("f/8,,iso100", "'' is not a part"),
+    ("f/8,f/11", "a part like f/8 is given twice"),
     ("f/0", "'f/0' must be from 0.5 to 128, as in f/8"),
     ("iso0", "'iso0' must be from 1 to 1e+06"),
     ("f/8,2200mm", "'2200mm' must be from 4 to 2000"),
-    ("f/-8", "'f/-8' is no part"),
-    ("infcd", "'infcd' is no part"),
+    ("f/-8", "'f/-8' is not a part"),
+    ("infcd", "'infcd' is not a part"),
     ("nd99", "'nd99' must be from 0 to 30"),
 ])  # fmt: skip
 def test_wrong_settings_name_the_part(text, says):

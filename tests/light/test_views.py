@@ -99,12 +99,12 @@ def test_a_camera_with_the_drawing_at_its_back_is_refused():
     ("orbit:x", "is not orbit, orbit:N or orbit:N:EL"),
     ("orbit:1:2:3", "is not orbit, orbit:N or orbit:N:EL"),
     ("orbit:8:99", "view elevation 99"),
-    ("at:1:2", "is not at:X:Y:Z or at:X:Y:Z:X:Y:Z, the camera's place and what it looks at"),
+    ("at:1:2", "is not at:X:Y:Z or at:X:Y:Z:X:Y:Z, the positions of the camera and of its target"),
     ("at:1:2:3:4", "is not at:X:Y:Z"),
     ("at:1:2:x", "is not at:X:Y:Z"),
     ("at:1:2:inf", "is not at:X:Y:Z"),
     ("at:1:2:101", "100 at most"),
-    ("at:1:2:3:1:2:3", "the camera stands in what it looks at"),
+    ("at:1:2:3:1:2:3", "the camera is at its target"),
     ("stereo:back", "is not stereo, stereo:NAME or stereo:AZ:EL"),
 ])  # fmt: skip
 def test_wrong_views(text, says):

@@ -21,7 +21,7 @@ ALONE = {
     "look": ("flim", "no look named 'flim'"),
     "starburst": (2, "an aperture has 3 to 24 blades"),
     "brush": ("broom", "no brush named 'broom'"),
-    "exposure": ("f8", "'f8' is no part of one"),
+    "exposure": ("f8", "'f8' is not a part"),
     "colour_by": ("mood", "no colour-by named 'mood'"),
     "robot": ("ur7", "no robot named 'ur7'"),
     "tool": ("x", "tool 'x' is not X,Y,Z"),
@@ -45,7 +45,7 @@ def test_what_is_wrong_by_itself_is_told_to_every_caller(name):
 
 @pytest.mark.parametrize(("choices", "says"), [
     ({"controller": "accel", "plant": "stiff"}, "'stiff' takes joint rates"),
-    ({"disturb": "gravity=0.1"}, "changes nothing on plant 'stiff'"),
+    ({"disturb": "gravity=0.1"}, "has no effect on plant 'stiff'"),
     ({"recorded": "run.csv", "seed": 1, "start": "home"}, "not simulated: leave out --from"),
     ({"recorded": "run.csv", "gains": "gamma_T=1"}, "not simulated: leave out --gain"),
 ])  # fmt: skip

@@ -89,7 +89,7 @@ def limits(lower, upper, speed):
     ({"home_deg": [0] * 6}, "one number for each joint"),
     ({"home_deg": [0, 0, 0, -150, 0, 0, 0]}, "inside the limits"),
     ({"colour": "red"}, "Extra inputs"),
-    ({"canvas": {"at_m": [0, 0, 0], "right": [1, 0, 0], "up": [1, 0, 0]}}, "square to each other"),
+    ({"canvas": {"at_m": [0, 0, 0], "right": [1, 0, 0], "up": [1, 0, 0]}}, "perpendicular"),
     (limits([0], [0], [1]), "below"),
     (limits([0], [1, 2], [1]), "each joint"),
     (limits([0], [1], [0]), "greater than 0"),

@@ -152,7 +152,7 @@ def test_the_only_end_of_a_urdf_is_found_and_several_are_listed(write):
     joint = '<joint name="f" type="fixed"><parent link="{}"/><child link="tip2"/></joint></robot>'
     card = read_file(write("arm.urdf", alone.replace("</robot>", joint.format("tip"))))
     assert card.link == "tip2"
-    assert card.notes[0] == "the light sits on link 'tip2', the last one"
+    assert card.notes[0] == "the light is on link 'tip2', the last one"
     two = alone.replace("</robot>", joint.format("l6"))
     with pytest.raises(UsageError, match=r"tip, tip2; .*arm.urdf:tip"):
         read_file(write("arm.urdf", two))
@@ -183,7 +183,7 @@ def test_a_round_joint_turns_either_way(write):
     ("colour = 'red'\n" + VIPER + LIMITS, "colour is not known"),
     (VIPER + LIMITS + "[canvas]\nat_m = [1, 2]\n", r"canvas.at_m\[3\]"),
     ("home_deg = [0, 90, 0, 0, 0, 0]\n" + VIPER + LIMITS, "home_deg .*inside"),
-    ("[denavit_hartenberg\n", "mine.toml is no TOML: "),
+    ("[denavit_hartenberg\n", "mine.toml is not valid TOML: "),
     ('[urdf]\nfile = "not-there.urdf"\n', "not-there.urdf' cannot be read"),
     ("[urdf]\nlink = 'l6'\n", "urdf.file is missing"),
     ("urdf = 3\n", "mine.toml: urdf is not a table"),
@@ -221,7 +221,7 @@ def test_a_name_is_not_a_file():
     ('<parent link="l2"/>', "", "l6", "'j3' has no parent"),
     ('<child link="l3"/>', '<child link="l2"/>', "l6", "'j2' and 'j3' .*'l2'"),
     ('<link name="l2">', '<link name="l1">', "l6", "two .*'l1'"),
-    ('<link name="tip"/>', '<link name="tip"/><link name="alone"/>', "l6", "not joined"),
+    ('<link name="tip"/>', '<link name="tip"/><link name="alone"/>', "l6", "not connected"),
     ('velocity="2" effort="400"', 'velocity="0" effort="400"', "l6",
      "joint 'j1' .*velocity of 0.*rad/s"),
     ('velocity="2" effort="400"', 'velocity="2"', "l6", "joint 'j1' .*effort"),
@@ -245,7 +245,7 @@ def test_faults_of_a_urdf_are_told_by_their_place(write, old, new, link, message
 
 
 def test_an_arm_of_five_joints_is_told_so(write):
-    with pytest.raises(DqpaintError, match=r"6 or more joints.* has 5"):
+    with pytest.raises(DqpaintError, match=r"6 or more revolute joints.* has 5"):
         read_file(write("arm.urdf", arm_urdf(5)))
 
 

@@ -61,7 +61,7 @@ def masses_of(card):
      ["link 'l3' moves and has no mass: 0.1 kg in a ball of 50 mm is assumed"]),
     ('ixx="0.02" ixy="0.001" ixz="0" iyy="0.03" iyz="0" izz="0.025"',
      'ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"',
-     ["link 'l1' has a mass and no inertia: that of a ball of 50 mm is assumed"]),
+     ["link 'l1' has a mass but no inertia: that of a ball of 50 mm is assumed"]),
     ('ixx="0.02" ixy="0.001"', 'ixx="0.2" ixy="0.001"',
      ["the inertia of link 'l1' is not that of any body: "
       "that of a ball with the same sum of moments is assumed"]),
@@ -166,7 +166,7 @@ def test_the_stiff_plant_moves_the_arm_s_own_joints(name, tmp_path, monkeypatch)
     ('velocity="2"', 'velocity="quick"', "arm.urdf: joint 'j1': velocity 'quick'"),
     ('effort="400"', 'effort="0"', "effort limit .*Nm"),
     ('<robot name="arm">', '<?xml version="1.0" encoding="klingon"?><robot name="arm">',
-     "arm.urdf is no URDF: .*encoding"),
+     "arm.urdf is not a valid URDF: .*encoding"),
 ])  # fmt: skip
 def test_faults_of_a_description_are_told_with_their_place(read, old, new, said):
     with pytest.raises(DqpaintError, match=said):
@@ -181,7 +181,7 @@ def test_what_a_library_would_refuse_is_settled(read):
     )
     text = arm_urdf().replace('<link name="base"/>', base).replace('<robot name="arm">', "<robot>")
     card = read(text)
-    assert any("link 'base' has a mass and no inertia" in note for note in prepare(card).notes)
+    assert any("link 'base' has a mass but no inertia" in note for note in prepare(card).notes)
     assert Kinematics(card).model.nv == 6
 
 

@@ -123,7 +123,7 @@ WRONG = {
     'controller = "pf"': "no controller named 'pf'; did you mean 'pff'? known",
     'robot = "iwa"': "no robot named 'iwa'; did you mean 'iiwa'?",
     'plant = "compliant:freqency=3"': "given.toml:1: plant 'compliant': has no value named 'freq",
-    'exposure = "f8"': "given.toml:1: exposure 'f8': 'f8' is no part of one",
+    'exposure = "f8"': "given.toml:1: exposure 'f8': 'f8' is not a part",
     'view = "at:1:0:1"\nexposure="2m"': None,
     'brush = "bra"': "no brush named 'bra'; did you mean 'bar'?",
     'tool = "1"': "given.toml:1: tool '1' is not X,Y,Z",

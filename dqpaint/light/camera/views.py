@@ -120,7 +120,8 @@ def _at_position(word: str, choices: list[str]) -> Shot:
     if len(numbers) not in (3, 6) or len(known) != len(numbers):
         raise UsageError(
             f"view '{word[:60]}' is not at:X:Y:Z or at:X:Y:Z:X:Y:Z, the positions of the "
-            f"camera and of its target, in metres from the robot's base, {FARTHEST_COORDINATE:g} at most"
+            f"camera and of its target, in metres from the robot's base, at "
+            f"most {FARTHEST_COORDINATE:g}"
         )
     place, target = (known[0], known[1], known[2]), None
     if len(known) == 6:

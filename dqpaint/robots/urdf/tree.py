@@ -79,7 +79,7 @@ class Tree:
             if joint.child in self.joints:
                 other = self.joints[joint.child].name
                 raise self.error(
-                    f"joints '{other}' and '{joint.name}' have the same child link '{joint.child}': "
+                    f"joints '{other}' and '{joint.name}' share the child link '{joint.child}': "
                     "a loop of links is not supported"
                 )
             self.joints[joint.child] = joint

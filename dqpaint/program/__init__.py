@@ -1,4 +1,4 @@
-"""A compiled drawing as plain data: `Program` with its segments, curves, times and light.
+"""A compiled drawing -> plain data: `Program` with its segments, curves, times and light.
 
 A new kind of path brings its record in `program` and its geometry in `motion.geometry`.
 """

@@ -103,7 +103,7 @@ def test_a_camera_with_the_drawing_at_its_back_is_refused():
     ("at:1:2:3:4", "is not at:X:Y:Z"),
     ("at:1:2:x", "is not at:X:Y:Z"),
     ("at:1:2:inf", "is not at:X:Y:Z"),
-    ("at:1:2:101", "100 at most"),
+    ("at:1:2:101", "at most 100"),
     ("at:1:2:3:1:2:3", "the camera is at its target"),
     ("stereo:back", "is not stereo, stereo:NAME or stereo:AZ:EL"),
 ])  # fmt: skip

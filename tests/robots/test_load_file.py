@@ -191,7 +191,7 @@ def test_a_round_joint_turns_either_way(write):
      r"rows\[6\] is not a table"),
 ])  # fmt: skip
 def test_faults_of_a_card_are_told_by_their_field(write, text, message):
-    tomllib.loads(text) if "no TOML" not in message else None
+    tomllib.loads(text) if "not valid TOML" not in message else None
     with pytest.raises(DqpaintError, match=message):
         read_file(write("mine.toml", text))
 

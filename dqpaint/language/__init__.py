@@ -1,16 +1,20 @@
-"""Text -> Program: a `.traj` file, understood, checked and written out as strokes.
+"""Text of a `.traj` file -> Program, or diagnostics of every mistake.
 
-In goes the text of a file; out comes a `Program` (see `program`), or a `ScriptError` with every
-mistake that was found. The text passes through
+In: the text of a file. Out: a `Program` (see `dqpaint.program`), or a `ScriptError` with every
+diagnostic. `compile` runs these steps in order:
 
-    lexer -> parser (statements, clauses, forms, expressions) -> syntax tree -> includes
-          -> expand (evaluate, reading, settings, blocks, definitions)
-          -> strokes (arcs, curves, tools, timing, and for what comes from elsewhere
-             letters, tables, drawings) -> blends
+    syntax      lexer -> parser (statements, clauses, expressions; statement_rules checks which
+                parts go together) -> syntax tree
+    expansion   includes -> expander (blocks, definitions)
+    values      evaluate -> typed_values, in a scope of names
+    strokes     lines, arcs, curves, imported_strokes and modal_words -> segments -> corner_blending
+    pen         the pose and the stroke state between statements
+    imports     lettering, point_files, svg and stroke_order, for `text`, `path` and `svg`
 
-and `words` and `units` hold the tables all of them read. A new statement is a line in
-`words.STATEMENTS` and a function in `strokes`; a new function a line in `words.FUNCTIONS` and one
-in `functions.TABLE`.
+`vocabulary` has the tables of words and units that all of them read; `writing` is the way back:
+formatter, drawing builder, template. A new statement is an entry in `vocabulary.words.STATEMENTS`
+and a function in `strokes.strokes`; a new function an entry in `vocabulary.words.FUNCTIONS` and
+one in `values.functions.TABLE`.
 """
 
 import importlib
@@ -33,7 +37,7 @@ _ROOMS = {
 
 
 def __getattr__(name: str) -> Any:
-    """Import on first use: a text can be laid out without the numbers that it stands for."""
+    """Import on first use: formatting a text needs no numerical library."""
     if name in _ROOMS:
         return getattr(importlib.import_module(_ROOMS[name]), name)
     raise AttributeError(f"module 'dqpaint.language' has no attribute '{name}'")

@@ -1,4 +1,4 @@
-"""The whole way from a file or a text to a Program."""
+"""File or text -> Program."""
 
 import gc
 import re
@@ -26,7 +26,7 @@ def read(path: str | Path) -> Program:
 
 
 def read_input() -> Program:
-    """The drawing that comes over standard input; the files it names lie in the working folder.
+    """The drawing on standard input; the files it names are relative to the working folder.
 
     Raises:
         DqpaintError: it can't be read as text.
@@ -40,7 +40,7 @@ def _text_of(path: Path) -> str:
 
 
 def parse(text: str, name: str = "<text>", path: Path | None = None) -> Program:
-    """The drawing in a text; `name` is what messages call it.
+    """The drawing in a text; `name` stands for it in messages.
 
     Where the text is a file, `path` says which, so that it can include and read others.
 
@@ -70,7 +70,7 @@ def parse(text: str, name: str = "<text>", path: Path | None = None) -> Program:
 
 @contextmanager
 def _collector_at_rest() -> Iterator[None]:
-    """Trees and strokes hold no cycles: with the collector on, a long file takes 1.6 times as long.
+    """Without the garbage collector: trees and strokes have no cycles, and it costs 60 %.
 
     For callers from Python; the command line has it off.
     """
@@ -105,7 +105,7 @@ def _fits(text: str, findings: DiagnosticCollector) -> bool:
 
 
 def _internal(fault: Exception, at: Span | None) -> Diagnostic:
-    """Our own mistake, not the file's."""
+    """An error of dqpaint, not of the file."""
     kind = type(fault).__name__
     message = f"internal error, please report ({kind}: {str(fault)[:200]})"
     return Diagnostic("E999", message, at, "", "please send this file along with the message")

@@ -1,4 +1,4 @@
-"""Blocks: how often the lines of a `repeat` come, and the frame of those in a `with`."""
+"""`repeat` -> values of its passes; `with` -> inner frame."""
 
 from dqpaint.diagnostics import Diagnostic, Problem, Span, problem
 from dqpaint.language.syntax.tree import Part, Statement
@@ -36,12 +36,12 @@ def passes(statement: Statement, scope: Scope) -> range:
 
 
 def size(statement: Statement, count: int, scope: Scope) -> int:
-    """How many statements so many passes of a block will be at least."""
+    """A lower bound of the number of statements that a block expands to."""
     return count * _size(statement.body, scope)
 
 
 def _size(body: tuple[Statement, ...], scope: Scope) -> int:
-    """How many statements a body will be at least."""
+    """A lower bound of the number of statements that a body expands to."""
     size = 0
     for statement in body:
         size += 1
@@ -55,7 +55,7 @@ def _size(body: tuple[Statement, ...], scope: Scope) -> int:
 
 
 def _known_count(statement: Statement, scope: Scope) -> int:
-    """The passes of an inner loop, or 1 if they depend on what is not known yet."""
+    """The passes of an inner loop, or 1 if they depend on unknown values."""
     try:
         return len(passes(statement, scope)) if not statement.broken else 1
     except (Problem, UnknownError):
@@ -74,7 +74,7 @@ def too_many_statements(statement: Statement, size: int) -> Diagnostic:
 
 
 def inner_frame(statement: Statement, outer: Frame, scope: Scope) -> Frame:
-    """The frame of a `with`: its parts in the order they are written, the outermost first."""
+    """The frame of a `with`: its parts in written order, the outermost first."""
     frame, parts = outer, statement.parts
     for i, part in enumerate(parts):
         if part.word == "rotate":
@@ -94,7 +94,7 @@ def inner_frame(statement: Statement, outer: Frame, scope: Scope) -> Frame:
 
 
 def _rotation(part: Part, about: Part | None, scope: Scope) -> Frame:
-    """A turn about z, about a direction, or about a point: what has a unit is a point."""
+    """A rotation about z, about a direction, or about a point: a value with a unit is a point."""
     if about is None:
         return Frame(turn=typed_values.rotation(part.expression, scope, "rotate"))
     where = evaluate(about.expression, scope)

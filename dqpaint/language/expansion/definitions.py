@@ -1,4 +1,4 @@
-"""What a file gives a name to besides values: functions, lines to be drawn, frames; and calls."""
+"""Statements `let f`, `def` and `frame`, and calls -> functions, procedures, frames and scopes."""
 
 from dqpaint.diagnostics import Problem, problem
 from dqpaint.language.expansion import blocks
@@ -12,7 +12,7 @@ from dqpaint.language.values.vectors import Frame
 
 
 def function_of(statement: Statement, scope: Scope) -> Function:
-    """`let f(x) = …`. Its formula knows what is known here, and what it is handed."""
+    """`let f(x) = …`. Its formula knows the names defined here and its parameters."""
     assert statement.name is not None
     assert statement.params is not None
     name, body = statement.name.text, statement.values[0]
@@ -29,7 +29,7 @@ def function_of(statement: Statement, scope: Scope) -> Function:
 
 
 def drawing_of(statement: Statement, scope: Scope) -> Procedure:
-    """`def star(r) … end`. Its lines know what is known here, and what they are handed."""
+    """`def star(r) … end`. Its lines know the names defined here and its parameters."""
     assert statement.name is not None
     assert statement.params is not None
     name = statement.name
@@ -65,7 +65,7 @@ def frame_of(statement: Statement, scope: Scope) -> FrameValue:
 
 
 def called(statement: Statement, scope: Scope) -> Procedure:
-    """The `def` that a line calls."""
+    """The `def` called by a line."""
     assert statement.name is not None
     word = statement.name
     value = scope.names.get(word.text)
@@ -93,7 +93,7 @@ def called(statement: Statement, scope: Scope) -> Procedure:
 
 
 def handed(drawing: Procedure, statement: Statement, scope: Scope) -> Scope:
-    """What the lines of a `def` know when it is called."""
+    """The scope of a `def`'s lines for a call."""
     wanted, given = len(drawing.params), len(statement.values)
     if wanted != given:
         params = ", ".join(param.text for param in drawing.params)

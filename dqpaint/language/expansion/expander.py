@@ -1,4 +1,4 @@
-"""Statements -> Program: names get values, blocks are written out, movements become segments."""
+"""Statements -> Program: names evaluated, blocks expanded, movements turned into segments."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -42,7 +42,7 @@ DEEPEST = 64  # blocks, calls and files within each other
 
 
 class Expander:
-    """Works through a file's statements in order."""
+    """Processes the statements of a file in order."""
 
     def __init__(
         self, name: str, text: str, findings: DiagnosticCollector, path: Path | None = None
@@ -63,7 +63,7 @@ class Expander:
         self.at: Span | None = None  # the statement being worked on
 
     def program(self, statements: tuple[Statement, ...]) -> Program:
-        """All of a file; what is wrong goes to the findings."""
+        """The program of all statements; errors go to the findings."""
         self._run(statements)
         if not self._pen.segments and not self._findings.errors:
             self._findings.add(_nothing())
@@ -80,7 +80,7 @@ class Expander:
         )
 
     def _rounded(self) -> tuple[Segment, ...]:
-        """The strokes with their corners rounded, where that was asked."""
+        """The strokes with their corners rounded where `blend` is on."""
         pen = self._pen
         if not any(pen.corners) or self._findings.errors:
             return tuple(pen.segments)
@@ -114,13 +114,13 @@ class Expander:
             self._pass_over(statement)
 
     def _check_size(self, statement: Statement, size: int) -> None:
-        """Ends the work before it begins if the file is too much of it."""
+        """Raises before a block is expanded if it is too large."""
         if size > blocks.MOST_STATEMENTS:
             self._findings.add(blocks.too_many_statements(statement, size))
             raise ErrorLimitError
 
     def _pass_over(self, statement: Statement) -> None:
-        """Goes on after a mistake: nothing that follows from it is to be reported again."""
+        """Continues after an error without reporting its consequences."""
         self._failed += 1
         known = STATEMENTS.get(statement.word)
         if known is None or known.moves or statement.word == "start":
@@ -147,14 +147,14 @@ class Expander:
             raise problem("E127", message, statement.span)
 
     def _inside(self, statement: Statement, body: tuple[Statement, ...]) -> None:
-        """Runs the lines of a block."""
+        """Expands the lines of a block."""
         self._check_depth(statement)
         outside = self._open_block()
         self._run(body)
         self._close_block(outside)
 
     def _open_block(self) -> int:
-        """Begins a block; gives what `_close_block` needs to forget its names again."""
+        """Begins a block; returns what `_close_block` needs to restore the names."""
         self._depth += 1
         return len(self._scope.names)
 
@@ -163,7 +163,7 @@ class Expander:
         self._scope.forget_all_but(outside)
 
     def _define(self, statement: Statement, value: Value | None = None) -> None:
-        """Checks that a name is new, and gives it a value if there is one."""
+        """Checks that a name is new, and defines it if there is a value."""
         name = statement.name
         assert name is not None
         if name.text in self._scope.places:

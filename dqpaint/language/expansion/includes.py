@@ -1,4 +1,4 @@
-"""Files that include files: one source out of all of them, before anything is worked out.
+"""Files with `include` -> one list of statements, before anything is evaluated.
 
 The text of an included file is put behind those before it, its statements into the body of the
 `include`. A file is read once, however often it is included. Only files beside or below the main
@@ -48,11 +48,11 @@ class Loader:
         self._loaded: dict[Path, Statements] = {}
 
     def statements(self) -> Statements:
-        """The statements of the main file, with those of all others in them."""
+        """The statements of the main file, with those of included files in them."""
         return self._with_files(parse_statements(self.source, self._findings), self._root)
 
     def _with_files(self, statements: Statements, folder: Path | None) -> Statements:
-        """Statements with the bodies of their includes filled in; the tree is of bounded depth."""
+        """Statements with the bodies of their includes filled in; the depth is limited."""
         if not any(s.body or s.word == "include" for s in statements):
             return statements
         return tuple(
@@ -93,7 +93,7 @@ class Loader:
         return self._loaded[resolved]
 
     def _allowed(self, node: Quoted, folder: Path) -> Path:
-        """The path of a file that may be read: beside or below the main one, links followed."""
+        """The path of a readable file, in or below the main file's folder, links resolved."""
         assert self._root is not None
         if not is_relative(node.text):
             message = "a file to include is named from the folder of this one"

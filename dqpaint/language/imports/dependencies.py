@@ -1,4 +1,4 @@
-"""The files that a drawing names: those that decide what it is, and are worth watching."""
+"""Drawing -> the files it depends on, which are worth watching."""
 
 from pathlib import Path
 
@@ -10,7 +10,7 @@ MOST_FILES = 100
 
 
 def files_of(path: Path) -> set[Path]:
-    """A drawing's file and what it names in quotes, there or not yet; the drawing may be wrong."""
+    """A drawing's file and the files it names, existing or not; the drawing may have errors."""
     found, unread = {path}, [path]
     while unread and len(found) < MOST_FILES:
         file = unread.pop()
@@ -21,7 +21,7 @@ def files_of(path: Path) -> set[Path]:
 
 
 def _texts(path: Path) -> list[str]:
-    """What stands in quotes in a drawing."""
+    """The quoted texts of a drawing."""
     try:
         text = decoded(load(path), str(path))
     except DqpaintError:

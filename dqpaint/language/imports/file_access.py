@@ -1,4 +1,4 @@
-"""Files that a drawing names: found beside it or below, and read only so far as is allowed.
+"""File name in a drawing -> path or bytes: only files in or below its folder, of limited size.
 
 A name is seen from the folder of the file it stands in, an included one too; what is named lies in
 the folder of the main file or below, so that a drawing from elsewhere reads nothing else.
@@ -12,13 +12,13 @@ from dqpaint.language.syntax.tree import Quoted
 
 
 def is_relative(written: str) -> bool:
-    """Whether a name is one that is seen from a folder, on every system."""
+    """Whether a name is a relative path on every system."""
     strange = any(letter in written for letter in "\\:\0")
     return not strange and not PurePosixPath(written).is_absolute()
 
 
 def below(root: Path, folder: Path, written: str) -> Path | None:
-    """The path of a file named from a folder; None if it is not in `root`, links followed."""
+    """The path of a file named relative to a folder; None if it leaves `root`, links resolved."""
     parts = list(folder.relative_to(root).parts)
     for part in PurePosixPath(written).parts:
         if part != "..":
@@ -59,7 +59,7 @@ def _last(text: str) -> str:
 
 
 def contents(node: Quoted, pen: Pen, most_bytes: int) -> bytes:
-    """What is in a file; refused, before it is read, if it is too large."""
+    """The bytes of a file; refused before reading if it is too large."""
     path = path_of(node, pen)
     try:
         if path.stat().st_size > most_bytes:
@@ -74,7 +74,7 @@ def contents(node: Quoted, pen: Pen, most_bytes: int) -> bytes:
 
 
 def readable(node: Quoted, pen: Pen, most_bytes: int) -> Path:
-    """The path of a file that the drawing may read, and that is there and not too large."""
+    """The path of an existing file that the drawing may read and that is not too large."""
     path = path_of(node, pen)
     try:
         with path.open("rb") as file:

@@ -1,4 +1,4 @@
-"""Lettering: lines of text -> the strokes of a pen, in the unit of the font.
+"""Lines of text -> strokes of a pen, in the unit of the font.
 
 The fonts are data beside this module: single-stroke letters digitised by Dr. A. V. Hershey at the
 U.S. National Bureau of Standards; `fonts/README.md` says where they come from.
@@ -39,14 +39,14 @@ _WRITTEN = {
 
 
 class Glyph(NamedTuple):
-    """A letter: how far the next one stands from it, and its strokes, each (N, 2)."""
+    """A letter: the advance to the next one, and its strokes, each (N, 2)."""
 
     width: float
     strokes: tuple[Floats, ...]
 
 
 class Font(NamedTuple):
-    """A font: the height of its capitals, the sharpest turn [rad] of its bows, its letters."""
+    """A font: the height of its capitals, its largest angle [rad] within a bow, its letters."""
 
     name: str
     about: str
@@ -55,11 +55,11 @@ class Font(NamedTuple):
     glyphs: dict[str, Glyph]
 
     def has(self, letter: str) -> bool:
-        """Whether a letter can be drawn."""
+        """Whether the font has a letter."""
         return _PLAIN.get(letter, letter) in self.glyphs
 
     def glyph(self, letter: str) -> Glyph:
-        """A letter that it has."""
+        """The glyph of a letter of the font."""
         return self.glyphs[_PLAIN.get(letter, letter)]
 
 
@@ -80,7 +80,7 @@ def read_font(name: str) -> Font:
 
 
 class Lettering(NamedTuple):
-    """What a text is made of, with its first baseline beginning at the origin.
+    """The strokes of a text, whose first baseline begins at the origin.
 
     Attributes:
         strokes: in the order of writing, in font units.
@@ -93,7 +93,7 @@ class Lettering(NamedTuple):
 
 @lru_cache(maxsize=64)  # as in a `repeat`
 def lay_out(lines: tuple[str, ...], name: str, align: str) -> Lettering:
-    """Sets lines under each other; the ink of each begins, ends or is centred at x = 0."""
+    """The strokes of lines one below the other; each begins, ends or is centred at x = 0."""
     font = read_font(name)
     strokes: list[PiecewiseCurve] = []
     longest = 0.0
@@ -107,7 +107,7 @@ def lay_out(lines: tuple[str, ...], name: str, align: str) -> Lettering:
 
 
 def _line(line: str, font: Font) -> tuple[list[PiecewiseCurve], float, float]:
-    """The strokes of a line, and where its ink begins and ends; blanks round it count as ink."""
+    """The strokes of a line, and the range of its ink; surrounding blanks count as ink."""
     pen, inked = 0.0, []
     blank = [0.0, 0.0]  # before the first letter, after the last
     for letter in line:
@@ -123,7 +123,7 @@ def _line(line: str, font: Font) -> tuple[list[PiecewiseCurve], float, float]:
 
 
 def _continued(strokes: list[Floats]) -> list[Floats]:
-    """Strokes that begin where the one before ends, and do not turn back there, become one."""
+    """Joins a stroke to the one before if it begins at its end and does not reverse there."""
     out: list[Floats] = []
     for points in strokes:
         before = out[-1] if out else None
@@ -137,7 +137,7 @@ def _continued(strokes: list[Floats]) -> list[Floats]:
 
 
 def _stroke(points: Floats, sharpest: float) -> PiecewiseCurve:
-    """A polyline of a letter, with its round parts round."""
+    """A polyline of a letter, with its round parts smoothed."""
     flat = np.concatenate([points, np.zeros((len(points), 1))], axis=1)
     new = np.concatenate([[True], np.any(np.diff(flat, axis=0) != 0.0, axis=1)])
     flat = flat[new]
@@ -145,7 +145,7 @@ def _stroke(points: Floats, sharpest: float) -> PiecewiseCurve:
 
 
 def _corners(points: Floats, sharpest: float) -> NDArray[np.bool_]:
-    """Which points of a polyline are meant as corners."""
+    """Which points of a polyline are true corners."""
     size = np.linalg.norm(np.diff(points, axis=0), axis=1)
     shorter = np.minimum(np.roll(size, 1), size)
     longer = np.maximum(np.roll(size, 1), size)
@@ -159,7 +159,7 @@ def _corners(points: Floats, sharpest: float) -> NDArray[np.bool_]:
 
 
 def missing(lines: tuple[str, ...], font: Font) -> Iterator[tuple[int, int]]:
-    """Line and place of each letter that a font does not have."""
+    """Line and position of each letter that a font does not have."""
     for number, line in enumerate(lines):
         for place, letter in enumerate(line):
             if not font.has(letter):
@@ -167,7 +167,7 @@ def missing(lines: tuple[str, ...], font: Font) -> Iterator[tuple[int, int]]:
 
 
 def replaced(line: str, font: Font) -> str:
-    """A line with other letters for those a font lacks; empty if it lacks those too."""
+    """A line with substitutes for letters a font lacks; empty if it lacks those too."""
     out = "".join(letter if font.has(letter) else _instead(letter) for letter in line)
     return out if all(font.has(letter) for letter in out) else ""
 

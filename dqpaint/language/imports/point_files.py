@@ -1,4 +1,4 @@
-"""Tables of points: CSV with two or three columns, or a file of one column for each axis.
+"""Tables of points -> arrays: CSV with two or three columns, or one file for each axis.
 
 Columns are parted by commas, semicolons, tabs or blanks, as the first row of numbers shows; with
 semicolons or tabs a comma may be the decimal sign. A first line that holds no numbers is a
@@ -84,7 +84,7 @@ def _numbers_in(name: str, data: bytes, span: Span) -> Floats:
 
 
 def _first(text: str) -> tuple[int, str]:
-    """How many lines there are up to the heading, if there is one, and the first row behind it."""
+    """The number of lines up to the heading, if there is one, and the first row after it."""
     lines = _lines(text)
     number, line = next(lines, (0, ""))
     if not line or not _is_heading(line):
@@ -93,7 +93,7 @@ def _first(text: str) -> tuple[int, str]:
 
 
 def _lines(text: str) -> Iterator[tuple[int, str]]:
-    """The lines that hold anything, with their numbers."""
+    """The lines that are not blank, with their numbers."""
     for number, line in enumerate(text.split("\n"), 1):
         line = line.partition("#")[0].strip() if "#" in line else line.strip()
         if line:
@@ -101,7 +101,7 @@ def _lines(text: str) -> Iterator[tuple[int, str]]:
 
 
 def _style(line: str) -> tuple[str | None, bool]:
-    """What parts the columns (None: blanks), and whether the comma is the decimal sign."""
+    """The column separator (None: blanks), and whether the comma is the decimal sign."""
     for sign in ";\t":
         if sign in line:
             return sign, "," in line
@@ -125,7 +125,7 @@ def _is_heading(line: str) -> bool:
 
 
 def _fault(node: Quoted, lines: list[tuple[int, str]], parted: str | None) -> Problem:
-    """E295: the first line that is not as it should be."""
+    """E295: the first invalid line."""
     rows = [(number, line.split(parted)) for number, line in lines]
     wanted = len(rows[0][1])
     faults = ((number, _wrong(fields, wanted)) for number, fields in rows)
@@ -136,7 +136,7 @@ def _fault(node: Quoted, lines: list[tuple[int, str]], parted: str | None) -> Pr
 
 
 def _wrong(fields: list[str], wanted: int) -> str:
-    """What is wrong with a row; empty if nothing is."""
+    """The error in a row; empty if there is none."""
     bad = [field.strip() for field in fields if not _is_number(field)]
     if bad:
         return f"has '{bad[0][:40]}' where a number should be" if bad[0] else "lacks a number"

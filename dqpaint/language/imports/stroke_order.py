@@ -1,4 +1,4 @@
-"""The order of a drawing's lines: what touches is joined, and the ways between are short.
+"""Lines of a drawing -> the same lines, joined where they touch and ordered for short moves.
 
 Joined are ends of one colour that touch, those that go straight on first. Then each line is
 followed by the one whose nearer end is nearest, and stretches of the way are turned round while
@@ -24,7 +24,7 @@ RINGS = 6  # of cells that are searched before all lines are
 
 
 def in_order(lines: list[ColouredCurve]) -> list[ColouredCurve]:
-    """The same lines, joined and in an order whose dark ways are no longer than before."""
+    """The same lines, joined and in an order whose dark moves are no longer than before."""
     return _routed(_merged(lines))
 
 
@@ -32,7 +32,7 @@ def in_order(lines: list[ColouredCurve]) -> list[ColouredCurve]:
 
 
 def _merged(lines: list[ColouredCurve]) -> list[ColouredCurve]:
-    """Lines whose ends touch become one."""
+    """The lines, with those whose ends touch joined to one."""
     ends = piecewise.all_ends([curve for curve, _ in lines])
     tolerance = max(TOUCHING * float(np.ptp(ends.reshape(-1, 3), axis=0).max()), SAME)
     ends_at: dict[tuple[object, ...], list[tuple[int, int]]] = defaultdict(list)
@@ -49,7 +49,7 @@ def _merged(lines: list[ColouredCurve]) -> list[ColouredCurve]:
 
 
 def _knots(ends: Floats, tolerance: float) -> list[tuple[int, int]]:
-    """A number for the place of each end; ends that touch have the same."""
+    """A number for the position of each end; ends that touch share one."""
     cells: dict[tuple[int, int], list[int]] = defaultdict(list)
     flat = ends.reshape(-1, 3)[:, :2]
     spots = flat.tolist()
@@ -68,7 +68,7 @@ def _knots(ends: Floats, tolerance: float) -> list[tuple[int, int]]:
 def _pairs(
     meeting: list[tuple[int, int]], directions: Floats
 ) -> list[tuple[tuple[int, int], tuple[int, int]]]:
-    """Which of the ends that meet go on into each other: the straightest first."""
+    """The pairs of meeting ends that are joined: the straightest first."""
     meeting = meeting[:16]
     choices = sorted(
         (float(directions[a] @ directions[b]), a, b)
@@ -88,7 +88,7 @@ def _pairs(
 def _strung(
     lines: list[ColouredCurve], partner: dict[tuple[int, int], tuple[int, int]]
 ) -> list[ColouredCurve]:
-    """Follows the partners from line to line."""
+    """Joins lines by following the partners of their ends."""
     out: list[ColouredCurve] = []
     done: set[int] = set()
     for number in range(len(lines)):
@@ -138,13 +138,13 @@ def _placed(
 
 
 def _dark(ends: Floats, order: NDArray[np.int64], flipped: NDArray[np.bool_]) -> float:
-    """The length of the ways between the lines."""
+    """The length of the moves between the lines."""
     starts, stops = _placed(ends, order, flipped)
     return float(np.linalg.norm(starts[1:] - stops[:-1], axis=1).sum())
 
 
 def _nearest(ends: Floats) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-    """Each line followed by the nearest that is left, turned round if its end is nearer."""
+    """Nearest-neighbour order of the lines, each reversed if its end is nearer."""
     left = _Left(ends)
     order, flipped = [0], [False]
     left.take(0)
@@ -157,7 +157,7 @@ def _nearest(ends: Floats) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
 
 
 class _Left:
-    """The ends of the lines that are left, in square cells with about one line each."""
+    """The ends of the lines not yet drawn, in a grid with about one line per cell."""
 
     def __init__(self, ends: Floats) -> None:
         self._ends = ends
@@ -177,13 +177,13 @@ class _Left:
         return int(x), int(y)
 
     def take(self, line: int) -> None:
-        """Takes a line away."""
+        """Removes a line."""
         self._alive[line] = False
         for side, cell in enumerate(self._at[line]):
             self._cells[cell].discard((line, side))
 
     def nearest(self, point: Floats) -> tuple[int, int]:
-        """The line and which of its ends; looks ring by ring, and then at all."""
+        """The nearest line and which of its ends; searches ring by ring, then all cells."""
         here = point.tolist()
         x, y = self._cell_of(here)
         best, found = math.inf, (-1, -1)
@@ -209,7 +209,7 @@ class _Left:
 def _turned(
     ends: Floats, order: NDArray[np.int64], flipped: NDArray[np.bool_]
 ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-    """2-opt: a stretch i ... j is run backwards where that shortens the two ways beside it."""
+    """2-opt: lines i ... j are reversed where that shortens the two moves at their ends."""
     order, flipped = order.copy(), flipped.copy()
     for _ in range(ROUNDS):
         better = False

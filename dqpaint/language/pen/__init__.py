@@ -1,1 +1,1 @@
-"""The state between statements: pose of the pen, state of strokes -> times and orientations."""
+"""Pen and stroke state between statements -> poses, times and orientations."""

@@ -1,4 +1,4 @@
-"""How long a stroke takes, and how the legs of one statement share it."""
+"""Time clauses -> duration or speed of a stroke, and its division among legs."""
 
 from dqpaint.diagnostics import Span, problem
 from dqpaint.language.pen.stroke_state import StrokeState
@@ -9,7 +9,7 @@ from dqpaint.program import CruiseSpeed, Duration, Samples, Timing
 
 
 def timing(statement: Statement, state: StrokeState, scope: Scope) -> Timing:
-    """The time that a statement asks for; `state` has its own clauses."""
+    """The timing of a statement by its own clauses or the state's."""
     for part in statement.parts:
         if part.word not in ("in", "samples"):
             continue
@@ -20,7 +20,7 @@ def timing(statement: Statement, state: StrokeState, scope: Scope) -> Timing:
 
 
 def shared(whole: Timing, shares: list[float], span: Span) -> list[Timing]:
-    """The time of each leg: `shares` [any unit] are the legs' lengths."""
+    """The timing of each leg: `shares` [any unit] are the legs' lengths."""
     if len(shares) == 1 or isinstance(whole, CruiseSpeed):
         return [whole] * len(shares)
     total = sum(shares)
@@ -33,7 +33,7 @@ def shared(whole: Timing, shares: list[float], span: Span) -> list[Timing]:
 
 
 def apportioned(count: int, shares: list[float]) -> list[int]:
-    """Whole numbers in about these shares, each at least 1, that add up to `count` exactly."""
+    """Whole numbers in about these shares, each at least 1, with the exact sum `count`."""
     spare, total = count - len(shares), sum(shares)
     exact = [spare * share / total for share in shares]
     counts = [1 + int(part) for part in exact]

@@ -1,4 +1,4 @@
-"""Where the tool is, and the strokes it has made so far."""
+"""Current pose of the tool and its strokes so far -> segments of the program."""
 
 import math
 from dataclasses import replace
@@ -49,7 +49,7 @@ LOOKS_ALREADY = 1e-9  # [rad] what rounding may leave between a look and the str
 
 
 class Pen:
-    """The state of the drawing: `state` and `frame` are changed from outside."""
+    """The state of the drawing; `state` and `frame` are set from outside."""
 
     def __init__(
         self, name: str, text: str, findings: DiagnosticCollector, path: FilePath | None = None
@@ -75,7 +75,7 @@ class Pen:
         self._lines = _LineCounter(text)
 
     def begin(self, span: Span) -> None:
-        """A movement comes: the start is settled."""
+        """Settles the start pose before a movement."""
         if self.started:
             return
         self.started, self.moved = True, span
@@ -84,7 +84,7 @@ class Pen:
             self._adopt(mode.orientation)
 
     def start_at(self, position: Vector, orientation: Quaternion | None) -> None:
-        """Says where the drawing starts, and perhaps how the tool is held."""
+        """Sets the start of the drawing, and optionally its orientation."""
         self.placed = True
         self.pose = self.start = Pose(position, orientation or self.pose.orientation)
         self.oriented = self.oriented or orientation is not None
@@ -96,7 +96,7 @@ class Pen:
     def draw(
         self, path: Path, tool: Tool, timing: Timing, light: Light | None, end: Pose, span: Span
     ) -> None:
-        """Adds a stroke from where the tool is to `end`."""
+        """Adds a stroke from the current pose to `end`."""
         if len(self.segments) >= MOST_SEGMENTS:
             self.findings.add(_too_many(span))
             raise ErrorLimitError
@@ -122,38 +122,38 @@ class Pen:
 
     @property
     def amid_stroke(self) -> bool:
-        """Whether a `stroke` has begun to move."""
+        """Whether the movements of a `stroke` have begun."""
         segments = self.segments
         return self.stroke is not None and bool(segments) and segments[-1].stroke is self.stroke
 
     def check_no_stop(self, span: Span) -> None:
-        """Raises if a way or a turn of our own would come into the middle of a `stroke`."""
+        """Raises if an automatic move or rotation would interrupt a `stroke`."""
         if self.amid_stroke:
             message = "the tool would have to stop within this stroke"
             cure = "let this line begin where the one before it ends, and the tool look there"
             raise here("E283", message, span, "", cure)
 
     def begin_stroke(self, timing: Timing, light: Light | None) -> None:
-        """The segments that follow share a profile, and `light` if it is a gradient."""
+        """Begins segments that share a profile, and `light` if it is a gradient."""
         self._strokes += 1
         self.stroke = ContinuousStroke(self._strokes, self.state.profile, timing, light)
 
     def check_pace(self, part: Part) -> None:
-        """Raises if a line within a `stroke` has a time of its own."""
+        """Raises if a movement within a `stroke` has a time of its own."""
         if self.stroke is not None and part.word in PACE:
             message = f"'{part.word}' belongs to the whole stroke"
             cure = f"write it on its first line: stroke {PARTS[part.word].example}"
             raise problem("E281", message, part.span, "", cure)
 
     def _check_goes_on(self, path: Path, span: Span) -> None:
-        """Raises if the point stands still within a `stroke`."""
+        """Raises if the point rests within a `stroke`."""
         if isinstance(path, STANDING) or path == Straight(vectors.ZERO):
             what = {Dwell: "a pause", Step: "a jump"}.get(type(path), "a turn on the spot")
             message = f"{what} can't be part of a stroke, which does not stop"
             raise problem("E282", message, span, "", "end the stroke before it")
 
     def warn(self, code: str, message: str, span: Span, label: str = "", cure: str = "") -> None:
-        """Says what is assumed, unless it only follows from a mistake."""
+        """Warns of an assumption, unless it only follows from an earlier error."""
         if not self.lost:
             self.findings.add(Diagnostic(code, message, span, label, cure))
 
@@ -165,14 +165,14 @@ class Pen:
         orientation: Quaternion | None = None,
         timing: Timing | None = None,
     ) -> None:
-        """A way in the dark that the file did not ask for; the tool keeps, if nothing is said."""
+        """An automatic dark move; by default the tool's orientation is constant."""
         by = vectors.minus(to, self.pose.position)
         timing = timing or CruiseSpeed(self.state.speed, self.state.turnspeed)
         end = Pose(to, orientation or self.pose.orientation)
         self._assumed(Straight(by), tool or FixedOrientation(), timing, end, span)
 
     def look(self, mode: Look | LookLine, orientation: Quaternion, span: Span) -> None:
-        """Turns the tool to where a stroke needs it at its start, in the dark, if it is not."""
+        """Rotates the tool in the dark to the orientation a stroke needs at its start."""
         angle = vectors.turn_between(self.pose.orientation, orientation)
         if angle <= LOOKS_ALREADY:
             return
@@ -190,7 +190,7 @@ class Pen:
         self._assumed(Straight(vectors.ZERO), SlerpOrientation(), speed, end, span)
 
     def _assumed(self, path: Path, tool: Tool, timing: Timing, end: Pose, span: Span) -> None:
-        """A stroke of our own, rest to rest whatever profile the file's strokes have."""
+        """An automatic stroke, from rest to rest whatever profile the file's strokes have."""
         state, stroke = self.state, self.stroke
         self.state, self.stroke = replace(state, profile=REST_TO_REST, blend=0.0), None
         self.draw(path, tool, timing, None, end, span)
@@ -198,13 +198,13 @@ class Pen:
 
 
 def first_line(text: str, span: Span) -> Span:
-    """The part of a span that stands on its first line."""
+    """The part of a span on its first line."""
     newline = text.find("\n", span.start, span.end)
     return span if newline < 0 else Span(span.start, newline)
 
 
 class _LineCounter:
-    """Lines of ever later places, without counting from the top each time."""
+    """Line numbers of increasing offsets, without counting from the top each time."""
 
     def __init__(self, text: str) -> None:
         self._text = text
@@ -238,5 +238,5 @@ def _too_many(span: Span) -> Diagnostic:
 def here(
     code: str, message: str, span: Span, label: str = "", cure: str = ""
 ) -> UnknownPositionProblem:
-    """A mistake that depends on where the tool is."""
+    """An error that depends on the tool's pose."""
     return UnknownPositionProblem(problem(code, message, span, label, cure).diagnostic)

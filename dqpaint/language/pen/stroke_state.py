@@ -1,4 +1,4 @@
-"""What holds until something else is said: speed, profile, tool, blend, light, brush, strobe."""
+"""Modal settings of strokes: speed, profile, tool, blend, light, brush, strobe."""
 
 import math
 
@@ -34,7 +34,7 @@ WHITE = Light(colours.WHITE, colours.WHITE)
 
 @record
 class StrokeState:
-    """What holds for strokes at one place of the file, in SI units and the drawing frame.
+    """The settings of strokes at one point of the file, in SI units and the drawing frame.
 
     Attributes:
         speed: [m/s] of the point.

@@ -1,4 +1,4 @@
-"""How the tool is held: the orientation a mode asks for, and where it can't be had.
+"""Tool mode and position -> orientation of the tool, or an error where it is undefined.
 
 The tool's z axis looks; see `program.Look` and `program.LookLine` for the other two.
 """
@@ -26,7 +26,7 @@ LEAST_LEAN = math.radians(1.0)  # between the direction of a look and `up`
 
 
 def orientation_at(mode: Look | LookLine, position: Vector, span: Span) -> Quaternion:
-    """The orientation of a tool at `position` that looks."""
+    """The orientation at `position` of a tool that looks."""
     if isinstance(mode, Look):
         return _look(mode, position, span)
     return _look_line(mode, position, span)
@@ -60,7 +60,7 @@ def _look_line(mode: LookLine, position: Vector, span: Span) -> Quaternion:
 
 
 def told(mode: ToolMode, position: Vector, span: Span) -> Quaternion | None:
-    """The orientation at a place, if the mode alone says it."""
+    """The orientation at a position if the mode alone determines it, else None."""
     if isinstance(mode, TurnTo):
         return mode.orientation
     if isinstance(mode, LOOK_MODES):
@@ -69,7 +69,7 @@ def told(mode: ToolMode, position: Vector, span: Span) -> Quaternion | None:
 
 
 def begin(pen: Pen, mode: ToolMode, span: Span) -> None:
-    """Before a stroke: a tool that looks has to look already."""
+    """Before a stroke: a tool that looks has to have its orientation already."""
     if isinstance(mode, LOOK_MODES):
         pen.look(mode, orientation_at(mode, pen.pose.position, span), span)
 
@@ -77,9 +77,9 @@ def begin(pen: Pen, mode: ToolMode, span: Span) -> None:
 def at_end(
     pen: Pen, mode: ToolMode, position: Vector, span: Span, axis: Vector, turn: float
 ) -> tuple[Tool, Quaternion]:
-    """What the tool does on a stroke to `position`, and its orientation there.
+    """The tool's rotation on a stroke to `position`, and its orientation there.
 
-    `axis` and `turn` [rad] are the turn of a tool that follows.
+    `axis` and `turn` [rad] are the rotation of a tool that follows the heading.
     """
     now = pen.pose.orientation
     if isinstance(mode, FollowHeading):
@@ -90,14 +90,14 @@ def at_end(
 
 
 def turning(now: Quaternion, end: Quaternion) -> tuple[Tool, Quaternion]:
-    """Turn, or Keep where there is nothing to turn."""
+    """Slerp to `end`, or a fixed orientation if both are equal within SAME_TURN."""
     if end == now or vectors.turn_between(now, end) <= SAME_TURN:
         return FixedOrientation(), now
     return SlerpOrientation(), end
 
 
 def most_leaning(mode: Look | LookLine, start: Vector, way: Vector) -> tuple[Vector, ...]:
-    """The place on a straight way where a look comes closest to 'up', or to its contrary.
+    """The point on a straight path where the looking direction is closest to +-'up'.
 
     The looks lie in one plane; there the closest is square to n x up, n being the plane's normal.
     """
@@ -111,6 +111,6 @@ def most_leaning(mode: Look | LookLine, start: Vector, way: Vector) -> tuple[Vec
 
 
 def check_way(mode: Look | LookLine, places: Iterable[Vector], span: Span) -> None:
-    """Raises if a tool could not look so on the way."""
+    """Raises if the tool's orientation is undefined at one of these positions."""
     for position in places:
         orientation_at(mode, position, span)

@@ -1,4 +1,4 @@
-"""A statement and the pen's state -> segments of the program.
+"""Statement and pen state -> segments of the program.
 
 A new stroke is a row in `vocabulary.words` and a function here.
 """

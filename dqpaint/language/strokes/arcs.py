@@ -1,4 +1,4 @@
-"""The geometry of arcs: the one through three points, and where one ends."""
+"""Points, radius or angle -> arcs, and positions along them."""
 
 import math
 from collections.abc import Iterator
@@ -56,7 +56,7 @@ def of_radius(
     radius_span: Span,
     end_span: Span,
 ) -> Arc:
-    """The arc of a radius [m] that turns about `axis` by the right-hand rule, to `end`.
+    """The arc of a radius [m] from `start` to `end`, right-handed about `axis`.
 
     With the chord d: the centre lies square to it, on the left of the way, by
     sqrt(radius^2 - d^2 / 4); a `long` arc has it on the right.
@@ -97,7 +97,7 @@ def of_radius(
 
 
 def check(arc: Arc, start: Vector, centre_span: Span, grow_span: Span) -> None:
-    """Raises if the arc has no radius, or ends with less than none."""
+    """Raises if the arc has no radius, or ends with a negative one."""
     way = vectors.minus(start, arc.centre)
     radius = vectors.length(vectors.across(way, arc.axis))
     if radius <= SAME_PLACE + RADIUS_ZERO * vectors.length(way):
@@ -116,7 +116,7 @@ def check(arc: Arc, start: Vector, centre_span: Span, grow_span: Span) -> None:
 
 
 def place_at(arc: Arc, start: Vector, share: float) -> Vector:
-    """The point at a share, 0 to 1, of an arc that begins at `start`."""
+    """The point at a fraction, 0 to 1, of an arc that begins at `start`."""
     way = vectors.minus(start, arc.centre)
     across = vectors.across(way, arc.axis)
     foot = vectors.plus(arc.centre, vectors.minus(way, across))
@@ -133,11 +133,11 @@ def place_at(arc: Arc, start: Vector, share: float) -> Vector:
 
 
 def end_of(arc: Arc, start: Vector) -> Vector:
-    """Where an arc that begins at `start` ends."""
+    """The end of an arc that begins at `start`."""
     return place_at(arc, start, 1.0)
 
 
 def places(arc: Arc, start: Vector, pieces: int = 64) -> Iterator[Vector]:
-    """Points all along an arc."""
+    """Points along a whole arc."""
     for i in range(pieces + 1):
         yield place_at(arc, start, i / pieces)

@@ -1,4 +1,4 @@
-"""The values of a `brush` clause -> a `program.Brush`, checked by the brush's own model."""
+"""Values of a `brush` clause -> `program.Brush`, validated by the brush's own model."""
 
 from collections.abc import Callable
 from functools import partial
@@ -25,7 +25,7 @@ FURTHEST_COUNT = -(10**9)  # how far a count may go is for the brush to say
 
 
 def brush_of(words: BrushWords, scope: Scope, pen: Pen) -> Brush:
-    """What stands after `brush`; it stands in the tool's frame and is never scaled."""
+    """The brush of a clause, in the tool's frame: it is never scaled."""
     from pydantic import ValidationError
 
     from dqpaint.brushes import BRUSHES, takes
@@ -44,7 +44,7 @@ def brush_of(words: BrushWords, scope: Scope, pen: Pen) -> Brush:
 
 
 def _refused(words: BrushWords, fault: "ValidationError", model: "type[BrushModel]") -> Problem:
-    """E258: what the model says of the first value that it does not take."""
+    """E258: the model's message about the first invalid value."""
     from dqpaint.brushes import takes
     from dqpaint.core import pydantic_reason
 
@@ -66,7 +66,7 @@ def _span(part: BrushPart) -> Span:
 
 
 def _label(part: BrushPart, words: BrushWords) -> str:
-    """The word that a value stands after: its own, or the brush's."""
+    """The word before a value: its own, or the brush's."""
     named = part.key.span != part.values[0].span
     return part.key.text if named else f"brush {words.name.text}"
 

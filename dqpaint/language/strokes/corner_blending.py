@@ -1,4 +1,4 @@
-"""Rounded corners: `blend L` leaves a stroke L before its end, and joins the next L from there.
+"""Segments with `blend` -> segments whose corners are replaced by Bezier curves.
 
 Two straight lines are joined by the arc of a circle that touches both; where an arc or a helix is
 one of the two, by the cubic Bezier curve that touches both and would be nearest to an arc between
@@ -48,7 +48,7 @@ CLOSE = 1e-12  # of a stroke's length: what rounding may leave of it
 
 
 class _Joint(NamedTuple):
-    """What happens between two segments."""
+    """The transition between two segments."""
 
     joined: bool  # the second goes on without a stop
     cut: float  # so much of the first one's end and of the second one's start is left out [m]
@@ -97,7 +97,7 @@ def _pieces(
     shares: Sequence[tuple[float, float]],
     joints: Sequence[_Joint],
 ) -> list[Segment]:
-    """What is left of segments in a row, and between them the ways round the corners."""
+    """The shortened segments in a row, with the curves round the corners between them."""
     pieces = []
     for i, (segment, (lower, upper)) in enumerate(zip(segments, shares, strict=True)):
         if lower < upper:
@@ -146,7 +146,7 @@ def _is_known(path: Path) -> bool:
 def _shares(
     segment: Segment, first: float, last: float, findings: DiagnosticCollector
 ) -> tuple[float, float]:
-    """What is left of a segment without so much of its start and of its end [m]."""
+    """The rest of a segment that is shortened at its start and its end [m]."""
     if not first and not last:
         return 0.0, 1.0
     length = _length(segment)
@@ -173,7 +173,7 @@ def _mm(size: float) -> str:
 
 
 def _floor(size: float) -> float:
-    """Down to three digits, so that what is advised works."""
+    """Rounded down to three digits, so that the suggested size works."""
     unit = 10.0 ** (math.floor(math.log10(size)) - 2)
     return math.floor(size / unit * (1.0 + CLOSE)) * unit
 
@@ -228,7 +228,7 @@ def _orientation(segment: Segment, share: float, position: Vector) -> Quaternion
 
 
 def _part(segment: Segment, lower: float, upper: float) -> Segment:
-    """A segment from one share of its length to another."""
+    """A segment between two fractions of its length."""
     if (lower, upper) == (0.0, 1.0):
         return segment
     share, path = upper - lower, segment.path
@@ -258,7 +258,7 @@ def _of_run(segment: Segment) -> bool:
 
 
 def _bend(a: Segment, leaves: float, b: Segment, joins: float) -> Segment:
-    """From a share of one segment's length to a share of the next one's."""
+    """From a fraction of one segment's length to a fraction of the next one's."""
     start, end = _pose(a, leaves), _pose(b, joins)
     light = a.light
     if light is not None and b.light is not None and not (_of_run(a) and _of_run(b)):
@@ -269,7 +269,7 @@ def _bend(a: Segment, leaves: float, b: Segment, joins: float) -> Segment:
 
 
 def _tool(a: Tool, b: Tool, start: Pose, end: Pose) -> Tool:
-    """A tool that looks goes on looking; another turns evenly from one stroke to the next."""
+    """A tool that looks still looks; another rotates evenly from one stroke to the next."""
     if a == b and isinstance(a, LOOK_MODES):
         return a
     return tool_orientation.turning(start.orientation, end.orientation)[0]
@@ -310,7 +310,7 @@ def bezier(*points: Vector) -> Formula:
 def _as_run(
     segments: Sequence[Segment], pieces: list[Segment], number: int, findings: DiagnosticCollector
 ) -> list[Segment]:
-    """The pieces of segments that were joined, with the time of all of them."""
+    """The pieces of joined segments, with the time of all of them."""
     if len(segments) == 1 or segments[0].stroke is not None:
         return pieces
     profile, timing = segments[0].profile, _whole(segments)
@@ -329,7 +329,7 @@ def _as_run(
 
 
 def _whole(segments: Sequence[Segment]) -> Timing | None:
-    """The time of segments in a row: their speed, or that of one statement's legs together."""
+    """The timing of segments in a row: their speed, or the time of a statement's legs together."""
     timings = [segment.timing for segment in segments]
     if isinstance(timings[0], CruiseSpeed):
         return timings[0] if all(timing == timings[0] for timing in timings) else None

@@ -1,4 +1,4 @@
-"""Curves: a formula of the file becomes a function of a Taylor series, in the drawing frame."""
+"""Formula of a curve -> function of a Taylor series, in the drawing frame."""
 
 import numpy as np
 
@@ -21,7 +21,7 @@ UPRIGHT = 1e-6  # sine of the least angle between a heading and the axis it turn
 
 
 def curve(statement: Statement, frame: Frame, scope: Scope, pen: Pen) -> tuple[Curve, list[Vector]]:
-    """A curve, and points all along it."""
+    """A curve, and points along all of it."""
     node, lower_node, upper_node = statement.values
     assert statement.name is not None
     lower, upper, dimension = _ends(lower_node, upper_node, scope)
@@ -36,7 +36,7 @@ def curve(statement: Statement, frame: Frame, scope: Scope, pen: Pen) -> tuple[C
 
 
 def outside_of_formula(mistake: Problem, statement: Statement, text: str) -> Problem:
-    """Says, if that is the mistake, that the parameter has no value outside of the formula."""
+    """Adds to an error that the parameter has no value outside the formula."""
     found, name = mistake.diagnostic, statement.name
     if found.code != "E205" or found.span is None or name is None:
         return mistake
@@ -53,7 +53,7 @@ def outside_of_formula(mistake: Problem, statement: Statement, text: str) -> Pro
 def _ends(
     lower_node: Expression, upper_node: Expression, scope: Scope
 ) -> tuple[float, float, Dimension]:
-    """Where the parameter begins and ends, and its dimension."""
+    """The limits of the parameter, and its dimension."""
     lower, upper = evaluate(lower_node, scope), evaluate(upper_node, scope)
     for value, node, word in ((lower, lower_node, "from"), (upper, upper_node, "to")):
         if not isinstance(value, Quantity):
@@ -146,7 +146,7 @@ def _shown(value: float, dimension: Dimension) -> str:
 
 
 def heading_change(curve: Curve, axis: Vector, span: Span) -> float:
-    """How far [rad] a curve's direction turns about a unit vector, from its start to its end."""
+    """The angle [rad] by which a curve's direction rotates about a unit vector."""
     pieces = PIECES
     while True:
         turns = _turns(curve, axis, pieces, span)
@@ -160,7 +160,7 @@ def heading_change(curve: Curve, axis: Vector, span: Span) -> float:
 
 
 def _turns(curve: Curve, axis: Vector, pieces: int, span: Span) -> Floats:
-    """The turn from each of many places on a curve to the next."""
+    """The rotation between each two neighbours of many points on a curve."""
     at = np.linspace(curve.lower, curve.upper, pieces + 1)
     try:
         series = curve.formula(Taylor.variable(at))

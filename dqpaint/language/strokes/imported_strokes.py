@@ -1,4 +1,4 @@
-"""Letters and drawings from elsewhere -> segments: `text`, `path` and `svg`.
+"""Text, tables of points and SVG drawings -> segments.
 
 What is drawn without lifting the pen is one stroke, a `program.PiecewiseCurve`: it runs through its
 corners without a stop, and its light is even, so that nothing in it glows but what crosses.
@@ -41,7 +41,7 @@ LOOKED_AT = 20_000  # places of a stroke, where a tool that looks is looked at
 
 
 class Trace(NamedTuple):
-    """What is drawn without lifting the pen, and its own colour, if it has one."""
+    """A line drawn without lifting the pen, and its own colour, if it has one."""
 
     curve: PiecewiseCurve
     colour: Colour | None = None
@@ -51,7 +51,7 @@ class Trace(NamedTuple):
 
 
 def text(statement: Statement, pen: Pen, scope: Scope) -> None:
-    """`text`: each given text is a line; `height` is that of a capital."""
+    """`text`: one line of letters for each text; `height` is that of a capital."""
     nodes = [node for node in statement.values if isinstance(node, Quoted)]
     lines = tuple(node.text for node in nodes)
     font = _font(statement)
@@ -79,7 +79,7 @@ def text(statement: Statement, pen: Pen, scope: Scope) -> None:
 
 
 def path(statement: Statement, pen: Pen, scope: Scope) -> None:
-    """`path`: a line through the points of a file, at its own place or fitted."""
+    """`path`: a line through the points of a file, at its own position or fitted."""
     nodes = [node for node in statement.values if isinstance(node, Quoted)]
     from dqpaint.language.imports import point_files
 
@@ -110,7 +110,7 @@ def path(statement: Statement, pen: Pen, scope: Scope) -> None:
 
 
 def svg(statement: Statement, pen: Pen, scope: Scope) -> None:
-    """`svg`: a drawing's lines in its own colours, its middle at `at`."""
+    """`svg`: a drawing's lines in its own colours, centred at `at`."""
     (node,) = statement.values
     assert isinstance(node, Quoted)
     from dqpaint.language.imports.svg import reader
@@ -156,7 +156,7 @@ def _no_letter(node: Quoted, place: int, font: lettering.Font) -> Problem:
 
 
 def _scale(statement: Statement, pen: Pen, scope: Scope, size: tuple[float, float]) -> float:
-    """The largest scale with which (width, height) is no wider and no higher than was said."""
+    """The largest scale with which (width, height) is no larger than the given size."""
     scales = []
     for word, extent in zip(("width", "height"), size, strict=True):
         node = statement.value(word)
@@ -182,7 +182,7 @@ def _fitted(
 
 
 def _place_of(statement: Statement, pen: Pen, scope: Scope, origin: Floats) -> Vector:
-    """Where the file's own origin comes, in the drawing frame."""
+    """The position of the file's own origin, in the drawing frame."""
     at = statement.value("at")
     x, y, z = typed_values.place(at, scope, "at") if at is not None else vectors.ZERO
     pen.lost = False
@@ -205,7 +205,7 @@ def _drawn(
 
 
 def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> None:
-    """The strokes one after the other, and the dark ways between them.
+    """The strokes one after the other, with dark moves between them.
 
     Time and a gradient of the light are spread over all by their lengths: the time over the ways
     between the strokes, too, but not over the way to the first.
@@ -243,7 +243,7 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
 
 
 def check_pieces(pieces: int, pen: Pen, span: Span) -> None:
-    """Ends the work if so many pieces are too many."""
+    """Raises if the program would have too many pieces."""
     if pieces > MOST_PIECES:
         message = f"more than {MOST_PIECES:,} pieces of lines from elsewhere in all"
         cure = "draw it less often, or with fewer points"
@@ -252,7 +252,7 @@ def check_pieces(pieces: int, pen: Pen, span: Span) -> None:
 
 
 def _pen_up(statement: Statement, count: int) -> Problem:
-    """What lifts its pen can't be part of a `stroke`, which goes on without a stop."""
+    """An error: a `stroke` never stops, so the pen can't be lifted in it."""
     word = statement.word
     message = f"this '{word}' lifts its pen between its {count} lines, and a 'stroke' does not stop"
     span = Span(statement.span.start, statement.span.start + len(word))
@@ -263,7 +263,7 @@ def _pen_up(statement: Statement, count: int) -> Problem:
 
 
 def _begin(pen: Pen, start: Vector, span: Span) -> None:
-    """If nothing was said yet about where the drawing starts: it starts here."""
+    """Starts the drawing here if its start is not set."""
     if pen.started:
         return
     pen.started, pen.moved = True, span
@@ -271,7 +271,7 @@ def _begin(pen: Pen, start: Vector, span: Span) -> None:
 
 
 def _times(whole: Timing, lengths: list[float], ways: list[float], span: Span) -> list[Timing]:
-    """The time of each stroke and of the way after it, in turn."""
+    """The time of each stroke and of the move after it, alternating."""
     both = [size for pair in zip(lengths, ways, strict=True) for size in pair]
     there = [i for i, size in enumerate(both) if size > SAME_PLACE]
     given = iter(shared(whole, [both[i] for i in there], span))
@@ -281,7 +281,7 @@ def _times(whole: Timing, lengths: list[float], ways: list[float], span: Span) -
 def _glows(
     statement: Statement, pen: Pen, traces: list[Trace], lengths: list[float]
 ) -> list[Light | None]:
-    """The light of each stroke: the clause's, else its own colour, else the one that holds."""
+    """The light of each stroke: the clause's, else its own colour, else the current one."""
     light = pen.state.light
     done = np.concatenate([[0.0], np.cumsum(lengths)]) / sum(lengths)
     out: list[Light | None] = []
@@ -299,7 +299,7 @@ def _glows(
 
 
 def _travel(pen: Pen, to: Vector, span: Span, time: Timing | None) -> None:
-    """The dark way to a stroke; a tool that is to be turned turns on it, and looks if it looks."""
+    """The dark move to a stroke; a tool that rotates or looks does so on it."""
     mode = pen.state.tool
     far = vectors.length(vectors.minus(to, pen.pose.position)) > SAME_PLACE
     wanted = mode.orientation if isinstance(mode, TurnTo) else pen.pose.orientation
@@ -318,7 +318,7 @@ def _vector(numbers: list[float]) -> Vector:
 
 
 def _places(curve: PiecewiseCurve) -> list[Vector]:
-    """Places all along a curve."""
+    """Points along a whole curve."""
     count = len(curve.cubic)
     whole = np.linspace(0.0, count, min(16 * count, LOOKED_AT), endpoint=False)
     at = piecewise.derivatives(curve, whole.astype(np.intp), whole % 1.0)[0]

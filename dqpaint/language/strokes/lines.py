@@ -1,4 +1,4 @@
-"""Lines and moves -> segments: one for each leg, and a turn on the spot where there is no way."""
+"""Lines and moves -> segments: one for each leg, or a rotation in place."""
 
 from dqpaint.diagnostics import Span
 from dqpaint.language.pen import tool_orientation
@@ -26,12 +26,12 @@ from dqpaint.program import (
 
 
 def sets_start(statement: Statement, pen: Pen) -> bool:
-    """Whether a movement that names its own first point is the first to say where the tool is."""
+    """Whether a movement defines the start of the drawing by its own first point."""
     return statement.word in ("move", "text", "path", "svg") and not (pen.started or pen.placed)
 
 
 def _stops(statement: Statement, pen: Pen, scope: Scope) -> list[tuple[Vector, Span]]:
-    """The points of a line, and where each is written."""
+    """The points of a line with their spans."""
     at, stops = pen.pose.position, []
     for part in statement.parts:
         if part.word in ("to", "by"):
@@ -45,7 +45,7 @@ def _stops(statement: Statement, pen: Pen, scope: Scope) -> list[tuple[Vector, S
 
 
 def move(statement: Statement, pen: Pen, scope: Scope) -> None:
-    """`move`: a line in the dark; the first one says where the drawing starts."""
+    """`move`: a dark line; the first one defines the start of the drawing."""
     if not sets_start(statement, pen):
         legs(statement, _stops(statement, pen, scope), pen, scope, light=None)
         return
@@ -78,7 +78,7 @@ def legs(
     scope: Scope,
     light: Light | None,
 ) -> None:
-    """One segment for each leg; turn, light and time are spread over all by their lengths.
+    """One segment for each leg; rotation, light and time are divided by the legs' lengths.
 
     Args:
         statement: whose clauses hold for all of them.
@@ -121,12 +121,12 @@ def legs(
 
 
 def _of_run(pen: Pen, light: Light) -> bool:
-    """Whether a gradient goes over a whole `stroke`."""
+    """Whether a gradient extends over a whole `stroke`."""
     return pen.stroke is not None and light is pen.stroke.light
 
 
 def _shares(sizes: list[float]) -> list[tuple[float, float]]:
-    """Where each leg begins and ends, as shares of the total; the last ends at 1 exactly."""
+    """Start and end of each leg, as fractions of the total; the last ends at 1 exactly."""
     if len(sizes) == 1:
         return [(0.0, 1.0)]
     total, ends = sum(sizes), [0.0]
@@ -138,7 +138,7 @@ def _shares(sizes: list[float]) -> list[tuple[float, float]]:
 def _tool_of_leg(
     pen: Pen, stop: Vector, span: Span, first: float, last: float
 ) -> tuple[Tool, Quaternion]:
-    """The turn of a leg that runs from one share of the whole way to another."""
+    """The rotation on a leg between two fractions of the whole path."""
     mode, now = pen.state.tool, pen.pose.orientation
     if isinstance(mode, FollowHeading):
         return FixedOrientation(), now
@@ -149,7 +149,7 @@ def _tool_of_leg(
 
 
 def _nearest(mode: Look | LookLine, start: Vector, way: Vector) -> Vector:
-    """The place on a straight way that is nearest to what the tool looks at."""
+    """The point on a straight path that is nearest to the point the tool looks at."""
     to, along = vectors.minus(mode.point, start), way
     if isinstance(mode, LookLine):
         to, along = vectors.across(to, mode.along), vectors.across(way, mode.along)
@@ -161,7 +161,7 @@ def _nearest(mode: Look | LookLine, start: Vector, way: Vector) -> Vector:
 def _on_the_spot(
     statement: Statement, span: Span, pen: Pen, whole: Timing, light: Light | None
 ) -> None:
-    """A line that goes nowhere: a turn, if its tool asks for one."""
+    """A line without length: a rotation in place, if its tool needs one."""
     mode, now = pen.state.tool, pen.pose.orientation
     wanted = tool_orientation.told(mode, pen.pose.position, span)
     tool, orientation = tool_orientation.turning(now, wanted if wanted is not None else now)

@@ -1,4 +1,4 @@
-"""Words that hold until they are said again, and their values -> the state of strokes."""
+"""Modal words and their values -> state of strokes."""
 
 from dqpaint.core import replaced
 from dqpaint.diagnostics import problem
@@ -57,7 +57,7 @@ def changed(state: StrokeState, part: Part, scope: Scope, pen: Pen, frame: Frame
 
 
 def tool_mode(words: ToolWords, scope: Scope, frame: Frame) -> ToolMode:
-    """What stands after `tool`, in the drawing frame."""
+    """The tool mode of a clause, in the drawing frame."""
     values = words.values
     match words.mode:
         case "keep":
@@ -77,7 +77,7 @@ def tool_mode(words: ToolWords, scope: Scope, frame: Frame) -> ToolMode:
 
 
 def light_of(words: LightWords, state: StrokeState, scope: Scope) -> Light | None:
-    """What stands after `light`; None if it is off from end to end."""
+    """The light of a clause; None if it is off from end to end."""
     first = _shade(words.first, state.shone.first, scope)
     last = first
     if words.last is not None:
@@ -89,7 +89,7 @@ def light_of(words: LightWords, state: StrokeState, scope: Scope) -> Light | Non
 
 
 def strobe_of(words: StrobeWords, scope: Scope) -> Strobe | None:
-    """What stands after `strobe`."""
+    """The strobe of a clause."""
     if words.frequency is None:
         return None
     frequency = typed_values.positive(words.frequency, scope, "strobe")
@@ -107,7 +107,7 @@ def _shade(shade: ColourWords, on: Colour, scope: Scope, after_to: bool = False)
 
 
 def standing(light: Light | None) -> Light | None:
-    """The light of a pause under this light: what the stroke before it ended with."""
+    """The light of a pause: the last colour of the stroke before it."""
     if light is None or light.even or light.last == colours.DARK:
         return None  # a light that is even over the way does not shine where there is none
     return Light(light.last, light.last)

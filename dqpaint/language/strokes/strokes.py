@@ -1,4 +1,4 @@
-"""Movements -> segments: each function knows one statement."""
+"""Movement statements -> segments, one function for each statement."""
 
 from dqpaint.core import replaced
 from dqpaint.diagnostics import problem
@@ -31,7 +31,7 @@ from dqpaint.program import (
 
 
 def draw(statement: Statement, pen: Pen, scope: Scope) -> None:
-    """Adds what a movement draws; its clauses hold for it alone."""
+    """Adds the strokes of a movement; its clauses hold for it alone."""
     outside = pen.state
     if pen.stroke is not None:
         for part in statement.parts:
@@ -116,7 +116,7 @@ def _turn_about_centre(statement: Statement, pen: Pen, scope: Scope) -> Arc:
 
 
 def _axis(statement: Statement, pen: Pen, scope: Scope) -> Vector:
-    """What an arc turns about, in the drawing frame."""
+    """The axis of an arc, in the drawing frame."""
     node = statement.value("axis")
     return pen.frame.direction(typed_values.direction(node, scope, "axis") if node else vectors.Z)
 
@@ -234,7 +234,7 @@ def _hold(statement: Statement, pen: Pen, scope: Scope) -> None:
 
 
 def _standing_light(statement: Statement, pen: Pen, scope: Scope) -> Light | None:
-    """A pause's own light may change over its time; another's gradient ended before it."""
+    """The light of a pause: only its own light may be a gradient over its time."""
     part = statement.part("light")
     if part is None:
         return standing(pen.state.light)

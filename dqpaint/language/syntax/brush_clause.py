@@ -1,4 +1,4 @@
-"""What stands after `brush` -> its name and values, by the registry of brushes.
+"""Tokens after `brush` -> its name and values, by the registry of brushes.
 
 `brush NAME [VALUE] KEY VALUE ...`: the value without a name is the brush's first. Which words are
 keys is for the brush to say; a word that is none of its keys belongs to the statement.
@@ -41,14 +41,14 @@ def brush(cursor: Cursor) -> BrushWords:
 
 
 def is_key(name: str, word: str) -> bool:
-    """Whether a word is the name of a value of a brush."""
+    """Whether a word names a value of a brush."""
     from dqpaint.brushes import BRUSHES, takes
 
     return name in BRUSHES and word in takes(BRUSHES[name])
 
 
 def _values_of(token: Token) -> tuple[dict[str, str], str | None]:
-    """What each value of a brush takes, and which may be written without its name."""
+    """The type of each value of a brush, and the value that may be written without its name."""
     from dqpaint.brushes import BRUSHES, first_value, takes  # who writes no `brush` needs none
 
     if token.kind not in ("name", "text"):
@@ -66,7 +66,7 @@ def _values_of(token: Token) -> tuple[dict[str, str], str | None]:
 
 
 def _is_key(cursor: Cursor, takes: dict[str, str], head: bool) -> bool:
-    """Whether a key comes next, not a name of the file that is the value without a name."""
+    """Whether a key comes next, and not a name of the file as the unnamed value."""
     token, after = cursor.token, cursor.peek()
     if token.kind != "name" or token.text not in takes:
         return False
@@ -104,7 +104,7 @@ def _value(cursor: Cursor, after: str) -> Expression:
 
 
 def _check_next(cursor: Cursor, name: Token, takes: dict[str, str]) -> None:
-    """Raises at a word that is none of the statement's, but nearly one of the brush's."""
+    """Raises at an unknown word that resembles a word of the brush."""
     token, statement = cursor.token, STATEMENTS[cursor.first.text]
     if token.kind != "name" or token.text in RESERVED or token.text in statement.parts:
         return

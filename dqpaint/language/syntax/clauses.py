@@ -1,4 +1,4 @@
-"""The little grammars of their own: what stands after tool, light, brush, strobe and blend."""
+"""Tokens after `tool`, `light`, `strobe` and `blend` -> clauses."""
 
 import re
 from collections.abc import Callable
@@ -38,7 +38,7 @@ def _along(cursor: Cursor, example: str) -> None:
 
 
 def _percent(cursor: Cursor, what: str, example: str) -> float:
-    """A number and its %, as a part of 1."""
+    """A number and its % sign, as a fraction of 1."""
     share = float(cursor.take().text) / 100.0
     if not cursor.is_sign("%"):
         message = f"expected '%' after {what} but found {found(cursor.token)}"
@@ -106,7 +106,7 @@ def _shade(cursor: Cursor, after: str = "light") -> ColourWords:
 
 
 def _no_colour(cursor: Cursor) -> Problem:
-    """E108. A comment swallowed `#ff8800`, or the brightness stands without its colour."""
+    """E108: a comment swallowed `#ff8800`, or a brightness has no colour."""
     cure = 'for example: light red, light hsv(30 deg), light "#ff8800", light off'
     span, fix = cursor.before.span, None
     if cursor.is_word("even"):

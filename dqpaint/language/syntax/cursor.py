@@ -1,4 +1,4 @@
-"""A reading head over the tokens of one line."""
+"""Reading position in the tokens of one line."""
 
 from dqpaint.diagnostics import Problem, Span, problem
 from dqpaint.language.syntax.lexer import Token
@@ -6,7 +6,7 @@ from dqpaint.language.vocabulary.words import RESERVED, STATEMENTS
 
 
 class Cursor:
-    """The tokens of a line, and how far they are read."""
+    """The tokens of a line and the reading position."""
 
     __slots__ = ("_at", "_tokens", "depth", "text", "token")
 
@@ -18,7 +18,7 @@ class Cursor:
         self.depth = 0  # of brackets within each other
 
     def take(self) -> Token:
-        """Reads a token."""
+        """Reads and returns the next token."""
         token = self.token
         if token.kind != "end":
             self._at += 1
@@ -36,11 +36,11 @@ class Cursor:
 
     @property
     def before(self) -> Token:
-        """The token that was read last."""
+        """The token read last."""
         return self._tokens[self._at - 1 if self._at else 0]
 
     def before_is(self, back: int, word: str) -> bool:
-        """Whether this word was read so many tokens ago."""
+        """Whether this word was read `back` tokens ago."""
         return self._at >= back and self._tokens[self._at - back].text == word
 
     def is_word(self, word: str) -> bool:
@@ -53,17 +53,17 @@ class Cursor:
 
     @property
     def at_end(self) -> bool:
-        """Whether the line is read."""
+        """Whether all tokens are read."""
         return self.token.kind == "end"
 
     def span_from(self, start: int) -> Span:
-        """From an offset to the end of what was read last."""
+        """The span from an offset to the end of the token read last."""
         end = self._tokens[self._at - 1 if self._at else 0].end
         return Span(start, end if end > start else start)
 
 
 def found(token: Token) -> str:
-    """A token as a message names it: never by its kind alone."""
+    """The name of a token in messages: its text, not only its kind."""
     if token.kind == "end":
         return "the end of the line"
     if token.kind == "number":
@@ -74,7 +74,7 @@ def found(token: Token) -> str:
 
 
 def no_value(cursor: Cursor, after: str, example: str = "") -> Problem:
-    """There is no value where one must be: E105."""
+    """E105: a value is missing."""
     token = cursor.token
     cure = f"for example: {example}" if example else ""
     if token.kind == "name" and token.text in RESERVED:
@@ -99,6 +99,6 @@ def no_value(cursor: Cursor, after: str, example: str = "") -> Problem:
 
 
 def example_of(word: str) -> str:
-    """A whole line that begins with this word."""
+    """A whole example line of this word's statement."""
     statement = STATEMENTS.get(word)
     return statement.example if statement else ""

@@ -1,4 +1,4 @@
-"""Tokens -> expression: operators by binding power (Pratt), units tightest of all."""
+"""Tokens -> expression, by operator precedence (Pratt); units bind tightest."""
 
 import math
 
@@ -25,7 +25,7 @@ _OPERATORS = (*_SUMS, *_PRODUCTS, "^")
 
 
 def expression(cursor: Cursor, after: str) -> Expression:
-    """A value, as far as it goes; `after` is the word before it, for a message."""
+    """Reads an expression; `after` is the word before it, for messages."""
     first = _number(cursor) if cursor.token.kind == "number" else _signed(cursor, after)
     token = cursor.token
     if token.kind != "sign" or token.text not in _OPERATORS:
@@ -125,7 +125,7 @@ def _name(cursor: Cursor, name: str, span: Span) -> Expression:
 
 
 def bracket(cursor: Cursor, of: str = "(") -> tuple[Expression, ...]:
-    """The values in brackets, with commas between; `of` is the function's name before them."""
+    """Reads comma-separated values in brackets; `of` is the function's name before them."""
     opening = cursor.take()
     _deeper(cursor, opening)
     values: list[Expression] = []

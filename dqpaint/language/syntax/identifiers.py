@@ -1,4 +1,4 @@
-"""What may be a name, and what a word already means."""
+"""Word -> whether it may be a new name, or its existing meaning."""
 
 from dqpaint.diagnostics import Problem, problem
 from dqpaint.language.syntax.cursor import Cursor, found
@@ -10,7 +10,7 @@ from dqpaint.program import colours
 
 
 def meaning(word: str) -> str:
-    """What a word means in the language already: `the unit metre`; empty if it is free."""
+    """The meaning of a word of the language: `the unit metre`; empty if it is free."""
     if word in UNITS:
         return f"the unit {UNITS[word][2]}"
     if word in RESERVED:
@@ -25,7 +25,7 @@ def meaning(word: str) -> str:
 
 
 def new_name(cursor: Cursor, after: str, example: str, handed: bool = False) -> Word:
-    """Reads a name that is about to get a meaning.
+    """Reads a name that is being defined.
 
     What a function is `handed` may be called x, y or z.
     """
@@ -46,7 +46,7 @@ def new_name(cursor: Cursor, after: str, example: str, handed: bool = False) -> 
 
 
 def taken_name(token: Token, taken: str) -> Problem:
-    """A word that has a meaning already: E114."""
+    """E114: the word already has a meaning."""
     return problem(
         "E114",
         f"'{token.text}' can't be used as a name",

@@ -1,4 +1,4 @@
-"""The words of `text`, `path` and `svg`: texts in quotes, a font, a unit, how lines are aligned.
+"""Tokens of `text`, `path` and `svg` -> clauses: texts, fonts, units, alignment.
 
 Each becomes a plain expression: a text `Quoted`, a word `Name`.
 """

@@ -1,4 +1,4 @@
-"""Text -> lines of tokens. A line goes on while a bracket is open; comments are left out."""
+"""Text -> lines of tokens; an open bracket continues a line, comments are left out."""
 
 import re
 import unicodedata
@@ -13,7 +13,7 @@ from dqpaint.language.vocabulary.words import RENAMED, STATEMENTS
 
 @record
 class Token:
-    """A word, number, text or sign, and where it stands."""
+    """A word, number, text or sign, with its span."""
 
     kind: str  # number, name, text, sign; `end` closes every line
     text: str  # of a text: without its quotes
@@ -22,12 +22,12 @@ class Token:
 
     @property
     def span(self) -> Span:
-        """Where it stands."""
+        """The span of the token."""
         return Span(self.start, self.end)
 
 
 class TokenLine(NamedTuple):
-    """The tokens of one statement, and what was wrong with its characters."""
+    """The tokens of one statement, and the errors in its characters."""
 
     tokens: list[Token]
     problems: list[Diagnostic]
@@ -97,7 +97,7 @@ _NAMES_OF_LETTERS = {"π": "pi", "²": "^2", "³": "^3", "√": "sqrt(…)"}
 
 
 def lines(text: str, begin: int = 0) -> Iterator[TokenLine]:
-    """The lines from an offset on that hold anything, in order."""
+    """The lines with tokens from an offset on, in order."""
     tokens: list[Token] = []
     problems: list[Diagnostic] = []
     brackets: list[Token] = []
@@ -170,7 +170,7 @@ def _close(
 
 
 def _begins_statement(text: str, position: int) -> bool:
-    """Whether a statement's word comes next: then an open bracket was forgotten, not continued."""
+    """Whether a statement's word comes next, so that a bracket was not closed."""
     match = _FIRST_WORD.match(text, position)
     return match is not None and (match[1] in STATEMENTS or match[1] in RENAMED)
 
@@ -189,7 +189,7 @@ def _stray_bracket(token: Token) -> Diagnostic:
 def _glued(
     number: Token, letters: str, tokens: list[Token], problems: list[Diagnostic], text: str
 ) -> int:
-    """A number with more straight after it: it must be a unit. Returns where to go on."""
+    """A number with letters right after it, which must be a unit. Returns the next offset."""
     end = number.end + len(letters)
     tokens.append(number)
     if letters in UNITS:
@@ -220,7 +220,7 @@ def _glued(
 
 
 def _zeros_in_front(span: Span, text: str) -> tuple[str, str, Fix]:
-    """What to say of `05`, and of `2,000` and `0,05`, whose zeros would be numbers of their own."""
+    """The message for `05`, and for `2,000` and `0,05`, which would be several numbers."""
     written = span.text_in(text)
     before = text[max(0, span.start - _LONG_NUMBER) : span.start]
     begin, rule = span.start, ""
@@ -245,7 +245,7 @@ def _zeros_in_front(span: Span, text: str) -> tuple[str, str, Fix]:
 def _bad(
     text: str, start: int, tokens: list[Token], problems: list[Diagnostic], in_brackets: bool
 ) -> int:
-    """A character that is not ours: says so, and returns where to go on."""
+    """Reports a character outside the language, and returns the next offset."""
     character, end = text[start], start + 1
     if character.isspace():
         return end  # a blank that only Unicode calls one: it comes with copying from elsewhere
@@ -316,7 +316,7 @@ def _bad(
 
 
 def _never_closed(text: str, start: int, tokens: list[Token], problems: list[Diagnostic]) -> int:
-    """A text that does not end on its line; its end on a later one is no other mistake."""
+    """Reports a text not ended on its line; its end on a later line is no second error."""
     end = text.find("\n", start) % (len(text) + 1)
     words, cure = [text[start + 1 : end].rstrip()], 'add " before the end of the line'
     at = end
@@ -337,7 +337,7 @@ def _never_closed(text: str, start: int, tokens: list[Token], problems: list[Dia
 
 
 def _whole_word(text: str, start: int, tokens: list[Token]) -> int:
-    """Makes one name of a letter that is not ours and those beside it; returns where it ends."""
+    """Joins a letter outside the language with its neighbours to one name; returns its end."""
     before = tokens[-1] if tokens else None
     if before and before.kind == "name" and before.end == start and before.text != "°":
         start = tokens.pop().start
@@ -348,7 +348,7 @@ def _whole_word(text: str, start: int, tokens: list[Token]) -> int:
 
 
 def _quotes(found: re.Match[str]) -> Diagnostic:
-    """Quotes of another kind round a text."""
+    """Quotation marks of another kind round a text."""
     message, plain = f"unexpected character '{found[0][0]}'", f'"{found[1]}"'
     fix = Fix(f"write {plain}", Span(*found.span()), plain)
     span = Span(found.start(), found.start() + 1)

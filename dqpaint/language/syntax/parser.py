@@ -1,4 +1,4 @@
-"""Text -> statements: lines and blocks. Every line is read, whatever was wrong in those before."""
+"""Text -> statements and blocks; every line is read, whatever errors come before it."""
 
 import re
 from collections.abc import Iterable
@@ -35,7 +35,7 @@ _NEEDLESS = ";:"  # signs of other languages that change nothing
 
 
 class _Block:
-    """A block whose `end` has not come yet."""
+    """A block that is still open."""
 
     __slots__ = ("body", "header", "known")
 
@@ -48,7 +48,7 @@ class _Block:
 def parse_statements(
     text: str, findings: DiagnosticCollector, begin: int = 0
 ) -> tuple[Statement, ...]:
-    """The statements of a file, which begins at an offset and ends with the text.
+    """The statements of a file from an offset to the end of the text.
 
     What is wrong with it goes to `findings`.
     """
@@ -107,7 +107,7 @@ class _Parser:
             self._body.append(statement)
 
     def _statement(self, line: TokenLine) -> Statement:
-        """One line; a mistake in it is reported, and the statement marked as broken."""
+        """Reads one line; an error is reported, and the statement marked as broken."""
         cursor = Cursor(line.tokens, self._text)
         read = statements.statement if line.tokens[0].text in STATEMENTS else statements.call
         try:
@@ -169,7 +169,7 @@ class _Parser:
     # What is no statement of ours.
 
     def _may_be_call(self, line: TokenLine) -> bool:
-        """Whether a line is `star(…)`, where there may be a `def star`."""
+        """Whether a line is `star(…)` and a `def star` may exist."""
         name, bracket = line.tokens[0], line.tokens[1]
         if name.kind != "name" or bracket.kind != "sign" or bracket.text != "(":
             return False
@@ -192,7 +192,7 @@ class _Parser:
             self._body.append(broken)
 
     def _unknown_statement(self, tokens: list[Token]) -> tuple[Diagnostic, bool]:
-        """What to say about a line, and whether it may begin a block."""
+        """The diagnostic for a line, and whether the line may begin a block."""
         first, word = tokens[0], tokens[0].text
         if first.kind != "name":
             cure = "a line begins with a word, such as line, arc or let"
@@ -224,7 +224,7 @@ class _Parser:
         return mistake, meant in _BLOCKS
 
     def _definition(self, tokens: list[Token]) -> Diagnostic:
-        """`r = 3 cm`: another language's way to name a value."""
+        """`r = 3 cm`: the assignment of other languages."""
         first = tokens[0]
         if taken := meaning(first.text):
             message = f"'{first.text}' can't be used as a name"
@@ -245,7 +245,7 @@ _HELP = "a line begins with a word such as line, arc or let, and a comment with 
 def unknown_statement(
     word: str, span: Span, calls: Iterable[str] = (), after: str = ""
 ) -> tuple[Diagnostic, str]:
-    """E120, and the word that may be meant; `calls` can be called, `after` is what follows."""
+    """E120 with the likely word; `calls` can be called, `after` is the next token's text."""
     meant = closest(word, (*STATEMENTS, *calls), STATEMENT_ALIASES)
     fits = meant in STATEMENTS or meant in calls
     fits = fits or (meant.endswith(" to") and after in ("(", "polar"))
@@ -255,14 +255,14 @@ def unknown_statement(
 
 
 def _is_definition(tokens: list[Token]) -> bool:
-    """Whether a line is `r = …`, as other languages name a value."""
+    """Whether a line is `r = …`, the assignment of other languages."""
     if tokens[0].text in STATEMENTS or len(tokens) < 2:
         return False
     return tokens[1].kind == "sign" and tokens[1].text == "="
 
 
 def _defined(first_words: Iterable[tuple[str, str]]) -> frozenset[str] | None:
-    """The names behind `def` and `let` in a file; None if more may come from another file."""
+    """The names after `def` and `let` in a file; None if more may come from another file."""
     names = set()
     for word, name in first_words:
         if word == "include":
@@ -273,7 +273,7 @@ def _defined(first_words: Iterable[tuple[str, str]]) -> frozenset[str] | None:
 
 
 def _spare_ends(first_words: Iterable[tuple[str, str]]) -> int:
-    """How many `end` lines there are more than lines that begin one of our blocks."""
+    """The number of `end` lines beyond those that close a block."""
     return sum((word == "end") - (word in _BLOCKS) for word, _ in first_words)
 
 
@@ -300,7 +300,7 @@ _NAMING = ("let", "repeat", "def", "frame", "for")
 
 
 def _broken(tokens: list[Token]) -> Statement:
-    """What is left of a line with a mistake: the name it meant to give."""
+    """A placeholder for a line with an error: it only defines the line's name."""
     span = Span(tokens[0].start, tokens[-1].end)
     word, name = tokens[0].text, None
     if word == "end":

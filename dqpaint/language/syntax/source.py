@@ -1,4 +1,4 @@
-"""A file -> its text, or why it is none. This and the layout are all that `fmt` needs."""
+"""File or standard input -> its text, or an error."""
 
 import sys
 from pathlib import Path
@@ -11,7 +11,7 @@ STDIN_NAME = "<stdin>"  # and as messages call it
 
 
 def load(path: str | Path) -> bytes:
-    """The bytes of a file, one more than allowed at most.
+    """The bytes of a file, at most one more than the limit.
 
     Raises:
         DqpaintError: the file can't be read.
@@ -25,7 +25,7 @@ def load(path: str | Path) -> bytes:
 
 
 def load_input() -> bytes:
-    """What comes over standard input, one byte more than allowed at most.
+    """The bytes of standard input, at most one more than the limit.
 
     Raises:
         DqpaintError: it is closed.
@@ -36,7 +36,7 @@ def load_input() -> bytes:
 
 
 def decoded(data: bytes, name: str) -> str:
-    """The text of a file, its lines ended by a newline alone.
+    """The text of a file, with newlines as its only line ends.
 
     Raises:
         DqpaintError: it is not a text in UTF-8, or too large.
@@ -58,6 +58,6 @@ def decoded(data: bytes, name: str) -> str:
 
 
 def _latin(byte: int) -> str:
-    """What the byte would be in Latin-1, where files that are not UTF-8 mostly come from."""
+    """The byte as Latin-1, the usual encoding of files that are not UTF-8."""
     letter = bytes([byte]).decode("latin-1")
     return f" ('{letter}' in Latin-1)" if letter.isprintable() else ""

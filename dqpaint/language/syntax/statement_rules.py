@@ -1,4 +1,4 @@
-"""Which parts go together in a statement: the two forms of an arc, of a screw, one time only."""
+"""Statement -> diagnostics of parts that are missing, doubled or contradict each other."""
 
 import re
 
@@ -185,7 +185,7 @@ def _with(statement: Statement) -> None:
 
 
 def _from_elsewhere(statement: Statement) -> None:
-    """A size for what has none of its own; one file for a drawing, at most three for a path."""
+    """Imported strokes: a size where needed; one file for a drawing, at most three for a path."""
     word, fitted = statement.word, statement.part("height") or statement.part("width")
     unit = statement.part("unit")
     if word == "text" and not fitted:
@@ -203,7 +203,7 @@ def _from_elsewhere(statement: Statement) -> None:
 
 
 def misplaced(word: str, token: Token) -> Problem | None:
-    """A part that other statements have: a message of its own, or None."""
+    """The message for a part of other statements, or None."""
     if token.text == "period":
         message = "'period' stands on a line of its own, before the first movement"
         return problem("E123", message, token.span, "", "for example: period 8 ms")
@@ -245,7 +245,7 @@ def misplaced(word: str, token: Token) -> Problem | None:
 
 
 def unexpected(word: str, cursor: Cursor) -> Problem | None:
-    """Something that is no part at all: a message of its own, or None."""
+    """The message for a word that is no part at all, or None."""
     token = cursor.token
     is_value = token.kind == "number" or (token.kind == "sign" and token.text in "(-")
     if word in ("line", "move") and is_value and cursor.before.text == word:

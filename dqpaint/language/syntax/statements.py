@@ -1,4 +1,4 @@
-"""One line of tokens -> one statement, as the tables of `words` say it is made."""
+"""Tokens of one line -> statement, by the tables of `vocabulary.words`."""
 
 from dqpaint.core import record
 from dqpaint.diagnostics import Fix, Problem, Span, closest, did_you_mean, join_words, problem
@@ -17,7 +17,7 @@ VERSION = 1  # of the language, for `traj 1`
 
 @record
 class _Head:
-    """What stands between the first word of a line and its parts."""
+    """The values between the first word of a line and its parts."""
 
     name: Word | None = None
     values: tuple[Expression, ...] = ()
@@ -28,7 +28,7 @@ _NOTHING = _Head()
 
 
 def statement(cursor: Cursor) -> Statement:
-    """Reads a line whose first word is a statement's; raises a `Problem` at its first mistake."""
+    """Reads a line with a statement's word; raises a `Problem` at its first error."""
     first = cursor.take()
     known = STATEMENTS[first.text]
     head = _NOTHING
@@ -176,7 +176,7 @@ def _def(cursor: Cursor) -> _Head:
 
 
 def _params(cursor: Cursor, after: str) -> tuple[Word, ...]:
-    """The names in brackets behind the name of a function or a `def`."""
+    """The parameter names in brackets after the name of a function or a `def`."""
     cursor.take()
     example = "let f(x) = 2*x" if after == "let" else example_of(after)
     params: dict[str, Word] = {}

@@ -1,4 +1,4 @@
-"""What to say of what stands behind the last part of a line, by what people mean by it."""
+"""Tokens after the last part of a line -> diagnostic with advice on the likely intent."""
 
 from collections.abc import Callable, Iterator
 
@@ -11,7 +11,7 @@ Advice = tuple[str, Fix | None]
 
 
 def advised(word: str, cursor: Cursor) -> Problem | None:
-    """E112 with an advice for what is left over of a line of this word; None without one."""
+    """E112 with advice for the tokens left on a line of this word; None without advice."""
     for advise in _ADVISERS:
         for cure, fix in advise(word, cursor):
             message = f"expected the end of the line but found {found(cursor.token)}"

@@ -1,4 +1,4 @@
-"""The syntax tree: what was written, with its place, before anything is known about its meaning."""
+"""Syntax tree: statements and expressions with their spans, before names are evaluated."""
 
 from dataclasses import fields, is_dataclass
 
@@ -44,7 +44,7 @@ class Bracket:
 
 @record
 class Call:
-    """A function with its values."""
+    """A function call with its arguments."""
 
     name: str
     values: tuple["Expression", ...]
@@ -53,7 +53,7 @@ class Call:
 
 @record
 class Negation:
-    """A value with its sign changed."""
+    """A negated value."""
 
     value: "Expression"
     span: Span
@@ -61,7 +61,7 @@ class Negation:
 
 @record
 class SumOrProduct:
-    """A sum or a product of any length, so that a long one is not a deep one."""
+    """A sum or a product of any length: a flat node, so that long ones are not deep."""
 
     first: "Expression"
     rest: tuple[tuple[str, "Expression"], ...]
@@ -81,7 +81,7 @@ Expression = Literal | Name | Quoted | Bracket | Call | Negation | SumOrProduct 
 
 
 def names_in(tree: object) -> set[str]:
-    """The names, functions and calls that an expression uses, or a statement with all its lines."""
+    """The names, functions and calls used by an expression, or by a statement with its block."""
     names, left = set(), [tree]
     while left:  # no recursion: a tree may be deep
         node = left.pop()
@@ -97,7 +97,7 @@ def names_in(tree: object) -> set[str]:
 
 
 def size_of(node: Expression) -> tuple[int, int]:
-    """How many nodes an expression has, and how many of them within each other."""
+    """The number of nodes of an expression, and their greatest depth."""
     size, deepest, left = 0, 0, [(node, 1)]
     while left:
         inner, depth = left.pop()
@@ -124,7 +124,7 @@ def _children(node: Expression) -> tuple[Expression, ...]:
 
 @record
 class Word:
-    """A word that names something: in `let`, `repeat`, `curve`, `robot`."""
+    """A word that is a name: in `let`, `repeat`, `curve`, `robot`."""
 
     text: str
     span: Span
@@ -151,7 +151,7 @@ class ColourWords:
 
 @record
 class LightWords:
-    """One shade, or one that goes over into another; `even` if it is to be equally bright."""
+    """One shade, or a gradient between two; `even` for constant brightness."""
 
     first: ColourWords
     last: ColourWords | None
@@ -161,7 +161,7 @@ class LightWords:
 
 @record
 class BrushPart:
-    """A value of a brush: its name, and several expressions where it is a row of colours.
+    """A value of a brush with its name; several expressions for a row of colours.
 
     The span of a value that was written without its name is its own.
     """
@@ -181,7 +181,7 @@ class BrushWords:
 
 @record
 class StrobeWords:
-    """How often it flashes, None for `off`, and for what part of the time, 0 to 1."""
+    """The flash rate, None for `off`, and the duty cycle, 0 to 1."""
 
     frequency: Expression | None
     duty: float
@@ -212,7 +212,7 @@ class Part:
 
     @property
     def expression(self) -> Expression:
-        """The value of a part that has no little grammar of its own; a flag's is its own word."""
+        """The value of a part without a clause of its own; a flag's value is its own word."""
         assert not isinstance(self.value, Words)
         return self.value
 
@@ -244,19 +244,19 @@ class Statement:
     params: tuple[Word, ...] | None = None
 
     def part(self, word: str) -> Part | None:
-        """The first part of this name."""
+        """The first part of this name, or None."""
         for part in self.parts:
             if part.word == word:
                 return part
         return None
 
     def value(self, word: str) -> Expression | None:
-        """The value of the part of this name, one that takes a plain expression."""
+        """The value of the first part of this name that takes a plain expression."""
         part = self.part(word)
         return part.expression if part is not None else None
 
     def given(self, word: str) -> Expression:
-        """The value of a part that is there, as `forms` saw to."""
+        """The value of a part whose presence `statement_rules` has checked."""
         value = self.value(word)
         assert value is not None, word
         return value

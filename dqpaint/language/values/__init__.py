@@ -1,4 +1,4 @@
-"""Expressions and names -> checked values with units; slips in them -> diagnostics.
+"""Expressions and names -> checked values with units, or diagnostics.
 
 A new function is a row in `vocabulary.words.FUNCTIONS` and one in `functions.TABLE`.
 """

@@ -1,4 +1,4 @@
-"""Expression -> value, with what is known at that place."""
+"""Expression and scope -> value."""
 
 from collections.abc import Callable, Iterable
 
@@ -90,7 +90,7 @@ def _bracket(node: Bracket, scope: Scope) -> Value:
 
 
 def _coordinates(node: Bracket, scope: Scope) -> tuple[list[Scalar], Dimension]:
-    """The numbers of a point and their common dimension; zeros go with any."""
+    """The numbers of a point and their common dimension; a zero fits any."""
     if len(node.values) > 3:
         raise expression_errors.too_many(node, scope)
     dimension = None
@@ -130,7 +130,7 @@ def _call(node: Call, scope: Scope) -> Value:
 
 
 def _own_call(function: Function, node: Call, scope: Scope) -> Value:
-    """A function of the file; what goes wrong in its formula is shown there."""
+    """The value of a call of the file's own function; errors are reported inside its formula."""
     given = [evaluate(child, scope) for child in node.values]
     if len(given) != len(function.params):
         raise expression_errors.wrong_count(function, node)

@@ -1,4 +1,4 @@
-"""What to say about an expression that has no value."""
+"""Expressions without a value -> diagnostics with a fix."""
 
 from collections.abc import Iterable
 
@@ -34,7 +34,7 @@ from dqpaint.program import Taylor
 
 
 def unknown(node: Name, scope: Scope, words: Iterable[str] = ()) -> Problem:
-    """E205, or E206 for a function without brackets; `words` may stand there too."""
+    """E205, or E206 for a function without brackets; `words` are allowed there as well."""
     name = node.name
     if name in FUNCTIONS:
         cure = f"write: {FUNCTIONS[name]}" + ("; a minute is 60 s" if name == "min" else "")
@@ -59,13 +59,13 @@ def unknown(node: Name, scope: Scope, words: Iterable[str] = ()) -> Problem:
 
 
 def _abbreviation(name: str, scope: Scope) -> str:
-    """`r` for `radius`: a name of the file that is the beginning of the unknown one."""
+    """A name of the file that begins with the unknown one: `radius` for `r`."""
     short = [known for known in scope.names if len(known) <= 3 and name.startswith(known)]
     return max(short, key=len) if short else ""
 
 
 def no_value_of(node: Name, value: Function | Procedure) -> Problem:
-    """E206: the name of a function or of a `def`, alone."""
+    """E206: the name of a function or of a `def` without a call."""
     if isinstance(value, Function):
         cure = f"write: {value.name}({', '.join(value.params)})"
         return problem("E206", f"'{node.name}' is a function", node.span, "", cure)
@@ -100,7 +100,7 @@ def too_many(node: Bracket, scope: Scope) -> Problem:
 
 
 def mixed(node: Bracket, coordinates: list[Quantity], scope: Scope) -> Problem:
-    """E204: the caret goes to the number without a unit, else to the first that differs."""
+    """E204, at the number without a unit, else at the first dimension that differs."""
     plain = [i for i, q in enumerate(coordinates) if q.dimension == PLAIN and not is_zero(q)]
     first = next(q.dimension for q in coordinates if not is_zero(q))
     others = [i for i, q in enumerate(coordinates) if q.dimension != first and not is_zero(q)]
@@ -161,7 +161,7 @@ def unknown_function(node: Call, scope: Scope) -> Problem:
 def no_sum(
     left: Value, right: Value, sign: str, first: Expression, child: Expression, scope: Scope
 ) -> Problem:
-    """E208. The caret goes to the number without a unit, if one of the two has none."""
+    """E208, at the number without a unit if one of the two has none."""
     if sign == "+":
         message = f"can't add {describe(left)} and {describe(right)}"
     else:
@@ -188,7 +188,7 @@ def with_unit(
     scope: Scope,
     word: str = "",
 ) -> str:
-    """A value without a unit as it would be written with the one that is most likely."""
+    """A value without a unit, written with its most likely unit."""
     numbers = (value.value,) if isinstance(value, Quantity) else value.xyz
     sizes = [abs(number) for number in numbers if not isinstance(number, Taylor)]
     unit = plausible_unit(max(sizes, default=1.0), dimension, word)

@@ -1,4 +1,4 @@
-"""The functions of the language: each checks what it is given and says what it needs."""
+"""Checked arguments of the language's functions -> values."""
 
 import math
 from collections.abc import Callable
@@ -32,7 +32,7 @@ from dqpaint.program import Value as Scalar
 
 
 class Arguments:
-    """The values a function is called with, and how they were written."""
+    """The arguments of a function call, with their source text."""
 
     __slots__ = ("_text", "function", "nodes", "span", "values")
 
@@ -51,19 +51,19 @@ class Arguments:
         self._text = text
 
     def written(self, i: int) -> str:
-        """The text of a value."""
+        """The source text of an argument."""
         span = self.nodes[i].span
         return span.text_in(self._text)
 
     def number(self, i: int, dimension: Dimension = PLAIN) -> Scalar:
-        """A value that must have this dimension."""
+        """A number of this dimension."""
         value = self.values[i]
         if isinstance(value, Quantity) and (value.dimension == dimension or is_zero(value)):
             return value.value
         raise self._mismatch(i, dimension)
 
     def constant(self, i: int, dimension: Dimension = PLAIN) -> float:
-        """The same, where a curve's parameter has no place."""
+        """A number of this dimension that does not depend on a curve's parameter."""
         number = self.number(i, dimension)
         if isinstance(number, Taylor):
             message = f"{self.function} can't change along a curve"
@@ -188,7 +188,7 @@ def _quat(given: Arguments) -> Value:
 
 
 def _profile(given: Arguments) -> Value:
-    """Boundary rates: speeds, then accelerations, all of the point or all of the turn."""
+    """Boundary rates: speeds, then accelerations, all of the point or all of the orientation."""
     values = given.values
     angular = any(
         isinstance(v, Quantity) and v.dimension in (TURNSPEED, TURN_ACCELERATION) for v in values
@@ -245,7 +245,7 @@ _DOMAINS = {
 
 
 def call(given: Arguments) -> Value:
-    """A function's value."""
+    """The value of a function call."""
     function, least, most = TABLE[given.function]
     count = len(given.values)
     if not least <= count <= most:

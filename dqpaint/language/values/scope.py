@@ -1,4 +1,4 @@
-"""The names that have a value at one place of a file."""
+"""Names -> values at one point of a file, and the budget of calls."""
 
 import math
 from collections.abc import Iterable
@@ -12,7 +12,7 @@ from dqpaint.program import Profile, colours
 
 
 class UnknownError(Exception):
-    """A name whose own line had a mistake: that was reported, this is silent."""
+    """A name whose definition had an error, which was reported: this one is not."""
 
 
 UNIT_VALUES = {unit: Quantity(factor, kind) for unit, (factor, kind, _) in UNITS.items()}
@@ -35,7 +35,7 @@ DEEPEST_CALLS = 100  # parts of formulas within each other
 
 
 class Budget:
-    """What may still be spent on calls of the file's own functions."""
+    """The number of calls of the file's own functions that are left."""
 
     __slots__ = ("depth", "steps")
 
@@ -45,7 +45,7 @@ class Budget:
 
 
 class Scope:
-    """The names that have a value at one place, and the text they were written in.
+    """The names with a value at one point of a file, and the source text.
 
     A value of None belongs to a name whose line had a mistake.
     """
@@ -59,25 +59,25 @@ class Scope:
         self.places: dict[str, Span] = {}
 
     def knows(self, name: str) -> bool:
-        """Whether a name means something here."""
+        """Whether a name is defined here."""
         return name in self.names or name in BUILTINS
 
     def forget_all_but(self, count: int) -> None:
-        """Keeps only so many names, those that came first: a name never changes its place."""
+        """Keep the first `count` names only: names are never reordered."""
         while len(self.names) > count:
             name, _ = self.names.popitem()
             self.places.pop(name, None)
 
     def known(self, names: Iterable[str]) -> dict[str, Value | None]:
-        """Those of the names that have a value; it stays as it is when this scope goes on."""
+        """A copy of the values of these names, as far as they are defined."""
         return {name: self.names[name] for name in names if name in self.names}
 
     def within(self, names: dict[str, Value | None], budget: Budget | None = None) -> "Scope":
-        """Another scope, which knows these names alone."""
+        """A new scope with these names only."""
         inner = Scope(self.text, budget or self.budget)
         inner.names = names
         return inner
 
     def written(self, node: Expression) -> str:
-        """An expression as it stands in the text, in one line."""
+        """The source text of an expression, in one line."""
         return " ".join(node.span.text_in(self.text).split())

@@ -1,4 +1,4 @@
-"""The value of a part, of the kind the part needs: a length after `rise`, a point after `to`."""
+"""Expression of a part -> value of the part's kind: a length after `rise`, a point after `to`."""
 
 import math
 
@@ -60,7 +60,7 @@ _LARGEST_COUNT = 10**15  # of samples; far above what is ever allowed, far below
 
 
 def dimension_of(word: str) -> Dimension:
-    """The dimension of the number that a part takes."""
+    """The dimension of the number after a part's word."""
     if word in _OTHERS:
         return _OTHERS[word]
     return _DIMENSIONS[PARTS[word].takes]
@@ -74,7 +74,7 @@ def number(node: Expression, scope: Scope, word: str) -> float:
 def quantity(
     value: Value, node: Expression, scope: Scope, word: str, dimension: Dimension
 ) -> float:
-    """A number of this dimension; a plain 0 has any."""
+    """A number of this dimension; a plain 0 fits any."""
     if isinstance(value, Quantity) and (value.dimension == dimension or is_zero(value)):
         assert not isinstance(value.value, Taylor)
         if dimension != PLAIN and abs(value.value) > LARGEST:
@@ -84,7 +84,7 @@ def quantity(
 
 
 def positive(node: Expression, scope: Scope, word: str) -> float:
-    """The number after `word`, which must be more than nothing."""
+    """The number after `word`, which must be positive."""
     size = number(node, scope, word)
     if size > 0.0:
         return size
@@ -139,7 +139,7 @@ def direction(node: Expression, scope: Scope, word: str) -> Vector:
 
 
 def frame(node: Expression, scope: Scope) -> Frame:
-    """The frame that a name stands for."""
+    """The frame of this name."""
     if isinstance(node, Name) and not scope.knows(node.name):
         frames = [name for name, value in scope.names.items() if isinstance(value, FrameValue)]
         cure = did_you_mean(closest(node.name, frames))
@@ -172,7 +172,7 @@ def orientation(node: Expression, scope: Scope, word: str) -> Quaternion:
 
 
 def profile(node: Expression, scope: Scope) -> Profile:
-    """The profile after `profile`."""
+    """The name and the boundary rates after `profile`."""
     value = evaluate(node, scope, PROFILES)
     if isinstance(value, Profile):
         return value
@@ -225,7 +225,7 @@ def floats(value: PointValue) -> Vector:
 
 
 def needs(node: Expression, value: Value, scope: Scope, word: str, dimension: Dimension) -> Problem:
-    """E218: a value of another kind than this part takes."""
+    """E218: the value has another kind than the part takes."""
     needed = dimension_name(dimension)
     if word in ("repeat", "samples", "scale"):
         needed = "a plain number"

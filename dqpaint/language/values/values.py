@@ -1,4 +1,4 @@
-"""Values of expressions, each with what it is: a sum or product of two has to make sense."""
+"""Typed values and their arithmetic: quantities, points, orientations, colours, texts, frames."""
 
 import math
 
@@ -19,7 +19,7 @@ from dqpaint.program import Value as Scalar
 
 @record
 class Quantity:
-    """A number in SI units with its dimension; in a curve, a whole series of numbers."""
+    """A number in SI units with its dimension; in a curve, a Taylor series."""
 
     value: Scalar
     dimension: Dimension
@@ -27,7 +27,7 @@ class Quantity:
 
 @record
 class PointValue:
-    """Three numbers of one dimension: a place, a shift, or without a unit a direction."""
+    """Three numbers of one dimension: a position, a shift, or without a unit a direction."""
 
     xyz: tuple[Scalar, Scalar, Scalar]
     dimension: Dimension
@@ -56,14 +56,14 @@ class TextValue:
 
 @record
 class FrameValue:
-    """A frame with a name."""
+    """A named frame."""
 
     frame: vectors.Frame
 
 
 @record
 class Function:
-    """A function of the file: the names it is handed, its formula, and the names that knows.
+    """A function of the file: its parameters, its formula, and the names in its scope.
 
     `size` and `depth` are those of the formula, as `syntax.size_of` counts them.
     """
@@ -78,7 +78,7 @@ class Function:
 
 @record
 class Procedure:
-    """A `def` of the file: the names it is handed, its lines, and the names those know.
+    """A `def` of the file: its parameters, its lines, and the names in their scope.
 
     `size` is how many statements a call of it is at least.
     """
@@ -104,7 +104,7 @@ Value = (
 
 
 def describe(value: Value) -> str:
-    """What a value is, with its article."""
+    """The kind of a value with its article, for messages."""
     match value:
         case Quantity(_, dimension):
             return dimension_name(dimension)
@@ -131,7 +131,7 @@ def describe(value: Value) -> str:
 
 
 def is_zero(value: Value) -> bool:
-    """A plain 0, or a point of plain zeros: it needs no unit."""
+    """Whether a value is a plain 0 or a point of plain zeros, which need no unit."""
     if isinstance(value, Quantity):
         return value.dimension == PLAIN and _none(value.value)
     if isinstance(value, PointValue):
@@ -144,7 +144,7 @@ def _none(number: Scalar) -> bool:
 
 
 def finite(number: Scalar, span: Span) -> Scalar:
-    """Lets pass what a computer's number can hold. A series is looked at when it is used."""
+    """A number that is checked to be finite; a series is checked where it is used."""
     if isinstance(number, Taylor) or math.isfinite(number):
         return number
     if math.isnan(number):
@@ -153,7 +153,7 @@ def finite(number: Scalar, span: Span) -> Scalar:
 
 
 def gated(value: Value, span: Span) -> Value:
-    """Lets a value pass if all its numbers are finite."""
+    """A value all of whose numbers are checked to be finite."""
     if isinstance(value, Quantity):
         finite(value.value, span)
     elif isinstance(value, PointValue):
@@ -163,7 +163,7 @@ def gated(value: Value, span: Span) -> Value:
 
 
 def sum_of(left: Value, right: Value, sign: str) -> Value | None:
-    """Their sum or difference; None if these two have none."""
+    """The sum or difference; None if it is not defined."""
     if isinstance(left, Quantity) and isinstance(right, Quantity):
         if left.dimension != right.dimension:
             if is_zero(right):
@@ -189,7 +189,7 @@ def sum_of(left: Value, right: Value, sign: str) -> Value | None:
 
 
 def product_of(left: Value, right: Value) -> Value | None:
-    """Their product; None if these two have none."""
+    """The product; None if it is not defined."""
     if isinstance(left, Quantity):
         if isinstance(right, Quantity):
             return Quantity(left.value * right.value, _times(left.dimension, right.dimension, 1.0))
@@ -205,7 +205,7 @@ def product_of(left: Value, right: Value) -> Value | None:
 
 
 def quotient_of(left: Value, right: Value, span: Span) -> Value | None:
-    """Their quotient; None if these two have none. `span` is the divisor's place."""
+    """The quotient; None if it is not defined. `span` is that of the divisor."""
     if not isinstance(right, Quantity):
         return None
     k = right.value
@@ -220,7 +220,7 @@ def quotient_of(left: Value, right: Value, span: Span) -> Value | None:
 
 
 def negative(value: Value) -> Value | None:
-    """With the other sign; None if it has no sign."""
+    """The value with the opposite sign; None if it is not defined."""
     if isinstance(value, Quantity):
         return Quantity(-value.value, value.dimension)
     if isinstance(value, PointValue):

@@ -1,4 +1,4 @@
-"""Vectors, orientations and similarity frames as plain tuples: a drawing has few of them at a time.
+"""Vectors, unit quaternions and similarity frames as plain tuples, for few values at a time.
 
 Orientations are unit quaternions, scalar first. `Frame` maps p to scale * R(p) + shift.
 """
@@ -40,7 +40,7 @@ def cross(a: Vector, b: Vector) -> Vector:
 
 
 def length(a: Vector) -> float:
-    """The Euclidean norm; `hypot` neither overflows nor vanishes on the way."""
+    """The Euclidean norm; `hypot` neither overflows nor underflows on the way."""
     return math.hypot(*a)
 
 
@@ -77,27 +77,27 @@ def turn_product(p: Quaternion, q: Quaternion) -> Quaternion:
 
 
 def _normal(q: Quaternion) -> Quaternion:
-    """A product of unit quaternions, freed of its rounding error."""
+    """A product of unit quaternions, normalised against rounding errors."""
     size = math.hypot(*q)
     return q[0] / size, q[1] / size, q[2] / size, q[3] / size
 
 
 def turn_about(axis: Vector, angle: float) -> Quaternion:
-    """The orientation after a turn of `angle` [rad] about a unit vector."""
+    """The orientation of a rotation by `angle` [rad] about a unit vector."""
     half = 0.5 * angle
     c, s = math.cos(half), math.sin(half)
     return c, s * axis[0], s * axis[1], s * axis[2]
 
 
 def turned(q: Quaternion, p: Vector) -> Vector:
-    """R(q) p."""
+    """The rotated vector R(q) p."""
     w, v = q[0], (q[1], q[2], q[3])
     t = times(2.0, cross(v, p))
     return plus(plus(p, times(w, t)), cross(v, t))
 
 
 def turn_between(p: Quaternion, q: Quaternion) -> float:
-    """The angle [rad], 0 to pi, of the turn from one orientation to another."""
+    """The angle [rad], 0 to pi, of the rotation from one orientation to another."""
     real = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3]
     sign = 1.0 if real >= 0.0 else -1.0
     # The chord keeps its digits where the arc cosine loses them.
@@ -106,7 +106,7 @@ def turn_between(p: Quaternion, q: Quaternion) -> float:
 
 
 def part_of_turn(p: Quaternion, q: Quaternion, share: float) -> Quaternion:
-    """The orientation at a share, 0 to 1, of the short way from one to another (slerp)."""
+    """The orientation at a fraction, 0 to 1, of the shorter rotation from p to q (slerp)."""
     real = p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3]
     if real < 0.0:
         q = (-q[0], -q[1], -q[2], -q[3])
@@ -125,7 +125,7 @@ def part_of_turn(p: Quaternion, q: Quaternion, share: float) -> Quaternion:
 
 
 def turn_of_axes(x: Vector, y: Vector, z: Vector) -> Quaternion:
-    """The orientation whose axes are these three; x, y, z are orthonormal and right-handed."""
+    """The orientation with these axes; x, y, z are orthonormal and right-handed."""
     trace = x[0] + y[1] + z[2]
     if trace > 0.0:
         s = 2.0 * math.sqrt(1.0 + trace)
@@ -141,7 +141,7 @@ def turn_of_axes(x: Vector, y: Vector, z: Vector) -> Quaternion:
 
 
 def turn_of_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """Turns [rad] about the fixed x, then y, then z axis: Rz(yaw) Ry(pitch) Rx(roll)."""
+    """Rotations [rad] about the fixed x, then y, then z axis: Rz(yaw) Ry(pitch) Rx(roll)."""
     about_x = turn_about((1.0, 0.0, 0.0), roll)
     about_y = turn_about((0.0, 1.0, 0.0), pitch)
     return turn_product(turn_about(Z, yaw), turn_product(about_y, about_x))
@@ -155,23 +155,23 @@ class Frame(NamedTuple):
     shift: Vector = ZERO
 
     def point(self, p: Vector) -> Vector:
-        """A place."""
+        """A position in the outer frame."""
         return p if self is WORLD else plus(self.vector(p), self.shift)
 
     def vector(self, v: Vector) -> Vector:
-        """A way from one place to another."""
+        """A displacement in the outer frame."""
         return v if self is WORLD else times(self.scale, turned(self.turn, v))
 
     def direction(self, d: Vector) -> Vector:
-        """A unit vector."""
+        """A unit vector in the outer frame."""
         return turned(self.turn, d)
 
     def orientation(self, q: Quaternion) -> Quaternion:
-        """An orientation."""
+        """An orientation in the outer frame."""
         return turn_product(self.turn, q)
 
     def within(self, inner: "Frame") -> "Frame":
-        """First `inner`, then this frame."""
+        """The composition of `inner` and then this frame."""
         return Frame(
             self.scale * inner.scale,
             turn_product(self.turn, inner.turn),
@@ -183,7 +183,7 @@ WORLD = Frame()
 
 
 def carried(pose: Pose, point: Vector, axis: Vector, angle: float, advance: float) -> Pose:
-    """A pose after a screw: a turn about the line through `point` along `axis`, and an advance."""
+    """A pose after a screw motion about the line through `point` along `axis`."""
     turn = turn_about(axis, angle)
     arm = turned(turn, minus(pose.position, point))
     position = plus(plus(point, arm), times(advance, axis))

@@ -1,4 +1,4 @@
-"""The words and units of the language -> what each means; all other parts read these tables."""
+"""Words and units of the language -> their meaning: tables that all other parts read."""
 
 from dqpaint.language.vocabulary.units import UNITS
 from dqpaint.language.vocabulary.words import (

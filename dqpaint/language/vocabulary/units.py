@@ -1,4 +1,4 @@
-"""Dimensions and units: what may be added to what, and what to call it in a message."""
+"""Unit words -> dimensions and SI factors, and the names of dimensions in messages."""
 
 import math
 
@@ -74,7 +74,7 @@ _ONE_OF_THEM = {"min": "60 s", "us": "0.001 ms", "km": "1000 m", "inch": "25.4 m
 
 
 def instead_of(word: str) -> str:
-    """What to write for a unit of other languages."""
+    """The unit of this language to write in place of a unit of other languages."""
     known = f"units are {', '.join(UNITS)}"
     if word in _ONE_OF_THEM:
         return f"1 {word} is {_ONE_OF_THEM[word]}; {known}"
@@ -99,7 +99,7 @@ NAMES = {
 
 
 def dimension_name(dimension: Dimension) -> str:
-    """A dimension in words, with its article: `a length`, `a quantity in m^3/s`."""
+    """The name of a dimension with its article: `a length`, `a quantity in m^3/s`."""
     name = NAMES.get(dimension)
     if name is not None:
         return name
@@ -116,7 +116,7 @@ def dimension_name(dimension: Dimension) -> str:
 
 
 def plausible_unit(value: float, dimension: Dimension, word: str = "") -> str:
-    """The unit that a number without one most likely has: `period 20` means ms, not s."""
+    """The most likely unit of a number without one: `period 20` means ms, not s."""
     size = abs(value)
     if dimension == LENGTH:
         return "mm" if size >= 1 or size == 0 else "m"

@@ -1,4 +1,4 @@
-"""The words of the language, as tables.
+"""Words of the language -> their syntax, values and examples, as tables.
 
 The parser, its messages and its suggestions all read these tables, and so does whatever is made
 from them: the reference, completion, grammars for editors. A new word is a line here first.

@@ -1,4 +1,4 @@
-"""Calls -> a drawing: the language from Python, for what is easier computed than written.
+"""Python calls -> drawing: the language for drawings that are computed.
 
     d = Drawing(period=0.008)
     d.speed(0.06)
@@ -51,13 +51,13 @@ _OF_FORM = "E1"  # what the codes begin with that are about a form that is not k
 
 
 def example_call(word: str) -> str:
-    """How a statement is called, as it would be typed."""
+    """The example of a statement, as it would be typed."""
     method = next(method for method, known in METHODS.items() if known == word)
     return f"d.{called(word, method)}"
 
 
 class Call(NamedTuple):
-    """Where in a Python file a statement was asked for."""
+    """The place of a call in a Python file."""
 
     file: str
     line: int
@@ -69,7 +69,7 @@ class Call(NamedTuple):
 
 
 class DrawingError(ScriptError):
-    """A drawing made of calls that cannot be drawn: each message says which call it is about."""
+    """Errors of a drawing made by calls; each message names its call."""
 
     def __init__(self, problem: ScriptError, calls: dict[int, Call]) -> None:
         super().__init__(problem.name, problem.text, problem.diagnostics)
@@ -87,7 +87,7 @@ class DrawingError(ScriptError):
         return "\n\n".join(texts)
 
     def _call(self, line: int, margin: str, code: str) -> str:
-        """Which call a message is about, and how it is called where something is missing."""
+        """The call of a message, with its usage if an argument is missing."""
         if line not in self.calls:
             return ""
         word = self.text.split("\n")[line - 1].split()[0]
@@ -100,7 +100,7 @@ class DrawingError(ScriptError):
 
 
 class Drawing(Statements):
-    """A drawing made by calls: printed it is a .traj file; `program` is what it means.
+    """A drawing made by calls: `str` gives its .traj text, `program` its Program.
 
     Args:
         name: what messages and files are called after it.
@@ -142,18 +142,18 @@ class Drawing(Statements):
         return sorted({*super().__dir__(), *METHODS})
 
     def write(self, line: str) -> None:
-        """A line of the language as it stands, such as the call of a `def`."""
+        """Adds a line of the language, such as the call of a `def`."""
         if len(line.splitlines()) > 1:
             raise UsageError(f"{_caller()}: one line at a time")
         self._line(line)
 
     def comment(self, text: str) -> None:
-        """A comment on lines of its own."""
+        """Adds a comment on lines of its own."""
         for line in text.splitlines():
             self._lines.append(f"{STEP * self._depth}# {line}".rstrip())
 
     def source(self) -> str:
-        """The drawing as a .traj file, in the layout of `dqpaint fmt`; blocks that are open end.
+        """The drawing as a .traj file, in the layout of `dqpaint fmt`; open blocks are closed.
 
         Raises:
             DrawingError: a string of a call is no text of the language.
@@ -166,7 +166,7 @@ class Drawing(Statements):
         return self.source()
 
     def program(self) -> Program:
-        """The drawing, understood and checked, as if it had been read from a file.
+        """The drawing, parsed and checked as if read from a file.
 
         Raises:
             DrawingError: with every mistake, and the call that made it.
@@ -176,7 +176,7 @@ class Drawing(Statements):
 
     @contextmanager
     def places(self) -> Iterator[None]:
-        """Errors about this drawing from what is done inside say which call they are about."""
+        """Errors about this drawing raised inside this context name their calls."""
         try:
             yield
         except DrawingError:
@@ -221,7 +221,7 @@ def _parts(word: str, parts: dict[str, Any]) -> Iterator[str]:
 
 
 def _caller() -> Call:
-    """The first place outside of this file."""
+    """The nearest stack frame outside this file."""
     frame = sys._getframe(1)
     while frame.f_back is not None and frame.f_code.co_filename == __file__:
         frame = frame.f_back

@@ -1,4 +1,4 @@
-"""Files -> the same files in the one layout. Line ends stay as a file has them."""
+"""Files -> the same files in the standard layout, with their line ends unchanged."""
 
 from pathlib import Path
 
@@ -8,7 +8,7 @@ from dqpaint.language.writing.formatter import formatted
 
 
 def laid_out(data: bytes, name: str) -> bytes:
-    """The bytes of a drawing in the one layout.
+    """The bytes of a drawing in the standard layout.
 
     All line ends become those of the first line: which ones it has depends on the system, and is
     no part of the layout. A byte-order mark is left out.
@@ -23,7 +23,7 @@ def laid_out(data: bytes, name: str) -> bytes:
 
 
 def format_file(name: str, write: bool) -> bool:
-    """Whether a file is not in the one layout; if so, it is rewritten where that is asked for.
+    """Whether a file differs from the standard layout; `write` rewrites it.
 
     Raises:
         DqpaintError: it cannot be read, understood or written; it is as it was.
@@ -36,7 +36,7 @@ def format_file(name: str, write: bool) -> bool:
 
 
 def format_input() -> tuple[bytes, bool]:
-    """Standard input in the one layout, and whether it was not.
+    """Standard input in the standard layout, and whether it differed.
 
     Raises:
         DqpaintError: it cannot be understood.

@@ -1,4 +1,4 @@
-"""Text -> the same text in the one layout: `dqpaint fmt`. Tokens and comments stay as they are.
+"""Text -> the same text in the standard layout, tokens and comments unchanged (`dqpaint fmt`).
 
 Words of earlier versions become today's: `law` is written `profile`.
 Two blanks a block, `a, b`, `90 deg`, blanks round + - and =, none round * / ^, two blanks before a
@@ -22,7 +22,7 @@ _SUMS = ("+", "-")
 
 
 class _Row(NamedTuple):
-    """What stands on one line of the file."""
+    """One line of the file."""
 
     tokens: list[Token]
     comment: str
@@ -30,7 +30,7 @@ class _Row(NamedTuple):
 
 
 class _State(NamedTuple):
-    """How a line has gone so far."""
+    """The state of the formatter within a line."""
 
     statement: str  # its first word
     brush: str  # in whose clause it is
@@ -44,7 +44,7 @@ _NOTHING = _State("", "", None, False, False, False)
 
 
 def formatted(text: str, name: str = "<text>") -> str:
-    """A drawing's text in the one layout; done twice it is the same as done once.
+    """A drawing's text in the standard layout; formatting it again changes nothing.
 
     Raises:
         ScriptError: with its mistakes, if the text does not parse.
@@ -128,7 +128,7 @@ def _rows(text: str) -> Iterator[_Row]:
 
 
 def _closing(tokens: list[Token]) -> int:
-    """How many brackets a line closes before anything else."""
+    """The number of brackets a line closes before any other token."""
     count = 0
     for token in tokens:
         if token.text != ")" or token.kind != "sign":
@@ -138,7 +138,7 @@ def _closing(tokens: list[Token]) -> int:
 
 
 def _joined(tokens: list[Token], state: _State) -> tuple[str, _State]:
-    """The tokens of a line with the right blanks."""
+    """The tokens of a line, joined by the standard blanks."""
     parts: list[str] = []
     for token in tokens:
         if parts:
@@ -149,7 +149,7 @@ def _joined(tokens: list[Token], state: _State) -> tuple[str, _State]:
 
 
 def _after(state: _State, token: Token) -> _State:
-    """What is to be known of a token by the one that follows it."""
+    """The state after a token."""
     statement, brush = state.statement or token.text, state.brush
     is_word = is_sum = False
     if token.kind == "name":
@@ -170,7 +170,7 @@ def _after(state: _State, token: Token) -> _State:
 
 
 def _gap(state: _State, token: Token) -> str:
-    """What stands before a token that is not the first of its line."""
+    """The blanks before a token that is not the first of its line."""
     before = state.before
     assert before is not None
     first = before.text if before.kind == "sign" else ""

@@ -1,4 +1,4 @@
-"""A first drawing for who begins one: commented, and good to look at."""
+"""File name -> a first drawing with comments."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Values of Python -> text of the language, by the kinds that the tables of words give them.
+"""Python values -> text of the language, by the types in the tables of words.
 
 Numbers are in SI units and get their unit here; a string is text of the language already.
 """
@@ -34,17 +34,17 @@ _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*", re.ASCII)
 
 
 class Unwritable(ValueError):  # noqa: N818  becomes a UsageError with its place
-    """A value that has no text in the language."""
+    """A value that cannot be written in the .traj language."""
 
 
 class Quoted(str):
-    """A string that stands in quotes, where one without would be text of the language."""
+    """A string that is written in quotes; one without is text of the language."""
 
     __slots__ = ()
 
 
 def quoted(text: str) -> Quoted:
-    """A string as a text in quotes: a file's name, a font, letters.
+    """A string in quotes: a file's name, a font, letters.
 
     Raises:
         Unwritable: it has a quote or a line's end in it.
@@ -82,12 +82,12 @@ def called(word: str, method: str) -> str:
 
 
 def _in_quotes(text: str) -> str:
-    """A text of the language as a string of Python; one in quotes is a string already."""
+    """A text of the language as a Python string; a quoted one is a string already."""
     return text if text.startswith('"') else f'"{text}"'
 
 
 def written_part(word: str, name: str, value: Any) -> Iterator[str]:
-    """A part of a statement: its word and value; several times where a list is given.
+    """A part of a statement: its word and value; repeated for a list.
 
     Raises:
         Unwritable: the statement has no such part, or the value no text.
@@ -116,7 +116,7 @@ def written_part(word: str, name: str, value: Any) -> Iterator[str]:
 
 
 def written_head(word: str, values: Sequence[Any]) -> Iterator[str]:
-    """What stands between a statement's word and its parts.
+    """The text between a statement's word and its parts.
 
     Raises:
         Unwritable: too many values, or one without a text.
@@ -162,7 +162,7 @@ def _from_to(name: Any, lower: Any, upper: Any) -> str:
 
 
 def _each(value: Any) -> list[Any]:
-    """The values of a part that may stand several times."""
+    """The values of a part that may be repeated."""
     if isinstance(value, str | Real):
         return [value]
     try:
@@ -174,7 +174,7 @@ def _each(value: Any) -> list[Any]:
 
 
 def _written(value: Any, takes: str) -> str:
-    """A value of the kind that a part takes."""
+    """A value of the type that a part takes."""
     if isinstance(value, Quoted):
         return value
     if isinstance(value, str):
@@ -203,7 +203,7 @@ def _with_unit(text: str, takes: str) -> str:
 
 
 def _number(value: Any) -> str:
-    """A number with all its digits, so that it is read back as it was."""
+    """A number with all its digits, so that reading it back is exact."""
     if not isinstance(value, Real) or not math.isfinite(value):
         raise Unwritable(f"{value!r} is not a finite number")
     size = float(value)
@@ -211,7 +211,7 @@ def _number(value: Any) -> str:
 
 
 def _text(value: Any) -> str:
-    """Text of the language, all of it within one line."""
+    """Text of the language on a single line."""
     if not isinstance(value, str):
         raise Unwritable(f"{value!r} is not text of the language")
     found = list(lines(value))

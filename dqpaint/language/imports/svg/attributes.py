@@ -1,4 +1,4 @@
-"""The elements of an SVG drawing -> a tree of what may be drawn, every attribute of it read.
+"""SVG elements -> tree of drawable nodes with all attributes parsed.
 
 A number, a path or a transform that can't be read is an error with its line: another shape than
 was meant is worse than none. What SVG itself says to pass over (a colour that is none, a `use` of
@@ -67,7 +67,7 @@ STYLED = frozenset((
 
 
 class Style(NamedTuple):
-    """What an element has from those around it, unless it says otherwise; opacities multiply."""
+    """The inherited style of an element; opacities multiply."""
 
     color: Paint = values.BLACK
     stroke: Paint = None
@@ -80,7 +80,7 @@ class Style(NamedTuple):
 
 @dataclass(eq=False, slots=True)
 class Node:
-    """An element that may be drawn.
+    """A drawable element.
 
     Attributes:
         tag: without its namespace.
@@ -107,7 +107,7 @@ class Node:
 
 @dataclass
 class Notes:
-    """What of a drawing is not drawn as it stands there.
+    """The parts of a drawing that are ignored or drawn differently.
 
     Attributes:
         left_out: texts, images ..., and the lines they stand on.
@@ -121,7 +121,7 @@ class Notes:
 
 
 def read(root: Element) -> tuple[Node, Notes]:
-    """A drawing with all its attributes, and what of it is not drawn as it stands there.
+    """A drawing with all its attributes, and its ignored parts.
 
     Raises:
         SvgError: an attribute can't be read, or the drawing has no size.
@@ -143,7 +143,7 @@ def _is_hidden(element: Element) -> bool:
 
 
 def _has_size(node: Node, tag: str) -> bool:
-    """Whether a shape or a viewport of a tag has sides; SVG shows nothing of one that has not."""
+    """Whether a shape or a viewport has a non-zero size; SVG shows nothing of one without."""
     names = ("rx", "ry") if tag == "ellipse" else ("width", "height", "r")
     sides = [node.lengths[name] for name in names if name in node.lengths]
     return tag not in _SIDES or (
@@ -161,11 +161,11 @@ class _Reader:
         self.notes = Notes()
 
     def remark(self, element: Element, text: str) -> None:
-        """Notes what is passed over as SVG says."""
+        """Records an attribute that is ignored, as SVG demands."""
         self.notes.passed_over.append(f"line {element.line}: {text}")
 
     def tree(self, root: Element) -> Node:
-        """An element and all that is shown in it, its styles in the attributes.
+        """An element and its visible descendants, with style sheets resolved to attributes.
 
         Raises:
             SvgError: an attribute can't be read.
@@ -177,7 +177,7 @@ class _Reader:
         return made
 
     def _node(self, element: Element) -> Node:
-        """An element and all that is shown in it."""
+        """An element and its visible descendants."""
         tag, has = element.tag, element.has
         names = [name for name in (*_READ.get(tag, ()), "transform") if name in has]
         read = {name: self._read(element, name) for name in names}
@@ -208,7 +208,7 @@ class _Reader:
             raise SvgError(f"{where}: {fault}", _CURE) from None
 
     def _style(self, element: Element) -> dict[str, Any]:
-        """The fields of Style that an element says, and its own opacity."""
+        """The fields of Style set by an element, and its own opacity."""
         made: dict[str, Any] = {}
         for name in (*_PAINTS, *_OPACITIES):
             text = element.has.get(name, "inherit").strip()
@@ -225,7 +225,7 @@ class _Reader:
         return made
 
     def _paint(self, element: Element, name: str, text: str) -> Paint:
-        """A gradient as its mean colour; a pattern is no light, and what is not there no paint."""
+        """A gradient becomes its mean colour; patterns and missing references are ignored."""
         link = values.reference(text)
         if link is None:
             return values.paint(text)
@@ -239,7 +239,7 @@ class _Reader:
         return values.mean(stops)
 
     def _stops(self, gradient: Element, depth: int) -> list[Paint]:
-        """The colours of a gradient, or of the one it takes them from."""
+        """The colours of a gradient, or of the gradient it refers to."""
         stops = [stop for stop in gradient.children if stop.tag == "stop"]
         other = self._by_id.get(gradient.link)
         if not stops and depth < 8 and other is not None:
@@ -253,7 +253,7 @@ class _Reader:
         return made
 
     def _show(self, element: Element, node: Node) -> None:
-        """Finds whether there is something to see, be it of what is in it."""
+        """Determines whether an element or its children are visible."""
         a, b, c, d, _, _ = node.transform
         target = self._by_id.get(element.link)
         used = node.tag == "use" and target is not None and target.tag in VIEWPORTS
@@ -266,7 +266,7 @@ class _Reader:
             node.shown = False
 
     def _follow(self, use: Element, node: Node) -> None:
-        """SVG draws nothing for a `use` of nothing."""
+        """Resolves a `use`; SVG draws nothing where its target does not exist."""
         link, target = use.link, self._by_id.get(use.link)
         if target is not None:
             self._uses.append((node, target))
@@ -278,7 +278,7 @@ class _Reader:
             self.remark(use, f"there is no {values.shown(link[1:])} to be used")
 
     def _enter(self, element: Element, node: Node) -> None:
-        """Reads what is in an element."""
+        """Reads the children of an element."""
         for child in element.children:
             tag = child.tag
             if _is_hidden(child):

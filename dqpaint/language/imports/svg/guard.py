@@ -1,4 +1,4 @@
-"""The bytes of an SVG drawing -> its elements, unless there would be too much to draw.
+"""Bytes of an SVG drawing -> its elements, or an error where it is too large.
 
 A drawing of 2 kB can ask for 10^30 circles by `use` within `use`; such files, and those that nest
 too deep, go in circles or declare entities, are refused before anything is expanded.
@@ -37,7 +37,7 @@ Counts = tuple[int, int, int, int]  # elements, shapes, numbers, depth
 
 @dataclass(eq=False, slots=True)
 class Element:
-    """An element as it is written.
+    """An element with its tag, attributes and children.
 
     Attributes:
         tag: its name; that of another language than SVG, as an editor's own notes are, has a }.
@@ -54,7 +54,7 @@ class Element:
     text: list[str] = field(default_factory=list)
 
     def __iter__(self) -> Iterator["Element"]:
-        """It and all in it, in their order."""
+        """The element and its descendants in document order."""
         todo = [self]
         while todo:
             yield (element := todo.pop())
@@ -62,7 +62,7 @@ class Element:
 
     @property
     def link(self) -> str:
-        """What it links to."""
+        """The target of its reference."""
         return self.has.get("href", self.has.get(_XLINK, ""))
 
 
@@ -83,12 +83,12 @@ def guard(data: bytes) -> Element:
 
 
 def by_ids(root: Element) -> dict[str, Element]:
-    """The elements that can be linked to, by `#` and their names."""
+    """The elements that can be referenced, by `#` and their ids."""
     return {f"#{element.has['id']}": element for element in root if "id" in element.has}
 
 
 def _tree(data: bytes) -> Element:
-    """The elements of a file; stops at the first that is too many."""
+    """The elements of a file; stops at the first beyond the limit."""
     parser = expat.ParserCreate(namespace_separator="}")
     within = [Element("", {}, 0)]  # each in the one before
     count = 0
@@ -127,7 +127,7 @@ def _tree(data: bytes) -> Element:
 
 
 class _Count:
-    """How much a drawing is once every `use` is expanded, without expanding one."""
+    """The size of a drawing with every `use` expanded, computed without expanding one."""
 
     def __init__(self, by_id: Mapping[str, Element]) -> None:
         self._by_id = by_id
@@ -135,7 +135,7 @@ class _Count:
         self._open: set[Element] = set()
 
     def check(self, root: Element) -> None:
-        """Raises if it is too much."""
+        """Raises if the drawing is too large."""
         elements, shapes, numbers, _ = self._of(root, 1)
         if elements > MOST_ELEMENTS:
             raise SvgError(f"with every 'use' it has {_shown(elements)} elements", LESS)
@@ -145,7 +145,7 @@ class _Count:
             raise SvgError(f"with every 'use' its paths have {_shown(numbers)} numbers", LESS)
 
     def _of(self, element: Element, depth: int) -> Counts:
-        """Of an element with all below it."""
+        """The size of an element with its descendants."""
         known = self._known.get(element)
         if known is None:
             if element in self._open:

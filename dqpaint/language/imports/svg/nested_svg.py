@@ -1,4 +1,4 @@
-"""Viewports of an SVG drawing (<svg>, <symbol>) -> what is in them: its transform, its percentages.
+"""SVG viewports (<svg>, <symbol>) -> transform and percentage base of their content.
 
 How a view box lies in a viewport is told in section 8.2 of SVG 2, what percentages are of in 8.9.
 """
@@ -16,13 +16,13 @@ _ALIGNS = {"Min": 0.0, "Mid": 0.5, "Max": 1.0}
 
 
 class View(NamedTuple):
-    """What percentages are of [px]."""
+    """The base of percentages [px]."""
 
     width: float
     height: float
 
     def pixels(self, name: str, length: Length) -> float:
-        """A length of an attribute."""
+        """An attribute's length [px]."""
         if not length.percent:
             return length.pixels
         whole = self.width if name in _ACROSS else self.height
@@ -35,7 +35,7 @@ _WHOLE = {**dict.fromkeys("xy", Length()), **dict.fromkeys(View._fields, Length(
 
 
 def paper(root: Node) -> View:
-    """The size of a whole drawing: what it does not say follows from its view box, as browsers do.
+    """The size of a whole drawing; missing sizes follow from its view box, as in browsers.
 
     Args:
         root: not without a size.
@@ -50,7 +50,7 @@ def paper(root: Node) -> View:
 
 
 def placed(node: Node, around: View, sizes: Mapping[str, Length]) -> tuple[Matrix, View]:
-    """The transform of what is in a viewport, or shown by a `use`, and what percentages are of.
+    """The transform and the percentage base of the content of a viewport or a `use`.
 
     Args:
         node: a viewport, or a `use`, whose percentages are those around.

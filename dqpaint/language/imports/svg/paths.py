@@ -1,4 +1,4 @@
-"""The lines of SVG shapes -> the smooth pieces of a whole drawing, made at once.
+"""SVG shapes -> piecewise curves of a whole drawing, computed at once.
 
 A drawing may have a hundred thousand pieces: each is read with plain arithmetic, and arrays are
 made of all of them together. The data of paths come as `svgvalues.path` reads them.
@@ -21,7 +21,7 @@ Spot = tuple[float, float]
 
 
 class Pieces:
-    """The pieces of lines, each in the coordinates of the shape that it belongs to."""
+    """The pieces of all lines, each in the coordinates of its shape."""
 
     def __init__(self) -> None:
         self._numbers = {count: array("d") for count in (4, 6, 8)}  # of lines and curves
@@ -40,7 +40,7 @@ class Pieces:
         self.move((0.0, 0.0))
 
     def move(self, to: Spot) -> None:
-        """The pen goes there without drawing."""
+        """Moves the pen without drawing."""
         self.at, self._lifted = to, True
 
     def curve(self, *points: Spot) -> None:
@@ -66,7 +66,7 @@ class Pieces:
         return self._size - 1
 
     def lines(self, matrices: Floats, shifts: Floats) -> Iterator[tuple[int, PiecewiseCurve]]:
-        """Each line, with the number of its shape, where the shapes' transforms carry it.
+        """Each line under its shape's transform, with the number of the shape.
 
         Within a line each piece begins where the one before it ends; what has no length is none.
 
@@ -90,7 +90,7 @@ class Pieces:
         yield from zip(shape[long][starts].tolist(), piecewise.split(whole, starts), strict=True)
 
     def _arrays(self) -> tuple[PiecewiseCurve, np.ndarray[tuple[int], np.dtype[np.bool_]]]:
-        """All pieces, unmapped, and whether they have a length."""
+        """All pieces in their shapes' coordinates, and whether they have a length."""
         cubic, ellipse = np.zeros((self._size, 4, 3)), np.zeros((self._size, 2, 3))
         angles, long = np.zeros((self._size, 2)), np.ones(self._size, dtype=bool)
         for count, numbers in self._numbers.items():
@@ -111,21 +111,21 @@ class Pieces:
 
 
 def draw_line(pieces: Pieces, *corners: Spot) -> None:
-    """Straight lines from corner to corner."""
+    """A polyline."""
     pieces.move(corners[0])
     for corner in corners[1:]:
         pieces.curve(corner)
 
 
 def draw_ellipse(pieces: Pieces, centre: Spot, rx: float, ry: float) -> None:
-    """All round an ellipse, from its right, as SVG has it."""
+    """A full ellipse that begins at its right, as in SVG."""
     start = centre[0] + rx, centre[1]
     pieces.move(start)
     pieces.arc(centre, (rx, 0.0), (0.0, ry), 0.0, math.tau, start)
 
 
 def draw_rectangle(pieces: Pieces, x: float, y: float, size: Spot, rx: float, ry: float) -> None:
-    """A rectangle whose corners may be rounded, from its upper left, as SVG has it."""
+    """A rectangle, with rounded corners if rx > 0, that begins at its upper left, as in SVG."""
     right, low = x + size[0], y + size[1]
     if not (rx and ry):
         draw_line(pieces, (x, y), (right, y), (right, low), (x, low), (x, y))
@@ -144,14 +144,14 @@ def draw_rectangle(pieces: Pieces, x: float, y: float, size: Spot, rx: float, ry
 
 
 def draw_path(pieces: Pieces, data: Commands) -> None:
-    """A path, by its letters and their numbers."""
+    """A path from its commands and their numbers."""
     outline = _Outline(pieces)
     for letter, numbers in data:
         outline.follow(letter, numbers)
 
 
 class _Outline:
-    """Follows the letters of a path."""
+    """Executes the commands of a path."""
 
     def __init__(self, pieces: Pieces) -> None:
         self._pieces = pieces
@@ -160,7 +160,7 @@ class _Outline:
         self._handles = 0  # and how many it has
 
     def follow(self, letter: str, numbers: Sequence[float]) -> None:
-        """A letter with numbers for it once or more often."""
+        """Executes a command with numbers for one or more repetitions."""
         kind, pieces = letter.upper(), self._pieces
         if kind == "Z":
             pieces.curve(self._first)
@@ -200,7 +200,7 @@ class _Outline:
 
 
 def _arc_to(pieces: Pieces, numbers: Sequence[float], end: Spot) -> None:
-    """An arc by its end points, as the SVG 2 specification finds its centre in appendix B.2."""
+    """An arc by its end points; its centre by appendix B.2 of the SVG 2 specification."""
     rx, ry, turned, large, sweep, *_ = numbers
     (x0, y0), (x1, y1) = start, _ = pieces.at, end
     if start == end:

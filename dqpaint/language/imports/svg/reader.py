@@ -1,4 +1,4 @@
-"""SVG drawings -> curves with their colours, in metres, x to the right and y up.
+"""SVG drawing -> coloured curves in metres, x to the right and y up.
 
 Arcs stay arcs and Bezier curves Bezier curves, whatever transforms they stand under.
 """
@@ -38,7 +38,7 @@ _OTHERWISE = {
 
 
 class State(NamedTuple):
-    """What a shape has from all that it stands in."""
+    """What a shape inherits from its ancestors."""
 
     matrix: Matrix
     view: View
@@ -47,7 +47,7 @@ class State(NamedTuple):
 
 
 def read(node: Quoted, pen: Pen) -> list[ColouredCurve]:
-    """The lines of a drawing, in an order with short ways between them."""
+    """The lines of a drawing, ordered for short moves between them."""
     data = contents(node, pen, MOST_BYTES)
     try:
         lines, notes = _read(data)
@@ -59,7 +59,7 @@ def read(node: Quoted, pen: Pen) -> list[ColouredCurve]:
 
 
 def _warn(notes: Notes, node: Quoted, pen: Pen) -> None:
-    """Says what of the file is not drawn, or not as it stands there."""
+    """Warns of parts of the file that are ignored or drawn differently."""
     if notes.left_out:
         message = f"left out of {node.text}: {_counted(notes.left_out)}"
         pen.warn("W420", message, node.span, "", _said(notes))
@@ -122,7 +122,7 @@ def _lines(root: Node) -> Iterator[ColouredCurve]:
 
 
 def _shapes(root: Node, paper: View) -> Iterator[tuple[Node, State]]:
-    """The shapes of a drawing in their order, those of a `use` at each of its places."""
+    """The shapes of a drawing in document order, those of a `use` at each of its positions."""
     whole = {"x": 0.0, "y": 0.0, **paper._asdict()}
     sizes = {name: Length(pixels) for name, pixels in whole.items()}
     todo = [(root, State(values.IDENTITY, paper, Style(), sizes))]
@@ -136,7 +136,7 @@ def _shapes(root: Node, paper: View) -> Iterator[tuple[Node, State]]:
 
 
 def _inside(node: Node, around: State) -> State:
-    """What holds for a node and for all in it."""
+    """The state of a node and its descendants."""
     matrix, view, style, sizes = around
     matrix = values.times(matrix, node.transform)
     if node.said:
@@ -165,7 +165,7 @@ def _in_metres(transforms: Floats) -> tuple[Floats, Floats]:
 
 
 def _paints(style: Style) -> tuple[Paint, Paint]:
-    """What is to be seen of a stroke and of a filling, with all opacities in it."""
+    """The visible stroke and fill colours, with all opacities."""
     if style.hidden:
         return None, None
     stroke = _seen(style.stroke, style.stroke_opacity, style)
@@ -187,7 +187,7 @@ def _colour(paint: bytes) -> Colour | None:
 
 
 def _is_paper(at: Mapping[str, float], matrix: Matrix, paper: View) -> bool:
-    """Whether it is a rectangle (no other shape has a width) as large as the drawing, under it."""
+    """Whether a shape is a background: a rectangle as large as the drawing, below all else."""
     a, b, c, d, e, f = matrix
     sides = ((at["x"], at["x"] + at["width"]), (at["y"], at["y"] + at["height"]))
     corners = [(a * x + c * y + e, b * x + d * y + f) for x in sides[0] for y in sides[1]]
@@ -214,7 +214,7 @@ def _draw(pieces: Pieces, node: Node, at: Mapping[str, float]) -> None:
 
 
 def _measured(node: Node, view: View) -> Mapping[str, float]:
-    """The lengths of a shape [px]; 0 for those that it does not say."""
+    """The lengths of a shape [px]; 0 for missing ones."""
     at = defaultdict(float, {n: view.pixels(n, length) for n, length in node.lengths.items()})
     at["rx"] = at.get("rx", at.get("ry", at["r"]))
     at["ry"] = at.get("ry", at["rx"])

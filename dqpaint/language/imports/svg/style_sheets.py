@@ -1,4 +1,4 @@
-"""The style sheets of an SVG drawing, written into the attributes of what they are about.
+"""SVG style sheets -> attributes of the elements they select.
 
 After this an element's attributes say all: the rules of the sheets in the order of their weight,
 then the element's own `style`, as CSS has it. Selectors are a tag, classes and an id; rules with
@@ -27,18 +27,18 @@ MOST_WORK = 3_000_000  # of rules tried on elements
 
 
 class TooManyRulesError(Exception):
-    """More rules and elements than are tried on each other."""
+    """More rules and elements than are matched against each other."""
 
 
 class _Declared(NamedTuple):
-    """What a rule says, and what of it goes before all that is said otherwise."""
+    """The declarations of a rule, and those of them marked important."""
 
     plain: dict[str, str]
     important: dict[str, str]
 
 
 class _Rule(NamedTuple):
-    """A rule with one selector; `weight` orders rules as CSS has it: ids, classes, tag, place."""
+    """A rule with one selector; `weight` orders rules as in CSS: ids, classes, tag, position."""
 
     weight: tuple[int, int, bool, int]
     names: frozenset[str]  # `#id`, `.class` and `tag`, all of which an element must have
@@ -46,7 +46,7 @@ class _Rule(NamedTuple):
 
 
 def inline(root: Element, known: frozenset[str], remark: Remark) -> None:
-    """Writes the declarations of all styles into attributes; `known` are those that matter.
+    """Writes the declarations of all styles into attributes; only `known` names are used.
 
     Raises:
         TooManyRulesError: it would take too long.
@@ -93,7 +93,7 @@ def _rules(sheet: Element, known: frozenset[str], remark: Remark) -> Iterator[_R
 
 
 def _blocks(text: str, sheet: Element, remark: Remark) -> Iterator[tuple[str, str]]:
-    """The rules of a sheet; those behind an @ are passed over."""
+    """The rules of a sheet; at-rules are ignored."""
     at, size = 0, len(text)
     while at < size:
         match = _AT.match(text, at)
@@ -111,7 +111,7 @@ def _blocks(text: str, sheet: Element, remark: Remark) -> Iterator[tuple[str, st
 
 
 def _close(text: str, brace: int) -> int:
-    """Behind the bracket that closes one; the end, if none does."""
+    """The offset after the matching closing brace; the end of the text if there is none."""
     if brace < 0:
         return len(text)
     depth = 0
@@ -123,7 +123,7 @@ def _close(text: str, brace: int) -> int:
 
 
 def _declared(text: str, known: frozenset[str]) -> _Declared:
-    """The declarations that matter; the last of a name holds."""
+    """The known declarations; the last of a name wins."""
     found = _Declared({}, {})
     for declaration in _COMMENT.sub(" ", text).split(";"):
         name, colon, value = declaration.partition(":")

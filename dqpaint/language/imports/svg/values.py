@@ -1,4 +1,4 @@
-"""The attributes of an SVG drawing -> numbers, lengths, paths, transforms and paints.
+"""SVG attributes -> numbers, lengths, paths, transforms and paints.
 
 Each is read by SVG's own grammar. What can't be read is an error that says which part of it.
 """
@@ -43,14 +43,14 @@ BLACK = b"\0\0\0\xff"
 
 
 class Length(NamedTuple):
-    """Pixels, or hundredths of what the length is measured by."""
+    """Pixels, or a percentage of a reference length."""
 
     pixels: float = 0.0
     percent: float = 0.0
 
 
 class SvgError(Exception):
-    """Why a drawing is not drawn, and what would help."""
+    """Why a drawing can't be drawn, and a fix."""
 
     def __init__(self, message: str, cure: str = "") -> None:
         super().__init__(message)
@@ -62,7 +62,7 @@ class UnreadableError(Exception):
 
 
 def shown(text: str) -> str:
-    """A text from a file as a message quotes it."""
+    """A text from a file, quoted for a message."""
     text = " ".join(text.split())
     return f"'{text[:24]}…'" if len(text) > 25 else f"'{text}'"
 
@@ -81,7 +81,7 @@ def _bounded(value: float, text: str) -> float:
 
 
 def length(text: str) -> Length:
-    """A length in pixels, or a percentage of what it is measured by."""
+    """A length in pixels, or a percentage of a reference length."""
     match = _LENGTH.fullmatch(text.strip())
     if not match:
         raise UnreadableError(f"{shown(text)} is no length")
@@ -101,12 +101,12 @@ def size(text: str) -> Length:
 
 
 def size_or_auto(text: str) -> Length | None:
-    """A length that is not negative; None for `auto`, which is as if it were not said."""
+    """A length that is not negative; None for `auto`, which equals a missing attribute."""
     return None if text.strip() == "auto" else size(text)
 
 
 def numbers(text: str, what: str = "a number", after: str = "") -> list[float]:
-    """Numbers with blanks or commas between them; `after` is what stands behind the text."""
+    """Numbers separated by blanks or commas; `after` is the text that follows."""
     match = _LIST.match(text)
     end = match.end() if match else 0
     if end < len(text) or text.rstrip().endswith(","):
@@ -121,7 +121,7 @@ def numbers(text: str, what: str = "a number", after: str = "") -> list[float]:
 
 
 def points(text: str) -> Commands:
-    """The corners of a polygon, as the letters of a path."""
+    """The corners of a polygon, as commands of a path."""
     found = numbers(text)
     if len(found) % 2:
         raise UnreadableError(f"it has {len(found)} numbers, and points have two each")
@@ -129,7 +129,7 @@ def points(text: str) -> Commands:
 
 
 def view_box(text: str) -> list[float]:
-    """Four numbers, the last two of them sizes."""
+    """Four numbers; the last two are sizes."""
     found = numbers(text)
     if len(found) != 4:
         raise UnreadableError(f"it has {len(found)} numbers instead of 4")
@@ -139,7 +139,7 @@ def view_box(text: str) -> list[float]:
 
 
 def path(text: str) -> Commands:
-    """The data of a path."""
+    """The commands of a path and their numbers."""
     text = text.strip()
     if not text or text == "none":
         return []
@@ -150,7 +150,7 @@ def path(text: str) -> Commands:
 
 
 def _segment(command: str, text: str, whole: str, end: int) -> list[float]:
-    """The numbers of one letter of a path, which end at a place of the whole."""
+    """The numbers of one command of a path."""
     if command in "Zz":
         if text.strip():
             raise UnreadableError(f"{shown(text)} follows its {command}, which takes no numbers")
@@ -189,7 +189,7 @@ def _wrong_count(command: str, text: str, count: int) -> UnreadableError:
 
 
 def transform(text: str) -> Matrix:
-    """Turns, shifts and scales, one in the other; the names are those of SVG and of CSS."""
+    """A product of rotations, translations and scalings, by their names in SVG and CSS."""
     if text.strip() == "none":
         return IDENTITY
     made, count, at = IDENTITY, 0, 0
@@ -204,7 +204,7 @@ def transform(text: str) -> Matrix:
 
 
 def times(outer: Matrix, inner: Matrix) -> Matrix:
-    """The transform of what stands in another one."""
+    """The product of an outer and an inner transform."""
     a, b, c, d, e, f = outer
     g, h, i, j, k, m = inner
     return (
@@ -245,7 +245,7 @@ def _radians(text: str) -> float:
 
 
 def _turned(angle: float, x: float = 0.0, y: float = 0.0) -> Matrix:
-    """A turn about a place."""
+    """A rotation about a point."""
     c, s = math.cos(angle), math.sin(angle)
     return c, s, -s, c, s * y - c * x + x, -s * x - c * y + y
 
@@ -273,14 +273,14 @@ _FUNCTIONS: Mapping[
 
 
 def opacity(text: str) -> float:
-    """0 to 1, or a percentage; what is beyond is cut off, as SVG has it."""
+    """0 to 1, or a percentage; clipped to that range as in SVG."""
     text = text.strip()
     value = number(text[:-1]) / 100.0 if text.endswith("%") else number(text)
     return min(1.0, max(0.0, value))
 
 
 def reference(text: str) -> tuple[str, str] | None:
-    """The id of `url(#id)` and what stands behind it; None for another paint."""
+    """The id of `url(#id)` and the fallback after it; None for another paint."""
     match = _URL.fullmatch(text.strip())
     return (match[1], match[2]) if match else None
 
@@ -303,7 +303,7 @@ def paint(text: str) -> Paint:
 
 
 def _mixed(kind: str, text: str, whole: str) -> bytes:
-    """The values of rgb(...) or hsl(...), with commas or blanks between them."""
+    """The values of rgb(...) or hsl(...), separated by commas or blanks."""
     given = [one for one in re.split(r"[\s,/]+", text) if one]
     if len(given) not in (3, 4):
         raise UnreadableError(f"{shown(whole)} is no colour")
@@ -320,7 +320,7 @@ def _mixed(kind: str, text: str, whole: str) -> bytes:
 
 
 def mean(paints: list[Paint]) -> bytes:
-    """The mean of colours, of their values; what is none of them doesn't count."""
+    """The mean of the values of colours; other paints are ignored."""
     known = [one for one in paints if one]
     if not known:
         return BLACK

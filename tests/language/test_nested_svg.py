@@ -1,6 +1,6 @@
 """Viewports, against where Chromium puts the ends of a line (getScreenCTM, and boxes of `use`)."""
 
-from itertools import curve
+from itertools import chain
 
 import numpy as np
 import pytest
@@ -20,7 +20,7 @@ def ends(attributes: str, within: str) -> list[list[float]]:
     for line, _ in lines:
         last = len(line.cubic) - 1
         at = piecewise.derivatives(line, np.array([0, last]), np.array([0.0, 1.0]))[0]
-        made.append([*curve.from_iterable(sorted((at[:, :2] / INCH * [96, -96]).tolist()))])
+        made.append([*chain.from_iterable(sorted((at[:, :2] / INCH * [96, -96]).tolist()))])
     return sorted(made)
 
 

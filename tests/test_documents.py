@@ -21,7 +21,7 @@ from dqpaint.planning.reachability import reachable_start_posture
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
 from dqpaint.studies.gallery import page, read_shots
-from dqpaint.studies.kinds.verify import told, verify
+from dqpaint.studies.kinds.verify import table_text, verify
 from tests.tools import generated
 
 ROOT = Path(__file__).parent.parent
@@ -66,8 +66,8 @@ def test_links_lead_somewhere(path):
 
 
 def test_the_readme_names_every_format():
-    told = README.partition("`--save` takes")[2].partition("\n\nWith `--colour-by`")[0]
-    assert all(f"`{name}`" in told for name in WRITERS)
+    table_text = README.partition("`--save` takes")[2].partition("\n\nWith `--colour-by`")[0]
+    assert all(f"`{name}`" in table_text for name in WRITERS)
     forms = sorted(one.export_name for one in WRITERS.values() if one.export_name)
     assert f"`export --format {'|'.join(forms)}`" in README
 
@@ -171,7 +171,7 @@ def test_the_gallery_s_cases_are_current_and_small():
 @pytest.mark.slow
 def test_the_gallery_is_what_its_references_guard():
     verdicts = verify(generated.CASES.parent)
-    assert not [one for one in verdicts if one.faults], told(verdicts)
+    assert not [one for one in verdicts if one.faults], table_text(verdicts)
 
 
 @pytest.mark.slow

@@ -85,7 +85,7 @@ def compare(
 
     check_figure(figure)
     several = {"controller": controllers, "plant": plants, "robot": robots, "disturb": disturbs}
-    axes, base = requests.compared(choices, several, size=study.SIZE)
+    axes, base = requests.read_comparison(choices, several, size=study.SIZE)
     compared = study.compare(
         file, axes, base, _folder(out, file, "compare"), runs, requests.workers(jobs, cluster),
         StudyProgress(), figure,
@@ -134,7 +134,7 @@ def sweep(
 
     check_figure(figure)
     several = {"controller": controllers, "plant": plants, "robot": robots, "disturb": disturbs}
-    axes, base = requests.swept(vary or (), choices, several)
+    axes, base = requests.read_sweep(vary or (), choices, several)
     swept = study.sweep(
         file, axes, base, _folder(out, file, "sweep"), runs, requests.workers(jobs, cluster),
         StudyProgress(), figure,
@@ -317,6 +317,6 @@ def verify(
     if update:
         print("\n".join(study.update(verdicts, Path(folder))))
         return
-    _finish(study.told(verdicts), study.save_differences(verdicts, Path(out), _again(report)))
+    _finish(study.table_text(verdicts), study.save_differences(verdicts, Path(out), _again(report)))
     if any(verdict.faults for verdict in verdicts):
         raise typer.Exit(1)

@@ -1,4 +1,4 @@
-"""Drawings and choices -> many paintings -> tables, pictures, verdicts.
+"""Drawings and settings to vary -> many runs -> tables, pictures, verdicts.
 
     axes -> runs -> engine (journal, pool -> worker) -> results -> cells -> compare, sweep, tune
                                                                -> claims -> replay (measures)

@@ -1,4 +1,4 @@
-"""Studies from Python: `dqpaint.compare("lag", ["hinf", "p(k=5)"], runs=3)`.
+"""Calls from Python -> finished studies: `dqpaint.compare("lag", ["hinf", "p(k=5)"], runs=3)`.
 
 What they return has the table, the pictures and the page of the study, and shows itself in a
 notebook. Settings are named as those of `dqpaint.draw`.
@@ -147,7 +147,7 @@ def compare(
     cells.check_figure(figure)
     several = {"controller": controllers, "plant": plants, "robot": robots, "disturb": disturbs}
     given = {**options, "settings": settings}
-    axes, base = requests.compared(given, several, size=comparing.SIZE)
+    axes, base = requests.read_comparison(given, several, size=comparing.SIZE)
     with _kept(folder) as place:
         made = comparing.compare(
             _name(drawing), axes, base, place, runs, workers(jobs, cluster), _reporter(progress),
@@ -202,7 +202,7 @@ def sweep(
     cells.check_figure(figure)
     several = {"controller": controllers, "plant": plants, "robot": robots, "disturb": disturbs}
     given = {**options, "settings": settings}
-    axes, base = requests.swept(vary, given, several)
+    axes, base = requests.read_sweep(vary, given, several)
     with _kept(folder) as place:
         made = sweeping.sweep(
             _name(drawing), axes, base, place, runs, workers(jobs, cluster), _reporter(progress),
@@ -300,10 +300,10 @@ def replay(
         DqpaintError: a fault in the choices or the folder, or nothing could be run.
     """
     with _kept(folder) as place:
-        asked = MeasureRequest(
+        request = MeasureRequest(
             place, runs, workers(jobs, cluster), read_choices(options), _reporter(progress)
         )
-        made = replaying.replay(name, asked)
+        made = replaying.replay(name, request)
         return _finished(made, _call("replay", name, runs=runs, **options))
 
 

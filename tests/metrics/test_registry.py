@@ -75,7 +75,7 @@ def test_columns_and_figures_are_where_people_look_for_them():
     shown = listing.lists("all")
     assert [row["name"] for row in shown["figures"]] == list(all_figures())
     assert [row["name"] for row in shown["columns"]] == [one.headers for one in all_columns()]
-    text = cells.meaning()
+    text = cells.figure_meanings()
     assert all(one.meaning in text for one in all_figures().values() if one.listed)
     assert cells.listed_figures() == (*cells.listed_figures("error"), *cells.listed_figures("cost"))
 

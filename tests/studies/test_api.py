@@ -109,17 +109,19 @@ def test_disturbances_and_plants_are_axes(tmp_path):
 
 def test_what_callers_ask_is_the_same_on_both_ways(tmp_path):
     several = dict.fromkeys(requests.SEVERAL)
-    axes, base = requests.compared({"plant": "ideal"}, several, size=(64, 36))
+    axes, base = requests.read_comparison({"plant": "ideal"}, several, size=(64, 36))
     assert axes == [Axis("controller", ("hinf",))]
     assert (base.plant, base.width) == ("ideal", 64)
-    listed = requests.compared({}, {**several, "controller": ["p(k=5)", "hinf"]})
-    assert listed == requests.compared({}, {**several, "controller": "p(k=5),hinf"})
-    assert listed == requests.compared({"controller": ["p(k=5)", "hinf"]}, several)
+    listed = requests.read_comparison({}, {**several, "controller": ["p(k=5)", "hinf"]})
+    assert listed == requests.read_comparison({}, {**several, "controller": "p(k=5),hinf"})
+    assert listed == requests.read_comparison({"controller": ["p(k=5)", "hinf"]}, several)
 
-    axes, base = requests.swept("k=1,2", {}, {**several, "plant": "ideal", "controller": "p(c=3)"})
+    axes, base = requests.read_sweep(
+        "k=1,2", {}, {**several, "plant": "ideal", "controller": "p(c=3)"}
+    )
     assert axes == [Axis("k", ("1", "2"))]  # one alone is no axis
     assert (base.plant, base.controller, base.gains) == ("ideal", "p", {"c": 3})
-    axes, _ = requests.swept({"k": np.array([1.0, 2.0]), "plant": "stiff,ideal"}, {}, several)
+    axes, _ = requests.read_sweep({"k": np.array([1.0, 2.0]), "plant": "stiff,ideal"}, {}, several)
     assert axes == [Axis("k", ("1.0", "2.0")), Axis("plant", ("stiff", "ideal"))]
     assert requests.vary_texts({"k": (1, 100), "c": "1..2:lin"}, span=True) == [
         "k=1..100", "c=1..2:lin",
@@ -132,9 +134,9 @@ def test_gains_of_a_file_go_with_its_law(tmp_path):
     )
     given = {"settings": str(tmp_path / "a.toml")}
     several = dict.fromkeys(requests.SEVERAL)
-    axes, base = requests.compared(given, several, size=(64, 36))
+    axes, base = requests.read_comparison(given, several, size=(64, 36))
     assert (axes[0].texts, base.gains, base.width) == (("p",), {"k": 7.0}, 80)
-    axes, base = requests.compared(given, {**several, "controller": "p,p(k=3),hinf"})
+    axes, base = requests.read_comparison(given, {**several, "controller": "p,p(k=3),hinf"})
     assert axes[0].texts == ("p(k=7)", "p(k=3.0)", "hinf")
     assert (base.controller, base.gains, base.plant) == ("hinf", {}, "ideal")
 

@@ -7,13 +7,13 @@ from dqpaint.errors import UsageError
 from dqpaint.settings.model import make_settings
 from dqpaint.studies.experiment.axes import (
     Axis,
-    about,
+    axis_description,
+    axis_label,
     combinations,
-    label,
     parse_axis,
     parse_texts,
-    settings_of,
     split_law,
+    with_choice,
 )
 
 
@@ -59,7 +59,7 @@ def test_plants_have_values_of_their_own():
     written = "compliant:frequency=60,damping=1,stiff,compliant:gravity=0"
     listed = ["compliant:frequency=60,damping=1", "stiff", "compliant:gravity=0"]
     assert parse_texts("plant", written) == listed
-    made = settings_of(make_settings(), {"plant": both[1]})
+    made = with_choice(make_settings(), {"plant": both[1]})
     assert made.plant == "compliant:frequency=60,damping=1"
 
 
@@ -68,17 +68,17 @@ def test_disturbances_are_alternatives():
     assert parse_texts("disturb", text) == ["none", "payload(2)", "payload(2)+twist(sine,x=1e+0)"]
     base = make_settings(disturb="latency=1")
     latency, payload = {"latency": {"": 1.0}}, {"payload": {"": 2.0}}
-    assert settings_of(base, {"disturb": "none"}).disturb == latency
-    assert settings_of(base, {"disturb": "payload(2)"}).disturb == {**latency, **payload}
-    both = settings_of(make_settings(), {"disturb": "payload(2)+twist(sine,x=1e+0)"}).disturb
+    assert with_choice(base, {"disturb": "none"}).disturb == latency
+    assert with_choice(base, {"disturb": "payload(2)"}).disturb == {**latency, **payload}
+    both = with_choice(make_settings(), {"disturb": "payload(2)+twist(sine,x=1e+0)"}).disturb
     assert both == {**payload, "twist": {"": "sine", "x": 1.0}}
     with pytest.raises(UsageError, match="is not NAME=VALUE"):
-        settings_of(base, {"disturb": "payload"})
+        with_choice(base, {"disturb": "payload"})
 
 
 def test_choices_go_where_they_belong():
     base = make_settings(gains={"a": 1.0}, disturb={"twist": {"form": "sine", "x": 0.1}})
-    made = settings_of(
+    made = with_choice(
         base,
         {"controller": "p(k=5)", "plant": "ideal", "disturb.twist.frequency": "3", "seed": "7",
          "b": "[1,2]", "gain.plant": "4"},
@@ -90,13 +90,13 @@ def test_choices_go_where_they_belong():
     assert made.disturb == {"twist": {"form": "sine", "x": 0.1, "frequency": 3.0}}
     assert base.disturb["twist"] == {"form": "sine", "x": 0.1}
     bare = make_settings()
-    assert settings_of(bare, {"disturb.twist.x": "0"}).disturb == {}
+    assert with_choice(bare, {"disturb.twist.x": "0"}).disturb == {}
     both = {"disturb.twist.x": "0", "disturb.twist.y": "0.1"}
-    assert settings_of(bare, both).disturb == {"twist": {"y": 0.1}}
+    assert with_choice(bare, both).disturb == {"twist": {"y": 0.1}}
     with pytest.raises(UsageError, match=r"disturb\.NAME\.VALUE"):
-        settings_of(base, {"disturb.twist": "1"})
+        with_choice(base, {"disturb.twist": "1"})
     with pytest.raises(UsageError, match="seed"):
-        settings_of(base, {"seed": "-1"})
+        with_choice(base, {"seed": "-1"})
 
 
 def test_the_last_axis_runs_fastest():
@@ -107,12 +107,12 @@ def test_the_last_axis_runs_fastest():
 
 def test_an_axis_says_its_unit():
     base = make_settings(controller="lqr")
-    assert label("k", make_settings(controller="p")) == "k [1/s]"
-    assert label("gain.r", base) == "gain.r [s^2]"
-    assert label("q", base) == "q"  # a weight has none
-    assert label("disturb.twist.wx", base) == "disturb.twist.wx [rad/s]"
-    assert label("disturb.payload.mass", base) == "disturb.payload.mass [kg]"
-    assert label("disturb.latency.periods", base) == "disturb.latency.periods"
-    assert label("plant", base) == "plant"
-    assert about("k", make_settings(controller="p")).startswith("1/s, the rate")
-    assert about("nothing", base) == ""
+    assert axis_label("k", make_settings(controller="p")) == "k [1/s]"
+    assert axis_label("gain.r", base) == "gain.r [s^2]"
+    assert axis_label("q", base) == "q"  # a weight has none
+    assert axis_label("disturb.twist.wx", base) == "disturb.twist.wx [rad/s]"
+    assert axis_label("disturb.payload.mass", base) == "disturb.payload.mass [kg]"
+    assert axis_label("disturb.latency.periods", base) == "disturb.latency.periods"
+    assert axis_label("plant", base) == "plant"
+    assert axis_description("k", make_settings(controller="p")).startswith("1/s, the rate")
+    assert axis_description("nothing", base) == ""

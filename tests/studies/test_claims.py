@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from dqpaint.studies.experiment.statistics import Spread, spread
-from dqpaint.studies.kinds.replay import judged
+from dqpaint.studies.kinds.replay import judge_claims
 from dqpaint.studies.replay.claims import RULES, cell_name, judge, published
 from dqpaint.studies.replay.papers import Claim, Paper, paper_names, read_paper
 
@@ -118,7 +118,7 @@ def test_every_paper_is_whole_and_its_own_numbers_decide_its_claims(name):
     assert paper.open
     assert paper.claims
     theirs = published(paper)
-    for claim, first, second in judged(paper, theirs):
+    for claim, first, second in judge_claims(paper, theirs):
         assert first.word == second.word
         if claim.kind in ("order", "ratio") and first.word == "holds":
             a, b = claim.cells[:2]

@@ -105,14 +105,14 @@ def test_files_that_are_not_alike_are_refused(tmp_path):
     )
     run = Run("line.traj", LINE, settings)
     key = run.key
-    ((given, kept),) = dask_pool.carry_out_there([(key, run.data)])
+    ((given, kept),) = dask_pool.carry_out_at_worker([(key, run.data)])
     assert (given["status"], kept) == ("done", None)
     (tmp_path / "law.py").write_text("def law(seen, k=2.0):\n    return seen.twist_d\n")
     with pytest.raises(DqpaintError, match=r"files of line[.]traj"):
-        dask_pool.carry_out_there([(key, run.data)])
+        dask_pool.carry_out_at_worker([(key, run.data)])
     (tmp_path / "law.py").unlink()
     with pytest.raises(DqpaintError, match=r"on a worker of the cluster: .*law\.py"):
-        dask_pool.carry_out_there([(key, run.data)])
+        dask_pool.carry_out_at_worker([(key, run.data)])
 
 
 def test_a_cluster_without_workers_is_told(tmp_path, no_workers, monkeypatch):

@@ -15,8 +15,15 @@ from dqpaint.studies.runner import process_pool
 from dqpaint.studies.runner.engine import carry_out_study
 from dqpaint.studies.runner.journal import NAME, Journal
 from dqpaint.studies.runner.reporter import Callback
-from dqpaint.studies.runner.run import Result, Run, drawing_text, result_of, run_of, seeded
-from dqpaint.studies.runner.run_arrays import kept, place
+from dqpaint.studies.runner.run import (
+    Result,
+    Run,
+    drawing_text,
+    result_from_line,
+    run_from_data,
+    seeded,
+)
+from dqpaint.studies.runner.run_arrays import arrays_path, read_arrays
 from tests.support.processes import start, wait_for_lines, wait_for_the_end
 
 pytestmark = pytest.mark.slow
@@ -163,12 +170,12 @@ def test_keys_change_with_the_files_a_drawing_and_a_brush_name(tmp_path):
 
 def test_runs_and_results_are_read_back_as_they_were():
     one = run(gains={"k": "5..20@10%"}, seed=3)
-    assert run_of(json.loads(json.dumps(one.data))) == one
+    assert run_from_data(json.loads(json.dumps(one.data))) == one
     result = Result("key", "done", "", {"a": 0.1 + 0.2, "b": 1e-300}, 2, 0.5)
-    assert result_of(result.line) == result
+    assert result_from_line(result.line) == result
     for wrong in ("", "3", "{}", '{"key": 1', '{"key": "a", "status": "done", "colour": 3}'):
         with pytest.raises(ValueError):  # noqa: PT011  of the library, in many words
-            result_of(wrong)
+            result_from_line(wrong)
 
 
 def test_a_record_forgets_a_line_that_was_cut_off_and_no_other(tmp_path):
@@ -199,13 +206,13 @@ def test_a_record_is_one_study_s_at_a_time(tmp_path):
 def test_what_is_kept_is_there_or_is_made_again(tmp_path):
     one = Run("line.traj", LINE, run().settings, ("series", "light"))
     result = carry_out_study([one], tmp_path, 1)[0]
-    arrays = kept(tmp_path, result.key)
+    arrays = read_arrays(tmp_path, result.key)
     assert arrays["light"].shape == (16, 16, 3)
     assert len(arrays["t_s"]) == len(arrays["position_error_m"]) > 50
     assert arrays["position_error_m"].max() == result.figures["position_error_max_m"]
-    place(tmp_path, result.key).unlink()
+    arrays_path(tmp_path, result.key).unlink()
     carry_out_study([one], tmp_path, 1)
-    assert place(tmp_path, result.key).is_file()
+    assert arrays_path(tmp_path, result.key).is_file()
 
 
 # A sweep from the command line, killed and interrupted.

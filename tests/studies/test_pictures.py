@@ -5,11 +5,11 @@ import pytest
 
 from dqpaint.light.images import contact_sheet
 from dqpaint.settings.model import make_settings
-from dqpaint.studies.experiment.cells import Cell, family
+from dqpaint.studies.experiment.cells import Cell, split_label
 from dqpaint.studies.replay.papers import read_paper
 from dqpaint.studies.report import pictures
 from dqpaint.studies.runner.run import Result
-from dqpaint.studies.runner.run_arrays import place
+from dqpaint.studies.runner.run_arrays import arrays_path
 
 T = np.arange(0, 1, 0.1)
 HEIGHT, WIDTH = 90, 160
@@ -30,7 +30,7 @@ def study(tmp_path, labels, lit=lambda i: (40 + i, 60)):
         light = np.zeros((HEIGHT, WIDTH, 3), dtype=np.float32)
         y, x = lit(i)
         light[y : y + 4, x : x + 30] = 0.5
-        path = place(tmp_path, str(i))
+        path = arrays_path(tmp_path, str(i))
         path.parent.mkdir(exist_ok=True)
         np.savez(path, light=light, exposure=np.array(2.0), t_s=T,
                  position_error_m=1e-3 * (1 + i + T), orientation_error_rad=0.1 * T)  # fmt: skip
@@ -45,7 +45,7 @@ def study(tmp_path, labels, lit=lambda i: (40 + i, 60)):
      ("two\nlines, x", ("two\nlines", "x"))],
 )  # fmt: skip
 def test_a_name_s_first_part_is_its_family(label, parts):
-    assert family(label) == parts
+    assert split_label(label) == parts
 
 
 def test_a_few_stand_together():
@@ -84,7 +84,7 @@ def test_many_without_families_stand_alone():
     ]
     panels = pictures.errors(drawn(*"abcdefgh")).panels
     assert [line.label for line in panels[0].lines] == ["a"]
-    assert not panels[0].told
+    assert not panels[0].needs_legend
 
 
 def test_small_charts_have_one_scale_and_hold_every_error():

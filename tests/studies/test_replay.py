@@ -115,7 +115,7 @@ def test_settling():
 def test_the_late_integral_leaves_out_the_first_tenth(tmp_path, monkeypatch):
     t = np.arange(101) * 0.1
     arrays = {"t_s": t, "invariant_error": np.where(t <= 1.0 + 1e-9, 1e6, 2.0)}
-    monkeypatch.setattr(late, "kept", lambda folder, key: arrays)
+    monkeypatch.setattr(late, "read_arrays", lambda folder, key: arrays)
     assert late.late_integral(tmp_path, "key", 0.1) == pytest.approx(2.0 * 8.9)
 
 
@@ -124,7 +124,7 @@ def test_late_replays_show_errors_over_time(tmp_path, monkeypatch):
     names = ("invariant_error", "position_error_m", "orientation_error_rad")
     arrays = {"t_s": t, **{name: t for name in names}}
     for module in (late, shown):
-        monkeypatch.setattr(module, "kept", lambda folder, key: arrays)
+        monkeypatch.setattr(module, "read_arrays", lambda folder, key: arrays)
     paper = read_paper("thesis-hinf")
     cells = tuple(
         Cell({"cell": cell.name}, (Result(cell.name, "done", "", {"effort_integral": 1.0}),))
@@ -202,7 +202,7 @@ def made_up(paper, numbers):
     )
     return replay.Replay(
         name=paper.name, cells=(), folder=Path(), paper=paper, measured=measured,
-        verdicts=replay.judged(paper, measured.numbers),
+        verdicts=replay.judge_claims(paper, measured.numbers),
     )  # fmt: skip
 
 
@@ -317,5 +317,5 @@ def test_a_replay_from_the_command_to_its_files(tmp_path, monkeypatch, capsys):
     for row in rows:
         made.setdefault(row["cell"], {})[row["figure"]] = spread([float(row["here_mean"])])
     swapped = {**made, "K": made["HIR"], "HIR": made["K"]}
-    before, after = (replay.judged(paper, numbers) for numbers in (made, swapped))
+    before, after = (replay.judge_claims(paper, numbers) for numbers in (made, swapped))
     assert [ours.word for _, _, ours in before] != [ours.word for _, _, ours in after]

@@ -147,12 +147,12 @@ def made_up(*values, status="done", why=""):
 
 def test_cells_take_figures_from_runs_that_came_to_their_end():
     mixed = Cell({"k": "5"}, made_up(1.0, 3.0) + made_up(9.0, status="unstable", why="it rings"))
-    assert mixed.of(ERROR).mean == 2.0
+    assert mixed.spread(ERROR).mean == 2.0
     assert mixed.status == "2 done, 1 unstable"
     assert mixed.why == "it rings"
     assert not mixed.stable
     alone = Cell({"k": "9"}, made_up(9.0, status="unstable", why="it rings"))
-    assert alone.of(ERROR).mean == 9.0
+    assert alone.spread(ERROR).mean == 9.0
     lost = Cell({"k": "10"}, (Result("x", "failed", "too far\nand more"),))
     assert cells.rows([mixed, alone, lost])[1:] == [
         ["5", "2 ± 1.4", *["-"] * 7, "3", "2 done, 1 unstable"],
@@ -200,5 +200,5 @@ def test_a_curve_names_its_axes_and_joins_no_names():
     found = [Cell({"plant": name}, made_up(1.0)) for name in ("ideal", "stiff")]
     made = swept(*found, axes=["plant=ideal,stiff"])
     assert sweep.curves(made, ERROR)[0].lines[0].width == 0
-    assert sweep.meanings(made) == []
-    assert sweep.meanings(swept(*found, axes=["k=1,2"]))[0].startswith("k: 1/s, the rate")
+    assert sweep.axis_descriptions(made) == []
+    assert sweep.axis_descriptions(swept(*found, axes=["k=1,2"]))[0].startswith("k: 1/s, the rate")

@@ -106,9 +106,9 @@ def test_an_optimum_at_the_bound_is_found_and_a_search_that_was_killed_finds_it_
     assert whole.best.of(whole.effort).mean <= whole.bound
 
     # the trade-off: nothing tried has both less error and less effort
-    front = [(c.of(whole.effort).mean, c.of(whole.error).mean) for c in whole.front]
+    front = [(c.spread(whole.effort).mean, c.spread(whole.error).mean) for c in whole.front]
     for cell in whole.cells:
-        effort, error = cell.of(whole.effort).mean, cell.of(whole.error).mean
+        effort, error = cell.spread(whole.effort).mean, cell.spread(whole.error).mean
         assert any(e <= effort and f <= error for e, f in front)
     assert np.all(np.diff(front, axis=0) * [1, -1] > 0)
 

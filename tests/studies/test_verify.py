@@ -14,7 +14,7 @@ import pytest
 from dqpaint.core import library_versions
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.studies.kinds import verify as study
-from dqpaint.studies.verify.gates import GATES, changed, measure, spoke
+from dqpaint.studies.verify.gates import GATES, failed_gates, largest_change, measure
 from dqpaint.studies.verify.references import read_cases, read_reference
 from tests.support import guarded
 
@@ -73,7 +73,7 @@ def test_planted_faults_are_told_by_their_gates(folder, tmp_path, fault):
     picture = cv2.imread(str(path))
     third = picture[40:, 2 * picture.shape[1] // 3 :]
     assert third.max() == 255  # where it differs
-    assert said in study.told([one])
+    assert said in study.table_text([one])
     if fault == "a gap of 10 samples":
         gap = third.max(axis=2) > 120
         assert 0 < gap.mean() < 0.01  # nowhere else
@@ -83,7 +83,7 @@ def test_planted_faults_are_told_by_their_gates(folder, tmp_path, fault):
 def test_the_wider_gates_see_them_too(folder, fault):
     FAULTS[fault][0](folder)
     one = verdict(folder)
-    assert spoke(one.measured, alike=False)
+    assert failed_gates(one.measured, alike=False)
 
 
 def test_numeric_noise_passes_and_ten_times_the_gates_does_not(folder):
@@ -94,7 +94,9 @@ def test_numeric_noise_passes_and_ten_times_the_gates_does_not(folder):
         noise = 1 + size * rng.uniform(-1, 1, one.made["planes"].shape).astype(np.float64)
         made = {**one.made, "planes": one.made["planes"] * noise}
         figures = {name: v * (1 + size) for name, v in one.result.figures.items()}
-        return spoke(measure(one.reference, replace(one.result, figures=figures), made), True)
+        return failed_gates(
+            measure(one.reference, replace(one.result, figures=figures), made), True
+        )
 
     assert with_noise(1e-7) == []
     assert {name.split(" (")[0] for name in with_noise(1e-4)} == {"film max", "film L1", "metrics"}
@@ -103,7 +105,7 @@ def test_numeric_noise_passes_and_ten_times_the_gates_does_not(folder):
 def test_light_that_is_neither_on_the_film_nor_lost_is_told(folder):
     one = verdict(folder)
     made = {**one.made, "balance": np.array(1e-6)}
-    assert spoke(measure(one.reference, one.result, made), True) == ["balance"]
+    assert failed_gates(measure(one.reference, one.result, made), True) == ["balance"]
 
 
 def test_a_gate_that_is_none_is_a_dash():
@@ -114,11 +116,13 @@ def test_a_gate_that_is_none_is_a_dash():
 
 
 def test_figures_are_compared_by_their_size():
-    assert changed({"a": 2.0, "b": 1e-14}, {"a": 2.02, "b": 3e-14})[1] == "a"
-    assert changed({"a": 2.0}, {"a": 2.02})[0] == pytest.approx(0.01, rel=1e-6)
-    assert changed({"a": -2.0}, {"a": -2.02})[0] == pytest.approx(0.01, rel=1e-6)  # downwards, too
-    assert changed({"a": 2.0}, {}) == (np.inf, "a")
-    assert changed({"a": 2.0}, {"a": 2.0, "new": 1.0}) == (0.0, "")
+    assert largest_change({"a": 2.0, "b": 1e-14}, {"a": 2.02, "b": 3e-14})[1] == "a"
+    assert largest_change({"a": 2.0}, {"a": 2.02})[0] == pytest.approx(0.01, rel=1e-6)
+    assert largest_change({"a": -2.0}, {"a": -2.02})[0] == pytest.approx(
+        0.01, rel=1e-6
+    )  # downwards, too
+    assert largest_change({"a": 2.0}, {}) == (np.inf, "a")
+    assert largest_change({"a": 2.0}, {"a": 2.0, "new": 1.0}) == (0.0, "")
     assert len({gate.name for gate in GATES}) == len(GATES)
 
 
@@ -150,7 +154,7 @@ def test_a_run_that_fails_is_a_fault_and_no_reference(folder):
     (folder / "mylaw.py").write_text("def mylaw(seen, k=1.0):\n    return [0]\n")
     one = verdict(folder)
     assert one.faults[0].startswith("run failed: mylaw.py:1")
-    assert "differs: run failed" in study.told([one])
+    assert "differs: run failed" in study.table_text([one])
     before = (folder / "corner.json").read_bytes()
     with pytest.raises(DqpaintError, match="no reference"):
         study.update([one], folder)

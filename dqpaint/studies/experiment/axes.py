@@ -1,4 +1,4 @@
-"""What a study varies, read from a line: axes of values, and laws with gains of their own.
+"""Texts like `k=5,10,20` -> axes of values, and settings with one value of each.
 
 k=5,10,20                     a gain of the law
 k=1..100:log:9                nine values from 1 to 100, each the same factor apart
@@ -160,7 +160,7 @@ def combinations(axes: Sequence[Axis]) -> list[dict[str, str]]:
     return [dict(zip(names, values, strict=True)) for values in product(*(a.texts for a in axes))]
 
 
-def settings_of(base: Settings, choice: Mapping[str, str]) -> Settings:
+def with_choice(base: Settings, choice: Mapping[str, str]) -> Settings:
     """Settings with a choice of the axes made.
 
     Raises:
@@ -200,7 +200,7 @@ def _disturbances(text: str) -> dict[str, dict[str, float | str]]:
     return parse_disturbances([_plain(part, "=") for part in _parts(text, "+")])
 
 
-def about(name: str, base: Settings) -> str:
+def axis_description(name: str, base: Settings) -> str:
     """What is varied, its unit first: `1/s, the rate at which a small error decays`; or nothing.
 
     Args:
@@ -216,9 +216,9 @@ def about(name: str, base: Settings) -> str:
     return (fields[key].description or "") if key in fields else ""
 
 
-def label(name: str, base: Settings) -> str:
+def axis_label(name: str, base: Settings) -> str:
     """The name of an axis with its unit, if it has one: `k [1/s]`."""
-    unit = UNIT.match(about(name, base))
+    unit = UNIT.match(axis_description(name, base))
     return f"{name} [{unit[0]}]" if unit else name
 
 

@@ -48,10 +48,10 @@ def _together(figures: Sequence[metrics.Figure]) -> TableFigure:
 
 def error_headings(cells: Sequence["Cell"]) -> list[str]:
     """The headings of the errors in a table of cells."""
-    return [fitted(figure, cells).heading for figure in listed_figures("error")]
+    return [with_units(figure, cells).heading for figure in listed_figures("error")]
 
 
-def meaning() -> str:
+def figure_meanings() -> str:
     """What the figures of tables are, a line each; those of one meaning share it."""
     lines = []
     for kind, heading in KINDS.items():
@@ -107,7 +107,7 @@ class Cell:
         faults = [result.message for result in self.results if result.status != "done"]
         return faults[0].splitlines()[0] if faults else ""
 
-    def of(self, figure: TableFigure) -> Spread:
+    def spread(self, figure: TableFigure) -> Spread:
         """Mean and spread of a figure; of unstable runs only where all are."""
         chosen = self.done or [result for result in self.results if result.figures]
         rows = (result.figures for result in chosen)
@@ -132,7 +132,7 @@ def every_run_failed(cells: Sequence[Cell]) -> DqpaintError:
     return DqpaintError(f"every run failed; the first: {cells[0].results[0].message}")
 
 
-def family(label: str) -> tuple[str, str]:
+def split_label(label: str) -> tuple[str, str]:
     """The first part of a cell's name, and what tells it from others of its kind.
 
     Of `HIR, 20 %` these are `HIR` and `20 %`; of a name of one part it and nothing.
@@ -143,7 +143,7 @@ def family(label: str) -> tuple[str, str]:
 
 def means_of(cells: Sequence[Cell], figure: TableFigure) -> Floats:
     """The means (N,) of a figure; nan where no run has it."""
-    return np.array([cell.of(figure).mean for cell in cells])
+    return np.array([cell.spread(figure).mean for cell in cells])
 
 
 def check_figure(name: str) -> None:
@@ -165,24 +165,24 @@ def find_figure(name: str, cells: Sequence[Cell]) -> TableFigure:
     """
     for figure in listed_figures():
         if name in figure.names:
-            return fitted(figure, cells)
-    there = names_of(cells)
+            return with_units(figure, cells)
+    there = figure_names(cells)
     if there and name not in there:
         raise UsageError(f"no figure named '{name}'; known: {', '.join(there)}")
     known = metrics.all_figures()
     return _together([known[name]]) if name in known else TableFigure((name,), name)
 
 
-def fitted(figure: TableFigure, cells: Sequence[Cell]) -> TableFigure:
+def with_units(figure: TableFigure, cells: Sequence[Cell]) -> TableFigure:
     """The figure with the unit it has in these cells: laws differ in what they command."""
     if len(figure.names) == 1:
         return figure
-    there, known = names_of(cells), metrics.all_figures()
+    there, known = figure_names(cells), metrics.all_figures()
     units = ", ".join(known[name].display_unit for name in figure.names if name in there)
     return figure._replace(heading=f"{figure.heading} [{units}]") if units else figure
 
 
-def names_of(cells: Sequence[Cell]) -> list[str]:
+def figure_names(cells: Sequence[Cell]) -> list[str]:
     """The names of every figure that some run has, in the order of its summary."""
     results = (result for cell in cells for result in cell.results)
     return list(dict.fromkeys(name for result in results for name in result.figures))
@@ -191,16 +191,16 @@ def names_of(cells: Sequence[Cell]) -> list[str]:
 def rows(cells: Sequence[Cell]) -> list[list[str]]:
     """Headings and rows of text; what was not done says so."""
     axes = list(cells[0].choice)
-    figures = [fitted(figure, cells) for figure in listed_figures()]
+    figures = [with_units(figure, cells) for figure in listed_figures()]
     found = [[*axes, *(figure.heading for figure in figures), "runs", "status"]]
     for cell in cells:
-        texts = [said(cell.of(figure)) for figure in figures]
+        texts = [spread_text(cell.spread(figure)) for figure in figures]
         runs = str(len(cell.results))
         found.append([*(cell.choice[axis] for axis in axes), *texts, runs, cell.status])
     return found
 
 
-def said(value: Spread) -> str:
+def spread_text(value: Spread) -> str:
     """A mean with its spread, four digits."""
     if not value.n:
         return "-"
@@ -218,8 +218,8 @@ def columns(cells: Sequence[Cell]) -> Columns:
     found["done"] = [len(cell.done) for cell in cells]
     found["status"] = [cell.status for cell in cells]
     found["message"] = [cell.why for cell in cells]
-    for name in names_of(cells):
-        spreads = [cell.of(TableFigure((name,), name)) for cell in cells]
+    for name in figure_names(cells):
+        spreads = [cell.spread(TableFigure((name,), name)) for cell in cells]
         found[f"{name}_mean"] = [one.mean for one in spreads]
         found[f"{name}_std"] = [one.std for one in spreads]
     return found

@@ -1,4 +1,4 @@
-"""What a caller asks of a study, on the command line or in Python -> axes, base settings, workers.
+"""Arguments of a study, of the command line or of Python -> axes, base settings, workers.
 
 Both take the same: texts with commas, or lists; one value for several, or several for one.
 """
@@ -9,7 +9,7 @@ from typing import Any
 from dqpaint.errors import UsageError
 from dqpaint.painting import validate
 from dqpaint.settings import DEFAULT_CONTROLLER, Settings, read_choices
-from dqpaint.studies.experiment.axes import Axis, parse_axis, parse_texts, settings_of, split_law
+from dqpaint.studies.experiment.axes import Axis, parse_axis, parse_texts, split_law, with_choice
 from dqpaint.studies.runner.engine import Workers
 
 SEVERAL = ("controller", "plant", "robot", "disturb")
@@ -18,7 +18,7 @@ SEVERAL = ("controller", "plant", "robot", "disturb")
 Vary = str | Sequence[str] | Mapping[str, Any]
 
 
-def compared(
+def read_comparison(
     choices: Mapping[str, Any], several: Mapping[str, Any], **usual: Any
 ) -> tuple[list[Axis], Settings]:
     """The axes of a comparison, and what all its runs have in common.
@@ -37,10 +37,10 @@ def compared(
     return axes, base
 
 
-def swept(
+def read_sweep(
     vary: Vary, choices: Mapping[str, Any], several: Mapping[str, Any]
 ) -> tuple[list[Axis], Settings]:
-    """The axes of a sweep, and what all its runs have in common; arguments as of `compared`.
+    """The axes of a sweep, and what all its runs have in common; arguments as of `read_comparison`.
 
     Args:
         vary: axes as texts like "k=5,10", or values by names.
@@ -53,7 +53,7 @@ def swept(
     more, base = _split(choices, several, {})
     alone = {axis.name: axis.texts[0] for axis in more if len(axis.texts) == 1}
     axes = [parse_axis(text) for text in vary_texts(vary)]
-    return axes + [axis for axis in more if axis.name not in alone], settings_of(base, alone)
+    return axes + [axis for axis in more if axis.name not in alone], with_choice(base, alone)
 
 
 def vary_texts(vary: Vary, span: bool = False) -> list[str]:

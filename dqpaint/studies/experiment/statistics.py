@@ -1,4 +1,4 @@
-"""Means, spreads, and whether two of them differ: Welch's t-test, corrected after Holm.
+"""Values -> means, standard deviations, and whether two differ: Welch's t-test, Holm corrected.
 
 B. L. Welch, The generalization of "Student's" problem when several different population variances
 are involved, Biometrika 34, 1947; S. Holm, A simple sequentially rejective multiple test procedure,

@@ -1,4 +1,4 @@
-"""One drawing, several laws, plants or arms: pictures alike, their overlay, errors, one table."""
+"""A drawing, and several laws, plants or arms -> pictures at one exposure, errors, one table."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from dqpaint.core import tables
 from dqpaint.language.writing import builder
 from dqpaint.settings import Settings
 from dqpaint.studies.experiment import cells
-from dqpaint.studies.experiment.axes import Axis, combinations, settings_of
+from dqpaint.studies.experiment.axes import Axis, combinations, with_choice
 from dqpaint.studies.experiment.cells import Cell, TableFigure, find_figure
 from dqpaint.studies.experiment.statistics import LEVEL, holm, welch
 from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
@@ -54,7 +54,7 @@ class Comparison(StudyResult):
         many = any(len(cell.results) > 1 for cell in self.cells)
         bars = tuple(rows[0].index(head) for head in cells.error_headings(self.cells))
         heading = "Means and standard deviations" if many else "Figures"
-        blocks: list[Block] = [Rows(heading, rows, bars, cells.meaning())]
+        blocks: list[Block] = [Rows(heading, rows, bars, cells.figure_meanings())]
         parts = [f"# {self.title}", tables.markdown(rows)]
         if tests:
             blocks += [Rows("Differences", tests), Words(about_test(figure))]
@@ -95,7 +95,7 @@ def compare(
     name, text = drawing_text(drawing)
     choices = combinations(axes)
     keep = ("series", "light")
-    runs = repeated([Run(name, text, settings_of(base, one), keep) for one in choices], count)
+    runs = repeated([Run(name, text, with_choice(base, one), keep) for one in choices], count)
     several = [axis.name for axis in axes if len(axis.texts) > 1] or [axes[0].name]
     found = cells.run_cells(
         [{n: choice[n] for n in several} for choice in choices], runs,
@@ -108,18 +108,20 @@ def compare(
 
 def differences(found: Sequence[Cell], figure: TableFigure) -> list[list[str]]:
     """Whether means differ by more than chance: rows of text, the best first; none without runs."""
-    ranked = sorted((c for c in found if len(c.done) > 1), key=lambda cell: cell.of(figure).mean)
+    ranked = sorted(
+        (c for c in found if len(c.done) > 1), key=lambda cell: cell.spread(figure).mean
+    )
     tests = [
         (a, b, test)
         for a, b in pairs(ranked, 2)
-        if (test := welch(a.of(figure), b.of(figure))) is not None
+        if (test := welch(a.spread(figure), b.spread(figure))) is not None
     ]
     if not tests:
         return []
     chances = holm([test.p for _, _, test in tests])
     lines = [["smaller", "larger", "ratio", "t", "degrees of freedom", "p (Holm)", "differ"]]
     for (a, b, test), p in zip(tests, chances, strict=True):
-        small, large = a.of(figure).mean, b.of(figure).mean
+        small, large = a.spread(figure).mean, b.spread(figure).mean
         ratio = f"{large / small:.3g}" if small > 0 else "-"
         verdict = "yes" if p < LEVEL else "not shown"
         freedom = f"{test.freedom:.1f}" if np.isfinite(test.freedom) else "-"

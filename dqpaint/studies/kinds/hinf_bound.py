@@ -1,4 +1,4 @@
-"""The H-infinity promise over frequency: what comes through of a sine, measured, by the bound.
+"""A sine disturbance of each frequency -> its measured error as a part of the H-infinity bound.
 
 Pereira 2016, 3.3 promises ||p_e||_2 <= ||v_t||_2 / K_T and ||1 - r_e||_2 <= sqrt(2) ||v_w||_2 / K_O
 in continuous time. In steps of T the ideal arm is e(k+1) = (1 - K T) e(k) + T v(k): its gain is

@@ -1,4 +1,4 @@
-"""A paper's experiment again: its numbers beside ours, and what both say to its claims."""
+"""A paper's experiment -> its numbers beside ours, and the verdicts of both on its claims."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -14,10 +14,10 @@ from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
 from dqpaint.studies.replay.claims import (
     ClaimVerdict,
     Numbers,
+    grid_lines,
     judge,
-    lines_of,
+    means_differ,
     published,
-    told_apart,
 )
 from dqpaint.studies.replay.measures import MEASURES, MeasureRequest, MeasureResult
 from dqpaint.studies.replay.papers import Claim, Figure, Paper, read_paper
@@ -87,26 +87,28 @@ def _aligned(rows: Sequence[Sequence[str]]) -> str:
     return "\n".join(tables.align(rows))
 
 
-def replay(name: str, asked: MeasureRequest) -> Replay:
+def replay(name: str, request: MeasureRequest) -> Replay:
     """Do a paper's experiment again.
 
     Args:
         name: of the replay.
-        asked: how often, where, and what is to be different.
+        request: how often, where, and what is to be different.
 
     Raises:
         UnknownNameError: there is none of that name.
         DqpaintError: a fault in the choices or the folder, or nothing could be run.
     """
     paper = read_paper(name)
-    found = MEASURES[paper.measure](paper, asked)
+    found = MEASURES[paper.measure](paper, request)
     return Replay(
-        name=name, cells=found.cells, folder=asked.folder, paper=paper, measured=found,
-        verdicts=judged(paper, found.numbers),
+        name=name, cells=found.cells, folder=request.folder, paper=paper, measured=found,
+        verdicts=judge_claims(paper, found.numbers),
     )  # fmt: skip
 
 
-def judged(paper: Paper, ours: Numbers) -> tuple[tuple[Claim, ClaimVerdict, ClaimVerdict], ...]:
+def judge_claims(
+    paper: Paper, ours: Numbers
+) -> tuple[tuple[Claim, ClaimVerdict, ClaimVerdict], ...]:
     """Every claim, by the paper's numbers and by ours."""
     theirs = published(paper)
     return tuple(
@@ -156,8 +158,8 @@ def in_order(replayed: Replay, figure: Figure) -> str:
     ]
     if len(both) < LEAST_ORDERED:
         return ""
-    apart = [(a, b) for a, b in combinations(both, 2) if told_apart(a[0], b[0])]
-    found = [(a, b) for a, b in apart if told_apart(a[1], b[1])]
+    apart = [(a, b) for a, b in combinations(both, 2) if means_differ(a[0], b[0])]
+    found = [(a, b) for a, b in apart if means_differ(a[1], b[1])]
     same = sum((a[0].mean < b[0].mean) == (a[1].mean < b[1].mean) for a, b in found)
     return (
         f"Of {len(apart)} pairs that the paper tells apart, {same} stand in its order here, "
@@ -171,7 +173,7 @@ def surfaces(replayed: Replay) -> list[tuple[Figure, list[list[str]]]]:
     if not paper.axes:
         return []
     first, second = paper.axes
-    lines = lines_of(paper, second)
+    lines = grid_lines(paper, second)
     found = []
     for figure in paper.figures:
         head = [f"{first} \\ {second}", *(f"{value:g}" for value in paper.axes[second])]
@@ -186,14 +188,14 @@ def surfaces(replayed: Replay) -> list[tuple[Figure, list[list[str]]]]:
 
 def _grid(paper: Paper) -> set[str]:
     """The names of the cells of a grid."""
-    return {name for axis in paper.axes for line in lines_of(paper, axis) for name in line}
+    return {name for axis in paper.axes for line in grid_lines(paper, axis) for name in line}
 
 
 def _said(value: Spread | None) -> str:
     if value is None or not np.isfinite(value.mean):
         return "-"
     known = value if np.isfinite(value.std) else Spread(1, value.mean, value.std)
-    return cells.said(known)
+    return cells.spread_text(known)
 
 
 def _quotient(theirs: Spread | None, ours: Spread | None) -> str:

@@ -1,4 +1,4 @@
-"""A drawing over one or two axes of values: table, curve or heat map, unstable points marked."""
+"""A drawing and one or two axes of values -> a table, and a curve or heat map of a figure."""
 
 import math
 from collections.abc import Sequence
@@ -12,7 +12,13 @@ from dqpaint.errors import UsageError
 from dqpaint.language.writing import builder
 from dqpaint.settings import SMALLEST, Settings
 from dqpaint.studies.experiment import cells
-from dqpaint.studies.experiment.axes import Axis, about, combinations, label, settings_of
+from dqpaint.studies.experiment.axes import (
+    Axis,
+    axis_description,
+    axis_label,
+    combinations,
+    with_choice,
+)
 from dqpaint.studies.experiment.cells import TableFigure, find_figure, means_of
 from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
 from dqpaint.studies.report.charts import HeatMap, Line, Panel, wide
@@ -57,7 +63,7 @@ class Sweep(StudyResult):
             heads = [*(axis.name for axis in self.axes), *cells.error_headings(self.cells)]
             columns = [*map(rows[0].index, heads), len(rows[0]) - 1]
             lines = tables.align([[row[i] for i in columns] for row in rows])
-        return "\n".join([*lines, *whys(self)])
+        return "\n".join([*lines, *fault_lines(self)])
 
     def files_and_blocks(self) -> tuple[dict[str, bytes], list[Block]]:
         """Chart and tables by the ends of their names, and the same for a page."""
@@ -74,8 +80,8 @@ class Sweep(StudyResult):
             "-table.csv": cells.csv(self.cells),
             "-table.md": f"# {self.title}\n\n{tables.markdown(rows)}\n".encode(),
         }
-        words = Words("\n".join([*whys(self), *meanings(self)]))
-        return made, [shown, words, Rows("All points", rows, note=cells.meaning())]
+        words = Words("\n".join([*fault_lines(self), *axis_descriptions(self)]))
+        return made, [shown, words, Rows("All points", rows, note=cells.figure_meanings())]
 
 
 def sweep(
@@ -114,7 +120,7 @@ def sweep(
     name, text = drawing_text(drawing)
     small = base.model_copy(update={"width": SMALLEST, "height": SMALLEST})
     choices = combinations(axes)
-    runs = repeated([Run(name, text, settings_of(small, choice)) for choice in choices], count)
+    runs = repeated([Run(name, text, with_choice(small, choice)) for choice in choices], count)
     found = cells.run_cells(
         choices, runs, lambda every: carry_out_study(every, folder, jobs, "sweep", reporter)
     )
@@ -139,14 +145,14 @@ def curves(swept: Sweep, figure: TableFigure) -> list[Panel]:
         # where there is no number the mark stands at the top
         top = np.nanmax(y) if np.isfinite(y).any() else 1.0
         shown = np.where(np.isfinite(y), y, top)
-        bars = np.array([cell.of(one).std for cell in chosen])
+        bars = np.array([cell.spread(one).std for cell in chosen])
         name = one.heading.split(" [")[0]
         width = 1.8 if numbers else 0.0  # between names there is nothing
         line = Line(x[order], shown, name, marks=marks, bars=bars, width=width)
         panels.append(
             Panel(
                 f"{name} over {axis.name}",
-                label(axis.name, swept.settings),
+                axis_label(axis.name, swept.settings),
                 one.heading,
                 [line],
                 log_x=bool(numbers) and wide(x),
@@ -157,9 +163,9 @@ def curves(swept: Sweep, figure: TableFigure) -> list[Panel]:
     return panels
 
 
-def meanings(swept: Sweep) -> list[str]:
+def axis_descriptions(swept: Sweep) -> list[str]:
     """What is varied, a line an axis that has a description."""
-    told = [(axis.name, about(axis.name, swept.settings)) for axis in swept.axes]
+    told = [(axis.name, axis_description(axis.name, swept.settings)) for axis in swept.axes]
     return [f"{name}: {text}." for name, text in told if text]
 
 
@@ -171,11 +177,11 @@ def surface(swept: Sweep, figure: TableFigure) -> HeatMap:
     marked = np.array([not cell.stable for cell in swept.cells]).reshape(shape)
     good = means[~marked & np.isfinite(means)]
     title = f"{swept.name}: {figure.heading}"
-    heads = label(right.name, swept.settings), label(up.name, swept.settings)
+    heads = axis_label(right.name, swept.settings), axis_label(up.name, swept.settings)
     return HeatMap(title, *heads, right.texts, up.texts, means, marked, wide(good))
 
 
-def whys(swept: Sweep) -> list[str]:
+def fault_lines(swept: Sweep) -> list[str]:
     """Why points are not as they should be, each reason once."""
     bad = (cell for cell in swept.cells if not cell.stable)
     return list(dict.fromkeys(f"{cell.status}: {cell.why}" for cell in bad))

@@ -1,4 +1,4 @@
-"""The gains with the least error within an effort bound, and what error costs in effort.
+"""A drawing and ranges of gains -> the gains with the least error within an effort bound.
 
 minimise error(gains)  subject to  effort(gains) <= bound x what the drawing itself needs
 
@@ -30,7 +30,7 @@ from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.language.writing import builder
 from dqpaint.settings import SMALLEST, Settings
-from dqpaint.studies.experiment.axes import settings_of
+from dqpaint.studies.experiment.axes import with_choice
 from dqpaint.studies.experiment.cells import Cell, find_figure, run_cells
 from dqpaint.studies.experiment.gain_range import Range, parse_range
 from dqpaint.studies.kinds.tuning import Tuning
@@ -100,7 +100,7 @@ def tune(
 
     def runs_of(gains: Gains) -> list[Run]:
         choice = {f"gain.{name}": value for name, value in _choice(ranges, gains).items()}
-        return seeded(Run(name, text, settings_of(small, choice)), count)
+        return seeded(Run(name, text, with_choice(small, choice)), count)
 
     ends = [tuple(r.low for r in ranges), tuple(r.high for r in ranges)]
     check([reference, *(run for end in ends for run in runs_of(end)[:1])])
@@ -110,11 +110,11 @@ def tune(
             raise DqpaintError(f"the effort that the drawing needs is not known: {first.message}")
         whole = Cell({}, (first,))
         figures = find_figure(error, [whole]), find_figure(effort, [whole])
-        needed = whole.of(figures[1]).mean
+        needed = whole.spread(figures[1]).mean
 
         def cost(cell: Cell) -> tuple[float, float]:
-            effort = cell.of(figures[1]).mean / (factor * needed)
-            return (cell.of(figures[0]).mean, effort) if cell.stable else (math.inf, math.inf)
+            effort = cell.spread(figures[1]).mean / (factor * needed)
+            return (cell.spread(figures[0]).mean, effort) if cell.stable else (math.inf, math.inf)
 
         search = _Search(study, ranges, runs_of, cost, (budget - 1) // max(count, 1))
         usual = _usual(base, ranges)
@@ -205,7 +205,7 @@ class _Search:
 
 def _ranges(texts: Sequence[str], base: Settings) -> tuple[Range, ...]:
     """Where gains are sought: as given, else about those that were not chosen."""
-    found = [parse_range(text) for text in texts] or _about(base)
+    found = [parse_range(text) for text in texts] or _usual_ranges(base)
     names = [one.name for one in found]
     twice = {n for n in names if names.count(n) > 1 or n in base.gains}
     if twice:
@@ -217,7 +217,7 @@ def _ranges(texts: Sequence[str], base: Settings) -> tuple[Range, ...]:
     return tuple(found)
 
 
-def _about(base: Settings) -> list[Range]:
+def _usual_ranges(base: Settings) -> list[Range]:
     fields = find_controller(base.controller).gains.model_fields
     usual = {n: f.default for n, f in fields.items() if n not in base.gains}
     return [

@@ -9,7 +9,7 @@ from dqpaint.core import tables
 from dqpaint.dq import Floats
 from dqpaint.settings import Settings
 from dqpaint.studies.experiment import cells
-from dqpaint.studies.experiment.axes import label
+from dqpaint.studies.experiment.axes import axis_label
 from dqpaint.studies.experiment.cells import Cell, TableFigure
 from dqpaint.studies.experiment.gain_range import Range
 from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
@@ -52,16 +52,18 @@ class Tuning(StudyResult):
     @property
     def best(self) -> Cell | None:
         """The least error within the bound; None if nothing keeps it."""
-        within = [c for c in self.cells if c.stable and c.of(self.effort).mean <= self.bound]
-        return min(within, key=lambda cell: cell.of(self.error).mean, default=None)
+        within = [c for c in self.cells if c.stable and c.spread(self.effort).mean <= self.bound]
+        return min(within, key=lambda cell: cell.spread(self.error).mean, default=None)
 
     @property
     def front(self) -> list[Cell]:
         """The trade-off: cells than which none has both less error and less effort."""
         stable = [cell for cell in self.cells if cell.stable]
         front: list[Cell] = []
-        for cell in sorted(stable, key=lambda c: (c.of(self.effort).mean, c.of(self.error).mean)):
-            if not front or cell.of(self.error).mean < front[-1].of(self.error).mean:
+        for cell in sorted(
+            stable, key=lambda c: (c.spread(self.effort).mean, c.spread(self.error).mean)
+        ):
+            if not front or cell.spread(self.error).mean < front[-1].spread(self.error).mean:
                 front.append(cell)
         return front
 
@@ -103,7 +105,7 @@ def answer(tuned: Tuning) -> str:
     ]
     best = tuned.best
     if best is None:
-        stable = [cell.of(tuned.effort).mean for cell in tuned.cells if cell.stable]
+        stable = [cell.spread(tuned.effort).mean for cell in tuned.cells if cell.stable]
         least = f"the least was {min(stable):.4g}" if stable else "none was stable"
         sentences.append(f"No gains that were tried keep to it: {least}.")
     else:
@@ -142,8 +144,8 @@ def rows(tuned: Tuning) -> list[list[str]]:
     for what, cell in named:
         if cell is None:
             continue
-        values = [cells.said(cell.of(figure)) for figure in figures]
-        effort = cell.of(tuned.effort).mean
+        values = [cells.spread_text(cell.spread(figure)) for figure in figures]
+        effort = cell.spread(tuned.effort).mean
         share = f"{effort / tuned.needed:.4g}" if np.isfinite(effort) else "-"
         status = cell.status + (", beyond the bound" if effort > tuned.bound else "")
         lines.append([what, *(cell.choice[n] for n in names), *values, share, status])
@@ -152,7 +154,7 @@ def rows(tuned: Tuning) -> list[list[str]]:
 
 def panels(tuned: Tuning) -> list[Panel]:
     """Error over effort, and error over each gain."""
-    tried = [cell for cell in tuned.cells if np.isfinite(cell.of(tuned.error).mean)]
+    tried = [cell for cell in tuned.cells if np.isfinite(cell.spread(tuned.error).mean)]
     stable = [cell for cell in tried if cell.stable]  # of the others effort says nothing
     error = tuned.error.heading
     effort, least = (cells.means_of(tuned.front, x) for x in (tuned.effort, tuned.error))
@@ -171,7 +173,7 @@ def panels(tuned: Tuning) -> list[Panel]:
     for one in tuned.ranges:
         made.append(
             Panel(
-                f"over {one.name}", label(one.name, tuned.settings), error,
+                f"over {one.name}", axis_label(one.name, tuned.settings), error,
                 [_dots(tuned, tried, "tried", one.name, TRIED), *_named(tuned, one.name)],
                 log_x=one.log, log_y=wide(_values(tried, tuned.error)),
             )
@@ -186,16 +188,16 @@ def _values(found: Sequence[Cell], of: TableFigure | str) -> Floats:
 
 
 def _dots(
-    tuned: Tuning, found: Sequence[Cell], label: str, x: TableFigure | str, colour: str
+    tuned: Tuning, found: Sequence[Cell], name: str, x: TableFigure | str, colour: str
 ) -> Line:
     marks = np.array([not cell.stable for cell in found], dtype=bool)
-    return Line(_values(found, x), _values(found, tuned.error), label, colour, marks, width=0.0)
+    return Line(_values(found, x), _values(found, tuned.error), name, colour, marks, width=0.0)
 
 
 def _named(tuned: Tuning, x: TableFigure | str) -> list[Line]:
     """The usual gains and the best ones."""
     return [
-        _dots(tuned, [cell], label, x, colour)
-        for label, cell, colour in (("usual", tuned.usual, USUAL), ("best", tuned.best, BEST))
-        if cell is not None and np.isfinite(cell.of(tuned.error).mean)
+        _dots(tuned, [cell], name, x, colour)
+        for name, cell, colour in (("usual", tuned.usual, USUAL), ("best", tuned.best, BEST))
+        if cell is not None and np.isfinite(cell.spread(tuned.error).mean)
     ]

@@ -1,4 +1,4 @@
-"""Regression pictures: drawn again, compared with small stored references, gate by gate."""
+"""A folder of regression pictures -> each drawn again and compared with its reference."""
 
 import math
 import tempfile
@@ -14,8 +14,8 @@ from dqpaint.studies.report.page import Page, Rows, Shot, Words, html
 from dqpaint.studies.runner.engine import Workers, carry_out_study
 from dqpaint.studies.runner.reporter import SILENT, Reporter
 from dqpaint.studies.runner.run import Result
-from dqpaint.studies.runner.run_arrays import kept
-from dqpaint.studies.verify.gates import GATES, GateResult, developed_from, measure, spoke
+from dqpaint.studies.runner.run_arrays import read_arrays
+from dqpaint.studies.verify.gates import GATES, GateResult, developed_from, failed_gates, measure
 from dqpaint.studies.verify.references import (
     Arrays,
     Case,
@@ -73,7 +73,7 @@ def verify(
             [case.run for case in cases], Path(scratch), jobs, "verify", reporter
         )
         return [
-            _judge(case, result, reference, kept(Path(scratch), result.key))
+            _judge(case, result, reference, read_arrays(Path(scratch), result.key))
             if result.figures
             else Verdict(case, result, reference, None, None, (f"run {_why(result)}",))
             for case, result, reference in zip(cases, results, references, strict=True)
@@ -108,13 +108,13 @@ def _judge(case: Case, result: Result, reference: Reference | None, made: Arrays
     if made["planes"].shape != reference.planes.shape:
         return Verdict(case, result, reference, made, None, ("size",), tuple(remarks))
     measured = measure(reference, result, made)
-    faults = spoke(measured, reference.alike)
+    faults = failed_gates(measured, reference.alike)
     if facts.get("status") != result.status:
         faults.insert(0, f"run {_why(result)}")
     return Verdict(case, result, reference, made, measured, tuple(faults), tuple(remarks))
 
 
-def told(verdicts: Sequence[Verdict]) -> str:
+def table_text(verdicts: Sequence[Verdict]) -> str:
     """The table for a terminal."""
     return "\n".join(tables.align(table(verdicts)))
 

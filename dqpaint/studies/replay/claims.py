@@ -1,4 +1,4 @@
-"""Claims x numbers -> verdicts; the paper's numbers and ours are judged by the same rules.
+"""Claims and numbers -> verdicts; the paper's numbers and ours are judged by the same rules.
 
 Nothing here knows whose numbers they are. A verdict follows from the numbers alone, so two laws
 that change places change it.
@@ -80,13 +80,13 @@ def _order(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) ->
     why = f"{values[0].mean:.4g}"
     for sign, (_, b) in zip(signs, steps, strict=True):
         why += f" {sign} {b.mean:.4g}"
-    differ = [told_apart(a, b) for a, b in steps]
+    differ = [means_differ(a, b) for a, b in steps]
     if any(sign != "<" and sure for sign, sure in zip(signs, differ, strict=True)):
         return ClaimVerdict("fails", why)
     return ClaimVerdict("holds" if all(differ) else "not shown", why)
 
 
-def told_apart(a: Spread, b: Spread) -> bool:
+def means_differ(a: Spread, b: Spread) -> bool:
     """Whether two means are shown to differ; where nothing was repeated numbers stand."""
     if abs(a.mean - b.mean) <= CLOSE * max(abs(a.mean), abs(b.mean)):
         return False
@@ -147,7 +147,7 @@ def _below(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) ->
 def _trend(claim: Claim, paper: Paper, numbers: Numbers) -> ClaimVerdict:
     """Every step along an axis of the grid, the other one held, goes the claimed way."""
     steps = []
-    for line in lines_of(paper, claim.axis):
+    for line in grid_lines(paper, claim.axis):
         means = [numbers[n][claim.figure].mean for n in line if claim.figure in numbers.get(n, {})]
         steps += [b - a for a, b in pairwise(means)] if len(means) == len(line) else []
     if not steps:
@@ -165,7 +165,7 @@ def cell_name(place: Mapping[str, float]) -> str:
     return ", ".join(f"{name} = {value:g}" for name, value in place.items())
 
 
-def lines_of(paper: Paper, axis: str) -> list[list[str]]:
+def grid_lines(paper: Paper, axis: str) -> list[list[str]]:
     """The names of a grid's cells in lines along one of its two axes."""
     (other,) = (name for name in paper.axes if name != axis)
     return [

@@ -1,4 +1,4 @@
-"""What a kind of replay takes and gives."""
+"""The request and the result of a replay's measure, and the registry of measures."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

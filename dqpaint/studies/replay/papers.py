@@ -1,4 +1,4 @@
-"""What papers measured and claim: a TOML file a replay -> its experiment, numbers and tables.
+"""A TOML file of a replay -> a paper's experiment, its numbers and its claims.
 
 A new replay of a drawing under some laws is a new file here alone. One that measures something else
 names its own `measure`, see `dqpaint.studies.replay.measures`. Numbers are the papers'; what they

@@ -1,4 +1,4 @@
-"""Charts and heat maps -> the data that a page's own scripts draw: as few numbers as are seen."""
+"""Charts and heat maps -> the data that a page's scripts draw, thinned to what can be seen."""
 
 from itertools import cycle
 from typing import Any

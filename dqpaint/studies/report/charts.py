@@ -1,4 +1,4 @@
-"""Numbers -> charts: the only door to matplotlib."""
+"""Lines and values -> charts and heat maps as PNG; the only module that imports matplotlib."""
 
 import io
 from collections.abc import Sequence
@@ -68,8 +68,8 @@ class Panel:
     span: tuple[float, float] | None = None
 
     @property
-    def told(self) -> bool:
-        """Whether there is more to tell apart than the axes say."""
+    def needs_legend(self) -> bool:
+        """Whether it has several lines, or marked points."""
         return len(self.lines) > 1 or any(x.marks is not None and x.marks.any() for x in self.lines)
 
 
@@ -119,13 +119,13 @@ def chart(
     places = figure.subplots(rows, columns, squeeze=False).ravel()
     for axes, panel in zip(places, panels, strict=False):
         _draw_panel(axes, panel)
-        if panel.told and not shared:
+        if panel.needs_legend and not shared:
             aside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)}
             many = len(panel.lines) > MOST_INSIDE
             axes.legend(frameon=False, fontsize=9, labelcolor=INK, **(aside if many else {}))
     for axes in places[len(panels) :]:
         axes.set_axis_off()
-    if shared and panels[0].told:
+    if shared and panels[0].needs_legend:
         handles, names = places[0].get_legend_handles_labels()
         figure.legend(
             handles, names, loc="outside upper left", ncols=min(len(names), MOST_INSIDE),

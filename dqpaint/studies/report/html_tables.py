@@ -1,4 +1,4 @@
-"""Rows of text -> a table in HTML: numbers drawn as bars beside them, verdicts as what they are."""
+"""Rows of text -> a table in HTML, with bars beside numbers and marked verdicts."""
 
 import math
 import re

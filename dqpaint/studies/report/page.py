@@ -1,4 +1,4 @@
-"""What a study has to show -> one HTML file: pictures, tables, curves to point at; no network.
+"""Pictures, tables and charts of a study -> one HTML file that needs no network.
 
 The file holds all it needs, its style and the scripts that draw its charts too, and says so: its
 Content-Security-Policy lets no other code run and nothing be fetched. It has no date, so the same

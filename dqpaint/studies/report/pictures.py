@@ -1,4 +1,4 @@
-"""What cells drew, beside each other: contact sheet, overlay, errors over time.
+"""Pictures and errors of cells -> a contact sheet, an overlay, and errors over time.
 
 A few share one chart and one overlay. Many are split by the first part of their names, such as the
 law of `HIR, 20 %`: a panel each, all with the same axes, exposure and place.
@@ -19,10 +19,10 @@ from dqpaint.light.film import LOOKS
 from dqpaint.light.images import Legend, contact_sheet, with_legend
 from dqpaint.metrics import all_columns
 from dqpaint.settings import Settings
-from dqpaint.studies.experiment.cells import Cell, family
+from dqpaint.studies.experiment.cells import Cell, split_label
 from dqpaint.studies.report.charts import Line, Panel
 from dqpaint.studies.report.page import Charts, Pictured, Shot
-from dqpaint.studies.runner.run_arrays import kept
+from dqpaint.studies.runner.run_arrays import read_arrays
 
 Arrays = Mapping[str, NDArray[Any]]
 MOST_TOGETHER = 6  # cells of one overlay and one chart
@@ -48,7 +48,9 @@ class Group:
 def read_first_runs(found: Sequence[Cell], folder: Path) -> dict[str, Arrays]:
     """The arrays of the first runs by the labels of their cells, of those that have figures."""
     return {
-        cell.label: kept(folder, cell.results[0].key) for cell in found if cell.results[0].figures
+        cell.label: read_arrays(folder, cell.results[0].key)
+        for cell in found
+        if cell.results[0].figures
     }
 
 
@@ -57,11 +59,11 @@ def groups(drawn: Mapping[str, Arrays]) -> list[Group]:
     if len(drawn) <= MOST_TOGETHER:
         colours = dict(zip(drawn, contact_sheet.hues(len(drawn)), strict=True))
         return [Group("", drawn, colours)]
-    rests = list(dict.fromkeys(family(label)[1] for label in drawn))
+    rests = list(dict.fromkeys(split_label(label)[1] for label in drawn))
     colours = dict(zip(rests, contact_sheet.hues(len(rests)), strict=True))
     members: dict[str, dict[str, Arrays]] = defaultdict(dict)
     for label, arrays in drawn.items():
-        title, rest = family(label)
+        title, rest = split_label(label)
         members[title][rest] = arrays
     return [Group(title, these, colours) for title, these in members.items()]
 
@@ -125,7 +127,7 @@ def pictures(found: Sequence[Cell], folder: Path, settings: Settings) -> dict[st
 
 def columns(labels: Sequence[str]) -> int | None:
     """How many pictures of a sheet stand beside each other, so that families lie in lines."""
-    families = [family(label)[0] for label in labels]
+    families = [split_label(label)[0] for label in labels]
     kinds = len(set(families))
     if families[:kinds] * (len(families) // kinds) == families:
         return kinds

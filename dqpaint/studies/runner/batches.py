@@ -1,8 +1,9 @@
-"""Runs on ideal arms that differ in their seeds go as one batch in numpy, through the same laws.
+"""Runs that differ in their seeds alone -> their results, computed as one batch in numpy.
 
-Fifty cost about as much as four by themselves. Which runs can go together follows from the runs
-alone, and each result from its run alone, whatever else is in the batch: so results are the same
-for any number of workers, and in a study that was stopped and goes on.
+Only runs on ideal arms go this way; fifty cost about as much as four by themselves. Which runs can
+go together follows from the runs alone, and each result from its run alone, whatever else is in the
+batch: so results are the same for any number of workers, and in a study that was stopped and goes
+on.
 """
 
 import json
@@ -18,7 +19,7 @@ from dqpaint.painting import paint
 from dqpaint.planning import reachability
 from dqpaint.simulation import ModelsDifferError, Track, track_many
 from dqpaint.studies.runner.run import Result, Run
-from dqpaint.studies.runner.run_arrays import keep
+from dqpaint.studies.runner.run_arrays import write_arrays
 
 MOST = 64  # runs of a batch: what more would gain, memory takes
 
@@ -109,7 +110,7 @@ def _result(
             seen.add(row)
         if run.keep:
             painting = paint.finish(ready, track)
-            keep(painting, run.keep, folder, key)
+            write_arrays(painting, run.keep, folder, key)
             figures = painting.metrics.figures
         else:
             figures = measure(track).figures

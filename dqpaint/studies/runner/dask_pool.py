@@ -1,4 +1,4 @@
-"""Runs on a Dask cluster: the only door to distributed. Results are kept where the study is.
+"""Runs -> results, carried out by a Dask cluster; the only module that imports distributed.
 
 The workers need the same dqpaint, Python and libraries, and the files a run names (a law or an arm
 of one's own, what a drawing includes) where they lie here; drawings travel with their runs, and
@@ -21,12 +21,12 @@ from typing import Any
 
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.studies.runner.batches import Task, groups
-from dqpaint.studies.runner.run import Result, Run, code, run_of
-from dqpaint.studies.runner.run_arrays import place, write_kept
+from dqpaint.studies.runner.run import Result, Run, code_versions, run_from_data
+from dqpaint.studies.runner.run_arrays import arrays_path, write_encoded
 
-PATIENCE = 10.0  # [s] for a scheduler to answer and a first worker to come
-FORSAKEN = 30.0  # [s] without any worker, after which nothing more is expected
-GLANCE = 0.2  # [s] after which a Ctrl-C is noticed at the latest
+ANSWER_TIMEOUT = 10.0  # [s] for a scheduler to answer and a first worker to come
+NO_WORKER_TIMEOUT = 30.0  # [s] without any worker, after which nothing more is expected
+POLL_INTERVAL = 0.2  # [s] after which a Ctrl-C is noticed at the latest
 START = "dask scheduler, and dask worker ADDRESS --nthreads 1 on each machine"
 ADDRESS = re.compile(r"((tcp|tls|ws|wss|ucx)://)?[^/\s]+:\d{1,5}")
 _one_at_a_time = threading.Lock()
@@ -59,7 +59,7 @@ class Cluster:
         for name in [n for n in logging.root.manager.loggerDict if n.startswith("distributed")]:
             logging.getLogger(name).setLevel(logging.CRITICAL)  # what matters is told by us
         try:
-            self._client: Any = Client(address, timeout=PATIENCE, set_as_default=False)
+            self._client: Any = Client(address, timeout=ANSWER_TIMEOUT, set_as_default=False)
         except (OSError, ValueError, TypeError) as problem:
             said = str(problem).splitlines()[0] if str(problem) else type(problem).__name__
             raise DqpaintError(
@@ -73,13 +73,13 @@ class Cluster:
 
     def _check_workers(self) -> None:
         try:
-            self._client.wait_for_workers(1, timeout=PATIENCE)
+            self._client.wait_for_workers(1, timeout=ANSWER_TIMEOUT)
         except TimeoutError:
             raise DqpaintError(
                 f"the cluster at '{self._address}' has no workers; to start one: {START}"
             ) from None
-        ours = facts()
-        for worker, theirs in self._client.run(facts, on_error="return").items():
+        ours = worker_versions()
+        for worker, theirs in self._client.run(worker_versions, on_error="return").items():
             if isinstance(theirs, Exception):
                 raise DqpaintError(
                     f"the worker {worker} cannot load this dqpaint: {theirs}; install it there"
@@ -104,28 +104,28 @@ class Cluster:
             DqpaintError: the cluster was lost, or a worker's files are not those here.
         """
         done: queue.SimpleQueue[Any] = queue.SimpleQueue()
-        asked: dict[str, list[str]] = {}  # keys of runs, by Dask's own
+        submitted: dict[str, list[str]] = {}  # keys of runs, by Dask's own
         for group in groups(tasks):
             keys = [key for key, _ in group]
             given = [(key, run.data) for key, run in group]
-            future: Any = self._client.submit(carry_out_there, given, key=_name(keys))
-            asked[future.key] = keys
+            future: Any = self._client.submit(carry_out_at_worker, given, key=_name(keys))
+            submitted[future.key] = keys
             future.add_done_callback(done.put)
         since = time.monotonic()
         count = 0
         while count < len(tasks):
             try:
-                future = done.get(timeout=GLANCE)
+                future = done.get(timeout=POLL_INTERVAL)
             except queue.Empty:
                 if self._client.status != "running":
                     raise self._lost("its scheduler is gone") from None
                 if self._client.scheduler_info()["workers"]:
                     since = time.monotonic()
-                elif time.monotonic() - since > FORSAKEN:
+                elif time.monotonic() - since > NO_WORKER_TIMEOUT:
                     raise self._lost("it has no workers any more") from None
                 continue
             since = time.monotonic()
-            for result in self._results(asked[future.key], future):
+            for result in self._results(submitted[future.key], future):
                 count += 1
                 yield result
                 progress(count)
@@ -146,7 +146,7 @@ class Cluster:
         for given, kept in future.result():
             result = Result(**given)
             if kept is not None:
-                write_kept(self._folder, result.key, kept)
+                write_encoded(self._folder, result.key, kept)
             results.append(result)
         return results
 
@@ -161,9 +161,13 @@ class Cluster:
         self._client.close()
 
 
-def facts() -> dict[str, str]:
+def worker_versions() -> dict[str, str]:
     """What has to be alike here and there."""
-    return {"Python": platform.python_version(), "distributed": version("distributed"), **code()}
+    return {
+        "Python": platform.python_version(),
+        "distributed": version("distributed"),
+        **code_versions(),
+    }
 
 
 def _name(keys: Sequence[str]) -> str:
@@ -171,7 +175,7 @@ def _name(keys: Sequence[str]) -> str:
     return f"dqpaint-{hashlib.sha256(' '.join(keys).encode()).hexdigest()}"
 
 
-def carry_out_there(
+def carry_out_at_worker(
     given: Sequence[tuple[str, dict[str, Any]]],
 ) -> list[tuple[dict[str, Any], bytes | None]]:
     """Runs that go together at a worker, each with its key: results, and files of what is kept.
@@ -181,12 +185,12 @@ def carry_out_there(
     """
     from dqpaint.studies.runner.worker import carry_out_all
 
-    tasks = [(key, run_of(data)) for key, data in given]
+    tasks = [(key, run_from_data(data)) for key, data in given]
     for key, run in tasks:
         _check_files(key, run)
     with _one_at_a_time, tempfile.TemporaryDirectory(prefix="dqpaint-") as scratch:
         results = list(carry_out_all(tasks, Path(scratch)))
-        kept = [place(Path(scratch), result.key) for result in results]
+        kept = [arrays_path(Path(scratch), result.key) for result in results]
         return [
             (vars(result), path.read_bytes() if path.is_file() else None)
             for result, path in zip(results, kept, strict=True)

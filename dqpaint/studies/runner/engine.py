@@ -1,4 +1,4 @@
-"""Runs -> results, whatever the number of workers; a study that was stopped goes on.
+"""Runs -> results, kept in a journal, so that a study that was stopped goes on.
 
 What is done lies in the study's folder (see `record`), by the key of the run (see `runs`). So the
 same study again finds its runs there, and so does a larger one that shares some of them.
@@ -15,7 +15,7 @@ from dqpaint.studies.runner.journal import Journal
 from dqpaint.studies.runner.process_pool import Pool, check_jobs
 from dqpaint.studies.runner.reporter import SILENT, Reporter
 from dqpaint.studies.runner.run import Result, Run
-from dqpaint.studies.runner.run_arrays import place
+from dqpaint.studies.runner.run_arrays import arrays_path
 
 if TYPE_CHECKING:
     from dqpaint.studies.runner.dask_pool import Cluster
@@ -167,4 +167,4 @@ def _is_done(result: Result | None, run: Run, folder: Path) -> bool:
     if result is None or result.status == "died":
         return False
     kept = run.keep and result.figures  # a run that failed has nothing to keep
-    return not kept or place(folder, result.key).is_file()
+    return not kept or arrays_path(folder, result.key).is_file()

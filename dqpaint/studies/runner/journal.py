@@ -1,11 +1,11 @@
-"""The record of a study: one line of JSON a run, on disk as soon as the run is done."""
+"""Results -> the journal of a study on disk, one line of JSON a run as soon as it is done."""
 
 import os
 from pathlib import Path
 from typing import Self
 
 from dqpaint.errors import DqpaintError, OutputError
-from dqpaint.studies.runner.run import Result, result_of
+from dqpaint.studies.runner.run import Result, result_from_line
 
 try:
     import fcntl
@@ -58,7 +58,7 @@ class Journal:
         found = {}
         for number, line in enumerate(data[:whole].decode("utf-8", "replace").splitlines(), 1):
             try:
-                result = result_of(line)
+                result = result_from_line(line)
             except ValueError:
                 raise DqpaintError(
                     f"'{self.path}' line {number} is not the result of a run; "

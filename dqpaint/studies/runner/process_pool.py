@@ -1,4 +1,4 @@
-"""Worker processes: runs go out, results come back in the order in which they are done."""
+"""Runs -> results, carried out by worker processes, in the order in which they are done."""
 
 import json
 import os
@@ -19,7 +19,7 @@ from dqpaint.studies.runner.run import Result
 ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 TRIES = 2  # at a run whose process ended
 MOST_JOBS = 1024
-GLANCE = 0.2  # [s] after which a Ctrl-C is noticed at the latest
+POLL_INTERVAL = 0.2  # [s] after which a Ctrl-C is noticed at the latest
 
 
 def all_cores() -> int:
@@ -73,7 +73,7 @@ class Pool:
         done = 0
         while done < len(tasks):
             try:
-                worker, what = self._said.get(timeout=GLANCE)
+                worker, what = self._said.get(timeout=POLL_INTERVAL)
             except queue.Empty:
                 continue
             if isinstance(what, DqpaintError):
@@ -92,7 +92,7 @@ class Pool:
             worker.end()
 
 
-class _Over(Exception):  # noqa: N818  no fault: the study ended while a process was to begin
+class _Stopped(Exception):  # noqa: N818  no fault: the study ended while a process was to begin
     pass
 
 
@@ -122,7 +122,7 @@ class _Worker(threading.Thread):
                 while (group := self._todo.get()) is not None and not self._over:
                     for result in self._results(group, remarks):
                         self._say(result)
-            except _Over:
+            except _Stopped:
                 pass
             except Exception as problem:  # told where it is heard: a silent end would be a hang
                 self._say(DqpaintError(f"a worker of the study failed: {problem}"))
@@ -167,13 +167,13 @@ class _Worker(threading.Thread):
     def _begin(self, remarks: Any) -> "subprocess.Popen[str]":
         with self._lock:
             if self._over:
-                raise _Over
+                raise _Stopped
             remarks.seek(0)
             remarks.truncate()
             self._process = process = subprocess.Popen(
                 [sys.executable, "-m", "dqpaint.studies.runner.worker"],
                 stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=remarks, text=True,
-                encoding="utf-8", env=_surroundings(),
+                encoding="utf-8", env=_environment(),
             )  # fmt: skip
         if not any(said.get("ready") for said in self._answers(process)) and not self._over:
             raise DqpaintError(_last_line(remarks) or f"it ended with code {process.wait()}")
@@ -198,7 +198,7 @@ class _Worker(threading.Thread):
                     stream.close()
 
 
-def _surroundings() -> dict[str, str]:
+def _environment() -> dict[str, str]:
     """Variables of a worker: it finds this package, and leaves the other cores to its like."""
     here = str(Path(__file__).parent.parent.parent.parent)
     paths = os.pathsep.join(filter(None, [here, os.environ.get("PYTHONPATH")]))

@@ -1,4 +1,4 @@
-"""What a study tells while it is at work -> who asked for it: a bar, a callback, or nobody."""
+"""The progress of a study -> a bar, a callback, or nobody."""
 
 from collections.abc import Callable
 from typing import Protocol

@@ -1,4 +1,4 @@
-"""A run of a study as plain data, and what comes of it: both are lines of JSON.
+"""A drawing and its settings -> a run with a key, and its result; both are lines of JSON.
 
 A run has a key, the hash of everything that decides its result: the drawing's text, the settings,
 the files both name, this package's own code and the versions of its libraries. So a result that is
@@ -38,7 +38,7 @@ class Run:
         name: the drawing's path, or what messages call its text.
         text: of the drawing.
         settings: everything besides the text.
-        keep: what is kept besides figures, by the names in `keeping.KEEPERS`.
+        keep: what is kept besides figures, by the names in `run_arrays.KEEPERS`.
     """
 
     name: str
@@ -55,7 +55,12 @@ class Run:
     @property
     def key(self) -> str:
         """The hash of all that decides the result."""
-        data = {**self.data, "name": Path(self.name).name, "files": self.files(), "code": code()}
+        data = {
+            **self.data,
+            "name": Path(self.name).name,
+            "files": self.files(),
+            "code": code_versions(),
+        }
         data["plugins"] = plugins.plugins_of(self.settings, self.program())
         return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()
 
@@ -91,7 +96,7 @@ class Run:
         card_for(self.program(), self.settings.robot, self.settings.tool)
 
 
-def run_of(data: dict[str, Any]) -> Run:
+def run_from_data(data: dict[str, Any]) -> Run:
     """The run that `Run.data` wrote."""
     settings = Settings.model_validate(data["settings"])
     return Run(data["name"], data["text"], settings, tuple(data["keep"]))
@@ -131,7 +136,7 @@ class Result:
         return json.dumps(vars(self), allow_nan=False) + "\n"
 
 
-def result_of(line: str) -> Result:
+def result_from_line(line: str) -> Result:
     """The result that `Result.line` wrote.
 
     Raises:
@@ -200,7 +205,7 @@ def _named(name: str, text: str) -> list[tuple[str, Path]]:
 
 
 @cache
-def code() -> dict[str, str]:
+def code_versions() -> dict[str, str]:
     """The hash of this package's code, and the versions of its libraries."""
     package = Path(__file__).parent.parent.parent
     whole = hashlib.sha256()

@@ -1,4 +1,4 @@
-"""What a study keeps of a run besides its figures: arrays in one file, by the run's key."""
+"""A painting -> the arrays that a study keeps besides figures, in one file by the run's key."""
 
 import io
 from collections.abc import Callable, Mapping
@@ -46,12 +46,12 @@ def film(painting: paint.Painting) -> Arrays:
     return {"planes": film.planes.astype(np.float32), "picture": picture.image, **sums}
 
 
-def place(folder: Path, key: str) -> Path:
+def arrays_path(folder: Path, key: str) -> Path:
     """Where the arrays of a run lie."""
-    return folder / "kept" / f"{key[:24]}.npz"
+    return folder / "read_arrays" / f"{key[:24]}.npz"
 
 
-def keep(painting: paint.Painting, names: tuple[str, ...], folder: Path, key: str) -> None:
+def write_arrays(painting: paint.Painting, names: tuple[str, ...], folder: Path, key: str) -> None:
     """Write what is to be kept of a run, whole or not at all.
 
     Raises:
@@ -62,19 +62,19 @@ def keep(painting: paint.Painting, names: tuple[str, ...], folder: Path, key: st
         arrays.update(KEEPERS[name](painting))
     file = io.BytesIO()
     np.savez(file, allow_pickle=False, **arrays)
-    write_kept(folder, key, file.getvalue())
+    write_encoded(folder, key, file.getvalue())
 
 
-def write_kept(folder: Path, key: str, data: bytes) -> None:
+def write_encoded(folder: Path, key: str, data: bytes) -> None:
     """Write the file of a run's arrays.
 
     Raises:
         OutputError: the folder cannot be written.
     """
-    files.write(place(folder, key).with_suffix(""), {".npz": data})
+    files.write(arrays_path(folder, key).with_suffix(""), {".npz": data})
 
 
-def kept(folder: Path, key: str) -> Mapping[str, NDArray[Any]]:
+def read_arrays(folder: Path, key: str) -> Mapping[str, NDArray[Any]]:
     """The arrays of a run by their names."""
-    with np.load(place(folder, key), allow_pickle=False) as arrays:
+    with np.load(arrays_path(folder, key), allow_pickle=False) as arrays:
         return {name: arrays[name] for name in arrays.files}

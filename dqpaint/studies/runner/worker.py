@@ -20,10 +20,10 @@ from dqpaint.errors import DqpaintError, UnstableError
 from dqpaint.metrics import instability
 from dqpaint.painting import paint
 from dqpaint.studies.runner.batches import Task, carry_out_batch, goes_in_batches
-from dqpaint.studies.runner.run import Result, Run, run_of
-from dqpaint.studies.runner.run_arrays import keep
+from dqpaint.studies.runner.run import Result, Run, run_from_data
+from dqpaint.studies.runner.run_arrays import write_arrays
 
-TOLD_EVERY = 0.2  # [s]
+PROGRESS_INTERVAL = 0.2  # [s]
 
 
 def carry_out(
@@ -41,7 +41,7 @@ def carry_out(
     try:
         painting = paint.paint(run.program(), run.settings, progress)
         if run.keep:
-            keep(painting, run.keep, folder, key)
+            write_arrays(painting, run.keep, folder, key)
     except UnstableError as problem:
         return Result(key, "unstable", str(problem), wall=time.perf_counter() - begin)
     except DqpaintError as problem:
@@ -91,7 +91,7 @@ def main() -> None:
 
     def tell(part: float) -> None:
         nonlocal last
-        if time.monotonic() - last > TOLD_EVERY:
+        if time.monotonic() - last > PROGRESS_INTERVAL:
             last = time.monotonic()
             say(part=part)
 
@@ -99,7 +99,7 @@ def main() -> None:
         say(ready=True)
         for line in sys.stdin:
             said = json.loads(line)
-            tasks = [(task["key"], run_of(task["run"])) for task in said["tasks"]]
+            tasks = [(task["key"], run_from_data(task["run"])) for task in said["tasks"]]
             for result in carry_out_all(tasks, Path(said["folder"]), tell):
                 say(result=vars(result))
     except BrokenPipeError:  # the study has ended

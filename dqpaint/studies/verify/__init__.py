@@ -1,1 +1,1 @@
-"""A folder of references and new runs -> gates: alike, or where and by how much they differ."""
+"""A folder of references and new runs -> limits on differences, and which are exceeded."""

@@ -1,4 +1,4 @@
-"""How far a new picture may be from its reference, and which gate says no.
+"""A new picture and its reference -> their differences, and the limits that these exceed.
 
 The gates lie between what another processor changes (film 1e-7 of its largest value, 1 of 255 in a
 pixel) and the smallest fault worth a word. Other versions of the libraries may change more; then
@@ -65,7 +65,7 @@ def measure(reference: Reference, result: Result, made: Arrays) -> GateResult:
     pictures = measure_difference(light, new_light, reference.picture, made["picture"])
     before = figures(reference.facts["figures"], reference.facts["light"])
     after = figures(result.figures, made)
-    change, worst = changed(before, after)
+    change, worst = largest_change(before, after)
     return GateResult(pictures, change, worst, float(made["balance"]))
 
 
@@ -86,7 +86,7 @@ def figures(run: Mapping[str, float], light: Mapping[str, object]) -> dict[str, 
     return {**run, **sums}
 
 
-def changed(before: Mapping[str, float], after: Mapping[str, float]) -> tuple[float, str]:
+def largest_change(before: Mapping[str, float], after: Mapping[str, float]) -> tuple[float, str]:
     """The largest relative change of a figure, and its name; a figure that is gone is infinite."""
     most, worst = 0.0, ""
     for name, value in before.items():
@@ -99,7 +99,7 @@ def changed(before: Mapping[str, float], after: Mapping[str, float]) -> tuple[fl
     return most, worst
 
 
-def spoke(measured: GateResult, alike: bool) -> list[str]:
+def failed_gates(measured: GateResult, alike: bool) -> list[str]:
     """The names of the gates that say no; `alike`: the libraries are those of the reference."""
     names = []
     for gate in GATES:

@@ -1,4 +1,4 @@
-"""A folder of drawings with references: what is drawn again, and what it is compared with.
+"""A folder of drawings and references -> the cases to draw again and what they are compared with.
 
     cases.toml            [star-p]  drawing = "star.traj"  controller = "p"  gains = {k = 5}
     star-p.tiff           the bare linear film, float, exact

@@ -1,4 +1,4 @@
-"""What composing two poses costs: counted on numbers that count, and measured on our own product.
+"""Ways to compose two poses -> their operations, counted, and the time of ours, measured.
 
 Every way is written out once for any kind of number; the tests see that each gives the pose that
 `dq.mul` gives. Counted is what is written: no zero or one is skipped that a program would not know
@@ -226,9 +226,9 @@ def drifts() -> dict[str, float]:
 
 
 @MEASURES.add("cost")
-def cost(paper: Paper, asked: MeasureRequest) -> MeasureResult:
+def cost(paper: Paper, request: MeasureRequest) -> MeasureResult:
     """Storage and operations, counted; time and drift, measured."""
-    asked.nothing_but(paper)
+    request.nothing_but(paper)
     numbers: dict[str, dict[str, Spread]] = {}
     for name, (storage, compose, sizes) in COMPOSE.items():
         tally = counted(compose, sizes)

@@ -1,4 +1,4 @@
-"""Replays with a grid of two gains beside the cells of their tables: surfaces as heat maps."""
+"""A paper with a grid of two gains -> the figures of its tables, and heat maps of the grid."""
 
 from dataclasses import replace
 from itertools import product
@@ -17,14 +17,14 @@ SURFACES = ("effort_integral", "speed_integral_m", "error_integral")
 
 
 @MEASURES.add("surfaces")
-def surfaces(paper: Paper, asked: MeasureRequest) -> MeasureResult:
+def surfaces(paper: Paper, request: MeasureRequest) -> MeasureResult:
     """The cells of the tables, then every combination of the axes' values."""
-    tables = tracking(paper, asked)
+    tables = tracking(paper, request)
     choices = grid(paper)
-    found = carry_out(paper, asked, choices, (), paper.grid_drawing)
+    found = carry_out(paper, request, choices, (), paper.grid_drawing)
     numbers = {**tables.numbers, **numbers_of(paper, found)}
     shown = {**tables.shown, **maps(paper, numbers)}
-    lost = {**tables.lost, **measured(paper, asked, found, {}).lost}
+    lost = {**tables.lost, **measured(paper, request, found, {}).lost}
     return replace(tables, numbers=numbers, shown=shown, lost=lost)
 
 

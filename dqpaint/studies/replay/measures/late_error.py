@@ -1,4 +1,4 @@
-"""Replays whose error counts from the tenth part of a run on, when its gains no longer change."""
+"""A paper with gains that change at first -> errors integrated from a tenth of the run on."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -12,40 +12,40 @@ from dqpaint.studies.replay.measures.tracking import beside_published, carry_out
 from dqpaint.studies.replay.papers import Paper
 from dqpaint.studies.report.page import Pictured
 from dqpaint.studies.report.pictures import errors, read_first_runs
-from dqpaint.studies.runner.run_arrays import kept
+from dqpaint.studies.runner.run_arrays import read_arrays
 
 LATE = 0.1  # of the run
 FIGURE = "late_error_integral"
 
 
 @MEASURES.add("late")
-def late(paper: Paper, asked: MeasureRequest) -> MeasureResult:
+def late(paper: Paper, request: MeasureRequest) -> MeasureResult:
     """Every cell is run; the error integral is taken over the last nine tenths."""
     choices = {cell.name: cell.settings for cell in paper.cells}
-    found = carry_out(paper, asked, choices, (), always=("series",))
-    period = _period(found[0], asked.folder)
-    made = measured(paper, asked, found, {})
+    found = carry_out(paper, request, choices, (), always=("series",))
+    period = _period(found[0], request.folder)
+    made = measured(paper, request, found, {})
     numbers = {
         cell.label: {
             **made.numbers[cell.label],
-            FIGURE: spread([late_integral(asked.folder, r.key, period) for r in cell.done]),
+            FIGURE: spread([late_integral(request.folder, r.key, period) for r in cell.done]),
         }
         for cell in found
         if cell.done
     }
     shown: dict[str, Pictured] = {
         "-published": beside_published(paper, numbers),
-        "-errors": errors(read_first_runs(found, asked.folder)),
+        "-errors": errors(read_first_runs(found, request.folder)),
     }
     return replace(made, numbers=numbers, shown=shown)
 
 
 def late_integral(folder: Path, key: str, period: float) -> float:
     """The integral of the invariant error of a run that is kept, over its last nine tenths."""
-    arrays = kept(folder, key)
+    arrays = read_arrays(folder, key)
     t, error = arrays["t_s"][:-1], arrays["invariant_error"][:-1]
     return float(error[t > LATE * arrays["t_s"][-1]].sum() * period)
 
 
 def _period(cell: Cell, folder: Path) -> float:
-    return float(np.diff(kept(folder, cell.done[0].key)["t_s"][:2])[0])
+    return float(np.diff(read_arrays(folder, cell.done[0].key)["t_s"][:2])[0])

@@ -1,4 +1,4 @@
-"""Pham's two poses: where our arm is at the printed angles, and how it goes to the other pose."""
+"""Pham's two poses -> our arm's pose at the printed angles, and its step response between them."""
 
 from collections.abc import Mapping
 
@@ -30,9 +30,9 @@ SETTLED = 0.02  # of the step
 
 
 @MEASURES.add("setpoint")
-def setpoint(paper: Paper, asked: MeasureRequest) -> MeasureResult:
+def setpoint(paper: Paper, request: MeasureRequest) -> MeasureResult:
     """Both poses, and the way between them by each law."""
-    asked.nothing_but(paper)
+    request.nothing_but(paper)
     card = read_card(ROBOT).model_copy(
         update={"tool": Mount()}
     )  # the paper's poses are its flange's
@@ -45,7 +45,9 @@ def setpoint(paper: Paper, asked: MeasureRequest) -> MeasureResult:
         name: {k: spread([v]) for k, v in pose_numbers(x, theirs[name]).items()}
         for name, x in (("initial pose", first), ("desired pose", last))
     }
-    numbers["the way between"] = {"turn_deg": spread([float(np.degrees(turn(first, last)))])}
+    numbers["the way between"] = {
+        "turn_deg": spread([float(np.degrees(rotation_angle(first, last)))])
+    }
     runs = {}
     for cell in paper.cells:
         if "controller" in cell.settings:
@@ -66,7 +68,7 @@ def pose_numbers(x: Floats, printed: Mapping[str, Spread]) -> dict[str, float]:
     return dict(zip((*POSE, *PLACE), [*x.tolist(), *dq.translation(x).tolist()], strict=True))
 
 
-def turn(x: Floats, y: Floats) -> float:
+def rotation_angle(x: Floats, y: Floats) -> float:
     """The angle [rad] between the orientations of two poses (8,)."""
     return 2 * float(np.linalg.norm(dq.log(spatial_error(x, y))[:3]))
 

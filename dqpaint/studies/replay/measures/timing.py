@@ -1,4 +1,4 @@
-"""The times between control steps: every law in a loop that waits for its next tick."""
+"""Laws and periods -> the times between control steps, measured in real time."""
 
 import time
 from collections.abc import Mapping
@@ -62,21 +62,21 @@ def paced(clock: Clock) -> PlantMaker:
 
 
 @MEASURES.add("timing")
-def timing(paper: Paper, asked: MeasureRequest) -> MeasureResult:
+def timing(paper: Paper, request: MeasureRequest) -> MeasureResult:
     """Each law for a while at each period, in real time."""
-    asked.nothing_but(paper, "robot")
+    request.nothing_but(paper, "robot")
     clocks = {}
-    asked.reporter.begin(paper.name)
+    request.reporter.begin(paper.name)
     for i, cell in enumerate(paper.cells):
-        clocks[cell.name] = loop(cell, asked.settings)
-        asked.reporter.show((i + 1) / len(paper.cells))
-    asked.reporter.end()
+        clocks[cell.name] = loop(cell, request.settings)
+        request.reporter.show((i + 1) / len(paper.cells))
+    request.reporter.end()
     numbers = {
         name: {"period_s": spread(np.diff(clock.woke).tolist()),
                "computing_s": spread(clock.computed)}
         for name, clock in clocks.items()
     }  # fmt: skip
-    robot = asked.settings.get("robot") or DEFAULT_ROBOT
+    robot = request.settings.get("robot") or DEFAULT_ROBOT
     ours = f"Python and NumPy, an ideal {robot}, {SECONDS:g} s each"
     return MeasureResult(numbers, ours, shown={"-histogram": histogram(clocks)})
 

@@ -1,4 +1,4 @@
-"""Replays of a drawing under several laws: a run a cell, or several with seeds."""
+"""A paper's drawing and laws -> runs, their figures beside the printed ones, pictures."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -9,7 +9,13 @@ import numpy as np
 
 from dqpaint.robots.model import DEFAULT_ROBOT
 from dqpaint.settings import Settings, make_settings
-from dqpaint.studies.experiment.cells import Cell, TableFigure, every_run_failed, family, run_cells
+from dqpaint.studies.experiment.cells import (
+    Cell,
+    TableFigure,
+    every_run_failed,
+    run_cells,
+    split_label,
+)
 from dqpaint.studies.replay.claims import Numbers, published
 from dqpaint.studies.replay.measure import MEASURES, MeasureRequest, MeasureResult
 from dqpaint.studies.replay.papers import Paper, find_paper_drawing
@@ -25,18 +31,18 @@ KEPT = ("series", "light")  # of the first run of each cell
 
 
 @MEASURES.add("tracking")
-def tracking(paper: Paper, asked: MeasureRequest) -> MeasureResult:
+def tracking(paper: Paper, request: MeasureRequest) -> MeasureResult:
     """Every cell of the paper's tables is run as its settings say."""
     choices = {cell.name: cell.settings for cell in paper.cells}
-    found = carry_out(paper, asked, choices, KEPT)
+    found = carry_out(paper, request, choices, KEPT)
     beside = {"-published": beside_published(paper, numbers_of(paper, found))}
-    shown = pictures(found, asked.folder, settings_of(paper, asked, {}))
-    return measured(paper, asked, found, {**beside, **shown})
+    shown = pictures(found, request.folder, settings_of(paper, request, {}))
+    return measured(paper, request, found, {**beside, **shown})
 
 
 def carry_out(
     paper: Paper,
-    asked: MeasureRequest,
+    request: MeasureRequest,
     choices: dict[str, dict[str, Any]],
     keep: tuple[str, ...],
     drawing: str = "",
@@ -46,7 +52,7 @@ def carry_out(
 
     Args:
         paper: the experiment.
-        asked: what a person asked for.
+        request: what a person asked for.
         choices: settings by the names of the cells.
         keep: what is kept of the first run of each.
         drawing: its name, if it is not the paper's.
@@ -58,14 +64,14 @@ def carry_out(
     name, text = drawing_text(str(find_paper_drawing(drawing or paper.drawing)))
     rows = []
     for choice in choices.values():
-        settings = settings_of(paper, asked, choice)
-        count = (asked.runs or 1) if settings.disturb else 1
+        settings = settings_of(paper, request, choice)
+        count = (request.runs or 1) if settings.disturb else 1
         row = seeded(Run(name, text, settings, (*always, *keep)), count)
         rows.append([replace(run, keep=run.keep or always) for run in row])
     found = run_cells(
         [{"cell": name} for name in choices], rows,
         lambda runs: carry_out_study(
-            runs, asked.folder, asked.jobs, paper.name, asked.reporter
+            runs, request.folder, request.jobs, paper.name, request.reporter
         ),
     )  # fmt: skip
     if all(not result.figures for cell in found for result in cell.results):
@@ -73,20 +79,20 @@ def carry_out(
     return found
 
 
-def settings_of(paper: Paper, asked: MeasureRequest, choice: dict[str, Any]) -> Settings:
+def settings_of(paper: Paper, request: MeasureRequest, choice: dict[str, Any]) -> Settings:
     """What all runs have in common, then what a cell says, then what a person asked for."""
-    return make_settings(**{**SIZE, **paper.settings, **choice, **asked.settings})
+    return make_settings(**{**SIZE, **paper.settings, **choice, **request.settings})
 
 
 def measured(
-    paper: Paper, asked: MeasureRequest, found: Sequence[Cell], shown: Mapping[str, Pictured]
+    paper: Paper, request: MeasureRequest, found: Sequence[Cell], shown: Mapping[str, Pictured]
 ) -> MeasureResult:
     """What cells say, in the paper's figures."""
-    base = settings_of(paper, asked, {})
+    base = settings_of(paper, request, {})
     parts = [base.robot or DEFAULT_ROBOT, f"plant {base.plant or 'usual'}", f"from {base.start}"]
     for name, values in base.disturb.items():
         parts.append(f"{name} {', '.join(f'{k} = {v}' for k, v in values.items())}")
-    parts.append(f"{asked.runs or 1} run{'s' if (asked.runs or 1) > 1 else ''} each")
+    parts.append(f"{request.runs or 1} run{'s' if (request.runs or 1) > 1 else ''} each")
     lost = {cell.label: f"{cell.status}: {cell.why}" for cell in found if not cell.stable}
     return MeasureResult(numbers_of(paper, found), ", ".join(parts), lost, shown, tuple(found))
 
@@ -94,7 +100,7 @@ def measured(
 def numbers_of(paper: Paper, found: Sequence[Cell]) -> Numbers:
     """Mean and spread of the paper's figures, of the runs that were done as they should."""
     return {
-        cell.label: {f.name: cell.of(TableFigure((f.name,), f.name)) for f in paper.figures}
+        cell.label: {f.name: cell.spread(TableFigure((f.name,), f.name)) for f in paper.figures}
         for cell in found
         if cell.done
     }
@@ -107,10 +113,10 @@ def beside_published(paper: Paper, ours: Numbers) -> Charts:
     for figure in paper.figures:
         known = [n for n in theirs if figure.name in theirs[n]]
         names = [n for n in known if figure.name in ours.get(n, {})]
-        families = dict.fromkeys(family(name)[0] for name in names)
+        families = dict.fromkeys(split_label(name)[0] for name in names)
         lines = []
         for first, colour in zip(families, cycle(COLOURS), strict=False):
-            these = [name for name in names if family(name)[0] == first]
+            these = [name for name in names if split_label(name)[0] == first]
             x, y = (np.array([t[n][figure.name].mean for n in these]) for t in (theirs, ours))
             lines.append(Line(x, y, first, colour, marks=np.zeros(len(x), dtype=bool)))
         if lines:

@@ -57,7 +57,7 @@ def _more_than_one(leds: int) -> int:
 
 
 class Takes(NamedTuple):
-    """What a value is in a drawing, where its type alone does not say it."""
+    """The kind of a value in a drawing, if its type does not determine it."""
 
     kind: str  # length, direction, colours or file
 

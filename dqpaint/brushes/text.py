@@ -18,7 +18,7 @@ def read_brush(text: str) -> Brush:
     """Parse the brush of a text `NAME[:key=value,...]`.
 
     Raises:
-        UsageError: an unknown brush or choice, or a value that is none.
+        UsageError: an unknown brush or key, or an invalid value.
     """
     name, _, rest = text.strip().partition(":")
     if own := re.fullmatch(rf"({FILE_PATTERN})(?::(.*))?", text.strip()):

@@ -25,13 +25,13 @@ class Explanation:
 
     Attributes:
         code: such as `E245`.
-        title: what it is about, in a few words.
-        says: why the rule is there, and what to do.
+        title: its subject, in a few words.
+        says: the reason for the rule, and what to do.
         wrong: a whole drawing that leads to this message; empty for those about no text.
-        right: a whole drawing that says what was meant, without any message.
+        right: a corrected drawing, without any message.
         stage: what finds it: reading the `text`, planning the `motion`, trying an `arm`, or
             something `other`, where no text can show it.
-        files: what lies beside the drawings, by name.
+        files: files next to the drawings, by name.
     """
 
     code: str

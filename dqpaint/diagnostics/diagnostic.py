@@ -24,7 +24,7 @@ class Span:
 class Source(str):
     """The text of a drawing, followed by the texts of the files that it includes.
 
-    So an offset alone says which file it is in.
+    So an offset alone identifies its file.
 
     Attributes:
         included: where each further file begins, and its name; in order.
@@ -65,7 +65,7 @@ class Diagnostic:
 
     Attributes:
         code: its name in the catalogue, such as `E218`; `W…` for warnings.
-        message: what is wrong, lower case, no full stop.
+        message: the error, lower case, no full stop.
         span: where; None for the file as a whole.
         label: a few words at the caret, or nothing.
         help: what would mend it, if possible text that can be pasted.
@@ -139,7 +139,7 @@ def line_name(text: str, at: SourceLine) -> str:
 
 
 def text_of_line(text: str, at: SourceLine) -> str:
-    """What stands on a line of a drawing."""
+    """The text of a line of a drawing."""
     included = text.included if isinstance(text, Source) else ()
     begin = included[at.file - 1][0] if at.file else 0
     return text[begin:].split("\n", at.line)[at.line - 1]

@@ -19,7 +19,7 @@ class Encoder:
     """Measurement errors of joint angles.
 
     Attributes:
-        errors: what is added at each row (N, n) [rad]; of many runs (N, B, n).
+        errors: added at each row (N, n) [rad]; of many runs (N, B, n).
         step: to which a reading is rounded [rad]; 0 is not at all.
     """
 

@@ -3,7 +3,7 @@
 Each step has one noun, and is linear in the light until the last:
 
     poses, colours, Emitters -> Sweep -emission_to-> Light, Sheet -expose-> Film -spread-> image
-                  points -frame-> Camera ~^                ~^               ^~ automatic_exposure
+           points -frame_points-> Camera ~^                ~^               ^~ automatic_exposure
                                                                     image -LOOKS-> picture
 
 A `Sweep` cuts time where a lamp switches and where a chord would show; `Steps.time` says when each

@@ -18,7 +18,7 @@ from dqpaint.robots.urdf import urdf_file
 LONGEST_STEP = 1e-3  # [s] of physics
 NO_SPEED_LIMIT = 1e9  # [rad/s]
 STOP_DISTANCE = 0.02  # [rad] from a joint's limit to its mechanical stop; commands end at the limit
-SAMPLE_COUNT, SEED = 64, 1988  # that stand for all of an arm's
+SAMPLE_COUNT, SEED = 64, 1988  # random postures that represent the arm's range
 
 
 def sample_postures(card: Card) -> Floats:
@@ -40,7 +40,7 @@ class RigidArm(Client):
         steps: of physics in a period.
         step: the length of one [s].
         advance: makes one of them.
-        posture: as `Plant` says, likewise `rates` and `effort`.
+        posture: as in `Plant`, likewise `rates` and `effort`.
 
     Raises:
         UsageError: a push on a link the arm does not have.

@@ -150,7 +150,7 @@ class ConfiguredPlant:
     """A plant with its options.
 
     Attributes:
-        name: as it was asked for, values included.
+        name: as it was requested, including values.
         make: how it is built.
         options: its values; None where it has none.
     """
@@ -182,7 +182,7 @@ class ConfiguredPlant:
         """Check that the plant has the trait that a disturbance needs.
 
         Raises:
-            UsageError: the plant lacks what it needs.
+            UsageError: the plant does not have the trait.
         """
         if trait is None or trait in self.make.traits:
             return

@@ -40,7 +40,7 @@ class Stiff(RigidArm):
             forces=self._limits,
             physicsClientId=self.client,
         )
-        # what a new command asks of the motors is most in the first step
+        # a new command needs the largest motor torques in the first step
         self.advance()
         first = bullet.getJointStates(self.body, self.joints, self.client)
         for _ in range(self.steps - 1):

@@ -42,7 +42,7 @@ class World:
 
     Attributes:
         base: pose (8,) of the arm's true base in the frame the law takes for it.
-        payloads: what it carries.
+        payloads: carried by the arm.
         pushes: what pushes it.
         model_gravity: the gravity of the arm's own model, as a part of the true one.
     """

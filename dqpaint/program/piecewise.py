@@ -1,7 +1,7 @@
 """Points, Bezier curves and arcs -> piecewise curves, which can be joined and transformed.
 
 A curve that comes from a file has its coordinates in the file's own unit until it is mapped into
-the drawing frame. What the numbers of a piece mean is said at `program.PiecewiseCurve`.
+the drawing frame. `program.PiecewiseCurve` defines the numbers of a piece.
 """
 
 from collections.abc import Iterator, Sequence
@@ -15,7 +15,7 @@ from dqpaint.program.taylor import Floats
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(10)
 CIRCLE_TOLERANCE = 1e-14  # an ellipse whose radii differ by less, in their squares, is a circle
 BATCH = 10_000  # pieces, for the sake of memory
-CORNER_ANGLE = np.radians(60.0)  # a smooth line keeps the corners that turn by more than this
+CORNER_ANGLE = np.radians(60.0)  # a smooth curve has a corner where it turns by more than this
 
 Indices = NDArray[np.intp]
 
@@ -110,8 +110,8 @@ def smooth_curve(
     """A curve through points (N, 3), smooth except at sharp turns.
 
     The direction at a point is that of the circle through it and its neighbours; between two
-    points runs the Bezier curve that is next to a circular arc. Lines to a point that keeps its
-    corner, and to the ends, are bent as the other end asks.
+    points runs the Bezier curve that is next to a circular arc. Lines to a corner, and to the
+    ends, are bent as their other end requires.
 
     Args:
         points: (N, 3), N at least 2, none of them the same as the next.
@@ -319,7 +319,7 @@ def stretch_lengths(
 ) -> Floats:
     """The lengths (N,) of pieces (N,) between two parameters (N,).
 
-    `uneven` says which of all pieces (M,) need a quadrature for it.
+    `uneven` marks the pieces (M,) that need a quadrature.
     """
     out = np.empty(len(piece))
     for hard in (False, True):

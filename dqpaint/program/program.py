@@ -1,6 +1,6 @@
 """The compiled drawing, from the language to the motion: plain data in SI units.
 
-Every point, direction and orientation stands in the drawing frame (x to the right of the picture,
+Every point, direction and orientation is in the drawing frame (x to the right of the picture,
 y up, z towards the viewer); `with` blocks are already worked in. Lengths are metres, angles
 radians, times seconds, colours linear RGB with 1 for full brightness. What the strokes mean as
 motion is said in `dqpaint.motion`.
@@ -105,7 +105,7 @@ class PiecewiseCurve:
 
     Attributes:
         cubic: c0 to c3 of each piece (M, 4, 3) [m], in the drawing frame.
-        ellipse: u and v of each piece (M, 2, 3) [m]; zero for what is no arc.
+        ellipse: u and v of each piece (M, 2, 3) [m]; zero for pieces that are not arcs.
         angles: a0 and a1 of each piece (M, 2) [rad].
     """
 
@@ -131,7 +131,7 @@ Path = Straight | Arc | Curve | Screw | ScrewTo | Dwell | Step | PiecewiseCurve
 STANDING = (Dwell, Step)  # paths on which the point does not travel
 
 
-# What the tool does meanwhile. `Screw` and `ScrewTo` say it themselves and carry `FollowHeading`.
+# Orientation along the path. `Screw` and `ScrewTo` define it themselves and have `FollowHeading`.
 
 
 @record
@@ -223,7 +223,7 @@ class Light:
     even: bool = False
 
 
-# What shines. Brushes stand in the tool frame.
+# Light. Brushes are in the tool frame.
 
 
 BrushValue = float | str | Vector | tuple[Colour, ...]
@@ -278,7 +278,7 @@ class Segment:
     light: Light | None  # None: dark
     start: Pose
     end: Pose
-    span: Span  # the words of the file that asked for it
+    span: Span  # its words in the file
     line: SourceLine  # where these words begin
     brush: Brush = Brush()
     strobe: Strobe | None = None  # None: it burns steadily

@@ -23,7 +23,7 @@ Scalar = int | float
 class Taylor:
     """A function of one parameter about N points: `coefficients` (K + 1, N), c_k = f^(k) / k!.
 
-    K is 3, or less where no more is asked.
+    K is 3, or less where fewer derivatives are needed.
     """
 
     __slots__ = ("coefficients",)

@@ -1,7 +1,7 @@
 """An arm and a camera -> position, normal and link for each pixel.
 
-PyBullet's software renderer is asked for no picture but for measurements. Painted white and lit
-from one side alone, with neither ambient light nor gloss, a surface is as bright as its normal
+PyBullet's software renderer is used for measurements, not for a picture. Painted white and lit
+from one side only, with neither ambient light nor gloss, a surface is as bright as its normal
 leans to that side; four sides of the camera give two components of the normal, and that it faces
 the camera gives the third. It needs no display, and its pictures are the same on every run.
 """
@@ -57,7 +57,7 @@ class Surfaces:
     """The P visible points of an arm's surface.
 
     Attributes:
-        box: the part of the picture that was looked at.
+        box: the region of the picture that was rendered.
         cover: (h, w) share of each pixel that the arm covers, in quarters.
         sure: (h, w) which pixels show one link all over; P of them are True, in rows.
         depth: (P,) along the camera's axis [m].

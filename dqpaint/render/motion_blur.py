@@ -1,9 +1,9 @@
 """A moving arm -> its light during the whole exposure: a veil where it moved.
 
-It is what a photographer gets who leaves a little light on in the room. At each of some moments
-the arm is looked at once. It is lit by what its lamp emitted meanwhile, and by the room for as long
-as the moment lasts; and as long it hides the floor. So what stands still is seen well, what moves
-is faint, and the lit wrist leaves a haze along the strokes.
+This is the look of a photograph with a little light in the room. The arm is rendered once for each
+moment. The light that its lamp emits during the moment illuminates it, and so does the room's light
+for the moment's duration; for the same time it hides the floor. So an arm at rest is clearly
+visible, a moving arm is faint, and the lit wrist leaves a haze along the strokes.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ def blurred_arm(
 def moments(postures: Floats) -> NDArray[np.int64]:
     """Rows (K+1,) of postures (N, n) at which moments begin and end.
 
-    In each the arm moves about as far, and where it stands still it is looked at, too.
+    The arm moves about equally far in each, and there are moments where it is at rest, too.
     """
     steps = max(len(postures) - 1, 1)
     moved = np.abs(np.diff(postures, axis=0)).sum(axis=1)

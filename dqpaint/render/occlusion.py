@@ -1,10 +1,10 @@
 """Postures, lamps and an eye -> the share of light that the arm does not occlude.
 
-At each of some instants the arm's caster take the posture it had, and a ray from each lamp says
-whether the camera sees it. The instants are so close that neither lamp nor links get far between
-them; where a lamp is hidden at one and seen at the next, instants between them are tried until the
-moment is known to a sample. Between equal answers nothing is asked: what is thinner than the way
-between two instants can be missed.
+At selected instants the ray caster takes the arm's posture, and a ray from each lamp tests whether
+the camera sees it. The instants are so close that neither lamp nor links move far between them.
+Where a lamp is hidden at one and visible at the next, instants between them are tested until the
+change is known to a sample. Between equal results there is no test, so an occluder that is thinner
+than the motion between two instants can be missed.
 """
 
 import numpy as np
@@ -31,7 +31,7 @@ def visible_share(
         postures: (M, n) at these instants [rad].
         places: (M, K, 3) of the lamps, base frame [m].
         eye: (3,) of the camera [m].
-        lit: (M,) when any lamp burns. Else nothing is asked, and the share is 1.
+        lit: (M,) when any lamp is on. Otherwise no ray is cast, and the share is 1.
     """
     seen = np.ones(places.shape[:2])
     rows = np.flatnonzero(lit)

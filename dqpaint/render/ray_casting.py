@@ -88,7 +88,7 @@ def _triangles(shape: Shape) -> dict[str, Any]:
     """The vertices and triangles of a mesh.
 
     Raises:
-        ValueError: it cannot be read, or is none.
+        ValueError: it cannot be read, or is not a mesh.
     """
     corners, triangles = read_mesh(shape.mesh, shape.size)
     concave = bullet.GEOM_FORCE_CONCAVE_TRIMESH

@@ -74,7 +74,7 @@ class SceneArm(ExitStack):
         whole: whether the description has all shapes that its arm should have.
 
     Attributes:
-        source: as given; line 0 stands for what is not known.
+        source: as given; line 0 if unknown.
     """
 
     def __init__(

@@ -64,7 +64,7 @@ class Glow:
     """A painting's light as it falls on nearby surfaces.
 
     Attributes:
-        lamps: few, for what is lit.
+        lamps: a few lamps that light surfaces.
         path: many, for what mirrors.
         gain: factor from what lamps send [lamp s / m^2] to saturation.
         whole: all of the painting, where this is a part of it; its ends colour the rims.
@@ -116,10 +116,10 @@ def render_arm(
     Args:
         arm: in its posture, white.
         camera: that of the picture.
-        light: what was painted.
+        light: of the painting.
         exposure: of the picture: factor from its own unit [lamp s / px^2] to saturation.
         falloff: whether that unit is divided by the distance squared [lamp s / (m px)^2].
-        scale: 1 / width of the pixels that are worked on, for a picture in a moving one.
+        scale: 1 / width of the rendered pixels, for frames of a movie.
     """
     seen = camera if scale == 1.0 else camera.scaled(scale)
     shown = render_floor(seen, light, exposure * scale**2, falloff)

@@ -121,8 +121,8 @@ def frame_points(
     """The camera that shows all `points` from `view`, centred and as large as `fill` allows.
 
     Args:
-        points: (N, 3) what the picture is of, base frame [m]: the lit points of what was asked,
-            so that the picture of what was achieved is taken from the same place.
+        points: (N, 3) the points to show, base frame [m]: the lit points of the reference, so that
+            the picture of the measured motion has the same camera.
         canvas_rotation: (3, 3) columns: the canvas' x (right), y (up) and z (towards the viewer)
             as unit vectors of the base frame.
         view: From where, such as one of `VIEWS`.

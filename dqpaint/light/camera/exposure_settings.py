@@ -93,7 +93,7 @@ def parse_exposure(text: str) -> Exposure | None:
     """Parse settings such as `f/8,iso100,35mm,nd3,1cd,2.2m`, in any order; None for `auto`.
 
     Raises:
-        UsageError: a part that is none, is given twice or is out of bounds.
+        UsageError: a part is unknown, given twice or out of bounds.
     """
     if text.strip() == "auto":
         return None

@@ -62,7 +62,7 @@ def parse_views(text: str) -> tuple[Shot, ...]:
     """Parse the shots of a text: names with commas, such as `front,iso,20,30,stereo:side`.
 
     Two numbers that follow each other are azimuth and elevation in degrees; `at:X:Y:Z[:X:Y:Z]` are
-    the camera's place and what it looks at, in metres from the robot's base.
+    the positions of the camera and of its target, in metres from the robot's base.
 
     Raises:
         UsageError: an unknown view, an elevation beyond a pole, or one view twice.

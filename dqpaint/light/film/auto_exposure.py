@@ -33,18 +33,18 @@ def automatic_exposure(
 ) -> float:
     """The exposure factor from lamp s / px^2 to sensor saturation that suits `light`.
 
-    A stroke of energy lambda per pixel has a ridge of lambda psf.of_line. Of that, in its strongest
+    A stroke of energy lambda per pixel has a ridge of lambda psf.line_peak. In its strongest
     channel, the median over the lit path length on the picture is put at `CORE_EXPOSURE`.
 
-    A lamp that stands still has no path length. Its peak is energy x psf.of_point, which is that of
-    a line when the energy is laid out over of_line / of_point, about the width of the core; so
+    A lamp that does not move has no path length. Its peak is energy x psf.point_peak, that of
+    a line when the energy is laid out over line_peak / point_peak, about the width of the core; so
     path is measured in pieces of this length, and a shorter stroke counts as one whole piece.
 
     What is wider than a line is as bright as its light over its area, counts by its area, and is
     put the nearer to `SURFACE_EXPOSURE` the wider it is. What an image leaves dark does not count.
 
     Args:
-        light: What was asked, so that an arm's faults do not change the exposure.
+        light: The reference light, so that an arm's errors do not change the exposure.
         camera: Where it is seen from.
         psf: How points are spread.
 

@@ -32,7 +32,7 @@ class Film:
     Attributes:
         planes: (3, H + 2 PAD, W + 2 PAD) energy in each pixel, with the guard band.
         emitted: (3,) what the light gave off.
-        lost: (3,) what of it missed the film.
+        lost: (3,) the part that missed the film.
     """
 
     planes: Floats

@@ -26,7 +26,7 @@ class Projection:
 
     Attributes:
         start: (2, M) x and y where each step begins [px].
-        end: (2, M) x and y where it ends; equal to the start if the lamp stands still [px].
+        end: (2, M) x and y where it ends; equal to the start if the lamp does not move [px].
         energy: (3, M) linear RGB each step leaves, evenly from start to end [lamp s].
         lost: (3,) the energy that fell outside [lamp s].
     """
@@ -55,7 +55,7 @@ class Bins:
     Attributes:
         position: (2, B) centre of the energy in each [px].
         energy: (3, B) linear RGB in each [lamp s].
-        length: (B,) of path in each; 0 where the lamp only stood still [px].
+        length: (B,) of path in each; 0 where the lamp did not move [px].
         alone: (B,) whether its run was so short that it is the only piece.
     """
 
@@ -137,9 +137,9 @@ def _clip(start: Floats, end: Floats, low: Floats, high: Floats) -> tuple[Floats
 def cut_into_bins(trail: Projection, step: float) -> Iterator[Bins]:
     """Cut a projection into pieces at most `step` long, one batch at a time.
 
-    The profile of the lamp has no say in where a path is cut: each unbroken run of steps is cut
+    The cuts do not depend on the lamp's speed: each unbroken run of steps is cut
     evenly along its length, however many samples it came in, and each piece gets the energy that
-    was left between its ends. A lamp that stands still adds all its energy to one piece.
+    was left between its ends. A lamp that does not move adds all its energy to one piece.
 
     Args:
         trail: What to cut.

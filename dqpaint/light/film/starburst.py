@@ -23,8 +23,8 @@ def with_starburst(image: Image, blades: int) -> Image:
 
     Each edge of the aperture diffracts light along the line across it, with r^-2 from the core
     (the far field of a straight edge); so an even number of blades makes as many rays, an odd one
-    twice as many. Rays of points that make a line run together, so only what stands out has any.
-    They are worked out at half the size. Light that a ray carries beyond the picture is lost to it.
+    twice as many. Rays of the points of a line merge: only isolated lights show them.
+    Rays are computed at half the size. Light beyond the picture's edge is lost.
 
     Args:
         image: (H, W, 3) linear RGB.

@@ -3,7 +3,7 @@
 The map of amounts is a path through OKLab (Ottosson, A perceptual color space for image
 processing, 2020), from blue over magenta and orange to pale yellow, lightness 0.48 to 0.95 and
 never falling, cut into pieces of equal length there. It starts bright enough to be seen on black,
-and as lightness alone orders it, it is read by those who do not tell red from green.
+and as lightness alone orders it, people who cannot distinguish red and green can read it.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Several pictures -> one: a contact sheet with labels, or an overlay.
 
-sheet     beside each other, each under its label
+sheet     side by side, each under its label
 overlay   the light of each in a colour of its own, added up: what all drew alike is white
 """
 
@@ -66,7 +66,7 @@ def sheet(
     Args:
         pictures: (H, W, 3) each.
         labels: one each; too long a one is cut.
-        columns: how many beside each other; None makes the sheet about square in pictures.
+        columns: how many per row; None makes the sheet about square in pictures.
     """
     height, width = pictures[0].shape[:2]
     columns = columns or (3 if len(pictures) == 3 else math.ceil(math.sqrt(len(pictures))))

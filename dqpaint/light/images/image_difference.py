@@ -1,6 +1,6 @@
 """Two pictures of one scene -> measures of their difference that show small faults on black.
 
-The mean of a picture that is mostly black says nothing: a visible hole leaves the mean structural
+The mean of a picture that is mostly black is no measure: a visible hole leaves the mean structural
 similarity at 0.9999. So it is the largest difference, the sum of all, and the *least* similarity.
 """
 
@@ -75,7 +75,7 @@ def structural_similarity(one: Picture, other: Picture) -> Image:
 def difference_picture(light: Image, new_light: Image) -> tuple[Picture, float]:
     """The linear difference (H, W, 3) as a picture scaled to white, and the scale factor.
 
-    Linear, because lines are burnt out in a developed picture, and what is lost there is not seen.
+    Linear, because lines are overexposed in a developed picture, which hides differences.
     """
     gap = np.abs(new_light.astype(np.float64) - light.astype(np.float64))
     most = float(gap.max())

@@ -36,7 +36,7 @@ class Light:
 
     Attributes:
         points: (N, 3) where the lamp is at each instant, base frame [m].
-        energy: (N-1, 3) what it emits from one instant to the next, linear RGB [lamp s]: a lamp
+        energy: (N-1, 3) energy emitted from one instant to the next, linear RGB [lamp s]: a lamp
             of colour 1 that burns for a second emits 1.
         size: Diameter of the lamp, which looks like an even disc from everywhere; 0 is a point [m].
     """

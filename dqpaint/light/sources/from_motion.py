@@ -18,7 +18,7 @@ from dqpaint.motion import Motion
 from dqpaint.settings import Settings
 
 MOST_FLASHES = 2_000_000
-LEAST_BRIGHTNESS = 0.02  # of the usual speed: light that tells shows what stands still, too
+LEAST_BRIGHTNESS = 0.02  # share of the usual speed: light by length shows a lamp at rest, too
 FILL_WITH_ARM = 0.45  # of the limiting dimension a drawing takes that leaves room for the arm
 
 
@@ -44,7 +44,7 @@ def sweeps(
     """One sweep for each brush of the drawing; each is dark where another brush is used.
 
     Args:
-        motion: What was asked.
+        motion: The reference motion.
         pose: (N, 8) of the tool, base frame.
         colours: (N, 3) linear, of the time from each row to the next.
         settings: Brush, and how the lamps are dimmed.

@@ -35,16 +35,16 @@ class Occluder(Protocol):
 class Occlusion:
     """Shares of one sweep's light that reach one camera, and the balance of occluded light.
 
-    It is known for each step between two samples at some places along the brush, and what lies
-    between these is interpolated. So it is asked for once, however steps are cut and batched.
+    It is computed once, for each step between two samples at some positions along the brush, and
+    interpolated between them. So it does not depend on how steps are cut and batched.
 
     Args:
         period: From sample to sample [s].
         share: (N-1, P) in each step, at even distances from one end of the brush to the other.
 
     Attributes:
-        emitted: (N-1, 3) light that has been sent on its way so far, in the film's unit.
-        hidden: (N-1, 3) what of it did not arrive.
+        emitted: (N-1, 3) light emitted so far, in the film's unit.
+        hidden: (N-1, 3) the part of it that was occluded.
     """
 
     def __init__(self, period: float, share: Floats) -> None:
@@ -120,8 +120,8 @@ class Occlusion:
 
 def occlusion_by(sweep: Sweep, body: Occluder, eye: Floats) -> Occlusion:
     """The occlusion of a sweep by a body for an eye (3,), computed once."""
-    asked = sweep.emitters.positions_along(SAMPLE_SPACING)
-    places = sweep.base_positions(sweep.positions, sweep.rotations, asked)
+    local = sweep.emitters.positions_along(SAMPLE_SPACING)
+    places = sweep.base_positions(sweep.positions, sweep.rotations, local)
     middle = 0.5 * (places[1:] + places[:-1])
     time = sweep.time[:-1] + 0.5 * sweep.period
     lit = np.asarray(sweep.colours.any(axis=1))

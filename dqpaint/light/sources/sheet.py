@@ -96,7 +96,7 @@ def sheet_cells(sheet: Sheet, camera: Camera, margin: float) -> Iterator[Cells]:
     long = _length(pixels[:, 1] - pixels[:, 0])
     along = _count(np.maximum(long[index], long[index + 1]))
     steps = np.minimum(_count(moved), np.maximum(MOST_CELLS_PER_STEP // along, 1))
-    # one row a part of a step: it is worked on as a whole
+    # one row per part of a step, which is computed as a whole
     of = np.repeat(index, steps)
     nth = np.arange(len(of)) - np.repeat(np.cumsum(steps) - steps, steps)
     when = (nth + 0.5) / np.repeat(steps, steps)

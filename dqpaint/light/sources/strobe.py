@@ -1,7 +1,7 @@
 """Strobe or PWM frequency and duty -> the exact times within steps at which a lamp switches.
 
 A strobe shuts the whole lamp off for a part of each period. Pulse-width modulation (PWM) is how LED
-drivers dim: each channel is fully on for the part of a period that its colour value says. A lamp
+drivers dim: each channel is fully on for the share of a period that equals its colour value. A lamp
 that moves fast leaves dashes, and those of red, green and blue differ in length. Both run by the
 clock of the run, and the time at which they switch is where a step is cut.
 """

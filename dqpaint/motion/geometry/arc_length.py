@@ -18,10 +18,10 @@ from dqpaint.program import NODES, WEIGHTS
 MOST_PANELS = 1024
 MOST_ANGLE_PANELS = 32  # panels, of a stroke whose length needs none
 ANGLE_TOLERANCE = 1e-12  # relative
-SPEED_BATCH = 16_384  # places at which speeds are asked for
+SPEED_BATCH = 16_384  # positions for which speeds are computed together
 PARAMETER_BATCH = 512  # places whose parameters are sought together: ten nodes each
 LENGTH_TOLERANCE = 1e-13  # relative, of a length
-CONVERGED = 0.01  # relative: a length that still changes by more at `MOST_PANELS` is none
+CONVERGED = 0.01  # relative: a length that still changes by more at `MOST_PANELS` did not converge
 LAST_STEP = 1e-10  # of Newton's method: the next would be about the square of it
 CUSP_SPEED = 1e-6  # of the mean speed: a curve that is slower somewhere has a point there
 
@@ -36,7 +36,7 @@ class Extent:
         edges: of the panels of `f`, (M + 1,).
         lengths: from the start to each edge [m], (M + 1,).
         uniform: whether the point's speed over `f` is one number.
-        converged: whether finer panels say the same; beside a pole each says more than the last.
+        converged: whether finer panels give the same length; near a pole it grows each time.
     """
 
     length: float
@@ -85,8 +85,8 @@ def _angles(shape: Shape, rows: Indices, panels: int) -> Floats:
     at_once = max(1, SPEED_BATCH // len(f))
     for begin in range(0, len(rows), at_once):
         own = slice(begin, begin + at_once)
-        asked = shape.select(np.repeat(rows[own], len(f)))
-        turning = asked.speeds(np.tile(f, len(rows[own])))[1].reshape(-1, len(f))
+        part = shape.select(np.repeat(rows[own], len(f)))
+        turning = part.speeds(np.tile(f, len(rows[own])))[1].reshape(-1, len(f))
         out[own] = turning @ weights
     return out
 

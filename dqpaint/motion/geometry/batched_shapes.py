@@ -1,7 +1,7 @@
 """Segments of a drawing -> their shapes; segments of one kind are computed in one batch.
 
-A drawing of ten thousand lines holds a handful of kinds: their parameters stand in arrays, one row
-a segment, and a formula is asked for all rows in one call. A curve is a kind for itself. A new kind
+A drawing of ten thousand lines has only a few kinds: their parameters are in arrays, one row per
+segment, and a formula is evaluated for all rows in one call. A curve is its own kind. A new kind
 of path is a line in `PATH_KINDS`.
 """
 
@@ -92,7 +92,7 @@ class Shapes:
         """The flow of segments at fractions f (N,), per unit of f.
 
         Args:
-            number: which segment each row asks for (N,).
+            number: the segment of each row (N,).
             f: of its parameter.
             by_length: of which segments (M,) it is the fraction of their length instead.
             faults: gets what goes wrong, by the segment; there the rows are not finite.

@@ -1,7 +1,7 @@
 """The paths of segments -> positions and derivatives over the fraction of their parameter.
 
-The parameters belong to one stroke, or stand one a row: then each row of what comes out has its
-own, and the strokes of a whole drawing are computed at once.
+The parameters belong to one stroke, or there is one row per stroke: then each row of the result
+uses its own, and the strokes of a whole drawing are computed at once.
 """
 
 from collections.abc import Sequence

@@ -27,7 +27,7 @@ from dqpaint.program import (
 
 HALVING_TOLERANCE = 1e-14  # of the length of the curve: what halving a panel may change
 MOST_HALVINGS = 30
-REST_SPEED = 1e-6  # of a piece's mean speed: there its formula stands still
+REST_SPEED = 1e-6  # share of a piece's mean speed: below it the piece is at rest
 REST_OFFSET = 1e-4  # of the way to the middle of a piece: where a direction is taken instead
 
 

@@ -34,7 +34,7 @@ class Flow:
 class Shape(Protocol):
     """Strokes of one kind, as functions of the fraction f in [0, 1] of their own parameter.
 
-    The parameters belong to one stroke, or stand one a row, as in `positions`.
+    The parameters belong to one stroke, or there is one row per stroke, as in `paths`.
     """
 
     @property

@@ -1,8 +1,7 @@
 """Postures and an arm's solid shapes -> distances between links, and occlusion of a light.
 
 What may collide are the collision shapes of the arm's description; what hides light are the visual
-ones, as in a picture. Both are looked at with Coal, which comes with pinocchio: it reads the model
-the kinematics has already, so a posture is said once.
+ones, as in a picture. Both use Coal, which comes with pinocchio and shares its model.
 """
 
 from collections.abc import Sequence
@@ -53,11 +52,11 @@ class CollisionShapes:
 
     For distances a mesh counts as its convex hull, which is a hundred times faster.
 
-    Links that touch in the home posture, or in most postures, are not looked at: their shapes are
+    Links that touch in the home posture, or in most postures, are not checked: their shapes are
     coarser than the arm itself.
 
     Attributes:
-        notes: what of the arm had to be left out, a sentence each.
+        notes: the parts of the arm that are left out, one sentence each.
     """
 
     def __init__(self, kinematics: Kinematics) -> None:
@@ -111,7 +110,7 @@ class CollisionShapes:
         Args:
             postures: of the arm (N, n) [rad].
             points: the light in each (N, 3) [m].
-            eye: where it is looked at from (3,) [m].
+            eye: the position of the eye (3,) [m].
         """
         known = self._visual.createData()
         hidden = np.zeros(len(postures), dtype=bool)

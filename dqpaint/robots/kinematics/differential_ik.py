@@ -53,8 +53,8 @@ def _force(square: Floats, left: Floats) -> Floats:
     """(J J')^+ left (..., 6), damped near a singularity.
 
     The trace of an inverse is the sum of 1 / s^2: up to 1 / THRESHOLD^2 no s is below THRESHOLD.
-    An inverse costs a fifth of what the singular directions do. Of many, each is looked at by
-    itself: what one needs does not depend on the others.
+    An inverse costs a fifth of what the singular directions do. Each of many is treated
+    separately: the result of one does not depend on the others.
     """
     try:
         found = inverse(square)

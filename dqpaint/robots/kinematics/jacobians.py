@@ -1,6 +1,6 @@
 """Spatial Jacobians J_w (..., 6, n) -> J8, time derivatives and drift, by algebra alone.
 
-Column i is the unit twist s_i of joint i as it stands now, seen from the base: xi = J_w q_dot.
+Column i is the unit twist s_i of joint i at the posture, in the base frame: xi = J_w q_dot.
 """
 
 import numpy as np

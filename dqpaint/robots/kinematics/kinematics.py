@@ -33,7 +33,7 @@ class Kinematics:
     Attributes:
         card: of the arm.
         model: pinocchio's, of the joints that move.
-        notes: what had to be assumed where the arm's description says nothing.
+        notes: assumptions where the arm's description has no data.
     """
 
     def __init__(self, card: Card) -> None:
@@ -54,7 +54,7 @@ class Kinematics:
         """The same arm with other link lengths or gravity, as a wrong model has them.
 
         Args:
-            lengths: what is added to each joint's place on the link before it, and to the tool's
+            lengths: offsets added to each joint's position on the link before it, and to the tool's
                 place on the last joint (n + 1, 3) [m].
             gravity: as a part of the true one.
         """

@@ -29,8 +29,8 @@ class Clamp:
         seconds: for how long, gaps left out.
         line: of the drawing, that was being drawn.
         limit: [rad], [rad/s] or [Nm].
-        wanted: the most that was asked for, in the same unit; the limit itself where a motor
-            that is told rates saturates, as it asks for no number.
+        wanted: the largest requested value, in the same unit; the limit itself where a motor
+            with rate commands saturates, as there is no requested torque.
     """
 
     kind: str
@@ -95,9 +95,9 @@ def find_clamps(
     Args:
         card: with the limits.
         t: (N,) [s].
-        source: the line (N,) that asks for what follows.
+        source: the source line (N,) of each row.
         posture: (N, n) [rad], as the encoders read it where the commands are rates.
-        wanted: what the law asked for (N, n), rates [rad/s] or torques [Nm].
+        wanted: the output of the law (N, n), rates [rad/s] or torques [Nm].
         command: what the arm was given (N, n).
         effort: motor torques (N, n) [Nm], the largest seen in the period before each row.
         torques: whether the commands are torques.
@@ -117,7 +117,7 @@ def find_clamps(
     return tuple(sorted(found, key=lambda clamp: clamp.start))
 
 
-Held = tuple[str, NDArray[np.bool_], Floats, Floats]  # kind; where, what was asked, limit (N, n)
+Held = tuple[str, NDArray[np.bool_], Floats, Floats]  # kind; where, requested value, limit (N, n)
 
 
 def _rate_clamps(

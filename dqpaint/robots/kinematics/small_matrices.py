@@ -17,7 +17,7 @@ def inverse(squares: Floats) -> Floats:
     """The inverses of symmetric positive definite matrices (..., 6, 6).
 
     Raises:
-        numpy.linalg.LinAlgError: one is singular, as far as digits tell.
+        numpy.linalg.LinAlgError: a matrix is numerically singular.
     """
     if squares.ndim > 2:
         return np.asarray(np.linalg.inv(squares))
@@ -28,7 +28,7 @@ def solve(square: Floats, right: Floats) -> Floats:
     """Solve square X = right for X (m, k), with a symmetric positive definite matrix (m, m).
 
     Raises:
-        numpy.linalg.LinAlgError: it is singular, as far as digits tell.
+        numpy.linalg.LinAlgError: the matrix is numerically singular.
     """
     factor = LLT(square)
     if factor.info() != _SUCCESS:

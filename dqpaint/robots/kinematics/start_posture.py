@@ -58,7 +58,7 @@ class NoPosture:
     """A pose of the path without a posture that reaches it.
 
     Attributes:
-        index: which of the asked poses.
+        index: index of the pose.
         shortfall: how far the closest posture stays from it [m].
         angle: and by which angle [rad].
     """
@@ -252,7 +252,7 @@ def shortfall(kinematics: Kinematics, pose: Floats) -> NoPosture:
 def closest(kinematics: Kinematics, pose: Floats, postures: Floats) -> tuple[NoPosture, Floats]:
     """The closest approach to a pose (8,) within the limits, and its posture (n,).
 
-    From the best few of some postures (M, n), once with the orientation kept, once with the place;
+    From the best few of some postures (M, n), once for the orientation, once for the position;
     what comes closer counts. The miss has the index 0.
     """
     card = kinematics.card

@@ -10,12 +10,12 @@ from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.kinematics.start_posture import NoPosture, find_start, solve_posture
 from dqpaint.robots.model.card import Canvas, Card
 
-SAMPLES = 20000  # postures that are looked at
+SAMPLES = 20000  # random postures
 SEEDS = 8  # of them, the nearest to each place
 AHEAD_SHARES = (0.65, 0.5, 0.8, 0.35)  # where a canvas may be, in parts of the arm's reach
-AZIMUTHS = (0.0, 90.0, -90.0, 180.0)  # [deg] to its left, where there is none before it
+AZIMUTHS = (0.0, 90.0, -90.0, 180.0)  # [deg] of the canvas, tried in this order
 HEIGHT_SHARES = (0.0, 0.2, -0.2, 0.4, -0.4)
-MOST_TRIED = 6  # places that are asked for a hand around them
+MOST_TRIED = 6  # positions whose surroundings are checked
 RANGE_SHARE = 0.8  # of each joint's range
 AMPLE_MARGIN = np.radians(30)  # margin that is as good as any
 AMPLE_SINGULAR_VALUE = 0.15  # and singular value
@@ -28,7 +28,7 @@ SEED = 1873
 def find_canvas(card: Card) -> tuple[Canvas, Floats]:
     """A canvas that faces along x, and the posture (n,) [rad] with the tool on it.
 
-    Of a few places before the arm, else beside or behind it, the one with the most room to its
+    Of a few positions in front of the arm, else beside or behind it, the one farthest from its
     joint limits and to its singularities; the same arm always gets the same one.
 
     Raises:

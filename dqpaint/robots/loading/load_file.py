@@ -1,7 +1,6 @@
 """A URDF, or a card in TOML -> the checked card of an arm.
 
-What a file leaves out is derived where that can be done, and said in the card's notes; else it is
-asked for by its name.
+Missing data is derived where possible, with a note in the card; otherwise an error names it.
 """
 
 import math
@@ -34,8 +33,8 @@ def read_file(robot: str) -> Card:
             carries the light.
 
     Raises:
-        UsageError: the file cannot be read, or does not say which link.
-        DqpaintError: it is no arm; the message says where, and what is asked for.
+        UsageError: the file cannot be read, or the link is ambiguous.
+        DqpaintError: it is not an arm; the message has the position and the requirement.
     """
     file, link = robot, ""
     if not robot.endswith((".toml", ".urdf")):
@@ -142,7 +141,7 @@ def _middles(limits: Any) -> list[float]:
         pairs = zip(limits["lower_deg"], limits["upper_deg"], strict=True)
         return [0.5 * (low + high) for low, high in pairs]
     except (TypeError, KeyError, ValueError):
-        return []  # the limits themselves are at fault, and will be told
+        return []  # the limits themselves have an error, which is reported later
 
 
 def _derive_body(raw: dict[str, Any], path: Path, notes: list[str]) -> None:

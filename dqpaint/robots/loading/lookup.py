@@ -75,11 +75,11 @@ def card_for(program: Program, robot: str | None, tool: str | None = None) -> Ca
 
     Args:
         program: the drawing.
-        robot: the arm that was asked for.
-        tool: where its light sits, if not where the card says.
+        robot: the requested arm.
+        tool: the position of its light, if it differs from the card.
 
     Raises:
-        UnknownNameError: no card has the name that was asked for.
+        UnknownNameError: no card has the requested name.
         UsageError: the tool is not one.
         ScriptError: no card has the name in the file.
     """

@@ -65,7 +65,7 @@ class Limits(Part):
 class Card(Part):
     """One arm: chain, tool, canvas, home posture, limits and sources.
 
-    The chain is said in one of three ways: `urdf`, `denavit_hartenberg` or `screws`. An arm of the
+    The chain is given in one of three ways: `urdf`, `denavit_hartenberg` or `screws`. An arm of the
     last two is built from them, with the masses and radii of `body`.
     """
 
@@ -81,7 +81,7 @@ class Card(Part):
     tool: Mount
     canvas: Canvas
     limits: Limits
-    notes: tuple[str, ...] = ()  # what was assumed where a file says nothing, a sentence each
+    notes: tuple[str, ...] = ()  # assumptions where a file has no data, one sentence each
 
     @property
     def joints(self) -> int:

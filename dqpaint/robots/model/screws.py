@@ -1,7 +1,7 @@
 """The screw axes of an arm -> poses and Jacobians: product of exponentials, dual quaternions.
 
 After Ozgur and Mezouar, "Kinematic modeling and control of a robot arm using unit dual quaternions"
-(2016) [18]: everything is said in one frame, the base, at one posture, q = 0.
+(2016) [18]: everything is expressed in one frame, the base, at one posture, q = 0.
 """
 
 from dataclasses import dataclass

@@ -80,7 +80,7 @@ def build_links(screws: Screws, masses: Sequence[float], radii: Sequence[float])
 
     Args:
         screws: the arm's axes.
-        masses: of the links (n,) [kg]. The base stands still: any mass will do.
+        masses: of the links (n,) [kg]. The base does not move: any mass will do.
         radii: of the base and the links (n + 1,) [m].
     """
     places, paths = _paths(screws)

@@ -1,7 +1,7 @@
 """The URDF of an arm -> a complete, checked description that all libraries read alike.
 
 PyBullet and pinocchio read one text. What they would answer differently, or with a guess of their
-own, is settled in it: joints off the arm stand still, every link has a mass, every mesh its path.
+own, is settled in it: joints outside the arm are fixed, every link has a mass, every mesh its path.
 """
 
 import math
@@ -21,7 +21,7 @@ from dqpaint.robots.model.card import Card
 from dqpaint.robots.urdf.tree import Joint, Tree, parse_numbers
 from dqpaint.robots.urdf.write import LEAST_INERTIA, write_urdf
 
-GUESSED_BALL_RADIUS = 0.05  # [m], radius of the ball that stands for a shape nobody gave
+GUESSED_BALL_RADIUS = 0.05  # [m], radius of the ball that replaces a missing shape
 GUESSED_MASS = 0.1  # [kg], of a link that moves and has no mass
 
 
@@ -70,7 +70,7 @@ def urdf_file(card: Card, change: Callable[[str], str] = str) -> Iterator[str]:
 
     Args:
         card: of the arm.
-        change: what is done to the description first.
+        change: applied to the description first.
     """
     handle, path = tempfile.mkstemp(prefix="dqpaint-", suffix=".urdf")
     try:

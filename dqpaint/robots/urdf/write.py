@@ -1,6 +1,6 @@
 """A card with rows or screw axes -> a URDF whose links are capsules.
 
-Every frame stands as the base does at q = 0, so each joint is a place and the direction of its
+Every frame is parallel to the base at q = 0, so each joint is a position and the direction of its
 axis; only the flange is turned.
 """
 
@@ -115,7 +115,7 @@ def _origin(element: Xml.Element, place: Floats, rotation: Floats | None = None)
 def roll_pitch_yaw(R: Floats) -> Floats:
     """The fixed-axis angles (3,) [rad] of R = Rz Ry Rx; exact at pitch +-90 degrees, too.
 
-    Roll is measured after yaw is undone: where the two cannot be told apart any yaw will do.
+    Roll is measured after yaw is undone: where the two are indistinguishable, any yaw will do.
     """
     yaw = np.arctan2(R[1, 0], R[0, 0])
     s, c = np.sin(yaw), np.cos(yaw)

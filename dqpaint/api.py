@@ -1,4 +1,4 @@
-"""The same from Python: `dqpaint.draw("star.traj", controller="hinf")`."""
+"""A drawing and settings -> paintings, previews, developed pictures and files, from Python."""
 
 import sys
 from collections.abc import Callable
@@ -43,9 +43,9 @@ def draw(
 
     Args:
         drawing: a .traj file, the name of an example, or a `dqpaint.Drawing`.
-        settings: a file of such choices, TOML, or the JSON summary of a run; what is said here
-            wins.
-        progress: called while the arm moves, with the part done, 0 to 1.
+        settings: a file of such choices, TOML, or the JSON summary of a run; keywords here
+            win.
+        progress: called while the arm moves, with the share done, 0 to 1.
         options:
 
     Raises:
@@ -61,7 +61,7 @@ def draw(
     program = _program(drawing)
     seconds = perf_counter() - begin
 
-    # a fault in the text is told before the simulator is loaded
+    # an error in the text is raised before the simulator is loaded
     from dqpaint.controllers.base import make_controller
     from dqpaint.painting import paint
 
@@ -80,14 +80,14 @@ def save(
     Args:
         painting: from `draw`.
         out: a folder (that exists, or ends with a slash), or the stem of the files.
-        what: formats, with commas; `dqpaint list formats` tells them.
+        what: formats, with commas; `dqpaint list formats` lists them.
 
     Returns:
         The paths of the files.
 
     Raises:
-        DqpaintError: an unknown format, or one that needs what the painting lacks; or the place
-            cannot be written. Nothing was changed.
+        DqpaintError: an unknown format, one that needs what the painting lacks, or a folder
+            that cannot be written. Nothing was changed.
     """
     name = f"{Path(painting.motion.program.name).stem}-{painting.controller.name}"
     writers = registry.choose_writers(what)
@@ -102,13 +102,13 @@ def preview(
     settings: "str | PathLike[str] | SettingsFile | None" = None,
     **options: Unpack[PreviewOptions],
 ) -> "previews.Preview":
-    """The asked pictures of a drawing, without an arm.
+    """The reference pictures of a drawing, without an arm.
 
     With `ghost` the camera leaves room for the arm, as that of `draw` does.
 
     Args:
         drawing: a .traj file, the name of an example, or a `dqpaint.Drawing`.
-        settings: a file of such choices; what is said here wins.
+        settings: a file of such choices; keywords here win.
         options:
 
     Raises:
@@ -136,12 +136,12 @@ def _program(drawing: "str | PathLike[str] | builder.Drawing") -> Program:
 
 
 def _places(drawing: "str | PathLike[str] | builder.Drawing") -> AbstractContextManager[None]:
-    """What is wrong with a drawing made by calls is told with the call."""
+    """A context in which errors of a drawing made by calls name the call."""
     return drawing.places() if _is_built(drawing) else nullcontext()
 
 
 def _is_built(drawing: object) -> "TypeGuard[builder.Drawing]":
-    """Whether it is a `Drawing`: where nobody has made one, their class need not be read."""
+    """Whether it is a `Drawing`; the class is not imported where no drawing was made."""
     build = sys.modules.get("dqpaint.language.writing.builder")
     return build is not None and isinstance(drawing, build.Drawing)
 
@@ -153,11 +153,11 @@ def develop(
     """Other pictures of a painting that was saved with `film`, without simulating it.
 
     Args:
-        film: the file; what is not said is as it was.
+        film: the file; options that are not given stay as they were.
         options:
 
     Raises:
-        DqpaintError: no film, or a choice that is none.
+        DqpaintError: not a film, or a wrong choice.
     """
     from dqpaint.painting import film_file, picture
     from dqpaint.painting import scene as scenes
@@ -174,7 +174,7 @@ def develop(
 def _stage(
     settings: Settings, cast: "ArmMotion | None"
 ) -> "tuple[AbstractContextManager[SceneArm | None], tuple[str, ...]]":
-    """The arm of a film, if it is to be seen and is still there; and else what there is to say."""
+    """The arm of a film if it is to be seen, and a warning where it cannot be."""
     if not settings.staged:
         return nullcontext(), ()
     from dqpaint.render import scene_arm_of_run

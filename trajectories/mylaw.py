@@ -4,6 +4,6 @@ from dqpaint import dq
 
 
 def mylaw(seen, k=20.0):
-    """Goes along the one screw between what is and what is asked, with feed-forward."""
+    """Follow the screw from the measured to the reference pose, with feed-forward."""
     x_e = dq.mul(seen.pose_d, dq.conj(dq.nearest(seen.pose, seen.pose_d)))
     return seen.twist_d + k * 2 * dq.log(x_e)

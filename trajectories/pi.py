@@ -1,4 +1,4 @@
-"""pi.py - a law that remembers: dqpaint draw star --controller pi.py --disturb twist=x=0.01."""
+"""pi.py - a law with state: dqpaint draw star --controller pi.py --disturb twist=x=0.01."""
 
 import numpy as np
 
@@ -6,10 +6,10 @@ from dqpaint import dq
 
 
 class PI:
-    """Goes along the screw between what is and what is asked, and adds up what is left of it."""
+    """Follow the screw from the measured to the reference pose, and add up the error."""
 
     def start(self, arm, motion, gains):
-        """Nothing is left before the first step."""
+        """Set the sum of the error to zero."""
         self.sum = np.zeros(6)
 
     def __call__(self, seen, k=20.0, k_i=100.0):

@@ -1,4 +1,4 @@
-"""The command for real arms: arguments in, calls, text out. `cli` adds it to its own."""
+"""Arguments of `dqpaint export` -> a joint trajectory for a real arm, and a table."""
 
 import sys
 from typing import Annotated
@@ -9,7 +9,7 @@ from dqpaint.cli.options import Choices, Drawing, MadeWhenCalled, Out, takes
 
 
 def add_to(app: typer.Typer) -> None:
-    """Make the command known."""
+    """Add the command to an application."""
     app.command(cls=MadeWhenCalled, epilog=EXPORT_EXAMPLES)(export)
 
 
@@ -27,14 +27,14 @@ def export(
     file: Drawing,
     form: Annotated[
         str | None,
-        typer.Option("--format", metavar="NAME", help="needed; see: dqpaint list formats"),
+        typer.Option("--format", metavar="NAME", help="required; see: dqpaint list formats"),
     ] = None,
     out: Out = None,
 ) -> None:
     """Run a drawing as draw does; write the joint trajectory for a real arm, and light cues.
 
-    Refused where a limit was met, or where the arm would have to begin suddenly. Nothing here looks
-    after people or machines.
+    Refused where a limit was met, or where the arm would have to begin suddenly. dqpaint makes no
+    safety checks on real hardware.
     """
     from dqpaint import api
     from dqpaint.cli.terminal import Progress
@@ -43,9 +43,7 @@ def export(
     from dqpaint.painting import validate
     from dqpaint.settings import DEFAULT_CONTROLLER
 
-    writer = registry.choose_export_writer(
-        form
-    )  # an unknown one is told before anything is simulated
+    writer = registry.choose_export_writer(form)  # first: an unknown one is an error at once
     path = find_drawing(file)
     given = validate.settings_file(choices.pop("settings", None))
     law = given.under(choices).get("controller", DEFAULT_CONTROLLER)

@@ -1,4 +1,4 @@
-"""The commands round the language: arguments in, calls, text out. `cli` adds them to its own."""
+"""Arguments of `fmt`, `explain`, `new`, `grammar` and `lsp` -> files, texts and exit codes."""
 
 import json
 import sys
@@ -13,21 +13,21 @@ _COMMANDS: list[tuple[Callable[..., None], dict[str, Any]]] = []
 
 
 def add_to(app: typer.Typer) -> None:
-    """Make the commands known."""
+    """Add the commands to an application."""
     for function, options in _COMMANDS:
         app.command(**options)(function)
 
 
 def tell(problem: DqpaintError) -> None:
-    """Say what is wrong, on standard error."""
+    """Print an error on standard error."""
     text = str(problem)
     print(text if text.startswith(("error[", "warning[")) else f"error: {text}", file=sys.stderr)
 
 
 def point_at(codes: Sequence[str], stream: Any) -> None:
-    """Say to a person who has met an error where its rule is explained."""
+    """Name, at a terminal, the command that explains the first error."""
     if codes and stream.isatty():
-        print(f"\ndqpaint explain {codes[0]} tells more", file=sys.stderr)
+        print(f"\ndqpaint explain {codes[0]} explains the first", file=sys.stderr)
 
 
 def _command(**options: Any) -> Callable[[Callable[..., None]], Callable[..., None]]:
@@ -42,10 +42,10 @@ def _command(**options: Any) -> Callable[[Callable[..., None]], Callable[..., No
 def fmt(
     files: Annotated[list[str], typer.Argument(metavar="FILE...", help="drawings; - reads stdin")],
     check: Annotated[
-        bool, typer.Option("--check", help="write nothing; name the files that are not laid out so")
+        bool, typer.Option("--check", help="write nothing; name the files that would change")
     ] = False,
 ) -> None:
-    """Lay drawings out as all drawings are: blanks and blocks, nothing that has a meaning."""
+    """Put the spacing and indentation of drawings in the standard form."""
     from dqpaint.language.syntax import STDIN
     from dqpaint.language.writing import format_files
 
@@ -59,7 +59,7 @@ def fmt(
             else:
                 changed = format_files.format_file(name, write=not check)
                 if not check:
-                    print(f"{name}: {'laid out anew' if changed else 'unchanged'}")
+                    print(f"{name}: {'formatted' if changed else 'unchanged'}")
         except DqpaintError as problem:
             tell(problem)
             failed = True
@@ -74,10 +74,10 @@ def fmt(
 @_command(epilog="Examples:\n\n  dqpaint explain E245\n\n  dqpaint explain")
 def explain(
     code: Annotated[
-        str | None, typer.Argument(metavar="[CODE]", help="all messages, if not said")
+        str | None, typer.Argument(metavar="[CODE]", help="of a message [default: all]")
     ] = None,
 ) -> None:
-    """Tell what a message means, with a drawing that leads to it and one that does not."""
+    """Explain a message, with a drawing that causes it and one that does not."""
     from dqpaint.diagnostics import catalogue
 
     print(
@@ -88,7 +88,7 @@ def explain(
 
 
 @_command(epilog="Examples:\n\n  dqpaint new flower\n\n  dqpaint new drawings/flower.traj")
-def new(name: Annotated[str, typer.Argument(help="of the drawing")]) -> None:
+def new(name: Annotated[str, typer.Argument(help="name or file of the drawing")]) -> None:
     """Write a commented drawing to begin with."""
     from dqpaint.language.writing import template
 
@@ -102,9 +102,7 @@ def new(name: Annotated[str, typer.Argument(help="of the drawing")]) -> None:
     epilog="Examples:\n\n  dqpaint grammar\n\n  dqpaint grammar textmate > traj.tmLanguage.json"
 )
 def grammar(
-    kind: Annotated[
-        str, typer.Argument(metavar="[textmate]", help="for which editors")
-    ] = "textmate",
+    kind: Annotated[str, typer.Argument(metavar="[textmate]", help="kind of grammar")] = "textmate",
 ) -> None:
     """Print the language's grammar for editors, made from its own tables."""
     from dqpaint.editors import textmate
@@ -119,7 +117,7 @@ def grammar(
     epilog="Examples:\n\n  dqpaint lsp\n\n  dqpaint lsp --help", short_help="Serve an editor."
 )
 def lsp() -> None:
-    """Serve an editor: messages, meanings, completion and mending, over stdin and stdout.
+    """Serve an editor: messages, meanings, completion and fixes, over stdin and stdout.
 
     An editor starts this by itself. It needs the extra: pip install 'dqpaint[lsp]'
     """

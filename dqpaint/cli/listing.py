@@ -1,4 +1,4 @@
-"""What there is to choose from, read off the registries."""
+"""Registries and cards -> lists of what options can name, and of statements and functions."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
@@ -96,12 +96,12 @@ def _disturbances() -> list[dict[str, Any]]:
 
 
 def _about(thing: object) -> str:
-    """The first line of a docstring; a plugin's thing may have none."""
+    """The first line of a docstring; that of a plugin may be missing."""
     return next(iter((thing.__doc__ or "").splitlines()), "")
 
 
 def _package(registry: Registry[Any], name: str) -> dict[str, str]:
-    """The package that brings a thing, where it is not built in."""
+    """The package that an entry comes from, where it is not built in."""
     package = registry.origin(name)
     return {"package": package} if package else {}
 
@@ -272,7 +272,7 @@ def lists(what: str) -> dict[str, list[dict[str, Any]]]:
 
 
 def faults(what: str) -> list[str]:
-    """What is wrong with the plugins of a list, or of `all`: a sentence each."""
+    """The errors of the plugins of a list, or of `all`: a sentence each."""
     from dqpaint.brushes import BRUSHES
     from dqpaint.controllers import CONTROLLERS
     from dqpaint.disturbances import DISTURBANCES
@@ -291,7 +291,7 @@ def faults(what: str) -> list[str]:
 
 
 def text(found: dict[str, list[dict[str, Any]]]) -> str:
-    """Entries as a person reads them: a line each, what belongs to it below."""
+    """Entries as text: a line each, its values and details below."""
     parts = []
     for name, rows in found.items():
         lines: list[tuple[str, str]] = []

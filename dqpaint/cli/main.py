@@ -1,4 +1,4 @@
-"""A call of the command line, answered: errors become messages and exit codes, streams are safe."""
+"""Arguments of this process -> a command's output, or an error message and an exit code."""
 
 import os
 import sys
@@ -13,7 +13,7 @@ INTERRUPTED = 130
 
 
 def run() -> None:
-    """Answer the arguments of this process; leaves by SystemExit or KeyboardInterrupt."""
+    """Run the command of this process; leaves by SystemExit or KeyboardInterrupt."""
     _secure_streams()
     try:
         _answer()
@@ -43,14 +43,14 @@ def _answer() -> None:
         if isinstance(fault, OSError) and fault.filename is None:  # of a stream: files have a name
             raise
         if sys.stdout.closed:
-            _end("error: standard output was closed on the way", 1)
+            _end("error: standard output was closed before the end", 1)
         if os.environ.get(DEBUG):
             raise
         _end(f"internal error, please report it: {fault!r}; {DEBUG}=1 shows where", 1)
 
 
 def _secure_streams() -> None:
-    """Streams that are closed become deaf; what an encoding lacks is written as its number."""
+    """Closed streams discard text; characters that an encoding lacks are written as numbers."""
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
         if stream is None:

@@ -31,7 +31,7 @@ Command = Callable[..., None]
 FILE = typer.Option(
     "--settings",
     metavar="FILE",
-    help="a TOML of these options, or the JSON of a run; what is typed wins",
+    help="a TOML of these options, or the JSON of a run; options on the command line win",
 )
 
 
@@ -52,7 +52,7 @@ def takes(
         name: of the command in `dqpaint.settings.COMMANDS`, which is read when it is called.
         without: names in Python of settings that it has options of its own for.
         file: whether it takes a file of settings, too.
-        usual: what help shows as defaults of this command, by the names in Python.
+        usual: defaults of this command that help shows, by the names in Python.
         unsaid: whether help shows defaults at all.
     """
 

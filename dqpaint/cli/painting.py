@@ -1,4 +1,4 @@
-"""The command line: arguments in, calls, tables out. No arithmetic, and no early imports.
+"""Arguments of `draw`, `preview`, `develop`, `check`, `list`, `pose`, `gallery` -> files, tables.
 
 `--help` and `check` start without the simulator, the kinematics and the image library: each
 command imports what it needs.
@@ -36,7 +36,7 @@ app = typer.Typer(
 Drawings = Annotated[
     list[str], typer.Argument(metavar="FILE...", help="drawings, or examples; - reads stdin")
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="for a program to read")]
+AsJson = Annotated[bool, typer.Option("--json", help="as JSON, for programs")]
 
 DRAW_EXAMPLES = """Examples:
 
@@ -55,7 +55,7 @@ def _version(wanted: bool) -> None:
 @app.callback()
 def common(
     version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="print it and end")
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="print the version")
     ] = False,
 ) -> None:
     """Light paintings by a simulated robot arm: a short text, a control law, a long exposure."""
@@ -97,9 +97,11 @@ def preview(
     choices: Choices,
     file: Drawing,
     out: Out = None,
-    watch: Annotated[bool, typer.Option("--watch", help="again at each save, till Ctrl-C")] = False,
+    watch: Annotated[
+        bool, typer.Option("--watch", help="again at each save, until Ctrl-C")
+    ] = False,
 ) -> None:
-    """Take the asked picture, without an arm, at once; with length, time and brightness."""
+    """Make the reference picture without an arm; with length, time and brightness."""
     from dqpaint import api
     from dqpaint.core import find_drawing
     from dqpaint.outputs import files
@@ -137,7 +139,7 @@ def develop(
     film: Annotated[str, typer.Argument(metavar="FILM", help="from: dqpaint draw --save film")],
     out: Out = None,
 ) -> None:
-    """Take other pictures of a finished painting, at once; what is not said is as it was."""
+    """Make other pictures of a finished painting, without simulating it again."""
     from pathlib import Path
 
     from dqpaint import api
@@ -164,11 +166,10 @@ CHECK_EXAMPLES = """Examples:
 @app.command(cls=MadeWhenCalled, epilog=CHECK_EXAMPLES)
 @takes("check")
 def check(choices: Choices, files: Drawings, as_json: AsJson = False) -> None:
-    """Read drawings: every error at its place, or length, time, steps and box.
+    """Read drawings: every error with its position, or length, time, steps and bounding box.
 
     With --robot or any other choice of a run, or a robot line in the file, it also looks ahead,
-    line by line: reach, joint limits, speeds, torques, singularities, collisions, and light the arm
-    would hide.
+    line by line: reach, joint limits, speeds, torques, singularities, collisions and occlusion.
     """
     # Read when numpy is: no matrix here is large enough for threads, and waiting for work they
     # take a tenth of the time of a long file.
@@ -194,11 +195,11 @@ def check(choices: Choices, files: Drawings, as_json: AsJson = False) -> None:
 )
 def list_(
     what: Annotated[
-        str, typer.Argument(metavar="[robots|controllers|...]", help="which list; all, if not said")
+        str, typer.Argument(metavar="[robots|controllers|...]", help="which list")
     ] = "all",
     as_json: AsJson = False,
 ) -> None:
-    """Tell what there is to choose from."""
+    """List the arms, laws, brushes and all else that an option can name."""
     from dqpaint.cli import listing
 
     lists = listing.lists(what)
@@ -228,7 +229,9 @@ def pose(
     rad: Annotated[
         str | None, typer.Option(metavar="A,B,...", help="the joints in radians")
     ] = None,
-    flange: Annotated[bool, typer.Option("--flange", help="the bare last link, no tool")] = False,
+    flange: Annotated[
+        bool, typer.Option("--flange", help="of the last link, without tool")
+    ] = False,
     tool: Annotated[
         str | None,
         typer.Option(
@@ -237,7 +240,7 @@ def pose(
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Tell where an arm's tool is: dual quaternion, matrix, screw, Jacobian, manipulability."""
+    """Print the pose of an arm's tool: dual quaternion, matrix, screw; Jacobian, manipulability."""
     from dqpaint.cli import pose as pose_text
     from dqpaint.robots import pose_query
     from dqpaint.robots.loading import find_card, with_tool
@@ -268,7 +271,7 @@ language.add_to(app)
 
 
 def _finish(remarks: list[str], table: str, image: Any) -> None:
-    """Say what there is to say, and show the picture to who can see it."""
+    """Print warnings and a table, and the picture where the terminal shows colours."""
     from dqpaint.cli.terminal import blocks, shows_pictures
 
     for text in remarks:

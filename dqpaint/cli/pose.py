@@ -12,7 +12,7 @@ from dqpaint.robots.kinematics import manipulability
 
 
 def text(posed: pose_query.PoseReport) -> str:
-    """As a person reads it: degrees, and six decimals."""
+    """A pose report as text: angles in degrees, six decimals."""
     screw = pose_query.screw_from_pose(posed.pose)
     joints = [f"q{i}" for i in range(1, len(posed.posture) + 1)]
     where = "flange" if posed.flange else "tool"
@@ -25,7 +25,7 @@ def text(posed: pose_query.PoseReport) -> str:
         ("primary", _numbers(posed.pose[:4])),
         ("dual", _numbers(posed.pose[4:])),
         ("", ""),
-        ("matrix", _heads("x axis", "y axis", "z axis", "place m")),
+        ("matrix", _heads("x axis", "y axis", "z axis", "origin m")),
         *(("", _numbers(row)) for row in dq.matrix_from_pose(posed.pose)),
         ("", ""),
         *_screw_rows(screw),
@@ -44,7 +44,7 @@ def _screw_rows(screw: pose_query.Screw) -> list[tuple[str, str]]:
     """The screw from the base frame to the pose."""
     if screw.point is None or screw.pitch is None:
         return [
-            ("screw", "   a translation, no turn"),
+            ("screw", "   a translation without rotation"),
             ("direction", _numbers(screw.axis)),
             ("advance", f"{screw.advance:11.6f} m"),
         ]

@@ -1,4 +1,4 @@
-"""The figures a person wants to see after a command."""
+"""A painting, preview or film -> the tables and warnings that a command prints."""
 
 import math
 from collections.abc import Sequence
@@ -37,9 +37,9 @@ def of_painting(painting: paint.Painting, written: Sequence[Path]) -> str:
         ("", f"largest at {_worst(painting)}"),
         ("orientation error", _spread(figures, "orientation_error", "rad")),
         *_commanded(figures),
-        *_came_through(painting),
-        *_steps(painting),
-        *_pace(painting),
+        *_attenuation(painting),
+        *_step_responses(painting),
+        *_retiming(painting),
         ("limits", _limits_line(painting)),
         *_pictures(painting.pictures),
         *_files(written),
@@ -48,7 +48,7 @@ def of_painting(painting: paint.Painting, written: Sequence[Path]) -> str:
 
 
 def _disturbed(painting: paint.Painting) -> list[tuple[str, str]]:
-    """What no law knew of, each with the values that were given."""
+    """The disturbances, each with the values that were given."""
     rows: list[tuple[str, str]] = []
     for name, one in painting.disturbances.items():
         given = one.model_dump(exclude_defaults=True)
@@ -57,36 +57,34 @@ def _disturbed(painting: paint.Painting) -> list[tuple[str, str]]:
     return rows
 
 
-def _came_through(painting: paint.Painting) -> list[tuple[str, str]]:
-    """An unmodelled twist beside the promise of the gains."""
+def _attenuation(painting: paint.Painting) -> list[tuple[str, str]]:
+    """The measured attenuation of a disturbance beside the bound of the gains."""
     rows: list[tuple[str, str]] = []
     for part, one in painting.attenuation.items():
         said = f"{part} {one.ratio:.3g} s"
         if one.bound is not None:
-            kept = (
-                "kept" if one.bound_holds else f"broken, {one.ratio / one.bound:.3g} times as much"
-            )
+            kept = "holds" if one.bound_holds else f"exceeded, {one.ratio / one.bound:.3g} times"
             if not one.bound_holds and one.bound < painting.motion.period:
                 kept += ", as the gain is above 1 a period"
             if not one.bound_holds and painting.limits:
-                kept += "; limits held joints meanwhile"
+                kept += "; commands were clipped"
             if not one.bound_holds and len(painting.disturbances) > 1:
-                kept += "; other disturbances took part"
-            said += f", promised at most {one.bound:.3g} s: {kept}"
+                kept += "; other disturbances contributed"
+            said += f", bound {one.bound:.3g} s: {kept}"
         rows.append(("" if rows else "disturbance", said))
     return rows
 
 
-def _pace(painting: paint.Painting) -> list[tuple[str, str]]:
-    """How much longer it takes, where a drawing may be slowed down."""
+def _retiming(painting: paint.Painting) -> list[tuple[str, str]]:
+    """How much longer a retimed drawing takes."""
     slowed = painting.retiming
     if slowed is None:
         return []
-    return [("pace", str(slowed))]
+    return [("retiming", str(slowed))]
 
 
-def _steps(painting: paint.Painting) -> list[tuple[str, str]]:
-    """How each jump of the set point was taken."""
+def _step_responses(painting: paint.Painting) -> list[tuple[str, str]]:
+    """Settling time, overshoot and steady error of each step of the reference."""
     rows: list[tuple[str, str]] = []
     where = painting.motion.program.line_name
     for jump in painting.step_responses[:MOST_NAMED]:
@@ -99,17 +97,17 @@ def _steps(painting: paint.Painting) -> list[tuple[str, str]]:
             )
             steady = 0.0 if part.steady * scale < NOTHING else part.steady * scale
             rows.append((
-                "" if rows else "set points",
-                f"line {where(jump.line)}: {part.size * scale:.3g} {unit}, {settled}, overshoot "
-                f"{part.overshoot:.1%}, steady error {steady:.2g} {unit}",
+                "" if rows else "step response",
+                f"step on line {where(jump.line)}: {part.size * scale:.3g} {unit}, {settled}, "
+                f"overshoot {part.overshoot:.1%}, steady error {steady:.2g} {unit}",
             ))  # fmt: skip
     return rows
 
 
 def _commanded(figures: dict[str, float]) -> list[tuple[str, str]]:
-    """What the joints were given in all, where they are known."""
+    """The integral of the commands, where the joints are known."""
     return [
-        ("commanded", f"{figures[name]:.3g} {known.display_unit} in all joints together")
+        ("command", f"{figures[name]:.3g} {known.display_unit}, joints' norm integrated over time")
         for name, known in all_figures().items()
         if known.title == "command" and name in figures
     ]
@@ -128,7 +126,7 @@ def of_export(painting: paint.Painting, written: Sequence[Path]) -> str:
         ("drawing", summary_line(painting.motion)),
         *([("placed", one.statement), ("", one.figures)] if (one := painting.placement) else []),
         ("arm", f"{painting.robot}, {painting.plant}, {painting.controller.name}"),
-        *_pace(painting),
+        *_retiming(painting),
         ("trajectory", f"{points}; from rest to rest, within the arm's limits"),
         *_files(written),
     ]
@@ -147,18 +145,18 @@ def of_developed(pictures: Sequence[picture.Picture], written: Sequence[Path]) -
 
 
 def _pictures(pictures: Sequence[picture.Picture]) -> list[tuple[str, str]]:
-    """What the light and the exposure of the first picture are; the others are of the same run."""
+    """Light and exposure of the first picture; the others are of the same run."""
     return [("light", light_line(pictures[0])), ("exposure", pictures[0].exposure_text)]
 
 
 def light_line(shot: picture.Picture) -> str:
-    """What of the light fell on the film, and how bright the picture came out."""
+    """The shares of the light on the film, lost and occluded, and of white pixels."""
     film, hidden = shot.film, shot.occluded
     emitted = shot.emitted.sum()
     red, green, blue = (shot.image[..., i] >= WHITE for i in range(3))
     white = float((red & green & blue).mean())
     if emitted == 0.0:
-        return "none: no lamp shone this way"
+        return "none: no lamp shines towards the camera"
     behind = f", {hidden.energy.sum() / emitted:.1%} hidden by the arm" if hidden else ""
     return (
         f"{film.on_film.sum() / emitted:.1%} on film, {film.lost.sum() / emitted:.1%} lost"
@@ -178,7 +176,7 @@ def remarks(painting: paint.Painting) -> list[str]:
     for (kind, line), held in _grouped(painting).items():
         joints = "".join(f"\n    {clamp}" for clamp in held)
         where = painting.motion.program.line_name(line)
-        texts.append(f"warning: line {where} runs into {kind} limits:{joints}{CURES[kind]}")
+        texts.append(f"warning: line {where} reaches {kind} limits:{joints}{FIXES[kind]}")
     period = painting.motion.period
     if painting.track.torques and period > LONGEST_TORQUE_PERIOD * (1 + 1e-9):
         texts.append(
@@ -194,7 +192,7 @@ def remarks(painting: paint.Painting) -> list[str]:
 
 
 def of_arm(pictures: Sequence[picture.Picture], source: str = "") -> list[str]:
-    """Warnings about what the arm hides, and what of it could not be shown or traced.
+    """Warnings about light that the arm occludes, and about an arm that could not be shown.
 
     `source` is the text of the drawing, if it is known: it names the files that it includes.
     """
@@ -206,7 +204,7 @@ def of_arm(pictures: Sequence[picture.Picture], source: str = "") -> list[str]:
 
 
 def _hidden(shot: picture.Picture, where: str, source: str) -> list[str]:
-    """A warning where much of the light was behind the arm."""
+    """A warning where the arm occludes much of the light."""
     if shot.occluded is None:
         return []
     share = shot.occluded.energy.sum() / (shot.emitted.sum() or 1.0)
@@ -219,15 +217,15 @@ def _hidden(shot: picture.Picture, where: str, source: str) -> list[str]:
     more = f" and {len(lines) - MOST_NAMED} more" if len(lines) > MOST_NAMED else ""
     word = "lines" if len(lines) > 1 else "line"
     return [
-        f"warning: the arm stood before {share:.0%} of its light{where}: {word} {named}{more}"
+        f"warning: the arm hides {share:.0%} of the light{where}: {word} {named}{more}"
         "\n  = help: look from another side (--view), or let it shine through (--no-occlusion)"
     ]
 
 
-CURES = {
+FIXES = {
     "position": "\n  = help: turn the tool less, or move the drawing with place",
     "speed": "\n  = help: draw it slower (speed, in, samples), or lower the gains",
-    "torque": "\n  = help: a lower speed, a smoother law or lower gains need less torque",
+    "torque": "\n  = help: a lower speed, a smoother profile or lower gains need less torque",
 }
 
 

@@ -1,4 +1,4 @@
-"""The commands of studies: arguments in, calls, tables out; nothing heavy at start."""
+"""Arguments of `compare`, `sweep`, `tune`, `replay`, `verify` -> files, tables and exit codes."""
 
 import shlex
 import shutil
@@ -16,20 +16,24 @@ if TYPE_CHECKING:
 
 __all__ = ["app"]
 
-Runs = Annotated[int, typer.Option(metavar="N", help="of each, with the seeds that follow --seed")]
+Runs = Annotated[
+    int, typer.Option(metavar="N", help="runs of each choice, with the seeds that follow --seed")
+]
 Jobs = Annotated[int | None, typer.Option(metavar="N", help="processes [default: all cores]")]
 Address = Annotated[
     str | None,
-    typer.Option("--cluster", metavar="ADDRESS", help="of a Dask scheduler, instead of --jobs"),
+    typer.Option(
+        "--cluster", metavar="ADDRESS", help="address of a Dask scheduler, instead of --jobs"
+    ),
 ]
 Folder = Annotated[
     str | None,
-    typer.Option("--out", metavar="FOLDER", help="of the study; one that was stopped goes on"),
+    typer.Option("--out", metavar="FOLDER", help="folder of the study; a stopped one resumes"),
 ]
 Measure = Annotated[
     str,
     typer.Option(
-        "--figure", metavar="NAME", help="that is tested and drawn: see dqpaint list figures"
+        "--figure", metavar="NAME", help="figure that is tested and drawn: see dqpaint list figures"
     ),
 ]
 
@@ -50,7 +54,7 @@ Disturbs = Annotated[
         help="disturbances, one at a time: none,payload(2),payload(2)+latency(3)",
     ),
 ]
-Report = Annotated[bool, typer.Option("--report", help="one HTML page of it all, as well")]
+Report = Annotated[bool, typer.Option("--report", help="also write one HTML page of it all")]
 
 COMPARE_EXAMPLES = """Examples:
 
@@ -127,7 +131,7 @@ def sweep(
 ) -> None:
     """Run a drawing over one or two axes of values: table, and a curve or a heat map.
 
-    Unstable points are marked. A sweep that was stopped goes on where it was.
+    Unstable points are marked. A sweep that was stopped resumes.
     """
     from dqpaint.studies.experiment import check_figure, requests
     from dqpaint.studies.kinds import sweep as study
@@ -159,30 +163,31 @@ def tune(
         list[str] | None,
         typer.Option(
             metavar="GAIN=LOW..HIGH[:lin]",
-            help="where a gain is sought, repeatable "
-            "[default: all of the law's, from a tenth to ten times the usual value]",
+            help="range of a gain, repeatable "
+            "[default: all of the law's, from a tenth to ten times the default value]",
         ),
     ] = None,
     effort: Annotated[
-        float, typer.Option(metavar="X", help="at most, times what the drawing itself needs")
+        float,
+        typer.Option(metavar="X", help="bound on the effort, times what the drawing itself needs"),
     ] = 1.1,
     runs: Runs = 1,
     figure: Annotated[
-        str, typer.Option("--figure", metavar="NAME", help="that is to be small, as in the JSON")
+        str, typer.Option("--figure", metavar="NAME", help="figure to minimise, as in the JSON")
     ] = "error_integral",
     effort_figure: Annotated[
-        str, typer.Option(metavar="NAME", help="that is bounded")
+        str, typer.Option(metavar="NAME", help="figure that is bounded")
     ] = "command_integral_rad",
-    budget: Annotated[int, typer.Option(metavar="N", help="the most runs")] = 300,
+    budget: Annotated[int, typer.Option(metavar="N", help="largest number of runs")] = 300,
     jobs: Jobs = None,
     cluster: Address = None,
     out: Folder = None,
     report: Report = False,
 ) -> None:
-    """Seek the gains with the least error within an effort bound, and what error costs in effort.
+    """Find the gains with the least error within an effort bound, and the trade-off of the two.
 
-    The bound is 1 for the effort of an arm that does exactly what the drawing asks. Seeded; a
-    search that was stopped goes on where it was.
+    The bound is 1 for the effort of an arm that follows the drawing exactly. Seeded; a search that
+    was stopped resumes.
     """
     from dqpaint.painting import validate
     from dqpaint.studies.experiment import check_figure, requests
@@ -215,14 +220,15 @@ def replay(
     choices: Choices,
     name: Annotated[str, typer.Argument(metavar="NAME", help="see: dqpaint list replays")],
     runs: Annotated[
-        int | None, typer.Option(metavar="N", help="of each, with the seeds that follow --seed")
+        int | None,
+        typer.Option(metavar="N", help="runs of each choice, with the seeds that follow --seed"),
     ] = None,
     jobs: Jobs = None,
     cluster: Address = None,
     out: Folder = None,
     report: Report = False,
 ) -> None:
-    """Do a paper's experiment again: its numbers beside ours, and which of its claims hold.
+    """Repeat a paper's experiment: its numbers beside ours, and which of its claims hold.
 
     Every verdict follows from the numbers of this run; the paper's own are judged alike.
     """
@@ -240,19 +246,19 @@ def replay(
 
 
 class StudyProgress:
-    """What a study tells, for a person at a terminal: a bar, and notes on standard error."""
+    """Progress of a study on a terminal: a bar, and notes on standard error."""
 
     def __init__(self) -> None:
         self._bar: Any = None
 
     def begin(self, title: str) -> None:
-        """Begin a bar."""
+        """Start a progress bar."""
         from dqpaint.cli.terminal import Progress
 
         self._bar = Progress(title)
 
     def show(self, done: float) -> None:
-        """Let it grow."""
+        """Show the share that is done, 0 to 1."""
         self._bar(done)
 
     def note(self, text: str, aside: bool = False) -> None:
@@ -261,7 +267,7 @@ class StudyProgress:
             print(f"note: {text}", file=sys.stderr)
 
     def end(self) -> None:
-        """Wipe the bar."""
+        """Remove the bar."""
         self._bar.__exit__()
 
 
@@ -270,7 +276,7 @@ def _folder(out: str | None, file: str, what: str) -> Path:
 
 
 def _again(report: bool) -> str | None:
-    """The command, as a report says it."""
+    """The command line, for a report."""
     return shlex.join(["dqpaint", *sys.argv[1:]]) if report else None
 
 
@@ -281,11 +287,11 @@ def _save(study: "study_result.StudyResult", report: bool) -> None:
 
 
 def _finish(text: str, paths: list[Path]) -> None:
-    """Tell what came out; the files are there before, whoever stops listening."""
+    """Print the tables and the paths of files, which are written before."""
     for path in paths:
         report = path.with_name(f"{path.name.removesuffix('-table.csv')}-report.html")
         if path.name.endswith("-table.csv") and report not in paths and report.exists():
-            print(f"note: {report} is of an earlier run; --report makes it anew", file=sys.stderr)
+            print(f"note: {report} is of an earlier run; --report makes it again", file=sys.stderr)
     print("\n".join([text, *(f"  written  {path}" for path in paths)]))
 
 
@@ -294,15 +300,18 @@ def _finish(text: str, paths: list[Path]) -> None:
 )
 def verify(
     folder: Annotated[
-        str, typer.Argument(metavar="FOLDER", help="of drawings (or a cases.toml) and references")
+        str,
+        typer.Argument(
+            metavar="FOLDER", help="folder of drawings (or a cases.toml) and references"
+        ),
     ] = ".",
     update: Annotated[
-        bool, typer.Option("--update", help="make new references, and say what changed")
+        bool, typer.Option("--update", help="make new references, and list what changed")
     ] = False,
     jobs: Jobs = None,
     cluster: Address = None,
     out: Annotated[
-        str, typer.Option(metavar="FOLDER", help="where pictures of what differs go")
+        str, typer.Option(metavar="FOLDER", help="folder for pictures of differences")
     ] = "verify-differences",
     report: Report = False,
 ) -> None:

@@ -1,4 +1,4 @@
-"""What a person sees in a terminal: a table of figures, a picture in blocks, progress."""
+"""Rows, a picture, the share done -> text for a terminal: a table, half blocks, a bar."""
 
 import os
 import sys
@@ -18,8 +18,8 @@ SHORTEST_WORTH_A_BAR = 0.5  # [s]
 
 
 def table(rows: Sequence[tuple[str, str]]) -> str:
-    """Names and values below each other."""
-    return "\n".join(f"  {line}" for line in tables.align(rows))
+    """Names and values in two aligned columns."""
+    return "\n".join(f"  {line}".rstrip() for line in tables.align(rows))
 
 
 def shows_pictures(stream: TextIO) -> bool:
@@ -66,7 +66,7 @@ class Progress:
         self._drawn = False
 
     def __call__(self, done: float) -> None:
-        """Show that the part `done`, 0 to 1, is behind us."""
+        """Show the share `done`, 0 to 1."""
         passed = time.monotonic() - self._begin
         if not self._shown or passed < SHORTEST_WORTH_A_BAR or done <= 0:
             return
@@ -80,7 +80,7 @@ class Progress:
         return self
 
     def __exit__(self, *_: object) -> None:
-        """Wipe the bar."""
+        """Remove the bar."""
         if self._drawn:
             sys.stderr.write("\r\x1b[K")
             sys.stderr.flush()

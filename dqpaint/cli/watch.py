@@ -1,4 +1,4 @@
-"""Draw again at each save: files are looked at ten times a second, by their times and sizes."""
+"""A drawing and its included files -> the drawing shown again after each save."""
 
 import gc
 import os
@@ -29,9 +29,9 @@ def watch(
 
     Args:
         path: of the drawing.
-        show: shows it; what it raises is shown in its place, and waited on.
-        wait: how to let time pass.
-        others: files that are looked at, too.
+        show: shows it; its errors are printed, and the next save is waited for.
+        wait: waits for some seconds.
+        others: further files whose saves count.
     """
     gc.enable()  # a long life, unlike a command's
     while True:
@@ -73,6 +73,6 @@ def _signature(path: Path) -> Signature:
 
 
 def _clear() -> None:
-    """The picture, or the errors, stand where those before stood."""
+    """Clear the terminal before the next picture or errors."""
     if sys.stdout.isatty():
         print(_CLEAR, end="", flush=True)  # before what follows on the other stream

@@ -9,7 +9,7 @@ from dqpaint.metrics.registry import Values, column, motion_column
 from dqpaint.motion import Motion
 from dqpaint.simulation import Track
 
-# What was asked.
+# The reference.
 
 
 @motion_column("t_s", "s", "time", "time", coloured=False, study="kept")
@@ -18,7 +18,7 @@ def _time(motion: Motion) -> Floats:
 
 
 @motion_column("line", "", "line of the drawing",
-               "the line of the drawing that asks for what follows")  # fmt: skip
+               "the line of the drawing that the row belongs to")  # fmt: skip
 def _line(motion: Motion) -> Values:
     return motion.source.line
 
@@ -36,40 +36,43 @@ def _lit(motion: Motion) -> Values:
     return motion.lit
 
 
-@motion_column("desired_x_m desired_y_m desired_z_m", "m", "asked place", "asked place")
+@motion_column("desired_x_m desired_y_m desired_z_m", "m", "reference position",
+               "reference position")  # fmt: skip
 def _reference_position(motion: Motion) -> Floats:
     return motion.points
 
 
-@motion_column("desired_qw desired_qx desired_qy desired_qz", "", "asked orientation",
-               "asked orientation, scalar first")  # fmt: skip
+@motion_column("desired_qw desired_qx desired_qy desired_qz", "", "reference orientation",
+               "reference orientation, scalar first")  # fmt: skip
 def _reference_orientation(motion: Motion) -> Floats:
     return dq.rotation(motion.pose)
 
 
-@motion_column("desired_wx_rad_s desired_wy_rad_s desired_wz_rad_s", "rad/s", "asked turning",
-               "asked angular velocity: the first half of the spatial twist",
+@motion_column("desired_wx_rad_s desired_wy_rad_s desired_wz_rad_s", "rad/s",
+               "reference angular velocity",
+               "reference angular velocity: the first half of the spatial twist",
                motion_only=True)  # fmt: skip
 def _reference_angular_velocity(motion: Motion) -> Floats:
     return motion.twist[:, :3]
 
 
-@motion_column("desired_vx_m_s desired_vy_m_s desired_vz_m_s", "m/s", "asked velocity",
-               "asked velocity at the base's origin: the second half of the spatial twist",
+@motion_column("desired_vx_m_s desired_vy_m_s desired_vz_m_s", "m/s", "reference velocity",
+               "reference velocity at the base's origin: the second half of the spatial twist",
                motion_only=True)  # fmt: skip
 def _reference_velocity(motion: Motion) -> Floats:
     return motion.twist[:, 3:]
 
 
 @motion_column("desired_wx_dot_rad_s2 desired_wy_dot_rad_s2 desired_wz_dot_rad_s2", "rad/s^2",
-               "asked angular acceleration", "plain derivative of the twist's first half",
+               "reference angular acceleration", "plain derivative of the twist's first half",
                motion_only=True)  # fmt: skip
 def _reference_angular_acceleration(motion: Motion) -> Floats:
     return motion.acceleration[:, :3]
 
 
 @motion_column("desired_vx_dot_m_s2 desired_vy_dot_m_s2 desired_vz_dot_m_s2", "m/s^2",
-               "asked acceleration", "and of its second half", motion_only=True)  # fmt: skip
+               "reference acceleration", "plain derivative of the twist's second half",
+               motion_only=True)  # fmt: skip
 def _reference_acceleration(motion: Motion) -> Floats:
     return motion.acceleration[:, 3:]
 
@@ -81,10 +84,10 @@ def _colour(motion: Motion) -> Floats:
     return motion.light
 
 
-# What was reached.
+# The run.
 
 
-@column("x_m y_m z_m", "m", "place", "place of the light, the true one")
+@column("x_m y_m z_m", "m", "position", "true position of the light")
 def _position(track: Track) -> Floats:
     return track.points
 
@@ -94,13 +97,13 @@ def _orientation(track: Track) -> Floats:
     return dq.rotation(track.pose)
 
 
-@column("position_error_m", "m", "position error", "distance from the asked place",
+@column("position_error_m", "m", "position error", "distance from the reference position",
         display_unit="mm", from_zero=True, study="drawn")  # fmt: skip
 def _position_error(track: Track) -> Floats:
     return _norm(track.points - track.motion.points)
 
 
-@column("orientation_error_rad", "rad", "orientation error", "angle from the asked orientation",
+@column("orientation_error_rad", "rad", "orientation error", "angle from the reference orientation",
         display_unit="deg", from_zero=True, study="drawn")  # fmt: skip
 def _orientation_error(track: Track) -> Floats:
     return 2 * _norm(dq.log(dq.mul(track.pose, dq.conj(track.motion.pose)))[:, :3])
@@ -116,13 +119,13 @@ def _reference_speed(motion: Motion) -> Floats:
     return _norm(_velocity(motion.points, motion.period))
 
 
-@column("speed_m_s", "m/s", "speed", "of the light, until the next row",
+@column("speed_m_s", "m/s", "speed", "speed of the light until the next row",
         display_unit="mm/s", from_zero=True, reference=_reference_speed)  # fmt: skip
 def _speed(track: Track) -> Floats:
     return _norm(_velocity(track.points, track.motion.period))
 
 
-@column("acceleration_m_s2", "m/s^2", "acceleration", "of the light", from_zero=True)
+@column("acceleration_m_s2", "m/s^2", "acceleration", "acceleration of the light", from_zero=True)
 def _acceleration(track: Track) -> Floats:
     """Second differences about each row; the first and last row repeat."""
     points = track.points
@@ -132,7 +135,7 @@ def _acceleration(track: Track) -> Floats:
     return _norm(np.concatenate([inside[:1], inside, inside[-1:]]))
 
 
-@column("effort_rad", "rad", "effort", "how far the joints move until the next row",
+@column("effort_rad", "rad", "effort", "norm of the joint displacements until the next row",
         from_zero=True)  # fmt: skip
 def _effort(track: Track) -> Floats | None:
     moved = np.diff(track.posture, axis=0, append=track.posture[-1:])
@@ -144,36 +147,36 @@ def _manipulability(track: Track) -> Floats | None:
     return track.manipulability if _has_joints(track) else None
 
 
-@column("q{joint}_rad", "rad", "joint angles", "joint angles, the true ones")
+@column("q{joint}_rad", "rad", "joint angles", "true joint angles")
 def _angles(track: Track) -> Floats:
     return track.posture
 
 
-@column("command{joint}_rad_s", "rad/s", "joint rates", "joint rates the arm is given")
+@column("command{joint}_rad_s", "rad/s", "joint rates", "commanded joint rates")
 def _rates(track: Track) -> Floats | None:
     return None if track.torques else track.command
 
 
 @column("torque{joint}_Nm", "Nm", "torques",
-        "in place of rates: torques, by a law that commands them")  # fmt: skip
+        "commanded torques, of a law that commands these instead of rates")  # fmt: skip
 def _torques(track: Track) -> Floats | None:
     return track.command if track.torques else None
 
 
-@column("read{joint}_rad", "rad", "angles read",
-        "joint angles as the encoders read them, where these err")  # fmt: skip
+@column("read{joint}_rad", "rad", "measured angles",
+        "joint angles that the encoders measure, where these have errors")  # fmt: skip
 def _measured_angles(track: Track) -> Floats | None:
     return track.measured_posture if (track.measured_posture != track.posture).any() else None
 
 
-@column("believed_x_m believed_y_m believed_z_m", "m", "believed place",
-        "where the law's model has the light at these angles, if that is elsewhere")  # fmt: skip
+@column("believed_x_m believed_y_m believed_z_m", "m", "measured position",
+        "position of the light as the law measures it, where that is not the true one")  # fmt: skip
 def _measured_position(track: Track) -> Floats | None:
     return dq.translation(track.measured_pose) if _has_measurement_errors(track) else None
 
 
-@column("believed_qw believed_qx believed_qy believed_qz", "", "believed orientation",
-        "and its orientation there")  # fmt: skip
+@column("believed_qw believed_qx believed_qy believed_qz", "", "measured orientation",
+        "orientation of the tool as the law measures it, likewise")  # fmt: skip
 def _measured_orientation(track: Track) -> Floats | None:
     return dq.rotation(track.measured_pose) if _has_measurement_errors(track) else None
 
@@ -190,7 +193,7 @@ def _has_joints(track: Track) -> bool:
 
 
 def _has_measurement_errors(track: Track) -> bool:
-    """Whether the law was told another pose than the true one."""
+    """Whether the law measured another pose than the true one."""
     return bool((track.measured_pose != track.pose).any())
 
 

@@ -13,13 +13,13 @@ from dqpaint.dq import Floats
 from dqpaint.metrics.registry import Table, figure
 from dqpaint.simulation import Track
 
-COMMAND_MEANING = "the norm of what the joints are told, over time"
-POSITION_MEANING = "how far the light is from where it is asked to be at the time"
-ORIENTATION_MEANING = "by which angle the tool is turned from what is asked at the time"
+COMMAND_MEANING = "norm of the joint commands, integrated over time"
+POSITION_MEANING = "distance of the light from the reference position of the same instant"
+ORIENTATION_MEANING = "angle of the tool from the reference orientation of the same instant"
 
 
 @figure("error_integral", "", "error integral",
-        "of the invariant error, the norm of 1 - x* x_d, over time",
+        "invariant error, the norm of 1 - x* x_d, integrated over time",
         kind="error", listed=True)  # fmt: skip
 def _error(track: Track, table: Table) -> float:
     return _integral(table["invariant_error"], track)
@@ -35,19 +35,19 @@ def _torque(track: Track, _table: Table) -> float | None:
     return _commanded(track) if track.torques else None
 
 
-@figure("effort_integral", "rad s", "effort", "how far the joints move in a step, over time",
-        listed=True)  # fmt: skip
+@figure("effort_integral", "rad s", "effort",
+        "norm of the joint displacements of a step, integrated over time", listed=True)  # fmt: skip
 def _effort(track: Track, table: Table) -> float | None:
     return _integral(table["effort_rad"], track) if "effort_rad" in table else None
 
 
-@figure("speed_integral_m", "m", "way", "how far the light goes", listed=True)
+@figure("speed_integral_m", "m", "path length", "path length of the light", listed=True)
 def _path_length(track: Track, table: Table) -> float:
     return _integral(table["speed_m_s"], track)
 
 
-@figure("acceleration_integral", "m/s", "acceleration integral", "of the light, over time",
-        listed=True)  # fmt: skip
+@figure("acceleration_integral", "m/s", "acceleration integral",
+        "acceleration of the light, integrated over time", listed=True)  # fmt: skip
 def _acceleration(track: Track, table: Table) -> float:
     return _integral(table["acceleration_m_s2"], track)
 

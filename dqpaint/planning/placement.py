@@ -54,6 +54,7 @@ LEAST_TORQUE_LEFT = (
 TRIED_SCALES = (0.75, 0.5, 0.25)  # that are tried where there is no room
 POSE_TOLERANCE = 1e-3  # [rad, m] counts as reached
 MOST_OCCLUDED = 0.01  # of the light may be hidden
+POOR = 0.1  # of half a joint's range, or of a torque: a place that leaves less is called poor
 
 
 @dataclass(frozen=True)
@@ -93,11 +94,12 @@ class Placement:
 
     @property
     def figures(self) -> str:
-        """How well it fits there, in words."""
+        """How well the drawing fits there, in words."""
+        poor = "a poor place: " if min(self.relative_margin, self.torque_left) < POOR else ""
         return (
-            f"merit {self.merit:.3g}: manipulability {self.manipulability:.3g} or more, "
-            f"times {self.relative_margin:.2g} of a joint's room to its limits, "
-            f"times {self.torque_left:.2g} of its torque"
+            f"{poor}manipulability at least {self.manipulability:.3g}, "
+            f"{self.relative_margin:.0%} of half a joint's range and "
+            f"{self.torque_left:.0%} of a torque left; merit {self.merit:.3g}"
         )
 
 

@@ -2,8 +2,8 @@
 
     ev: Annotated[float, Field(ge=-20, le=20), Option("exposure in stops", "STOPS")] = 0.0
 
-is all there is to say of a setting: pydantic checks it, and everything that lists settings reads
-it from the field.
+declares a setting completely: pydantic checks it, and everything that lists settings reads it from
+the field.
 """
 
 from collections.abc import Callable, Iterator
@@ -25,17 +25,17 @@ class Variant(NamedTuple):
 
 @dataclass(frozen=True)
 class Option:
-    """How a setting is said.
+    """Declaration of a setting for the command line, files and Python.
 
     Attributes:
         help: what it is, in one line.
         metavar: the form of its value.
         name: on the command line and in files, where it is not the field's.
-        unsaid: what holds where it is not said and the model has no value for it.
+        unsaid: the default as help names it, where the model has no value for it.
         many: whether it may be repeated on the command line.
-        parts: the fields that it gives, where it gives more than its own.
-        variant: an option beside it, for a value of its own.
-        read: the field's value from what is given, whichever form that has; UsageError.
+        parts: the fields that it sets, where it sets more than its own.
+        variant: a further option that sets it to one fixed value.
+        read: reads the field's value from any form that may be given; raises UsageError.
         python: the type of the keyword, where it takes more than the field.
     """
 
@@ -61,7 +61,7 @@ class Setting(NamedTuple):
 
     @property
     def panel(self) -> str:
-        """The heading that it stands under in help and documents."""
+        """Its heading in help and documents."""
         return str(getattr(self.group, "panel", ""))
 
     @property
@@ -71,7 +71,7 @@ class Setting(NamedTuple):
 
     @property
     def alternatives(self) -> tuple[Any, ...]:
-        """The types of its value, where they are several each by itself."""
+        """The types of its value: the members of a union, or the one type."""
         annotation = self.info.annotation
         union = get_origin(annotation) in (Union, UnionType)
         return get_args(annotation) if union else (annotation,)
@@ -90,7 +90,7 @@ class Setting(NamedTuple):
 
     @property
     def default(self) -> Any:
-        """As the command line has it; None where the model has nothing."""
+        """Default value on the command line; None where the model has none."""
         if self.option.parts:
             fields = self.group.model_fields
             return "x".join(str(fields[part].default) for part in self.option.parts)

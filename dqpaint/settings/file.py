@@ -1,4 +1,4 @@
-"""Settings from a file: a TOML of the options, or the JSON summary of a run, to draw it again.
+"""A TOML file of options, or the JSON summary of a run -> settings.
 
     view = "iso"
     exposure = "f/8,iso100,35mm,0.05cd"
@@ -43,13 +43,13 @@ Check = Callable[[Settings], None]
 
 @dataclass(frozen=True)
 class SettingsFile:
-    """What a file says.
+    """Settings of a file, with the version and drawing that it is for.
 
     Attributes:
         name: of the file; empty where there is none.
         choices: by the fields of `Settings`.
-        version: of the dqpaint that it is for; None where it does not say.
-        sha256: of the drawing that it was made with, likewise.
+        version: of the dqpaint that it is for; None where it has none.
+        sha256: hash of the drawing that it was made with, likewise.
     """
 
     name: str = ""
@@ -58,12 +58,12 @@ class SettingsFile:
     sha256: str | None = None
 
     def under(self, typed: Mapping[str, Any]) -> dict[str, Any]:
-        """All choices, read: what was typed wins; gains and disturbances one by one.
+        """Choices of the file and of the user; the user's win, gains and disturbances singly.
 
         The gains of a file are those of its law, and go with it.
 
         Raises:
-            UsageError: what was typed has not the form of its setting.
+            UsageError: a typed value does not have the form of its setting.
         """
         given = dict(self.choices)
         said = read_choices(typed)
@@ -76,7 +76,7 @@ class SettingsFile:
         return {**given, **said}
 
     def remarks(self, sha256: str) -> tuple[str, ...]:
-        """Why the picture may be another than the one the file is for.
+        """Notes on why the picture may differ from the one the file is for.
 
         Args:
             sha256: of the drawing as it is.
@@ -90,14 +90,14 @@ class SettingsFile:
 
 
 def read_given(path: str, check: Check) -> SettingsFile:
-    """What a file says, looked through key by key.
+    """Read a file of settings and check it key by key.
 
     Args:
         path: of the file.
-        check: raises a DqpaintError for what is wrong with the settings that one key gives.
+        check: raises a DqpaintError if the settings that one key gives are wrong.
 
     Raises:
-        DqpaintError: it cannot be read, or a key or value is at fault; says the line.
+        DqpaintError: it cannot be read, or a key or value is wrong; the message has the line.
     """
     place = Path(path)
     text = _text(place)
@@ -108,7 +108,7 @@ def read_given(path: str, check: Check) -> SettingsFile:
         try:
             for name, read in _read(key, _beside_all(place.parent, value)).items():
                 if name in choices:
-                    raise UsageError(f"{key} says again what {spelt[name]} said")
+                    raise UsageError(f"{key} sets again what {spelt[name]} sets")
                 choices[name], spelt[name] = read, key
             of_key = {name: choices[name] for name in choices if spelt[name] == key}
             gains = of_key.pop("gains", None)  # of a law that another key may name
@@ -116,7 +116,7 @@ def read_given(path: str, check: Check) -> SettingsFile:
             if gains is not None:
                 checked({"gains": gains}, strict=True)
         except DqpaintError as problem:
-            raise DqpaintError(f"{_where(place, text, key)}: {_told(problem)}") from None
+            raise DqpaintError(f"{_where(place, text, key)}: {_explained(problem)}") from None
     if "gains" in choices:
         try:
             law: dict[str, Any] = {
@@ -195,14 +195,14 @@ def _read(key: str, value: Any) -> dict[str, Any]:
     if (field := name.replace("-", "_")) in Settings.model_fields:
         return {field: value}
     if name in NOT_OF_THE_PICTURE:
-        raise UsageError(f"'{name}' is no part of a picture: say it on the command line")
+        raise UsageError(f"'{name}' is no part of a picture: give it on the command line")
     known = sorted(
         {setting.name for setting in SETTINGS.values()}
         | {one.option.variant.name for one in SETTINGS.values() if one.option.variant}
     )
     meant = closest(name, known, MEANT)
-    cure = f"did you mean '{meant}'?" if meant else f"known: {', '.join(known)}"
-    raise UsageError(f"no setting named '{key[:60]}'; {cure}")
+    fix = f"did you mean '{meant}'?" if meant else f"known: {', '.join(known)}"
+    raise UsageError(f"no setting named '{key[:60]}'; {fix}")
 
 
 def _where(place: Path, text: str, key: str) -> str:
@@ -214,8 +214,8 @@ def _where(place: Path, text: str, key: str) -> str:
     return f"{place.name}:{text.count(chr(10), 0, found.end()) + 1}"
 
 
-def _told(problem: DqpaintError) -> str:
-    """What is wrong, with the name that was meant if one is like it."""
+def _explained(problem: DqpaintError) -> str:
+    """The text of an error, with the nearest known name if a name is unknown."""
     unknown = re.match(r"(no [\w -]+ named '(.*?)'); (known: (.*))", str(problem), re.DOTALL)
     meant = closest(unknown[2], unknown[4].split(", ")) if unknown else ""
     return (

@@ -34,8 +34,8 @@ def keywords(command: str) -> Callable[[F], F]:
         def call(*given: Any, **options: Any) -> Any:
             for name in options.keys() - parts - set(known):
                 meant = closest(name, known)
-                cure = f"did you mean '{meant}'?" if meant else f"known: {', '.join(known)}"
-                raise UsageError(f"{function.__name__} takes no '{name}'; {cure}")
+                fix = f"did you mean '{meant}'?" if meant else f"known: {', '.join(known)}"
+                raise UsageError(f"{function.__name__} takes no '{name}'; {fix}")
             return function(*given, **options)
 
         made = [

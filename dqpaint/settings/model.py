@@ -1,4 +1,4 @@
-"""How a drawing is painted: everything besides its text, checked.
+"""Options by name -> checked settings of one painting, in groups that commands share.
 
 Settings come in groups, each a class: a command names the groups it takes, and a new setting is a
 field of a group, declared with its bounds, its `Option` and its default, and nothing else.
@@ -72,7 +72,7 @@ class LawSettings(Group):
 
 
 class DisturbanceSettings(Group):
-    """What no law knows of."""
+    """What disturbs the run."""
 
     panel = "Control"
 
@@ -109,7 +109,7 @@ class ArmSettings(Group):
         Option(
             "where the light sits on the flange, m and deg, or with units: 0,0,80mm",
             "X,Y,Z[,R,P,Y]",
-            unsaid="where the arm's card says",
+            unsaid="the arm's card's",
         ),
     ] = None
 
@@ -124,7 +124,7 @@ class MotionSettings(Group):
         Option(
             "put the drawing where it fits the arm best",
             "auto",
-            unsaid="what the drawing says, else the arm's canvas",
+            unsaid="the drawing's, else the arm's canvas",
         ),
     ] = None
     plant: Annotated[
@@ -137,19 +137,21 @@ class MotionSettings(Group):
     ] = None
     start: Annotated[
         Literal["first", "home"],
-        Option("where the arm begins: at the first pose, or at home", "first|home", name="from"),
+        Option(
+            "start posture: at the first pose of the drawing, or home", "first|home", name="from"
+        ),
     ] = "first"
     null: Annotated[
         str,
         Option(
-            "what a redundant arm does with its freedom: see dqpaint list null",
+            "secondary task of a redundant arm: see dqpaint list null",
             "NAME[,gain=VALUE]",
         ),
     ] = "start"
     on_limit: Annotated[
         Literal["clip", "slow", "stop"],
         Option(
-            "where a joint would pass a limit: hold it back, slow the drawing down, or end",
+            "where a joint would pass a limit: clip the command, slow the drawing down, or stop",
             "clip|slow|stop",
         ),
     ] = "clip"
@@ -159,9 +161,7 @@ class MotionSettings(Group):
     def _place(cls, value: object) -> object:
         if value in (None, "auto"):
             return value
-        raise ValueError(
-            "is not auto; a place of your own is a line of the drawing: place at POINT"
-        )
+        raise ValueError("is not auto; another placement is a line of the drawing: place at POINT")
 
 
 class DrawingSettings(Group):
@@ -290,9 +290,7 @@ class GhostSettings(Group):
         Literal[False, True, "motion"],
         Option(
             "the arm in the picture, and room for it",
-            variant=Variant(
-                "motion-ghost", "motion", "the arm as a veil, seen all through its motion"
-            ),
+            variant=Variant("motion-ghost", "motion", "the moving arm as a blurred veil"),
             python='bool | Literal["motion"]',
         ),
     ] = False
@@ -329,7 +327,7 @@ class Settings(
 
 GROUPS: tuple[type[Group], ...] = Settings.__bases__[::-1]
 SETTINGS: dict[str, Setting] = {setting.keyword: setting for setting in settings_of(*GROUPS)}
-"""What can be said, by the names in Python."""
+"""All settings by their names in Python."""
 
 
 def make_settings(**choices: object) -> Settings:
@@ -345,7 +343,7 @@ def read_choices(choices: Mapping[str, object]) -> dict[str, Any]:
     """The fields of `Settings` that choices give, each read; None is no choice.
 
     Raises:
-        UsageError: a value that has not the form of its setting.
+        UsageError: a value that does not have the form of its setting.
     """
     found: dict[str, Any] = {}
     for keyword, value in choices.items():
@@ -385,7 +383,7 @@ SIMULATED = ("controller", "gains", "plant", "disturb", "start", "null", "on_lim
 
 
 def check_recorded(settings: Settings) -> None:
-    """Look that nothing is asked of a recorded run that only a simulated one has.
+    """Refuse settings of a simulated run for a recorded one.
 
     Raises:
         UsageError: a law, gain, plant, disturbance, start, null or on_limit was chosen.

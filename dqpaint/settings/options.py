@@ -17,7 +17,7 @@ class LawOptions(TypedDict, total=False):
 
 
 class DisturbanceOptions(TypedDict, total=False):
-    """What no law knows of."""
+    """What disturbs the run."""
 
     disturb: Mapping[str, Mapping[str, float | str] | float | str] | Sequence[str] | str | None
     seed: int | None

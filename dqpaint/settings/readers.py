@@ -1,4 +1,4 @@
-"""What a person gives for a setting, text or value -> the value that `Settings` holds.
+"""A setting as text, number or mapping -> the value that `Settings` holds.
 
 The command line gives texts, Python and settings files may give mappings and numbers as well: each
 reader takes them all.

@@ -25,7 +25,7 @@ def ugly(tmp_path):
 
 def test_fmt_lays_out_and_says_so(dqpaint, ugly, tmp_path):
     done = dqpaint("fmt", ugly)
-    assert (done.returncode, done.stdout, done.stderr) == (0, "a.traj: laid out anew\n", "")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "a.traj: formatted\n", "")
     assert (tmp_path / ugly).read_text() == FAIR
     assert dqpaint("fmt", ugly).stdout == "a.traj: unchanged\n"
 
@@ -43,7 +43,7 @@ def test_fmt_goes_on_after_a_file_that_is_no_drawing(dqpaint, ugly, tmp_path):
     (tmp_path / "bad.traj").write_text("lin to (1, 2) mm\n")
     done = dqpaint("fmt", "bad.traj", "none.traj", ugly)
     assert done.returncode == 1
-    assert done.stdout == "a.traj: laid out anew\n"
+    assert done.stdout == "a.traj: formatted\n"
     assert re.search(r"error.E120.*\n --> bad.traj:1:1", done.stderr)
     assert "none.traj" in done.stderr
     assert files(tmp_path) == ["a.traj", "bad.traj"]

@@ -67,20 +67,20 @@ def test_rows_of_disturbances_and_set_points_have_their_figures_and_units(tmp_pa
         step_responses=(jump, none),
     )
     text = report.of_painting(told, [])
-    assert "promised at most 0.1 s: broken, 3 times as much" in text
-    assert "promised at most 0.1 s: kept" in text
+    assert "bound 0.1 s: exceeded, 3 times" in text
+    assert "bound 0.1 s: holds" in text
     assert "line 7: 40 mm, settles in 1.25 s, overshoot 12.5%, steady error 2 mm" in text
-    assert "line 7: 28.6 deg, never settles, overshoot 25.0%, steady error 5.7 deg" in text
+    assert "step on line 7: 28.6 deg, never settles, overshoot 25.0%, steady error 5.7 deg" in text
     assert text.count("line 9") == 1
     assert "steady error 0 mm" in text
 
 
 def test_torques_are_told_in_nm_s():
     for figures, told in (
-        ({"torque_integral_Nm_s": 12.0}, "12 Nm s in all joints together"),
-        ({"command_integral_rad": 3.0}, "3 rad in all joints together"),
+        ({"torque_integral_Nm_s": 12.0}, "12 Nm s, joints' norm integrated over time"),
+        ({"command_integral_rad": 3.0}, "3 rad, joints' norm integrated over time"),
     ):
-        assert report._commanded(figures) == [("commanded", told)]
+        assert report._commanded(figures) == [("command", told)]
     assert report._commanded({}) == []  # of a recorded run
 
 
@@ -97,7 +97,7 @@ def test_lines_of_included_files_are_named(tmp_path):
     rows = zip(painting.table["file"].tolist(), painting.table["line"].tolist(), strict=True)
     assert list(dict.fromkeys(rows)) == [(1, 3), (0, 2), (0, 3), (0, 4)]
     assert {clamp.line for clamp in painting.limits} >= {SourceLine(1, 3)}
-    assert f"warning: line {petal}:3 runs into speed limits" in "\n".join(report.remarks(painting))
+    assert f"warning: line {petal}:3 reaches speed limits" in "\n".join(report.remarks(painting))
     summary = summarise(painting)
     assert summary["included"] == ["petal.traj"]
     assert summary["limits"][0]["line"] == f"{petal}:3"

@@ -43,7 +43,7 @@ def test_the_example_is_the_law_its_text_says(rng):
 
     law = find_controller(str(EXAMPLE))
     assert (law.name, law.commands) == ("mylaw", "twist")
-    assert law.summary.startswith("Goes along the one screw")
+    assert law.summary.startswith("Follow the screw")
     seen = seen_at(rng)
     T = dq.matrix_from_pose(seen.pose_d) @ np.linalg.inv(dq.matrix_from_pose(seen.pose))
     v = pinocchio.log6(pinocchio.SE3(T)).vector

@@ -167,7 +167,7 @@ def test_a_film_without_light_is_told_without_a_share(tmp_path):
     dark = {k: v * 0 if k == "light0-colours" else v for k, v in arrays.items()}
     np.savez(tmp_path / "dark.npz", **dark)
     pictures = dqpaint.develop(tmp_path / "dark.npz")
-    assert report.light_line(pictures[0]) == "none: no lamp shone this way"
+    assert report.light_line(pictures[0]) == "none: no lamp shines towards the camera"
 
 
 def test_a_device_is_no_place_for_a_picture():

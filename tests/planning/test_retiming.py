@@ -145,7 +145,7 @@ def test_a_drawing_that_meets_no_limit_is_drawn_as_ever(draw, how):
             1.0,
             (),
         )
-        assert "pace" in of_painting(other, [])
+        assert "retiming" in of_painting(other, [])
 
 
 def test_an_arm_that_begins_elsewhere_does_not_slow_the_drawing_down(draw):

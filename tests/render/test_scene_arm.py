@@ -108,7 +108,7 @@ def test_the_summary_has_what_is_hidden(drawing):
 def test_an_arm_before_its_light_is_a_warning_with_lines_and_help(drawing):
     painting = dqpaint.draw(drawing, view="180,5", occlusion=True, **SMALL)
     (said,) = [text for text in report.remarks(painting) if "arm stood" in text]
-    assert said.startswith("warning: the arm stood before 100% of its light: line 3 (100%)")
+    assert said.startswith("warning: the arm hides 100% of the light: line 3 (100%)")
     assert "--no-occlusion" in said
     assert "100.0% hidden by the arm" in report.light_line(painting.picture)
 

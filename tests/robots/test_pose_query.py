@@ -63,7 +63,7 @@ def test_a_pure_translation_is_told_as_one():
     still = pose_query.PoseReport(
         card, False, card.home, dq.pose_from([0, 0, 0.5], [1.0, 0, 0, 0]), posed.jacobian, ()
     )
-    assert "a translation, no turn" in pose_text.text(still)
+    assert "a translation without rotation" in pose_text.text(still)
     assert pose_query.as_json(still)["screw"]["pitch_m_rad"] is None
     json.dumps(pose_query.as_json(still), allow_nan=False)
 

@@ -15,7 +15,7 @@ SAID = {
     "position_error_max_m": (0.0475, "position largest [mm]", 1e3),
     "orientation_error_rms_rad": (math.pi / 7, "orientation rms [deg]", 180 / math.pi),
     "command_integral_rad": (3.75, "command [rad]", 1.0),
-    "speed_integral_m": (1.25, "way [m]", 1.0),
+    "speed_integral_m": (1.25, "path length [m]", 1.0),
 }
 
 

@@ -88,8 +88,8 @@ def tune(
     least = 1 + (generation(len(ranges)) + LOCAL * len(ranges)) * max(count, 1)
     if not least <= budget <= MOST_RUNS:
         raise UsageError(
-            f"a budget of {budget} runs; for gains {', '.join(one.name for one in ranges)} and "
-            f"--runs {count} it is {least} to {MOST_RUNS:,}"
+            f"the budget must be {least} to {MOST_RUNS:,} runs for gains "
+            f"{', '.join(one.name for one in ranges)} and --runs {count}, not {budget} runs"
         )
     if not (math.isfinite(factor) and factor > 0):
         raise UsageError(f"effort {factor:g} is no bound: write 1.1 for 10 % more than is needed")

@@ -1,4 +1,4 @@
-"""Program -> Motion: the asked pose, twist and acceleration at every sample, in closed form.
+"""Program -> Motion: reference pose, twist and acceleration at every sample, in closed form.
 
 `geometry` says what strokes are (one screw, or place and orientation apart) and takes those of one
 kind together, `profiles` says how they run in time, `schedule` how long they take, `sampling` gives

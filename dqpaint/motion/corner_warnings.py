@@ -1,4 +1,4 @@
-"""Warnings with numbers: where the velocity jumps, where a stroke does not reach its speed."""
+"""Schedule -> warnings with numbers: velocity jumps, and strokes that do not reach their speed."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -44,7 +44,7 @@ def jumps(table: Schedule, pace: Floats | None = None) -> Iterator[Diagnostic]:
 
 
 def _between(table: Schedule, pace: Floats | None) -> tuple[Floats, Indices]:
-    """The jumps worth a word (K,) [m/s], and the segments they begin (K,)."""
+    """The jumps between strokes worth a warning (K,) [m/s], and the segments they begin (K,)."""
     number = np.arange(len(table))
     velocity = np.empty((2, len(table), 3))
     for end in (0, 1):
@@ -59,7 +59,7 @@ def _between(table: Schedule, pace: Floats | None) -> tuple[Floats, Indices]:
 
 
 def _within(table: Schedule) -> tuple[Floats, Indices]:
-    """The same at the joints of strokes of several lines."""
+    """The same within strokes of several segments."""
     runs = np.flatnonzero(table.size > 1)
     if not len(runs):
         return np.empty(0), np.empty(0, dtype=np.intp)
@@ -80,14 +80,14 @@ def _within(table: Schedule) -> tuple[Floats, Indices]:
 
 
 def _rates_at_joints(table: Schedule, run: int) -> Floats:
-    """How fast a stroke runs where its segments meet (M - 1,), in fractions of it per second."""
+    """The rates of a stroke where its segments meet (M - 1,) [1/s]."""
     tau = np.linspace(0.0, 1.0, 4 * int(table.count[run]) + 1)
     progress = table.progress(np.full(len(tau), run), tau)
     return np.interp(table.edges(run)[1:-1], progress.value, np.abs(progress.rate))
 
 
 def _worth(before: Floats, after: Floats) -> tuple[Floats, Indices]:
-    """Jumps of velocities (K, 3) that are worth a word (L,), and which these are (L,)."""
+    """The jumps between velocities (K, 3) that are worth a warning (L,), and their indices (L,)."""
     jump = np.linalg.norm(after - before, axis=1)
     speed = np.maximum(np.linalg.norm(before, axis=1), np.linalg.norm(after, axis=1))
     told = np.flatnonzero(jump > np.maximum(LEAST_JUMP, LEAST_PART * speed))
@@ -112,7 +112,7 @@ def _jump(corner: _Corner, count: int) -> Diagnostic:
 
 
 def slow(table: Schedule) -> Iterator[Diagnostic]:
-    """W411: the stroke that stays most below the speed it is to cruise at."""
+    """W411: the stroke that is farthest below its cruise speed."""
     firsts = table.firsts
     speed = np.array([s.timing.speed if isinstance(s.timing, CruiseSpeed) else 0.0 for s in firsts])
     lit = np.array([segment.light is not None for segment in table.program.segments])

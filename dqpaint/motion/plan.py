@@ -1,4 +1,4 @@
-"""Program -> Motion: what the light is asked to do at every sample, in the robot's base frame."""
+"""Program -> Motion: the reference at every sample, in the robot's base frame."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -23,7 +23,7 @@ from dqpaint.program import AutoPlacement, Pose, Program, Step
 
 @dataclass(frozen=True)
 class Motion:
-    """What was asked, one row a sample, in the base frame; the arrays are read-only.
+    """The reference of a drawing, one row a sample, in the base frame; the arrays are read-only.
 
     At a corner the pose is one and the twist is the one of the stroke that begins there, so that
     row k and its twist lead to row k + 1.
@@ -72,17 +72,17 @@ class Motion:
 
     @property
     def samples(self) -> int:
-        """How many poses there are."""
+        """The number of samples."""
         return len(self.t)
 
     @property
     def seconds(self) -> float:
-        """How long it takes."""
+        """The duration [s]."""
         return float(self.t[-1])
 
     @property
     def points(self) -> Floats:
-        """The asked places of the light (N, 3) [m]."""
+        """The reference positions of the light (N, 3) [m]."""
         return dq.translation(self.pose)
 
     @property
@@ -98,7 +98,7 @@ class Motion:
 
 
 def plan(program: Program, canvas: Floats, pace: Pace | None = None) -> Motion:
-    """The motion a program asks for.
+    """The motion of a program.
 
     Args:
         program: from `dqpaint.language`.
@@ -130,7 +130,7 @@ def plan(program: Program, canvas: Floats, pace: Pace | None = None) -> Motion:
 
 
 def _ticks(table: Schedule, pace: Pace | None) -> list[Ticks] | None:
-    """When the samples of each stroke are, where the clock is slowed; a jump never is."""
+    """The sample times of each stroke under retiming; a step is never slowed."""
     if pace is None:
         return None
     first = np.cumsum(table.count) - table.count
@@ -143,7 +143,7 @@ def _ticks(table: Schedule, pace: Pace | None) -> list[Ticks] | None:
 
 
 def _placed(program: Program, canvas: Floats) -> Floats:
-    """The drawing frame (8,) in the base frame; one that is still to be found is on the canvas."""
+    """The drawing frame (8,) in the base frame; at the canvas if its placement is not yet known."""
     match program.placement:
         case Pose():
             return pose_array(program.placement)
@@ -154,7 +154,7 @@ def _placed(program: Program, canvas: Floats) -> Floats:
 
 
 class _Sheet:
-    """The rows of a motion, as they come."""
+    """The rows of a motion, filled block by block."""
 
     def __init__(self, table: Schedule, ticks: Sequence[Ticks] | None, placed: Floats) -> None:
         self._table, self._ticks, self._placed = table, ticks, placed
@@ -168,7 +168,7 @@ class _Sheet:
         self._rows = 0
 
     def add(self, rows: Rows) -> None:
-        """Takes some in; the end of a stroke is the start of the next, but for the very last."""
+        """Adds rows; the end of a stroke is the start of the next, but for the last stroke."""
         table, begin = self._table, self._rows
         kept = ~rows.last
         end = begin + int(kept.sum())
@@ -186,7 +186,7 @@ class _Sheet:
         self._rows = end
 
     def motion(self, canvas: Floats, findings: tuple[Diagnostic, ...]) -> Motion:
-        """All of it, seen from the base frame."""
+        """The complete motion, in the base frame."""
         table, program, number = self._table, self._table.program, self._number
         number[-1] = len(program.segments) - 1
         lines = RowLines.of([segment.line for segment in program.segments])

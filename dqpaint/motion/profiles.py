@@ -1,4 +1,4 @@
-"""Velocity profiles, time -> progress along a path, with the two derivatives.
+"""Velocity profile, time -> progress along a path, with its first two derivatives.
 
 A profile runs over the fraction tau in [0, 1] of a stroke's time and gives the fraction of its
 path. `PEAK` is the largest rate d progress / d tau of a profile from rest to rest: a stroke of
@@ -69,13 +69,13 @@ def quintic(tau: Floats, rates: Rates = ()) -> Progress:
 
 
 def cubic_coefficients(rates: Rates) -> Rates:
-    """Of 1, tau, ... tau^3: 0 at 0, 1 at 1, slopes v0 and v1."""
+    """Coefficients of 1, tau, ... tau^3: 0 at 0, 1 at 1, slopes v0 and v1."""
     v0, v1 = rates or (0.0, 0.0)
     return 0.0, v0, 3 - 2 * v0 - v1, v0 + v1 - 2
 
 
 def quintic_coefficients(rates: Rates) -> Rates:
-    """Of 1, tau, ... tau^5: 0 at 0, 1 at 1, slopes v0, v1 and second derivatives a0, a1."""
+    """Coefficients of 1, tau, ... tau^5 that also meet second derivatives a0 and a1."""
     v0, v1, a0, a1 = rates or (0.0, 0.0, 0.0, 0.0)
     c3 = 10 - 6 * v0 - 4 * v1 - 1.5 * a0 + 0.5 * a1
     c4 = -15 + 8 * v0 + 7 * v1 + 1.5 * a0 - a1
@@ -89,7 +89,7 @@ def _polynomial(coefficients: Rates, tau: Floats) -> Progress:
 
 
 def derivative(coefficients: Rates) -> Rates:
-    """Of a polynomial: its coefficients, from that of 1 on."""
+    """The coefficients of a polynomial's derivative, from that of 1 on."""
     return tuple(power * c for power, c in enumerate(coefficients[1:], start=1))
 
 
@@ -114,7 +114,7 @@ def peak_rate(name: str, rates: Rates) -> Floats:
 
 
 def turns_back(name: str, rates: Rates) -> NDArray[np.bool_]:
-    """Whether a profile with boundary rates goes backwards on its way; of many, one a row (K,)."""
+    """Whether a profile with boundary rates reverses; of many, one a row (K,)."""
     if not rates:
         return np.zeros((), dtype=bool)
     coefficients = cubic_coefficients(rates) if name == "cubic" else quintic_coefficients(rates)
@@ -123,7 +123,7 @@ def turns_back(name: str, rates: Rates) -> NDArray[np.bool_]:
 
 
 def rate_at(name: str, rates: Rates, fraction: float) -> Floats:
-    """The rate of a profile that does not turn back, where it has come so far; of many (K,)."""
+    """The rate of a monotonic profile where its progress is `fraction`; of many (K,)."""
     lower = np.zeros(np.shape(rates[0]) if rates else ())
     upper = np.ones_like(lower)
     for _ in range(60):
@@ -134,7 +134,7 @@ def rate_at(name: str, rates: Rates, fraction: float) -> Floats:
 
 
 def _stationary(slope: Rates) -> Floats:
-    """0, 1, and between them where the derivative of a polynomial is zero (R, K).
+    """0, 1, and the zeros of a polynomial's derivative between them (R, K).
 
     It has degree 1, or 3: then it goes one way from one of its turning points to the next, and
     bisection finds the zero, if there is one.
@@ -156,7 +156,7 @@ def _stationary(slope: Rates) -> Floats:
 
 
 def _inside(a: float | Floats, b: float | Floats) -> Floats:
-    """Quotients as far as they lie between 0 and 1, else one of these."""
+    """Quotients a / b within 0 ... 1; any other is replaced by a bound."""
     a, b = np.broadcast_arrays(np.asarray(a, np.float64), b)
     return np.clip(np.divide(a, b, out=np.zeros(a.shape), where=b != 0.0), 0.0, 1.0)
 

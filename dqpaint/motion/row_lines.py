@@ -1,4 +1,4 @@
-"""Lines of a drawing for each row of a run: an index into the few lines that there are."""
+"""Rows of a run -> lines of the drawing, as indices into the distinct lines."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -45,7 +45,7 @@ class RowLines:
 
     @property
     def present(self) -> list[SourceLine]:
-        """The lines that some row has, each once, in order."""
+        """The lines with at least one row, without repetition, in order."""
         return [self.lines[i] for i in np.unique(self.index).tolist()]
 
     @property

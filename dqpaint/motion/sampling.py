@@ -1,4 +1,4 @@
-"""The rows of strokes, some strokes at a time, so that a long drawing needs little memory."""
+"""Schedule -> rows of its strokes, block by block, so that a long drawing needs little memory."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ AT_ONCE = 16_384  # rows, unless one stroke alone has more
 
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """Strokes in a row, each from its start to its end, both included.
+    """Consecutive strokes, each from its start to its end, both included.
 
     Attributes:
         stroke: the number of each row's stroke (N,), in order.
@@ -36,7 +36,7 @@ class Rows:
 
 
 def blocks(counts: NDArray[np.int64]) -> Iterator[Indices]:
-    """The numbers of strokes with so many new samples each (S,), some at a time."""
+    """Slices of the strokes with these numbers of new samples (S,), of bounded size."""
     ends = np.cumsum(counts + 1)
     begin = 0
     while begin < len(counts):
@@ -47,7 +47,7 @@ def blocks(counts: NDArray[np.int64]) -> Iterator[Indices]:
 
 
 def every_sample(counts: NDArray[np.int64], strokes: Indices) -> tuple[Indices, Floats]:
-    """Of strokes: the stroke of each row (N,), and the fraction of its time (N,)."""
+    """The stroke of each row (N,) of some strokes, and the fraction of its time (N,)."""
     own = counts[strokes]
     stroke = np.repeat(strokes, own + 1)
     begins = np.cumsum(own + 1) - (own + 1)
@@ -58,7 +58,7 @@ def every_sample(counts: NDArray[np.int64], strokes: Indices) -> tuple[Indices, 
 def sampled(
     table: Schedule, ticks: Sequence[Ticks] | None, faults: Faults, parted: bool = False
 ) -> Iterator[Rows]:
-    """All rows of all strokes.
+    """The rows of all strokes, block by block.
 
     Args:
         table: the strokes.
@@ -87,7 +87,7 @@ def sampled(
 
 
 def _paces(ticks: Sequence[Ticks]) -> tuple[Floats, Floats]:
-    """How fast the clock of each row runs, and how that changes."""
+    """The rate s_dot of the clock at each row, and its derivative s_ddot."""
     rates = [np.ones(len(t.tau)) if t.rate is None else t.rate for t in ticks]
     slopes = [np.zeros(len(t.tau)) if t.slope is None else t.slope for t in ticks]
     return np.concatenate(rates), np.concatenate(slopes)
@@ -96,7 +96,7 @@ def _paces(ticks: Sequence[Ticks]) -> tuple[Floats, Floats]:
 def _note(
     table: Schedule, stroke: Indices, flow: Flow, of_segments: Faults, faults: Faults
 ) -> None:
-    """The first fault of each stroke: what a formula said, or that its rows are not finite."""
+    """Records the first error of each stroke: of its formula, or that its rows are not finite."""
     for number in sorted(of_segments):
         of = int(np.searchsorted(table.first, number, side="right")) - 1
         found = of_segments[number]

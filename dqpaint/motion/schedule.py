@@ -1,4 +1,4 @@
-"""When each stroke runs: whole samples, the profile over them, and the budget.
+"""Program -> schedule: samples and profile of each stroke, within the sample budget.
 
 Durations are rounded up, so that every corner is itself a sample and no speed is exceeded. What
 belongs to the strokes stands in arrays, one row a stroke: a drawing may have many.
@@ -38,7 +38,7 @@ RATES = {"cubic": 2, "quintic": 4}  # how many a profile may have
 
 @dataclass(frozen=True, eq=False)
 class Schedule:
-    """The strokes of a drawing (S): a segment each, or several of one run.
+    """The strokes of a drawing (S), each of one segment or several.
 
     Attributes:
         program: what is drawn.
@@ -75,12 +75,12 @@ class Schedule:
 
     @cached_property
     def time(self) -> Floats:
-        """How long each stroke takes (S,) [s]."""
+        """The duration of each stroke (S,) [s]."""
         return np.asarray(self.count * self.program.period)
 
     @cached_property
     def firsts(self) -> list[Segment]:
-        """The first segment of each stroke; its profile and timing are those of all."""
+        """The first segment of each stroke, whose profile and timing hold for all of it."""
         return [self.program.segments[number] for number in self.first]
 
     def of(self, strokes: Flags | Indices) -> "Schedule":
@@ -89,12 +89,12 @@ class Schedule:
         return replace(self, **{name: getattr(self, name)[strokes] for name in names})
 
     def edges(self, stroke: int) -> Floats:
-        """The fractions of a stroke's length where its segments begin, and the end."""
+        """The fractions of a stroke's length at which its segments begin, and 1."""
         first = self.first[stroke]
         return np.append(self.begin[first : first + self.size[stroke]], 1.0)
 
     def profiles(self) -> Iterator[tuple[str, bool, Indices]]:
-        """The strokes of each profile that occurs, those from rest to rest apart."""
+        """The strokes of each profile, separately with and without boundary rates."""
         rated = self.rates.any(axis=1)
         for number, name in enumerate(NAMES):
             for with_rates in (False, True):
@@ -103,7 +103,7 @@ class Schedule:
                     yield name, with_rates, strokes
 
     def end_rates(self, name: str, strokes: Indices | int) -> Rates:
-        """The rates per tau of strokes of one profile, or of one stroke, as it takes them."""
+        """The boundary rates per tau of strokes of one profile, or of one stroke."""
         columns = self.rates[strokes].T[: RATES[name]]
         return scale_rates(tuple(columns), self.time[strokes])
 
@@ -117,7 +117,7 @@ class Schedule:
         return peak
 
     def progress(self, stroke: Indices, tau: Floats) -> Progress:
-        """Fractions of the paths at fractions tau (N,) of the times of strokes (N,), per second."""
+        """The progress of strokes (N,) at fractions tau (N,) of their times, per second."""
         value, rate, slope = np.empty((3, len(tau)))
         kind = np.empty(len(self), dtype=np.intp)
         profiles = list(self.profiles())
@@ -132,7 +132,7 @@ class Schedule:
         return Progress(value, rate / time, slope / time**2)
 
     def parts(self, stroke: Indices, fraction: Floats) -> Indices:
-        """The segments that strokes (N,), in order, are on at fractions (N,) of their length.
+        """The segments of strokes (N,), in order, at fractions (N,) of their length.
 
         At a joint it is the one that begins there; the outer ones for what lies beyond.
         """
@@ -144,7 +144,7 @@ class Schedule:
         return np.asarray(number)
 
     def flow(self, stroke: Indices, tau: Floats, faults: Faults) -> tuple[Flow, Floats]:
-        """Strokes (N,), in order, at fractions tau (N,) of their time, in the drawing frame.
+        """Motion of strokes (N,), in order, at fractions tau (N,), in the drawing frame.
 
         Args:
             stroke: which.
@@ -164,7 +164,7 @@ class Schedule:
         return flow.reparametrised(progress.rate, progress.slope), fraction
 
     def _by_length(self, stroke: Indices, fraction: Floats, faults: Faults) -> Floats:
-        """Fractions of the parameter as those of the length, where the light changes over it."""
+        """Length fractions from parameter fractions, where the light is a gradient."""
         out = fraction
         for number in self._changing():
             rows = slice(*np.searchsorted(stroke, (number, number + 1)))
@@ -176,7 +176,7 @@ class Schedule:
         return out
 
     def _changing(self) -> list[int]:
-        """The strokes that are not run by their length, but whose light is a matter of it."""
+        """The strokes sampled by parameter whose light depends on the length."""
         found = []
         for first in self.shapes.nonuniform:
             light = self.program.segments[first].light
@@ -186,19 +186,19 @@ class Schedule:
         return found
 
     def inside(self, stroke: Indices, fraction: Floats) -> tuple[Indices, Floats]:
-        """The segments as in `parts`, and the fractions of their own."""
+        """The segments as in `parts`, and the fractions within each of them."""
         number = self.parts(stroke, fraction)
         begin = self.begin[number]
         return number, (fraction - begin) / (self.end[number] - begin)
 
 
 def part_at(edges: Floats, f: Floats) -> Indices:
-    """Which part (N,) fractions lie in; the outer ones for what lies beyond."""
+    """The interval (N,) of each fraction; values outside belong to the outer ones."""
     return np.clip(np.searchsorted(edges, f, side="right") - 1, 0, len(edges) - 2)
 
 
 def timetable(program: Program, findings: DiagnosticCollector) -> Schedule:
-    """The strokes of a program; what is wrong or worth saying about their times is added.
+    """The schedule of a program; errors and warnings about its times go to `findings`.
 
     Strokes that are wrong are left out.
 
@@ -225,7 +225,7 @@ def timetable(program: Program, findings: DiagnosticCollector) -> Schedule:
 
 
 def _strokes(segments: Sequence[Segment]) -> tuple[Indices, Indices]:
-    """The first segment of each stroke (S,), and how many each has."""
+    """The first segment of each stroke (S,), and its number of segments."""
     run = np.array([s.stroke.number if s.stroke else 0 for s in segments])
     goes_on = (run[1:] == run[:-1]) & (run[1:] != 0)
     first = np.flatnonzero(np.concatenate([[True], ~goes_on]))
@@ -233,7 +233,7 @@ def _strokes(segments: Sequence[Segment]) -> tuple[Indices, Indices]:
 
 
 def _by_length(shapes: Shapes, faults: Faults) -> Flags:
-    """Which segments (M,) are run by their length; not one may come to a point on its way."""
+    """Which segments (M,) are sampled by arc length; a cusp on their way is an error."""
     out = np.zeros(len(shapes.segments), dtype=bool)
     for number, extent in shapes.nonuniform.items():
         segment = shapes.segments[number]
@@ -249,7 +249,7 @@ def _by_length(shapes: Shapes, faults: Faults) -> Flags:
 
 
 def _joined(shapes: Shapes, first: Indices, size: Indices) -> tuple[Floats, Floats, Floats]:
-    """Where segments begin and end (M,), as fractions of their strokes, and the lengths (S,)."""
+    """Start and end of segments (M,), as fractions of their strokes, and the lengths (S,)."""
     begin, end = np.zeros(len(shapes.segments)), np.ones(len(shapes.segments))
     length = shapes.length[first]
     for stroke in np.flatnonzero(size > 1).tolist():
@@ -263,7 +263,7 @@ def _joined(shapes: Shapes, first: Indices, size: Indices) -> tuple[Floats, Floa
 
 
 def _of_strokes(faults: Faults, first: Indices) -> Faults:
-    """The faults of segments as those of their strokes: of each stroke the first."""
+    """The first error of each stroke, from the errors of its segments."""
     wrong: Faults = {}
     for number in sorted(faults):
         stroke = int(np.searchsorted(first, number, side="right")) - 1
@@ -272,7 +272,7 @@ def _of_strokes(faults: Faults, first: Indices) -> Faults:
 
 
 def _profiles(table: Schedule, wrong: Faults) -> tuple[Indices, Floats]:
-    """Which profile each stroke has (S,), and its rates as fractions of the path (S, 4)."""
+    """The profile of each stroke (S,), and its boundary rates as fractions of the path (S, 4)."""
     firsts = table.firsts
     profile = np.array([NAMES.index(segment.profile.name) for segment in firsts])
     rates = np.zeros((len(firsts), 4))
@@ -290,7 +290,7 @@ def _profiles(table: Schedule, wrong: Faults) -> tuple[Indices, Floats]:
 
 
 def _seconds(table: Schedule, wrong: Faults) -> Floats:
-    """How long each stroke is to take (S,) [s]."""
+    """The wanted duration of each stroke (S,) [s]."""
     period, firsts = table.program.period, table.firsts
     seconds, speed, turnspeed = np.array([_asked(s, period) for s in firsts]).T
     cruising = speed > 0.0
@@ -324,7 +324,7 @@ def _asked(segment: Segment, period: float) -> tuple[float, float, float]:
 
 
 def _counts(firsts: Sequence[Segment], seconds: Floats, program: Program) -> NDArray[np.int64]:
-    """How many new samples each stroke has (S,); far too many are one more than the budget."""
+    """The new samples of each stroke (S,); a count beyond the budget is clipped just above it."""
     most = 2 * program.most_samples
     wanted = np.minimum(np.nan_to_num(seconds / program.period), float(most))
     # the next whole number, at least 1; the noise of a division is not another one

@@ -1,4 +1,4 @@
-"""What can be wrong with a stroke once it is a motion, in the words of the catalogue."""
+"""Segment -> diagnostic of an error in its motion."""
 
 import math
 from collections.abc import Iterator
@@ -15,7 +15,7 @@ Faults = dict[int, tuple[Diagnostic, ...]]  # the first of each segment or strok
 
 
 class StrokeError(Exception):
-    """A stroke that can't be drawn, as diagnostics."""
+    """A stroke without a valid motion, as diagnostics."""
 
     def __init__(self, *diagnostics: Diagnostic) -> None:
         super().__init__(diagnostics[0].message)
@@ -24,7 +24,7 @@ class StrokeError(Exception):
 
 @contextmanager
 def stroke_errors(segment: Segment) -> Iterator[None]:
-    """Turn what a formula may raise on its way into a `StrokeError`."""
+    """Turns exceptions of a curve's formula into a `StrokeError`."""
     try:
         yield
     except FloatingPointError:
@@ -97,7 +97,7 @@ def no_extent(segment: Segment) -> Diagnostic:
 
 
 def too_many(segment: Segment, count: float, most: int) -> Diagnostic:
-    """E302; a stroke of so many samples is one too many for the budget."""
+    """E302: the stroke with `count` samples exceeds the budget."""
     alone = f"{count:,}" if isinstance(count, int) else "endlessly many"
     more = "; to allow more: draw --max-samples N" if most + count <= LARGEST_MAX_SAMPLES else ""
     return Diagnostic(
@@ -110,12 +110,12 @@ def too_many(segment: Segment, count: float, most: int) -> Diagnostic:
 
 
 def endless(segment: Segment, most: int) -> Diagnostic:
-    """E302, where there is no number."""
+    """E302, where the number of samples is not finite."""
     return too_many(segment, math.inf, most)
 
 
 def beyond_budget(findings: DiagnosticCollector) -> bool:
-    """Whether a drawing is refused for its size, so that no sample of it need be computed."""
+    """Whether a drawing is refused for its size, so that no sample of it is needed."""
     return any(found.code in ("E302", "E325") for found in findings.ordered())
 
 
@@ -131,7 +131,7 @@ def too_long(segment: Segment, seconds: float) -> Diagnostic:
 
 
 def rounding(segment: Segment, wanted: float, given: float) -> Diagnostic | None:
-    """W410, where a time that was asked becomes longer by more than a little."""
+    """W410: a duration is rounded up noticeably to whole periods; None if it is not."""
     asked = isinstance(segment.timing, Duration) and not isinstance(segment.path, Step)
     if not asked or given - wanted <= ROUNDING_WORTH_SAYING * wanted:
         return None

@@ -1,4 +1,4 @@
-"""The light of strokes, row by row: gradients over their length, and light that is even."""
+"""Schedule -> light of each row: gradients along strokes, and light of even brightness."""
 
 from dataclasses import dataclass
 
@@ -38,7 +38,7 @@ class StrokeLight:
     peak: Floats
 
     def along(self, rows: Rows) -> Floats:
-        """Mean linear RGB (K, 3) from each row to the next, but from those that are the last."""
+        """Mean linear RGB (K, 3) from each row to the next, without each stroke's last row."""
         table = self.table
         at = np.flatnonzero(~rows.last)
         stroke = rows.stroke[at]
@@ -58,7 +58,7 @@ class StrokeLight:
         return light
 
     def _over_joints(self, run: int, at: Floats, means: Floats) -> None:
-        """The mean colours over joints: there each is a difference of the integral.
+        """The mean colours across joints: there each is a difference of the integral.
 
         Args:
             run: which stroke.
@@ -80,7 +80,7 @@ class StrokeLight:
         means[over] = np.clip(np.diff(total, axis=0)[over] / step[over], 0.0, 1.0)
 
     def _share_of_peak(self, rows: Rows, at: Indices) -> Floats:
-        """How fast the point is from rows `at` (K,) to the next, as a share of its fastest."""
+        """The point's speed after rows `at` (K,), as a fraction of its peak."""
         table = self.table
         stroke = rows.stroke[at]
         speed = np.abs(rows.fraction[at + 1] - rows.fraction[at]) * self.way[stroke]
@@ -95,7 +95,7 @@ class StrokeLight:
         return np.asarray(np.minimum(speed / peak, 1.0))
 
     def _by_formula(self, stroke: Indices) -> list[int]:
-        """Those of some strokes that are run neither by their length nor evenly."""
+        """Which strokes are sampled neither by length nor evenly."""
         table = self.table
         return [
             of
@@ -107,7 +107,7 @@ class StrokeLight:
 
 
 def glow(table: Schedule) -> StrokeLight:
-    """The light of a drawing."""
+    """The light of all segments of a drawing."""
     segments = table.program.segments
     lights = [segment.light or DARK for segment in segments]
     first, last = np.array([light.first for light in lights]), np.array([x.last for x in lights])
@@ -128,7 +128,7 @@ def glow(table: Schedule) -> StrokeLight:
 
 
 def unevenness(table: Schedule) -> float:
-    """How much brighter strokes are at 1 % of their length than in the middle; 1 for even light."""
+    """Largest ratio of the brightness at 1 % of a stroke to that of its middle; 1 if even."""
     lit = np.array([s.light is not None and not s.light.even for s in table.program.segments])
     matters = np.logical_or.reduceat(lit, table.first) & (table.length > 0.0)
     found = [] if matters.all() else [1.0]
@@ -140,7 +140,7 @@ def unevenness(table: Schedule) -> float:
 
 
 def _over_middle(profile: str, rates: Rates) -> float:
-    """The largest of some strokes with one profile. Brightness is time per length."""
+    """The largest ratio among strokes with one profile. Brightness is time per length."""
     start, middle, end = (rate_at(profile, rates, f) for f in (NEAR_END, 0.5, 1.0 - NEAR_END))
     times = middle / np.minimum(start, end)
     return float(np.where(turns_back(profile, rates), 1.0, times).max())

@@ -1,4 +1,4 @@
-"""A drawing's figures in one line, for every command that shows them."""
+"""Drawing -> one line with its path length, time, samples and box."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ from dqpaint.motion.survey import Survey
 
 
 def summary_line(drawing: Motion | Survey) -> str:
-    """Length of the path, time, steps and box."""
+    """Path length, time, samples and box of a drawing."""
     box = " x ".join(f"{round(side * 1e3, 6):.0f}" for side in drawing.box)  # noise is no half
     return (
         f"{Path(drawing.program.name).name}: {drawing.length * 1e3:.0f} mm, "

@@ -1,4 +1,4 @@
-"""What there is to say about a drawing without sampling all of it: faults, warnings, figures.
+"""Program -> its errors, warnings and figures, without sampling all of it.
 
 It says what `plan` would say. Straight lines, screws and arcs are finite wherever their numbers
 are, and their boxes need their places alone, or those of their ends; only what is a formula or
@@ -48,12 +48,12 @@ class Survey:
 
     @property
     def period(self) -> float:
-        """Between two samples [s]."""
+        """The sampling period [s]."""
         return self.program.period
 
 
 def survey(program: Program) -> Survey:
-    """Look at a drawing.
+    """The figures of a drawing.
 
     Raises:
         ScriptError: a stroke without a timetable, or more samples than the budget.
@@ -87,31 +87,31 @@ def survey(program: Program) -> Survey:
 
 
 def tell(faults: Faults, findings: DiagnosticCollector) -> None:
-    """Adds faults in the order of the strokes."""
+    """Adds errors to the findings in the order of the strokes."""
     for stroke in sorted(faults):
         for diagnostic in faults[stroke]:
             findings.add(diagnostic)
 
 
 class _Box:
-    """The box round places."""
+    """The axis-aligned bounding box of points."""
 
     def __init__(self) -> None:
         self.least, self.most = np.full(3, np.inf), np.full(3, -np.inf)
 
     def add(self, points: Floats) -> None:
-        """Takes places (N, 3) in."""
+        """Extends the box by points (N, 3)."""
         self.least = np.minimum(self.least, points.min(axis=0))
         self.most = np.maximum(self.most, points.max(axis=0))
 
     @property
     def sides(self) -> Floats:
-        """Its sides (3,) [m]."""
+        """The sides (3,) [m]."""
         return np.asarray(self.most - self.least)
 
 
 def _doubtful(table: Schedule) -> Flags:
-    """Which strokes (S,) may leave the numbers on their way, or have a box that is not simple."""
+    """Which strokes (S,) may become non-finite, or have no simple bound."""
     shapes = table.shapes
     largest = [shape.largest_parameter() for shape in shapes.families]
     of_segment = np.full(len(shapes.segments), np.inf)
@@ -127,7 +127,7 @@ def _doubtful(table: Schedule) -> Flags:
 
 
 def _bound(table: Schedule, strokes: Indices, box: _Box) -> None:
-    """Takes the samples of strokes into a box: their ends, and what lies farther out between."""
+    """Extends a box by strokes: by their ends, and by all samples where these may leave it."""
     if not len(strokes):
         return
 

@@ -1,4 +1,4 @@
-"""A drawing's own clock that runs slower than time, so that an arm can keep up.
+"""Slowness of a drawing's clock -> retimed samples, so that an arm's limits hold.
 
 The slowness dt/ds is at least 1 and linear from sample to sample of the asked motion, s being the
 drawing's own time. Then t(s) is known in closed form, and so are s(t) and its derivatives
@@ -35,7 +35,7 @@ class Ticks:
 
     @property
     def count(self) -> int:
-        """New samples of the stroke."""
+        """The new samples of the stroke."""
         return len(self.tau) - 1
 
     @property
@@ -46,7 +46,7 @@ class Ticks:
 
 @dataclass(frozen=True)
 class Pace:
-    """How slow the clock is.
+    """The slowness of the clock.
 
     Attributes:
         slowness: dt/ds (N,) at the samples of the asked motion, 1 or more.
@@ -86,7 +86,7 @@ class Pace:
 
 
 def smooth(slowness: Floats, period: float) -> Floats:
-    """A smooth slowness (N,) that is nowhere less than the one given.
+    """A smooth slowness (N,), nowhere below the given one.
 
     The largest within `AHEAD` on either side, averaged by a Hann window as wide: each value that is
     averaged is at least the one in the middle.
@@ -97,7 +97,7 @@ def smooth(slowness: Floats, period: float) -> Floats:
 
 
 def _largest(values: Floats, reach: int) -> Floats:
-    """Of each value and `reach` neighbours on either side the largest."""
+    """The largest value within `reach` neighbours on either side of each value."""
     padded = np.pad(values, reach, mode="edge")
     return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(axis=1))
 

@@ -1,4 +1,4 @@
-"""A motion with something changed, as a line of the language would: only its poses are worked out.
+"""Motion -> shifted, scaled or straightened motion; only its poses are computed.
 
 Enough to see whether an arm gets along them; its twists and times are as they were.
 """
@@ -15,21 +15,21 @@ TURNED = np.radians(1.0)  # a tool that is turned by less is straight
 
 
 def moved(motion: Motion, origin: Floats) -> Motion:
-    """Its drawing frame is elsewhere, at an origin (3,) [m] in the base frame; turned as it was."""
+    """The motion with its drawing frame at an origin (3,) [m] in the base frame, not rotated."""
     way = origin - dq.translation(motion.canvas)
     move = dq.pose_from(way, np.array([1.0, 0, 0, 0]))
     return replace(motion, pose=dq.mul(move, motion.pose), canvas=dq.mul(move, motion.canvas))
 
 
 def scaled(motion: Motion, scale: float) -> Motion:
-    """As `with scale` round the whole drawing leaves it."""
+    """The motion under `with scale` round the whole drawing."""
     local = dq.mul(dq.conj(motion.canvas), motion.pose)
     smaller = dq.pose_from(scale * dq.translation(local), dq.rotation(local))
     return replace(motion, pose=dq.mul(motion.canvas, smaller))
 
 
 def straight(motion: Motion) -> Motion | None:
-    """With the tool as it is without any `tool`; None where it is so already."""
+    """The motion with the default orientation of the tool; None if it has that already."""
     still = np.tile(dq.rotation(motion.canvas), (len(motion.t), 1))
     held = dq.pose_from(motion.points, still)
     turns = 2 * dq.log(dq.mul(dq.nearest(held, motion.pose), dq.conj(motion.pose)))[:, :3]

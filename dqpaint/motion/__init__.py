@@ -11,14 +11,14 @@ from dqpaint.motion.plan import Motion, plan
 from dqpaint.motion.row_lines import RowLines
 from dqpaint.motion.summary import summary_line
 from dqpaint.motion.survey import Survey, survey
-from dqpaint.motion.time_scaling import Pace, smooth
+from dqpaint.motion.time_scaling import TimeScaling, smooth
 from dqpaint.motion.transform import moved, scaled, straight
 
 __all__ = [
     "Motion",
-    "Pace",
     "RowLines",
     "Survey",
+    "TimeScaling",
     "moved",
     "plan",
     "scaled",

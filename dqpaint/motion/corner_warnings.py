@@ -25,14 +25,14 @@ class _Corner(NamedTuple):
     round: bool  # it can be rounded
 
 
-def jumps(table: Schedule, pace: Floats | None = None) -> Iterator[Diagnostic]:
+def velocity_jumps(table: Schedule, rates: Floats | None = None) -> Iterator[Diagnostic]:
     """W403: the largest jump of the velocity between strokes, and the largest within one.
 
     Args:
         table: the strokes (S).
-        pace: how fast the drawing's clock runs where each begins and ends (S, 2); None is as asked.
+        rates: how fast the drawing's clock runs where each begins and ends (S, 2); None is as asked.
     """
-    for within, found in ((False, _between(table, pace)), (True, _within(table))):
+    for within, found in ((False, _between(table, rates)), (True, _within(table))):
         jump, number = found
         if len(jump):
             largest = number[jump >= jump.max() * (1.0 - ALIKE)].tolist()
@@ -43,18 +43,18 @@ def jumps(table: Schedule, pace: Floats | None = None) -> Iterator[Diagnostic]:
             yield _jump(last, len(jump))
 
 
-def _between(table: Schedule, pace: Floats | None) -> tuple[Floats, Indices]:
+def _between(table: Schedule, rates: Floats | None) -> tuple[Floats, Indices]:
     """The jumps between strokes worth a warning (K,) [m/s], and the segments they begin (K,)."""
     number = np.arange(len(table))
     velocity = np.empty((2, len(table), 3))
     for end in (0, 1):
         flow, _ = table.flow(number, np.full(len(table), float(end)), {})
         velocity[end] = dq.point_velocity(flow.twist, dq.translation(flow.pose))
-        if pace is not None:
-            velocity[end] *= pace[:, end, None]
+        if rates is not None:
+            velocity[end] *= rates[:, end, None]
     moves = table.length > 0.0
     after = np.flatnonzero(moves[1:] & moves[:-1]) + 1
-    jump, told = _worth(velocity[1, after - 1], velocity[0, after])
+    jump, told = _large_jumps(velocity[1, after - 1], velocity[0, after])
     return jump, table.first[after[told]]
 
 
@@ -75,7 +75,7 @@ def _within(table: Schedule) -> tuple[Floats, Indices]:
         velocity[end] /= (table.end - table.begin)[number, None]
     joint = np.flatnonzero(stroke[1:] == stroke[:-1]) + 1
     rate = np.concatenate([_rates_at_joints(table, run) for run in runs.tolist()])[:, None]
-    jump, told = _worth(rate * velocity[1, joint - 1], rate * velocity[0, joint])
+    jump, told = _large_jumps(rate * velocity[1, joint - 1], rate * velocity[0, joint])
     return jump, number[joint[told]]
 
 
@@ -86,7 +86,7 @@ def _rates_at_joints(table: Schedule, run: int) -> Floats:
     return np.interp(table.edges(run)[1:-1], progress.value, np.abs(progress.rate))
 
 
-def _worth(before: Floats, after: Floats) -> tuple[Floats, Indices]:
+def _large_jumps(before: Floats, after: Floats) -> tuple[Floats, Indices]:
     """The jumps between velocities (K, 3) that are worth a warning (L,), and their indices (L,)."""
     jump = np.linalg.norm(after - before, axis=1)
     speed = np.maximum(np.linalg.norm(before, axis=1), np.linalg.norm(after, axis=1))
@@ -111,7 +111,7 @@ def _jump(corner: _Corner, count: int) -> Diagnostic:
     return Diagnostic("W403", message, corner.span, "corner where this begins", ", or ".join(ways))
 
 
-def slow(table: Schedule) -> Iterator[Diagnostic]:
+def slow_strokes(table: Schedule) -> Iterator[Diagnostic]:
     """W411: the stroke that is farthest below its cruise speed."""
     firsts = table.firsts
     speed = np.array([s.timing.speed if isinstance(s.timing, CruiseSpeed) else 0.0 for s in firsts])

@@ -9,15 +9,15 @@ from numpy.typing import NDArray
 from dqpaint import dq
 from dqpaint.diagnostics import Diagnostic, DiagnosticCollector, ErrorLimitError, ScriptError
 from dqpaint.dq import Floats
-from dqpaint.motion.corner_warnings import jumps, slow
+from dqpaint.motion.corner_warnings import slow_strokes, velocity_jumps
 from dqpaint.motion.geometry.shapes import pose_array
 from dqpaint.motion.row_lines import RowLines
-from dqpaint.motion.sampling import Rows, sampled
-from dqpaint.motion.schedule import Schedule, timetable
+from dqpaint.motion.sampling import Rows, sample_rows
+from dqpaint.motion.schedule import Schedule, schedule_strokes
 from dqpaint.motion.stroke_errors import Faults, beyond_budget
-from dqpaint.motion.stroke_light import glow, unevenness
-from dqpaint.motion.survey import tell
-from dqpaint.motion.time_scaling import Pace, Ticks
+from dqpaint.motion.stroke_light import make_stroke_light, unevenness
+from dqpaint.motion.survey import report_errors
+from dqpaint.motion.time_scaling import Ticks, TimeScaling
 from dqpaint.program import AutoPlacement, Pose, Program, Step
 
 
@@ -97,13 +97,13 @@ class Motion:
         return np.asarray(np.ptp(points, axis=0))
 
 
-def plan(program: Program, canvas: Floats, pace: Pace | None = None) -> Motion:
+def plan(program: Program, canvas: Floats, scaling: TimeScaling | None = None) -> Motion:
     """The motion of a program.
 
     Args:
         program: from `dqpaint.language`.
         canvas: pose (8,) of the robot's canvas in its base frame; a `place` line goes before it.
-        pace: of the drawing's own clock, where it is slowed down.
+        scaling: of the drawing's own clock, where it is slowed down.
 
     Raises:
         ScriptError: a stroke without a timetable, or more samples than the budget.
@@ -112,30 +112,30 @@ def plan(program: Program, canvas: Floats, pace: Pace | None = None) -> Motion:
     faults: Faults = {}
     table, ticks, sheet = None, None, None
     try:
-        table = timetable(program, findings)
-        ticks = _ticks(table, pace)
-        sheet = _Sheet(table, ticks, _placed(program, canvas))
-        for rows in sampled(table, ticks, faults) if not beyond_budget(findings) else ():
+        table = schedule_strokes(program, findings)
+        ticks = _ticks(table, scaling)
+        sheet = _MotionRows(table, ticks, _placed(program, canvas))
+        for rows in sample_rows(table, ticks, faults) if not beyond_budget(findings) else ():
             if not (faults or findings.errors):
                 sheet.add(rows)
-        tell(faults, findings)
+        report_errors(faults, findings)
     except ErrorLimitError:
         pass
     if findings.errors or table is None or sheet is None:
         raise ScriptError(program.name, program.text, findings.ordered())
-    paces = None if ticks is None else np.array([tick.paces for tick in ticks])
-    for note in (*jumps(table, paces), *slow(table)):
+    paces = None if ticks is None else np.array([tick.end_rates for tick in ticks])
+    for note in (*velocity_jumps(table, paces), *slow_strokes(table)):
         findings.add(note)
     return sheet.motion(canvas, findings.ordered())
 
 
-def _ticks(table: Schedule, pace: Pace | None) -> list[Ticks] | None:
+def _ticks(table: Schedule, scaling: TimeScaling | None) -> list[Ticks] | None:
     """The sample times of each stroke under retiming; a step is never slowed."""
-    if pace is None:
+    if scaling is None:
         return None
     first = np.cumsum(table.count) - table.count
     return [
-        Ticks(np.arange(2) / 1) if isinstance(segment.path, Step) else pace.ticks(begin, count)
+        Ticks(np.arange(2) / 1) if isinstance(segment.path, Step) else scaling.ticks(begin, count)
         for segment, begin, count in zip(
             table.firsts, first.tolist(), table.count.tolist(), strict=True
         )
@@ -153,7 +153,7 @@ def _placed(program: Program, canvas: Floats) -> Floats:
             return canvas
 
 
-class _Sheet:
+class _MotionRows:
     """The rows of a motion, filled block by block."""
 
     def __init__(self, table: Schedule, ticks: Sequence[Ticks] | None, placed: Floats) -> None:
@@ -164,7 +164,7 @@ class _Sheet:
         self._light, self._number = np.zeros((n, 3)), np.empty(n, dtype=np.int64)
         self._clock = np.empty(n)
         self._begun = np.cumsum(table.count) - table.count  # samples before each stroke
-        self._glow = glow(table)
+        self._glow = make_stroke_light(table)
         self._rows = 0
 
     def add(self, rows: Rows) -> None:
@@ -189,7 +189,7 @@ class _Sheet:
         """The complete motion, in the base frame."""
         table, program, number = self._table, self._table.program, self._number
         number[-1] = len(program.segments) - 1
-        lines = RowLines.of([segment.line for segment in program.segments])
+        lines = RowLines.from_lines([segment.line for segment in program.segments])
         steps = np.array([isinstance(segment.path, Step) for segment in program.segments])
         t = np.arange(len(number), dtype=np.float64) * program.period
         slowed = self._ticks is not None and any(tick.rate is not None for tick in self._ticks)

@@ -27,7 +27,7 @@ class RowLines:
         self.index.setflags(write=False)
 
     @classmethod
-    def of(cls, lines: Sequence[SourceLine]) -> "RowLines":
+    def from_lines(cls, lines: Sequence[SourceLine]) -> "RowLines":
         """One row for each of some lines."""
         known = sorted(set(lines))
         place = {line: i for i, line in enumerate(known)}

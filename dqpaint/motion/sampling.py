@@ -55,8 +55,8 @@ def every_sample(counts: NDArray[np.int64], strokes: Indices) -> tuple[Indices, 
     return stroke, step / counts[stroke]
 
 
-def sampled(
-    table: Schedule, ticks: Sequence[Ticks] | None, faults: Faults, parted: bool = False
+def sample_rows(
+    table: Schedule, ticks: Sequence[Ticks] | None, faults: Faults, split: bool = False
 ) -> Iterator[Rows]:
     """The rows of all strokes, block by block.
 
@@ -64,7 +64,7 @@ def sampled(
         table: the strokes.
         ticks: when the samples of each are, where the clock is slowed; else at whole periods.
         faults: gets what goes wrong, by the stroke.
-        parted: whether a long stroke may come in parts; then the clock is not slowed.
+        split: whether a long stroke may come in parts; then the clock is not slowed.
     """
     counts = table.count if ticks is None else np.array([tick.count for tick in ticks])
     for strokes in blocks(counts):
@@ -75,25 +75,25 @@ def sampled(
             stroke = np.repeat(strokes, counts[strokes] + 1)
             tau = np.concatenate([tick.tau for tick in some])
         last = np.append(stroke[1:] != stroke[:-1], True)
-        for begin in range(0, len(stroke), AT_ONCE) if parted else (0,):
-            own = slice(begin, begin + AT_ONCE) if parted else slice(None)
+        for begin in range(0, len(stroke), AT_ONCE) if split else (0,):
+            own = slice(begin, begin + AT_ONCE) if split else slice(None)
             of_segments: Faults = {}
             with np.errstate(all="ignore"):  # what is not finite is told below
                 flow, fraction = table.flow(stroke[own], tau[own], of_segments)
             if ticks is not None:
-                flow = flow.reparametrised(*_paces(some))
-            _note(table, stroke[own], flow, of_segments, faults)
+                flow = flow.reparametrised(*_clock_rates(some))
+            _record_errors(table, stroke[own], flow, of_segments, faults)
             yield Rows(stroke[own], tau[own], flow, fraction, last[own])
 
 
-def _paces(ticks: Sequence[Ticks]) -> tuple[Floats, Floats]:
+def _clock_rates(ticks: Sequence[Ticks]) -> tuple[Floats, Floats]:
     """The rate s_dot of the clock at each row, and its derivative s_ddot."""
     rates = [np.ones(len(t.tau)) if t.rate is None else t.rate for t in ticks]
     slopes = [np.zeros(len(t.tau)) if t.slope is None else t.slope for t in ticks]
     return np.concatenate(rates), np.concatenate(slopes)
 
 
-def _note(
+def _record_errors(
     table: Schedule, stroke: Indices, flow: Flow, of_segments: Faults, faults: Faults
 ) -> None:
     """Records the first error of each stroke: of its formula, or that its rows are not finite."""

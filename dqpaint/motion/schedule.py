@@ -83,7 +83,7 @@ class Schedule:
         """The first segment of each stroke, whose profile and timing hold for all of it."""
         return [self.program.segments[number] for number in self.first]
 
-    def of(self, strokes: Flags | Indices) -> "Schedule":
+    def select(self, strokes: Flags | Indices) -> "Schedule":
         """Some of the strokes."""
         names = ("first", "size", "length", "profile", "rates", "count", "wanted")
         return replace(self, **{name: getattr(self, name)[strokes] for name in names})
@@ -140,7 +140,7 @@ class Schedule:
         several = stroke[self.size[stroke] > 1]
         for run in np.unique(several) if len(several) else ():
             rows = slice(*np.searchsorted(stroke, (run, run + 1)))
-            number[rows] += part_at(self.edges(run), fraction[rows])
+            number[rows] += interval_of(self.edges(run), fraction[rows])
         return np.asarray(number)
 
     def flow(self, stroke: Indices, tau: Floats, faults: Faults) -> tuple[Flow, Floats]:
@@ -192,12 +192,12 @@ class Schedule:
         return number, (fraction - begin) / (self.end[number] - begin)
 
 
-def part_at(edges: Floats, f: Floats) -> Indices:
+def interval_of(edges: Floats, f: Floats) -> Indices:
     """The interval (N,) of each fraction; values outside belong to the outer ones."""
     return np.clip(np.searchsorted(edges, f, side="right") - 1, 0, len(edges) - 2)
 
 
-def timetable(program: Program, findings: DiagnosticCollector) -> Schedule:
+def schedule_strokes(program: Program, findings: DiagnosticCollector) -> Schedule:
     """The schedule of a program; errors and warnings about its times go to `findings`.
 
     Strokes that are wrong are left out.
@@ -210,18 +210,18 @@ def timetable(program: Program, findings: DiagnosticCollector) -> Schedule:
     shapes = gather_shapes(segments, faults, program.most_samples * program.period)
     first, size = _strokes(segments)
     by_length = _by_length(shapes, faults)
-    begin, end, length = _joined(shapes, first, size)
+    begin, end, length = _segment_edges(shapes, first, size)
     draft = Schedule(
         *(program, shapes, first, size, begin, end, by_length, length),
         *(np.zeros(len(first), np.intp), np.zeros((len(first), 4))),
         *(np.ones(len(first), np.int64), np.ones(len(first))),
     )
-    wrong = _of_strokes(faults, first)
+    wrong = _first_errors(faults, first)
     profile, rates = _profiles(draft, wrong)
     wanted = _seconds(replace(draft, profile=profile, rates=rates), wrong)
     count = _counts(draft.firsts, wanted, program)
     table = replace(draft, profile=profile, rates=rates, count=count, wanted=wanted)
-    return table.of(_told(table, wrong, findings))
+    return table.select(_report(table, wrong, findings))
 
 
 def _strokes(segments: Sequence[Segment]) -> tuple[Indices, Indices]:
@@ -248,7 +248,7 @@ def _by_length(shapes: Shapes, faults: Faults) -> Flags:
     return out
 
 
-def _joined(shapes: Shapes, first: Indices, size: Indices) -> tuple[Floats, Floats, Floats]:
+def _segment_edges(shapes: Shapes, first: Indices, size: Indices) -> tuple[Floats, Floats, Floats]:
     """Start and end of segments (M,), as fractions of their strokes, and the lengths (S,)."""
     begin, end = np.zeros(len(shapes.segments)), np.ones(len(shapes.segments))
     length = shapes.length[first]
@@ -262,7 +262,7 @@ def _joined(shapes: Shapes, first: Indices, size: Indices) -> tuple[Floats, Floa
     return begin, end, length
 
 
-def _of_strokes(faults: Faults, first: Indices) -> Faults:
+def _first_errors(faults: Faults, first: Indices) -> Faults:
     """The first error of each stroke, from the errors of its segments."""
     wrong: Faults = {}
     for number in sorted(faults):
@@ -292,7 +292,7 @@ def _profiles(table: Schedule, wrong: Faults) -> tuple[Indices, Floats]:
 def _seconds(table: Schedule, wrong: Faults) -> Floats:
     """The wanted duration of each stroke (S,) [s]."""
     period, firsts = table.program.period, table.firsts
-    seconds, speed, turnspeed = np.array([_asked(s, period) for s in firsts]).T
+    seconds, speed, turnspeed = np.array([_wanted_timing(s, period) for s in firsts]).T
     cruising = speed > 0.0
     total = np.repeat(table.length, table.size)
     share = np.divide(table.shapes.length, total, out=np.ones_like(total), where=total > 0.0)
@@ -315,7 +315,7 @@ def _seconds(table: Schedule, wrong: Faults) -> Floats:
     return seconds
 
 
-def _asked(segment: Segment, period: float) -> tuple[float, float, float]:
+def _wanted_timing(segment: Segment, period: float) -> tuple[float, float, float]:
     """The time [s] of a stroke, or its speed [m/s] and turnspeed [rad/s]."""
     timing = segment.timing
     if isinstance(timing, CruiseSpeed):
@@ -337,7 +337,7 @@ def _counts(firsts: Sequence[Segment], seconds: Floats, program: Program) -> NDA
     return count
 
 
-def _told(table: Schedule, wrong: Faults, findings: DiagnosticCollector) -> Flags:
+def _report(table: Schedule, wrong: Faults, findings: DiagnosticCollector) -> Flags:
     """Says what is wrong, and what is rounded by much; gives which strokes (S,) are left."""
     period, most, firsts = table.program.period, table.program.most_samples, table.firsts
     good = np.array([stroke not in wrong for stroke in range(len(table))])

@@ -10,7 +10,7 @@ from dqpaint.motion.geometry.batched_shapes import Flags
 from dqpaint.motion.geometry.paths import Indices
 from dqpaint.motion.profiles import Rates, rate_at, turns_back
 from dqpaint.motion.sampling import Rows
-from dqpaint.motion.schedule import Schedule, part_at
+from dqpaint.motion.schedule import Schedule, interval_of
 from dqpaint.program import STANDING, Light
 
 NEAR_END = 0.01  # of the length: how bright the ends of a stroke are is told there
@@ -70,7 +70,7 @@ class StrokeLight:
         own = slice(begin, begin + self.table.size[run])
         first, last, width = self.first[own], self.last[own], np.diff(edges)[:, None]
         before = np.concatenate([np.zeros((1, 3)), np.cumsum(width * 0.5 * (first + last), axis=0)])
-        parts = part_at(edges, at)
+        parts = interval_of(edges, at)
         u = (at - edges[parts])[:, None] / width[parts]
         gathered = width[parts] * u * first[parts]
         gathered += width[parts] * 0.5 * u**2 * (last - first)[parts]
@@ -106,7 +106,7 @@ class StrokeLight:
         ]
 
 
-def glow(table: Schedule) -> StrokeLight:
+def make_stroke_light(table: Schedule) -> StrokeLight:
     """The light of all segments of a drawing."""
     segments = table.program.segments
     lights = [segment.light or DARK for segment in segments]
@@ -135,11 +135,11 @@ def unevenness(table: Schedule) -> float:
     for name, with_rates, strokes in table.profiles():
         some = strokes[matters[strokes]]
         if len(some):
-            found.append(_over_middle(name, table.end_rates(name, some) if with_rates else ()))
+            found.append(_largest_ratio(name, table.end_rates(name, some) if with_rates else ()))
     return max(found)
 
 
-def _over_middle(profile: str, rates: Rates) -> float:
+def _largest_ratio(profile: str, rates: Rates) -> float:
     """The largest ratio among strokes with one profile. Brightness is time per length."""
     start, middle, end = (rate_at(profile, rates, f) for f in (NEAR_END, 0.5, 1.0 - NEAR_END))
     times = middle / np.minimum(start, end)

@@ -12,11 +12,11 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.diagnostics import Diagnostic, DiagnosticCollector, ErrorLimitError, ScriptError
 from dqpaint.dq import Floats
-from dqpaint.motion.corner_warnings import jumps, slow
+from dqpaint.motion.corner_warnings import slow_strokes, velocity_jumps
 from dqpaint.motion.geometry.batched_shapes import Flags
 from dqpaint.motion.geometry.paths import Indices
-from dqpaint.motion.sampling import blocks, every_sample, sampled
-from dqpaint.motion.schedule import Schedule, timetable
+from dqpaint.motion.sampling import blocks, every_sample, sample_rows
+from dqpaint.motion.schedule import Schedule, schedule_strokes
 from dqpaint.motion.stroke_errors import Faults, beyond_budget
 from dqpaint.motion.stroke_light import unevenness
 from dqpaint.program import Program
@@ -62,18 +62,18 @@ def survey(program: Program) -> Survey:
     faults: Faults = {}
     box = _Box()
     try:
-        table = timetable(program, findings)
+        table = schedule_strokes(program, findings)
         doubtful = _doubtful(table) & (not beyond_budget(findings))
-        for rows in sampled(table.of(doubtful), None, faults, parted=True):
+        for rows in sample_rows(table.select(doubtful), None, faults, split=True):
             box.add(dq.translation(rows.flow.pose))
-        tell(faults, findings)
+        report_errors(faults, findings)
     except ErrorLimitError:
         pass
     if findings.errors:
         raise ScriptError(program.name, program.text, findings.ordered())
-    for note in (*jumps(table), *slow(table)):
+    for note in (*velocity_jumps(table), *slow_strokes(table)):
         findings.add(note)
-    _bound(table, np.flatnonzero(~doubtful), box)
+    _extend_box(table, np.flatnonzero(~doubtful), box)
     samples = int(table.count.sum()) + 1
     return Survey(
         program,
@@ -86,7 +86,7 @@ def survey(program: Program) -> Survey:
     )
 
 
-def tell(faults: Faults, findings: DiagnosticCollector) -> None:
+def report_errors(faults: Faults, findings: DiagnosticCollector) -> None:
     """Adds errors to the findings in the order of the strokes."""
     for stroke in sorted(faults):
         for diagnostic in faults[stroke]:
@@ -126,7 +126,7 @@ def _doubtful(table: Schedule) -> Flags:
         return np.asarray(~(harmless & (1.0 / table.time < HARMLESS)))
 
 
-def _bound(table: Schedule, strokes: Indices, box: _Box) -> None:
+def _extend_box(table: Schedule, strokes: Indices, box: _Box) -> None:
     """Extends a box by strokes: by their ends, and by all samples where these may leave it."""
     if not len(strokes):
         return

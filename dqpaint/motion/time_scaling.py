@@ -39,13 +39,13 @@ class Ticks:
         return len(self.tau) - 1
 
     @property
-    def paces(self) -> tuple[float, float]:
+    def end_rates(self) -> tuple[float, float]:
         """s_dot at the first and at the last sample."""
         return (1.0, 1.0) if self.rate is None else (float(self.rate[0]), float(self.rate[-1]))
 
 
 @dataclass(frozen=True)
-class Pace:
+class TimeScaling:
     """The slowness of the clock.
 
     Attributes:

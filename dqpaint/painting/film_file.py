@@ -210,7 +210,7 @@ def _arm_motion(arrays: Arrays, facts: ArmFacts | None, sweep: Sweep) -> ArmMoti
         raise ValueError("arm")
     if any(part.dtype.kind != "i" or part.shape != sweep.time.shape for part in (line, file)):
         raise ValueError("arm")
-    source = RowLines.of(list(map(SourceLine, file.tolist(), line.tolist())))
+    source = RowLines.from_lines(list(map(SourceLine, file.tolist(), line.tolist())))
     return ArmMotion(facts.robot, posture, source, facts.period)
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.diagnostics import SourceLine
 from dqpaint.dq import Floats
-from dqpaint.motion import Motion, Pace, plan, smooth
+from dqpaint.motion import Motion, TimeScaling, plan, smooth
 from dqpaint.robots.kinematics import (
     Dynamics,
     Kinematics,
@@ -93,7 +93,7 @@ def retime(
         slowness = np.maximum(slowness, smooth(needed, motion.period))
     if (slowness == 1).all():
         return Retiming(motion, 0.0, 1.0, ())
-    placed = plan(motion.program, kinematics.card.canvas.pose, Pace(slowness, motion.period))
+    placed = plan(motion.program, kinematics.card.canvas.pose, TimeScaling(slowness, motion.period))
     lines = motion.source[slowness > 1 + CONVERGED].present
     longer = float(placed.t[-1] - motion.t[-1])
     return Retiming(placed, longer, float(1 / slowness.max()), tuple(lines))

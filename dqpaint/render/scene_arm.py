@@ -90,7 +90,7 @@ class SceneArm(ExitStack):
         self._whole = whole
         self._posture = posture
         unknown = [SourceLine(0, 0)] * len(posture)
-        self.source = RowLines.of(unknown) if source is None else source
+        self.source = RowLines.from_lines(unknown) if source is None else source
         self._period = period
 
     @cached_property

@@ -6,7 +6,7 @@ import stat
 import pytest
 
 from dqpaint.errors import DqpaintError
-from dqpaint.language.writing.format_files import format_file, laid_out
+from dqpaint.language.writing.format_files import format_bytes, format_file
 
 UGLY, FAIR = b"line   to (1,2)mm\nhold 1s", b"line to (1, 2) mm\nhold 1 s\n"
 
@@ -19,12 +19,12 @@ def drawing(tmp_path):
 
 
 def test_line_ends_stay_and_the_mark_goes():
-    assert laid_out(UGLY, "a") == FAIR
+    assert format_bytes(UGLY, "a") == FAIR
     crlf = FAIR.replace(b"\n", b"\r\n")
-    assert laid_out(UGLY.replace(b"\n", b"\r\n"), "a") == laid_out(crlf, "a") == crlf
-    assert laid_out(b"\xef\xbb\xbf" + FAIR, "a") == FAIR
+    assert format_bytes(UGLY.replace(b"\n", b"\r\n"), "a") == format_bytes(crlf, "a") == crlf
+    assert format_bytes(b"\xef\xbb\xbf" + FAIR, "a") == FAIR
     mixed = b"hold 1 s\r\nhold 2 s\nhold 3 s\n"
-    assert laid_out(mixed, "a") == b"hold 1 s\r\nhold 2 s\r\nhold 3 s\r\n"
+    assert format_bytes(mixed, "a") == b"hold 1 s\r\nhold 2 s\r\nhold 3 s\r\n"
 
 
 def test_a_file_is_rewritten_once(drawing):

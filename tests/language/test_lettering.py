@@ -204,7 +204,7 @@ def test_signs_from_typesetting() -> None:
     [("Größe", "Groesse"), ("café", "cafe"), ("Ærø", "Aeroe"), ("½", ""), ("日", "")],
 )
 def test_replacements(line: str, instead: str) -> None:
-    assert lettering.replaced(line, lettering.read_font("futural")) == instead
+    assert lettering.with_substitutes(line, lettering.read_font("futural")) == instead
 
 
 @pytest.mark.slow

@@ -26,7 +26,7 @@ def dark(lines: list[tuple[PiecewiseCurve, object]]) -> float:
 
 def test_what_touches_is_joined_whichever_way_it_was_drawn() -> None:
     lines = [(line((2, 0), (1, 0)), RED), (line((0, 0), (1, 0)), RED), (line((2, 0), (2, 5)), RED)]
-    ((whole, colour),) = stroke_order.in_order(lines)
+    ((whole, colour),) = stroke_order.order_lines(lines)
     assert colour == RED
     way = corners(whole)
     assert way in ([(0, 0), (1, 0), (2, 0), (2, 5)], [(2, 5), (2, 0), (1, 0), (0, 0)])
@@ -38,14 +38,14 @@ def test_colours_stay_apart_and_closed_lines_alone() -> None:
         (line((1, 0), (2, 0)), BLUE),
         (line((1, 0), (1, 9)), None),
     ]
-    assert len(stroke_order.in_order(lines)) == 3
+    assert len(stroke_order.order_lines(lines)) == 3
     square = line((0, 0), (1, 0), (1, 1), (0, 0))
-    assert len(stroke_order.in_order([(square, RED), (line((0, 0), (-5, 0)), RED)])) == 2
+    assert len(stroke_order.order_lines([(square, RED), (line((0, 0), (-5, 0)), RED)])) == 2
 
 
 def test_a_ring_of_lines_closes() -> None:
     lines = [(line((0, 0), (1, 0)), RED), (line((1, 1), (1, 0)), RED), (line((1, 1), (0, 0)), RED)]
-    ((whole, _),) = stroke_order.in_order(lines)
+    ((whole, _),) = stroke_order.order_lines(lines)
     assert corners(whole)[0] == corners(whole)[-1]
     assert len(whole.cubic) == 3
 
@@ -53,7 +53,7 @@ def test_a_ring_of_lines_closes() -> None:
 def test_where_lines_cross_they_go_straight_on() -> None:
     arms = [((1, 0), (0, 0)), ((0, 1), (0, 0)), ((0, 0), (-1, 0)), ((0, 0), (0, -1))]
     ways = [
-        corners(curve) for curve, _ in stroke_order.in_order([(line(*arm), RED) for arm in arms])
+        corners(curve) for curve, _ in stroke_order.order_lines([(line(*arm), RED) for arm in arms])
     ]
     assert len(ways) == 2
     for way in ways:
@@ -65,7 +65,7 @@ def test_where_lines_cross_they_go_straight_on() -> None:
 def test_a_small_gap_is_closed_a_larger_one_is_not() -> None:
     def count(gap: float) -> int:
         lines = [(line((0, 0), (1, 0)), RED), (line((1 + gap, 0), (2, 0)), RED)]
-        made = stroke_order.in_order(lines)
+        made = stroke_order.order_lines(lines)
         for curve, _ in made:
             ends = piecewise.derivatives(
                 curve, np.arange(len(curve.cubic)), np.ones(len(curve.cubic))
@@ -85,7 +85,7 @@ def scattered(rng: np.random.Generator, count: int) -> list[tuple[PiecewiseCurve
 def test_the_order_is_never_worse_than_the_file_s(rng: np.random.Generator) -> None:
     for count in (1, 2, 3, 10, 200):
         lines = scattered(rng, count)
-        made = stroke_order.in_order(lines)
+        made = stroke_order.order_lines(lines)
         assert len(made) == count
         assert dark(made) <= dark(lines)
         both = [{frozenset(map(tuple, corners(c))) for c, _ in some} for some in (lines, made)]
@@ -95,7 +95,9 @@ def test_the_order_is_never_worse_than_the_file_s(rng: np.random.Generator) -> N
 
 def test_a_good_order_is_kept() -> None:
     lines = [(line((i, 0), (i + 0.5, 0)), None) for i in range(9)]
-    assert [corners(c) for c, _ in stroke_order.in_order(lines)] == [corners(c) for c, _ in lines]
+    assert [corners(c) for c, _ in stroke_order.order_lines(lines)] == [
+        corners(c) for c, _ in lines
+    ]
 
 
 def test_the_nearest_is_the_nearest(rng: np.random.Generator) -> None:
@@ -115,7 +117,7 @@ def test_the_file_s_order_stays_where_it_is_better(monkeypatch: pytest.MonkeyPat
     """At 0, -1, 0.9, 10 the nearest comes too early."""
     monkeypatch.setattr(stroke_order, "MOST_TURNED", 0)
     lines = [(line((x, 0), (x, 1e-3)), None) for x in (0, -1, 0.9, 10)]
-    assert [c.cubic[0, 0, 0] for c, _ in stroke_order.in_order(lines)] == [0, -1, 0.9, 10]
+    assert [c.cubic[0, 0, 0] for c, _ in stroke_order.order_lines(lines)] == [0, -1, 0.9, 10]
 
 
 def test_turning_stretches_round_helps(rng: np.random.Generator) -> None:
@@ -130,4 +132,4 @@ def test_turning_stretches_round_helps(rng: np.random.Generator) -> None:
 @pytest.mark.slow
 def test_twenty_thousand_lines(rng: np.random.Generator) -> None:
     lines = scattered(rng, 20_000)
-    assert dark(stroke_order.in_order(lines)) < 0.05 * dark(lines)
+    assert dark(stroke_order.order_lines(lines)) < 0.05 * dark(lines)

@@ -8,7 +8,7 @@ import pytest
 
 from dqpaint.diagnostics.diagnostic import Span
 from dqpaint.language import ScriptError, parse
-from dqpaint.language.pen.durations import apportioned
+from dqpaint.language.pen.durations import apportion
 from dqpaint.language.vocabulary.units import NAMES, dimension_name
 from dqpaint.program import colours
 from dqpaint.program.program import Curve, Light, Profile, Samples
@@ -135,9 +135,9 @@ def test_a_formula_that_is_not_finite_in_between_says_where() -> None:
 
 
 def test_apportioned() -> None:
-    assert apportioned(11, [3, 1, 6]) == [3, 2, 6]
+    assert apportion(11, [3, 1, 6]) == [3, 2, 6]
     for count in range(3, 60):
-        counts = apportioned(count, [0.1, 5.0, 2.7])
+        counts = apportion(count, [0.1, 5.0, 2.7])
         assert sum(counts) == count
         assert min(counts) >= 1
 

@@ -36,7 +36,9 @@ def special(name, track):
     motion = track.motion
     n = len(motion.t)
     if name == "file":
-        return replace(track, motion=replace(motion, source=RowLines.of([SourceLine(1, 1)] * n)))
+        return replace(
+            track, motion=replace(motion, source=RowLines.from_lines([SourceLine(1, 1)] * n))
+        )
     if name == "drawing_time_s":
         return replace(track, motion=replace(motion, clock=0.5 * motion.t))
     if name == "read1_rad":

@@ -6,7 +6,7 @@ from dqpaint.diagnostics import SourceLine
 from dqpaint.motion import RowLines
 
 MAIN_9, PETAL_3, PETAL_1 = SourceLine(0, 9), SourceLine(2, 3), SourceLine(2, 1)
-SOURCE = RowLines.of([PETAL_3, PETAL_3, MAIN_9, PETAL_1, MAIN_9])
+SOURCE = RowLines.from_lines([PETAL_3, PETAL_3, MAIN_9, PETAL_1, MAIN_9])
 
 
 def test_lines_are_in_the_order_of_their_files():

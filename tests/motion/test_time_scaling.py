@@ -6,7 +6,7 @@ import pytest
 from dqpaint import dq
 from dqpaint.language import parse
 from dqpaint.motion import plan
-from dqpaint.motion.time_scaling import AHEAD, Pace, smooth
+from dqpaint.motion.time_scaling import AHEAD, TimeScaling, smooth
 from dqpaint.robots.model.card import read_card
 
 CANVAS = read_card("iiwa").canvas.pose
@@ -23,7 +23,7 @@ ASKED = plan(parse(TEXT, "t.traj"), CANVAS)
 
 
 def slowed(slowness):
-    return plan(parse(TEXT, "t.traj"), CANVAS, Pace(slowness, PERIOD))
+    return plan(parse(TEXT, "t.traj"), CANVAS, TimeScaling(slowness, PERIOD))
 
 
 def wavy():
@@ -120,7 +120,7 @@ def test_a_smooth_slowness_is_enough_everywhere_and_smooth(rng):
 @pytest.mark.parametrize("count", [1, 2, 3, 100])
 @pytest.mark.parametrize("slow", [1.0, 1.001, 1.5, 7.3])
 def test_a_stroke_takes_whole_periods(count, slow):
-    ticks = Pace(np.full(count + 5, slow), PERIOD).ticks(2, count)
+    ticks = TimeScaling(np.full(count + 5, slow), PERIOD).ticks(2, count)
     assert ticks.count >= count * slow - 1e-6
     assert ticks.count < count * slow + 1
     assert (ticks.tau[0], ticks.tau[-1]) == (0, 1)

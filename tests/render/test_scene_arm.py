@@ -34,7 +34,7 @@ TEXT = "speed 200 mm/s\nlight white\nline to (60, 0) mm\nlight off\nmove to (0, 
 def test_hidden_light_is_accounted_to_its_lines():
     hidden = np.array([[1.0, 0, 0], [0, 2, 0], [0, 0, 0], [3, 0, 0]])
     seven, three, five = SourceLine(0, 7), SourceLine(1, 3), SourceLine(0, 5)
-    source = RowLines.of([seven, three, five, seven])
+    source = RowLines.from_lines([seven, three, five, seven])
     found = hidden_by_line(hidden, np.full((4, 3), 2.0), source)
     np.testing.assert_array_equal(found.energy, [4, 2, 0])
     assert found.lines == ((seven, 4 / 24), (three, 2 / 24))
@@ -42,7 +42,9 @@ def test_hidden_light_is_accounted_to_its_lines():
 
 def test_no_light_hides_nothing():
     found = hidden_by_line(
-        np.zeros((2, 3)), np.zeros((2, 3)), RowLines.of([SourceLine(0, 1), SourceLine(0, 2)])
+        np.zeros((2, 3)),
+        np.zeros((2, 3)),
+        RowLines.from_lines([SourceLine(0, 1), SourceLine(0, 2)]),
     )
     assert found.lines == ()
 

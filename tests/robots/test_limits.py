@@ -42,7 +42,7 @@ def test_a_joint_far_beyond_its_limit_comes_back_at_its_speed():
 def test_each_kind_is_named_with_joint_time_line_and_amount():
     n = 10
     three, four = SourceLine(0, 3), SourceLine(1, 4)
-    t, source = np.arange(n) * 0.01, RowLines.of([three] * 5 + [four] * 5)
+    t, source = np.arange(n) * 0.01, RowLines.from_lines([three] * 5 + [four] * 5)
     posture, effort = np.zeros((n, 7)), np.zeros((n, 7))
     wanted, command = np.zeros((n, 7)), np.zeros((n, 7))
     wanted[2:4, 3], command[2:4, 3] = [-2.0, -3.0], -CARD.speed[3]  # the worst is told

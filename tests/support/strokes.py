@@ -11,7 +11,7 @@ from dqpaint.diagnostics.collector import DiagnosticCollector
 from dqpaint.motion.geometry.batched_shapes import shape
 from dqpaint.motion.geometry.shapes import Flow
 from dqpaint.motion.profiles import Progress
-from dqpaint.motion.schedule import Schedule, timetable
+from dqpaint.motion.schedule import Schedule, schedule_strokes
 from dqpaint.program import piecewise, taylor
 from dqpaint.program.program import (
     Arc,
@@ -175,6 +175,6 @@ class Stroke:
 def strokes_of(drawing):
     """The strokes of a program without a fault."""
     findings = DiagnosticCollector()
-    table = timetable(drawing, findings)
+    table = schedule_strokes(drawing, findings)
     assert not findings.errors
     return [Stroke(table, number) for number in range(len(table))]

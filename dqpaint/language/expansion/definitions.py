@@ -25,10 +25,10 @@ def function_of(statement: Statement, scope: Scope) -> Function:
     if depth > DEEPEST_CALLS:
         message = "this formula has too many parts within each other"
         raise problem("E308", message, body.span, "", "give a part of it a name: let a = …")
-    return Function(name, params, body, scope.known(used.difference(params)), size, depth)
+    return Function(name, params, body, scope.values_of(used.difference(params)), size, depth)
 
 
-def drawing_of(statement: Statement, scope: Scope) -> Procedure:
+def procedure_of(statement: Statement, scope: Scope) -> Procedure:
     """`def star(r) … end`. Its lines know the names defined here and its parameters."""
     assert statement.name is not None
     assert statement.params is not None
@@ -37,7 +37,7 @@ def drawing_of(statement: Statement, scope: Scope) -> Procedure:
     if call is not None:
         message = f"'{name.text}' can't call itself"
         raise problem("E232", message, call.span, "", "repeat draws its lines several times")
-    known = scope.known(names_in(statement.body).difference(p.text for p in statement.params))
+    known = scope.values_of(names_in(statement.body).difference(p.text for p in statement.params))
     size = blocks.size(statement, 1, scope)
     return Procedure(name.text, statement.params, statement.body, known, size)
 
@@ -64,7 +64,7 @@ def frame_of(statement: Statement, scope: Scope) -> FrameValue:
     return FrameValue(frame)
 
 
-def called(statement: Statement, scope: Scope) -> Procedure:
+def called_procedure(statement: Statement, scope: Scope) -> Procedure:
     """The `def` called by a line."""
     assert statement.name is not None
     word = statement.name
@@ -92,7 +92,7 @@ def called(statement: Statement, scope: Scope) -> Procedure:
     raise Problem(mistake)
 
 
-def handed(drawing: Procedure, statement: Statement, scope: Scope) -> Scope:
+def call_scope(drawing: Procedure, statement: Statement, scope: Scope) -> Scope:
     """The scope of a `def`'s lines for a call."""
     wanted, given = len(drawing.params), len(statement.values)
     if wanted != given:
@@ -104,6 +104,6 @@ def handed(drawing: Procedure, statement: Statement, scope: Scope) -> Scope:
     names: dict[str, Value | None] = dict(drawing.known)
     for param, node in zip(drawing.params, statement.values, strict=True):
         names[param.text] = evaluate(node, scope)
-    inner = scope.within(names)
+    inner = scope.with_names(names)
     inner.places = {param.text: param.span for param in drawing.params}
     return inner

@@ -17,12 +17,18 @@ from dqpaint.diagnostics import (
     problem,
 )
 from dqpaint.language.expansion import blocks
-from dqpaint.language.expansion.definitions import called, drawing_of, frame_of, function_of, handed
+from dqpaint.language.expansion.definitions import (
+    call_scope,
+    called_procedure,
+    frame_of,
+    function_of,
+    procedure_of,
+)
 from dqpaint.language.pen import tool_orientation
 from dqpaint.language.pen.durations import timing
 from dqpaint.language.pen.pen import Pen
 from dqpaint.language.strokes import corner_blending, curves, imported_strokes, strokes
-from dqpaint.language.strokes.modal_words import changed, tool_mode
+from dqpaint.language.strokes.modal_words import apply_clause, tool_mode
 from dqpaint.language.syntax.tree import Part, Statement, ToolWords
 from dqpaint.language.values import typed_values
 from dqpaint.language.values.evaluate import evaluate
@@ -84,7 +90,7 @@ class Expander:
         pen = self._pen
         if not any(pen.corners) or self._findings.errors:
             return tuple(pen.segments)
-        return tuple(corner_blending.rounded(pen.segments, pen.corners, self._findings))
+        return tuple(corner_blending.round_corners(pen.segments, pen.corners, self._findings))
 
     def _run(self, statements: tuple[Statement, ...]) -> None:
         for statement in statements:
@@ -95,7 +101,7 @@ class Expander:
         self._expanded += 1
         self._check_size(statement, self._expanded)
         if statement.broken:
-            self._pass_over(statement)
+            self._skip(statement)
             return
         try:
             if statement.word in _HANDLERS:
@@ -109,9 +115,9 @@ class Expander:
                 for call in reversed(self._calls):
                     mistake = at_call(mistake, call)
                 self._findings.add(mistake.diagnostic)
-            self._pass_over(statement)
+            self._skip(statement)
         except UnknownError:  # its cause was reported
-            self._pass_over(statement)
+            self._skip(statement)
 
     def _check_size(self, statement: Statement, size: int) -> None:
         """Raises before a block is expanded if it is too large."""
@@ -119,7 +125,7 @@ class Expander:
             self._findings.add(blocks.too_many_statements(statement, size))
             raise ErrorLimitError
 
-    def _pass_over(self, statement: Statement) -> None:
+    def _skip(self, statement: Statement) -> None:
         """Continues after an error without reporting its consequences."""
         self._failed += 1
         known = STATEMENTS.get(statement.word)
@@ -146,7 +152,7 @@ class Expander:
             message = f"more than {DEEPEST} blocks, calls and files within each other"
             raise problem("E127", message, statement.span)
 
-    def _inside(self, statement: Statement, body: tuple[Statement, ...]) -> None:
+    def _expand_body(self, statement: Statement, body: tuple[Statement, ...]) -> None:
         """Expands the lines of a block."""
         self._check_depth(statement)
         outside = self._open_block()
@@ -174,7 +180,7 @@ class Expander:
                 "E230",
                 f"'{name.text}' already has a value",
                 name.span,
-                f"(first: {self._where(self._scope.places[name.text], name.span)})",
+                f"(first: {self._location(self._scope.places[name.text], name.span)})",
                 "values never change; choose another name",
             )
         if value is not None:
@@ -189,19 +195,19 @@ class Expander:
         self._define(statement, value)
 
     def _def(self, statement: Statement) -> None:
-        self._define(statement, drawing_of(statement, self._scope))
+        self._define(statement, procedure_of(statement, self._scope))
 
     def _frame(self, statement: Statement) -> None:
         self._define(statement, frame_of(statement, self._scope))
 
     def _call(self, statement: Statement) -> None:
-        drawing = called(statement, self._scope)
-        inner = handed(drawing, statement, self._scope)
+        drawing = called_procedure(statement, self._scope)
+        inner = call_scope(drawing, statement, self._scope)
         self._check_size(statement, self._expanded + drawing.size)
         scope, state, failed = self._scope, self._pen.state, self._failed
         self._scope = inner
         self._calls.append(statement.span)
-        self._inside(statement, drawing.body)
+        self._expand_body(statement, drawing.body)
         self._calls.pop()
         self._scope = scope
         self._pen.state = replace(state, shone=self._pen.state.shone)
@@ -247,14 +253,14 @@ class Expander:
             if part.word in MODAL:
                 self._change(part, inner)
         pen.frame = inner
-        self._inside(statement, statement.body)
+        self._expand_body(statement, statement.body)
         pen.frame = frame
         pen.state = replace(state, shone=pen.state.shone)
 
     def _change(self, part: Part, frame: Frame) -> None:
         pen = self._pen
-        pen.check_pace(part)
-        pen.state = changed(pen.state, part, self._scope, pen, frame)
+        pen.check_no_time(part)
+        pen.state = apply_clause(pen.state, part, self._scope, pen, frame)
 
     def _stroke(self, statement: Statement) -> None:
         pen = self._pen
@@ -268,7 +274,7 @@ class Expander:
         light = pen.state.light if statement.part("light") else None
         pen.begin_stroke(timing(statement, pen.state, self._scope), light)
         try:
-            self._inside(statement, statement.body)
+            self._expand_body(statement, statement.body)
         finally:
             pen.stroke = None
         pen.state = replace(state, shone=pen.state.shone)
@@ -280,7 +286,7 @@ class Expander:
         except Problem as mistake:
             raise curves.outside_of_formula(mistake, statement, self._text) from None
 
-    def _where(self, span: Span, seen_from: Span) -> str:
+    def _location(self, span: Span, seen_from: Span) -> str:
         """`line:column`, and the file if it is another one."""
         line, column = locate(self._text, span.start)
         begin, file = file_at(self._text, span.start, self._name)
@@ -297,12 +303,12 @@ class Expander:
             message = f"'{word}' stands outside of all blocks"
             raise problem("E123", message, span, "", "write it at the top of the file")
         if word in self._once:
-            first = self._where(self._once[word], span)
+            first = self._location(self._once[word], span)
             message, label = f"'{word}' is given twice", f"second (first: {first})"
             raise problem("E113", message, span, label, "keep one of them")
         if self._pen.started:
             message = f"'{word}' comes too late: the tool has moved already"
-            label = f"(first movement: {self._where(self._pen.moved, span)})"
+            label = f"(first movement: {self._location(self._pen.moved, span)})"
             raise problem("E124", message, span, label, "write it before the first movement")
         self._once[word] = statement.span
 
@@ -334,19 +340,19 @@ class Expander:
         if statement.name is not None:
             self._placement = AutoPlacement(given, statement.span)
             return
-        position = typed_values.place(statement.given("at"), self._scope, "at")
+        position = typed_values.place(statement.required("at"), self._scope, "at")
         self._placement = Pose(position, given or (1.0, 0.0, 0.0, 0.0))
 
     def _start(self, statement: Statement) -> None:
         self._first(statement, inside=True)
         pen = self._pen
-        at, tool = statement.given("at"), statement.part("tool")
+        at, tool = statement.required("at"), statement.part("tool")
         position = pen.frame.point(typed_values.place(at, self._scope, "at"))
         orientation = None
         if tool is not None:
             assert isinstance(tool.value, ToolWords)
             mode = tool_mode(tool.value, self._scope, pen.frame)
-            orientation = tool_orientation.told(mode, position, tool.value.span)
+            orientation = tool_orientation.orientation_of_mode(mode, position, tool.value.span)
             if orientation is None:
                 message = "'start' needs to know how the tool is held"
                 cure = "write: tool rpy(0 deg, 0 deg, 0 deg), or tool look (0, 0, 0)"

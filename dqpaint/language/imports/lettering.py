@@ -166,13 +166,13 @@ def missing(lines: tuple[str, ...], font: Font) -> Iterator[tuple[int, int]]:
                 yield number, place
 
 
-def replaced(line: str, font: Font) -> str:
+def with_substitutes(line: str, font: Font) -> str:
     """A line with substitutes for letters a font lacks; empty if it lacks those too."""
-    out = "".join(letter if font.has(letter) else _instead(letter) for letter in line)
+    out = "".join(letter if font.has(letter) else _substitute(letter) for letter in line)
     return out if all(font.has(letter) for letter in out) else ""
 
 
-def _instead(letter: str) -> str:
+def _substitute(letter: str) -> str:
     if letter in _WRITTEN:
         return _WRITTEN[letter]
     apart = unicodedata.normalize("NFKD", letter)

@@ -23,7 +23,7 @@ ROUNDS = 20
 RINGS = 6  # of cells that are searched before all lines are
 
 
-def in_order(lines: list[ColouredCurve]) -> list[ColouredCurve]:
+def order_lines(lines: list[ColouredCurve]) -> list[ColouredCurve]:
     """The same lines, joined and in an order whose dark moves are no longer than before."""
     return _routed(_merged(lines))
 
@@ -145,7 +145,7 @@ def _dark(ends: Floats, order: NDArray[np.int64], flipped: NDArray[np.bool_]) ->
 
 def _nearest(ends: Floats) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
     """Nearest-neighbour order of the lines, each reversed if its end is nearer."""
-    left = _Left(ends)
+    left = _RemainingEnds(ends)
     order, flipped = [0], [False]
     left.take(0)
     while len(order) < len(ends):
@@ -156,7 +156,7 @@ def _nearest(ends: Floats) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
     return np.array(order), np.array(flipped)
 
 
-class _Left:
+class _RemainingEnds:
     """The ends of the lines not yet drawn, in a grid with about one line per cell."""
 
     def __init__(self, ends: Floats) -> None:

@@ -19,7 +19,7 @@ def timing(statement: Statement, state: StrokeState, scope: Scope) -> Timing:
     return CruiseSpeed(state.speed, state.turnspeed)
 
 
-def shared(whole: Timing, shares: list[float], span: Span) -> list[Timing]:
+def divide_timing(whole: Timing, shares: list[float], span: Span) -> list[Timing]:
     """The timing of each leg: `shares` [any unit] are the legs' lengths."""
     if len(shares) == 1 or isinstance(whole, CruiseSpeed):
         return [whole] * len(shares)
@@ -29,10 +29,10 @@ def shared(whole: Timing, shares: list[float], span: Span) -> list[Timing]:
     if whole.count < len(shares):
         message = f"{len(shares)} legs need at least {len(shares)} samples"
         raise problem("E256", message, span, "", f"write: samples {len(shares)}")
-    return [Samples(count) for count in apportioned(whole.count, shares)]
+    return [Samples(count) for count in apportion(whole.count, shares)]
 
 
-def apportioned(count: int, shares: list[float]) -> list[int]:
+def apportion(count: int, shares: list[float]) -> list[int]:
     """Whole numbers in about these shares, each at least 1, with the exact sum `count`."""
     spare, total = count - len(shares), sum(shares)
     exact = [spare * share / total for share in shares]

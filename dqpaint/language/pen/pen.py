@@ -101,11 +101,11 @@ class Pen:
             self.findings.add(_too_many(span))
             raise ErrorLimitError
         if max(map(abs, end.position)) > FARTHEST:
-            raise here("E201", "this ends too far away", span)
+            raise pose_problem("E201", "this ends too far away", span)
         line, words = self._lines.line(span), first_line(self.text, span)
         state, stroke = self.state, self.stroke
         if stroke is not None:
-            self._check_goes_on(path, span)
+            self._check_moves(path, span)
             timing = stroke.timing
         profile = stroke.profile if stroke is not None else state.profile
         brush, strobe, start = state.brush, state.strobe, self.pose
@@ -121,31 +121,31 @@ class Pen:
     # Strokes of several lines.
 
     @property
-    def amid_stroke(self) -> bool:
+    def in_stroke(self) -> bool:
         """Whether the movements of a `stroke` have begun."""
         segments = self.segments
         return self.stroke is not None and bool(segments) and segments[-1].stroke is self.stroke
 
     def check_no_stop(self, span: Span) -> None:
         """Raises if an automatic move or rotation would interrupt a `stroke`."""
-        if self.amid_stroke:
+        if self.in_stroke:
             message = "the tool would have to stop within this stroke"
             cure = "let this line begin where the one before it ends, and the tool look there"
-            raise here("E283", message, span, "", cure)
+            raise pose_problem("E283", message, span, "", cure)
 
     def begin_stroke(self, timing: Timing, light: Light | None) -> None:
         """Begins segments that share a profile, and `light` if it is a gradient."""
         self._strokes += 1
         self.stroke = ContinuousStroke(self._strokes, self.state.profile, timing, light)
 
-    def check_pace(self, part: Part) -> None:
+    def check_no_time(self, part: Part) -> None:
         """Raises if a movement within a `stroke` has a time of its own."""
         if self.stroke is not None and part.word in PACE:
             message = f"'{part.word}' belongs to the whole stroke"
             cure = f"write it on its first line: stroke {PARTS[part.word].example}"
             raise problem("E281", message, part.span, "", cure)
 
-    def _check_goes_on(self, path: Path, span: Span) -> None:
+    def _check_moves(self, path: Path, span: Span) -> None:
         """Raises if the point rests within a `stroke`."""
         if isinstance(path, STANDING) or path == Straight(vectors.ZERO):
             what = {Dwell: "a pause", Step: "a jump"}.get(type(path), "a turn on the spot")
@@ -169,7 +169,7 @@ class Pen:
         by = vectors.minus(to, self.pose.position)
         timing = timing or CruiseSpeed(self.state.speed, self.state.turnspeed)
         end = Pose(to, orientation or self.pose.orientation)
-        self._assumed(Straight(by), tool or FixedOrientation(), timing, end, span)
+        self._add_automatic(Straight(by), tool or FixedOrientation(), timing, end, span)
 
     def look(self, mode: Look | LookLine, orientation: Quaternion, span: Span) -> None:
         """Rotates the tool in the dark to the orientation a stroke needs at its start."""
@@ -187,9 +187,9 @@ class Pen:
         self.warn("W404", message, span, "", cure)
         speed = CruiseSpeed(self.state.speed, self.state.turnspeed)
         end = Pose(self.pose.position, orientation)
-        self._assumed(Straight(vectors.ZERO), SlerpOrientation(), speed, end, span)
+        self._add_automatic(Straight(vectors.ZERO), SlerpOrientation(), speed, end, span)
 
-    def _assumed(self, path: Path, tool: Tool, timing: Timing, end: Pose, span: Span) -> None:
+    def _add_automatic(self, path: Path, tool: Tool, timing: Timing, end: Pose, span: Span) -> None:
         """An automatic stroke, from rest to rest whatever profile the file's strokes have."""
         state, stroke = self.state, self.stroke
         self.state, self.stroke = replace(state, profile=REST_TO_REST, blend=0.0), None
@@ -235,7 +235,7 @@ def _too_many(span: Span) -> Diagnostic:
     )
 
 
-def here(
+def pose_problem(
     code: str, message: str, span: Span, label: str = "", cure: str = ""
 ) -> UnknownPositionProblem:
     """An error that depends on the tool's pose."""

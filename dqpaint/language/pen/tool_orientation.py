@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable
 
 from dqpaint.diagnostics import Span
-from dqpaint.language.pen.pen import SAME_PLACE, SAME_TURN, Pen, here
+from dqpaint.language.pen.pen import SAME_PLACE, SAME_TURN, Pen, pose_problem
 from dqpaint.language.pen.stroke_state import ToolMode, TurnTo
 from dqpaint.language.values import vectors
 from dqpaint.program import (
@@ -36,14 +36,14 @@ def _look(mode: Look, position: Vector, span: Span) -> Quaternion:
     way = vectors.minus(mode.point, position)
     if vectors.length(way) <= SAME_PLACE:
         cure = "look at a point the tool does not go through"
-        raise here("E251", "the tool can't look at the point where it is", span, "", cure)
+        raise pose_problem("E251", "the tool can't look at the point where it is", span, "", cure)
     z = vectors.unit(way)
     lean = vectors.angle_between(z, mode.up)
     if min(lean, math.pi - lean) < LEAST_LEAN:
         message = "the tool looks along 'up' here, so nothing says how it is turned about that"
         other = "y" if abs(mode.up[2]) > 0.9 else "z"
         cure = f"say another direction: tool look POINT up {other}"
-        raise here("E252", message, span, "", cure)
+        raise pose_problem("E252", message, span, "", cure)
     x = vectors.unit(vectors.cross(mode.up, z))
     return vectors.turn_of_axes(x, vectors.cross(z, x), z)
 
@@ -54,12 +54,12 @@ def _look_line(mode: LookLine, position: Vector, span: Span) -> Quaternion:
     across = vectors.across(way, x)
     if vectors.length(across) <= SAME_PLACE + 1e-12 * vectors.length(way):
         cure = "look at a line the tool does not go through"
-        raise here("E253", "the tool can't look at the line it is on", span, "", cure)
+        raise pose_problem("E253", "the tool can't look at the line it is on", span, "", cure)
     z = vectors.unit(across)
     return vectors.turn_of_axes(x, vectors.cross(z, x), z)
 
 
-def told(mode: ToolMode, position: Vector, span: Span) -> Quaternion | None:
+def orientation_of_mode(mode: ToolMode, position: Vector, span: Span) -> Quaternion | None:
     """The orientation at a position if the mode alone determines it, else None."""
     if isinstance(mode, TurnTo):
         return mode.orientation
@@ -68,13 +68,13 @@ def told(mode: ToolMode, position: Vector, span: Span) -> Quaternion | None:
     return None
 
 
-def begin(pen: Pen, mode: ToolMode, span: Span) -> None:
+def look_at_start(pen: Pen, mode: ToolMode, span: Span) -> None:
     """Before a stroke: a tool that looks has to have its orientation already."""
     if isinstance(mode, LOOK_MODES):
         pen.look(mode, orientation_at(mode, pen.pose.position, span), span)
 
 
-def at_end(
+def orientation_at_end(
     pen: Pen, mode: ToolMode, position: Vector, span: Span, axis: Vector, turn: float
 ) -> tuple[Tool, Quaternion]:
     """The tool's rotation on a stroke to `position`, and its orientation there.
@@ -86,17 +86,17 @@ def at_end(
         return FollowHeading(axis), vectors.turn_product(vectors.turn_about(axis, turn), now)
     if isinstance(mode, LOOK_MODES):
         return mode, orientation_at(mode, position, span)
-    return turning(now, mode.orientation if isinstance(mode, TurnTo) else now)
+    return rotation_between(now, mode.orientation if isinstance(mode, TurnTo) else now)
 
 
-def turning(now: Quaternion, end: Quaternion) -> tuple[Tool, Quaternion]:
+def rotation_between(now: Quaternion, end: Quaternion) -> tuple[Tool, Quaternion]:
     """Slerp to `end`, or a fixed orientation if both are equal within SAME_TURN."""
     if end == now or vectors.turn_between(now, end) <= SAME_TURN:
         return FixedOrientation(), now
     return SlerpOrientation(), end
 
 
-def most_leaning(mode: Look | LookLine, start: Vector, way: Vector) -> tuple[Vector, ...]:
+def closest_to_up(mode: Look | LookLine, start: Vector, way: Vector) -> tuple[Vector, ...]:
     """The point on a straight path where the looking direction is closest to +-'up'.
 
     The looks lie in one plane; there the closest is square to n x up, n being the plane's normal.
@@ -110,7 +110,7 @@ def most_leaning(mode: Look | LookLine, start: Vector, way: Vector) -> tuple[Vec
     return (vectors.plus(start, vectors.times(share, way)),) if 0.0 < share < 1.0 else ()
 
 
-def check_way(mode: Look | LookLine, places: Iterable[Vector], span: Span) -> None:
+def check_orientations(mode: Look | LookLine, places: Iterable[Vector], span: Span) -> None:
     """Raises if the tool's orientation is undefined at one of these positions."""
     for position in places:
         orientation_at(mode, position, span)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 
 from dqpaint.diagnostics import Span
-from dqpaint.language.pen.pen import SAME_PLACE, here
+from dqpaint.language.pen.pen import SAME_PLACE, pose_problem
 from dqpaint.language.values import vectors
 from dqpaint.program import Arc, Vector
 
@@ -22,7 +22,7 @@ def through(start: Vector, via: Vector, end: Vector, via_span: Span, end_span: S
     a, b = vectors.minus(via, start), vectors.minus(end, start)
     to_via, to_end = vectors.length(a), vectors.length(b)
     if to_end <= CLOSED * to_via + SAME_PLACE:
-        raise here(
+        raise pose_problem(
             "E245",
             "this arc ends where it starts, so 'via' does not say in which plane it lies",
             end_span,
@@ -36,7 +36,9 @@ def through(start: Vector, via: Vector, end: Vector, via_span: Span, end_span: S
         vectors.length(normal) <= FLAT * to_via * to_end
         or vectors.length(normal) <= FLAT * to_via * to_last
     ):
-        raise here("E246", _LINES, via_span, "", "use line to, or move the via point sideways")
+        raise pose_problem(
+            "E246", _LINES, via_span, "", "use line to, or move the via point sideways"
+        )
     # The circumcentre, seen from `start`.
     weights = vectors.minus(vectors.times(to_via * to_via, b), vectors.times(to_end * to_end, a))
     way = vectors.times(0.5 / vectors.dot(normal, normal), vectors.cross(weights, normal))
@@ -64,7 +66,7 @@ def of_radius(
     chord = vectors.minus(end, start)
     size = vectors.length(chord)
     if size <= CLOSED * radius + SAME_PLACE:
-        raise here(
+        raise pose_problem(
             "E245",
             "this arc ends where it starts, so nothing says where its centre is",
             end_span,
@@ -73,7 +75,7 @@ def of_radius(
         )
     height = vectors.dot(chord, axis)
     if abs(height) > CLOSED * size + SAME_PLACE:
-        raise here(
+        raise pose_problem(
             "E290",
             f"the end lies {1e3 * abs(height):.4g} mm outside of the plane of this arc",
             end_span,
@@ -82,7 +84,7 @@ def of_radius(
         )
     square = radius * radius - 0.25 * size * size
     if square < -CLOSED * radius * radius:
-        raise here(
+        raise pose_problem(
             "E291",
             f"no circle of radius {1e3 * radius:.4g} mm goes through both points",
             radius_span,
@@ -104,9 +106,9 @@ def check(arc: Arc, start: Vector, centre_span: Span, grow_span: Span) -> None:
         message = "the centre of this arc is where the tool is now: the radius is 0"
         if vectors.length(way) > SAME_PLACE:
             message = "the tool is on the axis of this arc: the radius is 0"
-        raise here("E249", message, centre_span, "", "move to a point of the circle first")
+        raise pose_problem("E249", message, centre_span, "", "move to a point of the circle first")
     if radius + arc.grow < -1e-9 * radius:
-        raise here(
+        raise pose_problem(
             "E250",
             "the radius of this arc would become less than 0",
             grow_span,
@@ -115,7 +117,7 @@ def check(arc: Arc, start: Vector, centre_span: Span, grow_span: Span) -> None:
         )
 
 
-def place_at(arc: Arc, start: Vector, share: float) -> Vector:
+def point_at(arc: Arc, start: Vector, share: float) -> Vector:
     """The point at a fraction, 0 to 1, of an arc that begins at `start`."""
     way = vectors.minus(start, arc.centre)
     across = vectors.across(way, arc.axis)
@@ -134,10 +136,10 @@ def place_at(arc: Arc, start: Vector, share: float) -> Vector:
 
 def end_of(arc: Arc, start: Vector) -> Vector:
     """The end of an arc that begins at `start`."""
-    return place_at(arc, start, 1.0)
+    return point_at(arc, start, 1.0)
 
 
-def places(arc: Arc, start: Vector, pieces: int = 64) -> Iterator[Vector]:
+def points_along(arc: Arc, start: Vector, pieces: int = 64) -> Iterator[Vector]:
     """Points along a whole arc."""
     for i in range(pieces + 1):
-        yield place_at(arc, start, i / pieces)
+        yield point_at(arc, start, i / pieces)

@@ -38,12 +38,14 @@ def brush_of(words: BrushWords, scope: Scope, pen: Pen) -> Brush:
     try:
         made = model.model_validate(given)
     except ValidationError as fault:
-        raise _refused(words, fault, model) from None
+        raise _invalid_value(words, fault, model) from None
     values = made.model_dump(exclude_defaults=True)
     return Brush(words.name.text, tuple(values.items()), model.several)
 
 
-def _refused(words: BrushWords, fault: "ValidationError", model: "type[BrushModel]") -> Problem:
+def _invalid_value(
+    words: BrushWords, fault: "ValidationError", model: "type[BrushModel]"
+) -> Problem:
     """E258: the model's message about the first invalid value."""
     from dqpaint.brushes import takes
     from dqpaint.core import pydantic_reason

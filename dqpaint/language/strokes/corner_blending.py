@@ -57,7 +57,7 @@ class _Joint(NamedTuple):
 _NO_JOINT = _Joint(joined=False, cut=0.0)
 
 
-def rounded(
+def round_corners(
     segments: Sequence[Segment], corners: Sequence[float], findings: DiagnosticCollector
 ) -> list[Segment]:
     """The segments with rounded corners.
@@ -87,7 +87,7 @@ def rounded(
             group = slice(first, last + 1)
             pieces = _pieces(segments[group], shares[group], joints[first:last])
             number += 1
-            out += _as_run(segments[group], pieces, number, findings)
+            out += _as_stroke(segments[group], pieces, number, findings)
             first = last + 1
     return out
 
@@ -101,9 +101,9 @@ def _pieces(
     pieces = []
     for i, (segment, (lower, upper)) in enumerate(zip(segments, shares, strict=True)):
         if lower < upper:
-            pieces.append(_part(segment, lower, upper))
+            pieces.append(_subsegment(segment, lower, upper))
         if i < len(joints) and joints[i].cut:
-            pieces.append(_bend(segment, upper, segments[i + 1], shares[i + 1][0]))
+            pieces.append(_corner_segment(segment, upper, segments[i + 1], shares[i + 1][0]))
     return pieces
 
 
@@ -118,16 +118,16 @@ def _joint(a: Segment, b: Segment, size: float, findings: DiagnosticCollector) -
     if not size or lifted or a.stroke != b.stroke or _rests(a) or _rests(b):
         return _NO_JOINT
     if not (_is_known(a.path) and _is_known(b.path)):
-        return _told(findings, a, "E285", "this corner can't be rounded: only those between lines "
+        return _warn(findings, a, "E285", "this corner can't be rounded: only those between lines "
                      "and arcs can", "switch it off before: blend off")  # fmt: skip
     turn = vectors.angle_between(_direction(a, 1.0), _direction(b, 0.0))
     if turn > math.pi - SMOOTH:
         cure = "switch it off before: blend off"
-        return _told(findings, a, "E286", "the way turns back here, which no arc rounds", cure)
+        return _warn(findings, a, "E286", "the way turns back here, which no arc rounds", cure)
     return _Joint(joined=True, cut=size if turn > SMOOTH else 0.0)
 
 
-def _told(
+def _warn(
     findings: DiagnosticCollector, segment: Segment, code: str, message: str, cure: str
 ) -> _Joint:
     findings.add(Diagnostic(code, message, segment.span, "", cure))
@@ -162,7 +162,7 @@ def _shares(
             f"this stroke is too short for its rounded corners: it is {_mm(length)} long",
             segment.span,
             f"blend {_mm(last or first)} takes that much from {ends}",
-            f"at most: blend {_mm(_floor(length / (2.0 if first and last else 1.0)))}",
+            f"at most: blend {_mm(_round_down(length / (2.0 if first and last else 1.0)))}",
         )
     )
     return 0.0, 1.0
@@ -172,7 +172,7 @@ def _mm(size: float) -> str:
     return f"{1e3 * size:.4g} mm"
 
 
-def _floor(size: float) -> float:
+def _round_down(size: float) -> float:
     """Rounded down to three digits, so that the suggested size works."""
     unit = 10.0 ** (math.floor(math.log10(size)) - 2)
     return math.floor(size / unit * (1.0 + CLOSE)) * unit
@@ -196,7 +196,7 @@ def _direction(segment: Segment, share: float) -> Vector:
     if not isinstance(path, Arc):
         assert isinstance(path, Straight)
         return vectors.unit(path.by)
-    arm = vectors.minus(arcs.place_at(path, segment.start.position, share), path.centre)
+    arm = vectors.minus(arcs.point_at(path, segment.start.position, share), path.centre)
     round_ = vectors.times(path.angle, vectors.cross(path.axis, arm))
     return vectors.unit(vectors.plus(round_, vectors.times(path.rise, path.axis)))
 
@@ -208,7 +208,7 @@ def _pose(segment: Segment, share: float) -> Pose:
         return segment.end
     path, start = segment.path, segment.start
     if isinstance(path, Arc):
-        position = arcs.place_at(path, start.position, share)
+        position = arcs.point_at(path, start.position, share)
     else:
         assert isinstance(path, Straight)
         position = vectors.plus(start.position, vectors.times(share, path.by))
@@ -227,7 +227,7 @@ def _orientation(segment: Segment, share: float, position: Vector) -> Quaternion
     return start
 
 
-def _part(segment: Segment, lower: float, upper: float) -> Segment:
+def _subsegment(segment: Segment, lower: float, upper: float) -> Segment:
     """A segment between two fractions of its length."""
     if (lower, upper) == (0.0, 1.0):
         return segment
@@ -257,13 +257,15 @@ def _of_run(segment: Segment) -> bool:
 # The piece that goes round the corner.
 
 
-def _bend(a: Segment, leaves: float, b: Segment, joins: float) -> Segment:
+def _corner_segment(a: Segment, leaves: float, b: Segment, joins: float) -> Segment:
     """From a fraction of one segment's length to a fraction of the next one's."""
     start, end = _pose(a, leaves), _pose(b, joins)
     light = a.light
     if light is not None and b.light is not None and not (_of_run(a) and _of_run(b)):
         light = Light(_shade(light, leaves), _shade(b.light, joins), light.even)
-    path = _way(a, b, _direction(a, leaves), _direction(b, joins), start.position, end.position)
+    path = _blend_curve(
+        a, b, _direction(a, leaves), _direction(b, joins), start.position, end.position
+    )
     tool = _tool(a.tool, b.tool, start, end)
     return replace(a, path=path, tool=tool, light=light, start=start, end=end)
 
@@ -272,10 +274,12 @@ def _tool(a: Tool, b: Tool, start: Pose, end: Pose) -> Tool:
     """A tool that looks still looks; another rotates evenly from one stroke to the next."""
     if a == b and isinstance(a, LOOK_MODES):
         return a
-    return tool_orientation.turning(start.orientation, end.orientation)[0]
+    return tool_orientation.rotation_between(start.orientation, end.orientation)[0]
 
 
-def _way(a: Segment, b: Segment, out: Vector, into: Vector, start: Vector, end: Vector) -> Path:
+def _blend_curve(
+    a: Segment, b: Segment, out: Vector, into: Vector, start: Vector, end: Vector
+) -> Path:
     turn = vectors.angle_between(out, into)
     chord = vectors.length(vectors.minus(end, start))
     if isinstance(a.path, Straight) and isinstance(b.path, Straight):
@@ -307,13 +311,13 @@ def bezier(*points: Vector) -> Formula:
 # Time: one profile over what has been joined.
 
 
-def _as_run(
+def _as_stroke(
     segments: Sequence[Segment], pieces: list[Segment], number: int, findings: DiagnosticCollector
 ) -> list[Segment]:
     """The pieces of joined segments, with the time of all of them."""
     if len(segments) == 1 or segments[0].stroke is not None:
         return pieces
-    profile, timing = segments[0].profile, _whole(segments)
+    profile, timing = segments[0].profile, _total_timing(segments)
     other = next((s for s in segments if s.profile != profile), None)
     if timing is None:
         other = next((s for s in segments if s.timing != segments[0].timing), segments[-1])
@@ -328,7 +332,7 @@ def _as_run(
     return [replace(piece, timing=timing, stroke=stroke) for piece in pieces]
 
 
-def _whole(segments: Sequence[Segment]) -> Timing | None:
+def _total_timing(segments: Sequence[Segment]) -> Timing | None:
     """The timing of segments in a row: their speed, or the time of a statement's legs together."""
     timings = [segment.timing for segment in segments]
     if isinstance(timings[0], CruiseSpeed):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from dqpaint.diagnostics import Problem, ScriptError, Span, problem
-from dqpaint.language.pen.pen import Pen, here
+from dqpaint.language.pen.pen import Pen, pose_problem
 from dqpaint.language.syntax.tree import Expression, Statement, names_in, size_of
 from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.evaluate import evaluate
@@ -84,7 +84,7 @@ def _formula(
     if size > MOST_CURVE_STEPS:
         message = f"a formula of more than {MOST_CURVE_STEPS:,} numbers and signs"
         raise problem("E309", message, node.span, "", "use several curves")
-    known = scope.known(names_in(node))
+    known = scope.values_of(names_in(node))
     columns = tuple(frame.vector(axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), vectors.Z))
 
     def formula(t: Taylor) -> tuple[Taylor, Taylor, Taylor]:
@@ -92,7 +92,7 @@ def _formula(
             # What is not finite is found and reported afterwards.
             with np.errstate(all="ignore"):
                 names = {**known, name: Quantity(t, dimension)}
-                point = _point(node, scope.within(names, Budget(MOST_CURVE_STEPS)))
+                point = _point(node, scope.with_names(names, Budget(MOST_CURVE_STEPS)))
                 x, y, z = (0.0 * t + number for number in point.xyz)
                 series = (_row(0, x, y, z), _row(1, x, y, z), _row(2, x, y, z))
             _check_finite(series, t, name, dimension, node.span)
@@ -155,7 +155,7 @@ def heading_change(curve: Curve, axis: Vector, span: Span) -> float:
         pieces *= 4
     if np.abs(turns).max() > 0.5 * np.pi:
         message = "the curve turns back at one point, where a tool that follows would have to jump"
-        raise here("E254", message, span, "", "draw two curves, or use: tool keep")
+        raise pose_problem("E254", message, span, "", "draw two curves, or use: tool keep")
     return float(turns.sum())
 
 
@@ -172,7 +172,7 @@ def _turns(curve: Curve, axis: Vector, pieces: int, span: Span) -> Floats:
     flat = tangent - normal[:, None] * (normal @ tangent)
     if (np.linalg.norm(flat, axis=0) <= UPRIGHT * speed + 1e-12 * speed.max()).any():
         message = "the curve stands still or goes along the axis, so it has no heading to follow"
-        raise here("E254", message, span, "", "use: tool keep, or tool look")
+        raise pose_problem("E254", message, span, "", "use: tool keep, or tool look")
     sine = normal @ np.cross(flat[:, :-1], flat[:, 1:], axis=0)
     cosine = (flat[:, :-1] * flat[:, 1:]).sum(axis=0)
     turns: Floats = np.arctan2(sine, cosine)

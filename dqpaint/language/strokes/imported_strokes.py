@@ -13,8 +13,8 @@ import numpy as np
 from dqpaint.diagnostics import Diagnostic, ErrorLimitError, Fix, Problem, Span, closest, problem
 from dqpaint.language.imports import lettering
 from dqpaint.language.pen import tool_orientation
-from dqpaint.language.pen.durations import shared, timing
-from dqpaint.language.pen.pen import FARTHEST, SAME_PLACE, Pen, here
+from dqpaint.language.pen.durations import divide_timing, timing
+from dqpaint.language.pen.pen import FARTHEST, SAME_PLACE, Pen, pose_problem
 from dqpaint.language.pen.stroke_state import TurnTo
 from dqpaint.language.strokes.curves import GAP
 from dqpaint.language.syntax.tree import Name, Quoted, Statement
@@ -102,7 +102,7 @@ def path(statement: Statement, pen: Pen, scope: Scope) -> None:
     (trace,) = _drawn([(curve, None)], pen, scale, shift)
     start = piecewise.ends(trace.curve)[0]
     gap = vectors.length(vectors.minus(start, pen.pose.position))
-    if pen.started and gap > GAP and not statement.part("at") and not pen.amid_stroke:
+    if pen.started and gap > GAP and not statement.part("at") and not pen.in_stroke:
         message = f"the path starts {1e3 * gap:.3g} mm away from where the tool is"
         cure = "a light-off move is added; write a move to choose its speed"
         pen.warn("W402", message, nodes[0].span, "", cure)
@@ -143,7 +143,7 @@ def _no_letter(node: Quoted, place: int, font: lettering.Font) -> Problem:
     letter = node.text[place]
     span = Span(node.span.start + 1 + place, node.span.start + 2 + place)
     shown = f"'{letter}'" if letter.isprintable() else f"U+{ord(letter):04X}"
-    instead, others = lettering.replaced(node.text, font), lettering.fonts_with(letter)
+    instead, others = lettering.with_substitutes(node.text, font), lettering.fonts_with(letter)
     cures = []
     if instead.strip():
         cures.append(f'use "{instead}"')
@@ -215,29 +215,31 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
     if isinstance(mode, FollowHeading):
         message = f"the tool can't follow a '{statement.word}': it would jump at every corner"
         part = statement.part("tool")
-        raise here("E254", message, part.value.span if part else span, "", "use: tool keep")
+        raise pose_problem("E254", message, part.value.span if part else span, "", "use: tool keep")
     pen.pieces += sum(len(trace.curve.cubic) for trace in traces)
     check_pieces(pen.pieces, pen, span)
     if not piecewise.largest_coordinate([trace.curve for trace in traces]) <= FARTHEST:
-        raise here("E201", "this goes too far away", span)
+        raise pose_problem("E201", "this goes too far away", span)
     ends = piecewise.all_ends([trace.curve for trace in traces]).tolist()
     starts, stops = ([_vector(pair[side]) for pair in ends] for side in (0, 1))
     if pen.stroke is not None and len(traces) > 1:
-        raise _pen_up(statement, len(traces))
-    _begin(pen, starts[0], span)
+        raise _pen_up_error(statement, len(traces))
+    _set_start(pen, starts[0], span)
     lengths = piecewise.lengths([trace.curve for trace in traces])
     ways = [
         vectors.length(vectors.minus(b, a))
         for a, b in zip(stops, (*starts[1:], stops[-1]), strict=True)
     ]
     times = _times(timing(statement, pen.state, scope), lengths, ways, span)
-    glows = _glows(statement, pen, traces, lengths)
+    glows = _stroke_lights(statement, pen, traces, lengths)
     for number, trace in enumerate(traces):
         _travel(pen, starts[number], span, times[2 * number - 1] if number else None)
-        tool_orientation.begin(pen, mode, span)
+        tool_orientation.look_at_start(pen, mode, span)
         if isinstance(mode, LOOK_MODES):
-            tool_orientation.check_way(mode, _places(trace.curve), span)
-        tool, orientation = tool_orientation.at_end(pen, mode, stops[number], span, vectors.Z, 0.0)
+            tool_orientation.check_orientations(mode, _places(trace.curve), span)
+        tool, orientation = tool_orientation.orientation_at_end(
+            pen, mode, stops[number], span, vectors.Z, 0.0
+        )
         end = Pose(stops[number], orientation)
         pen.draw(trace.curve, tool, times[2 * number], glows[number], end, span)
 
@@ -251,7 +253,7 @@ def check_pieces(pieces: int, pen: Pen, span: Span) -> None:
         raise ErrorLimitError
 
 
-def _pen_up(statement: Statement, count: int) -> Problem:
+def _pen_up_error(statement: Statement, count: int) -> Problem:
     """An error: a `stroke` never stops, so the pen can't be lifted in it."""
     word = statement.word
     message = f"this '{word}' lifts its pen between its {count} lines, and a 'stroke' does not stop"
@@ -262,23 +264,23 @@ def _pen_up(statement: Statement, count: int) -> Problem:
     return problem("E283", message, span, "", cure)
 
 
-def _begin(pen: Pen, start: Vector, span: Span) -> None:
+def _set_start(pen: Pen, start: Vector, span: Span) -> None:
     """Starts the drawing here if its start is not set."""
     if pen.started:
         return
     pen.started, pen.moved = True, span
-    pen.start_at(start, tool_orientation.told(pen.state.tool, start, span))
+    pen.start_at(start, tool_orientation.orientation_of_mode(pen.state.tool, start, span))
 
 
 def _times(whole: Timing, lengths: list[float], ways: list[float], span: Span) -> list[Timing]:
     """The time of each stroke and of the move after it, alternating."""
     both = [size for pair in zip(lengths, ways, strict=True) for size in pair]
     there = [i for i, size in enumerate(both) if size > SAME_PLACE]
-    given = iter(shared(whole, [both[i] for i in there], span))
+    given = iter(divide_timing(whole, [both[i] for i in there], span))
     return [next(given) if size > SAME_PLACE else whole for size in both]
 
 
-def _glows(
+def _stroke_lights(
     statement: Statement, pen: Pen, traces: list[Trace], lengths: list[float]
 ) -> list[Light | None]:
     """The light of each stroke: the clause's, else its own colour, else the current one."""
@@ -303,10 +305,10 @@ def _travel(pen: Pen, to: Vector, span: Span, time: Timing | None) -> None:
     mode = pen.state.tool
     far = vectors.length(vectors.minus(to, pen.pose.position)) > SAME_PLACE
     wanted = mode.orientation if isinstance(mode, TurnTo) else pen.pose.orientation
-    tool, orientation = tool_orientation.turning(pen.pose.orientation, wanted)
+    tool, orientation = tool_orientation.rotation_between(pen.pose.orientation, wanted)
     if far and not isinstance(mode, FixedOrientation | TurnTo):
-        tool_orientation.begin(pen, mode, span)
-        tool, orientation = tool_orientation.at_end(pen, mode, to, span, vectors.Z, 0.0)
+        tool_orientation.look_at_start(pen, mode, span)
+        tool, orientation = tool_orientation.orientation_at_end(pen, mode, to, span, vectors.Z, 0.0)
     if far or not isinstance(tool, FixedOrientation):
         pen.check_no_stop(span)
         pen.travel(to, span, tool, orientation, time)

@@ -2,7 +2,7 @@
 
 from dqpaint.diagnostics import Span
 from dqpaint.language.pen import tool_orientation
-from dqpaint.language.pen.durations import shared, timing
+from dqpaint.language.pen.durations import divide_timing, timing
 from dqpaint.language.pen.pen import SAME_PLACE, Pen
 from dqpaint.language.pen.stroke_state import TurnTo
 from dqpaint.language.syntax.tree import Statement
@@ -52,7 +52,7 @@ def move(statement: Statement, pen: Pen, scope: Scope) -> None:
     pen.started, pen.moved = True, statement.span
     (first, span), *rest = _stops(statement, pen, scope)
     mode = pen.state.tool
-    pen.start_at(first, tool_orientation.told(mode, first, span))
+    pen.start_at(first, tool_orientation.orientation_of_mode(mode, first, span))
     if rest:
         legs(statement, rest, pen, scope, light=None)
         return
@@ -97,21 +97,21 @@ def legs(
             _no_length(statement.word, span, pen)
     whole = timing(statement, pen.state, scope)
     if not found:
-        _on_the_spot(statement, stops[0][1], pen, whole, light)
+        _rotation_in_place(statement, stops[0][1], pen, whole, light)
         return
     mode = pen.state.tool
     sizes = [size for _, size in found]
-    times = shared(whole, sizes, statement.span)
+    times = divide_timing(whole, sizes, statement.span)
     for (stop, _), leg_time, (first, last) in zip(found, times, _shares(sizes), strict=True):
-        tool_orientation.begin(pen, mode, statement.span)
+        tool_orientation.look_at_start(pen, mode, statement.span)
         start = pen.pose.position
         tool, orientation = _tool_of_leg(pen, stop, statement.span, first, last)
         way = vectors.minus(stop, start)
         if isinstance(mode, LOOK_MODES):
-            places = (_nearest(mode, start, way), *tool_orientation.most_leaning(mode, start, way))
-            tool_orientation.check_way(mode, places, statement.span)
+            places = (_nearest(mode, start, way), *tool_orientation.closest_to_up(mode, start, way))
+            tool_orientation.check_orientations(mode, places, statement.span)
         glow = light
-        if light is not None and light.first != light.last and not _of_run(pen, light):
+        if light is not None and light.first != light.last and not _spans_stroke(pen, light):
             glow = Light(
                 colours.mix(light.first, light.last, first),
                 colours.mix(light.first, light.last, last),
@@ -120,7 +120,7 @@ def legs(
         pen.draw(Straight(way), tool, leg_time, glow, Pose(stop, orientation), statement.span)
 
 
-def _of_run(pen: Pen, light: Light) -> bool:
+def _spans_stroke(pen: Pen, light: Light) -> bool:
     """Whether a gradient extends over a whole `stroke`."""
     return pen.stroke is not None and light is pen.stroke.light
 
@@ -144,8 +144,10 @@ def _tool_of_leg(
         return FixedOrientation(), now
     if isinstance(mode, TurnTo) and last < 1.0:
         share = (last - first) / (1.0 - first)  # of what is left to turn
-        return tool_orientation.turning(now, vectors.part_of_turn(now, mode.orientation, share))
-    return tool_orientation.at_end(pen, mode, stop, span, vectors.Z, 0.0)
+        return tool_orientation.rotation_between(
+            now, vectors.part_of_turn(now, mode.orientation, share)
+        )
+    return tool_orientation.orientation_at_end(pen, mode, stop, span, vectors.Z, 0.0)
 
 
 def _nearest(mode: Look | LookLine, start: Vector, way: Vector) -> Vector:
@@ -158,13 +160,15 @@ def _nearest(mode: Look | LookLine, start: Vector, way: Vector) -> Vector:
     return vectors.plus(start, vectors.times(share, way))
 
 
-def _on_the_spot(
+def _rotation_in_place(
     statement: Statement, span: Span, pen: Pen, whole: Timing, light: Light | None
 ) -> None:
     """A line without length: a rotation in place, if its tool needs one."""
     mode, now = pen.state.tool, pen.pose.orientation
-    wanted = tool_orientation.told(mode, pen.pose.position, span)
-    tool, orientation = tool_orientation.turning(now, wanted if wanted is not None else now)
+    wanted = tool_orientation.orientation_of_mode(mode, pen.pose.position, span)
+    tool, orientation = tool_orientation.rotation_between(
+        now, wanted if wanted is not None else now
+    )
     if isinstance(tool, FixedOrientation):
         _no_length(statement.word, span, pen)
         return

@@ -31,7 +31,9 @@ from dqpaint.program import (
 SLOWEST_STROBE, FASTEST_STROBE = 1e-3, 1e6  # [Hz]
 
 
-def changed(state: StrokeState, part: Part, scope: Scope, pen: Pen, frame: Frame) -> StrokeState:
+def apply_clause(
+    state: StrokeState, part: Part, scope: Scope, pen: Pen, frame: Frame
+) -> StrokeState:
     """The state after a modal line, or for a statement with this clause."""
     value = part.value
     if isinstance(value, ToolWords):
@@ -106,7 +108,7 @@ def _shade(shade: ColourWords, on: Colour, scope: Scope, after_to: bool = False)
     return colours.dim(colour, shade.brightness)
 
 
-def standing(light: Light | None) -> Light | None:
+def pause_light(light: Light | None) -> Light | None:
     """The light of a pause: the last colour of the stroke before it."""
     if light is None or light.even or light.last == colours.DARK:
         return None  # a light that is even over the way does not shine where there is none

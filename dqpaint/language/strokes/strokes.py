@@ -7,7 +7,7 @@ from dqpaint.language.pen.durations import timing
 from dqpaint.language.pen.pen import SAME_PLACE, SAME_TURN, Pen
 from dqpaint.language.pen.stroke_state import StrokeState
 from dqpaint.language.strokes import arcs, curves, imported_strokes, lines
-from dqpaint.language.strokes.modal_words import changed, light_of, standing
+from dqpaint.language.strokes.modal_words import apply_clause, light_of, pause_light
 from dqpaint.language.syntax.tree import Expression, LightWords, Statement
 from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.scope import Scope
@@ -35,7 +35,7 @@ def draw(statement: Statement, pen: Pen, scope: Scope) -> None:
     outside = pen.state
     if pen.stroke is not None:
         for part in statement.parts:
-            pen.check_pace(part)
+            pen.check_no_time(part)
     if not lines.sets_start(statement, pen):
         pen.begin(statement.span)
     try:
@@ -50,7 +50,7 @@ def draw(statement: Statement, pen: Pen, scope: Scope) -> None:
 def _with_clauses(statement: Statement, state: StrokeState, pen: Pen, scope: Scope) -> StrokeState:
     for part in statement.parts:
         if part.word in MODAL and not _own_light(statement, part.word):
-            state = changed(state, part, scope, pen, pen.frame)
+            state = apply_clause(state, part, scope, pen, pen.frame)
     return state
 
 
@@ -68,22 +68,27 @@ def _place(node: Expression, pen: Pen, scope: Scope, word: str) -> Vector:
 def _arc(statement: Statement, pen: Pen, scope: Scope) -> None:
     start = pen.pose.position
     if statement.part("via") is not None:
-        via, to = statement.given("via"), statement.given("to")
+        via, to = statement.required("via"), statement.required("to")
         through, end = _place(via, pen, scope, "via"), _place(to, pen, scope, "to")
         if pen.lost:
             pen.pose, pen.lost = Pose(end, pen.pose.orientation), False
             return
         arc = arcs.through(start, through, end, via.span, to.span)
     elif statement.part("radius") is not None:
-        to = statement.given("to")
+        to = statement.required("to")
         end = _place(to, pen, scope, "to")
-        radius = pen.frame.scale * typed_values.positive(statement.given("radius"), scope, "radius")
+        radius = pen.frame.scale * typed_values.positive(
+            statement.required("radius"), scope, "radius"
+        )
         axis = _axis(statement, pen, scope)
         if pen.lost:
             pen.pose, pen.lost = Pose(end, pen.pose.orientation), False
             return
         side = 1.0 if statement.part("left") else -1.0
-        long, spans = statement.part("long") is not None, (statement.given("radius").span, to.span)
+        long, spans = (
+            statement.part("long") is not None,
+            (statement.required("radius").span, to.span),
+        )
         arc = arcs.of_radius(start, end, radius, vectors.times(side, axis), long, *spans)
     else:
         arc = _turn_about_centre(statement, pen, scope)
@@ -92,11 +97,11 @@ def _arc(statement: Statement, pen: Pen, scope: Scope) -> None:
 
 
 def _turn_about_centre(statement: Statement, pen: Pen, scope: Scope) -> Arc:
-    node = statement.value("centre") or statement.given("center")
+    node = statement.value("centre") or statement.required("center")
     frame = pen.frame
     centre = _place(node, pen, scope, "centre")
     axis = _axis(statement, pen, scope)
-    angle_node = statement.given("angle")
+    angle_node = statement.required("angle")
     angle = typed_values.number(angle_node, scope, "angle")
     if angle == 0.0:
         message = "an arc of 0 deg goes nowhere"
@@ -123,10 +128,12 @@ def _axis(statement: Statement, pen: Pen, scope: Scope) -> Vector:
 
 def _draw_arc(statement: Statement, pen: Pen, scope: Scope, arc: Arc, end: Vector) -> None:
     mode, span = pen.state.tool, statement.span
-    tool_orientation.begin(pen, mode, span)
+    tool_orientation.look_at_start(pen, mode, span)
     if isinstance(mode, LOOK_MODES) and not pen.lost:
-        tool_orientation.check_way(mode, arcs.places(arc, pen.pose.position), span)
-    tool, orientation = tool_orientation.at_end(pen, mode, end, span, arc.axis, arc.angle)
+        tool_orientation.check_orientations(mode, arcs.points_along(arc, pen.pose.position), span)
+    tool, orientation = tool_orientation.orientation_at_end(
+        pen, mode, end, span, arc.axis, arc.angle
+    )
     whole = timing(statement, pen.state, scope)
     pen.draw(arc, tool, whole, pen.state.light, Pose(end, orientation), span)
 
@@ -136,9 +143,9 @@ def _screw(statement: Statement, pen: Pen, scope: Scope) -> None:
         _screw_to(statement, pen, scope)
         return
     frame = pen.frame
-    point = _place(statement.given("about"), pen, scope, "about")
-    axis = frame.direction(typed_values.direction(statement.given("along"), scope, "along"))
-    angle_node, pitch = statement.given("angle"), statement.value("pitch")
+    point = _place(statement.required("about"), pen, scope, "about")
+    axis = frame.direction(typed_values.direction(statement.required("along"), scope, "along"))
+    angle_node, pitch = statement.required("angle"), statement.value("pitch")
     angle = typed_values.number(angle_node, scope, "angle")
     if angle == 0.0:
         message = "a screw of 0 deg goes nowhere"
@@ -146,18 +153,18 @@ def _screw(statement: Statement, pen: Pen, scope: Scope) -> None:
     advance = frame.scale * typed_values.number(pitch, scope, "pitch") * angle if pitch else 0.0
     mode = pen.state.tool
     if isinstance(mode, LOOK_MODES) and not pen.oriented:
-        tool_orientation.begin(pen, mode, statement.span)
-    end = vectors.carried(pen.pose, point, axis, angle, advance)
+        tool_orientation.look_at_start(pen, mode, statement.span)
+    end = vectors.screw_moved(pen.pose, point, axis, angle, advance)
     whole = timing(statement, pen.state, scope)
     path = Screw(point, axis, angle, advance)
     pen.draw(path, FollowHeading(axis), whole, pen.state.light, end, statement.span)
 
 
 def _screw_to(statement: Statement, pen: Pen, scope: Scope) -> None:
-    node = statement.given("to")
+    node = statement.required("to")
     end = _place(node, pen, scope, "to")
     pen.lost = False
-    orientation = tool_orientation.told(pen.state.tool, end, statement.span)
+    orientation = tool_orientation.orientation_of_mode(pen.state.tool, end, statement.span)
     if orientation is None:
         message = "'screw to' needs to know how the tool is held at the end"
         cure = "add: tool rpy(0 deg, 0 deg, 90 deg); to keep the tool as it is, use: line to"
@@ -193,12 +200,14 @@ def _curve(statement: Statement, pen: Pen, scope: Scope) -> None:
         pen.travel(start, statement.span)
     mode, turn = pen.state.tool, 0.0
     axis = pen.frame.direction(vectors.Z)
-    tool_orientation.begin(pen, mode, statement.span)
+    tool_orientation.look_at_start(pen, mode, statement.span)
     if isinstance(mode, LOOK_MODES):
-        tool_orientation.check_way(mode, places, statement.span)
+        tool_orientation.check_orientations(mode, places, statement.span)
     if isinstance(mode, FollowHeading):
         turn = curves.heading_change(curve, axis, span)
-    tool, orientation = tool_orientation.at_end(pen, mode, end, statement.span, axis, turn)
+    tool, orientation = tool_orientation.orientation_at_end(
+        pen, mode, end, statement.span, axis, turn
+    )
     whole = timing(statement, pen.state, scope)
     pen.draw(curve, tool, whole, pen.state.light, Pose(end, orientation), statement.span)
 
@@ -211,33 +220,35 @@ def _millimetres(size: float) -> str:
 
 
 def _step(statement: Statement, pen: Pen, scope: Scope) -> None:
-    to = statement.given("to")
+    to = statement.required("to")
     end = _place(to, pen, scope, "to")
     pen.lost = False
-    wanted = tool_orientation.told(pen.state.tool, end, statement.span)
+    wanted = tool_orientation.orientation_of_mode(pen.state.tool, end, statement.span)
     now = pen.pose.orientation
-    tool, orientation = tool_orientation.turning(now, wanted if wanted is not None else now)
+    tool, orientation = tool_orientation.rotation_between(
+        now, wanted if wanted is not None else now
+    )
     way = vectors.length(vectors.minus(end, pen.pose.position))
     if way <= SAME_PLACE and not isinstance(tool, SlerpOrientation):
         pen.warn(
             "W401", "this step goes nowhere", to.span, "already here", "to wait, use: hold 1 s"
         )
         return
-    light = _standing_light(statement, pen, scope)
+    light = _pause_light(statement, pen, scope)
     pen.draw(Step(), tool, Samples(1), light, Pose(end, orientation), statement.span)
 
 
 def _hold(statement: Statement, pen: Pen, scope: Scope) -> None:
     seconds = typed_values.positive(statement.values[0], scope, "hold")
-    light = _standing_light(statement, pen, scope)
+    light = _pause_light(statement, pen, scope)
     pen.draw(Dwell(), FixedOrientation(), Duration(seconds), light, pen.pose, statement.span)
 
 
-def _standing_light(statement: Statement, pen: Pen, scope: Scope) -> Light | None:
+def _pause_light(statement: Statement, pen: Pen, scope: Scope) -> Light | None:
     """The light of a pause: only its own light may be a gradient over its time."""
     part = statement.part("light")
     if part is None:
-        return standing(pen.state.light)
+        return pause_light(pen.state.light)
     assert isinstance(part.value, LightWords)
     return light_of(part.value, pen.state, scope)
 

@@ -29,7 +29,7 @@ def check(statement: Statement, text: str) -> None:
         if not statement.part("to") and not statement.part("by"):
             raise _to_or_by(statement.word, _first_word(statement))
     elif statement.word in ("text", "path", "svg"):
-        _from_elsewhere(statement)
+        _imported(statement)
 
 
 def _first_word(statement: Statement) -> Span:
@@ -184,7 +184,7 @@ def _with(statement: Statement) -> None:
         before = part.word
 
 
-def _from_elsewhere(statement: Statement) -> None:
+def _imported(statement: Statement) -> None:
     """Imported strokes: a size where needed; one file for a drawing, at most three for a path."""
     word, fitted = statement.word, statement.part("height") or statement.part("width")
     unit = statement.part("unit")
@@ -251,10 +251,10 @@ def unexpected(word: str, cursor: Cursor) -> Problem | None:
     if word in ("line", "move") and is_value and cursor.before.text == word:
         return _to_or_by(word, token.span)
     if not is_value:
-        return trailing_tokens.advised(word, cursor)
+        return trailing_tokens.advice_for(word, cursor)
     needed = {"arc": "centre", "screw": "about", "step": "to", "start": "at", "place": "at"}
     if word in needed and cursor.before.text == word:
         message = f"'{word}' needs '{needed[word]}' before the point"
         cure = f"for example: {STATEMENTS[word].example}"
         return problem("E111", message, token.span, "", cure)
-    return trailing_tokens.advised(word, cursor)
+    return trailing_tokens.advice_for(word, cursor)

@@ -38,7 +38,7 @@ def statement(cursor: Cursor) -> Statement:
         head = _head(cursor, first.text, known.head)
         parts = _parts(cursor, first.text)
     if not cursor.at_end:
-        raise _left_over(cursor, first.text)
+        raise _trailing(cursor, first.text)
     span = cursor.span_from(first.start)
     whole = Statement(first.text, span, head.name, head.values, tuple(parts), params=head.params)
     statement_rules.check(whole, cursor.text)
@@ -50,7 +50,7 @@ def call(cursor: Cursor) -> Statement:
     name = cursor.take()
     values = bracket(cursor, of=name.text)
     if not cursor.at_end:
-        raise _left_over(cursor, name.text)
+        raise _trailing(cursor, name.text)
     return Statement("call", cursor.span_from(name.start), Word(name.text, name.span), values)
 
 
@@ -276,7 +276,7 @@ def _foreign_unit(token: Token) -> Problem:
     return problem("E102", message, token.span, "", cure, fix)
 
 
-def _left_over(cursor: Cursor, word: str) -> Problem:
+def _trailing(cursor: Cursor, word: str) -> Problem:
     token = cursor.token
     if token.text in FOREIGN_UNITS and cursor.before.kind == "number":
         return _foreign_unit(token)

@@ -10,7 +10,7 @@ from dqpaint.program import colours
 Advice = tuple[str, Fix | None]
 
 
-def advised(word: str, cursor: Cursor) -> Problem | None:
+def advice_for(word: str, cursor: Cursor) -> Problem | None:
     """E112 with advice for the tokens left on a line of this word; None without advice."""
     for advise in _ADVISERS:
         for cure, fix in advise(word, cursor):

@@ -255,7 +255,7 @@ class Statement:
         part = self.part(word)
         return part.expression if part is not None else None
 
-    def given(self, word: str) -> Expression:
+    def required(self, word: str) -> Expression:
         """The value of a part whose presence `statement_rules` has checked."""
         value = self.value(word)
         assert value is not None, word

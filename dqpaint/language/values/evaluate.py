@@ -23,8 +23,8 @@ from dqpaint.language.values.values import (
     Quantity,
     TextValue,
     Value,
+    checked_finite,
     describe,
-    gated,
     is_zero,
 )
 from dqpaint.language.vocabulary.units import PLAIN, UNITS, Dimension, dimension_name
@@ -37,7 +37,7 @@ def evaluate(node: Expression, scope: Scope, words: Iterable[str] = ()) -> Value
 
     `words` are those that may stand in its place, for the message about an unknown name.
     """
-    if words and type(node) is Name and not scope.knows(node.name):
+    if words and type(node) is Name and not scope.defines(node.name):
         raise expression_errors.unknown(node, scope, words)
     return _EVALUATORS[type(node)](node, scope)
 
@@ -75,7 +75,7 @@ def _bracket(node: Bracket, scope: Scope) -> Value:
         if not node.unit:
             return value
         if isinstance(value, Quantity) and value.dimension == PLAIN:
-            return gated(_with_unit(value, node.unit), node.span)
+            return checked_finite(_with_unit(value, node.unit), node.span)
         raise expression_errors.second_unit(node, describe(value))
     numbers, dimension = _coordinates(node, scope)
     x, y = numbers[0], numbers[1]
@@ -86,7 +86,7 @@ def _bracket(node: Bracket, scope: Scope) -> Value:
         raise expression_errors.second_unit(node, f"already {dimension_name(dimension)}")
     factor, kind, _ = UNITS[node.unit]
     x, y, z = point.xyz
-    return gated(PointValue((x * factor, y * factor, z * factor), kind), node.span)
+    return checked_finite(PointValue((x * factor, y * factor, z * factor), kind), node.span)
 
 
 def _coordinates(node: Bracket, scope: Scope) -> tuple[list[Scalar], Dimension]:
@@ -126,7 +126,7 @@ def _call(node: Call, scope: Scope) -> Value:
         raise expression_errors.unknown_function(node, scope)
     given = [evaluate(child, scope) for child in node.values]
     arguments = functions.Arguments(node.name, given, node.values, node.span, scope.text)
-    return gated(functions.call(arguments), node.span)
+    return checked_finite(functions.call(arguments), node.span)
 
 
 def _own_call(function: Function, node: Call, scope: Scope) -> Value:
@@ -145,7 +145,7 @@ def _own_call(function: Function, node: Call, scope: Scope) -> Value:
     names = {**function.known, **dict(zip(function.params, given, strict=True))}
     budget.depth += function.depth
     try:
-        return evaluate(function.body, scope.within(names))
+        return evaluate(function.body, scope.with_names(names))
     except Problem as mistake:
         raise at_call(mistake, node.span) from None
     finally:
@@ -176,7 +176,7 @@ def _sum_or_product(node: SumOrProduct, scope: Scope) -> Value:
             combined = values.quotient_of(result, operand, child.span)
             if combined is None:
                 raise expression_errors.no_product(result, operand, "divide", "by", child)
-        result = gated(combined, Span(node.span.start, child.span.end))
+        result = checked_finite(combined, Span(node.span.start, child.span.end))
     return result
 
 
@@ -200,7 +200,7 @@ def _power(node: Power, scope: Scope) -> Value:
     if result is None:
         message = f"{describe(base)} can't have this exponent"
         raise problem("E211", message, node.exponent.span, "", "divide the base by its unit first")
-    return gated(result, node.span)
+    return checked_finite(result, node.span)
 
 
 # Each evaluator takes the kind of node it stands for here; mypy can't say that of a table.

@@ -58,7 +58,7 @@ class Scope:
         self.names: dict[str, Value | None] = {}
         self.places: dict[str, Span] = {}
 
-    def knows(self, name: str) -> bool:
+    def defines(self, name: str) -> bool:
         """Whether a name is defined here."""
         return name in self.names or name in BUILTINS
 
@@ -68,11 +68,11 @@ class Scope:
             name, _ = self.names.popitem()
             self.places.pop(name, None)
 
-    def known(self, names: Iterable[str]) -> dict[str, Value | None]:
+    def values_of(self, names: Iterable[str]) -> dict[str, Value | None]:
         """A copy of the values of these names, as far as they are defined."""
         return {name: self.names[name] for name in names if name in self.names}
 
-    def within(self, names: dict[str, Value | None], budget: Budget | None = None) -> "Scope":
+    def with_names(self, names: dict[str, Value | None], budget: Budget | None = None) -> "Scope":
         """A new scope with these names only."""
         inner = Scope(self.text, budget or self.budget)
         inner.names = names

@@ -140,7 +140,7 @@ def direction(node: Expression, scope: Scope, word: str) -> Vector:
 
 def frame(node: Expression, scope: Scope) -> Frame:
     """The frame of this name."""
-    if isinstance(node, Name) and not scope.knows(node.name):
+    if isinstance(node, Name) and not scope.defines(node.name):
         frames = [name for name, value in scope.names.items() if isinstance(value, FrameValue)]
         cure = did_you_mean(closest(node.name, frames))
         cure = cure or f"name it first: frame {node.name} at (30, 0) mm"

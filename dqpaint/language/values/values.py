@@ -152,7 +152,7 @@ def finite(number: Scalar, span: Span) -> Scalar:
     raise problem("E201", "this number is too large", span)
 
 
-def gated(value: Value, span: Span) -> Value:
+def checked_finite(value: Value, span: Span) -> Value:
     """A value all of whose numbers are checked to be finite."""
     if isinstance(value, Quantity):
         finite(value.value, span)

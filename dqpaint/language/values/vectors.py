@@ -182,7 +182,7 @@ class Frame(NamedTuple):
 WORLD = Frame()
 
 
-def carried(pose: Pose, point: Vector, axis: Vector, angle: float, advance: float) -> Pose:
+def screw_moved(pose: Pose, point: Vector, axis: Vector, angle: float, advance: float) -> Pose:
     """A pose after a screw motion about the line through `point` along `axis`."""
     turn = turn_about(axis, angle)
     arm = turned(turn, minus(pose.position, point))

@@ -27,7 +27,7 @@ from dqpaint.language.vocabulary.words import RENAMED, STATEMENTS
 from dqpaint.language.writing.formatter import STEP, formatted
 from dqpaint.language.writing.values_to_text import (
     Unwritable,
-    called,
+    example_as_call,
     quoted,
     written_head,
     written_part,
@@ -53,7 +53,7 @@ _OF_FORM = "E1"  # what the codes begin with that are about a form that is not k
 def example_call(word: str) -> str:
     """The example of a statement, as it would be typed."""
     method = next(method for method, known in METHODS.items() if known == word)
-    return f"d.{called(word, method)}"
+    return f"d.{example_as_call(word, method)}"
 
 
 class Call(NamedTuple):

@@ -7,7 +7,7 @@ from dqpaint.language.syntax.source import STDIN_NAME, decoded, load, load_input
 from dqpaint.language.writing.formatter import formatted
 
 
-def laid_out(data: bytes, name: str) -> bytes:
+def format_bytes(data: bytes, name: str) -> bytes:
     """The bytes of a drawing in the standard layout.
 
     All line ends become those of the first line: which ones it has depends on the system, and is
@@ -29,7 +29,7 @@ def format_file(name: str, write: bool) -> bool:
         DqpaintError: it cannot be read, understood or written; it is as it was.
     """
     data = load(name)
-    made = laid_out(data, name)
+    made = format_bytes(data, name)
     if write and made != data:
         rewrite(Path(name), made)
     return made != data
@@ -42,5 +42,5 @@ def format_input() -> tuple[bytes, bool]:
         DqpaintError: it cannot be understood.
     """
     data = load_input()
-    made = laid_out(data, STDIN_NAME)
+    made = format_bytes(data, STDIN_NAME)
     return made, made != data

@@ -50,7 +50,7 @@ def formatted(text: str, name: str = "<text>") -> str:
         ScriptError: with its mistakes, if the text does not parse.
     """
     _check(text, name)
-    made = "".join(_laid_out(text))
+    made = "".join(_formatted_lines(text))
     if _words(made) != _words(text):
         raise AssertionError("the layout would change what is written")
     return made
@@ -65,14 +65,14 @@ def _check(text: str, name: str) -> None:
 
 
 def _words(text: str) -> list[list[tuple[str, str]]]:
-    return [[(t.kind, _today(t.kind, t.text)) for t in line.tokens] for line in lines(text)]
+    return [[(t.kind, _current_word(t.kind, t.text)) for t in line.tokens] for line in lines(text)]
 
 
-def _today(kind: str, word: str) -> str:
+def _current_word(kind: str, word: str) -> str:
     return RENAMED.get(word, word) if kind == "name" else word
 
 
-def _laid_out(text: str) -> Iterator[str]:
+def _formatted_lines(text: str) -> Iterator[str]:
     """The lines of the new text."""
     blocks = brackets = 0
     state = _NOTHING
@@ -121,7 +121,7 @@ def _rows(text: str) -> Iterator[_Row]:
                 Token("name", word, start, position),
             ]
         elif kind != "bad":  # a blank that only Unicode calls one
-            tokens.append(Token(kind, _today(kind, word), start, position))
+            tokens.append(Token(kind, _current_word(kind, word), start, position))
             brackets += (word == "(") - (word == ")")
     if tokens or comment:
         yield _Row(tokens, comment, begins and bool(tokens))

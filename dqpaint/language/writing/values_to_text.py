@@ -63,7 +63,7 @@ _FORMS = {
 }
 
 
-def called(word: str, method: str) -> str:
+def example_as_call(word: str, method: str) -> str:
     """A statement's example as a call: `hold("1 s")`, `line(to="(10, 0) mm")`."""
     if word in _FORMS:
         return _FORMS[word]

@@ -62,7 +62,7 @@ def _warn(notes: Notes, node: Quoted, pen: Pen) -> None:
     """Warns of parts of the file that are ignored or drawn differently."""
     if notes.left_out:
         message = f"left out of {node.text}: {_counted(notes.left_out)}"
-        pen.warn("W420", message, node.span, "", _said(notes))
+        pen.warn("W420", message, node.span, "", _fix(notes))
     if notes.passed_over:
         some = "; ".join(notes.passed_over[:MOST_SAID])
         more = len(notes.passed_over) - MOST_SAID
@@ -90,11 +90,11 @@ def _read(data: bytes) -> tuple[list[ColouredCurve], Notes]:
     root, notes = attributes.read(guard(data))
     lines = list(_lines(root))
     if not lines:
-        raise SvgError("there are no lines in it", _said(notes))
-    return stroke_order.in_order(lines), notes
+        raise SvgError("there are no lines in it", _fix(notes))
+    return stroke_order.order_lines(lines), notes
 
 
-def _said(notes: Notes) -> str:
+def _fix(notes: Notes) -> str:
     cures = []
     if set(notes.left_out) - {"image"}:
         cures.append("in the program it was made with, convert texts to paths")
@@ -168,11 +168,11 @@ def _paints(style: Style) -> tuple[Paint, Paint]:
     """The visible stroke and fill colours, with all opacities."""
     if style.hidden:
         return None, None
-    stroke = _seen(style.stroke, style.stroke_opacity, style)
-    return stroke, _seen(style.fill, style.fill_opacity, style)
+    stroke = _visible_colour(style.stroke, style.stroke_opacity, style)
+    return stroke, _visible_colour(style.fill, style.fill_opacity, style)
 
 
-def _seen(paint: Paint, own: float, style: Style) -> Paint:
+def _visible_colour(paint: Paint, own: float, style: Style) -> Paint:
     paint = style.color if paint == values.CURRENT else paint
     alpha = round(255 * (own * style.opacity * (paint[3] / 255))) if paint else 0
     return paint[:3] + bytes([alpha]) if paint and alpha else None

@@ -12,10 +12,10 @@ from dqpaint.motion.geometry.paths import Indices
 from dqpaint.motion.schedule import Schedule
 from dqpaint.program import Arc, CruiseSpeed, PiecewiseCurve, Segment, Straight
 
-LEAST_JUMP = 1e-4  # [m/s] worth a word,
+LEAST_JUMP = 1e-4  # [m/s] worth a warning,
 LEAST_PART = 0.01  # and of the speed
-ALIKE = 1e-9  # of a jump: rounding is not to say which corner is the largest
-REACHED = 0.9  # of its speed: a stroke that comes to that needs no word
+ALIKE = 1e-9  # of a jump: rounding must not decide which corner is the largest
+REACHED = 0.9  # of its speed: a stroke that reaches this part gets no warning
 
 
 class _Corner(NamedTuple):
@@ -30,7 +30,7 @@ def velocity_jumps(table: Schedule, rates: Floats | None = None) -> Iterator[Dia
 
     Args:
         table: the strokes (S).
-        rates: how fast the drawing's clock runs where each begins and ends (S, 2); None is as asked.
+        rates: s_dot of the clock at start and end of each (S, 2); None without retiming.
     """
     for within, found in ((False, _between(table, rates)), (True, _within(table))):
         jump, number = found
@@ -54,8 +54,8 @@ def _between(table: Schedule, rates: Floats | None) -> tuple[Floats, Indices]:
             velocity[end] *= rates[:, end, None]
     moves = table.length > 0.0
     after = np.flatnonzero(moves[1:] & moves[:-1]) + 1
-    jump, told = _large_jumps(velocity[1, after - 1], velocity[0, after])
-    return jump, table.first[after[told]]
+    jump, large = _large_jumps(velocity[1, after - 1], velocity[0, after])
+    return jump, table.first[after[large]]
 
 
 def _within(table: Schedule) -> tuple[Floats, Indices]:
@@ -75,8 +75,8 @@ def _within(table: Schedule) -> tuple[Floats, Indices]:
         velocity[end] /= (table.end - table.begin)[number, None]
     joint = np.flatnonzero(stroke[1:] == stroke[:-1]) + 1
     rate = np.concatenate([_rates_at_joints(table, run) for run in runs.tolist()])[:, None]
-    jump, told = _large_jumps(rate * velocity[1, joint - 1], rate * velocity[0, joint])
-    return jump, number[joint[told]]
+    jump, large = _large_jumps(rate * velocity[1, joint - 1], rate * velocity[0, joint])
+    return jump, number[joint[large]]
 
 
 def _rates_at_joints(table: Schedule, run: int) -> Floats:
@@ -90,8 +90,8 @@ def _large_jumps(before: Floats, after: Floats) -> tuple[Floats, Indices]:
     """The jumps between velocities (K, 3) that are worth a warning (L,), and their indices (L,)."""
     jump = np.linalg.norm(after - before, axis=1)
     speed = np.maximum(np.linalg.norm(before, axis=1), np.linalg.norm(after, axis=1))
-    told = np.flatnonzero(jump > np.maximum(LEAST_JUMP, LEAST_PART * speed))
-    return jump[told], told
+    large = np.flatnonzero(jump > np.maximum(LEAST_JUMP, LEAST_PART * speed))
+    return jump[large], large
 
 
 def _corner(jump: float, segments: tuple[Segment, Segment], within: bool) -> _Corner:
@@ -123,7 +123,7 @@ def slow_strokes(table: Schedule) -> Iterator[Diagnostic]:
     below = (speed > 0.0) & (table.length > 0.0) & lit_strokes & (reached < REACHED * speed)
     least = np.divide(peak * table.length, speed, out=np.zeros_like(time), where=speed > 0.0)
     rounded = time - table.wanted > 0.5 * (time - least)
-    found = np.flatnonzero(below & ~(rounded & curves))  # the dot of an i can't help it
+    found = np.flatnonzero(below & ~(rounded & curves))  # short curves such as the dot of an i
     if len(found):
         worst = found[np.argmin(reached[found] / speed[found])]
         yield _slow(firsts[worst], float(reached[worst]), bool(rounded[worst]), len(found))
@@ -132,8 +132,8 @@ def slow_strokes(table: Schedule) -> Iterator[Diagnostic]:
 def _slow(segment: Segment, reached: float, rounded: bool, count: int) -> Diagnostic:
     assert isinstance(segment.timing, CruiseSpeed)
     others = f", the slowest of {count} such strokes" if count > 1 else ""
-    asked = f"{1e3 * segment.timing.speed:.3g} mm/s"
-    message = f"this reaches {1e3 * reached:.3g} mm/s, not {asked}{others}"
+    wanted = f"{1e3 * segment.timing.speed:.3g} mm/s"
+    message = f"this reaches {1e3 * reached:.3g} mm/s, not {wanted}{others}"
     label, cure = "the tool turns as fast as it may", "raise turnspeed, or lower speed"
     if rounded:
         label, cure = "its time is rounded up to whole periods", "a shorter period comes closer"

@@ -25,26 +25,26 @@ from dqpaint.program import AutoPlacement, Pose, Program, Step
 class Motion:
     """The reference of a drawing, one row a sample, in the base frame; the arrays are read-only.
 
-    At a corner the pose is one and the twist is the one of the stroke that begins there, so that
+    At a corner the pose is unique and the twist is that of the stroke that begins there, so that
     row k and its twist lead to row k + 1.
 
     Attributes:
         period: [s].
         t: times (N,) [s], from 0.
-        pose: desired poses (N, 8), signs continuous.
-        twist: desired spatial twists (N, 6) [rad/s, m/s].
-        acceleration: their plain derivatives (N, 6) [rad/s^2, m/s^2].
+        pose: reference poses (N, 8), signs continuous.
+        twist: reference spatial twists (N, 6) [rad/s, m/s].
+        acceleration: their time derivatives (N, 6) [rad/s^2, m/s^2].
         light: mean linear RGB (N, 3) from t_k until t_k+1; the last row is dark.
-        source: the line of the drawing (N,) that asks for what follows row k.
+        source: the line of the drawing (N,) that determines the motion after row k.
         stroke: the number of the segment (N,), from 0.
         canvas: pose (8,) of the drawing frame in the base frame.
-        front: orientation (4,) of the robot's own canvas: it is seen square on from the front,
+        front: orientation (4,) of the robot's own canvas: its front view is square on,
             wherever a `place` line puts the drawing.
         jump: whether a `step` jumps from row k to k + 1 (N,).
-        clock: the drawing's own time (N,) [s]; it is t, unless the drawing was slowed down.
-        program: what was planned.
+        clock: the drawing's own time (N,) [s]; equal to t without retiming.
+        program: the planned program.
         length: of the path [m], dark parts included.
-        unevenness: how much brighter strokes are near their ends than in the middle.
+        unevenness: ratio of the brightness near the strokes' ends to the middle.
         notes: warnings about the drawing.
     """
 
@@ -170,18 +170,18 @@ class _MotionRows:
     def add(self, rows: Rows) -> None:
         """Adds rows; the end of a stroke is the start of the next, but for the last stroke."""
         table, begin = self._table, self._rows
-        kept = ~rows.last
-        end = begin + int(kept.sum())
+        new = ~rows.last
+        end = begin + int(new.sum())
         self._light[begin:end] = self._glow.along(rows)
         if rows.stroke[-1] == len(table) - 1:
-            kept[-1] = True
+            new[-1] = True
             end += 1
-        stroke, here = rows.stroke[kept], slice(begin, end)
-        self._pose[here] = dq.mul(self._placed, rows.flow.pose[kept])
-        self._twist[here] = dq.adjoint(self._placed, rows.flow.twist[kept])
-        self._slope[here] = dq.adjoint(self._placed, rows.flow.slope[kept])
-        self._number[here] = table.parts(stroke, rows.fraction[kept])
-        samples = self._begun[stroke] + rows.tau[kept] * table.count[stroke]
+        stroke, here = rows.stroke[new], slice(begin, end)
+        self._pose[here] = dq.mul(self._placed, rows.flow.pose[new])
+        self._twist[here] = dq.adjoint(self._placed, rows.flow.twist[new])
+        self._slope[here] = dq.adjoint(self._placed, rows.flow.slope[new])
+        self._number[here] = table.parts(stroke, rows.fraction[new])
+        samples = self._begun[stroke] + rows.tau[new] * table.count[stroke]
         self._clock[here] = samples * table.program.period
         self._rows = end
 

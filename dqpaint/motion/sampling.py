@@ -23,8 +23,8 @@ class Rows:
     Attributes:
         stroke: the number of each row's stroke (N,), in order.
         tau: the fraction of its time (N,).
-        flow: per second, in the drawing frame.
-        fraction: of the path, as the profile has it (N,).
+        flow: the motion per second, in the drawing frame.
+        fraction: progress along the path by the profile (N,).
         last: whether a row is the end of its stroke (N,); the next row is the start of another.
     """
 
@@ -62,9 +62,9 @@ def sample_rows(
 
     Args:
         table: the strokes.
-        ticks: when the samples of each are, where the clock is slowed; else at whole periods.
-        faults: gets what goes wrong, by the stroke.
-        split: whether a long stroke may come in parts; then the clock is not slowed.
+        ticks: sample times of each under retiming; None: at whole periods.
+        faults: collects the errors, by stroke.
+        split: whether a long stroke may be split; only without retiming.
     """
     counts = table.count if ticks is None else np.array([tick.count for tick in ticks])
     for strokes in blocks(counts):
@@ -78,7 +78,7 @@ def sample_rows(
         for begin in range(0, len(stroke), AT_ONCE) if split else (0,):
             own = slice(begin, begin + AT_ONCE) if split else slice(None)
             of_segments: Faults = {}
-            with np.errstate(all="ignore"):  # what is not finite is told below
+            with np.errstate(all="ignore"):  # non-finite rows are reported below
                 flow, fraction = table.flow(stroke[own], tau[own], of_segments)
             if ticks is not None:
                 flow = flow.reparametrised(*_clock_rates(some))
@@ -98,14 +98,14 @@ def _record_errors(
 ) -> None:
     """Records the first error of each stroke: of its formula, or that its rows are not finite."""
     for number in sorted(of_segments):
-        of = int(np.searchsorted(table.first, number, side="right")) - 1
+        owner = int(np.searchsorted(table.first, number, side="right")) - 1
         found = of_segments[number]
         if found[0].code == "E324":
-            found = (not_finite(table.program.segments[table.first[of]]),)
-        faults.setdefault(of, found)
+            found = (not_finite(table.program.segments[table.first[owner]]),)
+        faults.setdefault(owner, found)
     parts = (flow.pose, flow.twist, flow.slope)
     if all(np.isfinite(part).all() for part in parts):
         return
     finite = np.logical_and.reduce([np.isfinite(part).all(axis=1) for part in parts])
-    for of in np.unique(stroke[~finite]).tolist():
-        faults.setdefault(of, (not_finite(table.program.segments[table.first[of]]),))
+    for number in np.unique(stroke[~finite]).tolist():
+        faults.setdefault(number, (not_finite(table.program.segments[table.first[number]]),))

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from dqpaint.diagnostics import Diagnostic, DiagnosticCollector
 from dqpaint.dq import Floats
-from dqpaint.motion import stroke_errors as told
+from dqpaint.motion import stroke_errors
 from dqpaint.motion.geometry.arc_length import has_cusp, length_fraction
 from dqpaint.motion.geometry.batched_shapes import Flags, Shapes, gather_shapes
 from dqpaint.motion.geometry.paths import Indices
@@ -241,10 +241,10 @@ def _by_length(shapes: Shapes, faults: Faults) -> Flags:
         cruises = segment.stroke is not None or isinstance(segment.timing, CruiseSpeed)
         out[number] = cruises or (any(profile.rates) and not profile.angular)
         if out[number] and has_cusp(shapes.shape(number), extent):
-            faults.setdefault(number, (told.cusp(segment),))
+            faults.setdefault(number, (stroke_errors.cusp(segment),))
     for number in np.flatnonzero(shapes.length == 0.0).tolist():
         if shapes.segments[number].stroke is not None:
-            faults.setdefault(number, (told.on_the_spot(shapes.segments[number]),))
+            faults.setdefault(number, (stroke_errors.on_the_spot(shapes.segments[number]),))
     return out
 
 
@@ -285,7 +285,7 @@ def _profiles(table: Schedule, wrong: Faults) -> tuple[Indices, Floats]:
         if extent != 0:
             rates[stroke, : len(given)] = np.array(given) / extent
         elif not isinstance(segment.path, STANDING):
-            wrong[stroke] = (told.no_extent(segment),)
+            wrong[stroke] = (stroke_errors.no_extent(segment),)
     return profile, rates
 
 
@@ -303,7 +303,9 @@ def _seconds(table: Schedule, wrong: Faults) -> Floats:
     seconds = np.where(cruising, np.where(least == 0, period, peak * least), seconds)
     endless = ~(seconds / period < ENDLESS) | (cruising & ~(least < ENDLESS * period))
     for stroke in np.flatnonzero(endless).tolist():
-        wrong.setdefault(stroke, (told.endless(firsts[stroke], table.program.most_samples),))
+        wrong.setdefault(
+            stroke, (stroke_errors.endless(firsts[stroke], table.program.most_samples),)
+        )
     good = np.array([stroke not in wrong for stroke in range(len(table))])
     for name, with_rates, strokes in table.profiles():
         own = strokes[(cruising & (least > 0) & good)[strokes]]
@@ -311,7 +313,7 @@ def _seconds(table: Schedule, wrong: Faults) -> Floats:
             rates = tuple(table.rates[own].T[: RATES[name]])
             seconds[own] = cruise_time(name, rates, least[own])
     for stroke in np.flatnonzero(np.isnan(seconds) & good).tolist():
-        wrong[stroke] = (told.fast_end(firsts[stroke]),)
+        wrong[stroke] = (stroke_errors.fast_end(firsts[stroke]),)
     return seconds
 
 
@@ -344,11 +346,13 @@ def _report(table: Schedule, wrong: Faults, findings: DiagnosticCollector) -> Fl
     total = 1 + np.cumsum(np.where(good, table.count, 0))
     over = np.flatnonzero(good & ((total > most) | (total * period > MOST_SECONDS)))
     end = int(over[0]) if len(over) else len(table)
-    longer = table.time - table.wanted > told.ROUNDING_WORTH_SAYING * table.wanted
+    longer = table.time - table.wanted > stroke_errors.ROUNDING_WORTH_SAYING * table.wanted
     for stroke in sorted({*wrong, *np.flatnonzero(longer & good).tolist()}):
         if stroke >= end:
             break
-        note = told.rounding(firsts[stroke], float(table.wanted[stroke]), float(table.time[stroke]))
+        note = stroke_errors.rounding(
+            firsts[stroke], float(table.wanted[stroke]), float(table.time[stroke])
+        )
         for diagnostic in wrong.get(stroke, (note,) if note else ()):
             findings.add(diagnostic)
     if end < len(table):
@@ -365,5 +369,7 @@ def _too_much(segment: Segment, table: Schedule, stroke: int, samples: bool) -> 
     if isinstance(segment.timing, Samples):
         count = segment.timing.count
     return (
-        told.too_many(segment, count, most) if samples else told.too_long(segment, count * period)
+        stroke_errors.too_many(segment, count, most)
+        if samples
+        else stroke_errors.too_long(segment, count * period)
     )

@@ -13,7 +13,7 @@ from dqpaint.motion.sampling import Rows
 from dqpaint.motion.schedule import Schedule, interval_of
 from dqpaint.program import STANDING, Light
 
-NEAR_END = 0.01  # of the length: how bright the ends of a stroke are is told there
+NEAR_END = 0.01  # of the length: where the brightness of a stroke's ends is evaluated
 DARK = Light((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
@@ -86,9 +86,9 @@ class StrokeLight:
         speed = np.abs(rows.fraction[at + 1] - rows.fraction[at]) * self.way[stroke]
         speed /= table.program.period
         peak = np.where(self.way > 0.0, self.peak, np.inf)[stroke]
-        for of in self._by_formula(stroke):
-            own = slice(*np.searchsorted(rows.stroke, (of, of + 1)))
-            steps = slice(*np.searchsorted(stroke, (of, of + 1)))
+        for number in self._by_formula(stroke):
+            own = slice(*np.searchsorted(rows.stroke, (number, number + 1)))
+            steps = slice(*np.searchsorted(stroke, (number, number + 1)))
             point = dq.translation(rows.flow.pose[own])
             velocity = dq.point_velocity(rows.flow.twist[own], point)
             peak[steps] = max(np.linalg.norm(velocity, axis=1).max(), speed[steps].max())
@@ -98,11 +98,11 @@ class StrokeLight:
         """Which strokes are sampled neither by length nor evenly."""
         table = self.table
         return [
-            of
-            for of in np.unique(stroke[table.size[stroke] == 1]).tolist()
-            if table.first[of] in table.shapes.nonuniform
-            and not table.by_length[table.first[of]]
-            and table.length[of] > 0.0
+            number
+            for number in np.unique(stroke[table.size[stroke] == 1]).tolist()
+            if table.first[number] in table.shapes.nonuniform
+            and not table.by_length[table.first[number]]
+            and table.length[number] > 0.0
         ]
 
 

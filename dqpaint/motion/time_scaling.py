@@ -1,6 +1,6 @@
 """Slowness of a drawing's clock -> retimed samples, so that an arm's limits hold.
 
-The slowness dt/ds is at least 1 and linear from sample to sample of the asked motion, s being the
+The slowness dt/ds is at least 1 and linear from sample to sample of the planned motion, s being the
 drawing's own time. Then t(s) is known in closed form, and so are s(t) and its derivatives
 
     s_dot = 1 / slowness,    s_ddot = - (d slowness / ds) / slowness^3
@@ -16,7 +16,7 @@ import numpy as np
 
 from dqpaint.dq import Floats
 
-AHEAD = 0.2  # [s] of the drawing's time: how early it begins to slow down, and to speed up again
+AHEAD = 0.2  # [s] of the drawing's time: how early it slows down, and speeds up again
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Ticks:
 
     Attributes:
         tau: fractions (M,) of the stroke's own time, from 0 to 1.
-        rate: s_dot (M,); None where the clock runs as asked.
+        rate: s_dot (M,); None without retiming.
         slope: s_ddot (M,) [1/s], likewise.
     """
 
@@ -49,7 +49,7 @@ class TimeScaling:
     """The slowness of the clock.
 
     Attributes:
-        slowness: dt/ds (N,) at the samples of the asked motion, 1 or more.
+        slowness: dt/ds (N,) at the samples of the planned motion, 1 or more.
         period: between these samples, and between those that come out [s].
     """
 

@@ -1,6 +1,6 @@
 """Motion -> shifted, scaled or straightened motion; only its poses are computed.
 
-Enough to see whether an arm gets along them; its twists and times are as they were.
+That is enough to check whether an arm reaches them; twists and times are unchanged.
 """
 
 from dataclasses import replace
@@ -11,13 +11,13 @@ from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
 
-TURNED = np.radians(1.0)  # a tool that is turned by less is straight
+TURNED = np.radians(1.0)  # a tool rotated by less is straight
 
 
 def moved(motion: Motion, origin: Floats) -> Motion:
     """The motion with its drawing frame at an origin (3,) [m] in the base frame, not rotated."""
-    way = origin - dq.translation(motion.canvas)
-    move = dq.pose_from(way, np.array([1.0, 0, 0, 0]))
+    shift = origin - dq.translation(motion.canvas)
+    move = dq.pose_from(shift, np.array([1.0, 0, 0, 0]))
     return replace(motion, pose=dq.mul(move, motion.pose), canvas=dq.mul(move, motion.canvas))
 
 

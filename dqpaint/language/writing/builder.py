@@ -44,7 +44,7 @@ METHODS = {
     for word in STATEMENTS
     if word != "end"
 }
-_CALLS = {**METHODS, **RENAMED}  # those of earlier versions are understood, not told
+_CALLS = {**METHODS, **RENAMED}  # names of earlier versions work but are not listed
 
 
 _OF_FORM = "E1"  # what the codes begin with that are about a form that is not kept
@@ -117,7 +117,7 @@ class Drawing(Statements):
         for method, value in settings.items():
             self._add(_word(method), (value,), {})
 
-    if not TYPE_CHECKING:  # the stub has the methods: a word that is none is told by editors
+    if not TYPE_CHECKING:  # the stub has the methods: editors report unknown words
 
         def __getattr__(self, method: str) -> Callable[..., Any]:
             if method not in _CALLS:

@@ -2,7 +2,7 @@
 
 A number, a path or a transform that can't be read is an error with its line: another shape than
 was meant is worse than none. What SVG itself says to pass over (a colour that is none, a `use` of
-nothing) is passed over so, and told.
+nothing) is ignored as well, and reported.
 """
 
 from collections.abc import Callable, Mapping

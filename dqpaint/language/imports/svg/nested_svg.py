@@ -1,6 +1,6 @@
 """SVG viewports (<svg>, <symbol>) -> transform and percentage base of their content.
 
-How a view box lies in a viewport is told in section 8.2 of SVG 2, what percentages are of in 8.9.
+SVG 2 defines the position of a view box in a viewport in section 8.2, percentages in 8.9.
 """
 
 import math

@@ -225,7 +225,7 @@ def _statements() -> list[dict[str, Any]]:
     from dqpaint.language.vocabulary import STATEMENTS
 
     return [
-        {"name": s.word, "about": s.says, "example": s.example, "parts": list(s.parts)}
+        {"name": s.word, "about": s.meaning, "example": s.example, "parts": list(s.parts)}
         for s in STATEMENTS.values()
     ]
 

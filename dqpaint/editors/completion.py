@@ -121,4 +121,4 @@ def _line(text: str, offset: int) -> tuple[int, int]:
 
 def listed(parts: Iterable[str]) -> str:
     """Parts with their examples, for a hover."""
-    return "\n".join(f"- `{PARTS[word].example}`: {PARTS[word].says}" for word in parts)
+    return "\n".join(f"- `{PARTS[word].example}`: {PARTS[word].meaning}" for word in parts)

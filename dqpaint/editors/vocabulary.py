@@ -30,8 +30,8 @@ def vocabulary() -> tuple[Entry, ...]:
     """All words; one that is a statement and a part comes twice, the statement first."""
     ends = {0: "", 2: "(v0, v1)", 4: "(v0, v1, a0, a1)"}
     return (
-        *(Entry(s.word, "statement", s.says, s.example) for s in STATEMENTS.values()),
-        *(Entry(p.word, "part", p.says, p.example) for p in PARTS.values()),
+        *(Entry(s.word, "statement", s.meaning, s.example) for s in STATEMENTS.values()),
+        *(Entry(p.word, "part", p.meaning, p.example) for p in PARTS.values()),
         *(Entry(word, "word", "a little word of the language", word) for word in LITTLE_WORDS),
         *(Entry(unit, "unit", f"the unit {name}", unit) for unit, (_, _, name) in UNITS.items()),
         *(Entry(name, "function", "a function", call) for name, call in FUNCTIONS.items()),

@@ -1,9 +1,9 @@
 """Program -> Motion: reference pose, twist and acceleration at every sample, in closed form.
 
-`geometry` says what strokes are (one screw, or place and orientation apart) and takes those of one
-kind together, `profiles` says how they run in time, `schedule` how long they take, `sampling` gives
-their rows, `stroke_light` how they shine, `corner_warnings` where the velocity jumps, `plan` puts
-the samples together, `survey` says what there is to say without them. A new profile is a function
+`geometry` has the shapes of strokes (one screw, or position and orientation apart) in batches of
+one kind, `profiles` their progress in time, `schedule` their durations, `sampling` their rows,
+`stroke_light` their light, `corner_warnings` the velocity jumps; `plan` joins the samples, `survey`
+checks a drawing without all of them. A new profile is a function
 in `profiles` under `@PROFILES.add` with its `PEAK`, and its name in the language.
 """
 

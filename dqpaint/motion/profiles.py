@@ -28,8 +28,8 @@ Rates = tuple[float | Floats, ...]
 ProfileFunction = Callable[[Floats, Rates], Progress]
 
 PROFILES: Registry[ProfileFunction] = Registry("profile")
-HALVINGS = 26  # of an interval in which the fastest moment lies: its rate is stationary there
-BACKWARDS = 1e-9  # a rate below that, the other way, is the noise of one that is none
+HALVINGS = 26  # of an interval that contains a stationary point of the rate
+BACKWARDS = 1e-9  # a smaller backward rate is rounding noise of zero
 RAMP = 0.2  # of a trapezoid's time, at each end
 
 

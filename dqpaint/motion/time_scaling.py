@@ -93,14 +93,11 @@ def smooth(slowness: Floats, period: float) -> Floats:
     """
     reach = max(1, round(AHEAD / period))
     window = np.hanning(2 * reach + 3)[1:-1]
-    return 1 + _slid(_largest(slowness - 1, reach), window / window.sum())
+    largest = np.pad(_largest(slowness - 1, reach), len(window) // 2, mode="edge")
+    return 1 + np.convolve(largest, window / window.sum(), mode="valid")
 
 
 def _largest(values: Floats, reach: int) -> Floats:
     """The largest value within `reach` neighbours on either side of each value."""
     padded = np.pad(values, reach, mode="edge")
     return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(axis=1))
-
-
-def _slid(values: Floats, weights: Floats) -> Floats:
-    return np.convolve(np.pad(values, len(weights) // 2, mode="edge"), weights, mode="valid")

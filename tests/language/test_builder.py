@@ -129,7 +129,7 @@ def test_numbers_are_written_so_that_they_come_back(rng):
 def test_every_statement_is_a_method_that_writes_its_example(word):
     known, d = STATEMENTS[word], Drawing()
     rest = known.example.removeprefix(word).strip()
-    assert getattr(d, METHOD[word]).__doc__.startswith(known.says[0].upper())
+    assert getattr(d, METHOD[word]).__doc__.startswith(known.meaning[0].upper())
     if known.head:
         head = rest
         for part in known.parts:  # what stands after the head is parts

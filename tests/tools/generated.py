@@ -24,7 +24,7 @@ def statements():
     from dqpaint.language.vocabulary.words import STATEMENTS
 
     rows = [
-        [f"`{s.word}`", s.says, " ".join(s.parts), f"`{s.example}`"] for s in STATEMENTS.values()
+        [f"`{s.word}`", s.meaning, " ".join(s.parts), f"`{s.example}`"] for s in STATEMENTS.values()
     ]
     return table(["statement", "what it says", "its parts", "for example"], rows)
 
@@ -32,7 +32,7 @@ def statements():
 def parts():
     from dqpaint.language.vocabulary.words import PARTS
 
-    rows = [[f"`{p.word}`", p.says, f"`{p.example}`"] for p in PARTS.values()]
+    rows = [[f"`{p.word}`", p.meaning, f"`{p.example}`"] for p in PARTS.values()]
     return table(["part", "what it says", "for example"], rows)
 
 
@@ -386,7 +386,8 @@ def stub():
             given.append(f"{name}: {'bool' if PARTS[part].takes == 'flag' else 'Any'} = ...")
         answer = "AbstractContextManager[None]" if known.block else "None"
         text += f"    def {method}({', '.join(given).removesuffix(', *')}) -> {answer}:\n"
-        text += f'        """{known.says[0].upper()}{known.says[1:]}: `{example_call(word)}`."""\n'
+        meaning = known.meaning[0].upper() + known.meaning[1:]
+        text += f'        """{meaning}: `{example_call(word)}`."""\n'
     return text
 
 

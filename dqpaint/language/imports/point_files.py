@@ -87,7 +87,7 @@ def _first(text: str) -> tuple[int, str]:
     """The number of lines up to the heading, if there is one, and the first row after it."""
     lines = _lines(text)
     number, line = next(lines, (0, ""))
-    if not line or not _is_heading(line):
+    if not line or any(map(_is_number, _numbers(line, *_style(line)))):
         return 0, line
     return number, next(lines, (0, ""))[1]
 
@@ -118,10 +118,6 @@ def _is_number(text: str) -> bool:
     except ValueError:
         return False
     return "_" not in text
-
-
-def _is_heading(line: str) -> bool:
-    return not any(map(_is_number, _numbers(line, *_style(line))))
 
 
 def _fault(node: Quoted, lines: list[tuple[int, str]], parted: str | None) -> Problem:

@@ -18,7 +18,7 @@ from dqpaint.diagnostics import (
 from dqpaint.language.pen.stroke_state import REST_TO_REST, StrokeState, TurnTo
 from dqpaint.language.syntax.tree import Part
 from dqpaint.language.values import vectors
-from dqpaint.language.vocabulary.words import PACE, PARTS
+from dqpaint.language.vocabulary.words import PARTS, TIMING_WORDS
 from dqpaint.program import (
     IDENTITY,
     STANDING,
@@ -140,7 +140,7 @@ class Pen:
 
     def check_no_time(self, part: Part) -> None:
         """Raises if a movement within a `stroke` has a time of its own."""
-        if self.stroke is not None and part.word in PACE:
+        if self.stroke is not None and part.word in TIMING_WORDS:
             message = f"'{part.word}' belongs to the whole stroke"
             cure = f"write it on its first line: stroke {PARTS[part.word].example}"
             raise problem("E281", message, part.span, "", cure)

@@ -66,7 +66,7 @@ def text(statement: Statement, pen: Pen, scope: Scope) -> None:
     if not made.strokes:
         cure = "to wait, use: hold 1 s"
         raise problem("E262", "this text has no letters", nodes[0].span, "", cure)
-    scale = _scale(statement, pen, scope, (made.width, font.cap))
+    scale = _scale(statement, scope, (made.width, font.cap))
     at = statement.value("at")
     shift = (
         pen.pose.position if at is None else pen.frame.point(typed_values.place(at, scope, "at"))
@@ -155,7 +155,7 @@ def _no_letter(node: Quoted, place: int, font: lettering.Font) -> Problem:
     return problem("E261", message, span, "here", cure, fix)
 
 
-def _scale(statement: Statement, pen: Pen, scope: Scope, size: tuple[float, float]) -> float:
+def _scale(statement: Statement, scope: Scope, size: tuple[float, float]) -> float:
     """The largest scale with which (width, height) is no larger than the given size."""
     scales = []
     for word, extent in zip(("width", "height"), size, strict=True):
@@ -178,7 +178,7 @@ def _fitted(
     """The scale of a drawing, and minus the middle of its box."""
     least, most = piecewise.bounding_box(loose)
     width, height, _ = (most - least).tolist()
-    return _scale(statement, pen, scope, (width, height)), -0.5 * (least + most)
+    return _scale(statement, scope, (width, height)), -0.5 * (least + most)
 
 
 def _place_of(statement: Statement, pen: Pen, scope: Scope, origin: Floats) -> Vector:

@@ -49,13 +49,10 @@ def draw(statement: Statement, pen: Pen, scope: Scope) -> None:
 
 def _with_clauses(statement: Statement, state: StrokeState, pen: Pen, scope: Scope) -> StrokeState:
     for part in statement.parts:
-        if part.word in MODAL and not _own_light(statement, part.word):
+        own_light = part.word == "light" and statement.word in ("hold", "step")
+        if part.word in MODAL and not own_light:
             state = apply_clause(state, part, scope, pen, pen.frame)
     return state
-
-
-def _own_light(statement: Statement, word: str) -> bool:
-    return word == "light" and statement.word in ("hold", "step")
 
 
 def _place(node: Expression, pen: Pen, scope: Scope, word: str) -> Vector:

@@ -296,9 +296,6 @@ def _user_of(part: str) -> str:
     return PARTS[part].example
 
 
-_NAMING = ("let", "repeat", "def", "frame", "for")
-
-
 def _broken(tokens: list[Token]) -> Statement:
     """A placeholder for a line with an error: it only defines the line's name."""
     span = Span(tokens[0].start, tokens[-1].end)

@@ -14,14 +14,14 @@ class PartWord:
     Attributes:
         word: as it is written.
         takes: the kind of value: a dimension or a kind of value; or `tool`, `light`, `brush`,
-            `strobe`, `blend`, which have a little grammar of their own; or `flag`, for none.
-        says: its meaning in a line.
-        example: the word with a value, fit to be pasted.
+            `strobe`, `blend`, which have a grammar of their own; or `flag`, for no value.
+        meaning: its meaning in one line.
+        example: the word with a value, ready to paste.
     """
 
     word: str
     takes: str
-    says: str
+    meaning: str
     example: str
 
 
@@ -31,18 +31,18 @@ class StatementWord:
 
     Attributes:
         word: as it is written.
-        says: its meaning in a line.
-        example: a whole line, fit to be pasted.
-        head: what stands between the word and its parts; empty for nothing.
+        meaning: its meaning in one line.
+        example: a whole line, ready to paste.
+        head: kind of the values between the word and its parts; empty for none.
         parts: the parts it may have.
-        needs: the parts that it can't be without.
-        many: the parts that it may have several times.
+        needs: the required parts.
+        many: the parts that may be repeated.
         block: whether it holds the lines up to an `end`.
-        moves: whether the tool moves, or time passes.
+        moves: whether the tool moves or time passes.
     """
 
     word: str
-    says: str
+    meaning: str
     example: str
     head: str = ""
     parts: tuple[str, ...] = ()
@@ -60,9 +60,9 @@ MODAL = (
     "tool",
     "blend",
     *LAMP,
-)  # each holds until it is said again
+)  # each holds until it is set again
 TIMES = ("in", "samples")
-PACE = (*TIMES, "speed", "turnspeed", "profile")  # what a `stroke` says for all of its lines
+TIMING_WORDS = (*TIMES, "speed", "turnspeed", "profile")  # set by a `stroke` for all of its lines
 CLAUSES = (*TIMES, *MODAL)
 OWN_CORNERS = tuple(word for word in CLAUSES if word != "blend")  # of what comes from elsewhere
 DARK_CLAUSES = tuple(word for word in CLAUSES if word not in LAMP)
@@ -143,7 +143,7 @@ STATEMENTS = {
         ),
         StatementWord("period", "the time between two samples", "period 8 ms", head="value"),
         *(
-            StatementWord(word, f"{PARTS[word].says}, from here on", PARTS[word].example, word)
+            StatementWord(word, f"{PARTS[word].meaning}, from here on", PARTS[word].example, word)
             for word in MODAL
         ),
         StatementWord(

@@ -129,8 +129,8 @@ class Drawing(Statements):
                 return self._block() if STATEMENTS[word].block else None
 
             statement.__name__ = method
-            says = STATEMENTS[word].says
-            statement.__doc__ = f"{says[0].upper()}{says[1:]}: `{example_call(word)}`."
+            meaning = STATEMENTS[word].meaning
+            statement.__doc__ = f"{meaning[0].upper()}{meaning[1:]}: `{example_call(word)}`."
             return statement
 
     def _no_method(self, method: str) -> str:

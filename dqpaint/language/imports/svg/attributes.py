@@ -1,8 +1,8 @@
 """SVG elements -> tree of drawable nodes with all attributes parsed.
 
 A number, a path or a transform that can't be read is an error with its line: another shape than
-was meant is worse than none. What SVG itself says to pass over (a colour that is none, a `use` of
-nothing) is ignored as well, and reported.
+was meant is worse than none. What SVG itself ignores (an invalid colour, a `use` without a target)
+is ignored as well, and reported.
 """
 
 from collections.abc import Callable, Mapping
@@ -87,11 +87,11 @@ class Node:
         transform: its own.
         outline: of a path or a polygon.
         box: its view box; empty without one.
-        ratio: how that lies in its viewport.
-        lengths: its place and its size, as far as they are said.
-        said: what it says of its style.
-        shown: whether there is something to see of it.
-        children: what is shown in it, or by a `use`.
+        ratio: alignment of the view box in its viewport.
+        lengths: its position and its size, as far as given.
+        own_style: its own style attributes.
+        shown: whether it is visible.
+        children: its visible children, or the target of a `use`.
     """
 
     tag: str
@@ -100,7 +100,7 @@ class Node:
     box: list[float]
     ratio: str
     lengths: dict[str, Length]
-    said: dict[str, Any]
+    own_style: dict[str, Any]
     shown: bool = True
     children: list["Node"] = field(default_factory=list)
 
@@ -110,9 +110,9 @@ class Notes:
     """The parts of a drawing that are ignored or drawn differently.
 
     Attributes:
-        left_out: texts, images ..., and the lines they stand on.
-        otherwise: what is drawn, but not as SVG says, and the lines.
-        passed_over: what SVG itself passes over, each with its line.
+        left_out: ignored texts, images ..., with their lines.
+        otherwise: elements drawn differently from SVG, with their lines.
+        passed_over: what SVG itself ignores, each with its line.
     """
 
     left_out: Lines = field(default_factory=dict)

@@ -139,9 +139,9 @@ def _inside(node: Node, around: State) -> State:
     """The state of a node and its descendants."""
     matrix, view, style, sizes = around
     matrix = values.times(matrix, node.transform)
-    if node.said:
-        opacity = node.said.get("opacity", 1.0) * style.opacity
-        style = style._replace(**{**node.said, "opacity": opacity})
+    if node.own_style:
+        opacity = node.own_style.get("opacity", 1.0) * style.opacity
+        style = style._replace(**{**node.own_style, "opacity": opacity})
     if node.tag in PLACED:
         placed, within = nested_svg.placed(node, view, sizes)
         matrix = values.times(matrix, placed)

@@ -1,4 +1,4 @@
-"""Base class of brushes, types of their values, and the registry: name -> model."""
+"""The base of all brushes, the types of their values and their registry: `bar` -> a model."""
 
 import re
 from functools import partial
@@ -117,5 +117,5 @@ def _kind(field: FieldInfo) -> str:
 
 
 def first_value(kind: type[Brush]) -> str | None:
-    """The value of a brush that is written without its name; None if there is none."""
+    """The value of a brush that is written without its name; None if it has none of its own."""
     return next((name for name in kind.model_fields if name not in Brush.model_fields), None)

@@ -1,4 +1,4 @@
-"""Name and values, from text such as `bar:length=300mm,leds=40` or a drawing -> brush model."""
+"""A brush by name and values -> its model: from `bar:length=300mm,leds=40`, from a drawing."""
 
 import re
 from typing import Any

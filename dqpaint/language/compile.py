@@ -42,7 +42,7 @@ def _text_of(path: Path) -> str:
 def parse(text: str, name: str = "<text>", path: Path | None = None) -> Program:
     """The drawing in a text; `name` stands for it in messages.
 
-    Where the text is a file, `path` says which, so that it can include and read others.
+    `path` is the file of the text, relative to which it includes and reads others.
 
     Raises:
         ScriptError: with every mistake that was found, in the order of the text.

@@ -134,7 +134,7 @@ class Schedule:
     def parts(self, stroke: Indices, fraction: Floats) -> Indices:
         """The segments of strokes (N,), in order, at fractions (N,) of their length.
 
-        At a joint it is the one that begins there; the outer ones for what lies beyond.
+        At a joint it is the one that begins there; values outside belong to the outer ones.
         """
         number = self.first[stroke]
         several = stroke[self.size[stroke] > 1]

@@ -25,9 +25,9 @@ class StrokeLight:
         first: linear RGB at the first point (M, 3).
         last: and at the last (M, 3).
         even: whether it is dimmed where the tool is slow (M,).
-        way: the length of each stroke (S,) that even light is even over; 0 where it stays. A point
-            of light that turns on the spot has none, a brush of several has its angle.
-        peak: and its largest speed, where its profile says it, in the time that was asked for (S,).
+        way: the length of each stroke (S,) over which even light is even; 0 at a pause. For a
+            rotation in place it is 0 with a single lamp, else its angle.
+        peak: its largest speed by its profile, in the reference time (S,).
     """
 
     table: Schedule

@@ -40,7 +40,8 @@ from dqpaint.language.vocabulary.words import MODAL, STATEMENTS
 from dqpaint.program import AutoPlacement, Pose, Program, Segment
 
 PERIOD = 0.008  # [s]
-NAMELESS = ("robot", "place", "curve", "repeat", "call")  # their name is none that they give
+# Statements whose first value is not a name that they define.
+NAMELESS = ("robot", "place", "curve", "repeat", "call")
 ALIKE = ("text", "path", "svg", "move")  # in each pass as much as in the first
 SHORTEST_PERIOD = 1e-5  # [s]
 LONGEST_PERIOD = 10.0
@@ -237,7 +238,7 @@ class Expander:
                 self._scope.places[statement.name.text] = statement.name.span
             self._run(statement.body)
             self._close_block(outside)
-            if self._failed > failed:  # the other passes would only say the same again
+            if self._failed > failed:  # the other passes would only repeat the errors
                 self._pen.lost = True
                 break
             if value == passes[0] and all(line.word in ALIKE for line in statement.body):

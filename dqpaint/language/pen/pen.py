@@ -67,9 +67,9 @@ class Pen:
         self.stroke: ContinuousStroke | None = None  # of the `stroke` that is being drawn
         self._strokes = 0
         self.pieces = 0  # of curves
-        self.placed = False  # the file has said where the drawing starts
+        self.placed = False  # the file has set the start of the drawing
         self.started = False  # something has moved
-        self.oriented = False  # the file has said how the tool is held at the start
+        self.oriented = False  # the file has set the orientation at the start
         self.moved = Span(0, 0)  # the first movement
         self.lost = False  # after a mistake in a movement nobody knows where the tool is
         self._lines = _LineCounter(text)

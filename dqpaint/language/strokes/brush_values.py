@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from dqpaint.brushes import Brush as BrushModel
 
 MOST_BYTES = 50_000_000  # of an image
-FURTHEST_COUNT = -(10**9)  # how far a count may go is for the brush to say
+FURTHEST_COUNT = -(10**9)  # the brush itself checks the range of a count
 
 
 def brush_of(words: BrushWords, scope: Scope, pen: Pen) -> Brush:

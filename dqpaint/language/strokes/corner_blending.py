@@ -110,7 +110,7 @@ def _pieces(
 def _joint(a: Segment, b: Segment, size: float, findings: DiagnosticCollector) -> _Joint:
     """Whether and how a corner is rounded: not where the pen is lifted, nor at a pause.
 
-    What comes from elsewhere begins and ends where it says.
+    Imported strokes keep their own start and end.
     """
     if isinstance(a.path, PiecewiseCurve) or isinstance(b.path, PiecewiseCurve):
         return _NO_JOINT

@@ -111,5 +111,5 @@ def _shade(shade: ColourWords, on: Colour, scope: Scope, after_to: bool = False)
 def pause_light(light: Light | None) -> Light | None:
     """The light of a pause: the last colour of the stroke before it."""
     if light is None or light.even or light.last == colours.DARK:
-        return None  # a light that is even over the way does not shine where there is none
+        return None  # light that is even along the path is off where the path has no length
     return Light(light.last, light.last)

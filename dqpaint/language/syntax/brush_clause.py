@@ -31,8 +31,8 @@ def brush(cursor: Cursor) -> BrushWords:
         parts.append(BrushPart(Word(first, value.span), (value,)))
     of_statement = STATEMENTS[cursor.first.text].parts
     while cursor.token.kind == "name" and cursor.token.text in takes:
-        said = {part.key.text for part in parts}
-        if cursor.token.text in said and cursor.token.text in of_statement:
+        known = {part.key.text for part in parts}
+        if cursor.token.text in known and cursor.token.text in of_statement:
             break  # `along` of a bar, and then that of its screw
         parts.append(_part(cursor, takes))
     _check_next(cursor, token, takes)

@@ -53,7 +53,7 @@ TOKEN = re.compile(
 _FIRST_WORD = re.compile(r"[^\S\n]*([A-Za-z_]+)(?![A-Za-z0-9_]|[^\S\n]*[,)*/+^])", re.ASCII)
 
 _BLANK = re.compile(r"[^\S\n]*(?:#|$)", re.MULTILINE)  # to the end of a line
-# What stands before a comma that was meant within a number: 2,000 and 0,05.
+# The digits before a comma that was meant as part of a number: 2,000 and 0,05.
 _THOUSANDS = re.compile(r"(?<![\w.,])[1-9]\d{0,2}(?:,\d{3})*,$", re.ASCII)
 _SPACED = re.compile(r"(?<![\w.,])[1-9]\d{0,2}(?: \d{3})* $", re.ASCII)
 _DECIMAL = re.compile(r"(?<![\w.])(\d+),$", re.ASCII)

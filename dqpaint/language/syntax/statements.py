@@ -54,7 +54,7 @@ def call(cursor: Cursor) -> Statement:
     return Statement("call", cursor.span_from(name.start), Word(name.text, name.span), values)
 
 
-# What stands between the first word and the parts.
+# The values between the first word and the parts.
 
 
 def _head(cursor: Cursor, word: str, head: str) -> _Head:

@@ -119,7 +119,7 @@ def _children(node: Expression) -> tuple[Expression, ...]:
     return ()
 
 
-# What stands after `tool`, `light`, `brush`, `strobe` and `blend`.
+# The values after `tool`, `light`, `brush`, `strobe` and `blend`.
 
 
 @record

@@ -35,7 +35,7 @@ from dqpaint.program import Value as Scalar
 def evaluate(node: Expression, scope: Scope, words: Iterable[str] = ()) -> Value:
     """The value of an expression; raises a `Problem` if it has none.
 
-    `words` are those that may stand in its place, for the message about an unknown name.
+    `words` are allowed in its place; the message about an unknown name lists them.
     """
     if words and type(node) is Name and not scope.defines(node.name):
         raise expression_errors.unknown(node, scope, words)
@@ -203,7 +203,7 @@ def _power(node: Power, scope: Scope) -> Value:
     return checked_finite(result, node.span)
 
 
-# Each evaluator takes the kind of node it stands for here; mypy can't say that of a table.
+# Each evaluator takes the node type of its key, which the type of a table can't express.
 _EVALUATORS: dict[type, Callable[..., Value]] = {
     Literal: _literal,
     Quoted: _quoted,

@@ -76,7 +76,7 @@ class Arguments:
         cure = f"write: {FUNCTIONS.get(self.function, self.function)}"
         plain = isinstance(value, Quantity) and value.dimension == PLAIN
         if plain and len(self.nodes) == 1 and dimension == ANGLE:
-            join = " " if isinstance(self.nodes[i], Literal) else "*"  # a unit stands at a number
+            join = " " if isinstance(self.nodes[i], Literal) else "*"  # `30 deg`, but `a*deg`
             ways = (f"{self.function}({written}{join}{unit})" for unit in ("deg", "rad"))
             cure = f"say which: {' or '.join(ways)}"
         elif plain and isinstance(value, Quantity) and not isinstance(value.value, Taylor):

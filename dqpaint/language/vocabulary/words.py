@@ -406,7 +406,7 @@ FUNCTION_ALIASES = {
 }
 
 # Never part of an expression: a value was forgotten if one of them is found there.
-# But these say something in a few statements alone, and `let radius = …` is what people write.
+# But these have a meaning in a few statements only, and `let radius = …` is common.
 FREE = ("radius", "left", "right", "long", "height", "width", "unit")
 RESERVED = frozenset(
     (*STATEMENTS, *PARTS, *RENAMED, *LITTLE_WORDS, "if", "else", "while")

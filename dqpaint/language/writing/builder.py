@@ -45,9 +45,7 @@ METHODS = {
     if word != "end"
 }
 _CALLS = {**METHODS, **RENAMED}  # names of earlier versions work but are not listed
-
-
-_OF_FORM = "E1"  # what the codes begin with that are about a form that is not kept
+_OF_FORM = "E1"  # prefix of the codes of syntax errors
 
 
 def example_call(word: str) -> str:

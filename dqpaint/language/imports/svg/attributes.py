@@ -21,7 +21,7 @@ from dqpaint.language.imports.svg.values import (
     UnreadableError,
 )
 
-Lines = dict[str, list[int]]  # of a file, where something stands
+Lines = dict[str, list[int]]  # line numbers in the file, by name
 
 VIEWPORTS = ("svg", "symbol")
 PLACED = ("use", *VIEWPORTS)
@@ -47,8 +47,8 @@ _READ = {  # the attributes that are read, of all elements the transform
     "use": ("x", "y", "width", "height"),
     **dict.fromkeys(VIEWPORTS, ("x", "y", "width", "height", "viewBox")),
 }
-_SIDES = {"rect": 2, "circle": 1, "ellipse": 1, **dict.fromkeys(VIEWPORTS, 0)}  # it must say
-_NOWHERE = ("defs", "clipPath", "mask", "pattern", "marker")  # nor is a symbol where it stands
+_SIDES = {"rect": 2, "circle": 1, "ellipse": 1, **dict.fromkeys(VIEWPORTS, 0)}  # required sizes
+_NOWHERE = ("defs", "clipPath", "mask", "pattern", "marker")  # nor is a symbol in its own position
 _MISSED = ("text", "image", "foreignObject", "flowRoot")
 _NO_LINES = (
     *(*_MISSED, "linearGradient", "radialGradient"),
@@ -171,7 +171,7 @@ class _Reader:
             SvgError: an attribute can't be read.
         """
         made = self._node(root)
-        for use, target in self._uses:  # they grow by what is not shown where it stands
+        for use, target in self._uses:  # their content is not visible in its own position
             if not _is_hidden(target) and target.tag not in (*_NO_LINES, *_NOWHERE):
                 use.children.append(self._nodes.get(target) or self._node(target))
         return made

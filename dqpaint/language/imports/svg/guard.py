@@ -20,7 +20,7 @@ LESS = "draw a part of it, or make it simpler"
 
 _TRACE = "trace it to paths in a drawing program, and save them as plain SVG"
 _SAVE = "save it as plain SVG in the program it was made with"
-OTHERS = (  # how files of other kinds begin, what they are, what helps
+OTHERS = (  # first bytes of other file types, their names, fixes
     (b"\x1f\x8b", "compressed (.svgz)", f"unpack it, or {_SAVE}"),
     (b"\x89PNG", "a PNG picture", _TRACE),
     (b"\xff\xd8\xff", "a JPEG picture", _TRACE),
@@ -44,7 +44,7 @@ class Element:
         has: its attributes.
         line: of the file, where it begins.
         children: the elements in it.
-        text: what else is in it.
+        text: its text content.
     """
 
     tag: str
@@ -121,7 +121,7 @@ def _tree(data: bytes) -> Element:
         what = expat.errors.messages.get(fault.code, "")
         reason = what or str(fault)
         raise SvgError(f"line {fault.lineno}: {reason}", "it is not well-formed XML") from None
-    except (ValueError, LookupError) as fault:  # of an encoding that is none
+    except (ValueError, LookupError) as fault:  # an unknown encoding
         raise SvgError(str(fault)[:80]) from None
     return within[0].children[0]
 

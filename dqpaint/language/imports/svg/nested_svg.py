@@ -10,7 +10,7 @@ from typing import NamedTuple
 from dqpaint.language.imports.svg.attributes import Node
 from dqpaint.language.imports.svg.values import Length, Matrix
 
-UNKNOWN = 1000.0  # [px] the side of a drawing that does not say it
+UNKNOWN = 1000.0  # [px] the default side of a drawing
 _ACROSS = frozenset(("x", "x1", "x2", "cx", "rx", "width"))
 _ALIGNS = {"Min": 0.0, "Mid": 0.5, "Max": 1.0}
 

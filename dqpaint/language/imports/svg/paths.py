@@ -68,7 +68,7 @@ class Pieces:
     def lines(self, matrices: Floats, shifts: Floats) -> Iterator[tuple[int, PiecewiseCurve]]:
         """Each line under its shape's transform, with the number of the shape.
 
-        Within a line each piece begins where the one before it ends; what has no length is none.
+        Within a line each piece begins at the end of the one before; empty pieces are left out.
 
         Args:
             matrices: of all shapes (K, 3, 3).

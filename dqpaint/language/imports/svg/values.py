@@ -38,7 +38,7 @@ _URL = re.compile(r"url\(\s*[\"']?#?([^\"')]*)[\"']?\s*\)\s*(.*)", re.DOTALL)
 Matrix = tuple[float, float, float, float, float, float]  # a to f, as SVG has them
 IDENTITY: Matrix = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
 Paint = bytes | None  # red, green, blue and alpha; None for no paint
-CURRENT = b""  # the paint that `color` says
+CURRENT = b""  # the value of `color`
 BLACK = b"\0\0\0\xff"
 
 

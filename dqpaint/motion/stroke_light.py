@@ -25,16 +25,16 @@ class StrokeLight:
         first: linear RGB at the first point (M, 3).
         last: and at the last (M, 3).
         even: whether it is dimmed where the tool is slow (M,).
-        way: the length of each stroke (S,) over which even light is even; 0 at a pause. For a
-            rotation in place it is 0 with a single lamp, else its angle.
-        peak: its largest speed by its profile, in the reference time (S,).
+        extent: the length of each stroke (S,) over which even light is even; 0 at a pause. For a
+            rotation in place it is 0 with a single lamp, else 1 (its whole angle).
+        peak: its largest speed by its profile, in the duration before rounding (S,).
     """
 
     table: Schedule
     first: Floats
     last: Floats
     even: Flags
-    way: Floats
+    extent: Floats
     peak: Floats
 
     def along(self, rows: Rows) -> Floats:
@@ -83,9 +83,9 @@ class StrokeLight:
         """The point's speed after rows `at` (K,), as a fraction of its peak."""
         table = self.table
         stroke = rows.stroke[at]
-        speed = np.abs(rows.fraction[at + 1] - rows.fraction[at]) * self.way[stroke]
+        speed = np.abs(rows.fraction[at + 1] - rows.fraction[at]) * self.extent[stroke]
         speed /= table.program.period
-        peak = np.where(self.way > 0.0, self.peak, np.inf)[stroke]
+        peak = np.where(self.extent > 0.0, self.peak, np.inf)[stroke]
         for number in self._by_formula(stroke):
             own = slice(*np.searchsorted(rows.stroke, (number, number + 1)))
             steps = slice(*np.searchsorted(stroke, (number, number + 1)))
@@ -112,19 +112,19 @@ def make_stroke_light(table: Schedule) -> StrokeLight:
     lights = [segment.light or DARK for segment in segments]
     first, last = np.array([light.first for light in lights]), np.array([x.last for x in lights])
     shared = [s.stroke is not None and (s.light or DARK) == s.stroke.light for s in segments]
-    of = np.flatnonzero(shared)  # they have their parts of a gradient over the whole stroke
-    start, end = table.begin[of, None], table.end[of, None]
-    a, b = first[of], last[of]
-    first[of], last[of] = (1 - start) * a + start * b, (1 - end) * a + end * b
+    joined = np.flatnonzero(shared)  # parts of a gradient over the whole stroke
+    start, end = table.begin[joined, None], table.end[joined, None]
+    a, b = first[joined], last[joined]
+    first[joined], last[joined] = (1 - start) * a + start * b, (1 - end) * a + end * b
     even = np.array([light.even for light in lights])
-    way = table.length.copy()
-    for stroke in np.flatnonzero(way == 0.0).tolist():
+    extent = table.length.copy()
+    for stroke in np.flatnonzero(extent == 0.0).tolist():
         segment = segments[table.first[stroke]]
         turns = not isinstance(segment.path, STANDING)
-        way[stroke] = float(turns and segment.brush.several)
-    # as fast as it was to be before its time was rounded up: else a short stroke is the brightest
-    fastest = table.peak_rates * way / np.minimum(table.wanted, table.time)
-    return StrokeLight(table, first, last, even, way, fastest)
+        extent[stroke] = float(turns and segment.brush.several)
+    # the speed before durations are rounded up: otherwise a short stroke would be the brightest
+    fastest = table.peak_rates * extent / np.minimum(table.wanted, table.time)
+    return StrokeLight(table, first, last, even, extent, fastest)
 
 
 def unevenness(table: Schedule) -> float:

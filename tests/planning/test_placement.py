@@ -237,3 +237,12 @@ def test_slips_in_the_language(line, code):
     with pytest.raises(ScriptError) as caught:
         parse(f"{line}\nline to (1, 0) mm\n", "t")
     assert code in str(caught.value)
+
+
+@pytest.mark.parametrize(("changed", "poor"), [
+    ({"relative_margin": 0.5, "torque_left": 0.5}, False),
+    ({"relative_margin": 0.06, "torque_left": 0.5}, True),
+    ({"relative_margin": 0.5, "torque_left": 0.06}, True),
+])  # fmt: skip
+def test_a_place_that_leaves_little_is_called_poor(placed, changed, poor):
+    assert replace(placed, **changed).figures.startswith("a poor place: ") == poor

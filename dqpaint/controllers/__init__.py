@@ -1,17 +1,17 @@
-"""Control laws, one a file, its equation on top: what is seen -> what is commanded.
+"""Measured state and reference -> a command: control laws, one a file, with its equation.
 
-A law is asked at every control step. It sees a `Seen` (measured state, reference, limits, the
-reference ahead) and its gains, and returns a spatial twist (..., 6), which
+A law is called at every control step with a `Seen` (measured state, reference, limits, the
+reference ahead) and its gains. It returns a spatial twist (..., 6), which
 `dqpaint.simulation.drives` turns into joint rates; or, where it says so, joint rates, a spatial
 acceleration or joint torques. Below `@controller(name, source, gains)` in a file of `laws` it is
 found by itself.
 
-A law that keeps nothing from one step to the next is a function, for arrays of any leading shape:
+A law without state is a function, for arrays of any leading shape:
 
     @controller("p", source="...", gains=RateGains)
     def p(seen, gains): return ...
 
-A law that remembers (an integrator, an observer), or that works something out beforehand (a Riccati
+A law with state (an integrator, an observer), or one that computes something beforehand (a Riccati
 equation, a solver over the arm's limits and distances), is a class. Each run makes an object of its
 own and calls `start`, if there is one, with the `Arm`, the whole `Motion` and the `Schedule` of the
 gains, before the first step:

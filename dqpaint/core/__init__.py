@@ -1,6 +1,6 @@
-"""Text of a choice -> a registered thing and its values; files written as a whole; versions.
+"""Text of a choice -> a registered object and its values; files written whole; versions.
 
-Nothing here knows of robots, light or the language.
+Nothing here depends on robots, light or the language.
 """
 
 from dqpaint.core import tables

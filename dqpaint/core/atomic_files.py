@@ -1,4 +1,4 @@
-"""Bytes -> a file, whole or not at all: made beside its place, then moved in."""
+"""Bytes -> a file, written whole or not at all: a temporary file is moved into place."""
 
 import os
 import tempfile
@@ -8,7 +8,7 @@ from dqpaint.errors import OutputError
 
 
 def write_temporary(path: Path, data: bytes) -> Path:
-    """Write a file beside its place under a passing name; the caller moves or removes it.
+    """Write a temporary file in the same folder; the caller moves or removes it.
 
     Raises:
         OSError: it cannot be written; nothing is left.
@@ -26,10 +26,10 @@ def write_temporary(path: Path, data: bytes) -> Path:
 
 
 def rewrite(path: Path, data: bytes) -> None:
-    """Give a file other contents; its permissions stay, a link goes on leading to it.
+    """Replace the contents of a file; its permissions and links to it remain.
 
     Raises:
-        OutputError: it cannot be written; it is as it was.
+        OutputError: it cannot be written; it is unchanged.
     """
     try:
         place = path.resolve(strict=True)
@@ -44,10 +44,10 @@ def rewrite(path: Path, data: bytes) -> None:
 
 
 def write_new(path: Path, data: bytes) -> None:
-    """Make a file that is not there yet.
+    """Write a file that does not exist yet.
 
     Raises:
-        OutputError: it is there, or its place cannot be written.
+        OutputError: it exists, or its folder cannot be written.
     """
     try:
         staged = write_temporary(path, data)

@@ -1,4 +1,4 @@
-"""The example drawings, which travel with the package and answer to their names."""
+"""Name of an example drawing, or a path -> its file."""
 
 from pathlib import Path
 
@@ -6,7 +6,7 @@ from dqpaint.errors import DqpaintError
 
 
 def examples_folder() -> Path:
-    """Where the examples lie: beside the package in a source tree, inside it when installed."""
+    """The folder of the examples: beside the package in a source tree, inside it when installed."""
     package = Path(__file__).parent.parent
     beside = package.parent / "trajectories"
     return beside if (package.parent / "pyproject.toml").is_file() else package / "trajectories"

@@ -1,4 +1,4 @@
-"""A choice with values of its own, as text: `twist=sine,x=0.02`, `compliant:frequency=60`."""
+"""Text of a choice -> its name and values: `twist=sine,x=0.02`, `compliant:frequency=60`."""
 
 import re
 from collections.abc import Mapping
@@ -41,7 +41,7 @@ def read_choice(kind: str, text: str, example: str) -> tuple[str, dict[str, floa
 
 
 def number_or_text(value: str) -> float | str:
-    """A number where the text is one."""
+    """The value as a number, if it is one."""
     try:
         return float(value)
     except ValueError:
@@ -49,7 +49,7 @@ def number_or_text(value: str) -> float | str:
 
 
 def pydantic_reason(fault: Mapping[str, Any]) -> str:
-    """What pydantic says of a value (one of its `errors()`), without its own first words."""
+    """The message of a pydantic error (one of `errors()`), without pydantic's own prefix."""
     return str(fault["msg"]).removeprefix("Value error, ").removeprefix("Input ")
 
 

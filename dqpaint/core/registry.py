@@ -1,4 +1,4 @@
-"""A name -> the thing of its kind: built in, or brought by another package's entry points."""
+"""Name -> the registered object of a kind: built in, or from another package's entry points."""
 
 import importlib
 import pkgutil
@@ -15,7 +15,7 @@ T = TypeVar("T")
 
 
 class Registry(Mapping[str, T], Generic[T]):
-    """Named things of one kind, in the order in which they were added; then those of plugins.
+    """Named objects of one kind, in the order in which they were added; then those of plugins.
 
     Args:
         kind: what the things are called in messages, in the singular.
@@ -57,16 +57,16 @@ class Registry(Mapping[str, T], Generic[T]):
 
     @property
     def faults(self) -> list[str]:
-        """What is wrong with plugins, a sentence each; all are imported."""
+        """The faults of plugins, one sentence each; imports all of them."""
         self._load_all()
         return self._faults
 
     @cached_property
     def _faults(self) -> list[str]:
-        told = []
+        faults = []
         for name, brought in self._plugins.items():
             if self._is_built_in(name):
-                told += [
+                faults += [
                     f"{self.kind} '{name}' of {_package(one)} is not used: dqpaint has its own"
                     for one in brought
                 ]
@@ -74,8 +74,8 @@ class Registry(Mapping[str, T], Generic[T]):
             try:
                 self._load(name)
             except UsageError as problem:
-                told.append(str(problem))
-        return told
+                faults.append(str(problem))
+        return faults
 
     @cached_property
     def _plugins(self) -> "dict[str, list[EntryPoint]]":
@@ -109,15 +109,15 @@ class Registry(Mapping[str, T], Generic[T]):
             if name not in self._things:  # else the module has registered it itself
                 self._things[name] = self._adapt(name, thing)
         except Exception as problem:
-            said = f"{type(problem).__name__}: {problem}".splitlines()[0]
+            fault = f"{type(problem).__name__}: {problem}".splitlines()[0]
             raise UsageError(
-                f"{self.kind} '{name}' of {_package(first)} cannot be loaded: {said}"
+                f"{self.kind} '{name}' of {_package(first)} cannot be loaded: {fault}"
             ) from problem
         finally:  # a module that fails may have registered some before, or its package
             self._origins |= dict.fromkeys(set(self._things) - before, _package(first))
 
     def _look_for(self, name: str) -> None:
-        """Have a name's thing loaded, wherever it is."""
+        """Load the object of a name, if there is one."""
         if name not in self._things:
             self._load(name)
 
@@ -197,7 +197,7 @@ class Folder(Registry[T]):
 
 
 def subclass(base: type[T], name: str, thing: object) -> type[T]:
-    """A class of a plugin or a user's file, if it is a kind of the base.
+    """A class of a plugin or a user's file, checked to be a subclass of `base`.
 
     Raises:
         UsageError: it is not.

@@ -1,4 +1,4 @@
-"""`FILE.py` or `FILE.py:NAME` -> a function or class of a user's file, and its faults in words."""
+"""`FILE.py` or `FILE.py:NAME` -> a function or class of a user's file, with readable faults."""
 
 import hashlib
 import linecache
@@ -107,11 +107,11 @@ def read_definitions(path: Path, kind: str) -> tuple[dict[str, Any], str]:
 
 
 class AnswerError(DqpaintError):
-    """An answer that is none; it names its place by itself."""
+    """A user's function returned a value of the wrong kind; the message names file and line."""
 
 
 class UserCode:
-    """While code of a file runs: its faults are told with its own lines, but for a Ctrl-C.
+    """Context of a user's code: any fault but Ctrl-C becomes an error with the file's own line.
 
     Raises:
         DqpaintError: any fault.
@@ -130,11 +130,11 @@ class UserCode:
 
 
 class Guarded:
-    """A class of a user, and the objects it makes: their faults are told with their own lines.
+    """A user's class or object: its faults become errors with the lines of the user's file.
 
     Args:
         thing: a class or an object.
-        path: of the file it stands in.
+        path: its file.
     """
 
     def __init__(self, thing: Any, path: Path) -> None:
@@ -170,21 +170,21 @@ def _text(path: Path, kind: str) -> tuple[str, str]:
 
 
 def _located_fault(fault: BaseException, path: Path) -> str:
-    """A fault with the file's own last line in it, without the lines of this package."""
+    """The message of a fault, with the last line of the user's file that led to it."""
     try:
         text = str(fault)
     except Exception:  # it is the user's own
         text = ""
-    said = f"{type(fault).__name__}: {text}" if text else type(fault).__name__
+    message = f"{type(fault).__name__}: {text}" if text else type(fault).__name__
     if isinstance(fault, SyntaxError) and fault.filename == str(path):
         number: int | None = fault.lineno
-        said = f"{type(fault).__name__}: {fault.msg}"
+        message = f"{type(fault).__name__}: {fault.msg}"
     else:
         frames = traceback.extract_tb(fault.__traceback__)
         number = next((f.lineno for f in reversed(frames) if f.filename == str(path)), None)
     if number is None:
-        return f"{path.name}: {said}"
+        return f"{path.name}: {message}"
     code = linecache.getline(str(path), number).lstrip("\ufeff").rstrip()
     code = code if len(code) <= LONGEST_LINE else f"{code[:LONGEST_LINE]} ..."
     edge = " " * len(str(number))
-    return f"{path.name}:{number}: {said}\n{edge} |\n{number} | {code}"
+    return f"{path.name}:{number}: {message}\n{edge} |\n{number} | {code}"

@@ -1,8 +1,8 @@
-"""The language for editors: text -> colours, completion, hints and messages while one types.
+"""Text of a drawing -> colours, completion, hints and diagnostics for editors.
 
 `vocabulary` reads the words from the language's tables; `textmate` and `pygments_lexer` make
-grammars of them, `completion` says what a word means and what may follow, `analysis` how long each
-line takes, `server` speaks the language server protocol. A new word of the language needs no line
+grammars of them, `completion` explains words and suggests what may follow, `analysis` measures each
+line, `server` speaks the language server protocol. A new word of the language needs no line
 here.
 """
 

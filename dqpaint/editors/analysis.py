@@ -1,4 +1,4 @@
-"""Text -> what is found in it, and how long each of its lines is and takes."""
+"""Text -> its diagnostics, and the length and duration of each line."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,7 +12,7 @@ from dqpaint.robots.loading import card_for
 
 @dataclass(frozen=True)
 class LineFigures:
-    """Of one line of a drawing, all its passes together."""
+    """Length, time and speed of one line of a drawing, all its passes together."""
 
     length: float  # [m]
     seconds: float
@@ -29,17 +29,17 @@ class LineFigures:
 
 @dataclass(frozen=True)
 class Analysis:
-    """A drawing as far as it can be understood."""
+    """The result of analysing a text: diagnostics and figures."""
 
     text: str
     source: str  # the text, and those of the files it includes
-    planned: bool  # its times were looked at, too
+    planned: bool  # whether its times were planned, too
     diagnostics: tuple[Diagnostic, ...]
     figures: dict[int, LineFigures] = field(default_factory=dict)  # by the line, from 1
 
 
 def analyse(text: str, name: str, planned: bool) -> Analysis:
-    """What there is to say about a text; `planned` also has its times looked at."""
+    """Diagnostics and figures of a text; `planned` includes those of its times."""
     try:
         program = parse(text, name, Path(name))
         if not planned:
@@ -51,7 +51,7 @@ def analyse(text: str, name: str, planned: bool) -> Analysis:
 
 
 def line_figures(motion: Motion) -> dict[int, LineFigures]:
-    """How long each line is and takes; of the main file alone."""
+    """Length and duration of each line; of the main file alone."""
     steps = np.linalg.norm(np.diff(motion.points, axis=0), axis=1)
     steps[motion.jump[:-1]] = 0.0
     rows = motion.source.file[:-1] == 0

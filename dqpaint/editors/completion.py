@@ -1,4 +1,4 @@
-"""What a word of a drawing means, and what may be written at a place. Offsets are code points."""
+"""Text and offset -> the meaning of a word, and completions. Offsets are code points."""
 
 import re
 from collections.abc import Iterable
@@ -13,7 +13,7 @@ _NAMED = re.compile(r"^\s*(?:let|repeat|def|frame)\s+([A-Za-z_][A-Za-z0-9_]*)", 
 
 
 def word_at(text: str, offset: int) -> Span | None:
-    """The word an offset lies in or at the end of, if it is none of a comment or a text."""
+    """The word at an offset, unless it is in a comment or a quoted text."""
     start, end = _line(text, offset)
     for match in _TOKEN.finditer(text, start, end):
         if match.start() <= offset <= match.end() and _WORD.fullmatch(match[0]):
@@ -22,7 +22,7 @@ def word_at(text: str, offset: int) -> Span | None:
 
 
 def meaning_at(text: str, offset: int) -> tuple[Entry, Span] | None:
-    """What the language says of the word at an offset."""
+    """The entry of the word at an offset."""
     span = word_at(text, offset)
     if span is None:
         return None
@@ -35,7 +35,7 @@ def meaning_at(text: str, offset: int) -> tuple[Entry, Span] | None:
 
 
 def completions(text: str, offset: int) -> list[Entry]:
-    """The words that may stand at an offset, of which the first letters may be written already."""
+    """The words that may follow at an offset, where their first letters may be written already."""
     start, _ = _line(text, offset)
     written = _WORD.search(text[start:offset].rpartition(" ")[2].rpartition("(")[2])
     begun = offset - (len(written[0]) if written and text[:offset].endswith(written[0]) else 0)

@@ -1,7 +1,7 @@
-"""The language server: an editor's questions over standard input and output, answered.
+"""An editor's requests on standard input -> responses on standard output: the language server.
 
-Places are code points in dqpaint and UTF-16 units (or what the editor asked for) in the protocol;
-`_Document` turns one into the other.
+Offsets are code points in dqpaint and UTF-16 units (or the editor's choice) in the protocol;
+`_Document` converts them.
 """
 
 import gc
@@ -75,7 +75,7 @@ def _name(uri: str) -> str:
 
 
 class _Server(LanguageServer):
-    """What is known of each open text."""
+    """The server, with the analysis of each open text."""
 
     def __init__(self) -> None:
         super().__init__("dqpaint", __version__)
@@ -89,7 +89,7 @@ class _Server(LanguageServer):
         return self.workspace.position_codec
 
     def analysis(self, uri: str, planned: bool) -> Analysis:
-        """What there is to say about a text; nothing is worked out twice."""
+        """The analysis of a text, computed once."""
         text = self.document(uri).text
         known = self._analyses.get(uri)
         if known is None or known.text != text or (planned and not known.planned):
@@ -184,7 +184,7 @@ def make_server() -> LanguageServer:
 
 
 def _hover(server: _Server, uri: str, position: lsp.Position) -> lsp.Hover | None:
-    """What the word means; for a line that moves the tool also how long it is and takes."""
+    """The meaning of a word; for a line that moves the tool also its length and duration."""
     document = server.document(uri)
     found = completion.meaning_at(document.text, document.offset(position))
     if found is None:
@@ -202,7 +202,7 @@ def _hover(server: _Server, uri: str, position: lsp.Position) -> lsp.Hover | Non
 
 
 def _fixes(server: _Server, uri: str, asked: lsp.Range) -> list[lsp.CodeAction]:
-    """The edits that mend what is wrong within a range."""
+    """The fixes of diagnostics within a range."""
     document = server.document(uri)
     start, end = document.offset(asked.start), document.offset(asked.end)
     found = []
@@ -225,7 +225,7 @@ def _fixes(server: _Server, uri: str, asked: lsp.Range) -> list[lsp.CodeAction]:
 
 
 def serve() -> None:
-    """Answer until the editor says goodbye.
+    """Serve until the editor closes the connection.
 
     The server closes the pipes it is given, so it gets its own; what anything prints meanwhile goes
     to standard error and not between its answers.

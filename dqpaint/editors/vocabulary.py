@@ -1,4 +1,4 @@
-"""The words of the language by their kinds, as editors colour and explain them."""
+"""The language's tables -> its words by kind, as editors colour and explain them."""
 
 from functools import cache
 from typing import NamedTuple

@@ -1,4 +1,4 @@
-"""What came through of an unmodelled twist, beside what the gains promise.
+"""Track -> the gain from an unmodelled twist to the error, and the bound the gains guarantee.
 
 Pereira 2016, 3.3: for x_dot = 1/2 (xi + v) x and no error to begin with, the H-infinity laws keep
 ||1 - r_e||_2 <= (sqrt(2) / K_O) ||v_w||_2 and ||p_e||_2 <= (1 / K_T) ||v_t||_2, norms in time.
@@ -17,11 +17,11 @@ from dqpaint.simulation import Track
 
 @dataclass(frozen=True)
 class Attenuation:
-    """How much of a disturbance became error [s], in rotation or in translation.
+    """The ratio of error to disturbance [s], in rotation or in translation.
 
     Attributes:
         ratio: norm of the error over the norm of the disturbance.
-        bound: what the gains promise at the most; None where the law makes no promise.
+        bound: the largest ratio that the gains guarantee; None where the law guarantees none.
     """
 
     ratio: float
@@ -29,7 +29,7 @@ class Attenuation:
 
     @property
     def bound_holds(self) -> bool | None:
-        """Whether the promise was kept; None where there is none."""
+        """Whether the ratio is within the bound; None where there is none."""
         return None if self.bound is None else self.ratio <= self.bound
 
 

@@ -1,6 +1,6 @@
 """A function of a run -> a metric by its name: a column of its table, or a figure of its summary.
 
-All that tells metrics apart is said where they are registered. From here come the CSV, the JSON,
+A metric is described where it is registered. From here come the CSV, the JSON,
 the tables and curves of studies, `--figure`, `--colour-by`, `dqpaint list` and the pages.
 """
 
@@ -26,12 +26,12 @@ SCALES = {("m", "mm"): 1e3, ("m/s", "mm/s"): 1e3, ("rad", "deg"): math.degrees(1
 
 @dataclass(frozen=True, kw_only=True)
 class Metric:
-    """What columns and figures have in common.
+    """Name, unit and meaning of a column or a figure.
 
     Attributes:
         unit: of the SI; nothing if there is none.
-        title: what it is called in legends, charts and tables, without its unit.
-        meaning: what it is, in a few words.
+        title: its name in legends, charts and tables, without the unit.
+        meaning: a short definition.
         display_unit: the unit in which people read it, if it is another one.
     """
 
@@ -220,5 +220,5 @@ def all_figures() -> dict[str, Figure]:
 
 
 def unit_suffix(unit: str) -> str:
-    """How a name says a unit: `_rad_s` of rad/s, `_m_s2` of m/s^2."""
+    """The ending of a name for a unit: `_rad_s` of rad/s, `_m_s2` of m/s^2."""
     return f"_{unit}".replace("/", "_").replace(" ", "_").replace("^", "") if unit else ""

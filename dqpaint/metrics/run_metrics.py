@@ -16,7 +16,7 @@ Value = TypeVar("Value")
 
 @dataclass(frozen=True, repr=False)
 class Metrics:
-    """What came out of a run: columns (N,) and single figures."""
+    """The metrics of a run: columns (N,) and single figures."""
 
     table: Table
     figures: dict[str, float]
@@ -42,12 +42,12 @@ def measure(track: Track) -> Metrics:
 
 
 def reference_columns(motion: Motion) -> Table:
-    """What is known without an arm: the asked columns, and the speed of a light that does it."""
+    """The columns that need no arm: the reference, and the speed of an ideal light."""
     return _of_motion(motion, [one for one in all_columns() if not one.motion_only])
 
 
 def motion_columns(motion: Motion) -> Table:
-    """What was asked, with spatial twist and its derivative: the file of `--save motion`."""
+    """The reference, with spatial twist and its derivative: the file of `--save motion`."""
     return _of_motion(motion, [one for one in all_columns() if one.measure is None])
 
 
@@ -72,7 +72,7 @@ def _table(measured: dict[Column, Callable[[], Values | None]], motion: Motion) 
 
 
 def _guarded(name: str, measured: Callable[[], Value]) -> Value:
-    """A value; what goes wrong in another package is told with its name."""
+    """A measured value; an error in another package is reported with that package's name."""
     try:
         return measured()
     except Exception as problem:

@@ -1,4 +1,4 @@
-"""Whether a run was stable: a sweep marks what was not, for its figures say nothing.
+"""Track -> why a run was unstable, or None; a sweep marks such runs, whose figures mean nothing.
 
 A loop in steps that is too fast answers each error with a larger one of the other sign. Where the
 arm's limits hold it, that ends in numbers that look tame. So it is told by its commands: successive

@@ -1,4 +1,4 @@
-"""How an arm took each jump of the set point: settling time, overshoot, steady error."""
+"""Track -> the step response to each jump of the reference: settling, overshoot, steady error."""
 
 from dataclasses import dataclass
 
@@ -17,7 +17,7 @@ LEAST_STEP = 1e-9  # [m, rad] a smaller step is none
 
 @dataclass(frozen=True)
 class PartResponse:
-    """How a part of a step, translation or rotation, was taken.
+    """The response to the translation or the rotation of a step.
 
     Attributes:
         size: of the step [m] or [rad].
@@ -35,7 +35,7 @@ class PartResponse:
 
 @dataclass(frozen=True)
 class StepResponse:
-    """One jump: when [s], on which line, and how it was taken."""
+    """The response to one jump: its time [s], its line, and both parts."""
 
     time: float
     line: SourceLine
@@ -44,7 +44,7 @@ class StepResponse:
 
 
 def step_responses(track: Track) -> tuple[StepResponse, ...]:
-    """Every jump of the set point that was held for a while."""
+    """The response to every jump of the reference after which it stays for a while."""
     motion = track.motion
     found = []
     for before in np.flatnonzero(motion.jump):

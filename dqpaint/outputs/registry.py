@@ -36,8 +36,8 @@ class Writer:
     Attributes:
         name: as `draw --save` takes it.
         ending: of its file, after the stem; of the first, if there are several.
-        function: a painting -> its files; with a parameter `progress` it is told how to report
-            the part done, 0 to 1.
+        function: a painting -> its files; one with a parameter `progress` calls it with the part
+            done, 0 to 1.
         needs: checked before anything is written.
         export_name: as `export --format` takes it; None: it is not for real arms.
     """
@@ -118,7 +118,7 @@ def make_files(
         progress: called by what takes long, with the part done, 0 to 1.
 
     Raises:
-        DqpaintError: the painting lacks what a writer needs; told before any is asked to write.
+        DqpaintError: the painting lacks what a writer needs; raised before anything is written.
     """
     for one in writers:
         for need in one.needs:

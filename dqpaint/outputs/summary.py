@@ -1,4 +1,4 @@
-"""A painting -> its JSON summary: what was run, and what came out."""
+"""A painting -> its JSON summary: settings, versions, figures."""
 
 import platform
 from pathlib import Path
@@ -16,7 +16,7 @@ SCHEMA = "dqpaint-run-1"
 
 
 def summarise(painting: "paint.Painting") -> dict[str, Any]:
-    """The JSON summary: what was run, what came out."""
+    """The JSON summary of a painting."""
     motion, film = painting.motion, painting.picture.film
     program, settings, hidden = motion.program, painting.settings, painting.picture.occluded
     return {
@@ -81,7 +81,7 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
 
 
 def _plugins(painting: "paint.Painting") -> dict[str, dict[str, str]]:
-    """The packages beside dqpaint that had a part in the run, if there are any."""
+    """The packages besides dqpaint that take part in the run, if there are any."""
     from dqpaint.painting import plugins
 
     found = plugins.plugins_of(painting.settings, painting.motion.program)
@@ -98,7 +98,7 @@ def _response(part: "PartResponse", unit: str) -> dict[str, float | None]:
 
 
 def _law(painting: "paint.Painting") -> dict[str, str | None]:
-    """Where a law comes from: a paper, or a file and its hash."""
+    """The source of a law: a paper, or a file and its hash."""
     law = painting.controller
     return {
         "source": law.source if law.sha256 is None else Path(law.source).name,
@@ -108,5 +108,5 @@ def _law(painting: "paint.Painting") -> dict[str, str | None]:
 
 
 def _retiming(painting: "paint.Painting") -> dict[str, Any] | None:
-    """How the drawing was slowed down; None where its clock ran as asked, come what may."""
+    """How the drawing was slowed down; None where `--on-limit slow` is not set."""
     return None if painting.retiming is None else painting.retiming.as_json

@@ -1,6 +1,6 @@
-"""A column of a run -> colours of its light with a legend; and deviations drawn magnified.
+"""A column of a run -> colours of its light with a legend; poses with magnified errors.
 
-In such a picture every millimetre is equally bright, so that nothing but the colour tells.
+In such a picture every millimetre is equally bright: only the colour shows the value.
 """
 
 import math
@@ -16,7 +16,7 @@ from dqpaint.metrics import Column, Table, all_columns
 from dqpaint.motion import Motion
 
 SCALE_PERCENTILE = 98.0
-"""Percentile of the lit values that gets the last colour: a peak does not hide the rest."""
+"""Percentile of the lit values that has the last colour, so that a peak does not hide the rest."""
 LEAST_SCALE_END, LARGEST_SCALE_END = 1e-6, 1e6
 """Ends that a scale can be given."""
 ROUND_STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
@@ -31,7 +31,7 @@ def read_colour_by(text: str) -> tuple[str, float | None]:
     """A column's name, and the end of its scale in the unit that is shown, of `position-error:20`.
 
     Raises:
-        UsageError: an unknown column, or an end that is none.
+        UsageError: an unknown column, or an end that is not a number in range.
     """
     name, colon, end = text.partition(":")
     known = colour_columns()
@@ -56,7 +56,7 @@ def colours_by_column(motion: Motion, table: Table, by: str) -> tuple[Floats, Le
     """The colour (N, 3) of each row by a column of the run, dark where it is dark, and the legend.
 
     Raises:
-        UsageError: an unknown column, or one that this run has not.
+        UsageError: an unknown column, or one that this run lacks.
     """
     by, end = read_colour_by(by)
     column = colour_columns()[by]
@@ -121,13 +121,13 @@ MOST_DELAY_ROWS = 500  # and so many rows
 
 
 def magnified_poses(motion: Motion, pose: Floats, times: float) -> Floats:
-    """Poses (N, 8) whose deviation from what was asked is so many times as large.
+    """Poses (N, 8) with their deviation from the reference multiplied.
 
     One delay, the same all along, is taken out before: a light that only comes late draws the right
     path, and magnified it does, too.
 
     Raises:
-        DqpaintError: The poses leave the numbers.
+        DqpaintError: The poses are not finite.
     """
     rows = common_delay(motion, dq.translation(pose))
     at = np.maximum(np.arange(len(pose)) - rows, 0.0)
@@ -139,12 +139,12 @@ def magnified_poses(motion: Motion, pose: Floats, times: float) -> Floats:
     turn[:, 3:] = 0.0
     rotation = dq.quaternion_mul(dq.rotation(asked), dq.rotation(dq.exp(times * turn)))
     if not np.isfinite(moved).all():
-        raise DqpaintError(f"deviations magnified {times:g} times leave the numbers")
+        raise DqpaintError(f"deviations magnified {times:g} times are not finite")
     return dq.continuous(dq.pose_from(moved, rotation))
 
 
 def common_delay(motion: Motion, points: Floats) -> float:
-    """By how many rows the places (N, 3) are most nearly what was asked, while it is lit.
+    """The delay in rows of positions (N, 3) behind the reference, from the lit rows.
 
     The least mean square over whole rows, then the vertex of the parabola through its neighbours.
     """

@@ -1,4 +1,4 @@
-"""A finished painting's light as a file, to be developed again without simulating.
+"""Scene, settings and arm motion <-> a file, to be developed again without a simulation.
 
 It is NumPy's .npz: arrays that can be read with `numpy.load`, and the rest as JSON under `about`.
 """
@@ -38,7 +38,7 @@ LinearColour = tuple[Number, Number, Number]
 
 
 class SweepFacts(BaseModel):
-    """What a film says of one sweep besides its arrays."""
+    """The values of one sweep in a film file, besides its arrays."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
     period: Annotated[float, Field(ge=1e-6, le=LARGEST_NUMBER, allow_inf_nan=False)]
@@ -60,7 +60,7 @@ class LegendFacts(BaseModel):
 
 
 class ArmFacts(BaseModel):
-    """What a film says of the arm that may be shown in it."""
+    """The arm of a film file."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
     robot: str
@@ -68,7 +68,7 @@ class ArmFacts(BaseModel):
 
 
 class RenderFacts(BaseModel):
-    """What a film says of the picture of the arm that is in it, and of what the arm hid."""
+    """The rendered arm of a film file, and the occlusion it caused."""
 
     model_config = ConfigDict(extra="forbid")
     shares: Annotated[int, Field(ge=0)]
@@ -76,7 +76,7 @@ class RenderFacts(BaseModel):
 
 
 class About(BaseModel):
-    """What a film says besides its arrays."""
+    """The values of a film file besides its arrays."""
 
     model_config = ConfigDict(extra="forbid", populate_by_name=True)
     schema_: Literal["dqpaint-film-1"] = Field(alias="schema")
@@ -96,7 +96,7 @@ TIFF = [cv2.IMWRITE_TIFF_COMPRESSION, 8]  # deflate
 
 
 class FilmFile(NamedTuple):
-    """What a film holds: what shone, how it was photographed, the arm, and how that was seen."""
+    """The contents of a film file: scene, settings, the arm's motion and its rendering."""
 
     scene: Scene
     settings: Settings
@@ -110,7 +110,7 @@ def encode(
     arm_motion: ArmMotion | None = None,
     render_cache: RenderCache | None = None,
 ) -> bytes:
-    """A scene and how it was photographed, as a file; with the arm, if it is known how it moved."""
+    """The bytes of a film file; with the arm, if its motion is known."""
     arrays: dict[str, Any] = {"front": scene.front}
     about: dict[str, Any] = {
         "schema": SCHEMA,
@@ -155,13 +155,13 @@ def encode(
 
 
 def read(path: str) -> FilmFile:
-    """What is in a file that `encode` made.
+    """The contents of a film file that `encode` made.
 
     Raises:
-        DqpaintError: There is none, or it is something else.
+        DqpaintError: it cannot be read, or is not a film file.
     """
     place = Path(path)
-    if place.suffix in (".tiff", ".hdr"):  # the pictures that lie beside it
+    if place.suffix in (".tiff", ".hdr"):  # the pictures beside it
         place = place.with_suffix(".npz")
     try:
         return _film(_arrays(place.read_bytes()))
@@ -269,7 +269,7 @@ def _sweeps(arrays: Arrays, group: str, sweeps: tuple[SweepFacts, ...]) -> Itera
 def encode_linear(scene: Scene, picture: Picture, settings: Settings, ending: str) -> bytes:
     """The linear light on the sensor as a picture file: .tiff (float, exact) or .hdr (Radiance).
 
-    It is brought near to 1 for saturation by a power of two, which loses nothing.
+    It is scaled by a power of two, so that saturation is near 1 and no bit is lost.
     """
     image = linear_image(
         scene, picture.film, picture.exposure, picture.camera, settings, arm=picture.arm

@@ -1,4 +1,4 @@
-"""The whole flow, from a drawing's text to its painting, to be read in a minute."""
+"""Program and settings -> Painting: prepare, simulate, measure, expose, develop."""
 
 import hashlib
 from collections.abc import Callable, Iterator
@@ -35,20 +35,20 @@ from dqpaint.robots.model import DEFAULT_ROBOT
 from dqpaint.settings import Settings
 from dqpaint.simulation import Recording, Track, read_recording, replay, track
 
-NO_JOINTS_NOTE = "poses alone say nothing of the joints: the arm and what it hides are left out"
+NO_JOINTS_NOTE = "a recording of poses has no joints: the arm and its occlusion are left out"
 
 
 @dataclass(frozen=True, repr=False)
 class Painting(PictureSet):
-    """A finished painting: what was asked, what the arm did, the pictures and the numbers."""
+    """A finished painting: reference, run, pictures and metrics."""
 
     settings: Settings
     controller: Controller[Any]
     robot: str
     plant: str
-    plant_values: dict[str, Any]  # with what follows from them for this arm
+    plant_values: dict[str, Any]  # with values derived from them for this arm
     disturbances: dict[str, Disturbance]
-    gains: dict[str, Any]  # all of the law's, and what follows from them
+    gains: dict[str, Any]  # all of the law's, and values derived from them
     motion: Motion
     track: Track
     metrics: Metrics
@@ -59,9 +59,9 @@ class Painting(PictureSet):
     pictures: tuple[Picture, ...]  # one a view
     retiming: retime.Retiming | None = None  # where the drawing's clock may slow down
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
-    notes: tuple[str, ...] = ()  # what was assumed of the arm
+    notes: tuple[str, ...] = ()  # assumptions about the arm
     placement: place.Placement | None = None  # where `place auto` put the drawing
-    recording: Recording | None = None  # what was painted instead of a simulated run
+    recording: Recording | None = None  # the recorded run, if none was simulated
 
     @property
     def film(self) -> Film:
@@ -80,7 +80,7 @@ class Painting(PictureSet):
 
     @property
     def limits(self) -> tuple[Clamp, ...]:
-        """Every limit of the arm that held a joint back."""
+        """Every limit that clipped a joint."""
         return self.track.clamps
 
     def scene_arm(self) -> AbstractContextManager[SceneArm | None]:
@@ -107,12 +107,12 @@ def paint(
         program: from `dqpaint.language`.
         settings: everything besides the text.
         progress: called while the arm moves, with the part done, 0 to 1.
-        controller: a law of one's own, instead of the one the settings name.
+        controller: a law in place of the one that the settings name.
 
     Raises:
         UsageError: an unknown robot, plant, controller, gain or view.
-        ScriptError: the drawing has no timetable or leaves the arm's reach.
-        DqpaintError: the run or the light came to nothing.
+        ScriptError: the drawing has no schedule or leaves the arm's reach.
+        DqpaintError: the simulation diverged, or the picture would be black.
     """
     ready = prepare(program, settings, controller)
     with ready.stopwatch("arm"):
@@ -122,7 +122,7 @@ def paint(
 
 @dataclass(frozen=True)
 class PreparedRun:
-    """A drawing and everything that its run needs, checked and worked out."""
+    """A drawing and everything that its run needs, checked."""
 
     settings: Settings
     stopwatch: "Stopwatch"
@@ -133,7 +133,7 @@ class PreparedRun:
 
     @property
     def motion(self) -> Motion:
-        """What the arm is to follow."""
+        """The motion that the arm follows."""
         return self.prepared.motion
 
     def run(self, progress: Callable[[float], None] = lambda _done: None) -> Track:
@@ -153,10 +153,10 @@ class PreparedRun:
 def prepare(
     program: Program, settings: Settings, controller: Controller[Any] | None = None
 ) -> PreparedRun:
-    """What comes before the arm moves; arguments and errors as those of `paint`."""
+    """The preparation of a run; arguments and errors as those of `paint`."""
     clock = Stopwatch()
     program = replace(program, most_samples=settings.max_samples)
-    choices = check_run(settings, controller)  # a slip is told before anything is simulated
+    choices = check_run(settings, controller)  # faults are reported before anything is simulated
     card = card_for(program, settings.robot, settings.tool)
     recorded = settings.recorded
     recording = None if recorded is None else read_recording(recorded, card.joints)
@@ -168,7 +168,7 @@ def prepare(
 
 
 def finish(ready: PreparedRun, run: Track) -> Painting:
-    """What comes after the arm has moved: numbers and pictures."""
+    """The metrics and pictures of a run."""
     settings, motion, clock = ready.settings, ready.motion, ready.stopwatch
     chosen = ready.choices
     card, recording = ready.kinematics.card, ready.recording

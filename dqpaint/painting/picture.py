@@ -1,4 +1,4 @@
-"""Scene -> Picture: one way to the film, for what was asked and for what was reached."""
+"""Scene and settings -> Pictures, one a view, for the reference and for runs alike."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -39,8 +39,8 @@ from dqpaint.settings import Settings
 
 # run lengths suit black ground with dithered halos: smaller and faster than the default search
 PNG = [cv2.IMWRITE_PNG_STRATEGY, cv2.IMWRITE_PNG_STRATEGY_RLE]
-OVERLAY_EXPOSURE = 0.25  # what the lines of the asked drawing under the reached one are exposed to
-FILMS_KEPT = 1  # pictures of one painting whose films are kept; of the others only the sums are
+OVERLAY_EXPOSURE = 0.25  # exposure of the reference's lines below the light
+FILMS_KEPT = 1  # pictures of one painting that keep their films; the others keep the sums
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -53,11 +53,11 @@ class Picture:
         exposure: the factor that was applied to the film, `ev` not included.
         camera: where it was taken from.
         name: of the view.
-        exposure_text: the exposure in a photographer's terms.
-        light: what shone, as this camera saw it.
-        occluded: what the arm's own body kept from the film; None if that was not traced.
+        exposure_text: the exposure in a photographer's terms, for reports.
+        light: the sweeps, with the occlusion of this view.
+        occluded: light that the arm kept from the film; None if that was not traced.
         arm: (H, W, 3) linear light of the arm and the floor, if they are shown.
-        remarks: what of the arm could not be shown or traced.
+        remarks: parts of the arm that could not be shown or traced.
     """
 
     image: NDArray[np.uint8]
@@ -73,11 +73,11 @@ class Picture:
 
     @property
     def emitted(self) -> Floats:
-        """(3,) what the light gave off: on the film, lost and hidden, in the film's unit."""
+        """(3,) all emitted light: on the film, lost and occluded, in the film's unit."""
         return self.film.emitted + (0.0 if self.occluded is None else self.occluded.energy)
 
     def render_cache(self, ghost: bool | str) -> "RenderCache":
-        """What of the arm was worked out for it, where it was shown like this."""
+        """The rendered arm and occlusion of this picture, to be used again."""
         shades = [sweep.occlusion for sweep in self.light if sweep.occlusion is not None]
         shares = tuple(shade.share for shade in shades)
         return RenderCache(
@@ -97,7 +97,7 @@ class Picture:
 
 
 class PictureSet:
-    """What is shown by its pictures, one a view: the first stands for it, in a notebook, too."""
+    """Something with pictures, one a view; a notebook shows the first."""
 
     pictures: tuple[Picture, ...]
 
@@ -117,14 +117,14 @@ class PictureSet:
 
 @dataclass(frozen=True, eq=False)
 class RenderCache:
-    """What of the arm was worked out for one picture, to be used again where that fits.
+    """The rendered arm and occlusion of one picture, to be used again for the same view.
 
     Attributes:
         key: (18,) the picture's camera and exposure, see `render_key`.
         ghost: how the arm is shown in it.
         arm: (H, W, 3) linear light of the arm and the floor, if they are shown.
         shares: (N-1, P) of each sweep what the arm let through; none if that was not traced.
-        remarks: what could not be shown or traced.
+        remarks: parts that could not be shown or traced.
     """
 
     key: Floats
@@ -134,16 +134,16 @@ class RenderCache:
     remarks: tuple[str, ...]
 
     def has_render(self, key: Floats, settings: Settings) -> bool:
-        """Whether the arm looks like this in another picture."""
+        """Whether the rendered arm is the one of another picture."""
         same = self.arm is not None and self.ghost == settings.ghost
         return same and bool(np.array_equal(key, self.key))
 
     def has_occlusion(self, key: Floats) -> bool:
-        """Whether it hides the same from another camera."""
+        """Whether the occlusion is that of another camera."""
         return bool(self.shares) and bool(np.array_equal(key[:3], self.key[:3]))
 
     def with_occlusion(self, light: tuple[Sweep, ...]) -> tuple[Sweep, ...]:
-        """Light with what is hidden of it."""
+        """The light with its occlusion."""
         return tuple(
             replace(sweep, occlusion=Occlusion(sweep.period, share))
             for sweep, share in zip(light, self.shares, strict=True)
@@ -151,7 +151,7 @@ class RenderCache:
 
 
 def render_key(camera: Camera, exposure: float) -> Floats:
-    """(18,) all that a picture of the arm depends on besides arm and light; first the eye."""
+    """(18,) numbers that a picture of the arm depends on besides arm and light; position first."""
     numbers = (camera.focal, *camera.centre, camera.width, camera.height, exposure)
     return np.concatenate([camera.position, camera.rotation.ravel(), numbers])
 
@@ -223,7 +223,7 @@ def _render_arm(
     scene_arm: SceneArm,
     cache: RenderCache | None,
 ) -> RenderCache:
-    """What of the arm is to be seen, and what it hides; what is known already is not asked."""
+    """The rendered arm and its occlusion; from the cache where that fits."""
     key, fresh = render_key(camera, exposure), False
     arm: Image | None = None
     shares: tuple[Floats, ...] = ()
@@ -251,7 +251,7 @@ def lamp_paths(scene: Scene, samples: slice = ALL_SAMPLES) -> list[tuple[Floats,
 
 
 def _occluded_light(light: Sequence[Sweep], source: RowLines) -> HiddenLight:
-    """What of some sweeps their shades kept from the film, by the lines (N,) of the drawing."""
+    """The occluded light of some sweeps, by the lines (N,) of the drawing."""
     shades = [sweep.occlusion for sweep in light if sweep.occlusion is not None]
     hidden = np.sum([shade.hidden for shade in shades], axis=0)
     emitted = np.sum([shade.emitted for shade in shades], axis=0)
@@ -265,7 +265,7 @@ def _is_manual_exposure(settings: Settings) -> bool:
 def _exposure(
     scene: Scene, settings: Settings, camera: Camera, series_exposure: float | None
 ) -> tuple[float, str]:
-    """The factor from film to saturation, and how a photographer would say it."""
+    """The factor from film to saturation, and the same in a photographer's terms."""
     real = parse_exposure(settings.exposure or "auto")
     if real is not None:
         return real.factor(camera), str(real)
@@ -310,7 +310,7 @@ def linear_image(
 
 
 def overlay_image(scene: Scene, exposure: float, camera: Camera, settings: Settings) -> Image:
-    """(H, W, 3) the faint lines of the asked drawing, on the same scale as the film's light."""
+    """(H, W, 3) faint lines of the reference, on the scale of the film's light."""
     psf = point_spread(settings.height)
     ridge = automatic_exposure(scene.overlay, camera, psf) / CORE_EXPOSURE
     faint = np.float32(OVERLAY_EXPOSURE * ridge / (exposure * 2.0**settings.ev))

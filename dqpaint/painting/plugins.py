@@ -1,4 +1,4 @@
-"""Settings and a program -> what of them other packages bring, with their versions."""
+"""Settings and a program -> the other packages that take part, with their versions."""
 
 from typing import Any
 

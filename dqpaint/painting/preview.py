@@ -1,4 +1,4 @@
-"""The asked picture of a drawing, without an arm."""
+"""Program and settings -> Preview: the pictures of the reference, without an arm."""
 
 from dataclasses import dataclass, replace
 
@@ -12,7 +12,7 @@ from dqpaint.settings import Settings
 
 @dataclass(frozen=True, repr=False)
 class Preview(PictureSet):
-    """What was asked, and its pictures, one a view."""
+    """The reference motion and its pictures, one a view."""
 
     settings: Settings
     motion: Motion
@@ -21,7 +21,7 @@ class Preview(PictureSet):
 
 
 def make_preview(program: Program, settings: Settings) -> Preview:
-    """Take the asked pictures of a program.
+    """Make the reference pictures of a program.
 
     Raises:
         UsageError: an unknown robot, view, brush or look.

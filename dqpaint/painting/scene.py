@@ -1,7 +1,7 @@
-"""What is photographed: every light of a painting, and what a camera is chosen by.
+"""Motion and poses -> Scene: the lights of a painting, and what sets camera and exposure.
 
-A scene knows no robot and no drawing's text, only light: it is what `--save film` keeps, and all
-that another view, size, look or exposure needs.
+A scene has light alone, no robot and no text: `--save film` stores it, and it is enough for another
+view, size, look or exposure.
 """
 
 from dataclasses import dataclass, replace
@@ -27,7 +27,7 @@ OVERLAY_COLOUR = (0.62, 0.8, 1.0)  # the colour of the asked drawing under the r
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Lights, and what camera and exposure are chosen by.
+    """The lights of a painting, and what sets camera and exposure.
 
     Attributes:
         name: Of the drawing.
@@ -50,7 +50,7 @@ class Scene:
 
     @property
     def shown_points(self) -> Floats:
-        """(K, 3) what must be in the picture [m]."""
+        """(K, 3) points that must be in the picture [m]."""
         return np.concatenate([sweep.lit_points for sweep in self.reference])
 
     @property
@@ -60,7 +60,7 @@ class Scene:
 
 
 def check_light_settings(settings: Settings) -> None:
-    """Raise a UsageError for a slip in what concerns light, before anything is simulated."""
+    """Check the settings of light before anything is simulated; raises UsageError."""
     shots = parse_views(settings.view)
     LOOKS[settings.look]
     if settings.starburst and not BLADE_RANGE[0] <= settings.starburst <= BLADE_RANGE[1]:
@@ -72,7 +72,7 @@ def check_light_settings(settings: Settings) -> None:
         exposure = parse_exposure(settings.exposure)
         if exposure and exposure.distance is not None and any(shot.position for shot in shots):
             raise UsageError(
-                f"view '{settings.view}' says where the camera stands: leave the distance out of "
+                f"view '{settings.view}' gives the camera's position: leave the distance out of "
                 f"exposure '{settings.exposure}'"
             )
     if settings.colour_by is not None:
@@ -85,10 +85,10 @@ def make_scene(
     """The scene of a motion's light carried through poses (N, 8), base frame.
 
     Args:
-        motion: What was asked.
-        pose: Of the tool, measured or asked.
-        settings: Brush, dimming and what colours are to tell.
-        table: Columns of the run, for colours that tell; None is a run without an arm.
+        motion: The reference.
+        pose: Of the tool, true or reference.
+        settings: Brush, dimming and the column that colours show.
+        table: Columns of the run, for `colour_by`; None without an arm.
 
     Raises:
         DqpaintError: No light is on anywhere.

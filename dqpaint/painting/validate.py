@@ -1,4 +1,4 @@
-"""Settings -> the first slip among them, before anything is simulated."""
+"""Settings -> the law, plant and disturbances they name, or the first error among them."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ from dqpaint.simulation import RECORDED
 
 @dataclass(frozen=True)
 class RunChoices:
-    """What the settings of a run name, read.
+    """The law, plant and disturbances that settings name.
 
     Attributes:
         controller: the law; that of a recording, where one is painted.
@@ -41,11 +41,11 @@ class RunChoices:
 
 
 def check_run(settings: Settings, controller: Controller[Any] | None = None) -> RunChoices:
-    """Check all that can be known of a run's settings, whatever the drawing is.
+    """Check a run's settings as far as they do not depend on the drawing.
 
     Args:
         settings: of the run.
-        controller: a law of one's own, instead of the one the settings name.
+        controller: a law in place of the one that the settings name.
 
     Raises:
         DqpaintError: an unknown name, a value outside its range, or choices that exclude one
@@ -63,7 +63,7 @@ def check_run(settings: Settings, controller: Controller[Any] | None = None) -> 
 
 
 def check_settings(settings: Settings) -> None:
-    """Check every choice as far as it can be understood by itself: others may still follow.
+    """Check each setting by itself: others may still be added.
 
     Raises:
         DqpaintError: an unknown name, or a value outside its range.
@@ -76,7 +76,7 @@ def check_settings(settings: Settings) -> None:
 
 
 def _check_independent(settings: Settings) -> None:
-    """What no other choice matters for."""
+    """Check the settings that depend on no other."""
     check_light_settings(settings)
     if settings.robot is not None and "." not in settings.robot:  # files are read in their turn
         find_card(settings.robot)
@@ -86,7 +86,7 @@ def _check_independent(settings: Settings) -> None:
 
 
 def settings_file(given: str | PathLike[str] | SettingsFile | None) -> SettingsFile:
-    """A file of settings, read and checked; without one there is nothing in it.
+    """A file of settings, read and checked; empty if none is given.
 
     Raises:
         DqpaintError: it cannot be read, or a key or value is at fault.
@@ -96,16 +96,16 @@ def settings_file(given: str | PathLike[str] | SettingsFile | None) -> SettingsF
     return given if isinstance(given, SettingsFile) else read_given(str(given), check_settings)
 
 
-def settings_of_choices(choices: Mapping[str, Any], **usual: Any) -> Settings:
-    """The settings of choices: what is said wins over the file `settings` names among them.
+def settings_of_choices(choices: Mapping[str, Any], **defaults: Any) -> Settings:
+    """The settings of choices, which have precedence over the file that `settings` names.
 
     Args:
         choices: by the names in Python.
-        usual: likewise; what holds where neither says anything.
+        defaults: likewise, for what neither gives.
 
     Raises:
         DqpaintError: the file cannot be read, or a choice is at fault.
     """
-    said = {name: value for name, value in choices.items() if name != "settings"}
-    given = settings_file(choices.get("settings")).under(said)
-    return make_settings(**{**read_choices(usual), **given})
+    direct = {name: value for name, value in choices.items() if name != "settings"}
+    given = settings_file(choices.get("settings")).under(direct)
+    return make_settings(**{**read_choices(defaults), **given})

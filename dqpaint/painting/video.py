@@ -1,4 +1,4 @@
-"""The film of an exposure: the painting as it grows, frame by frame."""
+"""Scene and finished picture -> a video or animation of the growing picture."""
 
 import os
 import sys
@@ -42,8 +42,8 @@ def frames(
 ) -> Iterator[NDArray[np.uint8]]:
     """The picture as it grows, (H, W, 3) each; the last frame is the picture itself.
 
-    Each frame adds to the film only what has shone since the one before. The arm, if it is shown,
-    stands in each as it stood then, lit by what was painted so far.
+    Each frame adds the light since the one before to the film. The arm, if it is shown, has its
+    posture of that time, lit by the light so far.
 
     Args:
         scene: what is photographed.
@@ -75,7 +75,7 @@ def frames(
 
 
 def count_frames(scene: Scene, rate: int) -> int:
-    """How many frames the growing takes."""
+    """The number of frames."""
     return max(2, round(min(max(scene.seconds, SHORTEST_VIDEO), LONGEST_VIDEO) * rate))
 
 
@@ -115,14 +115,14 @@ def webm(
 
 @contextmanager
 def _silent_stderr() -> Iterator[None]:
-    """Nothing on standard error: OpenCV's encoder warns there of the tag that WebM itself asks for.
+    """Discard standard error: OpenCV's encoder warns there of the tag that WebM itself requires.
 
     It writes past Python's streams.
     """
     sys.stderr.flush()
     try:
         kept = os.dup(2)
-    except OSError:  # it is closed, so there is nothing to hush
+    except OSError:  # it is closed
         yield
         return
     with open(os.devnull, "wb") as nowhere:
@@ -141,7 +141,7 @@ def webp(
     progress: Progress,
     scene_arm: SceneArm | None = None,
 ) -> bytes:
-    """An animation a README shows: WebP, small, over and over; arguments as those of `frames`.
+    """An animated WebP, small and looped, for a README; arguments as those of `frames`.
 
     Raises:
         DqpaintError: This build of OpenCV cannot write it.

@@ -1,4 +1,4 @@
-"""What `check` says of a drawing, for people and for programs."""
+"""A drawing's file -> the result of `check`: diagnostics and figures, as text and as JSON."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -19,18 +19,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class CheckResult:
-    """One drawing, read: what was found, and its figures where it can be drawn."""
+    """The diagnostics of one drawing, and its figures where it can be drawn."""
 
     file: str
     source: str
     diagnostics: tuple[Diagnostic, ...]
     drawing: Motion | Survey | None
-    fault: str = ""  # of a file that could not even be read
-    forecast: "ForecastReport | None" = None  # what the arm says of it, where an arm was asked
+    fault: str = ""  # why the file could not be read
+    forecast: "ForecastReport | None" = None  # where an arm is named
 
     @property
     def errors(self) -> int:
-        """How many things stop this drawing."""
+        """The number of errors."""
         stopping = sum(d.severity is Severity.ERROR for d in self.diagnostics)
         return stopping + bool(self.fault)
 
@@ -41,13 +41,13 @@ class CheckResult:
             return f"error: {self.fault}"
         parts = [render(finding, self.file, self.source) for finding in self.diagnostics]
         if self.drawing is not None:
-            said = self.forecast.text if self.forecast else ""
-            parts.append(summary_line(self.drawing) + said + self._hint)
+            forecast = self.forecast.text if self.forecast else ""
+            parts.append(summary_line(self.drawing) + forecast + self._hint)
         return "\n\n".join(parts)
 
     @property
     def _hint(self) -> str:
-        """Of beads at the ends of strokes, which a light painter sees first."""
+        """A hint if strokes are much brighter near their ends than in the middle."""
         assert self.drawing is not None
         times = self.drawing.unevenness
         if times <= HINT_UNEVENNESS:
@@ -58,14 +58,14 @@ class CheckResult:
         )
 
 
-HINT_UNEVENNESS = 2.0  # times the brightness of the middle: less is no matter for a hint
+HINT_UNEVENNESS = 2.0  # brightness of the ends over that of the middle
 
 
 def check(name: str, **choices: Any) -> CheckResult:
     """Read one drawing and survey its motion; nothing is simulated.
 
-    Where anything of the run is chosen, or an arm named in the file, it looks ahead, too: reach,
-    limits, speeds, torques, singularities, collisions, hidden light.
+    With any option of a run, or an arm named in the file, the arm's run is forecast, too: reach,
+    limits, speeds, torques, singularities, collisions, occluded light.
 
     Args:
         name: of the drawing's file, or of an example; `-` is standard input.
@@ -79,23 +79,23 @@ def check(name: str, **choices: Any) -> CheckResult:
         program = read_input() if name == STDIN else read(find_drawing(name))
         if settings is not None:
             program = replace(program, most_samples=settings.max_samples)
-        asked = _chooses_a_run(settings) or program.robot is not None
-        outlook = _forecast(program, settings) if asked else None
-        drawing: Motion | Survey = outlook.motion if outlook else survey(program)
+        needs_arm = _chooses_a_run(settings) or program.robot is not None
+        forecast = _forecast(program, settings) if needs_arm else None
+        drawing: Motion | Survey = forecast.motion if forecast else survey(program)
     except ScriptError as problem:
         return CheckResult(problem.name, problem.text, problem.diagnostics, None)
     except UsageError:
         raise
     except DqpaintError as problem:
         return CheckResult(name, "", (), None, str(problem))
-    findings = drawing.notes + (outlook.warnings if outlook else ())
-    return CheckResult(program.name, program.text, findings, drawing, forecast=outlook)
+    findings = drawing.notes + (forecast.warnings if forecast else ())
+    return CheckResult(program.name, program.text, findings, drawing, forecast=forecast)
 
 
 def _make_settings(choices: dict[str, Any]) -> "Settings | None":
     """The settings, if anything is chosen.
 
-    Without a choice they are not even imported, which takes a while.
+    Without one they are not imported, which would take a while.
 
     Raises:
         UsageError: no such choice.
@@ -108,14 +108,14 @@ def _make_settings(choices: dict[str, Any]) -> "Settings | None":
 
 
 def _chooses_a_run(settings: "Settings | None") -> bool:
-    """Whether more is chosen than how many samples a drawing may have."""
+    """Whether any option but `max_samples` is given."""
     return settings is not None and bool(
         settings.model_dump(exclude_defaults=True).keys() - {"max_samples"}
     )
 
 
 def _forecast(program: Program, settings: "Settings | None") -> "ForecastReport":
-    """What an arm says of a drawing; only this brings in the arms and their kinematics.
+    """The forecast of a drawing on its arm; only this imports arms and kinematics.
 
     Raises:
         UsageError: no such robot, or no such tool.
@@ -126,7 +126,7 @@ def _forecast(program: Program, settings: "Settings | None") -> "ForecastReport"
 
     settings = settings or Settings()
     card = card_for(program, settings.robot, settings.tool)
-    survey(program)  # what is wrong with the drawing by itself goes before what an arm says
+    survey(program)  # errors of the drawing itself come before those of the arm
 
     from dqpaint.planning.forecast_report import make_report
     from dqpaint.robots.kinematics import Kinematics
@@ -135,7 +135,7 @@ def _forecast(program: Program, settings: "Settings | None") -> "ForecastReport"
 
 
 def as_json(results: Sequence[CheckResult]) -> dict[str, Any]:
-    """The findings of several drawings: 1-based, columns in code points, ends not included."""
+    """The diagnostics of several drawings: 1-based, columns in code points, ends excluded."""
     findings = [(result, finding) for result in results for finding in result.diagnostics]
     warnings = sum(d.severity is Severity.WARNING for _, d in findings)
     surveyed = [result.drawing for result in results if result.drawing is not None]

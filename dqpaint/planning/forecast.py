@@ -1,4 +1,4 @@
-"""Motion x arm -> Forecast: what a drawing asks of an arm, line by line, before it is simulated.
+"""Motion x arm -> Forecast: limits and torques of each line of a drawing, before it is simulated.
 
 The arm follows what was asked without error and without limits, through the same resolver and with
 the same wish in its null space as a run. So where nothing is beyond a limit, a run goes the same
@@ -43,7 +43,7 @@ MOST_ROWS = 20_000  # that are followed; of a longer drawing every second, third
 
 @dataclass(frozen=True)
 class Extreme:
-    """The worst of something on a line: its value, the joint (from 1) and the time [s]."""
+    """The extreme of a quantity on a line: its value, the joint (from 1) and the time [s]."""
 
     value: float
     joint: int
@@ -52,7 +52,7 @@ class Extreme:
 
 @dataclass(frozen=True)
 class Forecast:
-    """What one line of a drawing asks of an arm.
+    """Rates, torques and distances that one line of a drawing needs of an arm.
 
     Attributes:
         line: of the drawing.
@@ -111,7 +111,7 @@ def forecast(
     settings: Settings = DEFAULT_SETTINGS,
     plant: ConfiguredPlant | None = None,
 ) -> tuple[Forecast, ...]:
-    """Look ahead along a drawing.
+    """Predict the joint motion of an arm along a drawing.
 
     Args:
         motion: what is asked.
@@ -181,7 +181,7 @@ class _Run:
         at_tool: Floats,
         plant: ConfiguredPlant | None,
     ) -> None:
-        """What the motors bear (N, n) [Nm], where there are any, as rates change by (N, n)."""
+        """Set motor torques (N, n) [Nm] for changes of rates (N, n), where the plant has motors."""
         self.effort: Floats | None = None
         self.jolt: Floats | None = None
         self.sag: Floats | None = None
@@ -217,7 +217,7 @@ def _without_corners(change: Floats, stroke: NDArray[np.int64]) -> Floats:
 def _forecast_line(
     run: _Run, first: int, looks: NDArray[np.intp], near: Nearest, hiding: OcclusionForecast
 ) -> Forecast:
-    """What the line whose first row is given asks for."""
+    """The forecast of the line whose first row is given."""
     rows = np.flatnonzero(run.source.index == run.source.index[first])
     card = run.card
     speed, speed_part = _worst(run, rows, run.rates, card.speed)

@@ -1,4 +1,4 @@
-"""What is said of a forecast: warnings at their places, a table of what is close to a limit."""
+"""Forecast -> warnings with their lines, and a table of the lines close to a limit."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -33,13 +33,13 @@ CLOSE_OCCLUDED = 0.005  # of a line's light
 MOST_OCCLUDED = 0.01
 MOST_LINES = 12  # of the table
 MOST_NAMED = 6  # lines in a warning
-DIRECTIONS = ("front", "side", "top")  # where an eye may be said to be
+DIRECTIONS = ("front", "side", "top")  # views that have a name
 DEG = math.degrees(1)
 
 
 @dataclass(frozen=True)
 class ForecastReport:
-    """What an arm says of a drawing it has not drawn yet.
+    """The forecast of a drawing on an arm: figures, warnings, placement and retiming.
 
     Attributes:
         motion: what was asked, at its place.
@@ -67,7 +67,7 @@ class ForecastReport:
 
     @property
     def text(self) -> str:
-        """As it follows the drawing's figures."""
+        """The text that follows the drawing's figures."""
         worst = min(self.lines, key=lambda line: line.margin.value)
         margin = worst.margin.value * DEG
         said = (
@@ -102,7 +102,7 @@ class ForecastReport:
 def make_report(
     program: Program, kinematics: Kinematics, settings: Settings = DEFAULT_SETTINGS
 ) -> ForecastReport:
-    """The outlook of a drawing for an arm.
+    """The forecast of a drawing on an arm, with warnings.
 
     Args:
         program: the drawing.
@@ -200,7 +200,7 @@ def _collision(one: Forecast, _card: Card) -> str:
 
 def _hidden(one: Forecast, _card: Card) -> str:
     where = f"from the {one.view}" if one.view in DIRECTIONS else f"in the view {one.view}"
-    return f"the arm stands before {one.occluded or 0:.0%} of the light, seen {where}"
+    return f"the arm hides {one.occluded or 0:.0%} of the light, seen {where}"
 
 
 def _at_time(time: float) -> str:
@@ -306,7 +306,7 @@ def _extremes(lines: Sequence[Forecast], program: Program, seen: bool) -> str:
 
 
 def _loads(lines: Sequence[Forecast], program: Program, seen: bool) -> list[str]:
-    """What motors and springs bear, where a plant has them."""
+    """Torques of motors and yielding of springs, where a plant has them."""
     parts = []
     most = max(lines, key=lambda one: one.effort_part or 0.0)
     if most.effort is not None:
@@ -321,7 +321,7 @@ def _loads(lines: Sequence[Forecast], program: Program, seen: bool) -> list[str]
 
 
 def _cells(one: Forecast) -> dict[str, str]:
-    """What of a line is close to a limit, or beyond it."""
+    """The quantities of a line that are close to a limit, or beyond it."""
     cells: dict[str, str] = {}
     if one.margin.value < CLOSE_ANGLE:
         cells["off limits"] = f"{one.margin.value * DEG:.1f} deg (joint {one.margin.joint})"

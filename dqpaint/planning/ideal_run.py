@@ -1,6 +1,6 @@
-"""Motion x arm -> postures: where an arm begins a drawing, and how it goes along it without error.
+"""Motion x arm -> the start posture, and the postures of a run without tracking error.
 
-No limit holds it back, and no law errs. Singularities it meets as a run does, through the same
+Limits and laws play no part. Singularities are handled as in a run, through the same
 resolver and with the same wish in its null space.
 """
 
@@ -33,7 +33,7 @@ JOINT_TOLERANCE = np.radians(0.05)  # of a joint's end count as its end
 def find_start_posture(
     motion: Motion, kinematics: Kinematics, null: str = DEFAULT_OBJECTIVE
 ) -> StartPosture | NoPosture:
-    """The posture that leaves the most margin over a drawing, or the pose that is not reached.
+    """The start posture with the most joint margin over a drawing, or the pose that is not reached.
 
     Args:
         motion: what is asked.
@@ -46,7 +46,7 @@ def find_start_posture(
 
 
 def can_draw(motion: Motion, kinematics: Kinematics, null: str = DEFAULT_OBJECTIVE) -> bool:
-    """Whether an arm gets along a drawing, no joint beyond its end and no millimetre beside it.
+    """Whether an arm can draw a motion within its joint limits and 1 mm of the path.
 
     Arguments as those of `find_start_posture`.
     """

@@ -1,6 +1,6 @@
-"""What of a drawing's light its arm will stand before, seen by the cameras of a run.
+"""Motion and postures -> the light that the arm will hide in each view of a run.
 
-A few places along a brush are asked, now and then: a forecast, where `stage.shadow` traces.
+A forecast: a few points of the brush at some rows; `render.occlusion` traces all of them.
 """
 
 from typing import NamedTuple
@@ -26,12 +26,12 @@ DEFAULT_SETTINGS = Settings()
 
 
 class OcclusionForecast(NamedTuple):
-    """What is hidden at some of a forecast's rows.
+    """Emitted and occluded light at some of a forecast's rows.
 
     Attributes:
         rows: of the forecast (S,).
-        emitted: light that is sent at each (S,), in any unit.
-        occluded: and what of it each view does not get (V, S).
+        emitted: light at each row (S,), in any unit.
+        occluded: the part of it that does not reach each view (V, S).
         views: their names, V.
     """
 
@@ -41,7 +41,7 @@ class OcclusionForecast(NamedTuple):
     views: tuple[str, ...]
 
     def largest_share(self, rows: NDArray[np.intp]) -> tuple[float | None, str]:
-        """The largest share that a view does not get of the light at some rows, and that view."""
+        """The largest share of light at some rows that one view does not get, and that view."""
         these = np.isin(self.rows, rows)
         sent = float(self.emitted[these].sum())
         if not sent:
@@ -52,7 +52,7 @@ class OcclusionForecast(NamedTuple):
 
 
 def sampled_rows(line: NDArray[np.int64], most: int) -> NDArray[np.intp]:
-    """Rows (of N) to look at: spread evenly, and the middle of every run of a line."""
+    """Some rows (of N): evenly spread ones, and the middle of every run of a line."""
     n = len(line)
     ends = np.flatnonzero(np.diff(line)) + 1
     middles = (np.append(0, ends) + np.append(ends, n)) // 2
@@ -66,7 +66,7 @@ def forecast_occlusion(
     postures: Floats,
     settings: Settings,
 ) -> OcclusionForecast:
-    """Which of a motion's light an arm hides that follows it.
+    """The light of a motion that is occluded by the arm that follows it.
 
     Args:
         shapes: of the arm.

@@ -1,4 +1,4 @@
-"""`place auto`: where a drawing fits an arm best.
+"""Drawing x arm -> where the drawing fits the arm best: `place auto`.
 
 The drawing is tried all over the arm's reach, always facing the way it faces on the robot's canvas
 (or as `place auto turned` says), so that the picture stays the same. Of each place three
@@ -45,7 +45,7 @@ RANDOM_POSTURES = 400  # random postures that tell how far the arm reaches
 GRID_STEPS = 5  # of the reach, in the grid of places, to either side of the base
 COARSE_STARTS, FINE_STARTS = 4, 12  # postures each place is begun from, at first and in the end
 COARSE_POSES, FINE_POSES = 10, 32  # poses of the drawing that are looked at
-HALVINGS = 6  # times the search halves its step
+HALVINGS = 6  # steps of the search, each half as long as the one before
 MOST_CANDIDATES = 8  # places that are looked at along the whole drawing, at the most
 NEWTON_STEPS, LARGEST_STEP = 12, 0.6  # iterations, and the largest move of a joint in one [rad]
 LEAST_TORQUE_LEFT = (
@@ -59,7 +59,7 @@ POOR = 0.1  # of half a joint's range, or of a torque: a place that leaves less 
 
 @dataclass(frozen=True)
 class Placement:
-    """Where a drawing was put, and how well it fits there.
+    """The pose of a drawing, and how well it fits the arm there.
 
     Attributes:
         pose: the drawing frame in the base frame.
@@ -106,7 +106,7 @@ class Placement:
 def place_program(
     program: Program, kinematics: Kinematics, settings: Settings = DEFAULT_SETTINGS
 ) -> tuple[Program, Placement | None]:
-    """A program with its place found, if it is to be found.
+    """A program with its placement found, where `place auto` asks for one.
 
     Args:
         program: the drawing.
@@ -164,7 +164,7 @@ def can_be_placed(
 def _evaluate(
     program: Program, kinematics: Kinematics, line: str, settings: Settings = DEFAULT_SETTINGS
 ) -> Placement | None:
-    """A place looked at along the whole drawing; None where it does not do."""
+    """The placement of a `place` statement, over the whole drawing; None if it cannot be drawn."""
     place = parse(f"{line}\nhold 1 s\n", "place").placement
     assert isinstance(place, Pose)
     motion = plan(replace(program, placement=place), kinematics.card.canvas.pose)
@@ -181,7 +181,7 @@ def _evaluate(
 def _forecast_if_valid(
     motion: Motion, kinematics: Kinematics, settings: Settings
 ) -> tuple[Forecast, ...]:
-    """The forecast of a motion that may stay where it is; nothing of one that may not."""
+    """The forecast of a motion that can be drawn where it is; empty for one that cannot."""
     start = find_start_posture(motion, kinematics, settings.null)
     if isinstance(start, NoPosture) or start.margin < 0:
         return ()
@@ -197,12 +197,12 @@ def _is_valid(one: Forecast) -> bool:
 
 
 def _torque_left(part: float) -> float:
-    """What a part of a torque leaves, or hardly anything: an arm may be run without masses."""
+    """The remaining part of a torque, at least a little: an arm may be run without masses."""
     return max(1.0 - part, LEAST_TORQUE_LEFT)
 
 
 class _Search:
-    """Many places at once: which of them can be drawn at, and how well."""
+    """A search over many placements at once: which can be drawn, and how well."""
 
     def __init__(self, motion: Motion, kinematics: Kinematics) -> None:
         self._arm, self._motion = kinematics, motion
@@ -284,7 +284,7 @@ class _Search:
 
 
 class _BatchFollower:
-    """Arms (M, n) that go from pose to pose, each its own way, as long as they can."""
+    """Arms (M, n) that follow the same poses from different postures, while they can."""
 
     def __init__(self, kinematics: Kinematics, postures: Floats) -> None:
         self._arm, self._card = kinematics, kinematics.card
@@ -302,7 +302,7 @@ class _BatchFollower:
         return self._worst * self._relative_margin * self._torque_left
 
     def advance(self, poses: Floats, pause: float | None) -> None:
-        """On to the next poses (M, 8), after a time [s]; None leads to the first ones."""
+        """Move to the next poses (M, 8) after a time [s]; None for the first poses."""
         if not len(self.alive):
             return
         alive = self.alive
@@ -325,7 +325,7 @@ class _BatchFollower:
     def _newton(
         self, poses: Floats, q: Floats, wish: Floats
     ) -> tuple[Floats, Floats, NDArray[np.bool_]]:
-        """Postures, their manipulability, and whether they have come to their poses."""
+        """Postures, their manipulability, and whether they have reached their poses."""
         q, measure = q.copy(), np.zeros(len(q))
         busy = np.arange(len(q))
         for iteration in range(NEWTON_STEPS):
@@ -356,7 +356,7 @@ def _place_statement(origin: Floats, orientation: Floats) -> str:
 def _no_placement_error(
     program: Program, kinematics: Kinematics, motion: Motion, settings: Settings
 ) -> ScriptError:
-    """The error, with advice that was tried."""
+    """The error, with suggestions that were tried."""
     assert isinstance(program.placement, AutoPlacement)
     box = " x ".join(f"{side * 1e3:.0f}" for side in motion.box)
     held = straight(motion)

@@ -1,7 +1,6 @@
-"""A program, an arm and settings -> what the arm is to follow, and the posture it begins in.
+"""Program, arm and settings -> the motion to follow and the start posture.
 
-The one way from a drawing to the start of a run, for paintings, forecasts and studies alike:
-placed, planned, begun, and retimed where it may be slowed down.
+Paintings, forecasts and studies all begin here: placement, planning, start posture, retiming.
 """
 
 from collections.abc import Callable
@@ -21,7 +20,7 @@ from dqpaint.settings import Settings
 
 @dataclass(frozen=True)
 class PreparedMotion:
-    """What an arm is to follow.
+    """The motion that an arm is to follow.
 
     Attributes:
         program: the drawing, at its place.

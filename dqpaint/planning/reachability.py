@@ -1,4 +1,4 @@
-"""Where the arm begins a drawing; what is said of one that leaves its reach."""
+"""Motion x arm -> the start posture, or an error that names the lines out of reach."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -45,7 +45,7 @@ class Unreachable:
 def reachable_start_posture(
     motion: Motion, kinematics: Kinematics, null: str = DEFAULT_OBJECTIVE
 ) -> StartPosture:
-    """The posture that leaves the most margin over the whole drawing.
+    """The start posture with the most joint margin over the whole drawing.
 
     Args:
         motion: what is asked.
@@ -71,7 +71,7 @@ def reachable_start_posture(
 def check_largest_error(
     track: "Track", kinematics: Kinematics, null: str = DEFAULT_OBJECTIVE
 ) -> None:
-    """Look again where a run strayed most: the forecast sees a drawing at some of its rows alone.
+    """Check the reach at a run's largest path error: the forecast looks at some rows only.
 
     A pose that is out of reach keeps the arm at least as far away as its shortfall.
 
@@ -84,7 +84,7 @@ def check_largest_error(
 
 
 def largest_error_row(track: "Track") -> int | None:
-    """Where a run strayed most; None if that is not worth a look."""
+    """The row of a run's largest path error; None if that is small."""
     stray = np.linalg.norm(track.points - track.motion.points, axis=1)
     row = int(np.argmax(stray))
     return row if stray[row] >= PATH_TOLERANCE else None
@@ -93,10 +93,10 @@ def largest_error_row(track: "Track") -> int | None:
 def check_row_reached(
     motion: Motion, kinematics: Kinematics, row: int, null: str = DEFAULT_OBJECTIVE
 ) -> None:
-    """See that the arm reaches the pose of a row.
+    """Check that the arm reaches the pose of a row.
 
     Raises:
-        ScriptError: no posture does; it tells all lines that are out of reach.
+        ScriptError: no posture does; it names all lines that are out of reach.
     """
     if least_errors(kinematics, motion.pose[row : row + 1])[0] >= PATH_TOLERANCE:
         rows = np.unique(np.append(waypoints(motion.stroke), row))
@@ -166,7 +166,7 @@ def reach_error(
 
 
 def _describe(one: Unreachable, name: str) -> str:
-    """How far it is away, in words."""
+    """The distance to the reach, as text."""
     assert one.miss is not None
     far, angle = one.miss.shortfall * 1e3, np.degrees(one.miss.angle)
     turned = one.miss.angle > LEAST_ANGLE_SHOWN

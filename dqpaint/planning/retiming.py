@@ -1,4 +1,4 @@
-"""`--on-limit slow`: the drawing's clock slows where a joint could not keep up.
+"""Motion x arm -> the motion slowed down where a joint could not keep up: `--on-limit slow`.
 
 The kinematic arm goes along the drawing first. What its joints would need is split into the part
 that shrinks with the clock, a = J^+ xi_d, and the part that does not, the pull of the null space
@@ -71,7 +71,7 @@ class Retiming:
 def retime(
     motion: Motion, kinematics: Kinematics, start: Floats, null: str, motors: Motors
 ) -> Retiming:
-    """The motion at a pace an arm can keep, as far as slowness helps.
+    """The motion at a pace that the arm's limits allow, as far as slowness helps.
 
     Position limits are not helped by it, nor is the way back to the path where an arm is off it:
     as it begins, after a jump, or where a joint at its end has held it back.

@@ -1,4 +1,4 @@
-"""What would help a drawing that leaves an arm's reach: nothing is advised that was not tried.
+"""A motion out of an arm's reach -> changes that make it reachable, each tried before.
 
 Each change is made to the poses that were asked, and the arm is led along them. What is tried last,
 as it takes longest, is tried only where nothing before it helps.
@@ -25,7 +25,7 @@ NO_SUGGESTION = (
 def suggest(
     motion: Motion, kinematics: Kinematics, rows: NDArray[np.intp], null: str = DEFAULT_OBJECTIVE
 ) -> str:
-    """What to change, each of which takes the error away.
+    """Changes to the drawing, each of which removes the error.
 
     Args:
         motion: that leaves the reach.
@@ -69,7 +69,7 @@ def _costly_suggestions(
     rows: NDArray[np.intp],
     settings: Settings,
 ) -> Iterator[str]:
-    """What is tried where nothing simple helps: two changes at once, or another arm."""
+    """Suggestions where no single change helps: two changes at once, or another arm."""
     for scale in TRIED_SCALES:
         if can_be_placed(scaled(motion, scale), kinematics, settings):
             yield f"make it smaller and move it: with scale {scale:g} ... end, and place auto"

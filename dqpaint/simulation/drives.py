@@ -1,4 +1,4 @@
-"""What a law commands -> the plant's command, clipped to the arm's limits."""
+"""A law's command -> the plant's command, clipped to the arm's limits."""
 
 from typing import Any, Protocol
 
@@ -21,7 +21,7 @@ NO_TWIST = np.zeros(6)  # the twist of a tool that stays
 
 
 class Drive(Protocol):
-    """A law's answer, converted into a command of a plant."""
+    """The conversion of a law's command into that of a plant."""
 
     def command(self, seen: Seen, gains: Any) -> Floats:
         """Joint rates (n,) [rad/s] or torques (n,) [Nm], before any limit."""

@@ -1,9 +1,9 @@
-"""A run of one's own: a CSV of a real arm's joints or poses -> Track, on the drawing's own clock.
+"""A CSV of a real arm's joints or poses -> Track, on the drawing's own clock.
 
 Between two rows a joint goes along a monotone cubic (Fritsch and Butland 1984): smooth, through
 every row, and never beyond the two it lies between. A pose goes along the one screw from row to row
-(ScLERP). Before the first row and after the last the arm stands still. Nothing else is made up, and
-what had to be assumed is said.
+(ScLERP). Before the first row and after the last the arm is at rest. All assumptions are reported
+as notes.
 """
 
 import hashlib
@@ -41,7 +41,7 @@ MOST_NAMED = 8
 
 @dataclass(frozen=True, repr=False)
 class Recording:
-    """What a file says an arm did; times strictly increase.
+    """The run of an arm as a file records it; times strictly increase.
 
     Attributes:
         name: of the file.
@@ -49,8 +49,8 @@ class Recording:
         t: times (M,) [s] since the drawing began.
         postures: joint angles (M, n) [rad]; None where the file has poses instead.
         poses: of the light (M, 8) in the base frame, signs continuous; None where it has joints.
-        commands: what the joints were given at each row (M, n): rates [rad/s] or torques [Nm];
-            None where the file does not say.
+        commands: of the joints at each row (M, n): rates [rad/s] or torques [Nm]; None where the
+            file has none.
         torques: whether the commands are torques.
     """
 
@@ -75,7 +75,7 @@ class Recording:
         }
 
     def notes(self, motion: Motion) -> tuple[str, ...]:
-        """What was assumed to bring it onto a drawing's clock, a sentence each."""
+        """The assumptions that bring it onto a drawing's clock, one sentence each."""
         way = "joints on monotone cubics" if self.poses is None else "poses on screws"
         found = [f"{self.name}: {len(self.t)} rows, between them {way}"]
         end = float(motion.t[-1])
@@ -119,7 +119,7 @@ def read_recording(path: str, joints: int) -> Recording:
 
     Raises:
         UsageError: the file cannot be read.
-        DqpaintError: it is no such table; file, row and column are named.
+        DqpaintError: it is not such a table; file, row and column are named.
     """
     file = Path(path)
     try:
@@ -245,7 +245,7 @@ def _poses(table: _Table) -> Floats:
 
 
 def _commands(table: _Table, joints: int) -> tuple[Floats | None, bool]:
-    """What the joints were given (M, n), where the file says so of all; whether it is torques."""
+    """The commands (M, n) where the file has those of all joints; whether they are torques."""
     for form, torques in (("command{}_rad_s", False), ("torque{}_Nm", True)):
         names = [form.format(i + 1) for i in range(joints)]
         if all(name in table.names for name in names):
@@ -296,7 +296,7 @@ def replay(recording: Recording, motion: Motion, kinematics: Kinematics) -> Trac
 
 
 def _recorded_commands(recording: Recording, posture: Floats, motion: Motion) -> Floats:
-    """What the joints were given at each row (N, n): what is recorded, else how they moved."""
+    """The commands at each row (N, n): those recorded, else the joint rates."""
     if recording.commands is None:
         rates = np.diff(posture, axis=0, append=posture[-1:]) / motion.period
         return np.asarray(rates)

@@ -1,4 +1,4 @@
-"""The true state of a plant -> what is measured of it, and where the light truly is."""
+"""The true state of a plant -> its measurement, and the light's true pose."""
 
 from collections import deque
 from collections.abc import Mapping, Sequence
@@ -18,7 +18,7 @@ Disturbances = Mapping[str, Disturbance]
 
 
 class Measurement(NamedTuple):
-    """What is measured: encoder angles (n,) [rad], rates (n,) [rad/s], pose (8,), J (6, n).
+    """Encoder angles (n,) [rad], rates (n,) [rad/s], pose (8,), J (6, n).
 
     Pose and Jacobian are those of the law's model at the measured angles.
     """
@@ -37,7 +37,7 @@ class Sensors:
     """Encoders, and the law's model of the arm.
 
     Attributes:
-        world: what disturbs the arm itself.
+        world: the disturbances of the arm itself.
         model: the law's.
         exact: whether every measurement is true.
     """

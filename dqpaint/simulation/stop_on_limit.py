@@ -28,7 +28,7 @@ def meets_limit(
 
 def limit_error(motion: Motion, clamp: Clamp) -> ScriptError:
     """The error that names a limit: joint, time, line and amount."""
-    verb, unit, cure = VERB_UNIT_FIX[clamp.kind]
+    verb, unit, fix = VERB_UNIT_FIX[clamp.kind]
     limit, wanted = clamp.amounts
     amount = f"more than {limit}" if limit == wanted else wanted
     problem = Diagnostic(
@@ -37,7 +37,7 @@ def limit_error(motion: Motion, clamp: Clamp) -> ScriptError:
         f"its limit is {limit} {unit}",
         motion.program.segments[int(motion.stroke[_row(motion, clamp)])].span,
         label="drawn at that time",
-        help=f"{cure}; --on-limit clip holds the joint back and goes on",
+        help=f"{fix}; --on-limit clip holds the joint back and goes on",
     )
     return ScriptError(motion.program.name, motion.program.text, (problem,))
 

@@ -1,4 +1,4 @@
-"""What laws are built from: measured pose -> errors, text -> gains, a user's file -> a law."""
+"""Parts of laws: poses -> errors, texts -> gains, a user's file -> a law."""
 
 from dqpaint.controllers.base.pose_errors import difference_error, invariant_error, spatial_error
 from dqpaint.controllers.base.user_controller import make_controller

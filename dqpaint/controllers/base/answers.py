@@ -1,4 +1,4 @@
-"""What a law of one's own answers, anything at all -> finite floats of the right shape."""
+"""The value that a user's law returns -> floats of the right shape, or an error."""
 
 from typing import Any
 
@@ -17,7 +17,7 @@ COMMAND_NAMES = {
 
 
 def check_answer(returned: Any, wanted: tuple[int, ...], kind: Commands, where: str) -> Floats:
-    """An answer as finite floats; its shape is seen before anything is copied.
+    """The returned value as floats; its shape is checked before anything is copied.
 
     Args:
         returned: what the law returned.
@@ -26,7 +26,7 @@ def check_answer(returned: Any, wanted: tuple[int, ...], kind: Commands, where: 
         where: the law's file and line, for messages.
 
     Raises:
-        AnswerError: it is something else.
+        AnswerError: it is anything else.
     """
     shape = _shape(returned)
     answer = np.zeros(0)

@@ -1,4 +1,4 @@
-"""A law's model of its arm -> what the law may use: joint limits, kinematics, distances."""
+"""A law's model of its arm -> joint limits, kinematics and link distances for the law."""
 
 from functools import cached_property
 from typing import NamedTuple
@@ -10,7 +10,7 @@ from dqpaint.robots.kinematics import CollisionShapes, Kinematics
 
 
 class JointLimits(NamedTuple):
-    """What the joints of an arm can do, one number a joint; the arrays are read-only.
+    """The limits of an arm's joints, one number a joint; the arrays are read-only.
 
     Attributes:
         lower: least angles (n,) [rad].
@@ -50,10 +50,10 @@ class Arm:
 
     @cached_property
     def kinematics(self) -> Kinematics:
-        """Pose and Jacobian at any posture: a copy, so that nothing a law does to it is felt."""
+        """Pose and Jacobian at any posture: a copy, which a law may change without effect."""
         return self._model.with_model_error()
 
     @cached_property
     def collisions(self) -> CollisionShapes:
-        """How near the links come to each other at any posture: `nearest(postures)`."""
+        """The distance between links at any posture: `nearest(postures)`."""
         return CollisionShapes(self.kinematics)

@@ -21,7 +21,7 @@ GainsOf = TypeVar("GainsOf", bound=Gains, contravariant=True)
 
 
 class LawClass(Protocol[GainsOf]):
-    """A law that remembers: a class without arguments, of which each run makes an object.
+    """A law with state: a class without arguments, of which each run makes an object.
 
     Before the first step its `start(arm, motion, gains)` is called, if it has one: with the `Arm`,
     the whole `Motion` and the `Schedule` of the gains. It returns nothing.
@@ -30,7 +30,7 @@ class LawClass(Protocol[GainsOf]):
     def __init__(self) -> None: ...
 
     def __call__(self, seen: Seen, gains: GainsOf) -> Floats:
-        """What is commanded."""
+        """The command."""
 
 
 @dataclass(frozen=True)
@@ -38,17 +38,16 @@ class Controller(Generic[G]):
     """A named law.
 
     Attributes:
-        name: as it is chosen.
+        name: by which it is chosen.
         source: the paper and its equation.
         gains: the model of its gains.
-        law: what is seen and gains -> what is commanded: a function, which keeps nothing from one
-            step to the next, or a class, which may.
-        commands: what the law's answer is: a spatial `twist` (..., 6), joint `rates` (..., n), a
+        law: `Seen` and gains -> a command: a function, which has no state, or a class, which may.
+        commands: the kind of the command: a spatial `twist` (..., 6), joint `rates` (..., n), a
             spatial `acceleration` (..., 6) or joint `torque` (..., n).
-        leaves_null: whether joint rates it says have nothing in the null space, so that the
+        leaves_null: whether its joint rates have no part in the null space, so that the
             objective of `--null` is added to them. A twist or an acceleration always leaves it.
-        batched: whether it can lead many arms at once, as arrays of any leading shape.
-        sha256: of the file of a law of one's own.
+        batched: whether it can drive many arms at once, as arrays of any leading shape.
+        sha256: of the file of a user's law.
     """
 
     name: str
@@ -67,19 +66,19 @@ class Controller(Generic[G]):
 
     @property
     def drives_torque(self) -> bool:
-        """Whether it needs an arm that is told torques."""
+        """Whether it needs a plant that takes torques."""
         return self.commands in ("acceleration", "torque")
 
     def start(self, arm: Arm, motion: Motion, gains: Schedule[G]) -> Law[G]:
         """The law of one run, which shares no state with that of any other.
 
         Args:
-            arm: that it leads, as its model has it.
-            motion: what is asked for.
+            arm: the law's model of the arm.
+            motion: the reference.
             gains: over the drawing.
 
         Raises:
-            DqpaintError: a law of one's own has a fault.
+            DqpaintError: a user's law has a fault.
         """
         law = for_one_run(self.law)
         if hasattr(type(law), "start"):
@@ -95,7 +94,7 @@ class Controller(Generic[G]):
         return read_schedule(self.gains, given, f"controller '{self.name}'")
 
     def list_gains(self) -> str:
-        """Name, default and unit of every gain, in words."""
+        """Name, default and unit of every gain, as text."""
         return list_gains(self.gains)
 
 
@@ -115,7 +114,7 @@ def for_one_run(law: Any) -> Any:
 
 
 def _from_plugin(name: str, law: Any) -> Controller[Any]:
-    """What an entry point brings: a `Controller`, or a law as a user's file has it."""
+    """The law of an entry point: a `Controller`, or a law as in a user's file."""
     if isinstance(law, Controller):
         return law
     from dqpaint.controllers.base.user_controller import make_controller

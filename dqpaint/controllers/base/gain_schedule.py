@@ -65,7 +65,7 @@ class Schedule(Generic[G]):
         ]
 
     def disturbance_bounds(self) -> tuple[float, float] | None:
-        """What the gains promise of disturbances all along: the weakest on the way."""
+        """The bounds on disturbances [s] that hold over the whole drawing: the weakest of all."""
         ends = [self.first.disturbance_bounds(), self.at(1.0).disturbance_bounds()]
         for name, knots in self.knots.items():
             rows = self.over(np.array([knot.part for knot in knots]))
@@ -158,7 +158,7 @@ def _checked(model: type[G], values: Mapping[str, Value], whose: str) -> G:
         return model(**dict(values))
     except ValidationError as problem:
         first = problem.errors()[0]
-        if not first["loc"]:  # what the model itself says of several gains together
+        if not first["loc"]:  # a rule of the model for several gains together
             text = f"{whose}: {pydantic_reason(first)}"
         elif first["type"] == "value_error":
             text = f"gain '{first['loc'][0]}' of {whose} {pydantic_reason(first)}"
@@ -172,7 +172,7 @@ def _checked(model: type[G], values: Mapping[str, Value], whose: str) -> G:
 
 
 def _range(model: type[G], name: Any) -> str:
-    """What a gain may be, read off its model."""
+    """The range of a gain, from its model."""
     limits = model.model_fields[str(name)].metadata
     low = next((limit.ge for limit in limits if hasattr(limit, "ge")), None)
     high = next((limit.le for limit in limits if hasattr(limit, "le")), None)

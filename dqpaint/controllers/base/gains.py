@@ -24,7 +24,7 @@ class Gains(BaseModel):
         return {name: value for name, value in values.items() if value is not None}
 
     def disturbance_bounds(self) -> tuple[float, float] | None:
-        """What the law promises of disturbances, where it does: bounds [s] on what comes through.
+        """Bounds [s] on the effect of disturbances, where the law guarantees any.
 
         Of ||1 - r_e||_2 / ||v_w||_2 and of ||p_e||_2 / ||v_t||_2, for an unmodelled twist v.
         """
@@ -35,7 +35,7 @@ G = TypeVar("G", bound=Gains)
 
 
 def list_gains(model: type[Gains]) -> str:
-    """Name, default and unit of every gain, in words."""
+    """Name, default and unit of every gain, as text."""
     fields = model.model_fields.items()
     return (
         "none"

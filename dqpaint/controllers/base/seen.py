@@ -1,4 +1,4 @@
-"""Measured state and reference at a control step -> what a law sees, and what lies ahead."""
+"""Measured state and reference at a control step -> the input of a law, with a window ahead."""
 
 from typing import NamedTuple
 
@@ -28,7 +28,7 @@ class Window(NamedTuple):
 
 
 class Seen(NamedTuple):
-    """What a law sees at one control step; arrays of any leading shape.
+    """The input of a law at one control step; arrays of any leading shape.
 
     Attributes:
         pose: measured pose (..., 8), its sign arbitrary.
@@ -40,9 +40,9 @@ class Seen(NamedTuple):
         time: since the drawing began [s].
         period: of the control [s].
         rates: measured joint rates (..., n) [rad/s].
-        row: the number of this step, from 0: the row of the motion that is asked for.
+        row: the number of this step, from 0: the row of the reference motion.
         limits: of the arm's joints.
-        motion: the whole motion that is asked for; see `ahead`.
+        motion: the whole reference motion; see `ahead`.
         inertia: H(q) (..., n, n) [kg m^2], for laws that command torques; empty for others.
         bias: C(q, q_dot) q_dot + G(q) and the joints' friction (..., n) [Nm], likewise.
     """

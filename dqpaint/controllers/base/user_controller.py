@@ -1,4 +1,4 @@
-"""A function or class of one's own -> a control law: `--controller mylaw.py[:NAME]`.
+"""A user's function or class -> a control law: `--controller mylaw.py[:NAME]`.
 
     from dqpaint import dq
 
@@ -6,10 +6,10 @@
         error = dq.mul(seen.pose_d, dq.conj(dq.nearest(seen.pose, seen.pose_d)))
         return seen.twist_d + 2 * k * dq.log(error)
 
-It sees a `Seen` and returns a spatial twist; `@commands("rates")` or `@commands("torque")` above it
-says that it returns joint rates or torques. Further parameters with a number each are its gains.
+It takes a `Seen` and returns a spatial twist; `@commands("rates")` or `@commands("torque")` above
+it says that it returns joint rates or torques. Further parameters with a number each are its gains.
 
-A law that remembers is a class: `__call__(self, seen, k=20.0)` is then the law, and each run makes
+A law with state is a class: `__call__(self, seen, k=20.0)` is then the law, and each run makes
 an object of its own. Where the class has it, `start(self, arm, motion, gains)` is called before the
 first step. An object of a class, handed over in Python, is copied for each run as it was given.
 """
@@ -55,7 +55,7 @@ START_SIGNATURE = "def start(self, arm, motion, gains)"
 
 
 def commands(kind: Commands) -> Callable[[Decorated], Decorated]:
-    """A decorator that says what a law returns; one without it returns a spatial twist.
+    """A decorator that declares the kind of a law's command; without it, a spatial twist.
 
     Args:
         kind: `twist`, `rates` [rad/s], `acceleration` or `torque` [Nm].
@@ -129,12 +129,12 @@ def make_controller(
 
 @dataclass(frozen=True)
 class UserController(Controller[Gains]):
-    """A law of one's own: its faults are told with its own lines, its answers checked.
+    """A user's law: faults are reported with the lines of its file, returned values are checked.
 
     Attributes:
         path: of its file.
         place: file and line of the law, for messages.
-        about: what the law itself says it is.
+        about: the law's docstring.
     """
 
     path: Path = field(kw_only=True)
@@ -160,7 +160,7 @@ class UserController(Controller[Gains]):
 
 
 class CheckedLaw:
-    """The law of one run, its answers checked."""
+    """The law of one run; its returned values are checked."""
 
     def __init__(self, law: Callable[..., Any], controller: UserController) -> None:
         self._law, self._kind, self._place = law, controller.commands, controller.place
@@ -183,7 +183,7 @@ class CheckedLaw:
 
 
 def _owner(law: Any) -> Any:
-    """Where a law says what it is: a function or a class itself, the class of an object."""
+    """The function or class that declares a law: of an object, its class."""
     if isinstance(law, partial):
         return _body(law)
     return law if isinstance(law, type) or inspect.isroutine(law) else type(law)
@@ -202,7 +202,7 @@ def _is_callable(kind: type) -> bool:
 
 
 def _check_returns(body: Any, where: str) -> None:
-    """Look that a law returns its answer."""
+    """Check that a law returns its command."""
     for test, word in (
         (inspect.isgeneratorfunction, "yields"),
         (inspect.iscoroutinefunction, "is async"),
@@ -213,7 +213,7 @@ def _check_returns(body: Any, where: str) -> None:
 
 
 def _check_start(law: Any, owner: Any, where: str) -> None:
-    """Look that each run can make an object of a class and start it."""
+    """Check that each run can make an object of a class and start it."""
     if isinstance(law, type):
         needed = [one.name for one in _parameters(law, where) if _is_needed(one)]
         if needed:

@@ -12,7 +12,7 @@ from dqpaint.dq import Floats
 
 
 class Weights(Gains):
-    """What an LQR law minimises: 1/2 e's e at the end + 1/2 integral of e'q e + u'r u.
+    """The weights of an LQR cost: 1/2 e's e at the end + 1/2 integral of e'q e + u'r u.
 
     Each is one number or a whole diagonal. Far from the end the rate of the error is sqrt(q / r);
     towards it the gain goes to s / r. With s = sqrt(q r) it stays as it is, and that is what an

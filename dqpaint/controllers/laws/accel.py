@@ -26,7 +26,7 @@ class SpringGains(Gains):
     "accel", source="Chandra 2020, coupled [35]", gains=SpringGains, commands="acceleration"
 )
 def accel(seen: Seen, gains: SpringGains) -> Floats:
-    """Resolved acceleration, place and orientation as one screw: torques; does not lag.
+    """Resolved acceleration, position and orientation as one screw: torques; does not lag.
 
     tau = H J_w^+ (a - J_w_dot q_dot) + C q_dot + G, with x_e = x_d x*,
     xi_e = Ad(x_e*) xi_d - xi, a = Ad(x_e*) xi_d_dot + xi x Ad(x_e*) xi_d + Kv xi_e + 2 Kp log x_e.

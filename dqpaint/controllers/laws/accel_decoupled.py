@@ -1,4 +1,4 @@
-"""Resolved acceleration on place and orientation apart, after Caccavale."""
+"""Resolved acceleration on position and orientation separately, after Caccavale."""
 
 import numpy as np
 from pydantic import Field
@@ -12,14 +12,14 @@ from dqpaint.dq import Floats
 
 
 class ApartSpringGains(Gains):
-    """Springs and dampers of place and orientation.
+    """Springs and dampers of position and orientation.
 
     Chandra 2020 tuned 270 and 7.5 for both. A small rotation by theta is only theta / 2 in
     Im(r_d r*), so its spring is KPo / 2: with twice the stiffness all four roots are at 20 1/s.
     """
 
-    KPp: Gain = Field(400.0, description="1/s^2, stiffness of the place; the paper took 270")
-    KVp: Gain = Field(40.0, description="1/s, damping of the place; the paper took 7.5")
+    KPp: Gain = Field(400.0, description="1/s^2, stiffness of the position; the paper took 270")
+    KVp: Gain = Field(40.0, description="1/s, damping of the position; the paper took 7.5")
     KPo: Gain = Field(
         800.0, description="1/s^2, twice the stiffness of the orientation; the paper took 270"
     )
@@ -33,7 +33,7 @@ class ApartSpringGains(Gains):
     commands="acceleration",
 )
 def accel_decoupled(seen: Seen, gains: ApartSpringGains) -> Floats:
-    """Resolved acceleration, place and orientation apart: torques; does not lag.
+    """Resolved acceleration, position and orientation separately: torques; does not lag.
 
     tau = H J_w^+ (a - J_w_dot q_dot) + C q_dot + G, with a made of
     p_ddot = p_ddot_d + KVp (p_dot_d - p_dot) + KPp (p_d - p) and

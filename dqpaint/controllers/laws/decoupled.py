@@ -1,4 +1,4 @@
-"""Proportional law on place and orientation apart, after Pereira."""
+"""Proportional law on position and orientation separately, after Pereira."""
 
 import numpy as np
 from pydantic import Field
@@ -20,7 +20,7 @@ class ApartGains(Gains):
 
 @controller("decoupled", source="Pereira 2016, section 3.1.1", gains=ApartGains)
 def decoupled(seen: Seen, gains: ApartGains) -> Floats:
-    """Proportional, place and orientation apart: each goes its straight way; lags when moving.
+    """Proportional, position and orientation separately, each on its own path; lags when moving.
 
     q_dot = [J_t; N_r]^+ [k_t (t_d - t); k_r vec(1 - r* r_d)],
     with t_dot = J_t q_dot and vec(r_dot* r_d) = N_r q_dot.

@@ -1,4 +1,4 @@
-"""Any array -> a checked, read-only copy. Apart from `core`'s own face, which needs no numpy."""
+"""Any array -> a checked, read-only copy. Not part of `core` itself, which needs no numpy."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,13 +15,13 @@ def checked_array(name: str, values: ArrayLike, shape: tuple[int | None, ...]) -
 
     Args:
         name: What the values are called in an error.
-        values: The numbers to keep.
+        values: The numbers to copy.
         shape: The shape they must have; None stands for any length.
 
     Raises:
         ValueError: If the shape differs.
-        DqpaintError: If a value is not finite. A number that is not one would pass through sums
-            and comparisons unseen and leave a picture that looks merely dark.
+        DqpaintError: If a value is not finite. NaN would pass through sums and comparisons
+            unnoticed and leave a picture that is merely dark.
     """
     array = np.array(values, dtype=np.float64, order="C")
     if len(array.shape) != len(shape) or any(

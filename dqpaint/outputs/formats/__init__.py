@@ -1,1 +1,1 @@
-"""A painting -> the files of one format: what is written, a function a format."""
+"""A painting -> the files of one format, one function a format."""

@@ -1,4 +1,4 @@
-"""A painting -> its pictures: as they are seen, the linear film, and movies of how they grow."""
+"""A painting -> its pictures, its linear film, and movies of the growing picture."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING

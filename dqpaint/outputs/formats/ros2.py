@@ -1,4 +1,4 @@
-"""The trajectory as a ROS 2 message, trajectory_msgs/JointTrajectory, in YAML.
+"""Trajectory -> a ROS 2 message, trajectory_msgs/JointTrajectory, in YAML.
 
 `joint_trajectory_controller` goes between points that have rates along cubics.
 """

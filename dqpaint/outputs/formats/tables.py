@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 @writer("csv", ".csv")
 def csv(painting: "paint.Painting") -> bytes:
-    """One row a control step: what was asked, what was measured, the command then given."""
+    """One row a control step: reference, true and measured state, command."""
     from dqpaint.outputs.tables import encode_csv
 
     return encode_csv(painting.table)
@@ -19,7 +19,7 @@ def csv(painting: "paint.Painting") -> bytes:
 
 @writer("motion", "-motion.csv")
 def motion(painting: "paint.Painting") -> bytes:
-    """What was asked, with twist and acceleration: a CSV."""
+    """The reference, with twist and acceleration: a CSV."""
     from dqpaint.metrics import motion_columns
     from dqpaint.outputs.tables import encode_csv
 
@@ -28,7 +28,7 @@ def motion(painting: "paint.Painting") -> bytes:
 
 @writer("json", ".json")
 def summary(painting: "paint.Painting") -> bytes:
-    """What was run and what came out, in figures."""
+    """The settings of the run and its figures."""
     from dqpaint.outputs.summary import summarise
 
     return (json.dumps(summarise(painting), indent=2, allow_nan=False) + "\n").encode()

@@ -1,4 +1,4 @@
-"""The trajectory as a CSV: one row a point; `draw --recorded` reads it back."""
+"""Trajectory -> a CSV, one row a point; `draw --recorded` reads it back."""
 
 from dqpaint.outputs.robot import Trajectory, comment_lines, for_arm
 

@@ -1,4 +1,4 @@
-"""The trajectory as a program of a Universal Robots arm: `servoj`, point by point.
+"""Trajectory -> a program for a Universal Robots arm: `servoj`, point by point.
 
 servoj takes the posture to be in a given time, which keeps the drawing's clock; movej, movel and
 movep have profiles of their own, and the light would come too early or too late.
@@ -27,7 +27,7 @@ def check_servoj(painting: "paint.Painting") -> None:
     trajectory = trajectory_of(painting)
     if not is_universal(trajectory.joints):
         raise UsageError(
-            f"URScript is for the arms of Universal Robots, and {trajectory.robot} is none; "
+            f"URScript is for the arms of Universal Robots, not for {trajectory.robot}; "
             "csv and ros2 are for any arm"
         )
     if trajectory.period < SHORTEST_STEP:

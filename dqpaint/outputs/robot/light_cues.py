@@ -1,4 +1,4 @@
-"""The light beside the trajectory: when which colour begins, for a controller of the lamp."""
+"""Motion -> the light's colour changes with their times, for a controller of the lamp."""
 
 import numpy as np
 
@@ -14,8 +14,8 @@ def cue_sheet(motion: Motion, about: tuple[str, ...]) -> str:
     """A CSV with a row wherever the light changes; each holds until the next.
 
     Args:
-        motion: what was asked.
-        about: what the file is, a line each.
+        motion: the reference.
+        about: lines that describe the file.
 
     Colours are linear, 1 is full brightness. A gradient is a row a sample. Of a lamp that flashes
     the frequency and the part of the time that it is on are named, from t = 0 on; 0 Hz is steady.

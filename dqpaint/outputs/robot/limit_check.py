@@ -1,4 +1,4 @@
-"""Whether what was executed can be asked of a real arm; if not, why."""
+"""A painting's run -> an error if it is beyond the limits of its real arm."""
 
 import numpy as np
 
@@ -20,7 +20,7 @@ DEG = float(np.degrees(1.0))
 
 
 def check_limits(painting: paint.Painting) -> None:
-    """Look at a run with the eyes of the arm that is to repeat it.
+    """Check a run against the limits of the arm that is to repeat it.
 
     The limits that were met while it ran count, and, whatever the plant made of them, positions,
     speeds, and the torques that inverse dynamics finds for the run, which begins and ends at rest.

@@ -1,4 +1,4 @@
-"""A painting's run as a joint trajectory: times, angles, rates, and a few words about it."""
+"""A painting's run -> a joint trajectory: times, angles, rates and a description."""
 
 import hashlib
 from collections.abc import Callable
@@ -20,18 +20,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False)
 class Trajectory:
-    """What an arm did, to be done again; it begins and ends at rest.
+    """The joint motion of a run, for a real arm; it begins and ends at rest.
 
     Attributes:
         name: of the drawing.
         robot: the arm's.
         joints: their names (n), as the arm's description has them.
-        base: the link the arm stands on.
+        base: the arm's base link.
         period: between two rows [s].
         t: times (N,) [s], from 0.
         positions: joint angles (N, n) [rad].
         velocities: joint rates (N, n) [rad/s], differences about each row; none at both ends.
-        about: what the file is, a line each.
+        about: lines that describe the file.
     """
 
     name: str
@@ -101,7 +101,7 @@ WITHIN_LIMITS = Need("a run from rest to rest within the limits of its arm", _ch
 
 
 def trajectory_of(painting: "paint.Painting") -> Trajectory:
-    """What the arm of a painting did; it was simulated."""
+    """The joint trajectory of a painting's simulated run."""
     model = kinematics_of(painting).model
     motion, posture = painting.motion, painting.track.posture
     velocities = np.zeros_like(posture)
@@ -129,7 +129,7 @@ def trajectory_of(painting: "paint.Painting") -> Trajectory:
 
 
 def kinematics_of(painting: "paint.Painting") -> "Kinematics":
-    """Of the arm that painted."""
+    """The kinematics of a painting's arm."""
     from dqpaint.robots.kinematics import Kinematics
     from dqpaint.robots.loading import card_for
 
@@ -138,5 +138,5 @@ def kinematics_of(painting: "paint.Painting") -> "Kinematics":
 
 
 def comment_lines(about: tuple[str, ...]) -> str:
-    """Lines that every one of the formats takes for a comment."""
+    """Comment lines that all formats accept."""
     return "".join(f"# {line}\n" for line in about)

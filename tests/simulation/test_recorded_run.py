@@ -99,7 +99,7 @@ def test_poses_alone_leave_the_arm_out_of_the_picture(drawing, simulated, tmp_pa
     path = write(tmp_path / "poses.csv", simulated.table, names=names)
     again = dqpaint.draw(drawing, recorded=path, size=(160, 90), occlusion=True)
     plain = dqpaint.draw(drawing, recorded=path, size=(160, 90))
-    assert "the arm and what it hides are left out" in " ".join(again.notes)
+    assert "the arm and its occlusion are left out" in " ".join(again.notes)
     assert "left out" not in " ".join(plain.notes)
     assert again.picture.occluded is None
     np.testing.assert_array_equal(again.image, plain.image)

@@ -93,7 +93,7 @@ def test_what_is_kept_comes_back(tmp_path, two_workers):
 
 def test_workers_that_are_not_alike_are_refused(tmp_path, two_workers, monkeypatch):
     ours = {"numpy": "0.1", "pin": "1"}
-    monkeypatch.setattr(dask_pool, "code", lambda: ours)
+    monkeypatch.setattr(dask_pool, "code_versions", lambda: ours)
     with pytest.raises(DqpaintError, match=r"the worker tcp.* has numpy \d.*, here is 0.1"):
         dask_pool.Cluster(tmp_path, two_workers[0])
 
@@ -116,13 +116,13 @@ def test_files_that_are_not_alike_are_refused(tmp_path):
 
 
 def test_a_cluster_without_workers_is_told(tmp_path, no_workers, monkeypatch):
-    monkeypatch.setattr(dask_pool, "PATIENCE", 1.0)
+    monkeypatch.setattr(dask_pool, "ANSWER_TIMEOUT", 1.0)
     with pytest.raises(DqpaintError, match="no workers"):
         dask_pool.Cluster(tmp_path, no_workers[0])
 
 
 def test_addresses_where_nobody_answers_are_told(tmp_path, monkeypatch):
-    monkeypatch.setattr(dask_pool, "PATIENCE", 0.5)
+    monkeypatch.setattr(dask_pool, "ANSWER_TIMEOUT", 0.5)
     with pytest.raises(DqpaintError, match=r"'tcp://127\.0\.0\.1:9'"):
         dask_pool.Cluster(tmp_path, "tcp://127.0.0.1:9")
     for address in ("nonsense", "foo://bar:9", "", "tcp://", "tcp://a b:1"):

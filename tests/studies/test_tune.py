@@ -68,7 +68,7 @@ def test_an_optimum_within_is_found(tmp_path):
     assert rings
     table = list(csv.DictReader(found.save()[2].read_text().splitlines()))
     errors = [float(row["error_integral_mean"]) for row in table if row["status"] == "done"]
-    assert found.best.of(found.error).mean == min(errors)
+    assert found.best.spread(found.error).mean == min(errors)
 
 
 @pytest.mark.slow
@@ -103,7 +103,7 @@ def test_an_optimum_at_the_bound_is_found_and_a_search_that_was_killed_finds_it_
     k = float(whole.best.choice["k"])
     assert k == pytest.approx(gain_of(bound), rel=2e-3)
     assert f"Best: --gain k={k:g}\n" in out
-    assert whole.best.of(whole.effort).mean <= whole.bound
+    assert whole.best.spread(whole.effort).mean <= whole.bound
 
     # the trade-off: nothing tried has both less error and less effort
     front = [(c.spread(whole.effort).mean, c.spread(whole.error).mean) for c in whole.front]

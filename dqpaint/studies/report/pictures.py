@@ -144,7 +144,7 @@ def errors(drawn: Mapping[str, Arrays]) -> Charts:
         if column.study != "drawn" or any(name not in run for run in drawn.values()):
             continue
         values = [run[name] for run in drawn.values()]
-        log = 0 < min(map(np.median, values)) < max(map(np.max, values)) / WIDE
+        log = bool(0 < min(map(np.median, values)) < max(map(np.max, values)) / WIDE)
         span = None if len(split) == 1 else _span(scale * np.concatenate(values), log)
         for group in split:
             lines = _lines(group, name, scale, len(split) > 1)

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from dqpaint.api import develop, draw, preview, save
     from dqpaint.language.writing.builder import Drawing
     from dqpaint.painting.paint import Painting
-    from dqpaint.studies.api import compare, replay, sweep, tune, verify
+    from dqpaint.studies.api import compare, replay, study, sweep, tune, verify
 
 __version__ = "0.1.0"
 
@@ -44,6 +44,7 @@ __all__ = [
     "preview",
     "replay",
     "save",
+    "study",
     "sweep",
     "tune",
     "verify",
@@ -57,7 +58,9 @@ _ROOMS = {
     "draw": "dqpaint.api",
     "preview": "dqpaint.api",
     "save": "dqpaint.api",
-    **dict.fromkeys(("compare", "replay", "sweep", "tune", "verify"), "dqpaint.studies.api"),
+    **dict.fromkeys(
+        ("compare", "replay", "study", "sweep", "tune", "verify"), "dqpaint.studies.api"
+    ),
 }
 
 

@@ -40,8 +40,11 @@ def test_generated_tables_are_current(page):
 
 
 def test_generated_keywords_are_current():
-    made = generated.keyword_types()
-    assert generated.OPTIONS.read_text("utf-8") == made, "python -m tests.tools.generated"
+    for place, made in (
+        (generated.OPTIONS, generated.keyword_types()),
+        (generated.STUDY_OPTIONS, generated.study_keyword_types()),
+    ):
+        assert place.read_text("utf-8") == made, "python -m tests.tools.generated"
 
 
 @pytest.mark.slow

@@ -214,6 +214,24 @@ def _examples() -> list[dict[str, Any]]:
     return [{"name": name, "about": about(name)} for name in example_names()]
 
 
+def _studies() -> list[dict[str, Any]]:
+    from dqpaint.studies.kinds import STUDIES, Study
+
+    return [
+        {
+            "name": name,
+            "about": _about(study),
+            "values": [
+                {"name": one.name, "default": one.default, "about": one.option.help}
+                for one in study.parameters()
+                if one.field not in Study.model_fields
+            ],
+            **_package(STUDIES, name),
+        }
+        for name, study in STUDIES.items()
+    ]
+
+
 def _replays() -> list[dict[str, Any]]:
     from dqpaint.studies.replay import papers
 
@@ -252,6 +270,7 @@ LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {
     "fonts": _fonts,
     "formats": _formats,
     "examples": _examples,
+    "studies": _studies,
     "replays": _replays,
     "statements": _statements,
     "functions": _functions,
@@ -280,11 +299,13 @@ def faults(what: str) -> list[str]:
     from dqpaint.outputs import WRITERS
     from dqpaint.plants import PLANTS
     from dqpaint.robots.loading import CARD_FOLDERS
+    from dqpaint.studies.kinds import STUDIES
 
     registries: dict[str, Registry[Any]] = {
         "robots": CARD_FOLDERS, "controllers": CONTROLLERS, "plants": PLANTS,
         "disturbances": DISTURBANCES, "brushes": BRUSHES, "formats": WRITERS,
         "columns": METRICS, "figures": METRICS,
+        "studies": STUDIES,
     }  # fmt: skip
     asked = registries if what == "all" else {what} & registries.keys()
     return list(dict.fromkeys(fault for name in asked for fault in registries[name].faults))

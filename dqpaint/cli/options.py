@@ -5,7 +5,7 @@ called, or its help asked for: the list of commands needs none of them.
 """
 
 import inspect
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -38,9 +38,7 @@ FILE = typer.Option(
 def takes(
     name: str,
     *,
-    without: Container[str] = (),
     file: bool = True,
-    usual: Mapping[str, Any] | None = None,
     unsaid: bool = True,
 ) -> Callable[[Command], Command]:
     """Give a command the options of the groups of settings that it takes.
@@ -50,9 +48,7 @@ def takes(
 
     Args:
         name: of the command in `dqpaint.settings.COMMANDS`, which is read when it is called.
-        without: names in Python of settings that it has options of its own for.
         file: whether it takes a file of settings, too.
-        usual: defaults of this command that help shows, by the names in Python.
         unsaid: whether help shows defaults at all.
     """
 
@@ -60,27 +56,41 @@ def takes(
         def whole() -> Command:
             from dqpaint.settings import COMMANDS, settings_of
 
-            settings = [s for s in settings_of(*COMMANDS[name]) if s.keyword not in without]
-            made = [one for each in settings for one in _options(each, usual or {}, unsaid)]
-            made += [_parameter("settings", str | None, None, FILE)] if file else []
-            return _with(command, made, settings)
+            settings = list(settings_of(*COMMANDS[name]))
+            made = options(settings, unsaid=unsaid)
+            made += [parameter("settings", str | None, None, FILE)] if file else []
+            return with_options(command, made, settings)
 
-        def listed() -> None:
-            """Stand for the command in a list."""
-
-        listed.__name__, listed.__doc__ = command.__name__, command.__doc__
-        listed.made = whole  # type: ignore[attr-defined]
-        return listed
+        return listed(command.__name__, command.__doc__ or "", whole)
 
     return wrap
 
 
-def _with(
+def listed(name: str, doc: str, whole: Callable[[], Command]) -> Command:
+    """What stands for a command in a list, until `MadeWhenCalled` makes it."""
+
+    def stand() -> None:
+        pass
+
+    stand.__name__, stand.__doc__ = name, doc
+    stand.made = whole  # type: ignore[attr-defined]
+    return stand
+
+
+def with_options(
     command: Command, parameters: "list[inspect.Parameter]", settings: "Sequence[Setting]"
 ) -> Command:
-    """The command with further parameters, as typer reads them off a signature."""
+    """The command with further parameters, as typer reads them off a signature.
+
+    Args:
+        command: receives what was typed of the settings as `choices`.
+        parameters: from `options`; others have the names of parameters of the command, and stand in
+            their place.
+        settings: that the parameters give.
+    """
     of_command = inspect.signature(command).parameters.values()
     own = [one for one in of_command if one.name != "choices"]
+    names = {one.name for one in parameters}
 
     def call(**given: Any) -> None:
         context = given.pop("context")
@@ -97,7 +107,8 @@ def _with(
         command(**{one.name: given[one.name] for one in own}, choices=choices)
 
     context = inspect.Parameter("context", _KEYWORD, annotation=typer.Context)
-    whole = [context, *(one.replace(kind=_KEYWORD) for one in own), *parameters]
+    whole = [context, *(one for one in own if one.name not in names), *parameters]
+    whole = [one.replace(kind=_KEYWORD) for one in whole]
     call.__signature__ = inspect.Signature(whole)  # type: ignore[attr-defined]
     call.__annotations__ = {one.name: one.annotation for one in whole}
     call.__name__, call.__doc__ = command.__name__, command.__doc__
@@ -105,6 +116,19 @@ def _with(
 
 
 _KEYWORD = inspect.Parameter.KEYWORD_ONLY
+
+
+def options(
+    settings: "Iterable[Setting]", usual: Mapping[str, Any] | None = None, unsaid: bool = True
+) -> list[inspect.Parameter]:
+    """The parameters of a command that give settings.
+
+    Args:
+        settings: of a command.
+        usual: defaults of this command that help shows, by the names in Python.
+        unsaid: whether help shows defaults at all.
+    """
+    return [one for setting in settings for one in _options(setting, usual or {}, unsaid)]
 
 
 def _options(
@@ -122,15 +146,16 @@ def _options(
         rich_help_panel=setting.panel,
     )
     kind: Any = list[str] if option.many else setting.kind
-    yield _parameter(setting.keyword, kind if default is not None else kind | None, default, info)
+    yield parameter(setting.keyword, kind if default is not None else kind | None, default, info)
     if option.variant:
         info = typer.Option(
             f"--{option.variant.name}", help=option.variant.help, rich_help_panel=setting.panel
         )
-        yield _parameter(_variable(option.variant.name), bool, False, info)
+        yield parameter(_variable(option.variant.name), bool, False, info)
 
 
-def _parameter(name: str, kind: Any, default: Any, info: Any) -> inspect.Parameter:
+def parameter(name: str, kind: Any, default: Any, info: Any) -> inspect.Parameter:
+    """A parameter as typer reads it: its type, and what typer is to know of it."""
     return inspect.Parameter(name, _KEYWORD, default=default, annotation=Annotated[kind, info])
 
 
@@ -147,7 +172,8 @@ class MadeWhenCalled(TyperCommand):
         """The context of the whole command."""
         app = typer.Typer(add_completion=False, rich_markup_mode=None)
         made = self.callback.made()  # type: ignore[union-attr]
-        app.command(cls=InPanels, epilog=self.epilog)(made)
+        epilog = self.epilog or getattr(made, "epilog", None)
+        app.command(cls=InPanels, epilog=epilog)(made)
         return typer.main.get_command(app).make_context(info_name, args, parent, **extra)
 
 

@@ -7,7 +7,7 @@ files and documents read it from there.
 from dqpaint.settings.commands import COMMANDS
 from dqpaint.settings.declaration import Option, Setting, settings_of
 from dqpaint.settings.file import SettingsFile, beside, read_given
-from dqpaint.settings.keywords import keywords
+from dqpaint.settings.keywords import check_keywords, keywords
 from dqpaint.settings.model import (
     DEFAULT_CONTROLLER,
     SETTINGS,
@@ -16,6 +16,7 @@ from dqpaint.settings.model import (
     check_recorded,
     make_settings,
     read_choices,
+    validated,
 )
 from dqpaint.settings.options import (
     DevelopOptions,
@@ -41,6 +42,7 @@ __all__ = [
     "Settings",
     "SettingsFile",
     "beside",
+    "check_keywords",
     "check_recorded",
     "keywords",
     "make_settings",
@@ -49,4 +51,5 @@ __all__ = [
     "read_choices",
     "read_given",
     "settings_of",
+    "validated",
 ]

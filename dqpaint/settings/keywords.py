@@ -2,7 +2,7 @@
 
 import inspect
 import textwrap
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import wraps
 from types import NoneType
 from typing import Any, TypeVar
@@ -17,25 +17,49 @@ PLACE = "options:"  # the line of a docstring that the keywords take the place o
 WIDTH = 100
 
 
-def keywords(command: str) -> Callable[[F], F]:
+def check_keywords(
+    name: str, given: Iterable[str], settings: Iterable[Setting], own: Sequence[str] = ()
+) -> None:
+    """Refuse keywords that a function does not take.
+
+    Args:
+        name: of the function.
+        given: the keywords.
+        settings: that it takes.
+        own: its other parameters.
+
+    Raises:
+        UsageError: the first that is none of them.
+    """
+    known = [*own, *(setting.keyword for setting in settings)]
+    parts = {part for setting in settings for part in setting.option.parts}
+    for one in given:
+        if one not in known and one not in parts:
+            meant = closest(one, known)
+            fix = f"did you mean '{meant}'?" if meant else f"known: {', '.join(known)}"
+            raise UsageError(f"{name} takes no '{one}'; {fix}")
+
+
+def keywords(command: str, parameters: Sequence[Setting] = ()) -> Callable[[F], F]:
     """Give a function, which takes `**options`, the settings of a command as its keywords.
 
     The signature names them, and the docstring has their meaning where it says `options:`. Others
     are refused with a UsageError.
+
+    Args:
+        command: in `COMMANDS`.
+        parameters: more keywords, before the settings; but for those that the function names.
     """
-    settings = list(settings_of(*COMMANDS[command]))
+    settings = [*parameters, *settings_of(*COMMANDS.get(command, ()))]
 
     def wrap(function: F) -> F:
         own = list(inspect.signature(function).parameters.values())[:-1]
-        known = [one.name for one in own] + [setting.keyword for setting in settings]
-        parts = {part for setting in settings for part in setting.option.parts}
+        names = [one.name for one in own]
+        others = [setting for setting in settings if setting.keyword not in names]
 
         @wraps(function)
         def call(*given: Any, **options: Any) -> Any:
-            for name in options.keys() - parts - set(known):
-                meant = closest(name, known)
-                fix = f"did you mean '{meant}'?" if meant else f"known: {', '.join(known)}"
-                raise UsageError(f"{function.__name__} takes no '{name}'; {fix}")
+            check_keywords(function.__name__, options, settings, names)
             return function(*given, **options)
 
         made = [
@@ -45,10 +69,10 @@ def keywords(command: str) -> Callable[[F], F]:
                 default=None,
                 annotation=f"{python_type(setting)} | None",
             )
-            for setting in settings
+            for setting in others
         ]
         call.__signature__ = inspect.Signature([*own, *made])  # type: ignore[attr-defined]
-        call.__doc__ = _documented(function.__doc__ or "", settings)
+        call.__doc__ = _documented(function.__doc__ or "", others)
         return call  # type: ignore[return-value]
 
     return wrap

@@ -5,7 +5,7 @@ field of a group, declared with its bounds, its `Option` and its default, and no
 """
 
 from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
@@ -21,6 +21,7 @@ from dqpaint.settings.readers import (
     read_size,
 )
 
+M = TypeVar("M", bound=BaseModel)
 DEFAULT_CONTROLLER = "hinf"
 LARGEST = 8192  # columns or rows of a picture
 SMALLEST = 16
@@ -359,9 +360,15 @@ def read_choices(choices: Mapping[str, object]) -> dict[str, Any]:
 
 
 def checked(fields: Mapping[str, object], strict: bool = False) -> Settings:
-    """Settings with some fields.
+    """Settings with some fields; arguments and errors as those of `validated`."""
+    return validated(Settings, fields, strict)
+
+
+def validated(model: type[M], fields: Mapping[str, object], strict: bool = False) -> M:
+    """A model of what a caller chooses with some fields.
 
     Args:
+        model: such as `Settings`.
         fields: as the model has them.
         strict: whether `true` is no number, and "yes" is not `true`.
 
@@ -369,7 +376,7 @@ def checked(fields: Mapping[str, object], strict: bool = False) -> Settings:
         UsageError: an unknown field or a value outside its range.
     """
     try:
-        return Settings.model_validate(fields, strict=strict)
+        return model.model_validate(fields, strict=strict)
     except ValidationError as problem:
         first = problem.errors()[0]
         name = ".".join(str(part) for part in first["loc"])

@@ -12,7 +12,7 @@ import pytest
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.settings.model import make_settings
 from dqpaint.studies.experiment.axes import parse_axis
-from dqpaint.studies.kinds import compare
+from dqpaint.studies.kinds import StudyRequest, compare
 from dqpaint.studies.runner import dask_pool
 from dqpaint.studies.runner.journal import NAME
 from dqpaint.studies.runner.run import Run
@@ -82,7 +82,12 @@ def test_what_is_kept_comes_back(tmp_path, two_workers):
     base = make_settings(plant="ideal", width=160, height=90, disturb=noise)
     axes = [parse_axis(f"controller=p,pff,{tmp_path / 'far.py'}")]
     there, here = (
-        compare.compare(str(tmp_path / "line.traj"), axes, base, tmp_path / f"s{i}", 3, jobs)
+        compare.compare(
+            StudyRequest("compare", str(tmp_path / "line.traj"), {}, tmp_path / f"s{i}", jobs),
+            axes,
+            base,
+            3,
+        )
         for i, jobs in enumerate((two_workers[0], 1))
     )
     assert [cell.status for cell in there.cells] == ["done", "done", "failed"]

@@ -15,7 +15,7 @@ from dqpaint.settings.model import make_settings
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.axes import parse_axis
 from dqpaint.studies.experiment.cells import Cell, listed_figures
-from dqpaint.studies.kinds import compare, sweep
+from dqpaint.studies.kinds import StudyRequest, compare, sweep
 from dqpaint.studies.report.charts import ALARM
 from dqpaint.studies.runner.run import Result
 
@@ -35,6 +35,10 @@ def read(path):
         return list(csv.DictReader(file))
 
 
+def asked(drawing, folder, jobs):
+    return StudyRequest("study", str(drawing), {}, folder, jobs)
+
+
 def opened(path):
     return cv2.imread(str(path))[..., ::-1].astype(int)
 
@@ -48,7 +52,7 @@ def has(image, colour, least=30):
 def test_a_comparison_s_table_is_what_numpy_says_of_draws(line, tmp_path):
     base = make_settings(plant="ideal", disturb=NOISE, seed=5, width=320, height=180)
     axes = [parse_axis("controller=p,pff")]
-    made = compare.compare(str(line), axes, base, tmp_path / "study", 3, 2)
+    made = compare.compare(asked(line, tmp_path / "study", 2), axes, base, 3)
     paths = {path.name: path for path in made.save()}
     assert sorted(paths) == [
         f"line-{end}" for end in
@@ -88,7 +92,7 @@ def test_one_exposure_for_all_pictures(line, tmp_path):
     """The contact sheet holds the very pictures that draw makes, whose exposure is the asked's."""
     base = make_settings(plant="ideal", width=320, height=180)
     axes = [parse_axis("controller=p,hinf")]
-    made = compare.compare(str(line), axes, base, tmp_path / "study", 1, 2)
+    made = compare.compare(asked(line, tmp_path / "study", 2), axes, base)
     made.save()
     sheet = opened(tmp_path / "study/line-sheet.png")
     for law in ("p", "hinf"):
@@ -107,7 +111,7 @@ def test_one_exposure_for_all_pictures(line, tmp_path):
 @pytest.mark.slow
 def test_a_sweep_marks_what_is_unstable(line, tmp_path):
     base = make_settings(controller="p", plant="ideal")
-    made = sweep.sweep(str(line), [parse_axis("k=10,20,40,400")], base, tmp_path / "s", 1, 2)
+    made = sweep.sweep(asked(line, tmp_path / "s", 2), [parse_axis("k=10,20,40,400")], base)
     paths = made.save()
     rows = read(tmp_path / "s/line-k-table.csv")
     assert [row["status"] for row in rows] == ["done", "done", "done", "unstable"]
@@ -119,7 +123,7 @@ def test_a_sweep_marks_what_is_unstable(line, tmp_path):
     assert "unstable: commands alternate" in told
 
     axes = [parse_axis("k=10,400"), parse_axis("disturb.twist.x=0.01,0.02,0.04")]
-    both = sweep.sweep(str(line), axes, base, tmp_path / "s", 1, 2)
+    both = sweep.sweep(asked(line, tmp_path / "s", 2), axes, base)
     paths = both.save()
     assert has(opened(paths[0]), ALARM)
     assert [cell.stable for cell in both.cells] == [True] * 3 + [False] * 3
@@ -136,7 +140,7 @@ def test_a_sweep_has_one_axis_or_two(line, tmp_path):
         ([parse_axis("k=1..2:9999"), parse_axis("seed=1..99:99")], "100,000 runs"),
     ):  # fmt: skip
         with pytest.raises(UsageError, match=fault):
-            sweep.sweep(str(line), axes, base, tmp_path / "s", 1, 1)
+            sweep.sweep(asked(line, tmp_path / "s", 1), axes, base)
 
 
 def made_up(*values, status="done", why=""):

@@ -3,6 +3,7 @@
 A package outside the repository, as they have it; and a copy of dqpaint, changed as they say.
 """
 
+import csv
 import json
 import os
 import re
@@ -77,15 +78,18 @@ def outside(tmp_path_factory):
     (folder / "t.traj").write_text(TEXT)
     path = os.pathsep.join([str(folder / "site"), *filter(None, [os.environ.get("PYTHONPATH")])])
 
-    def run(*words):
-        done = subprocess.run(
+    def ask(*words):
+        return subprocess.run(
             [sys.executable, *words], cwd=folder, env={**os.environ, "PYTHONPATH": path},
             capture_output=True, text=True, check=False,
         )  # fmt: skip
+
+    def run(*words):
+        done = ask(*words)
         assert done.returncode == 0, done.stderr
         return done.stdout
 
-    run.folder = folder
+    run.folder, run.ask = folder, ask
     return run
 
 
@@ -98,6 +102,7 @@ def outside(tmp_path_factory):
         ("formats", "duration", "How long the drawing takes"),
         ("controllers", "careful", "Feed-forward and proportional action"),
         ("figures", "position_error_p95_m", "95 %"),
+        ("studies", "corner-cutting", "how far they cut its corners"),
     ],
 )
 def test_lists_say_what_it_brings(outside, kind, name, about):
@@ -142,6 +147,70 @@ def test_a_sweep_with_two_workers_gives_the_bits_of_single_runs(outside):
     (table,) = (outside.folder / "swept").glob("*.csv")
     for number in found:
         assert number.removeprefix("np.float64(").rstrip(")") in table.read_text()
+
+
+CORNER = "period 10 ms\nline to (30, 0) mm\nline to (30, 30) mm\n"
+
+
+def test_a_study_is_a_command_and_a_call(outside):
+    """The same numbers from two workers, from Python, and from a run by itself."""
+    (outside.folder / "corner.traj").write_text(CORNER)
+    said = outside(
+        *CLI, "corner-cutting", "corner.traj", "--speeds", "40,80", "--plant", "ideal",
+        "--jobs", "2", "--out", "corners/", "--report",
+    )  # fmt: skip
+    folder = outside.folder / "corners"
+    rows = list(csv.DictReader((folder / "corner-table.csv").read_text().splitlines()))
+    assert [(r["speed"], r["controller"]) for r in rows] == [
+        ("40", "hinf"), ("40", "p"), ("80", "hinf"), ("80", "p"),
+    ]  # fmt: skip
+    assert "corners/corner.png" in said
+    assert "Largest error over the speed" in (folder / "corner-report.html").read_text()
+    errors = [float(r["position_error_max_m_mean"]) for r in rows]
+    assert errors[3] > errors[1] > errors[0] > 0
+    found = json.loads(
+        outside(
+            "-c",
+            "import json, dqpaint\n"
+            "made = dqpaint.study('corner-cutting', 'corner.traj', speeds='40,80', plant='ideal')\n"
+            "d = dqpaint.Drawing('alone', period=0.01)\n"
+            "d.speed('80 mm/s')\n"
+            "d.line(to=(0.03, 0))\n"
+            "d.line(to=(0.03, 0.03))\n"
+            "one = dqpaint.draw(d, controller='p', plant='ideal', size=(16, 16))\n"
+            "print(json.dumps([made.table['position_error_max_m_mean'].tolist(),"
+            " one.metrics.figures['position_error_max_m'], list(made.pictures), str(made)]))\n",
+        )
+    )
+    assert found[0] == errors
+    assert found[1] == errors[3]
+    assert found[2] == [""]
+    assert found[3] in said
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--runs", "2.5"], "--runs"),
+        (["--plant", "jelly"], "'jelly'"),
+        (["--speds", "3"], "No such option: --speds"),
+        (["--out", "c/", "--speeds", "fast"], "speed fast mm/s"),
+    ],
+)
+def test_a_study_refuses_what_it_does_not_take(outside, words, told):
+    (outside.folder / "corner.traj").write_text(CORNER)
+    done = outside.ask(*CLI, "corner-cutting", "corner.traj", *words)
+    assert done.returncode in (1, 2)
+    assert told in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_help_of_a_study_is_made_from_its_declaration(outside):
+    told = outside(*CLI, "corner-cutting", "--help")
+    for words in ("Draw a drawing at several speeds", "--speeds A,B,...", "50,100,200", "--jobs N",
+                  "--plant NAME", "--look NAME"):  # fmt: skip
+        assert words in told
+    assert "corner-cutting" not in outside(*CLI, "--help")  # the list of commands asks no plugin
 
 
 def test_the_exported_checks_pass_on_it(outside):

@@ -264,13 +264,44 @@ def keyword_types():
     for command, groups in whole.items():
         bases = ", ".join(map(name, groups))
         parts.append(f'class {command}Options({bases}):\n    """{about[command]}"""\n')
-    return _formatted("\n\n".join(parts))
+    return _formatted("\n\n".join(parts), OPTIONS)
 
 
-def _formatted(text):
+STUDY_OPTIONS = ROOT / "dqpaint/studies/options.py"
+STUDY_OPTIONS_HEAD = '''"""Parameters of studies -> keywords in Python, as type checkers see them.
+
+`python -m tests.tools.generated` writes it again.
+"""
+
+from collections.abc import Sequence
+from os import PathLike
+
+from dqpaint.settings import DrawOptions, RunOptions
+from dqpaint.settings import ReplayOptions as OfReplay
+'''
+
+
+def study_keyword_types():
+    """The module that says to type checkers which keywords the studies of dqpaint have."""
+    from dqpaint.settings.keywords import python_type
+    from dqpaint.studies.kinds import STUDIES
+
+    bases = {"compare": "DrawOptions", "sweep": "DrawOptions", "tune": "RunOptions",
+             "replay": "OfReplay"}  # fmt: skip
+    by_place = {"compare": "controllers", "sweep": "vary", "tune": "vary"}
+    parts = [STUDY_OPTIONS_HEAD]
+    for name, base in bases.items():
+        others = [s for s in STUDIES[name].parameters() if s.keyword != by_place.get(name)]
+        fields = [f"    {one.keyword}: {python_type(one)} | None" for one in others]
+        head = f'class {name.title()}Options({base}, total=False):\n    """Of `{name}`."""\n'
+        parts.append("\n".join([head, *fields, ""]))
+    return _formatted("\n\n".join(parts), STUDY_OPTIONS)
+
+
+def _formatted(text, place):
     """As ruff lays it out."""
     return subprocess.run(
-        [sys.executable, "-m", "ruff", "format", "--stdin-filename", str(OPTIONS), "-"],
+        [sys.executable, "-m", "ruff", "format", "--stdin-filename", str(place), "-"],
         input=text, capture_output=True, text=True, check=True,
     ).stdout  # fmt: skip
 
@@ -395,6 +426,7 @@ if __name__ == "__main__":
     STUB.write_text(stub(), "utf-8")
     CASES.write_text(cases(), "utf-8")
     OPTIONS.write_text(keyword_types(), "utf-8")
+    STUDY_OPTIONS.write_text(study_keyword_types(), "utf-8")
     for tables in (PAGES, SLOW_TABLES):
         for page in tables:
             page.write_text(renewed(page, tables), "utf-8")

@@ -4,24 +4,21 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations as pairs
 from pathlib import Path
+from typing import Annotated, ClassVar
 
 import numpy as np
 
 from dqpaint.core import tables
-from dqpaint.language.writing import builder
-from dqpaint.settings import Settings
-from dqpaint.studies.experiment import cells
+from dqpaint.settings import COMMANDS, Settings
+from dqpaint.studies.experiment import cells, requests
 from dqpaint.studies.experiment.axes import Axis, combinations, with_choice
 from dqpaint.studies.experiment.cells import Cell, TableFigure, find_figure
 from dqpaint.studies.experiment.statistics import LEVEL, holm, welch
+from dqpaint.studies.kinds.study import STUDIES, StudyOfAlternatives, StudyRequest, figure_option
 from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
 from dqpaint.studies.report.page import Block, Rows, Words, files_of
 from dqpaint.studies.report.pictures import pictures
-from dqpaint.studies.runner.engine import Workers, carry_out_study
-from dqpaint.studies.runner.reporter import SILENT, Reporter
-from dqpaint.studies.runner.run import Run, drawing_text, repeated
-
-SIZE = (640, 360)  # of its pictures, if nothing else is said
+from dqpaint.studies.runner.run import Run
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,43 +64,61 @@ class Comparison(StudyResult):
         return made, [*blocks, *shown.values()]
 
 
+@STUDIES.add("compare")
+class Compare(StudyOfAlternatives):
+    """Paint one drawing by several laws, plants, arms or disturbances: pictures, errors, a table.
+
+    With --runs each is done with several seeds, and the table has means and standard deviations.
+    """
+
+    groups = COMMANDS["compare"]
+    defaults: ClassVar = {"size": "640x360"}
+    examples = """Examples:
+
+  dqpaint compare lag --controllers "hinf,p,p(k=5)"
+
+  dqpaint compare lag --controllers hinf,pff --runs 10 --disturb twist=noise,x=0.02,frequency=5
+"""
+
+    figure: Annotated[
+        str, figure_option("figure that is tested and drawn: see dqpaint list figures")
+    ] = "error_integral"
+
+    def carry_out(self, request: StudyRequest) -> Comparison:
+        """Compare."""
+        axes, base = requests.read_comparison(request.choices, self.several, **self.defaults)
+        return compare(request, axes, base, self.runs, self.figure)
+
+
 def compare(
-    drawing: str | builder.Drawing,
+    request: StudyRequest,
     axes: Sequence[Axis],
     base: Settings,
-    folder: Path,
-    count: int,
-    jobs: Workers,
-    reporter: Reporter = SILENT,
+    count: int = 1,
     figure: str = "error_integral",
 ) -> Comparison:
     """Paint a drawing with every combination of the axes' values.
 
     Args:
-        drawing: a file, an example's name, or one made by calls.
+        request: of which drawing, where and by whom.
         axes: what differs.
         base: all other settings; its seed is that of the first run.
-        folder: of the study.
         count: how many runs each, with the seeds that follow.
-        jobs: how many processes, None is one a core; or the address of a Dask cluster.
-        reporter: shows how far the study is.
         figure: name of the figure that is tested for differences.
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.
     """
-    name, text = drawing_text(drawing)
+    name, text = request.drawing
     choices = combinations(axes)
     keep = ("series", "light")
-    runs = repeated([Run(name, text, with_choice(base, one), keep) for one in choices], count)
+    runs = [Run(name, text, with_choice(base, one), keep) for one in choices]
     several = [axis.name for axis in axes if len(axis.texts) > 1] or [axes[0].name]
-    found = cells.run_cells(
-        [{n: choice[n] for n in several} for choice in choices], runs,
-        lambda every: carry_out_study(every, folder, jobs, "compare", reporter),
-    )  # fmt: skip
+    found = request.cells([{n: choice[n] for n in several} for choice in choices], runs, count)
     return Comparison(
-        name=Path(name).name, settings=base, cells=found, folder=folder, text=text, figure=figure
-    )
+        name=Path(name).name, settings=base, cells=found, folder=request.folder, text=text,
+        figure=figure,
+    )  # fmt: skip
 
 
 def differences(found: Sequence[Cell], figure: TableFigure) -> list[list[str]]:

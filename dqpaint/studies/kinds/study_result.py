@@ -1,20 +1,22 @@
 """The cells of a study -> its tables and files: what every kind of study has in common."""
 
-from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from dqpaint.core import tables
 from dqpaint.outputs import files
 from dqpaint.settings import Settings
+from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.cells import Cell
-from dqpaint.studies.report.page import Block, Page, html
+from dqpaint.studies.report.page import Block, Page, Pictured, Rows, files_of, html
 
 ANY_WIDTH = 100_000  # characters: a table as wide as it is
 
 
 @dataclass(frozen=True, kw_only=True)
-class StudyResult(ABC):
-    """A finished study.
+class StudyResult:
+    """A finished study; a kind of study shows more than the table of its cells.
 
     Attributes:
         name: of the drawing, or of the replay.
@@ -36,11 +38,24 @@ class StudyResult(ABC):
         return Path(self.name).stem
 
     @property
-    @abstractmethod
     def title(self) -> str:
         """The heading of its pages."""
+        return self.name
 
-    @abstractmethod
+    @property
+    def remarks(self) -> list[str]:
+        """What else is to be said, a sentence each."""
+        return []
+
+    @property
+    def passed(self) -> bool:
+        """Whether it came to what was asked; else the command ends with exit code 1."""
+        return True
+
+    def shown(self) -> Mapping[str, Pictured]:
+        """Charts and pictures by the ends of their names."""
+        return {}
+
     def table_text(self, width: int = ANY_WIDTH) -> str:
         """The tables as text of at most so many characters a line, where that is possible.
 
@@ -48,10 +63,19 @@ class StudyResult(ABC):
             UsageError: a figure that no run has.
             DqpaintError: every run failed.
         """
+        if not any(result.figures for cell in self.cells for result in cell.results):
+            raise cells.every_run_failed(self.cells)
+        return "\n".join(tables.fit(cells.rows(self.cells), width))
 
-    @abstractmethod
     def files_and_blocks(self) -> tuple[dict[str, bytes], list[Block]]:
         """Charts and tables by the ends of their names, and what the page of the study shows."""
+        rows, shown = cells.rows(self.cells), self.shown()
+        made = {
+            **files_of(shown),
+            "-table.csv": cells.csv(self.cells),
+            "-table.md": f"# {self.title}\n\n{tables.markdown(rows)}\n".encode(),
+        }
+        return made, [*shown.values(), Rows("All cells", rows, note=cells.figure_meanings())]
 
     def contents(self, command: str | None = None) -> dict[str, bytes]:
         """All files by the ends of their names.

@@ -4,14 +4,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated, Any
 
 import numpy as np
 
 from dqpaint.core import tables
 from dqpaint.errors import UsageError
-from dqpaint.language.writing import builder
-from dqpaint.settings import SMALLEST, Settings
-from dqpaint.studies.experiment import cells
+from dqpaint.settings import COMMANDS, SMALLEST, Option, Settings
+from dqpaint.studies.experiment import cells, requests
 from dqpaint.studies.experiment.axes import (
     Axis,
     axis_description,
@@ -20,12 +20,17 @@ from dqpaint.studies.experiment.axes import (
     with_choice,
 )
 from dqpaint.studies.experiment.cells import TableFigure, find_figure, means_of
+from dqpaint.studies.kinds.study import (
+    STUDIES,
+    VARY,
+    StudyOfAlternatives,
+    StudyRequest,
+    figure_option,
+)
 from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
 from dqpaint.studies.report.charts import HeatMap, Line, Panel, wide
 from dqpaint.studies.report.page import Block, Charts, Map, Pictured, Rows, Words, files_of
-from dqpaint.studies.runner.engine import Workers, carry_out_study
-from dqpaint.studies.runner.reporter import SILENT, Reporter
-from dqpaint.studies.runner.run import Run, drawing_text, repeated
+from dqpaint.studies.runner.run import Run
 
 MOST_RUNS = 100_000
 EFFORT = "command_integral_rad"  # of laws that command torque, theirs
@@ -84,26 +89,55 @@ class Sweep(StudyResult):
         return made, [shown, words, Rows("All points", rows, note=cells.figure_meanings())]
 
 
+@STUDIES.add("sweep")
+class SweepStudy(StudyOfAlternatives):
+    """Run a drawing over one or two axes of values: table, and a curve or a heat map.
+
+    Unstable points are marked. A sweep that was stopped resumes.
+    """
+
+    groups = COMMANDS["sweep"]
+    examples = """Examples:
+
+  dqpaint sweep star --controller p --vary k=5..400:log:9
+
+  dqpaint sweep star --vary gamma_T=0.01..1:log:5 --vary disturb.twist.x=0,0.01,0.02
+"""
+
+    vary: Annotated[
+        Any,
+        Option(
+            "a gain, plant, robot, disturb.NAME.VALUE ...: k=5,10,20 or k=1..100:log:9; once or "
+            "twice",
+            "NAME=VALUES",
+            many=True,
+            python=VARY,
+        ),
+    ] = None
+    figure: Annotated[
+        str, figure_option("figure that is tested and drawn: see dqpaint list figures")
+    ] = "position_error_rms_m"
+
+    def carry_out(self, request: StudyRequest) -> Sweep:
+        """Sweep."""
+        axes, base = requests.read_sweep(self.vary or (), request.choices, self.several)
+        return sweep(request, axes, base, self.runs, self.figure)
+
+
 def sweep(
-    drawing: str | builder.Drawing,
+    request: StudyRequest,
     axes: Sequence[Axis],
     base: Settings,
-    folder: Path,
-    count: int,
-    jobs: Workers,
-    reporter: Reporter = SILENT,
+    count: int = 1,
     figure: str = "position_error_rms_m",
 ) -> Sweep:
     """Run a drawing with every combination of the axes' values; pictures are not kept.
 
     Args:
-        drawing: a file, an example's name, or one made by calls.
+        request: of which drawing, where and by whom.
         axes: one or two.
         base: all other settings.
-        folder: of the study.
         count: how many runs each, with the seeds that follow.
-        jobs: how many processes, None is one a core; or the address of a Dask cluster.
-        reporter: shows how far the study is.
         figure: name of the figure that is drawn.
 
     Raises:
@@ -117,16 +151,13 @@ def sweep(
         raise UsageError(f"'{axes[0].name}' is varied twice")
     if math.prod(len(axis.texts) for axis in axes) * max(count, 1) > MOST_RUNS:
         raise UsageError(f"these are more than {MOST_RUNS:,} runs; take fewer values")
-    name, text = drawing_text(drawing)
+    name, text = request.drawing
     small = base.model_copy(update={"width": SMALLEST, "height": SMALLEST})
     choices = combinations(axes)
-    runs = repeated([Run(name, text, with_choice(small, choice)) for choice in choices], count)
-    found = cells.run_cells(
-        choices, runs, lambda every: carry_out_study(every, folder, jobs, "sweep", reporter)
-    )
+    runs = [Run(name, text, with_choice(small, choice)) for choice in choices]
     return Sweep(
-        name=Path(name).name, axes=tuple(axes), cells=found, folder=folder, settings=base,
-        text=text, figure=figure,
+        name=Path(name).name, axes=tuple(axes), cells=request.cells(choices, runs, count),
+        folder=request.folder, settings=base, text=text, figure=figure,
     )  # fmt: skip
 
 

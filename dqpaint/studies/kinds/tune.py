@@ -14,7 +14,9 @@ number of workers.
 
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
+from typing import Annotated, Any
 
 import numpy as np
 from scipy.optimize import (
@@ -29,10 +31,12 @@ from dqpaint.controllers import find_controller
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.language.writing import builder
-from dqpaint.settings import SMALLEST, Settings
+from dqpaint.settings import COMMANDS, SMALLEST, Option, Settings
+from dqpaint.studies.experiment import requests
 from dqpaint.studies.experiment.axes import with_choice
 from dqpaint.studies.experiment.cells import Cell, find_figure, run_cells
 from dqpaint.studies.experiment.gain_range import Range, parse_range
+from dqpaint.studies.kinds.study import STUDIES, VARY, RepeatedStudy, StudyRequest, figure_option
 from dqpaint.studies.kinds.tuning import Tuning
 from dqpaint.studies.runner.engine import Study, Workers, check
 from dqpaint.studies.runner.reporter import SILENT, Reporter
@@ -50,6 +54,49 @@ REFERENCE = "hinf"
 MOST_RUNS = 100_000
 Gains = tuple[float, ...]
 """Values of the gains that are sought, in the order of their ranges."""
+
+
+@STUDIES.add("tune")
+class Tune(RepeatedStudy):
+    """Find the gains with the least error within an effort bound, and the trade-off of the two.
+
+    The bound is 1 for the effort of an arm that follows the drawing exactly. Seeded; a search that
+    was stopped resumes.
+    """
+
+    groups = COMMANDS["tune"]
+    examples = """Examples:
+
+  dqpaint tune circle --controller p --vary k=2..200 --effort 1.05
+
+  dqpaint tune star --controller hinf --plant compliant --runs 3 --disturb noise=0.0005
+"""
+
+    vary: Annotated[
+        Any,
+        Option(
+            "range of a gain, repeatable",
+            "GAIN=LOW..HIGH[:lin]",
+            unsaid="all of the law's, from a tenth to ten times the default value",
+            many=True,
+            read=partial(requests.vary_texts, span=True),
+            python=VARY,
+        ),
+    ] = None
+    effort: Annotated[
+        float, Option("bound on the effort, times what the drawing itself needs", "X")
+    ] = 1.1
+    figure: Annotated[str, figure_option("figure to minimise, as in the JSON")] = "error_integral"
+    effort_figure: Annotated[str, figure_option("figure that is bounded")] = EFFORT
+    budget: Annotated[int, Option("largest number of runs", "N")] = 300
+
+    def carry_out(self, request: StudyRequest) -> Tuning:
+        """Tune."""
+        return tune(
+            request.subject, self.vary or (), request.settings(), request.folder,
+            factor=self.effort, error=self.figure, effort=self.effort_figure, count=self.runs,
+            budget=self.budget, jobs=request.jobs, reporter=request.reporter,
+        )  # fmt: skip
 
 
 def tune(

@@ -73,6 +73,11 @@ class Tuning(StudyResult):
         return f"{super().stem}-{'-'.join(one.name for one in self.ranges)}-tuned"
 
     @property
+    def passed(self) -> bool:
+        """Whether any gains keep the bound."""
+        return self.best is not None
+
+    @property
     def title(self) -> str:
         """The heading of its pages."""
         return f"{self.name}, tuned"

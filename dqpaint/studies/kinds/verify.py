@@ -5,11 +5,15 @@ import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated, Any
 
 from dqpaint.core import tables
 from dqpaint.errors import DqpaintError
 from dqpaint.light.images import contact_sheet, difference_picture
 from dqpaint.outputs import files
+from dqpaint.settings import Option
+from dqpaint.studies.kinds.study import STUDIES, Study, StudyRequest, Subject
+from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
 from dqpaint.studies.report.page import Page, Rows, Shot, Words, html
 from dqpaint.studies.runner.engine import Workers, carry_out_study
 from dqpaint.studies.runner.reporter import SILENT, Reporter
@@ -49,6 +53,64 @@ class Verdict:
     measured: GateResult | None
     faults: tuple[str, ...]
     remarks: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Verification(StudyResult):
+    """A finished verification: a verdict a case; `changes` are of the references that were made."""
+
+    verdicts: tuple[Verdict, ...]
+    changes: tuple[str, ...] | None = None
+
+    @property
+    def remarks(self) -> list[str]:
+        """What else has changed."""
+        return remarks(self.verdicts)
+
+    @property
+    def passed(self) -> bool:
+        """Whether all are alike, or now references."""
+        return self.changes is not None or not any(one.faults for one in self.verdicts)
+
+    def table_text(self, width: int = ANY_WIDTH) -> str:
+        """The gates of each case, or what changed."""
+        return table_text(self.verdicts) if self.changes is None else "\n".join(self.changes)
+
+    def save(self, command: str | None = None) -> list[Path]:
+        """Write the pictures of what differs; returns their paths."""
+        if self.changes is not None:
+            return []
+        return save_differences(self.verdicts, self.folder, command)
+
+
+@STUDIES.add("verify")
+class Verify(Study):
+    """Draw a folder again and compare it with its references, gate by gate."""
+
+    subject = Subject("FOLDER", "folder of drawings (or a cases.toml) and references", ".")
+    groups = ()
+    whole = False
+    examples = "Examples:\n\n  dqpaint verify drawings/\n\n  dqpaint verify drawings/ --update"
+
+    update: Annotated[bool, Option("make new references, and list what changed")] = False
+    folder: Annotated[Any, Option("folder for pictures of differences", "FOLDER", name="out")] = (
+        None
+    )
+
+    @classmethod
+    def default_folder(cls, name: str, subject: str) -> Path:
+        """Where the command writes if no folder is given."""
+        return Path("verify-differences")
+
+    def carry_out(self, request: StudyRequest) -> Verification:
+        """Verify."""
+        folder = Path(str(request.subject))
+        verdicts = verify(folder, request.jobs, self.update, request.reporter)
+        changes = tuple(update(verdicts, folder)) if self.update else None
+        return Verification(
+            name="verify", cells=(), folder=request.folder, verdicts=tuple(verdicts),
+            changes=changes,
+        )  # fmt: skip
 
 
 def verify(
@@ -136,7 +198,7 @@ def table(verdicts: Sequence[Verdict]) -> list[list[str]]:
 
 def remarks(verdicts: Sequence[Verdict]) -> list[str]:
     """What else has changed, a sentence each."""
-    return [f"note: {one.case.name}: {text}" for one in verdicts for text in one.remarks]
+    return [f"{one.case.name}: {text}" for one in verdicts for text in one.remarks]
 
 
 def save_differences(

@@ -1,0 +1,247 @@
+"""The declaration of a study -> its command, its call from Python, and a finished study.
+
+A study is a model whose fields, each with an `Option`, are its parameters, and which names the
+groups of settings that it takes besides:
+
+    @STUDIES.add("twice")
+    class Twice(RepeatedStudy):
+        '''Draw a drawing with two laws.'''
+
+        other: Annotated[str, Option("the second law", "NAME")] = "p"
+
+        def carry_out(self, request: StudyRequest) -> StudyResult: ...
+
+is `dqpaint twice FILE --other NAME` and `dqpaint.study("twice", drawing, other="p")`.
+"""
+
+from abc import abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, NamedTuple
+
+from pydantic import BaseModel, ConfigDict
+
+from dqpaint.core import Folder, subclass
+from dqpaint.language.writing import builder
+from dqpaint.painting import validate
+from dqpaint.settings import (
+    COMMANDS,
+    DEFAULT_CONTROLLER,
+    Option,
+    Setting,
+    Settings,
+    check_keywords,
+    settings_of,
+    validated,
+)
+from dqpaint.studies.experiment import check_figure, requests
+from dqpaint.studies.experiment.cells import Cell, run_cells
+from dqpaint.studies.kinds.study_result import StudyResult
+from dqpaint.studies.runner.engine import Workers, carry_out_study
+from dqpaint.studies.runner.reporter import SILENT, Reporter
+from dqpaint.studies.runner.run import Run, drawing_text, repeated
+
+VARY = "str | Sequence[str] | Mapping[str, Any]"
+"""The type of what is varied, from Python."""
+
+
+class Subject(NamedTuple):
+    """What a study is about: the argument of its command; `default` None must be given."""
+
+    metavar: str
+    help: str
+    default: str | None = None
+
+
+@dataclass(frozen=True)
+class StudyRequest:
+    """What a caller asks of a study besides its parameters.
+
+    Attributes:
+        study: its name.
+        subject: the drawing: a file, an example's name, or one made by calls; or what else the
+            study is about.
+        choices: settings by their names in Python, with a file of them as `settings`.
+        folder: of the study's journal and files.
+        jobs: how many processes, None is one a core; or the address of a Dask cluster.
+        reporter: shows how far the study is.
+    """
+
+    study: str
+    subject: str | builder.Drawing
+    choices: Mapping[str, Any]
+    folder: Path
+    jobs: Workers = None
+    reporter: Reporter = SILENT
+
+    @property
+    def drawing(self) -> tuple[str, str]:
+        """Path and text of the drawing; DqpaintError."""
+        return drawing_text(self.subject)
+
+    def settings(self, **defaults: Any) -> Settings:
+        """The settings of the choices, and defaults where they say nothing; DqpaintError."""
+        requests.check_named(self.choices.get("controller"))
+        return validate.settings_of_choices(self.choices, **defaults)
+
+    def cells(
+        self, choices: Sequence[dict[str, str]], runs: Sequence[Run], count: int
+    ) -> tuple[Cell, ...]:
+        """Carry out runs, each `count` times with the seeds that follow: a cell a choice.
+
+        Raises:
+            DqpaintError: a run is at fault before it begins, or the folder.
+        """
+        return run_cells(choices, repeated(list(runs), count), self._carry_out)
+
+    def _carry_out(self, runs: list[Run]) -> Any:
+        return carry_out_study(runs, self.folder, self.jobs, self.study, self.reporter)
+
+
+class Study(BaseModel):
+    """Parameters of a study, and how it is carried out.
+
+    The first line of the docstring is what lists and help say of it.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
+
+    subject: ClassVar[Subject] = Subject("FILE", "a .traj file, or an example's name")
+    groups: ClassVar[tuple[type[BaseModel], ...]] = COMMANDS["draw"]
+    """The groups of settings that it takes, too."""
+    replaced: ClassVar[tuple[str, ...]] = ()
+    """Settings that the command line has not, for it has parameters in their place."""
+    defaults: ClassVar[dict[str, Any]] = {}
+    """Of settings, where they are not those of a drawing."""
+    examples: ClassVar[str] = ""
+    """Of the command, at the end of its help."""
+    whole: ClassVar[bool] = True
+    """Whether what is not said has the default of a drawing, or comes from a file of settings."""
+
+    jobs: Annotated[int | None, Option("processes", "N", unsaid="all cores")] = None
+    cluster: Annotated[
+        str | None, Option("address of a Dask scheduler, instead of --jobs", "ADDRESS")
+    ] = None
+    folder: Annotated[
+        Any,
+        Option(
+            "folder of the study; a stopped one resumes",
+            "FOLDER",
+            name="out",
+            python="str | PathLike[str]",
+        ),
+    ] = None
+
+    @classmethod
+    def parameters(cls) -> list[Setting]:
+        """Its parameters, its own first."""
+        return sorted(settings_of(cls), key=lambda one: one.field in Study.model_fields)
+
+    @classmethod
+    def settings(cls) -> list[Setting]:
+        """The settings that it takes."""
+        return list(settings_of(*cls.groups))
+
+    @classmethod
+    def default_folder(cls, name: str, subject: str) -> Path:
+        """Where the command writes if no folder is given."""
+        return Path(f"{Path(subject).stem}-{name}")
+
+    @abstractmethod
+    def carry_out(self, request: StudyRequest) -> StudyResult:
+        """Carry the study out; `request.cells` does its runs.
+
+        Raises:
+            DqpaintError: a fault in the drawing, the choices or the folder.
+        """
+
+
+def _figure(name: object) -> str:
+    check_figure(str(name))
+    return str(name)
+
+
+def figure_option(help: str) -> Option:
+    """The option of a parameter that is the name of a figure."""
+    return Option(help, "NAME", read=_figure)
+
+
+def _alternatives(metavar: str, help: str, unsaid: str = "") -> Option:
+    return Option(help, metavar, unsaid=unsaid, python="Sequence[str] | str")
+
+
+class RepeatedStudy(Study):
+    """A study that can do each run with several seeds."""
+
+    runs: Annotated[int, Option("runs of each choice, with the seeds that follow --seed", "N")] = 1
+
+
+class StudyOfAlternatives(RepeatedStudy):
+    """A study of several laws, plants, arms or disturbances."""
+
+    replaced = ("controller", "plant", "robot")
+
+    controllers: Annotated[
+        Any,
+        _alternatives(
+            "A,B(GAIN=VALUE),...", "the laws, with gains of their own", DEFAULT_CONTROLLER
+        ),
+    ] = None
+    plants: Annotated[Any, _alternatives("A,B(KEY=VALUE),...", "the plants", "stiff")] = None
+    robots: Annotated[Any, _alternatives("A,B,...", "the arms")] = None
+    disturbs: Annotated[
+        Any,
+        _alternatives(
+            "A(KEY=VALUE),...",
+            "disturbances, one at a time: none,payload(2),payload(2)+latency(3)",
+        ),
+    ] = None
+
+    @property
+    def several(self) -> dict[str, Any]:
+        """The alternatives by the names of their settings."""
+        return {name: getattr(self, f"{name}s") for name in requests.SEVERAL}
+
+
+STUDIES: Folder[type[Study]] = Folder(
+    "study",
+    "dqpaint.studies.kinds",
+    group="dqpaint.studies",
+    adapt=lambda name, thing: subclass(Study, name, thing),  # type: ignore[type-abstract]
+)
+
+
+def run_study(
+    name: str,
+    subject: str | builder.Drawing,
+    given: Mapping[str, Any],
+    folder: Path,
+    reporter: Reporter = SILENT,
+) -> StudyResult:
+    """Carry out a study by its name.
+
+    Args:
+        name: in `STUDIES`.
+        subject: what it is about.
+        given: parameters and settings by their names in Python; None is not given.
+        folder: of the study.
+        reporter: shows how far it is.
+
+    Raises:
+        UsageError: an unknown study or parameter, or a value out of its range.
+        DqpaintError: a fault in the drawing, the choices or the folder.
+    """
+    kind = STUDIES[name]
+    own = {one.keyword: one.option for one in kind.parameters()}
+    said = {key: value for key, value in given.items() if value is not None}
+    check_keywords(name, said, kind.settings(), [*own, *(["settings"] if kind.whole else [])])
+    parameters = {
+        key: option.read(said[key]) if option.read else said[key]
+        for key, option in own.items()
+        if key in said
+    }
+    study = validated(kind, parameters)
+    choices = {key: value for key, value in said.items() if key not in own}
+    crew = requests.workers(study.jobs, study.cluster)
+    return study.carry_out(StudyRequest(name, subject, choices, folder, crew, reporter))

@@ -1,0 +1,59 @@
+"""Parameters of studies -> keywords in Python, as type checkers see them.
+
+`python -m tests.tools.generated` writes it again.
+"""
+
+from collections.abc import Sequence
+from os import PathLike
+
+from dqpaint.settings import DrawOptions, RunOptions
+from dqpaint.settings import ReplayOptions as OfReplay
+
+
+class CompareOptions(DrawOptions, total=False):
+    """Of `compare`."""
+
+    runs: int | None
+    plants: Sequence[str] | str | None
+    robots: Sequence[str] | str | None
+    disturbs: Sequence[str] | str | None
+    figure: str | None
+    jobs: int | None
+    cluster: str | None
+    folder: str | PathLike[str] | None
+
+
+class SweepOptions(DrawOptions, total=False):
+    """Of `sweep`."""
+
+    runs: int | None
+    controllers: Sequence[str] | str | None
+    plants: Sequence[str] | str | None
+    robots: Sequence[str] | str | None
+    disturbs: Sequence[str] | str | None
+    figure: str | None
+    jobs: int | None
+    cluster: str | None
+    folder: str | PathLike[str] | None
+
+
+class TuneOptions(RunOptions, total=False):
+    """Of `tune`."""
+
+    runs: int | None
+    effort: float | None
+    figure: str | None
+    effort_figure: str | None
+    budget: int | None
+    jobs: int | None
+    cluster: str | None
+    folder: str | PathLike[str] | None
+
+
+class ReplayOptions(OfReplay, total=False):
+    """Of `replay`."""
+
+    runs: int | None
+    jobs: int | None
+    cluster: str | None
+    folder: str | PathLike[str] | None

@@ -55,7 +55,7 @@ WRONG = [
     (("draw", "line.traj", "--on-limit", "wait"), 2, "'wait'"),
     (("draw", "line.traj", "--disturb", "gravity=0.1"), 2, "'stiff'"),
     (("draw", "line.traj", "--disturb", "wind=3"), 2, "'wind'"),
-    (("draw", "line.traj", "--disturb", "twist=sine"), 2, "moves nothing"),
+    (("draw", "line.traj", "--disturb", "twist=sine"), 2, "no effect"),
     (("draw", "line.traj", "--disturb", "twist:x=1,x=2"), 2, "'x=2'"),
     (("draw", "line.traj", "--disturb", "twist:x=1,,y=2"), 2, "''"),
     (("draw", "line.traj", "--seed", "-1"), 2, "seed -1"),

@@ -6,30 +6,12 @@ A new brush is a class in `kinds` under `@BRUSHES.add(name)`: fields with their 
 
 from dqpaint.brushes import kinds as _built_in  # noqa: F401  they register themselves
 from dqpaint.brushes.brush import (
-    BRUSHES,
-    Brush,
-    Direction,
-    ImageFile,
-    Length,
-    Shades,
-    first_value,
-    takes,
+    BRUSHES, Brush, Direction, ImageFile, Length, Shades, first_value, takes,
 )
 from dqpaint.brushes.emitters import POINT, Emitters
 from dqpaint.brushes.text import describe_fields, make_brush, read_brush
 
 __all__ = [
-    "BRUSHES",
-    "POINT",
-    "Brush",
-    "Direction",
-    "Emitters",
-    "ImageFile",
-    "Length",
-    "Shades",
-    "describe_fields",
-    "first_value",
-    "make_brush",
-    "read_brush",
-    "takes",
+    "BRUSHES", "POINT", "Brush", "Direction", "Emitters", "ImageFile", "Length", "Shades",
+    "describe_fields", "first_value", "make_brush", "read_brush", "takes",
 ]

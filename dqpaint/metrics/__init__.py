@@ -8,44 +8,16 @@ packages bring theirs by entry points of the group `dqpaint.metrics`.
 from dqpaint.metrics import columns, figures  # noqa: F401  the order of table and summary
 from dqpaint.metrics.attenuation import Attenuation, attenuation
 from dqpaint.metrics.registry import (
-    METRICS,
-    Column,
-    Figure,
-    Metric,
-    Table,
-    Values,
-    all_columns,
-    all_figures,
-    column,
-    figure,
-    motion_column,
-    unit_suffix,
+    METRICS, Column, Figure, Metric, Table, Values, all_columns, all_figures, column, figure,
+    motion_column, unit_suffix,
 )
 from dqpaint.metrics.run_metrics import Metrics, measure, motion_columns, reference_columns
 from dqpaint.metrics.stability import instability
 from dqpaint.metrics.step_response import PartResponse, StepResponse, step_responses
 
 __all__ = [
-    "METRICS",
-    "Attenuation",
-    "Column",
-    "Figure",
-    "Metric",
-    "Metrics",
-    "PartResponse",
-    "StepResponse",
-    "Table",
-    "Values",
-    "all_columns",
-    "all_figures",
-    "attenuation",
-    "column",
-    "figure",
-    "instability",
-    "measure",
-    "motion_column",
-    "motion_columns",
-    "reference_columns",
-    "step_responses",
-    "unit_suffix",
+    "METRICS", "Attenuation", "Column", "Figure", "Metric", "Metrics", "PartResponse",
+    "StepResponse", "Table", "Values", "all_columns", "all_figures", "attenuation", "column",
+    "figure", "instability", "measure", "motion_column", "motion_columns", "reference_columns",
+    "step_responses", "unit_suffix",
 ]

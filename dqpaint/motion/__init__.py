@@ -15,15 +15,6 @@ from dqpaint.motion.time_scaling import TimeScaling, smooth
 from dqpaint.motion.transform import moved, scaled, straight
 
 __all__ = [
-    "Motion",
-    "RowLines",
-    "Survey",
-    "TimeScaling",
-    "moved",
-    "plan",
-    "scaled",
-    "smooth",
-    "straight",
-    "summary_line",
-    "survey",
+    "Motion", "RowLines", "Survey", "TimeScaling", "moved", "plan", "scaled", "smooth", "straight",
+    "summary_line", "survey",
 ]

@@ -6,35 +6,13 @@ itself and brings what `plant.Plant` lists.
 
 from dqpaint.plants.ideal import Ideal
 from dqpaint.plants.plant import (
-    DEFAULT_PLANTS,
-    PLANTS,
-    ConfiguredPlant,
-    Plant,
-    PlantMaker,
-    PlantOptions,
-    Takes,
-    Trait,
-    as_plant_maker,
-    choose_plant,
-    find_plant,
+    DEFAULT_PLANTS, PLANTS, ConfiguredPlant, Plant, PlantMaker, PlantOptions, Takes, Trait,
+    as_plant_maker, choose_plant, find_plant,
 )
 from dqpaint.plants.world import UNDISTURBED, Payload, Push, World
 
 __all__ = [
-    "DEFAULT_PLANTS",
-    "PLANTS",
-    "UNDISTURBED",
-    "ConfiguredPlant",
-    "Ideal",
-    "Payload",
-    "Plant",
-    "PlantMaker",
-    "PlantOptions",
-    "Push",
-    "Takes",
-    "Trait",
-    "World",
-    "as_plant_maker",
-    "choose_plant",
-    "find_plant",
+    "DEFAULT_PLANTS", "PLANTS", "UNDISTURBED", "ConfiguredPlant", "Ideal", "Payload", "Plant",
+    "PlantMaker", "PlantOptions", "Push", "Takes", "Trait", "World", "as_plant_maker",
+    "choose_plant", "find_plant",
 ]

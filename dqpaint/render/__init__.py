@@ -8,11 +8,7 @@ In come plain arrays; nothing here is loaded unless the arm is to be seen or to 
 """
 
 from dqpaint.render.scene_arm import (
-    ArmMotion,
-    HiddenLight,
-    SceneArm,
-    hidden_by_line,
-    scene_arm_of_run,
+    ArmMotion, HiddenLight, SceneArm, hidden_by_line, scene_arm_of_run,
 )
 
 __all__ = ["ArmMotion", "HiddenLight", "SceneArm", "hidden_by_line", "scene_arm_of_run"]

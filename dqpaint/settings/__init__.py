@@ -9,47 +9,17 @@ from dqpaint.settings.declaration import Option, Setting, settings_of
 from dqpaint.settings.file import SettingsFile, beside, read_given
 from dqpaint.settings.keywords import check_keywords, keywords
 from dqpaint.settings.model import (
-    DEFAULT_CONTROLLER,
-    SETTINGS,
-    SMALLEST,
-    Settings,
-    check_recorded,
-    make_settings,
-    read_choices,
+    DEFAULT_CONTROLLER, SETTINGS, SMALLEST, Settings, check_recorded, make_settings, read_choices,
     validated,
 )
 from dqpaint.settings.options import (
-    DevelopOptions,
-    DrawOptions,
-    PreviewOptions,
-    ReplayOptions,
-    RunOptions,
+    DevelopOptions, DrawOptions, PreviewOptions, ReplayOptions, RunOptions,
 )
 from dqpaint.settings.readers import parse_disturbances, parse_gains
 
 __all__ = [
-    "COMMANDS",
-    "DEFAULT_CONTROLLER",
-    "SETTINGS",
-    "SMALLEST",
-    "DevelopOptions",
-    "DrawOptions",
-    "Option",
-    "PreviewOptions",
-    "ReplayOptions",
-    "RunOptions",
-    "Setting",
-    "Settings",
-    "SettingsFile",
-    "beside",
-    "check_keywords",
-    "check_recorded",
-    "keywords",
-    "make_settings",
-    "parse_disturbances",
-    "parse_gains",
-    "read_choices",
-    "read_given",
-    "settings_of",
-    "validated",
+    "COMMANDS", "DEFAULT_CONTROLLER", "SETTINGS", "SMALLEST", "DevelopOptions", "DrawOptions",
+    "Option", "PreviewOptions", "ReplayOptions", "RunOptions", "Setting", "Settings",
+    "SettingsFile", "beside", "check_keywords", "check_recorded", "keywords", "make_settings",
+    "parse_disturbances", "parse_gains", "read_choices", "read_given", "settings_of", "validated",
 ]

@@ -5,12 +5,6 @@ from dqpaint.simulation.recorded_run import RECORDED, Recording, read_recording,
 from dqpaint.simulation.sensors import ModelsDifferError
 
 __all__ = [
-    "RECORDED",
-    "ModelsDifferError",
-    "Recording",
-    "Track",
-    "read_recording",
-    "replay",
-    "track",
+    "RECORDED", "ModelsDifferError", "Recording", "Track", "read_recording", "replay", "track",
     "track_many",
 ]

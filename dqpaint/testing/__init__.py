@@ -16,10 +16,6 @@ from dqpaint.testing.plants import check_plant
 from dqpaint.testing.writers import check_writer
 
 __all__ = [
-    "check_brush",
-    "check_controller",
-    "check_disturbance",
-    "check_metric",
-    "check_plant",
+    "check_brush", "check_controller", "check_disturbance", "check_metric", "check_plant",
     "check_writer",
 ]

@@ -2,22 +2,9 @@
 
 from dqpaint.language.vocabulary.units import UNITS
 from dqpaint.language.vocabulary.words import (
-    CONSTANTS,
-    FUNCTIONS,
-    LITTLE_WORDS,
-    PARTS,
-    PROFILES,
-    RENAMED,
-    STATEMENTS,
+    CONSTANTS, FUNCTIONS, LITTLE_WORDS, PARTS, PROFILES, RENAMED, STATEMENTS,
 )
 
 __all__ = [
-    "CONSTANTS",
-    "FUNCTIONS",
-    "LITTLE_WORDS",
-    "PARTS",
-    "PROFILES",
-    "RENAMED",
-    "STATEMENTS",
-    "UNITS",
+    "CONSTANTS", "FUNCTIONS", "LITTLE_WORDS", "PARTS", "PROFILES", "RENAMED", "STATEMENTS", "UNITS",
 ]

@@ -5,12 +5,6 @@ from dqpaint.light.camera.exposure_settings import equivalent_exposure, parse_ex
 from dqpaint.light.camera.views import Shot, distance_to, parse_views
 
 __all__ = [
-    "Camera",
-    "Shot",
-    "View",
-    "distance_to",
-    "equivalent_exposure",
-    "frame_points",
-    "parse_exposure",
-    "parse_views",
+    "Camera", "Shot", "View", "distance_to", "equivalent_exposure", "frame_points",
+    "parse_exposure", "parse_views",
 ]

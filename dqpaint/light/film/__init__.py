@@ -10,16 +10,6 @@ from dqpaint.light.film.point_spread import point_spread, spread
 from dqpaint.light.film.starburst import BLADE_RANGE, with_starburst
 
 __all__ = [
-    "BLADE_RANGE",
-    "CORE_EXPOSURE",
-    "LOOKS",
-    "PAD",
-    "Film",
-    "FilmAccumulator",
-    "automatic_exposure",
-    "expose",
-    "point_spread",
-    "spread",
-    "with_noise",
-    "with_starburst",
+    "BLADE_RANGE", "CORE_EXPOSURE", "LOOKS", "PAD", "Film", "FilmAccumulator", "automatic_exposure",
+    "expose", "point_spread", "spread", "with_noise", "with_starburst",
 ]

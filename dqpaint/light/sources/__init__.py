@@ -6,12 +6,6 @@ from dqpaint.light.sources.occlusion import Occlusion, occlusion_by
 from dqpaint.light.sources.sweep import ALL_SAMPLES, Sweep
 
 __all__ = [
-    "ALL_SAMPLES",
-    "Occlusion",
-    "Sweep",
-    "even_by_length",
-    "inverse_square",
-    "occlusion_by",
-    "sweeps",
-    "view_camera",
+    "ALL_SAMPLES", "Occlusion", "Sweep", "even_by_length", "inverse_square", "occlusion_by",
+    "sweeps", "view_camera",
 ]

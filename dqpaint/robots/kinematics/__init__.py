@@ -2,79 +2,30 @@
 
 from dqpaint.robots.kinematics.batched import ManyKinematics
 from dqpaint.robots.kinematics.collisions import (
-    CollisionShapes,
-    Nearest,
-    collision_shapes,
-    read_mesh,
+    CollisionShapes, Nearest, collision_shapes, read_mesh,
 )
 from dqpaint.robots.kinematics.differential_ik import (
-    CHARACTERISTIC_LENGTH,
-    DAMPING_THRESHOLD,
-    START_GAIN,
-    resolve,
-    tool_jacobian_map,
+    CHARACTERISTIC_LENGTH, DAMPING_THRESHOLD, START_GAIN, resolve, tool_jacobian_map,
 )
 from dqpaint.robots.kinematics.dynamics import Dynamics
 from dqpaint.robots.kinematics.jacobians import drift_acceleration, pose_map
 from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability
 from dqpaint.robots.kinematics.limits import LIMIT_TOLERANCE, UNITS, Clamp, RateBounds, find_clamps
 from dqpaint.robots.kinematics.nullspace import (
-    DEFAULT_OBJECTIVE,
-    OBJECTIVES,
-    SecondaryTask,
-    make_batched_task,
-    make_secondary_task,
-    read_null,
+    DEFAULT_OBJECTIVE, OBJECTIVES, SecondaryTask, make_batched_task, make_secondary_task, read_null,
 )
 from dqpaint.robots.kinematics.small_matrices import inverse, solve
 from dqpaint.robots.kinematics.start_posture import (
-    PATH_TOLERANCE,
-    NoPosture,
-    StartPosture,
-    find_start,
-    least_errors,
-    return_to_start,
-    shortfall,
-    solve_posture,
-    waypoints,
+    PATH_TOLERANCE, NoPosture, StartPosture, find_start, least_errors, return_to_start, shortfall,
+    solve_posture, waypoints,
 )
 
 __all__ = [
-    "CHARACTERISTIC_LENGTH",
-    "DAMPING_THRESHOLD",
-    "DEFAULT_OBJECTIVE",
-    "LIMIT_TOLERANCE",
-    "OBJECTIVES",
-    "PATH_TOLERANCE",
-    "START_GAIN",
-    "UNITS",
-    "Clamp",
-    "CollisionShapes",
-    "Dynamics",
-    "Kinematics",
-    "ManyKinematics",
-    "Nearest",
-    "NoPosture",
-    "RateBounds",
-    "SecondaryTask",
-    "StartPosture",
-    "collision_shapes",
-    "drift_acceleration",
-    "find_clamps",
-    "find_start",
-    "inverse",
-    "least_errors",
-    "make_batched_task",
-    "make_secondary_task",
-    "manipulability",
-    "pose_map",
-    "read_mesh",
-    "read_null",
-    "resolve",
-    "return_to_start",
-    "shortfall",
-    "solve",
-    "solve_posture",
-    "tool_jacobian_map",
-    "waypoints",
+    "CHARACTERISTIC_LENGTH", "DAMPING_THRESHOLD", "DEFAULT_OBJECTIVE", "LIMIT_TOLERANCE",
+    "OBJECTIVES", "PATH_TOLERANCE", "START_GAIN", "UNITS", "Clamp", "CollisionShapes", "Dynamics",
+    "Kinematics", "ManyKinematics", "Nearest", "NoPosture", "RateBounds", "SecondaryTask",
+    "StartPosture", "collision_shapes", "drift_acceleration", "find_clamps", "find_start",
+    "inverse", "least_errors", "make_batched_task", "make_secondary_task", "manipulability",
+    "pose_map", "read_mesh", "read_null", "resolve", "return_to_start", "shortfall", "solve",
+    "solve_posture", "tool_jacobian_map", "waypoints",
 ]

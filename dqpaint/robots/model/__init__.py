@@ -5,11 +5,5 @@ from dqpaint.robots.model.fields import Mount
 from dqpaint.robots.model.tool_mount import parse_tool
 
 __all__ = [
-    "DEFAULT_ROBOT",
-    "Card",
-    "Mount",
-    "card_names",
-    "installed_names",
-    "parse_tool",
-    "read_card",
+    "DEFAULT_ROBOT", "Card", "Mount", "card_names", "installed_names", "parse_tool", "read_card",
 ]

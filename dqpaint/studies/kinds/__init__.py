@@ -7,13 +7,7 @@ points of the group `dqpaint.studies`: its command, its call from Python and its
 
 from dqpaint.studies.experiment.cells import find_figure
 from dqpaint.studies.kinds.study import (
-    STUDIES,
-    RepeatedStudy,
-    Study,
-    StudyOfAlternatives,
-    StudyRequest,
-    Subject,
-    figure_option,
+    STUDIES, RepeatedStudy, Study, StudyOfAlternatives, StudyRequest, Subject, figure_option,
     run_study,
 )
 from dqpaint.studies.kinds.study_result import StudyResult
@@ -22,20 +16,7 @@ from dqpaint.studies.report.page import Charts, Map
 from dqpaint.studies.runner.run import Run
 
 __all__ = [
-    "STUDIES",
-    "Charts",
-    "HeatMap",
-    "Line",
-    "Map",
-    "Panel",
-    "RepeatedStudy",
-    "Run",
-    "Study",
-    "StudyOfAlternatives",
-    "StudyRequest",
-    "StudyResult",
-    "Subject",
-    "figure_option",
-    "find_figure",
+    "STUDIES", "Charts", "HeatMap", "Line", "Map", "Panel", "RepeatedStudy", "Run", "Study",
+    "StudyOfAlternatives", "StudyRequest", "StudyResult", "Subject", "figure_option", "find_figure",
     "run_study",
 ]

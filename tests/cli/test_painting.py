@@ -476,4 +476,4 @@ def test_an_arm_of_one_s_own_draws_and_says_what_was_assumed(dqpaint, line, tmp_
     (tmp_path / "arm.urdf").write_text(arm_urdf()[:300])
     done = dqpaint("draw", line, "--robot", "arm.urdf:l6")
     assert done.returncode == 1
-    assert done.stderr.startswith("error: arm.urdf is no URDF: ")
+    assert done.stderr.startswith("error: arm.urdf ")

@@ -135,7 +135,7 @@ def test_a_weak_arm_is_given_a_place_where_its_weight_is_less(monkeypatch):
     }))  # fmt: skip
     found = place_program(parse(SMALL, "small.traj"), weak, AUTO)[1]
     with monkeypatch.context() as patched:
-        patched.setattr(placement, "_left", lambda _part: 1.0)
+        patched.setattr(placement, "_torque_left", lambda _part: 1.0)
         blind = place_program(parse(SMALL, "small.traj"), weak, AUTO)[1]
     motion = plan(parse(f"{blind.statement}\n{SMALL}", "t"), weak.card.canvas.pose)
     lines = forecast(motion, weak, reachable_start_posture(motion, weak).posture)

@@ -257,8 +257,8 @@ def test_bad_values_are_refused(text, said):
 
 def test_springs_that_do_not_fit_the_arm_are_refused():
     for text, said in (
-        ("compliant:stiffness=300/200", "stiffness has 2 numbers, but iiwa has 7 joints"),
-        ("compliant:stiffness=1e9", "need physics steps of .* us; take softer ones"),
+        ("compliant:stiffness=300/200", "stiffness has 2 numbers.* 7 joints"),
+        ("compliant:stiffness=1e9", "iiwa need physics steps of .* us"),
     ):
         with pytest.raises(UsageError, match=said):
             choose_plant(text, "rates")(IIWA, IIWA.home, PERIOD, World())

@@ -109,7 +109,7 @@ def test_the_summary_has_what_is_hidden(drawing):
 @pytest.mark.slow
 def test_an_arm_before_its_light_is_a_warning_with_lines_and_help(drawing):
     painting = dqpaint.draw(drawing, view="180,5", occlusion=True, **SMALL)
-    (said,) = [text for text in report.remarks(painting) if "arm stood" in text]
+    (said,) = [text for text in report.remarks(painting) if "the arm hides" in text]
     assert said.startswith("warning: the arm hides 100% of the light: line 3 (100%)")
     assert "--no-occlusion" in said
     assert "100.0% hidden by the arm" in report.light_line(painting.picture)
@@ -121,7 +121,7 @@ def test_untraced_light_is_said_to_be_untraced(drawing, choices):
     painting = dqpaint.draw(drawing, view="180,5", **choices, **SMALL)
     assert summarise(painting)["light"]["occluded"] is None
     assert "hidden" not in report.light_line(painting.picture)
-    assert not any("arm stood" in text for text in report.remarks(painting))
+    assert not any("the arm hides" in text for text in report.remarks(painting))
 
 
 @pytest.mark.slow

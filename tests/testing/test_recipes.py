@@ -81,7 +81,8 @@ def outside(tmp_path_factory):
     def ask(*words):
         return subprocess.run(
             [sys.executable, *words], cwd=folder,
-            env={**os.environ, "PYTHONPATH": path, "COLUMNS": "300"}, capture_output=True, text=True, check=False,
+            env={**os.environ, "PYTHONPATH": path, "COLUMNS": "300"},
+            capture_output=True, text=True, check=False,
         )  # fmt: skip
 
     def run(*words):

@@ -48,6 +48,10 @@ def test_a_name_s_first_part_is_its_family(label, parts):
     assert split_label(label) == parts
 
 
+def test_studies_find_the_arrays_that_earlier_versions_kept(tmp_path):
+    assert arrays_path(tmp_path, "0123456789" * 4) == tmp_path / "kept/012345678901234567890123.npz"
+
+
 def test_a_few_stand_together():
     (group,) = pictures.groups(drawn("a, 1", "b, 1", "a, 2"))
     assert list(group.members) == ["a, 1", "b, 1", "a, 2"]

@@ -48,7 +48,7 @@ def film(painting: paint.Painting) -> Arrays:
 
 def arrays_path(folder: Path, key: str) -> Path:
     """Where the arrays of a run lie."""
-    return folder / "read_arrays" / f"{key[:24]}.npz"
+    return folder / "kept" / f"{key[:24]}.npz"
 
 
 def write_arrays(painting: paint.Painting, names: tuple[str, ...], folder: Path, key: str) -> None:

@@ -40,6 +40,12 @@ def read_choice(kind: str, text: str, example: str) -> tuple[str, dict[str, floa
     return parts[1], values
 
 
+def choice_name(text: str) -> str:
+    """The name alone of a choice with values: a registered one, or `FILE.py[:NAME]`."""
+    found = re.match(rf"\s*({FILE_PATTERN}|[\w-]+)", text)
+    return found[1] if found else ""
+
+
 def number_or_text(value: str) -> float | str:
     """The value as a number, if it is one."""
     try:

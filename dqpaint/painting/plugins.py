@@ -4,7 +4,7 @@ from typing import Any
 
 from dqpaint.brushes import BRUSHES
 from dqpaint.controllers import CONTROLLERS
-from dqpaint.core import Registry
+from dqpaint.core import Registry, choice_name, split_spec
 from dqpaint.disturbances import DISTURBANCES
 from dqpaint.metrics import METRICS
 from dqpaint.plants import PLANTS
@@ -18,14 +18,13 @@ def plugins_of(settings: Settings, program: Program) -> dict[str, str]:
     """The packages behind a run: `controller pi` -> `name version`; empty where all is built in."""
     chosen: list[tuple[Registry[Any], str | None]] = [
         (CONTROLLERS, settings.controller),
-        (PLANTS, settings.plant),
+        (PLANTS, choice_name(settings.plant or "")),
         *((BRUSHES, name) for name in _brushes(settings, program)),
         *((DISTURBANCES, name) for name in settings.disturb),
     ]
     found = {}
-    for registry, text in chosen:
-        name = (text or "").partition(":")[0].strip()
-        if name and not name.endswith(".py") and (package := registry.origin(name)):
+    for registry, name in chosen:
+        if name and split_spec(name) is None and (package := registry.origin(name)):
             found[f"{registry.kind} {name}"] = package
     for name in METRICS:
         if package := METRICS.origin(name):
@@ -39,5 +38,5 @@ def plugins_of(settings: Settings, program: Program) -> dict[str, str]:
 def _brushes(settings: Settings, program: Program) -> list[str]:
     """The brush of the settings, else those of the drawing."""
     if settings.brush:
-        return [settings.brush]
+        return [choice_name(settings.brush)]
     return list(dict.fromkeys(segment.brush.name for segment in program.segments))

@@ -4,6 +4,7 @@ import sys
 import pytest
 
 from dqpaint.controllers import CONTROLLERS
+from dqpaint.core import choice_name
 from dqpaint.core.registry import Folder, Registry
 from dqpaint.disturbances import DISTURBANCES
 from dqpaint.errors import UnknownNameError, UsageError
@@ -153,3 +154,20 @@ def test_a_plugin_may_register_itself_as_built_in_things_do(orchard):
     orchard6.FRUIT = fruit
     assert fruit["kiwi"] == "registered"
     assert fruit.origin("kiwi") == "orchard6 1.2"
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("weak", "weak"),
+        (" weak:share=0.5", "weak"),
+        ("weak=0.5", "weak"),
+        ("weak,share=0.5", "weak"),
+        ("mine.py:Weak:share=0.5", "mine.py:Weak"),
+        ("dir/mine.py:share=0.5", "dir/mine.py"),
+        ("bar:", "bar"),
+        ("", ""),
+    ],
+)
+def test_the_name_of_a_choice_is_found_whatever_its_values(text, name):
+    assert choice_name(text) == name

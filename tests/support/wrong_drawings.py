@@ -182,6 +182,7 @@ brush 3 mm|E109|1:7 3|help
 line by (1, 0) mm brush bar 20 mm leds light red|E105|1:40 light|help
 brush bar 120 mm led 40|E265|1:18 led|help fix
 brush bar 120 mm wide 40|E265|1:18 wide|help
+brush ribbon leds 3|E265|1:14 leds|help
 brush bar 120 mm leds 40 leds 3|E113|1:26 leds|help
 brush bar 120 mm leds 1|E258|1:23 1|help
 brush bar 120 mm leds 2.5|E221|1:23 2.5|

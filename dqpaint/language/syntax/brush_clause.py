@@ -22,6 +22,8 @@ def brush(cursor: Cursor) -> BrushWords:
     takes, first = _values_of(token)
     name, parts = token.text, []
     if not _is_key(cursor, takes, first is not None) and not _ends_here(cursor, takes):
+        if cursor.token.kind == "name" and cursor.peek().kind in ("number", "text"):
+            raise _unknown(cursor.token, name, takes)  # no value: a key, and what it should be
         if name in SIZED:
             name = SIZED[name]
             takes, first = _values_of(Token("name", name, token.start, token.end))
@@ -108,12 +110,17 @@ def _check_next(cursor: Cursor, name: Token, takes: dict[str, str]) -> None:
     token, statement = cursor.token, STATEMENTS[cursor.first.text]
     if token.kind != "name" or token.text in RESERVED or token.text in statement.parts:
         return
+    if closest(token.text, takes) or not statement.parts:
+        raise _unknown(token, name.text, takes)
+
+
+def _unknown(token: Token, name: str, takes: dict[str, str]) -> Problem:
+    """The error of a word that is no value of a brush."""
     meant = closest(token.text, takes)
-    if meant or not statement.parts:
-        message = f"brush '{name.text}' has no value called '{token.text}'"
-        cure = did_you_mean(meant) or f"its values are: {join_words(takes)}"
-        fix = Fix(f"write {meant}", token.span, meant) if meant else None
-        raise problem("E265", message, token.span, "", cure, fix)
+    message = f"brush '{name}' has no value called '{token.text}'"
+    cure = did_you_mean(meant) or f"its values are: {join_words(takes)}"
+    fix = Fix(f"write {meant}", token.span, meant) if meant else None
+    return problem("E265", message, token.span, "", cure, fix)
 
 
 def _check_once(parts: list[BrushPart]) -> None:

@@ -16,7 +16,7 @@ from typing import Any, Literal
 from dqpaint import __version__
 from dqpaint.brushes import read_brush
 from dqpaint.controllers import find_controller
-from dqpaint.core import file_digest, find_drawing, library_versions, read_choice
+from dqpaint.core import choice_name, file_digest, find_drawing, library_versions
 from dqpaint.errors import UsageError
 from dqpaint.language import parse, read
 from dqpaint.language.imports import files_of
@@ -74,7 +74,7 @@ class Run:
             "law": find_controller(settings.controller).sha256 or "",
             "arm": _sha256(arm) if arm.endswith((".urdf", ".toml")) else "",
             **{
-                kind: file_digest(read_choice(kind, text, text)[0]) if text else ""
+                kind: file_digest(choice_name(text or ""))
                 for kind, text in (("plant", settings.plant), ("brush", settings.brush))
             },
             "recorded": _sha256(settings.recorded or ""),

@@ -1,5 +1,7 @@
 """Documents cannot lie: README's commands, tables and links, the examples and the gallery."""
 
+import ast
+import importlib
 import json
 import re
 import shlex
@@ -194,3 +196,19 @@ def test_the_gallery_is_what_its_commands_paint(shot):
 def test_the_repository_names_no_package_index():
     for path in [*ROOT.glob("*.toml"), *ROOT.glob("*.txt"), ROOT / ".ci/run", ROOT / "README.md"]:
         assert not re.search(r"index.url|find.links|/simple/", path.read_text("utf-8")), path
+
+
+def test_the_names_that_recipes_import_exist():
+    recipes = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
+    found = re.findall(r"^```python\n(.*?)^```$", recipes, re.DOTALL | re.MULTILINE)
+    imported = [
+        (node.module, alias.name)
+        for block in found
+        for node in ast.walk(ast.parse(block))
+        if isinstance(node, ast.ImportFrom) and node.module.startswith("dqpaint")
+        for alias in node.names
+    ]
+    assert len(imported) > 15
+    for module, name in imported:
+        if not hasattr(importlib.import_module(module), name):
+            importlib.import_module(f"{module}.{name}")

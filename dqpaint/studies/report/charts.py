@@ -1,19 +1,23 @@
-"""Lines and values -> charts and heat maps as PNG; the only module that imports matplotlib."""
+"""Lines and values -> charts and heat maps as PNG; the only module that imports matplotlib.
+
+It is imported when a chart is drawn: help and lists of studies take a third of a second less.
+"""
 
 import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import cycle
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.axis import Axis
-from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
-from matplotlib.ticker import FuncFormatter, MaxNLocator, NullFormatter
 from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
+    from matplotlib.figure import Figure
 
 INK, FAINT = "#222222", "#999999"
 COLOURS = ("#006aa8", "#d77e00", "#00a880", "#8328dc", "#8f5d2a", "#4b5563")
@@ -113,7 +117,7 @@ def chart(
     """
     columns = beside(len(panels))
     rows = -(-len(panels) // columns)
-    figure = Figure(figsize=(width, rows * height), dpi=120, layout="constrained")
+    figure = _figure(width, rows * height)
     if rows > 1:
         figure.set_layout_engine("constrained", h_pad=ROOM, w_pad=ROOM)
     places = figure.subplots(rows, columns, squeeze=False).ravel()
@@ -134,7 +138,7 @@ def chart(
     return _png(figure)
 
 
-def _draw_panel(axes: Axes, panel: Panel) -> None:
+def _draw_panel(axes: "Axes", panel: Panel) -> None:
     axes.set_title(_plain(panel.title), loc="left", fontsize=11, color=INK)
     for line, following in zip(panel.lines, cycle(COLOURS), strict=False):
         _draw(axes, line, line.colour or following)
@@ -162,8 +166,10 @@ def _draw_panel(axes: Axes, panel: Panel) -> None:
         axes.spines[side].set_visible(False)
 
 
-def _number(axis: Axis, ends: tuple[float, float], log: bool) -> None:
+def _number(axis: "Axis", ends: tuple[float, float], log: bool) -> None:
     """A few round numbers at an axis; a logarithmic one of few decades has some within them."""
+    from matplotlib.ticker import FuncFormatter, MaxNLocator, NullFormatter
+
     if not log:
         axis.set_major_locator(MaxNLocator(MOST_TICKS, steps=ROUND))
         return
@@ -173,7 +179,7 @@ def _number(axis: Axis, ends: tuple[float, float], log: bool) -> None:
     axis.set_minor_formatter(FuncFormatter(_two_and_five) if high < 30 * low else NullFormatter())
 
 
-def _draw(axes: Axes, line: Line, colour: str) -> None:
+def _draw(axes: "Axes", line: Line, colour: str) -> None:
     dots = "o" if line.marks is not None or not line.width else ""
     kind = "-" if line.width else ""
     axes.plot(
@@ -199,7 +205,10 @@ def _draw(axes: Axes, line: Line, colour: str) -> None:
 
 def heat_map(given: HeatMap, width: float = 7.0, height: float = 5.0) -> bytes:
     """A table of values as colours, each with its number, as a PNG file."""
-    figure = Figure(figsize=(width, height), dpi=120, layout="constrained")
+    from matplotlib.patches import Rectangle
+    from matplotlib.ticker import FuncFormatter
+
+    figure = _figure(width, height)
     axes = figure.subplots()
     good = np.ma.masked_invalid(np.where(given.marked, np.nan, given.values))
     positive = good.compressed()
@@ -244,7 +253,14 @@ def _plain(text: str) -> str:
     return short.replace("$", r"\$")
 
 
-def _png(figure: Figure) -> bytes:
+def _figure(width: float, height: float) -> "Figure":
+    """An empty figure [inches of 120 dots]."""
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(width, height), dpi=120, layout="constrained")
+
+
+def _png(figure: "Figure") -> bytes:
     file = io.BytesIO()
     figure.savefig(file, format="png", metadata={"Software": None})
     return file.getvalue()

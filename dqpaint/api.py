@@ -4,6 +4,7 @@ import sys
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from time import perf_counter
@@ -37,6 +38,7 @@ def draw(
     *,
     settings: "str | PathLike[str] | SettingsFile | None" = None,
     progress: Callable[[float], None] = lambda _done: None,
+    formats: str | None = None,
     **options: Unpack[DrawOptions],
 ) -> "paint.Painting":
     """Paint a drawing with a simulated arm, as `dqpaint draw` does; nothing is written.
@@ -46,12 +48,14 @@ def draw(
         settings: a file of such choices, TOML, or the JSON summary of a run; keywords here
             win.
         progress: called while the arm moves, with the share done, 0 to 1.
+        formats: what will be saved, with commas; a run that cannot be is refused before it begins.
         options:
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the run.
     """
     controller = options.get("controller")
+    writers = [] if formats is None else registry.choose_writers(formats)
     own = None if isinstance(controller, str | PathLike) else controller
     if own is not None:
         options["controller"] = getattr(own, "__name__", type(own).__name__)
@@ -67,7 +71,9 @@ def draw(
 
     law = None if own is None else make_controller(own, chosen.controller)
     with _places(drawing):
-        painting = paint.paint(program, chosen, progress, law)
+        painting = paint.paint(
+            program, chosen, progress, law, partial(registry.check_before_run, writers)
+        )
     notes = given.remarks(painting.sha256) + painting.notes
     return replace(painting, seconds={"language": seconds, **painting.seconds}, notes=notes)
 

@@ -49,7 +49,9 @@ def export(
     law = given.under(choices).get("controller", DEFAULT_CONTROLLER)
     stem = files.stem_for(out, f"{path.stem}-{short_name(law)}")
     with Progress(path.name) as progress:
-        painting = api.draw(path, **choices, size=(64, 36), settings=given, progress=progress)
+        painting = api.draw(
+            path, **choices, size=(64, 36), settings=given, progress=progress, formats=writer.name
+        )
     written = files.write(stem, registry.make_files([writer], painting))
 
     from dqpaint.cli import report

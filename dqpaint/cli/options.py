@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from typer.core import TyperCommand
 
+from dqpaint.errors import UsageError
+
 if TYPE_CHECKING:
     from dqpaint.settings import Setting
 
@@ -139,8 +141,10 @@ def _options(
     default = usual.get(setting.keyword, setting.default) if unsaid else None
     shown = f" [default: {option.unsaid}]" if unsaid and option.unsaid and default is None else ""
     flag = f"--{setting.name}"
+    if setting.kind is bool and setting.panel:  # what a file of settings may say can be taken back
+        flag += f"/--no-{setting.name}"
     info = typer.Option(
-        f"{flag}/--no-{setting.name}" if setting.kind is bool else flag,
+        flag,
         metavar=option.metavar,
         help=option.help + shown,
         rich_help_panel=setting.panel,
@@ -161,6 +165,15 @@ def parameter(name: str, kind: Any, default: Any, info: Any) -> inspect.Paramete
 
 def _variable(name: str) -> str:
     return name.replace("-", "_")
+
+
+def _check_alone(option: str, value: str, command: str | None) -> None:
+    """Refuse several names, as in `a,b` but not in `a:key=1,other=2`, for an option of one."""
+    if any("=" not in part for part in value.split(",")[1:]):
+        raise UsageError(
+            f"{command} takes one {option}, not '{value}'; "
+            "dqpaint compare and dqpaint sweep take several"
+        )
 
 
 class MadeWhenCalled(TyperCommand):
@@ -193,13 +206,19 @@ class InPanels(TyperCommand):
                 formatter.write_dl(records)
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Read the options; one is accepted for several, and several for one: --plant, --plants."""
+        """Read the options; one is accepted for several, and several for one: --plant, --plants.
+
+        Raises:
+            UsageError: several are given where there can be one.
+        """
         known = {name for one in self.get_params(ctx) for name in (*one.opts, *one.secondary_opts)}
         end = args.index("--") if "--" in args else len(args)
         meant = []
-        for word in args[:end]:
+        for word, following in zip(args[:end], [*args[1:end], ""], strict=True):
             name, sign, value = word.partition("=")
             if name.startswith("--") and name not in known:
-                name = next((n for n in (f"{name}s", name.removesuffix("s")) if n in known), name)
+                if (one := name.removesuffix("s")) in known:
+                    _check_alone(one, value if sign else following, self.name)
+                name = next((n for n in (f"{name}s", one) if n in known), name)
             meant.append(name + sign + value)
         return super().parse_args(ctx, meant + args[end:])

@@ -79,7 +79,7 @@ def draw(choices: Choices, file: Drawing, out: Out = None, save: Save = "png,csv
     law = "recorded" if both.get("recorded") else both.get("controller", DEFAULT_CONTROLLER)
     stem = files.stem_for(out, f"{path.stem}-{short_name(law)}")
     with Progress(path.name) as progress:
-        painting = api.draw(path, **choices, settings=given, progress=progress)
+        painting = api.draw(path, **choices, settings=given, progress=progress, formats=save)
     with Progress("movie") as progress:
         written = files.write(stem, registry.make_files(writers, painting, progress))
 
@@ -176,10 +176,12 @@ def check(choices: Choices, files: Drawings, as_json: AsJson = False) -> None:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from dqpaint.planning import check as checking
 
-    if (path := choices.pop("settings", None)) is not None:
+    if choices.keys() - {"max_samples"}:  # of a run; else the validator is not imported
         from dqpaint.painting import validate
+        from dqpaint.settings import make_settings
 
-        choices = validate.settings_file(path).under(choices)
+        choices = validate.settings_file(choices.pop("settings", None)).under(choices)
+        validate.check_settings(make_settings(**choices))
     results = [checking.check(name, **choices) for name in files]
     if as_json:
         print(json.dumps(checking.as_json(results), indent=2))

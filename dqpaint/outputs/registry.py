@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from inspect import signature
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from dqpaint.core import Folder, Registry
 from dqpaint.errors import UnknownNameError, UsageError
@@ -23,10 +23,12 @@ class Need(NamedTuple):
     Attributes:
         words: for lists.
         check: raises a DqpaintError that says what a painting lacks.
+        before: whether that is known before the run: then `check` takes a `PreparedRun`, too.
     """
 
     words: str
-    check: Callable[["paint.Painting"], None]
+    check: Callable[[Any], None]
+    before: bool = False
 
 
 @dataclass(frozen=True)
@@ -105,6 +107,18 @@ def choose_export_writer(form: str | None) -> Writer:
     if form not in known:
         raise UnknownNameError("format", form, sorted(known))
     return known[form]
+
+
+def check_before_run(writers: Sequence[Writer], run: "paint.PreparedRun") -> None:
+    """Check what writers need, as far as it is known before the run.
+
+    Raises:
+        DqpaintError: the run lacks what a writer needs.
+    """
+    for one in writers:
+        for need in one.needs:
+            if need.before:
+                need.check(run)
 
 
 def make_files(

@@ -100,6 +100,7 @@ def paint(
     settings: Settings,
     progress: Callable[[float], None] = lambda _done: None,
     controller: Controller[Any] | None = None,
+    check: Callable[["PreparedRun"], None] = lambda _ready: None,
 ) -> Painting:
     """Paint a drawing with a simulated arm.
 
@@ -108,6 +109,7 @@ def paint(
         settings: everything besides the text.
         progress: called while the arm moves, with the part done, 0 to 1.
         controller: a law in place of the one that the settings name.
+        check: called before the run, to refuse it.
 
     Raises:
         UsageError: an unknown robot, plant, controller, gain or view.
@@ -115,6 +117,7 @@ def paint(
         DqpaintError: the simulation diverged, or the picture would be black.
     """
     ready = prepare(program, settings, controller)
+    check(ready)
     with ready.stopwatch("arm"):
         run = ready.run(progress)
     return finish(ready, run)

@@ -219,6 +219,6 @@ def find_plant(text: str) -> ConfiguredPlant:
     name, values = read_choice("plant", text, "compliant:frequency=60")
     plant = _of_name(name)
     if plant.options is None and values:
-        raise UsageError(f"plant '{name}' takes no values")
+        raise UsageError(f"plant '{name}' takes no values, such as those in '{text.strip()}'")
     options = make_choice("plant", name, plant.options, values) if plant.options else None
     return ConfiguredPlant(text.strip(), plant, options)

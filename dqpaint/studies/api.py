@@ -33,7 +33,7 @@ from dqpaint.studies.runner.reporter import SILENT, Callback
 
 S = TypeVar("S", bound=StudyResult)
 Where = str | PathLike[str]
-Several = Sequence[str] | str
+Laws = str | Callable[..., Any] | Sequence[str | Callable[..., Any]]
 Progress = Callable[[float], None]
 
 
@@ -95,7 +95,7 @@ class FinishedStudy(Generic[S]):
 @keywords("compare", Compare.parameters())
 def compare(
     drawing: Where | builder.Drawing,
-    controllers: Several | None = None,
+    controllers: Laws | None = None,
     *,
     progress: Progress | None = None,
     settings: Where | SettingsFile | None = None,
@@ -108,6 +108,7 @@ def compare(
     Args:
         drawing: a .traj file, the name of an example, or a `dqpaint.Drawing`.
         controllers: laws, with gains of their own as in "p(k=5)"; a list, or a text with commas.
+            Also functions and classes that stand at the top of a file.
         progress: called with the part done, 0 to 1.
         settings: a file of settings; what is given here wins.
         options:
@@ -274,13 +275,20 @@ def _call(name: str, subject: Where | builder.Drawing, given: Mapping[str, Any])
     """The call, as a report says it; what is not given is left out."""
     words = ["drawing" if isinstance(subject, builder.Drawing) else repr(str(subject))]
     words += [
-        f"{key}={value!r}"
+        f"{key}={_written(value)}"
         for key, value in given.items()
         if value is not None and key not in NOT_OF_THE_RESULT
     ]
     if name in OWN_FUNCTIONS:
         return f"dqpaint.{name}({', '.join(words)})"
     return f"dqpaint.study({', '.join([repr(name), *words])})"
+
+
+def _written(value: object) -> str:
+    """A value as it is written in a call."""
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_written, value))}]"
+    return str(getattr(value, "__name__", repr(value)))
 
 
 @contextmanager

@@ -3,8 +3,9 @@
 `python -m tests.tools.generated` writes it again.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from os import PathLike
+from typing import Any
 
 from dqpaint.settings import DrawOptions, RunOptions
 from dqpaint.settings import ReplayOptions as OfReplay
@@ -27,7 +28,7 @@ class SweepOptions(DrawOptions, total=False):
     """Of `sweep`."""
 
     runs: int | None
-    controllers: Sequence[str] | str | None
+    controllers: str | Callable[..., Any] | Sequence[str | Callable[..., Any]] | None
     plants: Sequence[str] | str | None
     robots: Sequence[str] | str | None
     disturbs: Sequence[str] | str | None

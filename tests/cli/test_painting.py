@@ -177,6 +177,8 @@ def test_check_with_a_robot_looks_at_the_reach(dqpaint, line, tmp_path):
     assert "iiwa reaches it" in dqpaint("check", line, "--robot", "iiwa").stdout
     assert "iiwa reaches it" in dqpaint("check", line, "--size", "640x360").stdout
     (tmp_path / "far.traj").write_text("robot iiwa\nline to (2, 0) m\n")
+    done = dqpaint("check", line, "--view", "at:1:1:1", "--exposure", "f/8,2m")  # as in draw
+    assert (done.returncode, done.stderr[:36]) == (2, "usage: view 'at:1:1:1' gives the cam")
     done = dqpaint("check", "far.traj", "--json")
     assert done.returncode == 1
     assert json.loads(done.stdout)["diagnostics"][0]["code"] == "E310"

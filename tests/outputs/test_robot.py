@@ -416,3 +416,18 @@ def test_a_recorded_run_is_not_exported(painting, tmp_path):
     again = dqpaint.draw(tmp_path / "hook.traj", recorded=tmp_path / "run.csv", size=(64, 36))
     with pytest.raises(UsageError, match="it comes from an arm"):
         files_of(again, "csv")
+
+
+def test_what_cannot_be_saved_is_refused_before_the_run(tmp_path, painting):
+    (tmp_path / "run.csv").write_text(texts(painting, "csv")["-trajectory.csv"])
+    told = []
+    for formats, choices, fault in (
+        ("png,urscript", {}, "URScript is for the arms of Universal Robots, not for"),
+        ("trajectory", {"recorded": tmp_path / "run.csv", "plant": None}, "it comes from an arm"),
+        ("nothing-known", {}, "no format named 'nothing-known'"),
+    ):
+        with pytest.raises(UsageError, match=fault):
+            dqpaint.draw("lag", formats=formats, progress=told.append, **{**SIZE, **choices})
+    assert not told
+    dqpaint.draw("lag", formats="png", progress=told.append, **SIZE)
+    assert told

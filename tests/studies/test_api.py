@@ -1,6 +1,7 @@
 """Studies from Python: the same as on the command line."""
 
 import html
+import importlib
 
 import numpy as np
 import pytest
@@ -141,6 +142,50 @@ def test_gains_of_a_file_go_with_its_law(tmp_path):
     assert (base.controller, base.gains, base.plant) == ("hinf", {}, "ideal")
 
 
+OWN_LAW = """from dqpaint import dq
+
+
+class Pull:
+    'Pulls with k.'
+
+    def __call__(self, seen, k: float = 5.0):
+        return k * dq.log(dq.mul(seen.pose_d, dq.conj(seen.pose)))
+
+
+def made_within():
+    def inside(seen): return seen.twist_d
+    return inside
+"""
+
+
+def test_a_law_is_given_as_a_class(tmp_path, monkeypatch):
+    (tmp_path / "own_laws.py").write_text(OWN_LAW)
+    (tmp_path / "line.traj").write_text(LINE)
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    own = importlib.import_module("own_laws")
+    several = {"controller": [own.Pull, "p"]}
+    axes, _ = requests.read_comparison({}, several)
+    assert axes[0].texts == ("own_laws.py:Pull", "p")
+    for choices in ({"controller": own.Pull}, {"controller": "own_laws.py:Pull"}):
+        axes, base = requests.read_sweep({"k": [5, 10]}, choices, {})
+        assert base.controller == "own_laws.py:Pull"
+    assert requests.read_sweep({"controller": [own.Pull, "p"]}, {}, {})[0][0] == Axis(
+        "controller", ("own_laws.py:Pull", "p")
+    )
+    for lost in (own.Pull(), own.made_within(), lambda seen: seen.twist_d):
+        with pytest.raises(UsageError, match="not an object, or name it"):
+            requests.read_comparison({}, {"controller": lost})
+    swept = dqpaint.sweep("line.traj", {"k": [5, 10]}, controller=own.Pull, size=(16, 16), **FEW)
+    named = dqpaint.sweep(
+        "line.traj", {"k": [5, 10]}, controller="own_laws.py:Pull", size=(16, 16), **FEW
+    )
+    assert swept.study.cells[0].results[0].status == "done"
+    same = "position_error_rms_m_mean"
+    np.testing.assert_array_equal(swept.table[same], named.table[same])
+    assert "controller=Pull" in html.unescape(swept.page)
+
+
 def test_slips_are_told():
     for call, fault in (
         (lambda: dqpaint.compare("star", 3), "controllers 3 is no list of names"),
@@ -151,9 +196,9 @@ def test_slips_are_told():
         (lambda: dqpaint.sweep("star", {"k": 3}), "vary 'k': 3 is not a list of values"),
         (lambda: dqpaint.replay("thesis-spiral", look="film"), "replay takes no 'look'"),
         (lambda: dqpaint.replay("thesis-timing", place="auto"), "takes no --place"),
-        (lambda: dqpaint.compare("star", [print]), "a law of one's own is a file"),
+        (lambda: dqpaint.compare("star", [print]), "cannot go to the processes"),
         (lambda: dqpaint.compare("star", []), "at least one is needed"),
-        (lambda: dqpaint.sweep("star", "k=1,2", controller=print), "a law of one's own is a file"),
+        (lambda: dqpaint.sweep("star", "k=1,2", controller=print), "cannot go to the proc"),
         (lambda: dqpaint.sweep("star", "k=1,2", colour=3), "sweep takes no 'colour'"),
         (lambda: dqpaint.sweep("star", "k=1", jobs=1, cluster="a:1"), "not both"),
         (lambda: dqpaint.tune("star", "k=5"), "is not NAME=LOW..HIGH"),

@@ -273,8 +273,9 @@ STUDY_OPTIONS_HEAD = '''"""Parameters of studies -> keywords in Python, as type 
 `python -m tests.tools.generated` writes it again.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from os import PathLike
+from typing import Any
 
 from dqpaint.settings import DrawOptions, RunOptions
 from dqpaint.settings import ReplayOptions as OfReplay

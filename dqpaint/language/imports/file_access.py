@@ -29,9 +29,11 @@ def below(root: Path, folder: Path, written: str) -> Path | None:
             return None
     path = root.joinpath(*parts)
     try:
-        inside = path.resolve().is_relative_to(root.resolve())
-    except (OSError, RuntimeError):  # links that go in a circle
-        inside = False
+        resolved = path.resolve()
+    except (OSError, RuntimeError):  # links that go in a circle, before Python 3.13
+        return None
+    # what is still a link after 3.13 resolved it goes in a circle
+    inside = resolved.is_relative_to(root.resolve()) and not resolved.is_symlink()
     return path if inside else None
 
 

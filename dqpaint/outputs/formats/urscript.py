@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from dqpaint.errors import UsageError
 from dqpaint.outputs.registry import Need
-from dqpaint.outputs.robot import Trajectory, comment_lines, for_arm, trajectory_of
+from dqpaint.outputs.robot import Trajectory, comment_lines, for_arm, kinematics_of
 
 if TYPE_CHECKING:
     from dqpaint.painting import paint
@@ -22,23 +22,25 @@ APPROACH = "a=0.3, v=0.25"  # [rad/s^2, rad/s] to the first posture
 END = "  stopj(1.0)\nend\n"
 
 
-def check_servoj(painting: "paint.Painting") -> None:
+def check_servoj(run: "paint.PreparedRun | paint.Painting") -> None:
     """Refuse an arm that is not one of theirs, and steps that are shorter than servoj's."""
-    trajectory = trajectory_of(painting)
-    if not is_universal(trajectory.joints):
+    kinematics = kinematics_of(run)
+    if not is_universal(tuple(kinematics.model.names)[1:]):
         raise UsageError(
-            f"URScript is for the arms of Universal Robots, not for {trajectory.robot}; "
+            f"URScript is for the arms of Universal Robots, not for {kinematics.card.name}; "
             "csv and ros2 are for any arm"
         )
-    if trajectory.period < SHORTEST_STEP:
+    if run.motion.period < SHORTEST_STEP:
         raise UsageError(
             f"URScript's servoj takes steps of {SHORTEST_STEP * 1e3:g} ms or more, the drawing's "
-            f"are {trajectory.period * 1e3:g} ms: write a longer period"
+            f"are {run.motion.period * 1e3:g} ms: write a longer period"
         )
 
 
 SERVOJ = Need(
-    f"an arm of Universal Robots, steps of {SHORTEST_STEP * 1e3:g} ms or more", check_servoj
+    f"an arm of Universal Robots, steps of {SHORTEST_STEP * 1e3:g} ms or more",
+    check_servoj,
+    before=True,
 )
 
 

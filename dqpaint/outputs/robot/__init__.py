@@ -4,6 +4,8 @@ A new format is a function in a new file of `outputs.formats` under `@for_arm(na
 `Trajectory` in, the text of its file out.
 """
 
-from dqpaint.outputs.robot.trajectory import Trajectory, comment_lines, for_arm, trajectory_of
+from dqpaint.outputs.robot.trajectory import (
+    Trajectory, comment_lines, for_arm, kinematics_of, trajectory_of,
+)
 
-__all__ = ["Trajectory", "comment_lines", "for_arm", "trajectory_of"]
+__all__ = ["Trajectory", "comment_lines", "for_arm", "kinematics_of", "trajectory_of"]

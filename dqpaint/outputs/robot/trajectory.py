@@ -85,8 +85,8 @@ def for_arm(
     return record
 
 
-def _check_simulated(painting: "paint.Painting") -> None:
-    if painting.recording is not None:
+def _check_simulated(run: "paint.PreparedRun | paint.Painting") -> None:
+    if run.recording is not None:
         raise UsageError("a recorded run is not exported: it comes from an arm")
 
 
@@ -96,7 +96,7 @@ def _check_limits(painting: "paint.Painting") -> None:
     check_limits(painting)
 
 
-SIMULATED = Need("a simulated run", _check_simulated)
+SIMULATED = Need("a simulated run", _check_simulated, before=True)
 WITHIN_LIMITS = Need("a run from rest to rest within the limits of its arm", _check_limits)
 
 
@@ -128,13 +128,13 @@ def trajectory_of(painting: "paint.Painting") -> Trajectory:
     )
 
 
-def kinematics_of(painting: "paint.Painting") -> "Kinematics":
-    """The kinematics of a painting's arm."""
+def kinematics_of(run: "paint.PreparedRun | paint.Painting") -> "Kinematics":
+    """The kinematics of a run's arm."""
     from dqpaint.robots.kinematics import Kinematics
     from dqpaint.robots.loading import card_for
 
-    settings = painting.settings
-    return Kinematics(card_for(painting.motion.program, settings.robot, settings.tool))
+    settings = run.settings
+    return Kinematics(card_for(run.motion.program, settings.robot, settings.tool))
 
 
 def comment_lines(about: tuple[str, ...]) -> str:

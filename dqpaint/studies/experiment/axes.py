@@ -11,9 +11,12 @@ gain.seed=...                 a gain whose name is that of a setting
 
 import math
 import re
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
+from os import PathLike, fspath
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -104,23 +107,22 @@ def parse_texts(name: str, values: object) -> list[str]:
 
     Args:
         name: of the setting: controller, plant, robot or disturb.
-        values: a text, or several.
+        values: a text, or several; of laws also functions and classes.
 
     Raises:
         UsageError: anything else, or one that is empty, there twice or not of its form.
     """
+    if callable(values):
+        values = [values]
     if isinstance(values, str):
         found = [part.strip() for part in _parts(values)]
         values = _joined(found) if name == "plant" else found
     if not isinstance(values, Sequence):
         raise UsageError(f"{name}s {values!r} is no list of names")
-    for value in values:
-        if not isinstance(value, str):
-            raise UsageError(
-                f"{name} {value!r} is no name: runs go to other processes, so a law of one's own "
-                "is a file, as in 'mylaw.py'"
-            )
-    texts = list(values)
+    texts = [law_text(value) if name == "controller" else value for value in values]
+    for text in texts:
+        if not isinstance(text, str):
+            raise UsageError(f"{name} {text!r} is no name")
     if not texts or "" in texts:
         raise UsageError(f"{name}s {', '.join(texts)!r}: at least one is needed, and none is empty")
     if len(set(texts)) < len(texts):
@@ -139,6 +141,32 @@ def _joined(parts: Sequence[str]) -> list[str]:
         else:
             found.append(part)
     return found
+
+
+def law_text(law: object) -> str:
+    """A law as a text that other processes understand: `mylaw.py:PI` of a function or a class.
+
+    Raises:
+        UsageError: it is an object, or does not stand by its name at the top of a file.
+    """
+    if isinstance(law, str | PathLike):
+        return fspath(law)
+    name, module = getattr(law, "__name__", ""), sys.modules.get(getattr(law, "__module__", ""))
+    file = getattr(module, "__file__", None) or ""
+    if not (file.endswith(".py") and getattr(module, name or "-", None) is law):
+        raise UsageError(
+            f"law {str(law)[:60]} cannot go to the processes that carry out the runs: give a "
+            "function or a class at the top of a file, not an object, or name it, as in "
+            "'mylaw.py:PI'"
+        )
+    return f"{_near(file)}:{name}"
+
+
+def _near(file: str) -> str:
+    """A path as seen from the current folder, where that is shorter."""
+    path = Path(file).resolve()
+    here = Path.cwd()
+    return str(path.relative_to(here) if path.is_relative_to(here) else path)
 
 
 def split_law(text: str) -> tuple[str, dict[str, float | str]]:

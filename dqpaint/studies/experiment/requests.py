@@ -9,7 +9,14 @@ from typing import Any
 from dqpaint.errors import UsageError
 from dqpaint.painting import validate
 from dqpaint.settings import DEFAULT_CONTROLLER, Settings, read_choices
-from dqpaint.studies.experiment.axes import Axis, parse_axis, parse_texts, split_law, with_choice
+from dqpaint.studies.experiment.axes import (
+    Axis,
+    law_text,
+    parse_axis,
+    parse_texts,
+    split_law,
+    with_choice,
+)
 from dqpaint.studies.runner.engine import Workers
 
 SEVERAL = ("controller", "plant", "robot", "disturb")
@@ -80,6 +87,8 @@ def vary_texts(vary: Vary, span: bool = False) -> list[str]:
             raise UsageError(f"vary {name!r}: {values!r} is not a list of values")
         else:
             listed = values.tolist() if hasattr(values, "tolist") else list(values)
+            if name == "controller":
+                listed = [law_text(value) for value in listed]
             between = ".." if span else ","
             found.append(f"{name}={between.join(str(value) for value in listed)}")
     return found
@@ -96,14 +105,14 @@ def workers(jobs: int | None, cluster: str | None) -> Workers:
     return jobs if cluster is None else cluster
 
 
-def check_named(law: object) -> None:
-    """Refuse a law that is no name: a study's runs go to other processes.
+def named_law(choices: Mapping[str, Any]) -> dict[str, Any]:
+    """Choices with a law that is a function or a class as a text: runs go to other processes.
 
     Raises:
-        UsageError: it is a function, a class or an object.
+        UsageError: a law that other processes cannot find.
     """
-    if callable(law):
-        parse_texts("controller", [law])
+    law = choices.get("controller")
+    return {**choices, "controller": law_text(law)} if callable(law) else dict(choices)
 
 
 def _split(
@@ -111,7 +120,7 @@ def _split(
 ) -> tuple[list[Axis], Settings]:
     """Axes of several values, and the settings that all have in common."""
     given = dict(several)
-    said = dict(choices)
+    said = named_law(choices)
     for name in ("controller", "plant", "robot"):  # several disturbances are one choice
         if isinstance(said.get(name), list | tuple) and given.get(name) is None:
             given[name] = said.pop(name)
@@ -120,7 +129,6 @@ def _split(
     }
     for name in texts.keys() & said.keys() - {"disturb"}:
         raise UsageError(f"give {name} or {name}s, not both")
-    check_named(said.get("controller"))
     base = validate.settings_of_choices(said, **usual)
     if "controller" in texts:
         file = validate.settings_file(said.get("settings")).choices

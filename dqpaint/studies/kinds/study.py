@@ -82,8 +82,7 @@ class StudyRequest:
 
     def settings(self, **defaults: Any) -> Settings:
         """The settings of the choices, and defaults where they say nothing; DqpaintError."""
-        requests.check_named(self.choices.get("controller"))
-        return validate.settings_of_choices(self.choices, **defaults)
+        return validate.settings_of_choices(requests.named_law(self.choices), **defaults)
 
     def cells(
         self, choices: Sequence[dict[str, str]], runs: Sequence[Run], count: int
@@ -167,8 +166,10 @@ def figure_option(help: str) -> Option:
     return Option(help, "NAME", read=_figure)
 
 
-def _alternatives(metavar: str, help: str, unsaid: str = "") -> Option:
-    return Option(help, metavar, unsaid=unsaid, python="Sequence[str] | str")
+def _alternatives(
+    metavar: str, help: str, unsaid: str = "", python: str = "Sequence[str] | str"
+) -> Option:
+    return Option(help, metavar, unsaid=unsaid, python=python)
 
 
 class RepeatedStudy(Study):
@@ -185,7 +186,10 @@ class StudyOfAlternatives(RepeatedStudy):
     controllers: Annotated[
         Any,
         _alternatives(
-            "A,B(GAIN=VALUE),...", "the laws, with gains of their own", DEFAULT_CONTROLLER
+            "A,B(GAIN=VALUE),...",
+            "the laws, with gains of their own",
+            DEFAULT_CONTROLLER,
+            "str | Callable[..., Any] | Sequence[str | Callable[..., Any]]",
         ),
     ] = None
     plants: Annotated[Any, _alternatives("A,B(KEY=VALUE),...", "the plants", "stiff")] = None

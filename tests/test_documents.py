@@ -59,6 +59,11 @@ def test_generated_measurements_are_current(page, table):
     assert renewed == page.read_text("utf-8"), "python -m tests.tools.generated"
 
 
+def test_the_schema_of_summaries_is_current():
+    made = generated.summary_schema()
+    assert generated.RECORD.read_text("utf-8") == made, "python -m tests.tools.generated"
+
+
 def test_editors_know_every_statement_as_a_method():
     assert generated.STUB.read_text("utf-8") == generated.stub(), "python -m tests.tools.generated"
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.controllers.base import invariant_error
+from dqpaint.controllers.base import invariant_error, spatial_error
 from dqpaint.dq import Floats
 from dqpaint.metrics.registry import Values, column, motion_column
 from dqpaint.motion import Motion
@@ -50,29 +50,27 @@ def _reference_orientation(motion: Motion) -> Floats:
 
 @motion_column("desired_wx_rad_s desired_wy_rad_s desired_wz_rad_s", "rad/s",
                "reference angular velocity",
-               "reference angular velocity: the first half of the spatial twist",
-               motion_only=True)  # fmt: skip
+               "reference angular velocity: the first half of the spatial twist")  # fmt: skip
 def _reference_angular_velocity(motion: Motion) -> Floats:
     return motion.twist[:, :3]
 
 
 @motion_column("desired_vx_m_s desired_vy_m_s desired_vz_m_s", "m/s", "reference velocity",
-               "reference velocity at the base's origin: the second half of the spatial twist",
-               motion_only=True)  # fmt: skip
+               "reference velocity at the base's origin: the second half of the spatial twist"
+               )  # fmt: skip
 def _reference_velocity(motion: Motion) -> Floats:
     return motion.twist[:, 3:]
 
 
 @motion_column("desired_wx_dot_rad_s2 desired_wy_dot_rad_s2 desired_wz_dot_rad_s2", "rad/s^2",
-               "reference angular acceleration", "plain derivative of the twist's first half",
-               motion_only=True)  # fmt: skip
+               "reference angular acceleration", "plain derivative of the twist's first half"
+               )  # fmt: skip
 def _reference_angular_acceleration(motion: Motion) -> Floats:
     return motion.acceleration[:, :3]
 
 
 @motion_column("desired_vx_dot_m_s2 desired_vy_dot_m_s2 desired_vz_dot_m_s2", "m/s^2",
-               "reference acceleration", "plain derivative of the twist's second half",
-               motion_only=True)  # fmt: skip
+               "reference acceleration", "plain derivative of the twist's second half")  # fmt: skip
 def _reference_acceleration(motion: Motion) -> Floats:
     return motion.acceleration[:, 3:]
 
@@ -163,6 +161,62 @@ def _torques(track: Track) -> Floats | None:
     return track.command if track.torques else None
 
 
+@column("disturbance_wx_rad_s disturbance_wy_rad_s disturbance_wz_rad_s", "rad/s",
+        "angular disturbance",
+        "first half of the spatial twist that carries the tool until the next row besides the "
+        "arm, where one does; along the base's axes")  # fmt: skip
+def _angular_disturbance(track: Track) -> Floats | None:
+    return track.disturbance[:, :3] if track.disturbance.any() else None
+
+
+@column("disturbance_vx_m_s disturbance_vy_m_s disturbance_vz_m_s", "m/s", "linear disturbance",
+        "its second half, at the base's origin")  # fmt: skip
+def _linear_disturbance(track: Track) -> Floats | None:
+    return track.disturbance[:, 3:] if track.disturbance.any() else None
+
+
+@column("unclipped{joint}_rad_s", "rad/s", "joint rates before limits",
+        "commanded joint rates before limits clipped them, where any did")  # fmt: skip
+def _unclipped_rates(track: Track) -> Floats | None:
+    return None if track.torques else _unclipped(track)
+
+
+@column("unclipped{joint}_Nm", "Nm", "torques before limits",
+        "commanded torques before limits clipped them, where any did")  # fmt: skip
+def _unclipped_torques(track: Track) -> Floats | None:
+    return _unclipped(track) if track.torques else None
+
+
+@column("motor{joint}_Nm", "Nm", "motor torques",
+        "torques that the motors gave, the largest of the period before the row; where the plant "
+        "has motors")  # fmt: skip
+def _motor_torques(track: Track) -> Floats | None:
+    return track.effort if track.effort.any() else None
+
+
+@column("rate{joint}_rad_s", "rad/s", "measured rates",
+        "joint rates as the encoders measure them; not in a recorded run")  # fmt: skip
+def _measured_rates(track: Track) -> Floats:
+    return track.measured_rates
+
+
+@column("twist_error_wx_rad_s twist_error_wy_rad_s twist_error_wz_rad_s", "rad/s",
+        "angular twist error",
+        "first half of Ad(x x_d*) xi_d - xi: the reference twist, carried from the reference pose "
+        "to the measured one, less the measured twist; along the base's axes; not in a recorded "
+        "run")  # fmt: skip
+def _angular_twist_error(track: Track) -> Floats | None:
+    error = _twist_error(track)
+    return None if error is None else error[:, :3]
+
+
+@column("twist_error_vx_m_s twist_error_vy_m_s twist_error_vz_m_s", "m/s", "linear twist error",
+        "its second half, at the base's origin")  # fmt: skip
+def _linear_twist_error(track: Track) -> Floats | None:
+    error = _twist_error(track)
+    return None if error is None else error[:, 3:]
+
+
 @column("read{joint}_rad", "rad", "measured angles",
         "joint angles that the encoders measure, where these have errors")  # fmt: skip
 def _measured_angles(track: Track) -> Floats | None:
@@ -185,6 +239,19 @@ def _measured_orientation(track: Track) -> Floats | None:
         "the drawing's own time, where it was slowed down", coloured=False)  # fmt: skip
 def _clock(track: Track) -> Floats | None:
     return None if track.motion.clock is track.motion.t else track.motion.clock
+
+
+def _unclipped(track: Track) -> Floats | None:
+    """Commands (N, n) before limits clipped them; None where none did."""
+    return track.unclipped if (track.unclipped != track.command).any() else None
+
+
+def _twist_error(track: Track) -> Floats | None:
+    """Ad(x x_d*) xi_d - xi (N, 6), of the measured pose and twist; None of a recording."""
+    if not track.measured_twist.size:
+        return None
+    apart = spatial_error(track.measured_pose, track.motion.pose)
+    return dq.adjoint(apart, track.motion.twist) - track.measured_twist
 
 
 def _has_joints(track: Track) -> bool:

@@ -91,6 +91,12 @@ class Column(Metric):
         """The headers as a person reads them: `x_m, y_m, z_m`, or `q1_rad ...`."""
         return f"{self.name} ..." if self._each_joint else ", ".join(self.names)
 
+    def headers_for(self, joints: int) -> tuple[str, ...]:
+        """The headers in the table of an arm with so many joints."""
+        if not self._each_joint:
+            return self.names
+        return tuple(self.names[0].format(joint=i + 1) for i in range(joints))
+
     @property
     def colour_by(self) -> str | None:
         """What `--colour-by` calls it: its name without the unit, if it has one value a row."""
@@ -118,9 +124,7 @@ class Column(Metric):
         """
         columns = np.asarray(values, dtype=np.float64)
         columns = columns[None] if columns.ndim == 1 else columns.T
-        names = self.names
-        if self._each_joint:
-            names = tuple(names[0].format(joint=i + 1) for i in range(len(columns)))
+        names = self.headers_for(len(columns) if columns.ndim else 0)
         if columns.shape != (len(names), rows):
             raise DqpaintError(
                 f"column '{self.headers}' is an array of shape {np.shape(values)}; there are "

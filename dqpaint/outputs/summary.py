@@ -6,21 +6,26 @@ from typing import TYPE_CHECKING, Any
 
 from dqpaint import __version__
 from dqpaint.core import library_versions
-from dqpaint.robots.kinematics import UNITS, read_null
+from dqpaint.metrics import all_columns
+from dqpaint.outputs.summary_shape import TABLE_SCHEMA, Law, Summary, TableColumn
+from dqpaint.robots.kinematics import UNITS, model_numbers, read_null
+from dqpaint.settings import RUN_SCHEMA
 
 if TYPE_CHECKING:
     from dqpaint.metrics import PartResponse
     from dqpaint.painting import paint
 
-SCHEMA = "dqpaint-run-1"
-
 
 def summarise(painting: "paint.Painting") -> dict[str, Any]:
-    """The JSON summary of a painting."""
+    """The JSON summary of a painting, see `summary_shape.Summary`."""
+    from dqpaint.painting import plugins
+
     motion, film = painting.motion, painting.picture.film
     program, settings, hidden = motion.program, painting.settings, painting.picture.occluded
-    return {
-        "schema": SCHEMA,
+    recording, placement, pace = painting.recording, painting.placement, painting.retiming
+    objective, gain = read_null(settings.null)
+    facts: Summary = {
+        "schema": RUN_SCHEMA,
         "file": Path(program.name).name,
         "included": [Path(name).name for _, name in getattr(program.text, "included", ())],
         "sha256": painting.sha256,
@@ -29,28 +34,27 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
             "python": platform.python_version(),
             **library_versions(),
         },
-        **_plugins(painting),
         "robot": painting.robot,
         "plant": painting.plant,
-        "recording": painting.recording and painting.recording.as_json,
+        "recording": None if recording is None else recording.as_json,
         "plant_values": painting.plant_values,
         "controller": painting.controller.name,
         "law": _law(painting),
         "gains": painting.gains,
         "disturbances": {name: one.model_dump() for name, one in painting.disturbances.items()},
-        "null_space": dict(zip(("objective", "gain"), read_null(settings.null), strict=True)),
+        "null_space": {"objective": objective, "gain": gain},
         "seed": settings.seed,
         "settings": settings.model_dump(),
+        "model": model_numbers(painting.law_model),
         "drawing": {
             "samples": len(motion.t),
             "period_s": motion.period,
             "duration_s": float(motion.t[-1]),
             "length_m": motion.length,
             "box_m": motion.box.tolist(),
-            "place": painting.placement and painting.placement.as_json,
+            "place": None if placement is None else placement.as_json,
         },
-        "pace": _retiming(painting),
-        **painting.metrics.figures,
+        "pace": None if pace is None else pace.as_json,  # None: --on-limit slow is not set
         "attenuation": {
             part: {"ratio_s": one.ratio, "bound_s": one.bound, "kept": one.bound_holds}
             for part, one in painting.attenuation.items()
@@ -65,7 +69,16 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
             for jump in painting.step_responses
         ],
         "limits": [
-            {**vars(clamp), "line": program.line_reference(clamp.line), "unit": UNITS[clamp.kind]}
+            {
+                "kind": clamp.kind,
+                "joint": clamp.joint,
+                "start": clamp.start,
+                "seconds": clamp.seconds,
+                "line": program.line_reference(clamp.line),
+                "limit": clamp.limit,
+                "wanted": clamp.wanted,
+                "unit": UNITS[clamp.kind],
+            }
             for clamp in painting.limits
         ],
         "light": {
@@ -76,16 +89,26 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
             "occluded": None if hidden is None else hidden.energy.tolist(),  # None: not traced
             "exposure": painting.picture.exposure,
         },
+        "table": {
+            "schema": TABLE_SCHEMA,
+            "rows": len(motion.t),
+            "columns": _columns(painting),
+        },
         "wall_s": {stage: round(seconds, 4) for stage, seconds in painting.seconds.items()},
     }
+    if others := plugins.plugins_of(settings, program):
+        facts["plugins"] = others
+    return {**facts, **painting.metrics.figures}
 
 
-def _plugins(painting: "paint.Painting") -> dict[str, dict[str, str]]:
-    """The packages besides dqpaint that take part in the run, if there are any."""
-    from dqpaint.painting import plugins
-
-    found = plugins.plugins_of(painting.settings, painting.motion.program)
-    return {"plugins": found} if found else {}
+def _columns(painting: "paint.Painting") -> list[TableColumn]:
+    """The columns that the table of a run has."""
+    found: list[TableColumn] = []
+    for one in all_columns():
+        names = list(one.headers_for(painting.track.posture.shape[1]))
+        if names and names[0] in painting.table:
+            found.append({"names": names, "unit": one.unit, "meaning": one.meaning})
+    return found
 
 
 def _response(part: "PartResponse", unit: str) -> dict[str, float | None]:
@@ -97,7 +120,7 @@ def _response(part: "PartResponse", unit: str) -> dict[str, float | None]:
     }
 
 
-def _law(painting: "paint.Painting") -> dict[str, str | None]:
+def _law(painting: "paint.Painting") -> Law:
     """The source of a law: a paper, or a file and its hash."""
     law = painting.controller
     return {
@@ -105,8 +128,3 @@ def _law(painting: "paint.Painting") -> dict[str, str | None]:
         "sha256": law.sha256,
         "commands": law.commands,
     }
-
-
-def _retiming(painting: "paint.Painting") -> dict[str, Any] | None:
-    """How the drawing was slowed down; None where `--on-limit slow` is not set."""
-    return None if painting.retiming is None else painting.retiming.as_json

@@ -33,7 +33,7 @@ from dqpaint.robots.kinematics import Clamp, Kinematics
 from dqpaint.robots.loading import card_for, find_card
 from dqpaint.robots.model import DEFAULT_ROBOT
 from dqpaint.settings import Settings
-from dqpaint.simulation import Recording, Track, read_recording, replay, track
+from dqpaint.simulation import Recording, Track, law_model, read_recording, replay, track
 
 NO_JOINTS_NOTE = "a recording of poses has no joints: the arm and its occlusion are left out"
 
@@ -49,6 +49,7 @@ class Painting(PictureSet):
     plant_values: dict[str, Any]  # with values derived from them for this arm
     disturbances: dict[str, Disturbance]
     gains: dict[str, Any]  # all of the law's, and values derived from them
+    law_model: Kinematics  # the law's model of the arm, with its errors
     motion: Motion
     track: Track
     metrics: Metrics
@@ -192,7 +193,9 @@ def finish(ready: PreparedRun, run: Track) -> Painting:
         settings, chosen.controller, card.name,
         "recorded" if recording else chosen.plant.name,
         {} if recording else chosen.plant.summary(card),
-        chosen.disturbances, chosen.gains.as_dict(), motion, run, metrics, came_through, steps,
+        chosen.disturbances, chosen.gains.as_dict(),
+        law_model(ready.kinematics, chosen.disturbances, settings.seed),
+        motion, run, metrics, came_through, steps,
         scene, cast, pictures, ready.prepared.retiming, clock.seconds, notes,
         ready.prepared.placement, recording,
     )  # fmt: skip

@@ -30,7 +30,8 @@ from dqpaint.settings.model import (
 )
 
 LARGEST = 1_000_000  # bytes of a file
-SUMMARY = "dqpaint-run-1"
+RUN_SCHEMA = "dqpaint-run-2"  # of the summaries that are written
+READABLE = ("dqpaint-run-1", RUN_SCHEMA)
 MEANT = {
     "camera": "view", "color-by": "colour-by", "colour": "colour-by", "law": "controller",
     "arm": "robot", "lens": "exposure", "f-number": "exposure", "iso": "exposure",
@@ -172,7 +173,7 @@ def _parsed(place: Path, text: str) -> tuple[dict[str, Any], tuple[str | None, s
             where = _where(place, text, "dqpaint")
             raise DqpaintError(f'{where}: dqpaint is a version, for example "{__version__}"')
         return raw, (version, None)
-    if not (isinstance(raw, dict) and raw.get("schema") == SUMMARY):
+    if not (isinstance(raw, dict) and raw.get("schema") in READABLE):
         raise DqpaintError(f"{place.name} is not the summary of a run: draw --save json makes one")
     settings, versions = raw.get("settings"), raw.get("versions")
     if not (isinstance(settings, dict) and isinstance(versions, dict)):

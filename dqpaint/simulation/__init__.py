@@ -2,9 +2,9 @@
 
 from dqpaint.simulation.closed_loop import Track, track, track_many
 from dqpaint.simulation.recorded_run import RECORDED, Recording, read_recording, replay
-from dqpaint.simulation.sensors import ModelsDifferError
+from dqpaint.simulation.sensors import ModelsDifferError, law_model
 
 __all__ = [
-    "RECORDED", "ModelsDifferError", "Recording", "Track", "read_recording", "replay", "track",
-    "track_many",
+    "RECORDED", "ModelsDifferError", "Recording", "Track", "law_model", "read_recording", "replay",
+    "track", "track_many",
 ]

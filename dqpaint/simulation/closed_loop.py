@@ -55,8 +55,11 @@ class Track:
         pose: true tool poses (N, 8) in the base frame, signs continuous.
         measured_posture: joint angles (N, n) [rad] as the encoders read them.
         measured_pose: tool poses (N, 8) as the law's model has them at these.
+        measured_rates: joint rates (N, n) [rad/s] as the encoders read them.
+        measured_twist: spatial twists (N, 6) [rad/s, m/s] of the law's model at these.
         manipulability: sqrt(det(J J')) (N,) at the true postures.
         command: what the arm was given (N, n): joint rates [rad/s], or torques [Nm].
+        unclipped: the same (N, n) before limits clipped it.
         torques: whether the commands are torques.
         effort: motor torques (N, n) [Nm], the largest seen in the period before the row.
         clamps: limits that held a joint back.
@@ -69,8 +72,11 @@ class Track:
     pose: Floats
     measured_posture: Floats
     measured_pose: Floats
+    measured_rates: Floats
+    measured_twist: Floats
     manipulability: Floats
     command: Floats
+    unclipped: Floats
     torques: bool
     effort: Floats
     clamps: tuple[Clamp, ...]
@@ -82,8 +88,11 @@ class Track:
             self.pose,
             self.measured_posture,
             self.measured_pose,
+            self.measured_rates,
+            self.measured_twist,
             self.manipulability,
             self.command,
+            self.unclipped,
             self.effort,
             self.disturbance,
         ):
@@ -251,6 +260,7 @@ class _Log:
         of_joints = (n, *shape, joints)
         self.posture, self.effort = np.empty(of_joints), np.zeros(of_joints)
         self.measured_posture, self.measured_pose = np.empty(of_joints), np.empty((n, *shape, 8))
+        self.measured_rates, self.measured_twist = np.empty(of_joints), np.empty((n, *shape, 6))
         self.wanted, self.command = np.empty(of_joints), np.empty(of_joints)
         self.pose, self.manipulability = np.empty((n, *shape, 8)), np.empty((n, *shape))
         self.disturbance = np.zeros((n, *shape, 6))
@@ -281,6 +291,8 @@ class _Log:
         """Record row k; manipulabilities are computed a block at a time, which costs less."""
         self.posture[k], self.effort[k] = plant.posture, plant.effort
         self.measured_posture[k], self.measured_pose[k] = measured.posture, measured.pose
+        self.measured_rates[k] = measured.rates
+        self.measured_twist[k] = np.matvec(measured.jacobian, measured.rates)
         self.pose[k], self._jacobian[k % JACOBIAN_ROWS] = truth
         self.wanted[k], self.command[k] = wanted, given
         if k % JACOBIAN_ROWS == JACOBIAN_ROWS - 1 or k == len(self.pose) - 1:
@@ -338,8 +350,8 @@ def _make_track(log: _Log, motion: Motion, card: Card, torques: bool) -> Track:
         poses[0] = dq.nearest(poses[0], motion.pose[0])
     return Track(
         motion, log.posture, dq.continuous(log.pose), log.measured_posture,
-        dq.continuous(log.measured_pose), log.manipulability, log.command, torques,
-        log.effort, held, log.disturbance,
+        dq.continuous(log.measured_pose), log.measured_rates, log.measured_twist,
+        log.manipulability, log.command, log.wanted, torques, log.effort, held, log.disturbance,
     )  # fmt: skip
 
 

@@ -50,13 +50,13 @@ class Sensors:
         disturbances: Disturbances,
         seed: int,
     ) -> None:
-        self.world, self.model = UNDISTURBED, kinematics
+        self.world = UNDISTURBED
+        self.model = law_model(kinematics, disturbances, seed)
         self._period = period
         self._encoders: list[Encoder] = []
         for name, one in disturbances.items():
             one.check(t)
             self.world = one.world(self.world)
-            self.model = one.law_model(self.model, random_numbers(seed, name))
             encoder = one.encoder(len(t), kinematics.card.joints, random_numbers(seed, name))
             if encoder is not None:
                 self._encoders.append(encoder)
@@ -154,6 +154,13 @@ class DelayLine:
         """The command that arrives now."""
         self._waiting.append(command)
         return self._waiting.popleft()
+
+
+def law_model(kinematics: Kinematics, disturbances: Disturbances, seed: int) -> Kinematics:
+    """The law's model of an arm."""
+    for name, one in disturbances.items():
+        kinematics = one.law_model(kinematics, random_numbers(seed, name))
+    return kinematics
 
 
 def random_numbers(seed: int, name: str) -> "np.random.Generator":

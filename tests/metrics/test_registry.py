@@ -43,6 +43,12 @@ def special(name, track):
         return replace(track, motion=replace(motion, clock=0.5 * motion.t))
     if name == "read1_rad":
         return replace(track, measured_posture=track.measured_posture + 1e-3)
+    if name.startswith("disturbance_"):
+        return replace(track, disturbance=0.1 + np.zeros((n, 6)))
+    if name == "unclipped1_rad_s":
+        return replace(track, unclipped=2 * track.command)
+    if name == "unclipped1_Nm":
+        return replace(track, unclipped=2 * track.command, torques=True)
     if name.startswith("believed_"):
         return replace(track, measured_pose=-1.0 * track.measured_pose)
     return None

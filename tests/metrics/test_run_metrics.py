@@ -34,16 +34,23 @@ def metrics(run):
     return measure(run)
 
 
+HALVES = (("w", "rad_s"), ("v", "m_s"))
+
+
 def test_columns_are_the_promised_ones(metrics):
     expected = [
         *("t_s", "line", "lit"),
         *("desired_x_m", "desired_y_m", "desired_z_m"),
         *("desired_qw", "desired_qx", "desired_qy", "desired_qz"),
+        *(f"desired_{half}{x}_{unit}" for half, unit in HALVES for x in "xyz"),
+        *(f"desired_{half}{x}_dot_{unit}2" for half, unit in HALVES for x in "xyz"),
         *("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"),
         *("position_error_m", "orientation_error_rad", "invariant_error"),
         *("speed_m_s", "acceleration_m_s2", "effort_rad", "manipulability"),
     ]
-    expected += [f"q{i}_rad" for i in range(1, 8)] + [f"command{i}_rad_s" for i in range(1, 8)]
+    for name in ("q{}_rad", "command{}_rad_s", "rate{}_rad_s"):
+        expected += [name.format(i) for i in range(1, 8)]
+    expected += [f"twist_error_{half}{x}_{unit}" for half, unit in HALVES for x in "xyz"]
     assert list(metrics.table) == expected
     assert {len(column) for column in metrics.table.values()} == {121}
 

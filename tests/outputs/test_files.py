@@ -142,7 +142,7 @@ def test_tables_read_back(painting, name):
 
 def test_summary_says_what_was_run_and_what_came_out(painting):
     facts = json.loads(made(painting, "json")[".json"])
-    assert facts["schema"] == summary.SCHEMA
+    assert facts["schema"] == summary.RUN_SCHEMA
     assert facts["file"] == "corner.traj"
     assert facts["controller"] == "hinf"
     assert facts["gains"]["K_O"] == pytest.approx(40)

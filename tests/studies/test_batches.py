@@ -38,6 +38,7 @@ DISTURB = {
 }
 ARRAYS = (
     "posture", "pose", "measured_posture", "measured_pose", "manipulability", "command",
+    "measured_rates", "measured_twist", "unclipped",
     "disturbance",
 )  # fmt: skip
 CLOSE = 1e-11

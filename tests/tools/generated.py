@@ -389,6 +389,16 @@ def cases():
     return "\n".join(lines) + "\n"
 
 
+RECORD = ROOT / "docs/summary.schema.json"
+
+
+def summary_schema():
+    """The JSON Schema of a run's summary."""
+    from dqpaint.outputs.summary_shape import json_schema
+
+    return json.dumps(json_schema(), indent=1) + "\n"
+
+
 STUB = ROOT / "dqpaint/language/writing/statements.pyi"
 STUB_HEAD = '''"""The statements as methods of a drawing, for editors and type checkers.
 
@@ -426,6 +436,7 @@ def stub():
 if __name__ == "__main__":
     STUB.write_text(stub(), "utf-8")
     CASES.write_text(cases(), "utf-8")
+    RECORD.write_text(summary_schema(), "utf-8")
     OPTIONS.write_text(keyword_types(), "utf-8")
     STUDY_OPTIONS.write_text(study_keyword_types(), "utf-8")
     for tables in (PAGES, SLOW_TABLES):

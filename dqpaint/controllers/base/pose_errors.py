@@ -13,7 +13,7 @@ from dqpaint.robots.kinematics import inverse, pose_map
 
 
 def invariant_error(pose: Floats, pose_d: Floats) -> Floats:
-    """The error e = vec(1 - x* x_d) (..., 8), the same from whatever frame it is seen."""
+    """The error e = vec(1 - x* x_d) (..., 8), the same from whatever base frame it is seen."""
     return dq.IDENTITY - dq.mul(dq.conj(pose), dq.nearest(pose_d, pose))
 
 

@@ -11,6 +11,7 @@ from dqpaint.robots.kinematics.dynamics import Dynamics
 from dqpaint.robots.kinematics.jacobians import drift_acceleration, pose_map
 from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability
 from dqpaint.robots.kinematics.limits import LIMIT_TOLERANCE, UNITS, Clamp, RateBounds, find_clamps
+from dqpaint.robots.kinematics.model_numbers import ModelNumbers, model_numbers
 from dqpaint.robots.kinematics.nullspace import (
     DEFAULT_OBJECTIVE, OBJECTIVES, SecondaryTask, make_batched_task, make_secondary_task, read_null,
 )
@@ -22,10 +23,11 @@ from dqpaint.robots.kinematics.start_posture import (
 
 __all__ = [
     "CHARACTERISTIC_LENGTH", "DAMPING_THRESHOLD", "DEFAULT_OBJECTIVE", "LIMIT_TOLERANCE",
-    "OBJECTIVES", "PATH_TOLERANCE", "START_GAIN", "UNITS", "Clamp", "CollisionShapes", "Dynamics",
-    "Kinematics", "ManyKinematics", "Nearest", "NoPosture", "RateBounds", "SecondaryTask",
-    "StartPosture", "collision_shapes", "drift_acceleration", "find_clamps", "find_start",
-    "inverse", "least_errors", "make_batched_task", "make_secondary_task", "manipulability",
-    "pose_map", "read_mesh", "read_null", "resolve", "return_to_start", "shortfall", "solve",
-    "solve_posture", "tool_jacobian_map", "waypoints",
+    "OBJECTIVES", "PATH_TOLERANCE", "START_GAIN", "UNITS", "Clamp", "CollisionShapes",
+    "Dynamics", "Kinematics", "ManyKinematics", "ModelNumbers", "Nearest", "NoPosture",
+    "RateBounds", "SecondaryTask", "StartPosture", "collision_shapes", "drift_acceleration",
+    "find_clamps", "find_start", "inverse", "least_errors", "make_batched_task",
+    "make_secondary_task", "manipulability", "model_numbers", "pose_map", "read_mesh",
+    "read_null", "resolve", "return_to_start", "shortfall", "solve", "solve_posture",
+    "tool_jacobian_map", "waypoints",
 ]

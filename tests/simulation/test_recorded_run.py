@@ -58,8 +58,8 @@ def test_a_simulated_run_recorded_gives_the_same_figures_and_picture(drawing, si
     measured = [name for name in simulated.table if name.startswith(("rate", "twist_error"))]
     assert len(measured) == 13  # of a law, which a recording has not
     assert [*again.table, *measured] == list(simulated.table)
-    for name, column in simulated.table.items():
-        np.testing.assert_allclose(again.table[name], column, atol=1e-6, err_msg=name)
+    for name, column in again.table.items():
+        np.testing.assert_allclose(column, simulated.table[name], atol=1e-6, err_msg=name)
     np.testing.assert_array_equal(again.image, simulated.image)
     facts = summarise(again)
     assert (facts["plant"], facts["controller"]) == ("recorded", "recorded")

@@ -215,7 +215,7 @@ def _examples() -> list[dict[str, Any]]:
 
 
 def _studies() -> list[dict[str, Any]]:
-    from dqpaint.studies.kinds import STUDIES, Study
+    from dqpaint.studies.declared import STUDIES, Study
 
     return [
         {
@@ -299,7 +299,7 @@ def faults(what: str) -> list[str]:
     from dqpaint.outputs import WRITERS
     from dqpaint.plants import PLANTS
     from dqpaint.robots.loading import CARD_FOLDERS
-    from dqpaint.studies.kinds import STUDIES
+    from dqpaint.studies.declared import STUDIES
 
     registries: dict[str, Registry[Any]] = {
         "robots": CARD_FOLDERS, "controllers": CONTROLLERS, "plants": PLANTS,

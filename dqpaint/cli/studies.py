@@ -24,7 +24,7 @@ from dqpaint.cli.options import (
 from dqpaint.cli.painting import app
 
 if TYPE_CHECKING:
-    from dqpaint.studies.kinds import Study
+    from dqpaint.studies.declared import Study
 
 __all__ = ["app"]
 
@@ -50,7 +50,7 @@ class CommandsAndStudies(TyperGroup):
         found = super().get_command(ctx, cmd_name)
         if found is not None:
             return found
-        from dqpaint.studies.kinds import STUDIES
+        from dqpaint.studies.declared import STUDIES
 
         return MadeWhenCalled(cmd_name, callback=_listed(cmd_name)) if cmd_name in STUDIES else None
 
@@ -61,7 +61,7 @@ def _listed(name: str, about: str = "") -> Command:
 
 def _made(name: str) -> Command:
     """The command of a study."""
-    from dqpaint.studies.kinds import STUDIES
+    from dqpaint.studies.declared import STUDIES
 
     kind = STUDIES[name]
 
@@ -89,7 +89,7 @@ def _carry_out(
     name: str, kind: "type[Study]", subject: str, choices: Choices, report: bool
 ) -> None:
     """Carry a study out, write its files and print its tables, as wide as the terminal."""
-    from dqpaint.studies.kinds import run_study
+    from dqpaint.studies.declared import run_study
 
     folder = Path(choices.get("folder") or kind.default_folder(name, subject))
     study = run_study(name, subject, choices, folder, StudyProgress())

@@ -1,5 +1,6 @@
 """Drawings and settings to vary -> many runs -> tables, pictures, verdicts.
 
+    declared (parameters) -> kinds (what runs them)
     axes -> runs -> engine (journal, pool -> worker) -> results -> cells -> compare, sweep, tune
                                                                -> claims -> replay (measures)
                                                                -> gates  -> verify (references)

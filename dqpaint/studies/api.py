@@ -19,13 +19,13 @@ from dqpaint.language.writing import builder
 from dqpaint.light.images import decode_png
 from dqpaint.outputs import files
 from dqpaint.settings import SettingsFile, keywords
+from dqpaint.studies.declared import STUDIES, run_study
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.requests import Vary
-from dqpaint.studies.kinds import StudyResult, run_study
-from dqpaint.studies.kinds.compare import Compare, Comparison
-from dqpaint.studies.kinds.replay import Replay, ReplayStudy
-from dqpaint.studies.kinds.sweep import Sweep, SweepStudy
-from dqpaint.studies.kinds.tune import Tune
+from dqpaint.studies.kinds import StudyResult
+from dqpaint.studies.kinds.compare import Comparison
+from dqpaint.studies.kinds.replay import Replay
+from dqpaint.studies.kinds.sweep import Sweep
 from dqpaint.studies.kinds.tuning import Tuning
 from dqpaint.studies.kinds.verify import Verdict, Verification, save_differences
 from dqpaint.studies.options import CompareOptions, ReplayOptions, SweepOptions, TuneOptions
@@ -92,7 +92,7 @@ class FinishedStudy(Generic[S]):
         return self.files["-table.md"].decode()
 
 
-@keywords("compare", Compare.parameters())
+@keywords("compare", STUDIES["compare"].parameters())
 def compare(
     drawing: Where | builder.Drawing,
     controllers: Laws | None = None,
@@ -120,7 +120,7 @@ def compare(
     return _finished("compare", drawing, given, progress)
 
 
-@keywords("sweep", SweepStudy.parameters())
+@keywords("sweep", STUDIES["sweep"].parameters())
 def sweep(
     drawing: Where | builder.Drawing,
     vary: Vary | None = None,
@@ -145,7 +145,7 @@ def sweep(
     return _finished("sweep", drawing, given, progress)
 
 
-@keywords("tune", Tune.parameters())
+@keywords("tune", STUDIES["tune"].parameters())
 def tune(
     drawing: Where | builder.Drawing,
     vary: Vary | None = None,
@@ -173,7 +173,7 @@ def tune(
     return _finished("tune", drawing, given, progress)
 
 
-@keywords("replay", ReplayStudy.parameters())
+@keywords("replay", STUDIES["replay"].parameters())
 def replay(
     name: str, *, progress: Progress | None = None, **options: Unpack[ReplayOptions]
 ) -> FinishedStudy[Replay]:

@@ -359,12 +359,16 @@ def test_help_ends_with_two_examples(answer, command):
         assert done.stdout.count(f"  dqpaint {command[0]}") == 2
 
 
-@pytest.mark.parametrize("words", [["--help"], ["draw", "--help"], ["check", "star"]])
+@pytest.mark.parametrize("words", [
+    ["--help"], ["draw", "--help"], ["check", "star"], ["sweep", "--help"], ["tune", "--help"],
+    ["replay", "--help"], ["verify", "--help"],
+])  # fmt: skip
 def test_help_and_check_start_without_the_heavy_libraries(dqpaint, words):
     code = (
         "import sys; from dqpaint.cli import main; sys.argv[0] = 'dqpaint'\n"
         "try: main.run()\nexcept SystemExit: pass\n"
-        "print('LOADED', [m for m in ('cv2', 'pinocchio', 'pybullet') if m in sys.modules])"
+        "heavy = ('cv2', 'pinocchio', 'pybullet', 'scipy')\n"
+        "print('LOADED', [m for m in heavy if m in sys.modules])"
     )
     done = subprocess.run(
         [sys.executable, "-c", code, *words], capture_output=True, text=True, check=True

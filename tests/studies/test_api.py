@@ -109,7 +109,7 @@ def test_disturbances_and_plants_are_axes(tmp_path):
 
 
 def test_what_callers_ask_is_the_same_on_both_ways(tmp_path):
-    several = dict.fromkeys(requests.SEVERAL)
+    several = dict.fromkeys(("controller", "plant", "robot", "disturb"))
     axes, base = requests.read_comparison({"plant": "ideal"}, several, size=(64, 36))
     assert axes == [Axis("controller", ("hinf",))]
     assert (base.plant, base.width) == ("ideal", 64)
@@ -134,7 +134,7 @@ def test_gains_of_a_file_go_with_its_law(tmp_path):
         'controller = "p"\ngain.k = 7\nsize = "80x45"\nplant = "ideal"\n'
     )
     given = {"settings": str(tmp_path / "a.toml")}
-    several = dict.fromkeys(requests.SEVERAL)
+    several = dict.fromkeys(("controller", "plant", "robot", "disturb"))
     axes, base = requests.read_comparison(given, several, size=(64, 36))
     assert (axes[0].texts, base.gains, base.width) == (("p",), {"k": 7.0}, 80)
     axes, base = requests.read_comparison(given, {**several, "controller": "p,p(k=3),hinf"})

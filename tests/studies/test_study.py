@@ -8,7 +8,7 @@ import dqpaint
 from dqpaint.cli.studies import BUILT_IN
 from dqpaint.core import Folder
 from dqpaint.errors import UnknownNameError, UsageError
-from dqpaint.studies.kinds import STUDIES, Study
+from dqpaint.studies.declared import STUDIES, Study
 
 
 def test_the_list_of_commands_says_what_the_studies_say():
@@ -47,7 +47,7 @@ def test_a_name_that_is_no_study_is_told():
 
 
 def test_a_plugin_is_a_study():
-    folder = Folder("study", "dqpaint.studies.kinds", adapt=STUDIES._adapt)
+    folder = Folder("study", "dqpaint.studies.declared", adapt=STUDIES._adapt)
     with pytest.raises(UsageError, match=r"'it' is not a subclass of dqpaint\..*Study"):
         folder._adapt("it", dict)
     assert folder._adapt("it", STUDIES["sweep"]) is STUDIES["sweep"]

@@ -12,12 +12,14 @@ import numpy as np
 import pytest
 
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.settings.model import make_settings
+from dqpaint.settings import make_settings
+from dqpaint.studies.declared import run_study
 from dqpaint.studies.experiment.cells import Cell
 from dqpaint.studies.experiment.gain_range import Range, parse_range
 from dqpaint.studies.kinds import tuning
-from dqpaint.studies.kinds.tune import generation, tune
+from dqpaint.studies.kinds.tune import generation
 from dqpaint.studies.runner.journal import NAME
+from dqpaint.studies.runner.reporter import SILENT
 from dqpaint.studies.runner.run import Result
 from tests.support.processes import start, wait_for_lines, wait_for_the_end
 
@@ -50,17 +52,16 @@ def gain_of(share):
     return low
 
 
-def base(**choices):
-    return make_settings(**{"controller": "p", "plant": "ideal", **choices})
+def tune(drawing, vary, folder, **choices):
+    given = {"controller": "p", "plant": "ideal", "jobs": 1, "vary": vary, **choices}
+    return run_study("tune", str(drawing), given, folder, SILENT)
 
 
 @pytest.mark.slow
 def test_an_optimum_within_is_found(tmp_path):
     """e(k+1) = (1 - k T) e(k): no error is left after one period where k T = 1."""
     (tmp_path / "step.traj").write_text(STEP)
-    found = tune(
-        str(tmp_path / "step.traj"), ["k=10..300"], base(), tmp_path / "s", factor=3.0, jobs=1
-    )
+    found = tune(tmp_path / "step.traj", ["k=10..300"], tmp_path / "s", effort=3.0)
     assert found.settled
     assert float(found.best.choice["k"]) == pytest.approx(1 / 0.02, rel=0.005)
     rings = [c for c in found.cells if float(c.choice["k"]) > 2 / 0.02]
@@ -96,8 +97,8 @@ def test_an_optimum_at_the_bound_is_found_and_a_search_that_was_killed_finds_it_
     count = before.count(b"\n")
     assert f"note: {count} of {len(keys)} runs were done before" in err
 
-    whole = tune(str(tmp_path / "ring.traj"), ["k=4..30"], base(), tmp_path / "whole",
-                 factor=bound, effort="speed_integral_m", budget=50, jobs=2)  # fmt: skip
+    whole = tune(tmp_path / "ring.traj", ["k=4..30"], tmp_path / "whole", effort=bound,
+                 effort_figure="speed_integral_m", budget=50, jobs=2)  # fmt: skip
     for path in whole.save():
         assert (tmp_path / "killed" / path.name).read_bytes() == path.read_bytes()
     k = float(whole.best.choice["k"])
@@ -117,11 +118,11 @@ def test_an_optimum_at_the_bound_is_found_and_a_search_that_was_killed_finds_it_
 def test_a_bound_that_nothing_keeps_is_told(tmp_path):
     (tmp_path / "step.traj").write_text(STEP)
     given = tmp_path / "s"
-    choices = {"factor": 0.1, "budget": 25, "jobs": 1}
-    found = tune(str(tmp_path / "step.traj"), ["k=20..49"], base(), given, **choices)
+    choices = {"effort": 0.1, "budget": 25}
+    found = tune(tmp_path / "step.traj", ["k=20..49"], given, **choices)
     assert found.best is None
     assert "No gains that were tried keep to it: the least was" in tuning.answer(found)
-    other = tune(str(tmp_path / "step.traj"), ["k=20..49"], base(seed=1), given, **choices)
+    other = tune(tmp_path / "step.traj", ["k=20..49"], given, seed=1, **choices)
     assert {c.label for c in other.cells} != {c.label for c in found.cells}  # seeded
 
 
@@ -140,23 +141,22 @@ def test_ranges():
 
 
 @pytest.mark.parametrize(
-    ("texts", "choices", "given", "fault"),
+    ("texts", "choices", "fault"),
     [
-        (["q=1..2"], {}, {}, "'q'"),
-        (["k=1..2", "k=1..3"], {}, {}, "'k' .*twice"),
-        (["k=1..2"], {}, {"gains": {"k": 3.0}}, "'k' .*twice"),
-        ([], {}, {"gains": {"k": 3.0}}, "0 gains"),
-        (["k=1..2"], {"budget": 24}, {}, "24 runs"),
-        (["k=1..2"], {"factor": math.nan}, {}, "is no bound"),
-        (["k=1..2"], {"count": 2}, {}, "random"),
-        (["k=-2..2"], {}, {}, "'k' .*'p' is -2"),
+        (["q=1..2"], {}, "'q'"),
+        (["k=1..2", "k=1..3"], {}, "'k' .*twice"),
+        (["k=1..2"], {"gains": {"k": 3.0}}, "'k' .*twice"),
+        ([], {"gains": {"k": 3.0}}, "0 gains"),
+        (["k=1..2"], {"budget": 24}, "24 runs"),
+        (["k=1..2"], {"effort": math.nan}, "is no bound"),
+        (["k=1..2"], {"runs": 2}, "random"),
+        (["k=-2..2"], {}, "'k' .*'p' is -2"),
     ],
 )
-def test_slips_are_told_before_anything_runs(tmp_path, texts, choices, given, fault):
+def test_slips_are_told_before_anything_runs(tmp_path, texts, choices, fault):
     (tmp_path / "step.traj").write_text(STEP)
     with pytest.raises(UsageError, match=fault):
-        tune(str(tmp_path / "step.traj"), texts, base(**given), tmp_path / "s",
-             **{"factor": 1.1, **choices})  # fmt: skip
+        tune(tmp_path / "step.traj", texts, tmp_path / "s", **choices)
     assert not (tmp_path / "s").exists()
 
 
@@ -171,7 +171,7 @@ def test_what_is_told_of_made_up_results(tmp_path):
     tried = (cell(1, 9.0, 2.0), cell(5, 4.0, 3.0), cell(6, 5.0, 3.5), cell(8, 2.0, 4.5),
              cell(9, 0.1, 3.0, "unstable"))  # fmt: skip
     made = tuning.Tuning(
-        name="a.traj", cells=tried, folder=tmp_path, settings=base(),
+        name="a.traj", cells=tried, folder=tmp_path, settings=make_settings(controller="p"),
         ranges=(parse_range("k=1..5"),), usual=tried[2], error=error, effort=command,
         needed=2.0, factor=2.0, settled=False,
     )  # fmt: skip

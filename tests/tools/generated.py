@@ -285,7 +285,7 @@ from dqpaint.settings import ReplayOptions as OfReplay
 def study_keyword_types():
     """The module that says to type checkers which keywords the studies of dqpaint have."""
     from dqpaint.settings.keywords import python_type
-    from dqpaint.studies.kinds import STUDIES
+    from dqpaint.studies.declared import STUDIES
 
     bases = {"compare": "DrawOptions", "sweep": "DrawOptions", "tune": "RunOptions",
              "replay": "OfReplay"}  # fmt: skip

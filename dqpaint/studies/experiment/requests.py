@@ -19,9 +19,6 @@ from dqpaint.studies.experiment.axes import (
 )
 from dqpaint.studies.runner.engine import Workers
 
-SEVERAL = ("controller", "plant", "robot", "disturb")
-"""What a study takes several of, as `controllers`, `plants`, `robots` and `disturbs`."""
-
 Vary = str | Sequence[str] | Mapping[str, Any]
 
 
@@ -32,7 +29,7 @@ def read_comparison(
 
     Args:
         choices: settings by their names in Python, with a file of them as `settings`.
-        several: alternatives by the names in `SEVERAL`; None where there are none.
+        several: alternatives by the names of their settings; None where there are none.
         usual: settings that hold where nothing else is said.
 
     Raises:
@@ -52,7 +49,7 @@ def read_sweep(
     Args:
         vary: axes as texts like "k=5,10", or values by names.
         choices: settings by their names in Python, with a file of them as `settings`.
-        several: alternatives by the names in `SEVERAL`; one alone is no axis.
+        several: alternatives by the names of their settings; one alone is no axis.
 
     Raises:
         DqpaintError: a choice or a file is at fault.

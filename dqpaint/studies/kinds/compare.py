@@ -4,17 +4,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations as pairs
 from pathlib import Path
-from typing import Annotated, ClassVar
 
 import numpy as np
 
 from dqpaint.core import tables
-from dqpaint.settings import COMMANDS, Settings
-from dqpaint.studies.experiment import cells, requests
+from dqpaint.settings import Settings
+from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.axes import Axis, combinations, with_choice
 from dqpaint.studies.experiment.cells import Cell, TableFigure, find_figure
 from dqpaint.studies.experiment.statistics import LEVEL, holm, welch
-from dqpaint.studies.kinds.study import STUDIES, StudyOfAlternatives, StudyRequest, figure_option
+from dqpaint.studies.kinds.study_request import StudyRequest
 from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
 from dqpaint.studies.report.page import Block, Rows, Words, files_of
 from dqpaint.studies.report.pictures import pictures
@@ -62,32 +61,6 @@ class Comparison(StudyResult):
             "-table.md": ("\n\n".join(parts) + "\n").encode(),
         }
         return made, [*blocks, *shown.values()]
-
-
-@STUDIES.add("compare")
-class Compare(StudyOfAlternatives):
-    """Paint one drawing by several laws, plants, arms or disturbances: pictures, errors, a table.
-
-    With --runs each is done with several seeds, and the table has means and standard deviations.
-    """
-
-    groups = COMMANDS["compare"]
-    defaults: ClassVar = {"size": "640x360"}
-    examples = """Examples:
-
-  dqpaint compare lag --controllers "hinf,p,p(k=5)"
-
-  dqpaint compare lag --controllers hinf,pff --runs 10 --disturb twist=noise,x=0.02,frequency=5
-"""
-
-    figure: Annotated[
-        str, figure_option("figure that is tested and drawn: see dqpaint list figures")
-    ] = "error_integral"
-
-    def carry_out(self, request: StudyRequest) -> Comparison:
-        """Compare."""
-        axes, base = requests.read_comparison(request.choices, self.several, **self.defaults)
-        return compare(request, axes, base, self.runs, self.figure)
 
 
 def compare(

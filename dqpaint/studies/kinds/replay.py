@@ -3,15 +3,13 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
 from dqpaint.core import tables
-from dqpaint.settings import COMMANDS, Option, read_choices
 from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.statistics import Spread
-from dqpaint.studies.kinds.study import STUDIES, Study, StudyRequest, Subject
 from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
 from dqpaint.studies.replay.claims import (
     ClaimVerdict,
@@ -87,36 +85,6 @@ class Replay(StudyResult):
 
 def _aligned(rows: Sequence[Sequence[str]]) -> str:
     return "\n".join(tables.align(rows))
-
-
-@STUDIES.add("replay")
-class ReplayStudy(Study):
-    """Repeat a paper's experiment: its numbers beside ours, and which of its claims hold.
-
-    Every verdict follows from the numbers of this run; the paper's own are judged alike.
-    """
-
-    subject = Subject("NAME", "see: dqpaint list replays")
-    groups = COMMANDS["replay"]
-    whole = False
-    examples = """Examples:
-
-  dqpaint replay thesis-spiral --runs 10
-
-  dqpaint replay ozgur-cost
-"""
-
-    runs: Annotated[
-        int | None, Option("runs of each choice, with the seeds that follow --seed", "N")
-    ] = None
-
-    def carry_out(self, request: StudyRequest) -> Replay:
-        """Replay."""
-        measured = MeasureRequest(
-            request.folder, self.runs, request.jobs, read_choices(request.choices),
-            request.reporter,
-        )  # fmt: skip
-        return replay(str(request.subject), measured)
 
 
 def replay(name: str, request: MeasureRequest) -> Replay:

@@ -4,14 +4,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
 
 import numpy as np
 
 from dqpaint.core import tables
 from dqpaint.errors import UsageError
-from dqpaint.settings import COMMANDS, SMALLEST, Option, Settings
-from dqpaint.studies.experiment import cells, requests
+from dqpaint.settings import SMALLEST, Settings
+from dqpaint.studies.experiment import cells
 from dqpaint.studies.experiment.axes import (
     Axis,
     axis_description,
@@ -20,13 +19,7 @@ from dqpaint.studies.experiment.axes import (
     with_choice,
 )
 from dqpaint.studies.experiment.cells import TableFigure, find_figure, means_of
-from dqpaint.studies.kinds.study import (
-    STUDIES,
-    VARY,
-    StudyOfAlternatives,
-    StudyRequest,
-    figure_option,
-)
+from dqpaint.studies.kinds.study_request import StudyRequest
 from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
 from dqpaint.studies.report.charts import HeatMap, Line, Panel, wide
 from dqpaint.studies.report.page import Block, Charts, Map, Pictured, Rows, Words, files_of
@@ -87,41 +80,6 @@ class Sweep(StudyResult):
         }
         words = Words("\n".join([*fault_lines(self), *axis_descriptions(self)]))
         return made, [shown, words, Rows("All points", rows, note=cells.figure_meanings())]
-
-
-@STUDIES.add("sweep")
-class SweepStudy(StudyOfAlternatives):
-    """Run a drawing over one or two axes of values: table, and a curve or a heat map.
-
-    Unstable points are marked. A sweep that was stopped resumes.
-    """
-
-    groups = COMMANDS["sweep"]
-    examples = """Examples:
-
-  dqpaint sweep star --controller p --vary k=5..400:log:9
-
-  dqpaint sweep star --vary gamma_T=0.01..1:log:5 --vary disturb.twist.x=0,0.01,0.02
-"""
-
-    vary: Annotated[
-        Any,
-        Option(
-            "a gain, plant, robot, disturb.NAME.VALUE ...: k=5,10,20 or k=1..100:log:9; once or "
-            "twice",
-            "NAME=VALUES",
-            many=True,
-            python=VARY,
-        ),
-    ] = None
-    figure: Annotated[
-        str, figure_option("figure that is tested and drawn: see dqpaint list figures")
-    ] = "position_error_rms_m"
-
-    def carry_out(self, request: StudyRequest) -> Sweep:
-        """Sweep."""
-        axes, base = requests.read_sweep(self.vary or (), request.choices, self.several)
-        return sweep(request, axes, base, self.runs, self.figure)
 
 
 def sweep(

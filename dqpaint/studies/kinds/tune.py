@@ -14,9 +14,7 @@ number of workers.
 
 import math
 from collections.abc import Callable, Sequence
-from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
 
 import numpy as np
 from scipy.optimize import (
@@ -30,19 +28,15 @@ from scipy.optimize import (
 from dqpaint.controllers import find_controller
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
-from dqpaint.language.writing import builder
-from dqpaint.settings import COMMANDS, SMALLEST, Option, Settings
-from dqpaint.studies.experiment import requests
+from dqpaint.settings import SMALLEST, Settings
 from dqpaint.studies.experiment.axes import with_choice
 from dqpaint.studies.experiment.cells import Cell, find_figure, run_cells
 from dqpaint.studies.experiment.gain_range import Range, parse_range
-from dqpaint.studies.kinds.study import STUDIES, VARY, RepeatedStudy, StudyRequest, figure_option
+from dqpaint.studies.kinds.study_request import StudyRequest
 from dqpaint.studies.kinds.tuning import Tuning
-from dqpaint.studies.runner.engine import Study, Workers, check
-from dqpaint.studies.runner.reporter import SILENT, Reporter
-from dqpaint.studies.runner.run import Run, drawing_text, seeded
+from dqpaint.studies.runner.engine import Study, check
+from dqpaint.studies.runner.run import Run, seeded
 
-EFFORT = "command_integral_rad"  # of laws that command torque, theirs
 PER_GAIN = 8  # of a generation
 MOST_GAINS = 4
 ALIKE = 0.3  # part of the error by which a generation differs when the region is found
@@ -56,81 +50,31 @@ Gains = tuple[float, ...]
 """Values of the gains that are sought, in the order of their ranges."""
 
 
-@STUDIES.add("tune")
-class Tune(RepeatedStudy):
-    """Find the gains with the least error within an effort bound, and the trade-off of the two.
-
-    The bound is 1 for the effort of an arm that follows the drawing exactly. Seeded; a search that
-    was stopped resumes.
-    """
-
-    groups = COMMANDS["tune"]
-    examples = """Examples:
-
-  dqpaint tune circle --controller p --vary k=2..200 --effort 1.05
-
-  dqpaint tune star --controller hinf --plant compliant --runs 3 --disturb noise=0.0005
-"""
-
-    vary: Annotated[
-        Any,
-        Option(
-            "range of a gain, repeatable",
-            "GAIN=LOW..HIGH[:lin]",
-            unsaid="all of the law's, from a tenth to ten times the default value",
-            many=True,
-            read=partial(requests.vary_texts, span=True),
-            python=VARY,
-        ),
-    ] = None
-    effort: Annotated[
-        float, Option("bound on the effort, times what the drawing itself needs", "X")
-    ] = 1.1
-    figure: Annotated[str, figure_option("figure to minimise, as in the JSON")] = "error_integral"
-    effort_figure: Annotated[str, figure_option("figure that is bounded")] = EFFORT
-    budget: Annotated[int, Option("largest number of runs", "N")] = 300
-
-    def carry_out(self, request: StudyRequest) -> Tuning:
-        """Tune."""
-        return tune(
-            request.subject, self.vary or (), request.settings(), request.folder,
-            factor=self.effort, error=self.figure, effort=self.effort_figure, count=self.runs,
-            budget=self.budget, jobs=request.jobs, reporter=request.reporter,
-        )  # fmt: skip
-
-
 def tune(
-    drawing: str | builder.Drawing,
+    request: StudyRequest,
     texts: Sequence[str],
-    base: Settings,
-    folder: Path,
-    *,
     factor: float,
-    error: str = "error_integral",
-    effort: str = EFFORT,
-    count: int = 1,
-    budget: int = 300,
-    jobs: Workers = None,
-    reporter: Reporter = SILENT,
+    error: str,
+    effort: str,
+    count: int,
+    budget: int,
 ) -> Tuning:
     """Seek gains of a law.
 
     Args:
-        drawing: a file, an example's name, or one made by calls.
+        request: of which drawing, with which settings, where and by whom; the seed is that of the
+            first run and of the search.
         texts: where which gains are sought, as in "k=1..100"; none for all of the law's.
-        base: all other settings; its seed is that of the first run and of the search.
-        folder: of the study.
         factor: the most effort, over what the drawing itself needs.
         error: name of the figure that is to be small.
         effort: name of the figure that is bounded.
         count: how many runs each, with the seeds that follow.
         budget: the most runs.
-        jobs: how many processes, None is one a core; or the address of a Dask cluster.
-        reporter: is told how far it is.
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.
     """
+    base = request.settings()
     ranges = _ranges(texts, base)
     least = 1 + (generation(len(ranges)) + LOCAL * len(ranges)) * max(count, 1)
     if not least <= budget <= MOST_RUNS:
@@ -140,7 +84,7 @@ def tune(
         )
     if not (math.isfinite(factor) and factor > 0):
         raise UsageError(f"effort {factor:g} is no bound: write 1.1 for 10 % more than is needed")
-    name, text = drawing_text(drawing)
+    name, text = request.drawing
     small = base.model_copy(update={"width": SMALLEST, "height": SMALLEST})
     torque = find_controller(base.controller).drives_torque
     reference = Run(name, text, _undisturbed(small, torque))
@@ -151,7 +95,7 @@ def tune(
 
     ends = [tuple(r.low for r in ranges), tuple(r.high for r in ranges)]
     check([reference, *(run for end in ends for run in runs_of(end)[:1])])
-    with Study(folder, jobs, "tune", budget, reporter) as study:
+    with Study(request.folder, request.jobs, request.study, budget, request.reporter) as study:
         (first,) = study.results([reference])
         if first.status != "done":
             raise DqpaintError(f"the effort that the drawing needs is not known: {first.message}")
@@ -168,11 +112,12 @@ def tune(
         settled = search.seek(usual, base.seed)
     if study.known:
         tried = 1 + len(search.cells) * count
-        reporter.note(f"{study.known} of {tried} runs were done before")
+        request.reporter.note(f"{study.known} of {tried} runs were done before")
     return Tuning(
-        name=Path(name).name, settings=base, cells=tuple(search.cells.values()), folder=folder,
-        text=text, ranges=ranges, usual=search.cells[usual] if usual else None, error=figures[0],
-        effort=figures[1], needed=needed, factor=factor, settled=settled,
+        name=Path(name).name, settings=base, cells=tuple(search.cells.values()),
+        folder=request.folder, text=text, ranges=ranges,
+        usual=search.cells[usual] if usual else None, error=figures[0], effort=figures[1],
+        needed=needed, factor=factor, settled=settled,
     )  # fmt: skip
 
 

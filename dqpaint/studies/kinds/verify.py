@@ -5,14 +5,11 @@ import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
 
 from dqpaint.core import tables
 from dqpaint.errors import DqpaintError
 from dqpaint.light.images import contact_sheet, difference_picture
 from dqpaint.outputs import files
-from dqpaint.settings import Option
-from dqpaint.studies.kinds.study import STUDIES, Study, StudyRequest, Subject
 from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
 from dqpaint.studies.report.page import Page, Rows, Shot, Words, html
 from dqpaint.studies.runner.engine import Workers, carry_out_study
@@ -81,36 +78,6 @@ class Verification(StudyResult):
         if self.changes is not None:
             return []
         return save_differences(self.verdicts, self.folder, command)
-
-
-@STUDIES.add("verify")
-class Verify(Study):
-    """Draw a folder again and compare it with its references, gate by gate."""
-
-    subject = Subject("FOLDER", "folder of drawings (or a cases.toml) and references", ".")
-    groups = ()
-    whole = False
-    examples = "Examples:\n\n  dqpaint verify drawings/\n\n  dqpaint verify drawings/ --update"
-
-    update: Annotated[bool, Option("make new references, and list what changed")] = False
-    folder: Annotated[Any, Option("folder for pictures of differences", "FOLDER", name="out")] = (
-        None
-    )
-
-    @classmethod
-    def default_folder(cls, name: str, subject: str) -> Path:
-        """Where the command writes if no folder is given."""
-        return Path("verify-differences")
-
-    def carry_out(self, request: StudyRequest) -> Verification:
-        """Verify."""
-        folder = Path(str(request.subject))
-        verdicts = verify(folder, request.jobs, self.update, request.reporter)
-        changes = tuple(update(verdicts, folder)) if self.update else None
-        return Verification(
-            name="verify", cells=(), folder=request.folder, verdicts=tuple(verdicts),
-            changes=changes,
-        )  # fmt: skip
 
 
 def verify(

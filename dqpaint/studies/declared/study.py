@@ -1,5 +1,7 @@
 """The declaration of a study -> its command, its call from Python, and a finished study.
 
+What runs it is imported when it is carried out: help of a study needs its declaration alone.
+
 A study is a model whose fields, each with an `Option`, are its parameters, and which names the
 groups of settings that it takes besides:
 
@@ -15,32 +17,27 @@ is `dqpaint twice FILE --other NAME` and `dqpaint.study("twice", drawing, other=
 """
 
 from abc import abstractmethod
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 from pydantic import BaseModel, ConfigDict
 
 from dqpaint.core import Folder, subclass
-from dqpaint.language.writing import builder
-from dqpaint.painting import validate
 from dqpaint.settings import (
     COMMANDS,
     DEFAULT_CONTROLLER,
     Option,
     Setting,
-    Settings,
     check_keywords,
     settings_of,
     validated,
 )
-from dqpaint.studies.experiment import check_figure, requests
-from dqpaint.studies.experiment.cells import Cell, run_cells
-from dqpaint.studies.kinds.study_result import StudyResult
-from dqpaint.studies.runner.engine import Workers, carry_out_study
-from dqpaint.studies.runner.reporter import SILENT, Reporter
-from dqpaint.studies.runner.run import Run, drawing_text, repeated
+
+if TYPE_CHECKING:
+    from dqpaint.language.writing import builder
+    from dqpaint.studies.kinds import StudyRequest, StudyResult
+    from dqpaint.studies.runner.reporter import Reporter
 
 VARY = "str | Sequence[str] | Mapping[str, Any]"
 """The type of what is varied, from Python."""
@@ -52,50 +49,6 @@ class Subject(NamedTuple):
     metavar: str
     help: str
     default: str | None = None
-
-
-@dataclass(frozen=True)
-class StudyRequest:
-    """What a caller asks of a study besides its parameters.
-
-    Attributes:
-        study: its name.
-        subject: the drawing: a file, an example's name, or one made by calls; or what else the
-            study is about.
-        choices: settings by their names in Python, with a file of them as `settings`.
-        folder: of the study's journal and files.
-        jobs: how many processes, None is one a core; or the address of a Dask cluster.
-        reporter: shows how far the study is.
-    """
-
-    study: str
-    subject: str | builder.Drawing
-    choices: Mapping[str, Any]
-    folder: Path
-    jobs: Workers = None
-    reporter: Reporter = SILENT
-
-    @property
-    def drawing(self) -> tuple[str, str]:
-        """Path and text of the drawing; DqpaintError."""
-        return drawing_text(self.subject)
-
-    def settings(self, **defaults: Any) -> Settings:
-        """The settings of the choices, and defaults where they say nothing; DqpaintError."""
-        return validate.settings_of_choices(requests.named_law(self.choices), **defaults)
-
-    def cells(
-        self, choices: Sequence[dict[str, str]], runs: Sequence[Run], count: int
-    ) -> tuple[Cell, ...]:
-        """Carry out runs, each `count` times with the seeds that follow: a cell a choice.
-
-        Raises:
-            DqpaintError: a run is at fault before it begins, or the folder.
-        """
-        return run_cells(choices, repeated(list(runs), count), self._carry_out)
-
-    def _carry_out(self, runs: list[Run]) -> Any:
-        return carry_out_study(runs, self.folder, self.jobs, self.study, self.reporter)
 
 
 class Study(BaseModel):
@@ -148,7 +101,7 @@ class Study(BaseModel):
         return Path(f"{Path(subject).stem}-{name}")
 
     @abstractmethod
-    def carry_out(self, request: StudyRequest) -> StudyResult:
+    def carry_out(self, request: "StudyRequest") -> "StudyResult":
         """Carry the study out; `request.cells` does its runs.
 
         Raises:
@@ -157,6 +110,8 @@ class Study(BaseModel):
 
 
 def _figure(name: object) -> str:
+    from dqpaint.studies.experiment import check_figure
+
     check_figure(str(name))
     return str(name)
 
@@ -205,12 +160,13 @@ class StudyOfAlternatives(RepeatedStudy):
     @property
     def several(self) -> dict[str, Any]:
         """The alternatives by the names of their settings."""
-        return {name: getattr(self, f"{name}s") for name in requests.SEVERAL}
+        return {"controller": self.controllers, "plant": self.plants, "robot": self.robots,
+                "disturb": self.disturbs}  # fmt: skip
 
 
 STUDIES: Folder[type[Study]] = Folder(
     "study",
-    "dqpaint.studies.kinds",
+    "dqpaint.studies.declared",
     group="dqpaint.studies",
     adapt=lambda name, thing: subclass(Study, name, thing),  # type: ignore[type-abstract]
 )
@@ -218,11 +174,11 @@ STUDIES: Folder[type[Study]] = Folder(
 
 def run_study(
     name: str,
-    subject: str | builder.Drawing,
+    subject: "str | builder.Drawing",
     given: Mapping[str, Any],
     folder: Path,
-    reporter: Reporter = SILENT,
-) -> StudyResult:
+    reporter: "Reporter",
+) -> "StudyResult":
     """Carry out a study by its name.
 
     Args:
@@ -236,6 +192,9 @@ def run_study(
         UsageError: an unknown study or parameter, or a value out of its range.
         DqpaintError: a fault in the drawing, the choices or the folder.
     """
+    from dqpaint.studies.experiment import requests
+    from dqpaint.studies.kinds import StudyRequest
+
     kind = STUDIES[name]
     own = {one.keyword: one.option for one in kind.parameters()}
     said = {key: value for key, value in given.items() if value is not None}

@@ -1,0 +1,39 @@
+"""Parameters of `compare` -> a finished comparison."""
+
+from typing import TYPE_CHECKING, Annotated, ClassVar
+
+from dqpaint.settings import COMMANDS
+from dqpaint.studies.declared.study import STUDIES, StudyOfAlternatives, figure_option
+
+if TYPE_CHECKING:
+    from dqpaint.studies.kinds import StudyRequest
+    from dqpaint.studies.kinds.compare import Comparison
+
+
+@STUDIES.add("compare")
+class Compare(StudyOfAlternatives):
+    """Paint one drawing by several laws, plants, arms or disturbances: pictures, errors, a table.
+
+    With --runs each is done with several seeds, and the table has means and standard deviations.
+    """
+
+    groups = COMMANDS["compare"]
+    defaults: ClassVar = {"size": "640x360"}
+    examples = """Examples:
+
+  dqpaint compare lag --controllers "hinf,p,p(k=5)"
+
+  dqpaint compare lag --controllers hinf,pff --runs 10 --disturb twist=noise,x=0.02,frequency=5
+"""
+
+    figure: Annotated[
+        str, figure_option("figure that is tested and drawn: see dqpaint list figures")
+    ] = "error_integral"
+
+    def carry_out(self, request: "StudyRequest") -> "Comparison":
+        """Compare."""
+        from dqpaint.studies.experiment import requests
+        from dqpaint.studies.kinds.compare import compare
+
+        axes, base = requests.read_comparison(request.choices, self.several, **self.defaults)
+        return compare(request, axes, base, self.runs, self.figure)

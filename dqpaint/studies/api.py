@@ -20,7 +20,7 @@ from dqpaint.light.images import decode_png
 from dqpaint.outputs import files
 from dqpaint.settings import SettingsFile, keywords
 from dqpaint.studies.declared import STUDIES, run_study
-from dqpaint.studies.experiment import cells
+from dqpaint.studies.experiment import cells, runs_table
 from dqpaint.studies.experiment.requests import Vary
 from dqpaint.studies.kinds import StudyResult
 from dqpaint.studies.kinds.compare import Comparison
@@ -57,8 +57,16 @@ class FinishedStudy(Generic[S]):
     def table(self) -> dict[str, Any]:
         """The columns of the CSV: choices as texts, figures as arrays (N,) in SI units."""
         columns = cells.columns(self.study.cells) if self.study.cells else {}
-        numbers = {"runs", "done"} | {n for n in columns if n.endswith(("_mean", "_std"))}
-        return {n: np.array(v) if n in numbers else v for n, v in columns.items()}
+        return {n: np.array(v) if not isinstance(v[0], str) else v for n, v in columns.items()}
+
+    @property
+    def runs(self) -> dict[str, Any]:
+        """The tidy table, a row a run, as `-runs.csv` has it: `pandas.DataFrame(study.runs)`.
+
+        Choices are texts, seeds and figures arrays (R,) in SI units; `status` tells which count.
+        """
+        columns = runs_table.columns(self.study.cells)
+        return {n: np.array(v) if not isinstance(v[0], str) else v for n, v in columns.items()}
 
     @property
     def pictures(self) -> dict[str, NDArray[np.uint8]]:

@@ -5,7 +5,7 @@
 
 from collections.abc import Callable, Sequence
 from os import PathLike
-from typing import Any
+from typing import Any, Literal
 
 from dqpaint.settings import DrawOptions, RunOptions
 from dqpaint.settings import ReplayOptions as OfReplay
@@ -19,6 +19,9 @@ class CompareOptions(DrawOptions, total=False):
     robots: Sequence[str] | str | None
     disturbs: Sequence[str] | str | None
     figure: str | None
+    baseline: str | None
+    pairs: str | None
+    test: Literal["t", "wilcoxon"] | None
     jobs: int | None
     cluster: str | None
     folder: str | PathLike[str] | None

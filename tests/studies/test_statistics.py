@@ -8,10 +8,14 @@ import pytest
 from dqpaint.studies.experiment.statistics import (
     Spread,
     holm,
+    paired_t,
     spread,
     two_sided,
     welch,
+    why_untested,
+    wilcoxon,
 )
+from tests.tools import truth
 
 # Percentage points of Student's t, two-sided 5 % and 1 %: Abramowitz and Stegun, Table 26.10.
 TABLE = {
@@ -72,3 +76,76 @@ def test_holm_on_a_known_example():
     assert holm([0.01, 0.04, 0.03, 0.005]) == pytest.approx([0.03, 0.06, 0.06, 0.02])
     assert holm([0.9, 0.8]) == [1.0, 1.0]
     assert holm([]) == []
+
+
+@pytest.mark.parametrize("n", [2, 3, 8, 25])
+def test_paired_and_welch_with_intervals_are_scipy_s(rng, n):
+    from scipy import stats
+
+    for _ in range(5):
+        one, other = rng.normal(2, 1.5, n), rng.normal(1, 0.5, n)
+        pair, theirs = paired_t(one, other), stats.ttest_rel(one, other)
+        apart, unpaired = (
+            welch(spread(one), spread(other)),
+            stats.ttest_ind(one, other, equal_var=False),
+        )
+        for test, known in ((pair, theirs), (apart, unpaired)):
+            assert (test.t, test.p) == pytest.approx((known.statistic, known.pvalue), rel=1e-9)
+            assert test.interval == pytest.approx(tuple(known.confidence_interval()), rel=1e-9)
+            assert test.difference == pytest.approx(one.mean() - other.mean())
+        assert spread(one).interval == pytest.approx(
+            stats.t.interval(0.95, n - 1, one.mean(), stats.sem(one)), rel=1e-9
+        )
+        assert pair.effect == pytest.approx((one - other).mean() / (one - other).std(ddof=1))
+
+
+@pytest.mark.parametrize("n", [2, 5, 6, 9, 17])
+def test_wilcoxon_is_exact(rng, n):
+    from scipy import stats
+
+    for _ in range(5):
+        one, other = rng.normal(0.5, 1, n), rng.normal(0, 2, n)
+        test, known = wilcoxon(one, other), stats.wilcoxon(one, other, method="exact")
+        assert (test.t, test.p) == pytest.approx((known.statistic, known.pvalue), rel=1e-12)
+        low, high = test.interval
+        if n < 6:  # it cannot come below 5 %, so there is no such interval
+            assert math.isnan(low)
+            continue
+        inside, outside = 1e-9, -1e-9  # the shifts that the test does not refuse are the interval
+        for end, sign in ((low, 1), (high, -1)):
+            assert stats.wilcoxon(one - other - end - sign * inside, method="exact").pvalue > 0.05
+            assert stats.wilcoxon(one - other - end - sign * outside, method="exact").pvalue < 0.05
+
+
+@pytest.mark.parametrize("n", [3, 10])
+def test_the_interval_of_an_effect_is_that_of_the_noncentral_t(rng, n):
+    from scipy import stats
+
+    one, other = rng.normal(2, 1, n), rng.normal(1, 1, n)
+    test = paired_t(one, other)
+    for end, chance in zip(test.effect_interval, (0.975, 0.025), strict=True):
+        assert stats.nct.cdf(test.t, n - 1, end * n**0.5) == pytest.approx(chance, abs=1e-4)
+
+
+def test_runs_that_hardly_differ_are_not_tested(rng):
+    noisy, other = rng.normal(2, 0.3, 8).tolist(), rng.normal(1, 0.3, 8).tolist()
+    fixed, near = (2 + 1e-5 * rng.normal(0, 1, (2, 8))).tolist()
+    assert why_untested(noisy, other, True) is None
+    assert why_untested(fixed, other, True) is None  # what the other spreads by is a spread
+    assert why_untested(fixed, near, True) == "hardly any spread"
+    assert why_untested(fixed, near, False) == "hardly any spread"
+    assert why_untested(noisy, noisy, True) == "the same runs"
+    assert why_untested([1.0], other, False) == "one run"
+    assert why_untested([], other, False) == "no result"
+
+
+@pytest.mark.slow
+def test_intervals_and_tests_keep_what_they_promise():
+    """A few hundred of the trials of `tests.tools.truth`, in the same code."""
+    found = truth.measure(trials=1500, seed=3)
+    for name in ("mean", "paired difference", "difference of unequal spreads"):
+        assert found[f"coverage: {name}"] == pytest.approx(0.95, abs=0.02), name
+    assert found["family-wise error: 6 laws, 15 paired tests"] <= 0.05 + 0.015
+    shown = "22 % by three seeds is shown: paired, "
+    assert found[f"{shown}alone"] > 0.9
+    assert found[f"{shown}among all 66 pairs"] < 0.2

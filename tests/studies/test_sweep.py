@@ -56,7 +56,7 @@ def test_a_comparison_s_table_is_what_numpy_says_of_draws(line, tmp_path):
     paths = {path.name: path for path in made.save()}
     assert sorted(paths) == [
         f"line-{end}" for end in
-        ("errors.png", "overlay.png", "sheet.png", "table.csv", "table.md")
+        ("errors.png", "overlay.png", "runs.csv", "sheet.png", "table.csv", "table.md", "tests.csv")
     ]  # fmt: skip
     rows = read(paths["line-table.csv"])
     assert [row["controller"] for row in rows] == ["p", "pff"]
@@ -72,10 +72,25 @@ def test_a_comparison_s_table_is_what_numpy_says_of_draws(line, tmp_path):
             assert float(row[f"{name}_mean"]) == pytest.approx(np.mean(values), rel=1e-9)
             assert float(row[f"{name}_std"]) == pytest.approx(np.std(values, ddof=1), rel=1e-9)
         means.append(np.mean([one["error_integral"] for one in figures]))
-    tests = compare.differences(made.cells, ERROR)
-    assert tests[1][:3] == ["pff", "p", f"{means[0] / means[1]:.3g}"]
-    assert tests[1][-1] == "yes"
-    assert "Welch" in paths["line-table.md"].read_text()
+    (test,) = read(paths["line-tests.csv"])
+    assert [test[k] for k in ("A", "B", "paired", "n_A", "differ")] == [
+        "pff",
+        "p",
+        "True",
+        "3",
+        "yes",
+    ]
+    assert float(test["difference"]) == pytest.approx(means[0] - means[1], rel=1e-9)
+    assert "paired" in paths["line-table.md"].read_text()
+    runs = read(paths["line-runs.csv"])
+    assert [(run["controller"], run["seed"], run["status"]) for run in runs] == [
+        (law, seed, "done") for law in ("p", "pff") for seed in "567"
+    ]
+    alone = package.draw(
+        line, controller="pff", plant="ideal", disturb=NOISE, seed=6, size=(16, 16)
+    )
+    for name, value in alone.metrics.figures.items():
+        assert float(runs[4][name]) == pytest.approx(value, rel=1e-9)
     sheet = opened(paths["line-sheet.png"])
     assert sheet.shape[1] > 2 * 320
     overlay = opened(paths["line-overlay.png"])
@@ -159,14 +174,16 @@ def test_cells_take_figures_from_runs_that_came_to_their_end():
     assert alone.spread(ERROR).mean == 9.0
     lost = Cell({"k": "10"}, (Result("x", "failed", "too far\nand more"),))
     assert cells.rows([mixed, alone, lost])[1:] == [
-        ["5", "2 ± 1.4", *["-"] * 7, "3", "2 done, 1 unstable"],
+        ["5", "2.0 ± 1.4", *["-"] * 7, "3", "2 done, 1 unstable"],
         ["9", "9", *["-"] * 7, "1", "unstable"],
         ["10", *["-"] * 8, "1", "failed"],
     ]
     lines = cells.csv([mixed, alone, lost]).decode().splitlines()
-    assert lines[0] == "k,runs,done,status,message,error_integral_mean,error_integral_std"
+    ends = ("mean", "std", "median", "95_low", "95_high")
+    figures = ",".join(f"error_integral_{end}" for end in ends)
+    assert lines[0] == f"k,runs,done,status,message,{figures}"
     assert lines[1].startswith('5,3,2,"2 done, 1 unstable",it rings,2.0,1.41421356237')
-    assert lines[3] == "10,1,0,failed,too far,,"
+    assert lines[3] == "10,1,0,failed,too far,,,,,"
     made = swept(mixed, alone, lost, axes=["k=5,9,10"])
     assert sweep.curves(made, ERROR)[0].lines[0].marks.tolist() == [True, True, True]
     with pytest.raises(DqpaintError, match="every run failed; the first: too far"):

@@ -275,7 +275,7 @@ STUDY_OPTIONS_HEAD = '''"""Parameters of studies -> keywords in Python, as type 
 
 from collections.abc import Callable, Sequence
 from os import PathLike
-from typing import Any
+from typing import Any, Literal
 
 from dqpaint.settings import DrawOptions, RunOptions
 from dqpaint.settings import ReplayOptions as OfReplay

@@ -1,8 +1,8 @@
 """Parameters of `compare` -> a finished comparison."""
 
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
-from dqpaint.settings import COMMANDS
+from dqpaint.settings import COMMANDS, Option
 from dqpaint.studies.declared.study import STUDIES, StudyOfAlternatives, figure_option
 
 if TYPE_CHECKING:
@@ -30,10 +30,23 @@ class Compare(StudyOfAlternatives):
         str, figure_option("figure that is tested and drawn: see dqpaint list figures")
     ] = "error_integral"
 
+    baseline: Annotated[
+        str | None, Option("a law, plant or arm that all others are tested against", "NAME")
+    ] = None
+    pairs: Annotated[
+        str | None, Option("which are tested: hinf:p,hinf:pff", "A:B,...", unsaid="all of a family")
+    ] = None
+    test: Annotated[
+        Literal["t", "wilcoxon"],
+        Option("of runs with the same seeds: Student's paired t, or Wilcoxon's", "t|wilcoxon"),
+    ] = "t"
+
     def carry_out(self, request: "StudyRequest") -> "Comparison":
         """Compare."""
-        from dqpaint.studies.experiment import requests
+        from dqpaint.studies.experiment import comparisons, requests
         from dqpaint.studies.kinds.compare import compare
 
         axes, base = requests.read_comparison(request.choices, self.several, **self.defaults)
-        return compare(request, axes, base, self.runs, self.figure)
+        several = [axis for axis in axes if len(axis.texts) > 1] or axes[:1]
+        chosen = comparisons.choose(several, self.baseline, self.pairs, self.test)
+        return compare(request, axes, base, self.runs, self.figure, chosen)

@@ -61,7 +61,7 @@ def parse_axis(text: str) -> Axis:
     if not (name and sign and values):
         raise UsageError(f"'{text}' is not NAME=VALUES, for example k=5,10,20 or k=1..100:log:9")
     span = SPAN.fullmatch(values)
-    texts = _span(text, span) if span else [value.strip() for value in _parts(values)]
+    texts = _span(text, span) if span else [value.strip() for value in split_outside(values)]
     if "" in texts:
         raise UsageError(f"'{text}': there is an empty value")
     if len(set(texts)) < len(texts):
@@ -90,7 +90,7 @@ def _span(text: str, span: re.Match[str]) -> list[str]:
     return texts
 
 
-def _parts(text: str, sign: str = ",") -> list[str]:
+def split_outside(text: str, sign: str = ",") -> list[str]:
     """What commas part, outside of brackets: `p(k=5),hinf`; a diagonal is written `[1,1,4]`."""
     parts, depth = [""], 0
     for letter in text:
@@ -115,7 +115,7 @@ def parse_texts(name: str, values: object) -> list[str]:
     if callable(values):
         values = [values]
     if isinstance(values, str):
-        found = [part.strip() for part in _parts(values)]
+        found = [part.strip() for part in split_outside(values)]
         values = _joined(found) if name == "plant" else found
     if not isinstance(values, Sequence):
         raise UsageError(f"{name}s {values!r} is no list of names")
@@ -225,7 +225,7 @@ def _disturbances(text: str) -> dict[str, dict[str, float | str]]:
     """`payload(2)+twist(sine,x=0.02)`, or `none`."""
     if text == NONE:
         return {}
-    return parse_disturbances([_plain(part, "=") for part in _parts(text, "+")])
+    return parse_disturbances([_plain(part, "=") for part in split_outside(text, "+")])
 
 
 def axis_description(name: str, base: Settings) -> str:

@@ -1,5 +1,6 @@
 """Repeated runs of one choice -> one row of a table: mean and spread of every figure."""
 
+import math
 import re
 from collections import Counter, defaultdict
 from collections.abc import Callable, Sequence
@@ -22,6 +23,11 @@ class TableFigure(NamedTuple):
     names: tuple[str, ...]
     heading: str
     scale: float = 1.0
+
+    @property
+    def unit(self) -> str:
+        """The unit that its heading names."""
+        return self.heading.rpartition(" [")[2].removesuffix("]") if "[" in self.heading else ""
 
 
 KINDS = {"error": "Errors, of which less is better:", "cost": "What it costs:"}
@@ -73,10 +79,12 @@ class Cell:
     Attributes:
         choice: what was chosen, by the names of the axes, as it was written.
         results: of its runs, one a seed.
+        runs: the runs, in the same order; none of a cell whose figures are no run's.
     """
 
     choice: dict[str, str]
     results: tuple[Result, ...]
+    runs: tuple[Run, ...] = ()
 
     @property
     def label(self) -> str:
@@ -113,6 +121,16 @@ class Cell:
         rows = (result.figures for result in chosen)
         return spread([row[n] * figure.scale for row in rows for n in figure.names if n in row])
 
+    def by_seed(self, figure: TableFigure) -> dict[int, float]:
+        """A figure of each run that is a result, by its seed, or its place where it has none."""
+        seeds = [run.settings.seed for run in self.runs] or range(len(self.results))
+        return {
+            seed: result.figures[name] * figure.scale
+            for seed, result in zip(seeds, self.results, strict=True)
+            for name in figure.names
+            if result.status == "done" and name in result.figures
+        }
+
 
 def run_cells(
     choices: Sequence[dict[str, str]],
@@ -122,7 +140,7 @@ def run_cells(
     """One cell a choice, from the results of its runs; all runs are carried out together."""
     results = iter(carry_out([run for row in runs for run in row]))
     return tuple(
-        Cell(choice, tuple(next(results) for _ in row))
+        Cell(choice, tuple(next(results) for _ in row), tuple(row))
         for choice, row in zip(choices, runs, strict=True)
     )
 
@@ -201,18 +219,59 @@ def rows(cells: Sequence[Cell]) -> list[list[str]]:
 
 
 def spread_text(value: Spread) -> str:
-    """A mean with its spread, four digits."""
+    """A mean with its spread; alone, with four digits."""
     if not value.n:
         return "-"
     mean = 0.0 if abs(value.mean) < ROUNDING else value.mean
-    return f"{mean:.4g}" if value.n < 2 else f"{mean:.4g} ± {value.std:.2g}"
+    return f"{mean:.4g}" if value.n < 2 else " ± ".join(rounded(mean, value.std))
+
+
+def rounded(value: float, spread: float, *more: float) -> list[str]:
+    """A number, its spread and others of its kind, with the digits that fit the spread.
+
+    These are one or two of the spread, by the rule of the Particle Data Group (Rev. Part. Phys.,
+    5.3): 0.0074 is 0.007, and 0.0024 stays. Where nothing spreads there are four of the number.
+    """
+    all_ = (value, spread, *more)
+    largest = max((abs(v) for v in all_ if math.isfinite(v)), default=0.0)
+    if not (math.isfinite(spread) and spread > 1e-9 * largest):
+        return [f"{v:.4g}" for v in all_]
+    power = math.floor(math.log10(spread))
+    two = round(spread / 10.0**power, 2) < 3.55  # digits; else one
+    last = power - two  # the decade of the last digit
+    if last >= -7 and largest < 1e5:
+        return [f"{round(v, -last):.{max(0, -last)}f}" for v in all_]
+    top = math.floor(math.log10(largest))
+    scaled = (f"{v / 10.0**top:.{max(0, top - last)}f}" for v in all_)
+    return [f"{text}e{top:+03d}" for text in scaled]
+
+
+def spread_rows(found: Sequence[Cell], figure: TableFigure) -> list[list[str]]:
+    """Mean, its 95 % interval, median, least and most of one figure: headings and rows of text."""
+    lines = [["", f"mean of {figure.heading}", "95 %", "median", "least", "most", "runs",
+              "left out"]]  # fmt: skip
+    for cell in found:
+        values = list(cell.by_seed(figure).values())
+        if not values:
+            lines.append([cell.label, *"-----", "0", str(len(cell.results))])
+            continue
+        of = spread(values)
+        low, high = of.interval
+        mean, _, *others = rounded(of.mean, of.std, low, high, of.median, min(values), max(values))
+        ends = f"{others[0]} to {others[1]}" if math.isfinite(low) else "-"
+        out = len(cell.results) - len(values)
+        lines.append([cell.label, mean, ends, *others[2:], str(len(values)), str(out or "")])
+    return lines
 
 
 Columns = dict[str, list[str] | list[int] | list[float]]
 
 
 def columns(cells: Sequence[Cell]) -> Columns:
-    """Every figure of every cell in SI units, mean and spread; nan where there is none."""
+    """Every figure of every cell in SI units; nan where there is none.
+
+    A figure has its mean, standard deviation, median, and the 95 % interval of the mean.
+    """
     found: Columns = {axis: [cell.choice[axis] for cell in cells] for axis in cells[0].choice}
     found["runs"] = [len(cell.results) for cell in cells]
     found["done"] = [len(cell.done) for cell in cells]
@@ -222,6 +281,9 @@ def columns(cells: Sequence[Cell]) -> Columns:
         spreads = [cell.spread(TableFigure((name,), name)) for cell in cells]
         found[f"{name}_mean"] = [one.mean for one in spreads]
         found[f"{name}_std"] = [one.std for one in spreads]
+        found[f"{name}_median"] = [one.median for one in spreads]
+        for end, place in (("low", 0), ("high", 1)):
+            found[f"{name}_95_{end}"] = [one.interval[place] for one in spreads]
     return found
 
 

@@ -2,17 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import combinations as pairs
 from pathlib import Path
-
-import numpy as np
 
 from dqpaint.core import tables
 from dqpaint.settings import Settings
-from dqpaint.studies.experiment import cells
+from dqpaint.studies.experiment import cells, comparisons
 from dqpaint.studies.experiment.axes import Axis, combinations, with_choice
-from dqpaint.studies.experiment.cells import Cell, TableFigure, find_figure
-from dqpaint.studies.experiment.statistics import LEVEL, holm, welch
+from dqpaint.studies.experiment.cells import find_figure
+from dqpaint.studies.experiment.comparisons import Chosen
 from dqpaint.studies.kinds.study_request import StudyRequest
 from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
 from dqpaint.studies.report.page import Block, Rows, Words, files_of
@@ -22,10 +19,11 @@ from dqpaint.studies.runner.run import Run
 
 @dataclass(frozen=True, kw_only=True)
 class Comparison(StudyResult):
-    """A finished comparison; `figure` is the name of the figure that is tested."""
+    """A finished comparison: `figure` is the name of the figure that is tested, in which pairs."""
 
     settings: Settings
     figure: str
+    chosen: Chosen
 
     @property
     def title(self) -> str:
@@ -38,25 +36,35 @@ class Comparison(StudyResult):
         if all(not cell.results[0].figures for cell in self.cells):
             raise cells.every_run_failed(self.cells)
         parts = ["\n".join(tables.fit(cells.rows(self.cells), width))]
-        if tests := differences(self.cells, figure):
-            parts += [about_test(figure), "\n".join(tables.align(tests))]
+        if tests := comparisons.differences(self.cells, figure, self.chosen):
+            parts += [
+                "\n".join(tables.align(cells.spread_rows(self.cells, figure))),
+                comparisons.about(tests, figure.heading, self.chosen.method),
+                "\n".join(comparisons.terminal_rows(tests, figure.unit)),
+            ]
         return "\n\n".join(parts)
 
     def files_and_blocks(self) -> tuple[dict[str, bytes], list[Block]]:
         """Pictures and tables by the ends of their names, and the same for a page."""
         figure = find_figure(self.figure, self.cells)
         shown = pictures(self.cells, self.folder, self.settings)
-        rows, tests = cells.rows(self.cells), differences(self.cells, figure)
+        rows = cells.rows(self.cells)
+        tests = comparisons.differences(self.cells, figure, self.chosen)
         many = any(len(cell.results) > 1 for cell in self.cells)
         bars = tuple(rows[0].index(head) for head in cells.error_headings(self.cells))
         heading = "Means and standard deviations" if many else "Figures"
         blocks: list[Block] = [Rows(heading, rows, bars, cells.figure_meanings())]
         parts = [f"# {self.title}", tables.markdown(rows)]
         if tests:
-            blocks += [Rows("Differences", tests), Words(about_test(figure))]
-            parts += [about_test(figure), tables.markdown(tests)]
+            told = comparisons.about(tests, figure.heading, self.chosen.method)
+            spreads = cells.spread_rows(self.cells, figure)
+            differ = comparisons.difference_rows(tests, figure.unit)
+            blocks += [Rows(f"Spread of {figure.heading}", spreads),
+                       Rows("Differences", differ), Words(told)]  # fmt: skip
+            parts += [tables.markdown(spreads), told, tables.markdown(differ)]
         made = {
             **files_of(shown),
+            **({"-tests.csv": comparisons.csv(tests, figure.heading)} if tests else {}),
             "-table.csv": cells.csv(self.cells),
             "-table.md": ("\n\n".join(parts) + "\n").encode(),
         }
@@ -69,6 +77,7 @@ def compare(
     base: Settings,
     count: int = 1,
     figure: str = "error_integral",
+    chosen: Chosen | None = None,
 ) -> Comparison:
     """Paint a drawing with every combination of the axes' values.
 
@@ -78,6 +87,7 @@ def compare(
         base: all other settings; its seed is that of the first run.
         count: how many runs each, with the seeds that follow.
         figure: name of the figure that is tested for differences.
+        chosen: in which pairs; None are those of all laws, or else of the first axis.
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.
@@ -91,36 +101,5 @@ def compare(
     return Comparison(
         name=Path(name).name, settings=base, cells=found, folder=request.folder, text=text,
         figure=figure,
+        chosen=chosen or comparisons.choose([a for a in axes if a.name in several], None, None),
     )  # fmt: skip
-
-
-def differences(found: Sequence[Cell], figure: TableFigure) -> list[list[str]]:
-    """Whether means differ by more than chance: rows of text, the best first; none without runs."""
-    ranked = sorted(
-        (c for c in found if len(c.done) > 1), key=lambda cell: cell.spread(figure).mean
-    )
-    tests = [
-        (a, b, test)
-        for a, b in pairs(ranked, 2)
-        if (test := welch(a.spread(figure), b.spread(figure))) is not None
-    ]
-    if not tests:
-        return []
-    chances = holm([test.p for _, _, test in tests])
-    lines = [["smaller", "larger", "ratio", "t", "degrees of freedom", "p (Holm)", "differ"]]
-    for (a, b, test), p in zip(tests, chances, strict=True):
-        small, large = a.spread(figure).mean, b.spread(figure).mean
-        ratio = f"{large / small:.3g}" if small > 0 else "-"
-        verdict = "yes" if p < LEVEL else "not shown"
-        freedom = f"{test.freedom:.1f}" if np.isfinite(test.freedom) else "-"
-        lines.append([a.label, b.label, ratio, f"{abs(test.t):.3g}", freedom, f"{p:.2g}", verdict])
-    return lines
-
-
-def about_test(figure: TableFigure) -> str:
-    """What the table of differences says."""
-    return (
-        f"Whether the mean of {figure.heading} differs by more than its spread explains: Welch's "
-        f"t-test, two-sided, corrected for all pairs after Holm, at {LEVEL:.0%}. The runs of all "
-        "have the same seeds, which makes the test cautious."
-    )

@@ -7,7 +7,7 @@ from pathlib import Path
 from dqpaint.core import tables
 from dqpaint.outputs import files
 from dqpaint.settings import Settings
-from dqpaint.studies.experiment import cells
+from dqpaint.studies.experiment import cells, runs_table
 from dqpaint.studies.experiment.cells import Cell
 from dqpaint.studies.report.page import Block, Page, Pictured, Rows, files_of, html
 
@@ -84,6 +84,8 @@ class StudyResult:
             command: the command or call that makes them again, for a page; None for no page.
         """
         made, blocks = self.files_and_blocks()
+        if any(cell.runs for cell in self.cells):
+            made["-runs.csv"] = runs_table.csv(self.cells)
         if command is not None:
             page = Page(self.title, blocks, self.settings, self.text, command)
             made["-report.html"] = html(page)

@@ -154,7 +154,12 @@ def test_a_code_means_one_thing():
 
 TESTS = sorted((ROOT / "tests").rglob("*.py"))
 RUN_ON_PURPOSE = {
-    "tests.tools": {"test_documents.py", "test_snapshots.py", "plants/test_compliant_loop.py"},
+    "tests.tools": {
+        "test_documents.py",
+        "test_snapshots.py",
+        "plants/test_compliant_loop.py",
+        "studies/test_statistics.py",
+    },
     "tests.bench": set(),
 }
 """Programs of their own -> the tests that run them, to see that what they make is current."""

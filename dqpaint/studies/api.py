@@ -29,7 +29,7 @@ from dqpaint.studies.kinds.sweep import Sweep
 from dqpaint.studies.kinds.tuning import Tuning
 from dqpaint.studies.kinds.verify import Verdict, Verification, save_differences
 from dqpaint.studies.options import CompareOptions, ReplayOptions, SweepOptions, TuneOptions
-from dqpaint.studies.runner.reporter import SILENT, Callback
+from dqpaint.studies.runner.reporter import Callback
 
 S = TypeVar("S", bound=StudyResult)
 Where = str | PathLike[str]
@@ -271,8 +271,7 @@ def _carried_out(
     progress: Progress | None,
 ) -> StudyResult:
     about = subject if isinstance(subject, builder.Drawing) else str(subject)
-    reporter = SILENT if progress is None else Callback(progress)
-    return run_study(name, about, given, folder, reporter)
+    return run_study(name, about, given, folder, Callback(progress) if progress else None)
 
 
 OWN_FUNCTIONS = ("compare", "sweep", "tune", "replay", "verify")

@@ -1,4 +1,4 @@
-"""A law, plant, disturbance or brush of one's own -> what every one of its kind promises, checked.
+"""A law, plant, study or other thing of one's own -> what every one of its kind promises, checked.
 
     from dqpaint.testing import check_plant
     check_plant("mine")
@@ -13,9 +13,10 @@ from dqpaint.testing.controllers import check_controller
 from dqpaint.testing.disturbances import check_disturbance
 from dqpaint.testing.metrics import check_metric
 from dqpaint.testing.plants import check_plant
+from dqpaint.testing.studies import check_study
 from dqpaint.testing.writers import check_writer
 
 __all__ = [
     "check_brush", "check_controller", "check_disturbance", "check_metric", "check_plant",
-    "check_writer",
+    "check_study", "check_writer",
 ]

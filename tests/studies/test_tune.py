@@ -19,7 +19,6 @@ from dqpaint.studies.experiment.gain_range import Range, parse_range
 from dqpaint.studies.kinds import tuning
 from dqpaint.studies.kinds.tune import generation
 from dqpaint.studies.runner.journal import NAME
-from dqpaint.studies.runner.reporter import SILENT
 from dqpaint.studies.runner.run import Result
 from tests.support.processes import start, wait_for_lines, wait_for_the_end
 
@@ -54,7 +53,7 @@ def gain_of(share):
 
 def tune(drawing, vary, folder, **choices):
     given = {"controller": "p", "plant": "ideal", "jobs": 1, "vary": vary, **choices}
-    return run_study("tune", str(drawing), given, folder, SILENT)
+    return run_study("tune", str(drawing), given, folder)
 
 
 @pytest.mark.slow

@@ -1,6 +1,7 @@
 """The exported checks: all that is built in keeps them; a planted fault in each kind does not."""
 
 import time
+from typing import Annotated
 
 import numpy as np
 import pytest
@@ -9,16 +10,20 @@ from dqpaint import dq
 from dqpaint.brushes import BRUSHES, Brush, Emitters
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.disturbances import DISTURBANCES, Disturbance
-from dqpaint.errors import DqpaintError
+from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.outputs import WRITERS, Writer
 from dqpaint.plants import PLANTS
 from dqpaint.plants.ideal import Ideal
 from dqpaint.robots.kinematics.jacobians import pose_map
+from dqpaint.settings import Option
+from dqpaint.studies.declared import RepeatedStudy, Study
+from dqpaint.studies.kinds import Run, StudyResult
 from dqpaint.testing import (
     check_brush,
     check_controller,
     check_disturbance,
     check_plant,
+    check_study,
     check_writer,
 )
 from dqpaint.testing.runs import arm
@@ -273,3 +278,65 @@ def nameless(painting):
 def test_faulty_writers_are_found(function, ending, said):
     with pytest.raises(AssertionError, match=said):
         check_writer(Writer("mine", ending, function))
+
+
+class OneRun(RepeatedStudy):
+    """Draw once."""
+
+    def carry_out(self, request):
+        (name, text), base = request.drawing, request.settings(plant="ideal")
+        cells = request.cells([{"law": "p"}], [self.run(name, text, base)], 1)
+        return StudyResult(name=name, cells=cells, folder=request.folder, settings=base, text=text)
+
+    def run(self, name, text, base):
+        return Run(name, text, base)
+
+
+class Gambling(OneRun):
+    """Draw at a speed that changes each time."""
+
+    def run(self, name, text, base):
+        return Run(name, f"speed {np.random.default_rng().uniform(50, 60)} mm/s\n{text}", base)
+
+
+class Forgetful(OneRun):
+    """Draw once, as if for the first time."""
+
+    def carry_out(self, request):
+        (request.folder / "runs.jsonl").unlink(missing_ok=True)
+        return super().carry_out(request)
+
+
+class Demanding(OneRun):
+    """Draw once, and ask for what no other study asks for."""
+
+    wanted: Annotated[int, Option("without which it does nothing", "N")]
+
+
+class Hiding(OneRun):
+    """Draw once, with a parameter that takes a setting's name."""
+
+    view: Annotated[str, Option("what it is about", "NAME")] = "front"
+
+
+@pytest.mark.slow
+def test_studies():
+    check_study("sweep", vary="k=5,10", controller="p", plant="ideal")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("study", "said"), [(Gambling, "is not run again|the same files"), (Forgetful, "not run again")]
+)
+def test_a_study_with_a_fault_is_found(study, said):
+    with pytest.raises(AssertionError, match=said):
+        check_study(study)
+
+
+@pytest.mark.parametrize(
+    ("study", "said"),
+    [(Demanding, "'wanted' has a default"), (Hiding, "'view' hides"), (Study, "is not a subclass")],
+)
+def test_a_study_that_is_declared_with_a_fault_is_found(study, said):
+    with pytest.raises((AssertionError, UsageError), match=said):
+        check_study(study)

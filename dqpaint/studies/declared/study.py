@@ -173,20 +173,20 @@ STUDIES: Folder[type[Study]] = Folder(
 
 
 def run_study(
-    name: str,
+    study: str | type[Study],
     subject: "str | builder.Drawing",
     given: Mapping[str, Any],
     folder: Path,
-    reporter: "Reporter",
+    reporter: "Reporter | None" = None,
 ) -> "StudyResult":
-    """Carry out a study by its name.
+    """Carry out a study.
 
     Args:
-        name: in `STUDIES`.
+        study: its name in `STUDIES`, or its class.
         subject: what it is about.
         given: parameters and settings by their names in Python; None is not given.
         folder: of the study.
-        reporter: shows how far it is.
+        reporter: shows how far it is; None: nobody.
 
     Raises:
         UsageError: an unknown study or parameter, or a value out of its range.
@@ -194,8 +194,10 @@ def run_study(
     """
     from dqpaint.studies.experiment import requests
     from dqpaint.studies.kinds import StudyRequest
+    from dqpaint.studies.runner.reporter import SILENT
 
-    kind = STUDIES[name]
+    kind = STUDIES[study] if isinstance(study, str) else study
+    name = study if isinstance(study, str) else study.__name__.lower()
     own = {one.keyword: one.option for one in kind.parameters()}
     said = {key: value for key, value in given.items() if value is not None}
     check_keywords(name, said, kind.settings(), [*own, *(["settings"] if kind.whole else [])])
@@ -204,7 +206,8 @@ def run_study(
         for key, option in own.items()
         if key in said
     }
-    study = validated(kind, parameters)
+    asked = validated(kind, parameters)
     choices = {key: value for key, value in said.items() if key not in own}
-    crew = requests.workers(study.jobs, study.cluster)
-    return study.carry_out(StudyRequest(name, subject, choices, folder, crew, reporter))
+    crew = requests.workers(asked.jobs, asked.cluster)
+    request = StudyRequest(name, subject, choices, folder, crew, reporter or SILENT)
+    return asked.carry_out(request)

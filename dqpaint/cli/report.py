@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from dqpaint.cli.terminal import table
 from dqpaint.diagnostics import SourceLine, line_name
@@ -113,9 +113,9 @@ def _commanded(figures: dict[str, float]) -> list[tuple[str, str]]:
     ]
 
 
-def _gain(value: float | tuple[float, ...] | str) -> str:
+def _gain(value: Any) -> str:
     if isinstance(value, tuple):
-        return f"({', '.join(f'{part:.4g}' for part in value)})"
+        return f"({', '.join(map(_gain, value))})"
     return value if isinstance(value, str) else f"{value:.4g}"
 
 

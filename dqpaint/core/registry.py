@@ -147,8 +147,8 @@ class Registry(Mapping[str, T], Generic[T]):
 class Folder(Registry[T]):
     """Named things in the files of a package, in the order of their names.
 
-    A file is read when it is needed: `pham-t` is looked for in `pham_t.py` first, and only who asks
-    for all names, or for one that is elsewhere, has every file read.
+    A file is read when it is needed: `pham-t` is looked for in `pham_t.py` first, here or in a
+    folder below, and only who asks for all names, or for one that is elsewhere, has every file read.
 
     Args:
         kind: as for `Registry`.
@@ -168,12 +168,14 @@ class Folder(Registry[T]):
         self._package = package
 
     @cached_property
-    def _files(self) -> list[str]:
-        package = importlib.import_module(self._package)
-        return sorted(found.name for found in pkgutil.iter_modules(package.__path__))
+    def _files(self) -> dict[str, str]:
+        """The modules by the names of their files."""
+        paths = importlib.import_module(self._package).__path__
+        found = pkgutil.walk_packages(paths, f"{self._package}.")
+        return {one.name.rpartition(".")[2]: one.name for one in found if not one.ispkg}
 
     def _read(self, file: str) -> None:
-        importlib.import_module(f"{self._package}.{file}")
+        importlib.import_module(self._files[file])
 
     def _look_for(self, name: str) -> None:
         file = name.replace("-", "_")

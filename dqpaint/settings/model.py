@@ -53,12 +53,14 @@ class LawSettings(Group):
     gains: Annotated[
         dict[str, Gain],
         Option(
-            "a gain of that law in SI units; repeatable; 5..20@10% is a ramp in the first 10 %",
-            "NAME=VALUE",
+            "a gain of that law in SI units; repeatable; 5..20@10% is a ramp in the first 10 %, "
+            "1,2,3 a diagonal, '2,1;1,2' a matrix; paper: its paper's own gains",
+            "NAME=VALUE|paper",
             name="gain",
             many=True,
             read=read_gains,
-            python="Mapping[str, float | Sequence[float] | str] | Sequence[str] | str",
+            python="Mapping[str, float | Sequence[float] | Sequence[Sequence[float]] | str] | "
+            "Sequence[str] | str",
         ),
     ] = Field(default_factory=dict)
     recorded: Annotated[

@@ -15,7 +15,8 @@ from dqpaint.errors import UsageError
 DISTURBANCE = "twist=sine,x=0.02,frequency=2"
 SEVERAL = re.compile(r",(?=\s*\w+\s*=)")  # between the gains of one text
 
-Gain = float | tuple[float, ...] | str
+Gain = float | tuple[float, ...] | tuple[tuple[float, ...], ...] | str
+PAPER = "paper"  # in place of gains: those of the law's paper
 
 
 def read_path(value: object) -> object:
@@ -39,7 +40,7 @@ def read_size(value: object) -> tuple[Any, ...]:
 
 
 def read_gains(value: object) -> dict[str, Any]:
-    """Gains by their names, from a mapping or from texts like `k=20`.
+    """Gains by their names, from a mapping or from texts like `k=20`, or the text `paper`.
 
     Raises:
         UsageError: anything else.
@@ -48,8 +49,14 @@ def read_gains(value: object) -> dict[str, Any]:
         for name, gain in value.items():
             if isinstance(gain, bool):
                 raise UsageError(f"gain '{name}' should be a number, not {str(gain).lower()}")
-        return {n: tuple(gain) if isinstance(gain, list) else gain for n, gain in value.items()}
+        return {name: _frozen(gain) for name, gain in value.items()}
     return parse_gains(_texts("gain", value, "k=20"))
+
+
+def _frozen(gain: Any) -> Any:
+    """A list or an array as tuples, a number as it is."""
+    gain = gain.tolist() if hasattr(gain, "tolist") else gain
+    return tuple(map(_frozen, gain)) if isinstance(gain, list | tuple) else gain
 
 
 def read_disturbances(value: object) -> dict[str, Any]:
@@ -81,11 +88,16 @@ def _texts(name: str, value: object, example: str) -> list[str]:
 def parse_gains(texts: Sequence[str]) -> dict[str, float | str]:
     """Gains by their names from texts like `k=20`; other forms than a number the law reads.
 
+    The text `paper` is a gain of that name and value: the law puts its paper's in its place.
+
     Raises:
         UsageError: anything else, or a gain given twice.
     """
     gains: dict[str, float | str] = {}
     for text in (part for several in texts for part in SEVERAL.split(several)):
+        if text.strip() == PAPER:
+            gains[PAPER] = PAPER
+            continue
         name, sign, value = (part.strip() for part in text.partition("="))
         if not (name and sign and value):
             raise UsageError(

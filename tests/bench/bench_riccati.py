@@ -12,8 +12,8 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
-from dqpaint.controllers.laws import lqr, lqr8
-from dqpaint.controllers.laws.lqr8 import PLACES
+from dqpaint.controllers.laws.pereira import lqr, lqr8
+from dqpaint.controllers.laws.pereira.lqr8 import PLACES
 from dqpaint.language import parse
 from dqpaint.motion import plan
 from dqpaint.robots.model.card import read_card

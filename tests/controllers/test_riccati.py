@@ -6,8 +6,8 @@ import pytest
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.controllers.base.riccati import GAUSS
-from dqpaint.controllers.laws import lqr, lqr8
-from dqpaint.controllers.laws.lqr8 import BLOCK, PLACES, body_rates
+from dqpaint.controllers.laws.pereira import lqr, lqr8
+from dqpaint.controllers.laws.pereira.lqr8 import BLOCK, PLACES, body_rates
 from dqpaint.language import parse
 from dqpaint.motion import plan
 from tests.support.control import ARM
@@ -66,7 +66,7 @@ def tiny_steps(motion, gains, steps=12):
     rows = len(motion.t)
     tau = np.arange(2 * steps + 1) / (2 * steps)
     ys = exact_body_rates(motion, np.clip(tau, 1e-12, 1 - 1e-12))
-    P, g, h = np.diag(schedule.at(1.0).end_diagonal()), np.zeros(8), -motion.period / steps
+    P, g, h = schedule.at(1.0).end_matrix(), np.zeros(8), -motion.period / steps
     Ps, gs = np.empty((rows, 8, 8)), np.empty((rows, 8))
     Ps[-1], gs[-1] = P, g
     for k in range(rows - 2, -1, -1):
@@ -224,9 +224,14 @@ def test_the_gain_stays_to_the_end_unless_told_otherwise():
     motion, chosen = asked(SMOOTH), CONTROLLERS["lqr"]
     steady = lqr.riccati(motion, chosen.read_gains({"q": 9.0, "r": 0.04}))
     np.testing.assert_allclose(steady, 0.6, rtol=1e-12)
-    assert chosen.read_gains({"q": 9.0, "r": 0.04}).as_dict() == pytest.approx(
-        {"q": 9.0, "r": 0.04, "s": 0.6}
-    )
+    shown = chosen.read_gains({"q": 9.0, "r": 0.04}).as_dict()
+    assert shown == {
+        "q": 9.0,
+        "r": 0.04,
+        "s": pytest.approx(0.6),
+        "form": "derived",
+        "point": "base",
+    }
     dying = lqr.riccati(motion, chosen.read_gains({"q": 9.0, "r": 0.04, "s": 0}))
     assert (dying[-1] == 0).all()
     np.testing.assert_allclose(dying[0], 0.6, rtol=1e-6)
@@ -284,7 +289,9 @@ def test_no_other_gain_of_lqr8_costs_less(rng, gains, size):
     motion = asked(BRISK)
     P, g = solved(motion, **gains)
     weights = CONTROLLERS["lqr8"].read_gains(gains).first
-    q, r, s = (np.broadcast_to(v, 8) for v in (weights.q, weights.r, weights.end_diagonal()))
+    q, r, s = (
+        np.broadcast_to(v, 8) for v in (weights.q, weights.r, weights.end_matrix().diagonal())
+    )
     some = [
         costs(motion, *perturbed(rng, P, g, 125, size), q, r, s, 0.2 * rng.normal(size=8), True)
         for _ in range(8)
@@ -312,7 +319,9 @@ def test_p_and_g_are_the_price_of_an_error(rng):
     motion = asked(BRISK)
     P, g = solved(motion, **UNEVEN)
     weights = CONTROLLERS["lqr8"].read_gains(UNEVEN).first
-    q, r, s = (np.broadcast_to(v, 8) for v in (weights.q, weights.r, weights.end_diagonal()))
+    q, r, s = (
+        np.broadcast_to(v, 8) for v in (weights.q, weights.r, weights.end_matrix().diagonal())
+    )
     for e in rng.normal(size=(5, 8)):
         here, none = (
             costs(motion, P[None], g[None], q, r, s, start, True)[0] for start in (e, 0 * e)

@@ -9,7 +9,7 @@ from dqpaint import api, dq
 from dqpaint.cli.report import of_painting
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.controllers.base.controller import Controller
-from dqpaint.controllers.laws.p import RateGains
+from dqpaint.controllers.laws.pereira.p import RateGains
 from dqpaint.disturbances import DISTURBANCES, make_disturbances
 from dqpaint.errors import UsageError
 from dqpaint.language import parse

@@ -6,7 +6,7 @@ import pytest
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.controllers.base.controller import Controller
-from dqpaint.controllers.laws.p import RateGains
+from dqpaint.controllers.laws.pereira.p import RateGains
 from dqpaint.disturbances import DISTURBANCES, make_disturbances
 from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.language import parse

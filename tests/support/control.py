@@ -4,7 +4,7 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS, Arm, Controller, Seen
-from dqpaint.controllers.laws.p import RateGains
+from dqpaint.controllers.laws.pereira.p import RateGains
 from dqpaint.language import parse
 from dqpaint.motion import plan
 from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability

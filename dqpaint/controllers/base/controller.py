@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from copy import deepcopy
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Generic, Literal, Protocol, TypeVar, cast
 
 import numpy as np
@@ -13,9 +13,12 @@ from dqpaint.controllers.base.gains import G, Gains, list_gains
 from dqpaint.controllers.base.seen import Seen
 from dqpaint.core import Folder, Registry
 from dqpaint.dq import Floats
+from dqpaint.errors import UsageError
 from dqpaint.motion import Motion
 
 Commands = Literal["twist", "rates", "acceleration", "torque"]
+Controls = Literal["pose", "position", "orientation", "nothing"]
+PAPER = "paper"  # what a gain is given as to get those of the law's paper
 Law = Callable[[Seen, G], Floats]
 GainsOf = TypeVar("GainsOf", bound=Gains, contravariant=True)
 
@@ -48,6 +51,11 @@ class Controller(Generic[G]):
             objective of `--null` is added to them. A twist or an acceleration always leaves it.
         batched: whether it can drive many arms at once, as arrays of any leading shape.
         sha256: of the file of a user's law.
+        controls: what it brings to a set point: the `pose`, the `position` or the `orientation`
+            alone, or `nothing`.
+        paper: the gains of its paper's experiments, as texts and numbers; empty where it prints
+            none.
+        paper_source: where the paper has them.
     """
 
     name: str
@@ -58,6 +66,9 @@ class Controller(Generic[G]):
     leaves_null: bool = False
     batched: bool = False
     sha256: str | None = None
+    controls: Controls = "pose"
+    paper: Mapping[str, GainText] = field(default_factory=dict)
+    paper_source: str = ""
 
     @property
     def summary(self) -> str:
@@ -88,9 +99,20 @@ class Controller(Generic[G]):
     def read_gains(self, given: Mapping[str, GainText]) -> Schedule[G]:
         """The gains with the given ones replaced, over the drawing.
 
+        `{"paper": "paper"}` stands for those of the law's paper; others have precedence over them.
+
         Raises:
             UsageError: an unknown name, no value, or one outside its range; lists the law's own.
+                The paper prints no gains.
         """
+        if given.get(PAPER) == PAPER:
+            if not self.paper:
+                raise UsageError(
+                    f"the paper of controller '{self.name}' ({self.source}) states no gains; "
+                    f"laws with gains of their papers: {', '.join(_with_paper_gains())}"
+                )
+            chosen = {name: value for name, value in given.items() if name != PAPER}
+            given = {**self.paper, **chosen}
         return read_schedule(self.gains, given, f"controller '{self.name}'")
 
     def list_gains(self) -> str:
@@ -111,6 +133,10 @@ def for_one_run(law: Any) -> Any:
             if isinstance(value, np.ndarray | list | dict | set) and not name.startswith("__"):
                 own.setdefault(name, deepcopy(value))
     return fresh
+
+
+def _with_paper_gains() -> list[str]:
+    return [name for name, one in CONTROLLERS.items() if one.paper]
 
 
 def _from_plugin(name: str, law: Any) -> Controller[Any]:
@@ -134,8 +160,13 @@ def controller(
     gains: type[G],
     commands: Commands = "twist",
     leaves_null: bool = False,
+    controls: Controls = "pose",
+    paper: Mapping[str, GainText] | None = None,
+    paper_source: str = "",
 ) -> Callable[[L], L]:
     """A decorator that registers the function or class below it; arguments as in `Controller`.
+
+    Its docstring is its explanation, see `dqpaint.core.explanations`.
 
     A function goes in batches; a class, whose state may be that of one arm, where it says
     `batched = True`.
@@ -143,7 +174,10 @@ def controller(
 
     def record(law: L) -> L:
         batched = getattr(law, "batched", not isinstance(law, type))
-        CONTROLLERS.add(name)(Controller(name, source, gains, law, commands, leaves_null, batched))
+        CONTROLLERS.add(name)(Controller(
+            name, source, gains, law, commands, leaves_null, batched, None, controls,
+            paper or {}, paper_source,
+        ))  # fmt: skip
         return law
 
     return record

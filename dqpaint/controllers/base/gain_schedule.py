@@ -2,6 +2,8 @@
 
     20                     a number
     1,1,1,4,4,4            a diagonal, where the law takes one
+    2,1,0; 1,2,0; 0,0,3    a matrix, where the law takes one
+    tool                   a word, where the law has a choice
     2.8..5.3@10%           from 2.8 evenly to 5.3 over the first 10 % of the drawing, then 5.3
     220..220@30%..270@30%  220 for the first 30 %, then 270: two values at one time are a jump
 
@@ -16,7 +18,8 @@ from typing import Any, Generic, NamedTuple
 import numpy as np
 from pydantic import ValidationError
 
-from dqpaint.controllers.base.gains import G, Value, list_gains
+from dqpaint.controllers.base.gains import G, choices_of, list_gains
+from dqpaint.controllers.base.matrices import Value, as_value, gain_text, parse_value, widened
 from dqpaint.core import pydantic_reason
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
@@ -26,6 +29,8 @@ MOST_KNOTS = 1000
 RAMP_HELP = (
     "write a number without a unit, or a ramp such as 5..20@10% (from 5 to 20 over the first 10 %)"
 )
+
+MATRIX_HELP = "write a matrix row by row, such as 2,1;1,2, its rows of one length"
 
 
 class Knot(NamedTuple):
@@ -75,15 +80,14 @@ class Schedule(Generic[G]):
         return (max(b[0] for b in bounds), max(b[1] for b in bounds)) if bounds else None
 
     def column(self, name: str, parts: Floats) -> Floats:
-        """One gain at parts (N,) of the drawing: numbers (N,), or diagonals (N, m)."""
+        """One gain at parts (N,) of the drawing: numbers (N,), diagonals or matrices (N, m, m)."""
         if name in self.knots:
             return _interpolated(self.knots[name], parts)
         value = np.asarray(getattr(self.first, name), dtype=np.float64)
         return np.broadcast_to(value, (len(parts), *value.shape))
 
     def _rows(self, name: str, parts: Floats) -> list[Value]:
-        rows = _interpolated(self.knots[name], parts).tolist()
-        return [tuple(row) if isinstance(row, list) else row for row in rows]
+        return [as_value(row) for row in _interpolated(self.knots[name], parts)]
 
     def as_dict(self) -> dict[str, Any]:
         """The gains as a summary shows them: one that changes as it was written."""
@@ -96,8 +100,8 @@ class Schedule(Generic[G]):
                 shown[name] = self.texts[name]
             elif any(value != values[0] for value in values):  # it follows from one that changes
                 later = zip(parts[1:], values[1:], strict=True)
-                points = (f"{_gain_text(value)}@{100 * part:g}%" for part, value in later)
-                shown[name] = "..".join([_gain_text(values[0]), *points])
+                points = (f"{gain_text(value)}@{100 * part:g}%" for part, value in later)
+                shown[name] = "..".join([gain_text(values[0]), *points])
         return shown
 
 
@@ -111,8 +115,7 @@ def _interpolated(knots: tuple[Knot, ...], parts: Floats) -> Floats:
     i = np.clip(np.searchsorted(at, inside, side="right") - 1, 0, len(at) - 2)
     width = at[i + 1] - at[i]
     share = np.where(width > 0, (inside - at[i]) / np.where(width > 0, width, 1.0), 1.0)
-    if values.ndim > 1:
-        share = share[:, None]
+    share = share.reshape(-1, *[1] * (values.ndim - 1))
     return np.asarray((1 - share) * values[i] + share * values[i + 1])
 
 
@@ -135,7 +138,7 @@ def read_schedule(model: type[G], given: Mapping[str, GainText], whose: str) -> 
             raise UsageError(f"{whose} has no gain named '{name}'; its gains: {list_gains(model)}")
         points = (
             _read_knots(name, value, whose, model)
-            if isinstance(value, str)
+            if isinstance(value, str) and not choices_of(model, name)
             else (Knot(0.0, value),)
         )
         fixed[name] = points[0].value
@@ -164,7 +167,7 @@ def _checked(model: type[G], values: Mapping[str, Value], whose: str) -> G:
             text = f"gain '{first['loc'][0]}' of {whose} {pydantic_reason(first)}"
         else:
             shown = values[str(first["loc"][0])]
-            said = shown if isinstance(shown, str) else _gain_text(shown)
+            said = gain_text(shown) if isinstance(shown, float | int) else str(shown)[:60]
             text = (
                 f"gain '{first['loc'][0]}' of {whose} is {said}; {_range(model, first['loc'][0])}"
             )
@@ -173,6 +176,8 @@ def _checked(model: type[G], values: Mapping[str, Value], whose: str) -> G:
 
 def _range(model: type[G], name: Any) -> str:
     """The range of a gain, from its model."""
+    if words := choices_of(model, str(name)):
+        return f"it is {' or '.join(words)}"
     limits = model.model_fields[str(name)].metadata
     low = next((limit.ge for limit in limits if hasattr(limit, "ge")), None)
     high = next((limit.le for limit in limits if hasattr(limit, "le")), None)
@@ -193,38 +198,23 @@ def _read_knots(name: str, text: str, whose: str, model: type[G]) -> tuple[Knot,
         parts = [point.part for point in points]
         if parts != sorted(parts):
             raise ValueError
-        size = max(len(p.value) if isinstance(p.value, tuple) else 1 for p in points)
-        if size == 1:
-            return tuple(points)
-        return tuple(Knot(p.part, _widened(p.value, size)) for p in points)
+        values = widened([point.value for point in points])
+        return tuple(map(Knot, parts, values))
     except ValueError:
         raise UsageError(
-            f"gain '{name}' of {whose} is '{text[:60]}'; {RAMP_HELP}; "
+            f"gain '{name}' of {whose} is '{text[:60]}'; {MATRIX_HELP if ';' in text else RAMP_HELP}; "
             f"its gains: {list_gains(model)}"
         ) from None
 
 
 def _knot(text: str, i: int, count: int) -> Knot:
     value, sign, percent = text.partition("@")
-    numbers = tuple(float(number) for number in value.split(","))
+    found = parse_value(value)
     if not sign:
         if 0 < i < count - 1:
             raise ValueError
-        return Knot(float(i > 0), numbers[0] if len(numbers) == 1 else numbers)
+        return Knot(float(i > 0), found)
     part = float(percent.strip().removesuffix("%")) / 100
     if not (percent.strip().endswith("%") and 0 <= part <= 1 and count > 1):
         raise ValueError
-    return Knot(part, numbers[0] if len(numbers) == 1 else numbers)
-
-
-def _widened(value: Value, size: int) -> tuple[float, ...]:
-    """A diagonal of some size; a number stands for all of its elements."""
-    wide = value if isinstance(value, tuple) else (value,) * size
-    if len(wide) != size:
-        raise ValueError
-    return wide
-
-
-def _gain_text(value: Value) -> str:
-    """A gain as it is written."""
-    return ",".join(f"{part:.6g}" for part in value) if isinstance(value, tuple) else f"{value:.6g}"
+    return Knot(part, found)

@@ -1,27 +1,33 @@
 """Named numbers -> the checked gains of a law, with their units."""
 
-from typing import Annotated, ClassVar, TypeVar
+from typing import Annotated, Any, ClassVar, Literal, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, Field
 
-LEAST_GAIN, LARGEST_GAIN = (
-    1e-9,
-    1e9,
-)  # beyond these a gain is a slip, and its reciprocal soon no number
+from dqpaint.controllers.base.matrices import LARGEST_GAIN, LEAST_GAIN, Value
+
 Gain = Annotated[float, Field(ge=LEAST_GAIN, le=LARGEST_GAIN, allow_inf_nan=False)]
-Value = float | tuple[float, ...]
+WHOLE_RUN = "it is one for a whole run"
 
 
 class Gains(BaseModel):
-    """The gains of one law, in SI units; each field's description says the unit."""
+    """The gains of one law, in SI units; each field's description says the unit.
+
+    A field that is a `Literal` is a choice between forms of the law.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     constant: ClassVar[dict[str, str]] = {}  # gains that cannot change on the way, and why
 
-    def as_dict(self) -> dict[str, Value]:
+    def as_dict(self) -> dict[str, Value | str]:
         """The gains as a summary shows them: the ones given, then those that follow from them."""
         values = {name: getattr(self, name) for name in type(self).model_fields}
         return {name: value for name, value in values.items() if value is not None}
+
+    @property
+    def error_point(self) -> Literal["base", "tool"]:
+        """Where the error is that `disturbance_bounds` are about."""
+        return "base"
 
     def disturbance_bounds(self) -> tuple[float, float] | None:
         """Bounds [s] on the effect of disturbances, where the law guarantees any.
@@ -34,14 +40,23 @@ class Gains(BaseModel):
 G = TypeVar("G", bound=Gains)
 
 
+def choices_of(model: type[Gains], name: str) -> tuple[str, ...]:
+    """The words between which a field chooses; none for a number."""
+    kind: Any = model.model_fields[name].annotation
+    return get_args(kind) if get_origin(kind) is Literal else ()
+
+
 def list_gains(model: type[Gains]) -> str:
     """Name, default and unit of every gain, as text."""
-    fields = model.model_fields.items()
     return (
-        "none"
-        if not model.model_fields
-        else ", ".join(
-            f"{name}{'' if f.default is None else f' = {f.default:g}'} ({f.description})"
-            for name, f in fields
+        ", ".join(
+            f"{name}{'' if f.default is None else f' = {shown_default(f.default)}'} ({f.description})"
+            for name, f in model.model_fields.items()
         )
+        or "none"
     )
+
+
+def shown_default(value: Any) -> str:
+    """A default as lists show it."""
+    return value if isinstance(value, str) else f"{value:g}"

@@ -1,15 +1,23 @@
-"""Measured and desired pose -> the errors of the papers, always the short way round.
+"""Measured and desired pose -> the errors of the papers, and commands about the same point.
+
+Errors are always the short way round.
 
 x and -x are one pose: the desired one is taken on the side of the measured one before an error is
 formed, or the arm might turn the long way. The sign is decided by the error itself, never by the
 scalar part of a pose, which changes along a smooth path.
 """
 
+from typing import Literal
+
 import numpy as np
 
 from dqpaint import dq
+from dqpaint.controllers.base.seen import Seen
 from dqpaint.dq import Floats
 from dqpaint.robots.kinematics import inverse, pose_map
+
+Point = Literal["base", "tool"]
+POINT_HELP = "point of the body at which the error is taken: that at the base's origin, or the tool"
 
 
 def invariant_error(pose: Floats, pose_d: Floats) -> Floats:
@@ -25,6 +33,40 @@ def difference_error(pose: Floats, pose_d: Floats) -> Floats:
 def spatial_error(pose: Floats, pose_d: Floats) -> Floats:
     """x_e = x x_d* (..., 8), seen from the base."""
     return dq.mul(pose, dq.conj(dq.nearest(pose_d, pose)))
+
+
+def error_vector(x_e: Floats, seen: Seen, point: Point) -> Floats:
+    """[Im r_e; p] (..., 6): how far the tool is turned, and how far a point of it is away [m].
+
+    Args:
+        x_e: the spatial error.
+        seen: the input of the law.
+        point: `base`: the point of the tool's body that should be at the base's origin: p is p_e of
+            x_e = r_e + eps 1/2 p_e r_e, which is t - R_e t_d. `tool`: the tool's own, t - t_d.
+    """
+    p = dq.translation(x_e) if point == "base" else _tool(seen.pose) - _tool(seen.pose_d)
+    return np.concatenate([x_e[..., 1:4], p], axis=-1)
+
+
+def command_about(u: Floats, seen: Seen, point: Point) -> Floats:
+    """The spatial twist (..., 6) of [w; the point's velocity]; arguments as of `error_vector`."""
+    return u if point == "base" else dq.twist_from_point(u[..., :3], u[..., 3:], _tool(seen.pose))
+
+
+def tracking_command(u: Floats, x_e: Floats, seen: Seen, point: Point) -> Floats:
+    """The same with feed-forward, after which the error obeys the law of a set point.
+
+    About the base's origin it is Ad(x_e) xi_d. At the tool it is the turning R_e w_d and the
+    reference point's own velocity: there Ad(x_e) xi_d would leave (R_e - I) t_d_dot.
+    """
+    if point == "base":
+        return u + dq.adjoint(x_e, seen.twist_d)
+    w_d = dq.rotate(dq.rotation(x_e), seen.twist_d[..., :3])
+    t_d_dot = dq.point_velocity(seen.twist_d, _tool(seen.pose_d))
+    return command_about(u + np.concatenate([w_d, t_d_dot], axis=-1), seen, point)
+
+
+_tool = dq.translation
 
 
 def twist_of_invariant_rate(pose: Floats, pose_d: Floats, rate: Floats) -> Floats:

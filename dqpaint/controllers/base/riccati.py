@@ -44,19 +44,20 @@ def scattering(A: Floats, W: Floats, Q: Floats, c: Floats, h: float) -> Scatteri
 
     Args:
         A: (2, n, m, m) at the two Gauss points of each interval [1/s].
-        W: the diagonal of R^-1 (2, n, m).
-        Q: the diagonal (2, n, m).
+        W: R^-1 (2, n, m, m), positive definite.
+        Q: (2, n, m, m), positive definite.
         c: (2, n, m).
         h: the length of an interval [s].
     """
     m = A.shape[-1]
-    root = (Q.sum(0) / W.sum(0)) ** 0.25  # e in units of 1 / root, p of root: W and Q are alike
+    sizes = (np.diagonal(one.sum(0), axis1=-2, axis2=-1) for one in (Q, W))
+    root = np.divide(*sizes) ** 0.25  # e in units of 1 / root, p of root: W and Q are alike
+    products = root[..., :, None] * root[..., None, :]
     K = np.zeros((*A.shape[:2], 2 * m + 1, 2 * m + 1))
-    i = np.arange(m)
     K[..., :m, :m] = root[..., :, None] * A / root[..., None, :]
     K[..., m : 2 * m, m : 2 * m] = -K[..., :m, :m].swapaxes(-1, -2)
-    K[..., i, m + i] = -W * root**2
-    K[..., m + i, i] = -Q / root**2
+    K[..., :m, m : 2 * m] = -W * products
+    K[..., m : 2 * m, :m] = -Q / products
     K[..., :m, -1] = root * c
     exponent = 0.5 * h * (K[0] + K[1])
     tame = np.abs(exponent).sum(-1).max(-1) < MAGNUS_NORM

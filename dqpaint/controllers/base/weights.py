@@ -1,12 +1,13 @@
-"""Weights of the LQR laws -> their diagonals within the intervals of a drawing."""
+"""Weights of the LQR laws -> their matrices within the intervals of a drawing."""
 
-from typing import ClassVar, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 from pydantic import Field, ValidationInfo, field_validator
 
 from dqpaint.controllers.base.gain_schedule import Schedule
-from dqpaint.controllers.base.gains import LARGEST_GAIN, LEAST_GAIN, Gains, Value
+from dqpaint.controllers.base.gains import Gains
+from dqpaint.controllers.base.matrices import LEAST_GAIN, Value, as_value, matrix, read_value
 from dqpaint.controllers.base.riccati import GAUSS
 from dqpaint.dq import Floats
 
@@ -14,58 +15,74 @@ from dqpaint.dq import Floats
 class Weights(Gains):
     """The weights of an LQR cost: 1/2 e's e at the end + 1/2 integral of e'q e + u'r u.
 
-    Each is one number or a whole diagonal. Far from the end the rate of the error is sqrt(q / r);
-    towards it the gain goes to s / r. With s = sqrt(q r) it stays as it is, and that is what an
-    s not given is; the thesis has s = 0, which lets the gain die away in the last moment.
+    Each is one number, a diagonal or a symmetric matrix. Far from the end the rate of the error is
+    sqrt(q / r); towards it the gain goes to s / r. With s = sqrt(q r) it stays as it is, and that
+    is what an s not given is; the thesis has s = 0, which lets the gain die away in the last
+    moment.
     """
 
     size: ClassVar[int]
     constant: ClassVar[dict[str, str]] = {"s": "only its value at the end of the drawing counts"}
 
     q: Value = Field(
-        4.0, description="weight of the error, a number or a diagonal; it decays at sqrt(q / r) 1/s"
+        4.0,
+        description="weight of the error: a number, a diagonal or a symmetric matrix; it decays at "
+        "sqrt(q / r) 1/s",
     )
-    r: Value = Field(0.01, description="s^2, weight of the correction")
+    r: Value = Field(0.01, description="s^2, weight of the correction, likewise")
     s: Value | None = Field(
         None, description="s, weight of the error at the end; if not given sqrt(q r)"
     )
 
-    @field_validator("q", "r", "s")
+    @field_validator("q", "r", "s", mode="plain")
     @classmethod
-    def _one_or_all(cls, value: Value | None, info: ValidationInfo) -> Value | None:
-        numbers = value if isinstance(value, tuple) else () if value is None else (value,)
-        if isinstance(value, tuple) and len(value) != cls.size:
-            raise ValueError(f"has {len(value)} numbers; it is one number or {cls.size}")
-        least = 0.0 if info.field_name == "s" else LEAST_GAIN
-        for number in numbers:
-            if not least <= number <= LARGEST_GAIN:
-                raise ValueError(f"is {number:g}; a weight is from {least:g} to {LARGEST_GAIN:g}")
-        return value
+    def _one_or_all(cls, value: Any, info: ValidationInfo) -> Value | None:
+        if value is None and info.field_name == "s":
+            return None
+        return read_value(value, cls.size, 0.0 if info.field_name == "s" else LEAST_GAIN)
 
     @property
     def end_weight(self) -> Value:
-        """The weight s of the error at the end, given or not."""
+        """The weight s of the error at the end, given or not: what P is far from the end."""
         if self.s is not None:
             return self.s
-        product = np.sqrt(np.multiply(self.q, self.r)).tolist()
-        return tuple(product) if isinstance(product, list) else float(product)
+        if np.ndim(self.q) < 2 and np.ndim(self.r) < 2:
+            return as_value(np.sqrt(np.multiply(self.q, self.r)))
+        root = _root(matrix(self.r, self.size))  # P R^-1 P = Q with P = r^1/2 (..)^1/2 r^1/2
+        back = np.linalg.inv(root)
+        return as_value(root @ _root(back @ matrix(self.q, self.size) @ back) @ root)
 
-    def as_dict(self) -> dict[str, Value]:
+    def as_dict(self) -> dict[str, Value | str]:
         """The weights, s also where it is not given."""
         return {**super().as_dict(), "s": self.end_weight}
 
-    def end_diagonal(self) -> Floats:
-        """The diagonal of S (size,)."""
-        return np.broadcast_to(np.asarray(self.end_weight, dtype=np.float64), (self.size,))
+    def end_matrix(self) -> Floats:
+        """S (size, size)."""
+        return matrix(self.end_weight, self.size)
+
+
+def _root(square: Floats) -> Floats:
+    """The symmetric square root of a symmetric positive definite matrix."""
+    values, axes = np.linalg.eigh((square + square.T) / 2)
+    root = (axes * np.sqrt(values)) @ axes.T
+    return np.asarray((root + root.T) / 2)
 
 
 W = TypeVar("W", bound=Weights)
 
 
+def times_inverse(weight: Value, cost: Floats) -> Floats:
+    """R^-1 p (..., m) of costs (..., m)."""
+    R = np.asarray(weight)
+    return np.asarray(
+        cost / R if R.ndim < 2 else np.linalg.solve(R, np.asarray(cost)[..., None])[..., 0]
+    )
+
+
 def weights_at_gauss_points(
     gains: Schedule[W], first: int, last: int, rows: int
 ) -> tuple[Floats, Floats]:
-    """The diagonals of R^-1 and Q (2, n, size) at the Gauss points of n intervals.
+    """R^-1 and Q (2, n, size, size) at the Gauss points of n intervals.
 
     Args:
         gains: over the drawing.
@@ -74,10 +91,21 @@ def weights_at_gauss_points(
         rows: of the whole drawing.
     """
     parts = (np.arange(first, last) + GAUSS[:, None]) / max(rows - 1, 1)
-    q, r = (_diagonals(gains, name, parts) for name in ("q", "r"))
-    return 1.0 / r, q
+    return _matrices(gains, "r", parts, inverted=True), _matrices(gains, "q", parts)
 
 
-def _diagonals(gains: Schedule[W], name: str, parts: Floats) -> Floats:
-    values = gains.column(name, parts.ravel()).reshape(*parts.shape, -1)
-    return np.broadcast_to(values, (*parts.shape, type(gains.first).size))
+def _matrices(gains: Schedule[W], name: str, parts: Floats, inverted: bool = False) -> Floats:
+    size = type(gains.first).size
+    if name in gains.knots:
+        values = gains.column(name, parts.ravel())
+        values = values.reshape(*parts.shape, *values.shape[1:])
+    else:
+        values = np.asarray(getattr(gains.first, name))[None, None]  # one for all
+    if values.ndim < 4:
+        values = values[..., None] if values.ndim == 2 else values
+        values = np.broadcast_to(values, (*values.shape[:2], size))
+        values = (1.0 / values if inverted else values)[..., None] * np.eye(size)
+    elif inverted:
+        values = np.linalg.inv(values)
+        values = (values + values.mT) / 2
+    return np.broadcast_to(values, (*parts.shape, size, size))

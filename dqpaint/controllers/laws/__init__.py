@@ -1,4 +1,5 @@
 """The control laws, one a file: controller input and gains -> a command.
 
-A new law is a function in a new file here under `@controller(name, source, gains)`.
+A new law is a function in a new file here, or in a folder of its paper, under
+`@controller(name, source, gains)`.
 """

@@ -15,6 +15,7 @@ from dqpaint.robots.kinematics.model_numbers import ModelNumbers, model_numbers
 from dqpaint.robots.kinematics.nullspace import (
     DEFAULT_OBJECTIVE, OBJECTIVES, SecondaryTask, make_batched_task, make_secondary_task, read_null,
 )
+from dqpaint.robots.kinematics.partial_tasks import resolve_part
 from dqpaint.robots.kinematics.small_matrices import inverse, solve
 from dqpaint.robots.kinematics.start_posture import (
     PATH_TOLERANCE, NoPosture, StartPosture, find_start, least_errors, return_to_start, shortfall,
@@ -28,6 +29,6 @@ __all__ = [
     "RateBounds", "SecondaryTask", "StartPosture", "collision_shapes", "drift_acceleration",
     "find_clamps", "find_start", "inverse", "least_errors", "make_batched_task",
     "make_secondary_task", "manipulability", "model_numbers", "pose_map", "read_mesh",
-    "read_null", "resolve", "return_to_start", "shortfall", "solve", "solve_posture",
-    "tool_jacobian_map", "waypoints",
+    "read_null", "resolve", "resolve_part", "return_to_start", "shortfall", "solve",
+    "solve_posture", "tool_jacobian_map", "waypoints",
 ]

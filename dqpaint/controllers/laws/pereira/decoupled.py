@@ -22,13 +22,25 @@ class ApartGains(Gains):
 def decoupled(seen: Seen, gains: ApartGains) -> Floats:
     """Proportional, position and orientation separately, each on its own path; lags when moving.
 
-    q_dot = [J_t; N_r]^+ [k_t (t_d - t); k_r vec(1 - r* r_d)],
-    with t_dot = J_t q_dot and vec(r_dot* r_d) = N_r q_dot.
-
-    J_t and N_r are linear in the twist u = [w; v0]: t_dot = v0 + w x t and r_dot* r_d =
-    -1/2 r* w r_d. The first is met exactly; the nearest w for the second is -2 k_r Im(r r_d*).
-    At a set point t_d - t decays at k_t, and d(1 - eta)/dt = -k_r |Im r_e|^2, with eta the scalar
-    part of r_e = r r_d*: neither needs the other.
+    Equation:
+        q_dot = [J_t; N_r]^+ [k_t (t_d - t); k_r vec(1 - r^* r_d)]
+        t_dot = J_t q_dot
+        N_r q_dot = vec(r_dot^* r_d)
+    Idea:
+        The tool goes straight to its place, and turns on its own axis meanwhile. J_t and N_r are
+        linear in the twist: the first line is met exactly, and the nearest angular velocity
+        for the second is -2 k_r Im(r r_d^*).
+    Error:
+        at the tool, that is its definition; about the base's origin it would be hinf-set with
+        K_O = 2 k_r and K_T = k_t, and hinf-set with point=tool is this law.
+    Stable:
+        At a set point t_d - t decays at k_t, and with eta the scalar part of r_e = r r_d^*, 1 - eta
+        falls at k_r |Im(r_e)|^2: neither needs the other.
+    Fails:
+        On a moving light it lags by speed / k_t. The two paths are not one screw: the tool may
+        arrive before it is turned.
+    Try:
+        dqpaint compare step --controllers decoupled,log,hinf-set --plants ideal
     """
     r_e = spatial_error(seen.pose, seen.pose_d)[..., :4]
     t = dq.translation(seen.pose)

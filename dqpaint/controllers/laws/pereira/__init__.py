@@ -1,0 +1,1 @@
+"""Laws of Pereira 2016, one a file: controller input and gains -> a command."""

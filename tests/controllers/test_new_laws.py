@@ -96,16 +96,20 @@ def closed_loop(x_d, **gains):
 
 
 def test_least_squares_comes_home_at_the_cosine_of_half_the_angle(rng):
-    """Rotation: rates k cos(phi / 2), once by itself and twice with a turning of phi / 2."""
+    """At the base's origin at k cos(phi / 2), two of three with a turning of phi / 2; then slower."""
     for x_d in random_poses(rng, 40):
         half = np.arccos(min(1.0, abs(x_d[0])))
-        values = np.linalg.eigvals(closed_loop(x_d)[:3, :3])
+        here = dq.pose_from(np.zeros(3), dq.rotation(x_d))
+        values = np.linalg.eigvals(closed_loop(here)[:3, :3])
         np.testing.assert_allclose(values.real, -np.cos(half), atol=1e-6)
         np.testing.assert_allclose(
             np.sort(values.imag), [-np.sin(half), 0, np.sin(half)], atol=1e-6
         )
-        printed = np.linalg.eigvals(closed_loop(x_d, form="printed")[:3, :3])
-        np.testing.assert_allclose(printed.real, np.cos(half), atol=1e-6)
+        rates = -np.linalg.eigvals(closed_loop(x_d)).real / np.cos(half)
+        assert (rates > 0.1).all()
+        assert (rates < 1.001).all()
+        printed = np.linalg.eigvals(closed_loop(x_d, form="printed")).real / np.cos(half)
+        assert (printed > 0.1).all()
 
 
 def test_least_squares_as_printed(rng):

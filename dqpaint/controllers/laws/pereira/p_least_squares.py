@@ -18,7 +18,7 @@ class LeastSquaresGains(Gains):
     constant: ClassVar[dict[str, str]] = {"form": WHOLE_RUN}
 
     k: Gain = Field(
-        20.0, description="1/s; a small error decays at k cos(phi / 2), with phi the tool's angle"
+        20.0, description="1/s; a small error decays at k cos(phi / 2) at most, with phi the tool's angle"
     )
     form: Literal["derived", "printed"] = Field(
         "derived", description="-k J8^+ e, which comes home, or +k J8^+ e as (3.2) is printed"
@@ -41,11 +41,11 @@ def p_least_squares(seen: Seen, gains: LeastSquaresGains) -> Floats:
         e at the tool, J_8 about the base's origin: mixed, which is what is wrong with it.
     Stable:
         Near a set point where the tool is turned by less than half a turn, with the sign of x
-        whose scalar is positive: a small rotation error decays at k cos(phi / 2) and is turned by
-        phi / 2 besides, with phi the angle of the tool's orientation.
+        whose scalar is positive: a small error decays at k cos(phi / 2) or slower, the farther from
+        the base the slower, with phi the angle of the tool's orientation.
     Fails:
         As printed, form=printed, with +k: it runs away from every set point. At phi = 180 deg it
-        stands still. Moving, it lags as p does, and more.
+        stands still, and an error of more than about 120 deg may turn the long way. It lags.
     Try:
         dqpaint compare step --controllers p-least-squares,p --plants ideal
     """

@@ -214,7 +214,7 @@ class InPanels(TyperCommand):
         known = {name for one in self.get_params(ctx) for name in (*one.opts, *one.secondary_opts)}
         end = args.index("--") if "--" in args else len(args)
         meant = []
-        for word, following in zip(args[:end], [*args[1:end], ""], strict=True):
+        for word, following in zip(args[:end], [*args[1:end], ""], strict=False):
             name, sign, value = word.partition("=")
             if name.startswith("--") and name not in known:
                 if (one := name.removesuffix("s")) in known:

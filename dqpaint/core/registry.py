@@ -148,7 +148,7 @@ class Folder(Registry[T]):
     """Named things in the files of a package, in the order of their names.
 
     A file is read when it is needed: `pham-t` is looked for in `pham_t.py` first, here or in a
-    folder below, and only who asks for all names, or for one that is elsewhere, has every file read.
+    folder below. Only who asks for all names, or for one that is elsewhere, has every file read.
 
     Args:
         kind: as for `Registry`.

@@ -12,7 +12,12 @@ class LawOptions(TypedDict, total=False):
     """What drives the arm."""
 
     controller: str | PathLike[str] | Callable[..., Any] | None
-    gains: Mapping[str, float | Sequence[float] | str] | Sequence[str] | str | None
+    gains: (
+        Mapping[str, float | Sequence[float] | Sequence[Sequence[float]] | str]
+        | Sequence[str]
+        | str
+        | None
+    )
     recorded: str | PathLike[str] | None
 
 

@@ -1,4 +1,4 @@
-"""Where an error is taken: each law and point against matrices, and what follows from the choice."""
+"""Where an error is taken: each law and point against matrices, and what follows from it."""
 
 import numpy as np
 import pytest
@@ -87,7 +87,7 @@ def test_at_the_tool_is_about_the_base_of_a_base_at_the_tool(rng, name):
         np.testing.assert_allclose(said, back, atol=1e-9, rtol=1e-9)
 
 
-@pytest.mark.parametrize("name", sorted(ANYWHERE) + ["p", "pff", "decoupled", "translation"])
+@pytest.mark.parametrize("name", [*sorted(ANYWHERE), "p", "pff", "decoupled", "translation"])
 def test_a_law_that_does_not_know_where_the_base_is(rng, name):
     """Screws, and errors at the tool: a base elsewhere gives the same joint rates."""
     for seen in states(rng, 30, size=1.0):

@@ -57,12 +57,13 @@ def test_the_gain_of_eight_numbers(rng, name, kind):
         difference = (x_d - x).vec8()
         rate_d = 0.5 * dqrobotics.DQ(list(dq.pure(seen.twist_d))) * x_d
         ahead = (x.conj() * rate_d).vec8()
+        e, N_inverse, inverse = invariant(x, x_d), *(np.linalg.pinv(M, rcond=1e-8) for M in (N, J8))
         wanted = {
-            "p": lambda: np.linalg.pinv(N, rcond=1e-8) @ K @ invariant(x, x_d),
-            "pff": lambda: np.linalg.pinv(N, rcond=1e-8) @ (K @ invariant(x, x_d) - ahead),
-            "pham": lambda: np.linalg.pinv(J8, rcond=1e-8) @ K @ difference,
-            "pham-t": lambda: J8.T @ K @ difference,
-        }[name]()
+            "p": N_inverse @ K @ e,
+            "pff": N_inverse @ (K @ e - ahead),
+            "pham": inverse @ K @ difference,
+            "pham-t": J8.T @ K @ difference,
+        }[name]
         said = law(name, k=given.tolist())(seen)
         ours = said if name == "pham-t" else rates(seen, said)
         np.testing.assert_allclose(ours, wanted, atol=ABOVE, rtol=1e-9)

@@ -96,7 +96,7 @@ def closed_loop(x_d, **gains):
 
 
 def test_least_squares_comes_home_at_the_cosine_of_half_the_angle(rng):
-    """At the base's origin at k cos(phi / 2), two of three with a turning of phi / 2; then slower."""
+    """At the base's origin at k cos(phi / 2), two with a turning of phi / 2; elsewhere slower."""
     for x_d in random_poses(rng, 40):
         half = np.arccos(min(1.0, abs(x_d[0])))
         here = dq.pose_from(np.zeros(3), dq.rotation(x_d))

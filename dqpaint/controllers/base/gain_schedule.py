@@ -95,7 +95,7 @@ class Schedule(Generic[G]):
         rows = [gains.as_dict() for gains in self.over(np.array(parts))]
         shown: dict[str, Any] = dict(rows[0])
         for name in shown:
-            values = [row[name] for row in rows]
+            values: list[Any] = [row[name] for row in rows]
             if name in self.texts:
                 shown[name] = self.texts[name]
             elif any(value != values[0] for value in values):  # it follows from one that changes
@@ -130,25 +130,24 @@ def read_schedule(model: type[G], given: Mapping[str, GainText], whose: str) -> 
     Raises:
         UsageError: an unknown name, no value, or one outside its range; lists the law's own.
     """
-    fixed: dict[str, Value] = {}
+    fixed: dict[str, Any] = {}
     knots: dict[str, tuple[Knot, ...]] = {}
     texts: dict[str, str] = {}
     for name, value in given.items():
         if name not in model.model_fields:
             raise UsageError(f"{whose} has no gain named '{name}'; its gains: {list_gains(model)}")
-        points = (
-            _read_knots(name, value, whose, model)
-            if isinstance(value, str) and not choices_of(model, name)
-            else (Knot(0.0, value),)
-        )
+        if not isinstance(value, str) or choices_of(model, name):
+            fixed[name] = value
+            continue
+        points = _read_knots(name, value, whose, model)
         fixed[name] = points[0].value
         if len(points) > 1 and name in model.constant:
             raise UsageError(
-                f"gain '{name}' of {whose} is '{str(value)[:60]}', but can't change on the way: "
+                f"gain '{name}' of {whose} is '{value[:60]}', but can't change on the way: "
                 f"{model.constant[name]}; its gains: {list_gains(model)}"
             )
         if len(points) > 1:
-            knots[name], texts[name] = points, str(value)
+            knots[name], texts[name] = points, value
     first = _checked(model, fixed, whose)
     for name, points in knots.items():
         for knot in points[1:]:
@@ -156,7 +155,7 @@ def read_schedule(model: type[G], given: Mapping[str, GainText], whose: str) -> 
     return Schedule(first, knots, texts)
 
 
-def _checked(model: type[G], values: Mapping[str, Value], whose: str) -> G:
+def _checked(model: type[G], values: Mapping[str, Any], whose: str) -> G:
     try:
         return model(**dict(values))
     except ValidationError as problem:
@@ -201,9 +200,9 @@ def _read_knots(name: str, text: str, whose: str, model: type[G]) -> tuple[Knot,
         values = widened([point.value for point in points])
         return tuple(map(Knot, parts, values))
     except ValueError:
+        help_ = MATRIX_HELP if ";" in text else RAMP_HELP
         raise UsageError(
-            f"gain '{name}' of {whose} is '{text[:60]}'; {MATRIX_HELP if ';' in text else RAMP_HELP}; "
-            f"its gains: {list_gains(model)}"
+            f"gain '{name}' of {whose} is '{text[:60]}'; {help_}; its gains: {list_gains(model)}"
         ) from None
 
 

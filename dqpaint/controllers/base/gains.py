@@ -50,13 +50,13 @@ def list_gains(model: type[Gains]) -> str:
     """Name, default and unit of every gain, as text."""
     return (
         ", ".join(
-            f"{name}{'' if f.default is None else f' = {shown_default(f.default)}'} ({f.description})"
+            f"{name}{'' if f.default is None else f' = {shown(f.default)}'} ({f.description})"
             for name, f in model.model_fields.items()
         )
         or "none"
     )
 
 
-def shown_default(value: Any) -> str:
+def shown(value: Any) -> str:
     """A default as lists show it."""
     return value if isinstance(value, str) else f"{value:g}"

@@ -106,6 +106,6 @@ def _matrices(gains: Schedule[W], name: str, parts: Floats, inverted: bool = Fal
         values = np.broadcast_to(values, (*values.shape[:2], size))
         values = (1.0 / values if inverted else values)[..., None] * np.eye(size)
     elif inverted:
-        values = np.linalg.inv(values)
-        values = (values + values.mT) / 2
+        inverse = np.linalg.inv(values)
+        values = np.asarray((inverse + inverse.mT) / 2, dtype=np.float64)
     return np.broadcast_to(values, (*parts.shape, size, size))

@@ -51,6 +51,7 @@ def accel_decoupled(seen: Seen, gains: ApartSpringGains) -> Floats:
     Idea:
         As accel, with a spring for the position and another for the orientation; a is the spatial
         acceleration that p_ddot and w_dot make. The paper prints w_d for w_d_dot.
+
     Error:
         at the tool, that is its definition.
     Stable:

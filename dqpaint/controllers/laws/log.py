@@ -32,6 +32,7 @@ def log(seen: Seen, gains: LogGains) -> Floats:
     Idea:
         Between two poses there is one screw motion. The tool goes back along it, turning and
         advancing in step, as a nut on its bolt: log(x_e) is the half of that screw.
+
     Error:
         the same wherever it is taken: a screw is a thing of space, so every reference point and
         every frame give the same joint rates.

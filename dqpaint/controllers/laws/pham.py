@@ -40,6 +40,7 @@ def pham(seen: Seen, gains: DifferenceGains) -> Floats:
         The eight numbers of the pose are asked to go straight to those of the reference, each
         at the rate k. The straight line leaves the unit dual quaternions; J_8^+ finds the
         joint rates that come nearest to it.
+
     Error:
         about the base's origin, as printed: half of t_d r_d - t r; point=tool puts the origin of
         both poses where the tool should be, and so changes how the eight numbers are weighed.

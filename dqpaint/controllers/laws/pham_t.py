@@ -48,6 +48,7 @@ def pham_t(seen: Seen, gains: TransposeGains) -> Floats:
         As if a spring pulled each of the eight numbers, and the joints gave way to it: the joint
         rates are those of the steepest descent of 1/2 e' K e. Nothing is inverted. J_8' e has
         nothing in the null space; what `--null` adds there is projected by an inverse.
+
     Error:
         about the base's origin, as printed; point=tool puts the origin where the tool should be,
         so that other modes are the weak ones.

@@ -30,6 +30,7 @@ def decoupled(seen: Seen, gains: ApartGains) -> Floats:
         The tool goes straight to its place, and turns on its own axis meanwhile. J_t and N_r are
         linear in the twist: the first line is met exactly, and the nearest angular velocity
         for the second is -2 k_r Im(r r_d^*).
+
     Error:
         at the tool, that is its definition; about the base's origin it would be hinf-set with
         K_O = 2 k_r and K_T = k_t, and hinf-set with point=tool is this law.

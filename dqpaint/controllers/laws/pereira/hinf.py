@@ -21,6 +21,7 @@ def hinf(seen: Seen, gains: GammaGains) -> Floats:
         The set-point law hinf-set, and on top of it the reference's own twist, carried to where
         the tool is. As x_e_dot = 1/2 (xi - Ad(x_e) xi_d) x_e, the error does not know that the
         reference moves: it obeys the set-point law's equation, and its bounds hold on the way.
+
     Error:
         about the base's origin: p_e = t - R_e t_d, so a tool that is turned wrongly makes a bow
         on its way to a set point, and the farther from the base, the larger; point=tool takes

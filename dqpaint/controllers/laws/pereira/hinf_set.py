@@ -55,7 +55,7 @@ class GammaGains(Gains):
             given = [{f"gamma_{part}"}, {f"K_{part}"}, pair]
             if sum(bool(one & self.model_fields_set) for one in given) > 1:
                 raise ValueError(
-                    f"takes gamma_{part} or K_{part} or gamma_{part}1 and gamma_{part}2, not several"
+                    f"takes gamma_{part} or K_{part} or gamma_{part}1 and gamma_{part}2, not two"
                 )
         return self
 
@@ -130,6 +130,7 @@ def hinf_set(seen: Seen, gains: GammaGains) -> Floats:
         How far the tool is turned and how far it is away are sent home separately. The gains
         follow from how much of a disturbance may be left in the error: v_w, v_t a twist on
         top of the arm's own, v_c the twist of an unknown displacement that the law sees.
+
     Error:
         about the base's origin: p_e = t - R_e t_d, so a tool that is turned wrongly makes a bow
         on its way to a set point, and the farther from the base, the larger; point=tool takes

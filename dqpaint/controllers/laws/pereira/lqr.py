@@ -56,6 +56,7 @@ class Lqr:
         How fast an error should decay is a bargain between the error and the correction, weighed
         by Q and R. In the tangent space e_dot = w, half the twist, and w = -R^-1 P e is the
         optimum: hence the 2. (3.60) prints -R^-1 P e: form=printed is that, at half the rate.
+
     Error:
         about the base's origin: p_e = t - R_e t_d, with a bow on the way to a set point where the
         tool is turned wrongly, too; point=tool takes t - t_d and goes straight.
@@ -105,6 +106,6 @@ def riccati(motion: Motion, gains: Schedule[SixWeights]) -> Floats:
             passing = scattering(still, inverse, q, still[..., 0], motion.period)
             P[first:last] = solve_backwards(passing, P[last], np.zeros(6))[0]
         else:
-            each = (np.diagonal(one, axis1=-2, axis2=-1) for one in (inverse, q))
-            P[first : last + 1] = solve_elements_backwards(*each, P[last], motion.period)
+            inverse, q = (np.diagonal(one, axis1=-2, axis2=-1) for one in (inverse, q))
+            P[first : last + 1] = solve_elements_backwards(inverse, q, P[last], motion.period)
     return P

@@ -58,6 +58,7 @@ class Lqr8:
         e_dot = A e + u + c with u = -N q_dot is linear, so the best correction over the whole
         drawing can be computed beforehand. g is the price of what is still to come: the
         feed-forward. The thesis prints x_dot for x_d_dot in c.
+
     Error:
         at the tool, the same from whatever base frame; point=base takes 1 - x x_d^* instead, with
         A = -H_minus(1/2 xi_d) and c = vec(1/2 xi_d).
@@ -108,7 +109,7 @@ def riccati(motion: Motion, gains: Schedule[EightWeights]) -> tuple[Floats, Floa
 
 
 def error_rates(motion: Motion, first: int, last: int, point: Point) -> Floats:
-    """y (2, n, 8) at the Gauss points of the intervals between two rows: A = H-(y), c = -y.
+    """Y (2, n, 8) at the Gauss points of the intervals between two rows: A = H-(y), c = -y.
 
     At the tool x_d* x_d_dot; about the base's origin -1/2 xi_d.
     """

@@ -23,6 +23,7 @@ def open_loop(seen: Seen, _gains: NoGains) -> Floats:
         The rates that would follow the reference if nothing were ever wrong, one after the other.
         No error is looked at. What each step does wrong, b_l, adds up: the change of J_w within
         a period, a disturbance, a limit. This is what feedback is for.
+
     Error:
         none is taken; xi_d is a twist of space, the same for every reference point.
     Stable:

@@ -24,6 +24,7 @@ def orientation(seen: Seen, gains: PartGains) -> Floats:
         The upper half of the Jacobian, without the lower one. r_dot = 1/2 w r, so -2 K Im(r_e) is
         the nearest angular velocity to vec(r_dot) = 1/2 H_minus(r) K vec(r_d - r) for a number K.
         The light wanders: this is a law to look at, and part of others.
+
     Error:
         of the orientation, the same wherever it is taken.
     Stable:

@@ -53,6 +53,7 @@ def p(seen: Seen, gains: RateGains) -> Floats:
         The error is what is left of the way, seen from the tool: 1 where the tool is,
         x^* x_d where it should be. Each of its eight numbers is asked to shrink at the rate k;
         N^+ finds the joint rates that come nearest to it.
+
     Error:
         at the tool, the same from whatever base frame; point=base takes 1 - x x_d^* instead.
     Stable:

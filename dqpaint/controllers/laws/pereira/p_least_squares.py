@@ -18,7 +18,8 @@ class LeastSquaresGains(Gains):
     constant: ClassVar[dict[str, str]] = {"form": WHOLE_RUN}
 
     k: Gain = Field(
-        20.0, description="1/s; a small error decays at k cos(phi / 2) at most, with phi the tool's angle"
+        20.0,
+        description="1/s; a small error decays at k cos(phi / 2) at most, phi the tool's angle",
     )
     form: Literal["derived", "printed"] = Field(
         "derived", description="-k J8^+ e, which comes home, or +k J8^+ e as (3.2) is printed"
@@ -37,6 +38,7 @@ def p_least_squares(seen: Seen, gains: LeastSquaresGains) -> Floats:
         The thesis asks for the joint rates that make |e - J_8 q_dot| least, before it
         differentiates e and gets p. But e is seen from the tool, near 1, and J_8 q_dot from the
         base, at x: they fit together only as far as the tool is turned like the base.
+
     Error:
         e at the tool, J_8 about the base's origin: mixed, which is what is wrong with it.
     Stable:

@@ -31,6 +31,7 @@ def pff(seen: Seen, gains: RateGains) -> Floats:
         The proportional law, and on top of it the motion that the reference makes anyway:
         as e_dot = -N q_dot - vec(x^* x_d_dot), what is left of the error is e_dot = -K e
         in the range of N.
+
     Error:
         at the tool, the same from whatever base frame; point=base takes 1 - x x_d^* instead.
     Stable:

@@ -38,6 +38,7 @@ def translation(seen: Seen, gains: PartGains) -> Floats:
     Idea:
         Three numbers are asked of the arm instead of six: a point light needs no orientation.
         The joints move as little as they can, and an arm of seven keeps four freedoms.
+
     Error:
         at the tool: t_d - t.
     Stable:

@@ -176,7 +176,8 @@ def finish(ready: PreparedRun, run: Track) -> Painting:
     settings, motion, clock = ready.settings, ready.motion, ready.stopwatch
     chosen = ready.choices
     card, recording = ready.kinematics.card, ready.recording
-    notes = ready.kinematics.notes + (recording.notes(motion) if recording else ())
+    notes = ready.kinematics.notes
+    notes += recording.notes(motion) if recording else chosen.plant.notes(card)
     with clock("metrics"):
         metrics = measure(run)
         notes += tuple(METRICS.faults)

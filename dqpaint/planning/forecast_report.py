@@ -132,7 +132,9 @@ def make_report(
         tuple(start.tolist()),
         lines,
         tuple(_warnings(motion, kinematics.card, lines)),
-        kinematics.notes + collision_shapes(kinematics).notes,
+        kinematics.notes
+        + collision_shapes(kinematics).notes
+        + (plant.notes(kinematics.card) if plant else ()),
     )
 
 

@@ -128,6 +128,14 @@ class RigidArm(Client):
             self.body, self.joints, bullet.VELOCITY_CONTROL, forces=idle, **here
         )
 
+    def true_weight(self, posture: Floats) -> Floats:
+        """Gravity torques (n,) [Nm] of the arm and its load in a posture (n,) [rad]."""
+        still = [0.0] * len(posture)
+        needed = bullet.calculateInverseDynamics(
+            self.body, posture.tolist(), still, still, physicsClientId=self.client
+        )
+        return np.array(needed)
+
     def displace(self, angles: Floats) -> None:
         """Add angles (n,) [rad] to the joints; their rates stay the same."""
         self.read_joints()

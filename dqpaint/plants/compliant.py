@@ -15,19 +15,15 @@ import numpy as np
 from pydantic import Field, field_validator
 
 from dqpaint.dq import Floats
-from dqpaint.errors import UsageError
-from dqpaint.plants.bullet_arm import LONGEST_STEP, RigidArm, sample_postures
+from dqpaint.plants.bullet_arm import RigidArm
 from dqpaint.plants.plant import PLANTS, Options, PlantOptions, Springs, Takes, Trait
+from dqpaint.plants.springs import Positive, longest_step, numbers, per_joint
 from dqpaint.plants.world import UNDISTURBED, World
 from dqpaint.robots.bullet import bullet
 from dqpaint.robots.kinematics import Dynamics, Kinematics
 from dqpaint.robots.model import Card
 
 LARGEST_PHASE_STEP = 0.02  # of a joint's own swing, in radians of its phase, fits one physics step
-STABLE_SHARE = 0.5  # of the longest step that is stable, for the quickest mode of any posture
-SHORTEST_STEP = 1e-5  # [s]
-
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 
 
 class CompliantOptions(PlantOptions):
@@ -55,13 +51,7 @@ class CompliantOptions(PlantOptions):
     @field_validator("stiffness")
     @classmethod
     def _are_positive(cls, given: float | str | None) -> float | str | None:
-        try:
-            numbers = [] if given is None else [float(part) for part in str(given).split("/")]
-        except ValueError:
-            numbers = [0.0]
-        if not all(0 < number < float("inf") for number in numbers):
-            raise ValueError(f"{given!r} should be positive numbers, as in 300 or 300/300/200")
-        return given
+        return numbers(given, "300 or 300/300/200")
 
     def summary(self, card: Card) -> dict[str, Any]:
         """The values, and the springs that result for an arm."""
@@ -78,7 +68,7 @@ class CompliantOptions(PlantOptions):
         """
         dynamics = Dynamics(Kinematics(card))
         k, d = self.springs(card, np.diag(dynamics.inertia(card.home)))
-        _longest_step(card, dynamics, k, d)
+        longest_step("compliant", card, dynamics, k, d, LARGEST_PHASE_STEP)
         between = d if self.damper == "motor" else np.zeros_like(d)
         return Springs(k, between, self.gravity, self.encoder == "joint")
 
@@ -95,13 +85,7 @@ class CompliantOptions(PlantOptions):
         if self.stiffness is None:
             k = self.frequency**2 * inertia
         else:
-            k = np.array([float(part) for part in str(self.stiffness).split("/")])
-            if len(k) not in (1, card.joints):
-                raise UsageError(
-                    f"plant 'compliant': stiffness has {len(k)} numbers, "
-                    f"but {card.name} has {card.joints} joints"
-                )
-            k = np.broadcast_to(k, card.joints)
+            k = per_joint("compliant", "stiffness", self.stiffness, card)
         return k, 2 * self.damping * np.sqrt(k * inertia)
 
 
@@ -139,14 +123,16 @@ class Compliant(RigidArm):
         dynamics = Dynamics(model)
         inertia = np.diag(dynamics.inertia(card.home))
         self.stiffness, self.damping = chosen.springs(card, inertia)
-        longest = _longest_step(card, dynamics, self.stiffness, self.damping)
+        longest = longest_step(
+            "compliant", card, dynamics, self.stiffness, self.damping, LARGEST_PHASE_STEP
+        )
         super().__init__(card, posture, period, world, longest)
         self.disable_motors()
         self._own = Dynamics(model.with_model_error(gravity=world.model_gravity))
         self._share = chosen.gravity
         self._grounded = chosen.damper == "ground"
         self._at_motor = chosen.encoder == "motor"
-        self._true_weight = self._weigh(posture)
+        self._true_weight = self.true_weight(posture)
         self.motor = posture + (self._true_weight - self._compensation()) / self.stiffness
         self._motor_rates = np.zeros(card.joints)
         self._before = [0.0] * card.joints  # rates [rad/s] a physics step ago
@@ -207,37 +193,3 @@ class Compliant(RigidArm):
     def _compensation(self) -> Floats:
         """Gravity torques (n,) [Nm] at the present posture, from the arm's own model."""
         return self._share * self._own.weight(self.posture)
-
-    def _weigh(self, posture: Floats) -> Floats:
-        """True gravity torques (n,) [Nm] of the arm and its load."""
-        still = [0.0] * len(posture)
-        needed = bullet.calculateInverseDynamics(
-            self.body, posture.tolist(), still, still, physicsClientId=self.client
-        )
-        return np.array(needed)
-
-
-def _longest_step(card: Card, dynamics: Dynamics, k: Floats, d: Floats) -> float:
-    """The physics step [s] that resolves the springs and keeps every mode stable.
-
-    A step h of semi-implicit Euler whose damper sees 1.5 v(k) - 0.5 v(k-1) is stable for
-    h^2 w^2 + 4 h c < 4, with w^2 and c the eigenvalues of H^-1 k and H^-1 d, friction included.
-    Looked at in postures all over the arm's range.
-
-    Raises:
-        UsageError: springs that need steps too short to be simulated.
-    """
-    own = np.sqrt(k / np.diag(dynamics.inertia(card.home)))
-    longest = min(LONGEST_STEP, LARGEST_PHASE_STEP / float(own.max()))
-    for q in sample_postures(card):
-        H = dynamics.inertia(q)
-        swing = float(np.linalg.eigvals(np.linalg.solve(H, np.diag(k))).real.max())
-        loss = dynamics.decay(q, d)
-        stable = 2 * (np.sqrt(loss**2 + swing) - loss) / swing
-        longest = min(longest, STABLE_SHARE * stable)
-    if longest < SHORTEST_STEP:
-        raise UsageError(
-            f"plant 'compliant': springs of this stiffness on {card.name} need physics steps of "
-            f"{longest * 1e6:.2g} us; use softer springs, or plant stiff"
-        )
-    return longest

@@ -56,6 +56,15 @@ class PlantOptions(BaseModel):
         """The springs between motors and joints; None for rigid joints."""
         return None
 
+    def notes(self, card: Card) -> tuple[str, ...]:
+        """What is assumed of an arm, a sentence each."""
+        return ()
+
+    @property
+    def clips_rates(self) -> bool:
+        """Whether commanded rates are clipped to the joints' limits before they come."""
+        return True
+
 
 Options = type[PlantOptions] | None
 DEFAULT_PLANTS: dict[Takes, str] = {"rates": "stiff", "torque": "torque"}
@@ -177,6 +186,15 @@ class ConfiguredPlant:
     def springs_for(self, card: Card) -> Springs | None:
         """The springs between motors and joints; None for rigid joints."""
         return self.options.springs_for(card) if self.options else None
+
+    def notes(self, card: Card) -> tuple[str, ...]:
+        """What is assumed of an arm, a sentence each."""
+        return self.options.notes(card) if self.options else ()
+
+    @property
+    def clips_rates(self) -> bool:
+        """Whether commanded rates are clipped to the joints' limits before they come."""
+        return self.options is None or self.options.clips_rates
 
     def require_trait(self, trait: Trait | None, disturbance: str) -> None:
         """Check that the plant has the trait that a disturbance needs.

@@ -229,6 +229,7 @@ def _simulate(
     late = DelayLine(total_delay(disturbances), drive.hold(start))
     parts = motion.clock / motion.clock[-1] if n > 1 else motion.clock
     plant = make_plant(card, start, motion.period, sensors.world)
+    clips = not isinstance(make_plant, ConfiguredPlant) or make_plant.clips_rates
     asked = zip(
         motion.pose, motion.twist, motion.acceleration, motion.t.tolist(), gains.over(parts),
         strict=True,
@@ -242,7 +243,7 @@ def _simulate(
                 motion,
             )  # fmt: skip
             wanted = drive.command(seen, now)
-            given = drive.clip(wanted, q)
+            given = drive.clip(wanted, q) if clips else wanted
             log.record(k, plant, measured, sensors.truth(plant, measured), wanted, given)
             at_row(k)
             if k < n - 1:

@@ -29,7 +29,7 @@ from dqpaint.testing import (
 from dqpaint.testing.runs import arm
 from tests.support.disturbances import RANDOM, SIZES
 
-WITHIN = {"ideal": 1e-12, "compliant": 0.1}  # springs give way
+WITHIN = {"ideal": 1e-12, "compliant": 0.1, "servo": 0.1}  # springs give way, servos lag
 
 
 @pytest.mark.slow

@@ -13,6 +13,7 @@ from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.errors import UnknownNameError
 from dqpaint.robots.model.chain import Axes, Body, Rows, UrdfFile
+from dqpaint.robots.model.drive_train import DriveTrain
 from dqpaint.robots.model.fields import Finite, Mount, Part, Positive, Three
 from dqpaint.robots.model.screws import Screws
 
@@ -81,6 +82,7 @@ class Card(Part):
     tool: Mount
     canvas: Canvas
     limits: Limits
+    drives: DriveTrain | None = None
     notes: tuple[str, ...] = ()  # assumptions where a file has no data, one sentence each
 
     @property
@@ -173,6 +175,8 @@ class Card(Part):
             )
         if len(self.limits.lower_deg) != self.joints:
             raise ValueError("home_deg needs one number for each joint of the limits")
+        if self.drives and (row := self.drives.wrong_length(self.joints)):
+            raise ValueError(f"drives.{row} needs one number for each of the {self.joints} joints")
         if not ((self.lower <= self.home) & (self.home <= self.upper)).all():
             raise ValueError("home_deg must lie inside the limits")
         return self

@@ -83,7 +83,8 @@ class About(BaseModel):
     version: str
     name: str
     settings: Settings
-    dimmer: Annotated[float, Field(ge=0, le=LARGEST_NUMBER, allow_inf_nan=False)]
+    dimmer: Annotated[float, Field(ge=0, le=LARGEST_NUMBER, allow_inf_nan=False)] = 1.0
+    """Of films before 0.2; the legend says as much."""
     legend: LegendFacts | None
     light: Annotated[tuple[SweepFacts, ...], Field(min_length=1)]
     asked: tuple[SweepFacts, ...]
@@ -117,7 +118,6 @@ def encode(
         "version": __version__,
         "name": scene.name,
         "settings": settings.model_dump(),
-        "dimmer": scene.dimmer,
         "legend": None if scene.legend is None else vars(scene.legend),
     }
     for group, attribute in GROUPS.items():
@@ -195,7 +195,7 @@ def _film(arrays: Arrays) -> FilmFile:
     front = _numbers(arrays, "front")
     if front.shape != (3, 3) or np.abs(front @ front.T - np.eye(3)).max() > ROTATION_TOLERANCE:
         raise ValueError("front")
-    scene = Scene(about.name, light, reference, overlay, front, legend, about.dimmer)
+    scene = Scene(about.name, light, reference, overlay, front, legend)
     cast = _arm_motion(arrays, about.arm, light[0])
     return FilmFile(scene, about.settings, cast, _render_cache(arrays, about, light))
 

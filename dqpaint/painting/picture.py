@@ -20,20 +20,20 @@ from dqpaint.light.camera import (
     parse_views,
 )
 from dqpaint.light.film import (
-    CORE_EXPOSURE,
     LOOKS,
     Film,
     automatic_exposure,
     expose,
+    line_exposure,
     point_spread,
     spread,
     with_noise,
     with_starburst,
 )
-from dqpaint.light.images import with_legend
+from dqpaint.light.images import LEGEND_EXPOSURE, with_legend
 from dqpaint.light.sources import ALL_SAMPLES, Occlusion, Sweep, occlusion_by, view_camera
 from dqpaint.motion import RowLines
-from dqpaint.painting.scene import Scene
+from dqpaint.painting.scene import Scene, with_shutter
 from dqpaint.render import HiddenLight, SceneArm, hidden_by_line
 from dqpaint.settings import Settings
 
@@ -172,6 +172,7 @@ def photograph(
         scene_arm: the arm; None is a picture without one, that hides nothing.
         cache: what of the arm is known already.
     """
+    scene = with_shutter(scene, settings)
     series: dict[int, float] = {}
     for i, shot in enumerate(parse_views(settings.view)):
         picture = _take_picture(scene, settings, shot, series.get(shot.series), scene_arm, cache)
@@ -197,7 +198,7 @@ def _take_picture(
     cache: RenderCache | None,
 ) -> Picture:
     camera = camera_of_view(scene, settings, shot)
-    exposure, told = _exposure(scene, settings, camera, series_exposure)
+    exposure, told = _exposure(scene, settings, camera, shot, series_exposure)
     staged = RenderCache(render_key(camera, exposure), False, None, (), ())
     if scene_arm is not None:
         staged = _render_arm(scene, settings, camera, exposure, scene_arm, cache)
@@ -263,20 +264,23 @@ def _is_manual_exposure(settings: Settings) -> bool:
 
 
 def _exposure(
-    scene: Scene, settings: Settings, camera: Camera, series_exposure: float | None
+    scene: Scene, settings: Settings, camera: Camera, shot: Shot, series_exposure: float | None
 ) -> tuple[float, str]:
     """The factor from film to saturation, and the same in a photographer's terms."""
     real = parse_exposure(settings.exposure or "auto")
     if real is not None:
-        return real.factor(camera), str(real)
+        early = ""
+        if real.shutter is not None and real.shutter < scene.seconds:
+            early = f"; the shutter closes {real.shutter:g} s into {scene.seconds:.2f} s"
+        return real.factor(camera), f"{real}{early}"
     if series_exposure is None:
-        psf = point_spread(settings.height)
-        series_exposure = automatic_exposure(scene.reference, camera, psf) * scene.dimmer
+        level = None if scene.legend is None else LEGEND_EXPOSURE
+        series_exposure = automatic_exposure(scene.reference, camera, level)
     shown = series_exposure * 2.0**settings.ev
-    return (
-        series_exposure,
-        f"automatic, {equivalent_exposure(shown, camera, distance_to(camera, scene.shown_points))}",
-    )
+    points = scene.shown_points
+    middle = camera.position - distance_to(camera, points) * camera.rotation[2]
+    text = equivalent_exposure(shown, camera, middle, scene.seconds, shot.position is not None)
+    return series_exposure, f"automatic, {text}"
 
 
 def linear_image(
@@ -312,7 +316,7 @@ def linear_image(
 def overlay_image(scene: Scene, exposure: float, camera: Camera, settings: Settings) -> Image:
     """(H, W, 3) faint lines of the reference, on the scale of the film's light."""
     psf = point_spread(settings.height)
-    ridge = automatic_exposure(scene.overlay, camera, psf) / CORE_EXPOSURE
+    ridge = line_exposure(scene.overlay, camera, psf)
     faint = np.float32(OVERLAY_EXPOSURE * ridge / (exposure * 2.0**settings.ev))
     return spread(expose(scene.overlay, camera), psf) * faint
 

@@ -13,8 +13,8 @@ from dqpaint.brushes import Emitters, read_brush
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.light.camera import parse_exposure, parse_views
-from dqpaint.light.film import BLADE_RANGE, CORE_EXPOSURE, LOOKS
-from dqpaint.light.images import LEGEND_EXPOSURE, Legend
+from dqpaint.light.film import BLADE_RANGE, LOOKS
+from dqpaint.light.images import Legend
 from dqpaint.light.sources import Sweep, even_by_length, sweeps
 from dqpaint.metrics import Table, reference_columns
 from dqpaint.motion import Motion
@@ -37,7 +37,6 @@ class Scene:
         overlay: The reference drawn as faint lines below the light.
         front: (3, 3) columns: right, up and towards the viewer, base frame.
         legend: What the colours mean, if they show a column.
-        dimmer: Factor on the automatic exposure.
     """
 
     name: str
@@ -46,7 +45,6 @@ class Scene:
     overlay: tuple[Sweep, ...]
     front: Floats
     legend: Legend | None = None
-    dimmer: float = 1.0
 
     @property
     def shown_points(self) -> Floats:
@@ -97,12 +95,11 @@ def make_scene(
         raise DqpaintError(
             f"{motion.program.name}: no light is on anywhere, so the picture would be black"
         )
-    colours, legend, dimmer = motion.light, None, 1.0
+    colours, legend = motion.light, None
     metered = colours
     if settings.colour_by is not None:
         columns = reference_columns(motion) if table is None else table
         colours, legend = colours_by_column(motion, columns, settings.colour_by)
-        dimmer = LEGEND_EXPOSURE / CORE_EXPOSURE
         metered = np.where(motion.lit[:, None], np.ones(3), 0.0)  # as bright as the legend's strip
     even = settings.colour_by is not None
     shown = pose if settings.magnify == 1.0 else magnified_poses(motion, pose, settings.magnify)
@@ -116,8 +113,31 @@ def make_scene(
         under if settings.overlay else (),
         dq.matrix_from_quaternion(motion.front),
         legend,
-        dimmer,
     )
+
+
+def with_shutter(scene: Scene, settings: Settings) -> Scene:
+    """The scene without the light that shines after the shutter has closed.
+
+    Raises:
+        UsageError: The shutter closes before any light is on.
+    """
+    real = parse_exposure(settings.exposure or "auto")
+    if real is None or real.shutter is None or real.shutter >= scene.seconds:
+        return scene
+    light = tuple(_until(sweep, real.shutter) for sweep in scene.light)
+    if not any(sweep.colours.any() for sweep in light):
+        raise UsageError(
+            f"exposure '{settings.exposure}': the shutter closes after {real.shutter:g} s, before "
+            f"any light of {scene.name} is on"
+        )
+    return replace(scene, light=light)
+
+
+def _until(sweep: Sweep, seconds: float) -> Sweep:
+    """The sweep with no light after some seconds."""
+    share = np.clip((seconds - sweep.time[:-1]) / sweep.period, 0.0, 1.0)
+    return replace(sweep, colours=sweep.colours * share[:, None])
 
 
 def _metered(motion: Motion, colours: Floats) -> Floats:

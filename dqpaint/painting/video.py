@@ -18,7 +18,7 @@ from dqpaint.light import Image
 from dqpaint.light.camera import parse_exposure
 from dqpaint.light.film import FilmAccumulator
 from dqpaint.painting.picture import Picture, develop_image, lamp_paths, linear_image, overlay_image
-from dqpaint.painting.scene import Scene
+from dqpaint.painting.scene import Scene, with_shutter
 from dqpaint.render import SceneArm
 from dqpaint.settings import Settings
 
@@ -53,6 +53,7 @@ def frames(
         progress: called with the part done, 0 to 1.
         scene_arm: the arm; None leaves it out till the end.
     """
+    scene = with_shutter(scene, settings)
     exposing = FilmAccumulator(picture.camera)
     falloff = parse_exposure(settings.exposure or "auto") is not None
     camera, exposure = picture.camera, picture.exposure

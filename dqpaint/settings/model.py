@@ -256,7 +256,7 @@ class CameraSettings(Group):
     exposure: Annotated[
         str | None,
         Option(
-            "settings of a camera, in any order: f/8,iso100,35mm,nd3,0.1cd,2.2m",
+            "settings of a camera, in any order: f/8,iso100,35mm,nd3,0.1cd,2.2m,30s",
             "SETTINGS",
             unsaid="automatic",
         ),

@@ -46,7 +46,7 @@ def seen(light: Light, size: tuple[int, int]) -> Camera:
 def whole(light: Light, size: tuple[int, int]) -> None:
     camera, psf = seen(light, size), point_spread(size[1])
     image = spread(expose(light, camera), psf)
-    develop(image, automatic_exposure(light, camera, psf))
+    develop(image, automatic_exposure(light, camera))
 
 
 def at_full_size(film: Film, height: int) -> None:

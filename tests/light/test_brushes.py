@@ -11,7 +11,6 @@ from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.light.camera.camera import VIEWS
 from dqpaint.light.film.auto_exposure import automatic_exposure
 from dqpaint.light.film.film import expose
-from dqpaint.light.film.point_spread import point_spread
 from tests.support.camera_motion import camera_for, swept
 
 ENERGY_TOLERANCE = 1e-9
@@ -139,8 +138,8 @@ def test_the_dark_ground_of_an_image_is_not_metered(ground, tmp_path):
         brush = read_brush(f"pixelstick:image={tmp_path}/{name}.png,leds=64,length=120mm")
         sweep = swept(brush.emitters(), 200, colours=np.ones((199, 3)))
         camera = camera_for(sweep)
-        found.append(automatic_exposure(sweep, camera, point_spread(camera.height)))
-    np.testing.assert_allclose(found[0], found[1], rtol=0.5)
+        found.append(automatic_exposure(sweep, camera))
+    assert 1.0 < found[0] / found[1] < 3.0  # a small mark is narrower than the areas
 
 
 def test_an_image_goes_along_the_way_and_along_the_bar(tmp_path):

@@ -1,6 +1,7 @@
 """Real exposure settings against the photometry they come from."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -9,10 +10,17 @@ from dqpaint import dq
 from dqpaint.brushes import read_brush
 from dqpaint.errors import UsageError
 from dqpaint.light.camera.camera import VIEWS, View, frame_points
-from dqpaint.light.camera.exposure_settings import Exposure, equivalent_exposure, parse_exposure
+from dqpaint.light.camera.exposure_settings import (
+    CAMERA_CLEARANCE,
+    Exposure,
+    equivalent_exposure,
+    parse_exposure,
+)
 from dqpaint.light.film.film import expose
 from dqpaint.light.film.point_spread import point_spread, spread
 from dqpaint.light.sources.sweep import Sweep
+from dqpaint.robots.kinematics.kinematics import Kinematics
+from dqpaint.robots.model.card import installed_names, read_card
 
 
 def line(metres=0.4, speed=0.23, samples=400):
@@ -92,10 +100,42 @@ def test_advice_gives_back_what_it_was_asked():
     camera = frame_points(sweep.lit_points, np.eye(3), VIEWS["front"], (1280, 720))
     distance = float(camera.position[2])
     factor = real.factor(camera) / distance**2
-    assert equivalent_exposure(factor, camera, distance) == (
-        f"as f/8, ISO 100, 40 mm at {distance:.2g} m with an LED of 0.13 cd"
+    middle = np.zeros(3)
+    assert equivalent_exposure(factor, camera, middle, 31.2, fixed=True) == (
+        f"as f/8, ISO 100, 32 s (bulb), 40 mm at {distance:.2g} m, "
+        "LED of 0.13 cd (or 1.04 cd behind 3 stops of ND)"
     )
-    assert "13 mcd" in equivalent_exposure(0.1 * factor, camera, distance)
+    assert "13 mcd" in equivalent_exposure(0.1 * factor, camera, middle, 3.0, fixed=True)
+
+
+@pytest.mark.parametrize("middle", [[0.0, 0.0, 0.0], [0.3, 0.1, 0.6]])
+def test_the_advised_camera_stands_out_of_reach_and_takes_the_same_picture(middle):
+    middle = np.array(middle)
+    sweep = line()
+    points = sweep.lit_points + middle
+    camera = frame_points(points, np.eye(3), VIEWS["front"], (1280, 720))
+    factor = 3.0 * Exposure().factor(camera)
+    text = equivalent_exposure(factor, camera, middle, 9.5)
+    seconds, lens, distance, led = re.search(
+        r"(\d+) s, (\d+) mm at ([\d.]+) m, LED of ([\d.]+ m?cd)", text
+    ).groups()
+    lens, distance = float(lens) / 1000, float(distance)
+    assert seconds == "10"
+    assert np.linalg.norm(middle + np.array([0, 0, distance])) > 0.99 * CAMERA_CLEARANCE
+    near = float(camera.position[2] - middle[2])
+    assert lens / distance == pytest.approx(0.04 / near, rel=0.05)
+    intensity = float(led.split()[0]) * (1e-3 if "mcd" in led else 1.0)
+    far = Exposure(focal=lens, candela=intensity)
+    assert far.factor(camera) / distance**2 == pytest.approx(factor, rel=0.1)
+
+
+@pytest.mark.parametrize("name", installed_names())
+def test_no_arm_reaches_an_advised_camera(name):
+    arm = Kinematics(read_card(name))
+    low, high = arm.card.lower, arm.card.upper
+    postures = np.random.default_rng(7).uniform(low, high, (300, len(low)))
+    tools = dq.translation(arm.poses(postures))
+    assert 0.5 < np.linalg.norm(tools, axis=1).max() < CAMERA_CLEARANCE
 
 
 def test_settings_read_as_they_are_written():
@@ -103,6 +143,8 @@ def test_settings_read_as_they_are_written():
     assert parse_exposure(" F/5.6 , ISO200,50mm,nd1.5,.2cd,3m") == Exposure(
         5.6, 200.0, 0.05, 1.5, 0.2, 3.0
     )
+    assert parse_exposure("f/8,30s") == Exposure(shutter=30.0)
+    assert str(parse_exposure("0.5s")) == "f/8, ISO 100, 40 mm, 0.5 s, LED of 1 cd"
     assert str(parse_exposure("nd3,1cd")) == "f/8, ISO 100, 40 mm, ND 3 stops, LED of 1 cd"
 
 

@@ -6,7 +6,10 @@ import math
 import re
 from dataclasses import dataclass
 
+import numpy as np
+
 from dqpaint.errors import UsageError
+from dqpaint.light.arrays import Floats
 from dqpaint.light.camera.camera import DEFAULT_LENS, Camera
 
 SENSOR_WIDTH = 0.036
@@ -15,6 +18,14 @@ SATURATION = 78.0
 """Exposure times speed at saturation: H = 78 / S lux s (ISO 12232:2019)."""
 TRANSMISSION = 0.9
 """Share of light that the glass of a usual lens transmits."""
+COMMON_LENSES = (0.024, 0.028, 0.035, 0.05, 0.085, 0.1, 0.135, 0.2, 0.3, 0.4)
+"""Focal lengths that are common on a full-frame sensor [m]."""
+CAMERA_CLEARANCE = 1.5
+"""Least distance of an advised camera from the arm's base [m]: no arm here reaches as far."""
+LONGEST_TIMED = 30.0
+"""Longest exposure that cameras time by themselves [s]; a longer one is held open by hand."""
+BRIGHT_LED = 1.0
+"""Intensity of an LED as it is sold [cd]; a picture that needs less can have a filter."""
 
 
 @dataclass(frozen=True)
@@ -28,6 +39,8 @@ class Exposure:
         nd: Stops a neutral-density filter takes.
         candela: Luminous intensity of a lamp of full brightness, of all its LEDs together [cd].
         distance: From the camera to the middle of the drawing [m]; None frames the drawing.
+        shutter: How long the shutter stays open from the start of the drawing on [s]; None: until
+            its end.
     """
 
     f_number: float = 8.0
@@ -36,6 +49,7 @@ class Exposure:
     nd: float = 0.0
     candela: float = 1.0
     distance: float | None = None
+    shutter: float | None = None
 
     @property
     def lens(self) -> float:
@@ -57,6 +71,8 @@ class Exposure:
 
     def __str__(self) -> str:
         parts = [f"f/{self.f_number:g}", f"ISO {self.iso:g}", f"{1e3 * self.focal:g} mm"]
+        if self.shutter is not None:
+            parts.append(f"{self.shutter:g} s")
         if self.nd:
             parts.append(f"ND {self.nd:g} stops")
         return f"{', '.join(parts)}, LED of {format_intensity(self.candela)}"
@@ -82,15 +98,16 @@ EXPOSURE_PARTS = (
     _Part(rf"nd{NUMBER}", "nd", 0.0, 30.0, 1.0, "nd3"),
     _Part(rf"{NUMBER}cd", "candela", 1e-6, 1e6, 1.0, "0.1cd"),
     _Part(rf"{NUMBER}m", "distance", 0.01, 100.0, 1.0, "2.2m"),
+    _Part(rf"{NUMBER}s", "shutter", 1e-3, 86_400.0, 1.0, "30s"),
 )
 EXPOSURE_HELP = (
     "f/8 (aperture), iso100, 35mm (focal length), nd3 (filter, in stops), "
-    "0.1cd (the lamp), 2.2m (distance)"
+    "0.1cd (the lamp), 2.2m (distance), 30s (shutter)"
 )
 
 
 def parse_exposure(text: str) -> Exposure | None:
-    """Parse settings such as `f/8,iso100,35mm,nd3,1cd,2.2m`, in any order; None for `auto`.
+    """Parse settings such as `f/8,iso100,35mm,nd3,1cd,2.2m,30s`, in any order; None for `auto`.
 
     Raises:
         UsageError: a part is unknown, given twice or out of bounds.
@@ -120,20 +137,40 @@ def _read(text: str, word: str) -> tuple[_Part, float]:
     )
 
 
-def equivalent_exposure(factor: float, camera: Camera, distance: float) -> str:
+def equivalent_exposure(
+    factor: float, camera: Camera, middle: Floats, seconds: float, fixed: bool = False
+) -> str:
     """Real camera settings that are equivalent to an automatic exposure, as text.
+
+    The lens is the shortest common one with which the same frame is filled from outside an arm's
+    reach: at equal f-number a lens twice as long at twice the distance gets the same light.
 
     Args:
         factor: From lamp s / px^2 to sensor saturation.
         camera: That took the picture.
-        distance: From it to the drawing [m].
+        middle: (3,) of the drawing, base frame [m].
+        seconds: How long the shutter is open: as long as the drawing takes [s].
+        fixed: Whether the position of the camera was chosen, so that lens and distance stay.
     """
-    lens = camera.focal / max(camera.width, camera.height)
-    one = Exposure(focal=lens * SENSOR_WIDTH)
-    candela = factor * distance**2 / one.factor(camera)
+    focal = camera.focal / max(camera.width, camera.height) * SENSOR_WIDTH
+    back = camera.rotation[2]
+    distance = float((camera.position - middle) @ back)
+    candela = factor * distance**2 / Exposure(focal=focal).factor(camera)
+    if not fixed:
+        sets = ((lens, distance * lens / focal) for lens in COMMON_LENSES)
+        far = (
+            (lens, away)
+            for lens, away in sets
+            if np.linalg.norm(middle + away * back) >= CAMERA_CLEARANCE
+        )
+        longest = COMMON_LENSES[-1]
+        focal, distance = next(far, (longest, distance * longest / focal))
+    timed = f"{math.ceil(seconds)} s{' (bulb)' if seconds > LONGEST_TIMED else ''}"
+    stops = round(math.log2(BRIGHT_LED / candela)) if candela < BRIGHT_LED else 0
+    filtered = f" (or {format_intensity(candela * 2.0**stops)} behind {stops} stops of ND)"
     return (
-        f"as f/8, ISO 100, {1e3 * one.focal:.0f} mm at {distance:.2g} m "
-        f"with an LED of {format_intensity(candela)}"
+        f"as f/8, ISO 100, {timed}, {1e3 * focal:.0f} mm at {distance:.2g} m, "
+        f"LED of {format_intensity(candela)}{filtered if stops > 1 else ''}"
     )
 
 

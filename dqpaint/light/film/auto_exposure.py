@@ -1,164 +1,205 @@
-"""Light sent to a camera -> the exposure factor that gives its lines white cores."""
+"""Light sent to a camera -> the exposure factor that suits its lines and its filled areas."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 import numpy as np
 
 from dqpaint.light.arrays import Floats
 from dqpaint.light.camera.camera import NEAREST_DEPTH, Camera
-from dqpaint.light.film.point_spread import PointSpread
+from dqpaint.light.film.film import PAD, expose
+from dqpaint.light.film.point_spread import REFERENCE_HEIGHT, PointSpread, point_spread
 from dqpaint.light.film.projection import cut_into_bins, project_light
 from dqpaint.light.sources.emission import Emission, Light
-from dqpaint.light.sources.sweep import Steps, Sweep
+from dqpaint.light.sources.sheet import Sheet, sheet_cells
+from dqpaint.light.sources.sweep import Sweep
 
-CORE_EXPOSURE = 12.0
+CORE_EXPOSURE = 14.0
 """Exposure of the core of the median stroke; 1 saturates the sensor. Photographers' usual settings
 give 10 to 20 for a small LED."""
-SURFACE_EXPOSURE = 0.9
-"""Exposure of a surface swept by a bar: as bright as a line it would be all white."""
-SURFACE_WIDTH = 8.0
-"""A stroke this many line widths wide is exposed as a surface; a narrower one is exposed between
-line and surface."""
-METERED_PARTS = 8
-"""Number of parts of a bar that are metered separately."""
+AREA_EXPOSURE = 1.6
+"""Largest mean exposure of a bright area: it stays below white, and a colour keeps its hue."""
+AREA_SIZE = 32
+"""Side of the areas [px of the reference picture]. A single stroke through one has a little less
+than `AREA_EXPOSURE` when its core has `CORE_EXPOSURE`: only what lies closer together is limited.
+"""
+BRIGHT_SHARE = 0.8
+"""Share of the lit path length whose areas stay within `AREA_EXPOSURE`."""
+LARGEST_CONTRAST = 6.0
+"""Brightness of bright areas over that of the median, at most: else dim lines would be lost."""
 METERED_SHARE = 0.02
-"""Share of a bar's brightest part: dimmer parts are background and are not metered."""
+"""Share of an image's brightest part; dimmer parts are background and are not metered."""
+WIDEST_REFERENCE = 16_384
+"""Columns of the reference picture at most, for pictures that are very wide."""
+SHORTEST_PIECE = 0.1
+"""Path length that a lamp counts that does not move, in sides of an area."""
+METERED_LAMPS = 4
+"""Number of lamps of a bar whose lines are metered."""
+LAMP_GROUPS = 32
+"""Groups into which the lamps of a brush are put for its areas. A brush of more lamps has no lines
+of its own: they lie closer together than `AREA_SIZE`."""
 
 
 def automatic_exposure(
-    light: Emission | Iterable[Emission], camera: Camera, psf: PointSpread
+    light: Emission | Iterable[Emission], camera: Camera, level: float | None = None
 ) -> float:
     """The exposure factor from lamp s / px^2 to sensor saturation that suits `light`.
 
+    It is the smaller of two: one puts the core of the median stroke at `CORE_EXPOSURE`, see
+    `line_exposure`; the other keeps areas within `AREA_EXPOSURE`, see `_area_exposure`, so that
+    hatchings, dense drawings and surfaces keep their tones.
+
+    Both are metered on a picture of `REFERENCE_HEIGHT` rows. So the light that falls on the film
+    for a given drawing does not depend on how many pixels the picture has.
+
+    Args:
+        light: The reference light, so that an arm's errors do not change the exposure.
+        camera: Where it is seen from.
+        level: Exposure of lines and areas alike, for a picture whose colours are to be read;
+            lines are metered at the picture's own size then, so that they can be read in any.
+
+    Returns:
+        The factor; 1 if nothing is lit on the picture, as any picture of nothing is black.
+    """
+    lights = tuple(light) if isinstance(light, Iterable) else (light,)
+    scale = min(REFERENCE_HEIGHT / camera.height, WIDEST_REFERENCE / camera.width)
+    reference = camera.scaled(scale)
+    area = _area_exposure(lights, reference) / scale**2
+    if level is None:
+        line = line_exposure(lights, reference, point_spread(reference.height)) / scale**2
+        limits = CORE_EXPOSURE * line, AREA_EXPOSURE * area
+    else:
+        limits = level * line_exposure(lights, camera, point_spread(camera.height)), level * area
+    return min((limit for limit in limits if limit > 0.0), default=1.0)
+
+
+def line_exposure(light: Iterable[Emission], camera: Camera, psf: PointSpread) -> float:
+    """The exposure factor that saturates the core of the median stroke; 0 if nothing is lit.
+
     A stroke of energy lambda per pixel has a ridge of lambda psf.line_peak. In its strongest
-    channel, the median over the lit path length on the picture is put at `CORE_EXPOSURE`.
+    channel, the median over the lit path length on the picture is put at 1.
 
     A lamp that does not move has no path length. Its peak is energy x psf.point_peak, that of
     a line when the energy is laid out over line_peak / point_peak, about the width of the core; so
     path is measured in pieces of this length, and a shorter stroke counts as one whole piece.
 
-    What is wider than a line is as bright as its light over its area, counts by its area, and is
-    put the nearer to `SURFACE_EXPOSURE` the wider it is. What an image leaves dark does not count.
-
     Args:
-        light: The reference light, so that an arm's errors do not change the exposure.
+        light: What is metered.
         camera: Where it is seen from.
         psf: How points are spread.
-
-    Returns:
-        The factor; 1 if nothing is lit on the picture, as any picture of nothing is black.
     """
     values, lengths = [np.empty(0)], [np.empty(0)]
-    for emission in light if isinstance(light, Iterable) else (light,):
-        for value, length in _metered(emission, camera, psf):
+    for emission in light:
+        few = _few_lamps(emission)
+        for value, length in _lines(few, camera, psf) if few is not None else ():
             values.append(value)
             lengths.append(length)
-    ridge = _weighted_median(np.concatenate(values), np.concatenate(lengths))
-    return CORE_EXPOSURE / ridge if ridge > 0.0 else 1.0
+    ridge = _weighted_quantile(np.concatenate(values), np.concatenate(lengths), 0.5)
+    return 1.0 / ridge if ridge > 0.0 else 0.0
 
 
-def _metered(
-    emission: Emission, camera: Camera, psf: PointSpread
-) -> Iterator[tuple[Floats, Floats]]:
-    """Brightness (M,) of the parts of a light, each treated as a line, and their lengths (M,)."""
+def _lines(emission: Emission, camera: Camera, psf: PointSpread) -> Iterator[tuple[Floats, Floats]]:
+    """Brightness (M,) of the ridge of the parts of a light's lines, and their lengths (M,)."""
     piece = psf.line_peak / psf.point_peak
-    if isinstance(emission, Sweep) and len(emission.emitters.positions) > 1:
-        for steps in emission.steps(emission.chord_tolerance(camera)):
-            yield _surface(emission, steps, camera, psf)
-        return
     for light in emission.emission_to(camera):
-        assert isinstance(light, Light)
-        lower = _disc_share(light, camera, psf)
+        if not isinstance(light, Light):
+            continue  # a sheet has no lines
+        width = _width(light, camera, psf)
         for trail in project_light(light, camera, margin=0.0):
             for part in cut_into_bins(trail, piece):
                 length = np.where(part.alone, piece, part.length)
-                value = part.energy.max(axis=0) / length * psf.line_peak
-                yield (value * lower if light.size else value), length
+                yield part.energy.max(axis=0) / (length * width), length
 
 
-def _disc_share(light: Light, camera: Camera, psf: PointSpread) -> float:
-    """Brightness of a line of discs relative to a line of points: wider, with a lower target."""
+def _few_lamps(emission: Emission) -> Emission | None:
+    """The light of at most `METERED_LAMPS` lamps of a brush; None if they draw no lines."""
+    if not isinstance(emission, Sweep) or len(emission.emitters.positions) <= METERED_LAMPS:
+        return emission
+    e = emission.emitters
+    if e.joined == 1.0 or len(e.positions) > LAMP_GROUPS:
+        return None
+    kept = np.linspace(0, len(e.positions) - 1, METERED_LAMPS).round().astype(np.int64)
+    few = replace(e, positions=e.positions[kept], tints=e.tints[:, kept])
+    return replace(emission, emitters=few)
+
+
+def _grouped_lamps(emission: Emission) -> Emission:
+    """The same light from at most `LAMP_GROUPS` lamps of a brush: enough for areas."""
+    if not isinstance(emission, Sweep) or len(emission.emitters.positions) <= LAMP_GROUPS:
+        return emission
+    e = emission.emitters
+    edges = np.linspace(0, len(e.positions), LAMP_GROUPS + 1).astype(np.int64)
+    first, count = edges[:-1], np.diff(edges)
+    few = replace(
+        e,
+        positions=np.add.reduceat(e.positions, first, axis=0) / count[:, None],
+        tints=np.add.reduceat(e.tints, first, axis=1),
+    )
+    return replace(emission, emitters=few)
+
+
+def _width(light: Light, camera: Camera, psf: PointSpread) -> float:
+    """Width of the line of a lamp [px]: its energy by its ridge. A disc adds its mean chord."""
+    line = 1.0 / psf.line_peak
     _, depth = camera.project(light.lit_points)
     seen = depth[depth > NEAREST_DEPTH]
     if light.size == 0.0 or len(seen) == 0:
-        return 1.0
+        return line
     diameter = light.size * camera.focal / float(np.median(seen))
-    width = math.hypot(1.0 / psf.line_peak, math.pi / 4.0 * diameter)  # its ridge by its chord
-    return (
-        CORE_EXPOSURE
-        / float(_target_exposure(np.array(width * psf.line_peak)))
-        / (width * psf.line_peak)
-    )
+    return math.hypot(line, math.pi / 4.0 * diameter)
 
 
-def _target_exposure(widths: Floats) -> Floats:
-    """Target exposure of strokes with the given widths, in line widths."""
-    filled = np.clip((widths - 1.0) / (SURFACE_WIDTH - 1.0), 0.0, 1.0)
-    return np.asarray(CORE_EXPOSURE ** (1.0 - filled) * SURFACE_EXPOSURE**filled)
+def _area_exposure(lights: tuple[Emission, ...], camera: Camera) -> float:
+    """The exposure factor that saturates the brighter areas; 0 if nothing is lit.
+
+    Each part of the lit path has the mean brightness of the area around it, of all light there, in
+    its strongest channel. As a photographer meters the brighter part of a picture,
+    `BRIGHT_SHARE` of the path is at most as bright as saturates. A lamp that does not move counts
+    as a short piece of path, so a hold does not darken a drawing.
+    """
+    coarse = camera.scaled(1.0 / AREA_SIZE)
+    few = tuple(map(_grouped_lamps, lights))
+    areas = expose(few, coarse).planes[:, PAD:-PAD, PAD:-PAD].max(axis=0) / AREA_SIZE**2
+    values, weights = [np.empty(0)], [np.empty(0)]
+    for emission in few:
+        for position, energy, weight in _parts(emission, coarse):
+            x, y = np.rint(position).astype(np.int64)
+            inside = (x >= 0) & (x < coarse.width) & (y >= 0) & (y < coarse.height)
+            lit = inside & (energy > _darkest(emission, energy))
+            values.append(areas[y[lit], x[lit]])
+            weights.append(weight[lit])
+    value, weight = np.concatenate(values), np.concatenate(weights)
+    bright = _weighted_quantile(value, weight, BRIGHT_SHARE)
+    bright = min(bright, LARGEST_CONTRAST * _weighted_quantile(value, weight, 0.5))
+    return 1.0 / bright if bright > 0.0 else 0.0
 
 
-def _surface(sweep: Sweep, steps: Steps, camera: Camera, psf: PointSpread) -> tuple[Floats, Floats]:
-    """Brightness and length of the parts of a swept surface, each treated as a line."""
-    e = sweep.emitters
-    line = 1.0 / psf.line_peak  # width of a line [px]
-    piece = psf.line_peak / psf.point_peak
-    u = np.linspace(0.0, 1.0, METERED_PARTS + 1)
-    first, last = e.extent
-    across = first + u[:, None] * (last - first)
-    pixels, depth = camera.project(
-        sweep.base_positions(steps.position, steps.rotation, across).reshape(-1, 3)
-    )
-    pixels = np.where(depth > NEAREST_DEPTH, pixels.T, 0.0).T.reshape(-1, METERED_PARTS + 1, 2)
-    seen = (depth > NEAREST_DEPTH).reshape(-1, METERED_PARTS + 1).all(axis=1)
-    inside = np.all((pixels >= 0.0) & (pixels < [camera.width, camera.height]), axis=2)
-    seen &= inside.any(axis=1)
-    used = seen[1:] & seen[:-1] & steps.energy.any(axis=1)
-    if not used.any():
-        return np.empty(0), np.empty(0)
-
-    middle = 0.5 * (pixels[:, 1:] + pixels[:, :-1])
-    moved = np.diff(middle, axis=0)
-    width = np.diff(0.5 * (pixels[1:] + pixels[:-1]), axis=1)
-    length = np.sqrt((moved**2).sum(axis=2))
-    area = np.abs(moved[..., 0] * width[..., 1] - moved[..., 1] * width[..., 0])
-    if not e.straight:  # a bundle is as wide as it is from every side
-        area = length * np.sqrt((width**2).sum(axis=2))
-    shares = _shares(e.tints)[steps.row]  # (M, PARTS, 3)
-    energy = (steps.energy[:, None, :] * shares).max(axis=2)
-    given = steps.energy.max(axis=1, keepdims=True)
-
-    walked = np.cumsum(length.max(axis=1))
-    group = np.floor(walked / piece)[used]
-    begins = np.flatnonzero(np.append(True, np.diff(group) > 0.0))
-    length, area, energy, given = (
-        np.add.reduceat(values[used], begins, axis=0) for values in (length, area, energy, given)
-    )
-    lit = energy > METERED_SHARE * given * (energy / given).max()
-    path = np.maximum(length, piece)
-    wide = area / path * METERED_PARTS  # of the whole brush, as seen [px]
-    threads = np.inf if e.joined > 0.2 else len(e.positions)
-    covered = np.clip(wide, line, max(line, min(threads * line, 1e9)))
-    value = energy * METERED_PARTS / (path * covered)
-    aim = _target_exposure(covered / line)
-    return (value * CORE_EXPOSURE / aim)[lit], (path * covered / line / METERED_PARTS)[lit]
+def _darkest(emission: Emission, energy: Floats) -> float:
+    """The energy from which on parts (M,) are metered: the dark ground of an image is not."""
+    image = isinstance(emission, Sweep) and len(emission.emitters.tints) > 1
+    return METERED_SHARE * float(energy.max(initial=0.0)) if image else 0.0
 
 
-def _shares(tints: Floats) -> Floats:
-    """Tints (R, K, 3) summed over equal parts of the line of lamps: (R, METERED_PARTS, 3)."""
-    sums = np.concatenate([np.zeros((len(tints), 1, 3)), np.cumsum(tints, axis=1)], axis=1)
-    at = np.linspace(0.0, tints.shape[1], METERED_PARTS + 1)
-    below = np.minimum(at.astype(np.int64), tints.shape[1] - 1)
-    part = (at - below)[None, :, None]
-    return np.diff((1.0 - part) * sums[:, below] + part * sums[:, below + 1], axis=1)
+def _parts(emission: Emission, camera: Camera) -> Iterator[tuple[Floats, Floats, Floats]]:
+    """Positions (2, M) [px], strongest energies (M,) by path length, and path lengths (M,) [px]."""
+    for piece in emission.emission_to(camera):
+        if isinstance(piece, Sheet):
+            for cells in sheet_cells(piece, camera, 0.0):
+                yield cells.position, cells.energy.max(axis=0), np.ones(cells.position.shape[1])
+            continue
+        for trail in project_light(piece, camera, margin=0.0):
+            for part in cut_into_bins(trail, 1.0):
+                length = np.where(part.alone, SHORTEST_PIECE, part.length)
+                yield part.position, part.energy.max(axis=0) / length, length
 
 
-def _weighted_median(values: Floats, weights: Floats) -> float:
-    """The value with half of the weight at or below it; 0 for no values."""
+def _weighted_quantile(values: Floats, weights: Floats, share: float) -> float:
+    """The value with a share of the weight at or below it; 0 for no values."""
     if len(values) == 0:
         return 0.0
     order = np.argsort(values, kind="stable")
     below = np.cumsum(weights[order])
-    return float(values[order[np.searchsorted(below, 0.5 * below[-1])]])
+    return float(values[order[np.searchsorted(below, share * below[-1])]])

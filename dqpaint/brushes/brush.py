@@ -89,7 +89,7 @@ class Brush(BaseModel):
 
     several: ClassVar[bool] = True
 
-    lobe: Lobe = Field(0.0, description="m of a beam cos^m; 0 shines to all sides")
+    lobe: Lobe = Field(0.0, description="exponent m of a beam cos^m; 0 shines to all sides")
 
     def emitters(self) -> Emitters:
         """The lamps of the brush."""

@@ -35,7 +35,7 @@ class Ball(Brush):
 
     several: ClassVar[bool] = False
 
-    size: Length = Field(0.04, description="its diameter")
+    size: Length = Field(0.04, description="diameter")
 
     def emitters(self) -> Emitters:
         """One lamp with a size."""
@@ -105,7 +105,9 @@ class Pixelstick(StraightBrush):
     """A bar of LEDs that shows an image column by column along its way."""
 
     image: ImageFile = Field("", description="a picture file; without one, a pattern of stripes")
-    times: Annotated[int, Field(ge=1, le=100)] = Field(1, description="how often along the way")
+    times: Annotated[int, Field(ge=1, le=100)] = Field(
+        1, description="how often the image is shown along the way"
+    )
     leds: Leds = Field(0, description="how many; 0 is 144 a metre")
     joined: Annotated[float, Field(ge=0.0, le=1.0)] = Field(
         0.5, description="share of the light between the LEDs, 0 to 1"

@@ -75,9 +75,7 @@ def _format_default(default: object, about: str) -> str:
         return f"x  {about}"
     if default == (named.WHITE,):
         return f"white  {about}"
-    length = isinstance(default, float) and about.startswith(
-        ("its diameter", "diameter", "from end")
-    )
+    length = isinstance(default, float) and about.startswith(("diameter", "from end"))
     value = (
         f"{1e3 * float(str(default)):g}mm"
         if length

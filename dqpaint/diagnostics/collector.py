@@ -52,8 +52,8 @@ def _shortened(diagnostic: Diagnostic) -> Diagnostic:
     texts = diagnostic.message, diagnostic.label, diagnostic.help
     if max(map(len, texts)) <= LONGEST_TEXT:
         return diagnostic
-    message, label, cure = (_cut(text) for text in texts)
-    return replace(diagnostic, message=message, label=label, help=cure, fix=None)
+    message, label, help = (_cut(text) for text in texts)
+    return replace(diagnostic, message=message, label=label, help=help, fix=None)
 
 
 def _cut(text: str) -> str:

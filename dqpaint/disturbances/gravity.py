@@ -18,7 +18,7 @@ class GravityError(Disturbance):
     needs: ClassVar[Trait | None] = "a model of gravity"
 
     error: Annotated[float, Field(ge=-1, le=10, allow_inf_nan=False)] = Field(
-        0.0, description="as a part of gravity; 0.1 is 10 % too strong, -1 is none"
+        0.0, description="error as a fraction of gravity; 0.1 is 10 % too strong, -1 is none"
     )
 
     def world(self, world: World) -> World:

@@ -14,7 +14,7 @@ class LinkLengths(Disturbance):
     """The law's model has links of wrong lengths; the tool's place on the last one, too."""
 
     part: Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)] = Field(
-        0.0, description="rms error of each length as a part of it; 0.01 is 1 %"
+        0.0, description="rms error of each length as a fraction of it; 0.01 is 1 %"
     )
     offset: Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)] = Field(
         0.0, description="m, rms error of each joint's place along each axis"

@@ -15,7 +15,9 @@ class UnknownPayload(Disturbance):
 
     needs: ClassVar[Trait | None] = "masses"
 
-    mass: Annotated[float, Field(ge=0, le=1000, allow_inf_nan=False)] = Field(0.0, description="kg")
+    mass: Annotated[float, Field(ge=0, le=1000, allow_inf_nan=False)] = Field(
+        0.0, description="kg, of the ball"
+    )
     radius: Annotated[float, Field(gt=0, le=1, allow_inf_nan=False)] = Field(
         0.03, description="m, of the ball"
     )

@@ -95,12 +95,12 @@ def _fits(text: str, findings: DiagnosticCollector) -> bool:
     elif "\0" in text:
         at = text.index("\0")
         message = "this is not a text: there is a zero character in it"
-        cure = "a picture perhaps, or a text in UTF-16; save it as UTF-8"
-        findings.add(Diagnostic("E307", message, Span(at, at + 1), "", cure))
+        help = "a picture perhaps, or a text in UTF-16; save it as UTF-8"
+        findings.add(Diagnostic("E307", message, Span(at, at + 1), "", help))
     elif found := _SVG.match(text):
         message = "this is a drawing in SVG, not a .traj text"
-        cure = 'a .traj file draws it with one line: svg "drawing.svg" height 80 mm'
-        findings.add(Diagnostic("E307", message, Span(*found.span(1)), "", cure))
+        help = 'a .traj file draws it with one line: svg "drawing.svg" height 80 mm'
+        findings.add(Diagnostic("E307", message, Span(*found.span(1)), "", help))
     return not findings.errors
 
 

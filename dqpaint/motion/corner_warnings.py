@@ -134,7 +134,7 @@ def _slow(segment: Segment, reached: float, rounded: bool, count: int) -> Diagno
     others = f", the slowest of {count} such strokes" if count > 1 else ""
     wanted = f"{1e3 * segment.timing.speed:.3g} mm/s"
     message = f"this reaches {1e3 * reached:.3g} mm/s, not {wanted}{others}"
-    label, cure = "the tool turns as fast as it may", "raise turnspeed, or lower speed"
+    label, help = "the tool turns as fast as it may", "raise turnspeed, or lower speed"
     if rounded:
-        label, cure = "its time is rounded up to whole periods", "a shorter period comes closer"
-    return Diagnostic("W411", message, segment.span, label, cure)
+        label, help = "its time is rounded up to whole periods", "a shorter period comes closer"
+    return Diagnostic("W411", message, segment.span, label, help)

@@ -130,7 +130,7 @@ def hard():
 
 
 def springs():
-    """The compliant arms on half a circle: error, sag, and where a gain makes them swing."""
+    """The compliant arms on half a circle: error, sag, and where a gain makes them oscillate."""
     from tests.support.compliant_loop import ARMS, error
 
     rows = []
@@ -146,10 +146,12 @@ def springs():
             cells = []
             for i, arm in enumerate(ARMS):
                 far, restless = error(arm, values, law, gain)
-                swings = restless > 10 * calm[i] and far > 2
+                oscillates = restless > 10 * calm[i] and far > 2
                 calm[i] = min(calm[i], restless)
                 cells.append(
-                    "swings" if swings else f"{float(f'{far:.{2 if far > 1 else 1}g}'):g} mm"
+                    "oscillates"
+                    if oscillates
+                    else f"{float(f'{far:.{2 if far > 1 else 1}g}'):g} mm"
                 )
             rows.append([f"`compliant:{values}`", f"`{law}`", str(gain), *cells])
     return table(["plant", "law", "k, 1/s", *(f"`{name}`" for name in ARMS)], rows)

@@ -23,7 +23,7 @@ class LogGains(Gains):
 
 @controller("log", source="Ozgur & Mezouar 2016, feed-forward ours", gains=LogGains)
 def log(seen: Seen, gains: LogGains) -> Floats:
-    """Along the one screw that leads home: the error decays evenly; does not lag.
+    """Along the screw to the reference: the error decays evenly; does not lag.
 
     Equation:
         q_dot = J_w^+ (-2 k log(x_e) + "feed_forward" Ad(x_e) xi_d)

@@ -38,7 +38,7 @@ class TransposeGains(Gains):
     leaves_null=True,
 )  # fmt: skip
 def pham_t(seen: Seen, gains: TransposeGains) -> Floats:
-    """Transposed Jacobian: needs no inverse and fears no singularity; slow in its weak modes.
+    """Transposed Jacobian: no inverse, so singularities do no harm; slow in its weak modes.
 
     Equation:
         q_dot = J_8' K e

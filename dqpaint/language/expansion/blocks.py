@@ -26,12 +26,12 @@ def passes(statement: Statement, scope: Scope) -> range:
         if number < 1:
             message = f"'repeat' counts up, but {upper} is less than {lower}"
             name = statement.name.text if statement.name else "i"
-            cure = f"write: repeat {name} from {upper} to {lower}, and count down with -{name}"
-            raise problem("E222", message, nodes[1].span, "", cure)
+            help = f"write: repeat {name} from {upper} to {lower}, and count down with -{name}"
+            raise problem("E222", message, nodes[1].span, "", help)
     if number > MOST_PASSES:
         message = f"more than {MOST_PASSES:,} passes of one 'repeat'"
-        cure = "draw a formula instead: curve … for t from … to …"
-        raise problem("E303", message, nodes[-1].span, f"this is {number:,}", cure)
+        help = "draw a formula instead: curve … for t from … to …"
+        raise problem("E303", message, nodes[-1].span, f"this is {number:,}", help)
     return range(lower, upper + 1)
 
 

@@ -99,8 +99,8 @@ def call_scope(drawing: Procedure, statement: Statement, scope: Scope) -> Scope:
         params = ", ".join(param.text for param in drawing.params)
         noun = "value" if wanted == 1 else "values"
         message = f"{drawing.name} takes {wanted or 'no'} {noun}, not {given}"
-        cure = f"write: {drawing.name}({params})"
-        raise problem("E207", message, statement.span, "", cure)
+        help = f"write: {drawing.name}({params})"
+        raise problem("E207", message, statement.span, "", help)
     names: dict[str, Value | None] = dict(drawing.known)
     for param, node in zip(drawing.params, statement.values, strict=True):
         names[param.text] = evaluate(node, scope)

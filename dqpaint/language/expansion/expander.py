@@ -266,8 +266,8 @@ class Expander:
     def _stroke(self, statement: Statement) -> None:
         pen = self._pen
         if pen.stroke is not None:
-            cure = "one 'stroke' takes any number of lines"
-            raise problem("E280", "a stroke within a stroke", statement.span, "", cure)
+            help = "one 'stroke' takes any number of lines"
+            raise problem("E280", "a stroke within a stroke", statement.span, "", help)
         state = pen.state
         for part in statement.parts:
             if part.word in MODAL:
@@ -318,8 +318,8 @@ class Expander:
             return
         self._first(statement)
         if self._expanded > 1:
-            cure = "the version of the language comes before all other lines"
-            raise problem("E119", "'traj' is not the first statement", statement.span, "", cure)
+            help = "the version of the language comes before all other lines"
+            raise problem("E119", "'traj' is not the first statement", statement.span, "", help)
 
     def _robot_line(self, statement: Statement) -> None:
         self._first(statement)
@@ -331,8 +331,8 @@ class Expander:
         self._period = typed_values.positive(statement.values[0], self._scope, "period")
         if not SHORTEST_PERIOD <= self._period <= LONGEST_PERIOD:
             message = f"a period is from {SHORTEST_PERIOD * 1e3:g} ms to {LONGEST_PERIOD:g} s"
-            cure = "an arm is controlled every few milliseconds: period 8 ms"
-            raise problem("E257", message, statement.values[0].span, "", cure)
+            help = "an arm is controlled every few milliseconds: period 8 ms"
+            raise problem("E257", message, statement.values[0].span, "", help)
 
     def _place(self, statement: Statement) -> None:
         self._first(statement)
@@ -356,8 +356,8 @@ class Expander:
             orientation = tool_orientation.orientation_of_mode(mode, position, tool.value.span)
             if orientation is None:
                 message = "'start' needs to know how the tool is held"
-                cure = "write: tool rpy(0 deg, 0 deg, 0 deg), or tool look (0, 0, 0)"
-                raise problem("E255", message, tool.value.span, "", cure)
+                help = "write: tool rpy(0 deg, 0 deg, 0 deg), or tool look (0, 0, 0)"
+                raise problem("E255", message, tool.value.span, "", help)
         pen.start_at(position, orientation)
 
 

@@ -83,8 +83,8 @@ class Loader:
         if resolved in self._chain:
             first = self._chain.index(resolved)
             circle = " includes ".join([*self._names[first:], self._names[first]])
-            cure = "what both need belongs into a third file"
-            raise problem("E273", f"this include goes in a circle: {circle}", node.span, "", cure)
+            help = "what both need belongs into a third file"
+            raise problem("E273", f"this include goes in a circle: {circle}", node.span, "", help)
         if len(self._chain) > DEEPEST:
             message = f"more than {DEEPEST} files within each other"
             raise problem("E274", message, node.span, "", "include them from one file")
@@ -97,20 +97,20 @@ class Loader:
         assert self._root is not None
         if not is_relative(node.text):
             message = "a file to include is named from the folder of this one"
-            cure = f'for example: include "{PurePosixPath(node.text).name or "colours.traj"}"'
-            raise problem("E271", message, node.span, "", cure)
+            help = f'for example: include "{PurePosixPath(node.text).name or "colours.traj"}"'
+            raise problem("E271", message, node.span, "", help)
         path = below(self._root, folder, node.text)
         if path is None:
             message = "this file is outside of the main file's folder"
-            cure = "only files beside or below the main file can be included"
-            raise problem("E271", message, node.span, "", cure)
+            help = "only files beside or below the main file can be included"
+            raise problem("E271", message, node.span, "", help)
         return path
 
     def _load(self, node: Quoted, path: Path, name: str, resolved: Path) -> None:
         if statement := _FOR_OTHERS.get(path.suffix.lower()):
             message = f"only drawings in .traj are included, and this is a {path.suffix} file"
-            cure = f"write: {statement} {node.text!r}".replace("'", '"')
-            raise problem("E272", message, node.span, "", cure)
+            help = f"write: {statement} {node.text!r}".replace("'", '"')
+            raise problem("E272", message, node.span, "", help)
         try:
             text = self._read(path)
         except DqpaintError as fault:

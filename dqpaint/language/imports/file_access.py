@@ -51,8 +51,8 @@ def path_of(node: Quoted, pen: Pen) -> Path:
     path = below(pen.path.parent, here.parent, node.text)
     if path is None:
         message = "this file is outside of the drawing's folder"
-        cure = "only files beside the drawing or below can be read; copy it there"
-        raise problem("E292", message, node.span, "", cure)
+        help = "only files beside the drawing or below can be read; copy it there"
+        raise problem("E292", message, node.span, "", help)
     return path
 
 
@@ -90,13 +90,13 @@ def readable(node: Quoted, pen: Pen, most_bytes: int) -> Path:
 
 def _unread(node: Quoted, path: Path, fault: Exception) -> Problem:
     reason = (fault.strerror if isinstance(fault, OSError) else None) or str(fault)
-    cure = ""
+    help = ""
     if isinstance(fault, FileNotFoundError):
         there = sorted(p.name for p in path.parent.glob(f"*{path.suffix}"))[:6]
-        cure = f"there are: {', '.join(there)}" if there and path.suffix else ""
-    return problem("E293", f"can't read {node.text}: {reason.lower()}", node.span, "", cure)
+        help = f"there are: {', '.join(there)}" if there and path.suffix else ""
+    return problem("E293", f"can't read {node.text}: {reason.lower()}", node.span, "", help)
 
 
-def too_large(node: Quoted, how: str, cure: str = "") -> Problem:
+def too_large(node: Quoted, how: str, help: str = "") -> Problem:
     """E294."""
-    return problem("E294", f"{node.text} is {how}", node.span, "", cure)
+    return problem("E294", f"{node.text} is {how}", node.span, "", help)

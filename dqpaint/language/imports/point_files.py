@@ -29,16 +29,16 @@ def read(nodes: list[Quoted], pen: Pen) -> Floats:
         count = points.shape[1]
         if count not in (2, 3):
             columns = f"{count} column{'s' if count > 1 else ''}"
-            cure = 'a point has 2 or 3; an axis to a file is written: path "x.txt" "y.txt"'
+            help = 'a point has 2 or 3; an axis to a file is written: path "x.txt" "y.txt"'
             message = f"{nodes[0].text} has {columns}"
-            raise problem("E296", message, nodes[0].span, "", cure)
+            raise problem("E296", message, nodes[0].span, "", help)
         return _with_z(points)
     axes = [_table(node, pen) for node in nodes]
     for node, axis in zip(nodes, axes, strict=True):
         if axis.shape[1] != 1:
             message = f"{node.text} has {axis.shape[1]} columns"
-            cure = "of several files each is one axis: one value a line"
-            raise problem("E296", message, node.span, "", cure)
+            help = "of several files each is one axis: one value a line"
+            raise problem("E296", message, node.span, "", help)
         if len(axis) != len(axes[0]):
             message = f"{node.text} has {len(axis):,} values, {nodes[0].text} has {len(axes[0]):,}"
             raise problem("E296", message, node.span, "", "each file needs a value for each point")
@@ -60,8 +60,8 @@ def _numbers_in(name: str, data: bytes, span: Span) -> Floats:
     if data.count(b"\n") > MOST_ROWS + 10_000:
         raise _too_many(node)
     if data.startswith((b"\xff\xfe", b"\xfe\xff")) or b"\0" in data:
-        cure = "save it as plain text in UTF-8"
-        raise problem("E295", f"{node.text} is not a plain text", node.span, "", cure)
+        help = "save it as plain text in UTF-8"
+        raise problem("E295", f"{node.text} is not a plain text", node.span, "", help)
     text = data.decode("utf-8-sig", errors="replace").replace("\r\n", "\n").replace("\r", "\n")
     heading, first = _first(text)
     if not first:
@@ -127,8 +127,8 @@ def _fault(node: Quoted, lines: list[tuple[int, str]], parted: str | None) -> Pr
     faults = ((number, _wrong(fields, wanted)) for number, fields in rows)
     line, what = next((f for f in faults if f[1]), (rows[0][0], "can't be read"))
     message = f"{node.text}, line {line}: this row {what}"
-    cure = "a row is 2 or 3 numbers; a comma as decimal sign needs semicolons between the columns"
-    return problem("E295", message, node.span, "", cure)
+    help = "a row is 2 or 3 numbers; a comma as decimal sign needs semicolons between the columns"
+    return problem("E295", message, node.span, "", help)
 
 
 def _wrong(fields: list[str], wanted: int) -> str:
@@ -144,5 +144,5 @@ def _wrong(fields: list[str], wanted: int) -> str:
 
 
 def _too_many(node: Quoted) -> Problem:
-    cure = f"at most {MOST_ROWS:,} points are drawn; leave out some"
-    return too_large(node, f"too long: more than {MOST_ROWS:,} rows", cure)
+    help = f"at most {MOST_ROWS:,} points are drawn; leave out some"
+    return too_large(node, f"too long: more than {MOST_ROWS:,} rows", help)

@@ -130,8 +130,8 @@ class Pen:
         """Raises if an automatic move or rotation would interrupt a `stroke`."""
         if self.in_stroke:
             message = "the tool would have to stop within this stroke"
-            cure = "let this line begin where the one before it ends, and the tool look there"
-            raise pose_problem("E283", message, span, "", cure)
+            help = "let this line begin where the one before it ends, and the tool look there"
+            raise pose_problem("E283", message, span, "", help)
 
     def begin_stroke(self, timing: Timing, light: Light | None) -> None:
         """Begins segments that share a profile, and `light` if it is a gradient."""
@@ -142,8 +142,8 @@ class Pen:
         """Raises if a movement within a `stroke` has a time of its own."""
         if self.stroke is not None and part.word in TIMING_WORDS:
             message = f"'{part.word}' belongs to the whole stroke"
-            cure = f"write it on its first line: stroke {PARTS[part.word].example}"
-            raise problem("E281", message, part.span, "", cure)
+            help = f"write it on its first line: stroke {PARTS[part.word].example}"
+            raise problem("E281", message, part.span, "", help)
 
     def _check_moves(self, path: Path, span: Span) -> None:
         """Raises if the point rests within a `stroke`."""
@@ -152,10 +152,10 @@ class Pen:
             message = f"{what} can't be part of a stroke, which does not stop"
             raise problem("E282", message, span, "", "end the stroke before it")
 
-    def warn(self, code: str, message: str, span: Span, label: str = "", cure: str = "") -> None:
+    def warn(self, code: str, message: str, span: Span, label: str = "", help: str = "") -> None:
         """Warns of an assumption, unless it only follows from an earlier error."""
         if not self.lost:
-            self.findings.add(Diagnostic(code, message, span, label, cure))
+            self.findings.add(Diagnostic(code, message, span, label, help))
 
     def travel(
         self,
@@ -183,8 +183,8 @@ class Pen:
         what, how = ("point", "look") if isinstance(mode, Look) else ("line", "look line")
         degrees = math.degrees(angle)
         message = f"the tool turns by {degrees:.3g} deg before this, to look at the {what}"
-        cure = f"a light-off turn is added; to avoid it, write: start at (…) tool {how} …"
-        self.warn("W404", message, span, "", cure)
+        help = f"a light-off turn is added; to avoid it, write: start at (…) tool {how} …"
+        self.warn("W404", message, span, "", help)
         speed = CruiseSpeed(self.state.speed, self.state.turnspeed)
         end = Pose(self.pose.position, orientation)
         self._add_automatic(Straight(vectors.ZERO), SlerpOrientation(), speed, end, span)
@@ -236,7 +236,7 @@ def _too_many(span: Span) -> Diagnostic:
 
 
 def pose_problem(
-    code: str, message: str, span: Span, label: str = "", cure: str = ""
+    code: str, message: str, span: Span, label: str = "", help: str = ""
 ) -> UnknownPositionProblem:
     """An error that depends on the tool's pose."""
-    return UnknownPositionProblem(problem(code, message, span, label, cure).diagnostic)
+    return UnknownPositionProblem(problem(code, message, span, label, help).diagnostic)

@@ -35,15 +35,15 @@ def orientation_at(mode: Look | LookLine, position: Vector, span: Span) -> Quate
 def _look(mode: Look, position: Vector, span: Span) -> Quaternion:
     way = vectors.minus(mode.point, position)
     if vectors.length(way) <= SAME_PLACE:
-        cure = "look at a point the tool does not go through"
-        raise pose_problem("E251", "the tool can't look at the point where it is", span, "", cure)
+        help = "look at a point the tool does not go through"
+        raise pose_problem("E251", "the tool can't look at the point where it is", span, "", help)
     z = vectors.unit(way)
     lean = vectors.angle_between(z, mode.up)
     if min(lean, math.pi - lean) < LEAST_LEAN:
         message = "the tool looks along 'up' here, so nothing says how it is turned about that"
         other = "y" if abs(mode.up[2]) > 0.9 else "z"
-        cure = f"say another direction: tool look POINT up {other}"
-        raise pose_problem("E252", message, span, "", cure)
+        help = f"say another direction: tool look POINT up {other}"
+        raise pose_problem("E252", message, span, "", help)
     x = vectors.unit(vectors.cross(mode.up, z))
     return vectors.turn_of_axes(x, vectors.cross(z, x), z)
 
@@ -53,8 +53,8 @@ def _look_line(mode: LookLine, position: Vector, span: Span) -> Quaternion:
     way = vectors.minus(mode.point, position)
     across = vectors.across(way, x)
     if vectors.length(across) <= SAME_PLACE + 1e-12 * vectors.length(way):
-        cure = "look at a line the tool does not go through"
-        raise pose_problem("E253", "the tool can't look at the line it is on", span, "", cure)
+        help = "look at a line the tool does not go through"
+        raise pose_problem("E253", "the tool can't look at the line it is on", span, "", help)
     z = vectors.unit(across)
     return vectors.turn_of_axes(x, vectors.cross(z, x), z)
 

@@ -59,8 +59,8 @@ def _invalid_value(
         filter(None, (f"brush '{words.name.text}':", key, pydantic_reason(first) + unit))
     )
     field = model.model_fields.get(key)
-    cure = f"{key}: {field.description}" if field and field.description else ""
-    return problem("E258", message, words.span if part is None else _span(part), "", cure)
+    help = f"{key}: {field.description}" if field and field.description else ""
+    return problem("E258", message, words.span if part is None else _span(part), "", help)
 
 
 def _span(part: BrushPart) -> Span:

@@ -122,15 +122,15 @@ def _joint(a: Segment, b: Segment, size: float, findings: DiagnosticCollector) -
                      "and arcs can", "switch it off before: blend off")  # fmt: skip
     turn = vectors.angle_between(_direction(a, 1.0), _direction(b, 0.0))
     if turn > math.pi - SMOOTH:
-        cure = "switch it off before: blend off"
-        return _warn(findings, a, "E286", "the way turns back here, which no arc rounds", cure)
+        help = "switch it off before: blend off"
+        return _warn(findings, a, "E286", "the way turns back here, which no arc rounds", help)
     return _Joint(joined=True, cut=size if turn > SMOOTH else 0.0)
 
 
 def _warn(
-    findings: DiagnosticCollector, segment: Segment, code: str, message: str, cure: str
+    findings: DiagnosticCollector, segment: Segment, code: str, message: str, help: str
 ) -> _Joint:
-    findings.add(Diagnostic(code, message, segment.span, "", cure))
+    findings.add(Diagnostic(code, message, segment.span, "", help))
     return _NO_JOINT
 
 
@@ -325,8 +325,8 @@ def _as_stroke(
         assert other is not None
         what = "times" if timing is None else "profiles"
         message = f"a rounded corner joins two strokes with different {what}"
-        cure = "say it once for both: stroke … end, or switch it off before: blend off"
-        findings.add(Diagnostic("E287", message, other.span, "", cure))
+        help = "say it once for both: stroke … end, or switch it off before: blend off"
+        findings.add(Diagnostic("E287", message, other.span, "", help))
         return pieces
     stroke = ContinuousStroke(number, profile, timing)
     return [replace(piece, timing=timing, stroke=stroke) for piece in pieces]

@@ -44,10 +44,10 @@ def outside_of_formula(mistake: Problem, statement: Statement, text: str) -> Pro
         return mistake
     before = [part.word for part in statement.parts if part.span.start <= found.span.start]
     message = f"'{name.text}' has a value in the formula of the curve alone"
-    cure = "what stands behind the formula holds for the whole curve"
+    help = "what stands behind the formula holds for the whole curve"
     if before and before[-1] == "light":
-        cure += "; to change on the way, write: light red to blue"
-    return problem("E205", message, found.span, "", cure)
+        help += "; to change on the way, write: light red to blue"
+    return problem("E205", message, found.span, "", help)
 
 
 def _ends(
@@ -118,8 +118,8 @@ def _no_point(value: Value, node: Expression, scope: Scope) -> Problem:
     if isinstance(value, PointValue):
         return typed_values.needs(node, value, scope, "curve", LENGTH)
     message = f"'curve' needs a point, but this is {describe(value)}"
-    cure = "for example: curve (r*cos(t), r*sin(t)) for t from 0 to 360 deg"
-    return problem("E218", message, node.span, "", cure)
+    help = "for example: curve (r*cos(t), r*sin(t)) for t from 0 to 360 deg"
+    return problem("E218", message, node.span, "", help)
 
 
 def _check_finite(
@@ -133,8 +133,8 @@ def _check_finite(
     value = _shown(float(t.coefficients[0, first]), dimension)
     values_only = (np.abs(coefficients[:, 0, first]) < LARGEST).all()
     what = "speed" if values_only else "place"
-    cure = "choose the ends so that they leave this value out"
-    raise problem("E243", f"the curve has no {what} at {name} = {value}", span, "", cure)
+    help = "choose the ends so that they leave this value out"
+    raise problem("E243", f"the curve has no {what} at {name} = {value}", span, "", help)
 
 
 def _shown(value: float, dimension: Dimension) -> str:

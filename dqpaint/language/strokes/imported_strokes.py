@@ -64,8 +64,8 @@ def text(statement: Statement, pen: Pen, scope: Scope) -> None:
     align = statement.value("align")
     made = lettering.lay_out(lines, font.name, align.name if isinstance(align, Name) else "left")
     if not made.strokes:
-        cure = "to wait, use: hold 1 s"
-        raise problem("E262", "this text has no letters", nodes[0].span, "", cure)
+        help = "to wait, use: hold 1 s"
+        raise problem("E262", "this text has no letters", nodes[0].span, "", help)
     scale = _scale(statement, scope, (made.width, font.cap))
     at = statement.value("at")
     shift = (
@@ -87,8 +87,8 @@ def path(statement: Statement, pen: Pen, scope: Scope) -> None:
     new = np.concatenate([[True], np.any(np.diff(points, axis=0) != 0.0, axis=1)])
     points = points[new]
     if len(points) < 2:
-        cure = "to wait, use: hold 1 s"
-        pen.warn("W401", "this path has no length", nodes[0].span, "", cure)
+        help = "to wait, use: hold 1 s"
+        pen.warn("W401", "this path has no length", nodes[0].span, "", help)
         return
     curve = piecewise.straight(points)
     if statement.part("smooth"):
@@ -104,8 +104,8 @@ def path(statement: Statement, pen: Pen, scope: Scope) -> None:
     gap = vectors.length(vectors.minus(start, pen.pose.position))
     if pen.started and gap > GAP and not statement.part("at") and not pen.in_stroke:
         message = f"the path starts {1e3 * gap:.3g} mm away from where the tool is"
-        cure = "a light-off move is added; write a move to choose its speed"
-        pen.warn("W402", message, nodes[0].span, "", cure)
+        help = "a light-off move is added; write a move to choose its speed"
+        pen.warn("W402", message, nodes[0].span, "", help)
     _draw(statement, pen, scope, [trace])
 
 
@@ -134,8 +134,8 @@ def _font(statement: Statement) -> lettering.Font:
         meant = closest(node.text, known)
         question = f'did you mean "{meant}"?' if meant else f"the fonts are: {', '.join(known)}"
         fix = Fix(f'write "{meant}"', node.span, f'"{meant}"') if meant else None
-        cure = f"{question} (dqpaint list fonts shows all)" if meant else question
-        raise problem("E260", f'there is no font "{node.text}"', node.span, "", cure, fix)
+        help = f"{question} (dqpaint list fonts shows all)" if meant else question
+        raise problem("E260", f'there is no font "{node.text}"', node.span, "", help, fix)
     return lettering.read_font(node.text)
 
 
@@ -149,10 +149,10 @@ def _no_letter(node: Quoted, place: int, font: lettering.Font) -> Problem:
         cures.append(f'use "{instead}"')
     if others:
         cures.append(f'font "{others[0]}" has it')
-    cure = ", or: ".join(cures) or "take it away; the fonts have the letters of ASCII, and Greek"
+    help = ", or: ".join(cures) or "take it away; the fonts have the letters of ASCII, and Greek"
     fix = Fix(f'write "{instead}"', node.span, f'"{instead}"') if instead.strip() else None
     message = f'font "{font.name}" has no letter {shown}'
-    return problem("E261", message, span, "here", cure, fix)
+    return problem("E261", message, span, "here", help, fix)
 
 
 def _scale(statement: Statement, scope: Scope, size: tuple[float, float]) -> float:
@@ -248,8 +248,8 @@ def check_pieces(pieces: int, pen: Pen, span: Span) -> None:
     """Raises if the program would have too many pieces."""
     if pieces > MOST_PIECES:
         message = f"more than {MOST_PIECES:,} pieces of lines from elsewhere in all"
-        cure = "draw it less often, or with fewer points"
-        pen.findings.add(Diagnostic("E299", message, span, "", cure))
+        help = "draw it less often, or with fewer points"
+        pen.findings.add(Diagnostic("E299", message, span, "", help))
         raise ErrorLimitError
 
 
@@ -258,10 +258,10 @@ def _pen_up_error(statement: Statement, count: int) -> Problem:
     word = statement.word
     message = f"this '{word}' lifts its pen between its {count} lines, and a 'stroke' does not stop"
     span = Span(statement.span.start, statement.span.start + len(word))
-    cure = (
+    help = (
         f"write it outside of the stroke: each of its lines runs through by itself; {word} … in 5 s"
     )
-    return problem("E283", message, span, "", cure)
+    return problem("E283", message, span, "", help)
 
 
 def _set_start(pen: Pen, start: Vector, span: Span) -> None:

@@ -164,8 +164,8 @@ def _screw_to(statement: Statement, pen: Pen, scope: Scope) -> None:
     orientation = tool_orientation.orientation_of_mode(pen.state.tool, end, statement.span)
     if orientation is None:
         message = "'screw to' needs to know how the tool is held at the end"
-        cure = "add: tool rpy(0 deg, 0 deg, 90 deg); to keep the tool as it is, use: line to"
-        raise problem("E255", message, node.span, "", cure)
+        help = "add: tool rpy(0 deg, 0 deg, 90 deg); to keep the tool as it is, use: line to"
+        raise problem("E255", message, node.span, "", help)
     way = vectors.length(vectors.minus(end, pen.pose.position))
     if way <= SAME_PLACE and vectors.turn_between(pen.pose.orientation, orientation) <= SAME_TURN:
         pen.warn(
@@ -192,8 +192,8 @@ def _curve(statement: Statement, pen: Pen, scope: Scope) -> None:
     elif gap > curves.GAP:
         pen.check_no_stop(statement.span)
         message = f"the curve starts {_millimetres(gap)} away from where the tool is"
-        cure = "a light-off move is added; write a move to choose its speed"
-        pen.warn("W402", message, span, "", cure)
+        help = "a light-off move is added; write a move to choose its speed"
+        pen.warn("W402", message, span, "", help)
         pen.travel(start, statement.span)
     mode, turn = pen.state.tool, 0.0
     axis = pen.frame.direction(vectors.Z)

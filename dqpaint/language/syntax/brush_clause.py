@@ -62,9 +62,9 @@ def _values_of(token: Token) -> tuple[dict[str, str], str | None]:
     except UsageError as fault:  # a plugin that cannot be loaded
         raise problem("E264", str(fault), token.span) from None
     meant = closest(token.text, BRUSHES)
-    cure = did_you_mean(meant) or f"the brushes are: {join_words(BRUSHES)}"
+    help = did_you_mean(meant) or f"the brushes are: {join_words(BRUSHES)}"
     fix = Fix(f"write {meant}", token.span, meant) if meant else None
-    raise problem("E264", f"there is no brush '{token.text}'", token.span, "", cure, fix)
+    raise problem("E264", f"there is no brush '{token.text}'", token.span, "", help, fix)
 
 
 def _is_key(cursor: Cursor, takes: dict[str, str], head: bool) -> bool:
@@ -118,9 +118,9 @@ def _unknown(token: Token, name: str, takes: dict[str, str]) -> Problem:
     """The error of a word that is no value of a brush."""
     meant = closest(token.text, takes)
     message = f"brush '{name}' has no value called '{token.text}'"
-    cure = did_you_mean(meant) or f"its values are: {join_words(takes)}"
+    help = did_you_mean(meant) or f"its values are: {join_words(takes)}"
     fix = Fix(f"write {meant}", token.span, meant) if meant else None
-    return problem("E265", message, token.span, "", cure, fix)
+    return problem("E265", message, token.span, "", help, fix)
 
 
 def _check_once(parts: list[BrushPart]) -> None:
@@ -134,5 +134,5 @@ def _check_once(parts: list[BrushPart]) -> None:
 
 def _no_value(name: str, takes: dict[str, str], cursor: Cursor) -> Problem:
     message = f"a value of brush '{name}' stands behind its name"
-    cure = f"its values are: {join_words(takes)}"
-    return problem("E265", message, cursor.token.span, "", cure)
+    help = f"its values are: {join_words(takes)}"
+    return problem("E265", message, cursor.token.span, "", help)

@@ -107,18 +107,18 @@ def _shade(cursor: Cursor, after: str = "light") -> ColourWords:
 
 def _no_colour(cursor: Cursor) -> Problem:
     """E108: a comment swallowed `#ff8800`, or a brightness has no colour."""
-    cure = 'for example: light red, light hsv(30 deg), light "#ff8800", light off'
+    help = 'for example: light red, light hsv(30 deg), light "#ff8800", light off'
     span, fix = cursor.before.span, None
     if cursor.is_word("even"):
-        span, cure = cursor.token.span, "the colour comes before it: light white even"
+        span, help = cursor.token.span, "the colour comes before it: light white even"
         fix = Fix("write white even", span, "white even")
     elif cursor.token.kind == "number":
-        cure = f"the brightness follows the colour: light white {cursor.token.text}%"
+        help = f"the brightness follows the colour: light white {cursor.token.text}%"
         span = cursor.token.span
     elif comment := _COMMENTED_COLOUR.match(cursor.text, span.end):
-        cure = f'a # starts a comment; put the colour in quotes: light "{comment[1]}"'
+        help = f'a # starts a comment; put the colour in quotes: light "{comment[1]}"'
         fix = Fix("put the colour in quotes", Span(*comment.span(1)), f'"{comment[1]}"')
-    return problem("E108", "'light' needs a colour", span, "", cure, fix)
+    return problem("E108", "'light' needs a colour", span, "", help, fix)
 
 
 def _strobe(cursor: Cursor) -> StrobeWords:
@@ -131,10 +131,10 @@ def _strobe(cursor: Cursor) -> StrobeWords:
         duty = _percent(cursor, "the part of the time", PARTS["strobe"].example)
         if not 0.0 < duty <= 1.0:
             message = "a strobe shines for more than 0% and at most 100% of the time"
-            cure = "to turn the light off, write: light off"
+            help = "to turn the light off, write: light off"
             if duty > 0.0:
-                cure = f"for a steady light write: strobe off; else {PARTS['strobe'].example}"
-            raise problem("E217", message, cursor.span_from(at), "", cure)
+                help = f"for a steady light write: strobe off; else {PARTS['strobe'].example}"
+            raise problem("E217", message, cursor.span_from(at), "", help)
     return StrobeWords(frequency, duty, cursor.span_from(start))
 
 

@@ -76,25 +76,25 @@ def found(token: Token) -> str:
 def no_value(cursor: Cursor, after: str, example: str = "") -> Problem:
     """E105: a value is missing."""
     token = cursor.token
-    cure = f"for example: {example}" if example else ""
+    help = f"for example: {example}" if example else ""
     if token.kind == "name" and token.text in RESERVED:
-        cure = f"'{token.text}' is a word of the language; it can't be used as a name"
+        help = f"'{token.text}' is a word of the language; it can't be used as a name"
     elif token.text == "=" and token.kind == "sign":
-        cure = f"only 'let' has a '='; {cure}" if cure else "only 'let' has a '='"
+        help = f"only 'let' has a '='; {help}" if help else "only 'let' has a '='"
     elif token.text == after == "*":
-        cure = "a power is written with ^, as in t^2"
+        help = "a power is written with ^, as in t^2"
     elif after == "/" and token.text in ("/", "*"):
-        cure = "a comment begins with #"
+        help = "a comment begins with #"
     elif token.kind == "sign" and token.text in "),":
-        cure = "a comma stands between two numbers, as in (10, 20) mm"
+        help = "a comma stands between two numbers, as in (10, 20) mm"
     elif token.kind == "text" or (token.kind == "sign" and token.text not in ")%,"):
-        cure = "write a number, a name or a point in brackets"
+        help = "write a number, a name or a point in brackets"
     return problem(
         "E105",
         f"expected a value after '{after}' but found {found(token)}",
         token.span if token.kind != "end" else cursor.before.span,
         "nothing follows" if token.kind == "end" else "",
-        cure,
+        help,
     )
 
 

@@ -145,17 +145,17 @@ def bracket(cursor: Cursor, of: str = "(") -> tuple[Expression, ...]:
 
 def _not_closed(cursor: Cursor) -> Problem:
     token = cursor.token
-    cure = "the numbers of a point stand in brackets, with commas between: (10, 20) mm"
+    help = "the numbers of a point stand in brackets, with commas between: (10, 20) mm"
     fix = None
     if token.kind == "number" or token.kind == "name":
-        cure = "put a comma between the numbers of a point, a * between the factors of a product"
+        help = "put a comma between the numbers of a point, a * between the factors of a product"
     if cursor.before.text in FUNCTIONS:
-        cure = f"write: {FUNCTIONS[cursor.before.text]}"
+        help = f"write: {FUNCTIONS[cursor.before.text]}"
     if token.kind == cursor.before.kind == "number":
         end = cursor.before.end
         fix = Fix("put a comma between", Span(end, end), ",")
     message = f"expected ',' or ')' but found {found(token)}"
-    return problem("E109", message, token.span, "", cure, fix)
+    return problem("E109", message, token.span, "", help, fix)
 
 
 def _deeper(cursor: Cursor, token: Token) -> None:

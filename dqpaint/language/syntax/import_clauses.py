@@ -24,15 +24,15 @@ def texts(cursor: Cursor, word: str) -> tuple[Expression, ...]:
     if not found_texts:
         token = cursor.token if not cursor.at_end else cursor.before
         message = f"expected a text in quotes after '{word}' but found {found(cursor.token)}"
-        cure, fix = f"for example: {example_of(word)}", None
+        help, fix = f"for example: {example_of(word)}", None
         if cursor.token.kind == "name":
             end = token.end
             while cursor.token.kind == "name" and cursor.token.text not in PARTS:
                 end = cursor.take().end
             written = cursor.text[token.start : end]
-            cure = f'put it in quotes: {word} "{written}"'
+            help = f'put it in quotes: {word} "{written}"'
             fix = Fix("put it in quotes", Span(token.start, end), f'"{written}"')
-        raise problem("E109", message, token.span, "", cure, fix)
+        raise problem("E109", message, token.span, "", help, fix)
     return tuple(found_texts)
 
 
@@ -60,8 +60,8 @@ def _one_of(words: tuple[str, ...], after: str, aliases: dict[str, str]) -> "Rea
             span = token.span if not cursor.at_end else cursor.before.span
             message = f"expected {', '.join(words[:-1])} or {words[-1]} after '{after}'"
             fix = Fix(f"write {meant}", span, meant) if meant else None
-            cure = did_you_mean(meant) or f"for example: {after} {words[0]}"
-            raise problem("E109", f"{message} but found {found(token)}", span, "", cure, fix)
+            help = did_you_mean(meant) or f"for example: {after} {words[0]}"
+            raise problem("E109", f"{message} but found {found(token)}", span, "", help, fix)
         cursor.take()
         return Name(word, token.span)
 

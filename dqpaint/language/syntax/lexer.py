@@ -197,25 +197,25 @@ def _glued(
         return end
     span, fix = Span(number.start, end), None
     if letters[0].isdigit():
-        message, cure, fix = _zeros_in_front(span, text)
+        message, help, fix = _zeros_in_front(span, text)
     elif letters.startswith("."):
-        message, cure = f"'{span.text_in(text)}' is not a number", "write one decimal point"
+        message, help = f"'{span.text_in(text)}' is not a number", "write one decimal point"
     elif letters in STATEMENTS or not re.fullmatch(r"[A-Za-z_]\w*", letters, re.ASCII):
         message = f"'{letters}' straight after the number {number.text} is not a unit"
-        cure = f"put a blank between: {number.text} {letters}"
+        help = f"put a blank between: {number.text} {letters}"
         fix = Fix("put a blank between", Span(number.end, number.end), " ")
     elif re.fullmatch(r"(_\d+)+", letters, re.ASCII):
         message = f"'{span.text_in(text)}' is not a number"
-        cure = f"write {number.text}{letters.replace('_', '')}"
-        fix = Fix(cure, span, cure.removeprefix("write "))
+        help = f"write {number.text}{letters.replace('_', '')}"
+        fix = Fix(help, span, help.removeprefix("write "))
     elif letters in SAME_UNITS:
         message = f"'{letters}' straight after the number {number.text} is not a unit"
-        cure = f"write {number.text} {SAME_UNITS[letters]}"
-        fix = Fix(cure, span, f"{number.text} {SAME_UNITS[letters]}")
+        help = f"write {number.text} {SAME_UNITS[letters]}"
+        fix = Fix(help, span, f"{number.text} {SAME_UNITS[letters]}")
     else:
         message = f"'{letters}' straight after the number {number.text} is not a unit"
-        cure = f"units are {', '.join(UNITS)}; a product is written {number.text}*{letters}"
-    problems.append(Diagnostic("E102", message, span, "", cure, fix=fix))
+        help = f"units are {', '.join(UNITS)}; a product is written {number.text}*{letters}"
+    problems.append(Diagnostic("E102", message, span, "", help, fix=fix))
     return end
 
 
@@ -262,54 +262,54 @@ def _bad(
     fix = None
     shown = f"'{character}'" if character.isprintable() else f"U+{ord(character):04X}"
     if character in "{}" and not in_brackets and _BLANK.match(text, end):
-        cure = f"no {character} is needed: a block ends with a line 'end'"
+        help = f"no {character} is needed: a block ends with a line 'end'"
     elif character in _LOOKALIKES:
         plain = _LOOKALIKES[character]
-        cure = f"write {plain}" if character in "[]{}'" else f"write the plain sign {plain}"
-        fix = Fix(cure, Span(start, end), plain)
+        help = f"write {plain}" if character in "[]{}'" else f"write the plain sign {plain}"
+        fix = Fix(help, Span(start, end), plain)
     elif character in _NAMES_OF_LETTERS:
-        cure = f"write {_NAMES_OF_LETTERS[character]}"
-        if "…" not in cure:
-            fix = Fix(cure, Span(start, end), _NAMES_OF_LETTERS[character])
+        help = f"write {_NAMES_OF_LETTERS[character]}"
+        if "…" not in help:
+            fix = Fix(help, Span(start, end), _NAMES_OF_LETTERS[character])
     elif character == ";" and in_brackets:
-        cure = "the numbers of a point have commas between them"
+        help = "the numbers of a point have commas between them"
         fix = Fix("write a comma", Span(start, end), ",")
     elif character == ";" and not tokens:
-        cure = "a comment begins with #"
+        help = "a comment begins with #"
     elif character == ";" and not _BLANK.match(text, end):
-        cure = "a line holds one statement; a comment begins with #"
+        help = "a line holds one statement; a comment begins with #"
     elif character == ";":
-        cure = "no ; is needed: one statement per line"
+        help = "no ; is needed: one statement per line"
         fix = Fix("take the ; away", Span(start, end), "")
     elif character == "<" and _POINTED.match(text, start):
-        cure = "a point stands in round brackets: (10, 0)"
+        help = "a point stands in round brackets: (10, 0)"
     elif character == "<" and tokens and tokens[0].text == "curve":
-        cure = "write: for t from 0 to 360 deg"
+        help = "write: for t from 0 to 360 deg"
     elif character in "<>!&|?":
-        cure = ".traj has no conditions: use repeat, min/max, or write two files"
+        help = ".traj has no conditions: use repeat, min/max, or write two files"
     elif character == ":":
-        cure = "no : is needed: a block ends with a line 'end'"
+        help = "no : is needed: a block ends with a line 'end'"
         fix = Fix("take the : away", Span(start, end), "")
     elif character == "/" or text.startswith("//", start):
-        cure = "a comment begins with #"
+        help = "a comment begins with #"
     elif character == "." and _PART_OF_POINT.match(text, start):
-        cure = "a point has no parts with names: give its numbers names, let px = …"
+        help = "a point has no parts with names: give its numbers names, let px = …"
     elif character == ".":
-        cure = 'the name of a file stands in quotes: "points.csv"'
+        help = 'the name of a file stands in quotes: "points.csv"'
     elif character.isalpha():
-        cure, word = "names are made of the letters a to z, digits and _", tokens[-1]
+        help, word = "names are made of the letters a to z, digits and _", tokens[-1]
         plain = unicodedata.normalize("NFKD", word.text).encode("ascii", "ignore").decode()
         if len(plain) >= len(word.text) and plain.isidentifier():
-            cure += f": {plain}"
+            help += f": {plain}"
             fix = Fix(f"write {plain}", word.span, plain)
     elif character.isdecimal():
-        cure = f"write the plain digit {unicodedata.decimal(character)}"
-        fix = Fix(cure, Span(start, end), str(unicodedata.decimal(character)))
+        help = f"write the plain digit {unicodedata.decimal(character)}"
+        fix = Fix(help, Span(start, end), str(unicodedata.decimal(character)))
     else:
-        cure = "a comment begins with #, a text stands in quotes"
+        help = "a comment begins with #, a text stands in quotes"
     problems.append(
         Diagnostic(
-            "E101", f"unexpected character {shown}", Span(start, start + 1), "", cure, fix=fix
+            "E101", f"unexpected character {shown}", Span(start, start + 1), "", help, fix=fix
         )
     )
     return end
@@ -318,7 +318,7 @@ def _bad(
 def _never_closed(text: str, start: int, tokens: list[Token], problems: list[Diagnostic]) -> int:
     """Reports a text not ended on its line; its end on a later line is no second error."""
     end = text.find("\n", start) % (len(text) + 1)
-    words, cure = [text[start + 1 : end].rstrip()], 'add " before the end of the line'
+    words, help = [text[start + 1 : end].rstrip()], 'add " before the end of the line'
     at = end
     while at < len(text) and len(words) < MOST_WRAPPED and not _begins_statement(text, at + 1):
         stop = text.find("\n", at + 1) % (len(text) + 1)
@@ -327,11 +327,11 @@ def _never_closed(text: str, start: int, tokens: list[Token], problems: list[Dia
             if text.count('"', at + 1, stop) % 2:  # the odd one is its end
                 end = text.find('"', at + 1) + 1
                 written = " ".join(f'"{line}"' for line in words if line)
-                cure = f"each line of a text has quotes of its own: {written}"
+                help = f"each line of a text has quotes of its own: {written}"
             break
         at = stop
     opened = Span(start, start + 1)
-    problems.append(Diagnostic("E107", "this text is never closed", opened, "opened here", cure))
+    problems.append(Diagnostic("E107", "this text is never closed", opened, "opened here", help))
     tokens.append(Token("text", words[0], start, end))
     return end
 
@@ -352,5 +352,5 @@ def _quotes(found: re.Match[str]) -> Diagnostic:
     message, plain = f"unexpected character '{found[0][0]}'", f'"{found[1]}"'
     fix = Fix(f"write {plain}", Span(*found.span()), plain)
     span = Span(found.start(), found.start() + 1)
-    cure = f"a text stands in plain double quotes: {plain}"
-    return Diagnostic("E101", message, span, "", cure, fix=fix)
+    help = f"a text stands in plain double quotes: {plain}"
+    return Diagnostic("E101", message, span, "", help, fix=fix)

@@ -195,24 +195,24 @@ class _Parser:
         """The diagnostic for a line, and whether the line may begin a block."""
         first, word = tokens[0], tokens[0].text
         if first.kind != "name":
-            cure = "a line begins with a word, such as line, arc or let"
+            help = "a line begins with a word, such as line, arc or let"
             if _COMMENTED.match(self._text, first.start):
-                cure = "a comment begins with #"
+                help = "a comment begins with #"
             message = f"expected a statement but found {found(first)}"
-            return Diagnostic("E120", message, first.span, "", cure), False
+            return Diagnostic("E120", message, first.span, "", help), False
         if _is_definition(tokens):
             return self._definition(tokens), False
         if word in FOREIGN:
-            message, cure = FOREIGN[word]
-            return Diagnostic("E121", message, first.span, "", cure), word in FOREIGN_BLOCKS
+            message, help = FOREIGN[word]
+            return Diagnostic("E121", message, first.span, "", help), word in FOREIGN_BLOCKS
         if word in PARTS:
             message = f"unknown statement '{word}'"
-            cure = f"'{word}' belongs to a statement and stands on its line: {_user_of(word)}"
+            help = f"'{word}' belongs to a statement and stands on its line: {_user_of(word)}"
             opens = word in STATEMENTS["with"].parts and word not in STATEMENTS
-            return Diagnostic("E120", message, first.span, "", cure), opens
+            return Diagnostic("E120", message, first.span, "", help), opens
         if word == "even":
-            message, cure = f"unknown statement '{word}'", "it belongs to a light: light white even"
-            return Diagnostic("E120", message, first.span, "", cure), False
+            message, help = f"unknown statement '{word}'", "it belongs to a light: light white even"
+            return Diagnostic("E120", message, first.span, "", help), False
         calls = self._defined or ()
         mistake, meant = unknown_statement(first.text, first.span, calls, tokens[1].text)
         called = word if word in calls else tokens[1].text if tokens[1].text in calls else ""
@@ -228,13 +228,13 @@ class _Parser:
         first = tokens[0]
         if taken := meaning(first.text):
             message = f"'{first.text}' can't be used as a name"
-            cure = f"choose another name, for example: let {first.text}1 = …"
-            return Diagnostic("E114", message, first.span, f"'{first.text}' is {taken}", cure)
+            help = f"choose another name, for example: let {first.text}1 = …"
+            return Diagnostic("E114", message, first.span, f"'{first.text}' is {taken}", help)
         written = " ".join(self._text[first.start : tokens[-1].end].split())
-        cure = f"to name a value, write: let {written}"
+        help = f"to name a value, write: let {written}"
         fix = Fix("write let", Span(first.start, first.start), "let ")
         return Diagnostic(
-            "E120", f"unknown statement '{first.text}'", first.span, "", cure, fix=fix
+            "E120", f"unknown statement '{first.text}'", first.span, "", help, fix=fix
         )
 
 
@@ -318,8 +318,8 @@ def _not_quoted(tokens: list[Token], text: str) -> Problem:
     if span.start == span.end:
         message = "expected the name of a file but found the end of the line"
         return problem("E109", message, tokens[0].span, "", 'for example: include "f.traj"')
-    message, cure = "the name of a file stands in quotes", f'include "{span.text_in(text)}"'
-    return problem("E109", message, span, "", f"write: {cure}")
+    message, help = "the name of a file stands in quotes", f'include "{span.text_in(text)}"'
+    return problem("E109", message, span, "", f"write: {help}")
 
 
 def _no_end(header: Statement) -> Diagnostic:

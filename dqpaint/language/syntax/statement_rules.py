@@ -77,11 +77,11 @@ def _to_or_by(word: str, span: Span) -> Problem:
     )
 
 
-def _needs(statement: Statement, part: str, cure: str = "") -> None:
+def _needs(statement: Statement, part: str, help: str = "") -> None:
     if statement.part(part) is None:
-        cure = cure or f"for example: {STATEMENTS[statement.word].example}"
+        help = help or f"for example: {STATEMENTS[statement.word].example}"
         message = f"this '{statement.word}' has no '{part}'"
-        raise problem("E115", message, _first_word(statement), "", cure)
+        raise problem("E115", message, _first_word(statement), "", help)
 
 
 def _arc(statement: Statement) -> None:
@@ -91,8 +91,8 @@ def _arc(statement: Statement) -> None:
         for word in ("centre", "center", *_FORM_OF_CENTRE, *_FORM_OF_RADIUS):
             if part := statement.part(word):
                 message = f"'arc via' goes through two points; it takes no '{word}'"
-                cure = "write: arc via POINT to POINT, or: arc centre POINT angle ANGLE"
-                raise problem("E248", message, part.span, "", cure)
+                help = "write: arc via POINT to POINT, or: arc centre POINT angle ANGLE"
+                raise problem("E248", message, part.span, "", help)
         _needs(statement, "to", "an arc through three points ends at the last: via POINT to POINT")
         return
     if statement.part("radius") is not None:
@@ -101,12 +101,12 @@ def _arc(statement: Statement) -> None:
     for word in ("left", "right", "long"):
         if part := statement.part(word):
             message = f"'{word}' belongs to an arc with a radius"
-            cure = "write: arc radius 20 mm to (10, 0) mm left"
-            raise problem("E248", message, part.span, "", cure)
+            help = "write: arc radius 20 mm to (10, 0) mm left"
+            raise problem("E248", message, part.span, "", help)
     if to := statement.part("to"):
         if centre is None and not any(statement.part(word) for word in _FORM_OF_CENTRE):
-            cure = "write: arc via POINT to POINT, or: arc centre POINT angle ANGLE"
-            _needs(statement, "via", cure)
+            help = "write: arc via POINT to POINT, or: arc centre POINT angle ANGLE"
+            _needs(statement, "via", help)
         raise problem(
             "E247",
             "'arc centre' takes an angle, not an end point",
@@ -123,13 +123,13 @@ def _radius(statement: Statement) -> None:
     if statement.part("centre") or statement.part("center"):
         part = statement.part("radius")
         assert part is not None
-        cure = "the radius is the distance from here to the centre: first move to the circle"
-        raise problem("E248", "'arc centre' takes no 'radius'", part.span, "", cure)
+        help = "the radius is the distance from here to the centre: first move to the circle"
+        raise problem("E248", "'arc centre' takes no 'radius'", part.span, "", help)
     for word in ("angle", "rise", "grow"):
         if part := statement.part(word):
             message = f"'arc radius' goes from here to a point; it takes no '{word}'"
-            cure = "with a centre, the radius is the distance from here to it"
-            raise problem("E248", message, part.span, "", cure)
+            help = "with a centre, the radius is the distance from here to it"
+            raise problem("E248", message, part.span, "", help)
     _needs(statement, "to", "add where it ends: arc radius 20 mm to (10, 0) mm left")
     left, right = statement.part("left"), statement.part("right")
     if left and right:
@@ -137,8 +137,8 @@ def _radius(statement: Statement) -> None:
         raise problem("E248", "an arc turns left or right, not both", span, "", "keep one of them")
     if not left and not right:
         message = "this 'arc' does not say which way it turns"
-        cure = "add left (against the clock) or right"
-        raise problem("E115", message, _first_word(statement), "", cure)
+        help = "add left (against the clock) or right"
+        raise problem("E115", message, _first_word(statement), "", help)
 
 
 def _frame(statement: Statement) -> None:
@@ -152,15 +152,15 @@ def _screw(statement: Statement) -> None:
         for word in ("about", *_FORM_OF_ABOUT):
             if part := statement.part(word):
                 message = f"'screw to' finds its own axis; it takes no '{word}'"
-                cure = "write: screw to POINT tool ORIENTATION, or: screw about POINT along …"
-                raise problem("E248", message, part.span, "", cure)
+                help = "write: screw to POINT tool ORIENTATION, or: screw about POINT along …"
+                raise problem("E248", message, part.span, "", help)
         return
     for word in ("about", "along", "angle"):
         _needs(statement, word)
     if tool := statement.part("tool"):
         message = "'screw about' moves the tool rigidly; it takes no 'tool'"
-        cure = "turn the tool before, or write: screw to POINT tool ORIENTATION"
-        raise problem("E248", message, tool.span, "", cure)
+        help = "turn the tool before, or write: screw to POINT tool ORIENTATION"
+        raise problem("E248", message, tool.span, "", help)
 
 
 def _place(statement: Statement) -> None:
@@ -168,19 +168,19 @@ def _place(statement: Statement) -> None:
         _needs(statement, "at")
     elif at := statement.part("at"):
         message = "'place auto' finds the place itself; it takes no 'at'"
-        cure = "write: place auto, or: place at POINT turned ORIENTATION"
-        raise problem("E248", message, at.span, "", cure)
+        help = "write: place auto, or: place at POINT turned ORIENTATION"
+        raise problem("E248", message, at.span, "", help)
 
 
 def _with(statement: Statement) -> None:
     if not statement.parts:
-        cure = f"for example: {STATEMENTS['with'].example}"
-        raise problem("E115", "this 'with' changes nothing", statement.span, "", cure)
+        help = f"for example: {STATEMENTS['with'].example}"
+        raise problem("E115", "this 'with' changes nothing", statement.span, "", help)
     before = ""
     for part in statement.parts:
         if part.word == "about" and before != "rotate":
-            cure = "write: with rotate 30 deg about (10, 0) mm"
-            raise problem("E248", "'about' says what 'rotate' turns about", part.span, "", cure)
+            help = "write: with rotate 30 deg about (10, 0) mm"
+            raise problem("E248", "'about' says what 'rotate' turns about", part.span, "", help)
         before = part.word
 
 
@@ -197,9 +197,9 @@ def _imported(statement: Statement) -> None:
         raise problem("E248", message, unit.span, "", "keep one of them")
     most = {"svg": 1, "path": 3}.get(word)
     if most and len(statement.values) > most:
-        cure = "one drawing to a line" if most == 1 else "one file, or one for each of x, y and z"
+        help = "one drawing to a line" if most == 1 else "one file, or one for each of x, y and z"
         message = f"'{word}' takes {'one file' if most == 1 else 'at most 3 files'}"
-        raise problem("E248", message, statement.values[most].span, "", cure)
+        raise problem("E248", message, statement.values[most].span, "", help)
 
 
 def misplaced(word: str, token: Token) -> Problem | None:
@@ -210,7 +210,7 @@ def misplaced(word: str, token: Token) -> Problem | None:
     if word == "move" and token.text == "light":
         message = "'move' is always dark, so it has no 'light'"
         return problem("E110", message, token.span, "", "to shine on the way, use: line to …")
-    cure = {
+    help = {
         ("hold", "tool"): "to turn on the spot, use: line by (0, 0) tool …",
         ("hold", "in"): "write the time straight after it: hold 1 s",
         ("hold", "samples"): "write the time straight after it: hold 1 s",
@@ -233,15 +233,15 @@ def misplaced(word: str, token: Token) -> Problem | None:
         ("arc", "from"): "an arc begins where the tool is; write before it: move to (0, 0)",
     }.get((word, RENAMED.get(token.text, token.text)))
     if token.text == "with" and STATEMENTS[word].moves:
-        cure = "parts stand there without 'with', as in: line to (10, 0) mm light red"
+        help = "parts stand there without 'with', as in: line to (10, 0) mm light red"
     elif token.text == "per":
-        cure = "a rate is written with a slash: mm/s"
-    if cure is None:
+        help = "a rate is written with a slash: mm/s"
+    if help is None:
         return None
     message = f"'{word}' has no part called '{token.text}'"
-    meant = _QUESTION.fullmatch(cure)
+    meant = _QUESTION.fullmatch(help)
     fix = Fix(f"write {meant[1]}", token.span, meant[1]) if meant else None
-    return problem("E110", message, token.span, "", cure, fix)
+    return problem("E110", message, token.span, "", help, fix)
 
 
 def unexpected(word: str, cursor: Cursor) -> Problem | None:
@@ -255,6 +255,6 @@ def unexpected(word: str, cursor: Cursor) -> Problem | None:
     needed = {"arc": "centre", "screw": "about", "step": "to", "start": "at", "place": "at"}
     if word in needed and cursor.before.text == word:
         message = f"'{word}' needs '{needed[word]}' before the point"
-        cure = f"for example: {STATEMENTS[word].example}"
-        return problem("E111", message, token.span, "", cure)
+        help = f"for example: {STATEMENTS[word].example}"
+        return problem("E111", message, token.span, "", help)
     return trailing_tokens.advice_for(word, cursor)

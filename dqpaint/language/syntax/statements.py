@@ -157,8 +157,8 @@ def _robot(cursor: Cursor) -> Word:
         raise problem("E109", message, token.span, "", "for example: robot iiwa")
     if token.kind == "name" and not cursor.at_end:
         message = f"expected the end of the line but found {found(cursor.token)}"
-        cure = 'a name with other signs than letters, digits and _ stands in quotes: robot "…"'
-        raise problem("E112", message, cursor.token.span, "", cure)
+        help = 'a name with other signs than letters, digits and _ stands in quotes: robot "…"'
+        raise problem("E112", message, cursor.token.span, "", help)
     return Word(token.text, token.span)
 
 
@@ -191,8 +191,8 @@ def _params(cursor: Cursor, after: str) -> tuple[Word, ...]:
         cursor.take()
     if not cursor.is_sign(")"):
         message = f"expected ',' or ')' but found {found(cursor.token)}"
-        cure = "in these brackets stand names alone; values follow where it is called"
-        raise problem("E109", message, cursor.token.span, "", cure)
+        help = "in these brackets stand names alone; values follow where it is called"
+        raise problem("E109", message, cursor.token.span, "", help)
     cursor.take()
     return tuple(params.values())
 
@@ -248,32 +248,32 @@ def _unknown_part(cursor: Cursor, word: str) -> Problem:
         message = "'even' belongs to a light, behind its colour"
         return problem("E110", message, token.span, "", "write: light white even")
     if word == "arc" and token.text in ROUND:
-        cure = "the radius is the distance from here to the centre: first move to the circle"
+        help = "the radius is the distance from here to the centre: first move to the circle"
         message = f"'arc' has no part called '{token.text}'"
-        return problem("E110", message, token.span, "", cure)
+        return problem("E110", message, token.span, "", help)
     message = f"'{word}' has no part called '{token.text}'"
     begins = token.text in STATEMENTS and token.text not in PARTS
     if begins and PART_ALIASES.get(token.text) not in known.parts:
         return problem("E110", message, token.span, "", "one statement per line")
     if token.text.lower() in colours.NAMES:
-        cure = "a colour stands behind 'light', two of them as: light red to blue"
-        return problem("E110", message, token.span, "", cure)
+        help = "a colour stands behind 'light', two of them as: light red to blue"
+        return problem("E110", message, token.span, "", help)
     meant = closest(token.text, known.parts, PART_ALIASES)
     if meant not in known.parts:
         meant = closest(token.text, known.parts)
     if not meant and after_number and len(token.text) > 1:  # one letter is like any other
         meant = closest(token.text, UNITS)
-    cure = did_you_mean(meant) or f"its parts are: {join_words(known.parts)}"
+    help = did_you_mean(meant) or f"its parts are: {join_words(known.parts)}"
     fix = Fix(f"write {meant}", token.span, meant) if meant else None
-    return problem("E110", message, token.span, "", cure, fix)
+    return problem("E110", message, token.span, "", help, fix)
 
 
 def _foreign_unit(token: Token) -> Problem:
     unit = FOREIGN_UNITS[token.text]
-    cure = instead_of(token.text)
+    help = instead_of(token.text)
     fix = Fix(f"write {unit}", token.span, unit) if token.text in SAME_UNITS else None
     message = f"'{token.text}' is not a unit of this language"
-    return problem("E102", message, token.span, "", cure, fix)
+    return problem("E102", message, token.span, "", help, fix)
 
 
 def _trailing(cursor: Cursor, word: str) -> Problem:
@@ -284,20 +284,20 @@ def _trailing(cursor: Cursor, word: str) -> Problem:
     if special is not None:
         return special
     if token.kind == "sign" and token.text == "=":
-        cure = "only 'let' has a '='"
+        help = "only 'let' has a '='"
     elif token.kind == "sign" and token.text == ",":
-        cure = "a point stands in brackets: (50, 0) mm; parts of a line need no commas"
+        help = "a point stands in brackets: (50, 0) mm; parts of a line need no commas"
     elif token.kind == "sign" and token.text == "%":
-        cure = "only the brightness of a light is written in %, and it is no less than 0%"
+        help = "only the brightness of a light is written in %, and it is no less than 0%"
     elif word == "repeat" and token.text in ("step", "by"):
-        cure = "it counts by 1: repeat i from 0 to 5, and write 2*i"
+        help = "it counts by 1: repeat i from 0 to 5, and write 2*i"
     elif token.kind == "name" and token.text in STATEMENTS:
-        cure = "one statement per line"
+        help = "one statement per line"
     elif word == "repeat":
-        cure = "write: repeat 5, or: repeat i from 1 to 5"
+        help = "write: repeat 5, or: repeat i from 1 to 5"
     elif word == "def" and token.kind == "name":
-        cure = f"the names it is handed stand in brackets: {example_of(word)}"
+        help = f"the names it is handed stand in brackets: {example_of(word)}"
     else:
-        cure = ""
+        help = ""
     message = f"expected the end of the line but found {found(token)}"
-    return problem("E112", message, token.span, "", cure)
+    return problem("E112", message, token.span, "", help)

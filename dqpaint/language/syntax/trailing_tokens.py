@@ -13,9 +13,9 @@ Advice = tuple[str, Fix | None]
 def advice_for(word: str, cursor: Cursor) -> Problem | None:
     """E112 with advice for the tokens left on a line of this word; None without advice."""
     for advise in _ADVISERS:
-        for cure, fix in advise(word, cursor):
+        for help, fix in advise(word, cursor):
             message = f"expected the end of the line but found {found(cursor.token)}"
-            return problem("E112", message, cursor.token.span, "", cure, fix)
+            return problem("E112", message, cursor.token.span, "", help, fix)
     return None
 
 

@@ -186,8 +186,8 @@ def _power(node: Power, scope: Scope) -> Value:
         raise problem("E211", f"{describe(base)} has no powers", node.base.span)
     if not isinstance(exponent, Quantity) or exponent.dimension != PLAIN:
         message = f"an exponent is a plain number, this is {describe(exponent)}"
-        cure = "a unit binds tightest; to give it to the power, write: (2^3) mm"
-        raise problem("E211", message, node.exponent.span, "", cure)
+        help = "a unit binds tightest; to give it to the power, write: (2^3) mm"
+        raise problem("E211", message, node.exponent.span, "", help)
     try:
         result = values.power_of(base, exponent)
     except ZeroDivisionError:

@@ -37,25 +37,25 @@ def unknown(node: Name, scope: Scope, words: Iterable[str] = ()) -> Problem:
     """E205, or E206 for a function without brackets; `words` are allowed there as well."""
     name = node.name
     if name in FUNCTIONS:
-        cure = f"write: {FUNCTIONS[name]}" + ("; a minute is 60 s" if name == "min" else "")
-        return problem("E206", f"'{name}' is a function", node.span, "", cure)
+        help = f"write: {FUNCTIONS[name]}" + ("; a minute is 60 s" if name == "min" else "")
+        return problem("E206", f"'{name}' is a function", node.span, "", help)
     if name in FOREIGN_UNITS:
-        cure, same = instead_of(name), SAME_UNITS.get(name)
+        help, same = instead_of(name), SAME_UNITS.get(name)
         fix = Fix(f"write {same}", node.span, same) if same else None
-        return problem("E205", f"'{name}' is not known", node.span, "", cure, fix)
+        return problem("E205", f"'{name}' is not known", node.span, "", help, fix)
     words = list(words)
     aliases = PROFILE_ALIASES if set(PROFILES) <= set(words) else {}
     known = (*scope.names, *CONSTANTS, *words)
     meant = _abbreviation(name, scope) or closest(name, known, aliases)
-    cure = did_you_mean(meant) or f"name it first: let {name} = …"
+    help = did_you_mean(meant) or f"name it first: let {name} = …"
     if scope.text[: node.span.start].rstrip().endswith("--"):
-        meant, cure = "", "a comment begins with #"
+        meant, help = "", "a comment begins with #"
     if "keep" in words and not meant:
-        cure += ", or write an orientation: rot(x, 180 deg)"
+        help += ", or write an orientation: rot(x, 180 deg)"
     if not meant and set(words) == set(PROFILES):
-        cure = f"the profiles are: {join_words(PROFILES)}"
+        help = f"the profiles are: {join_words(PROFILES)}"
     fix = Fix(f"write {meant}", node.span, meant) if meant else None
-    return problem("E205", f"'{name}' is not known", node.span, "", cure, fix)
+    return problem("E205", f"'{name}' is not known", node.span, "", help, fix)
 
 
 def _abbreviation(name: str, scope: Scope) -> str:
@@ -67,8 +67,8 @@ def _abbreviation(name: str, scope: Scope) -> str:
 def no_value_of(node: Name, value: Function | Procedure) -> Problem:
     """E206: the name of a function or of a `def` without a call."""
     if isinstance(value, Function):
-        cure = f"write: {value.name}({', '.join(value.params)})"
-        return problem("E206", f"'{node.name}' is a function", node.span, "", cure)
+        help = f"write: {value.name}({', '.join(value.params)})"
+        return problem("E206", f"'{node.name}' is a function", node.span, "", help)
     return problem("E206", f"'{node.name}' is drawn, it has no value", node.span, "", _CALLED)
 
 
@@ -80,23 +80,23 @@ def wrong_count(function: Function, node: Call) -> Problem:
     count = len(function.params)
     noun = "value" if count == 1 else "values"
     message = f"{function.name} takes {count or 'no'} {noun}, not {len(node.values)}"
-    cure = f"write: {function.name}({', '.join(function.params)})"
-    return problem("E207", message, node.span, "", cure)
+    help = f"write: {function.name}({', '.join(function.params)})"
+    return problem("E207", message, node.span, "", help)
 
 
 def too_many(node: Bracket, scope: Scope) -> Problem:
     """E202."""
-    count, cure = len(node.values), "write decimals with a point, not a comma: 0.5"
+    count, help = len(node.values), "write decimals with a point, not a comma: 0.5"
     fix, written = None, [scope.written(value) for value in node.values]
     if count in (4, 6) and all(isinstance(value, Literal) for value in node.values):
         pairs = zip(written[::2], written[1::2], strict=True)
         decimals = [f"{whole}.{part}" for whole, part in pairs]
         if all(text.isdigit() for text in written):
-            cure = f"write decimals with a point, not a comma: {decimals[0]}"
+            help = f"write decimals with a point, not a comma: {decimals[0]}"
             unit = f" {node.unit}" if node.unit else ""
             fix = Fix("write decimal points", node.span, f"({', '.join(decimals)}){unit}")
     message = f"a point has 2 or 3 numbers, this has {count}"
-    return problem("E202", message, node.span, "", cure, fix)
+    return problem("E202", message, node.span, "", help, fix)
 
 
 def mixed(node: Bracket, coordinates: list[Quantity], scope: Scope) -> Problem:
@@ -107,22 +107,22 @@ def mixed(node: Bracket, coordinates: list[Quantity], scope: Scope) -> Problem:
     at = (plain or others)[0]
     literals = [child for child in node.values if isinstance(child, Literal)]
     units = {child.unit for child in literals if child.unit}
-    cure, fix = "give each of them a unit of the same kind", None
+    help, fix = "give each of them a unit of the same kind", None
     if len(literals) == len(node.values) and len(units) == 1:
         numbers = ", ".join(
             scope.written(child).removesuffix(child.unit).rstrip() for child in literals
         )
         mended = f"({numbers}) {units.pop()}"
-        cure = f"one unit after the bracket is enough: {mended}"
+        help = f"one unit after the bracket is enough: {mended}"
         fix = Fix(f"write {mended}", node.span, mended)
     elif plain:
-        cure = f"{scope.written(node.values[at])} needs a unit too"
+        help = f"{scope.written(node.values[at])} needs a unit too"
     return problem(
         "E204",
         "the numbers of one point must have the same unit",
         node.values[at].span,
         f"{scope.written(node.values[at])} is {describe(coordinates[at])}",
-        cure,
+        help,
         fix,
     )
 
@@ -142,14 +142,14 @@ def unknown_function(node: Call, scope: Scope) -> Problem:
         return problem("E206", message, span, "", _CALLED)
     if node.name in scope.names or node.name in BUILTINS:
         message = f"'{node.name}' is not a function"
-        cure = f"a product is written {node.name}*(…)"
-        return problem("E206", message, span, "", cure)
+        help = f"a product is written {node.name}*(…)"
+        return problem("E206", message, span, "", help)
     if node.name in ("rgb", "RGB", "rgba"):
-        message, cure = (
+        message, help = (
             f"there is no function '{node.name}'",
             'write the colour in quotes: "#ff8800"',
         )
-        return problem("E206", message, span, "", cure)
+        return problem("E206", message, span, "", help)
     own = [name for name, value in scope.names.items() if isinstance(value, Function)]
     known = (*own, *functions.TABLE)
     meant = closest(node.name, known, FUNCTION_ALIASES)
@@ -169,16 +169,16 @@ def no_sum(
     at, lacking, other = child, right, left
     if isinstance(left, Quantity | PointValue) and left.dimension == PLAIN:
         at, lacking, other = first, left, right
-    cure, fix = "", None
+    help, fix = "", None
     alike = isinstance(lacking, Quantity | PointValue) and type(lacking) is type(other)
     if alike and isinstance(lacking, Quantity | PointValue) and lacking.dimension == PLAIN:
         assert isinstance(other, Quantity | PointValue)
         if written := with_unit(at, lacking, other.dimension, scope):
-            cure = f"did you mean {written}?"
+            help = f"did you mean {written}?"
             fix = Fix(f"write {written}", at.span, written)
     elif {type(left), type(right)} == {PointValue, Quantity}:
-        cure = "a point goes with a point: (5, 0) mm"
-    return problem("E208", message, at.span, describe(lacking), cure, fix)
+        help = "a point goes with a point: (5, 0) mm"
+    return problem("E208", message, at.span, describe(lacking), help, fix)
 
 
 def with_unit(
@@ -207,7 +207,7 @@ def with_unit(
 def no_product(left: Value, right: Value, verb: str, by: str, child: Expression) -> Problem:
     """E209."""
     message = f"can't {verb} {describe(left)} {by} {describe(right)}"
-    cure = ""
+    help = ""
     if isinstance(left, PointValue) and isinstance(right, PointValue):
-        cure = "a point can be multiplied by a number; for one of its parts, write that part"
-    return problem("E209", message, child.span, describe(right), cure)
+        help = "a point can be multiplied by a number; for one of its parts, write that part"
+    return problem("E209", message, child.span, describe(right), help)

@@ -67,26 +67,26 @@ class Arguments:
         number = self.number(i, dimension)
         if isinstance(number, Taylor):
             message = f"{self.function} can't change along a curve"
-            cure = "for a tool that turns on the way, use: tool follow, or tool look"
-            raise problem("E231", message, self.nodes[i].span, "", cure)
+            help = "for a tool that turns on the way, use: tool follow, or tool look"
+            raise problem("E231", message, self.nodes[i].span, "", help)
         return number
 
     def _mismatch(self, i: int, dimension: Dimension) -> Problem:
         value, span, written = self.values[i], self.nodes[i].span, self.written(i)
-        cure = f"write: {FUNCTIONS.get(self.function, self.function)}"
+        help = f"write: {FUNCTIONS.get(self.function, self.function)}"
         plain = isinstance(value, Quantity) and value.dimension == PLAIN
         if plain and len(self.nodes) == 1 and dimension == ANGLE:
             join = " " if isinstance(self.nodes[i], Literal) else "*"  # `30 deg`, but `a*deg`
             ways = (f"{self.function}({written}{join}{unit})" for unit in ("deg", "rad"))
-            cure = f"say which: {' or '.join(ways)}"
+            help = f"say which: {' or '.join(ways)}"
         elif plain and isinstance(value, Quantity) and not isinstance(value.value, Taylor):
             unit = plausible_unit(value.value, dimension)
-            cure = f"did you mean {written} {unit}?" if unit else cure
+            help = f"did you mean {written} {unit}?" if unit else help
         elif dimension == PLAIN and isinstance(value, Quantity):
-            cure = "divide it by a unit to get a plain number"
+            help = "divide it by a unit to get a plain number"
         needed = dimension_name(dimension)
         message = f"{self.function} needs {needed}, this is {describe(value)}"
-        return problem("E213", message, span, "", cure)
+        return problem("E213", message, span, "", help)
 
 
 def _angle_function(f: Callable[[Scalar], Scalar]) -> Callable[[Arguments], Value]:
@@ -162,12 +162,12 @@ def _rot(given: Arguments) -> Value:
     axis = given.values[0]
     if not isinstance(axis, PointValue):
         message = f"rot needs a direction, this is {describe(axis)}"
-        cure = "for example: rot(z, 30 deg) or rot((1, 1, 0), 30 deg)"
-        raise problem("E213", message, given.nodes[0].span, "", cure)
+        help = "for example: rot(z, 30 deg) or rot((1, 1, 0), 30 deg)"
+        raise problem("E213", message, given.nodes[0].span, "", help)
     if any(isinstance(number, Taylor) for number in axis.xyz):
         given.constant(1, ANGLE)
-        message, cure = "rot can't change along a curve", "use: tool follow, or tool look"
-        raise problem("E231", message, given.nodes[0].span, "", cure)
+        message, help = "rot can't change along a curve", "use: tool follow, or tool look"
+        raise problem("E231", message, given.nodes[0].span, "", help)
     x, y, z = (float(number) for number in axis.xyz if not isinstance(number, Taylor))
     angle = given.constant(1, ANGLE)
     if x == y == z == 0.0:
@@ -258,8 +258,8 @@ def call(given: Arguments) -> Value:
         )
         noun = "value" if needed == "1" else "values"
         message = f"{given.function} takes {needed if needed != '0' else 'no'} {noun}, not {count}"
-        cure = f"write: {FUNCTIONS.get(given.function) or PROFILE_CALLS[given.function]}"
-        raise problem("E207", message, given.span, "", cure)
+        help = f"write: {FUNCTIONS.get(given.function) or PROFILE_CALLS[given.function]}"
+        raise problem("E207", message, given.span, "", help)
     try:
         return function(given)
     except ValueError:

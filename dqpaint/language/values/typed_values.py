@@ -120,10 +120,10 @@ def place(node: Expression, scope: Scope, word: str) -> Vector:
             return at
         raise needs(node, value, scope, word, LENGTH)
     message = f"'{word}' needs a point, but this is {describe(value)}"
-    cure = "a point has 2 or 3 numbers in brackets: (10, 20) mm"
+    help = "a point has 2 or 3 numbers in brackets: (10, 20) mm"
     if isinstance(value, Quantity) and value.dimension == LENGTH:
-        cure = f"a point has 2 or 3 numbers in brackets: ({scope.written(node)}, 0)"
-    raise problem("E218", message, node.span, "", cure)
+        help = f"a point has 2 or 3 numbers in brackets: ({scope.written(node)}, 0)"
+    raise problem("E218", message, node.span, "", help)
 
 
 def direction(node: Expression, scope: Scope, word: str) -> Vector:
@@ -131,8 +131,8 @@ def direction(node: Expression, scope: Scope, word: str) -> Vector:
     value = evaluate(node, scope)
     if not isinstance(value, PointValue) or value.dimension not in (PLAIN, LENGTH):
         message = f"'{word}' needs a direction, but this is {describe(value)}"
-        cure = f"for example: {word} z, or {word} (0, 1, 1)"
-        raise problem("E218", message, node.span, "", cure)
+        help = f"for example: {word} z, or {word} (0, 1, 1)"
+        raise problem("E218", message, node.span, "", help)
     if not any(floats(value)):
         raise problem("E215", "a direction can't be (0, 0, 0)", node.span)
     return vectors.unit(floats(value))
@@ -142,15 +142,15 @@ def frame(node: Expression, scope: Scope) -> Frame:
     """The frame of this name."""
     if isinstance(node, Name) and not scope.defines(node.name):
         frames = [name for name, value in scope.names.items() if isinstance(value, FrameValue)]
-        cure = did_you_mean(closest(node.name, frames))
-        cure = cure or f"name it first: frame {node.name} at (30, 0) mm"
-        raise problem("E205", f"'{node.name}' is not known", node.span, "", cure)
+        help = did_you_mean(closest(node.name, frames))
+        help = help or f"name it first: frame {node.name} at (30, 0) mm"
+        raise problem("E205", f"'{node.name}' is not known", node.span, "", help)
     value = evaluate(node, scope)
     if isinstance(value, FrameValue):
         return value.frame
     message = f"'frame' needs a frame, but this is {describe(value)}"
-    cure = "name one first: frame leaf at (30, 0) mm turned 45 deg"
-    raise problem("E218", message, node.span, "", cure)
+    help = "name one first: frame leaf at (30, 0) mm turned 45 deg"
+    raise problem("E218", message, node.span, "", help)
 
 
 def rotation(node: Expression, scope: Scope, word: str) -> Quaternion:
@@ -167,8 +167,8 @@ def orientation(node: Expression, scope: Scope, word: str) -> Quaternion:
     if isinstance(value, Orientation):
         return value.quaternion
     message = f"'{word}' needs an orientation, but this is {describe(value)}"
-    cure = "for example: rpy(0 deg, 0 deg, 90 deg), rot(z, 90 deg), look (0, 0, 0)"
-    raise problem("E218", message, node.span, "", cure)
+    help = "for example: rpy(0 deg, 0 deg, 90 deg), rot(z, 90 deg), look (0, 0, 0)"
+    raise problem("E218", message, node.span, "", help)
 
 
 def profile(node: Expression, scope: Scope) -> Profile:
@@ -194,10 +194,10 @@ def colour(node: Expression, scope: Scope, after_to: bool = False, word: str = "
             raise problem("E217", message, node.span, f"this is {kelvin:g} K")
         return colours.from_temperature(kelvin)
     message = f"'{word}' needs a colour, but this is {describe(value)}"
-    cure = f'for example: {word} red, {word} hsv(30 deg), {word} "#ff8800", {word} 5600 K'
+    help = f'for example: {word} red, {word} hsv(30 deg), {word} "#ff8800", {word} 5600 K'
     if after_to and isinstance(value, PointValue):
-        cure = "after a colour, 'to' says which colour comes next; write 'light' after the point"
-    raise problem("E218", message, node.span, "", cure)
+        help = "after a colour, 'to' says which colour comes next; write 'light' after the point"
+    raise problem("E218", message, node.span, "", help)
 
 
 def _colour_of_text(node: Expression, text: str) -> Colour:
@@ -210,9 +210,9 @@ def _colour_of_text(node: Expression, text: str) -> Colour:
             "E216", message, node.span, "", 'a # and 3 or 6 digits from 0 to f: "#ff8800"'
         )
     meant = closest(text, colours.NAMES)
-    cure = did_you_mean(meant) or 'for example: red, hsv(30 deg), "#ff8800"'
+    help = did_you_mean(meant) or 'for example: red, hsv(30 deg), "#ff8800"'
     fix = Fix(f"write {meant}", node.span, f'"{meant}"') if meant else None
-    raise problem("E216", f'there is no colour "{text}"', node.span, "", cure, fix)
+    raise problem("E216", f'there is no colour "{text}"', node.span, "", help, fix)
 
 
 def floats(value: PointValue) -> Vector:
@@ -232,10 +232,10 @@ def needs(node: Expression, value: Value, scope: Scope, word: str, dimension: Di
     if isinstance(value, Quantity | PointValue) and value.dimension == PLAIN and dimension != PLAIN:
         written = with_unit(node, value, dimension, scope, word)
         message = f"'{word}' needs {needed}, but this has no unit"
-        cure = f"write {written}" if written else f"for example: {_example(word)}"
-        fix = Fix(cure, node.span, written) if written else None
-        return problem("E218", message, node.span, "no unit", cure, fix)
-    cure, fix = (f"for example: {_example(word)}" if _example(word) else ""), None
+        help = f"write {written}" if written else f"for example: {_example(word)}"
+        fix = Fix(help, node.span, written) if written else None
+        return problem("E218", message, node.span, "no unit", help, fix)
+    help, fix = (f"for example: {_example(word)}" if _example(word) else ""), None
     if isinstance(value, Quantity | PointValue):
         kind = value.dimension
         per_time = tuple(a - b for a, b in zip(kind, TIME, strict=True))
@@ -246,18 +246,18 @@ def needs(node: Expression, value: Value, scope: Scope, word: str, dimension: Di
         elif dimension == per_angle == PITCH:
             per = "/turn"
         elif kind == tuple(-n for n in dimension) and "/" in scope.written(node):
-            cure = "a unit belongs to the number before it: half of it is (1/2) mm, or 0.5 mm"
+            help = "a unit belongs to the number before it: half of it is (1/2) mm, or 0.5 mm"
         elif kind == (1.0, 0.0, 1.0, 0.0) and dimension == LENGTH:
-            cure = "an angle becomes a plain number when it is divided by rad"
+            help = "an angle becomes a plain number when it is divided by rad"
         if per:
-            cure = f"write {scope.written(node)}{per}"
+            help = f"write {scope.written(node)}{per}"
             if isinstance(node, Literal | Name | Call):
-                fix = Fix(cure, node.span, f"{scope.written(node)}{per}")
+                fix = Fix(help, node.span, f"{scope.written(node)}{per}")
     shown = describe(value)
     if isinstance(value, PointValue) and word in ("to", "by") and value.dimension != PLAIN:
         shown = dimension_name(value.dimension)
     message = f"'{word}' needs {needed}, but this is {shown}"
-    return problem("E218", message, node.span, "", cure, fix)
+    return problem("E218", message, node.span, "", help, fix)
 
 
 def _example(word: str) -> str:

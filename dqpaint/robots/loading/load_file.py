@@ -126,11 +126,11 @@ def _find_home_and_canvas(
         )
     degrees = np.degrees(posture).round(9).tolist()
     taken = ", ".join(f"{angle:.4g}" for angle in np.round(degrees, 9) + 0.0)
-    cure = "a card can say all this, see README"
+    help = "a card can say all this, see README"
     notes.append(
         f"no home_deg: {taken} is taken"
         if path.suffix != ".urdf"
-        else f"the home posture is {taken} deg; {cure}"
+        else f"the home posture is {taken} deg; {help}"
     )
     return card.model_copy(update={"home_deg": tuple(degrees)})
 

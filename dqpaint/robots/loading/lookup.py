@@ -94,6 +94,6 @@ def _card_for(program: Program, robot: str | None) -> Card:
     except UnknownNameError as problem:
         message, _, known = str(problem).partition("; ")
         names = known.removeprefix("known: ").split(", ")
-        cure = f"{did_you_mean(closest(program.robot, names))} {known}".strip()
-        unknown = Diagnostic("E311", message, program.robot_span, help=cure)
+        help = f"{did_you_mean(closest(program.robot, names))} {known}".strip()
+        unknown = Diagnostic("E311", message, program.robot_span, help=help)
         raise ScriptError(program.name, program.text, (unknown,)) from None

@@ -82,7 +82,7 @@ def compare(
     """Paint a drawing with every combination of the axes' values.
 
     Args:
-        request: of which drawing, where and by whom.
+        request: the drawing, the folder and the workers.
         axes: what differs.
         base: all other settings; its seed is that of the first run.
         count: how many runs each, with the seeds that follow.

@@ -92,7 +92,7 @@ def replay(name: str, request: MeasureRequest) -> Replay:
 
     Args:
         name: of the replay.
-        request: how often, where, and what is to be different.
+        request: the number of runs, the folder, and settings other than the paper's.
 
     Raises:
         UnknownNameError: there is none of that name.

@@ -92,7 +92,7 @@ def sweep(
     """Run a drawing with every combination of the axes' values; pictures are not kept.
 
     Args:
-        request: of which drawing, where and by whom.
+        request: the drawing, the folder and the workers.
         axes: one or two.
         base: all other settings.
         count: how many runs each, with the seeds that follow.

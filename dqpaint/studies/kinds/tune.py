@@ -62,8 +62,8 @@ def tune(
     """Seek gains of a law.
 
     Args:
-        request: of which drawing, with which settings, where and by whom; the seed is that of the
-            first run and of the search.
+        request: the drawing, its settings, the folder and the workers; the first run and the
+            search have the settings' seed.
         texts: where which gains are sought, as in "k=1..100"; none for all of the law's.
         factor: the most effort, over what the drawing itself needs.
         error: name of the figure that is to be small.

@@ -72,7 +72,7 @@ def carry_out_batch(
 
     Args:
         tasks: with their keys.
-        folder: of the study, for what is to be kept.
+        folder: the study's, for arrays that are kept.
         progress: called while the arms move, with the part done, 0 to 1.
     """
     begin = time.perf_counter()

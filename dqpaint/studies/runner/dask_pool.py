@@ -36,7 +36,7 @@ class Cluster:
     """Workers elsewhere, as `pool.Pool` has them here.
 
     Args:
-        folder: of the study, for what is to be kept.
+        folder: the study's, for arrays that are kept.
         address: of the scheduler, as in tcp://10.0.0.1:8786.
 
     Raises:

@@ -37,7 +37,7 @@ def carry_out_study(
         runs: what to paint; all are checked before the first begins.
         folder: where the record lies; made if it is not there.
         jobs: how many processes, None is one a core; or the address of a Dask cluster.
-        what: is being done, for the reporter.
+        what: the title that the reporter shows.
         reporter: is told how far it is.
 
     Raises:
@@ -58,7 +58,7 @@ class Study:
     Args:
         folder: where the record lies; made if it is not there.
         jobs: how many processes, None is one a core; or the address of a Dask cluster.
-        what: is being done, for the reporter.
+        what: the title that the reporter shows.
         total: how many runs it will be at most.
         reporter: is told how far it is.
 

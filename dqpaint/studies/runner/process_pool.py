@@ -42,7 +42,7 @@ class Pool:
     """Worker processes that live as long as a study; the first begin with its first runs.
 
     Args:
-        folder: of the study, for what is to be kept.
+        folder: the study's, for arrays that are kept.
         jobs: how many processes at most.
     """
 

@@ -34,7 +34,7 @@ def carry_out(
     Args:
         run: what to paint.
         key: of the run.
-        folder: of the study, for what is to be kept.
+        folder: the study's, for arrays that are kept.
         progress: called while the arm moves, with the part done, 0 to 1.
     """
     begin = time.perf_counter()

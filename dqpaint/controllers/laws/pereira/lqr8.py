@@ -46,7 +46,7 @@ class EightWeights(Weights):
     paper_source="the best weights of its Table 5.11, at 8 ms",
 )  # fmt: skip
 class Lqr8:
-    """Optimal between error and correction, on the eight numbers: knows the whole way ahead.
+    """Optimal between error and correction, on all eight components: it knows the motion ahead.
 
     Equation:
         q_dot = N^+ R^-1 (P e + g)

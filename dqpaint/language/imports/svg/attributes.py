@@ -133,8 +133,8 @@ def read(root: Element) -> tuple[Node, Notes]:
         raise SvgError("its style has too many rules for so many elements", LESS) from None
     made = reader.tree(root)
     if not _has_size(made, "svg"):
-        cure = "give its viewBox the width and height of what it shows, or take it away"
-        raise SvgError(f"line {root.line}: it has no size, so SVG shows nothing of it", cure)
+        help = "give its viewBox the width and height of what it shows, or take it away"
+        raise SvgError(f"line {root.line}: it has no size, so SVG shows nothing of it", help)
     return made, reader.notes
 
 

@@ -72,9 +72,9 @@ def guard(data: bytes) -> Element:
     Raises:
         SvgError: it is no SVG, or too much of it.
     """
-    for begins, what, cure in OTHERS:
+    for begins, what, help in OTHERS:
         if data.startswith(begins):
-            raise SvgError(f"it is {what}, not a plain SVG", cure)
+            raise SvgError(f"it is {what}, not a plain SVG", help)
     root = _tree(data)
     if root.tag != "svg":
         raise SvgError(f"this is no SVG: it begins with <{root.tag[:60]}>")

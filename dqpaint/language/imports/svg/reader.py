@@ -53,7 +53,7 @@ def read(node: Quoted, pen: Pen) -> list[ColouredCurve]:
         lines, notes = _read(data)
     except SvgError as fault:
         message = f"can't draw {node.text}: {fault.message}"
-        raise problem("E298", message, node.span, "", fault.cure) from None
+        raise problem("E298", message, node.span, "", fault.help) from None
     _warn(notes, node, pen)
     return lines
 
@@ -68,13 +68,13 @@ def _warn(notes: Notes, node: Quoted, pen: Pen) -> None:
         more = len(notes.passed_over) - MOST_SAID
         message = f"passed over in {node.text}, as SVG says: {some}"
         label = f"and {more} more" if more > 0 else ""
-        cure = "mend it in the file, or leave it: browsers draw it so, too"
-        pen.warn("W421", message, node.span, label, cure)
+        help = "mend it in the file, or leave it: browsers draw it so, too"
+        pen.warn("W421", message, node.span, label, help)
     if notes.otherwise:
         names = sorted(notes.otherwise)
         message = f"drawn otherwise than in {node.text}: {_counted(notes.otherwise)}"
-        cure = "; ".join(dict.fromkeys(_OTHERWISE.get(name, _WHOLE) for name in names))
-        pen.warn("W422", message, node.span, "", cure)
+        help = "; ".join(dict.fromkeys(_OTHERWISE.get(name, _WHOLE) for name in names))
+        pen.warn("W422", message, node.span, "", help)
 
 
 def _counted(found: Lines) -> str:

@@ -52,9 +52,9 @@ class Length(NamedTuple):
 class SvgError(Exception):
     """Why a drawing can't be drawn, and a fix."""
 
-    def __init__(self, message: str, cure: str = "") -> None:
+    def __init__(self, message: str, help: str = "") -> None:
         super().__init__(message)
-        self.message, self.cure = message, cure
+        self.message, self.help = message, help
 
 
 class UnreadableError(Exception):

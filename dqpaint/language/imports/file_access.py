@@ -30,10 +30,10 @@ def below(root: Path, folder: Path, written: str) -> Path | None:
     path = root.joinpath(*parts)
     try:
         resolved = path.resolve()
-    except (OSError, RuntimeError):  # links that go in a circle, before Python 3.13
-        return None
-    # what is still a link after 3.13 resolved it goes in a circle
-    inside = resolved.is_relative_to(root.resolve()) and not resolved.is_symlink()
+        inside = resolved.is_relative_to(root.resolve())
+        inside = inside and not resolved.is_symlink()  # Python 3.13: it goes in a circle
+    except (OSError, RuntimeError):  # links that go in a circle, or a name that is too long
+        inside = False
     return path if inside else None
 
 

@@ -148,7 +148,7 @@ class PreparedRun:
         run = track(
             self.motion, self.kinematics, self.prepared.start, chosen.plant,
             chosen.controller, chosen.gains, progress, chosen.disturbances, settings.seed,
-            settings.null, settings.on_limit == "stop",
+            settings.null, settings.on_limit == "stop", settings.damping,
         )  # fmt: skip
         reachability.check_largest_error(run, self.kinematics, settings.null)
         return run

@@ -9,7 +9,7 @@ from dqpaint.controllers import Controller, Schedule, find_controller
 from dqpaint.disturbances import Disturbance, make_disturbances
 from dqpaint.painting.scene import check_light_settings
 from dqpaint.plants import ConfiguredPlant, choose_plant, find_plant
-from dqpaint.robots.kinematics import read_null
+from dqpaint.robots.kinematics import read_damping, read_null
 from dqpaint.robots.loading import find_card
 from dqpaint.robots.model import parse_tool
 from dqpaint.settings import (
@@ -83,6 +83,7 @@ def _check_independent(settings: Settings) -> None:
     if settings.tool is not None:
         parse_tool(settings.tool)
     read_null(settings.null)
+    read_damping(settings.damping)
 
 
 def settings_file(given: str | PathLike[str] | SettingsFile | None) -> SettingsFile:

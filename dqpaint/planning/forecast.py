@@ -27,6 +27,7 @@ from dqpaint.planning.retiming import SUDDEN_TIME
 from dqpaint.plants import ConfiguredPlant
 from dqpaint.robots.kinematics import (
     CHARACTERISTIC_LENGTH,
+    DEFAULT_DAMPING,
     DEFAULT_OBJECTIVE,
     Dynamics,
     Kinematics,
@@ -34,6 +35,7 @@ from dqpaint.robots.kinematics import (
     collision_shapes,
     make_secondary_task,
     manipulability,
+    read_damping,
     tool_jacobian_map,
 )
 from dqpaint.settings import Settings
@@ -124,7 +126,7 @@ def forecast(
     Returns:
         One entry for each line of the file that moves, in the order they are first drawn.
     """
-    run = _Run(motion, kinematics, start, settings.null, plant)
+    run = _Run(motion, kinematics, start, settings.null, settings.damping, plant)
     shapes = collision_shapes(kinematics)
     looks = sampled_rows(run.source.index, MOST_OCCLUSION_ROWS)
     near = shapes.nearest(run.posture[looks])
@@ -145,6 +147,7 @@ class _Run:
         kinematics: Kinematics,
         start: Floats,
         null: str = DEFAULT_OBJECTIVE,
+        damping: str = DEFAULT_DAMPING,
         plant: ConfiguredPlant | None = None,
     ) -> None:
         self.card = kinematics.card
@@ -154,8 +157,9 @@ class _Run:
         self.period = stride * motion.period
         joined = jumps_between(motion, self.rows)
         self.posture, self.points, J = follow(
-            motion, kinematics, start, self.rows, make_secondary_task(null, self.card, start)
-        )
+            motion, kinematics, start, self.rows, make_secondary_task(null, self.card, start),
+            read_damping(damping),
+        )  # fmt: skip
         self.path_error = np.linalg.norm(self.points - motion.points[self.rows], axis=1)
         self.manipulability = manipulability(J)
         at_tool = tool_jacobian_map(self.points) @ J

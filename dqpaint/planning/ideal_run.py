@@ -13,10 +13,12 @@ from dqpaint.motion import Motion
 from dqpaint.robots.kinematics import (
     DEFAULT_OBJECTIVE,
     PATH_TOLERANCE,
+    Damping,
     Kinematics,
     NoPosture,
     SecondaryTask,
     StartPosture,
+    damped_inverse,
     find_start,
     make_batched_task,
     make_secondary_task,
@@ -73,6 +75,7 @@ def follow(
     start: Floats,
     rows: NDArray[np.intp],
     wish: SecondaryTask,
+    damping: Damping = damped_inverse,
 ) -> tuple[Floats, Floats, Floats]:
     """Along some rows (N,) of a motion, evenly spread; one Newton step leads to each.
 
@@ -95,5 +98,5 @@ def follow(
             q = solve_posture(kinematics, ahead, q[None], drawn[None], PATH_TOLERANCE)[0][0]
         else:
             way = 2 * dq.log(dq.mul(dq.nearest(ahead, x), dq.conj(x)))
-            q = q + resolve(J, p, way, drawn)
+            q = q + resolve(J, p, way, drawn, damping)
     return postures, points, jacobians

@@ -151,6 +151,14 @@ class MotionSettings(Group):
             "NAME[,gain=VALUE]",
         ),
     ] = "start"
+    damping: Annotated[
+        str,
+        Option(
+            "pseudo-inverse: selective is damped near singularities alone, none nowhere, "
+            "wampler[,factor=F] everywhere",
+            "selective|none|wampler",
+        ),
+    ] = "selective"
     on_limit: Annotated[
         Literal["clip", "slow", "stop"],
         Option(
@@ -388,14 +396,14 @@ def validated(model: type[M], fields: Mapping[str, object], strict: bool = False
         raise UsageError(f"{name} {first['input']!r} {pydantic_reason(first)}") from None
 
 
-SIMULATED = ("controller", "gains", "plant", "disturb", "start", "null", "on_limit")
+SIMULATED = ("controller", "gains", "plant", "disturb", "start", "null", "damping", "on_limit")
 
 
 def check_recorded(settings: Settings) -> None:
     """Refuse settings of a simulated run for a recorded one.
 
     Raises:
-        UsageError: a law, gain, plant, disturbance, start, null or on_limit was chosen.
+        UsageError: a law, gain, plant, disturbance, start, null, damping or on_limit was chosen.
     """
     if settings.recorded is None:
         return

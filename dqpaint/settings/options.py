@@ -42,6 +42,7 @@ class MotionOptions(TypedDict, total=False):
     plant: str | None
     start: Literal["first", "home"] | None
     null: str | None
+    damping: str | None
     on_limit: Literal["clip", "slow", "stop"] | None
 
 

@@ -18,12 +18,14 @@ from dqpaint.errors import UnstableError
 from dqpaint.motion import Motion
 from dqpaint.plants import ConfiguredPlant, Plant, PlantMaker
 from dqpaint.robots.kinematics import (
+    DEFAULT_DAMPING,
     DEFAULT_OBJECTIVE,
     Clamp,
     Kinematics,
     find_clamps,
     make_secondary_task,
     manipulability,
+    read_damping,
     resolve,
 )
 from dqpaint.robots.model import Card
@@ -116,6 +118,7 @@ def track(
     seed: int = 0,
     null: str = DEFAULT_OBJECTIVE,
     stop: bool = False,
+    damping: str = DEFAULT_DAMPING,
 ) -> Track:
     """Drive the arm along a motion.
 
@@ -131,9 +134,11 @@ def track(
         seed: of everything random.
         null: what a redundant arm does with its freedom.
         stop: whether the first limit that is met ends the run.
+        damping: of the law's pseudo-inverse.
 
     Raises:
-        UsageError: a disturbance that does not go with the period or the arm, an unknown `null`.
+        UsageError: a disturbance that does not go with the period or the arm, an unknown `null` or
+            `damping`.
         ScriptError: a limit was met, and `stop`.
         DqpaintError: the simulation diverged, or a law of one's own has a fault.
     """
@@ -149,7 +154,7 @@ def track(
             progress(k / len(motion.t))
 
     _simulate(
-        motion, sensors, start, make_plant, controller, gains, disturbances, null, log,
+        motion, sensors, start, make_plant, controller, gains, disturbances, null, damping, log,
         None if drift is None else drift[:, 0], at_row,
     )  # fmt: skip
     if not log.finite.all():
@@ -168,6 +173,7 @@ def track_many(
     seeds: Sequence[int],
     null: str = DEFAULT_OBJECTIVE,
     progress: Callable[[float], None] = lambda _done: None,
+    damping: str = DEFAULT_DAMPING,
 ) -> list[Track | None]:
     """The same run with several seeds at once, as arrays (B, ...) through the same laws.
 
@@ -185,6 +191,7 @@ def track_many(
         seeds: one a run.
         null: what a redundant arm does with its freedom.
         progress: called now and then with the part done, 0 to 1.
+        damping: of the law's pseudo-inverse.
 
     Returns:
         A track a seed; None for one that diverged.
@@ -198,7 +205,7 @@ def track_many(
     log = _Log(len(motion.t), (len(seeds),), kinematics.card.joints)
     _simulate(
         motion, sensors, np.tile(start, (len(seeds), 1)), make_plant, controller, gains,
-        disturbances, null, log, _drift(motion, disturbances, seeds),
+        disturbances, null, damping, log, _drift(motion, disturbances, seeds),
         lambda k: progress(k / len(motion.t)) if k % REPORT_EVERY == 0 else None,
     )  # fmt: skip
     return [
@@ -216,6 +223,7 @@ def _simulate(
     gains: Schedule[Any],
     disturbances: Mapping[str, Disturbance],
     null: str,
+    damping: str,
     log: "_Log",
     drift: Floats | None,
     at_row: Callable[[int], None],
@@ -225,7 +233,7 @@ def _simulate(
     arm = Arm(sensors.model)
     law = controller.start(arm, motion, gains)
     wish = make_secondary_task(null, card, start)
-    drive = make_drive(controller, law, sensors.model, wish, motion.period)
+    drive = make_drive(controller, law, sensors.model, wish, motion.period, read_damping(damping))
     late = DelayLine(total_delay(disturbances), drive.hold(start))
     parts = motion.clock / motion.clock[-1] if n > 1 else motion.clock
     plant = make_plant(card, start, motion.period, sensors.world)

@@ -9,10 +9,12 @@ from dqpaint.controllers import Controller, Law, Seen
 from dqpaint.dq import Floats
 from dqpaint.robots.kinematics import (
     START_GAIN,
+    Damping,
     Dynamics,
     Kinematics,
     RateBounds,
     SecondaryTask,
+    damped_inverse,
     drift_acceleration,
     resolve,
 )
@@ -39,6 +41,7 @@ def make_drive(
     kinematics: Kinematics,
     wish: SecondaryTask,
     period: float,
+    damping: Damping = damped_inverse,
 ) -> Drive:
     """The drive a law needs.
 
@@ -48,10 +51,10 @@ def make_drive(
         kinematics: of the arm, as the law's model has it.
         wish: the secondary task in the null space of a redundant arm.
         period: of the control [s].
+        damping: of the pseudo-inverse.
     """
-    if controller.drives_torque:
-        return TorqueDrive(controller, law, kinematics, wish, period)
-    return RateDrive(controller, law, kinematics, wish, period)
+    drive = TorqueDrive if controller.drives_torque else RateDrive
+    return drive(controller, law, kinematics, wish, period, damping)
 
 
 class RateDrive:
@@ -68,7 +71,9 @@ class RateDrive:
         kinematics: Kinematics,
         wish: SecondaryTask,
         period: float,
+        damping: Damping,
     ) -> None:
+        self._damping = damping
         self._law = law
         self._resolved = controller.commands == "twist"
         self._leaves_null = controller.leaves_null
@@ -83,8 +88,8 @@ class RateDrive:
         point = dq.translation(seen.pose)
         wish = self._wish(seen.posture, seen.jacobian, point)
         if self._resolved:
-            return resolve(seen.jacobian, point, answer, wish)
-        return answer + resolve(seen.jacobian, point, NO_TWIST, wish)
+            return resolve(seen.jacobian, point, answer, wish, self._damping)
+        return answer + resolve(seen.jacobian, point, NO_TWIST, wish, self._damping)
 
     def hold(self, posture: Floats) -> Floats:
         """No rates (n,)."""
@@ -111,7 +116,9 @@ class TorqueDrive:
         kinematics: Kinematics,
         wish: SecondaryTask,
         period: float,
+        damping: Damping,
     ) -> None:
+        self._damping = damping
         self._law = law
         self._resolved = controller.commands == "acceleration"
         self._period = period
@@ -129,7 +136,7 @@ class TorqueDrive:
         wanted = self._law(seen, gains) - drift_acceleration(seen.jacobian, rates)
         point = dq.translation(seen.pose)
         wish = START_GAIN * self._wish(q, seen.jacobian, point) - 2 * START_GAIN * rates
-        bend = resolve(seen.jacobian, point, wanted, wish)
+        bend = resolve(seen.jacobian, point, wanted, wish, self._damping)
         return self._dynamics.torque(q, rates, bend, self._period)
 
     def hold(self, posture: Floats) -> Floats:

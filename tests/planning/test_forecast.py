@@ -16,7 +16,7 @@ from dqpaint.robots.kinematics.differential_ik import CHARACTERISTIC_LENGTH
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import Card, read_card
 from dqpaint.settings.model import make_settings
-from dqpaint.simulation.closed_loop import track
+from dqpaint.simulation.closed_loop import track, track_many
 from tests.support.forecasts import lifted, random_drawing, rows_of
 
 RATE, TORQUE = 0.025, 0.04  # relative: a run takes each step with what it saw before it
@@ -242,3 +242,21 @@ def test_an_arm_that_begins_elsewhere_is_forecast_from_where_it_joins_the_drawin
     settled = motion.t > 0.5
     assert np.abs(run.posture - ran.posture)[settled].max() < 0.01
     assert forecast(motion, arm, arm.card.home)[0].speed_part < 0.5  # not the way there
+
+
+def test_the_damping_is_that_of_the_run():
+    """A price on the rates shortens the way of forecast and run alike; without one it is exact."""
+    motion, arm, start = prepared("period 8 ms\nstart at (60, 0) mm\nline to (-80, 60) mm in 2 s\n")
+    law = CONTROLLERS["pff"]
+    off = {}
+    for damping in ("selective", "none", "wampler,factor=0.3"):
+        run = track(motion, arm, start, PLANTS["ideal"], law, law.read_gains({}), damping=damping)
+        foreseen = _Run(motion, arm, start, damping=damping)
+        off[damping] = foreseen.path_error.max()
+        near = np.abs(foreseen.posture - run.posture).max()
+        assert near < (0.1 if damping.startswith("wampler") else 0.002), (damping, near)
+    assert max(off["selective"], off["none"]) < 1e-5
+    assert off["wampler,factor=0.3"] > 1e-4
+    many = track_many(motion, arm, start, PLANTS["ideal"], law, law.read_gains({}), {}, [0],
+                      damping="wampler,factor=0.3")  # fmt: skip
+    np.testing.assert_allclose(many[0].posture, run.posture, atol=1e-9)

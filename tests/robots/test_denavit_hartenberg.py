@@ -6,6 +6,7 @@ import pytest
 from dqrobotics.robot_modeling import DQ_SerialManipulatorDH, DQ_SerialManipulatorMDH
 
 from dqpaint import dq
+from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
 from tests.support.jacobians import jacobian8, jacobian8_rate
 from tests.support.robot_cards import IIWA, PANDA
@@ -13,7 +14,7 @@ from tests.support.robot_cards import IIWA, PANDA
 ROWS = {
     "iiwa": IIWA,
     "panda": PANDA,
-    **{n: read_card(n).denavit_hartenberg for n in ("viper850", "lwr4", "meka-a2")},
+    **{n: read_card(n).denavit_hartenberg for n in ("viper850", "lwr4", "meka-a2", "iiwa7")},
 }
 BARE = {name: rows.model_copy(update={"base": type(rows.base)()}) for name, rows in ROWS.items()}
 
@@ -99,3 +100,17 @@ def test_a_base_carries_the_whole_arm(rng):
     np.testing.assert_allclose(moved.pose(q), dq.mul(base, still.pose(q)), atol=1e-15)
     columns = dq.adjoint(base, still.jacobian(q).swapaxes(-1, -2)).swapaxes(-1, -2)
     np.testing.assert_allclose(moved.jacobian(q), columns, atol=1e-15)
+
+
+def test_the_iiwa_7_is_the_iiwa_14_with_shorter_links(rng):
+    """By PyBullet's model of the 14: 20 mm less to the shoulder and on either side of the elbow."""
+    small, large = Kinematics(read_card("iiwa7")), Kinematics(read_card("iiwa"))
+    for q in rng.uniform(small.card.lower, small.card.upper, (20, 7)):
+        ours, model = (dq.matrix_from_pose(arm.pose(q)) for arm in (small, large))
+        wrist, there = model[:3, 3] - 0.161 * model[:3, 2], np.array([0, 0, 0.36])
+        upper = np.array([np.cos(q[0]) * np.sin(q[1]), np.sin(q[0]) * np.sin(q[1]), np.cos(q[1])])
+        lower = (wrist - there - 0.42 * upper) / 0.4
+        assert np.linalg.norm(lower) == pytest.approx(1.0)
+        place = np.array([0, 0, 0.34]) + 0.4 * upper + 0.4 * lower + 0.161 * model[:3, 2]
+        np.testing.assert_allclose(ours[:3, 3], place, atol=1e-12)
+        np.testing.assert_allclose(ours[:3, :3], model[:3, :3], atol=1e-12)

@@ -16,24 +16,27 @@ from dqpaint.studies.replay.claims import (
     Numbers,
     grid_lines,
     judge,
-    means_differ,
+    printed_elsewhere,
     published,
+    told_apart,
 )
+from dqpaint.studies.replay.in_words import in_words
 from dqpaint.studies.replay.measures import MEASURES, MeasureRequest, MeasureResult
 from dqpaint.studies.replay.papers import Claim, Figure, Paper, read_paper
 from dqpaint.studies.report.page import Block, Rows, Tables, Words, files_of
 
 RULE = (
     "holds, fails: as these numbers stand; not shown: they differ by less than chance explains "
-    "(Welch, 5 %), or by less than 0.1 %"
+    "(Welch, 5 % for all steps of a claim or all pairs of a table together, Holm), or by less than "
+    "0.1 %; the paper's own numbers are held to the same rules"
 )
+ASSUMED = "Assumed, for the paper does not say it:"
 LEAST_ORDERED = 3  # cells, of which an order says something
 BARS = (
     "Bars begin at 0, each column to its own scale; a line across the end is the standard "
     "deviation. Where numbers are more than 20 times apart, a dot stands on a logarithmic line "
     "from the least to the largest. A click on a heading sorts its table."
 )
-PRINTED = ClaimVerdict("holds", "its own numbers")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,8 +61,9 @@ class Replay(StudyResult):
     def table_text(self, width: int = ANY_WIDTH) -> str:
         """Numbers, verdicts and what was not tested, for a terminal."""
         paper, measured = self.paper, self.measured
-        parts = [f"{self.title}\n{paper.source}\n"
-                 f"  theirs  {paper.theirs}\n  here    {measured.ours}"]  # fmt: skip
+        ours = measured.ours.replace("\n", "\n          ")
+        parts = [f"{self.title}\n{paper.source}\n  theirs  {paper.theirs}\n  here    {ours}"]
+        parts += _assumed("  - ", self)
         parts += [f"{_aligned(rows)}\n{in_order(self, figure)}".rstrip()
                   for figure, rows in numbers(self)]  # fmt: skip
         parts += [f"{figure.says}\n{_aligned(rows)}" for figure, rows in surfaces(self)]
@@ -70,6 +74,7 @@ class Replay(StudyResult):
                 f"  paper  {theirs}\n  here   {ours}" for claim, theirs, ours in self.verdicts
             ]  # fmt: skip
         parts += ["\n".join([*lines, RULE, summary(self.verdicts)]), *_listed("  - ", self)]
+        parts += filter(None, [last_sentence(self)])
         return "\n\n".join(parts)
 
     def files_and_blocks(self) -> tuple[dict[str, bytes], list[Block]]:
@@ -110,13 +115,9 @@ def judge_claims(
     paper: Paper, ours: Numbers
 ) -> tuple[tuple[Claim, ClaimVerdict, ClaimVerdict], ...]:
     """Every claim, by the paper's numbers and by ours."""
-    theirs = published(paper)
+    theirs, other = published(paper), printed_elsewhere(paper)
     return tuple(
-        (
-            claim,
-            PRINTED if claim.kind == "equals" else judge(claim, paper, theirs),
-            judge(claim, paper, ours),
-        )
+        (claim, judge(claim, paper, theirs, other), judge(claim, paper, ours, theirs))
         for claim in paper.claims
     )
 
@@ -148,23 +149,31 @@ def numbers(replayed: Replay) -> list[tuple[Figure, list[list[str]]]]:
 def in_order(replayed: Replay, figure: Figure) -> str:
     """How much of the paper's order is found here, in a sentence; empty where there is none.
 
-    Means are told apart by the rule of `RULE`, theirs and ours alike.
+    Means are told apart by the rule of `RULE`, theirs and ours alike, all pairs together. Pairs of
+    cells of different groups cannot but differ, and are left out.
     """
     theirs, ours = published(replayed.paper), replayed.measured.numbers
     both = [
-        (theirs[name][figure.name], ours[name][figure.name])
-        for name in theirs
-        if figure.name in theirs[name] and figure.name in ours.get(name, {})
+        (cell.group, theirs[cell.name][figure.name], ours[cell.name][figure.name])
+        for cell in replayed.paper.cells
+        if figure.name in cell.published and figure.name in ours.get(cell.name, {})
     ]
     if len(both) < LEAST_ORDERED:
         return ""
-    apart = [(a, b) for a, b in combinations(both, 2) if means_differ(a[0], b[0])]
-    found = [(a, b) for a, b in apart if means_differ(a[1], b[1])]
-    same = sum((a[0].mean < b[0].mean) == (a[1].mean < b[1].mean) for a, b in found)
-    return (
+    every = list(combinations(both, 2))
+    pairs = [(a, b) for a, b in every if a[0] == b[0]]
+    by_paper = told_apart([(a[1], b[1]) for a, b in pairs])
+    here = told_apart([(a[2], b[2]) for a, b in pairs])
+    apart = [(pair, found) for pair, there, found in zip(pairs, by_paper, here, strict=True)
+             if there]  # fmt: skip
+    known = [pair for pair, found in apart if found]
+    same = sum((a[1].mean < b[1].mean) == (a[2].mean < b[2].mean) for a, b in known)
+    text = (
         f"Of {len(apart)} pairs that the paper tells apart, {same} stand in its order here, "
-        f"{len(found) - same} in the other, {len(apart) - len(found)} are alike."
+        f"{len(known) - same} in the other, {len(apart) - len(known)} are alike"
     )
+    left = len(every) - len(pairs)
+    return f"{text}; {left} that cannot but differ are not counted." if left else f"{text}."
 
 
 def surfaces(replayed: Replay) -> list[tuple[Figure, list[list[str]]]]:
@@ -247,6 +256,24 @@ def summary(verdicts: Sequence[tuple[Claim, ClaimVerdict, ClaimVerdict]]) -> str
     return f"{text}; {same} of {known} as by the paper's own numbers" if known else text
 
 
+def last_sentence(replayed: Replay) -> str:
+    """What of the paper holds here, in plain words."""
+    measured = replayed.measured
+    where = "on the paper's own arm and plant"
+    if measured.departures:
+        where = f"with {', '.join(measured.departures)}"
+    lost = sum(cell.name not in measured.numbers for cell in replayed.paper.cells)
+    return in_words(replayed.verdicts, f"{where},", lost, len(replayed.paper.cells))
+
+
+def _assumed(bullet: str, replayed: Replay) -> list[str]:
+    """What the paper leaves open and is chosen here, and what a person chose otherwise."""
+    lines = [f"{bullet}{one}" for one in replayed.paper.assumed]
+    lines += [f"{bullet}chosen for this run: {one}" for one in replayed.measured.departures]
+    gap = "\n" if bullet.startswith(" ") else "\n\n"
+    return [gap.join([ASSUMED, "\n".join(lines)])] if lines else []
+
+
 def _listed(bullet: str, replayed: Replay) -> list[str]:
     """What has no numbers, and what cannot be tested."""
     lost = [f"{bullet}{name}: {why}" for name, why in replayed.measured.lost.items()]
@@ -262,7 +289,9 @@ def markdown(replayed: Replay) -> str:
     """The whole of it as a page."""
     paper, measured = replayed.paper, replayed.measured
     parts = [f"# {replayed.title}", paper.source,
-             f"- theirs: {paper.theirs}\n- here: {measured.ours}"]  # fmt: skip
+             "\n".join([f"- theirs: {paper.theirs}",
+                        *(f"- here: {line}" for line in measured.ours.split("\n"))]),
+             *_assumed("- ", replayed)]  # fmt: skip
     for figure, rows in numbers(replayed):
         parts += [tables.markdown(rows), *filter(None, [in_order(replayed, figure)])]
     for figure, rows in surfaces(replayed):
@@ -271,6 +300,7 @@ def markdown(replayed: Replay) -> str:
     parts += _listed("- ", replayed)
     if run_with := settings_rows(paper):
         parts += ["What each cell was run with:", tables.markdown(run_with)]
+    parts += filter(None, [last_sentence(replayed)])
     return "\n\n".join(parts) + "\n"
 
 
@@ -315,9 +345,10 @@ def blocks(replayed: Replay) -> list[Block]:
     ]
     shown: list[Block] = [
         Words(f"{paper.source}\nTheirs: {paper.theirs}\nHere: {measured.ours}"),
-        Words(f"{summary(replayed.verdicts)}."),
+        *(Words(text) for text in _assumed("  - ", replayed)),
+        Words(last_sentence(replayed) or f"{summary(replayed.verdicts)}."),
         Rows("What the paper claims", verdict_rows(replayed)),
-        Words(f"{RULE}."),
+        Words(f"{RULE}. {summary(replayed.verdicts)}."),
         Tables("Its numbers, and ours", compared),
         Words(BARS),
         *measured.shown.values(),

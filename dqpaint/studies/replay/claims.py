@@ -1,7 +1,8 @@
 """Claims and numbers -> verdicts; the paper's numbers and ours are judged by the same rules.
 
 Nothing here knows whose numbers they are. A verdict follows from the numbers alone, so two laws
-that change places change it.
+that change places change it. What a number should be comes from elsewhere: for ours it is what the
+paper prints, for the paper's what it prints in another place.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -12,7 +13,7 @@ from typing import Literal
 import numpy as np
 
 from dqpaint.core import Registry
-from dqpaint.studies.experiment.statistics import LEVEL, Spread, welch
+from dqpaint.studies.experiment.statistics import LEVEL, Spread, holm, spread, welch
 from dqpaint.studies.replay.papers import Claim, Paper
 
 Numbers = Mapping[str, Mapping[str, Spread]]
@@ -51,13 +52,22 @@ def published(paper: Paper) -> Numbers:
     return found
 
 
-def judge(claim: Claim, paper: Paper, numbers: Numbers) -> ClaimVerdict:
+def printed_elsewhere(paper: Paper) -> Numbers:
+    """What the paper's own numbers should be, as another place of it has them."""
+    return {
+        cell.name: {name: spread([value]) for name, value in cell.elsewhere.items()}
+        for cell in paper.cells
+    }
+
+
+def judge(claim: Claim, paper: Paper, numbers: Numbers, standard: Numbers) -> ClaimVerdict:
     """What numbers say to a claim.
 
     Args:
         claim: of the paper.
-        paper: for its grid, and for the numbers that `equals` compares with.
+        paper: for its grid.
         numbers: the paper's, or ours.
+        standard: the numbers that `equals` compares with where the claim states none.
     """
     if claim.kind == "trend":
         return _trend(claim, paper, numbers)
@@ -68,9 +78,8 @@ def judge(claim: Claim, paper: Paper, numbers: Numbers) -> ClaimVerdict:
         return ClaimVerdict(
             "no numbers", "" if len(lost) == len(values) else f"of {', '.join(lost)}"
         )
-    theirs = published(paper)
-    printed = [theirs[name][claim.figure] for name in claim.cells if claim.figure in theirs[name]]
-    return RULES[claim.kind](claim, known, printed)
+    rows = [standard.get(name, {}) for name in claim.cells]
+    return RULES[claim.kind](claim, known, [r[claim.figure] for r in rows if claim.figure in r])
 
 
 @RULES.add("order")
@@ -80,18 +89,24 @@ def _order(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) ->
     why = f"{values[0].mean:.4g}"
     for sign, (_, b) in zip(signs, steps, strict=True):
         why += f" {sign} {b.mean:.4g}"
-    differ = [means_differ(a, b) for a, b in steps]
+    differ = told_apart(steps)
     if any(sign != "<" and sure for sign, sure in zip(signs, differ, strict=True)):
         return ClaimVerdict("fails", why)
     return ClaimVerdict("holds" if all(differ) else "not shown", why)
 
 
-def means_differ(a: Spread, b: Spread) -> bool:
-    """Whether two means are shown to differ; where nothing was repeated numbers stand."""
-    if abs(a.mean - b.mean) <= CLOSE * max(abs(a.mean), abs(b.mean)):
-        return False
-    test = welch(a, b) if np.isfinite([a.std, b.std]).all() else None
-    return test is None or test.p < LEVEL
+def told_apart(pairs: Sequence[tuple[Spread, Spread]]) -> list[bool]:
+    """Which pairs of means are shown to differ, all tests together at one level (Holm).
+
+    Where nothing was repeated numbers stand; a difference of less than a thousandth is none.
+    """
+    tests = [welch(a, b) if np.isfinite([a.std, b.std]).all() else None for a, b in pairs]
+    raised = iter(holm([test.p for test in tests if test]))
+    chances = [next(raised) if test else 0.0 for test in tests]
+    return [
+        chance < LEVEL and abs(a.mean - b.mean) > CLOSE * max(abs(a.mean), abs(b.mean))
+        for chance, (a, b) in zip(chances, pairs, strict=True)
+    ]
 
 
 @RULES.add("spread")
@@ -129,8 +144,10 @@ def _alike(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) ->
 
 @RULES.add("equals")
 def _equals(claim: Claim, values: Sequence[Spread], printed: Sequence[Spread]) -> ClaimVerdict:
+    if claim.stated is not None:
+        printed = [spread([claim.stated])] * len(values)
     if len(printed) < len(values):
-        return ClaimVerdict("no numbers", "the paper prints none")
+        return ClaimVerdict("no numbers", "nothing to hold them against")
     gaps = [abs(a.mean - b.mean) for a, b in zip(values, printed, strict=True)]
     good = max(gaps) <= claim.tolerance
     why = f"{max(gaps):.4g} apart at the most, for {claim.tolerance:.4g}"

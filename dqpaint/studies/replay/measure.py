@@ -55,10 +55,11 @@ class MeasureResult:
 
     Attributes:
         numbers: by the names of cell and figure, SI units.
-        ours: on what it was measured, in words.
+        ours: on what it was measured, in words, a line for each group of cells.
         lost: why a cell has no numbers, or ones that say nothing, by its name.
         shown: charts, maps and pictures, by the ends of their names.
         cells: of a study, with every run; for a table of all figures.
+        departures: what a person chose instead of what the replay's file says.
     """
 
     numbers: Numbers
@@ -66,6 +67,7 @@ class MeasureResult:
     lost: Mapping[str, str] = field(default_factory=dict)
     shown: Mapping[str, Pictured] = field(default_factory=dict)
     cells: tuple[Cell, ...] = ()
+    departures: tuple[str, ...] = ()
 
 
 Measure = Callable[[Paper, MeasureRequest], MeasureResult]

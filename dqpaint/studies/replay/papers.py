@@ -37,12 +37,17 @@ class Cell(_Data):
         settings: what is run for it.
         table: where its numbers stand.
         published: by the name of the figure a number, or mean and standard deviation.
+        elsewhere: numbers that follow from another place of the paper: `equals` holds the published
+            ones against them, as it holds ours against the published ones.
+        group: cells of different groups cannot but differ: pairs of them show nothing.
     """
 
     name: str
     settings: dict[str, Any] = Field(default_factory=dict)
     table: str = ""
     published: dict[str, float | tuple[float, float]] = Field(default_factory=dict)
+    elsewhere: dict[str, float] = Field(default_factory=dict)
+    group: str = ""
 
 
 class Claim(_Data):
@@ -52,16 +57,17 @@ class Claim(_Data):
         says: it in words.
         kind: `order`: the cells' means rise from the first to the last. `spread`: so do their
             standard deviations. `ratio`: the first is `value` times the second. `alike`: all are
-            within `tolerance` of the first. `equals`: each is the paper's number. `below`: each is
-            at most `value`. `trend`: the figure goes `way` along `axis` from each cell of a grid
-            to the next.
+            within `tolerance` of the first. `equals`: each is `value`, or without one the paper's
+            number. `below`: each is at most `value`. `trend`: the figure goes `way` along `axis`
+            from each cell of a grid to the next.
         figure: of which numbers, by its name.
         cells: by their names.
-        value: what a ratio or a bound is.
+        value: what a ratio, a bound or a number is.
         tolerance: of `ratio` and `alike` as a part, of `equals` in the figure's unit.
         axis: of a trend.
         way: of a trend.
-        where: the paper says so.
+        where: the paper says so; empty for what is ours.
+        means: what follows if it holds, in a sentence.
     """
 
     says: str
@@ -73,6 +79,12 @@ class Claim(_Data):
     axis: str = ""
     way: Literal["rises", "falls"] = "rises"
     where: str = ""
+    means: str = ""
+
+    @property
+    def stated(self) -> float | None:
+        """The value, if one is given."""
+        return self.value if "value" in self.model_fields_set else None
 
 
 class Paper(_Data):
@@ -93,6 +105,7 @@ class Paper(_Data):
         figures: the columns.
         cells: the rows.
         claims: what is looked at.
+        assumed: what the paper leaves open and a run needs all the same.
         open: what cannot be tested, and why.
     """
 
@@ -110,6 +123,7 @@ class Paper(_Data):
     figures: tuple[Figure, ...]
     cells: tuple[Cell, ...] = ()
     claims: tuple[Claim, ...]
+    assumed: tuple[str, ...] = ()
     open: tuple[str, ...]
 
     @model_validator(mode="after")
@@ -120,7 +134,7 @@ class Paper(_Data):
         if len(set(cells)) < len(cells):
             raise ValueError("a cell is there twice")
         for cell in self.cells:
-            if not set(cell.published) <= figures:
+            if not {*cell.published, *cell.elsewhere} <= figures:
                 raise ValueError(f"cell '{cell.name}' has a number of no figure")
             if cell.published and not cell.table:
                 raise ValueError(f"cell '{cell.name}' does not say where its numbers stand")

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from dqpaint.robots.model import DEFAULT_ROBOT
 from dqpaint.settings import Settings, make_settings
 from dqpaint.studies.experiment.cells import (
     Cell,
@@ -17,6 +16,7 @@ from dqpaint.studies.experiment.cells import (
     split_label,
 )
 from dqpaint.studies.replay.claims import Numbers, published
+from dqpaint.studies.replay.conditions import conditions, departures
 from dqpaint.studies.replay.measure import MEASURES, MeasureRequest, MeasureResult
 from dqpaint.studies.replay.papers import Paper, find_paper_drawing
 from dqpaint.studies.report.charts import COLOURS, Line, Panel, wide
@@ -88,13 +88,21 @@ def measured(
     paper: Paper, request: MeasureRequest, found: Sequence[Cell], shown: Mapping[str, Pictured]
 ) -> MeasureResult:
     """What cells say, in the paper's figures."""
-    base = settings_of(paper, request, {})
-    parts = [base.robot or DEFAULT_ROBOT, f"plant {base.plant or 'usual'}", f"from {base.start}"]
-    for name, values in base.disturb.items():
-        parts.append(f"{name} {', '.join(f'{k} = {v}' for k, v in values.items())}")
-    parts.append(f"{request.runs or 1} run{'s' if (request.runs or 1) > 1 else ''} each")
+    count = request.runs or 1
+    settings = {
+        cell.name: settings_of(paper, request, cell.settings)
+        for cell in paper.cells
+        if cell.settings or not paper.axes
+    }
+    if paper.axes:
+        settings["the grid"] = settings_of(paper, request, paper.grid_settings)
+    ours = conditions(settings, {cell.name: cell.group for cell in paper.cells})
+    ours[0] = f"{count} run{'s' if count > 1 else ''} each, {ours[0]}"
     lost = {cell.label: f"{cell.status}: {cell.why}" for cell in found if not cell.stable}
-    return MeasureResult(numbers_of(paper, found), ", ".join(parts), lost, shown, tuple(found))
+    return MeasureResult(
+        numbers_of(paper, found), "\n".join(ours), lost, shown, tuple(found),
+        tuple(departures(paper, request.settings)),
+    )  # fmt: skip
 
 
 def numbers_of(paper: Paper, found: Sequence[Cell]) -> Numbers:

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.special import chdtri
 
 from dqpaint.studies.experiment.statistics import (
     Spread,
@@ -149,3 +150,11 @@ def test_intervals_and_tests_keep_what_they_promise():
     shown = "22 % by three seeds is shown: paired, "
     assert found[f"{shown}alone"] > 0.9
     assert found[f"{shown}among all 66 pairs"] < 0.2
+
+
+def test_effects_far_beyond_chance_have_intervals_at_once():
+    """There the ends are t sqrt(chi2 / freedom), by scipy's chi-squared; the search would hang."""
+    one, other = Spread(10, 1.0005, 1e-9), Spread(10, 1.0, 1e-9)
+    found = welch(one, other)
+    ends = found.effect * np.sqrt(chdtri(18, [1 - 0.025, 0.025]) / 18)
+    np.testing.assert_allclose(found.effect_interval, np.sort(ends), rtol=1e-3)

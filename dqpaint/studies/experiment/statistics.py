@@ -18,6 +18,8 @@ import numpy as np
 
 from dqpaint.dq import Floats
 
+FAR = 1000.0
+"""A t beyond which its interval is that of a sure mean: its ends are shares of t."""
 LEVEL = 0.05
 """A difference is called one where chance alone would make it in fewer than 1 of 20 studies."""
 REPEATED = 1e-3
@@ -201,7 +203,10 @@ def _effect_interval(t: float, freedom: float, root: float) -> Interval:
     """The 95 % interval of an effect size t / root: of the noncentral t that meet t there."""
     from scipy.special import nctdtrinc
 
-    low, high = (float(nctdtrinc(freedom, p, t)) / root for p in (1 - LEVEL / 2, LEVEL / 2))
+    # far out the interval grows with t, but the search for it takes minutes
+    far = max(1.0, abs(t) / FAR)
+    ends = (nctdtrinc(freedom, p, t / far) for p in (1 - LEVEL / 2, LEVEL / 2))
+    low, high = (float(end) * far / root for end in ends)
     return (low, high) if math.isfinite(low) and math.isfinite(high) and low < high else UNKNOWN
 
 

@@ -64,8 +64,9 @@ def _attenuation(painting: paint.Painting) -> list[tuple[str, str]]:
         said = f"{part} {one.ratio:.3g} s"
         if one.bound is not None:
             kept = "holds" if one.bound_holds else f"exceeded, {one.ratio / one.bound:.3g} times"
-            if not one.bound_holds and one.bound < painting.motion.period:
-                kept += ", as the gain is above 1 a period"
+            if not one.bound_holds and one.in_steps != one.bound:
+                steps = f"in steps of {painting.motion.period * 1e3:.4g} ms"
+                kept += f"; {steps} " + (f"it is {one.in_steps:.3g} s" if one.in_steps else "none")
             if not one.bound_holds and painting.limits:
                 kept += "; commands were clipped"
             if not one.bound_holds and len(painting.disturbances) > 1:

@@ -56,7 +56,12 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
         },
         "pace": None if pace is None else pace.as_json,  # None: --on-limit slow is not set
         "attenuation": {
-            part: {"ratio_s": one.ratio, "bound_s": one.bound, "kept": one.bound_holds}
+            part: {
+                "ratio_s": one.ratio,
+                "bound_s": one.bound,
+                "kept": one.bound_holds,
+                "bound_in_steps_s": one.in_steps,
+            }
             for part, one in painting.attenuation.items()
         },
         "set_points": [

@@ -41,11 +41,15 @@ class Drawing(TypedDict):
 
 
 class Through(TypedDict):
-    """How much of a disturbance came through, beside the bound of the gains; norms in time."""
+    """How much of a disturbance came through, beside the bound of the gains; norms in time.
+
+    `bound_in_steps_s` is the bound with the period and the turns of this run.
+    """
 
     ratio_s: float
     bound_s: float | None
     kept: bool | None
+    bound_in_steps_s: float | None
 
 
 class SetPoint(TypedDict):

@@ -181,7 +181,8 @@ def finish(ready: PreparedRun, run: Track) -> Painting:
     with clock("metrics"):
         metrics = measure(run)
         notes += tuple(METRICS.faults)
-        came_through = attenuation(run, chosen.gains.disturbance_bounds())
+        gains = chosen.gains
+        came_through = attenuation(run, gains.disturbance_bounds(), steady=not gains.knots)
         steps = step_responses(run)
     robot = settings.robot or motion.program.robot or DEFAULT_ROBOT
     cast = ArmMotion(robot, run.posture, motion.source, motion.period)

@@ -250,7 +250,8 @@ def test_the_summary_tells_the_disturbances_what_came_through_and_the_steps(step
     for part in ("rotation", "translation"):
         found = stepped.attenuation[part]
         assert said["attenuation"][part] == {
-            "ratio_s": found.ratio, "bound_s": found.bound, "kept": found.bound_holds
+            "ratio_s": found.ratio, "bound_s": found.bound, "kept": found.bound_holds,
+            "bound_in_steps_s": found.in_steps,
         }  # fmt: skip
         assert found.ratio != found.bound
     (jump,), (told,) = stepped.step_responses, said["set_points"]

@@ -10,6 +10,7 @@ from dqpaint.core.examples import example_names, examples_folder, find_drawing
 from dqpaint.core.named_values import (
     FILE_PATTERN, Values, choice_name, make_choice, number_or_text, pydantic_reason, read_choice,
 )
+from dqpaint.core.number_table import NumberTable
 from dqpaint.core.records import record, replaced
 from dqpaint.core.registry import Folder, Registry, subclass
 from dqpaint.core.user_files import (
@@ -19,8 +20,8 @@ from dqpaint.core.version import library_versions
 
 __all__ = [
     "DEFAULT_MAX_SAMPLES", "FILE_PATTERN", "LARGEST_MAX_SAMPLES", "AnswerError", "Folder",
-    "Guarded", "Registry", "UserCode", "Values", "choice_name", "example_names", "examples_folder",
-    "file_digest", "find_drawing", "find_in_file", "library_versions", "make_choice",
-    "number_or_text", "pydantic_reason", "read_choice", "record", "replaced", "rewrite",
-    "short_name", "split_spec", "subclass", "tables", "write_new", "write_temporary",
+    "Guarded", "NumberTable", "Registry", "UserCode", "Values", "choice_name", "example_names",
+    "examples_folder", "file_digest", "find_drawing", "find_in_file", "library_versions",
+    "make_choice", "number_or_text", "pydantic_reason", "read_choice", "record", "replaced",
+    "rewrite", "short_name", "split_spec", "subclass", "tables", "write_new", "write_temporary",
 ]

@@ -5,6 +5,10 @@ this folder under `@DISTURBANCES.add(name)`; it is found by itself and brings wh
 `disturbance.Disturbance` lists.
 """
 
-from dqpaint.disturbances.disturbance import DISTURBANCES, Disturbance, Encoder, make_disturbances
+from dqpaint.disturbances.disturbance import (
+    DISTURBANCES, Disturbance, Encoder, find_files, kind_of, make_disturbances,
+)
 
-__all__ = ["DISTURBANCES", "Disturbance", "Encoder", "make_disturbances"]
+__all__ = [
+    "DISTURBANCES", "Disturbance", "Encoder", "find_files", "kind_of", "make_disturbances",
+]

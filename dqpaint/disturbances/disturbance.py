@@ -1,15 +1,18 @@
 """The interface of disturbances, and their names and values -> checked disturbances."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import ClassVar
+from pathlib import Path
+from typing import Any, ClassVar
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict
 
 from dqpaint.core import Folder, Registry, Values, make_choice, subclass
 from dqpaint.dq import Floats
+from dqpaint.errors import UsageError
 from dqpaint.plants import Trait, World
 from dqpaint.robots.kinematics import Kinematics
 
@@ -57,6 +60,25 @@ class Disturbance(BaseModel):
         """
         return np.zeros((len(t), 6))
 
+    def displacement(self, t: Floats, period: float, rng: "np.random.Generator") -> Floats | None:
+        """Displacement c (N, 8) of the tool on the flange, in the tool's frame, at times (N,) [s].
+
+        None where it has none.
+
+        Raises:
+            DqpaintError: as `twist`.
+        """
+        return None
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether the law measures the pose of the displaced tool."""
+        return False
+
+    def summary(self) -> dict[str, Any]:
+        """Its values, for a run's summary."""
+        return self.model_dump()
+
     def check(self, t: Floats) -> None:
         """Check that the disturbance has an effect in a run with times (N,) [s].
 
@@ -90,10 +112,57 @@ DISTURBANCES: Registry[type[Disturbance]] = Folder(
 def make_disturbances(given: Mapping[str, Values]) -> dict[str, Disturbance]:
     """Make disturbances from their names and values.
 
+    Several of one kind are `twist`, `twist-2` and so on. A value without a name that is a CSV is
+    the file of those that have one.
+
     Raises:
         UsageError: an unknown disturbance, an unknown value, or one outside its range.
     """
     return {
-        name: make_choice("disturbance", name, DISTURBANCES[name], values)
+        name: make_choice("disturbance", name, model, _with_file(model, values))
         for name, values in given.items()
+        for model in [DISTURBANCES[kind_of(name)]]
     }
+
+
+def kind_of(name: str) -> str:
+    """The kind of a disturbance of a run: `twist` of `twist`, and of `twist-2`."""
+    several = re.fullmatch(r"(.+)-[1-9]\d*", name)
+    return several[1] if several and name not in DISTURBANCES else name
+
+
+def find_files(given: Mapping[str, Mapping[str, Any]], folder: Path) -> dict[str, dict[str, Any]]:
+    """Names and values with the files of disturbances where they are: here, or in a folder.
+
+    Args:
+        given: by the names of the disturbances.
+        folder: of the drawing.
+
+    Raises:
+        UsageError: there is no such file in either place.
+    """
+    found = {}
+    for name, values in given.items():
+        found[name] = dict(_with_file(DISTURBANCES[kind_of(name)], values))
+        if file := found[name].get("file"):
+            found[name]["file"] = _found(name, str(file), folder)
+    return found
+
+
+def _found(name: str, file: str, folder: Path) -> str:
+    for path in (Path(file), folder / file):
+        try:
+            if path.is_file():
+                return str(path)
+        except (OSError, ValueError):
+            break
+    raise UsageError(
+        f"disturbance '{name}': no file '{file[:80]}', neither here nor beside the drawing"
+    )
+
+
+def _with_file(model: type[Disturbance], values: Values) -> Values:
+    first = values.get("")
+    if "file" not in model.model_fields or not str(first).endswith(".csv"):
+        return values
+    return {**{key: value for key, value in values.items() if key}, "file": str(first)}

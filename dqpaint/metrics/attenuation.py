@@ -51,7 +51,7 @@ def attenuation(track: Track, bounds: Bounds | None, steady: bool = True) -> dic
         bounds: bounds [s] for rotation and translation, from the gains.
         steady: whether the gains stay as they are, as the bounds in steps need.
     """
-    v = track.disturbance[:-1]
+    v = (track.disturbance + track.pose_disturbance)[:-1]  # v_w + v_c of (3.29)
     x_e = spatial_error(track.pose, track.motion.pose)
     stepped: tuple[float | None, float | None] = (None, None)
     if bounds and steady and len(v):

@@ -175,6 +175,19 @@ def _linear_disturbance(track: Track) -> Floats | None:
     return track.disturbance[:, 3:] if track.disturbance.any() else None
 
 
+@column("offset_wx_rad_s offset_wy_rad_s offset_wz_rad_s", "rad/s", "angular offset rate",
+        "first half of the spatial twist by which the tool's displacement changes until the next "
+        "row, where it is displaced: v_c of Pereira 2016, (3.17)")  # fmt: skip
+def _angular_offset_rate(track: Track) -> Floats | None:
+    return track.pose_disturbance[:, :3] if track.pose_disturbance.any() else None
+
+
+@column("offset_vx_m_s offset_vy_m_s offset_vz_m_s", "m/s", "linear offset rate",
+        "its second half, at the base's origin")  # fmt: skip
+def _linear_offset_rate(track: Track) -> Floats | None:
+    return track.pose_disturbance[:, 3:] if track.pose_disturbance.any() else None
+
+
 @column("unclipped{joint}_rad_s", "rad/s", "joint rates before limits",
         "commanded joint rates before limits clipped them, where any did")  # fmt: skip
 def _unclipped_rates(track: Track) -> Floats | None:

@@ -41,7 +41,7 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
         "controller": painting.controller.name,
         "law": _law(painting),
         "gains": painting.gains,
-        "disturbances": {name: one.model_dump() for name, one in painting.disturbances.items()},
+        "disturbances": {name: one.summary() for name, one in painting.disturbances.items()},
         "null_space": {"objective": objective, "gain": gain},
         "seed": settings.seed,
         "settings": settings.model_dump(),

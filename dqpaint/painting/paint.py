@@ -4,6 +4,7 @@ import hashlib
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from time import perf_counter
 from typing import Any
 
@@ -160,7 +161,8 @@ def prepare(
     """The preparation of a run; arguments and errors as those of `paint`."""
     clock = Stopwatch()
     program = replace(program, most_samples=settings.max_samples)
-    choices = check_run(settings, controller)  # faults are reported before anything is simulated
+    # faults are reported before anything is simulated
+    choices = check_run(settings, controller, Path(program.name).parent)
     card = card_for(program, settings.robot, settings.tool)
     recorded = settings.recorded
     recording = None if recorded is None else read_recording(recorded, card.joints)

@@ -5,7 +5,7 @@ from typing import Any
 from dqpaint.brushes import BRUSHES
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.core import Registry, choice_name, split_spec
-from dqpaint.disturbances import DISTURBANCES
+from dqpaint.disturbances import DISTURBANCES, kind_of
 from dqpaint.metrics import METRICS
 from dqpaint.plants import PLANTS
 from dqpaint.program import Program
@@ -20,7 +20,7 @@ def plugins_of(settings: Settings, program: Program) -> dict[str, str]:
         (CONTROLLERS, settings.controller),
         (PLANTS, choice_name(settings.plant or "")),
         *((BRUSHES, name) for name in _brushes(settings, program)),
-        *((DISTURBANCES, name) for name in settings.disturb),
+        *((DISTURBANCES, kind_of(name)) for name in settings.disturb),
     ]
     found = {}
     for registry, name in chosen:

@@ -3,10 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
+from pathlib import Path
 from typing import Any
 
 from dqpaint.controllers import Controller, Schedule, find_controller
-from dqpaint.disturbances import Disturbance, make_disturbances
+from dqpaint.disturbances import Disturbance, find_files, make_disturbances
 from dqpaint.painting.scene import check_light_settings
 from dqpaint.plants import ConfiguredPlant, choose_plant, find_plant
 from dqpaint.robots.kinematics import read_damping, read_null
@@ -40,12 +41,15 @@ class RunChoices:
     disturbances: dict[str, Disturbance]
 
 
-def check_run(settings: Settings, controller: Controller[Any] | None = None) -> RunChoices:
-    """Check a run's settings as far as they do not depend on the drawing.
+def check_run(
+    settings: Settings, controller: Controller[Any] | None = None, folder: Path | None = None
+) -> RunChoices:
+    """Check a run's settings as far as they do not depend on the drawing's text.
 
     Args:
         settings: of the run.
         controller: a law in place of the one that the settings name.
+        folder: of the drawing, where files of disturbances may lie; None finds them here alone.
 
     Raises:
         DqpaintError: an unknown name, a value outside its range, or choices that exclude one
@@ -56,7 +60,7 @@ def check_run(settings: Settings, controller: Controller[Any] | None = None) -> 
     law = RECORDED if settings.recorded else controller or find_controller(settings.controller)
     gains = law.read_gains(settings.gains)
     plant = choose_plant(settings.plant, "torque" if law.drives_torque else "rates")
-    disturbances = make_disturbances(settings.disturb)
+    disturbances = make_disturbances(find_files(settings.disturb, folder or Path()))
     for name, one in disturbances.items():
         plant.require_trait(one.needs, name)
     return RunChoices(law, gains, plant, disturbances)

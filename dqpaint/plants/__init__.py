@@ -9,10 +9,10 @@ from dqpaint.plants.plant import (
     DEFAULT_PLANTS, PLANTS, ConfiguredPlant, Plant, PlantMaker, PlantOptions, Takes, Trait,
     as_plant_maker, choose_plant, find_plant,
 )
-from dqpaint.plants.world import UNDISTURBED, Payload, Push, World
+from dqpaint.plants.world import UNDISTURBED, ForceCourse, Payload, Push, World
 
 __all__ = [
-    "DEFAULT_PLANTS", "PLANTS", "UNDISTURBED", "ConfiguredPlant", "Ideal", "Payload", "Plant",
-    "PlantMaker", "PlantOptions", "Push", "Takes", "Trait", "World", "as_plant_maker",
+    "DEFAULT_PLANTS", "PLANTS", "UNDISTURBED", "ConfiguredPlant", "ForceCourse", "Ideal", "Payload",
+    "Plant", "PlantMaker", "PlantOptions", "Push", "Takes", "Trait", "World", "as_plant_maker",
     "choose_plant", "find_plant",
 ]

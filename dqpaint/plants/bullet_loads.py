@@ -1,18 +1,22 @@
 """Payloads and pushes of a world -> loads on an arm of rigid bodies."""
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree as Xml
 
 import numpy as np
 
 from dqpaint import dq
+from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
-from dqpaint.plants.world import Payload, Push, World
+from dqpaint.plants.world import ForceCourse, Payload, Push, World
 from dqpaint.robots.bullet import bullet
 from dqpaint.robots.model import Card
 
 if TYPE_CHECKING:
     from dqpaint.plants.bullet_arm import RigidArm
+
+BLOCK = 4096  # steps whose forces are read at once
 
 
 def with_payloads(text: str, card: Card, payloads: tuple[Payload, ...]) -> str:
@@ -52,29 +56,29 @@ class TimedPush:
     """Physics steps with pushes; PyBullet clears a force after each step."""
 
     def __init__(self, arm: "RigidArm", world: World) -> None:
-        self._arm, self._pushes = arm, world.pushes
-        self._forces = [world.in_base(np.array(push.force)).tolist() for push in world.pushes]
+        self._arm, self._world = arm, world
+        self._courses = [(push.link, _course(push, arm.step)) for push in world.pushes]
         self._flange = self._link_named(arm.card.link)
         self._tool = arm.card.tool.pose
         self._done = 0  # steps
 
     def __call__(self) -> None:
-        """Run one step; a push begins and ends with the step nearest in time."""
-        for push, force in zip(self._pushes, self._forces, strict=True):
-            first = round(push.start / self._arm.step)
-            if first <= self._done < first + round(push.seconds / self._arm.step):
-                self._push(push, force)
+        """Run one step."""
+        for link, course in self._courses:
+            force = course(self._done)
+            if force is not None:
+                self._push(link, self._world.in_base(force).tolist())
         bullet.stepSimulation(self._arm.client)
         self._done += 1
 
-    def _push(self, push: Push, force: list[float]) -> None:
+    def _push(self, number: int, force: list[float]) -> None:
         arm = self._arm
-        link = arm.joints[push.link - 1] if push.link else self._flange
+        link = arm.joints[number - 1] if number else self._flange
         state = bullet.getLinkState(
             arm.body, link, computeForwardKinematics=True, physicsClientId=arm.client
         )
         point = state[0]  # the centre of mass
-        if not push.link:
+        if not number:
             x, y, z, w = state[5]
             flange = dq.pose_from(state[4], np.array([w, x, y, z]))
             point = dq.translation(dq.mul(flange, self._tool)).tolist()
@@ -90,3 +94,31 @@ class TimedPush:
             for i in range(count)
         ]
         return names.index(name)
+
+
+def _course(push: Push | ForceCourse, step: float) -> Callable[[int], Floats | None]:
+    """The force (3,) [N] of each physics step, by its number; None where there is none."""
+    if isinstance(push, ForceCourse):
+        return _Sampled(push, step)
+    force = np.array(push.force)
+    first = round(push.start / step)  # it begins and ends with the step nearest in time
+    last = first + round(push.seconds / step)
+    return lambda done: force if first <= done < last else None
+
+
+class _Sampled:
+    """A course of forces, sampled in the middle of each step, a block of steps at a time."""
+
+    def __init__(self, course: ForceCourse, step: float) -> None:
+        self._forces, self._step = course.forces, step
+        self._block: Floats = np.zeros((0, 3))
+        self._first = 0
+
+    def __call__(self, done: int) -> Floats | None:
+        """The force of a step."""
+        if not self._first <= done < self._first + len(self._block):
+            self._first = done
+            middles = (done + 0.5 + np.arange(BLOCK, dtype=np.float64)) * self._step
+            self._block = self._forces(np.asarray(middles))
+        force = self._block[done - self._first]
+        return force if force.any() else None

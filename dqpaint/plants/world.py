@@ -1,5 +1,6 @@
 """Base pose, payloads and pushes of an arm: the surroundings in which a plant simulates it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -37,6 +38,19 @@ class Push:
 
 
 @dataclass(frozen=True)
+class ForceCourse:
+    """A force that changes in time.
+
+    Attributes:
+        forces: times (N,) [s] -> forces (N, 3) [N], along the axes of the base the law believes in.
+        link: as of a `Push`.
+    """
+
+    forces: Callable[[Floats], Floats]
+    link: int
+
+
+@dataclass(frozen=True)
 class World:
     """The true surroundings of an arm, which no law knows.
 
@@ -49,7 +63,7 @@ class World:
 
     base: Floats = field(default_factory=dq.IDENTITY.copy)
     payloads: tuple[Payload, ...] = ()
-    pushes: tuple[Push, ...] = ()
+    pushes: tuple[Push | ForceCourse, ...] = ()
     model_gravity: float = 1.0
 
     @cached_property

@@ -142,8 +142,14 @@ def beside(folder: Path, value: object) -> object:
 
 
 def _beside_all(folder: Path, value: Any) -> Any:
-    if isinstance(value, str) and "image=" in value:
-        return re.sub(r"(?<=image=)[^,]+", lambda found: str(beside(folder, found[0])), value)
+    if isinstance(value, Mapping):
+        return {key: _beside_all(folder, one) for key, one in value.items()}
+    if isinstance(value, list):
+        return [_beside_all(folder, one) for one in value]
+    if isinstance(value, str) and re.search(r"\b(image|file)=", value):
+        return re.sub(
+            r"\b(image|file)=([^,]+)", lambda put: f"{put[1]}={beside(folder, put[2])}", value
+        )
     return beside(folder, value)
 
 

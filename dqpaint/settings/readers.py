@@ -62,18 +62,19 @@ def _frozen(gain: Any) -> Any:
 def read_disturbances(value: object) -> dict[str, Any]:
     """Disturbances by their names, from a mapping or from texts like `twist=sine,x=0.02`.
 
+    A mapping may have a list of several of one kind.
+
     Raises:
         UsageError: anything else.
     """
     if not isinstance(value, Mapping):
         return parse_disturbances(_texts("disturb", value, DISTURBANCE))
     found: dict[str, Any] = {}
-    for name, values in value.items():
-        found |= (
-            {name: dict(values)}
-            if isinstance(values, Mapping)
-            else parse_disturbances([f"{name}={values}"])
-        )
+    for name, several in value.items():
+        for values in several if isinstance(several, list | tuple) else [several]:
+            if not isinstance(values, Mapping):
+                values = parse_disturbances([f"{name}={values}"])[name]
+            add_disturbance(found, name, dict(values))
     return found
 
 
@@ -112,17 +113,23 @@ def parse_gains(texts: Sequence[str]) -> dict[str, float | str]:
 def parse_disturbances(texts: Sequence[str]) -> dict[str, dict[str, float | str]]:
     """Disturbances by their names from texts like `twist=sine,x=0.02` or `twist:form=sine,x=0.02`.
 
-    A value without a name has the name "".
+    A value without a name has the name "", a second disturbance of a kind the name `twist-2`.
 
     Raises:
-        UsageError: anything else, or a disturbance or value given twice.
+        UsageError: anything else, or a value given twice.
     """
     found: dict[str, dict[str, float | str]] = {}
     for text in texts:
         name, values = read_choice("disturbance", text, DISTURBANCE)
         if not values:
             raise UsageError(f"disturbance '{text}' is not NAME=VALUE, for example {DISTURBANCE}")
-        if name in found:
-            raise UsageError(f"disturbance '{name}' is given twice")
-        found[name] = values
+        add_disturbance(found, name, values)
     return found
+
+
+def add_disturbance(found: dict[str, Any], name: str, values: Any) -> None:
+    """Add one to others; a second `twist` is `twist-2`."""
+    free = name
+    while free in found:
+        free = f"{name}-{int(free.removeprefix(f'{name}-')) + 1 if free != name else 2}"
+    found[free] = values

@@ -67,6 +67,8 @@ class Track:
         clamps: limits that held a joint back.
         disturbance: spatial twist (N, 6) [rad/s, m/s] that came on top of the arm's own from t_k to
             t_k+1, unknown to the law; the last row is zero.
+        pose_disturbance: likewise, of the tool's displacement on the flange (v_c of Pereira 2016,
+            (3.17)).
     """
 
     motion: Motion
@@ -83,6 +85,7 @@ class Track:
     effort: Floats
     clamps: tuple[Clamp, ...]
     disturbance: Floats
+    pose_disturbance: Floats
 
     def __post_init__(self) -> None:
         for array in (
@@ -97,6 +100,7 @@ class Track:
             self.unclipped,
             self.effort,
             self.disturbance,
+            self.pose_disturbance,
         ):
             array.setflags(write=False)
 
@@ -159,7 +163,7 @@ def track(
     )  # fmt: skip
     if not log.finite.all():
         raise _diverged(float(motion.t[-1]))
-    return _make_track(log, motion, kinematics.card, controller.drives_torque)
+    return _make_track(log, motion, kinematics.card, controller.drives_torque, sensors.offset)
 
 
 def track_many(
@@ -209,7 +213,15 @@ def track_many(
         lambda k: progress(k / len(motion.t)) if k % REPORT_EVERY == 0 else None,
     )  # fmt: skip
     return [
-        _make_track(log.one(i), motion, kinematics.card, controller.drives_torque) if good else None
+        _make_track(
+            log.one(i),
+            motion,
+            kinematics.card,
+            controller.drives_torque,
+            None if sensors.offset is None else sensors.offset[:, i],
+        )
+        if good
+        else None
         for i, good in enumerate(log.finite.tolist())
     ]
 
@@ -252,7 +264,7 @@ def _simulate(
             )  # fmt: skip
             wanted = drive.command(seen, now)
             given = drive.clip(wanted, q) if clips else wanted
-            log.record(k, plant, measured, sensors.truth(plant, measured), wanted, given)
+            log.record(k, plant, measured, sensors.truth(k, plant, measured), wanted, given)
             at_row(k)
             if k < n - 1:
                 plant.run(late(given), log.drift_rates(k, drift))
@@ -352,7 +364,9 @@ def _drift(
     return found if found.any() else None
 
 
-def _make_track(log: _Log, motion: Motion, card: Card, torques: bool) -> Track:
+def _make_track(
+    log: _Log, motion: Motion, card: Card, torques: bool, offset: Floats | None
+) -> Track:
     log.wanted[-1] = log.command[-1]  # the last command is never carried out
     held = log.clamps(slice(None), card, motion, torques)
     for poses in (log.pose, log.measured_pose):
@@ -361,7 +375,20 @@ def _make_track(log: _Log, motion: Motion, card: Card, torques: bool) -> Track:
         motion, log.posture, dq.continuous(log.pose), log.measured_posture,
         dq.continuous(log.measured_pose), log.measured_rates, log.measured_twist,
         log.manipulability, log.command, log.wanted, torques, log.effort, held, log.disturbance,
+        _pose_disturbance(log.pose, offset, motion.period),
     )  # fmt: skip
+
+
+def _pose_disturbance(pose: Floats, offset: Floats | None, period: float) -> Floats:
+    """v_c (N, 6): the twist of the tool's displacement c (N, 8) from row to row.
+
+    c(k+1) = c(k) exp(T v / 2), and v_c is v seen from the base: Ad(x) v.
+    """
+    found = np.zeros((len(pose), 6))
+    if offset is not None:
+        step = dq.mul(dq.conj(offset[:-1]), dq.nearest(offset[1:], offset[:-1]))
+        found[:-1] = dq.adjoint(pose[:-1], (2 / period) * dq.log(step))
+    return found
 
 
 def _diverged(time: float) -> UnstableError:

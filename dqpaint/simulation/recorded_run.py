@@ -6,37 +6,25 @@ every row, and never beyond the two it lies between. A pose goes along the one s
 as notes.
 """
 
-import hashlib
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from dqpaint import dq
 from dqpaint.controllers import Controller, Gains, Seen
+from dqpaint.core import NumberTable
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.motion import Motion
 from dqpaint.robots.kinematics import Kinematics, manipulability
 from dqpaint.simulation.closed_loop import Track
 
-LARGEST_FILE = 100_000_000  # bytes of a file
 POSE = ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz")
 NORM_TOLERANCE = 1e-3  # a quaternion's norm may be off 1 by this: it was printed with few digits
 LONG_GAP = 0.05  # [s] between two rows that is worth a word, if it is several periods
 SAME_TIME = 1e-9  # [s]
-SHORTEST = 1e-6  # [s] between two rows
-LARGEST_BY_UNIT = {
-    "_s": 1e13,
-    "_rad": 1e4,
-    "_deg": 1e6,
-    "_m": 1e3,
-}  # more is a slip, by a column's unit
-LARGEST_NUMBER = 1e9  # of the others
-MOST_NAMED = 8
 
 
 @dataclass(frozen=True, repr=False)
@@ -121,96 +109,15 @@ def read_recording(path: str, joints: int) -> Recording:
         UsageError: the file cannot be read.
         DqpaintError: it is not such a table; file, row and column are named.
     """
-    file = Path(path)
-    try:
-        if file.stat().st_size > LARGEST_FILE:
-            raise DqpaintError(f"{file.name} is larger than {LARGEST_FILE // 10**6} MB")
-        data = file.read_bytes()
-    except OSError as problem:
-        raise UsageError(f"recorded run '{path}' cannot be read: {problem.strerror}") from None
-    table = _Table(file.name, data)
-    t = table.columns(["t_s"])[:, 0]
-    _check_times(table, t)
+    table = NumberTable(path, "recorded run")
+    t = table.times()
     postures = _joints(table, joints)
     poses = None if postures is not None else _poses(table)
     commands, torques = _commands(table, joints) if postures is not None else (None, False)
-    digest = hashlib.sha256(data).hexdigest()
-    return Recording(file.name, digest, t, postures, poses, commands, torques)
+    return Recording(table.name, table.sha256, t, postures, poses, commands, torques)
 
 
-class _Table:
-    """Rows of numbers under their names."""
-
-    def __init__(self, name: str, data: bytes) -> None:
-        self.name = name
-        try:
-            text = data.decode("utf-8-sig")
-        except UnicodeDecodeError:
-            raise DqpaintError(f"{name} is no text in UTF-8") from None
-        lines = [
-            (number, line)
-            for number, line in enumerate(text.splitlines(), 1)
-            if line.strip() and not line.lstrip().startswith("#")
-        ]
-        if not lines:
-            raise DqpaintError(f"{name} is empty: it needs a row of names, and rows of numbers")
-        head = lines[0][1]
-        self._separator = max(",;\t", key=head.count)
-        self.names = [word.strip().strip('"') for word in head.split(self._separator)]
-        twice = next((n for n in self.names if n and self.names.count(n) > 1), None)
-        if twice is not None:
-            raise DqpaintError(f"{name}, row {lines[0][0]}: column '{twice}' is there twice")
-        self._lines = lines[1:]
-        if not self._lines:
-            raise DqpaintError(f"{name} has names, but no rows of numbers")
-        self.rows = [number for number, _ in self._lines]
-
-    def columns(self, wanted: Sequence[str]) -> Floats:
-        """The numbers (M, k) of some columns."""
-        missing = [name for name in wanted if name not in self.names]
-        if missing:
-            has = ", ".join(self.names[:MOST_NAMED]) + (" ..." * (len(self.names) > MOST_NAMED))
-            raise DqpaintError(f"{self.name} has no column '{missing[0]}'; it has: {has}")
-        places = [self.names.index(name) for name in wanted]
-        values = np.empty((len(self._lines), len(wanted)))
-        for k, (row, line) in enumerate(self._lines):
-            cells = line.split(self._separator)
-            if len(cells) != len(self.names):
-                raise DqpaintError(
-                    f"{self.name}, row {row}: {len(cells)} values, but {len(self.names)} columns"
-                )
-            for i, place in enumerate(places):
-                values[k, i] = self._number(cells[place], row, wanted[i])
-        return values
-
-    def _number(self, text: str, row: int, column: str) -> float:
-        try:
-            value = float(text)
-        except ValueError:
-            value = np.nan
-        if not np.isfinite(value):
-            raise self.fault(row, column, f"'{text.strip()[:40]}' is not a number")
-        most = LARGEST_BY_UNIT.get(column[column.rfind("_") :], LARGEST_NUMBER)
-        if abs(value) > most:
-            raise self.fault(row, column, f"{value:.6g} is more than any arm does (up to {most:g})")
-        return value
-
-    def fault(self, row: int, column: str, text: str) -> DqpaintError:
-        """An error about one value."""
-        return DqpaintError(f"{self.name}, row {row}, column {column}: {text}")
-
-
-def _check_times(table: _Table, t: Floats) -> None:
-    back = np.flatnonzero(np.diff(t) < SHORTEST)
-    if len(back):
-        k = int(back[0])
-        text = f"{t[k + 1]:.9g} s does not come after {t[k]:.9g} s"
-        if t[k + 1] > t[k]:
-            text = f"{t[k + 1]:.9g} s comes less than a microsecond after {t[k]:.9g} s"
-        raise table.fault(table.rows[k + 1], "t_s", text)
-
-
-def _joints(table: _Table, joints: int) -> Floats | None:
+def _joints(table: NumberTable, joints: int) -> Floats | None:
     """Joint angles (M, n) [rad], where the file has them."""
     found = [name for name in table.names if re.fullmatch(r"q\d+_(rad|deg)", name)]
     if not found:
@@ -228,7 +135,7 @@ def _joints(table: _Table, joints: int) -> Floats | None:
     return np.radians(angles) if unit == "deg" else angles
 
 
-def _poses(table: _Table) -> Floats:
+def _poses(table: NumberTable) -> Floats:
     """Poses (M, 8) of the light."""
     if not any(name in table.names for name in POSE):
         raise DqpaintError(
@@ -244,7 +151,7 @@ def _poses(table: _Table) -> Floats:
     return dq.continuous(dq.pose_from(values[:, :3], values[:, 3:] / length[:, None]))
 
 
-def _commands(table: _Table, joints: int) -> tuple[Floats | None, bool]:
+def _commands(table: NumberTable, joints: int) -> tuple[Floats | None, bool]:
     """The commands (M, n) where the file has those of all joints; whether they are torques."""
     for form, torques in (("command{}_rad_s", False), ("torque{}_Nm", True)):
         names = [form.format(i + 1) for i in range(joints)]
@@ -295,6 +202,7 @@ def replay(recording: Recording, motion: Motion, kinematics: Kinematics) -> Trac
         effort=np.zeros_like(posture),
         clamps=(),
         disturbance=np.zeros((n, 6)),
+        pose_disturbance=np.zeros((n, 6)),
     )
 
 

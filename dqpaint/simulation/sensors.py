@@ -40,6 +40,7 @@ class Sensors:
         world: the disturbances of the arm itself.
         model: the law's.
         exact: whether every measurement is true.
+        offset: displacements (N, 8) of the tool on the flange; None where it has none.
     """
 
     def __init__(
@@ -61,7 +62,9 @@ class Sensors:
             if encoder is not None:
                 self._encoders.append(encoder)
         self._error = np.zeros(kinematics.card.joints)
-        self.exact = not self._encoders and self.model is kinematics
+        self.offset, self._measured_offset = _offsets(t, period, disturbances, seed)
+        hidden = self.offset is not None and self._measured_offset is not self.offset
+        self.exact = not self._encoders and self.model is kinematics and not hidden
         self._true = kinematics
 
     def measure(self, row: int, plant: Plant) -> Measurement:
@@ -71,7 +74,8 @@ class Sensors:
         period.
         """
         angles, rates = self._read(row, plant)
-        return Measurement(angles, rates, *self.model.pose_and_jacobian(angles))
+        x, J = self.model.pose_and_jacobian(angles)
+        return Measurement(angles, rates, _displaced(x, self._measured_offset, row), J)
 
     def _read(self, row: int, plant: Plant) -> tuple[Floats, Floats]:
         angles, rates = plant.encoder, plant.encoder_rates
@@ -84,12 +88,13 @@ class Sensors:
             angles, rates = read, rates + (error - before) / self._period
         return angles, rates
 
-    def truth(self, plant: Plant, measured: Measurement) -> tuple[Floats, Floats]:
-        """The light's true pose (8,) and Jacobian (6, n), in the law's own base frame."""
+    def truth(self, row: int, plant: Plant, measured: Measurement) -> tuple[Floats, Floats]:
+        """The light's true pose (8,) and Jacobian (6, n) at a row, in the law's own base frame."""
         displaced = self.world.is_displaced
         if self.exact and not displaced and measured.posture is plant.posture:
             return measured.pose, measured.jacobian
         x, J = self._truth(plant)
+        x = _displaced(x, self.offset, row)
         if displaced:
             base = self.world.base
             x, J = dq.mul(base, x), dq.adjoint(base, J.mT).mT
@@ -125,23 +130,57 @@ class BatchedSensors(Sensors):
             for alike in zip(*(one._encoders for one in each), strict=True)
         ]
         self._error = np.zeros((len(each), kinematics.card.joints))
-        self.exact = not self._encoders
+        self.exact = not self._encoders and each[0].exact
+        self.offset = _stacked([one.offset for one in each])
+        self._measured_offset = _stacked([one._measured_offset for one in each])
 
     @override
     def measure(self, row: int, plant: Plant) -> Measurement:
         angles, rates = self._read(row, plant)
         if angles is plant.posture:
-            self._found = self._arms.pose_and_jacobian(angles)
-            return Measurement(angles, rates, *self._found)
+            x, J = self._found = self._arms.pose_and_jacobian(angles)
+            return Measurement(angles, rates, _displaced(x, self._measured_offset, row), J)
         # measured and true angles in one call cost little more than one of them
         x, J = self._arms.pose_and_jacobian(np.concatenate([angles, plant.posture]))
         count = len(angles)
         self._found = x[count:], J[count:]
-        return Measurement(angles, rates, x[:count], J[:count])
+        seen = _displaced(x[:count], self._measured_offset, row)
+        return Measurement(angles, rates, seen, J[:count])
 
     @override
     def _truth(self, plant: Plant) -> tuple[Floats, Floats]:
         return self._found
+
+
+def _offsets(
+    t: Floats, period: float, disturbances: Disturbances, seed: int
+) -> tuple[Floats | None, Floats | None]:
+    """Displacements (N, 8) of the tool, all of them and those that the law measures, or None."""
+    every: Floats | None = None
+    measured: Floats | None = None
+    for name, one in disturbances.items():
+        c = one.displacement(t, period, random_numbers(seed, name))
+        if c is None:
+            continue
+        every = c if every is None else dq.mul(every, c)
+        if one.is_measured:
+            measured = c if measured is None else dq.mul(measured, c)
+    all_measured = all(
+        one.is_measured or type(one).displacement is Disturbance.displacement
+        for one in disturbances.values()
+    )
+    return every, every if all_measured else measured
+
+
+def _displaced(pose: Floats, offset: Floats | None, row: int) -> Floats:
+    """Poses with the tool displaced as at a row."""
+    return pose if offset is None else dq.mul(pose, offset[row])
+
+
+def _stacked(each: Sequence[Floats | None]) -> Floats | None:
+    """Arrays (N, 8) of several runs as (N, B, 8); all have one, or none."""
+    there = [one for one in each if one is not None]
+    return np.stack(there, axis=1) if there else None
 
 
 class DelayLine:

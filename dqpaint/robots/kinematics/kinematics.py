@@ -50,13 +50,16 @@ class Kinematics:
         tool = pinocchio.SE3(dq.matrix_from_pose(card.tool.pose))
         self._tool = frame.placement * tool
 
-    def with_model_error(self, lengths: Floats | None = None, gravity: float = 1.0) -> Self:
-        """The same arm with other link lengths or gravity, as a wrong model has them.
+    def with_model_error(
+        self, lengths: Floats | None = None, gravity: float = 1.0, masses: Floats | None = None
+    ) -> Self:
+        """The same arm with other link lengths, gravity or masses, as a wrong model has them.
 
         Args:
             lengths: offsets added to each joint's position on the link before it, and to the tool's
                 place on the last joint (n + 1, 3) [m].
             gravity: as a part of the true one.
+            masses: of the links, as parts of the true ones (n,); inertias likewise.
         """
         other = copy(self)
         other.model = pinocchio.Model(self.model)
@@ -65,6 +68,9 @@ class Kinematics:
             for joint, way in enumerate(lengths[:-1], start=1):
                 other.model.jointPlacements[joint].translation += way
             other._tool = pinocchio.SE3(self._tool.rotation, self._tool.translation + lengths[-1])
+        if masses is not None:
+            for body, part in zip(list(other.model.inertias)[1:], masses.tolist(), strict=True):
+                body.mass, body.inertia = part * body.mass, part * body.inertia
         other._data = other.model.createData()
         return other
 

@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from dqpaint.controllers import find_controller
-from dqpaint.disturbances import DISTURBANCES
+from dqpaint.disturbances import DISTURBANCES, kind_of
 from dqpaint.errors import UsageError
 from dqpaint.settings import Settings, make_settings, parse_disturbances, parse_gains
 
@@ -237,7 +237,7 @@ def axis_description(name: str, base: Settings) -> str:
     """
     if name.startswith("disturb."):
         _, kind, key = name.split(".")
-        fields = DISTURBANCES[kind].model_fields
+        fields = DISTURBANCES[kind_of(kind)].model_fields
     else:
         key = name.removeprefix("gain.")
         fields = find_controller(base.controller).gains.model_fields

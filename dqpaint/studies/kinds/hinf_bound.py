@@ -3,7 +3,8 @@
 Pereira 2016, 3.3 promises ||p_e||_2 <= ||v_t||_2 / K_T and ||1 - r_e||_2 <= sqrt(2) ||v_w||_2 / K_O
 in continuous time. In steps of T the ideal arm that does not turn is
 e(k+1) = (1 - K T) e(k) + T v(k): its gain is largest at frequency 0 while K T <= 1, and at half the
-sampling rate beyond, where it exceeds 1 / K. What holds where it turns, too, is in `dqpaint.metrics.attenuation`.
+sampling rate beyond, where it exceeds 1 / K. What holds where it turns, too:
+`dqpaint.metrics.attenuation`.
 """
 
 from dataclasses import dataclass

@@ -17,6 +17,7 @@ from dqpaint import __version__
 from dqpaint.brushes import read_brush
 from dqpaint.controllers import find_controller
 from dqpaint.core import choice_name, file_digest, find_drawing, library_versions
+from dqpaint.disturbances import find_files
 from dqpaint.errors import UsageError
 from dqpaint.language import parse, read
 from dqpaint.language.imports import files_of
@@ -78,6 +79,11 @@ class Run:
                 for kind, text in (("plant", settings.plant), ("brush", settings.brush))
             },
             "recorded": _sha256(settings.recorded or ""),
+            **{
+                f"disturb {name}": _sha256(str(values["file"]))
+                for name, values in find_files(settings.disturb, Path(self.name).parent).items()
+                if values.get("file")
+            },
             "image": _sha256(getattr(brush, "image", "")),
         }
 
@@ -92,7 +98,7 @@ class Run:
             UsageError: an unknown name or a value out of its range.
             ScriptError: a mistake in the drawing.
         """
-        validate.check_run(self.settings)
+        validate.check_run(self.settings, folder=Path(self.name).parent)
         card_for(self.program(), self.settings.robot, self.settings.tool)
 
 

@@ -69,14 +69,16 @@ def test_its_twist_is_the_derivative_of_c_seen_from_the_base():
 
 
 def test_a_law_that_measures_it_keeps_its_bound_and_one_that_does_not_is_off_by_c():
-    law = CONTROLLERS["hinf"]
-    seen = run({"offset": SINE})
-    assert all(one.bound_holds for one in attenuation(
-        seen, law.read_gains({}).disturbance_bounds()).values())  # fmt: skip
+    law, gentle = CONTROLLERS["hinf"], {**SINE, "wx": 0.04, "wy": 0.02, "frequency": 1.0}
+    seen = run({"offset": gentle})
+    assert not seen.clamps
+    bounds = law.read_gains({}).disturbance_bounds()
+    found = attenuation(seen, bounds)
+    assert set(found) == {"rotation", "translation"}
+    assert all(0.3 * one.bound < one.ratio < one.bound for one in found.values())
     hidden = run({"offset": {"z": 0.01, "measured": "no"}})
     off = np.linalg.norm(hidden.points - motion().points, axis=1)
     np.testing.assert_allclose(off[40:], 0.01, atol=2e-4)
-    assert np.linalg.norm(seen.points - motion().points, axis=1)[60:].max() < 0.015
 
 
 def test_several_add_up_and_a_batch_is_what_each_run_is_by_itself():
@@ -103,7 +105,7 @@ def test_a_law_s_inertia_and_weight_are_off_by_the_stated_share(values, parts):
     run({"masses": values}, Controller("weigh", "none", RateGains, weigh, "torque"), "torque")
     q, inertia, bias = told[0]  # at rest
     true = Dynamics(arm())
-    np.testing.assert_allclose(inertia, parts * true.inertia(q), rtol=1e-9)
+    np.testing.assert_allclose(inertia, parts * true.inertia(q), rtol=1e-9, atol=1e-12)
     np.testing.assert_allclose(bias, parts * true.weight(q), atol=1e-9)
 
 

@@ -41,7 +41,9 @@ class Attenuation:
         return None if self.bound is None else self.ratio <= self.bound
 
 
-def attenuation(track: Track, bounds: Bounds | None, steady: bool = True) -> dict[str, Attenuation]:
+def attenuation(
+    track: Track, bounds: Bounds | None, stepped: bool = True
+) -> dict[str, Attenuation]:
     """Rotation and translation, each where the disturbance is not zero.
 
     The disturbance from row k to row k + 1 shows in the error of row k + 1.
@@ -49,18 +51,18 @@ def attenuation(track: Track, bounds: Bounds | None, steady: bool = True) -> dic
     Args:
         track: of a run.
         bounds: bounds [s] for rotation and translation, from the gains.
-        steady: whether the gains stay as they are, as the bounds in steps need.
+        stepped: whether the bounds in steps hold: of gains that are numbers and do not change.
     """
     v = (track.disturbance + track.pose_disturbance)[:-1]  # v_w + v_c of (3.29)
     x_e = spatial_error(track.pose, track.motion.pose)
-    stepped: tuple[float | None, float | None] = (None, None)
-    if bounds and steady and len(v):
-        stepped = bounds_in_steps(bounds, track.motion.period, largest_turn(x_e))
+    of_steps: tuple[float | None, float | None] = (None, None)
+    if bounds and stepped and len(v):
+        of_steps = bounds_in_steps(bounds, track.motion.period, largest_turn(x_e))
     parts = {
         "rotation": (dq.rotation(x_e[1:]) - dq.rotation(dq.IDENTITY), v[:, :3]),
         "translation": (dq.translation(x_e[1:]), v[:, 3:]),
     }
-    known = zip(parts.items(), bounds or (None, None), stepped, strict=True)
+    known = zip(parts.items(), bounds or (None, None), of_steps, strict=True)
     return {
         name: Attenuation(_norm(error) / _norm(cause), bound, in_steps)
         for (name, (error, cause)), bound, in_steps in known

@@ -184,7 +184,7 @@ def finish(ready: PreparedRun, run: Track) -> Painting:
         metrics = measure(run)
         notes += tuple(METRICS.faults)
         gains = chosen.gains
-        came_through = attenuation(run, gains.disturbance_bounds(), steady=not gains.knots)
+        came_through = attenuation(run, gains.disturbance_bounds(), gains.bounded_in_steps)
         steps = step_responses(run)
     robot = settings.robot or motion.program.robot or DEFAULT_ROBOT
     cast = ArmMotion(robot, run.posture, motion.source, motion.period)

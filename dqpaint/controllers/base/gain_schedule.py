@@ -69,6 +69,11 @@ class Schedule(Generic[G]):
             for row in zip(*columns.values(), strict=True)
         ]
 
+    @property
+    def bounded_in_steps(self) -> bool:
+        """Whether the bounds are known in steps, too: of gains that do not change."""
+        return self.first.bounded_in_steps and not self.knots
+
     def disturbance_bounds(self) -> tuple[float, float] | None:
         """The bounds on disturbances [s] that hold over the whole drawing: the weakest of all."""
         ends = [self.first.disturbance_bounds(), self.at(1.0).disturbance_bounds()]

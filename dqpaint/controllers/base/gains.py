@@ -29,6 +29,11 @@ class Gains(BaseModel):
         """Where the error is that `disturbance_bounds` are about."""
         return "base"
 
+    @property
+    def bounded_in_steps(self) -> bool:
+        """Whether `dqpaint.metrics` knows what becomes of these bounds in steps."""
+        return False
+
     def disturbance_bounds(self) -> tuple[float, float] | None:
         """Bounds [s] on the effect of disturbances, where the law guarantees any.
 

@@ -89,6 +89,11 @@ class GammaGains(Gains):
             shown |= given or {f"gamma_{part}": size / least_eigenvalue(gain)}
         return {**shown, "K_O": self.k_O, "K_T": self.k_T, "point": self.point}
 
+    @property
+    def bounded_in_steps(self) -> bool:
+        """Whether both gains are numbers, and the error is at the base's origin."""
+        return np.ndim(self.k_O) == np.ndim(self.k_T) == 0 and self.point == "base"
+
     def disturbance_bounds(self) -> tuple[float, float]:
         """sqrt(2) / K_O and 1 / K_T [s], of a matrix by its least eigenvalue."""
         return math.sqrt(2.0) / least_eigenvalue(self.k_O), 1.0 / least_eigenvalue(self.k_T)

@@ -9,8 +9,8 @@ SIZES = {
     "links": {"part": 0.01},
     "base": {"x": 0.01, "wz": 0.02},
     "push": {"y": 30.0, "start": 0.2},
-    "masses": {"error": 0.2, "spread": 0.1},
+    "masses": {"error": 0.2},
     "offset": {"x": 0.01, "wy": 0.02},
     "twist": {"form": "noise", "x": 0.01},
 }
-RANDOM = {"noise", "links", "masses", "twist"}
+RANDOM = {"noise", "links", "twist"}

@@ -8,6 +8,7 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.diagnostics import Diagnostic, Span
 from dqpaint.dq import Floats
+from dqpaint.motion.geometry.batched_shapes import Flags
 from dqpaint.motion.geometry.paths import Indices
 from dqpaint.motion.schedule import Schedule
 from dqpaint.program import Arc, CruiseSpeed, PiecewiseCurve, Segment, Straight
@@ -34,6 +35,8 @@ def velocity_jumps(table: Schedule, rates: Floats | None = None) -> Iterator[Dia
     """
     for within, found in ((False, _between(table, rates)), (True, _within(table))):
         jump, number = found
+        told = _not_meant(table, number)
+        jump, number = jump[told], number[told]
         if len(jump):
             largest = number[jump >= jump.max() * (1.0 - ALIKE)].tolist()
             segments = table.program.segments
@@ -58,9 +61,16 @@ def _between(table: Schedule, rates: Floats | None) -> tuple[Floats, Indices]:
     return jump, table.first[after[large]]
 
 
+def _not_meant(table: Schedule, number: Indices) -> Flags:
+    """Which of some segments (K,) begin with a jump that nobody has said to be meant."""
+    segments = table.program.segments
+    return np.array([not (segments[n].jumps and segments[n - 1].jumps) for n in number.tolist()],
+                    dtype=bool)  # fmt: skip
+
+
 def _within(table: Schedule) -> tuple[Floats, Indices]:
     """The same within strokes of several segments."""
-    runs = np.flatnonzero(table.size > 1)
+    runs = np.flatnonzero((table.size > 1) & (table.paced < 0))
     if not len(runs):
         return np.empty(0), np.empty(0, dtype=np.intp)
     stroke = np.repeat(runs, table.size[runs])
@@ -103,12 +113,16 @@ def _corner(jump: float, segments: tuple[Segment, Segment], within: bool) -> _Co
 def _jump(corner: _Corner, count: int) -> Diagnostic:
     others = f", the largest of {count} such corners" if count > 1 else ""
     ways = [
-        "end the stroke before it" if corner.within else "use profile trapezoid to stop at corners"
+        "slow down for it: corner 0.1 mm"
+        if corner.within
+        else "use profile trapezoid to stop at corners"
     ]
     if corner.round:
         ways.append("round the corner: blend 5 mm" if corner.within else "round them: blend 5 mm")
+    ways.append("if it is meant: corner jump")
     message = f"the velocity jumps by {1e3 * corner.jump:.3g} mm/s here{others}"
-    return Diagnostic("W403", message, corner.span, "corner where this begins", ", or ".join(ways))
+    cure = f"{', or '.join(ways[:-1])}; {ways[-1]}"
+    return Diagnostic("W403", message, corner.span, "corner where this begins", cure)
 
 
 def slow_strokes(table: Schedule) -> Iterator[Diagnostic]:
@@ -121,6 +135,11 @@ def slow_strokes(table: Schedule) -> Iterator[Diagnostic]:
     peak, time = table.peak_rates, table.time
     reached = peak * table.length / time
     below = (speed > 0.0) & (table.length > 0.0) & lit_strokes & (reached < REACHED * speed)
+    turning = np.add.reduceat(table.shapes.angle, table.first)
+    most = np.array([s.timing.turnspeed if isinstance(s.timing, CruiseSpeed) else 1.0
+                     for s in firsts])  # fmt: skip
+    # with look-ahead others are as fast as their acceleration allows
+    below &= (table.paced < 0) | (turning * speed > table.length * most)
     least = np.divide(peak * table.length, speed, out=np.zeros_like(time), where=speed > 0.0)
     rounded = time - table.wanted > 0.5 * (time - least)
     found = np.flatnonzero(below & ~(rounded & curves))  # short curves such as the dot of an i

@@ -6,19 +6,21 @@ belongs to the strokes stands in arrays, one row a stroke: a drawing may have ma
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.diagnostics import Diagnostic, DiagnosticCollector
+from dqpaint.diagnostics import Diagnostic, DiagnosticCollector, Span
 from dqpaint.dq import Floats
 from dqpaint.motion import stroke_errors
 from dqpaint.motion.geometry.arc_length import has_cusp, length_fraction
 from dqpaint.motion.geometry.batched_shapes import Flags, Shapes, gather_shapes
 from dqpaint.motion.geometry.paths import Indices
 from dqpaint.motion.geometry.shapes import Flow
+from dqpaint.motion.geometry.speed_limits import stretches_of
+from dqpaint.motion.look_ahead import FASTEST, Phases, fastest, speeds_for
 from dqpaint.motion.profiles import (
     PEAK,
     PROFILES,
@@ -55,6 +57,9 @@ class Schedule:
             second squared.
         count: of new samples (S,).
         wanted: the times [s] they would take if those were not rounded up to whole samples (S,).
+        paced: which of the strokes of `pace` each is (S,); -1 for those by their profile alone.
+        pace: the motion of strokes with look-ahead (P), before times are rounded.
+        cruise: the speed at which the light of each of these shines in full (P,) [m/s].
     """
 
     program: Program
@@ -69,6 +74,9 @@ class Schedule:
     rates: Floats
     count: NDArray[np.int64]
     wanted: Floats
+    paced: Indices
+    pace: Phases | None = None
+    cruise: Floats = field(default_factory=lambda: np.empty(0))
 
     def __len__(self) -> int:
         return len(self.first)
@@ -85,7 +93,7 @@ class Schedule:
 
     def select(self, strokes: Flags | Indices) -> "Schedule":
         """Some of the strokes."""
-        names = ("first", "size", "length", "profile", "rates", "count", "wanted")
+        names = ("first", "size", "length", "profile", "rates", "count", "wanted", "paced")
         return replace(self, **{name: getattr(self, name)[strokes] for name in names})
 
     def edges(self, stroke: int) -> Floats:
@@ -94,11 +102,12 @@ class Schedule:
         return np.append(self.begin[first : first + self.size[stroke]], 1.0)
 
     def profiles(self) -> Iterator[tuple[str, bool, Indices]]:
-        """The strokes of each profile, separately with and without boundary rates."""
-        rated = self.rates.any(axis=1)
+        """The strokes of each profile without look-ahead, with and without boundary rates."""
+        rated, alone = self.rates.any(axis=1), self.paced < 0
         for number, name in enumerate(NAMES):
             for with_rates in (False, True):
-                strokes = np.flatnonzero((self.profile == number) & (rated == with_rates))
+                of_it = alone & (self.profile == number) & (rated == with_rates)
+                strokes = np.flatnonzero(of_it)
                 if len(strokes):
                     yield name, with_rates, strokes
 
@@ -114,22 +123,37 @@ class Schedule:
         for name, with_rates, strokes in self.profiles():
             rates = self.end_rates(name, strokes) if with_rates else ()
             peak[strokes] = peak_rate(name, rates)
+        if self.pace is not None:
+            own, of = self._paced_rows(np.arange(len(self)))
+            peak[own] = (self.pace.peaks * self.pace.seconds / self.pace.lengths)[of]
         return peak
+
+    def _paced_rows(self, stroke: Indices) -> tuple[Indices, Indices]:
+        """Which of some strokes (N,) have look-ahead, and their numbers in `pace`."""
+        own = np.flatnonzero(self.paced[stroke] >= 0)
+        return own, self.paced[stroke[own]]
 
     def progress(self, stroke: Indices, tau: Floats) -> Progress:
         """The progress of strokes (N,) at fractions tau (N,) of their times, per second."""
         value, rate, slope = np.empty((3, len(tau)))
-        kind = np.empty(len(self), dtype=np.intp)
+        kind = np.full(len(self), -1)
         profiles = list(self.profiles())
         for number, (_, _, strokes) in enumerate(profiles):
             kind[strokes] = number
+        one = len(profiles) == 1 and self.pace is None
         for number, (name, with_rates, _) in enumerate(profiles):
-            rows = slice(None) if len(profiles) == 1 else np.flatnonzero(kind[stroke] == number)
+            rows = slice(None) if one else np.flatnonzero(kind[stroke] == number)
             rates = self.end_rates(name, stroke[rows]) if with_rates else ()
             profile = PROFILES[name](tau[rows], rates)
             value[rows], rate[rows], slope[rows] = profile.value, profile.rate, profile.slope
         time = self.time[stroke]
-        return Progress(value, rate / time, slope / time**2)
+        rate, slope = rate / time, slope / time**2
+        if self.pace is not None:
+            own, of = self._paced_rows(stroke)
+            found, faster = self.pace.progress(of, tau[own]), self.pace.seconds[of] / time[own]
+            value[own] = found.value
+            rate[own], slope[own] = found.rate * faster, found.slope * faster**2
+        return Progress(value, rate, slope)
 
     def parts(self, stroke: Indices, fraction: Floats) -> Indices:
         """The segments of strokes (N,), in order, at fractions (N,) of their length.
@@ -215,13 +239,59 @@ def schedule_strokes(program: Program, findings: DiagnosticCollector) -> Schedul
         *(program, shapes, first, size, begin, end, by_length, length),
         *(np.zeros(len(first), np.intp), np.zeros((len(first), 4))),
         *(np.ones(len(first), np.int64), np.ones(len(first))),
+        np.full(len(first), -1),
     )
     wrong = _first_errors(faults, first)
     profile, rates = _profiles(draft, wrong)
-    wanted = _seconds(replace(draft, profile=profile, rates=rates), wrong)
-    count = _counts(draft.firsts, wanted, program)
-    table = replace(draft, profile=profile, rates=rates, count=count, wanted=wanted)
+    table = replace(draft, profile=profile, rates=rates)
+    wanted = _seconds(table, wrong)
+    table = _with_look_ahead(replace(table, wanted=wanted), wrong)
+    table = replace(table, count=_counts(draft.firsts, table.wanted, program))
     return table.select(_report(table, wrong, findings))
+
+
+def _with_look_ahead(table: Schedule, wrong: Faults) -> Schedule:
+    """The schedule with the motion of strokes that have an acceleration, and their times."""
+    strokes = np.array(
+        [s for s, one in enumerate(table.firsts)
+         if one.profile.acceleration > 0.0 and s not in wrong and table.length[s] > 0.0],
+        dtype=np.intp,
+    )  # fmt: skip
+    if not len(strokes):
+        return table
+    firsts = [table.firsts[stroke] for stroke in strokes]
+    size = table.size[strokes]
+    begins = np.cumsum(size) - size
+    numbers = np.arange(size.sum()) + np.repeat(table.first[strokes] - begins, size)
+    wanted = table.wanted.copy()
+    speed = np.array([
+        one.timing.speed if isinstance(one.timing, CruiseSpeed) else 0.0 for one in firsts
+    ])  # fmt: skip
+    timed = np.flatnonzero(speed == 0.0)
+    speed[timed] = FASTEST * table.length[strokes[timed]] / wanted[strokes[timed]]
+    acceleration = np.array([one.profile.acceleration for one in firsts])
+    faults: Faults = {}
+    stretches = stretches_of(
+        *(table.shapes, numbers, begins, table.by_length),
+        *(acceleration, speed, table.program.period, faults),
+    )
+    if len(timed):
+        speed[timed] = speeds_for(stretches.select(timed), wanted[strokes[timed]])
+    pace = fastest(stretches, speed)
+    cruise = speed.copy()
+    if len(timed):  # strokes of one statement shine alike
+        spans = [firsts[number].span for number in timed.tolist()]
+        played = (pace.peaks * pace.seconds)[timed] / wanted[strokes[timed]]
+        most: dict[Span, float] = {}
+        for span, value in zip(spans, played.tolist(), strict=True):
+            most[span] = max(most.get(span, 0.0), value)
+        cruise[timed] = [most[span] for span in spans]
+    cruising = np.ones(len(strokes), dtype=bool)
+    cruising[timed] = False
+    wanted[strokes[cruising]] = pace.seconds[cruising]
+    paced = table.paced.copy()
+    paced[strokes] = np.arange(len(strokes))
+    return replace(table, wanted=wanted, paced=paced, pace=pace, cruise=cruise)
 
 
 def _strokes(segments: Sequence[Segment]) -> tuple[Indices, Indices]:
@@ -239,6 +309,7 @@ def _by_length(shapes: Shapes, faults: Faults) -> Flags:
         segment = shapes.segments[number]
         profile = segment.profile
         cruises = segment.stroke is not None or isinstance(segment.timing, CruiseSpeed)
+        cruises = cruises or profile.acceleration > 0.0
         out[number] = cruises or (any(profile.rates) and not profile.angular)
         if out[number] and has_cusp(shapes.shape(number), extent):
             faults.setdefault(number, (stroke_errors.cusp(segment),))

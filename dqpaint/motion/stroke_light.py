@@ -124,6 +124,8 @@ def make_stroke_light(table: Schedule) -> StrokeLight:
         extent[stroke] = float(turns and segment.brush.several)
     # the speed before durations are rounded up: otherwise a short stroke would be the brightest
     fastest = table.peak_rates * extent / np.minimum(table.wanted, table.time)
+    paced = table.paced >= 0
+    fastest[paced] = table.cruise[table.paced[paced]]
     return StrokeLight(table, first, last, even, extent, fastest)
 
 

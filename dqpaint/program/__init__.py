@@ -7,7 +7,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from dqpaint.program import colours, piecewise, taylor
+    from dqpaint.program import colours, piece_corners, piecewise, taylor
     from dqpaint.program.piecewise import (
         NODES, WEIGHTS, Indices, concatenate, derivatives, is_nonuniform, speeds, stretch_lengths,
     )
@@ -27,10 +27,10 @@ __all__ = [
     "LookLine", "Path", "PiecewiseCurve", "Pose", "Profile", "Program", "Quaternion", "Samples",
     "Screw", "ScrewTo", "Segment", "SlerpOrientation", "Step", "Straight", "Strobe", "Taylor",
     "Timing", "Tool", "Value", "Vector", "colours", "concatenate", "derivatives", "is_nonuniform",
-    "piecewise", "speeds", "stretch_lengths", "taylor",
+    "piece_corners", "piecewise", "speeds", "stretch_lengths", "taylor",
 ]
 
-_MODULES = ("program", "piecewise", "taylor")
+_MODULES = ("program", "piecewise", "piece_corners", "taylor")
 
 if not TYPE_CHECKING:
 

@@ -204,11 +204,16 @@ class Profile:
     """A profile by name, with its boundary rates in SI units (m, or rad if `angular`).
 
     `rates` is empty (rest to rest), (v0, v1) for cubic, (v0, v1, a0, a1) for quintic.
+
+    With an `acceleration` [m/s^2] the stroke goes from rest to rest as fast as its speed and that
+    acceleration allow, along the path and across it, and slows down ahead of its corners; 0 is
+    the profile alone, which jumps there.
     """
 
     name: str
     rates: tuple[float, ...] = ()
     angular: bool = False
+    acceleration: float = 0.0
 
 
 @record
@@ -283,6 +288,7 @@ class Segment:
     brush: Brush = Brush()
     strobe: Strobe | None = None  # None: it burns steadily
     stroke: ContinuousStroke | None = None  # None: it has profile and timing for itself
+    jumps: bool = False  # where its velocity jumps, that is meant
 
 
 @record

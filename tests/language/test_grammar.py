@@ -52,6 +52,7 @@ def grammar() -> Lark:
 NAME: /(?!(?:{not_free})(?![A-Za-z0-9_]))[A-Za-z_][A-Za-z0-9_]*/
 ANY: /[A-Za-z_][A-Za-z0-9_]*/
 KEY.2: /(?:{keys})(?![A-Za-z0-9_])/
+CORNER.2: /corner(?![A-Za-z0-9_])/
 SHADES.2: /colours(?![A-Za-z0-9_])/
 UNIT: /{unit}/
 LENGTH: /(mm|cm|m)(?![A-Za-z0-9_])/

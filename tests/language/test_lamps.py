@@ -73,12 +73,16 @@ def test_an_even_gradient_stays_even_on_every_leg():
 
 
 def test_a_stroke_s_gradient_is_carried_whole():
-    text = "stroke light red to blue\nline by (1, 0) mm by (3, 0) mm\nline by (0, 1) mm"
+    text = (
+        "corner jump\nstroke light red to blue\nline by (1, 0) mm by (3, 0) mm\nline by (0, 1) mm"
+    )
     a, b, c = drawn(f"{text} light white\nend").segments
     assert a.light == b.light == a.stroke.light == Light(RED, BLUE)
     assert c.light == Light(WHITE, WHITE)
     assert a.stroke == b.stroke == c.stroke
-    a, b = drawn("light red to blue\nstroke\nline by (1, 0) mm\nline by (1, 0) mm\nend").segments
+    a, b = drawn(
+        "corner jump\nlight red to blue\nstroke\nline by (1, 0) mm\nline by (1, 0) mm\nend"
+    ).segments
     assert a.stroke.light is None  # a setting is of each line, as ever
     assert a.light == b.light == Light(RED, BLUE)
 

@@ -32,7 +32,7 @@ def made(folder: Path, line: str, **files: str | bytes) -> Program:
     for name, content in files.items():
         data = content.encode() if isinstance(content, str) else content
         (folder / name.replace("_", ".")).write_bytes(data)
-    return parse(line, str(folder / "a.traj"), folder / "a.traj")
+    return parse(f"corner jump\n{line}", str(folder / "a.traj"), folder / "a.traj")
 
 
 def points(program: Program) -> np.ndarray:
@@ -215,7 +215,7 @@ def test_what_will_be_too_many_pieces_is_drawn_once(
     monkeypatch.setattr(imported_strokes, "_draw", draw)
     rows = "".join(f"{i % 7},{i % 11}\n" for i in range(3000))
     text = 'repeat {}\nmove to (0, 0)\npath "p.csv" unit mm speed 1 m/s\nend'
-    with pytest.raises(ScriptError, match=r"E299.*\n --> [^:]*:3:1") as caught:
+    with pytest.raises(ScriptError, match=r"E299.*\n --> [^:]*:4:1") as caught:
         made(tmp_path, text.format(668), p_csv=rows)
     assert (drawn, len(caught.value.diagnostics)) == (1, 1)
     made(tmp_path, text.format(30))

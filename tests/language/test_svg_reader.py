@@ -21,7 +21,7 @@ def made(folder: Path, body: str, clause: str = "", root: str = PX) -> Program:
     # a dot in two corners keeps the middle of the drawing where it is
     marks = '<path d="M0 0h1e-6M100 100h-1e-6" stroke="red"/>' if root == PX else ""
     (folder / "a.svg").write_text(f"{WITH.format(root)}{marks}{body}</svg>", "utf-8")
-    return parse(f'svg "a.svg" {clause}', "a.traj", folder / "a.traj")
+    return parse(f'svg "a.svg" {clause} corner jump', "a.traj", folder / "a.traj")
 
 
 def strokes(program: Program) -> list[Segment]:

@@ -7,7 +7,7 @@ import pytest
 
 from dqpaint.core.examples import examples_folder
 from dqpaint.diagnostics.did_you_mean import closest
-from dqpaint.language import parse
+from dqpaint.language import ScriptError, parse
 from dqpaint.language.strokes import strokes
 from dqpaint.language.values.functions import TABLE
 from dqpaint.language.vocabulary.words import (
@@ -97,3 +97,12 @@ def test_aliases_lead_to_words() -> None:
     assert set(PART_ALIASES.values()) <= set(PARTS)
     assert set(FUNCTION_ALIASES.values()) <= {*FUNCTIONS, "^"}
     assert not set(FUNCTION_ALIASES) & set(FUNCTIONS)
+
+
+def test_a_word_that_begins_a_line_names_no_lines_but_a_value():
+    with pytest.raises(ScriptError, match="E114"):
+        parse("def corner(r)\nline by (r, 0)\nend\ncorner(20 mm)", "a.traj")
+    text = "let corner = (50, 9) mm\nlet jump = 2 mm\nline to corner corner jump\ncorner jump"
+    (segment,) = parse(f"profile constant\n{text}", "a.traj").segments
+    assert segment.jumps
+    assert segment.end.position == (0.05, 0.009, 0.0)

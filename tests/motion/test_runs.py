@@ -7,8 +7,10 @@ import pytest
 
 from dqpaint import dq
 from dqpaint.language import ScriptError, parse
+from dqpaint.language.pen.stroke_state import ACCELERATION
 from dqpaint.motion import plan
 from dqpaint.motion.geometry.batched_shapes import gather_shapes
+from dqpaint.motion.geometry.speed_limits import ARM
 from tests.support import strokes
 
 PERIOD = 0.008
@@ -34,7 +36,10 @@ BLENDED = """
   arc via (180, 10, 40) mm to (220, 60, 80) mm tool follow
   line by (-10, 50, 20) mm tool rpy(5 deg, -10 deg, 80 deg)
 """
-PROFILES = ["constant", "trapezoid", "cubic", "quintic", "cubic(20 mm/s, 30 mm/s)"]
+PROFILES = [
+    *("constant", "trapezoid", "cubic", "quintic", "cubic(20 mm/s, 30 mm/s)"),
+    "trapezoid corner 0.1 mm",
+]
 
 
 def strokes_of(text):
@@ -43,6 +48,18 @@ def strokes_of(text):
 
 def stroke_of(body, clauses="in 6 s", before=""):
     return strokes_of(f"{START}{before}\nstroke {clauses}\n{body}end\n")[-1]
+
+
+def test_a_smooth_chain_changes_its_velocity_within_its_acceleration():
+    """Where the tool begins to turn it slows down: its turning may jump by a little only."""
+    text = f"{START}stroke speed 60 mm/s turnspeed 400 deg/s\n{LOOSE}end"
+    motion = plan(parse(text, "a"), dq.IDENTITY)
+    assert not motion.notes
+    velocity = dq.point_velocity(motion.twist, motion.points)
+    change = np.linalg.norm(np.diff(velocity, axis=0), axis=1) / PERIOD
+    assert change.max() < ACCELERATION * math.sqrt(2.0) * (1 + 1e-9)
+    turning = np.linalg.norm(np.diff(motion.twist[:, :3], axis=0), axis=1)
+    assert turning.max() < 2.0 * ACCELERATION / ARM * PERIOD * 1.01
 
 
 BODIES = {
@@ -57,13 +74,19 @@ BODIES = {
 @pytest.mark.parametrize("body", BODIES)
 def test_twist_and_acceleration_are_derivatives(rng, body, profile):
     lines, before = BODIES[body]
-    stroke = stroke_of(lines, f"in 6 s profile {profile}", before)
+    ahead = "" if "corner" in profile else "corner jump\n"
+    stroke = stroke_of(lines, f"in 6 s profile {profile}", ahead + before)
     time, step = stroke.count * PERIOD, 0.001
     grid = np.linspace(0, 1, 20_001)
     joints = np.interp(stroke.edges, stroke.progress(grid).value, grid)
     tau = rng.uniform(0, 1, 500)
     breaks = np.concatenate([joints, [0.0, 0.2, 0.8, 1.0]])
+    if stroke.table.pace is not None:
+        phases = stroke.table.pace
+        breaks = np.concatenate([breaks, phases.time / phases.seconds[-1]])
+        step = 5e-5
     tau = tau[np.abs(tau[:, None] - breaks).min(axis=1) > 2 * step][:120]
+    assert len(tau) > 60
     now = stroke.flow(tau)
 
     def errors(h):
@@ -97,7 +120,8 @@ def test_the_point_runs_evenly_and_the_pose_has_no_gap(body):
 
 def test_a_smooth_chain_does_not_stop_and_the_velocity_is_continuous():
     motion = plan(
-        parse(f"{START}stroke speed 60 mm/s turnspeed 400 deg/s\n{LOOSE}end", "a"), dq.IDENTITY
+        parse(f"{START}corner jump\nstroke speed 60 mm/s turnspeed 400 deg/s\n{LOOSE}end", "a"),
+        dq.IDENTITY,
     )
     assert "W403" not in {note.code for note in motion.notes}
     velocity = dq.point_velocity(motion.twist, motion.points)
@@ -119,7 +143,7 @@ def test_samples_speed_and_time_hold_for_all_of_it():
     np.testing.assert_allclose(way[motion.points[1:, 0] < 0.03], length / 70, rtol=1e-9)
     motion = plan(parse(f"stroke in 2 s\n{body}", "a"), dq.IDENTITY)
     assert motion.t[-1] == pytest.approx(2)
-    motion = plan(parse(f"stroke speed 40 mm/s\n{body}", "a"), dq.IDENTITY)
+    motion = plan(parse(f"stroke speed 40 mm/s corner jump\n{body}", "a"), dq.IDENTITY)
     assert motion.t[-1] == pytest.approx(1.25 * length / 0.04, abs=PERIOD)
     assert motion.length == pytest.approx(length)
     np.testing.assert_array_equal(np.unique(motion.source.line), [2, 3])
@@ -137,16 +161,17 @@ def test_at_a_joint_the_twist_is_of_what_begins():
 
 
 def test_the_tool_nowhere_turns_faster_than_it_may():
-    text = f"{START}stroke speed 200 mm/s turnspeed 30 deg/s\n{LOOSE}end"
-    motion = plan(parse(text, "a"), dq.IDENTITY)
-    rate = np.degrees(np.linalg.norm(motion.twist[:, :3], axis=1)).max()
-    assert 29 < rate <= 30 * (1 + 1e-9)
+    for corner in ("0.1 mm", "jump"):
+        text = f"{START}stroke speed 200 mm/s turnspeed 30 deg/s corner {corner}\n{LOOSE}end"
+        motion = plan(parse(text, "a"), dq.IDENTITY)
+        rate = np.degrees(np.linalg.norm(motion.twist[:, :3], axis=1)).max()
+        assert 29 < rate <= 30 * (1 + 1e-9)
     assert "W411" in {note.code for note in motion.notes}
 
 
 def test_a_gradient_of_the_stroke_goes_over_all_of_it():
     text = (
-        "stroke in 4 s light red to blue\nline by (30, 0) mm by (0, 10) mm\n"
+        "stroke in 4 s light red to blue corner jump\nline by (30, 0) mm by (0, 10) mm\n"
         "line by (0, 20) mm light lime\nline by (-40, 0) mm\nmove by (0, 5) mm\nend"
     )
     motion = plan(parse(text, "a"), dq.IDENTITY)
@@ -225,7 +250,7 @@ def test_even_light_is_the_same_on_short_strokes_as_on_long(text):
 
 def test_even_light_of_a_stroke_of_several_lines_and_of_a_part_of_it():
     body = "line by (30, 0) mm\narc centre (30, 20) mm angle 90 deg light red\nend"
-    text = f"stroke in 2 s light white even\n{body}"
+    text = f"stroke in 2 s light white even corner jump\n{body}"
     (stroke,) = strokes_of(text)
     at = stroke.progress(stroke.samples)
     light = plan(parse(text, "a"), dq.IDENTITY).light[:-1]
@@ -257,7 +282,8 @@ def test_the_velocity_s_jump_at_a_corner_is_told_with_its_size():
     note = notes(two)["W403"]
     assert note.message == "the velocity jumps by 70.7 mm/s here"
     assert note.span.text_in(two) == "line by (0, 50) mm"
-    assert note.help == "use profile trapezoid to stop at corners, or round them: blend 5 mm"
+    assert note.help.startswith("use profile trapezoid to stop at corners, or round them: blend 5")
+    assert note.help.endswith("; if it is meant: corner jump")
     note = notes(f"{two}\nline by (-50, 0) mm\nline by (40, 0) mm")["W403"]
     assert note.message == "the velocity jumps by 100 mm/s here, the largest of 3 such corners"
     alike = f"{two}\nline by (50, 0) mm\nline by (0, 50) mm"
@@ -270,12 +296,15 @@ def test_the_velocity_s_jump_at_a_corner_is_told_with_its_size():
 
 
 def test_a_corner_within_a_stroke_is_run_through_and_told():
-    text = "stroke speed 50 mm/s\nline by (50, 0) mm\nline by (50, 50) mm\nline by (50, 51) mm\nend"
+    text = (
+        "stroke speed 50 mm/s profile constant\n"
+        "line by (50, 0) mm\nline by (50, 50) mm\nline by (50, 51) mm\nend"
+    )
     note = notes(text)["W403"]
     # both corners are passed at the full speed, which rounding to whole samples lowers a little
     assert float(note.message.split()[4]) == pytest.approx(100 * math.sin(math.pi / 8), abs=0.2)
     assert note.span.text_in(text) == "line by (50, 50) mm"
-    assert note.help == "end the stroke before it, or round the corner: blend 5 mm"
+    assert note.help.startswith("slow down for it: corner 0.1 mm, or round the corner: blend 5 mm")
 
 
 def test_a_speed_that_is_not_reached_is_told():

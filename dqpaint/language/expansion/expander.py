@@ -26,7 +26,7 @@ from dqpaint.language.expansion.definitions import (
 )
 from dqpaint.language.pen import tool_orientation
 from dqpaint.language.pen.durations import timing
-from dqpaint.language.pen.pen import Pen
+from dqpaint.language.pen.pen import Pen, evenly
 from dqpaint.language.strokes import corner_blending, curves, imported_strokes, strokes
 from dqpaint.language.strokes.modal_words import apply_clause, tool_mode
 from dqpaint.language.syntax.tree import Part, Statement, ToolWords
@@ -87,9 +87,9 @@ class Expander:
         )
 
     def _rounded(self) -> tuple[Segment, ...]:
-        """The strokes with their corners rounded where `blend` is on."""
+        """The strokes with their corners rounded where `blend` or `corner` says so."""
         pen = self._pen
-        if not any(pen.corners) or self._findings.errors:
+        if not any(one.blend or one.deviation for one in pen.corners) or self._findings.errors:
             return tuple(pen.segments)
         return tuple(corner_blending.round_corners(pen.segments, pen.corners, self._findings))
 
@@ -272,6 +272,8 @@ class Expander:
         for part in statement.parts:
             if part.word in MODAL:
                 self._change(part, pen.frame)
+        if pen.state.look_ahead is not None:
+            pen.state = replace(pen.state, light=evenly(pen.state.light))
         light = pen.state.light if statement.part("light") else None
         pen.begin_stroke(timing(statement, pen.state, self._scope), light)
         try:

@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 from pathlib import Path as FilePath
 
+from dqpaint.core import record, replaced
 from dqpaint.diagnostics import (
     Diagnostic,
     DiagnosticCollector,
@@ -15,7 +16,13 @@ from dqpaint.diagnostics import (
     file_number,
     problem,
 )
-from dqpaint.language.pen.stroke_state import REST_TO_REST, StrokeState, TurnTo
+from dqpaint.language.pen.stroke_state import (
+    ACCELERATION,
+    CORNER,
+    REST_TO_REST,
+    StrokeState,
+    TurnTo,
+)
 from dqpaint.language.syntax.tree import Part
 from dqpaint.language.values import vectors
 from dqpaint.language.vocabulary.words import PARTS, TIMING_WORDS
@@ -30,7 +37,9 @@ from dqpaint.program import (
     Look,
     LookLine,
     Path,
+    PiecewiseCurve,
     Pose,
+    Profile,
     Quaternion,
     Segment,
     SlerpOrientation,
@@ -48,6 +57,24 @@ SAME_TURN = 1e-12  # [rad] below this two orientations are one
 LOOKS_ALREADY = 1e-9  # [rad] what rounding may leave between a look and the stroke before
 
 
+@record
+class Rounding:
+    """How the end of a segment is rounded, where the next one goes on from there.
+
+    Attributes:
+        blend: within what distance [m]; 0 for not at all.
+        deviation: how far from the corner [m], within a stroke that is not blended.
+        acceleration: of what is joined by `blend` [m/s^2]; 0 for its profile alone.
+    """
+
+    blend: float = 0.0
+    deviation: float = 0.0
+    acceleration: float = 0.0
+
+
+NOT_ROUNDED = Rounding()
+
+
 class Pen:
     """The state of the drawing; `state` and `frame` are set from outside."""
 
@@ -63,7 +90,7 @@ class Pen:
         self.pose = IDENTITY
         self.start = IDENTITY
         self.segments: list[Segment] = []
-        self.corners: list[float] = []  # within what distance [m] the end of each is rounded
+        self.corners: list[Rounding] = []  # at the end of each
         self.stroke: ContinuousStroke | None = None  # of the `stroke` that is being drawn
         self._strokes = 0
         self.pieces = 0  # of curves
@@ -108,15 +135,37 @@ class Pen:
             self._check_moves(path, span)
             timing = stroke.timing
         profile = stroke.profile if stroke is not None else state.profile
+        if isinstance(path, PiecewiseCurve) and stroke is None:
+            profile = state.through_corners
+        if profile.acceleration:
+            light = evenly(light)
         brush, strobe, start = state.brush, state.strobe, self.pose
+        jumps = state.corner is not None and state.corner.jump
         self.segments.append(
             Segment(
-                path, tool, profile, timing, light, start, end, words, line, brush, strobe, stroke
+                *(path, tool, profile, timing, light, start, end, words, line),
+                *(brush, strobe, stroke, jumps),
             )
         )
-        self.corners.append(state.blend * self.frame.scale)
+        self.corners.append(self._rounding())
         self.pose = end
         self.oriented = True
+
+    @property
+    def deviation(self) -> float:
+        """How far the path may be from a corner that is run through [m]; 0 for not at all."""
+        corner = self.state.look_ahead
+        if corner is None or corner is CORNER:
+            return 0.0 if corner is None else corner.deviation
+        return corner.deviation * self.frame.scale
+
+    def _rounding(self) -> Rounding:
+        state = self.state
+        if not state.blend and self.stroke is None:
+            return NOT_ROUNDED
+        deviation = self.deviation if self.stroke is not None else 0.0
+        acceleration = ACCELERATION if state.look_ahead else 0.0
+        return Rounding(state.blend * self.frame.scale, deviation, acceleration)
 
     # Strokes of several lines.
 
@@ -136,7 +185,8 @@ class Pen:
     def begin_stroke(self, timing: Timing, light: Light | None) -> None:
         """Begins segments that share a profile, and `light` if it is a gradient."""
         self._strokes += 1
-        self.stroke = ContinuousStroke(self._strokes, self.state.profile, timing, light)
+        profile = self.state.through_corners
+        self.stroke = ContinuousStroke(self._strokes, profile, timing, light)
 
     def check_no_time(self, part: Part) -> None:
         """Raises if a movement within a `stroke` has a time of its own."""
@@ -164,12 +214,13 @@ class Pen:
         tool: Tool | None = None,
         orientation: Quaternion | None = None,
         timing: Timing | None = None,
+        profile: Profile = REST_TO_REST,
     ) -> None:
         """An automatic dark move; by default the tool's orientation is constant."""
         by = vectors.minus(to, self.pose.position)
         timing = timing or CruiseSpeed(self.state.speed, self.state.turnspeed)
         end = Pose(to, orientation or self.pose.orientation)
-        self._add_automatic(Straight(by), tool or FixedOrientation(), timing, end, span)
+        self._add_automatic(Straight(by), tool or FixedOrientation(), timing, end, span, profile)
 
     def look(self, mode: Look | LookLine, orientation: Quaternion, span: Span) -> None:
         """Rotates the tool in the dark to the orientation a stroke needs at its start."""
@@ -189,12 +240,25 @@ class Pen:
         end = Pose(self.pose.position, orientation)
         self._add_automatic(Straight(vectors.ZERO), SlerpOrientation(), speed, end, span)
 
-    def _add_automatic(self, path: Path, tool: Tool, timing: Timing, end: Pose, span: Span) -> None:
+    def _add_automatic(
+        self,
+        path: Path,
+        tool: Tool,
+        timing: Timing,
+        end: Pose,
+        span: Span,
+        profile: Profile = REST_TO_REST,
+    ) -> None:
         """An automatic stroke, from rest to rest whatever profile the file's strokes have."""
         state, stroke = self.state, self.stroke
-        self.state, self.stroke = replace(state, profile=REST_TO_REST, blend=0.0), None
+        self.state, self.stroke = replace(state, profile=profile, blend=0.0), None
         self.draw(path, tool, timing, None, end, span)
         self.state, self.stroke = state, stroke
+
+
+def evenly(light: Light | None) -> Light | None:
+    """The same light, dimmed where the tool is slow."""
+    return light if light is None or light.even else replaced(light, even=True)
 
 
 def first_line(text: str, span: Span) -> Span:

@@ -1,8 +1,8 @@
-"""Modal settings of strokes: speed, profile, tool, blend, light, brush, strobe."""
+"""Modal settings of strokes: speed, profile, tool, blend, corner, light, brush, strobe."""
 
 import math
 
-from dqpaint.core import record
+from dqpaint.core import record, replaced
 from dqpaint.program import (
     Brush,
     FixedOrientation,
@@ -27,7 +27,23 @@ class TurnTo:
 ToolMode = FixedOrientation | FollowHeading | Look | LookLine | TurnTo
 
 
+@record
+class Corner:
+    """How what runs through corners takes them.
+
+    Attributes:
+        deviation: how far the path may be from a corner [m]; 0 stops there.
+        jump: its velocity jumps, and that is meant.
+    """
+
+    deviation: float
+    jump: bool = False
+
+
+ACCELERATION = 2.0  # [m/s^2] of what runs through corners, unless the arm can do less
+CORNER = Corner(1e-4)
 REST_TO_REST, KEEP = Profile("trapezoid"), FixedOrientation()
+GENTLE = Profile("trapezoid", acceleration=ACCELERATION)
 POINT = Brush()
 WHITE = Light(colours.WHITE, colours.WHITE)
 
@@ -46,6 +62,7 @@ class StrokeState:
         brush: what shines.
         strobe: None is steady.
         blend: the distance [m] within which corners are rounded.
+        corner: how they are run through; None for what the profile does by itself.
     """
 
     speed: float = 0.1
@@ -57,3 +74,23 @@ class StrokeState:
     brush: Brush = POINT
     strobe: Strobe | None = None
     blend: float = 0.0
+    corner: Corner | None = None
+
+    @property
+    def look_ahead(self) -> Corner | None:
+        """How what runs through corners slows down for them; None if its velocity jumps there."""
+        if self.corner is not None:
+            return None if self.corner.jump else self.corner
+        return None if self.profile.name == "constant" or self.profile.rates else CORNER
+
+    @property
+    def through_corners(self) -> Profile:
+        """The profile of what runs through corners."""
+        if self.look_ahead is None:
+            return self.profile
+        return replaced(self.profile, acceleration=ACCELERATION)
+
+    @property
+    def dark_way(self) -> Profile:
+        """The profile of the dark moves between lines that come from elsewhere."""
+        return REST_TO_REST if self.look_ahead is None else GENTLE

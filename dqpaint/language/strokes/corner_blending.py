@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from dqpaint.diagnostics import Diagnostic, DiagnosticCollector
 from dqpaint.language.pen import tool_orientation
+from dqpaint.language.pen.pen import Rounding, evenly
 from dqpaint.language.strokes import arcs
 from dqpaint.language.values import vectors
 from dqpaint.program import (
@@ -44,6 +45,8 @@ from dqpaint.program import (
 )
 
 SMOOTH = 1e-6  # [rad]: less than this is no corner
+BACK = 1e-3  # [rad] from a half turn: the way turns back, and the tool stops there
+MOST = 0.49  # of a stroke's length for a corner that is rounded as little as may be
 CLOSE = 1e-12  # of a stroke's length: what rounding may leave of it
 
 
@@ -58,18 +61,18 @@ _NO_JOINT = _Joint(joined=False, cut=0.0)
 
 
 def round_corners(
-    segments: Sequence[Segment], corners: Sequence[float], findings: DiagnosticCollector
+    segments: Sequence[Segment], corners: Sequence[Rounding], findings: DiagnosticCollector
 ) -> list[Segment]:
     """The segments with rounded corners.
 
     Args:
         segments: as they were drawn.
-        corners: within what distance [m] the end of each is to be rounded; 0 for not at all.
+        corners: how the end of each is to be rounded.
         findings: takes what can't be done.
     """
     joints = [
-        _joint(a, b, size, findings)
-        for (a, b), size in zip(pairwise(segments), corners[:-1], strict=True)
+        _joint(a, b, corner, findings)
+        for (a, b), corner in zip(pairwise(segments), corners[:-1], strict=True)
     ]
     shares = [
         _shares(segment, before.cut, after.cut, findings)
@@ -87,7 +90,8 @@ def round_corners(
             group = slice(first, last + 1)
             pieces = _pieces(segments[group], shares[group], joints[first:last])
             number += 1
-            out += _as_stroke(segments[group], pieces, number, findings)
+            acceleration = corners[first].acceleration
+            out += _as_stroke(segments[group], pieces, number, acceleration, findings)
             first = last + 1
     return out
 
@@ -107,11 +111,14 @@ def _pieces(
     return pieces
 
 
-def _joint(a: Segment, b: Segment, size: float, findings: DiagnosticCollector) -> _Joint:
+def _joint(a: Segment, b: Segment, corner: Rounding, findings: DiagnosticCollector) -> _Joint:
     """Whether and how a corner is rounded: not where the pen is lifted, nor at a pause.
 
     Imported strokes keep their own start and end.
     """
+    size = corner.blend
+    if not size and corner.deviation and a.stroke is not None and a.stroke is b.stroke:
+        return _near_joint(a, b, corner.deviation)
     if isinstance(a.path, PiecewiseCurve) or isinstance(b.path, PiecewiseCurve):
         return _NO_JOINT
     lifted = (a.light is None) != (b.light is None)
@@ -125,6 +132,21 @@ def _joint(a: Segment, b: Segment, size: float, findings: DiagnosticCollector) -
         help = "switch it off before: blend off"
         return _warn(findings, a, "E286", "the way turns back here, which no arc rounds", help)
     return _Joint(joined=True, cut=size if turn > SMOOTH else 0.0)
+
+
+def _near_joint(a: Segment, b: Segment, deviation: float) -> _Joint:
+    """A corner within a stroke, no farther from the path than `deviation` [m], where one can be.
+
+    An arc that touches two lines of the turn t at the distance c from their corner is
+    c tan(t / 4) away from it. It takes less than half of a line, for there is one at each end.
+    """
+    if not (_is_known(a.path) and _is_known(b.path)):
+        return _NO_JOINT
+    turn = vectors.angle_between(_direction(a, 1.0), _direction(b, 0.0))
+    if not SMOOTH < turn < math.pi - BACK:
+        return _NO_JOINT
+    reach = deviation / math.tan(0.25 * turn)
+    return _Joint(joined=True, cut=min(reach, MOST * _length(a), MOST * _length(b)))
 
 
 def _warn(
@@ -312,7 +334,11 @@ def bezier(*points: Vector) -> Formula:
 
 
 def _as_stroke(
-    segments: Sequence[Segment], pieces: list[Segment], number: int, findings: DiagnosticCollector
+    segments: Sequence[Segment],
+    pieces: list[Segment],
+    number: int,
+    acceleration: float,
+    findings: DiagnosticCollector,
 ) -> list[Segment]:
     """The pieces of joined segments, with the time of all of them."""
     if len(segments) == 1 or segments[0].stroke is not None:
@@ -328,8 +354,15 @@ def _as_stroke(
         help = "say it once for both: stroke … end, or switch it off before: blend off"
         findings.add(Diagnostic("E287", message, other.span, "", help))
         return pieces
+    profile = replace(profile, acceleration=acceleration)
     stroke = ContinuousStroke(number, profile, timing)
-    return [replace(piece, timing=timing, stroke=stroke) for piece in pieces]
+    return [
+        replace(
+            piece, timing=timing, stroke=stroke, profile=profile,
+            light=evenly(piece.light) if acceleration else piece.light,
+        )
+        for piece in pieces
+    ]  # fmt: skip
 
 
 def _total_timing(segments: Sequence[Segment]) -> Timing | None:

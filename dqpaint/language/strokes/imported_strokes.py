@@ -5,7 +5,6 @@ corners without a stop, and its light is even, so that nothing in it glows but w
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -33,6 +32,7 @@ from dqpaint.program import (
     Timing,
     Vector,
     colours,
+    piece_corners,
     piecewise,
 )
 
@@ -210,7 +210,7 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
     Time and a gradient of the light are spread over all by their lengths: the time over the ways
     between the strokes, too, but not over the way to the first.
     """
-    pen.state = replace(pen.state, blend=0.0)  # corners are meant, and no stroke ends there
+    traces = _rounded(traces, pen)
     mode, span = pen.state.tool, statement.span
     if isinstance(mode, FollowHeading):
         message = f"the tool can't follow a '{statement.word}': it would jump at every corner"
@@ -242,6 +242,16 @@ def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> 
         )
         end = Pose(stops[number], orientation)
         pen.draw(trace.curve, tool, times[2 * number], glows[number], end, span)
+
+
+def _rounded(traces: list[Trace], pen: Pen) -> list[Trace]:
+    """The lines with their corners rounded, as far as `blend` or `corner` says so."""
+    distance, deviation = pen.state.blend * pen.frame.scale, pen.deviation
+    if not distance and not deviation:
+        return traces
+    whole, starts, _ = piecewise.concatenate([trace.curve for trace in traces])
+    made = piecewise.split(*piece_corners.rounded(whole, starts, deviation, distance))
+    return [Trace(curve, trace.colour) for curve, trace in zip(made, traces, strict=True)]
 
 
 def check_pieces(pieces: int, pen: Pen, span: Span) -> None:
@@ -311,7 +321,7 @@ def _travel(pen: Pen, to: Vector, span: Span, time: Timing | None) -> None:
         tool, orientation = tool_orientation.orientation_at_end(pen, mode, to, span, vectors.Z, 0.0)
     if far or not isinstance(tool, FixedOrientation):
         pen.check_no_stop(span)
-        pen.travel(to, span, tool, orientation, time)
+        pen.travel(to, span, tool, orientation, time, pen.state.dark_way)
 
 
 def _vector(numbers: list[float]) -> Vector:

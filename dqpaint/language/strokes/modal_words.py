@@ -3,12 +3,13 @@
 from dqpaint.core import replaced
 from dqpaint.diagnostics import problem
 from dqpaint.language.pen.pen import Pen
-from dqpaint.language.pen.stroke_state import StrokeState, ToolMode, TurnTo
+from dqpaint.language.pen.stroke_state import Corner, StrokeState, ToolMode, TurnTo
 from dqpaint.language.strokes.brush_values import brush_of
 from dqpaint.language.syntax.tree import (
     BlendWords,
     BrushWords,
     ColourWords,
+    CornerWords,
     LightWords,
     Part,
     StrobeWords,
@@ -50,6 +51,11 @@ def apply_clause(
     if isinstance(value, BlendWords):
         size = 0.0 if value.size is None else typed_values.positive(value.size, scope, "blend")
         return replaced(state, blend=size)
+    if isinstance(value, CornerWords):
+        if value.deviation is None:
+            return replaced(state, corner=Corner(0.0, jump=True))
+        size = typed_values.not_negative(value.deviation, scope, "corner")
+        return replaced(state, corner=Corner(size))
     if part.word == "profile":
         return replaced(state, profile=typed_values.profile(value, scope))
     size = typed_values.positive(value, scope, part.word)

@@ -1,4 +1,4 @@
-"""Tokens after `tool`, `light`, `strobe` and `blend` -> clauses."""
+"""Tokens after `tool`, `light`, `strobe`, `blend` and `corner` -> clauses."""
 
 import re
 from collections.abc import Callable
@@ -10,6 +10,7 @@ from dqpaint.language.syntax.expressions import expression
 from dqpaint.language.syntax.tree import (
     BlendWords,
     ColourWords,
+    CornerWords,
     Expression,
     LightWords,
     StrobeWords,
@@ -145,10 +146,18 @@ def _blend(cursor: Cursor) -> BlendWords:
     return BlendWords(_value(cursor, "blend"), cursor.span_from(start))
 
 
+def _corner(cursor: Cursor) -> CornerWords:
+    start = cursor.token.start
+    if cursor.is_word("jump"):
+        return CornerWords(None, cursor.take().span)
+    return CornerWords(_value(cursor, "corner"), cursor.span_from(start))
+
+
 READERS: dict[str, Callable[[Cursor], Words]] = {
     "tool": _tool,
     "light": _light,
     "brush": brush_clause.brush,
     "strobe": _strobe,
     "blend": _blend,
+    "corner": _corner,
 }

@@ -5,8 +5,10 @@ from dqpaint.language.syntax.cursor import Cursor, found
 from dqpaint.language.syntax.lexer import Token
 from dqpaint.language.syntax.tree import Word
 from dqpaint.language.vocabulary.units import UNITS
-from dqpaint.language.vocabulary.words import CONSTANTS, FUNCTIONS, PROFILES, RESERVED
+from dqpaint.language.vocabulary.words import CONSTANTS, FUNCTIONS, PROFILES, RESERVED, STATEMENTS
 from dqpaint.program import colours
+
+WORD = "a word of the language"
 
 
 def meaning(word: str) -> str:
@@ -14,7 +16,7 @@ def meaning(word: str) -> str:
     if word in UNITS:
         return f"the unit {UNITS[word][2]}"
     if word in RESERVED:
-        return "a word of the language"
+        return WORD
     if word in FUNCTIONS:
         return "a function"
     if word in PROFILES:
@@ -39,6 +41,8 @@ def new_name(cursor: Cursor, after: str, example: str, handed: bool = False) -> 
             f"for example: {example}",
         )
     taken = meaning(token.text)
+    if after == "def" and token.text in STATEMENTS:  # some of these are free for values
+        taken = WORD
     if taken and not (handed and token.text in ("x", "y", "z")):
         raise taken_name(token, taken)
     cursor.take()

@@ -119,7 +119,7 @@ def _children(node: Expression) -> tuple[Expression, ...]:
     return ()
 
 
-# The values after `tool`, `light`, `brush`, `strobe` and `blend`.
+# The values after `tool`, `light`, `brush`, `strobe`, `blend` and `corner`.
 
 
 @record
@@ -196,7 +196,15 @@ class BlendWords:
     span: Span
 
 
-Words = ToolWords | LightWords | BrushWords | StrobeWords | BlendWords
+@record
+class CornerWords:
+    """How far the path may be from a corner; None for `jump`."""
+
+    deviation: Expression | None
+    span: Span
+
+
+Words = ToolWords | LightWords | BrushWords | StrobeWords | BlendWords | CornerWords
 
 
 # Statements.

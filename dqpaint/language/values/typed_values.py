@@ -52,6 +52,7 @@ _OTHERS = {
     "hold": TIME,
     "strobe": FREQUENCY,
     "blend": LENGTH,
+    "corner": LENGTH,
 }
 # Of lengths [m], angles [rad] and times [s]: far above any drawing, and the fourth power of it,
 # scaled as much again, is still a computer's number.
@@ -92,6 +93,11 @@ def positive(node: Expression, scope: Scope, word: str) -> float:
     label = "this is 0" if size == 0.0 else "this is less than 0"
     message = f"'{word}' needs {kind} greater than 0"
     raise problem("E220", message, node.span, label)
+
+
+def not_negative(node: Expression, scope: Scope, word: str) -> float:
+    """The number after `word`, which may be 0."""
+    return 0.0 if number(node, scope, word) == 0.0 else positive(node, scope, word)
 
 
 def count(node: Expression, scope: Scope, word: str, least: int) -> int:

@@ -14,7 +14,7 @@ class PartWord:
     Attributes:
         word: as it is written.
         takes: the kind of value: a dimension or a kind of value; or `tool`, `light`, `brush`,
-            `strobe`, `blend`, which have a grammar of their own; or `flag`, for no value.
+            `strobe`, `blend`, `corner`, which have a grammar of their own; or `flag`, for no value.
         meaning: its meaning in one line.
         example: the word with a value, ready to paste.
     """
@@ -59,12 +59,12 @@ MODAL = (
     "profile",
     "tool",
     "blend",
+    "corner",
     *LAMP,
 )  # each holds until it is set again
 TIMES = ("in", "samples")
 TIMING_WORDS = (*TIMES, "speed", "turnspeed", "profile")  # set by a `stroke` for all of its lines
 CLAUSES = (*TIMES, *MODAL)
-OWN_CORNERS = tuple(word for word in CLAUSES if word != "blend")  # of what comes from elsewhere
 DARK_CLAUSES = tuple(word for word in CLAUSES if word not in LAMP)
 
 PARTS = {
@@ -99,6 +99,9 @@ PARTS = {
         PartWord("profile", "profile", "how the speed goes along a stroke", "profile trapezoid"),
         PartWord("tool", "tool", "what the tool does meanwhile", "tool look (0, 0, 300) mm"),
         PartWord("blend", "blend", "corners rounded within this distance", "blend 5 mm"),
+        PartWord(
+            "corner", "corner", "how far the path leaves a corner it runs through", "corner 0.1 mm"
+        ),
         PartWord("light", "light", "the colour, or from one colour to another", "light red"),
         PartWord("font", "font", "which letters; see: dqpaint list fonts", 'font "scripts"'),
         PartWord("height", "length", "how high: a capital letter, a whole drawing", "height 30 mm"),
@@ -201,7 +204,7 @@ STATEMENTS = {
             "lettering; a further string in quotes is a further line",
             'text "Ada" height 30 mm',
             head="texts",
-            parts=("font", "height", "width", "at", "align", *OWN_CORNERS),
+            parts=("font", "height", "width", "at", "align", *CLAUSES),
             moves=True,
         ),
         StatementWord(
@@ -209,7 +212,7 @@ STATEMENTS = {
             "a line through the points in a file, or in a file for each axis",
             'path "orbit.csv" unit cm',
             head="texts",
-            parts=("unit", "height", "width", "at", "smooth", *OWN_CORNERS),
+            parts=("unit", "height", "width", "at", "smooth", *CLAUSES),
             moves=True,
         ),
         StatementWord(
@@ -217,7 +220,7 @@ STATEMENTS = {
             "the lines of an SVG drawing, in its own colours",
             'svg "logo.svg" height 80 mm',
             head="texts",
-            parts=("height", "width", "at", *OWN_CORNERS),
+            parts=("height", "width", "at", *CLAUSES),
             moves=True,
         ),
         StatementWord("hold", "a pause", "hold 1 s", head="value", parts=LAMP, moves=True),
@@ -360,6 +363,7 @@ RENAMED = {"law": "profile"}
 
 LITTLE_WORDS = (
     *("from", "for", "on", "off", "even", "keep", "follow", "look", "up", "point", "bar", "auto"),
+    "jump",
 )
 
 CONSTANTS = ("pi", "x", "y", "z")
@@ -407,7 +411,7 @@ FUNCTION_ALIASES = {
 
 # Never part of an expression: a value was forgotten if one of them is found there.
 # But these have a meaning in a few statements only, and `let radius = …` is common.
-FREE = ("radius", "left", "right", "long", "height", "width", "unit")
+FREE = ("radius", "left", "right", "long", "height", "width", "unit", "corner", "jump")
 RESERVED = frozenset(
     (*STATEMENTS, *PARTS, *RENAMED, *LITTLE_WORDS, "if", "else", "while")
 ).difference(FREE)

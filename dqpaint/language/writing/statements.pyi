@@ -35,37 +35,39 @@ class Statements:
         """What the tool does meanwhile, from here on: `d.tool("look (0, 0, 300) mm")`."""
     def blend(self, *values: Any) -> None:
         """Corners rounded within this distance, from here on: `d.blend("5 mm")`."""
+    def corner(self, *values: Any) -> None:
+        """How far the path leaves a corner it runs through, from here on: `d.corner("0.1 mm")`."""
     def light(self, *values: Any) -> None:
         """The colour, or from one colour to another, from here on: `d.light("red")`."""
     def brush(self, *values: Any) -> None:
         """What shines, with its values, from here on: `d.brush("bar 120 mm along x")`."""
     def strobe(self, *values: Any) -> None:
         """The light flashes, for a part of the time, from here on: `d.strobe("10 Hz 30%")`."""
-    def line(self, *, to: Any = ..., by: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
+    def line(self, *, to: Any = ..., by: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
         """A straight stroke, or several: `d.line(to="(10, 0) mm")`."""
-    def move(self, *, to: Any = ..., by: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ...) -> None:
+    def move(self, *, to: Any = ..., by: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ...) -> None:
         """A straight way in the dark: `d.move(to="(10, 0) mm")`."""
-    def arc(self, *, via: Any = ..., to: Any = ..., centre: Any = ..., center: Any = ..., axis: Any = ..., angle: Any = ..., rise: Any = ..., grow: Any = ..., radius: Any = ..., left: bool = ..., right: bool = ..., long: bool = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
+    def arc(self, *, via: Any = ..., to: Any = ..., centre: Any = ..., center: Any = ..., axis: Any = ..., angle: Any = ..., rise: Any = ..., grow: Any = ..., radius: Any = ..., left: bool = ..., right: bool = ..., long: bool = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
         """An arc, circle, helix or flat spiral: `d.arc(centre="(30, 0) mm", angle="360 deg")`."""
-    def screw(self, *, about: Any = ..., along: Any = ..., angle: Any = ..., pitch: Any = ..., to: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
+    def screw(self, *, about: Any = ..., along: Any = ..., angle: Any = ..., pitch: Any = ..., to: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
         """A screw motion of the whole tool: `d.screw(about="(0, 0, 0)", along="z", angle="90 deg", pitch="50 mm/turn")`."""
-    def curve(self, *values: Any, in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
+    def curve(self, *values: Any, in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
         """Any formula: `d.curve("polar(40 mm, t)", "t", 0, "360 deg")`."""
     def step(self, *, to: Any = ..., tool: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
         """A jump of the set point: `d.step(to="(50, 50, -20) mm")`."""
-    def text(self, *values: Any, font: Any = ..., height: Any = ..., width: Any = ..., at: Any = ..., align: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
+    def text(self, *values: Any, font: Any = ..., height: Any = ..., width: Any = ..., at: Any = ..., align: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
         """Lettering; a further string in quotes is a further line: `d.text("Ada", height="30 mm")`."""
-    def path(self, *values: Any, unit: Any = ..., height: Any = ..., width: Any = ..., at: Any = ..., smooth: bool = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
+    def path(self, *values: Any, unit: Any = ..., height: Any = ..., width: Any = ..., at: Any = ..., smooth: bool = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
         """A line through the points in a file, or in a file for each axis: `d.path("orbit.csv", unit="cm")`."""
-    def svg(self, *values: Any, height: Any = ..., width: Any = ..., at: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
+    def svg(self, *values: Any, height: Any = ..., width: Any = ..., at: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
         """The lines of an SVG drawing, in its own colours: `d.svg("logo.svg", height="80 mm")`."""
     def hold(self, *values: Any, light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
         """A pause: `d.hold("1 s")`."""
     def repeat(self, *values: Any) -> AbstractContextManager[None]:
         """Its lines, several times: `d.repeat("i", 1, 5), or d.repeat(5)`."""
-    def block(self, *, rotate: Any = ..., about: Any = ..., shift: Any = ..., scale: Any = ..., frame: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> AbstractContextManager[None]:
+    def block(self, *, rotate: Any = ..., about: Any = ..., shift: Any = ..., scale: Any = ..., frame: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> AbstractContextManager[None]:
         """Its lines, turned, moved, scaled or set differently: `d.block(rotate="30 deg", shift="(80, 0) mm")`."""
-    def stroke(self, *, in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> AbstractContextManager[None]:
+    def stroke(self, *, in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> AbstractContextManager[None]:
         """Its lines in one go, without a stop between them: `d.stroke(in_="5 s")`."""
     def define(self, *values: Any) -> AbstractContextManager[None]:
         """Lines with a name, drawn where it is called: star(20 mm): `d.define("star", "r")`."""

@@ -19,6 +19,7 @@ _UNITS = {
     "shift": "m",
     "length": "m",
     "blend": "m",
+    "corner": "m",
     "angle": "rad",
     "rotation": "rad",
     "time": "s",

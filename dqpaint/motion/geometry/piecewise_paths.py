@@ -61,6 +61,18 @@ class Pieces:
         """The same pieces with other rows."""
         return replace(self, curve=np.asarray(self.curve[rows]))
 
+    def cuts(self) -> Floats:
+        """The fractions of the length of its one curve at which panels begin, or halves, and 1.
+
+        Between two of them it is smooth, and a cusp has ever shorter ones round it.
+        """
+        panels, curve = self.panels, int(self.curve)
+        own = slice(int(panels.first[curve]), int(panels.last[curve]) + 1)
+        begin, bent = panels.begin[own], panels.bent[panels.piece[own]]
+        halves = 0.5 * (begin + panels.end[own])[bent]
+        cuts = np.sort(np.concatenate([begin, halves, panels.total[curve, None]]))
+        return np.asarray(cuts / panels.total[curve])
+
     def largest_parameter(self) -> Floats:
         """Infinite: its values have no bound."""
         return np.full(1, np.inf)

@@ -105,4 +105,4 @@ def test_a_word_that_begins_a_line_names_no_lines_but_a_value():
     text = "let corner = (50, 9) mm\nlet jump = 2 mm\nline to corner corner jump\ncorner jump"
     (segment,) = parse(f"profile constant\n{text}", "a.traj").segments
     assert segment.jumps
-    assert segment.end.position == (0.05, 0.009, 0.0)
+    assert segment.end.position == pytest.approx((0.05, 0.009, 0.0))

@@ -41,6 +41,7 @@ def of_painting(painting: paint.Painting, written: Sequence[Path]) -> str:
         *_step_responses(painting),
         *_retiming(painting),
         ("limits", _limits_line(painting)),
+        *_faults(painting),
         *_pictures(painting.pictures),
         *_files(written),
     ]
@@ -74,6 +75,12 @@ def _attenuation(painting: paint.Painting) -> list[tuple[str, str]]:
             said += f", bound {one.bound:.3g} s: {kept}"
         rows.append(("" if rows else "disturbance", said))
     return rows
+
+
+def _faults(painting: paint.Painting) -> list[tuple[str, str]]:
+    """Why a run is no result; nothing where it is one."""
+    faults = painting.judgement.faults
+    return [("" if i else "no result", fault.says) for i, fault in enumerate(faults)]
 
 
 def _retiming(painting: paint.Painting) -> list[tuple[str, str]]:
@@ -178,6 +185,10 @@ def remarks(painting: paint.Painting) -> list[str]:
         joints = "".join(f"\n    {clamp}" for clamp in held)
         where = painting.motion.program.line_name(line)
         texts.append(f"warning: line {where} reaches {kind} limits:{joints}{FIXES[kind]}")
+    if not painting.judgement.is_result:
+        texts.append(
+            f"warning: this run is no result: {painting.judgement.why}\n  = help: {NO_RESULT}"
+        )
     period = painting.motion.period
     if painting.track.torques and period > LONGEST_TORQUE_PERIOD * (1 + 1e-9):
         texts.append(
@@ -223,6 +234,9 @@ def _hidden(shot: picture.Picture, where: str, source: str) -> list[str]:
     ]
 
 
+NO_RESULT = (
+    "its figures say nothing about the law; lower the gains, shorten the period, or draw slower"
+)
 FIXES = {
     "position": "\n  = help: turn the tool less, or move the drawing with place",
     "speed": "\n  = help: draw it slower (speed, in, samples), or lower the gains",
@@ -247,7 +261,8 @@ def _limits_line(painting: paint.Painting) -> str:
     where = painting.motion.program.line_name
     parts = (f"{kind} (line {where(line)})" for kind, line in list(groups)[:MOST_NAMED])
     more = f" and {len(groups) - MOST_NAMED} more" if len(groups) > MOST_NAMED else ""
-    return f"{', '.join(parts)}{more} reached: there the arm could not follow"
+    share = painting.metrics.figures.get("clipped_share", 0.0)
+    return f"{', '.join(parts)}{more} clip {share:.1%} of the run: there the arm could not follow"
 
 
 def _spread(figures: dict[str, float], name: str, unit: str) -> str:

@@ -26,6 +26,11 @@ def markdown(rows: Sequence[Row]) -> str:
     return "\n".join([lines[0], "|" + "---|" * len(rows[0]), *lines[1:]])
 
 
+def page(title: str, *parts: str) -> bytes:
+    """A page in Markdown: a heading, and parts below each other."""
+    return ("\n\n".join([f"# {title}", *parts]) + "\n").encode()
+
+
 def encode_csv(rows: Iterable[Iterable[object]]) -> bytes:
     """A CSV file with all digits of each number; nan is an empty cell."""
     file = io.StringIO()

@@ -12,12 +12,12 @@ from dqpaint.metrics.registry import (
     motion_column, unit_suffix,
 )
 from dqpaint.metrics.run_metrics import Metrics, measure, motion_columns, reference_columns
-from dqpaint.metrics.stability import instability
+from dqpaint.metrics.judgement import Fault, Judgement, judge, limits_text
 from dqpaint.metrics.step_response import PartResponse, StepResponse, step_responses
 
 __all__ = [
-    "METRICS", "Attenuation", "Column", "Figure", "Metric", "Metrics", "PartResponse",
-    "StepResponse", "Table", "Values", "all_columns", "all_figures", "attenuation", "column",
-    "figure", "instability", "measure", "motion_column", "motion_columns", "reference_columns",
-    "step_responses", "unit_suffix",
+    "METRICS", "Attenuation", "Column", "Fault", "Figure", "Judgement", "Metric", "Metrics",
+    "PartResponse", "StepResponse", "Table", "Values", "all_columns", "all_figures",
+    "attenuation", "column", "figure", "judge", "limits_text", "measure", "motion_column",
+    "motion_columns", "reference_columns", "step_responses", "unit_suffix",
 ]

@@ -200,6 +200,18 @@ def _unclipped_torques(track: Track) -> Floats | None:
     return _unclipped(track) if track.torques else None
 
 
+@column("clipped_joints", "", "clipped joints",
+        "how many joints a limit clips until the next row, where any is",
+        from_zero=True)  # fmt: skip
+def _clipped_joints(track: Track) -> Floats | None:
+    if not track.clipped:
+        return None
+    clipped = np.zeros(track.command.shape, bool)
+    for where in track.clipped.values():
+        clipped |= where
+    return np.asarray(clipped.sum(axis=1), np.float64)
+
+
 @column("motor{joint}_Nm", "Nm", "motor torques",
         "torques that the motors gave, the largest of the period before the row; where the plant "
         "has motors")  # fmt: skip

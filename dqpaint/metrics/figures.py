@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from dqpaint.dq import Floats
+from dqpaint.metrics.judgement import clipped_rows
 from dqpaint.metrics.registry import Table, figure
 from dqpaint.simulation import Track
 
@@ -50,6 +51,14 @@ def _path_length(track: Track, table: Table) -> float:
         "acceleration of the light, integrated over time", listed=True)  # fmt: skip
 def _acceleration(track: Track, table: Table) -> float:
     return _integral(table["acceleration_m_s2"], track)
+
+
+@figure("clipped_share", "", "clipped",
+        "part of the run in which a limit clipped the command of a joint",
+        display_unit="%", listed=True)  # fmt: skip
+def _clipped(track: Track, _table: Table) -> float | None:
+    clipped = clipped_rows(track)
+    return None if clipped is None else float(clipped.mean())
 
 
 def _error_statistics(name: str, unit: str, display_unit: str, meaning: str, largest: bool) -> None:

@@ -21,7 +21,8 @@ from dqpaint.simulation import Track
 Table = dict[str, Floats]  # columns (N,) by their headers, unit in the name
 Values = NDArray[Any]
 
-SCALES = {("m", "mm"): 1e3, ("m/s", "mm/s"): 1e3, ("rad", "deg"): math.degrees(1.0)}
+SCALES = {("m", "mm"): 1e3, ("m/s", "mm/s"): 1e3, ("rad", "deg"): math.degrees(1.0),
+          ("", "%"): 100.0}  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -55,6 +55,13 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
             "place": None if placement is None else placement.as_json,
         },
         "pace": None if pace is None else pace.as_json,  # None: --on-limit slow is not set
+        "result": {
+            "status": painting.judgement.status,
+            "faults": [
+                {"kind": fault.kind, "says": fault.says, "line": program.line_reference(fault.line)}
+                for fault in painting.judgement.faults
+            ],
+        },
         "attenuation": {
             part: {
                 "ratio_s": one.ratio,

@@ -61,6 +61,21 @@ class SetPoint(TypedDict):
     rotation: dict[str, float | None]
 
 
+class RunFault(TypedDict):
+    """Why a run is no result: its kind, a sentence, the line where it is worst."""
+
+    kind: str
+    says: str
+    line: Line
+
+
+class RunStatus(TypedDict):
+    """Whether a run is a result: `done`, or the kind of its first fault."""
+
+    status: str
+    faults: list[RunFault]
+
+
 class Limit(TypedDict):
     """A limit that clipped a joint for some time."""
 
@@ -127,6 +142,7 @@ class Summary(TypedDict):
     model: ModelNumbers
     drawing: Drawing
     pace: dict[str, Any] | None
+    result: RunStatus
     attenuation: dict[str, Through]
     set_points: list[SetPoint]
     limits: list[Limit]

@@ -14,10 +14,12 @@ from dqpaint.light.film import Film
 from dqpaint.metrics import (
     METRICS,
     Attenuation,
+    Judgement,
     Metrics,
     StepResponse,
     Table,
     attenuation,
+    judge,
     measure,
     step_responses,
 )
@@ -54,6 +56,7 @@ class Painting(PictureSet):
     motion: Motion
     track: Track
     metrics: Metrics
+    judgement: Judgement  # whether the run is a result
     attenuation: dict[str, Attenuation]  # of an unmodelled twist, in rotation and translation
     step_responses: tuple[StepResponse, ...]
     scene: Scene
@@ -186,6 +189,7 @@ def finish(ready: PreparedRun, run: Track) -> Painting:
         gains = chosen.gains
         came_through = attenuation(run, gains.disturbance_bounds(), gains.bounded_in_steps)
         steps = step_responses(run)
+        judgement = judge(run)
     robot = settings.robot or motion.program.robot or DEFAULT_ROBOT
     cast = ArmMotion(robot, run.posture, motion.source, motion.period)
     if settings.staged and not cast.has_joints:
@@ -199,7 +203,7 @@ def finish(ready: PreparedRun, run: Track) -> Painting:
         {} if recording else chosen.plant.summary(card),
         chosen.disturbances, chosen.gains.as_dict(),
         law_model(ready.kinematics, chosen.disturbances, settings.seed),
-        motion, run, metrics, came_through, steps,
+        motion, run, metrics, judgement, came_through, steps,
         scene, cast, pictures, ready.prepared.retiming, clock.seconds, notes,
         ready.prepared.placement, recording,
     )  # fmt: skip

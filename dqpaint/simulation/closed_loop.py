@@ -21,6 +21,7 @@ from dqpaint.robots.kinematics import (
     DEFAULT_DAMPING,
     DEFAULT_OBJECTIVE,
     Clamp,
+    Clipped,
     Kinematics,
     find_clamps,
     make_secondary_task,
@@ -65,6 +66,8 @@ class Track:
         torques: whether the commands are torques.
         effort: motor torques (N, n) [Nm], the largest seen in the period before the row.
         clamps: limits that held a joint back.
+        clipped: whether a limit of a kind clipped a joint in a row (N, n), by the kinds that did;
+            None where it is not known.
         disturbance: spatial twist (N, 6) [rad/s, m/s] that came on top of the arm's own from t_k to
             t_k+1, unknown to the law; the last row is zero.
         pose_disturbance: likewise, of the tool's displacement on the flange (v_c of Pereira 2016,
@@ -84,6 +87,7 @@ class Track:
     torques: bool
     effort: Floats
     clamps: tuple[Clamp, ...]
+    clipped: Clipped | None
     disturbance: Floats
     pose_disturbance: Floats
 
@@ -328,11 +332,13 @@ class _Log:
         """
         row = self.posture[k], self.wanted[k], self.command[k], self.effort[k]
         if meets_limit(card, *row, torques):
-            held = self.clamps(slice(max(k - 1, 0), k + 1), card, motion, torques)
+            held, _ = self.clamps(slice(max(k - 1, 0), k + 1), card, motion, torques)
             raise limit_error(motion, held[0])
 
-    def clamps(self, rows: slice, card: Card, motion: Motion, torques: bool) -> tuple[Clamp, ...]:
-        """The limits that held a joint in some rows."""
+    def clamps(
+        self, rows: slice, card: Card, motion: Motion, torques: bool
+    ) -> tuple[tuple[Clamp, ...], Clipped]:
+        """The limits that held a joint in some rows, and where."""
         return find_clamps(
             card, motion.t[rows], motion.source[rows],
             (self.posture if torques else self.measured_posture)[rows], self.wanted[rows],
@@ -368,14 +374,14 @@ def _make_track(
     log: _Log, motion: Motion, card: Card, torques: bool, offset: Floats | None
 ) -> Track:
     log.wanted[-1] = log.command[-1]  # the last command is never carried out
-    held = log.clamps(slice(None), card, motion, torques)
+    held, clipped = log.clamps(slice(None), card, motion, torques)
     for poses in (log.pose, log.measured_pose):
         poses[0] = dq.nearest(poses[0], motion.pose[0])
     return Track(
         motion, log.posture, dq.continuous(log.pose), log.measured_posture,
         dq.continuous(log.measured_pose), log.measured_rates, log.measured_twist,
-        log.manipulability, log.command, log.wanted, torques, log.effort, held, log.disturbance,
-        _pose_disturbance(log.pose, offset, motion.period),
+        log.manipulability, log.command, log.wanted, torques, log.effort, held,
+        clipped, log.disturbance,_pose_disturbance(log.pose, offset, motion.period),
     )  # fmt: skip
 
 

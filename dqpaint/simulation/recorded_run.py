@@ -201,6 +201,7 @@ def replay(recording: Recording, motion: Motion, kinematics: Kinematics) -> Trac
         torques=recording.torques,
         effort=np.zeros_like(posture),
         clamps=(),
+        clipped=None,
         disturbance=np.zeros((n, 6)),
         pose_disturbance=np.zeros((n, 6)),
     )

@@ -48,7 +48,14 @@ def test_each_kind_is_named_with_joint_time_line_and_amount():
     wanted[2:4, 3], command[2:4, 3] = [-2.0, -3.0], -CARD.speed[3]  # the worst is told
     posture[6, 1], wanted[6, 1], command[6, 1] = CARD.upper[1] - 0.01, 1.4, 1.0
     effort[8, 5] = -CARD.effort[5]
-    speed, position, motor = find_clamps(CARD, t, source, posture, wanted, command, effort, False)
+    (speed, position, motor), clipped = find_clamps(
+        CARD, t, source, posture, wanted, command, effort, False
+    )
+    assert {kind: np.argwhere(where).tolist() for kind, where in clipped.items()} == {
+        "speed": [[2, 3], [3, 3]],
+        "position": [[6, 1]],
+        "torque": [[7, 5]],
+    }
     assert (speed.kind, speed.joint, speed.line) == ("speed", 4, three)
     assert speed.start == pytest.approx(0.02)
     assert speed.seconds == pytest.approx(0.02)

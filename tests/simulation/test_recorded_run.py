@@ -52,7 +52,10 @@ def test_a_simulated_run_recorded_gives_the_same_figures_and_picture(drawing, si
     assert again.plant == "recorded"
     np.testing.assert_array_equal(again.track.measured_posture, again.track.posture)
     np.testing.assert_array_equal(again.track.measured_pose, again.track.pose)
+    assert "clipped_share" not in again.metrics.figures  # of a recording limits are not known
     for name, value in simulated.metrics.figures.items():
+        if name == "clipped_share":
+            continue
         assert again.metrics.figures[name] == pytest.approx(value, rel=1e-6, abs=1e-12), name
     assert again.metrics.figures["position_error_max_m"] > 1e-3
     measured = [name for name in simulated.table if name.startswith(("rate", "twist_error"))]

@@ -141,7 +141,7 @@ def test_figures_of_a_batch_are_those_of_runs_by_themselves(tmp_path):
     tasks = [(str(r.settings.seed), r) for r in seeded(run(), 3)]
     for (key, one), found in zip(tasks, carry_out_batch(tasks, tmp_path), strict=True):
         alone = carry_out(one, key, tmp_path)
-        assert (found.key, found.status, found.held) == (key, alone.status, alone.held)
+        assert (found.key, found.status, found.limits) == (key, alone.status, alone.limits)
         assert found.figures == pytest.approx(alone.figures, rel=1e-9)
         assert list(found.figures) == list(alone.figures)
 

@@ -85,7 +85,7 @@ def test_pairs_that_are_none_are_told(baseline, pairs, said):
 
 def test_what_is_no_result_is_left_out_and_said(cells):
     one, other = cells[0], cells[2]
-    lost = (Result("x", "unstable", "it rings", {NAME: 9.0}), *one.results[1:])
+    lost = (Result("x", "oscillates", "it rings", {NAME: 9.0}), *one.results[1:])
     found = [Cell(one.choice, lost, one.runs), other]
     (line,) = comparisons.differences(found, find_figure(NAME, found))
     assert (line.paired, line.left_out, len(line.values[0])) == (True, 2, 3)
@@ -141,7 +141,11 @@ def test_the_tidy_table_has_a_row_a_run(cells):
     assert len(table["seed"]) == 24
     assert table["seed"][:5] == [3, 4, 5, 6, 3]
     assert table["controller"][-1] == "p(k=5,c=2)"
-    assert (table["law"][0], table["gains"][-1], table["plant"][4]) == ("hinf", "k=20", "stiff")
+    assert (table["law"][0], table["gains"][-1], table["plant"][4]) == (
+        "hinf",
+        "k=20 point=tool",
+        "stiff",
+    )
     assert table["robot"] == ["iiwa"] * 24
     assert table[NAME][0] == cells[0].results[0].figures[NAME]
     assert {len(column) for column in table.values()} == {24}

@@ -56,7 +56,7 @@ def test_verdicts_are_what_they_are_and_rows_that_went_wrong_too():
     assert "<td>it fails to &lt;b&gt;</td>" in made
     assert "<tr>" in made
     assert "bad" not in made
-    rows = [["p", "1", "2 done, 1 unstable"], ["best", "1", "done"], ["q", "1", "differs: film"]]
+    rows = [["p", "1", "2 done, 1 oscillates"], ["best", "1", "done"], ["q", "1", "differs: film"]]
     kinds = re.findall(r'<tr class="(\w+)">', table([HEAD, *rows]))
     assert kinds == ["bad", "best", "bad"]
 

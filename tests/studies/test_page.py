@@ -45,7 +45,7 @@ HOSTILE = """</script <b>$x_$</script><script>document.title="owned"</script>
 
 def page(**choices):
     blocks = [Words("Some words."), Rows("Rows", [["law", "error", "status"], ["p", "1", "done"],
-              ["q", "2", "unstable"], ["wide"] * 3], note="What it means."), Shot("A picture", PNG),
+              ["q", "2", "astray"], ["wide"] * 3], note="What it means."), Shot("A picture", PNG),
               Charts("Curves", PANELS), Map("Map", MAP), Charts("Alike", SMALL, shared=True),
               Tables("Numbers", TABLES)]  # fmt: skip
     usual = {"settings": make_settings(controller="p", gains={"k": 5.0}), "text": "hold 1 s\n",

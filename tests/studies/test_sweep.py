@@ -129,13 +129,13 @@ def test_a_sweep_marks_what_is_unstable(line, tmp_path):
     made = sweep.sweep(asked(line, tmp_path / "s", 2), [parse_axis("k=10,20,40,400")], base)
     paths = made.save()
     rows = read(tmp_path / "s/line-k-table.csv")
-    assert [row["status"] for row in rows] == ["done", "done", "done", "unstable"]
+    assert [row["status"] for row in rows] == ["done", "done", "done", "oscillates"]
     rms = [float(row["position_error_rms_m_mean"]) for row in rows]
     assert rms[0] > rms[1] > rms[2]  # a law without feed-forward lags by v / k
     assert rms[1] == pytest.approx(0.06 / 20, rel=0.2)
     assert has(opened(paths[0]), ALARM)
     told = made.table_text(200)
-    assert "unstable: commands alternate" in told
+    assert "400: oscillates: commands alternate" in told
 
     axes = [parse_axis("k=10,400"), parse_axis("disturb.twist.x=0.01,0.02,0.04")]
     both = sweep.sweep(asked(line, tmp_path / "s", 2), axes, base)
@@ -165,24 +165,25 @@ def made_up(*values, status="done", why=""):
 
 
 def test_cells_take_figures_from_runs_that_came_to_their_end():
-    mixed = Cell({"k": "5"}, made_up(1.0, 3.0) + made_up(9.0, status="unstable", why="it rings"))
+    mixed = Cell({"k": "5"}, made_up(1.0, 3.0) + made_up(9.0, status="oscillates", why="it rings"))
     assert mixed.spread(ERROR).mean == 2.0
-    assert mixed.status == "2 done, 1 unstable"
+    assert mixed.status == "2 done, 1 oscillates"
     assert mixed.why == "it rings"
     assert not mixed.stable
-    alone = Cell({"k": "9"}, made_up(9.0, status="unstable", why="it rings"))
-    assert alone.spread(ERROR).mean == 9.0
+    alone = Cell({"k": "9"}, made_up(9.0, status="oscillates", why="it rings"))
+    assert alone.spread(ERROR).n == 0
+    assert cells.means_of([mixed, alone], ERROR).tolist() == [2.0, 9.0]  # where a chart marks it
     lost = Cell({"k": "10"}, (Result("x", "failed", "too far\nand more"),))
     assert cells.rows([mixed, alone, lost])[1:] == [
-        ["5", "2.0 ± 1.4", *["-"] * 7, "3", "2 done, 1 unstable"],
-        ["9", "9", *["-"] * 7, "1", "unstable"],
-        ["10", *["-"] * 8, "1", "failed"],
+        ["5", "2.0 ± 1.4", *["-"] * 8, "3", "2 done, 1 oscillates"],
+        ["9", *["-"] * 9, "1", "oscillates"],
+        ["10", *["-"] * 9, "1", "failed"],
     ]
     lines = cells.csv([mixed, alone, lost]).decode().splitlines()
     ends = ("mean", "std", "median", "95_low", "95_high")
     figures = ",".join(f"error_integral_{end}" for end in ends)
     assert lines[0] == f"k,runs,done,status,message,{figures}"
-    assert lines[1].startswith('5,3,2,"2 done, 1 unstable",it rings,2.0,1.41421356237')
+    assert lines[1].startswith('5,3,2,"2 done, 1 oscillates",it rings,2.0,1.41421356237')
     assert lines[3] == "10,1,0,failed,too far,,,,,"
     made = swept(mixed, alone, lost, axes=["k=5,9,10"])
     assert sweep.curves(made, ERROR)[0].lines[0].marks.tolist() == [True, True, True]

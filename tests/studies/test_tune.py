@@ -168,13 +168,13 @@ def test_what_is_told_of_made_up_results(tmp_path):
 
     (error, *_), (command, *_) = listed_figures("error"), listed_figures("cost")
     tried = (cell(1, 9.0, 2.0), cell(5, 4.0, 3.0), cell(6, 5.0, 3.5), cell(8, 2.0, 4.5),
-             cell(9, 0.1, 3.0, "unstable"))  # fmt: skip
+             cell(9, 0.1, 3.0, "oscillates"))  # fmt: skip
     made = tuning.Tuning(
         name="a.traj", cells=tried, folder=tmp_path, settings=make_settings(controller="p"),
         ranges=(parse_range("k=1..5"),), usual=tried[2], error=error, effort=command,
         needed=2.0, factor=2.0, settled=False,
     )  # fmt: skip
-    assert made.best is tried[1]  # the unstable one does not count
+    assert made.best is tried[1]  # the one that oscillates does not count
     assert made.front == [tried[0], tried[1], tried[3]]
     told = made.table_text(200)
     assert "Best: --gain k=5\nk lies at the end of its range, 5" in told

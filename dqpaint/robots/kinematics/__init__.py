@@ -11,7 +11,9 @@ from dqpaint.robots.kinematics.differential_ik import (
 from dqpaint.robots.kinematics.dynamics import Dynamics
 from dqpaint.robots.kinematics.jacobians import drift_acceleration, pose_map
 from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability
-from dqpaint.robots.kinematics.limits import LIMIT_TOLERANCE, UNITS, Clamp, RateBounds, find_clamps
+from dqpaint.robots.kinematics.limits import (
+    LIMIT_TOLERANCE, UNITS, Clamp, Clipped, RateBounds, find_clamps,
+)
 from dqpaint.robots.kinematics.model_numbers import ModelNumbers, model_numbers
 from dqpaint.robots.kinematics.nullspace import (
     DEFAULT_OBJECTIVE, OBJECTIVES, SecondaryTask, make_batched_task, make_secondary_task, read_null,
@@ -26,9 +28,10 @@ from dqpaint.robots.kinematics.start_posture import (
 __all__ = [
     "CHARACTERISTIC_LENGTH", "DAMPING_THRESHOLD", "DEFAULT_DAMPING", "DEFAULT_OBJECTIVE",
     "LIMIT_TOLERANCE", "OBJECTIVES", "PATH_TOLERANCE", "START_GAIN", "UNITS", "Clamp",
-    "CollisionShapes", "Damping", "Dynamics", "Kinematics", "ManyKinematics", "ModelNumbers",
-    "Nearest", "NoPosture", "RateBounds", "SecondaryTask", "StartPosture", "collision_shapes",
-    "damped_inverse", "drift_acceleration", "find_clamps", "find_start", "inverse", "least_errors",
+    "Clipped", "CollisionShapes", "Damping", "Dynamics", "Kinematics", "ManyKinematics",
+    "ModelNumbers", "Nearest", "NoPosture", "RateBounds", "SecondaryTask", "StartPosture",
+    "collision_shapes", "damped_inverse", "drift_acceleration", "find_clamps", "find_start",
+    "inverse", "least_errors",
     "make_batched_task", "make_secondary_task", "manipulability", "model_numbers", "pose_map",
     "read_damping", "read_mesh", "read_null", "resolve", "resolve_part", "return_to_start",
     "shortfall", "solve", "solve_posture", "tool_jacobian_map", "waypoints",

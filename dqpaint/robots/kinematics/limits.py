@@ -1,6 +1,7 @@
 """Joint rates and torques -> commands within an arm's limits, and a record of each clamp."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +15,8 @@ from dqpaint.robots.model.card import Card
 LIMIT_TOLERANCE = 1e-6  # relative: a motor this close to its largest torque is saturated
 DIGITS, MOST_DIGITS = 4, 10  # of an amount; the most where it hardly differs from its limit
 
-
+Clipped = Mapping[str, NDArray[np.bool_]]
+"""By kinds of limits that were met: whether one of that kind clipped a joint in a row (N, n)."""
 UNITS = {"position": "rad", "speed": "rad/s", "torque": "Nm"}
 
 
@@ -89,8 +91,8 @@ def find_clamps(
     effort: Floats,
     torques: bool,
     period: float | None = None,
-) -> tuple[Clamp, ...]:
-    """All clamps of a run, one for each joint, kind and line.
+) -> tuple[tuple[Clamp, ...], Clipped]:
+    """All clamps of a run, one for each joint, kind and line, and the rows and joints of each kind.
 
     Args:
         card: with the limits.
@@ -105,16 +107,18 @@ def find_clamps(
     """
     period = period or (float(t[1] - t[0]) if len(t) > 1 else 0.0)
     found: list[Clamp] = []
-    for kind, where, asked, most in (
+    kinds = (
         _torque_clamps(card, posture, wanted, command)
         if torques
         else _rate_clamps(card, period, posture, wanted, command, effort)
-    ):
+    )
+    for kind, where, asked, most in kinds:
         for joint in range(where.shape[1]):
             found += _by_line(
                 kind, joint, where[:, joint], asked[:, joint], most[:, joint], t, source, period
             )
-    return tuple(sorted(found, key=lambda clamp: clamp.start))
+    clamps = tuple(sorted(found, key=lambda clamp: clamp.start))
+    return clamps, {kind: where for kind, where, _, _ in kinds if where.any()}
 
 
 Held = tuple[str, NDArray[np.bool_], Floats, Floats]  # kind; where, requested value, limit (N, n)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 class SweepStudy(StudyOfAlternatives):
     """Run a drawing over one or two axes of values: table, and a curve or a heat map.
 
-    Unstable points are marked. A sweep that was stopped resumes.
+    Points without a result are marked. A sweep that was stopped resumes.
     """
 
     groups = COMMANDS["sweep"]

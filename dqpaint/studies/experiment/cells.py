@@ -4,7 +4,7 @@ import math
 import re
 from collections import Counter, defaultdict
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -69,6 +69,7 @@ def figure_meanings() -> str:
 
 
 FAMILY = re.compile(r"(.*?)(?:(, |: )(.*))?$", re.DOTALL)
+MOST_LINES = 12  # of remarks of one kind; the CSV has them all
 ROUNDING = 1e-13  # of a figure's own unit: what is smaller is shown as 0
 
 
@@ -93,12 +94,12 @@ class Cell:
 
     @property
     def done(self) -> list[Result]:
-        """The runs that figures are taken from."""
+        """The runs that are results: figures are taken from these alone."""
         return [result for result in self.results if result.status == "done"]
 
     @property
     def stable(self) -> bool:
-        """Whether every run came to its end as it should."""
+        """Whether every run is a result."""
         return len(self.done) == len(self.results)
 
     @property
@@ -116,9 +117,8 @@ class Cell:
         return faults[0].splitlines()[0] if faults else ""
 
     def spread(self, figure: TableFigure) -> Spread:
-        """Mean and spread of a figure; of unstable runs only where all are."""
-        chosen = self.done or [result for result in self.results if result.figures]
-        rows = (result.figures for result in chosen)
+        """Mean and spread of a figure over the runs that are results."""
+        rows = (result.figures for result in self.done)
         return spread([row[n] * figure.scale for row in rows for n in figure.names if n in row])
 
     def by_seed(self, figure: TableFigure) -> dict[int, float]:
@@ -145,6 +145,31 @@ def run_cells(
     )
 
 
+def what_means_hide(cells: Sequence[Cell]) -> list[str]:
+    """Runs that are left out of means, and limits that clipped others: lines of text."""
+    runs = [result for cell in cells for result in cell.results]
+    out = [result for result in runs if result.status != "done"]
+    lines = []
+    if out:
+        are = "run is no result and is" if len(out) == 1 else "runs are no results and are"
+        lines.append(f"{len(out)} of {len(runs)} {are} left out of means, tests and orders:")
+        lines += _few([f"{cell.label}: {cell.status}: {cell.why}" for cell in cells if cell.why])
+    clipped = {
+        cell.label: next(one.limits for one in cell.done if one.limits)
+        for cell in cells
+        if any(one.limits for one in cell.done)
+    }
+    if clipped:
+        lines.append("Limits clipped commands in results, too:")
+        lines += _few([f"{label}: {limits}" for label, limits in clipped.items()])
+    return lines
+
+
+def _few(lines: Sequence[str]) -> list[str]:
+    more = [f"and {len(lines) - MOST_LINES} more"] if len(lines) > MOST_LINES else []
+    return [f"  {line}" for line in (*lines[:MOST_LINES], *more)]
+
+
 def every_run_failed(cells: Sequence[Cell]) -> DqpaintError:
     """The fault of a study without any figure."""
     return DqpaintError(f"every run failed; the first: {cells[0].results[0].message}")
@@ -160,8 +185,15 @@ def split_label(label: str) -> tuple[str, str]:
 
 
 def means_of(cells: Sequence[Cell], figure: TableFigure) -> Floats:
-    """The means (N,) of a figure; nan where no run has it."""
-    return np.array([cell.spread(figure).mean for cell in cells])
+    """Where a chart shows cells (N,): means of results, else of the runs that it marks; or nan."""
+    return np.array([_shown(cell, figure).mean for cell in cells])
+
+
+def _shown(cell: Cell, figure: TableFigure) -> Spread:
+    if cell.done:
+        return cell.spread(figure)
+    marked = (replace(result, status="done") for result in cell.results if result.figures)
+    return replace(cell, results=tuple(marked)).spread(figure)
 
 
 def check_figure(name: str) -> None:

@@ -52,7 +52,7 @@ def _row(cell: Cell, i: int, names: Sequence[str], varied: Sequence[str]) -> dic
         line.update({name: _said(getattr(run.settings, name)) for name in varied})
     line["status"] = result.status
     line["reason"] = result.message.splitlines()[0] if result.message else ""
-    line["limits_held"] = result.held
+    line["limits"] = result.limits
     return {**line, **{name: result.figures.get(name, math.nan) for name in names}}
 
 

@@ -35,7 +35,7 @@ class Comparison(StudyResult):
         figure = find_figure(self.figure, self.cells)
         if all(not cell.results[0].figures for cell in self.cells):
             raise cells.every_run_failed(self.cells)
-        parts = ["\n".join(tables.fit(cells.rows(self.cells), width))]
+        parts = ["\n".join([*tables.fit(cells.rows(self.cells), width), *self.hidden])]
         if tests := comparisons.differences(self.cells, figure, self.chosen):
             parts += [
                 "\n".join(tables.align(cells.spread_rows(self.cells, figure))),
@@ -54,7 +54,8 @@ class Comparison(StudyResult):
         bars = tuple(rows[0].index(head) for head in cells.error_headings(self.cells))
         heading = "Means and standard deviations" if many else "Figures"
         blocks: list[Block] = [Rows(heading, rows, bars, cells.figure_meanings())]
-        parts = [f"# {self.title}", tables.markdown(rows)]
+        blocks.append(Words("\n".join(self.hidden)))
+        parts = [tables.markdown(rows), *self.hidden_block]
         if tests:
             told = comparisons.about(tests, figure.heading, self.chosen.method)
             spreads = cells.spread_rows(self.cells, figure)
@@ -66,7 +67,7 @@ class Comparison(StudyResult):
             **files_of(shown),
             **({"-tests.csv": comparisons.csv(tests, figure.heading)} if tests else {}),
             "-table.csv": cells.csv(self.cells),
-            "-table.md": ("\n\n".join(parts) + "\n").encode(),
+            "-table.md": tables.page(self.title, *parts),
         }
         return made, [*blocks, *shown.values()]
 

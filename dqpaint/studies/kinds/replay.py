@@ -278,6 +278,7 @@ def _listed(bullet: str, replayed: Replay) -> list[str]:
     """What has no numbers, and what cannot be tested."""
     lost = [f"{bullet}{name}: {why}" for name, why in replayed.measured.lost.items()]
     parts = [
+        ("Runs and their means:", [f"{bullet}{line.strip()}" for line in replayed.hidden]),
         ("To be known of some runs:", lost),
         ("Not tested, for it cannot be:", [f"{bullet}{one}" for one in replayed.paper.open]),
     ]

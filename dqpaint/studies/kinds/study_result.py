@@ -9,7 +9,7 @@ from dqpaint.outputs import files
 from dqpaint.settings import Settings
 from dqpaint.studies.experiment import cells, runs_table
 from dqpaint.studies.experiment.cells import Cell
-from dqpaint.studies.report.page import Block, Page, Pictured, Rows, files_of, html
+from dqpaint.studies.report.page import Block, Page, Pictured, Rows, Words, files_of, html
 
 ANY_WIDTH = 100_000  # characters: a table as wide as it is
 
@@ -48,6 +48,11 @@ class StudyResult:
         return []
 
     @property
+    def hidden(self) -> list[str]:
+        """What its means do not show: runs that are no results, and clipped ones; lines of text."""
+        return cells.what_means_hide(self.cells)
+
+    @property
     def passed(self) -> bool:
         """Whether it came to what was asked; else the command ends with exit code 1."""
         return True
@@ -65,7 +70,7 @@ class StudyResult:
         """
         if not any(result.figures for cell in self.cells for result in cell.results):
             raise cells.every_run_failed(self.cells)
-        return "\n".join(tables.fit(cells.rows(self.cells), width))
+        return "\n".join([*tables.fit(cells.rows(self.cells), width), *self.hidden])
 
     def files_and_blocks(self) -> tuple[dict[str, bytes], list[Block]]:
         """Charts and tables by the ends of their names, and what the page of the study shows."""
@@ -73,9 +78,15 @@ class StudyResult:
         made = {
             **files_of(shown),
             "-table.csv": cells.csv(self.cells),
-            "-table.md": f"# {self.title}\n\n{tables.markdown(rows)}\n".encode(),
+            "-table.md": tables.page(self.title, tables.markdown(rows), *self.hidden_block),
         }
-        return made, [*shown.values(), Rows("All cells", rows, note=cells.figure_meanings())]
+        blocks = [Words("\n".join(self.hidden)), *shown.values()]
+        return made, [*blocks, Rows("All cells", rows, note=cells.figure_meanings())]
+
+    @property
+    def hidden_block(self) -> list[str]:
+        """The same as a block of a page in Markdown, if there is any."""
+        return ["```\n" + "\n".join(self.hidden) + "\n```"] if self.hidden else []
 
     def contents(self, command: str | None = None) -> dict[str, bytes]:
         """All files by the ends of their names.

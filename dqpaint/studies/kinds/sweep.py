@@ -51,7 +51,7 @@ class Sweep(StudyResult):
         return f"{self.name} over {' and '.join(axis.name for axis in self.axes)}"
 
     def table_text(self, width: int = ANY_WIDTH) -> str:
-        """The table for a terminal, and why points are unstable."""
+        """The table for a terminal, and why points are no results."""
         find_figure(self.figure, self.cells)
         if all(cell.status in ("failed", "died") for cell in self.cells):
             raise cells.every_run_failed(self.cells)
@@ -61,7 +61,7 @@ class Sweep(StudyResult):
             heads = [*(axis.name for axis in self.axes), *cells.error_headings(self.cells)]
             columns = [*map(rows[0].index, heads), len(rows[0]) - 1]
             lines = tables.align([[row[i] for i in columns] for row in rows])
-        return "\n".join([*lines, *fault_lines(self)])
+        return "\n".join([*lines, *self.hidden])
 
     def files_and_blocks(self) -> tuple[dict[str, bytes], list[Block]]:
         """Chart and tables by the ends of their names, and the same for a page."""
@@ -76,9 +76,9 @@ class Sweep(StudyResult):
         made = {
             **files_of({"": shown}),
             "-table.csv": cells.csv(self.cells),
-            "-table.md": f"# {self.title}\n\n{tables.markdown(rows)}\n".encode(),
+            "-table.md": tables.page(self.title, tables.markdown(rows), *self.hidden_block),
         }
-        words = Words("\n".join([*fault_lines(self), *axis_descriptions(self)]))
+        words = Words("\n".join([*self.hidden, *axis_descriptions(self)]))
         return made, [shown, words, Rows("All points", rows, note=cells.figure_meanings())]
 
 
@@ -168,9 +168,3 @@ def surface(swept: Sweep, figure: TableFigure) -> HeatMap:
     title = f"{swept.name}: {figure.heading}"
     heads = axis_label(right.name, swept.settings), axis_label(up.name, swept.settings)
     return HeatMap(title, *heads, right.texts, up.texts, means, marked, wide(good))
-
-
-def fault_lines(swept: Sweep) -> list[str]:
-    """Why points are not as they should be, each reason once."""
-    bad = (cell for cell in swept.cells if not cell.stable)
-    return list(dict.fromkeys(f"{cell.status}: {cell.why}" for cell in bad))

@@ -1,5 +1,6 @@
 """Gains that were tried -> the best ones, the trade-off of error and effort, tables and charts."""
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -58,10 +59,10 @@ class Tuning(StudyResult):
     @property
     def front(self) -> list[Cell]:
         """The trade-off: cells than which none has both less error and less effort."""
-        stable = [cell for cell in self.cells if cell.stable]
+        good = [cell for cell in self.cells if cell.stable]
         front: list[Cell] = []
         for cell in sorted(
-            stable, key=lambda c: (c.spread(self.effort).mean, c.spread(self.error).mean)
+            good, key=lambda c: (c.spread(self.effort).mean, c.spread(self.error).mean)
         ):
             if not front or cell.spread(self.error).mean < front[-1].spread(self.error).mean:
                 front.append(cell)
@@ -86,7 +87,19 @@ class Tuning(StudyResult):
         """The outcome for a terminal."""
         if all(cell.status in ("failed", "died") for cell in self.cells):
             raise cells.every_run_failed(self.cells)
-        return "\n".join([*tables.fit(rows(self), width), "", answer(self)])
+        return "\n".join([*tables.fit(rows(self), width), *self.hidden, "", answer(self)])
+
+    @property
+    def hidden(self) -> list[str]:
+        """How many were tried in vain, and what the means of those that are shown do not show."""
+        out = Counter(
+            one.status for cell in self.cells for one in cell.results if one.status != "done"
+        )
+        lines = cells.what_means_hide([cell for cell in (self.usual, self.best) if cell])
+        if out:
+            kinds = ", ".join(f"{count} {status}" for status, count in out.items())
+            lines.insert(0, f"Runs without a result, left out of the search: {kinds}.")
+        return lines
 
     def files_and_blocks(self) -> tuple[dict[str, bytes], list[Block]]:
         """The chart, the trade-off and all that was tried, and the same for a page."""
@@ -96,10 +109,10 @@ class Tuning(StudyResult):
             **files_of({"": shown}),
             "-tradeoff.csv": cells.csv(self.front or self.cells[:1]),
             "-table.csv": cells.csv(self.cells),
-            "-table.md": f"# {self.title}\n\n{tables.markdown(table)}\n\n{words}\n".encode(),
+            "-table.md": tables.page(self.title, tables.markdown(table), *self.hidden_block, words),
         }
         heading = "The best, the usual, and the trade-off"
-        return made, [Words(words), shown, Rows(heading, table)]
+        return made, [Words("\n".join([words, *self.hidden])), shown, Rows(heading, table)]
 
 
 def answer(tuned: Tuning) -> str:
@@ -110,8 +123,8 @@ def answer(tuned: Tuning) -> str:
     ]
     best = tuned.best
     if best is None:
-        stable = [cell.spread(tuned.effort).mean for cell in tuned.cells if cell.stable]
-        least = f"the least was {min(stable):.4g}" if stable else "none was stable"
+        known = [cell.spread(tuned.effort).mean for cell in tuned.cells if cell.stable]
+        least = f"the least was {min(known):.4g}" if known else "none has a result"
         sentences.append(f"No gains that were tried keep to it: {least}.")
     else:
         gains = " ".join(f"--gain {name}={value}" for name, value in best.choice.items())
@@ -159,7 +172,8 @@ def rows(tuned: Tuning) -> list[list[str]]:
 
 def panels(tuned: Tuning) -> list[Panel]:
     """Error over effort, and error over each gain."""
-    tried = [cell for cell in tuned.cells if np.isfinite(cell.spread(tuned.error).mean)]
+    shown = np.isfinite(cells.means_of(tuned.cells, tuned.error)).tolist()
+    tried = [cell for cell, known in zip(tuned.cells, shown, strict=True) if known]
     stable = [cell for cell in tried if cell.stable]  # of the others effort says nothing
     error = tuned.error.heading
     effort, least = (cells.means_of(tuned.front, x) for x in (tuned.effort, tuned.error))
@@ -204,5 +218,5 @@ def _named(tuned: Tuning, x: TableFigure | str) -> list[Line]:
     return [
         _dots(tuned, [cell], name, x, colour)
         for name, cell, colour in (("usual", tuned.usual, USUAL), ("best", tuned.best, BEST))
-        if cell is not None and np.isfinite(cell.spread(tuned.error).mean)
+        if cell is not None and cell.stable
     ]

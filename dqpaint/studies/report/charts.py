@@ -23,6 +23,7 @@ INK, FAINT = "#222222", "#999999"
 COLOURS = ("#006aa8", "#d77e00", "#00a880", "#8328dc", "#8f5d2a", "#4b5563")
 """Told apart by those who see no red, no green or no blue, too, and dark enough for white paper."""
 ALARM = "#c1121f"
+MARKED = "no result"  # at marked points and cells
 LONGEST = 60  # letters of a label
 MOST_INSIDE = 6  # lines whose names find room beside them
 MOST_NUMBERS = 400  # cells of a heat map that are written in
@@ -38,7 +39,7 @@ class Line:
     """One line of a chart: points (N,) and what is written at it.
 
     `colour` is the next of the chart's own if not said; `marks` says where (N,) a point is
-    unstable, and has all points shown: the line leaves those out. `bars` are lengths (N,) up and
+    no result, and has all points shown: the line leaves those out. `bars` are lengths (N,) up and
     down. A width of 0 leaves the points alone.
     """
 
@@ -199,7 +200,7 @@ def _draw(axes: "Axes", line: Line, colour: str) -> None:
         axes.plot(line.x[at], line.y[at], ls="", marker="o", ms=4, color=colour)
         axes.plot(
             line.x[at], line.y[at], ls="", marker="o", ms=9, mfc="none", mec=ALARM, mew=1.6,
-            label="unstable" if "unstable" not in axes.get_legend_handles_labels()[1] else None,
+            label=MARKED if MARKED not in axes.get_legend_handles_labels()[1] else None,
         )  # fmt: skip
 
 
@@ -227,7 +228,7 @@ def heat_map(given: HeatMap, width: float = 7.0, height: float = 5.0) -> bytes:
         if given.values.size <= MOST_NUMBERS:
             red, green, blue, _ = image.cmap(image.norm(value)) if not marked else (1, 1, 1, 1)
             dark = 0.3 * red + 0.6 * green + 0.1 * blue < 0.5
-            said = "unstable" if marked else f"{value:.3g}"
+            said = MARKED if marked else f"{value:.3g}"
             ink = ALARM if marked else "white" if dark else INK
             axes.text(
                 col, row, said, ha="center", va="center", fontsize=8, color=ink,

@@ -15,7 +15,7 @@ function view(holder, charts) {
   const all = charts.every(({ panel }) => panel.lines.length === 1) && lines.size === 1 ? [] : lines;
   const buttons = [...all].map(([label, line]) => [label, entry(legend, label, line, state)]);
   if (charts.some(({ panel }) => panel.lines.some((line) => (line.marks || []).some(Boolean))))
-    make(legend, "span", { class: "unstable" }, "◯ unstable");
+    make(legend, "span", { class: "unstable" }, "◯ no result");
   const limit = charts.map(({ panel }) => panel.limit).find(Boolean);
   if (limit) make(legend, "span", {}, `┄ ${limit}`);
   const whole = make(legend, "button", { type: "button", class: "whole" }, "show all");
@@ -178,7 +178,7 @@ function curves(figure, panel, state, self) {
     for (const { line, k } of near.slice(0, MOST_NAMED)) {
       make(group, "circle", { cx: x(line.x[k]), cy: y(line.y[k]), r: 4, fill: line.colour });
       const bar = line.bars && line.bars[k] ? ` ± ${said(line.bars[k])}` : "";
-      const mark = line.marks && line.marks[k] ? ", unstable" : "";
+      const mark = line.marks && line.marks[k] ? ", no result" : "";
       const text = `${line.label}: ${said(line.y[k])}${bar}${mark}`;
       const row = make(tip, "span", {});
       make(make(row, "svg", { width: 9, height: 9, class: "series" }), "rect", { width: 9, height: 9, fill: line.colour });

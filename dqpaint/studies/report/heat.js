@@ -40,7 +40,7 @@ function heat(figure, map) {
     if (at === null) return;
     const [j, i] = at;
     const told = [`${map.x_label} ${map.x[i]}, ${map.y_label} ${map.y[j]}`,
-      `${said(map.values[j][i])}${map.marked[j][i] ? ", unstable" : ""}`];
+      `${said(map.values[j][i])}${map.marked[j][i] ? ", no result" : ""}`];
     tip.replaceChildren();
     make(tip, "b", {}, told[0]);
     make(tip, "span", {}, told[1]);
@@ -67,7 +67,7 @@ function heat(figure, map) {
       make(group, "rect", paint ? { ...box, fill: `rgb(${paint})` } : { ...box, class: "none" });
       const dark = paint && 0.3 * paint[0] + 0.6 * paint[1] + 0.1 * paint[2] < 128;
       if (cell >= 44) make(group, "text", { x: box.x + cell / 2, y: top + tall / 2 + 4, "text-anchor": "middle",
-        class: marked ? "unstable" : dark ? "onDark" : "onLight" }, marked ? "unstable" : said(value));
+        class: marked ? "unstable" : dark ? "onDark" : "onLight" }, marked ? "no result" : said(value));
       for (const kind of ["pointermove", "pointerdown"]) group.addEventListener(kind, () => read([j, i]));
     }));
     const every = Math.ceil(46 / cell);

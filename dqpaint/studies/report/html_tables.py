@@ -8,7 +8,8 @@ from typing import NamedTuple
 from dqpaint.studies.report.templates import render
 
 LONGEST = 36  # letters of a cell that stays on one line
-BAD = "unstable", "failed", "died", "differs", "fails"  # of a row that is not as it should be
+# Of a row that is not as it should be.
+BAD = "oscillates", "clipped", "astray", "diverged", "failed", "died", "differs", "fails"
 VERDICTS = {"holds": "good", "fails": "wrong", "in part": "open", "not shown": "open",
             "no numbers": "open"}  # fmt: skip
 VERDICT = re.compile(f"({'|'.join(VERDICTS)})(?:: (.*))?", re.DOTALL)

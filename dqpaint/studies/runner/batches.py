@@ -14,7 +14,7 @@ from pathlib import Path
 
 from dqpaint.controllers import find_controller
 from dqpaint.errors import DqpaintError
-from dqpaint.metrics import instability, measure
+from dqpaint.metrics import judge, limits_text, measure
 from dqpaint.painting import paint
 from dqpaint.planning import reachability
 from dqpaint.simulation import ModelsDifferError, Track, track_many
@@ -117,5 +117,5 @@ def _result(
             figures = measure(track).figures
     except DqpaintError as problem:
         return Result(key, "failed", str(problem))
-    why = instability(track)
-    return Result(key, "unstable" if why else "done", why or "", figures, len(track.clamps))
+    found = judge(track)
+    return Result(key, found.status, found.why, figures, limits_text(track))

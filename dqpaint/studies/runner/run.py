@@ -27,7 +27,7 @@ from dqpaint.program import Program
 from dqpaint.robots.loading import card_for
 from dqpaint.settings import Settings
 
-Status = Literal["done", "unstable", "failed", "died"]
+Status = Literal["done", "oscillates", "clipped", "astray", "diverged", "failed", "died"]
 """`died`: the process that carried it out ended; unlike the others it is tried again."""
 
 
@@ -122,10 +122,10 @@ class Result:
 
     Attributes:
         key: of the run.
-        status: how it ended.
-        message: why it was not done.
+        status: `done` for a result; else what kind of fault took it out of means and tests.
+        message: why it is no result.
         figures: of the summary, in SI units; none where it failed.
-        held: how many limits held a joint.
+        limits: which limits clipped which joints on which lines; empty for none.
         wall: the seconds it took; not a part of any table.
     """
 
@@ -133,7 +133,7 @@ class Result:
     status: Status
     message: str = ""
     figures: dict[str, float] = field(default_factory=dict)
-    held: int = 0
+    limits: str = ""
     wall: float = 0.0
 
     @property

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from dqpaint.errors import DqpaintError, UnstableError
-from dqpaint.metrics import instability
+from dqpaint.metrics import limits_text
 from dqpaint.painting import paint
 from dqpaint.studies.runner.batches import Task, carry_out_batch, goes_in_batches
 from dqpaint.studies.runner.run import Result, Run, run_from_data
@@ -43,15 +43,15 @@ def carry_out(
         if run.keep:
             write_arrays(painting, run.keep, folder, key)
     except UnstableError as problem:
-        return Result(key, "unstable", str(problem), wall=time.perf_counter() - begin)
+        return Result(key, "diverged", str(problem), wall=time.perf_counter() - begin)
     except DqpaintError as problem:
         return Result(key, "failed", str(problem), wall=time.perf_counter() - begin)
     except Exception as fault:  # one broken run must not end the others
         return Result(key, "failed", f"internal error: {fault!r}")
-    why = instability(painting.track)
-    figures, held = painting.metrics.figures, len(painting.limits)
+    found, figures = painting.judgement, painting.metrics.figures
+    limits = limits_text(painting.track)
     wall = time.perf_counter() - begin
-    return Result(key, "unstable" if why else "done", why or "", figures, held, wall)
+    return Result(key, found.status, found.why, figures, limits, wall)
 
 
 def carry_out_all(

@@ -8,7 +8,7 @@ import numpy as np
 
 from dqpaint.studies.replay.claims import Numbers, cell_name
 from dqpaint.studies.replay.measure import MEASURES, MeasureRequest, MeasureResult
-from dqpaint.studies.replay.measures.tracking import carry_out, measured, numbers_of, tracking
+from dqpaint.studies.replay.measures.tracking import carry_out, numbers_of, tracking
 from dqpaint.studies.replay.papers import Paper
 from dqpaint.studies.report.charts import HeatMap
 from dqpaint.studies.report.page import Map
@@ -24,8 +24,7 @@ def surfaces(paper: Paper, request: MeasureRequest) -> MeasureResult:
     found = carry_out(paper, request, choices, (), paper.grid_drawing)
     numbers = {**tables.numbers, **numbers_of(paper, found)}
     shown = {**tables.shown, **maps(paper, numbers)}
-    lost = {**tables.lost, **measured(paper, request, found, {}).lost}
-    return replace(tables, numbers=numbers, shown=shown, lost=lost)
+    return replace(tables, numbers=numbers, shown=shown, cells=(*tables.cells, *found))
 
 
 def grid(paper: Paper) -> dict[str, dict[str, Any]]:

@@ -1,5 +1,6 @@
 """A paper with gains that change at first -> errors integrated from a tenth of the run on."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -23,7 +24,7 @@ def late(paper: Paper, request: MeasureRequest) -> MeasureResult:
     """Every cell is run; the error integral is taken over the last nine tenths."""
     choices = {cell.name: cell.settings for cell in paper.cells}
     found = carry_out(paper, request, choices, (), always=("series",))
-    period = _period(found[0], request.folder)
+    period = _period(found, request.folder)
     made = measured(paper, request, found, {})
     numbers = {
         cell.label: {
@@ -34,7 +35,7 @@ def late(paper: Paper, request: MeasureRequest) -> MeasureResult:
         if cell.done
     }
     shown: dict[str, Pictured] = {
-        "-published": beside_published(paper, numbers),
+        **beside_published(paper, numbers),
         "-errors": errors(read_first_runs(found, request.folder)),
     }
     return replace(made, numbers=numbers, shown=shown)
@@ -47,5 +48,6 @@ def late_integral(folder: Path, key: str, period: float) -> float:
     return float(error[t > LATE * arrays["t_s"][-1]].sum() * period)
 
 
-def _period(cell: Cell, folder: Path) -> float:
-    return float(np.diff(read_arrays(folder, cell.done[0].key)["t_s"][:2])[0])
+def _period(found: Sequence[Cell], folder: Path) -> float:
+    kept = next(result for cell in found for result in cell.results if result.figures)
+    return float(np.diff(read_arrays(folder, kept.key)["t_s"][:2])[0])

@@ -9,6 +9,7 @@ from dqpaint.controllers import find_controller
 from dqpaint.controllers.base import difference_error, spatial_error
 from dqpaint.dq import Floats
 from dqpaint.language import read
+from dqpaint.metrics import judge, limits_text
 from dqpaint.motion import Motion, plan
 from dqpaint.plants import PLANTS
 from dqpaint.robots.kinematics import Kinematics
@@ -55,9 +56,10 @@ def setpoint(paper: Paper, request: MeasureRequest) -> MeasureResult:
             gains = law.read_gains(cell.settings["gains"])
             run = track(motion, kinematics, start, PLANTS["ideal"], law, gains)
             runs[cell.name] = run
-            numbers[cell.name] = {k: spread([v]) for k, v in response(run).items()}
-    lost = {name: f"limits held {len(run.clamps)} times: {run.clamps[0]}"
-            for name, run in runs.items() if run.clamps}  # fmt: skip
+            if judge(run).is_result:
+                numbers[cell.name] = {k: spread([v]) for k, v in response(run).items()}
+    lost = {name: judge(run).why or limits_text(run)
+            for name, run in runs.items() if run.clamps or not judge(run).is_result}  # fmt: skip
     ours = f"{ROBOT}, plant ideal, from the printed angles, {motion.period * 1e3:g} ms"
     return MeasureResult(numbers, ours, lost, {"-response": response_of(runs, motion)})
 

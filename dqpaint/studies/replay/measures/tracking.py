@@ -35,7 +35,7 @@ def tracking(paper: Paper, request: MeasureRequest) -> MeasureResult:
     """Every cell of the paper's tables is run as its settings say."""
     choices = {cell.name: cell.settings for cell in paper.cells}
     found = carry_out(paper, request, choices, KEPT)
-    beside = {"-published": beside_published(paper, numbers_of(paper, found))}
+    beside = beside_published(paper, numbers_of(paper, found))
     shown = pictures(found, request.folder, settings_of(paper, request, {}))
     return measured(paper, request, found, {**beside, **shown})
 
@@ -98,9 +98,8 @@ def measured(
         settings["the grid"] = settings_of(paper, request, paper.grid_settings)
     ours = conditions(settings, {cell.name: cell.group for cell in paper.cells})
     ours[0] = f"{count} run{'s' if count > 1 else ''} each, {ours[0]}"
-    lost = {cell.label: f"{cell.status}: {cell.why}" for cell in found if not cell.stable}
     return MeasureResult(
-        numbers_of(paper, found), "\n".join(ours), lost, shown, tuple(found),
+        numbers_of(paper, found), "\n".join(ours), {}, shown, tuple(found),
         tuple(departures(paper, request.settings)),
     )  # fmt: skip
 
@@ -114,8 +113,11 @@ def numbers_of(paper: Paper, found: Sequence[Cell]) -> Numbers:
     }
 
 
-def beside_published(paper: Paper, ours: Numbers) -> Charts:
-    """Ours over the paper's, a panel a figure: equal ratios lie along a diagonal."""
+def beside_published(paper: Paper, ours: Numbers) -> dict[str, Charts]:
+    """Ours over the paper's, a panel a figure: equal ratios lie along a diagonal.
+
+    None where no run is a result.
+    """
     theirs = published(paper)
     panels = []
     for figure in paper.figures:
@@ -132,4 +134,5 @@ def beside_published(paper: Paper, ours: Numbers) -> Charts:
                             for axis in "xy")  # fmt: skip
             heads = f"the paper's {figure.says}", f"{figure.says} here"
             panels.append(Panel(figure.says, *heads, lines, log_x=log_x, log_y=log_y))
-    return Charts("Ours over the paper's: what stands in the same order rises", panels, True)
+    title = "Ours over the paper's: what stands in the same order rises"
+    return {"-published": Charts(title, panels, True)} if panels else {}

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from dqpaint.language.writing.builder import Drawing
     from dqpaint.painting.paint import Painting
     from dqpaint.studies.api import compare, replay, study, sweep, tune, verify
+    from dqpaint.studies.plot import plot
 
 __version__ = "0.1.0"
 
@@ -41,6 +42,7 @@ __all__ = [
     "compare",
     "develop",
     "draw",
+    "plot",
     "preview",
     "replay",
     "save",
@@ -56,6 +58,7 @@ _ROOMS = {
     "Painting": "dqpaint.painting.paint",
     "develop": "dqpaint.api",
     "draw": "dqpaint.api",
+    "plot": "dqpaint.studies.plot",
     "preview": "dqpaint.api",
     "save": "dqpaint.api",
     **dict.fromkeys(

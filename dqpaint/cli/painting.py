@@ -13,7 +13,7 @@ from typing import Annotated, Any
 import typer
 
 from dqpaint import __version__
-from dqpaint.cli import export, language
+from dqpaint.cli import export, language, plotting
 from dqpaint.cli.language import point_at
 from dqpaint.cli.options import (
     Choices,
@@ -269,6 +269,7 @@ def gallery(
 
 
 export.add_to(app)
+plotting.add_to(app)
 language.add_to(app)
 
 

@@ -5,7 +5,9 @@ name, unit, title and meaning: tables, summaries, studies, colours and pages the
 packages bring theirs by entry points of the group `dqpaint.metrics`.
 """
 
-from dqpaint.metrics import columns, figures  # noqa: F401  the order of table and summary
+from dqpaint.metrics import (  # noqa: F401  the order of table and summary
+    columns, figures, step_figures,
+)
 from dqpaint.metrics.attenuation import Attenuation, attenuation
 from dqpaint.metrics.registry import (
     METRICS, Column, Figure, Metric, Table, Values, all_columns, all_figures, column, figure,
@@ -13,11 +15,13 @@ from dqpaint.metrics.registry import (
 )
 from dqpaint.metrics.run_metrics import Metrics, measure, motion_columns, reference_columns
 from dqpaint.metrics.judgement import Fault, Judgement, judge, limits_text
-from dqpaint.metrics.step_response import PartResponse, StepResponse, step_responses
+from dqpaint.metrics.step_response import (
+    PartResponse, StepCurve, StepResponse, step_curves, step_responses,
+)
 
 __all__ = [
     "METRICS", "Attenuation", "Column", "Fault", "Figure", "Judgement", "Metric", "Metrics",
-    "PartResponse", "StepResponse", "Table", "Values", "all_columns", "all_figures",
+    "PartResponse", "StepCurve", "StepResponse", "Table", "Values", "all_columns", "all_figures",
     "attenuation", "column", "figure", "judge", "limits_text", "measure", "motion_column",
-    "motion_columns", "reference_columns", "step_responses", "unit_suffix",
+    "motion_columns", "reference_columns", "step_curves", "step_responses", "unit_suffix",
 ]

@@ -141,13 +141,13 @@ class Figure(Metric):
     Attributes:
         name: its key in the JSON.
         measure: its value, from the run and its table; None where the run has none.
-        kind: an error, of which less is better, or a cost.
+        kind: an error, of which less is better, a cost, or of the response to a step.
         listed: whether the tables of studies show it. Figures of one title share a column there.
     """
 
     name: str
     measure: Callable[[Track, Table], float | None]
-    kind: Literal["error", "cost"] = "cost"
+    kind: Literal["error", "cost", "step"] = "cost"
     listed: bool = False
 
 

@@ -1,5 +1,6 @@
 """Track -> the step response to each jump of the reference: settling, overshoot, steady error."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,27 +44,72 @@ class StepResponse:
     rotation: PartResponse
 
 
+@dataclass(frozen=True)
+class StepCurve:
+    """How a tool went from a set point to the next.
+
+    Attributes:
+        line: of the jump.
+        t: times (N,) [s] since the jump.
+        moved: position less that of the old set point (N, 3) [m], base frame.
+        step: of the set point (3,) [m].
+        turned: angle from the old orientation about the axis of the step (N,) [rad].
+        turn: of the set point [rad].
+    """
+
+    line: SourceLine
+    t: Floats
+    moved: Floats
+    step: Floats
+    turned: Floats
+    turn: float
+
+
 def step_responses(track: Track) -> tuple[StepResponse, ...]:
     """The response to every jump of the reference after which it stays for a while."""
     motion = track.motion
-    found = []
-    for before in np.flatnonzero(motion.jump):
-        rows = _rows_of_set_point(motion.pose, int(before) + 1)
-        if len(rows) < 2:
-            continue
-        old, new = motion.pose[before], motion.pose[rows[0]]
-        times = motion.t[rows] - motion.t[rows[0]]
-        way = dq.translation(new) - dq.translation(old)
-        turn = _rotation_vectors(new, old)
-        found.append(
-            StepResponse(
-                time=float(motion.t[rows[0]]),
-                line=motion.source.at(int(before)),
-                translation=_response(way, track.points[rows] - dq.translation(new), times),
-                rotation=_response(turn, _rotation_vectors(track.pose[rows], new), times),
-            )
+    return tuple(
+        StepResponse(
+            time=float(motion.t[rows[0]]),
+            line=motion.source.at(before),
+            translation=_response(
+                dq.translation(new) - dq.translation(old),
+                track.points[rows] - dq.translation(new),
+                times,
+            ),
+            rotation=_response(
+                _rotation_vectors(new, old), _rotation_vectors(track.pose[rows], new), times
+            ),
         )
+        for before, rows, old, new, times in _steps(track)
+    )
+
+
+def step_curves(track: Track) -> tuple[StepCurve, ...]:
+    """The way to every set point that the reference jumps to and stays at for a while."""
+    found = []
+    for before, rows, old, new, times in _steps(track):
+        turn = _rotation_vectors(new, old)
+        angle = float(np.linalg.norm(turn))
+        axis = turn / angle if angle >= LEAST_STEP else np.zeros(3)
+        found.append(
+            StepCurve(
+                track.motion.source.at(before), times, track.points[rows] - dq.translation(old),
+                dq.translation(new) - dq.translation(old),
+                _rotation_vectors(track.pose[rows], old) @ axis, angle,
+            )
+        )  # fmt: skip
     return tuple(found)
+
+
+def _steps(track: Track) -> Iterator[tuple[int, NDArray[np.intp], Floats, Floats, Floats]]:
+    """Of each jump the row before, the rows at the set point, both set points, times since [s]."""
+    motion = track.motion
+    for before in np.flatnonzero(motion.jump).tolist():
+        rows = _rows_of_set_point(motion.pose, before + 1)
+        if len(rows) >= 2:
+            times = motion.t[rows] - motion.t[rows[0]]
+            yield before, rows, motion.pose[before], motion.pose[rows[0]], times
 
 
 def _rows_of_set_point(poses: Floats, first: int) -> NDArray[np.intp]:

@@ -176,8 +176,8 @@ def prepare(
     return PreparedRun(settings, clock, choices, kinematics, ready, recording)
 
 
-def finish(ready: PreparedRun, run: Track) -> Painting:
-    """The metrics and pictures of a run."""
+def finish(ready: PreparedRun, run: Track, photographed: bool = True) -> Painting:
+    """The metrics and, if it is photographed, the pictures of a run."""
     settings, motion, clock = ready.settings, ready.motion, ready.stopwatch
     chosen = ready.choices
     card, recording = ready.kinematics.card, ready.recording
@@ -196,7 +196,7 @@ def finish(ready: PreparedRun, run: Track) -> Painting:
         notes += (NO_JOINTS_NOTE,)
     with clock("light"), scene_arm_of_run(settings, card, cast) as staging:
         scene = make_scene(motion, run.pose, settings, metrics.table)
-        pictures = tuple(photograph(scene, settings, staging))
+        pictures = tuple(photograph(scene, settings, staging)) if photographed else ()
     return Painting(
         settings, chosen.controller, card.name,
         "recorded" if recording else chosen.plant.name,

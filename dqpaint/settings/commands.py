@@ -32,6 +32,7 @@ COMMANDS: dict[str, tuple[type[Group], ...]] = {
         OcclusionSettings,
     ),
     "export": OF_RUN,
+    "plot": OF_RUN,
     "compare": GROUPS,
     "sweep": GROUPS,
     "tune": OF_RUN,

@@ -13,4 +13,4 @@ in their seeds may go as one of `batches`. `page` makes a report, `api` are the 
 `dask_pool` is a pool of workers elsewhere.
 """
 
-__all__ = ["api", "gallery"]
+__all__ = ["api", "gallery", "plot"]

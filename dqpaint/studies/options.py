@@ -15,6 +15,7 @@ class CompareOptions(DrawOptions, total=False):
     """Of `compare`."""
 
     runs: int | None
+    save: Sequence[str] | str | None
     plants: Sequence[str] | str | None
     robots: Sequence[str] | str | None
     disturbs: Sequence[str] | str | None
@@ -22,6 +23,10 @@ class CompareOptions(DrawOptions, total=False):
     baseline: str | None
     pairs: str | None
     test: Literal["t", "wilcoxon"] | None
+    band: Literal["std", "quantiles", "none"] | None
+    scale: Literal["auto", "linear", "log"] | None
+    panels: str | None
+    span: str | None
     jobs: int | None
     cluster: str | None
     folder: str | PathLike[str] | None
@@ -31,6 +36,7 @@ class SweepOptions(DrawOptions, total=False):
     """Of `sweep`."""
 
     runs: int | None
+    save: Sequence[str] | str | None
     controllers: str | Callable[..., Any] | Sequence[str | Callable[..., Any]] | None
     plants: Sequence[str] | str | None
     robots: Sequence[str] | str | None
@@ -45,6 +51,7 @@ class TuneOptions(RunOptions, total=False):
     """Of `tune`."""
 
     runs: int | None
+    save: Sequence[str] | str | None
     effort: float | None
     figure: str | None
     effort_figure: str | None

@@ -1,13 +1,17 @@
 """Differences of pictures against their definitions, written out, and files that come back."""
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 
+from dqpaint.light.film import LOOKS
 from dqpaint.light.images.contact_sheet import (
     encode_png,
     hues,
     lit_window,
     message_picture,
+    mixed_colours,
     overlay,
     sheet,
     with_key,
@@ -20,6 +24,7 @@ from dqpaint.light.images.image_difference import (
     measure_difference,
     structural_similarity,
 )
+from dqpaint.light.images.legend import LEGEND_EXPOSURE, look_colours
 
 
 def noisy(rng, height=40, width=60):
@@ -84,12 +89,40 @@ def test_what_all_drew_alike_is_white(count, rng):
     if count > 1:
         np.testing.assert_allclose(colours.sum(axis=0), colours.sum() / 3, rtol=0.05)
     light = rng.uniform(0, 1, (6, 8, 3)).astype(np.float32)
-    alone = overlay([light] + [np.zeros_like(light)] * (count - 1))
-    share = max(1.0, count / 2) ** 0.5
-    np.testing.assert_allclose(alone * share, light.max(axis=2)[..., None] * colours[0], rtol=1e-6)
+    dark = [np.zeros_like(light)] * (count - 1)
+    alone = overlay([light, *dark], 0.5)
+    half = 0.5 * light.max(axis=2)[..., None] * colours[0]
+    np.testing.assert_allclose(alone, half, rtol=1e-6)
+    burnt = overlay([light + 1, *dark], 3.0)
+    np.testing.assert_allclose(burnt, np.broadcast_to(colours[0], light.shape), rtol=1e-6)
 
 
-def test_a_sheet_shows_every_picture_whole_under_its_label(rng):
+@pytest.mark.parametrize("count", [2, 3, 5])
+@pytest.mark.parametrize("look", ["film", "aces", "clip"])
+def test_the_key_of_an_overlay_has_the_colours_that_are_in_it(count, look):
+    """Lines that burn out in a photograph, by themselves, over others, and all over each other."""
+    names = [f"law {i}" for i in range(count)]
+    named = dict(zip(names, hues(count), strict=True))
+    lights = np.zeros((count, 40, 60, 3), np.float32)
+    for i in range(count):
+        lights[i, 6 * i + 1 : 6 * i + 4] = 5.0  # alone
+        lights[i, 35:38] = 9.0  # all
+    key = mixed_colours(named)
+    pairs = list(combinations(range(count), 2)) if count == 3 else []
+    for row, pair in enumerate(pairs):
+        for i in pair:
+            lights[i, 20 + 4 * row : 22 + 4 * row] = 7.0
+    shown = LOOKS[look](overlay(list(lights), 1.0), LEGEND_EXPOSURE, 0.0)
+    places = [*(6 * i + 2 for i in range(count)), *(20 + 4 * k for k in range(len(pairs))), 36]
+    assert len(key) == len(places)
+    drawn = look_colours([colour for _, colour in key], look)
+    np.testing.assert_allclose(shown[places, 30].astype(int), drawn.astype(int), atol=2)
+    red, green, blue = drawn[-1].astype(int)
+    assert max(red, green, blue) - min(red, green, blue) < 25  # white
+    assert "alike" in key[-1][0]
+
+
+def test_a_sheet_shows_every_picture_whole_above_its_caption(rng):
     pictures = [noisy(rng, 90, 160) for _ in range(5)]
     labels = ["one", "two", "a label much longer than the picture is wide " * 4, "", "five"]
     whole = sheet(pictures, labels)
@@ -105,8 +138,10 @@ def test_a_sheet_shows_every_picture_whole_under_its_label(rng):
         places += hits
     assert len(places) == 5
     assert [len({y for y, _ in places}), len({x for _, x in places})] == [2, 3]
-    first = min(y for y, _ in places)
-    assert whole[:first].max() > 150  # a label is written
+    last = max(y for y, _ in places)
+    assert whole[last + 90 :].max() > 150  # a caption is written
+    more = sheet(pictures, ["one\nk = 20\nrms 3 mm", *labels[1:]])
+    assert more.shape[0] > whole.shape[0] + 2 * 2 * 11  # on all rows, each line 11 px or more
     assert sheet(pictures[:3], labels[:3], columns=3).shape[1] > sheet(pictures[:1], ["a"]).shape[1]
 
 

@@ -85,7 +85,8 @@ def test_columns_and_figures_are_where_people_look_for_them():
     assert [row["name"] for row in shown["columns"]] == [one.headers for one in all_columns()]
     text = cells.figure_meanings()
     assert all(one.meaning in text for one in all_figures().values() if one.listed)
-    assert cells.listed_figures() == (*cells.listed_figures("error"), *cells.listed_figures("cost"))
+    kinds = (cells.listed_figures(kind) for kind in ("error", "step", "cost"))
+    assert cells.listed_figures() == tuple(one for kind in kinds for one in kind)
 
 
 @pytest.fixture

@@ -9,7 +9,13 @@ from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.core.examples import find_drawing
 from dqpaint.language import parse, read
-from dqpaint.metrics.step_response import SETTLING_BAND, _rotation_vectors, step_responses
+from dqpaint.metrics import measure
+from dqpaint.metrics.step_response import (
+    SETTLING_BAND,
+    _rotation_vectors,
+    step_curves,
+    step_responses,
+)
 from dqpaint.motion import plan
 from dqpaint.plants import PLANTS
 from dqpaint.robots.kinematics.kinematics import Kinematics
@@ -135,3 +141,32 @@ def test_a_turn_is_seen_along_the_base_s_axes_from_any_orientation(run):
     found = _rotation_vectors(run.motion.pose[before + 1], run.motion.pose[before])
     np.testing.assert_allclose(found, wanted, atol=1e-9)
     assert np.abs(wanted - pinocchio.log3(old.T @ new)).max() > 1e-2
+
+
+def test_curves_and_figures_of_steps_are_those_of_the_responses(run):
+    def shape(t):
+        return 1 - 1.2 * np.exp(-5.0 * t) * np.cos(12 * t)
+
+    answer = answered(run, shape)
+    for curve, jump in zip(step_curves(answer), step_responses(answer), strict=True):
+        np.testing.assert_allclose(curve.moved, shape(curve.t)[:, None] * curve.step, atol=1e-9)
+        assert np.linalg.norm(curve.step) == pytest.approx(jump.translation.size)
+        assert curve.turn == pytest.approx(jump.rotation.size, abs=1e-9)
+        if curve.turn:
+            np.testing.assert_allclose(curve.turned, shape(curve.t) * curve.turn, atol=1e-9)
+    figures, jumps = measure(answer).figures, step_responses(answer)
+    first, second = (jump.translation for jump in jumps)
+    assert figures["step_position_settling_s"] == max(first.settling, second.settling)
+    assert figures["step_position_overshoot"] == max(first.overshoot, second.overshoot) > 0
+    assert figures["step_position_steady_m"] == max(first.steady, second.steady)
+    assert figures["step_orientation_settling_s"] == jumps[0].rotation.settling  # one turns
+    never = measure(answered(run, lambda t: 0.5)).figures
+    assert "step_position_settling_s" not in never
+    assert never["step_position_steady_m"] > 0.01
+
+
+def test_a_drawing_without_steps_has_no_such_figures():
+    law = CONTROLLERS["pff"]
+    motion = plan(parse("period 10 ms\nline to (10, 0) mm\n", "test.traj"), CARD.canvas.pose)
+    line = track(motion, ARM, CARD.home, PLANTS["ideal"], law, law.read_gains({}))
+    assert not any(name.startswith("step_") for name in measure(line).figures)

@@ -28,7 +28,10 @@ def test_figures_are_shown_in_the_units_of_their_headings():
     shown = dict(zip(headings, row, strict=True))
     for value, heading, scale in SAID.values():
         assert float(shown[heading]) == pytest.approx(value * scale, rel=5e-4)
-    assert shown["effort [rad s]"] == "-"  # of which this run says nothing
+    assert "effort [rad s]" not in shown  # of which no run says anything
+    other = Cell({"law": "q"}, (Result("1", "done", figures={"effort_integral": 2.0}),))
+    lines = rows([Cell({"law": "p"}, (run(0, 1.0),)), other])
+    assert [line[lines[0].index("effort [rad s]")] for line in lines[1:]] == ["-", "2"]
 
 
 def test_several_runs_are_shown_by_mean_and_spread():
@@ -70,3 +73,15 @@ def test_a_command_has_the_unit_of_the_law_that_gives_it():
 def test_digits_fit_the_spread(value, spread, shown):
     """The examples of the rule of the Particle Data Group, and hard ones."""
     assert " ± ".join(rounded(value, spread)) == shown
+
+
+def test_a_figure_that_some_runs_lack_says_of_how_many_it_is():
+    def of(*values):
+        return Cell({"law": "p"}, tuple(
+            Result(str(i), "done", figures={"error_integral": 1.0} | (
+                {} if v is None else {"step_position_settling_s": v}))
+            for i, v in enumerate(values)))  # fmt: skip
+
+    for values, shown in (((0.4, None, 0.6), "0.50 ± 0.14 (of 2)"), ((0.4, 0.6), "0.50 ± 0.14")):
+        heads, row = rows([of(*values)])
+        assert row[heads.index("position settling [s]")] == shown

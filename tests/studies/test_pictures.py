@@ -142,8 +142,103 @@ def test_overlays_of_many_are_apart_and_named_below(tmp_path):
         below[name] = np.argwhere(differ > 100)[:, 0].mean()
     assert below["1"] < below["2"]  # as they lie, each in the colour that the key names
     lone = pictures.pictures(cells[:1], tmp_path, settings)
-    assert contact_sheet.decode_png(lone["-overlay"].picture).shape == (HEIGHT, WIDTH, 3)
+    alone = contact_sheet.decode_png(lone["-overlay"].picture)
+    assert alone.shape[0] > HEIGHT
+    assert alone.shape[1] == WIDTH
     failed = [Cell({"cell": "x"}, (Result("x", "failed", "too far"),))]
     assert pictures.pictures(failed, tmp_path, settings) == {}
     mixed = pictures.pictures([*cells, *failed], tmp_path, settings)
     assert contact_sheet.decode_png(mixed["-sheet"].picture).shape[0] > sheet.shape[0]
+
+
+def kept(tmp_path, count=4, steps=True):
+    """Cells of two laws with runs of several seeds, each with its errors and a step of 40 mm."""
+    cells = []
+    t = np.linspace(0, 2, 201)
+    for law, rate in (("p", 5.0), ("pff", 20.0)):
+        results = []
+        for seed in range(count):
+            way = 1 - np.exp(-rate * t) * (1 + 0.1 * seed)
+            error = 1e-3 * (1 + seed) * np.ones(201)
+            light = {"light": np.zeros((HEIGHT, WIDTH, 3), np.float32), "exposure": np.array(1.0)}
+            light["light"][10:14, 10:60] = 1
+            step = {"steps": np.array(1), "step0_t": t, "step0_size": np.array([0.04, 0, 1e-5]),
+                    "step0_turn": np.array(0.5), "step0_line": np.array("3"),
+                    "step0_angle": 0.5 * way, "step0_x": 0.04 * way, "step0_y": 0 * t,
+                    "step0_z": 0 * t}  # fmt: skip
+            key = f"{law}{seed}"
+            path = arrays_path(tmp_path, key)
+            path.parent.mkdir(exist_ok=True)
+            np.savez(path, t_s=t, position_error_m=error, orientation_error_rad=error,
+                     **(light if seed == 0 else {}), **(step if steps else {}))  # fmt: skip
+            results.append(Result(key, "done", "", {"error_integral": 1.0 + seed}))
+        cells.append(Cell({"controller": law}, tuple(results)))
+    return cells
+
+
+@pytest.mark.parametrize("band", ["std", "quantiles", "none"])
+def test_bands_are_those_of_all_seeds(tmp_path, band):
+    choice = pictures.ChartChoice(band=band, scale="linear", span=(0.5, 1.0))
+    made = pictures.pictures(kept(tmp_path), tmp_path, make_settings(), choice)
+    panel = made["-errors"].panels[0]
+    line, values = panel.lines[0], np.array([1.0, 2.0, 3.0, 4.0])  # mm
+    assert (panel.log_y, panel.x_span) == (False, (0.5, 1.0))
+    expected = {
+        "std": (2.5, 2.5 - values.std(ddof=1), 2.5 + values.std(ddof=1)),
+        "quantiles": (2.5, *np.quantile(values, (0.1, 0.9))), "none": (2.5,),
+    }[band]  # fmt: skip
+    np.testing.assert_allclose(line.y, expected[0])
+    if band == "none":
+        assert line.band is None
+    else:
+        np.testing.assert_allclose(line.band[0], expected[1])
+        np.testing.assert_allclose(line.band[1], expected[2])
+    assert ("band" in made["-errors"].note) == (band != "none")
+
+
+def test_a_run_that_is_no_result_is_in_no_band(tmp_path):
+    cells = kept(tmp_path)
+    lost = (*cells[0].results[:3], Result("p3", "oscillates", "it rings", {"error_integral": 9.0}))
+    found = [Cell(cells[0].choice, lost), cells[1]]
+    choice = pictures.ChartChoice(scale="linear")
+    panel = pictures.pictures(found, tmp_path, make_settings(), choice)["-errors"].panels[0]
+    np.testing.assert_allclose(panel.lines[0].y, 2.0)
+    np.testing.assert_allclose(panel.lines[1].y, 2.5)
+
+
+def test_on_a_logarithmic_axis_no_band_goes_below_zero(tmp_path):
+    made = pictures.pictures(kept(tmp_path), tmp_path, make_settings(),
+                             pictures.ChartChoice(scale="log"))  # fmt: skip
+    panel = made["-errors"].panels[0]
+    assert panel.log_y
+    assert panel.lines[0].band[0].min() > 0
+    assert "10 % to 90 %" in made["-errors"].note
+
+
+def test_a_step_response_shows_what_moves_and_until_it_is_there(tmp_path):
+    cells = kept(tmp_path)
+    steps = pictures.pictures(cells, tmp_path, make_settings())["-steps"]
+    assert [panel.title for panel in steps.panels] == ["x", "angle"]  # y and z hardly move
+    x, angle = steps.panels
+    assert (x.bound, x.log_y) == (40.0, False)
+    assert angle.bound == pytest.approx(np.degrees(0.5))
+    means = [1 - np.exp(-rate * x.lines[0].x) * 1.15 for rate in (5.0, 20.0)]
+    for line, way in zip(x.lines, means, strict=True):
+        np.testing.assert_allclose(line.y, 40 * way)
+    assert x.span is None
+    # the slowest comes within 2 % at ln(50 * 1.3) / 5 s, and 2.5 times that is all that there is
+    assert x.x_span == (0, 2)
+    fast = pictures.pictures(cells[1:], tmp_path, make_settings())["-steps"].panels[0]
+    assert fast.x_span == (0, pytest.approx(2.5 * np.log(50 * 1.3) / 20, abs=0.03))
+    assert "-steps" not in pictures.pictures(kept(tmp_path, steps=False), tmp_path, make_settings())
+
+
+def test_panels_are_those_of_the_axis_that_is_asked_for(tmp_path):
+    found = [Cell({"controller": c.choice["controller"], "plant": plant}, c.results)
+             for c in kept(tmp_path) for plant in ("ideal", "stiff")]  # fmt: skip
+    plants, laws = ["ideal", "stiff"], ["p", "pff"]
+    for axis, titles, lines in (("plant", plants, laws), ("controller", laws, plants)):
+        choice = pictures.ChartChoice(panels=axis)
+        panels = pictures.pictures(found, tmp_path, make_settings(), choice)["-errors"].panels
+        assert [p.title for p in panels[:2]] == [f"{t}: position error" for t in titles]
+        assert [line.label for line in panels[0].lines] == lines

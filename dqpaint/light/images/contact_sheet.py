@@ -1,6 +1,6 @@
 """Several pictures -> one: a contact sheet with labels, or an overlay.
 
-sheet     side by side, each under its label
+sheet     side by side, each above its caption
 overlay   the light of each in a colour of its own, added up: what all drew alike is white
 """
 
@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import colorsys
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from itertools import combinations
 
 import cv2
 import numpy as np
@@ -19,9 +20,12 @@ from dqpaint.light.images.legend import look_colours, text_length, write_text
 
 BACKGROUND = 22
 """Grey of the sheet, so that the edges of the pictures are visible."""
+MOST_KEY = 26  # px
 FIRST_HUE = 30.0
 """First hue: orange, so that two pictures are orange and azure [deg]."""
 LEAST_TEXT = 11
+CAPTION, KEY = 30, 60
+"""Parts of the width of a picture, and of a whole sheet, that text is high."""
 LIT_LEVEL = 40
 """Least brightness of a lit pixel, of 255; the halo of a line is dimmer."""
 CROP_MARGIN, LEAST_CROP = 0.08, 0.3
@@ -47,38 +51,71 @@ def hues(count: int) -> list[Colour]:
     ]
 
 
-def overlay(lights: Sequence[Image], colours: Sequence[Colour] | None = None) -> Image:
-    """Linear light (H, W, 3) of several pictures, each in its own colour (default: `hues`).
+def overlay(
+    lights: Sequence[Image], exposure: float, colours: Sequence[Colour] | None = None
+) -> Image:
+    """Linear light (H, W, 3) of several pictures, each in its own colour, as a key shows them.
 
-    A picture's own colours give way to its brightest channel.
+    What a photograph burns out has the colour of its picture, and no more where it is brighter: so
+    a line, and where lines lie over each other the sum of their colours, is as in the key
+    (`mixed_colours`), and colour is not lost in light. To be developed at `LEGEND_EXPOSURE`.
+
+    Args:
+        lights: linear light of each (H, W, 3); their own colours give way to the brightest channel.
+        exposure: with which 1 is burnt out.
+        colours: of the pictures; None are `hues`.
     """
     total = np.zeros_like(lights[0])
     for light, colour in zip(lights, colours or hues(len(lights)), strict=True):
-        total += light.max(axis=2)[..., None] * np.asarray(colour, dtype=np.float32)
-    return np.asarray(total * np.float32(1.0 / math.sqrt(max(1.0, len(lights) / 2))))
+        share = np.minimum(light.max(axis=2) * np.float32(exposure), 1)
+        total += share[..., None] * np.asarray(colour, dtype=np.float32)
+    return total
+
+
+def mixed_colours(named: Mapping[str, Colour]) -> list[tuple[str, Colour]]:
+    """The colours of an overlay: of each picture, of two of three alike, and of all.
+
+    Of more than three the colours that some have in common are too many to be told apart.
+    """
+
+    def together(names: Sequence[str]) -> Colour:
+        red, green, blue = np.sum([named[name] for name in names], axis=0).tolist()
+        return red, green, blue
+
+    names = list(named)
+    found = list(named.items())
+    if len(names) == 3:
+        found += [(f"{a} and {b} alike", together((a, b))) for a, b in combinations(names, 2)]
+    if len(names) > 1:
+        some = "; other tones: some alike" if len(names) > 3 else ""
+        found.append((f"{'both' if len(names) == 2 else 'all'} alike{some}", together(names)))
+    return found
 
 
 def sheet(
-    pictures: Sequence[Picture], labels: Sequence[str], columns: int | None = None
+    pictures: Sequence[Picture], captions: Sequence[str], columns: int | None = None
 ) -> Picture:
-    """A contact sheet: pictures of one size, each under its label.
+    """A contact sheet: pictures of one size, each above its caption.
 
     Args:
         pictures: (H, W, 3) each.
-        labels: one each; too long a one is cut.
+        captions: one each, of one line or several; what is too long is cut.
         columns: how many per row; None makes the sheet about square in pictures.
     """
     height, width = pictures[0].shape[:2]
     columns = columns or (3 if len(pictures) == 3 else math.ceil(math.sqrt(len(pictures))))
     rows = math.ceil(len(pictures) / columns)
-    size = max(LEAST_TEXT, round(height / 24))
-    head, gap = 2 * size, max(2, size // 3)
-    shape = (rows * (head + height) + gap, columns * (width + gap) + gap, 3)
+    size = max(LEAST_TEXT, round(width / CAPTION))
+    line, gap = round(1.5 * size), max(2, size // 3)
+    foot = line * max(caption.count("\n") + 1 for caption in captions) + size
+    shape = (gap + rows * (foot + height), columns * (width + gap) + gap, 3)
     whole = np.full(shape, BACKGROUND, dtype=np.uint8)
-    for i, (picture, label) in enumerate(zip(pictures, labels, strict=True)):
-        top, left = (i // columns) * (head + height), gap + (i % columns) * (width + gap)
-        write_text(whole, _truncated(label, width, size), left, top + round(1.4 * size), size)
-        whole[top + head : top + head + height, left : left + width] = picture
+    for i, (picture, caption) in enumerate(zip(pictures, captions, strict=True)):
+        top, left = gap + (i // columns) * (foot + height), gap + (i % columns) * (width + gap)
+        whole[top : top + height, left : left + width] = picture
+        for k, text in enumerate(caption.split("\n")):
+            baseline = top + height + line * (k + 1)
+            write_text(whole, _truncated(text, width - size, size), left + gap, baseline, size)
     return whole
 
 
@@ -100,7 +137,7 @@ def lit_window(pictures: Sequence[Picture]) -> tuple[slice, slice]:
 def with_key(picture: Picture, named: Sequence[tuple[str, Colour]], look: str) -> Picture:
     """A picture with lines of text below it that name the colours."""
     width = picture.shape[1]
-    size = max(LEAST_TEXT, round(width / 110))
+    size = max(LEAST_TEXT, min(round(width / KEY), MOST_KEY))
     places, x, line = [], size, 0
     for name, _ in named:
         length = round(4.2 * size) + text_length(name, size)

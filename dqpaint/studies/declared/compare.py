@@ -41,12 +41,28 @@ class Compare(StudyOfAlternatives):
         Option("of runs with the same seeds: Student's paired t, or Wilcoxon's", "t|wilcoxon"),
     ] = "t"
 
+    band: Annotated[
+        Literal["std", "quantiles", "none"],
+        Option("about the curve of several runs", "std|quantiles|none"),
+    ] = "std"
+    scale: Annotated[
+        Literal["auto", "linear", "log"], Option("of the errors in charts", "auto|linear|log")
+    ] = "auto"
+    panels: Annotated[
+        str | None, Option("a chart for each plant, robot ..., its laws over each other", "AXIS")
+    ] = None
+    span: Annotated[
+        str | None, Option("seconds that charts show, such as 0..0.5", "A..B", unsaid="all")
+    ] = None
+
     def carry_out(self, request: "StudyRequest") -> "Comparison":
         """Compare."""
         from dqpaint.studies.experiment import comparisons, requests
         from dqpaint.studies.kinds.compare import compare
+        from dqpaint.studies.report.pictures import ChartChoice
 
         axes, base = requests.read_comparison(request.choices, self.several, **self.defaults)
         several = [axis for axis in axes if len(axis.texts) > 1] or axes[:1]
         chosen = comparisons.choose(several, self.baseline, self.pairs, self.test)
-        return compare(request, axes, base, self.runs, self.figure, chosen)
+        shape = ChartChoice(self.band, self.scale, self.panels, requests.read_span(self.span))
+        return compare(request, axes, base, self.runs, self.figure, chosen, shape)

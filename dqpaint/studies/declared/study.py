@@ -16,14 +16,16 @@ groups of settings that it takes besides:
 is `dqpaint twice FILE --other NAME` and `dqpaint.study("twice", drawing, other="p")`.
 """
 
+import dataclasses
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 from pydantic import BaseModel, ConfigDict
 
 from dqpaint.core import Folder, subclass
+from dqpaint.errors import UsageError
 from dqpaint.settings import (
     COMMANDS,
     DEFAULT_CONTROLLER,
@@ -39,6 +41,8 @@ if TYPE_CHECKING:
     from dqpaint.studies.kinds import StudyRequest, StudyResult
     from dqpaint.studies.runner.reporter import Reporter
 
+FORMATS = ("tex", "pdf", "svg")
+"""What a study can write besides PNG, CSV and Markdown."""
 VARY = "str | Sequence[str] | Mapping[str, Any]"
 """The type of what is varied, from Python."""
 
@@ -116,6 +120,20 @@ def _figure(name: object) -> str:
     return str(name)
 
 
+def _formats(value: object) -> tuple[str, ...]:
+    """The names of more files, from a text with commas or several.
+
+    Raises:
+        UsageError: one is none.
+    """
+    names = value.split(",") if isinstance(value, str) else value
+    found = tuple(str(name).strip() for name in names) if isinstance(names, Sequence) else ()
+    for name in found or ("",):
+        if name not in FORMATS:
+            raise UsageError(f"save '{str(value)[:40]}' is not of {', '.join(FORMATS)}")
+    return found
+
+
 def figure_option(help: str) -> Option:
     """The option of a parameter that is the name of a figure."""
     return Option(help, "NAME", read=_figure)
@@ -131,6 +149,15 @@ class RepeatedStudy(Study):
     """A study that can do each run with several seeds."""
 
     runs: Annotated[int, Option("runs of each choice, with the seeds that follow --seed", "N")] = 1
+    save: Annotated[
+        Any,
+        Option(
+            "more files: tables as tex (booktabs), charts as pdf, svg",
+            "tex,pdf,svg",
+            read=_formats,
+            python="Sequence[str] | str",
+        ),
+    ] = ()
 
 
 class StudyOfAlternatives(RepeatedStudy):
@@ -210,4 +237,5 @@ def run_study(
     choices = {key: value for key, value in said.items() if key not in own}
     crew = requests.workers(asked.jobs, asked.cluster)
     request = StudyRequest(name, subject, choices, folder, crew, reporter or SILENT)
-    return asked.carry_out(request)
+    result = asked.carry_out(request)
+    return dataclasses.replace(result, formats=tuple(getattr(asked, "save", ())))

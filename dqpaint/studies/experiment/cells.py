@@ -30,7 +30,11 @@ class TableFigure(NamedTuple):
         return self.heading.rpartition(" [")[2].removesuffix("]") if "[" in self.heading else ""
 
 
-KINDS = {"error": "Errors, of which less is better:", "cost": "What it costs:"}
+KINDS = {
+    "error": "Errors, of which less is better:",
+    "step": "Response to steps of the set point:",
+    "cost": "What it costs:",
+}
 
 
 def listed_figures(*kinds: str) -> tuple[TableFigure, ...]:
@@ -241,13 +245,22 @@ def figure_names(cells: Sequence[Cell]) -> list[str]:
 def rows(cells: Sequence[Cell]) -> list[list[str]]:
     """Headings and rows of text; what was not done says so."""
     axes = list(cells[0].choice)
-    figures = [with_units(figure, cells) for figure in listed_figures()]
+    there = set(figure_names(cells))
+    listed = [one for one in listed_figures() if there & {*one.names}]
+    figures = [with_units(figure, cells) for figure in listed]
     found = [[*axes, *(figure.heading for figure in figures), "runs", "status"]]
     for cell in cells:
-        texts = [spread_text(cell.spread(figure)) for figure in figures]
+        texts = [_shown(cell, figure) for figure in figures]
         runs = str(len(cell.results))
         found.append([*(cell.choice[axis] for axis in axes), *texts, runs, cell.status])
     return found
+
+
+def _shown(cell: Cell, figure: TableFigure) -> str:
+    """A figure of a cell, and of how many of its runs it is, where some have none."""
+    value = cell.spread(figure)
+    some = 0 < value.n < len(cell.done)
+    return spread_text(value) + (f" (of {value.n})" if some else "")
 
 
 def spread_text(value: Spread) -> str:

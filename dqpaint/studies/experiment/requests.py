@@ -3,6 +3,7 @@
 Both take the same: texts with commas, or lists; one value for several, or several for one.
 """
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -147,3 +148,21 @@ def _with_gains(text: str, law: str, gains: Mapping[str, Any]) -> str:
     both = {**gains, **own}.items()
     said = (f"{n}={','.join(map(str, v)) if isinstance(v, tuple) else v}" for n, v in both)
     return f"{name}({','.join(said)})"
+
+
+def read_span(text: str | None) -> tuple[float, float] | None:
+    """The ends of a stretch of time [s], from `0..0.5`; None of None.
+
+    Raises:
+        UsageError: anything else.
+    """
+    if text is None:
+        return None
+    try:
+        low, high = (float(end) for end in text.split(".."))
+        if not 0 <= low < high < math.inf:
+            raise ValueError
+    except ValueError:
+        said = "is not A..B in seconds, the earlier first, for example 0..0.5"
+        raise UsageError(f"span '{text[:40]}' {said}") from None
+    return low, high

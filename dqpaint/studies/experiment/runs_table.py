@@ -61,7 +61,7 @@ def _of_run(run: Run) -> dict[str, Any]:
     return {
         "drawing": Path(run.name).stem,
         "law": settings.controller,
-        "gains": _gains(settings),
+        "gains": gains_text(settings),
         "plant": _plant(settings),
         "robot": settings.robot or run.program().robot or DEFAULT_ROBOT,
         "disturb": _said(settings.disturb) or NONE,
@@ -69,7 +69,7 @@ def _of_run(run: Run) -> dict[str, Any]:
     }
 
 
-def _gains(settings: Settings) -> str:
+def gains_text(settings: Settings) -> str:
     """All gains of the law, those that nobody chose, too."""
     schedule = find_controller(settings.controller).read_gains(settings.gains)
     return _said(schedule.as_dict())

@@ -1,19 +1,20 @@
 """A drawing, and several laws, plants or arms -> pictures at one exposure, errors, one table."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from dqpaint.core import tables
+from dqpaint.errors import UsageError
 from dqpaint.settings import Settings
 from dqpaint.studies.experiment import cells, comparisons
 from dqpaint.studies.experiment.axes import Axis, combinations, with_choice
-from dqpaint.studies.experiment.cells import find_figure
+from dqpaint.studies.experiment.cells import Cell, find_figure
 from dqpaint.studies.experiment.comparisons import Chosen
 from dqpaint.studies.kinds.study_request import StudyRequest
 from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
 from dqpaint.studies.report.page import Block, Rows, Words, files_of
-from dqpaint.studies.report.pictures import pictures
+from dqpaint.studies.report.pictures import MOST_TOGETHER, ChartChoice, pictures
 from dqpaint.studies.runner.run import Run
 
 
@@ -24,6 +25,7 @@ class Comparison(StudyResult):
     settings: Settings
     figure: str
     chosen: Chosen
+    shape: ChartChoice
 
     @property
     def title(self) -> str:
@@ -47,7 +49,7 @@ class Comparison(StudyResult):
     def files_and_blocks(self) -> tuple[dict[str, bytes], list[Block]]:
         """Pictures and tables by the ends of their names, and the same for a page."""
         figure = find_figure(self.figure, self.cells)
-        shown = pictures(self.cells, self.folder, self.settings)
+        shown = pictures(self.cells, self.folder, self.settings, self.shape)
         rows = cells.rows(self.cells)
         tests = comparisons.differences(self.cells, figure, self.chosen)
         many = any(len(cell.results) > 1 for cell in self.cells)
@@ -64,7 +66,7 @@ class Comparison(StudyResult):
                        Rows("Differences", differ), Words(told)]  # fmt: skip
             parts += [tables.markdown(spreads), told, tables.markdown(differ)]
         made = {
-            **files_of(shown),
+            **files_of(shown, self.formats),
             **({"-tests.csv": comparisons.csv(tests, figure.heading)} if tests else {}),
             "-table.csv": cells.csv(self.cells),
             "-table.md": tables.page(self.title, *parts),
@@ -79,6 +81,7 @@ def compare(
     count: int = 1,
     figure: str = "error_integral",
     chosen: Chosen | None = None,
+    shape: ChartChoice | None = None,
 ) -> Comparison:
     """Paint a drawing with every combination of the axes' values.
 
@@ -89,13 +92,14 @@ def compare(
         count: how many runs each, with the seeds that follow.
         figure: name of the figure that is tested for differences.
         chosen: in which pairs; None are those of all laws, or else of the first axis.
+        shape: of the curves over time.
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.
     """
     name, text = request.drawing
     choices = combinations(axes)
-    keep = ("series", "light")
+    keep = ("errors", "series", "steps", "light")
     runs = [Run(name, text, with_choice(base, one), keep) for one in choices]
     several = [axis.name for axis in axes if len(axis.texts) > 1] or [axes[0].name]
     found = request.cells([{n: choice[n] for n in several} for choice in choices], runs, count)
@@ -103,4 +107,21 @@ def compare(
         name=Path(name).name, settings=base, cells=found, folder=request.folder, text=text,
         figure=figure,
         chosen=chosen or comparisons.choose([a for a in axes if a.name in several], None, None),
+        shape=replace(shape or ChartChoice(), panels=_panels(shape, found)),
     )  # fmt: skip
+
+
+def _panels(shape: ChartChoice | None, found: Sequence[Cell]) -> str | None:
+    """The axis that has a panel a value; of many cells all but the laws if nobody says which.
+
+    Raises:
+        UsageError: it is no axis of these.
+    """
+    axes = list(found[0].choice)
+    if shape is not None and shape.panels is not None:
+        if shape.panels not in axes:
+            raise UsageError(f"panels '{shape.panels}': what differs here is {', '.join(axes)}")
+        return shape.panels
+    others = [name for name in axes if name != "controller"]
+    many = len(found) > MOST_TOGETHER and "controller" in axes
+    return others[0] if many and others else None

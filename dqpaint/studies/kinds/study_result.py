@@ -9,6 +9,7 @@ from dqpaint.outputs import files
 from dqpaint.settings import Settings
 from dqpaint.studies.experiment import cells, runs_table
 from dqpaint.studies.experiment.cells import Cell
+from dqpaint.studies.report import latex
 from dqpaint.studies.report.page import Block, Page, Pictured, Rows, Words, files_of, html
 
 ANY_WIDTH = 100_000  # characters: a table as wide as it is
@@ -24,6 +25,7 @@ class StudyResult:
         folder: of the journal and of the files.
         settings: that all runs have in common; None where they have none.
         text: of the drawing.
+        formats: files besides the usual ones: tex, pdf, svg.
     """
 
     name: str
@@ -31,6 +33,7 @@ class StudyResult:
     folder: Path
     settings: Settings | None = None
     text: str = ""
+    formats: tuple[str, ...] = ()
 
     @property
     def stem(self) -> str:
@@ -76,7 +79,7 @@ class StudyResult:
         """Charts and tables by the ends of their names, and what the page of the study shows."""
         rows, shown = cells.rows(self.cells), self.shown()
         made = {
-            **files_of(shown),
+            **files_of(shown, self.formats),
             "-table.csv": cells.csv(self.cells),
             "-table.md": tables.page(self.title, tables.markdown(rows), *self.hidden_block),
         }
@@ -97,6 +100,9 @@ class StudyResult:
         made, blocks = self.files_and_blocks()
         if any(cell.runs for cell in self.cells):
             made["-runs.csv"] = runs_table.csv(self.cells)
+        if "tex" in self.formats:
+            several = [block for block in blocks if isinstance(block, Rows)]
+            made["-table.tex"] = latex.tables([(one.title, one.lines) for one in several])
         if command is not None:
             page = Page(self.title, blocks, self.settings, self.text, command)
             made["-report.html"] = html(page)

@@ -74,7 +74,7 @@ class Sweep(StudyResult):
             else Map(over, surface(self, figure))
         )
         made = {
-            **files_of({"": shown}),
+            **files_of({"": shown}, self.formats),
             "-table.csv": cells.csv(self.cells),
             "-table.md": tables.page(self.title, tables.markdown(rows), *self.hidden_block),
         }

@@ -106,7 +106,7 @@ class Tuning(StudyResult):
         table, words = rows(self), answer(self)
         shown = Charts("What less error costs in effort", panels(self))
         made = {
-            **files_of({"": shown}),
+            **files_of({"": shown}, self.formats),
             "-tradeoff.csv": cells.csv(self.front or self.cells[:1]),
             "-table.csv": cells.csv(self.cells),
             "-table.md": tables.page(self.title, tables.markdown(table), *self.hidden_block, words),

@@ -18,7 +18,7 @@ def of_panel(panel: Panel, most: int = MOST_POINTS) -> dict[str, Any]:
     lines = [_of_line(thinned(line, most), next(colours)) for line in panel.lines]
     names = (
         "title", "x_label", "y_label", "log_x", "log_y", "decades", "bound", "wall", "limit",
-        "span", "ticks",
+        "span", "x_span", "ticks",
     )  # fmt: skip
     return {"kind": "curves", **{name: getattr(panel, name) for name in names}, "lines": lines}
 
@@ -38,6 +38,7 @@ def _of_line(line: Line, following: str) -> dict[str, Any]:
         "x": _numbers(line.x), "y": _numbers(line.y),
         "marks": None if line.marks is None else line.marks.tolist(),
         "bars": None if line.bars is None else _numbers(line.bars),
+        "band": None if line.band is None else list(map(_numbers, line.band)),
     }  # fmt: skip
 
 
@@ -52,7 +53,8 @@ def thinned(line: Line, most: int = MOST_POINTS) -> Line:
         stretch = line.y[low:high]
         kept |= {low + int(np.argmin(stretch)), low + int(np.argmax(stretch))}
     at = np.array(sorted(kept))
-    return Line(line.x[at], line.y[at], line.label, line.colour, width=line.width)
+    band = None if line.band is None else (line.band[0][at], line.band[1][at])
+    return Line(line.x[at], line.y[at], line.label, line.colour, band=band, width=line.width)
 
 
 def _numbers(values: Floats) -> list[float | None]:

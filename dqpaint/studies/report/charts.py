@@ -1,4 +1,4 @@
-"""Lines and values -> charts and heat maps as PNG; the only module that imports matplotlib.
+"""Lines and values -> charts and heat maps as PNG, PDF, SVG; here alone is matplotlib imported.
 
 It is imported when a chart is drawn: help and lists of studies take a third of a second less.
 """
@@ -7,7 +7,7 @@ import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import cycle
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,13 +24,16 @@ COLOURS = ("#006aa8", "#d77e00", "#00a880", "#8328dc", "#8f5d2a", "#4b5563")
 """Told apart by those who see no red, no green or no blue, too, and dark enough for white paper."""
 ALARM = "#c1121f"
 MARKED = "no result"  # at marked points and cells
-LONGEST = 60  # letters of a label
+LONGEST, LONGEST_NOTE = 60, 160  # letters of a label
 MOST_INSIDE = 6  # lines whose names find room beside them
 MOST_NUMBERS = 400  # cells of a heat map that are written in
 MOST_BESIDE = 3  # panels
 MOST_TICKS = 6
 ROOM = 0.1  # about each of several panels [inches]
 ROUND = [1, 2, 2.5, 5, 10]
+NEAR_LIMIT = 0.25  # of an axis: a limit that is farther off is not shown
+FAR = 1e9  # beyond any axis
+Form = Literal["png", "pdf", "svg"]
 HEIGHT = 4.2  # of a row of panels [inches]
 
 
@@ -40,7 +43,8 @@ class Line:
 
     `colour` is the next of the chart's own if not said; `marks` says where (N,) a point is
     no result, and has all points shown: the line leaves those out. `bars` are lengths (N,) up and
-    down. A width of 0 leaves the points alone.
+    down, `band` the lower and upper edge (N,) of an area about the line. A width of 0 leaves the
+    points alone.
     """
 
     x: Floats
@@ -49,6 +53,7 @@ class Line:
     colour: str | None = None
     marks: NDArray[np.bool_] | None = None
     bars: Floats | None = None
+    band: tuple[Floats, Floats] | None = None
     width: float = 1.8
 
 
@@ -56,7 +61,9 @@ class Line:
 class Panel:
     """One chart: lines, bounds that are drawn dashed, and what the axes say.
 
-    `span` are the ends of the y axis, so that charts beside each other have the same.
+    `span` are the ends of the y axis, so that charts beside each other have the same, `x_span`
+    those of x. `allowed` are the least and the largest y that are allowed: what is beyond is
+    shaded. `held` are stretches of x, shaded too, in which a limit held something.
     """
 
     title: str
@@ -71,6 +78,9 @@ class Panel:
     wall: float | None = None  # a bound of x
     limit: str = ""  # what a bound is
     span: tuple[float, float] | None = None
+    x_span: tuple[float, float] | None = None
+    allowed: tuple[float, float] | None = None
+    held: Sequence[tuple[float, float]] = ()
 
     @property
     def needs_legend(self) -> bool:
@@ -106,17 +116,26 @@ def beside(count: int) -> int:
 
 
 def chart(
-    panels: Sequence[Panel], width: float = 10.0, height: float = HEIGHT, shared: bool = False
+    panels: Sequence[Panel],
+    width: float = 10.0,
+    height: float = HEIGHT,
+    shared: bool = False,
+    form: Form = "png",
+    columns: int | None = None,
+    note: str = "",
 ) -> bytes:
-    """Panels as a PNG file, a few beside each other.
+    """Panels as a file, a few beside each other.
 
     Args:
         panels: from the left, row by row.
         width: of the whole [inches of 120 dots].
         height: of a row [inches].
         shared: whether their lines have the same names and colours, so that one legend does.
+        form: of the file.
+        columns: panels beside each other; None is what `beside` says.
+        note: a line below all.
     """
-    columns = beside(len(panels))
+    columns = columns or beside(len(panels))
     rows = -(-len(panels) // columns)
     figure = _figure(width, rows * height)
     if rows > 1:
@@ -136,7 +155,9 @@ def chart(
             handles, names, loc="outside upper left", ncols=min(len(names), MOST_INSIDE),
             frameon=False, fontsize=10,
         )  # fmt: skip
-    return _png(figure)
+    if note:
+        figure.supxlabel(_plain(note, LONGEST_NOTE), x=0.01, ha="left", fontsize=9, color=INK)
+    return _encoded(figure, form)
 
 
 def _draw_panel(axes: "Axes", panel: Panel) -> None:
@@ -146,6 +167,7 @@ def _draw_panel(axes: "Axes", panel: Panel) -> None:
     for bound, draw in ((panel.bound, axes.axhline), (panel.wall, axes.axvline)):
         if bound is not None:
             draw(bound, color=INK, lw=1, ls=(0, (4, 3)), label=_plain(panel.limit) or "_")
+    _shade(axes, panel)
     axes.set_xlabel(_plain(panel.x_label))
     axes.set_ylabel(_plain(panel.y_label))
     if panel.ticks is not None:
@@ -158,6 +180,8 @@ def _draw_panel(axes: "Axes", panel: Panel) -> None:
         axes.set_ylim(bottom=max(axes.get_ylim()[0], top * 10.0**-panel.decades))
     if panel.span is not None:
         axes.set_ylim(*panel.span)
+    if panel.x_span is not None:
+        axes.set_xlim(*panel.x_span)
     if panel.ticks is None:
         _number(axes.xaxis, axes.get_xlim(), panel.log_x)
     _number(axes.yaxis, axes.get_ylim(), panel.log_y)
@@ -165,6 +189,25 @@ def _draw_panel(axes: "Axes", panel: Panel) -> None:
     axes.set_axisbelow(True)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
+
+
+def _shade(axes: "Axes", panel: Panel) -> None:
+    """Shade what is beyond the limits of y, where the chart comes near them, and stretches of x."""
+    for begin, end in panel.held:
+        axes.axvspan(begin, end, color=ALARM, alpha=0.15, lw=0)
+    if panel.allowed is None:
+        return
+    low, high = axes.get_ylim()
+    room = NEAR_LIMIT * (high - low)
+    for limit, beyond in ((panel.allowed[0], -FAR), (panel.allowed[1], FAR)):
+        if low - room <= limit <= high + room:
+            axes.axhspan(limit, limit + beyond, color=FAINT, alpha=0.35, lw=0)
+            axes.axhline(limit, color=ALARM, lw=1)
+    beyond_both = min(low, panel.allowed[0] - 0.1 * room), max(high, panel.allowed[1] + 0.1 * room)
+    axes.set_ylim(
+        beyond_both[0] if panel.allowed[0] >= low - room else low,
+        beyond_both[1] if panel.allowed[1] <= high + room else high,
+    )
 
 
 def _number(axis: "Axis", ends: tuple[float, float], log: bool) -> None:
@@ -193,6 +236,8 @@ def _draw(axes: "Axes", line: Line, colour: str) -> None:
         marker=dots,
         ms=4,
     )
+    if line.band is not None:
+        axes.fill_between(line.x, *line.band, color=colour, alpha=0.22, lw=0)
     if line.bars is not None and np.isfinite(line.bars).any():
         axes.errorbar(line.x, line.y, line.bars, fmt="none", ecolor=colour, lw=1, capsize=3)
     if line.marks is not None and line.marks.any():
@@ -204,8 +249,8 @@ def _draw(axes: "Axes", line: Line, colour: str) -> None:
         )  # fmt: skip
 
 
-def heat_map(given: HeatMap, width: float = 7.0, height: float = 5.0) -> bytes:
-    """A table of values as colours, each with its number, as a PNG file."""
+def heat_map(given: HeatMap, width: float = 7.0, height: float = 5.0, form: Form = "png") -> bytes:
+    """A table of values as colours, each with its number, as a file."""
     from matplotlib.patches import Rectangle
     from matplotlib.ticker import FuncFormatter
 
@@ -239,7 +284,7 @@ def heat_map(given: HeatMap, width: float = 7.0, height: float = 5.0) -> bytes:
     axes.set_yticks(range(len(given.y)), list(map(_plain, given.y)))
     axes.set_xlabel(_plain(given.x_label))
     axes.set_ylabel(_plain(given.y_label))
-    return _png(figure)
+    return _encoded(figure, form)
 
 
 def _two_and_five(value: float, _: float = 0.0) -> str:
@@ -247,10 +292,10 @@ def _two_and_five(value: float, _: float = 0.0) -> str:
     return f"{value:g}" if f"{value:e}"[0] in "25" else ""
 
 
-def _plain(text: str) -> str:
+def _plain(text: str, longest: int = LONGEST) -> str:
     """What a user wrote: no formula, whatever it holds, one line, and not longer than a chart."""
     line = " ".join(text.split())
-    short = line if len(line) <= LONGEST else f"{line[: LONGEST - 3]}..."
+    short = line if len(line) <= longest else f"{line[: longest - 3]}..."
     return short.replace("$", r"\$")
 
 
@@ -261,7 +306,12 @@ def _figure(width: float, height: float) -> "Figure":
     return Figure(figsize=(width, height), dpi=120, layout="constrained")
 
 
-def _png(figure: "Figure") -> bytes:
+def _encoded(figure: "Figure", form: Form) -> bytes:
+    """The figure as a file that is the same each time; letters of a PDF stay letters."""
+    from matplotlib import rc_context
+
+    unsaid = {"png": {"Software": None}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
     file = io.BytesIO()
-    figure.savefig(file, format="png", metadata={"Software": None})
+    with rc_context({"svg.hashsalt": "dqpaint", "pdf.fonttype": 42}):
+        figure.savefig(file, format=form, metadata=unsaid[form])
     return file.getvalue()

@@ -65,7 +65,8 @@ function curves(figure, panel, state, self) {
   const can = (line, k) => line.y[k] !== null && (!panel.log_x || line.x[k] > 0)
     && (!panel.log_y || line.y[k] > 0);
   const zoom = () => state.zooms.get(panel.x_label);
-  const within = (v) => !zoom() || (v >= zoom()[0] && v <= zoom()[1]);
+  const stretch = () => zoom() || panel.x_span;
+  const within = (v) => !stretch() || (v >= stretch()[0] && v <= stretch()[1]);
 
   function domain() {
     const xs = [], ys = [];
@@ -86,7 +87,7 @@ function curves(figure, panel, state, self) {
       if (log) { const f = (high / low) ** pad; return [low / f, high * f]; }
       return [low - pad * (high - low), high + pad * (high - low)];
     };
-    const along = zoom() || ends(xs, panel.log_x, panel.ticks ? 0.08 : 0.02);
+    const along = zoom() || panel.x_span || ends(xs, panel.log_x, panel.ticks ? 0.08 : 0.02);
     if (panel.span && !zoom()) return [along, panel.span];
     let [low, high] = ends(ys, panel.log_y, 0.06);
     if (panel.log_y && panel.decades < 300) low = Math.max(low, high * 10 ** -panel.decades);
@@ -125,6 +126,7 @@ function curves(figure, panel, state, self) {
       path += `${on ? "L" : "M"}${x(v).toFixed(1)},${y(line.y[k]).toFixed(1)}`;
       on = true;
     });
+    if (line.band) drawBand(ground, line);
     if (line.width)
       make(ground, "path", { d: path, stroke: line.colour, "stroke-width": line.width, class: "line" });
     if (line.width && !line.marks) return;
@@ -140,6 +142,14 @@ function curves(figure, panel, state, self) {
       make(ground, "circle", { ...at, r: line.width ? 3 : 4, fill: line.colour });
       if (marked(k)) make(ground, "circle", { ...at, r: 7, class: "mark" });
     });
+  }
+
+  function drawBand(ground, line) { // what a logarithmic axis has no room for lies at its foot
+    const at = (v) => (panel.log_y && v <= 0 ? size[1] : y(v)).toFixed(1);
+    const known = line.x.map((_, k) => k).filter((k) => line.band.every((edge) => edge[k] !== null));
+    const edge = (values, ks) => ks.map((k) => `${x(line.x[k]).toFixed(1)},${at(values[k])}`);
+    const round = [...edge(line.band[1], known), ...edge(line.band[0], [...known].reverse())];
+    if (known.length) make(ground, "path", { d: `M${round.join("L")}Z`, fill: line.colour, class: "band" });
   }
 
   // What lies at the place that is read: of each line the nearest point, of lone points those that
@@ -177,7 +187,8 @@ function curves(figure, panel, state, self) {
     near.sort((a, b) => b.line.y[b.k] - a.line.y[a.k]);
     for (const { line, k } of near.slice(0, MOST_NAMED)) {
       make(group, "circle", { cx: x(line.x[k]), cy: y(line.y[k]), r: 4, fill: line.colour });
-      const bar = line.bars && line.bars[k] ? ` ± ${said(line.bars[k])}` : "";
+      const ends = line.band && line.band.map((edge) => said(edge[k])).join(" to ");
+      const bar = line.bars && line.bars[k] ? ` ± ${said(line.bars[k])}` : ends ? ` (${ends})` : "";
       const mark = line.marks && line.marks[k] ? ", no result" : "";
       const text = `${line.label}: ${said(line.y[k])}${bar}${mark}`;
       const row = make(tip, "span", {});

@@ -17,7 +17,15 @@ from dqpaint import __version__
 from dqpaint.core import library_versions
 from dqpaint.settings import Settings
 from dqpaint.studies.report import chart_data
-from dqpaint.studies.report.charts import HeatMap, Panel, beside, chart, heat_map
+from dqpaint.studies.report.charts import (
+    HEIGHT,
+    Form,
+    HeatMap,
+    Panel,
+    beside,
+    chart,
+    heat_map,
+)
 from dqpaint.studies.report.html_tables import table
 from dqpaint.studies.report.templates import render
 
@@ -28,6 +36,10 @@ HINT = (
     "the arrow keys. Drag along it, or spread two fingers, to zoom; a double click shows all "
     "again. A name above it hides and shows its line, a double click on one all others."
 )
+
+
+VECTORS: tuple[Form, ...] = ("pdf", "svg")
+"""Forms of charts besides PNG."""
 
 
 @dataclass(frozen=True)
@@ -70,10 +82,14 @@ class Shot:
     title: str
     picture: bytes
 
+    def encoded(self, form: Form = "png") -> bytes:
+        """As a PNG file, of light as it was photographed; it has no other form."""
+        return self.picture
+
 
 @dataclass(frozen=True)
 class Charts:
-    """Curves beside each other.
+    """Curves beside each other; `note` is a line below them as a file, where no title is.
 
     If they are `shared`, lines of one name have one colour in all of them, and one legend: what is
     hidden in one is so in all, and those that are over the same thing are read and zoomed together.
@@ -82,11 +98,21 @@ class Charts:
     title: str
     panels: Sequence[Panel]
     shared: bool = False
+    note: str = ""
+
+    columns: int | None = None
 
     @property
-    def picture(self) -> bytes:
-        """As a PNG file."""
-        return chart(self.panels, WIDE[beside(len(self.panels)) - 1], shared=self.shared)
+    def beside(self) -> int:
+        """How many panels stand beside each other."""
+        return self.columns or beside(len(self.panels))
+
+    def encoded(self, form: Form = "png") -> bytes:
+        """As a file."""
+        width = WIDE[self.beside - 1]
+        return chart(
+            self.panels, width, HEIGHT, self.shared, form, self.columns, self.note
+        )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -96,11 +122,10 @@ class Map:
     title: str
     given: HeatMap
 
-    @property
-    def picture(self) -> bytes:
-        """As a PNG file."""
+    def encoded(self, form: Form = "png") -> bytes:
+        """As a file."""
         width, height = 1.0 + 0.9 * len(self.given.x), 1.2 + 0.55 * len(self.given.y)
-        return heat_map(self.given, min(max(7.0, width), 24.0), min(max(5.0, height), 18.0))
+        return heat_map(self.given, min(max(7.0, width), 24.0), min(max(5.0, height), 18.0), form)
 
 
 Pictured = Shot | Charts | Map
@@ -126,9 +151,13 @@ class Page:
     again: str = ""
 
 
-def files_of(shown: Mapping[str, Pictured]) -> dict[str, bytes]:
-    """PNG files by the ends of their names."""
-    return {f"{end}.png": one.picture for end, one in shown.items()}
+def files_of(shown: Mapping[str, Pictured], forms: Sequence[str] = ()) -> dict[str, bytes]:
+    """PNG files by the ends of their names, and charts and maps in other forms, too."""
+    made = {f"{end}.png": one.encoded() for end, one in shown.items()}
+    for end, one in shown.items():
+        if not isinstance(one, Shot):
+            made |= {f"{end}.{form}": one.encoded(form) for form in VECTORS if form in forms}
+    return made
 
 
 def html(page: Page) -> bytes:

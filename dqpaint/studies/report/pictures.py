@@ -1,4 +1,4 @@
-"""Pictures and errors of cells -> a contact sheet, an overlay, and errors over time.
+"""Pictures and errors of cells -> a contact sheet, an overlay, errors over time, step responses.
 
 A few share one chart and one overlay. Many are split by the first part of their names, such as the
 law of `HIR, 20 %`: a panel each, all with the same axes, exposure and place.
@@ -8,26 +8,25 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
-from dqpaint.light import Picture
 from dqpaint.light.film import LOOKS
-from dqpaint.light.images import Legend, contact_sheet, with_legend
+from dqpaint.light.images import LEGEND_EXPOSURE, contact_sheet
 from dqpaint.metrics import all_columns
 from dqpaint.settings import Settings
-from dqpaint.studies.experiment.cells import Cell, split_label
+from dqpaint.studies.experiment.cells import Cell, listed_figures, split_label, spread_text
+from dqpaint.studies.experiment.runs_table import gains_text
 from dqpaint.studies.report.charts import Line, Panel
+from dqpaint.studies.report.over_runs import SAID, Arrays, Band, averaged
 from dqpaint.studies.report.page import Charts, Pictured, Shot
-from dqpaint.studies.runner.run_arrays import read_arrays
+from dqpaint.studies.report.step_charts import step_charts
+from dqpaint.studies.runner.run_arrays import arrays_path, read_arrays
 
-Arrays = Mapping[str, NDArray[Any]]
 MOST_TOGETHER = 6  # cells of one overlay and one chart
 DIM = 0.72  # of a hue on white paper
-DARKER = -2.0  # stops, so that a hue is seen and not burnt out
 DECADES = 5  # of error: one that begins at 0 would take the whole chart
 # Lines of a chart, the first of a small one, and the last, which do not hide the first.
 THICK, THICKER, THIN = 3.6, 2.6, 1.2
@@ -54,75 +53,142 @@ def read_first_runs(found: Sequence[Cell], folder: Path) -> dict[str, Arrays]:
     }
 
 
-def groups(drawn: Mapping[str, Arrays]) -> list[Group]:
-    """All of a few cells together; many by the first part of their labels, or each alone."""
-    if len(drawn) <= MOST_TOGETHER:
+def groups(
+    drawn: Mapping[str, Arrays], parts: Mapping[str, tuple[str, str]] | None = None
+) -> list[Group]:
+    """All of a few cells together; many by the first part of their labels, or each alone.
+
+    Args:
+        drawn: the arrays of cells by their labels.
+        parts: what a panel and a line of it are called, by the label; None is `split_label`.
+    """
+    if parts is None and len(drawn) <= MOST_TOGETHER:
         colours = dict(zip(drawn, contact_sheet.hues(len(drawn)), strict=True))
         return [Group("", drawn, colours)]
-    rests = list(dict.fromkeys(split_label(label)[1] for label in drawn))
+    parts = parts or {label: split_label(label) for label in drawn}
+    rests = list(dict.fromkeys(parts[label][1] for label in drawn))
     colours = dict(zip(rests, contact_sheet.hues(len(rests)), strict=True))
     members: dict[str, dict[str, Arrays]] = defaultdict(dict)
     for label, arrays in drawn.items():
-        title, rest = split_label(label)
+        title, rest = parts[label]
         members[title][rest] = arrays
     return [Group(title, these, colours) for title, these in members.items()]
 
 
-def pictures(found: Sequence[Cell], folder: Path, settings: Settings) -> dict[str, Pictured]:
-    """Contact sheet, overlay and errors over time of first runs; nothing if none came to a picture.
+@dataclass(frozen=True)
+class ChartChoice:
+    """How curves over time are shown.
+
+    Attributes:
+        band: about the curve of several runs.
+        scale: of the errors; `auto` is logarithmic where one from 0 would show too little.
+        panels: the axis of which each value has charts of its own; None are those of many cells.
+        span: of time that is shown [s]; None is all.
+    """
+
+    band: Band = "std"
+    scale: Literal["auto", "linear", "log"] = "auto"
+    panels: str | None = None
+    span: tuple[float, float] | None = None
+
+
+def pictures(
+    found: Sequence[Cell], folder: Path, settings: Settings, choice: ChartChoice | None = None
+) -> dict[str, Pictured]:
+    """Contact sheet, overlay, errors over time, step responses; nothing if nothing was drawn.
+
+    Pictures are those of first runs.
 
     Args:
         found: the cells; light and series of their first runs were kept.
         folder: of the study.
         settings: what all have in common.
+        choice: how curves are shown.
     """
     drawn = read_first_runs(found, folder)
     if not drawn:
         return {}
+    choice = choice or ChartChoice()
+    parts = None if choice.panels is None else {c.label: _parts(c, choice.panels) for c in found}
+    split = groups(drawn, parts)
     first = next(iter(drawn.values()))
     exposure = float(first["exposure"])  # one for all, or they could not be compared
-
-    def developed(light: NDArray[np.float32], ev: float) -> Picture:
-        return LOOKS[settings.look](light, exposure, ev)
-
-    by_label = {label: developed(run["light"], settings.ev) for label, run in drawn.items()}
+    look = LOOKS[settings.look]
+    by_label = {k: look(run["light"], exposure, settings.ev) for k, run in drawn.items()}
     images = [
         by_label[cell.label]
         if cell.label in by_label
         else contact_sheet.message_picture(cell.why, settings.height, settings.width)
         for cell in found
     ]
-    split = groups(drawn)
+    seen = exposure * 2.0**settings.ev
     over = [
-        developed(
+        look(
             contact_sheet.overlay(
-                [run["light"] for run in group.members.values()],
+                [run["light"] for run in group.members.values()], seen,
                 [group.colours[name] for name in group.members],
             ),
-            settings.ev + DARKER,
+            LEGEND_EXPOSURE, 0.0,
         )
         for group in split
-    ]
-    labels = [_label(cell) for cell in found]
-    if len(split) == 1:
-        names = tuple(split[0].members)
-        legend = Legend("laid over each other", names, tuple(split[0].colours.values()), False)
-        overlay = with_legend(over[0], legend, settings.look)
-        sheet = contact_sheet.sheet(images, labels)
+    ]  # fmt: skip
+    captions = [_caption(cell) for cell in found]
+    labels = [cell.label for cell in found]
+    window = contact_sheet.lit_window([*by_label.values(), *over])
+    if len(split) > 1:
+        images, over = ([one[window] for one in several] for several in (images, over))
+        titles, most = [group.title for group in split], min(len(split), MOST_TOGETHER)
+        overlay = contact_sheet.sheet(over, titles, most)
+        sheet = contact_sheet.sheet(images, captions, columns(labels))
     else:
-        window = contact_sheet.lit_window([*by_label.values(), *over])
-        sheet = contact_sheet.sheet([image[window] for image in images], labels, columns(labels))
-        overlay = contact_sheet.sheet([image[window] for image in over], [g.title for g in split],
-                                min(len(split), MOST_TOGETHER))  # fmt: skip
-        overlay = contact_sheet.with_key(overlay, list(split[0].colours.items()), settings.look)
+        overlay, sheet = over[0], contact_sheet.sheet(images, captions)
+    key = contact_sheet.mixed_colours(split[0].colours)
+    overlay = contact_sheet.with_key(overlay, key, settings.look)
     apart = "" if len(split) == 1 else ", within each picture"
-    return {
+    runs = read_runs(found, folder)
+    made: dict[str, Pictured] = {
         "-sheet": Shot("All pictures, at one exposure", contact_sheet.encode_png(sheet)),
         "-overlay": Shot(
             f"Laid over each other{apart}: {ALIKE}", contact_sheet.encode_png(overlay)
         ),
-        "-errors": errors(drawn),
+        "-errors": errors(drawn, runs, choice, split),
     }
+    colours = {k: on_paper(c) for k, c in zip(drawn, contact_sheet.hues(len(drawn)), strict=True)}
+    steps = step_charts({label: runs[label] for label in drawn}, colours, choice.band)
+    return {**made, **({"-steps": steps} if steps else {})}
+
+
+def read_runs(found: Sequence[Cell], folder: Path) -> dict[str, list[Arrays]]:
+    """The arrays of the runs that are results, by the labels of their cells; else of the first."""
+    runs = {}
+    for cell in found:
+        keys = [one.key for one in cell.done if arrays_path(folder, one.key).is_file()]
+        first = [cell.results[0].key] if cell.results[0].figures else []
+        runs[cell.label] = [read_arrays(folder, key) for key in keys or first]
+    return runs
+
+
+def _parts(cell: Cell, axis: str) -> tuple[str, str]:
+    """What the panel of a cell is called, and its line there."""
+    rest = [value for name, value in cell.choice.items() if name != axis]
+    return cell.choice[axis], ", ".join(rest)
+
+
+def _caption(cell: Cell) -> str:
+    """The choice, the law's gains, and how far off the light was, of all runs."""
+    lines = [cell.label]
+    if cell.runs and (gains := gains_text(cell.runs[0].settings)):
+        lines.append(gains)
+    rms = [
+        f"{spread_text(cell.spread(figure))} {figure.unit}"
+        for figure in listed_figures("error")
+        if any("_rms_" in name for name in figure.names) and cell.spread(figure).n
+    ]
+    if rms:
+        lines.append(f"rms {', '.join(rms)}")
+    if cell.status != "done":
+        lines.append(cell.status)
+    return "\n".join(lines)
 
 
 def columns(labels: Sequence[str]) -> int | None:
@@ -135,39 +201,71 @@ def columns(labels: Sequence[str]) -> int | None:
     return sizes.pop() if len(sizes) == 1 and sizes != {1} else None
 
 
-def errors(drawn: Mapping[str, Arrays]) -> Charts:
-    """Errors over time, one below the other, a panel a group."""
-    split = groups(drawn)
-    panels = []
+def errors(
+    drawn: Mapping[str, Arrays],
+    runs: Mapping[str, Sequence[Arrays]] | None = None,
+    choice: ChartChoice | None = None,
+    split: Sequence[Group] | None = None,
+) -> Charts:
+    """Errors over time, one below the other, a panel a group.
+
+    Args:
+        drawn: the first run of each choice, by its label.
+        runs: all of its runs; None is the first alone.
+        choice: how they are shown. On a logarithmic axis a band is one of quantiles: a mean less a
+            standard deviation may be below 0.
+        split: what stands together; None are `groups`.
+    """
+    choice, split = choice or ChartChoice(), split or groups(drawn)
+    every = runs or {label: [one] for label, one in drawn.items()}
+    by_run = {id(run): every[label] for label, run in drawn.items()}
+    panels: list[Panel] = []
+    bands: set[Band] = set()
     for column in all_columns():
         name, title, scale = column.name, column.title, column.scale
         if column.study != "drawn" or any(name not in run for run in drawn.values()):
             continue
         values = [run[name] for run in drawn.values()]
         log = bool(0 < min(map(np.median, values)) < max(map(np.max, values)) / WIDE)
+        log = log if choice.scale == "auto" else choice.scale == "log"
         span = None if len(split) == 1 else _span(scale * np.concatenate(values), log)
         for group in split:
-            lines = _lines(group, name, scale, len(split) > 1)
+            band: Band = "quantiles" if log and choice.band == "std" else choice.band
+            lines = _lines(group, name, scale, len(split) > 1, by_run, band)
+            bands.add(band)
             head = f"{group.title}: {title}" if group.title else title
             panels.append(
                 Panel(
                     head, "time [s]", column.heading, lines, log_y=log, decades=DECADES,
-                    span=span,
+                    span=span, x_span=choice.span,
                 )
             )  # fmt: skip
-    return Charts("Errors over time, of the first run of each", panels, shared=True)
+    many = any(len(several) > 1 for several in every.values())
+    told = "; ".join(SAID[band] for band in sorted(bands)) if many else "of the only run of each"
+    title = f"Errors over time: {told}"
+    return Charts(title, panels, shared=True, note=title if many else "")
 
 
-def _lines(group: Group, name: str, scale: float, small: bool) -> list[Line]:
+def _lines(
+    group: Group,
+    name: str,
+    scale: float,
+    small: bool,
+    by_run: Mapping[int, Sequence[Arrays]],
+    band: Band,
+) -> list[Line]:
     thick = THICKER if small else THICK
     widths = np.geomspace(thick, THIN, len(group.members)).tolist()
-    return [
-        Line(
-            run["t_s"], scale * run[name], label or group.title,
-            on_paper(group.colours[label]), width=width,
-        )
-        for (label, run), width in zip(group.members.items(), widths, strict=True)
-    ]  # fmt: skip
+    lines = []
+    for (label, run), width in zip(group.members.items(), widths, strict=True):
+        runs = by_run[id(run)] or [run]
+        y, low, high = (scale * part for part in averaged(runs, name, band))
+        about = (low, high) if len(runs) > 1 and band != "none" else None
+        colour = on_paper(group.colours[label])
+        lines.append(
+            Line(run["t_s"], y, label or group.title, colour, band=about, width=width)
+        )  # fmt: skip
+    return lines
 
 
 def _span(values: Floats, log: bool) -> tuple[float, float]:
@@ -177,11 +275,6 @@ def _span(values: Floats, log: bool) -> tuple[float, float]:
         return 0.0, top or 1.0
     positive = values[values > 0]
     return max(float(np.quantile(positive, 0.001)) / ROOM, top * 10.0**-DECADES), top
-
-
-def _label(cell: Cell) -> str:
-    status = cell.results[0].status
-    return cell.label if status == "done" else f"{cell.label}: {status}"
 
 
 def on_paper(colour: contact_sheet.Colour) -> str:

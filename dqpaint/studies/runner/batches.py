@@ -18,7 +18,7 @@ from dqpaint.metrics import judge, limits_text, measure
 from dqpaint.painting import paint
 from dqpaint.planning import reachability
 from dqpaint.simulation import ModelsDifferError, Track, track_many
-from dqpaint.studies.runner.run import Result, Run
+from dqpaint.studies.runner.run import OF_ALL, Result, Run
 from dqpaint.studies.runner.run_arrays import write_arrays
 
 MOST = 64  # runs of a batch: what more would gain, memory takes
@@ -110,7 +110,7 @@ def _result(
             reachability.check_row_reached(ready.motion, ready.kinematics, row, ready.settings.null)
             seen.add(row)
         if run.keep:
-            painting = paint.finish(ready, track)
+            painting = paint.finish(ready, track, photographed=not OF_ALL.issuperset(run.keep))
             write_arrays(painting, run.keep, folder, key)
             figures = painting.metrics.figures
         else:

@@ -31,6 +31,10 @@ Status = Literal["done", "oscillates", "clipped", "astray", "diverged", "failed"
 """`died`: the process that carried it out ended; unlike the others it is tried again."""
 
 
+OF_ALL = {"errors", "steps"}
+"""What is kept of every run of a choice, by names in `run_arrays`; all else is of the first one."""
+
+
 @dataclass(frozen=True)
 class Run:
     """One painting to be made.
@@ -172,7 +176,7 @@ def seeded(run: Run, count: int) -> list[Run]:
         replace(
             run,
             settings=run.settings.model_copy(update={"seed": first + i}),
-            keep=run.keep if i == 0 else (),
+            keep=run.keep if i == 0 else tuple(name for name in run.keep if name in OF_ALL),
         )
         for i in range(count)
     ]

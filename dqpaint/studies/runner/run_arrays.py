@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.core import Registry
-from dqpaint.metrics import all_columns
+from dqpaint.metrics import all_columns, step_curves
 from dqpaint.outputs import files
 from dqpaint.painting import paint, picture
 
@@ -22,6 +22,28 @@ def series(painting: paint.Painting) -> Arrays:
     """Time, errors and what else is kept of every control step (N,)."""
     names = [one.name for one in all_columns() if one.study and one.name in painting.table]
     return {name: np.asarray(painting.table[name]) for name in names}
+
+
+@KEEPERS.add("errors")
+def errors(painting: paint.Painting) -> Arrays:
+    """Time and the errors that charts draw (N,), with the digits that a chart can show."""
+    names = ["t_s", *(one.name for one in all_columns() if one.study == "drawn")]
+    return {n: painting.table[n].astype(np.float32) for n in names if n in painting.table}
+
+
+@KEEPERS.add("steps")
+def steps(painting: paint.Painting) -> Arrays:
+    """How many steps of the set point there were, and the way of the tool (N,) at each."""
+    curves = step_curves(painting.track)
+    name = painting.motion.program.line_name
+    kept: Arrays = {"steps": np.array(len(curves))}
+    for i, one in enumerate(curves):
+        kept |= {
+            f"step{i}_t": one.t, f"step{i}_angle": one.turned, f"step{i}_size": one.step,
+            f"step{i}_turn": np.array(one.turn), f"step{i}_line": np.array(name(one.line)),
+            **{f"step{i}_{axis}": one.moved[:, k] for k, axis in enumerate("xyz")},
+        }  # fmt: skip
+    return kept
 
 
 @KEEPERS.add("light")

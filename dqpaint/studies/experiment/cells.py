@@ -250,13 +250,13 @@ def rows(cells: Sequence[Cell]) -> list[list[str]]:
     figures = [with_units(figure, cells) for figure in listed]
     found = [[*axes, *(figure.heading for figure in figures), "runs", "status"]]
     for cell in cells:
-        texts = [_shown(cell, figure) for figure in figures]
+        texts = [_said(cell, figure) for figure in figures]
         runs = str(len(cell.results))
         found.append([*(cell.choice[axis] for axis in axes), *texts, runs, cell.status])
     return found
 
 
-def _shown(cell: Cell, figure: TableFigure) -> str:
+def _said(cell: Cell, figure: TableFigure) -> str:
     """A figure of a cell, and of how many of its runs it is, where some have none."""
     value = cell.spread(figure)
     some = 0 < value.n < len(cell.done)

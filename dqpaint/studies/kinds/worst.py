@@ -22,7 +22,6 @@ from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UnstableError, UsageError
 from dqpaint.metrics import Attenuation, attenuation
 from dqpaint.outputs import files
-from dqpaint.outputs.tables import encode_csv
 from dqpaint.painting import paint
 from dqpaint.settings import DEFAULT_CONTROLLER, Settings
 from dqpaint.simulation import Track
@@ -53,6 +52,8 @@ class Case:
         size: rms of the disturbance [m/s] or [rad/s].
         in_loop: the ratio of error to disturbance in the loop of the law alone [s].
         on_arm: the same of the run on the arm, with the promises.
+        undisturbed: the norm of the error that is there without any disturbance, over the norm of
+            this one [s].
         clipped: whether limits clipped commands there.
         table: the disturbance as a CSV has it.
         error: size of the error at each row (N,) [m], or [rad] / 2.
@@ -64,14 +65,15 @@ class Case:
     size: float
     in_loop: float
     on_arm: Attenuation
+    undisturbed: float
     clipped: bool
     table: dict[str, Floats]
     error: Floats
 
     @property
     def label(self) -> str:
-        """The law, the plant and the part."""
-        return f"{self.law}, {self.plant}, {self.part}"
+        """The law and the plant."""
+        return f"{self.law}, {self.plant}"
 
     @property
     def end(self) -> str:
@@ -86,7 +88,7 @@ class Case:
         one = self.on_arm
         return [
             self.law, self.plant, self.part, self.size, one.ratio, one.bound, self.in_loop,
-            one.in_steps, int(self.clipped),
+            one.in_steps, self.undisturbed, int(self.clipped),
         ]  # fmt: skip
 
     @property
@@ -101,23 +103,27 @@ class Case:
             self.law, self.plant, self.part, f"{self.size:.4g} {UNITS[self.part]}",
             f"{self.on_arm.ratio:.4g}", f"{promise:.4g}" if promise else "none",
             of_promise(self.on_arm.ratio), of_promise(self.in_loop), of_promise(steps),
+            of_promise(self.undisturbed),
             "clipped" if self.clipped else "",
         ]  # fmt: skip
 
 
 NUMBERS = [
-    "law", "plant", "error", "size", "ratio_s", "promise_s", "in_loop_s", "in_steps_s", "clipped",
+    "law", "plant", "error", "size", "ratio_s", "promise_s", "in_loop_s", "in_steps_s",
+    "undisturbed_s", "clipped",
 ]  # fmt: skip
 HEADS = [
     "law", "plant", "error", "size, rms", "worst found [s]", "promise [s]", "of the promise",
-    "in the loop alone", "bound in steps", "limits",
+    "in the loop alone", "bound in steps", "undisturbed", "limits",
 ]  # fmt: skip
 ABOUT = (
     "Worst found: norm of the error over the norm of the disturbance, on the arm. In the loop "
     "alone: what the search began with, where the tool carries out its twist without an arm, as a "
     "part of the promise. Bound in steps: what holds there with the period and the turns of the "
     "run, likewise; joints that hold their rates carry the tool along a curve instead, so that an "
-    "arm that turns much in a step can exceed it. A search finds a lower limit of the worst there "
+    "arm that turns much in a step can exceed it. Undisturbed: the error that is there without any "
+    "disturbance, by the same norm, as where the reference changes its twist within a period; no "
+    "promise is about that part. A search finds a lower limit of the worst there "
     "is."
 )
 
@@ -170,7 +176,7 @@ class Worst(StudyResult):
                     Line(t, case.error, case.label) for t, case in zip(times, mine, strict=True)
                 ]),
             ]  # fmt: skip
-        return {"-worst": Charts("The worst that was found, over time", panels)}
+        return {"-worst": Charts("The worst that was found, over time", panels, shared=True)}
 
     def files_and_blocks(self) -> tuple[dict[str, bytes], list[Block]]:
         """Charts, tables and the disturbances by the ends of their names, and the page's parts."""
@@ -178,7 +184,7 @@ class Worst(StudyResult):
         text = f"# {self.title}\n\n{tables.markdown(self.rows())}\n\n{ABOUT}\n"
         made = {
             **files_of(shown),
-            **{case.end: encode_csv(case.table) for case in self.cases},
+            **{case.end: _csv(case.table) for case in self.cases},
             "-table.csv": tables.encode_csv([NUMBERS, *(case.numbers for case in self.cases)]),
             "-table.md": text.encode(),
         }
@@ -222,6 +228,12 @@ def seek(request: StudyRequest, asked: "WorstStudy") -> Worst:
     )  # fmt: skip
 
 
+def _csv(table: dict[str, Floats]) -> bytes:
+    return tables.encode_csv(
+        [list(table), *zip(*(c.tolist() for c in table.values()), strict=True)]
+    )
+
+
 def _check_law(name: str) -> None:
     law = find_controller(name)
     if law.commands != "twist" or not law.batched:
@@ -247,7 +259,7 @@ class _Hunt:
 
     def track(self, table: dict[str, Floats]) -> Track:
         """A run with a disturbance, read from a file as any is; DqpaintError."""
-        files.write(self._file.with_suffix(""), {".csv": encode_csv(table)})
+        files.write(self._file.with_suffix(""), {".csv": _csv(table)})
         try:
             given = {"twist": {"file": str(self._file)}}
             settings = self._run.settings.model_copy(update={"disturb": given})
@@ -293,7 +305,12 @@ def _worst_of(hunt: _Hunt, asked: "WorstStudy", law: str, plant: str, part: Part
         raise UnstableError(f"{law} on {plant}: every run diverged")
     came, run, table = best
     error = np.linalg.norm(loop.error(run.pose, part), axis=1)
-    return Case(law, plant, part, size, one.ratio, came, bool(run.clamps), table, error)
+    plain = float(loop.energy(loop.run(np.zeros((rows, 6))), part))
+    cause = size * math.sqrt(rows)
+    return Case(
+        law, plant, part, size, one.ratio, came, math.sqrt(plain) / cause, bool(run.clamps), table,
+        error,
+    )  # fmt: skip
 
 
 def _sizes(asked: "WorstStudy", part: Part, bounds: tuple[float, float] | None) -> list[float]:

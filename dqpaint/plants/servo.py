@@ -31,7 +31,7 @@ from dqpaint.robots.bullet import bullet
 from dqpaint.robots.kinematics import Dynamics, Kinematics
 from dqpaint.robots.model import Card
 
-LARGEST_PHASE_STEP = 0.5  # of a joint's own swing on its gear, in radians, fits one physics step
+LARGEST_PHASE_STEP = 1.0  # of a joint's own swing on its gear, in radians, fits one physics step
 
 
 @PLANTS.add("servo")

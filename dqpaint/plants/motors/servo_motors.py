@@ -110,8 +110,8 @@ class ServoMotors:
         lag = step * self._current
         kept = math.exp(-lag)
         short = self.motor_torque - asked
-        mean = asked + short * ((1.0 - kept) / lag)
-        self.motor_torque = asked + short * kept
+        mean = asked + (1.0 - kept) / lag * short
+        self.motor_torque = asked + kept * short
         self.largest = np.where(np.abs(mean) > np.abs(self.largest), mean, self.largest)
         self.gear.move(step, middle, mean)
         return carried

@@ -87,6 +87,30 @@ class Claim(_Data):
         return self.value if "value" in self.model_fields_set else None
 
 
+class Fitted(_Data):
+    """A value of a plant that is fitted: where it begins, and its open bounds."""
+
+    start: float
+    low: float
+    high: float
+
+
+class Fit(_Data):
+    """A plant that is fitted to some rows of a paper's tables.
+
+    Attributes:
+        cells: the rows, by their names.
+        figures: their numbers.
+        plant: its text, with the names of the parameters in braces.
+        parameters: by their names.
+    """
+
+    cells: tuple[str, ...]
+    figures: tuple[str, ...]
+    plant: str
+    parameters: dict[str, Fitted]
+
+
 class Paper(_Data):
     """A paper's experiment.
 
@@ -104,6 +128,8 @@ class Paper(_Data):
         grid_settings: what all cells of the grid have in common.
         figures: the columns.
         cells: the rows.
+        cells_from: the replay that has them, if they are not here.
+        fit: of a plant to some of them, for the measure `identified`.
         claims: what is looked at.
         assumed: what the paper leaves open and a run needs all the same.
         open: what cannot be tested, and why.
@@ -122,6 +148,8 @@ class Paper(_Data):
     grid_settings: dict[str, Any] = Field(default_factory=dict)
     figures: tuple[Figure, ...]
     cells: tuple[Cell, ...] = ()
+    cells_from: str = ""
+    fit: Fit | None = None
     claims: tuple[Claim, ...]
     assumed: tuple[str, ...] = ()
     open: tuple[str, ...]
@@ -143,6 +171,10 @@ class Paper(_Data):
                 raise ValueError(f"claim '{claim.says}' names a cell or figure that is not there")
             if claim.kind == "trend" and claim.axis not in self.axes:
                 raise ValueError(f"claim '{claim.says}' names an axis that is not there")
+        if self.fit and not (
+            set(self.fit.cells) <= set(cells) and set(self.fit.figures) <= figures
+        ):
+            raise ValueError("fit names a cell or figure that is not there")
         return self
 
 
@@ -159,8 +191,14 @@ def read_paper(name: str) -> Paper:
     """
     if name not in paper_names():
         raise UnknownNameError("replay", name, paper_names())
-    text = (_folder() / f"{name}.toml").read_text("utf-8")
-    return Paper(name=name, **tomllib.loads(text))
+    data = _data(name)
+    if source := data.get("cells_from"):
+        data["cells"] = _data(source)["cells"]
+    return Paper(name=name, **data)
+
+
+def _data(name: str) -> dict[str, Any]:
+    return tomllib.loads((_folder() / f"{name}.toml").read_text("utf-8"))
 
 
 def find_paper_drawing(name: str) -> Path:

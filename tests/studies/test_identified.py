@@ -18,12 +18,11 @@ def numbers(truth):
     gain = {"K, ln2^2": 60.0, "K, best": 125.0}
     found = {}
     for cell in PAPER.cells:
-        load = (1.2 - truth["gravity"]) / truth["scale"]
-        lag = 1 / truth["torque"]
+        load, lag = 0.5 / truth["scale"], 3 / truth["torque"]
         k = gain.get(cell.name, 100.0)
         row = {
             "error_integral": load / k + lag, "command_integral_rad": load,
-            "effort_integral": 1 / (1 + lag), "speed_integral_m": 1 + truth["scale"],
+            "effort_integral": 1 / (1 + lag), "speed_integral_m": 3 - truth["damping"],
             "acceleration_integral": 1.0,
         }  # fmt: skip
         found[cell.name] = {name: Spread(1, value, np.nan) for name, value in row.items()}
@@ -55,15 +54,15 @@ def test_a_step_that_makes_it_worse_is_not_kept():
 
 
 def test_the_plant_that_made_the_numbers_is_found_again(monkeypatch):
-    truth = {"scale": 0.3, "gravity": 0.7, "torque": 90.0}
+    truth = {"scale": 0.3, "damping": 0.8, "torque": 70.0}
     fit = PAPER.fit
     seen = []
 
     def carried_out(paper, request, choices, keep):
         assert set(choices) == set(fit.cells)
-        text = next(iter(choices.values()))["plant"]
+        text = paper.settings["plant"]
         seen.append(text)
-        return dict(part.split("=") for part in text.split(",")[2:])
+        return dict(part.split("=") for part in text.split(",")[3:])
 
     monkeypatch.setattr(identified, "carry_out", carried_out)
     monkeypatch.setattr(
@@ -76,7 +75,8 @@ def test_the_plant_that_made_the_numbers_is_found_again(monkeypatch):
         assert found.values[name] == pytest.approx(value, rel=0.05)
     assert found.residual < 0.01
     assert found.sets == len(seen)
-    assert seen[0].startswith("servo:theta-gc,reference=measured,scale=0.5,gravity=0.85,torque=60")
+    assert seen[0].startswith("servo:theta-gc,reference=measured,")
+    assert seen[0].endswith(",scale=0.5,damping=0.5,torque=100")
 
 
 def test_residuals_are_logarithms_and_a_lost_run_is_a_bad_one():

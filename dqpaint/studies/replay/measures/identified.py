@@ -57,14 +57,20 @@ def identified(paper: Paper, request: MeasureRequest) -> MeasureResult:
     if "plant" in request.settings:
         raise UsageError(f"replay '{paper.name}' takes no --plant: it fits one to the paper")
     found = find_values(paper, fit, replace(request, runs=1))
-    plant = fit.plant.format(**{name: f"{value:.6g}" for name, value in found.values.items()})
-    choices = {cell.name: {**cell.settings, "plant": plant} for cell in paper.cells}
-    cells = carry_out(paper, request, choices, KEPT)
+    fitted = under(paper, fit, found.values)
+    choices = {cell.name: cell.settings for cell in paper.cells}
+    cells = carry_out(fitted, request, choices, KEPT)
     numbers = numbers_of(paper, cells)
     beside = {"-published": beside_published(paper, numbers)}
-    shown = pictures(cells, request.folder, settings_of(paper, request, {"plant": plant}))
-    made = measured(paper, request, cells, {**beside, **shown})
+    shown = pictures(cells, request.folder, settings_of(fitted, request, {}))
+    made = measured(fitted, request, cells, {**beside, **shown})
     return replace(made, ours="\n".join([*said(paper, fit, found, numbers), made.ours]))
+
+
+def under(paper: Paper, fit: Fit, values: Mapping[str, float]) -> Paper:
+    """The experiment on the plant with some values."""
+    plant = fit.plant.format(**{name: f"{value:.6g}" for name, value in values.items()})
+    return paper.model_copy(update={"settings": {**paper.settings, "plant": plant}})
 
 
 def find_values(paper: Paper, fit: Fit, request: MeasureRequest) -> Fitted:
@@ -85,10 +91,9 @@ def find_values(paper: Paper, fit: Fit, request: MeasureRequest) -> Fitted:
         return np.asarray(low + (high - low) / (1 + np.exp(-x)))
 
     def residuals(x: Floats) -> Floats:
-        texts = {name: f"{value:.6g}" for name, value in zip(names, values(x), strict=True)}
-        plant = fit.plant.format(**texts)
-        choices = {name: {**cells[name].settings, "plant": plant} for name in fit.cells}
-        ours = numbers_of(paper, carry_out(paper, request, choices, ()))
+        tried = under(paper, fit, dict(zip(names, values(x).tolist(), strict=True)))
+        choices = {name: cells[name].settings for name in fit.cells}
+        ours = numbers_of(paper, carry_out(tried, request, choices, ()))
         return log_ratios(theirs, ours, fit.cells, fit.figures)
 
     begin = np.log((start - low) / (high - start))

@@ -61,7 +61,7 @@ def identified(paper: Paper, request: MeasureRequest) -> MeasureResult:
     choices = {cell.name: cell.settings for cell in paper.cells}
     cells = carry_out(fitted, request, choices, KEPT)
     numbers = numbers_of(paper, cells)
-    beside = {"-published": beside_published(paper, numbers)}
+    beside = beside_published(paper, numbers)
     shown = pictures(cells, request.folder, settings_of(fitted, request, {}))
     made = measured(fitted, request, cells, {**beside, **shown})
     return replace(made, ours="\n".join([*said(paper, fit, found, numbers), made.ours]))
@@ -156,21 +156,24 @@ def said(paper: Paper, fit: Fit, found: Fitted, ours: Numbers) -> list[str]:
     values = ", ".join(f"{name} = {value:.3g}" for name, value in found.values.items())
     count = len(log_ratios(theirs, ours, fit.cells, fit.figures))
     lines = [
-        f"fitted: {values}, to {count} numbers of {'; '.join(fit.cells)} "
-        f"in {found.sets} sets of runs; they are off by {off(found.residual)}",
+        f"fitted: {values}, to {count} numbers of {'; '.join(fit.cells)} in {found.sets} sets of "
+        f"runs; left over: they are off by {off(found.residual)} (root mean square)",
     ]
-    families = dict.fromkeys(split_label(cell.name)[0] for cell in paper.cells)
-    for family in families:
-        names = [
-            cell.name
-            for cell in paper.cells
-            if split_label(cell.name)[0] == family and cell.name not in fit.cells
-        ]
+    families: dict[str, list[str]] = {}
+    for cell in paper.cells:
+        if cell.name not in fit.cells:
+            families.setdefault(split_label(cell.name)[0], []).append(cell.name)
+    for family, names in families.items():
+        known = [name for name in names if name in ours]
         parts = [
-            f"{figure.says} {off(rms(log_ratios(theirs, ours, names, [figure.name])))}"
+            f"{figure.says} {off(rms(log_ratios(theirs, ours, known, [figure.name])))}"
             for figure in paper.figures
+            if known and figure.name in fit.figures
         ]
-        lines.append(f"predicted, {family}, {len(names)} rows: off by {', '.join(parts)}")
+        text = f"off by {', '.join(parts)}" if parts else "nothing"
+        if lost := len(names) - len(known):
+            text += f"; {lost} of {len(names)} rows have no result"
+        lines.append(f"predicted of {family}: {text}")
     return lines
 
 

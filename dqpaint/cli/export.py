@@ -37,7 +37,7 @@ def export(
     safety checks on real hardware.
     """
     from dqpaint import api
-    from dqpaint.cli.terminal import Progress
+    from dqpaint.cli.terminal import Progress, note
     from dqpaint.core import find_drawing, short_name
     from dqpaint.outputs import files, registry
     from dqpaint.painting import validate
@@ -47,7 +47,7 @@ def export(
     path = find_drawing(file)
     given = validate.settings_file(choices.pop("settings", None))
     law = given.under(choices).get("controller", DEFAULT_CONTROLLER)
-    stem = files.stem_for(out, f"{path.stem}-{short_name(law)}")
+    stem = files.stem_for(out, f"{path.stem}-{short_name(law)}", note)
     with Progress(path.name) as progress:
         painting = api.draw(
             path, **choices, size=(64, 36), settings=given, progress=progress, formats=writer.name

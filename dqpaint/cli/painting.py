@@ -66,7 +66,7 @@ def common(
 def draw(choices: Choices, file: Drawing, out: Out = None, save: Save = "png,csv,json") -> None:
     """Paint a drawing with an arm: picture, per-step CSV and summary."""
     from dqpaint import api
-    from dqpaint.cli.terminal import Progress
+    from dqpaint.cli.terminal import Progress, note
     from dqpaint.core import find_drawing, short_name
     from dqpaint.outputs import files, registry
     from dqpaint.painting import validate
@@ -77,7 +77,7 @@ def draw(choices: Choices, file: Drawing, out: Out = None, save: Save = "png,csv
     given = validate.settings_file(choices.pop("settings", None))
     both = given.under(choices)
     law = "recorded" if both.get("recorded") else both.get("controller", DEFAULT_CONTROLLER)
-    stem = files.stem_for(out, f"{path.stem}-{short_name(law)}")
+    stem = files.stem_for(out, f"{path.stem}-{short_name(law)}", note)
     with Progress(path.name) as progress:
         painting = api.draw(path, **choices, settings=given, progress=progress, formats=save)
     with Progress("movie") as progress:
@@ -103,11 +103,12 @@ def preview(
 ) -> None:
     """Make the reference picture without an arm; with length, time and brightness."""
     from dqpaint import api
+    from dqpaint.cli.terminal import note
     from dqpaint.core import find_drawing
     from dqpaint.outputs import files
 
     path = find_drawing(file)
-    stem = files.stem_for(out, f"{path.stem}-preview")
+    stem = files.stem_for(out, f"{path.stem}-preview", note)
 
     def show() -> None:
         preview = api.preview(path, **choices)
@@ -143,10 +144,11 @@ def develop(
     from pathlib import Path
 
     from dqpaint import api
+    from dqpaint.cli.terminal import note
     from dqpaint.outputs import files
 
     name = Path(film).stem.removesuffix("-film")
-    stem = files.stem_for(out, f"{name}-developed")
+    stem = files.stem_for(out, f"{name}-developed", note)
     pictures = api.develop(film, **choices)
     written = files.write_pictures(stem, pictures)
 

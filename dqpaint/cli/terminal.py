@@ -17,6 +17,11 @@ TALLEST = 40  # and its rows
 SHORTEST_WORTH_A_BAR = 0.5  # [s]
 
 
+def note(text: str) -> None:
+    """Print a note on standard error."""
+    print(f"note: {text}", file=sys.stderr)
+
+
 def table(rows: Sequence[tuple[str, str]]) -> str:
     """Names and values in two aligned columns."""
     return "\n".join(f"  {line}".rstrip() for line in tables.align(rows))

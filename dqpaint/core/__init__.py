@@ -4,9 +4,12 @@ Nothing here depends on robots, light or the language.
 """
 
 from dqpaint.core import tables
-from dqpaint.core.atomic_files import rewrite, write_new, write_temporary
+from dqpaint.core.atomic_files import (
+    NotRegularError, make_folder, open_folder, open_regular, rewrite, write_new,
+)
 from dqpaint.core.bounds import DEFAULT_MAX_SAMPLES, LARGEST_MAX_SAMPLES
 from dqpaint.core.examples import example_names, examples_folder, find_drawing
+from dqpaint.core.file_sets import finish_interrupted, write_together
 from dqpaint.core.named_values import (
     FILE_PATTERN, Values, choice_name, make_choice, number_or_text, pydantic_reason, read_choice,
 )
@@ -20,8 +23,9 @@ from dqpaint.core.version import library_versions
 
 __all__ = [
     "DEFAULT_MAX_SAMPLES", "FILE_PATTERN", "LARGEST_MAX_SAMPLES", "AnswerError", "Folder",
-    "Guarded", "NumberTable", "Registry", "UserCode", "Values", "choice_name", "example_names",
-    "examples_folder", "file_digest", "find_drawing", "find_in_file", "library_versions",
-    "make_choice", "number_or_text", "pydantic_reason", "read_choice", "record", "replaced",
-    "rewrite", "short_name", "split_spec", "subclass", "tables", "write_new", "write_temporary",
+    "Guarded", "NotRegularError", "NumberTable", "Registry", "UserCode", "Values", "choice_name",
+    "example_names", "examples_folder", "file_digest", "find_drawing", "find_in_file",
+    "finish_interrupted", "library_versions", "make_choice", "make_folder", "number_or_text",
+    "open_folder", "open_regular", "pydantic_reason", "read_choice", "record", "replaced",
+    "rewrite", "short_name", "split_spec", "subclass", "tables", "write_new", "write_together",
 ]

@@ -2,11 +2,11 @@
 
 import os
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from dqpaint.core import write_temporary
+from dqpaint.core import finish_interrupted, make_folder, write_together
 from dqpaint.errors import OutputError
 from dqpaint.outputs.formats.pictures import encode_pictures
 from dqpaint.outputs.registry import WRITERS
@@ -15,12 +15,15 @@ if TYPE_CHECKING:
     from dqpaint.painting import picture
 
 
-def stem_for(out: str | None, name: str) -> Path:
+def stem_for(out: str | None, name: str, note: Callable[[str], None] = lambda _text: None) -> Path:
     """The path of the files to write, without their endings.
+
+    What a power cut or a kill left in their folder is finished.
 
     Args:
         out: a folder (that exists, or ends with a slash) or a stem; None is the current folder.
         name: of the files, where `out` is a folder.
+        note: called with a sentence if something was finished.
 
     Raises:
         OutputError: the folder does not exist or cannot be written.
@@ -28,7 +31,10 @@ def stem_for(out: str | None, name: str) -> Path:
     try:
         stem, folder = _stem_and_folder(out, name)
         with tempfile.TemporaryFile(dir=folder):
-            return stem
+            pass
+        for text in finished(folder):
+            note(text)
+        return stem
     except (OSError, ValueError) as problem:
         reason = problem.strerror if isinstance(problem, OSError) else str(problem)
         raise OutputError(f"'{(out or '.')[:60]}' cannot be written: {reason}") from None
@@ -39,7 +45,7 @@ def _stem_and_folder(out: str | None, name: str) -> tuple[Path, Path]:
         return Path(name), Path()
     target = Path(out)
     if out.endswith(("/", os.sep)):
-        target.mkdir(parents=True, exist_ok=True)
+        make_folder(target)
     if target.is_dir():
         return target / name, target
     # `--out star.png` names the picture, and its stem
@@ -55,8 +61,26 @@ def _stem_and_folder(out: str | None, name: str) -> tuple[Path, Path]:
     return target, target.parent
 
 
+def finished(folder: Path) -> list[str]:
+    """Finish what a power cut or a kill left in a folder; a sentence if it was any.
+
+    Raises:
+        OutputError: the folder cannot be written.
+    """
+    try:
+        names = finish_interrupted(folder)
+    except OSError as problem:
+        raise OutputError(f"'{folder}' cannot be written: {problem.strerror}") from None
+    if not names:
+        return []
+    return [
+        f"an earlier command was cut off while it wrote to '{folder}'; its files are in "
+        f"their places now: {', '.join(sorted(names))}"
+    ]
+
+
 def write(stem: Path, contents: dict[str, bytes]) -> list[Path]:
-    """Write files beside each other: each is made whole beside its place, then all move in.
+    """Write files beside each other, all of them or none; they are on the disk when it returns.
 
     Their folder is made if it is not there.
 
@@ -67,23 +91,12 @@ def write(stem: Path, contents: dict[str, bytes]) -> list[Path]:
     Raises:
         OutputError: a file could not be written; every file there is whole, the old or the new one.
     """
-    made: list[tuple[Path, Path]] = []
+    named = {f"{stem.name}{end}": data for end, data in contents.items()}
     try:
-        stem.parent.mkdir(parents=True, exist_ok=True)
-        for end, data in contents.items():
-            path = stem.with_name(stem.name + end)
-            made.append((write_temporary(path, data), path))
-        for _, path in made:
-            if path.is_dir():
-                raise OutputError(f"'{path}' cannot be written: it is a folder")
-        for temporary, path in made:
-            os.replace(temporary, path)
+        write_together(stem.parent, named)
     except OSError as problem:
         raise OutputError(f"'{stem}' cannot be written: {problem.strerror}") from None
-    finally:
-        for temporary, _ in made:
-            temporary.unlink(missing_ok=True)
-    return [path for _, path in made]
+    return [stem.with_name(name) for name in named]
 
 
 def write_pictures(stem: Path, taken: "Sequence[picture.Picture]") -> list[Path]:

@@ -55,3 +55,16 @@ def test_a_full_disk_leaves_nothing(tmp_path, call, monkeypatch):
     assert names(tmp_path) == (["a"] if call is rewrite else [])
     if call is rewrite:
         assert (tmp_path / "a").read_bytes() == b"old"
+
+
+def test_a_read_only_file_is_left_as_it_is(tmp_path):
+    path = tmp_path / "a"
+    path.write_bytes(b"old")
+    path.chmod(0o444)
+    with pytest.raises(OutputError, match="is read-only"):
+        rewrite(path, b"new")
+    assert path.read_bytes() == b"old"
+    path.chmod(0o640)
+    rewrite(path, b"new")
+    assert path.read_bytes() == b"new"
+    assert stat.S_IMODE(path.stat().st_mode) == 0o640

@@ -9,17 +9,15 @@ from collections import Counter
 import pytest
 
 import dqpaint
-from dqpaint.errors import DqpaintError, OutputError, UsageError
+from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.settings.model import make_settings
 from dqpaint.studies.runner import process_pool
 from dqpaint.studies.runner.engine import carry_out_study
-from dqpaint.studies.runner.journal import NAME, Journal
+from dqpaint.studies.runner.journal import HEAD, NAME
 from dqpaint.studies.runner.reporter import Callback
 from dqpaint.studies.runner.run import (
-    Result,
     Run,
     drawing_text,
-    result_from_line,
     run_from_data,
     seeded,
 )
@@ -168,39 +166,9 @@ def test_keys_change_with_the_files_a_drawing_and_a_brush_name(tmp_path):
     assert len(set(found)) == 4
 
 
-def test_runs_and_results_are_read_back_as_they_were():
+def test_runs_are_read_back_as_they_were():
     one = run(gains={"k": "5..20@10%"}, seed=3)
     assert run_from_data(json.loads(json.dumps(one.data))) == one
-    result = Result("key", "done", "", {"a": 0.1 + 0.2, "b": 1e-300}, 2, 0.5)
-    assert result_from_line(result.line) == result
-    for wrong in ("", "3", "{}", '{"key": 1', '{"key": "a", "status": "done", "colour": 3}'):
-        with pytest.raises(ValueError):  # noqa: PT011  of the library, in many words
-            result_from_line(wrong)
-
-
-def test_a_record_forgets_a_line_that_was_cut_off_and_no_other(tmp_path):
-    first, second = Result("a", "done", figures={"x": 1.5}), Result("b", "failed", "why")
-    with Journal(tmp_path) as record:
-        record.add(first)
-        record.add(second)
-    path = tmp_path / NAME
-    path.write_bytes(path.read_bytes()[:-5])
-    with Journal(tmp_path) as record:
-        assert record.results == {"a": first}
-        record.add(second)
-    with Journal(tmp_path) as record:
-        assert record.results == {"a": first, "b": second}
-    path.write_text(first.line + "colour\n")
-    with pytest.raises(DqpaintError, match="line 2 "):
-        Journal(tmp_path)
-
-
-def test_a_record_is_one_study_s_at_a_time(tmp_path):
-    with Journal(tmp_path), pytest.raises(DqpaintError, match="another study"):
-        Journal(tmp_path)
-    (tmp_path / "file").write_text("")
-    with pytest.raises(OutputError, match="cannot be written"):
-        Journal(tmp_path / "file")
 
 
 def test_what_is_kept_is_there_or_is_made_again(tmp_path):
@@ -210,7 +178,13 @@ def test_what_is_kept_is_there_or_is_made_again(tmp_path):
     assert arrays["light"].shape == (16, 16, 3)
     assert len(arrays["t_s"]) == len(arrays["position_error_m"]) > 50
     assert arrays["position_error_m"].max() == result.figures["position_error_max_m"]
-    arrays_path(tmp_path, result.key).unlink()
+    path = arrays_path(tmp_path, result.key)
+    whole = path.read_bytes()
+    for cut in (0, 1, 200, len(whole) // 2, len(whole) - 1):
+        path.write_bytes(whole[:cut])
+        with pytest.raises(DqpaintError, match=f"{result.key[:24]}.npz' cannot be read"):
+            read_arrays(tmp_path, result.key)
+    path.unlink()
     carry_out_study([one], tmp_path, 1)
     assert arrays_path(tmp_path, result.key).is_file()
 
@@ -271,10 +245,12 @@ def test_a_sweep_that_was_stopped_goes_on(tmp_path, how, whole):
     assert not (tmp_path / "study" / "line-k.png").exists()
 
     (tmp_path / "go").touch()
-    record.write_bytes(before + b'{"key": "cut o')  # as a failing disk would leave it
+    record.write_bytes(before + HEAD + b"cut o")  # as a failing disk would leave it
     again = start(tmp_path, *SWEEP, "--out", "study")
     count = before.count(b"\n")
-    assert f"{count} of {POINTS} runs were done before" in again.communicate(timeout=100)[1]
+    said = again.communicate(timeout=100)[1]
+    assert f"{count} of {POINTS} runs were done before" in said
+    assert "cut off" in said
     assert again.returncode == 0
     after = record.read_bytes()
     assert after.startswith(before)

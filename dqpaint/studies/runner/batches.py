@@ -18,7 +18,7 @@ from dqpaint.metrics import judge, limits_text, measure
 from dqpaint.painting import paint
 from dqpaint.planning import reachability
 from dqpaint.simulation import ModelsDifferError, Track, track_many
-from dqpaint.studies.runner.run import OF_ALL, Result, Run
+from dqpaint.studies.runner.run import OF_ALL, Result, Run, is_of_the_machine
 from dqpaint.studies.runner.run_arrays import write_arrays
 
 MOST = 64  # runs of a batch: what more would gain, memory takes
@@ -116,6 +116,8 @@ def _result(
         else:
             figures = measure(track).figures
     except DqpaintError as problem:
+        if is_of_the_machine(problem):
+            raise  # each goes by itself then
         return Result(key, "failed", str(problem))
     found = judge(track)
     return Result(key, found.status, found.why, figures, limits_text(track))

@@ -1,6 +1,6 @@
 """Runs -> results, kept in a journal, so that a study that was stopped goes on.
 
-What is done lies in the study's folder (see `record`), by the key of the run (see `runs`). So the
+What is done lies in the study's folder (see `journal`), by the key of the run (see `run`). So the
 same study again finds its runs there, and so does a larger one that shares some of them.
 """
 
@@ -11,6 +11,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
+from dqpaint.outputs import files
 from dqpaint.studies.runner.journal import Journal
 from dqpaint.studies.runner.process_pool import Pool, check_jobs
 from dqpaint.studies.runner.reporter import SILENT, Reporter
@@ -35,7 +36,7 @@ def carry_out_study(
 
     Args:
         runs: what to paint; all are checked before the first begins.
-        folder: where the record lies; made if it is not there.
+        folder: where the journal lies; made if it is not there.
         jobs: how many processes, None is one a core; or the address of a Dask cluster.
         what: the title that the reporter shows.
         reporter: is told how far it is.
@@ -56,7 +57,7 @@ class Study:
     """A study at work: runs in, results out, as often as one likes; reported as one.
 
     Args:
-        folder: where the record lies; made if it is not there.
+        folder: where the journal lies; made if it is not there.
         jobs: how many processes, None is one a core; or the address of a Dask cluster.
         what: the title that the reporter shows.
         total: how many runs it will be at most.
@@ -77,15 +78,17 @@ class Study:
             self._workers = opened.enter_context(closing(_workers(folder, jobs)))
             self._journal = opened.enter_context(Journal(folder))
             self._opened = opened.pop_all()
+        for note in [*self._journal.notes, *files.finished(folder)]:
+            reporter.note(note)
         self._known: set[str] = set()  # keys of runs that were done before
         self._done: set[str] = set()
 
     def results(self, runs: Sequence[Run], tell_known: bool = False) -> list[Result]:
-        """The results of runs, in their order; what is on record is not run again.
+        """The results of runs, in their order; what is in the journal is not run again.
 
         Args:
             runs: what to paint.
-            tell_known: say beforehand how many are on record.
+            tell_known: say beforehand how many are in the journal.
 
         Raises:
             DqpaintError: the folder cannot be written, or the workers do not start.

@@ -28,7 +28,7 @@ from dqpaint.robots.loading import card_for
 from dqpaint.settings import Settings
 
 Status = Literal["done", "oscillates", "clipped", "astray", "diverged", "failed", "died"]
-"""`died`: the process that carried it out ended; unlike the others it is tried again."""
+"""`died`: the process that carried it out ended, or its machine had no room; it is tried again."""
 
 
 OF_ALL = {"errors", "steps"}
@@ -140,22 +140,17 @@ class Result:
     limits: str = ""
     wall: float = 0.0
 
-    @property
-    def line(self) -> str:
-        """One line of JSON; numbers are read back bit for bit."""
-        return json.dumps(vars(self), allow_nan=False) + "\n"
 
+def is_of_the_machine(fault: BaseException | None) -> bool:
+    """Whether a fault comes from a full disk, memory or the like, which another try may not have.
 
-def result_from_line(line: str) -> Result:
-    """The result that `Result.line` wrote.
-
-    Raises:
-        ValueError: it is something else.
+    A file that is missing is a fault of the run: its key changes when the file is there.
     """
-    try:
-        return Result(**json.loads(line))
-    except TypeError as problem:
-        raise ValueError(str(problem)) from None
+    while fault is not None:
+        if isinstance(fault, OSError | MemoryError):
+            return not isinstance(fault, FileNotFoundError)
+        fault = fault.__cause__ or fault.__context__
+    return False
 
 
 def seeded(run: Run, count: int) -> list[Run]:

@@ -1,14 +1,17 @@
 """A painting -> the arrays that a study keeps besides figures, in one file by the run's key."""
 
 import io
+import zlib
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dqpaint.core import Registry
+from dqpaint.errors import DqpaintError
 from dqpaint.metrics import all_columns, step_curves
 from dqpaint.outputs import files
 from dqpaint.painting import paint, picture
@@ -97,6 +100,18 @@ def write_encoded(folder: Path, key: str, data: bytes) -> None:
 
 
 def read_arrays(folder: Path, key: str) -> Mapping[str, NDArray[Any]]:
-    """The arrays of a run by their names."""
-    with np.load(arrays_path(folder, key), allow_pickle=False) as arrays:
-        return {name: arrays[name] for name in arrays.files}
+    """The arrays of a run by their names.
+
+    Raises:
+        DqpaintError: the file is damaged.
+    """
+    path = arrays_path(folder, key)
+    try:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
+            return {name: arrays[name] for name in arrays.files}
+    except (OSError, ValueError, BadZipFile, EOFError, zlib.error) as problem:
+        reason = problem.strerror if isinstance(problem, OSError) else None
+        raise DqpaintError(
+            f"'{path}' cannot be read: {reason or 'it is damaged'}; "
+            "remove it, and its run is done again"
+        ) from None

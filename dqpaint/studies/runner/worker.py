@@ -20,7 +20,7 @@ from dqpaint.errors import DqpaintError, UnstableError
 from dqpaint.metrics import limits_text
 from dqpaint.painting import paint
 from dqpaint.studies.runner.batches import Task, carry_out_batch, goes_in_batches
-from dqpaint.studies.runner.run import Result, Run, run_from_data
+from dqpaint.studies.runner.run import Result, Run, Status, is_of_the_machine, run_from_data
 from dqpaint.studies.runner.run_arrays import write_arrays
 
 PROGRESS_INTERVAL = 0.2  # [s]
@@ -44,10 +44,11 @@ def carry_out(
             write_arrays(painting, run.keep, folder, key)
     except UnstableError as problem:
         return Result(key, "diverged", str(problem), wall=time.perf_counter() - begin)
-    except DqpaintError as problem:
-        return Result(key, "failed", str(problem), wall=time.perf_counter() - begin)
     except Exception as fault:  # one broken run must not end the others
-        return Result(key, "failed", f"internal error: {fault!r}")
+        known = isinstance(fault, DqpaintError)
+        said = str(fault) if known else f"internal error: {fault!r}"
+        status: Status = "died" if is_of_the_machine(fault) else "failed"
+        return Result(key, status, said, wall=time.perf_counter() - begin)
     found, figures = painting.judgement, painting.metrics.figures
     limits = limits_text(painting.track)
     wall = time.perf_counter() - begin

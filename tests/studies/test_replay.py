@@ -27,9 +27,12 @@ from dqpaint.studies.replay.measures import (
     MeasureRequest,
     MeasureResult,
     cost,
+    curves,
     gain_grid,
+    rate_cost,
     setpoint,
     timing,
+    torques,
     tracking,
 )
 from dqpaint.studies.replay.measures import late_error as late
@@ -126,7 +129,7 @@ def test_late_replays_show_errors_over_time(tmp_path, monkeypatch):
     t = np.arange(11) * 0.1
     names = ("invariant_error", "position_error_m", "orientation_error_rad")
     arrays = {"t_s": t, **{name: t for name in names}}
-    for module in (late, shown):
+    for module in (late, shown, curves):
         monkeypatch.setattr(module, "read_arrays", lambda folder, key: arrays)
     paper = read_paper("thesis-hinf")
     cells = tuple(
@@ -135,7 +138,8 @@ def test_late_replays_show_errors_over_time(tmp_path, monkeypatch):
     )
     monkeypatch.setattr(late, "carry_out", lambda *choices, **more: cells)
     made = late.late(paper, MeasureRequest(tmp_path))
-    assert list(made.shown) == ["-published", "-errors"]
+    assert list(made.shown) == ["-published", "-errors", "-curves-1"]
+    assert [panel.title for panel in made.shown["-curves-1"].panels] == ["invariant error"]
     panels = made.shown["-errors"].panels
     assert [panel.title for panel in panels[:2]] == ["HIR: position error", "HIRT: position error"]
     assert len(panels[0].lines) == 5
@@ -423,16 +427,15 @@ def test_the_last_sentence_says_in_words_what_of_the_paper_holds():
     made = made_up(paper, {n: dict(zip(figures, v, strict=True)) for n, v in values.items()})
     said = replay.last_sentence(made)
     assert said.startswith(
-        "In plain words: on the paper's own arm and plant, of the paper's 2 claims 1 holds (the "
-        "coupled law turns better"
+        "In plain words: of the paper's 6 claims 1 holds (the coupled law turns better"
     )
     assert "1 is not shown (its place is worse)" in said
-    assert said.endswith("published is 1.86.")
+    assert said.endswith("predicted is a factor of 2, here it is 2, published is 1.86.")
     values["coupled"] = (2.0, 1.0)
     other = made_up(paper, {n: dict(zip(figures, v, strict=True)) for n, v in values.items()})
     assert "convention" not in replay.last_sentence(other)
     lost = made_up(paper, {})
-    assert "2 cannot be told (" in replay.last_sentence(lost)
+    assert "6 cannot be told (" in replay.last_sentence(lost)
     assert "3 of 3 cells have no result)" in replay.last_sentence(lost)
     assert said in replay.markdown(made)
     assert said in made.table_text()
@@ -440,3 +443,54 @@ def test_the_last_sentence_says_in_words_what_of_the_paper_holds():
     for text in (made.table_text(), replay.markdown(made)):
         assert "Assumed, for the paper does not say it" in text
         assert "damped with 4 1/s" in text
+
+
+def test_every_way_to_the_rate_of_a_jacobian_is_that_rate(rng):
+    """Against finite differences of pinocchio's Jacobian, at the origin and at the tool."""
+    arm = Kinematics(read_card("iiwa7"))
+    q, rates, h = rng.uniform(-1, 1, 7), rng.normal(size=7), 1e-6
+
+    def columns(posture, at_tool):
+        x, J = arm.pose_and_jacobian(posture)
+        shift = np.array([np.cross(z, dq.translation(x)) for z in J[:3].T]) if at_tool else 0
+        return np.hstack([J[:3].T, J[3:].T + shift])
+
+    for name, way in rate_cost.WAYS.items():
+        at_tool = name != "screws (38)"
+        now, after, before = (columns(q + t * rates, at_tool) for t in (0, h, -h))
+        found = way([(row[:3].tolist(), row[3:].tolist()) for row in now], rates.tolist())
+        expected = (after - before) / (2 * h)
+        np.testing.assert_allclose([[*z, *v] for z, v in found], expected, atol=1e-8)
+
+
+def test_counts_of_the_rate_of_a_jacobian():
+    """By hand: (38) has 18 and 9 + 3 for a column, 6 and 6 for the sum before it."""
+    tally = rate_cost.counted("screws (38)", 7)
+    assert tally["multiplications"] == 6 * 18 + 7 * 6
+    assert tally["additions"] == 6 * 12 + 6 * 6
+    assert rate_cost.counted("pairs of joints, as KDL", 7)["multiplications"] == 9 * (49 + 21)
+
+
+def test_torques_and_twist_errors_of_a_run():
+    t = np.linspace(0, 2 * np.pi, 1000, endpoint=False)
+    run = {"torque1_Nm": 3 + np.sin(t), "torque2_Nm": 0 * t}
+    run |= {f"twist_error_w{axis}_rad_s": 2.0 + 0 * t for axis in "xyz"}
+    run |= {f"twist_error_v{axis}_m_s": np.cos(t) for axis in "xyz"}
+    assert torques.seen_in(run) == pytest.approx({
+        "torque1_std_Nm": 0.5**0.5, "torque2_std_Nm": 0.0, "twist_error_w_rms_rad_s": 12**0.5,
+        "twist_error_v_rms_m_s": 1.5**0.5,
+    })  # fmt: skip
+
+
+def test_curves_over_time_are_thinned_and_kept_apart_by_what_is_commanded():
+    t = np.arange(2000) * 0.01
+    run = {"t_s": t, "x_m": t, "command1_rad_s": 3 + 0 * t, "command2_rad_s": 4 + 0 * t}
+    (line,) = curves.panel("commanded rates, norm", {"a": run}).lines
+    np.testing.assert_allclose(line.y, 5.0)
+    assert len(line.x) == 667
+    assert line.x[-1] == t[1998]
+    assert curves.panel("place y", {"a": run}) is None
+    run |= {"twist_error_wx_rad_s": t}
+    assert curves.panel("twist error wx", {"a": run}) is None
+    run |= {"torque1_Nm": t}
+    assert curves.panel("twist error wx", {"a": run}).y_label == "twist error wx [rad/s]"

@@ -259,11 +259,11 @@ def summary(verdicts: Sequence[tuple[Claim, ClaimVerdict, ClaimVerdict]]) -> str
 def last_sentence(replayed: Replay) -> str:
     """What of the paper holds here, in plain words."""
     measured = replayed.measured
-    where = "on the paper's own arm and plant"
+    where = "on the paper's own arm, " if replayed.paper.assumed and measured.cells else ""
     if measured.departures:
-        where = f"with {', '.join(measured.departures)}"
+        where = f"with {', '.join(measured.departures)}, "
     lost = sum(cell.name not in measured.numbers for cell in replayed.paper.cells)
-    return in_words(replayed.verdicts, f"{where},", lost, len(replayed.paper.cells))
+    return in_words(replayed.verdicts, where, lost, len(replayed.paper.cells))
 
 
 def _assumed(bullet: str, replayed: Replay) -> list[str]:

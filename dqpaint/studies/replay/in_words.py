@@ -19,7 +19,7 @@ def in_words(
 
     Args:
         verdicts: of each claim: the claim, by the paper's numbers, by ours.
-        where: on what it was run, such as `on the paper's own arm and plant`.
+        where: on what it was run, such as `on the paper's own arm, `; empty where nothing was.
         lost: how many cells have no result.
         cells: of how many.
     """
@@ -34,9 +34,15 @@ def in_words(
             if word == "no numbers" and lost:
                 these = [*these, f"{lost} of {cells} cells have no result"]
             parts.append(f"{count} {one if count == 1 else many} ({'; '.join(these)})")
-    whole = f"of the paper's {len(theirs)} claims " if len(theirs) > 1 else "the paper's claim: "
-    text = f"In plain words: {where} {whole}{_listed(parts)}."
-    follows = [claim.means for claim, _, ours in verdicts if claim.means and ours.word == "holds"]
+    whole = (
+        f"of the paper's {len(theirs)} claims " if len(theirs) > 1 else "of the paper's one claim "
+    )
+    text = f"In plain words: {where}{whole}{_listed(parts)}."
+    follows = [
+        claim.means.replace("{here}", ours.why.partition(" ")[0])
+        for claim, _, ours in verdicts
+        if claim.means and ours.word == "holds"
+    ]
     return " ".join([text, *follows])
 
 

@@ -67,7 +67,7 @@ class Claim(_Data):
         axis: of a trend.
         way: of a trend.
         where: the paper says so; empty for what is ours.
-        means: what follows if it holds, in a sentence.
+        means: what follows if it holds, in a sentence; {here} is the number found here.
     """
 
     says: str
@@ -131,6 +131,7 @@ class Paper(_Data):
         cells_from: the replay that has them, if they are not here.
         fit: of a plant to some of them, for the measure `identified`.
         claims: what is looked at.
+        curves: cells whose first runs are shown over time, by the paper's figure.
         assumed: what the paper leaves open and a run needs all the same.
         open: what cannot be tested, and why.
     """
@@ -151,6 +152,7 @@ class Paper(_Data):
     cells_from: str = ""
     fit: Fit | None = None
     claims: tuple[Claim, ...]
+    curves: dict[str, tuple[str, ...]] = Field(default_factory=dict)
     assumed: tuple[str, ...] = ()
     open: tuple[str, ...]
 
@@ -166,6 +168,9 @@ class Paper(_Data):
                 raise ValueError(f"cell '{cell.name}' has a number of no figure")
             if cell.published and not cell.table:
                 raise ValueError(f"cell '{cell.name}' does not say where its numbers stand")
+        shown = {name for names in self.curves.values() for name in names}
+        if not shown <= set(cells):
+            raise ValueError("a curve is of a cell that is not there")
         for claim in self.claims:
             if not set(claim.cells) <= set(cells) or claim.figure not in figures:
                 raise ValueError(f"claim '{claim.says}' names a cell or figure that is not there")

@@ -49,6 +49,22 @@ def steps(painting: paint.Painting) -> Arrays:
     return kept
 
 
+CURVES = (
+    "t_s", "x_m", "y_m", "z_m", "q", "invariant_error", "command", "effort_rad", "speed_m_s",
+    "acceleration_m_s2", "torque", "twist_error_",
+)  # fmt: skip
+
+
+@KEEPERS.add("curves")
+def curves(painting: paint.Painting) -> Arrays:
+    """What papers show over time: poses, rates or torques, speeds, twist errors (N,)."""
+    return {
+        name: np.asarray(painting.table[name])
+        for name in painting.table
+        if name.startswith(CURVES) and "rad_s2" not in name
+    }
+
+
 @KEEPERS.add("light")
 def light(painting: paint.Painting) -> Arrays:
     """The linear light on the sensor (H, W, 3) and the exposure, to be developed together."""

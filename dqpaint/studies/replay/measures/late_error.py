@@ -9,6 +9,7 @@ import numpy as np
 from dqpaint.studies.experiment.cells import Cell
 from dqpaint.studies.experiment.statistics import spread
 from dqpaint.studies.replay.measure import MEASURES, MeasureRequest, MeasureResult
+from dqpaint.studies.replay.measures.curves import curves
 from dqpaint.studies.replay.measures.tracking import beside_published, carry_out, measured
 from dqpaint.studies.replay.papers import Paper
 from dqpaint.studies.report.page import Pictured
@@ -23,7 +24,7 @@ FIGURE = "late_error_integral"
 def late(paper: Paper, request: MeasureRequest) -> MeasureResult:
     """Every cell is run; the error integral is taken over the last nine tenths."""
     choices = {cell.name: cell.settings for cell in paper.cells}
-    found = carry_out(paper, request, choices, (), always=("series",))
+    found = carry_out(paper, request, choices, ("curves",), always=("series",))
     period = _period(found, request.folder)
     made = measured(paper, request, found, {})
     numbers = {
@@ -37,6 +38,7 @@ def late(paper: Paper, request: MeasureRequest) -> MeasureResult:
     shown: dict[str, Pictured] = {
         **beside_published(paper, numbers),
         "-errors": errors(read_first_runs(found, request.folder)),
+        **curves(paper, found, request.folder),
     }
     return replace(made, numbers=numbers, shown=shown)
 

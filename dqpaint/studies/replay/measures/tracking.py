@@ -18,6 +18,7 @@ from dqpaint.studies.experiment.cells import (
 from dqpaint.studies.replay.claims import Numbers, published
 from dqpaint.studies.replay.conditions import conditions, departures
 from dqpaint.studies.replay.measure import MEASURES, MeasureRequest, MeasureResult
+from dqpaint.studies.replay.measures.curves import curves
 from dqpaint.studies.replay.papers import Paper, find_paper_drawing
 from dqpaint.studies.report.charts import COLOURS, Line, Panel, wide
 from dqpaint.studies.report.page import Charts, Pictured
@@ -34,10 +35,11 @@ KEPT = ("series", "light")  # of the first run of each cell
 def tracking(paper: Paper, request: MeasureRequest) -> MeasureResult:
     """Every cell of the paper's tables is run as its settings say."""
     choices = {cell.name: cell.settings for cell in paper.cells}
-    found = carry_out(paper, request, choices, KEPT)
+    found = carry_out(paper, request, choices, (*KEPT, *(["curves"] if paper.curves else [])))
     beside = beside_published(paper, numbers_of(paper, found))
     shown = pictures(found, request.folder, settings_of(paper, request, {}))
-    return measured(paper, request, found, {**beside, **shown})
+    over_time = curves(paper, found, request.folder)
+    return measured(paper, request, found, {**beside, **shown, **over_time})
 
 
 def carry_out(

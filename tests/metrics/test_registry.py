@@ -43,6 +43,8 @@ def special(name, track):
         return replace(track, motion=replace(motion, clock=0.5 * motion.t))
     if name == "read1_rad":
         return replace(track, measured_posture=track.measured_posture + 1e-3)
+    if name.startswith("offset_"):
+        return replace(track, pose_disturbance=0.1 + np.zeros((n, 6)))
     if name.startswith("disturbance_"):
         return replace(track, disturbance=0.1 + np.zeros((n, 6)))
     if name == "unclipped1_rad_s":

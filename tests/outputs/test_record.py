@@ -48,13 +48,19 @@ def said(script, stem):
     return done.stdout
 
 
+def plain_figures(painting):
+    """All figures but those of step responses, which the page leaves out and says so."""
+    return {n: v for n, v in painting.metrics.figures.items() if not n.startswith("step_")}
+
+
 def test_the_page_s_script_gives_every_figure_again(tmp_path):
     painting, stem = drawn(
         tmp_path, plant="ideal", disturb=["twist=sine,x=0.05,wy=0.4", "noise=0.001"]
     )
     found = dict(re.findall(r"^(\w+) +(\S+)", said(FIGURES, stem), re.MULTILINE))
-    assert found.keys() == painting.metrics.figures.keys()
-    for name, value in painting.metrics.figures.items():
+    expected = plain_figures(painting)
+    assert found.keys() == expected.keys()
+    for name, value in expected.items():
         assert float(found[name]) == pytest.approx(value, rel=3e-7)
 
 
@@ -70,7 +76,7 @@ def test_the_page_s_script_gives_every_torque_again(tmp_path, law, gains):
     assert float(off) < 1e-7
     assert float(largest) > 100
     figures = dict(re.findall(r"^(\w+) +(\S+)", said(FIGURES, stem), re.MULTILINE))
-    assert figures.keys() == painting.metrics.figures.keys()
+    assert figures.keys() == plain_figures(painting).keys()
 
 
 @pytest.mark.slow

@@ -84,11 +84,9 @@ def _faults(painting: paint.Painting) -> list[tuple[str, str]]:
 
 
 def _retiming(painting: paint.Painting) -> list[tuple[str, str]]:
-    """How much longer a retimed drawing takes."""
-    slowed = painting.retiming
-    if slowed is None:
-        return []
-    return [("retiming", str(slowed))]
+    """How a drawing was slowed down: as a whole, and at its corners."""
+    told = (("retiming", painting.retiming), ("corners", painting.corners))
+    return [(name, str(how)) for name, how in told if how is not None]
 
 
 def _step_responses(painting: paint.Painting) -> list[tuple[str, str]]:

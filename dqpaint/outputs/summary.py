@@ -55,6 +55,7 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
             "place": None if placement is None else placement.as_json,
         },
         "pace": None if pace is None else pace.as_json,  # None: --on-limit slow is not set
+        "corners": None if painting.corners is None else painting.corners.as_json,
         "result": {
             "status": painting.judgement.status,
             "faults": [

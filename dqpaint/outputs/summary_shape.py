@@ -142,6 +142,7 @@ class Summary(TypedDict):
     model: ModelNumbers
     drawing: Drawing
     pace: dict[str, Any] | None
+    corners: dict[str, float] | None
     result: RunStatus
     attenuation: dict[str, Through]
     set_points: list[SetPoint]

@@ -27,8 +27,8 @@ from dqpaint.motion import Motion
 from dqpaint.painting.picture import Picture, PictureSet, photograph
 from dqpaint.painting.scene import Scene, make_scene
 from dqpaint.painting.validate import RunChoices, check_run
+from dqpaint.planning import corner_limits, prepared_motion, reachability
 from dqpaint.planning import placement as place
-from dqpaint.planning import prepared_motion, reachability
 from dqpaint.planning import retiming as retime
 from dqpaint.program import Program
 from dqpaint.render import ArmMotion, SceneArm, scene_arm_of_run
@@ -63,6 +63,7 @@ class Painting(PictureSet):
     arm_motion: ArmMotion
     pictures: tuple[Picture, ...]  # one a view
     retiming: retime.Retiming | None = None  # where the drawing's clock may slow down
+    corners: corner_limits.CornerPace | None = None  # where the arm can do less than is allowed
     seconds: dict[str, float] = field(default_factory=dict)  # wall time of each stage [s]
     notes: tuple[str, ...] = ()  # assumptions about the arm
     placement: place.Placement | None = None  # where `place auto` put the drawing
@@ -204,7 +205,8 @@ def finish(ready: PreparedRun, run: Track, photographed: bool = True) -> Paintin
         chosen.disturbances, chosen.gains.as_dict(),
         law_model(ready.kinematics, chosen.disturbances, settings.seed),
         motion, run, metrics, judgement, came_through, steps,
-        scene, cast, pictures, ready.prepared.retiming, clock.seconds, notes,
+        scene, cast, pictures, ready.prepared.retiming, ready.prepared.corners,
+        clock.seconds, notes,
         ready.prepared.placement, recording,
     )  # fmt: skip
 

@@ -2,8 +2,10 @@
 
 `prepared_motion` leads from a drawing to the start of a run, for forecasts, paintings and studies
 alike. `check` reads a drawing; `forecast` and `forecast_report` predict limits line by line;
-`placement` and `retiming` change the drawing so that it fits; `suggestions` are fixes that were
-tried before they are printed.
+`placement`, `corner_limits` and `retiming` change the drawing so that it fits; `suggestions` are
+fixes that were tried before they are printed.
 """
 
-__all__ = ["check", "placement", "prepared_motion", "reachability", "retiming"]
+__all__ = [
+    "check", "corner_limits", "placement", "prepared_motion", "reachability", "retiming",
+]

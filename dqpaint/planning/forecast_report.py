@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from dqpaint.core import tables
 from dqpaint.diagnostics import Diagnostic, SourceLine, Span
 from dqpaint.motion import Motion
+from dqpaint.planning.corner_limits import CornerPace
 from dqpaint.planning.forecast import Extreme, Forecast, forecast
 from dqpaint.planning.occlusion import DEFAULT_SETTINGS
 from dqpaint.planning.placement import Placement
@@ -45,6 +46,7 @@ class ForecastReport:
         motion: what was asked, at its place.
         placement: where `place auto` put it.
         retiming: how it was slowed down, where it may be.
+        corners: their accelerations, where the arm can do less than the drawing allows.
         robot: its name.
         plant: the name of the plant whose motors were asked.
         sag_measured: whether its encoders see how far springs give way, where it has any.
@@ -57,6 +59,7 @@ class ForecastReport:
     motion: Motion
     placement: Placement | None
     retiming: Retiming | None
+    corners: CornerPace | None
     robot: str
     plant: str
     sag_measured: bool
@@ -80,6 +83,7 @@ class ForecastReport:
             f"  {self.placement.statement}\n  {self.placement.figures}\n" if self.placement else ""
         )
         slowed = f"  pace: {self.retiming}\n" if self.retiming else ""
+        slowed += f"  corners: {self.corners}\n" if self.corners else ""
         program = self.motion.program
         figures = (
             f"{_extremes(self.lines, program, self.sag_measured)}{_table(self.lines, program)}"
@@ -94,6 +98,7 @@ class ForecastReport:
             "plant": self.plant,
             "place": self.placement and self.placement.as_json,
             "pace": self.retiming and self.retiming.as_json,
+            "corners": self.corners and self.corners.as_json,
             "start_rad": list(self.start),
             "lines": [_figures(line, self.motion.program) for line in self.lines],
         }
@@ -126,6 +131,7 @@ def make_report(
         motion,
         ready.placement,
         ready.retiming,
+        ready.corners,
         kinematics.card.name,
         plant.name if plant else DEFAULT_PLANTS["rates"],
         springs is None or springs.seen,

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion, plan
+from dqpaint.planning.corner_limits import CornerPace, within_torques
 from dqpaint.planning.occlusion import DEFAULT_SETTINGS
 from dqpaint.planning.placement import Placement, place_program
 from dqpaint.planning.reachability import reachable_start_posture
@@ -28,6 +29,7 @@ class PreparedMotion:
         start: posture to begin in (n,) [rad].
         placement: where `place auto` put the drawing.
         retiming: how it was slowed down, where it may be.
+        corners: the accelerations at corners, where the arm can do less than the drawing allows.
     """
 
     program: Program
@@ -35,6 +37,7 @@ class PreparedMotion:
     start: Floats
     placement: Placement | None = None
     retiming: Retiming | None = None
+    corners: CornerPace | None = None
 
 
 def prepare_motion(
@@ -68,7 +71,10 @@ def prepare_motion(
     with stopwatch("start"):
         best = reachable_start_posture(motion, kinematics, settings.null).posture
         start = card.home if settings.start == "home" else best
+        corners = within_torques(motion, kinematics, start, settings.null)
+        if corners is not None:
+            motion, program = corners.motion, corners.motion.program
         if settings.on_limit != "slow":
-            return PreparedMotion(program, motion, start, placed)
+            return PreparedMotion(program, motion, start, placed, None, corners)
         slowed = retime(motion, kinematics, start, settings.null, motors)
-    return PreparedMotion(program, slowed.motion, start, placed, slowed)
+    return PreparedMotion(program, slowed.motion, start, placed, slowed, corners)

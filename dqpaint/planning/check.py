@@ -194,6 +194,7 @@ def _file(result: CheckResult) -> dict[str, Any]:
         "length_m": drawing.length,
         "ends_over_middle": drawing.unevenness,
         "box_m": drawing.box.tolist(),
+        "dark_saved_m": drawing.program.dark_saved,
         "forecast": result.forecast.as_json if result.forecast else None,
     }
 

@@ -84,6 +84,7 @@ class Expander:
             self._pen.start,
             self._rounded(),
             self._findings.ordered(),
+            dark_saved=self._pen.dark_saved,
         )
 
     def _rounded(self) -> tuple[Segment, ...]:

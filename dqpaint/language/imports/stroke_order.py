@@ -1,31 +1,44 @@
 """Lines of a drawing -> the same lines, joined where they touch and ordered for short moves.
 
 Joined are ends of one colour that touch, those that go straight on first. Then each line is
-followed by the one whose nearer end is nearest, and stretches of the way are turned round while
-that shortens it (2-opt).
+followed by the one whose nearer end is nearest, and local search makes that shorter.
 """
 
 import math
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from dqpaint.language.imports.shorter_order import shorter
 from dqpaint.program import Colour, Floats, PiecewiseCurve, piecewise
 
 ColouredCurve = tuple[PiecewiseCurve, Colour | None]
 
 TOUCHING = 1e-5  # of the size of the drawing
 SAME = 1e-12  # [m]
-MOST_TURNED = 2_000  # lines, up to which stretches are turned round
-ROUNDS = 20
+MOST_SEARCHED = 50_000  # lines, up to which a shorter order is sought
 RINGS = 6  # of cells that are searched before all lines are
 
 
-def order_lines(lines: list[ColouredCurve]) -> list[ColouredCurve]:
-    """The same lines, joined and in an order whose dark moves are no longer than before."""
-    return _routed(_merged(lines))
+class OrderedLines(NamedTuple):
+    """Lines, and the length of the dark ways between them, in their own unit."""
+
+    lines: list[ColouredCurve]
+    dark: float
+
+
+def as_drawn(lines: list[ColouredCurve]) -> OrderedLines:
+    """The lines as they are."""
+    ends = piecewise.all_ends([curve for curve, _ in lines])
+    return OrderedLines(lines, _dark(ends, np.arange(len(lines)), np.zeros(len(lines), dtype=bool)))
+
+
+def order_lines(lines: list[ColouredCurve]) -> OrderedLines:
+    """The same lines, joined and in an order whose dark ways are no longer than before."""
+    return as_drawn(_routed(_merged(lines)))
 
 
 # Joined.
@@ -118,8 +131,9 @@ def _strung(
 def _routed(lines: list[ColouredCurve]) -> list[ColouredCurve]:
     ends = piecewise.all_ends([curve for curve, _ in lines])
     order, flipped = _nearest(ends)
-    if len(lines) <= MOST_TURNED:
-        order, flipped = _turned(ends, order, flipped)
+    if len(lines) <= MOST_SEARCHED:
+        better = shorter(ends, order.tolist(), flipped.tolist())
+        order, flipped = np.array(better[0]), np.array(better[1])
     as_given = np.arange(len(lines)), np.zeros(len(lines), dtype=bool)
     if _dark(ends, order, flipped) > _dark(ends, *as_given):
         order, flipped = as_given
@@ -204,27 +218,3 @@ class _RemainingEnds:
             step = 1 if abs(i) == ring else 2 * ring
             for j in range(-ring, ring + 1, step or 1):
                 yield from self._cells.get((x + i, y + j), ())
-
-
-def _turned(
-    ends: Floats, order: NDArray[np.int64], flipped: NDArray[np.bool_]
-) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-    """2-opt: lines i ... j are reversed where that shortens the two moves at their ends."""
-    order, flipped = order.copy(), flipped.copy()
-    for _ in range(ROUNDS):
-        better = False
-        starts, stops = _placed(ends, order, flipped)
-        for i in range(1, len(order) - 1):
-            into, out = stops[i - 1], starts[i + 1 :]
-            now = np.linalg.norm(starts[i] - into) + np.linalg.norm(out - stops[i:-1], axis=1)
-            then = np.linalg.norm(stops[i:-1] - into, axis=1)
-            then += np.linalg.norm(out - starts[i], axis=1)
-            j = int(np.argmin(then - now))
-            if then[j] - now[j] < -1e-12:
-                whole = slice(i, i + j + 1)
-                order[whole], flipped[whole] = order[whole][::-1].copy(), ~flipped[whole][::-1]
-                starts, stops = _placed(ends, order, flipped)
-                better = True
-        if not better:
-            break
-    return order, flipped

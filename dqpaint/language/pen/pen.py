@@ -94,6 +94,7 @@ class Pen:
         self.stroke: ContinuousStroke | None = None  # of the `stroke` that is being drawn
         self._strokes = 0
         self.pieces = 0  # of curves
+        self.dark_saved = 0.0  # [m] of dark ways, by the order of lines that come from elsewhere
         self.placed = False  # the file has set the start of the drawing
         self.started = False  # something has moved
         self.oriented = False  # the file has set the orientation at the start

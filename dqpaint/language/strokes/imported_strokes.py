@@ -115,11 +115,12 @@ def svg(statement: Statement, pen: Pen, scope: Scope) -> None:
     assert isinstance(node, Quoted)
     from dqpaint.language.imports.svg import reader
 
-    drawing = reader.read(node, pen)
-    loose = [curve for curve, _ in drawing]
+    drawing = reader.read(node, pen, statement.part("order") is not None)
+    loose = [curve for curve, _ in drawing.lines]
     scale, origin = _fitted(statement, pen, scope, loose)
     shift = _place_of(statement, pen, scope, scale * origin)
-    _draw(statement, pen, scope, _drawn(drawing, pen, scale, shift))
+    pen.dark_saved += drawing.saved * scale * pen.frame.scale
+    _draw(statement, pen, scope, _drawn(drawing.lines, pen, scale, shift))
 
 
 # Where and how large.

@@ -68,6 +68,17 @@ def _one_of(words: tuple[str, ...], after: str, aliases: dict[str, str]) -> "Rea
     return read
 
 
+def _order(cursor: Cursor) -> Expression:
+    span = cursor.token.span if not cursor.at_end else cursor.before.span
+    if not (cursor.is_word("as") and cursor.peek().text == "drawn"):
+        message = f"expected 'as drawn' after 'order' but found {found(cursor.token)}"
+        cure = "write: order as drawn; without it the dark ways are made short"
+        raise problem("E109", message, span, "", cure)
+    start = cursor.take().start
+    cursor.take()
+    return Name("as drawn", cursor.span_from(start))
+
+
 Reader = Callable[[Cursor], Expression]
 
 # By the kind of value, as in `words.PARTS`.
@@ -75,5 +86,6 @@ READERS: dict[str, Reader] = {
     "font": _font,
     "unit": _one_of(LENGTHS, "unit", FOREIGN_UNITS),
     "alignment": _one_of(ALIGNMENTS, "align", {"middle": "centre"}),
+    "order": _order,
     "flag": lambda cursor: Name(cursor.before.text, cursor.before.span),
 }

@@ -108,6 +108,7 @@ PARTS = {
         PartWord("width", "length", "how wide: the longest line, a whole drawing", "width 90 mm"),
         PartWord("align", "alignment", "which end of each line stands at `at`", "align centre"),
         PartWord("unit", "unit", "of the numbers in a file", "unit mm"),
+        PartWord("order", "order", "which line comes when: kept, not shortened", "order as drawn"),
         PartWord("smooth", "flag", "bends from point to point, but for sharp corners", "smooth"),
         PartWord("brush", "brush", "what shines, with its values", "brush bar 120 mm along x"),
         PartWord(
@@ -220,7 +221,7 @@ STATEMENTS = {
             "the lines of an SVG drawing, in its own colours",
             'svg "logo.svg" height 80 mm',
             head="texts",
-            parts=("height", "width", "at", *CLAUSES),
+            parts=("height", "width", "at", "order", *CLAUSES),
             moves=True,
         ),
         StatementWord("hold", "a pause", "hold 1 s", head="value", parts=LAMP, moves=True),
@@ -411,7 +412,7 @@ FUNCTION_ALIASES = {
 
 # Never part of an expression: a value was forgotten if one of them is found there.
 # But these have a meaning in a few statements only, and `let radius = …` is common.
-FREE = ("radius", "left", "right", "long", "height", "width", "unit", "corner", "jump")
+FREE = (*("radius", "left", "right", "long", "height", "width", "unit", "corner", "jump", "order"),)
 RESERVED = frozenset(
     (*STATEMENTS, *PARTS, *RENAMED, *LITTLE_WORDS, "if", "else", "while")
 ).difference(FREE)

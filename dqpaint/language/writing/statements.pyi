@@ -59,7 +59,7 @@ class Statements:
         """Lettering; a further string in quotes is a further line: `d.text("Ada", height="30 mm")`."""
     def path(self, *values: Any, unit: Any = ..., height: Any = ..., width: Any = ..., at: Any = ..., smooth: bool = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
         """A line through the points in a file, or in a file for each axis: `d.path("orbit.csv", unit="cm")`."""
-    def svg(self, *values: Any, height: Any = ..., width: Any = ..., at: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
+    def svg(self, *values: Any, height: Any = ..., width: Any = ..., at: Any = ..., order: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
         """The lines of an SVG drawing, in its own colours: `d.svg("logo.svg", height="80 mm")`."""
     def hold(self, *values: Any, light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
         """A pause: `d.hold("1 s")`."""

@@ -46,16 +46,23 @@ class State(NamedTuple):
     sizes: dict[str, Length]  # of the `use` that shows it, which go before its own
 
 
-def read(node: Quoted, pen: Pen) -> list[ColouredCurve]:
-    """The lines of a drawing, ordered for short moves between them."""
+class Drawing(NamedTuple):
+    """Lines, and by how much the dark ways between them are shorter than as drawn [m]."""
+
+    lines: list[ColouredCurve]
+    saved: float
+
+
+def read(node: Quoted, pen: Pen, as_drawn: bool = False) -> Drawing:
+    """The lines of a drawing, ordered for short moves between them, or as they are drawn."""
     data = contents(node, pen, MOST_BYTES)
     try:
-        lines, notes = _read(data)
+        drawing, notes = _read(data, as_drawn)
     except SvgError as fault:
         message = f"can't draw {node.text}: {fault.message}"
         raise problem("E298", message, node.span, "", fault.help) from None
     _warn(notes, node, pen)
-    return lines
+    return drawing
 
 
 def _warn(notes: Notes, node: Quoted, pen: Pen) -> None:
@@ -86,12 +93,14 @@ def _counted(found: Lines) -> str:
 
 
 @lru_cache(maxsize=4)  # as in a `repeat`
-def _read(data: bytes) -> tuple[list[ColouredCurve], Notes]:
+def _read(data: bytes, as_drawn: bool) -> tuple[Drawing, Notes]:
     root, notes = attributes.read(guard(data))
     lines = list(_lines(root))
     if not lines:
         raise SvgError("there are no lines in it", _fix(notes))
-    return stroke_order.order_lines(lines), notes
+    drawn = stroke_order.as_drawn(lines)
+    ordered = drawn if as_drawn else stroke_order.order_lines(lines)
+    return Drawing(ordered.lines, drawn.dark - ordered.dark), notes
 
 
 def _fix(notes: Notes) -> str:

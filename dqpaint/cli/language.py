@@ -1,13 +1,16 @@
 """Arguments of `fmt`, `explain`, `new`, `grammar` and `lsp` -> files, texts and exit codes."""
 
 import json
+import re
 import sys
 from collections.abc import Callable, Sequence
 from typing import Annotated, Any
 
 import typer
 
-from dqpaint.errors import DqpaintError
+from dqpaint.errors import DqpaintError, UsageError
+
+MESSAGE = re.compile(r"[A-Za-z]\d+")  # the code of one
 
 _COMMANDS: list[tuple[Callable[..., None], dict[str, Any]]] = []
 
@@ -71,20 +74,33 @@ def fmt(
         raise typer.Exit(1)
 
 
-@_command(epilog="Examples:\n\n  dqpaint explain E245\n\n  dqpaint explain")
+@_command(
+    epilog="Examples:\n\n  dqpaint explain hinf\n\n  dqpaint explain E245\n\n  dqpaint explain"
+)
 def explain(
-    code: Annotated[
-        str | None, typer.Argument(metavar="[CODE]", help="of a message [default: all]")
+    name: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="[NAME|CODE]",
+            help="law, plant, disturbance, metric or profile; or code of a message [default: all]",
+        ),
     ] = None,
 ) -> None:
-    """Explain a message, with a drawing that causes it and one that does not."""
-    from dqpaint.diagnostics import catalogue
+    """Explain a law by its equation, likewise a plant, disturbance, metric, profile or message."""
+    from dqpaint.cli import explaining
+    from dqpaint.diagnostics import catalogue, closest, did_you_mean
 
-    print(
-        catalogue.list_explanations()
-        if code is None
-        else catalogue.format_explanation(catalogue.explanation(code))
-    )
+    if name is None:
+        print(f"{explaining.list_names()}\n\n{catalogue.list_explanations()}")
+    elif MESSAGE.fullmatch(name.strip()):
+        print(catalogue.format_explanation(catalogue.explanation(name)))
+    elif found := explaining.explained(name.strip()):
+        print("\n\n".join(map(explaining.format_explained, found)))
+    else:
+        near = did_you_mean(closest(name, explaining.names())) or "all: dqpaint explain"
+        raise UsageError(
+            f"no law, plant, disturbance, metric or profile named '{name[:40]}'; {near}"
+        )
 
 
 @_command(epilog="Examples:\n\n  dqpaint new flower\n\n  dqpaint new drawings/flower.traj")

@@ -15,7 +15,18 @@ Number = Annotated[float, Field(ge=-10, le=10, allow_inf_nan=False)]
 
 @DISTURBANCES.add("base")
 class BaseOffset(Disturbance):
-    """The arm's base is displaced and turned; everything else stays where it was."""
+    """The arm's base is displaced and turned; everything else stays where it was.
+
+    Equation:
+        x = x_b x_E(q)
+    Idea:
+        The arm stands elsewhere than the law believes. It measures its joints, so it is sure to be
+        right, and the whole drawing is displaced by x_b.
+    Fails:
+        No law removes it: no encoder sees it.
+    Try:
+        dqpaint draw star --disturb base=z=0.01,wx=0.02 --overlay
+    """
 
     x: Number = Field(0.0, description="m along the x axis of the base the law believes in")
     y: Number = Field(0.0, description="m along y")

@@ -13,7 +13,18 @@ from dqpaint.robots.kinematics import Kinematics
 
 @DISTURBANCES.add("gravity")
 class GravityError(Disturbance):
-    """Gravity in the model is too strong: of laws that command torque, and of compensations."""
+    """Gravity in the model is too strong: of laws that command torque, and of compensations.
+
+    Equation:
+        tau = H q_ddot + C q_dot + (1 + e) G
+    Idea:
+        The law pushes against a weight that is not there. What error is left is the weight's error
+        over the stiffness.
+    Fails:
+        Where no model of the weight is used it is refused: under laws of rates on rigid arms.
+    Try:
+        dqpaint draw quarter-turn --controller accel --disturb gravity=-0.1
+    """
 
     needs: ClassVar[Trait | None] = "a model of gravity"
 

@@ -11,7 +11,18 @@ from dqpaint.robots.kinematics import Kinematics
 
 @DISTURBANCES.add("links")
 class LinkLengths(Disturbance):
-    """The law's model has links of wrong lengths; the tool's place on the last one, too."""
+    """The law's model has links of wrong lengths; the tool's place on the last one, too.
+
+    Equation:
+        l_i = (1 + "part" n_i) l_i + "offset" m_i
+    Idea:
+        The law computes the tool's pose from its joints, with a wrong arm in mind. It brings the
+        wrong tool to the right place. n_i and m_i are drawn anew for each seed.
+    Fails:
+        No law removes it: no encoder sees it.
+    Try:
+        dqpaint draw star --disturb links=part=0.01 --overlay
+    """
 
     part: Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)] = Field(
         0.0, description="rms error of each length as a fraction of it; 0.01 is 1 %"

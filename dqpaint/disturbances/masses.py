@@ -13,7 +13,18 @@ from dqpaint.robots.kinematics import Kinematics
 
 @DISTURBANCES.add("masses")
 class MassError(Disturbance):
-    """Masses and inertias in the model are wrong: of laws that command torque, and of springs."""
+    """Masses and inertias in the model are wrong: of laws that command torque, and of springs.
+
+    Equation:
+        H_m = (1 + e) H, C_m = (1 + e) C, G_m = (1 + e) G
+    Idea:
+        The law computes torques for a heavier arm, or a lighter one. While it stands, what is left
+        is the weight's error over the stiffness; while it moves, the inertia's besides.
+    Fails:
+        Where no model of masses is used it is refused: under laws of rates on rigid arms.
+    Try:
+        dqpaint draw quarter-turn --controller accel --disturb masses=0.1
+    """
 
     needs: ClassVar[Trait | None] = "a model of gravity"
 

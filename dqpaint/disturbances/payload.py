@@ -11,7 +11,19 @@ from dqpaint.plants import Payload, Trait, World
 
 @DISTURBANCES.add("payload")
 class UnknownPayload(Disturbance):
-    """The arm carries a ball where the light sits; no model knows of it."""
+    """The arm carries a ball where the light sits; no model knows of it.
+
+    Equation:
+        H_t = H + J_v' m J_v + J_w' I J_w
+        G_t = G + J_v' m g
+    Idea:
+        More weight and more inertia than the law knows. On springs it sags, under laws of torque
+        an error of the weight over the stiffness is left.
+    Fails:
+        On stiff it does nothing while the motors have the torque for it; on ideal it is refused.
+    Try:
+        dqpaint draw quarter-turn --controller accel --disturb payload=2
+    """
 
     needs: ClassVar[Trait | None] = "masses"
 

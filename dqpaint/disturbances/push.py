@@ -18,7 +18,18 @@ Time = Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)]
 
 @DISTURBANCES.add("push")
 class TimedForce(FromFile):
-    """A force pushes the tool, or a link: for a time, or as a file has it."""
+    """A force pushes the tool, or a link: for a time, or as a file has it.
+
+    Equation:
+        tau_f = J_p' f(t)
+    Idea:
+        Somebody leans against the arm. What counts is how stiff the loop is: springs give way, a
+        law of torque yields by f over its stiffness.
+    Fails:
+        On stiff it does nothing while the motors have the torque for it; on ideal it is refused.
+    Try:
+        dqpaint draw star --plant compliant --disturb push=x=40,start=0.2,seconds=1
+    """
 
     needs: ClassVar[Trait | None] = "masses"
     columns: ClassVar[tuple[str, ...]] = ("x_N", "y_N", "z_N")

@@ -16,7 +16,20 @@ from dqpaint.dq import Floats
 
 @DISTURBANCES.add("offset")
 class ToolOffset(SixSignals):
-    """The tool sits elsewhere on the arm, and that changes in time: pose uncertainty c(t)."""
+    """The tool sits elsewhere on the arm, and that changes in time: pose uncertainty c(t).
+
+    Equation:
+        x = x_E c
+        x_dot = 1/2 (xi + v_c) x, v_c = Ad(x) v, c_dot = 1/2 c v
+    Idea:
+        The tool is not where the joints say: it is bent, or shakes. A law that measures it treats
+        v_c as any other twist, and its second gammas bound what is left; one that does not draws
+        the displacement itself.
+    Fails:
+        With measured=no nothing removes it, and no bound holds.
+    Try:
+        dqpaint draw lag --plant ideal --disturb offset=sine,x=0.005,frequency=2
+    """
 
     columns: ClassVar[tuple[str, ...]] = ("wx_rad", "wy_rad", "wz_rad", "x_m", "y_m", "z_m")
     beside: ClassVar[tuple[str, ...]] = ("measured",)

@@ -15,7 +15,19 @@ from dqpaint.dq import Floats
 
 @DISTURBANCES.add("twist")
 class UnmodelledTwist(SixSignals):
-    """The tool is carried along: constant, a sine, band-limited noise, or as a file has it."""
+    """The tool is carried along: constant, a sine, band-limited noise, or as a file has it.
+
+    Equation:
+        x_dot = 1/2 (xi + v) x
+        v = [v_w; v_p + t cross v_w]
+    Idea:
+        The unmodelled twist of the H-infinity laws' theorem: v_w and the velocity v_p of the
+        tool are what is given. A law with the rate k leaves v_p / k of a constant one.
+    Fails:
+        It is a velocity, not a force: on any plant it comes on top of what the joints do.
+    Try:
+        dqpaint draw lag --plant ideal --disturb twist=sine,x=0.02,frequency=2
+    """
 
     columns: ClassVar[tuple[str, ...]] = (
         "wx_rad_s", "wy_rad_s", "wz_rad_s", "vx_m_s", "vy_m_s", "vz_m_s"

@@ -21,34 +21,58 @@ ORIENTATION_MEANING = "angle of the tool from the reference orientation of the s
 
 @figure("error_integral", "", "error integral",
         "invariant error, the norm of 1 - x* x_d, integrated over time",
-        kind="error", listed=True)  # fmt: skip
+        kind="error", listed=True,
+        equation="int_0^t_f |vec(1 - x^* x_d)| dt")  # fmt: skip
 def _error(track: Track, table: Table) -> float:
     return _integral(table["invariant_error"], track)
 
 
-@figure("command_integral_rad", "rad", "command", COMMAND_MEANING, listed=True)
+@figure(
+    "command_integral_rad",
+    "rad",
+    "command",
+    COMMAND_MEANING,
+    listed=True,
+    equation="int_0^t_f |q_dot| dt",
+)
 def _rates(track: Track, _table: Table) -> float | None:
     return None if track.torques else _commanded(track)
 
 
-@figure("torque_integral_Nm_s", "Nm s", "command", COMMAND_MEANING, listed=True)
+@figure(
+    "torque_integral_Nm_s",
+    "Nm s",
+    "command",
+    COMMAND_MEANING,
+    listed=True,
+    equation="int_0^t_f |tau| dt",
+)
 def _torque(track: Track, _table: Table) -> float | None:
     return _commanded(track) if track.torques else None
 
 
 @figure("effort_integral", "rad s", "effort",
-        "norm of the joint displacements of a step, integrated over time", listed=True)  # fmt: skip
+        "norm of the joint displacements of a step, integrated over time", listed=True,
+        equation="T sum_k |q_(k+1) - q_k|")  # fmt: skip
 def _effort(track: Track, table: Table) -> float | None:
     return _integral(table["effort_rad"], track) if "effort_rad" in table else None
 
 
-@figure("speed_integral_m", "m", "path length", "path length of the light", listed=True)
+@figure(
+    "speed_integral_m",
+    "m",
+    "path length",
+    "path length of the light",
+    listed=True,
+    equation="int_0^t_f |t_dot| dt",
+)
 def _path_length(track: Track, table: Table) -> float:
     return _integral(table["speed_m_s"], track)
 
 
 @figure("acceleration_integral", "m/s", "acceleration integral",
-        "acceleration of the light, integrated over time", listed=True)  # fmt: skip
+        "acceleration of the light, integrated over time", listed=True,
+        equation="int_0^t_f |t_ddot| dt")  # fmt: skip
 def _acceleration(track: Track, table: Table) -> float:
     return _integral(table["acceleration_m_s2"], track)
 
@@ -64,17 +88,21 @@ def _clipped(track: Track, _table: Table) -> float | None:
 def _error_statistics(name: str, unit: str, display_unit: str, meaning: str, largest: bool) -> None:
     """Register the root mean square, standard deviation and largest value of an error."""
     column = f"{name}_error_{unit}"
+    of = {"position": "|t - t_d|", "orientation": "|theta|"}[name]
     known: dict[str, Any] = {"meaning": meaning, "display_unit": display_unit, "kind": "error"}
 
-    @figure(f"{name}_error_rms_{unit}", unit, f"{name} rms", **known, listed=True)
+    @figure(f"{name}_error_rms_{unit}", unit, f"{name} rms", **known, listed=True,
+            equation=f"sqrt(mean({of}^2))")  # fmt: skip
     def _rms(_track: Track, table: Table) -> float:
         return float(np.sqrt((table[column] ** 2).mean()))
 
-    @figure(f"{name}_error_std_{unit}", unit, f"{name} standard deviation", **known)
+    @figure(f"{name}_error_std_{unit}", unit, f"{name} standard deviation", **known,
+            equation=f"sqrt(mean({of}^2) - mean({of})^2)")  # fmt: skip
     def _std(_track: Track, table: Table) -> float:
         return float(table[column].std())
 
-    @figure(f"{name}_error_max_{unit}", unit, f"{name} largest", **known, listed=largest)
+    @figure(f"{name}_error_max_{unit}", unit, f"{name} largest", **known, listed=largest,
+            equation=f"max {of}")  # fmt: skip
     def _max(_track: Track, table: Table) -> float:
         return float(table[column].max())
 

@@ -11,6 +11,7 @@ from typing import Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
+from typing_extensions import override
 
 from dqpaint.core import Registry
 from dqpaint.dq import Floats
@@ -34,12 +35,14 @@ class Metric:
         title: its name in legends, charts and tables, without the unit.
         meaning: a short definition.
         display_unit: the unit in which people read it, if it is another one.
+        equation: what it is, a line an equation, written as `dqpaint.core.mathematics` reads it.
     """
 
     unit: str
     title: str
     meaning: str
     display_unit: str = ""
+    equation: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "display_unit", self.display_unit or self.unit)
@@ -47,6 +50,11 @@ class Metric:
             raise ValueError(
                 f"{self.title}: [{self.unit}] cannot be shown in [{self.display_unit}]"
             )
+
+    @property
+    def example(self) -> str:
+        """A command that shows it."""
+        raise NotImplementedError
 
     @property
     def scale(self) -> float:
@@ -106,6 +114,13 @@ class Column(Metric):
         return self.name.removesuffix(unit_suffix(self.unit)).replace("_", "-")
 
     @property
+    @override
+    def example(self) -> str:
+        if self.colour_by:
+            return f"dqpaint draw lag --controller p --colour-by {self.colour_by}"
+        return f"dqpaint draw lag --controller p{' --save motion' if self.motion_only else ''}"
+
+    @property
     def _each_joint(self) -> bool:
         return "{joint}" in self.names[0]
 
@@ -149,6 +164,12 @@ class Figure(Metric):
     measure: Callable[[Track, Table], float | None]
     kind: Literal["error", "cost", "step"] = "cost"
     listed: bool = False
+
+    @property
+    @override
+    def example(self) -> str:
+        laws = "accel,accel-decoupled" if self.unit.startswith("Nm") else "p,hinf"
+        return f"dqpaint compare lag --controllers {laws} --figure {self.name}"
 
 
 def _not_registered(name: str, _thing: Any) -> Column | Figure:

@@ -8,6 +8,7 @@ in `profiles` under `@PROFILES.add` with its `PEAK`, and its name in the languag
 """
 
 from dqpaint.motion.plan import Motion, plan
+from dqpaint.motion.profiles import PROFILES
 from dqpaint.motion.row_lines import RowLines
 from dqpaint.motion.summary import summary_line
 from dqpaint.motion.survey import Survey, survey
@@ -15,6 +16,6 @@ from dqpaint.motion.time_scaling import TimeScaling, smooth
 from dqpaint.motion.transform import moved, scaled, straight
 
 __all__ = [
-    "Motion", "RowLines", "Survey", "TimeScaling", "moved", "plan", "scaled", "smooth", "straight",
-    "summary_line", "survey",
+    "PROFILES", "Motion", "RowLines", "Survey", "TimeScaling", "moved", "plan", "scaled", "smooth",
+    "straight", "summary_line", "survey",
 ]

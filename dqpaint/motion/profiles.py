@@ -35,7 +35,16 @@ RAMP = 0.2  # of a trapezoid's time, at each end
 
 @PROFILES.add("constant")
 def constant(tau: Floats, _rates: Rates = ()) -> Progress:
-    """One speed throughout; corners are velocity jumps."""
+    """One speed throughout; corners are velocity jumps.
+
+    Equation:
+        s(tau) = tau, max s_dot = 1
+    Idea:
+        The stroke begins and ends at full speed: the line is equally bright, and no joint can
+        follow the jumps.
+    Try:
+        dqpaint draw circle --colour-by speed
+    """
     return Progress(tau, np.ones_like(tau), np.zeros_like(tau))
 
 
@@ -43,7 +52,16 @@ def constant(tau: Floats, _rates: Rates = ()) -> Progress:
 def trapezoid(tau: Floats, _rates: Rates = ()) -> Progress:
     """Constant acceleration over the first fifth of the time, braking over the last.
 
-    At the two inner breakpoints the acceleration is the one of the part that begins there.
+    Equation:
+        s(tau) = tau^2 / (2 a (1 - a)), tau <= a
+        s(tau) = (tau - a / 2) / (1 - a), a <= tau <= 1 - a
+        s(tau) = 1 - s(1 - tau), tau >= 1 - a
+        a = 1 / 5, max s_dot = 1 / (1 - a) = 1.25
+    Idea:
+        Up to speed, along at one speed, down again, from rest to rest. At the two inner
+        breakpoints the acceleration is the one of the part that begins there.
+    Try:
+        dqpaint draw star --colour-by speed
     """
     peak = 1.0 / (1.0 - RAMP)
     gain = peak / RAMP
@@ -58,13 +76,37 @@ def trapezoid(tau: Floats, _rates: Rates = ()) -> Progress:
 
 @PROFILES.add("cubic")
 def cubic(tau: Floats, rates: Rates = ()) -> Progress:
-    """The polynomial of degree 3 with the given rates (v0, v1) at its ends."""
+    """The polynomial of degree 3 with the given rates (v0, v1) at its ends.
+
+    Equation:
+        s(tau) = v_0 tau + (3 - 2 v_0 - v_1) tau^2 + (v_0 + v_1 - 2) tau^3
+        v_0 = v_1 = 0: s = 3 tau^2 - 2 tau^3, max s_dot = 1.5
+    Idea:
+        The smoothest way, by the integral of the squared acceleration, between given velocities.
+        The acceleration jumps at both ends.
+    Try:
+        dqpaint draw quarter-turn --controller accel --colour-by speed
+    """
     return _polynomial(cubic_coefficients(rates), tau)
 
 
 @PROFILES.add("quintic")
 def quintic(tau: Floats, rates: Rates = ()) -> Progress:
-    """The polynomial of degree 5 with the given rates and accelerations (v0, v1, a0, a1)."""
+    """The polynomial of degree 5 with the given rates and accelerations (v0, v1, a0, a1).
+
+    Equation:
+        s(tau) = v_0 tau + 1/2 a_0 tau^2 + c_3 tau^3 + c_4 tau^4 + c_5 tau^5
+        c_3 = 10 - 6 v_0 - 4 v_1 - 1.5 a_0 + 1/2 a_1
+        c_4 = -15 + 8 v_0 + 7 v_1 + 1.5 a_0 - a_1
+        c_5 = 6 - 3 v_0 - 3 v_1 - 1/2 a_0 + 1/2 a_1
+        "from rest to rest:" s = 10 tau^3 - 15 tau^4 + 6 tau^5, max s_dot = 1.875
+    Idea:
+        The least jerk, by the integral of its square. It begins and ends without a jump of the
+        acceleration, and takes the longest for it.
+    Try:
+        echo "line to (80, 0) mm profile quintic" > q.traj
+        dqpaint draw q.traj --colour-by acceleration
+    """
     return _polynomial(quintic_coefficients(rates), tau)
 
 

@@ -93,6 +93,22 @@ class CompliantOptions(PlantOptions):
 class Compliant(RigidArm):
     """Series elastic joints: motors wind springs that move rigid bodies, gravity on.
 
+    Equation:
+        H q_ddot + C q_dot + G = tau_s
+        tau_s = K (theta - q) + D (theta_dot - q_dot) + "gravity" G
+        theta_dot = q_dot_c
+    Idea:
+        Between motor and joint there is a spring and a damper. The motor turns at the rate it is
+        given, the arm swings behind it and sags under its weight.
+    Stable:
+        Under a law that measures the joints up to a rate of about half the springs' frequency:
+        40 1/s at 80 rad/s, less with the damper to the ground.
+    Fails:
+        Above that rate it swings, and the bounds of hinf no longer hold. Its motor is an ideal
+        source of velocity: no friction, no rotor, no inner loop.
+    Try:
+        dqpaint compare lag --controllers "p(k=20),p(k=120)" --plants compliant
+
     It begins at rest, its springs already carrying their part of the weight. Physics steps are as
     short as the springs need: each joint's own swing is resolved finely, the quickest mode of the
     coupled arm stays stable. Semi-implicit Euler has its places half a step ahead of its rates: all

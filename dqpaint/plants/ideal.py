@@ -12,7 +12,21 @@ from dqpaint.robots.model import Card
 
 @PLANTS.add("ideal")
 class Ideal:
-    """Kinematic: q(k+1) = q(k) + T q_dot, no masses and no motors."""
+    """Kinematic: q(k+1) = q(k) + T q_dot, no masses and no motors.
+
+    Equation:
+        q_(k+1) = q_k + T q_dot
+    Idea:
+        The joints do exactly what they are told. What is seen is the law alone: its lag, its
+        rounding, what it makes of a disturbance of its own kind.
+    Stable:
+        As the law in steps of T: a rate k needs k T < 2.
+    Fails:
+        To show anything that has to do with masses, motors or springs: payloads and pushes are
+        refused here.
+    Try:
+        dqpaint compare lag --controllers p,hinf --plants ideal
+    """
 
     takes: ClassVar[Takes] = "rates"
     traits: ClassVar[frozenset[Trait]] = frozenset()

@@ -14,7 +14,22 @@ from dqpaint.robots.model import Card
 
 @PLANTS.add("stiff")
 class Stiff(RigidArm):
-    """Velocity motors within the card's torques, gravity on, physics steps of at most 1 ms."""
+    """Velocity motors within the card's torques, gravity on, physics steps of at most 1 ms.
+
+    Equation:
+        H q_ddot + C q_dot + G = tau_m
+        q_dot(t + h) = q_dot_c, |tau_m| <= "effort"
+    Idea:
+        Each motor holds the rate it is given, whatever torque that needs, as long as it has it:
+        a servo of infinite bandwidth. It differs from ideal where torques run out.
+    Stable:
+        As ideal, while no torque is at its limit.
+    Fails:
+        To show what real servos do: a push within the torques moves nothing. For friction, springs
+        and bandwidth there are other plants.
+    Try:
+        dqpaint draw star --plant stiff --disturb payload=5
+    """
 
     takes: ClassVar[Takes] = "rates"
     traits: ClassVar[frozenset[Trait]] = frozenset({"masses", "sudden motors"})

@@ -15,6 +15,17 @@ from dqpaint.robots.model import Card
 class Torque(RigidArm):
     """Torques held for a period on rigid bodies with the file's friction, gravity on.
 
+    Equation:
+        H(q) q_ddot + C(q, q_dot) q_dot + G(q) + D q_dot = tau
+    Idea:
+        No servo at all: the law's torques move the arm, so the law has to know its dynamics.
+    Stable:
+        As the law; held for a period, so with periods of 5 ms or less.
+    Fails:
+        With laws that command rates: it takes torques alone.
+    Try:
+        dqpaint draw quarter-turn --controller accel --plant torque --disturb gravity=-0.1
+
     The dynamics are those of the file: its inertias, the viscous friction of its joints, and none
     of the damping that PyBullet gives every body unasked. Its integration is semi-implicit Euler,
     friction taken at the beginning of a step: much friction on a light link needs shorter ones.

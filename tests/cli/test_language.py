@@ -68,7 +68,9 @@ def test_explain(dqpaint):
     done = dqpaint("explain", "e245")
     assert done.returncode == 0
     assert done.stdout.startswith(f"E245: {explanations()['E245'].title}\n")
-    assert [line[:4] for line in dqpaint("explain").stdout.splitlines()] == list(explanations())
+    names, messages = dqpaint("explain").stdout.split("\n\n")
+    assert "accel-decoupled" in names
+    assert [line[:4] for line in messages.splitlines()] == list(explanations())
 
 
 def test_new(dqpaint, tmp_path):

@@ -53,9 +53,57 @@ def values():
 
 def controllers():
     from dqpaint.controllers import CONTROLLERS
+    from dqpaint.controllers.base.gains import shown
+    from dqpaint.core.explanations import read_sections
 
-    rows = [[f"`{c.name}`", c.summary, c.list_gains(), c.source] for c in CONTROLLERS.values()]
-    return table(["name", "what it does", "gains", "from"], rows)
+    rows = []
+    for law in CONTROLLERS.values():
+        gains = ", ".join(
+            f"`{name} = {shown(f.default)}`" for name, f in law.gains.model_fields.items()
+            if f.default is not None
+        )  # fmt: skip
+        equation = read_sections(law.docstring).equations[0]
+        name = f"[`{law.name}`](docs/equations.md#{law.name})"
+        rows.append([name, law.summary, formula(equation), gains, law.source])
+    return table(["name", "what it does", "equation", "gains", "from"], rows)
+
+
+def formula(equation):
+    """An equation within a line, as GitHub's Markdown has it: not touched by other marks."""
+    from dqpaint.core.mathematics import latex_equation
+
+    return f"$`{latex_equation(equation)}`$"
+
+
+def explanations():
+    """Everything that `dqpaint explain` explains, with its equations in LaTeX."""
+    from dqpaint.cli import explaining
+
+    parts = []
+    for kind in explaining.NEEDED:
+        parts.append(f"## {kind.capitalize()}s")
+        parts += [explanation(one) for one in explaining.all_explained(kind)]
+    return "\n\n".join(parts)
+
+
+def explanation(one):
+    from dqpaint.cli.listing import value_line
+    from dqpaint.core.mathematics import latex_equation, unicode_prose
+
+    sections = one.sections
+    lines = " \\\\\n".join(map(latex_equation, sections.equations))
+    parts = [f"### {one.name}", sections.summary.rstrip(".") + "."]
+    parts += [f"```math\n\\begin{{gather*}}\n{lines}\n\\end{{gather*}}\n```"]
+    texts = {
+        label: unicode_prose(text).replace("*", r"\*") for label, text in sections.texts.items()
+    }
+    about = [f"- *{label}*: {text}" for label, text in texts.items()]
+    about += [f"- *source*: {one.source}"] if one.source else []
+    values = ", ".join(f"`{value_line(v).replace('  ', '` (', 1)})" for v in one.values)
+    about += [f"- *{'gains' if one.kind == 'law' else 'values'}*: {values}"] if values else []
+    parts.append("\n".join(about))
+    parts.append("```sh\n" + "\n".join(sections.try_) + "\n```")
+    return "\n\n".join(parts)
 
 
 def robots():
@@ -364,6 +412,7 @@ PAGES = {
     ],
     ROOT / "trajectories/README.md": [messages, statements, parts, values],
     ROOT / "trajectories/MESSAGES.md": [rules],
+    ROOT / "docs/equations.md": [explanations],
 }
 SLOW_TABLES = {README: [stars, springs, hard]}
 

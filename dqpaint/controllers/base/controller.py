@@ -76,6 +76,11 @@ class Controller(Generic[G]):
         return (self.law.__doc__ or "").strip().splitlines()[0].rstrip(".")
 
     @property
+    def docstring(self) -> str:
+        """The law's own docstring, see `dqpaint.core.explanations`."""
+        return self.law.__doc__ or ""
+
+    @property
     def drives_torque(self) -> bool:
         """Whether it needs a plant that takes torques."""
         return self.commands in ("acceleration", "torque")

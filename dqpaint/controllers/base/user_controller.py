@@ -146,6 +146,11 @@ class UserController(Controller[Gains]):
     def summary(self) -> str:
         return self.about.splitlines()[0].rstrip(".")
 
+    @property
+    @override
+    def docstring(self) -> str:
+        return self.about
+
     @override
     def start(self, arm: Arm, motion: Motion, gains: Schedule[Gains]) -> Law[Gains]:
         with UserCode(self.path):

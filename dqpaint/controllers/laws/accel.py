@@ -44,7 +44,7 @@ def accel(seen: Seen, gains: SpringGains) -> Floats:
     Idea:
         The arm's own dynamics are computed and taken out; what is left behaves as a damped
         spring along the screw of the error: xi_e_dot + K_v xi_e + 2 K_p log(x_e) = 0. The first
-        two terms are the derivative of Ad(x_e^*) xi_d but for xi_e's own part.
+        two terms are the derivative of Ad(x_e^*) xi_d but for its part in xi_e.
 
     Error:
         the same wherever it is taken while Kp and Kv are numbers; as diagonals or matrices they

@@ -33,7 +33,7 @@ def hinf(seen: Seen, gains: GammaGains) -> Floats:
         Where the bound of hinf-set does: springs, delays, limits, K_T T > 1. Near zero it turns
         at half of K_O: K_O = 2 K_T is the same rate for both.
     Try:
-        dqpaint compare step --controllers hinf,hinf(point=tool) --plants ideal
+        dqpaint compare step --controllers "hinf,hinf(point=tool)" --plants ideal
     """
     x_e = spatial_error(seen.pose, seen.pose_d)
     u = correction(error_vector(x_e, seen, gains.point), gains)

@@ -150,7 +150,7 @@ def hinf_set(seen: Seen, gains: GammaGains) -> Floats:
         without limits or springs: held for a period T it needs K_T T <= 1, and where rotation and
         translation are disturbed together it may be passed even then.
     Try:
-        dqpaint compare step --controllers hinf-set,hinf-set(point=tool) --plants ideal
+        dqpaint compare step --controllers "hinf-set,hinf-set(point=tool)" --plants ideal
     """
     e = error_vector(spatial_error(seen.pose, seen.pose_d), seen, gains.point)
     return command_about(correction(e, gains), seen, gains.point)

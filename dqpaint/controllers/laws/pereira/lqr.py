@@ -68,7 +68,7 @@ class Lqr:
         With s = 0, as the thesis has it, the gain dies away in the last moment, and what error is
         left then stays. Optimal for small rotations: Im(r_e) is the sine of half the angle.
     Try:
-        dqpaint compare lag --controllers lqr,lqr(form=printed)
+        dqpaint compare lag --controllers "lqr,lqr(form=printed)"
     """
 
     batched = True  # what it keeps holds for every arm

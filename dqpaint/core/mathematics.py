@@ -21,13 +21,14 @@ LATEX_NAMES = {"eps": r"\varepsilon", "lam": r"\lambda"}
 HAMILTON = {"H_plus": ("H⁺", r"\overset{+}{H}"), "H_minus": ("H⁻", r"\overset{-}{H}")}
 FUNCTIONS = {
     "Ad", "Im", "Re", "vec", "diag", "rms", "std", "mean", "angle", "round", "clip", "tanh", "log",
-    "exp", "sin", "cos", "det", "max",
+    "exp", "sin", "cos", "det",
 }  # fmt: skip
 SIGNS = {  # plain: Unicode, LaTeX
-    "<=": ("≤", r"\leq "), ">=": ("≥", r"\geq "), "->": ("→", r"\rightarrow "), "!=": ("≠", r"\neq "),
-    "cross": ("×", r"\times "), "inf": ("∞", r"\infty "), "deg": ("°", r"^{\circ}"),
-    "min": ("min", r"\min "), "int": ("∫", r"\int"),
-    "sum": ("Σ", r"\sum"), "1/2": ("½", r"\tfrac{1}{2}"), "'": ("ᵀ", r"^{\top}"),
+    "<=": ("≤", r"\leq "), ">=": ("≥", r"\geq "), "->": ("→", r"\rightarrow "),
+    "!=": ("≠", r"\neq "), "cross": ("×", r"\times "), "inf": ("∞", r"\infty "),
+    "deg": ("°", r"^{\circ}"), "min": ("min", r"\min "), "max": ("max", r"\max "),
+    "int": ("∫", r"\int"), "sum": ("Σ", r"\sum"), "1/2": ("½", r"\tfrac{1}{2}"),
+    "'": ("ᵀ", r"^{\top}"),
 }  # fmt: skip
 ABOVE = str.maketrans("+-0123456789n", "⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹ⁿ")
 BELOW = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")

@@ -38,6 +38,24 @@ LARGEST_PHASE_STEP = 1.0  # of a joint's own swing on its gear, in radians, fits
 class Servo(RigidArm):
     """Servo motors: loops, rotors, gears, friction, backlash, ripple and delay, gravity on.
 
+    Equation:
+        B theta_ddot + D theta_dot + F(theta_dot) = tau_m + tau_r - tau
+        tau = k (theta - q, "beyond the backlash") + d (theta_dot - q_dot)
+        H q_ddot + C q_dot + G = tau
+        tau_m = B K_v (K_p (theta_c - theta) + theta_c_dot - theta_dot) + "reset" + "gravity" G
+    Idea:
+        What a real arm has between command and joint: an integrating reference, a position and a
+        velocity loop, a rotor behind a gear that gives way, sticks and has play. With friction,
+        play and delay at zero and high gains it tends to stiff.
+    Stable:
+        Where the law's rate lies well below `position`, and that below `velocity`; delay and the
+        gear's own swing take from both.
+    Fails:
+        With friction and an integral the joints hunt about rest. What a card does not say is
+        assumed, and the run says so.
+    Try:
+        dqpaint compare lag --controllers hinf --plants stiff,servo
+
     It begins at rest and in balance. Parameters are those of the card, with their source; what it
     has not is assumed, and a run says so.
 

@@ -224,13 +224,15 @@ def _linear_disturbance(track: Track) -> Floats | None:
 
 @column("offset_wx_rad_s offset_wy_rad_s offset_wz_rad_s", "rad/s", "angular offset rate",
         "first half of the spatial twist by which the tool's displacement changes until the next "
-        "row, where it is displaced: v_c of Pereira 2016, (3.17)")  # fmt: skip
+        "row, where it is displaced: v_c of Pereira 2016, (3.17)",
+        equation='w_c "of" v_c = Ad(x) v, c_dot = 1/2 c v')  # fmt: skip
 def _angular_offset_rate(track: Track) -> Floats | None:
     return track.pose_disturbance[:, :3] if track.pose_disturbance.any() else None
 
 
 @column("offset_vx_m_s offset_vy_m_s offset_vz_m_s", "m/s", "linear offset rate",
-        "its second half, at the base's origin")  # fmt: skip
+        "its second half, at the base's origin",
+        equation='v_c = Ad(x) v, c_dot = 1/2 c v')  # fmt: skip
 def _linear_offset_rate(track: Track) -> Floats | None:
     return track.pose_disturbance[:, 3:] if track.pose_disturbance.any() else None
 
@@ -251,7 +253,7 @@ def _unclipped_torques(track: Track) -> Floats | None:
 
 @column("clipped_joints", "", "clipped joints",
         "how many joints a limit clips until the next row, where any is",
-        from_zero=True)  # fmt: skip
+        from_zero=True, equation="sum_i (u_i != clip(u_i))")  # fmt: skip
 def _clipped_joints(track: Track) -> Floats | None:
     if not track.clipped:
         return None

@@ -79,7 +79,7 @@ def _acceleration(track: Track, table: Table) -> float:
 
 @figure("clipped_share", "", "clipped",
         "part of the run in which a limit clipped the command of a joint",
-        display_unit="%", listed=True)  # fmt: skip
+        display_unit="%", listed=True, equation="mean(u != clip(u))")  # fmt: skip
 def _clipped(track: Track, _table: Table) -> float | None:
     clipped = clipped_rows(track)
     return None if clipped is None else float(clipped.mean())

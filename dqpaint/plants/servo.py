@@ -42,7 +42,7 @@ class Servo(RigidArm):
         B theta_ddot + D theta_dot + F(theta_dot) = tau_m + tau_r - tau
         tau = k (theta - q, "beyond the backlash") + d (theta_dot - q_dot)
         H q_ddot + C q_dot + G = tau
-        tau_m = B K_v (K_p (theta_c - theta) + theta_c_dot - theta_dot) + "reset" + "gravity" G
+        tau_m = I K_v (K_p (theta_c - theta) + theta_c_dot - theta_dot) + "reset" + "gravity" G
     Idea:
         What a real arm has between command and joint: an integrating reference, a position and a
         velocity loop, a rotor behind a gear that gives way, sticks and has play. With friction,

@@ -7,9 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from dqpaint.cli.listing import value_line
-from dqpaint.core import tables
-from dqpaint.core.explanations import Sections, read_sections
-from dqpaint.core.mathematics import unicode_equation, unicode_prose
+from dqpaint.core import Sections, read_sections, tables, unicode_equation, unicode_prose
 
 WIDEST = 100
 NEEDED = {

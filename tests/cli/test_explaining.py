@@ -14,7 +14,7 @@ from dqpaint.core import example_names
 from dqpaint.core.mathematics import latex_equation, unicode_equation
 from dqpaint.metrics import METRICS
 from dqpaint.settings import SETTINGS
-from tests.core.test_mathematics import is_latex
+from tests.support.latex import is_latex
 
 EVERY = [(kind, one.name) for kind in explaining.NEEDED for one in explaining.all_explained(kind)]
 IDEA = 420  # characters: three lines or so

@@ -1,12 +1,10 @@
 """Equations in plain text -> Unicode and LaTeX."""
 
-import re
-
 import pytest
-from matplotlib.mathtext import MathTextParser
 
 from dqpaint.core.explanations import read_sections
 from dqpaint.core.mathematics import latex_equation, unicode_equation, unicode_prose
+from tests.support.latex import is_latex
 
 PAIRS = [
     ("q_dot = J_w^+ u", "q̇ = J_w⁺ u", r"\dot{q} = J_{w}^{+} u"),
@@ -68,15 +66,6 @@ def test_a_docstring_taken_apart():
     assert found.try_ == ("dqpaint list plants",)
     assert found.missing(("equation", "idea", "fails")) == ["fails"]
     assert read_sections(None).missing(("try",)) == ["try"]
-
-
-def is_latex(text):
-    """Whether matplotlib's reader takes it, which knows no matrices and no text in formulas."""
-    text = text.replace(r"\begin{bmatrix}", "[").replace(r"\end{bmatrix}", "]").replace(r"\\", ";")
-    text = re.sub(r"\\[lr]([vV]ert)", r"\\\1", text)
-    text = re.sub(r"\\text\{((?:[^{}]|\\_)*)\}", r"\\mathrm{w}", text)
-    MathTextParser("path").parse(f"${text.replace(chr(92) + 'tfrac', chr(92) + 'frac')}$")
-    return True
 
 
 @pytest.mark.parametrize("plain", [plain for plain, _, _ in PAIRS])

@@ -32,7 +32,7 @@ from dqpaint.planning import placement as place
 from dqpaint.planning import retiming as retime
 from dqpaint.program import Program
 from dqpaint.render import ArmMotion, SceneArm, scene_arm_of_run
-from dqpaint.robots.kinematics import Clamp, Kinematics
+from dqpaint.robots.kinematics import Clamp, Kinematics, make_kinematics
 from dqpaint.robots.loading import card_for, find_card
 from dqpaint.robots.model import DEFAULT_ROBOT
 from dqpaint.settings import Settings
@@ -171,7 +171,7 @@ def prepare(
     recorded = settings.recorded
     recording = None if recorded is None else read_recording(recorded, card.joints)
     with clock("place"):
-        kinematics = Kinematics(card)
+        kinematics = make_kinematics(card, settings.kinematics)
     motor_torque_use = choices.plant.motor_torque_use
     ready = prepared_motion.prepare_motion(program, kinematics, settings, motor_torque_use, clock)
     return PreparedRun(settings, clock, choices, kinematics, ready, recording)

@@ -129,9 +129,9 @@ def _forecast(program: Program, settings: "Settings | None") -> "ForecastReport"
     survey(program)  # errors of the drawing itself come before those of the arm
 
     from dqpaint.planning.forecast_report import make_report
-    from dqpaint.robots.kinematics import Kinematics
+    from dqpaint.robots.kinematics import make_kinematics
 
-    return make_report(program, Kinematics(card), settings)
+    return make_report(program, make_kinematics(card, settings.kinematics), settings)
 
 
 def as_json(results: Sequence[CheckResult]) -> dict[str, Any]:

@@ -159,6 +159,14 @@ class MotionSettings(Group):
             "selective|none|wampler",
         ),
     ] = "selective"
+    kinematics: Annotated[
+        Literal["pinocchio", "screws"],
+        Option(
+            "what poses and Jacobians are computed by: pinocchio, or screws: products of "
+            "exponentials of dual quaternions (Ozgur 2016); the same to 1e-9, and slower",
+            "pinocchio|screws",
+        ),
+    ] = "pinocchio"
     on_limit: Annotated[
         Literal["clip", "slow", "stop"],
         Option(
@@ -396,7 +404,8 @@ def validated(model: type[M], fields: Mapping[str, object], strict: bool = False
         raise UsageError(f"{name} {first['input']!r} {pydantic_reason(first)}") from None
 
 
-SIMULATED = ("controller", "gains", "plant", "disturb", "start", "null", "damping", "on_limit")
+SIMULATED = ("controller", "gains", "plant", "disturb", "start", "null", "damping", "kinematics",
+             "on_limit")  # fmt: skip
 
 
 def check_recorded(settings: Settings) -> None:

@@ -43,6 +43,7 @@ class MotionOptions(TypedDict, total=False):
     start: Literal["first", "home"] | None
     null: str | None
     damping: str | None
+    kinematics: Literal["pinocchio", "screws"] | None
     on_limit: Literal["clip", "slow", "stop"] | None
 
 

@@ -19,6 +19,7 @@ from dqpaint.robots.kinematics.nullspace import (
     DEFAULT_OBJECTIVE, OBJECTIVES, SecondaryTask, make_batched_task, make_secondary_task, read_null,
 )
 from dqpaint.robots.kinematics.partial_tasks import resolve_part
+from dqpaint.robots.kinematics.screw_kinematics import ScrewKinematics, make_kinematics
 from dqpaint.robots.kinematics.small_matrices import inverse, solve
 from dqpaint.robots.kinematics.start_posture import (
     PATH_TOLERANCE, NoPosture, StartPosture, find_start, least_errors, return_to_start, shortfall,
@@ -29,10 +30,10 @@ __all__ = [
     "CHARACTERISTIC_LENGTH", "DAMPING_THRESHOLD", "DEFAULT_DAMPING", "DEFAULT_OBJECTIVE",
     "LIMIT_TOLERANCE", "OBJECTIVES", "PATH_TOLERANCE", "START_GAIN", "UNITS", "Clamp",
     "Clipped", "CollisionShapes", "Damping", "Dynamics", "Kinematics", "ManyKinematics",
-    "ModelNumbers", "Nearest", "NoPosture", "RateBounds", "SecondaryTask", "StartPosture",
-    "collision_shapes", "damped_inverse", "drift_acceleration", "find_clamps", "find_start",
-    "inverse", "least_errors",
-    "make_batched_task", "make_secondary_task", "manipulability", "model_numbers", "pose_map",
-    "read_damping", "read_mesh", "read_null", "resolve", "resolve_part", "return_to_start",
-    "shortfall", "solve", "solve_posture", "tool_jacobian_map", "waypoints",
+    "ModelNumbers", "Nearest", "NoPosture", "RateBounds", "ScrewKinematics", "SecondaryTask",
+    "StartPosture", "collision_shapes", "damped_inverse", "drift_acceleration", "find_clamps",
+    "find_start", "inverse", "least_errors", "make_batched_task", "make_kinematics",
+    "make_secondary_task", "manipulability", "model_numbers", "pose_map", "read_damping",
+    "read_mesh", "read_null", "resolve", "resolve_part", "return_to_start", "shortfall",
+    "solve", "solve_posture", "tool_jacobian_map", "waypoints",
 ]

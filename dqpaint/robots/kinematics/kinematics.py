@@ -62,6 +62,7 @@ class Kinematics:
             masses: of the links, as parts of the true ones (n,); inertias likewise.
         """
         other = copy(self)
+        vars(other).pop("_chain", None)  # screws of lengths before
         other.model = pinocchio.Model(self.model)
         other.model.gravity.linear = gravity * self.model.gravity.linear
         if lengths is not None:

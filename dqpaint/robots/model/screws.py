@@ -30,8 +30,15 @@ class Screws:
 
     def jacobian(self, posture: Floats) -> Floats:
         """J_w (..., 6, n): column i is Ad(exp(q_1 s_10 / 2) ... exp(q_(i-1) s_(i-1)0 / 2)) s_i0."""
-        before = self._carried(posture)[:-1]
-        return np.stack([dq.adjoint(x, s) for x, s in zip(before, self.axes, strict=True)], axis=-1)
+        return self.pose_and_jacobian(posture)[1]
+
+    def pose_and_jacobian(self, posture: Floats) -> tuple[Floats, Floats]:
+        """Both at once."""
+        carried = self._carried(posture)
+        J = np.stack(
+            [dq.adjoint(x, s) for x, s in zip(carried[:-1], self.axes, strict=True)], axis=-1
+        )
+        return dq.mul(carried[-1], self.home), J
 
     def _carried(self, posture: Floats) -> list[Floats]:
         """The displacement of the first i joints, for i from 0 to n."""

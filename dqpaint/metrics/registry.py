@@ -169,7 +169,8 @@ class Figure(Metric):
     @override
     def example(self) -> str:
         laws = "accel,accel-decoupled" if self.unit.startswith("Nm") else "p,hinf"
-        return f"dqpaint compare lag --controllers {laws} --figure {self.name}"
+        drawing = "step" if self.kind == "step" else "lag"
+        return f"dqpaint compare {drawing} --controllers {laws} --figure {self.name}"
 
 
 def _not_registered(name: str, _thing: Any) -> Column | Figure:

@@ -27,7 +27,8 @@ def _register(name: str, part: str, unit: str, display_unit: str) -> None:
 
     @figure(f"step_{name}_settling_s", "s", f"{name} settling",
             "time from a step until the error stays below 2 % of it; none of a run that never "
-            f"settles{WORST}", **known)  # fmt: skip
+            f"settles{WORST}", **known,
+            equation='min s, |e(t)| <= 0.02 |e(t_0)| "for all" t >= t_0 + s')  # fmt: skip
     def _settling(track: Track, _table: Table) -> float | None:
         times = [one.settling for one in _parts(track, part)]
         known = [time for time in times if time is not None]
@@ -35,13 +36,15 @@ def _register(name: str, part: str, unit: str, display_unit: str) -> None:
 
     @figure(f"step_{name}_overshoot", "", f"{name} overshoot",
             f"farthest beyond the set point, along the step, as a part of it{WORST}",
-            display_unit="%", **known)  # fmt: skip
+            display_unit="%", **known,
+            equation="max(0, -e(t)' e(t_0) / |e(t_0)|^2), t >= t_0")  # fmt: skip
     def _overshoot(track: Track, _table: Table) -> float | None:
         return max((one.overshoot for one in _parts(track, part)), default=None)
 
     @figure(f"step_{name}_steady_{unit}", unit, f"{name} steady error",
             f"mean error over the last tenth of the time at the set point{WORST}",
-            display_unit=display_unit, **known)  # fmt: skip
+            display_unit=display_unit, **known,
+            equation='mean(|e|) "over the last tenth"')  # fmt: skip
     def _steady(track: Track, _table: Table) -> float | None:
         return max((one.steady for one in _parts(track, part)), default=None)
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.special import ndtr, stdtr
+from scipy.stats import linregress
 
 from dqpaint import dq
 from dqpaint.cli import main
@@ -31,6 +32,7 @@ from dqpaint.studies.replay.measures import (
     gain_grid,
     rate_cost,
     setpoint,
+    single_runs,
     timing,
     torques,
     tracking,
@@ -494,3 +496,29 @@ def test_curves_over_time_are_thinned_and_kept_apart_by_what_is_commanded():
     assert curves.panel("twist error wx", {"a": run}) is None
     run |= {"torque1_Nm": t}
     assert curves.panel("twist error wx", {"a": run}).y_label == "twist error wx [rad/s]"
+
+
+def test_single_runs_have_drift_and_likeness_as_scipy_has_them():
+    found = single_runs.single_runs(read_paper("thesis-runs"), MeasureRequest(Path()))
+    raw = raw_runs()
+    for cell in ("K, E.6.2", "LQR in DQ, E.6.3", "HIR, E.4"):
+        law, section = cell.split(", ")
+        error = np.array(raw[section, law, "error_integral"])
+        line = linregress(np.arange(len(error)), error)
+        row = {name: value.mean for name, value in found.numbers[cell].items()}
+        assert row["error_integral"] == pytest.approx(error.mean())
+        assert row["drift"] == pytest.approx(line.slope * (len(error) - 1) / error.mean())
+        assert row["drift_chance"] == pytest.approx(line.pvalue, rel=1e-9)
+        assert row["likeness"] == pytest.approx(linregress(error[1:], error[:-1]).rvalue)
+    assert found.numbers["chance"]["likeness"].mean == pytest.approx(0.2772, abs=1e-4)
+    assert "with_k" not in found.numbers["K, E.1"]
+    words = {claim.says: ours.word for claim, _, ours in
+             replay.judge_claims(read_paper("thesis-runs"), found.numbers)}  # fmt: skip
+    assert words["Table 5.9 has K, 314.98 rad, from E.4"] == "fails"
+    assert words["Table 5.9 has K from E.1 (ours)"] == "holds"
+    panels = found.shown["-runs"].panels
+    assert len(panels) == 10
+    assert panels[0].lines[0].y[:2].tolist() == raw["E.6.1", "K", "error_integral"][:2]
+    spread_out = panels[5].lines[0]
+    assert spread_out.x.mean() == pytest.approx(1.0)
+    assert spread_out.y[24] == pytest.approx(0.49)

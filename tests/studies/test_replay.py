@@ -16,6 +16,7 @@ from scipy.stats import linregress
 from dqpaint import dq
 from dqpaint.cli import main
 from dqpaint.errors import UnknownNameError, UsageError
+from dqpaint.robots.kinematics import ManyKinematics
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
 from dqpaint.robots.model.fields import Mount
@@ -27,6 +28,7 @@ from dqpaint.studies.replay.measures import (
     MEASURES,
     MeasureRequest,
     MeasureResult,
+    basin,
     cost,
     curves,
     gain_grid,
@@ -453,7 +455,7 @@ def test_every_way_to_the_rate_of_a_jacobian_is_that_rate(rng):
     q, rates, h = rng.uniform(-1, 1, 7), rng.normal(size=7), 1e-6
 
     def columns(posture, at_tool):
-        x, J = arm.pose_and_jacobian(posture)
+        x = arm.pose(posture)
         shift = np.array([np.cross(z, dq.translation(x)) for z in J[:3].T]) if at_tool else 0
         return np.hstack([J[:3].T, J[3:].T + shift])
 
@@ -522,3 +524,27 @@ def test_single_runs_have_drift_and_likeness_as_scipy_has_them():
     spread_out = panels[5].lines[0]
     assert spread_out.x.mean() == pytest.approx(1.0)
     assert spread_out.y[24] == pytest.approx(0.49)
+
+
+def test_the_transpose_law_from_many_starts(monkeypatch):
+    """One step is that of the registered law, and errors shrink; without limits."""
+    arm = Kinematics(read_card(setpoint.ROBOT).model_copy(update={"tool": Mount()}))
+    many, rng = ManyKinematics(arm), np.random.default_rng(3)
+    q = rng.uniform(-np.pi, np.pi, (5, 6))
+    goal = arm.pose(np.radians(setpoint.INITIAL_DEG))
+    error, pull = basin.law(many, q, goal)
+    for posture, e, rates in zip(q, error, pull, strict=True):
+        x = arm.pose(posture)
+        step = dq.nearest(goal, x) - x
+        np.testing.assert_allclose(np.linalg.norm(e), np.linalg.norm(step), atol=1e-12)
+        h = 1e-6
+        slope = [  # of 1/2 |x_d - x|^2, whose steepest descent the law is
+            sum(sign * 0.5 * np.sum((dq.nearest(goal, y) - y) ** 2) / (2 * h)
+                for sign in (1, -1) for y in [arm.pose(posture + sign * h * axis)])
+            for axis in np.eye(6)
+        ]  # fmt: skip
+        np.testing.assert_allclose(rates, -np.array(slope), atol=1e-7)
+    monkeypatch.setattr(basin, "SECONDS", 2.0)
+    left, _ = basin.go(many, q, goal)
+    assert (left < np.linalg.norm(error, axis=1)).all()
+    assert basin.ranks(many, q).max() == 6

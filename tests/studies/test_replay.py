@@ -455,7 +455,7 @@ def test_every_way_to_the_rate_of_a_jacobian_is_that_rate(rng):
     q, rates, h = rng.uniform(-1, 1, 7), rng.normal(size=7), 1e-6
 
     def columns(posture, at_tool):
-        x = arm.pose(posture)
+        x, J = arm.pose_and_jacobian(posture)
         shift = np.array([np.cross(z, dq.translation(x)) for z in J[:3].T]) if at_tool else 0
         return np.hstack([J[:3].T, J[3:].T + shift])
 

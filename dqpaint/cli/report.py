@@ -55,6 +55,9 @@ def _disturbed(painting: paint.Painting) -> list[tuple[str, str]]:
         given = one.model_dump(exclude_defaults=True)
         values = ", ".join(f"{key} = {_gain(value)}" for key, value in given.items())
         rows.append(("" if rows else "disturbed by", f"{name}  {values or 'nothing'}"))
+        if why := painting.without_effect.get(name):
+            rows.append(("", f"without effect: {NO_EFFECT}"))
+            rows.append(("", why))
     return rows
 
 
@@ -63,7 +66,12 @@ def _attenuation(painting: paint.Painting) -> list[tuple[str, str]]:
     rows: list[tuple[str, str]] = []
     for part, one in painting.attenuation.items():
         said = f"{part} {one.ratio:.3g} s"
-        if one.bound is not None:
+        if one.void and one.bound is not None:
+            said += (
+                f", bound {one.bound:.3g} s: void, as it is of an arm that follows its commands at "
+                f"once, and '{painting.plant}' has springs or servo loops between"
+            )
+        elif one.bound is not None:
             kept = "holds" if one.bound_holds else f"exceeded, {one.ratio / one.bound:.3g} times"
             if not one.bound_holds and one.in_steps != one.bound:
                 steps = f"in steps of {painting.motion.period * 1e3:.4g} ms"
@@ -232,6 +240,7 @@ def _hidden(shot: picture.Picture, where: str, source: str) -> list[str]:
     ]
 
 
+NO_EFFECT = "it moved the tool by less than 1 um and 0.001 deg all along"
 NO_RESULT = (
     "its figures say nothing about the law; lower the gains, shorten the period, or draw slower"
 )

@@ -1,7 +1,7 @@
 """An offset -> the true pose of the base, different from the pose the law assumes."""
 
 from dataclasses import replace
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 from pydantic import Field
@@ -27,6 +27,8 @@ class BaseOffset(Disturbance):
     Try:
         dqpaint draw star --disturb base=z=0.01,wx=0.02 --overlay
     """
+
+    random_fields: ClassVar[tuple[str, ...] | None] = ()
 
     x: Number = Field(0.0, description="m along the x axis of the base the law believes in")
     y: Number = Field(0.0, description="m along y")

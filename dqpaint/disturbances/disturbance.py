@@ -44,10 +44,12 @@ class Disturbance(BaseModel):
 
     Attributes:
         needs: what a plant must have for the disturbance to show.
+        random_fields: the values that make it random where they are not 0; None if not known.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     needs: ClassVar[Trait | None] = None
+    random_fields: ClassVar[tuple[str, ...] | None] = None
 
     def twist(self, t: Floats, period: float, rng: "np.random.Generator") -> Floats:
         """Twist (N, 6) added to the tool's motion.
@@ -78,6 +80,12 @@ class Disturbance(BaseModel):
     def summary(self) -> dict[str, Any]:
         """Its values, for a run's summary."""
         return self.model_dump()
+
+    @property
+    def is_random(self) -> bool:
+        """Whether it differs with the seed of a run; of a plugin's that does not say so it may."""
+        names = self.random_fields
+        return names is None or any(getattr(self, name) for name in names)
 
     def check(self, t: Floats) -> None:
         """Check that the disturbance has an effect in a run with times (N,) [s].

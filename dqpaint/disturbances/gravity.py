@@ -26,6 +26,7 @@ class GravityError(Disturbance):
         dqpaint draw quarter-turn --controller accel --disturb gravity=-0.1
     """
 
+    random_fields: ClassVar[tuple[str, ...] | None] = ()
     needs: ClassVar[Trait | None] = "a model of gravity"
 
     error: Annotated[float, Field(ge=-1, le=10, allow_inf_nan=False)] = Field(

@@ -1,6 +1,6 @@
 """A number of periods -> delayed commands."""
 
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 from pydantic import Field
 
@@ -21,6 +21,8 @@ class Latency(Disturbance):
     Try:
         dqpaint sweep lag --controller p --plant ideal --vary disturb.latency.periods=0,4,8,12
     """
+
+    random_fields: ClassVar[tuple[str, ...] | None] = ()
 
     periods: Annotated[int, Field(ge=0, le=1000)] = Field(
         0, description="whole periods; until the first command comes, the arm is held at rest"

@@ -1,6 +1,6 @@
 """A relative or absolute error -> a law's model with wrong link lengths."""
 
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 from pydantic import Field
@@ -23,6 +23,8 @@ class LinkLengths(Disturbance):
     Try:
         dqpaint draw star --disturb links=part=0.01 --overlay
     """
+
+    random_fields: ClassVar[tuple[str, ...] | None] = ("part", "offset")
 
     part: Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)] = Field(
         0.0, description="rms error of each length as a fraction of it; 0.01 is 1 %"

@@ -26,6 +26,7 @@ class MassError(Disturbance):
         dqpaint draw quarter-turn --controller accel --disturb masses=0.1
     """
 
+    random_fields: ClassVar[tuple[str, ...] | None] = ("spread",)
     needs: ClassVar[Trait | None] = "a model of gravity"
 
     error: Annotated[float, Field(ge=-0.99, le=10, allow_inf_nan=False)] = Field(

@@ -1,6 +1,6 @@
 """Noise and resolution -> encoders with errors."""
 
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 from pydantic import Field
@@ -25,6 +25,8 @@ class EncoderNoise(Disturbance):
     Try:
         dqpaint compare lag --controllers "p(k=10),p(k=80)" --disturb noise=0.001
     """
+
+    random_fields: ClassVar[tuple[str, ...] | None] = ("rms",)
 
     rms: Size = Field(0.0, description="rad of white noise at each reading")
     step: Size = Field(0.0, description="rad, the smallest step an encoder tells apart")

@@ -25,6 +25,7 @@ class UnknownPayload(Disturbance):
         dqpaint draw quarter-turn --controller accel --disturb payload=2
     """
 
+    random_fields: ClassVar[tuple[str, ...] | None] = ()
     needs: ClassVar[Trait | None] = "masses"
 
     mass: Annotated[float, Field(ge=0, le=1000, allow_inf_nan=False)] = Field(

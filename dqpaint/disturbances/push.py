@@ -32,6 +32,7 @@ class TimedForce(FromFile):
     """
 
     needs: ClassVar[Trait | None] = "masses"
+    random_fields: ClassVar[tuple[str, ...] | None] = ()
     columns: ClassVar[tuple[str, ...]] = ("x_N", "y_N", "z_N")
     beside: ClassVar[tuple[str, ...]] = ("link",)
 

@@ -116,6 +116,11 @@ class SixSignals(FromFile):
         """The size (6,), angular, then linear."""
         return np.array([self.wx, self.wy, self.wz, self.x, self.y, self.z])
 
+    @property
+    def is_random(self) -> bool:
+        """Whether it is noise of its own making."""
+        return self.form == "noise" and not self.path
+
     @model_validator(mode="after")
     def _is_something(self) -> Self:
         if self.path:

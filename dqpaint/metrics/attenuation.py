@@ -29,20 +29,23 @@ class Attenuation:
             guarantees none.
         in_steps: the same in steps of the run's period, with the turns that it made; None where
             there is none: the gain is too high for the period, or it changed.
+        void: whether the bound says nothing of this run: it is of an arm that follows its commands
+            at once, without springs or servo loops between.
     """
 
     ratio: float
     bound: float | None
     in_steps: float | None = None
+    void: bool = False
 
     @property
     def bound_holds(self) -> bool | None:
-        """Whether the ratio is within the bound; None where there is none."""
-        return None if self.bound is None else self.ratio <= self.bound
+        """Whether the ratio is within the bound; None where there is none, or it says nothing."""
+        return None if self.bound is None or self.void else self.ratio <= self.bound
 
 
 def attenuation(
-    track: Track, bounds: Bounds | None, stepped: bool = True
+    track: Track, bounds: Bounds | None, stepped: bool = True, void: bool = False
 ) -> dict[str, Attenuation]:
     """Rotation and translation, each where the disturbance is not zero.
 
@@ -52,6 +55,7 @@ def attenuation(
         track: of a run.
         bounds: bounds [s] for rotation and translation, from the gains.
         stepped: whether the bounds in steps hold: of gains that are numbers and do not change.
+        void: whether the arm does not follow its commands at once.
     """
     v = (track.disturbance + track.pose_disturbance)[:-1]  # v_w + v_c of (3.29)
     x_e = spatial_error(track.pose, track.motion.pose)
@@ -64,7 +68,7 @@ def attenuation(
     }
     known = zip(parts.items(), bounds or (None, None), of_steps, strict=True)
     return {
-        name: Attenuation(_norm(error) / _norm(cause), bound, in_steps)
+        name: Attenuation(_norm(error) / _norm(cause), bound, in_steps, void)
         for (name, (error, cause)), bound, in_steps in known
         if cause.any()
     }

@@ -42,6 +42,7 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
         "law": _law(painting),
         "gains": painting.gains,
         "disturbances": {name: one.summary() for name, one in painting.disturbances.items()},
+        "without_effect": painting.without_effect,
         "null_space": {"objective": objective, "gain": gain},
         "seed": settings.seed,
         "settings": settings.model_dump(),

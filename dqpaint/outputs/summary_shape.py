@@ -136,6 +136,7 @@ class Summary(TypedDict):
     law: Law
     gains: dict[str, Any]
     disturbances: dict[str, dict[str, Any]]
+    without_effect: dict[str, str]
     null_space: NullSpace
     seed: int
     settings: dict[str, Any]

@@ -1,15 +1,17 @@
 """Program and settings -> Painting: prepare, simulate, measure, expose, develop."""
 
 import hashlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 from dqpaint.controllers import Controller
 from dqpaint.disturbances import Disturbance
+from dqpaint.dq import Floats
 from dqpaint.light.film import Film
 from dqpaint.metrics import (
     METRICS,
@@ -36,7 +38,15 @@ from dqpaint.robots.kinematics import Clamp, Kinematics, make_kinematics
 from dqpaint.robots.loading import card_for, find_card
 from dqpaint.robots.model import DEFAULT_ROBOT
 from dqpaint.settings import Settings
-from dqpaint.simulation import Recording, Track, law_model, read_recording, replay, track
+from dqpaint.simulation import (
+    Recording,
+    Track,
+    has_effect,
+    law_model,
+    read_recording,
+    replay,
+    track,
+)
 
 NO_JOINTS_NOTE = "a recording of poses has no joints: the arm and its occlusion are left out"
 
@@ -68,6 +78,7 @@ class Painting(PictureSet):
     notes: tuple[str, ...] = ()  # assumptions about the arm
     placement: place.Placement | None = None  # where `place auto` put the drawing
     recording: Recording | None = None  # the recorded run, if none was simulated
+    without_effect: dict[str, str] = field(default_factory=dict)  # disturbances, and why
 
     @property
     def film(self) -> Film:
@@ -149,14 +160,34 @@ class PreparedRun:
         """The run."""
         if self.recording is not None:
             return replay(self.recording, self.motion, self.kinematics)
-        settings, chosen = self.settings, self.choices
-        run = track(
-            self.motion, self.kinematics, self.prepared.start, chosen.plant,
-            chosen.controller, chosen.gains, progress, chosen.disturbances, settings.seed,
-            settings.null, settings.on_limit == "stop", settings.damping,
-        )  # fmt: skip
-        reachability.check_largest_error(run, self.kinematics, settings.null)
+        run = self._track(self.choices.disturbances, progress)
+        reachability.check_largest_error(run, self.kinematics, self.settings.null)
         return run
+
+    def without_effect(self, run: Track) -> dict[str, str]:
+        """The disturbances that did not move the tool in a run, and why, each left out in turn."""
+        if self.recording is not None:
+            return {}
+        given = self.choices.disturbances
+        found = {}
+        for name in given:
+            others = {other: one for other, one in given.items() if other != name}
+            if not has_effect(run, partial(self._track, others, lambda _done: None)):
+                found[name] = self.choices.plant.why_without_effect(given[name].needs)
+        return found
+
+    def _track(
+        self,
+        disturbances: Mapping[str, Disturbance],
+        progress: Callable[[float], None],
+        watch: Callable[[int, Floats], None] = lambda _row, _pose: None,
+    ) -> Track:
+        settings, chosen = self.settings, self.choices
+        return track(
+            self.motion, self.kinematics, self.prepared.start, chosen.plant,
+            chosen.controller, chosen.gains, progress, disturbances, settings.seed,
+            settings.null, settings.on_limit == "stop", settings.damping, watch,
+        )  # fmt: skip
 
 
 def prepare(
@@ -184,11 +215,16 @@ def finish(ready: PreparedRun, run: Track, photographed: bool = True) -> Paintin
     card, recording = ready.kinematics.card, ready.recording
     notes = ready.kinematics.notes
     notes += recording.notes(motion) if recording else chosen.plant.notes(card)
+    with clock("effects"):
+        idle = ready.without_effect(run)
     with clock("metrics"):
         metrics = measure(run)
         notes += tuple(METRICS.faults)
         gains = chosen.gains
-        came_through = attenuation(run, gains.disturbance_bounds(), gains.bounded_in_steps)
+        came_through = attenuation(
+            run, gains.disturbance_bounds(), gains.bounded_in_steps,
+            chosen.plant.motor_torque_use == "smooth",
+        )  # fmt: skip
         steps = step_responses(run)
         judgement = judge(run)
     robot = settings.robot or motion.program.robot or DEFAULT_ROBOT
@@ -207,7 +243,7 @@ def finish(ready: PreparedRun, run: Track, photographed: bool = True) -> Paintin
         motion, run, metrics, judgement, came_through, steps,
         scene, cast, pictures, ready.prepared.retiming, ready.prepared.corners,
         clock.seconds, notes,
-        ready.prepared.placement, recording,
+        ready.prepared.placement, recording, idle,
     )  # fmt: skip
 
 

@@ -196,6 +196,15 @@ class ConfiguredPlant:
         """Whether commanded rates are clipped to the joints' limits before they come."""
         return self.options is None or self.options.clips_rates
 
+    def why_without_effect(self, needs: Trait | None) -> str:
+        """Why a disturbance does not show here, and where it would; `needs` is what it needs."""
+        if needs == "masses" and "sudden motors" in self.make.traits:
+            return (
+                f"the motors of '{self.name}' have infinite bandwidth: within their torque they "
+                "hold any load; it shows with --plant compliant, servo or torque"
+            )
+        return "too small to be seen here, or outside the time of the drawing"
+
     def require_trait(self, trait: Trait | None, disturbance: str) -> None:
         """Check that the plant has the trait that a disturbance needs.
 

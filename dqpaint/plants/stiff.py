@@ -14,7 +14,7 @@ from dqpaint.robots.model import Card
 
 @PLANTS.add("stiff")
 class Stiff(RigidArm):
-    """Velocity motors within the card's torques, gravity on, physics steps of at most 1 ms.
+    """Velocity motors of infinite bandwidth within the card's torques: up to these no load shows.
 
     Equation:
         H q_ddot + C q_dot + G = tau_m

@@ -127,6 +127,7 @@ def track(
     null: str = DEFAULT_OBJECTIVE,
     stop: bool = False,
     damping: str = DEFAULT_DAMPING,
+    watch: Callable[[int, Floats], None] = lambda _row, _pose: None,
 ) -> Track:
     """Drive the arm along a motion.
 
@@ -143,6 +144,7 @@ def track(
         null: what a redundant arm does with its freedom.
         stop: whether the first limit that is met ends the run.
         damping: of the law's pseudo-inverse.
+        watch: called with each row and the true pose (8,) of the tool; what it raises ends the run.
 
     Raises:
         UsageError: a disturbance that does not go with the period or the arm, an unknown `null` or
@@ -156,6 +158,7 @@ def track(
     stop_at_limit = partial(log.stop_at_limit, kinematics.card, motion, controller.drives_torque)
 
     def at_row(k: int) -> None:
+        watch(k, log.pose[k])
         if stop:
             stop_at_limit(k)
         if k % REPORT_EVERY == 0:
@@ -381,7 +384,7 @@ def _make_track(
         motion, log.posture, dq.continuous(log.pose), log.measured_posture,
         dq.continuous(log.measured_pose), log.measured_rates, log.measured_twist,
         log.manipulability, log.command, log.wanted, torques, log.effort, held,
-        clipped, log.disturbance,_pose_disturbance(log.pose, offset, motion.period),
+        clipped, log.disturbance, _pose_disturbance(log.pose, offset, motion.period),
     )  # fmt: skip
 
 

@@ -131,3 +131,13 @@ def test_ratios_are_found_whatever_the_size(size):
     error = (x @ np.linalg.inv(x_d))[:, :3, 3]
     cause = np.linalg.norm(v[:, 3:] / size) * size
     assert found["translation"].ratio == pytest.approx(np.linalg.norm(error) / cause, rel=1e-9)
+
+
+def test_springs_void_the_bound(tmp_path):
+    (tmp_path / "line.traj").write_text("period 10 ms\nline to (20, 10) mm in 1 s\n")
+    how = {"disturb": {"twist": {"x": 0.02}}, "size": (16, 16)}
+    for plant, void in (("ideal", False), ("stiff", False), ("compliant", True)):
+        found = dqpaint.draw(tmp_path / "line.traj", plant=plant, **how).attenuation["translation"]
+        assert found.void == void
+        assert (found.bound_holds is None) == void
+        assert found.bound is not None

@@ -21,7 +21,7 @@ POINT_HELP = "point of the body at which the error is taken: that at the base's 
 
 
 def invariant_error(pose: Floats, pose_d: Floats) -> Floats:
-    """The error e = vec(1 - x* x_d) (..., 8), the same from whatever base frame it is seen."""
+    """The error e = vec(1 - x* x_d) (..., 8), the same from whatever base frame; not tool frame."""
     return dq.IDENTITY - dq.mul(dq.conj(pose), dq.nearest(pose_d, pose))
 
 

@@ -74,6 +74,7 @@ def figure_meanings() -> str:
 
 FAMILY = re.compile(r"(.*?)(?:(, |: )(.*))?$", re.DOTALL)
 MOST_LINES = 12  # of remarks of one kind; the CSV has them all
+NO_EFFECT = "which moved the tool by less than 1 um and 0.001 deg"
 ROUNDING = 1e-13  # of a figure's own unit: what is smaller is shown as 0
 
 
@@ -158,6 +159,15 @@ def what_means_hide(cells: Sequence[Cell]) -> list[str]:
         are = "run is no result and is" if len(out) == 1 else "runs are no results and are"
         lines.append(f"{len(out)} of {len(runs)} {are} left out of means, tests and orders:")
         lines += _few([f"{cell.label}: {cell.status}: {cell.why}" for cell in cells if cell.why])
+    idle = {
+        f"{cell.label}: {name}: {why}": None
+        for cell in cells
+        for one in cell.done
+        for name, why in one.without_effect.items()
+    }
+    if idle:
+        lines.append(f"Disturbances without effect, {NO_EFFECT}:")
+        lines += _few(list(idle))
     clipped = {
         cell.label: next(one.limits for one in cell.done if one.limits)
         for cell in cells

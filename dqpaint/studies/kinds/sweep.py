@@ -23,7 +23,7 @@ from dqpaint.studies.kinds.study_request import StudyRequest
 from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
 from dqpaint.studies.report.charts import HeatMap, Line, Panel, wide
 from dqpaint.studies.report.page import Block, Charts, Map, Pictured, Rows, Words, files_of
-from dqpaint.studies.runner.run import Run
+from dqpaint.studies.runner.run import Run, check_seeds
 
 MOST_RUNS = 100_000
 EFFORT = "command_integral_rad"  # of laws that command torque, theirs
@@ -113,6 +113,8 @@ def sweep(
     small = base.model_copy(update={"width": SMALLEST, "height": SMALLEST})
     choices = combinations(axes)
     runs = [Run(name, text, with_choice(small, choice)) for choice in choices]
+    if any(axis.name == "seed" for axis in axes):
+        check_seeds(runs)
     return Sweep(
         name=Path(name).name, axes=tuple(axes), cells=request.cells(choices, runs, count),
         folder=request.folder, settings=base, text=text, figure=figure,

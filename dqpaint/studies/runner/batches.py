@@ -112,12 +112,12 @@ def _result(
         if run.keep:
             painting = paint.finish(ready, track, photographed=not OF_ALL.issuperset(run.keep))
             write_arrays(painting, run.keep, folder, key)
-            figures = painting.metrics.figures
+            figures, idle = painting.metrics.figures, painting.without_effect
         else:
-            figures = measure(track).figures
+            figures, idle = measure(track).figures, ready.without_effect(track)
     except DqpaintError as problem:
         if is_of_the_machine(problem):
             raise  # each goes by itself then
         return Result(key, "failed", str(problem))
     found = judge(track)
-    return Result(key, found.status, found.why, figures, limits_text(track))
+    return Result(key, found.status, found.why, figures, limits_text(track), idle)

@@ -17,7 +17,7 @@ from dqpaint import __version__
 from dqpaint.brushes import read_brush
 from dqpaint.controllers import find_controller
 from dqpaint.core import choice_name, file_digest, find_drawing, library_versions
-from dqpaint.disturbances import find_files
+from dqpaint.disturbances import find_files, make_disturbances
 from dqpaint.errors import UsageError
 from dqpaint.language import parse, read
 from dqpaint.language.imports import files_of
@@ -130,6 +130,7 @@ class Result:
         message: why it is no result.
         figures: of the summary, in SI units; none where it failed.
         limits: which limits clipped which joints on which lines; empty for none.
+        without_effect: disturbances that did not move the tool, and why.
         wall: the seconds it took; not a part of any table.
     """
 
@@ -138,6 +139,7 @@ class Result:
     message: str = ""
     figures: dict[str, float] = field(default_factory=dict)
     limits: str = ""
+    without_effect: dict[str, str] = field(default_factory=dict)
     wall: float = 0.0
 
 
@@ -175,6 +177,20 @@ def seeded(run: Run, count: int) -> list[Run]:
         )
         for i in range(count)
     ]
+
+
+def check_seeds(runs: Sequence[Run]) -> None:
+    """Check that runs that differ in their seeds have something random in them.
+
+    Raises:
+        UsageError: they have not.
+    """
+    given = (one for run in runs for one in make_disturbances(run.settings.disturb).values())
+    if not any(one.is_random for one in given):
+        raise UsageError(
+            "the seed is varied, but nothing in these runs is random: all would be the same; add "
+            "--disturb noise=0.0005 or --disturb twist=noise,x=0.01,frequency=5"
+        )
 
 
 def repeated(runs: Sequence[Run], count: int) -> list[list[Run]]:

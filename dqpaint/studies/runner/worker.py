@@ -52,7 +52,8 @@ def carry_out(
     found, figures = painting.judgement, painting.metrics.figures
     limits = limits_text(painting.track)
     wall = time.perf_counter() - begin
-    return Result(key, found.status, found.why, figures, limits, wall)
+    idle = painting.without_effect
+    return Result(key, found.status, found.why, figures, limits, idle, wall)
 
 
 def carry_out_all(

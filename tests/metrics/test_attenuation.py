@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import dqpaint
 from dqpaint import dq
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.disturbances import make_disturbances

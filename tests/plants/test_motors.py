@@ -69,6 +69,19 @@ def test_feed_forward_leaves_no_lag_and_a_velocity_integral_no_sag():
     np.testing.assert_allclose(motors.gear.angle, 2.0 * np.array([0.3, -0.2]), atol=1e-5)
 
 
+def test_an_integrator_does_not_gather_what_the_motors_limit_keeps():
+    """A radian at the motors' limit: without its care it would pass the target by 2.5 rad."""
+    one = gears(1)
+    motors = servo(one, cascade(one, kp=5.0, reset=0.1, limit=2.0))
+    motors.command_angle(np.array([1.0]))
+    angles = []
+    for _ in range(12000):
+        motors.step(STEP, np.zeros(1), np.zeros(1))
+        angles.append(motors.gear.angle[0])
+    assert 1.1 < max(angles) < 1.4
+    assert angles[-1] == pytest.approx(1.0, abs=0.001)
+
+
 def test_current_loops_follow_with_their_lag():
     """tau = limit (1 - e^-wt): the mean over steps that are as long as the lag is exact."""
     one = gears(1)
@@ -273,8 +286,12 @@ def test_delay_is_exact_whatever_the_steps_are(rng):
 def test_the_slew_filter_limits_speed_and_nothing_else():
     one = Slew(np.zeros(2), np.array([0.5, 2.0]))
     for k in range(1, 101):
-        one.advance(1e-3, np.array([0.03, -0.15]))
+        middle = one.advance(1e-3, np.array([0.03, -0.15]))
         t = 1e-3 * k
+        half = t - 0.5e-3
+        np.testing.assert_allclose(
+            middle, [min(0.03, 0.5 * half), -min(0.15, 2 * half)], atol=1e-15
+        )
         np.testing.assert_allclose(one.angle, [min(0.03, 0.5 * t), -min(0.15, 2 * t)], atol=1e-15)
 
 

@@ -14,9 +14,10 @@ from dqpaint.planning.occlusion import DEFAULT_SETTINGS
 from dqpaint.planning.placement import Placement, place_program
 from dqpaint.planning.reachability import reachable_start_posture
 from dqpaint.planning.retiming import Motors, Retiming, retime
+from dqpaint.planning.set_up import displaced, other_posture
 from dqpaint.program import Program
 from dqpaint.robots.kinematics import Kinematics
-from dqpaint.settings import Settings
+from dqpaint.settings import Settings, read_spread
 
 
 @dataclass(frozen=True)
@@ -60,10 +61,14 @@ def prepare_motion(
 
     Raises:
         ScriptError: the drawing has no place, no timetable, or leaves the arm's reach.
+        DqpaintError: the start posture cannot be spread.
     """
     card = kinematics.card
     with stopwatch("place"):
         program, placed = place_program(program, kinematics, settings)
+        spread = read_spread(settings.spread if settings.recorded is None else None)
+        if spread.place:
+            program = displaced(program, card.canvas.pose, spread.place, settings.seed)
     with stopwatch("motion"):
         motion = plan(program, card.canvas.pose)
     if settings.recorded is not None:
@@ -71,6 +76,9 @@ def prepare_motion(
     with stopwatch("start"):
         best = reachable_start_posture(motion, kinematics, settings.null).posture
         start = card.home if settings.start == "home" else best
+        if spread.posture:
+            first = None if settings.start == "home" else motion.pose[0]
+            start = other_posture(kinematics, start, first, spread.posture, settings.seed)
         corners = within_torques(motion, kinematics, start, settings.null)
         if corners is not None:
             motion, program = corners.motion, corners.motion.program

@@ -15,11 +15,12 @@ from dqpaint.settings.model import (
 from dqpaint.settings.options import (
     DevelopOptions, DrawOptions, PreviewOptions, ReplayOptions, RunOptions,
 )
-from dqpaint.settings.readers import parse_disturbances, parse_gains
+from dqpaint.settings.readers import parse_disturbances, parse_gains, read_spread
 
 __all__ = [
     "COMMANDS", "DEFAULT_CONTROLLER", "RUN_SCHEMA", "SETTINGS", "SMALLEST", "DevelopOptions",
     "DrawOptions", "Option", "PreviewOptions", "ReplayOptions", "RunOptions", "Setting", "Settings",
     "SettingsFile", "beside", "check_keywords", "check_recorded", "keywords", "make_settings",
-    "parse_disturbances", "parse_gains", "read_choices", "read_given", "settings_of", "validated",
+    "parse_disturbances", "parse_gains", "read_choices", "read_given", "read_spread",
+    "settings_of", "validated",
 ]

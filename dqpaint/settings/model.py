@@ -15,6 +15,7 @@ from dqpaint.settings.declaration import Option, Setting, Variant, settings_of
 from dqpaint.settings.readers import (
     DISTURBANCE,
     Gain,
+    check_spread,
     read_disturbances,
     read_gains,
     read_path,
@@ -89,6 +90,16 @@ class DisturbanceSettings(Group):
             python="Mapping[str, Mapping[str, float | str] | float | str] | Sequence[str] | str",
         ),
     ] = Field(default_factory=dict)
+    spread: Annotated[
+        str | None,
+        Option(
+            "set-up that differs by seed: posture[=DEG] to begin in, place[=MM] of the drawing "
+            "(standard deviations; 5 and 20)",
+            "posture,place",
+            unsaid="none",
+            read=check_spread,
+        ),
+    ] = None
     seed: Annotated[int, Field(ge=0, le=2**63 - 1), Option("seed of everything random")] = 0
 
 
@@ -404,7 +415,8 @@ def validated(model: type[M], fields: Mapping[str, object], strict: bool = False
         raise UsageError(f"{name} {first['input']!r} {pydantic_reason(first)}") from None
 
 
-SIMULATED = ("controller", "gains", "plant", "disturb", "start", "null", "damping", "kinematics",
+SIMULATED = ("controller", "gains", "plant", "disturb", "spread", "start", "null", "damping",
+             "kinematics",
              "on_limit")  # fmt: skip
 
 

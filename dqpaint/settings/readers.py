@@ -4,10 +4,11 @@ The command line gives texts, Python and settings files may give mappings and nu
 reader takes them all.
 """
 
+import math
 import os
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from dqpaint.core import number_or_text, read_choice
 from dqpaint.errors import UsageError
@@ -76,6 +77,54 @@ def read_disturbances(value: object) -> dict[str, Any]:
                 values = parse_disturbances([f"{name}={values}"])[name]
             add_disturbance(found, name, dict(values))
     return found
+
+
+class Spread(NamedTuple):
+    """How far the set-up of a repetition may be off: standard deviations.
+
+    Attributes:
+        posture: of each joint of the start posture [rad].
+        place: of the drawing along each axis [m].
+    """
+
+    posture: float = 0.0
+    place: float = 0.0
+
+
+USUAL_SPREAD = {"posture": 5.0, "place": 20.0}  # [deg, mm]
+LARGEST_SPREAD = {"posture": 45.0, "place": 500.0}
+
+
+def read_spread(text: str | None) -> Spread:
+    """What `posture,place` or `posture=5,place=20` (deg, mm) says; nothing of None.
+
+    Raises:
+        UsageError: anything else.
+    """
+    found: dict[str, float] = {}
+    for part in text.split(",") if text is not None else ():
+        name, sign, size = (word.strip() for word in part.partition("="))
+        try:
+            value = float(size) if sign else USUAL_SPREAD[name]
+            if name in found or not 0 < value <= LARGEST_SPREAD[name]:
+                raise ValueError
+        except (KeyError, ValueError):
+            raise UsageError(
+                f"spread '{str(text)[:40]}' is not of posture and place, each once, such as "
+                "posture=5,place=20: deg up to 45, mm up to 500"
+            ) from None
+        found[name] = value
+    return Spread(math.radians(found.get("posture", 0.0)), 1e-3 * found.get("place", 0.0))
+
+
+def check_spread(value: object) -> object:
+    """The text, if it can be read.
+
+    Raises:
+        UsageError: it cannot.
+    """
+    read_spread(value if isinstance(value, str) else str(value))
+    return value
 
 
 def _texts(name: str, value: object, example: str) -> list[str]:

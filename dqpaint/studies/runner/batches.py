@@ -45,6 +45,7 @@ def goes_in_batches(run: Run) -> bool:
     return bool(
         settings.plant == "ideal"
         and settings.disturb
+        and settings.spread is None
         and settings.recorded is None
         and settings.on_limit != "stop"
         and _is_batched(settings.controller)

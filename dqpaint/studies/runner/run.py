@@ -163,10 +163,11 @@ def seeded(run: Run, count: int) -> list[Run]:
     """
     if count < 1:
         raise UsageError(f"{count} runs; at least 1 is needed")
-    if count > 1 and not run.settings.disturb:
+    if count > 1 and not (run.settings.disturb or run.settings.spread):
         raise UsageError(
             f"{count} runs would all be the same: nothing in them is random; "
-            "add a disturbance, for example --disturb twist=noise,x=0.01,y=0.01,frequency=5"
+            "add a disturbance, for example --disturb twist=noise,x=0.01,y=0.01,frequency=5, "
+            "or --spread posture,place"
         )
     first = run.settings.seed
     return [
@@ -199,8 +200,9 @@ def repeated(runs: Sequence[Run], count: int) -> list[list[Run]]:
     Raises:
         UsageError: there is nothing random in any.
     """
-    random = any(run.settings.disturb for run in runs)
-    return [seeded(run, count if run.settings.disturb or not random else 1) for run in runs]
+    random = [bool(run.settings.disturb or run.settings.spread) for run in runs]
+    counts = [count if one or not any(random) else 1 for one in random]
+    return [seeded(run, of_run) for run, of_run in zip(runs, counts, strict=True)]
 
 
 @lru_cache(maxsize=8)

@@ -21,6 +21,10 @@ class Metrics:
     table: Table
     figures: dict[str, float]
 
+    def __repr__(self) -> str:
+        figures = ", ".join(f"{name} {value:.4g}" for name, value in self.figures.items())
+        return f"<Metrics: {len(self.table)} columns; {figures}>"
+
 
 def measure(track: Track) -> Metrics:
     """Columns and figures of a run.

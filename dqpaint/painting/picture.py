@@ -30,7 +30,7 @@ from dqpaint.light.film import (
     with_noise,
     with_starburst,
 )
-from dqpaint.light.images import LEGEND_EXPOSURE, with_legend
+from dqpaint.light.images import LEGEND_EXPOSURE, with_legend, with_notes
 from dqpaint.light.sources import ALL_SAMPLES, Occlusion, Sweep, occlusion_by, view_camera
 from dqpaint.motion import RowLines
 from dqpaint.painting.scene import Scene, with_shutter
@@ -324,8 +324,19 @@ def overlay_image(scene: Scene, exposure: float, camera: Camera, settings: Setti
 def develop_image(
     scene: Scene, image: Image, exposure: float, settings: Settings
 ) -> NDArray[np.uint8]:
-    """The picture of linear light: noise, look, legend."""
+    """The picture of linear light: noise, look, legend, notes."""
     if settings.noise is not None:
         image = with_noise(image, exposure * 2.0**settings.ev, settings.noise)
     shown = LOOKS[settings.look](image, exposure, settings.ev)
-    return shown if scene.legend is None else with_legend(shown, scene.legend, settings.look)
+    if scene.legend is not None:
+        shown = with_legend(shown, scene.legend, settings.look)
+    return with_notes(shown, deviation_notes(settings))
+
+
+def deviation_notes(settings: Settings) -> list[str]:
+    """What is in a picture besides the light of a run, as it was."""
+    notes = ["grey lines: the reference"] if settings.overlay else []
+    if settings.magnify != 1.0:
+        of = "it" if settings.overlay else "the reference"
+        notes.append(f"deviations from {of} {settings.magnify:g} times as large")
+    return notes

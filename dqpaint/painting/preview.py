@@ -19,6 +19,10 @@ class Preview(PictureSet):
     scene: Scene
     pictures: tuple[Picture, ...]
 
+    def __repr__(self) -> str:
+        motion = self.motion
+        return f"<Preview of {motion.program.name}: {motion.length:.3g} m, {motion.t[-1]:.2f} s>"
+
 
 def make_preview(program: Program, settings: Settings) -> Preview:
     """Make the reference pictures of a program.

@@ -25,6 +25,7 @@ class DisturbanceOptions(TypedDict, total=False):
     """What disturbs the run."""
 
     disturb: Mapping[str, Mapping[str, float | str] | float | str] | Sequence[str] | str | None
+    spread: str | None
     seed: int | None
 
 

@@ -5,9 +5,11 @@ notebook. Parameters and settings are those of the command, as their declaration
 """
 
 import tempfile
+from base64 import b64encode
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from html import escape
 from os import PathLike
 from pathlib import Path
 from typing import Any, Generic, TypeVar, Unpack
@@ -98,6 +100,16 @@ class FinishedStudy(Generic[S]):
 
     def _repr_markdown_(self) -> str:
         return self.files["-table.md"].decode()
+
+    def _repr_html_(self) -> str:
+        """The tables and all pictures, for a notebook."""
+        shown = [
+            f'<img alt="{escape(end)}" style="max-width: 100%" '
+            f'src="data:image/png;base64,{b64encode(data).decode()}">'
+            for end, data in self.files.items()
+            if end.endswith(".png")
+        ]
+        return "\n".join([f"<pre>{escape(self.text)}</pre>", *shown])
 
 
 @keywords("compare", STUDIES["compare"].parameters())

@@ -42,6 +42,9 @@ class SweepOptions(DrawOptions, total=False):
     robots: Sequence[str] | str | None
     disturbs: Sequence[str] | str | None
     figure: str | None
+    x: str | None
+    scale: Literal["auto", "linear", "log"] | None
+    x_scale: Literal["auto", "linear", "log"] | None
     jobs: int | None
     cluster: str | None
     folder: str | PathLike[str] | None

@@ -224,3 +224,21 @@ def test_a_curve_names_its_axes_and_joins_no_names():
     assert sweep.curves(made, ERROR)[0].lines[0].width == 0
     assert sweep.axis_descriptions(made) == []
     assert sweep.axis_descriptions(swept(*found, axes=["k=1,2"]))[0].startswith("k: 1/s, the rate")
+
+
+def test_a_sweep_of_two_axes_is_drawn_over_the_one_that_is_asked_for():
+    found = [
+        Cell({"k": k, "plant": plant}, made_up(float(k) * (1 + i)))
+        for k in ("20", "5") for i, plant in enumerate(("ideal", "stiff"))
+    ]  # fmt: skip
+    made = swept(*found, axes=["k=20,5", "plant=ideal,stiff"])
+    shaped = replace(made, shape=sweep.SweepShape(x="k", scale="log", x_scale="linear"))
+    panel = sweep.curves(shaped, ERROR)[0]
+    assert [line.label for line in panel.lines] == ["plant ideal", "plant stiff"]
+    assert [line.x.tolist() for line in panel.lines] == [[5, 20], [5, 20]]
+    assert [line.y.tolist() for line in panel.lines] == [[5, 20], [10, 40]]
+    assert (panel.log_y, panel.log_x) == (True, False)
+    over = replace(made, shape=sweep.SweepShape(x="plant"))
+    panel = sweep.curves(over, ERROR)[0]
+    assert panel.ticks == ("ideal", "stiff")
+    assert [line.label for line in panel.lines] == ["k 20", "k 5"]

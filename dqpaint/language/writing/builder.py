@@ -115,6 +115,9 @@ class Drawing(Statements):
         for method, value in settings.items():
             self._add(_word(method), (value,), {})
 
+    def __repr__(self) -> str:
+        return f"<Drawing '{self.name}': {len(self._lines)} lines>"
+
     if not TYPE_CHECKING:  # the stub has the methods: editors report unknown words
 
         def __getattr__(self, method: str) -> Callable[..., Any]:

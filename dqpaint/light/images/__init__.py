@@ -7,10 +7,11 @@ from dqpaint.light.images.image_difference import (
     Difference, decode_picture, decode_planes, difference_picture, encode_planes,
     measure_difference,
 )
-from dqpaint.light.images.legend import LEGEND_EXPOSURE, Legend, with_legend
+from dqpaint.light.images.legend import LEGEND_EXPOSURE, Legend, with_legend, with_notes
 
 __all__ = [
     "LEGEND_EXPOSURE", "Difference", "Legend", "categorical_colours", "contact_sheet",
     "decode_picture", "decode_planes", "decode_png", "difference_picture", "encode_planes",
     "measure_difference", "sequential_colours", "sequential_map", "with_legend",
+    "with_notes",
 ]

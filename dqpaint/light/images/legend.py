@@ -13,9 +13,9 @@ from dqpaint.light.film.looks import LOOKS
 
 REFERENCE_HEIGHT = 720
 """Rows of the picture for which the sizes below are given."""
-MARGIN, WIDTH, THICK, TEXT, GAP = 28, 220, 8, 15, 9
+MARGIN, WIDTH, THICK, TEXT, GAP = 28, 300, 12, 21, 10
 """Sizes of the legend [px at that height]."""
-LEAST_TEXT = 9
+LEAST_TEXT = 10
 """Least height of text [px]."""
 LEGEND_EXPOSURE = 0.8
 """Exposure of the legend's strip and of the strokes of a picture with a legend."""
@@ -78,6 +78,22 @@ def with_legend(picture: Picture, legend: Legend, look: str) -> Picture:
     if len(legend.labels) > MOST_LABELS:
         line = below + MOST_LABELS * (size + gap)
         write_text(shown, f"and {len(legend.labels) - MOST_LABELS} more", margin, line + size, size)
+    return shown
+
+
+def with_notes(picture: Picture, notes: Sequence[str]) -> Picture:
+    """A copy of a picture with lines of text, bottom right; unchanged where they do not fit."""
+    scale = picture.shape[0] / REFERENCE_HEIGHT
+    size = max(LEAST_TEXT, round(TEXT * scale))
+    margin, gap = (max(3, round(v * scale)) for v in (MARGIN, GAP))
+    width = max((text_length(note, size) for note in notes), default=0)
+    if not notes or 2 * (width + margin) > picture.shape[1]:  # the left half is the legend's
+        return picture
+    shown = picture.copy()
+    for i, note in enumerate(reversed(notes)):
+        baseline = picture.shape[0] - margin - i * (size + gap) - round(0.25 * size)
+        left = picture.shape[1] - margin - text_length(note, size)
+        write_text(shown, note, left, baseline, size)
     return shown
 
 

@@ -1,6 +1,6 @@
 """Parameters of `sweep` -> a finished sweep."""
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from dqpaint.settings import COMMANDS, Option
 from dqpaint.studies.declared.study import STUDIES, VARY, StudyOfAlternatives, figure_option
@@ -39,10 +39,22 @@ class SweepStudy(StudyOfAlternatives):
         str, figure_option("figure that is tested and drawn: see dqpaint list figures")
     ] = "position_error_rms_m"
 
+    x: Annotated[
+        str | None,
+        Option("of two axes the one to draw lines over", "AXIS", unsaid="a heat map"),
+    ] = None
+    scale: Annotated[
+        Literal["auto", "linear", "log"], Option("of the figure", "auto|linear|log")
+    ] = "auto"
+    x_scale: Annotated[
+        Literal["auto", "linear", "log"], Option("of the axis it is drawn over", "auto|linear|log")
+    ] = "auto"
+
     def carry_out(self, request: "StudyRequest") -> "Sweep":
         """Sweep."""
         from dqpaint.studies.experiment import requests
-        from dqpaint.studies.kinds.sweep import sweep
+        from dqpaint.studies.kinds.sweep import SweepShape, sweep
 
         axes, base = requests.read_sweep(self.vary or (), request.choices, self.several)
-        return sweep(request, axes, base, self.runs, self.figure)
+        shape = SweepShape(self.x, self.scale, self.x_scale)
+        return sweep(request, axes, base, self.runs, self.figure, shape)

@@ -1,9 +1,10 @@
 """A drawing and one or two axes of values -> a table, and a curve or heat map of a figure."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
@@ -25,8 +26,27 @@ from dqpaint.studies.report.charts import HeatMap, Line, Panel, wide
 from dqpaint.studies.report.page import Block, Charts, Map, Pictured, Rows, Words, files_of
 from dqpaint.studies.runner.run import Run, check_seeds
 
+Scale = Literal["auto", "linear", "log"]
 MOST_RUNS = 100_000
 EFFORT = "command_integral_rad"  # of laws that command torque, theirs
+
+
+@dataclass(frozen=True)
+class SweepShape:
+    """How a sweep is drawn.
+
+    Attributes:
+        x: the axis that figures are drawn over; of two axes None is a heat map.
+        scale: of the figures.
+        x_scale: of the axis.
+    """
+
+    x: str | None = None
+    scale: Scale = "auto"
+    x_scale: Scale = "auto"
+
+
+AUTOMATIC = SweepShape()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,6 +59,7 @@ class Sweep(StudyResult):
     settings: Settings
     axes: tuple[Axis, ...]
     figure: str
+    shape: SweepShape = AUTOMATIC
 
     @property
     def stem(self) -> str:
@@ -70,7 +91,7 @@ class Sweep(StudyResult):
         over = f"Over {' and '.join(axis.name for axis in self.axes)}"
         shown: Pictured = (
             Charts(over, curves(self, figure))
-            if len(self.axes) == 1
+            if len(self.axes) == 1 or self.shape.x is not None
             else Map(over, surface(self, figure))
         )
         made = {
@@ -88,6 +109,7 @@ def sweep(
     base: Settings,
     count: int = 1,
     figure: str = "position_error_rms_m",
+    shape: SweepShape = AUTOMATIC,
 ) -> Sweep:
     """Run a drawing with every combination of the axes' values; pictures are not kept.
 
@@ -97,6 +119,7 @@ def sweep(
         base: all other settings.
         count: how many runs each, with the seeds that follow.
         figure: name of the figure that is drawn.
+        shape: of the chart.
 
     Raises:
         DqpaintError: a fault in the drawing, the choices or the folder.
@@ -109,6 +132,9 @@ def sweep(
         raise UsageError(f"'{axes[0].name}' is varied twice")
     if math.prod(len(axis.texts) for axis in axes) * max(count, 1) > MOST_RUNS:
         raise UsageError(f"these are more than {MOST_RUNS:,} runs; take fewer values")
+    if shape.x not in (None, *(axis.name for axis in axes)):
+        varied = ", ".join(axis.name for axis in axes)
+        raise UsageError(f"x '{shape.x}' is not varied; it is {varied}")
     name, text = request.drawing
     small = base.model_copy(update={"width": SMALLEST, "height": SMALLEST})
     choices = combinations(axes)
@@ -118,40 +144,54 @@ def sweep(
     return Sweep(
         name=Path(name).name, axes=tuple(axes), cells=request.cells(choices, runs, count),
         folder=request.folder, settings=base, text=text, figure=figure,
+        shape=shape,
     )  # fmt: skip
 
 
 def curves(swept: Sweep, figure: TableFigure) -> list[Panel]:
-    """The figure, and the command beside it, over one axis."""
-    axis = swept.axes[0]
+    """The figure, and the command beside it, over one axis; a line for each value of another."""
+    shape = swept.shape
+    axis = next((one for one in swept.axes if one.name == shape.x), swept.axes[0])
+    others = [one for one in swept.axes if one is not axis]
+    groups = combinations(others) if others else [{}]
     numbers = axis.numbers
-    x = np.array(numbers or range(len(axis.texts)), dtype=np.float64)
-    order = np.argsort(x)
-    chosen = [swept.cells[i] for i in order]
-    marks = np.array([not cell.stable for cell in chosen])
     effort = find_figure(EFFORT, swept.cells)
     panels = []
     for one in dict.fromkeys((figure, effort)):
-        y = means_of(chosen, one)
-        # where there is no number the mark stands at the top
-        top = np.nanmax(y) if np.isfinite(y).any() else 1.0
-        shown = np.where(np.isfinite(y), y, top)
-        bars = np.array([cell.spread(one).std for cell in chosen])
         name = one.heading.split(" [")[0]
-        width = 1.8 if numbers else 0.0  # between names there is nothing
-        line = Line(x[order], shown, name, marks=marks, bars=bars, width=width)
+        lines = [_line(swept, one, axis, group, name) for group in groups]
+        shown = np.concatenate([line.y for line in lines])
+        log_x = bool(numbers) and wide(np.array(numbers))
         panels.append(
             Panel(
                 f"{name} over {axis.name}",
                 axis_label(axis.name, swept.settings),
                 one.heading,
-                [line],
-                log_x=bool(numbers) and wide(x),
-                log_y=wide(shown),
+                lines,
+                log_x=log_x if shape.x_scale == "auto" else shape.x_scale == "log",
+                log_y=wide(shown) if shape.scale == "auto" else shape.scale == "log",
                 ticks=None if numbers else axis.texts,
             )
         )
     return panels
+
+
+def _line(
+    swept: Sweep, figure: TableFigure, axis: Axis, group: Mapping[str, str], name: str
+) -> Line:
+    """A figure of the cells of a group over an axis; where there is no number, at the top."""
+    found = [cell for cell in swept.cells if group.items() <= cell.choice.items()]
+    x = np.array(axis.numbers or range(len(axis.texts)), dtype=np.float64)
+    order = np.argsort(x)
+    chosen = [found[i] for i in order]
+    marks = np.array([not cell.stable for cell in chosen])
+    y = means_of(chosen, figure)
+    top = np.nanmax(y) if np.isfinite(y).any() else 1.0
+    shown = np.where(np.isfinite(y), y, top)
+    bars = np.array([cell.spread(figure).std for cell in chosen])
+    label = ", ".join(f"{key} {value}" for key, value in group.items()) or name
+    width = 1.8 if axis.numbers else 0.0  # between names there is nothing
+    return Line(x[order], shown, label, marks=marks, bars=bars, width=width)
 
 
 def axis_descriptions(swept: Sweep) -> list[str]:

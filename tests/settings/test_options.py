@@ -17,7 +17,18 @@ from dqpaint.settings import COMMANDS, SETTINGS, Settings, make_settings, option
 
 PACKAGE = Path(dqpaint.__file__).parent
 LINE = "period 20 ms\nstart at (0, 0) mm\nline to (30, 10) mm in 400 ms\n"
-GIVES = {"draw", "preview", "develop", "check", "export", "compare", "sweep", "tune", "replay"}
+GIVES = {
+    "draw",
+    "preview",
+    "develop",
+    "check",
+    "export",
+    "plot",
+    "compare",
+    "sweep",
+    "tune",
+    "replay",
+}
 
 
 def test_every_field_can_be_said_once():
@@ -78,7 +89,7 @@ def test_one_option_is_one_place(tmp_path):
         )  # fmt: skip
 
     takers = [name for name in COMMANDS if settings_of_group(name, "on_limit")]
-    assert takers == ["draw", "check", "export", "compare", "sweep", "tune", "replay"]
+    assert takers == ["draw", "check", "export", "plot", "compare", "sweep", "tune", "replay"]
     for name in takers:
         assert re.search(
             r"--twinkling N +how much the light twinkles", run("-m", "dqpaint", name, "-h").stdout

@@ -324,21 +324,26 @@ def test_a_replay_from_the_command_to_its_files(tmp_path, monkeypatch, capsys):
         main.run()
     assert not stop.value.code
     said = capsys.readouterr().out
-    assert "plant ideal, from home" in said
-    assert "315 ± 8.7" in said  # the thesis's number, rounded as ours are
+    assert "plant ideal, from home, no null-space task" in said
+    assert "chosen for this run: --plant ideal instead of compliant" in said
+    assert "315 ± 9" in said  # the thesis's number, rounded as ours are
     assert "Not tested, for it cannot be" in said
     lines = [json.loads(line) for line in (study / "runs.jsonl").read_text().splitlines()]
     done = {line["key"]: line["figures"]["error_integral"] for line in lines}
     paper = read_paper("thesis-circle")
     choice = tracking.settings_of(paper, MeasureRequest(study, settings={"plant": "ideal"}),
                                   paper.cells[0].settings)  # fmt: skip
-    of_first = seeded(Run(*drawing_text("circle"), choice, tracking.KEPT), 2)
+    of_first = seeded(Run(*drawing_text("circle"), choice, (*tracking.KEPT, "curves")), 2)
     errors = [done[run.key] for run in of_first]
     with open(study / "thesis-circle-table.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     first = rows[0]
-    assert (first["cell"], first["figure"], first["table"]) == ("K", "error_integral", "5.9")
-    assert (float(first["paper_mean"]), float(first["paper_std"])) == (3.16, 0.086)
+    assert (first["cell"], first["figure"], first["table"]) == (
+        "K, E.1",
+        "error_integral",
+        "6 to 10",
+    )
+    assert (float(first["paper_mean"]), float(first["paper_std"])) == (3.15927, 0.08587)
     assert float(first["here_mean"]) == pytest.approx(np.mean(errors), rel=1e-12)
     assert float(first["here_std"]) == pytest.approx(np.std(errors, ddof=1), rel=1e-6)
     with open(study / "thesis-circle-claims.csv", newline="") as file:
@@ -350,7 +355,7 @@ def test_a_replay_from_the_command_to_its_files(tmp_path, monkeypatch, capsys):
     made = {}
     for row in rows:
         made.setdefault(row["cell"], {})[row["figure"]] = spread([float(row["here_mean"])])
-    swapped = {**made, "K": made["HIR"], "HIR": made["K"]}
+    swapped = {**made, "K, E.1": made["HIR, E.1"], "HIR, E.1": made["K, E.1"]}
     before, after = (replay.judge_claims(paper, numbers) for numbers in (made, swapped))
     assert [ours.word for _, _, ours in before] != [ours.word for _, _, ours in after]
 

@@ -81,6 +81,8 @@ def _attenuation(painting: paint.Painting) -> list[tuple[str, str]]:
             if not one.bound_holds and len(painting.disturbances) > 1:
                 kept += "; other disturbances contributed"
             said += f", bound {one.bound:.3g} s: {kept}"
+        if one.of_gammas is not None and painting.track.pose_disturbance.any():
+            said += f"; {one.of_gammas:.3g} of what its gammas allow"
         rows.append(("" if rows else "disturbance", said))
     return rows
 

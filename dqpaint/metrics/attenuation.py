@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.controllers.base import spatial_error
+from dqpaint.controllers.base import Point, spatial_error
 from dqpaint.dq import Floats
 from dqpaint.simulation import Track
 
@@ -31,12 +31,15 @@ class Attenuation:
             there is none: the gain is too high for the period, or it changed.
         void: whether the bound says nothing of this run: it is of an arm that follows its commands
             at once, without springs or servo loops between.
+        of_gammas: the error's norm as a part of gamma_1 ||v_w|| + gamma_2 ||v_c|| of (3.26), which
+            the law keeps below 1; None where it promises nothing, or its gains changed.
     """
 
     ratio: float
     bound: float | None
     in_steps: float | None = None
     void: bool = False
+    of_gammas: float | None = None
 
     @property
     def bound_holds(self) -> bool | None:
@@ -45,7 +48,12 @@ class Attenuation:
 
 
 def attenuation(
-    track: Track, bounds: Bounds | None, stepped: bool = True, void: bool = False
+    track: Track,
+    bounds: Bounds | None,
+    stepped: bool = True,
+    void: bool = False,
+    point: Point = "base",
+    gammas: tuple[Bounds, Bounds] | None = None,
 ) -> dict[str, Attenuation]:
     """Rotation and translation, each where the disturbance is not zero.
 
@@ -56,22 +64,47 @@ def attenuation(
         bounds: bounds [s] for rotation and translation, from the gains.
         stepped: whether the bounds in steps hold: of gains that are numbers and do not change.
         void: whether the arm does not follow its commands at once.
+        point: where the law takes its error; at the `tool` p_e is t - t_d, v_t the tool's velocity.
+        gammas: (gamma_O1, gamma_O2) and (gamma_T1, gamma_T2) [s] that the law promises.
     """
-    v = (track.disturbance + track.pose_disturbance)[:-1]  # v_w + v_c of (3.29)
     x_e = spatial_error(track.pose, track.motion.pose)
+    v_w, v_c, p_e = track.disturbance[:-1], track.pose_disturbance[:-1], dq.translation(x_e)
+    if point == "tool":
+        places = dq.translation(track.pose)
+        v_w, v_c = (_at(places[:-1], v) for v in (v_w, v_c))
+        p_e = places - dq.translation(track.motion.pose)
+    v = v_w + v_c  # of (3.29)
     of_steps: tuple[float | None, float | None] = (None, None)
     if bounds and stepped and len(v):
         of_steps = bounds_in_steps(bounds, track.motion.period, largest_turn(x_e))
     parts = {
         "rotation": (dq.rotation(x_e[1:]) - dq.rotation(dq.IDENTITY), v[:, :3]),
-        "translation": (dq.translation(x_e[1:]), v[:, 3:]),
+        "translation": (p_e[1:], v[:, 3:]),
     }
-    known = zip(parts.items(), bounds or (None, None), of_steps, strict=True)
+    promised: list[float | None] = [None, None]
+    if gammas:
+        halves = (slice(0, 3), slice(3, 6))
+        for i, ((first, second), half) in enumerate(zip(gammas, halves, strict=True)):
+            promised[i] = _weighed(first, v_w[:, half]) + _weighed(second, v_c[:, half])
+    known = zip(parts.items(), bounds or (None, None), of_steps, promised, strict=True)
     return {
-        name: Attenuation(_norm(error) / _norm(cause), bound, in_steps, void)
-        for (name, (error, cause)), bound, in_steps in known
+        name: Attenuation(
+            _norm(error) / _norm(cause), bound, in_steps, void,
+            _norm(error) / most if most else None,
+        )
+        for (name, (error, cause)), bound, in_steps, most in known
         if cause.any()
     }
+
+
+def _at(points: Floats, twist: Floats) -> Floats:
+    """Twists (N, 6) as [w; the velocity of points (N, 3)]."""
+    return np.concatenate([twist[:, :3], dq.point_velocity(twist, points)], axis=1)
+
+
+def _weighed(gamma: float, signal: Floats) -> float:
+    """Gamma ||v||, 0 of no signal though gamma is infinite."""
+    return gamma * _norm(signal) if signal.any() else 0.0
 
 
 def largest_turn(x_e: Floats) -> float:

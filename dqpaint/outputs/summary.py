@@ -70,6 +70,7 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
                 "bound_s": one.bound,
                 "kept": one.bound_holds,
                 "bound_in_steps_s": one.in_steps,
+                "of_gammas": one.of_gammas,
             }
             for part, one in painting.attenuation.items()
         },

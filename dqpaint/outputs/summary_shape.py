@@ -43,13 +43,15 @@ class Drawing(TypedDict):
 class Through(TypedDict):
     """How much of a disturbance came through, beside the bound of the gains; norms in time.
 
-    `bound_in_steps_s` is the bound with the period and the turns of this run.
+    `bound_in_steps_s` is the bound with the period and the turns of this run; `of_gammas` the error
+    as a part of gamma_1 ||v_w|| + gamma_2 ||v_c|| of Pereira 2016, (3.26), below 1 as promised.
     """
 
     ratio_s: float
     bound_s: float | None
     kept: bool | None
     bound_in_steps_s: float | None
+    of_gammas: float | None
 
 
 class SetPoint(TypedDict):

@@ -223,7 +223,8 @@ def finish(ready: PreparedRun, run: Track, photographed: bool = True) -> Paintin
         gains = chosen.gains
         came_through = attenuation(
             run, gains.disturbance_bounds(), gains.bounded_in_steps,
-            chosen.plant.motor_torque_use == "smooth",
+            chosen.plant.motor_torque_use == "smooth", gains.first.error_point,
+            None if gains.knots else gains.first.gammas,
         )  # fmt: skip
         steps = step_responses(run)
         judgement = judge(run)

@@ -34,6 +34,11 @@ class Gains(BaseModel):
         """Whether `dqpaint.metrics` knows what becomes of these bounds in steps."""
         return False
 
+    @property
+    def gammas(self) -> tuple[tuple[float, float], tuple[float, float]] | None:
+        """gamma_O1, gamma_O2 and gamma_T1, gamma_T2 [s] of a law that promises (3.26)."""
+        return None
+
     def disturbance_bounds(self) -> tuple[float, float] | None:
         """Bounds [s] on the effect of disturbances, where the law guarantees any.
 

@@ -94,6 +94,17 @@ class GammaGains(Gains):
         """Whether both gains are numbers, and the error is at the base's origin."""
         return np.ndim(self.k_O) == np.ndim(self.k_T) == 0 and self.point == "base"
 
+    @property
+    def gammas(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """The gammas of (3.26), those not given infinite; of gains alone equal pairs."""
+        pairs = (self.gamma_O1, self.gamma_O2), (self.gamma_T1, self.gamma_T2)
+        equal = 2.0 / least_eigenvalue(self.k_O), math.sqrt(2.0) / least_eigenvalue(self.k_T)
+        turning, moving = (
+            (one, one) if pair == (None, None) else (pair[0] or math.inf, pair[1] or math.inf)
+            for pair, one in zip(pairs, equal, strict=True)
+        )
+        return turning, moving
+
     def disturbance_bounds(self) -> tuple[float, float]:
         """sqrt(2) / K_O and 1 / K_T [s], of a matrix by its least eigenvalue."""
         return math.sqrt(2.0) / least_eigenvalue(self.k_O), 1.0 / least_eigenvalue(self.k_T)

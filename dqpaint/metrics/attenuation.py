@@ -89,7 +89,10 @@ def attenuation(
     known = zip(parts.items(), bounds or (None, None), of_steps, promised, strict=True)
     return {
         name: Attenuation(
-            _norm(error) / _norm(cause), bound, in_steps, void,
+            _norm(error) / _norm(cause),
+            bound,
+            in_steps,
+            void,
             _norm(error) / most if most else None,
         )
         for (name, (error, cause)), bound, in_steps, most in known

@@ -276,7 +276,9 @@ class _Hunt:
     def through(self, run: Track, part: Part) -> Attenuation:
         """What came through to a part of the error."""
         gains = self.ready.choices.gains
-        return attenuation(run, self.bounds, gains.bounded_in_steps, gains.first.error_point)[part]
+        return attenuation(run, self.bounds, gains.bounded_in_steps, point=gains.first.error_point)[
+            part
+        ]
 
 
 def _worst_of(hunt: _Hunt, asked: "WorstStudy", law: str, plant: str, part: Part) -> Case:

@@ -27,7 +27,8 @@ def test_studies_return_tables_and_pictures(tmp_path, capfd):
     assert errors[0] > errors[1]
     drawn = dqpaint.draw(drawing, controller="p", plant="ideal", size=(16, 16))
     assert errors[0] == drawn.metrics.figures["error_integral"]
-    assert compared.pictures["overlay"].shape == (90, 160, 3)
+    assert compared.pictures["overlay"].shape[0] > 90  # with its key below
+    assert compared._repr_html_().count("<img ") == 3
     assert set(compared.pictures) == {"sheet", "overlay", "errors"}
     assert "pff" in str(compared)
     assert repr(compared) == "<Comparison of line.traj: 2 cells>"

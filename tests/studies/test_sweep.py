@@ -94,7 +94,8 @@ def test_a_comparison_s_table_is_what_numpy_says_of_draws(line, tmp_path):
     sheet = opened(paths["line-sheet.png"])
     assert sheet.shape[1] > 2 * 320
     overlay = opened(paths["line-overlay.png"])
-    assert overlay.shape == (180, 320, 3)
+    assert overlay.shape[1] == 320
+    overlay = overlay[:180]  # the key is below
     # both begin alike, white; what lags behind leaves the front end to one hue
     assert (overlay.min(axis=2) > 120).any()
     for hue in hues(2):
@@ -130,7 +131,7 @@ def test_a_sweep_marks_what_is_unstable(line, tmp_path):
     paths = made.save()
     rows = read(tmp_path / "s/line-k-table.csv")
     assert [row["status"] for row in rows] == ["done", "done", "done", "oscillates"]
-    rms = [float(row["position_error_rms_m_mean"]) for row in rows]
+    rms = [float(row["position_error_rms_m_mean"]) for row in rows[:3]]
     assert rms[0] > rms[1] > rms[2]  # a law without feed-forward lags by v / k
     assert rms[1] == pytest.approx(0.06 / 20, rel=0.2)
     assert has(opened(paths[0]), ALARM)

@@ -163,6 +163,7 @@ def test_summary_says_what_was_run_and_what_came_out(painting):
         "start",
         "arm",
         "metrics",
+        "effects",
         "light",
     }
 
@@ -252,6 +253,7 @@ def test_the_summary_tells_the_disturbances_what_came_through_and_the_steps(step
         assert said["attenuation"][part] == {
             "ratio_s": found.ratio, "bound_s": found.bound, "kept": found.bound_holds,
             "bound_in_steps_s": found.in_steps,
+            "of_gammas": found.of_gammas,
         }  # fmt: skip
         assert found.ratio != found.bound
     (jump,), (told,) = stepped.step_responses, said["set_points"]

@@ -48,7 +48,9 @@ class CornerPace:
         return {"least_m_s2": self.least, "allowed_m_s2": self.allowed}
 
     def __str__(self) -> str:
-        return f"taken at {self.least:.2g} m/s2 in place of {self.allowed:.2g}, as the motors can"
+        return (
+            f"from {self.least:.2g} m/s2 on in place of {self.allowed:.2g}: the motors bear no more"
+        )
 
 
 def within_torques(

@@ -16,7 +16,7 @@ from scipy.spatial import cKDTree
 
 from dqpaint import dq
 from dqpaint.errors import DqpaintError
-from dqpaint.language import parse
+from dqpaint.language import ScriptError, parse
 from dqpaint.language.imports.lettering import font_names
 from dqpaint.motion import plan
 from dqpaint.outputs.robot.limit_check import check_limits
@@ -52,7 +52,8 @@ def drawings():
             yield path.stem, text
     yield "name", 'text "Marie" "Curie" font "scripts" height 25 mm at (-60, 0) mm'
     for font in font_names():
-        yield font, f'text "Ag" font "{font}" height 30 mm at (-30, 0) mm'
+        letters = "ΑΩ" if font == "greeks" else "Ag"
+        yield font, f'text "{letters}" font "{font}" height 30 mm at (-30, 0) mm'
     yield from ((name, f'svg "{name}.svg" height 80 mm') for name in LOGOS)
 
 
@@ -91,6 +92,15 @@ def deviation(name, text, folder, motion):
     return float(near), there.seconds
 
 
+def painted(program, arm):
+    """The run on an arm, placed by it where its canvas is too small."""
+    settings = make_settings(robot=arm, size="160x90")
+    try:
+        return paint.paint(program, settings)
+    except ScriptError:
+        return paint.paint(program, settings.model_copy(update={"place": "auto"}))
+
+
 def main(arguments):
     """Runs a share of them."""
     share = "1/1"
@@ -103,8 +113,7 @@ def main(arguments):
         for name, text in list(drawings())[first - 1 :: every]:
             for arm in arms:
                 try:
-                    settings = make_settings(robot=arm, place="auto", size="160x90")
-                    painting = paint.paint(program_of(name, text, folder), settings)
+                    painting = painted(program_of(name, text, folder), arm)
                     check_limits(painting)
                 except DqpaintError as fault:
                     refused += 1

@@ -2,6 +2,7 @@
 
 import os
 import sys
+import tempfile
 from typing import NoReturn
 
 from dqpaint.cli.language import point_at, tell
@@ -9,6 +10,7 @@ from dqpaint.cli.studies import app
 from dqpaint.errors import DqpaintError, UsageError
 
 DEBUG = "DQPAINT_DEBUG"  # an environment variable: internal errors show where they are
+SHOWS = f"{DEBUG}=1 shows where"
 INTERRUPTED = 130
 
 
@@ -17,11 +19,19 @@ def run() -> None:
     _secure_streams()
     try:
         _answer()
-    except OSError as problem:  # of a stream
+    except _StreamError as problem:
         sys.stdout = open(os.devnull, "w")  # noqa: SIM115  nothing more can be said there
-        if not isinstance(problem, BrokenPipeError):
-            _end(f"error: standard output cannot be written: {problem.strerror}", 1)
+        if problem.reason:
+            _end(f"error: standard output cannot be written: {problem.reason}", 1)
         sys.exit(1)
+
+
+class _StreamError(Exception):
+    """Standard output cannot be written; `reason` is empty where its reader has simply left."""
+
+    def __init__(self, problem: OSError) -> None:
+        super().__init__()
+        self.reason = "" if isinstance(problem, BrokenPipeError) else problem.strerror
 
 
 def _answer() -> None:
@@ -36,17 +46,37 @@ def _answer() -> None:
     except SystemExit as stop:
         if stop.code == INTERRUPTED:  # typer has met a Ctrl-C
             raise KeyboardInterrupt from None
-        if not sys.stdout.closed:
-            sys.stdout.flush()
+        _flush()
         raise
     except Exception as fault:
-        if isinstance(fault, OSError) and fault.filename is None:  # of a stream: files have a name
-            raise
+        _flush()  # what a stream that is broken refused is still waiting there
         if sys.stdout.closed:
             _end("error: standard output was closed before the end", 1)
         if os.environ.get(DEBUG):
             raise
-        _end(f"internal error, please report it: {fault!r}; {DEBUG}=1 shows where", 1)
+        _end(_of_the_machine(fault) or f"internal error, please report it: {fault!r}; {SHOWS}", 1)
+
+
+def _flush() -> None:
+    try:
+        if not sys.stdout.closed:
+            sys.stdout.flush()
+    except OSError as problem:
+        raise _StreamError(problem) from None
+
+
+def _of_the_machine(fault: Exception) -> str:
+    """The sentence of a fault that a full disk, memory or the like may cause anywhere."""
+    if isinstance(fault, MemoryError):
+        return f"error: there is not enough memory; a smaller --size or drawing needs less; {SHOWS}"
+    if not isinstance(fault, OSError):
+        return ""
+    if isinstance(fault.filename, str):
+        return f"error: '{fault.filename}' cannot be read or written: {fault.strerror}; {SHOWS}"
+    return (
+        f"error: a file cannot be read or written: {fault.strerror}; temporary files are made in "
+        f"'{tempfile.tempdir}', and TMPDIR names another folder; {SHOWS}"
+    )
 
 
 def _secure_streams() -> None:

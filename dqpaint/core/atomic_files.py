@@ -172,10 +172,18 @@ def write_temporary(path: Path, data: bytes, synced: bool = True) -> Path:
             if synced:
                 os.fsync(file.fileno())
     except BaseException:
-        with suppress(OSError):
-            staged.unlink(missing_ok=True)
+        remove_temporary(staged)
         raise
     return staged
+
+
+def remove_temporary(path: Path) -> bool:
+    """Whether a temporary file could be removed; else who next writes there removes it."""
+    try:
+        path.unlink(missing_ok=True)
+    except OSError:
+        return False
+    return True
 
 
 def sync_files(paths: Iterable[Path]) -> None:
@@ -217,7 +225,7 @@ def rewrite(path: Path, data: bytes) -> None:
                 os.replace(staged, place)
                 folder.sync()
             finally:
-                staged.unlink(missing_ok=True)
+                remove_temporary(staged)
     except (OSError, ValueError) as problem:
         raise _refused(path, problem) from None
 
@@ -234,7 +242,7 @@ def write_new(path: Path, data: bytes) -> None:
             try:
                 os.link(staged, path)  # unlike a move this fails if something is there
             finally:
-                staged.unlink(missing_ok=True)
+                remove_temporary(staged)
             folder.sync()
     except FileExistsError:
         raise OutputError(f"'{path}' is there already; nothing was changed") from None

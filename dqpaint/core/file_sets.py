@@ -23,6 +23,7 @@ from dqpaint.core.atomic_files import (
     make_folder,
     open_folder,
     open_regular,
+    remove_temporary,
     sync_files,
     write_temporary,
 )
@@ -85,7 +86,7 @@ def write_together(folder: Path, contents: Mapping[str, bytes]) -> None:
             ) from None
         finally:
             for part in staged:
-                _removed(part)
+                remove_temporary(part)
 
 
 def finish_interrupted(folder: Path) -> list[str]:
@@ -120,13 +121,13 @@ def _move_all(place: OpenFolder, moves: list[_Move], written: Path) -> None:
             moved += 1
         place.sync()
     except OSError as problem:
-        if moved or not _removed(note):
+        if moved or not remove_temporary(note):
             raise _Committed(problem.strerror) from None
         raise
     except BaseException:  # a Ctrl-C
         _finish(place)
         raise
-    _removed(note)  # one that stays has nothing left to move
+    remove_temporary(note)  # one that stays has nothing left to move
 
 
 def _finish(place: OpenFolder) -> list[str]:
@@ -147,7 +148,7 @@ def _finish(place: OpenFolder) -> list[str]:
         (folder / name).unlink()
     if place.alone:
         for name in filter(OWN_PART.fullmatch, names):
-            _removed(folder / name)
+            remove_temporary(folder / name)
     return finished
 
 
@@ -184,12 +185,3 @@ def _opened(path: Path) -> Iterator[BufferedReader | None]:
     with file:
         own = not hasattr(os, "geteuid") or os.fstat(file.fileno()).st_uid == os.geteuid()
         yield file if own else None
-
-
-def _removed(path: Path) -> bool:
-    """Whether a temporary file could be removed; else who next writes there removes it."""
-    try:
-        path.unlink(missing_ok=True)
-    except OSError:
-        return False
-    return True

@@ -60,6 +60,8 @@ def parse(text: str, name: str = "<text>", path: Path | None = None) -> Program:
                 program = expander.program(statements)
     except ErrorLimitError:
         pass
+    except (OSError, MemoryError):  # of the machine
+        raise
     except Exception as unexpected:
         fault = unexpected
         _add(findings, _internal(unexpected, expander.at if expander else None))

@@ -14,6 +14,7 @@ from dqpaint.studies.runner import journal
 from dqpaint.studies.runner.journal import HEAD, NAME, Journal, decode_line, encode_line
 from dqpaint.studies.runner.run import Result
 from tests.support.folders import files
+from tests.support.power_cuts import Recorder, lay_down
 
 FIRST = Result("a" * 64, "done", "", {"x_m": 0.1 + 0.2, "tiny": 1e-300}, wall=0.5)
 SECOND = Result("b" * 64, "failed", "warum? ç\n")
@@ -169,6 +170,31 @@ def test_damage_of_any_kind_is_told_or_changes_no_result(tmp_path):
             told += NAME in str(problem)
             assert path.read_bytes() == data
     assert 20 < told < 80  # else the damage is always of one kind
+
+
+def test_a_power_cut_loses_no_run_that_was_kept(tmp_path, monkeypatch):
+    results = [FIRST, SECOND, THIRD]
+    (tmp_path / "made").mkdir()
+    with Recorder(tmp_path / "made") as recorder, Journal(tmp_path / "made") as one:
+        for result in results:
+            one.add(result)
+            recorder.said(result)
+    monkeypatch.setattr(os, "fsync", lambda _handle: None)
+    told = count = 0
+    for number, (state, said) in enumerate(recorder.cuts()):
+        lay_down(tmp_path / str(number), state)
+        count += 1
+        try:
+            with Journal(tmp_path / str(number)) as one:
+                found = list(one.results.values())
+        except DqpaintError:
+            assert not said  # zeros in place of the very first line are no line of ours
+            told += 1
+        else:
+            assert len(found) >= len(said)
+            assert found == results[: len(found)]
+    assert count > 10
+    assert told == 1
 
 
 def test_a_journal_is_one_study_s_at_a_time(tmp_path):

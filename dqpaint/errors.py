@@ -20,5 +20,9 @@ class OutputError(DqpaintError):
     """A place that cannot be written."""
 
 
+class TimeLimitError(DqpaintError):
+    """A run that takes longer than it may."""
+
+
 class UnstableError(DqpaintError):
     """A run whose numbers grew beyond what numbers can hold."""

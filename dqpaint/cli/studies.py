@@ -3,6 +3,7 @@
 import inspect
 import shlex
 import shutil
+import signal
 import sys
 from functools import partial
 from pathlib import Path
@@ -93,6 +94,7 @@ def _carry_out(
     """Carry a study out, write its files and print its tables, as wide as the terminal."""
     from dqpaint.studies.declared import run_study
 
+    _end_like_ctrl_c()
     folder = Path(choices.get("folder") or kind.default_folder(name, subject))
     study = run_study(name, subject, choices, folder, StudyProgress())
     for remark in study.remarks:
@@ -101,6 +103,18 @@ def _carry_out(
     _finish(text, study.save(_again(report)))
     if not study.passed:
         raise typer.Exit(1)
+
+
+def _end_like_ctrl_c() -> None:
+    """Let what asks this process to end stop the study as a Ctrl-C does: workers end, runs stay."""
+
+    def stop(number: int, _frame: object) -> None:
+        raise KeyboardInterrupt
+
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) != signal.SIG_IGN:  # nohup stays
+            signal.signal(number, stop)
 
 
 class StudyProgress:

@@ -11,7 +11,7 @@ from types import FunctionType, ModuleType
 from typing import Any
 
 from dqpaint.core.examples import examples_folder
-from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.errors import DqpaintError, TimeLimitError, UsageError
 
 LARGEST_FILE = 1_000_000  # bytes of a file
 LONGEST_LINE = 120  # columns of a line that is shown
@@ -126,7 +126,9 @@ class UserCode:
     def __exit__(self, kind: object, fault: BaseException | None, trace: object) -> None:
         _running_files.discard(self._place)
         if fault is not None and not isinstance(fault, KeyboardInterrupt | AnswerError):
-            raise DqpaintError(_located_fault(fault, self._path)) from None
+            late = isinstance(fault, TimeLimitError)
+            kind = TimeLimitError if late else DqpaintError
+            raise kind(_located_fault(fault, self._path)) from None
 
 
 class Guarded:
@@ -176,6 +178,8 @@ def _located_fault(fault: BaseException, path: Path) -> str:
     except Exception:  # it is the user's own
         text = ""
     message = f"{type(fault).__name__}: {text}" if text else type(fault).__name__
+    if isinstance(fault, TimeLimitError):
+        message = text
     if isinstance(fault, SyntaxError) and fault.filename == str(path):
         number: int | None = fault.lineno
         message = f"{type(fault).__name__}: {fault.msg}"

@@ -28,6 +28,7 @@ from dqpaint.metrics import (
 from dqpaint.motion import Motion
 from dqpaint.painting.picture import Picture, PictureSet, photograph
 from dqpaint.painting.scene import Scene, make_scene
+from dqpaint.painting.time_limit import limit_time
 from dqpaint.painting.validate import RunChoices, check_run
 from dqpaint.planning import corner_limits, prepared_motion, reachability
 from dqpaint.planning import placement as place
@@ -132,12 +133,19 @@ def paint(
         UsageError: an unknown robot, plant, controller, gain or view.
         ScriptError: the drawing has no schedule or leaves the arm's reach.
         DqpaintError: the simulation diverged, or the picture would be black.
+        TimeLimitError: it takes longer than the settings allow.
     """
-    ready = prepare(program, settings, controller)
-    check(ready)
-    with ready.stopwatch("arm"):
-        run = ready.run(progress)
-    return finish(ready, run)
+    with limit_time(settings.timeout) as check_time:
+
+        def show(done: float) -> None:
+            check_time()
+            progress(done)
+
+        ready = prepare(program, settings, controller)
+        check(ready)
+        with ready.stopwatch("arm"):
+            run = ready.run(show)
+        return finish(ready, run)
 
 
 @dataclass(frozen=True)

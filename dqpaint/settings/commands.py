@@ -14,10 +14,11 @@ from dqpaint.settings.model import (
     LightSettings,
     MotionSettings,
     OcclusionSettings,
+    TimeSettings,
 )
 
 OF_RUN: tuple[type[Group], ...] = (
-    LawSettings, DisturbanceSettings, ArmSettings, MotionSettings, DrawingSettings,
+    LawSettings, DisturbanceSettings, ArmSettings, MotionSettings, TimeSettings, DrawingSettings,
 )  # fmt: skip
 
 COMMANDS: dict[str, tuple[type[Group], ...]] = {
@@ -36,5 +37,5 @@ COMMANDS: dict[str, tuple[type[Group], ...]] = {
     "compare": GROUPS,
     "sweep": GROUPS,
     "tune": OF_RUN,
-    "replay": (DisturbanceSettings, ArmSettings, MotionSettings, DrawingSettings),
+    "replay": (DisturbanceSettings, ArmSettings, MotionSettings, TimeSettings, DrawingSettings),
 }  # fmt: skip

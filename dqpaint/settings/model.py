@@ -26,6 +26,8 @@ M = TypeVar("M", bound=BaseModel)
 DEFAULT_CONTROLLER = "hinf"
 LARGEST = 8192  # columns or rows of a picture
 SMALLEST = 16
+DEFAULT_TIMEOUT = 3600.0  # [s]
+LONGEST_TIMEOUT = 1e7  # [s], four months
 
 
 class Group(BaseModel):
@@ -206,6 +208,18 @@ class DrawingSettings(Group):
     ] = DEFAULT_MAX_SAMPLES
 
 
+class TimeSettings(Group):
+    """How long a run may take."""
+
+    panel = "Control"
+
+    timeout: Annotated[
+        float,
+        Field(gt=0, le=LONGEST_TIMEOUT, allow_inf_nan=False),
+        Option("what a run may take; one of a study that takes longer is left out", "SECONDS"),
+    ] = DEFAULT_TIMEOUT
+
+
 class LightSettings(Group):
     """What shines."""
 
@@ -339,7 +353,7 @@ class OcclusionSettings(Group):
 
 class Settings(
     OcclusionSettings, GhostSettings, FilmSettings, CameraSettings, DeviationSettings,
-    ColourSettings, LightSettings, DrawingSettings, MotionSettings, ArmSettings,
+    ColourSettings, LightSettings, DrawingSettings, TimeSettings, MotionSettings, ArmSettings,
     DisturbanceSettings, LawSettings,
 ):  # fmt: skip
     """The choices of one painting: the groups above, one after the other, as one flat model."""

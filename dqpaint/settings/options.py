@@ -48,6 +48,12 @@ class MotionOptions(TypedDict, total=False):
     on_limit: Literal["clip", "slow", "stop"] | None
 
 
+class TimeOptions(TypedDict, total=False):
+    """How long a run may take."""
+
+    timeout: float | None
+
+
 class DrawingOptions(TypedDict, total=False):
     """How large a drawing may be."""
 
@@ -108,6 +114,7 @@ class DrawOptions(
     DisturbanceOptions,
     ArmOptions,
     MotionOptions,
+    TimeOptions,
     DrawingOptions,
     LightOptions,
     ColourOptions,
@@ -136,9 +143,11 @@ class DevelopOptions(CameraOptions, FilmOptions, GhostOptions, OcclusionOptions)
     """Of `develop`."""
 
 
-class ReplayOptions(DisturbanceOptions, ArmOptions, MotionOptions, DrawingOptions):
+class ReplayOptions(DisturbanceOptions, ArmOptions, MotionOptions, TimeOptions, DrawingOptions):
     """Of `replay`."""
 
 
-class RunOptions(LawOptions, DisturbanceOptions, ArmOptions, MotionOptions, DrawingOptions):
+class RunOptions(
+    LawOptions, DisturbanceOptions, ArmOptions, MotionOptions, TimeOptions, DrawingOptions
+):
     """Of a run without pictures."""

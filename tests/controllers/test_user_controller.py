@@ -145,6 +145,10 @@ FAULTS = [
      "mine.py:4: B\n"),
     ("def f(seen): return ['1'] * 6\n", "returned values of type str, not numbers"),
     ("def f(seen): return [True] * 6\n", "returned values of type bool, not numbers"),
+    ("import numpy as np\ndef f(seen): return np.ma.array(np.ones(6), mask=[1, 0, 0, 0, 0, 0])\n",
+     "returned masked numbers"),
+    ("import numpy as np\ndef f(seen): return [np.ma.masked, 1, 1, 1, 1, 1]\n",
+     "returned masked numbers"),
     ("def f(seen): return [None] * 6\n", "returned values that are not numbers"),
     ("def f(seen): return [10**400] * 6\n", "at 0.250 s the law returned [inf"),
     ("def f(seen): return [[1]] * 6\n", "returned an array of shape (6, 1)"),
@@ -283,3 +287,24 @@ def test_units_are_found_where_annotations_are_put_off(tmp_path):
     )
     assert find_controller(written(tmp_path, text)).list_gains() == "k = 2 (1/s)"
     assert make_controller(lambda seen: 0, "law").list_gains() == "none"
+
+
+def test_a_law_that_opens_what_it_sees_moves_nothing(tmp_path, rng):
+    """Arrays are of the law's own: an arm is moved by commands alone."""
+    spec = written(
+        tmp_path,
+        """
+        def f(seen):
+            for array in (seen.pose, seen.jacobian, seen.posture, seen.rates):
+                array.flags.writeable = True
+                array[:] = 7.0
+            return seen.twist_d
+    """,
+    )
+    seen = seen_at(rng)
+    before = [np.copy(array) for array in (seen.pose, seen.jacobian, seen.posture, seen.rates)]
+    asked(find_controller(spec), seen)
+    for array, was in zip(
+        (seen.pose, seen.jacobian, seen.posture, seen.rates), before, strict=True
+    ):
+        np.testing.assert_array_equal(array, was)

@@ -28,6 +28,11 @@ def check_answer(returned: Any, wanted: tuple[int, ...], kind: Commands, where: 
     Raises:
         AnswerError: it is anything else.
     """
+    if _is_masked(returned):
+        raise AnswerError(
+            f"{where}: the law returned masked numbers; fill them (numpy.ma.filled) or leave them "
+            "out: what is under a mask is no command"
+        )
     shape = _shape(returned)
     answer = np.zeros(0)
     if shape in (None, wanted[:1], wanted):
@@ -57,6 +62,12 @@ def check_answer(returned: Any, wanted: tuple[int, ...], kind: Commands, where: 
         return np.full(wanted, np.inf)
     except (TypeError, ValueError):
         raise AnswerError(f"{where}: the law returned values that are not numbers") from None
+
+
+def _is_masked(returned: Any) -> bool:
+    """Whether it is a masked array, or a list with masked values; numpy.ma is not imported."""
+    parts = returned if isinstance(returned, list | tuple) else (returned,)
+    return any(isinstance(getattr(part, "mask", None), np.bool | np.ndarray) for part in parts)
 
 
 def _shape(returned: Any) -> tuple[int, ...] | None:

@@ -51,6 +51,8 @@ LAW_HELP = (
     "a law is a function of what it sees, and of gains with a number each: def law(seen, k=20.0); "
     "one that remembers is a class with def __call__(self, seen, k=20.0)"
 )
+STATE = ("pose", "jacobian", "posture", "rates", "inertia", "bias")
+"""What `Seen` has of the arm's own arrays; the reference is the motion's, which is read-only."""
 START_SIGNATURE = "def start(self, arm, motion, gains)"
 
 
@@ -173,8 +175,7 @@ class CheckedLaw:
 
     def __call__(self, seen: Seen, gains: Gains) -> Floats:
         """What the law returns, (..., 6) or (..., n)."""
-        for array in (seen.pose, seen.jacobian, seen.posture, seen.rates):
-            array.flags.writeable = False  # what the arm did is not for a law to change
+        seen = _copied(seen)
         *batch, joints = seen.posture.shape
         size = 6 if self._kind in ("twist", "acceleration") else joints
         with self._running:
@@ -185,6 +186,14 @@ class CheckedLaw:
                 f"{self._place}: at {seen.time:.3f} s the law returned {answer}, not finite numbers"
             )
         return answer
+
+
+def _copied(seen: Seen) -> Seen:
+    """What a law sees, in read-only arrays of its own: what the arm does is not its to change."""
+    own: dict[str, Any] = {name: np.copy(getattr(seen, name)) for name in STATE}
+    for array in own.values():
+        array.flags.writeable = False
+    return seen._replace(**own)
 
 
 def _owner(law: Any) -> Any:

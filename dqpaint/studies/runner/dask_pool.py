@@ -2,32 +2,49 @@
 
 The workers need the same dqpaint, Python and libraries, and the files a run names (a law or an arm
 of one's own, what a drawing includes) where they lie here; drawings travel with their runs, and
-what is to be kept comes back. Each worker process carries out one run at a time, whatever the
-number of its threads.
+what is to be kept comes back. Each worker carries out one run at a time, whatever the number of
+its threads, in a process of its own as a study here has them: a law that hangs, dies or is over its
+time takes no worker along.
+
+Whoever reaches the ports of a scheduler or a worker runs code there: SECURITY.md has who may, and
+how TLS keeps others out.
 """
 
+import atexit
 import hashlib
 import logging
 import platform
 import queue
 import re
+import shutil
 import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
+from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.studies.runner.batches import Task, groups
+from dqpaint.studies.runner.process_pool import Pool
 from dqpaint.studies.runner.run import Result, Run, code_versions, run_from_data
 from dqpaint.studies.runner.run_arrays import arrays_path, write_encoded
 
 ANSWER_TIMEOUT = 10.0  # [s] for a scheduler to answer and a first worker to come
 NO_WORKER_TIMEOUT = 30.0  # [s] without any worker, after which nothing more is expected
 POLL_INTERVAL = 0.2  # [s] after which a Ctrl-C is noticed at the latest
-START = "dask scheduler, and dask worker ADDRESS --nthreads 1 on each machine"
+START = (
+    "dask scheduler --host 127.0.0.1, and dask worker tcp://127.0.0.1:8786 --host 127.0.0.1 "
+    "--nthreads 1, on this machine; over a network with TLS, as SECURITY.md has it, for whoever "
+    "reaches their ports runs code"
+)
+TLS = (
+    "certificates are those of Dask's settings: DASK_DISTRIBUTED__COMM__TLS__CA_FILE, "
+    "..__CLIENT__CERT and ..__CLIENT__KEY"
+)
+LOOPBACK = re.compile(r"(127\.[\d.]+|localhost|\[::1\]):\d+")
 ADDRESS = re.compile(r"((tcp|tls|ws|wss|ucx)://)?[^/\s]+:\d{1,5}")
 _one_at_a_time = threading.Lock()
 
@@ -37,7 +54,7 @@ class Cluster:
 
     Args:
         folder: the study's, for arrays that are kept.
-        address: of the scheduler, as in tcp://10.0.0.1:8786.
+        address: of the scheduler, as in tls://10.0.0.1:8786.
 
     Raises:
         UsageError: that is no address.
@@ -47,7 +64,7 @@ class Cluster:
     def __init__(self, folder: Path, address: str) -> None:
         if not ADDRESS.fullmatch(address):
             raise UsageError(
-                f"'{address}' is no address of a Dask scheduler, such as tcp://10.0.0.1:8786"
+                f"'{address}' is no address of a Dask scheduler, such as tls://10.0.0.1:8786"
             )
         try:
             from distributed import Client
@@ -56,14 +73,16 @@ class Cluster:
                 "a study on a cluster needs Dask: pip install 'dqpaint[cluster]'"
             ) from None
         self._folder, self._address = folder, address
+        self.notes = _warnings(address)
         for name in [n for n in logging.root.manager.loggerDict if n.startswith("distributed")]:
             logging.getLogger(name).setLevel(logging.CRITICAL)  # what matters is told by us
         try:
             self._client: Any = Client(address, timeout=ANSWER_TIMEOUT, set_as_default=False)
         except (OSError, ValueError, TypeError) as problem:
             said = str(problem).splitlines()[0] if str(problem) else type(problem).__name__
+            keys = f"; {TLS}" if address.startswith(("tls://", "wss://")) else ""
             raise DqpaintError(
-                f"no Dask scheduler answers at '{address}': {said}; to start one: {START}"
+                f"no Dask scheduler answers at '{address}': {said}{keys}; to start one: {START}"
             ) from None
         try:
             self._check_workers()
@@ -161,6 +180,17 @@ class Cluster:
         self._client.close()
 
 
+def _warnings(address: str) -> tuple[str, ...]:
+    """What a person has to know of an address that others may reach."""
+    scheme, _, rest = address.rpartition("://")
+    if scheme in ("tls", "wss") or LOOPBACK.fullmatch(rest):
+        return ()
+    return (
+        f"'{address}' has no TLS: who reaches the ports of this cluster can read the runs and run "
+        "code on its machines; see SECURITY.md",
+    )
+
+
 def worker_versions() -> dict[str, str]:
     """What has to be alike here and there."""
     return {
@@ -183,18 +213,30 @@ def carry_out_at_worker(
     Raises:
         DqpaintError: the files that a run names are not the same here.
     """
-    from dqpaint.studies.runner.worker import carry_out_all
-
     tasks = [(key, run_from_data(data)) for key, data in given]
     for key, run in tasks:
         _check_files(key, run)
-    with _one_at_a_time, tempfile.TemporaryDirectory(prefix="dqpaint-") as scratch:
-        results = list(carry_out_all(tasks, Path(scratch)))
-        kept = [arrays_path(Path(scratch), result.key) for result in results]
-        return [
-            (vars(result), path.read_bytes() if path.is_file() else None)
-            for result, path in zip(results, kept, strict=True)
-        ]
+    with _one_at_a_time:
+        scratch, pool = _pool()
+        results = list(pool.carry_out(tasks, lambda _done: None))
+        return [(vars(result), _taken(arrays_path(scratch, result.key))) for result in results]
+
+
+@cache
+def _pool() -> tuple[Path, Pool]:
+    """The process of this worker, which ends with it, and the folder of what it keeps."""
+    scratch = tempfile.mkdtemp(prefix="dqpaint-")
+    atexit.register(shutil.rmtree, scratch, ignore_errors=True)
+    return Path(scratch), Pool(Path(scratch), 1)
+
+
+def _taken(path: Path) -> bytes | None:
+    """The bytes of a file, which goes; None if there is none."""
+    if not path.is_file():
+        return None
+    data = path.read_bytes()
+    path.unlink()
+    return data
 
 
 def _check_files(key: str, run: Run) -> None:

@@ -12,6 +12,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
 from dqpaint.outputs import files
+from dqpaint.painting import time_limit
 from dqpaint.studies.runner.journal import Journal
 from dqpaint.studies.runner.process_pool import Pool, check_jobs
 from dqpaint.studies.runner.reporter import SILENT, Reporter
@@ -78,7 +79,7 @@ class Study:
             self._workers = opened.enter_context(closing(_workers(folder, jobs)))
             self._journal = opened.enter_context(Journal(folder))
             self._opened = opened.pop_all()
-        for note in [*self._journal.notes, *files.finished(folder)]:
+        for note in [*self._workers.notes, *self._journal.notes, *files.finished(folder)]:
             reporter.note(note)
         self._known: set[str] = set()  # keys of runs that were done before
         self._done: set[str] = set()
@@ -163,7 +164,8 @@ def check(runs: Sequence[Run]) -> None:
         alike = run.settings.model_copy(update={"seed": 0}).model_dump_json(), run.text
         if alike not in seen:
             seen.add(alike)
-            run.check()
+            with time_limit.limit_time(run.settings.timeout):  # a law's file is read, which runs it
+                run.check()
 
 
 def _is_done(result: Result | None, run: Run, folder: Path) -> bool:

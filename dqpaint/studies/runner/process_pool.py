@@ -3,6 +3,7 @@
 import json
 import os
 import queue
+import re
 import subprocess
 import sys
 import tempfile
@@ -12,14 +13,16 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from dqpaint.core import split_spec
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.studies.runner.batches import Task, groups
-from dqpaint.studies.runner.run import Result
+from dqpaint.studies.runner.run import Result, Run
 
 ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 TRIES = 2  # at a run whose process ended
 MOST_JOBS = 1024
 POLL_INTERVAL = 0.2  # [s] after which a Ctrl-C is noticed at the latest
+OUT_OF_TIME = "Timeout ("  # what faulthandler writes where the worker's last resort ends it
 
 
 def all_cores() -> int:
@@ -51,6 +54,7 @@ class Pool:
         self._todo: queue.SimpleQueue[list[Task] | None] = queue.SimpleQueue()
         self._said: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self._workers: list[_Worker] = []
+        self.notes: tuple[str, ...] = ()
 
     def carry_out(
         self, tasks: Sequence[Task], progress: Callable[[float], None]
@@ -159,10 +163,10 @@ class _Worker(threading.Thread):
                 break
             code = process.wait()
             self._close()
-        last = _last_line(remarks)
-        text = f"its process ended with {'signal' if code < 0 else 'code'} {abs(code)}"
-        for key in left:
-            yield Result(key, "died", f"{text}{': ' + last if last else ''}")
+            if any(line.startswith(OUT_OF_TIME) for line in _lines(remarks)):
+                break  # a second try would take as long
+        for key, run in left.items():
+            yield Result(key, "died", _how_it_died(code, _lines(remarks), run))
 
     def _begin(self, remarks: Any) -> "subprocess.Popen[str]":
         with self._lock:
@@ -176,7 +180,8 @@ class _Worker(threading.Thread):
                 encoding="utf-8", env=_environment(),
             )  # fmt: skip
         if not any(said.get("ready") for said in self._answers(process)) and not self._over:
-            raise DqpaintError(_last_line(remarks) or f"it ended with code {process.wait()}")
+            lines = _lines(remarks)
+            raise DqpaintError(lines[-1] if lines else f"it ended with {_code(process.wait())}")
         return process
 
     @staticmethod
@@ -205,7 +210,34 @@ def _environment() -> dict[str, str]:
     return {**os.environ, **dict.fromkeys(ONE_THREAD, "1"), "PYTHONPATH": paths}
 
 
-def _last_line(remarks: Any) -> str:
+def _lines(remarks: Any) -> list[str]:
+    """What a worker wrote to standard error."""
     remarks.seek(0)
-    lines = [line.strip() for line in remarks if line.strip()]
-    return lines[-1] if lines else ""
+    return [line.strip() for line in remarks if line.strip()]
+
+
+def _code(code: int) -> str:
+    return f"{'signal' if code < 0 else 'code'} {abs(code)}"
+
+
+def _how_it_died(code: int, lines: Sequence[str], run: Run) -> str:
+    """Why a run has no result, in words; with the law's file, which may be why.
+
+    Args:
+        code: with which the process ended.
+        lines: that it wrote to standard error.
+        run: that was under way.
+    """
+    own = split_spec(run.settings.controller)
+    if any(line.startswith(OUT_OF_TIME) for line in lines):
+        frames = [re.match(r'File "(.*)", line (\d+)', line) for line in lines]
+        of_law = (frame for frame in frames if frame and own and frame[1] == str(own[0]))
+        frame = next(of_law, None)
+        place = f"{Path(frame[1]).name}:{frame[2]}" if frame else "in a library"
+        return (
+            f"the run has not ended after {run.settings.timeout:g} s, and not when it was told to: "
+            f"{place}; --timeout gives it more"
+        )
+    law = f" while the law of {own[0].name} ran" if own else ""
+    said = f": {lines[-1]}" if lines else ""
+    return f"its process ended with {_code(code)}{law}{said}"

@@ -18,7 +18,7 @@ from dqpaint.brushes import read_brush
 from dqpaint.controllers import find_controller
 from dqpaint.core import choice_name, file_digest, find_drawing, library_versions
 from dqpaint.disturbances import find_files, make_disturbances
-from dqpaint.errors import UsageError
+from dqpaint.errors import TimeLimitError, UsageError
 from dqpaint.language import parse, read
 from dqpaint.language.imports import files_of
 from dqpaint.language.writing import builder
@@ -28,7 +28,7 @@ from dqpaint.robots.loading import card_for
 from dqpaint.settings import Settings
 
 Status = Literal["done", "oscillates", "clipped", "astray", "diverged", "failed", "died"]
-"""`died`: the process that carried it out ended, or its machine had no room; it is tried again."""
+"""`died`: its process or its time ended, or its machine had no room; it is tried again."""
 
 
 OF_ALL = {"errors", "steps"}
@@ -66,6 +66,7 @@ class Run:
             "files": self.files(),
             "code": code_versions(),
         }
+        del data["settings"]["timeout"]  # it decides whether there is a result, not which
         data["plugins"] = plugins.plugins_of(self.settings, self.program())
         return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()
 
@@ -144,12 +145,12 @@ class Result:
 
 
 def is_of_the_machine(fault: BaseException | None) -> bool:
-    """Whether a fault comes from a full disk, memory or the like, which another try may not have.
+    """Whether a fault comes from a full disk, memory, time or the like: another may not have it.
 
     A file that is missing is a fault of the run: its key changes when the file is there.
     """
     while fault is not None:
-        if isinstance(fault, OSError | MemoryError):
+        if isinstance(fault, OSError | MemoryError | TimeLimitError):
             return not isinstance(fault, FileNotFoundError)
         fault = fault.__cause__ or fault.__context__
     return False

@@ -6,24 +6,30 @@ everything before its first run and lives as long as the study, so the start is 
 on the worker's own core.
 """
 
+import ctypes
+import faulthandler
 import json
 import os
+import queue
 import signal
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from dqpaint.errors import DqpaintError, UnstableError
+from dqpaint.errors import DqpaintError, TimeLimitError, UnstableError
 from dqpaint.metrics import limits_text
-from dqpaint.painting import paint
+from dqpaint.painting import paint, time_limit
 from dqpaint.studies.runner.batches import Task, carry_out_batch, goes_in_batches
 from dqpaint.studies.runner.run import Result, Run, Status, is_of_the_machine, run_from_data
 from dqpaint.studies.runner.run_arrays import write_arrays
 
 PROGRESS_INTERVAL = 0.2  # [s]
+GRACE = 5.0  # [s] in which a run whose time is over may say where it is
+PR_SET_PDEATHSIG = 1  # of Linux's prctl
 
 
 def carry_out(
@@ -68,8 +74,19 @@ def carry_out_all(
     """
     results = None
     if goes_in_batches(tasks[0][1]):
-        with suppress(Exception):  # what is wrong each run says by itself
-            results = carry_out_batch(tasks, folder, lambda part: progress(part * len(tasks)))
+        limit = len(tasks) * tasks[0][1].settings.timeout
+        try:
+            with _last_resort(limit), time_limit.limit_time(limit) as check_time:
+
+                def show(part: float) -> None:
+                    check_time()
+                    progress(part * len(tasks))
+
+                results = carry_out_batch(tasks, folder, show)
+        except TimeLimitError as problem:
+            results = [Result(key, "died", str(problem)) for key, _ in tasks]
+        except Exception:  # what is wrong each run says by itself
+            results = None
     if results is not None:
         yield from results
     elif len(tasks) > 1:  # one that cannot be in a batch must not change how the others are done
@@ -77,7 +94,44 @@ def carry_out_all(
             yield from carry_out_all([task], folder, progress)
     else:
         ((key, run),) = tasks
-        yield carry_out(run, key, folder, progress)
+        with _last_resort(run.settings.timeout):
+            result = carry_out(run, key, folder, progress)
+        yield result
+
+
+@contextmanager
+def _last_resort(seconds: float) -> Iterator[None]:
+    """A context whose time, when it is over for good, ends this process, whatever hangs in it.
+
+    A thread below Python does it, which needs no lock that others hold; it writes to standard error
+    first where each thread is.
+    """
+    faulthandler.dump_traceback_later(seconds + GRACE, exit=True, file=2)
+    try:
+        yield
+    finally:
+        faulthandler.cancel_dump_traceback_later()
+
+
+def _end_with_the_study() -> "queue.SimpleQueue[str]":
+    """The lines of standard input; this process ends with them, whatever it is doing.
+
+    Their end is that of the process that writes them. Linux ends this one even while a library
+    keeps all other threads waiting.
+    """
+    if sys.platform == "linux":
+        with suppress(OSError, AttributeError):
+            ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    lines: queue.SimpleQueue[str] = queue.SimpleQueue()
+
+    def read() -> None:
+        with suppress(OSError, ValueError):
+            for line in sys.stdin:
+                lines.put(line)
+        os._exit(1)
+
+    threading.Thread(target=read, daemon=True).start()
+    return lines
 
 
 def main() -> None:
@@ -97,10 +151,11 @@ def main() -> None:
             last = time.monotonic()
             say(part=part)
 
+    lines = _end_with_the_study()
     try:
         say(ready=True)
-        for line in sys.stdin:
-            said = json.loads(line)
+        while True:
+            said = json.loads(lines.get())
             tasks = [(task["key"], run_from_data(task["run"])) for task in said["tasks"]]
             for result in carry_out_all(tasks, Path(said["folder"]), tell):
                 say(result=vars(result))

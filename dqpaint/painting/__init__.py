@@ -2,7 +2,18 @@
 
 `paint` is the whole flow; `preview` the same without an arm. `validate` checks settings before
 anything runs, `scene` collects the lights, `picture` exposes and develops the pictures, `video`
-the movies, `film_file` stores all that is needed to develop again.
+the movies, `film_file` stores all that is needed to develop again. `time_limit` ends what takes
+too long.
 """
 
-__all__ = ["film_file", "paint", "picture", "plugins", "preview", "scene", "validate", "video"]
+__all__ = [
+    "film_file",
+    "paint",
+    "picture",
+    "plugins",
+    "preview",
+    "scene",
+    "time_limit",
+    "validate",
+    "video",
+]

@@ -293,18 +293,15 @@ def test_a_law_that_opens_what_it_sees_moves_nothing(tmp_path, rng):
     """Arrays are of the law's own: an arm is moved by commands alone."""
     spec = written(
         tmp_path,
-        """
-        def f(seen):
-            for array in (seen.pose, seen.jacobian, seen.posture, seen.rates):
-                array.flags.writeable = True
-                array[:] = 7.0
-            return seen.twist_d
-    """,
+        "def f(seen):\n"
+        "    for array in (seen.pose, seen.jacobian, seen.posture, seen.rates):\n"
+        "        array.flags.writeable = True\n"
+        "        array[:] = 7.0\n"
+        "    return seen.twist_d\n",
     )
     seen = seen_at(rng)
-    before = [np.copy(array) for array in (seen.pose, seen.jacobian, seen.posture, seen.rates)]
+    arms = seen.pose, seen.jacobian, seen.posture, seen.rates
+    before = [np.copy(array) for array in arms]
     asked(find_controller(spec), seen)
-    for array, was in zip(
-        (seen.pose, seen.jacobian, seen.posture, seen.rates), before, strict=True
-    ):
+    for array, was in zip(arms, before, strict=True):
         np.testing.assert_array_equal(array, was)

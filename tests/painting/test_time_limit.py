@@ -66,7 +66,7 @@ def test_a_law_that_is_slow_and_deaf_is_ended_between_two_steps(tmp_path):
         "        except Exception:\n            pass\n    return seen.twist_d\n"
     )
     (tmp_path / "line.traj").write_text(LINE)
-    with pytest.raises(DqpaintError, match="has not ended after 0[.]3 s"):
+    with pytest.raises(DqpaintError, match=r"has not ended after 0\.3 s"):
         dqpaint.draw(
             tmp_path / "line.traj", controller=tmp_path / "law.py", plant="ideal",
             size=(16, 16), timeout=0.3,

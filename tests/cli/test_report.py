@@ -36,7 +36,7 @@ def test_joint_rates_held_for_long_are_not(tmp_path):
 
 def test_a_gain_without_a_default_is_listed_without_one():
     text = listing.text(listing.lists("controllers"))
-    assert "  K_O  1/s, in place of gamma_O\n" in text
+    assert "  K_O  1/s, in place of gamma_O: a number," in text
     assert "None" not in text
 
 

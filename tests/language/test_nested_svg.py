@@ -16,8 +16,8 @@ INCH = 0.0254
 def ends(attributes: str, within: str) -> list[list[float]]:
     """Of each line of a drawing: its left and its right end [px], y down."""
     made = []
-    lines, _ = reader._read(f"{WITH.format(attributes)}{within}</svg>".encode())
-    for line, _ in lines:
+    drawing, _ = reader._read(f"{WITH.format(attributes)}{within}</svg>".encode(), as_drawn=True)
+    for line, _ in drawing.lines:
         last = len(line.cubic) - 1
         at = piecewise.derivatives(line, np.array([0, last]), np.array([0.0, 1.0]))[0]
         made.append([*chain.from_iterable(sorted((at[:, :2] / INCH * [96, -96]).tolist()))])

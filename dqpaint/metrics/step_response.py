@@ -105,7 +105,7 @@ def step_curves(track: Track) -> tuple[StepCurve, ...]:
 def _steps(track: Track) -> Iterator[tuple[int, NDArray[np.intp], Floats, Floats, Floats]]:
     """Of each jump the row before, the rows at the set point, both set points, times since [s]."""
     motion = track.motion
-    for before in np.flatnonzero(motion.jump).tolist():
+    for before in np.flatnonzero(motion.jump[:-1]).tolist():  # a last one has no time to be met
         rows = _rows_of_set_point(motion.pose, before + 1)
         if len(rows) >= 2:
             times = motion.t[rows] - motion.t[rows[0]]

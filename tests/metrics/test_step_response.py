@@ -170,3 +170,14 @@ def test_a_drawing_without_steps_has_no_such_figures():
     motion = plan(parse("period 10 ms\nline to (10, 0) mm\n", "test.traj"), CARD.canvas.pose)
     line = track(motion, ARM, CARD.home, PLANTS["ideal"], law, law.read_gains({}))
     assert not any(name.startswith("step_") for name in measure(line).figures)
+
+
+@pytest.mark.parametrize("text", ["line to (10, 0) mm\n", "", "hold 0.1 s\nstep to (0, 9) mm\n"])
+def test_a_last_step_has_no_time_to_be_answered(text):
+    motion = plan(parse(f"{text}step to (10, 10) mm\n", "end.traj"), CARD.canvas.pose)
+    law = CONTROLLERS["p"]
+    run = track(motion, ARM, CARD.home, PLANTS["ideal"], law, law.read_gains({}))
+    assert step_responses(run) == ()
+    numbers = [value for value in measure(run).figures.values() if isinstance(value, float)]
+    assert len(numbers) > 5
+    assert np.isfinite(numbers).all()

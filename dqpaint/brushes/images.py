@@ -1,37 +1,59 @@
 """An image file -> columns of tints for a row of LEDs; a pattern if there is no file."""
 
-from pathlib import Path
 from typing import cast
 
 import numpy as np
+from numpy.typing import NDArray
 
+from dqpaint.core import picture_size, read_regular
 from dqpaint.core.arrays import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.program import colours as named
 
 MOST_COLUMNS = 2000
 """Largest number of columns of an image."""
+MOST_BYTES = 50_000_000
+"""Largest image file."""
+MOST_PIXELS = 40_000_000
+"""Largest image: in linear light it takes 24 bytes a pixel."""
 
 
 def columns(path: str, leds: int) -> Floats:
     """An image file in linear light, (R, leds, 3): its columns in order, from its foot up."""
     import cv2
 
-    try:
-        data = np.frombuffer(Path(path).read_bytes(), np.uint8)
-    except (OSError, ValueError) as problem:
-        reason = problem.strerror if isinstance(problem, OSError) else str(problem)
-        raise DqpaintError(f"image '{path[:60]}' cannot be read: {reason}") from None
-    image = cv2.imdecode(data, cv2.IMREAD_COLOR) if len(data) else None
-    if image is None:
-        raise DqpaintError(
-            f"image '{path[:60]}' is not a picture that can be read; use PNG or JPEG"
-        )
-    encoded = np.asarray(image[::-1, :, ::-1], dtype=np.float64) / 255.0
-    linear = np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
+    image = _decoded(path)
+    levels = np.arange(256) / 255.0
+    linear = np.where(levels <= 0.04045, levels / 12.92, ((levels + 0.055) / 1.055) ** 2.4)
     size = (min(image.shape[1], MOST_COLUMNS), leds)
-    sized = cv2.resize(linear, size, interpolation=cv2.INTER_AREA)
-    return np.clip(cast(Floats, sized), 0.0, 1.0).transpose(1, 0, 2)
+    sized = cv2.resize(cv2.LUT(image[::-1], linear), size, interpolation=cv2.INTER_AREA)
+    return np.clip(cast(Floats, sized[..., ::-1]), 0.0, 1.0).transpose(1, 0, 2)
+
+
+def _decoded(path: str) -> NDArray[np.uint8]:
+    """The picture (H, W, 3), blue first, that a file holds; refused before it is decoded."""
+    import cv2
+
+    name = f"image '{path[:60]}'"
+    try:
+        data = read_regular(path, MOST_BYTES)
+    except OSError as problem:
+        raise DqpaintError(f"{name} cannot be read: {problem.strerror}") from None
+    size = picture_size(data)
+    if size is None:
+        raise DqpaintError(f"{name} is not a picture that can be read; use PNG or JPEG")
+    if size.width * size.height > MOST_PIXELS:
+        raise DqpaintError(
+            f"{name} has {size.width} x {size.height} pixels; at most "
+            f"{MOST_PIXELS // 10**6} million are read: make it smaller"
+        )
+    try:
+        image = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)
+    except cv2.error:
+        image = None
+    if image is None or image.shape[0] * image.shape[1] != size.width * size.height:
+        raise DqpaintError(f"{name} is no sound {size.kind} file; use PNG or JPEG")
+    return cast(NDArray[np.uint8], image)
 
 
 def striped_image(leds: int) -> Floats:

@@ -58,7 +58,10 @@ def fmt(
             if name == STDIN:
                 made, changed = format_files.format_input()
                 if not check:
-                    sys.stdout.buffer.write(made)
+                    if sys.stdout.isatty():
+                        print(made.decode(), end="")
+                    else:
+                        sys.stdout.buffer.write(made)
             else:
                 changed = format_files.format_file(name, write=not check)
                 if not check:

@@ -3,8 +3,10 @@
 import os
 import sys
 import tempfile
+import warnings
 from typing import NoReturn
 
+from dqpaint.cli.clean_stream import cleaned
 from dqpaint.cli.language import point_at, tell
 from dqpaint.cli.studies import app
 from dqpaint.errors import DqpaintError, UsageError
@@ -17,6 +19,8 @@ INTERRUPTED = 130
 def run() -> None:
     """Run the command of this process; leaves by SystemExit or KeyboardInterrupt."""
     _secure_streams()
+    if not sys.warnoptions:  # results are checked; what numpy thinks on the way helps nobody
+        warnings.simplefilter("ignore", RuntimeWarning)
     try:
         _answer()
     except _StreamError as problem:
@@ -80,13 +84,13 @@ def _of_the_machine(fault: Exception) -> str:
 
 
 def _secure_streams() -> None:
-    """Closed streams discard text; characters that an encoding lacks are written as numbers."""
+    """Closed streams discard text; what an encoding lacks or a terminal obeys comes as numbers."""
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
         if stream is None:
             setattr(sys, name, open(os.devnull, "w"))  # noqa: SIM115  for as long as we run
         else:
-            stream.reconfigure(errors="backslashreplace")
+            setattr(sys, name, cleaned(stream))
 
 
 def _end(text: str, code: int) -> NoReturn:

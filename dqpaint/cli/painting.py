@@ -14,6 +14,7 @@ import typer
 
 from dqpaint import __version__
 from dqpaint.cli import export, language, plotting
+from dqpaint.cli.clean_stream import send_raw
 from dqpaint.cli.language import point_at
 from dqpaint.cli.options import (
     Choices,
@@ -283,4 +284,4 @@ def _finish(remarks: list[str], table: str, image: Any) -> None:
         print(text, file=sys.stderr)
     print(table)
     if shows_pictures(sys.stdout):
-        print(blocks(image, shutil.get_terminal_size().columns))
+        send_raw(blocks(image, shutil.get_terminal_size().columns) + "\n", sys.stdout)

@@ -9,6 +9,7 @@ from typing import Self, TextIO
 import numpy as np
 from numpy.typing import NDArray
 
+from dqpaint.cli.clean_stream import printable, send_raw
 from dqpaint.core import tables
 
 BAR = 30  # characters of the progress bar
@@ -65,7 +66,7 @@ class Progress:
     """A bar on standard error with the time left; silent where that is no terminal."""
 
     def __init__(self, what: str) -> None:
-        self._what = what
+        self._what = printable(what)
         self._shown = sys.stderr.isatty()
         self._begin = time.monotonic()
         self._drawn = False
@@ -77,8 +78,7 @@ class Progress:
             return
         left = passed / done * (1 - done)
         filled = "█" * round(BAR * done)
-        sys.stderr.write(f"\r{self._what} {filled:<{BAR}} {done:4.0%}  {left:.0f} s left ")
-        sys.stderr.flush()
+        send_raw(f"\r{self._what} {filled:<{BAR}} {done:4.0%}  {left:.0f} s left ", sys.stderr)
         self._drawn = True
 
     def __enter__(self) -> Self:
@@ -87,5 +87,4 @@ class Progress:
     def __exit__(self, *_: object) -> None:
         """Remove the bar."""
         if self._drawn:
-            sys.stderr.write("\r\x1b[K")
-            sys.stderr.flush()
+            send_raw("\r\x1b[K", sys.stderr)

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import NoReturn
 
+from dqpaint.cli.clean_stream import send_raw
 from dqpaint.cli.language import tell
 from dqpaint.errors import DqpaintError
 from dqpaint.language.imports import files_of
@@ -75,4 +76,4 @@ def _signature(path: Path) -> Signature:
 def _clear() -> None:
     """Clear the terminal before the next picture or errors."""
     if sys.stdout.isatty():
-        print(_CLEAR, end="", flush=True)  # before what follows on the other stream
+        send_raw(_CLEAR, sys.stdout)  # before what follows on the other stream

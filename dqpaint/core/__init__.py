@@ -11,6 +11,7 @@ from dqpaint.core.bounds import DEFAULT_MAX_SAMPLES, LARGEST_MAX_SAMPLES
 from dqpaint.core.examples import example_names, examples_folder, find_drawing
 from dqpaint.core.explanations import Sections, read_sections
 from dqpaint.core.file_sets import finish_interrupted, write_together
+from dqpaint.core.inputs import picture_size, read_regular, stat_regular
 from dqpaint.core.mathematics import latex_equation, unicode_equation, unicode_prose
 from dqpaint.core.named_values import (
     FILE_PATTERN, Values, choice_name, make_choice, number_or_text, pydantic_reason, read_choice,
@@ -28,7 +29,8 @@ __all__ = [
     "Guarded", "NotRegularError", "NumberTable", "Registry", "Sections", "UserCode", "Values",
     "choice_name", "example_names", "examples_folder", "file_digest", "find_drawing",
     "find_in_file", "finish_interrupted", "latex_equation", "library_versions", "make_choice",
-    "make_folder", "number_or_text", "open_folder", "open_regular", "pydantic_reason",
-    "read_choice", "read_sections", "record", "replaced", "rewrite", "short_name", "split_spec",
-    "subclass", "tables", "unicode_equation", "unicode_prose", "write_new", "write_together",
+    "make_folder", "number_or_text", "open_folder", "open_regular", "picture_size",
+    "pydantic_reason", "read_choice", "read_regular", "read_sections", "record", "replaced",
+    "rewrite", "short_name", "split_spec", "stat_regular", "subclass", "tables",
+    "unicode_equation", "unicode_prose", "write_new", "write_together",
 ]

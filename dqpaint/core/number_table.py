@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from dqpaint.core.inputs import read_regular
 from dqpaint.errors import DqpaintError, UsageError
 
 if TYPE_CHECKING:
@@ -46,15 +47,11 @@ class NumberTable:
     """
 
     def __init__(self, path: str, kind: str) -> None:
-        file = Path(path)
-        self.name = name = file.name
+        self.name = name = Path(path).name
         try:
-            if file.stat().st_size > LARGEST_FILE:
-                raise DqpaintError(f"{name} is larger than {LARGEST_FILE // 10**6} MB")
-            data = file.read_bytes()
-        except (OSError, ValueError) as problem:
-            reason = problem.strerror if isinstance(problem, OSError) else str(problem)
-            raise UsageError(f"{kind} '{path}' cannot be read: {reason}") from None
+            data = read_regular(path, LARGEST_FILE)
+        except OSError as problem:
+            raise UsageError(f"{kind} '{path}' cannot be read: {problem.strerror}") from None
         self.sha256 = hashlib.sha256(data).hexdigest()
         try:
             text = data.decode("utf-8-sig")

@@ -6,11 +6,13 @@ import sys
 import traceback
 from collections.abc import Callable
 from inspect import ismethod
+from os.path import exists
 from pathlib import Path
 from types import FunctionType, ModuleType
 from typing import Any
 
 from dqpaint.core.examples import examples_folder
+from dqpaint.core.inputs import read_regular
 from dqpaint.errors import DqpaintError, TimeLimitError, UsageError
 
 LARGEST_FILE = 1_000_000  # bytes of a file
@@ -29,7 +31,7 @@ def split_spec(spec: str) -> tuple[Path, str | None] | None:
 def find_file(path: Path) -> Path:
     """A file, else the example of that name."""
     example = examples_folder() / path.name
-    return example if not path.exists() and str(path) == path.name and example.exists() else path
+    return example if str(path) == path.name and not exists(path) and exists(example) else path
 
 
 def short_name(spec: str) -> str:
@@ -159,11 +161,7 @@ class Guarded:
 def _text(path: Path, kind: str) -> tuple[str, str]:
     """The text of a file and its SHA-256."""
     try:
-        if path.exists() and not path.is_file():
-            raise DqpaintError(f"{kind} '{path}' is not a file")
-        if path.stat().st_size > LARGEST_FILE:
-            raise DqpaintError(f"{kind} '{path}' is larger than {LARGEST_FILE // 1000} kB")
-        data = path.read_bytes()
+        data = read_regular(path, LARGEST_FILE)
         return data.decode("utf-8-sig"), hashlib.sha256(data).hexdigest()
     except OSError as problem:
         raise DqpaintError(f"{kind} '{path}' cannot be read: {problem.strerror}") from None

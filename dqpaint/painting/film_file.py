@@ -3,11 +3,13 @@
 It is NumPy's .npz: arrays that can be read with `numpy.load`, and the rest as JSON under `about`.
 """
 
+import errno
 import io
 import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple
+from zipfile import ZipFile
 
 import cv2
 import numpy as np
@@ -16,6 +18,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from dqpaint import __version__
 from dqpaint.brushes import Emitters
+from dqpaint.core import read_regular
 from dqpaint.diagnostics import SourceLine
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
@@ -31,6 +34,10 @@ SCHEMA = "dqpaint-film-1"
 GROUPS = {"light": "light", "asked": "reference", "under": "overlay"}  # in a file: of a scene
 ROTATION_TOLERANCE = 1e-6  # how far a rotation may be from one
 LARGEST_NUMBER = 1e6  # of any number of an array
+LARGEST_FILE = 200_000_000  # bytes
+LARGEST_UNPACKED = 400_000_000  # bytes of its arrays
+SPARE = 1_000_000  # bytes for the heads of the arrays
+LARGEST_LAMP = 10.0  # [m] as a brush's
 Number = Annotated[float, Field(ge=0, le=LARGEST_NUMBER, allow_inf_nan=False)]
 Part = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
 Arrays = dict[str, NDArray[Any]]
@@ -43,7 +50,7 @@ class SweepFacts(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True)
     period: Annotated[float, Field(ge=1e-6, le=LARGEST_NUMBER, allow_inf_nan=False)]
     pwm: Number
-    size: Number
+    size: Annotated[float, Field(ge=0, le=LARGEST_LAMP, allow_inf_nan=False)]
     joined: Part
     lobe: Number
     strobe: bool
@@ -149,6 +156,12 @@ def encode(
         if render_cache.arm is not None:
             arrays["shown-arm"] = render_cache.arm
     arrays["about"] = np.array(json.dumps(about))
+    size = sum(np.asarray(array).nbytes for array in arrays.values())
+    if size > LARGEST_UNPACKED - SPARE:
+        raise DqpaintError(
+            f"the film would take {size / 1e6:.0f} MB, and none of more than "
+            f"{LARGEST_UNPACKED // 10**6} MB is read again: a longer period makes it smaller"
+        )
     file = io.BytesIO()
     np.savez_compressed(file, **arrays)
     return file.getvalue()
@@ -164,7 +177,7 @@ def read(path: str) -> FilmFile:
     if place.suffix in (".tiff", ".hdr"):  # the pictures beside it
         place = place.with_suffix(".npz")
     try:
-        return _film(_arrays(place.read_bytes()))
+        return _film(_arrays(read_regular(place, LARGEST_FILE)))
     except OSError as problem:
         raise DqpaintError(f"film '{path[:60]}' cannot be read: {problem.strerror}") from None
     except (ValueError, DqpaintError):  # among them pydantic's
@@ -178,12 +191,17 @@ def _arrays(data: bytes) -> Arrays:
 
     Raises:
         ValueError: it is none.
+        OSError: they are too large.
     """
     try:
-        with np.load(io.BytesIO(data), allow_pickle=False) as file:
-            return dict(file)
+        with ZipFile(io.BytesIO(data)) as packed:
+            size = sum(member.file_size for member in packed.infolist())
+        if size <= LARGEST_UNPACKED:
+            with np.load(io.BytesIO(data), allow_pickle=False) as file:
+                return dict(file)
     except Exception as problem:  # whatever numpy, zipfile and zlib make of bytes of others
         raise ValueError("no arrays") from problem
+    raise OSError(errno.EFBIG, f"unpacked it is larger than {LARGEST_UNPACKED // 10**6} MB")
 
 
 def _film(arrays: Arrays) -> FilmFile:

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from dqpaint import __version__
+from dqpaint.core import read_regular
 from dqpaint.diagnostics import closest
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.settings.model import (
@@ -155,11 +156,7 @@ def _beside_all(folder: Path, value: Any) -> Any:
 
 def _text(place: Path) -> str:
     try:
-        with place.open("rb") as file:
-            data = file.read(LARGEST + 1)
-        if len(data) > LARGEST:
-            raise DqpaintError(f"settings '{place}' are more than {LARGEST // 1_000_000} MB")
-        return data.decode("utf-8")
+        return read_regular(place, LARGEST).decode("utf-8")
     except (OSError, ValueError) as problem:
         reason = problem.strerror if isinstance(problem, OSError) else str(problem)
         raise DqpaintError(f"settings '{str(place)[:60]}' cannot be read: {reason}") from None

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Unpack
 
 from dqpaint.api import draw
-from dqpaint.core import NumberTable
+from dqpaint.core import NumberTable, read_regular
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.language.writing import builder
 from dqpaint.outputs import files
@@ -22,6 +22,7 @@ from dqpaint.studies.report.page import Charts
 from dqpaint.studies.report.run_charts import Choice, RunTable, Scale, charts_of_run
 
 FORMS: tuple[Form, ...] = ("png", "pdf", "svg")
+LARGEST_SUMMARY = 1_000_000  # bytes
 SMALL = (64, 36)  # px of a picture that nobody looks at
 OF_CSV = ("robot", "tool")
 
@@ -166,7 +167,7 @@ def _of_csv(
 def _summary(path: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
     """The summary beside a CSV; nothing, and a note, where there is none."""
     try:
-        found = json.loads(path.read_text("utf-8"))
+        found = json.loads(read_regular(path, LARGEST_SUMMARY))
         if isinstance(found, dict) and str(found.get("schema", "")).startswith("dqpaint-run"):
             return found, ()
     except (OSError, ValueError, RecursionError):

@@ -2,6 +2,7 @@
 
 import io
 import json
+import tracemalloc
 import zipfile
 
 import cv2
@@ -118,7 +119,14 @@ def broken(tmp_path):
     yield "deep", again(about=np.array("[" * 100_000))
     yield "list", again(about=np.array("[1]"))
     facts = json.loads(about)
-    for name, value in (("period", 1e300), ("size", -1), ("lobe", "q"), ("pwm", -5), ("joined", 2)):
+    for name, value in (
+        ("period", 1e300),
+        ("size", -1),
+        ("size", 10.1),
+        ("lobe", "q"),
+        ("pwm", -5),
+        ("joined", 2),
+    ):
         one = {**facts["light"][0], name: value}
         yield name, again(about=np.array(json.dumps({**facts, "light": [one]})))
     for name, value in (("dimmer", -5), ("name", 5), ("light", {"a": 1}), ("legend", "x")):
@@ -143,6 +151,40 @@ def test_files_that_are_no_films_are_refused_in_a_sentence(tmp_path):
         assert "film" in str(caught.value), name
     with pytest.raises(DqpaintError, match="cannot be read"):
         dqpaint.develop(tmp_path / "none.npz")
+
+
+@pytest.mark.parametrize("fits", [True, False])
+def test_a_film_is_bounded_before_it_is_unpacked(tmp_path, monkeypatch, fits):
+    painting = dqpaint.draw("star", plant="ideal", size=(64, 36))
+    path = tmp_path / "a.npz"
+    path.write_bytes(film_file.encode(painting.scene, painting.settings))
+    with zipfile.ZipFile(path) as packed:
+        size = sum(member.file_size for member in packed.infolist())
+    monkeypatch.setattr(film_file, "LARGEST_UNPACKED", size if fits else size - 1)
+    if fits:
+        film_file.read(str(path))
+        return
+    with pytest.raises(DqpaintError, match="unpacked"):
+        film_file.read(str(path))
+    with pytest.raises(DqpaintError, match="the film would take"):
+        film_file.encode(painting.scene, painting.settings)
+
+
+def test_a_bomb_of_a_film_is_not_inflated(tmp_path):
+    """A megabyte of file, a gigabyte of zeros."""
+    path = tmp_path / "a.npz"
+    with (
+        zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as packed,
+        packed.open("light0-colours.npy", "w", force_zip64=True) as member,
+    ):
+        for _ in range(1000):
+            member.write(bytes(1_000_000))
+    tracemalloc.start()
+    with pytest.raises(DqpaintError, match="unpacked"):
+        film_file.read(str(path))
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 10_000_000
 
 
 def test_lines_of_included_files_are_kept(tmp_path):

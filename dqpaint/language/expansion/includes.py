@@ -114,7 +114,8 @@ class Loader:
         try:
             text = self._read(path)
         except DqpaintError as fault:
-            meant = closest(path.name, (other.name for other in path.parent.glob("*.traj")))
+            others = (other.name for other in path.parent.glob("*.traj") if other != path)
+            meant = closest(path.name, others)
             raise problem("E272", str(fault), node.span, "", did_you_mean(meant)) from None
         if "\0" in text:
             raise problem(

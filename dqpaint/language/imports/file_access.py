@@ -4,8 +4,10 @@ A name is seen from the folder of the file it stands in, an included one too; wh
 the folder of the main file or below, so that a drawing from elsewhere reads nothing else.
 """
 
+from errno import EFBIG
 from pathlib import Path, PurePosixPath
 
+from dqpaint.core import read_regular, stat_regular
 from dqpaint.diagnostics import Problem, file_at, problem
 from dqpaint.language.pen.pen import Pen
 from dqpaint.language.syntax.tree import Quoted
@@ -64,32 +66,25 @@ def contents(node: Quoted, pen: Pen, most_bytes: int) -> bytes:
     """The bytes of a file; refused before reading if it is too large."""
     path = path_of(node, pen)
     try:
-        if path.stat().st_size > most_bytes:
-            raise too_large(node, f"larger than {most_bytes // 1_000_000} MB")
-        with path.open("rb") as file:
-            data = file.read(most_bytes + 1)
-    except (OSError, ValueError) as fault:
+        return read_regular(path, most_bytes)
+    except OSError as fault:
         raise _unread(node, path, fault) from None
-    if len(data) > most_bytes:
-        raise too_large(node, f"larger than {most_bytes // 1_000_000} MB")
-    return data
 
 
 def readable(node: Quoted, pen: Pen, most_bytes: int) -> Path:
     """The path of an existing file that the drawing may read and that is not too large."""
     path = path_of(node, pen)
     try:
-        with path.open("rb") as file:
-            size = file.seek(0, 2)
-    except (OSError, ValueError) as fault:
+        stat_regular(path, most_bytes)
+    except OSError as fault:
         raise _unread(node, path, fault) from None
-    if size > most_bytes:
-        raise too_large(node, f"larger than {most_bytes // 1_000_000} MB")
     return path
 
 
-def _unread(node: Quoted, path: Path, fault: Exception) -> Problem:
-    reason = (fault.strerror if isinstance(fault, OSError) else None) or str(fault)
+def _unread(node: Quoted, path: Path, fault: OSError) -> Problem:
+    reason = fault.strerror or str(fault)
+    if fault.errno == EFBIG:
+        return too_large(node, reason.removeprefix("it is "))
     help = ""
     if isinstance(fault, FileNotFoundError):
         there = sorted(p.name for p in path.parent.glob(f"*{path.suffix}"))[:6]

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
     from dqpaint.brushes import Brush as BrushModel
 
-MOST_BYTES = 50_000_000  # of an image
 FURTHEST_COUNT = -(10**9)  # the brush itself checks the range of a count
 
 
@@ -102,6 +101,8 @@ def _text(part: BrushPart, scope: Scope, _pen: Pen, words: BrushWords) -> BrushV
 
 def _file(part: BrushPart, scope: Scope, pen: Pen, words: BrushWords) -> BrushValue:
     node = _quoted(part.values[0], scope, part, words)
+    from dqpaint.brushes.images import MOST_BYTES
+
     return str(readable(node, pen, MOST_BYTES))
 
 

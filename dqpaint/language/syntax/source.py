@@ -1,8 +1,10 @@
 """File or standard input -> its text, or an error."""
 
 import sys
+from errno import EFBIG
 from pathlib import Path
 
+from dqpaint.core import read_regular
 from dqpaint.errors import DqpaintError
 
 MOST_BYTES = 2_000_000
@@ -11,17 +13,18 @@ STDIN_NAME = "<stdin>"  # and as messages call it
 
 
 def load(path: str | Path) -> bytes:
-    """The bytes of a file, at most one more than the limit.
+    """The bytes of a file.
 
     Raises:
-        DqpaintError: the file can't be read.
+        DqpaintError: the file can't be read, or is too large.
     """
     try:
-        with Path(path).open("rb") as file:
-            return file.read(MOST_BYTES + 1)
-    except (OSError, ValueError) as fault:
-        reason = fault.strerror if isinstance(fault, OSError) else str(fault)
-        raise DqpaintError(f"can't read {path}: {(reason or str(fault)).lower()}") from None
+        return read_regular(path, MOST_BYTES)
+    except OSError as fault:
+        reason = (fault.strerror or str(fault)).lower()
+        if fault.errno == EFBIG:
+            raise DqpaintError(f"{path} {reason.removeprefix('it ')}") from None
+        raise DqpaintError(f"can't read {path}: {reason}") from None
 
 
 def load_input() -> bytes:

@@ -11,9 +11,11 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from dqpaint.core import picture_size
 from dqpaint.errors import DqpaintError
 from dqpaint.light.arrays import Image, Picture
 
+LARGEST_SIDE = 8448  # px of a picture that is read
 SSIM_WINDOW, SSIM_SIGMA = 11, 1.5
 C1, C2 = (0.01 * 255) ** 2, (0.03 * 255) ** 2
 TIFF = [cv2.IMWRITE_TIFF_COMPRESSION, 8]  # deflate, which loses nothing
@@ -114,7 +116,13 @@ def decode_picture(data: bytes) -> Picture:
 
 def _decoded(data: bytes, kind: type) -> np.ndarray:
     """Decode an image (H, W, 3), RGB."""
-    found = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED) if data else None
+    size = picture_size(data)
+    if size is None or max(size.width, size.height) > LARGEST_SIDE:
+        raise ValueError("it is no picture, or one that is too large")
+    try:
+        found = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_UNCHANGED)
+    except cv2.error:
+        found = None
     if found is None or found.ndim != 3 or found.shape[2] != 3 or found.dtype != kind:
         raise ValueError("the picture does not have three channels")
     return np.asarray(found[..., ::-1])

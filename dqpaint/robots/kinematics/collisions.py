@@ -5,6 +5,7 @@ ones, as in a picture. Both use Coal, which comes with pinocchio and shares its 
 """
 
 from collections.abc import Sequence
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
@@ -71,8 +72,9 @@ class CollisionShapes:
         self._solids = [shape.geometry for shape in self._shapes.geometryObjects]
         for shape in self._shapes.geometryObjects:
             if isinstance(shape.geometry, coal.BVHModelBase):
-                shape.geometry.buildConvexHull(True, "Qt")
-                shape.geometry = shape.geometry.convex
+                with suppress(ValueError):  # a flat one has no hull, and stays as it is
+                    shape.geometry.buildConvexHull(True, "Qt")
+                    shape.geometry = shape.geometry.convex
         self._names = [
             self._model.frames[shape.parentFrame].name for shape in self._shapes.geometryObjects
         ]

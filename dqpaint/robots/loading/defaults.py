@@ -11,6 +11,8 @@ from dqpaint.robots.kinematics.start_posture import NoPosture, find_start, solve
 from dqpaint.robots.model.card import Canvas, Card
 
 SAMPLES = 20000  # random postures
+RANK_SAMPLES, LEAST_SINGULAR_VALUE = 256, 1e-6  # of these, at one of which it moves all ways
+LEAST_REACH = 0.01  # [m] of a light about the middle of its places
 SEEDS = 8  # of them, the nearest to each place
 AHEAD_SHARES = (0.65, 0.5, 0.8, 0.35)  # where a canvas may be, in parts of the arm's reach
 AZIMUTHS = (0.0, 90.0, -90.0, 180.0)  # [deg] of the canvas, tried in this order
@@ -40,9 +42,19 @@ def find_canvas(card: Card) -> tuple[Canvas, Floats]:
     middle, half = 0.5 * (low + high), 0.5 * RANGE_SHARE * (high - low)
     q = rng.uniform(middle - half, middle + half, (SAMPLES, card.joints))
     poses = arm.screws().pose(q)
+    least = np.linalg.svd(arm.poses_and_jacobians(q[:RANK_SAMPLES])[1], compute_uv=False)[..., -1]
+    if least.max() < LEAST_SINGULAR_VALUE:
+        raise DqpaintError(
+            f"{card.name} cannot place and turn a light as it is asked to: in no posture do its "
+            "axes move it in all six ways"
+        )
     points = dq.translation(poses)
     centre = points.mean(axis=0)
     reach = float(np.linalg.norm(points - centre, axis=1).max())
+    if reach < LEAST_REACH:
+        raise DqpaintError(
+            f"{card.name} moves a light by no more than {reach * 1e3:.2g} mm: see its joint limits"
+        )
     facing = dq.rotation(_canvas(np.zeros(3)).pose)
     turned = 2 * np.arccos(np.minimum(1.0, np.abs((dq.rotation(poses) * facing).sum(-1))))
     for azimuth in np.radians(AZIMUTHS):

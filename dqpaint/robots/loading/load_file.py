@@ -11,17 +11,18 @@ from typing import Any, get_args
 import numpy as np
 from pydantic import BaseModel, ValidationError
 
-from dqpaint.core import pydantic_reason
+from dqpaint.core import pydantic_reason, read_regular
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.robots.model.card import LEAST_JOINTS, Canvas, Card
 from dqpaint.robots.model.chain import Axes, Rows
 from dqpaint.robots.model.screws import Screws
 from dqpaint.robots.urdf.capsules import default_body
-from dqpaint.robots.urdf.tree import REVOLUTE_KINDS, Joint, Tree, shortened_list
+from dqpaint.robots.urdf.tree import LEAST_LIMIT, REVOLUTE_KINDS, Joint, Tree, shortened_list
 
 PLACEHOLDER_CANVAS = Canvas(
     at_m=(0, 0, 0), right=(0, 1, 0), up=(0, 0, 1)
 )  # until a better one is found
+LARGEST_CARD = 1_000_000  # bytes of a .toml file
 UNLIMITED_RANGE = 360.0  # [deg] to either side, of a joint without ends
 
 
@@ -52,11 +53,12 @@ def read_file(robot: str) -> Card:
 
 def _read_toml(path: Path) -> dict[str, Any]:
     try:
-        raw = tomllib.loads(path.read_text("utf-8"))
+        raw = tomllib.loads(read_regular(path, LARGEST_CARD).decode("utf-8"))
     except OSError as problem:
         raise DqpaintError(f"robot '{path}' cannot be read: {problem.strerror}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
-        raise DqpaintError(f"{path.name} is not valid TOML: {problem}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as problem:
+        reason = "it is nested too deep" if isinstance(problem, RecursionError) else problem
+        raise DqpaintError(f"{path.name} is not valid TOML: {reason}") from None
     urdf = raw.get("urdf")
     if isinstance(urdf, dict) and isinstance(urdf.get("file"), str) and not urdf.get("package"):
         urdf["file"] = str(path.parent / urdf["file"])
@@ -248,7 +250,7 @@ def _end(tree: Tree, joint: Joint, what: str, without: float) -> float:
     if joint.kind == "continuous":
         return without
     lower, upper = joint.limit("lower"), joint.limit("upper")
-    if value is None or lower is None or upper is None or lower >= upper:
+    if value is None or lower is None or upper is None or upper - lower < LEAST_LIMIT:
         raise DqpaintError(
             f"{tree.path.name}: joint '{joint.name}' needs a <limit> with lower below upper, in rad"
         )
@@ -257,7 +259,7 @@ def _end(tree: Tree, joint: Joint, what: str, without: float) -> float:
 
 def _strength(tree: Tree, joint: Joint, what: str, unit: str) -> float:
     value = joint.limit(what)
-    if value is None or value <= 0:
+    if value is None or value < LEAST_LIMIT:
         article = "an" if what == "effort" else "a"
         said = "has no"
         if value is not None:

@@ -1,6 +1,7 @@
 """A name, a file or a drawing -> the card of its arm."""
 
 from importlib import resources
+from os.path import isfile
 from pathlib import Path
 from typing import Any
 
@@ -50,7 +51,7 @@ def find_card(robot: str) -> Card:
         if robot in brought:
             return find_card(str(brought[robot][0]))
         for file in (f"{robot}.toml", f"{robot}.urdf"):
-            if Path(file).is_file():
+            if isfile(file):
                 raise UsageError(
                     f"no robot named '{robot}'; give the whole name of the file: {file}"
                 ) from None

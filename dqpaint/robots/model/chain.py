@@ -34,6 +34,12 @@ class UrdfFile(Part):
     products_negated: bool = False
     frictionless: bool = False
 
+    @model_validator(mode="after")
+    def _lies_in_its_package(self) -> Self:
+        if self.package and (Path(self.file).is_absolute() or ".." in Path(self.file).parts):
+            raise ValueError(f"file '{self.file}' is outside of the package '{self.package}'")
+        return self
+
     @property
     def path(self) -> Path:
         """The path of the file.

@@ -8,9 +8,10 @@ from pydantic import BaseModel, ConfigDict, Field
 from dqpaint import dq
 from dqpaint.dq import Floats
 
-Finite = Annotated[float, Field(allow_inf_nan=False)]
+LARGEST, LEAST = 1e9, 1e-9  # in the units of a card
+Finite = Annotated[float, Field(ge=-LARGEST, le=LARGEST, allow_inf_nan=False)]
 Three = tuple[Finite, Finite, Finite]
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+Positive = Annotated[float, Field(ge=LEAST, le=LARGEST, allow_inf_nan=False)]
 
 
 class Part(BaseModel):

@@ -18,7 +18,8 @@ import numpy as np
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 from dqpaint.robots.model.card import Card
-from dqpaint.robots.urdf.tree import Joint, Tree, parse_numbers
+from dqpaint.robots.urdf.meshes import MOST_TRIANGLES, MeshError, check_mesh, try_meshes
+from dqpaint.robots.urdf.tree import FARTHEST, LARGEST_NUMBER, Joint, Tree, parse_numbers
 from dqpaint.robots.urdf.write import LEAST_INERTIA, write_urdf
 
 GUESSED_BALL_RADIUS = 0.05  # [m], radius of the ball that replaces a missing shape
@@ -57,7 +58,7 @@ def prepare(card: Card) -> PreparedUrdf:
         for joint in tree.joints.values():
             for dynamics in joint.element.findall("dynamics"):
                 joint.element.remove(dynamics)
-    weighed, missing = list(_add_masses(tree)), list(_find_meshes(tree))
+    weighed, missing = list(_add_masses(tree)), list(_find_meshes(tree, bool(card.urdf.package)))
     text = Xml.tostring(tree.robot, encoding="unicode")
     return PreparedUrdf(text, (*weighed, *missing), not missing)
 
@@ -111,7 +112,7 @@ def _rgba(material: Xml.Element) -> str:
     """The text of a material's colour; empty if it is missing or not four shares of one."""
     colour = material.find("color")
     written = "" if colour is None else colour.get("rgba", "")
-    shares = parse_numbers(written)
+    shares = parse_numbers(written, 1.0)
     sound = len(shares) == 4 and (shares >= 0.0).all() and (shares <= 1.0).all()
     return written if sound else ""
 
@@ -171,8 +172,10 @@ def _add_masses(tree: Tree) -> Iterator[str]:
 def _check_inertia(tree: Tree, name: str, mass: float) -> Iterator[str]:
     """Check that a body can have a link's inertia; otherwise PyBullet would invent one."""
     moments = _moments(tree.links[name])
-    if not np.isfinite(moments).all():
-        raise tree.error(f"the inertia of link '{name}' is not six numbers")
+    if not (np.abs(moments) <= LARGEST_NUMBER).all():
+        raise tree.error(
+            f"the inertia of link '{name}' is not six numbers up to {LARGEST_NUMBER:g}"
+        )
     if not moments.any():
         _set_inertial(tree.links[name], mass, 0.4 * mass * GUESSED_BALL_RADIUS**2, keep_origin=True)
         yield (
@@ -216,30 +219,73 @@ def _mass(tree: Tree, name: str) -> float:
         mass = float(text)
     except ValueError:
         mass = math.nan
-    if not (math.isfinite(mass) and mass >= 0):
-        raise tree.error(f"the mass of link '{name}' is '{text}', not a number of kg")
+    if not 0 <= mass <= LARGEST_NUMBER:
+        raise tree.error(
+            f"the mass of link '{name}' is '{text[:60]}', not a number of kg up to "
+            f"{LARGEST_NUMBER:g}"
+        )
     return mass
 
 
-def _find_meshes(tree: Tree) -> Iterator[str]:
-    """Give each mesh its full path; remove and name missing meshes."""
-    missing = []
-    for link in tree.links.values():
-        for shape in [*link.findall("visual"), *link.findall("collision")]:
-            mesh = shape.find("geometry/mesh")
-            if mesh is None:
-                continue
-            name = mesh.get("filename", "")
-            found = _find(tree, name.removeprefix("package://").removeprefix("file://"))
-            if found is None:
-                missing.append(name)
-                link.remove(shape)
-            else:
-                mesh.set("filename", str(found))
+def _find_meshes(tree: Tree, trusted: bool) -> Iterator[str]:
+    """Give each mesh its full path; remove and name those that are missing or unsound.
+
+    Args:
+        tree: the description.
+        trusted: it comes with a package: its meshes are not read here.
+    """
+    missing: list[str] = []
+    unsound: dict[str, str] = {}
+    checked: dict[Path, list[Shape]] = {}
+    triangles = 0
+    for link, shape, mesh in _mesh_shapes(tree):
+        name = mesh.get("filename", "")
+        found = _find(tree, name.removeprefix("package://").removeprefix("file://"))
+        if found is None:
+            missing.append(name)
+            link.remove(shape)
+            continue
+        mesh.set("filename", str(found))
+        if trusted:
+            continue
+        try:
+            facts = check_mesh(found)
+            triangles += facts.triangles
+            scale = np.abs(parse_numbers(mesh.get("scale", "1 1 1"), FARTHEST)).max()
+            if facts.extent * scale > FARTHEST:
+                raise MeshError(f"is larger than {FARTHEST:g} m: scale makes it smaller")
+        except MeshError as problem:
+            unsound[name] = str(problem)
+            link.remove(shape)
+            continue
+        if facts.tried:
+            checked.setdefault(found, []).append((link, shape, mesh))
+    if triangles > MOST_TRIANGLES:
+        raise tree.error(
+            f"its meshes have {triangles:,} triangles together; at most {MOST_TRIANGLES:,} are read"
+        )
+    for path in try_meshes(tuple(checked)):
+        unsound[path.name] = "cannot be read: it takes the library that reads it down"
+        for link, shape, _ in checked[path]:
+            link.remove(shape)
     if missing:
         others = len(set(missing)) - 1
         them = f" and {others} more are" if others else " is"
         yield f"mesh '{missing[0]}'{them} missing: the arm is drawn without"
+    for name, why in unsound.items():
+        yield f"mesh '{name}' {why}; the arm is drawn without, and collisions ignore it"
+
+
+Shape = tuple[Xml.Element, Xml.Element, Xml.Element]
+
+
+def _mesh_shapes(tree: Tree) -> Iterator[Shape]:
+    """Each shape that is a mesh: its link, itself and the mesh."""
+    for link in tree.links.values():
+        for shape in [*link.findall("visual"), *link.findall("collision")]:
+            mesh = shape.find("geometry/mesh")
+            if mesh is not None:
+                yield link, shape, mesh
 
 
 def _find(tree: Tree, name: str) -> Path | None:
@@ -256,7 +302,7 @@ def _find(tree: Tree, name: str) -> Path | None:
 
 def _is_file(path: Path) -> bool:
     try:
-        return path.is_file()
+        return path.exists() and not path.is_dir()
     except (OSError, ValueError):  # a name no file can have
         return False
 

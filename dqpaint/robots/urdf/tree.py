@@ -8,10 +8,20 @@ from xml.etree import ElementTree as Xml
 
 import numpy as np
 
+from dqpaint.core.inputs import parse_xml, read_regular
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 
 MOST_NAMED = 12  # names in a message
+LARGEST_FILE = 5_000_000  # bytes
+MOST_LINKS = 2000
+MOST_JOINTS = 32  # that move the light
+FARTHEST = 1e3  # [m] of an origin, a size or a scale; more is a slip
+LARGEST_ANGLE = 1e6  # [rad] of an origin or a limit
+LARGEST_NUMBER = 1e9  # of a mass, an inertia, a speed or a torque, in their units
+ORIGIN = {"xyz": FARTHEST, "rpy": LARGEST_ANGLE}
+LEAST_SCALE, LEAST_AXIS = 1e-6, 1e-6
+LEAST_LIMIT = 1e-6  # [rad/s, Nm] below which a joint does not move; and its range [rad]
 ROUND_SIZES = {"radius": 1, "length": 1}
 SIZES: dict[str, dict[str, int]] = {
     "box": {"size": 3}, "sphere": {"radius": 1}, "cylinder": ROUND_SIZES, "capsule": ROUND_SIZES,
@@ -39,9 +49,10 @@ class Joint:
             number = float(value) if value is not None else None
         except ValueError:
             number = math.nan
-        if number is not None and not math.isfinite(number):
+        most = LARGEST_ANGLE if what in ("lower", "upper") else LARGEST_NUMBER
+        if number is not None and not abs(number) <= most:
             raise DqpaintError(
-                f"{self.file}: joint '{self.name}': {what} '{value}' is not a number"
+                f"{self.file}: joint '{self.name}': {what} '{value}' is not a number up to {most:g}"
             )
         return number
 
@@ -61,6 +72,8 @@ class Tree:
         self.path = path
         self.robot = _parse(path)
         self.links: dict[str, Xml.Element] = {}
+        if (links := len(self.robot.findall("link"))) > MOST_LINKS:
+            raise self.error(f"it has {links} links; at most {MOST_LINKS} are read")
         for element in self.robot.findall("link"):
             name = element.get("name", "")
             if not name or name in self.links:
@@ -117,6 +130,10 @@ class Tree:
                     f"joint '{joint.name}' is {joint.kind}, and is between the base and "
                     f"'{link}': only revolute joints are supported"
                 )
+        if len(joints) > MOST_JOINTS:
+            raise self.error(
+                f"{len(joints)} joints turn between the base and '{link}'; at most {MOST_JOINTS} do"
+            )
         return joints
 
     def _check_shapes(self, link: Xml.Element, name: str) -> None:
@@ -124,12 +141,12 @@ class Tree:
         for part in ("inertial", "visual", "collision"):
             for element in link.findall(part):
                 origin = element.find("origin")
-                for attribute in ("xyz", "rpy"):
+                for attribute, most in ORIGIN.items():
                     text = "0 0 0" if origin is None else origin.get(attribute, "0 0 0")
-                    if len(parse_numbers(text)) != 3:
+                    if len(parse_numbers(text, most)) != 3:
                         raise self.error(
-                            f"link '{name}': {part} origin {attribute}=\"{text}\" is not three "
-                            "numbers"
+                            f"link '{name}': {part} origin {attribute}=\"{text[:60]}\" is not "
+                            f"three numbers up to {most:g}"
                         )
                 if part != "inertial":
                     self._check_geometry(element, f"link '{name}': {part}")
@@ -142,16 +159,21 @@ class Tree:
             raise self.error(f"{where} is a {geometry[0].tag}; known: {', '.join(SIZES)}")
         scale = geometry[0].get("scale", "1 1 1")
         if geometry[0].tag == "mesh" and (
-            len(parse_numbers(scale)) != 3 or not parse_numbers(scale).all()
+            len(parse_numbers(scale, FARTHEST)) != 3
+            or (np.abs(parse_numbers(scale, FARTHEST)) < LEAST_SCALE).any()
         ):
-            raise self.error(f'{where} mesh scale="{scale}" is not three numbers, none of them 0')
+            raise self.error(
+                f'{where} mesh scale="{scale[:60]}" is not three numbers '
+                f"from {LEAST_SCALE:g} to {FARTHEST:g}"
+            )
         for attribute, count in SIZES[geometry[0].tag].items():
             text = geometry[0].get(attribute, "")
-            values = parse_numbers(text)
+            values = parse_numbers(text, FARTHEST)
             if len(values) != count or (values < 0).any():
                 what = "a number" if count == 1 else f"{count} numbers"
                 raise self.error(
-                    f'{where} {geometry[0].tag} {attribute}="{text}" is not {what} from 0'
+                    f'{where} {geometry[0].tag} {attribute}="{text[:60]}" is not {what} '
+                    f"from 0 to {FARTHEST:g}"
                 )
 
     def _joint(self, element: Xml.Element) -> Joint:
@@ -166,29 +188,33 @@ class Tree:
                 )
                 raise self.error(f"joint '{name}' {what}")
             ends.append(named)
-        for part, names in (("origin", ("xyz", "rpy")), ("axis", ("xyz",))):
-            for attribute in names:
-                self._check_triple(element, part, attribute)
+        for attribute, most in ORIGIN.items():
+            self._check_triple(element, "origin", attribute, most)
+        self._check_triple(element, "axis", "xyz", LARGEST_NUMBER)
         dynamics = element.find("dynamics")
         for what in ("damping", "friction"):
             text = "0" if dynamics is None else dynamics.get(what, "0")
-            said = parse_numbers(text)
+            said = parse_numbers(text, LARGEST_NUMBER)
             if len(said) != 1 or said[0] < 0:
-                raise self.error(f"joint '{name}': {what} '{text}' is not a number of 0 or more")
+                raise self.error(
+                    f"joint '{name}': {what} '{text[:60]}' is not a number from 0 to "
+                    f"{LARGEST_NUMBER:g}"
+                )
         return Joint(name, kind, ends[0], ends[1], element, self.path.name)
 
-    def _check_triple(self, joint: Xml.Element, part: str, attribute: str) -> None:
-        """Check that a part of a joint, if it exists, has three numbers."""
+    def _check_triple(self, joint: Xml.Element, part: str, attribute: str, most: float) -> None:
+        """Check that a part of a joint, if it exists, has three numbers up to `most`."""
         element = joint.find(part)
         text = None if element is None else element.get(attribute)
         if text is None:
             return
-        values = parse_numbers(text)
-        idle = part == "axis" and not values.any() and joint.get("type") != "fixed"
+        values = parse_numbers(text, most)
+        turns = part == "axis" and joint.get("type") != "fixed"
+        idle = turns and np.abs(values).max(initial=0.0) < LEAST_AXIS
         if len(values) != 3 or idle:
             raise self.error(
-                f"joint '{joint.get('name')}': {part} {attribute}=\"{text}\" is not three numbers"
-                + (", not all zero" if part == "axis" else "")
+                f"joint '{joint.get('name')}': {part} {attribute}=\"{text[:60]}\" is not three "
+                f"numbers up to {most:g}" + (", not all zero" if part == "axis" else "")
             )
 
     def _find_root(self) -> str:
@@ -219,10 +245,10 @@ class Tree:
 
 def _parse(path: Path) -> Xml.Element:
     try:
-        robot = Xml.fromstring(path.read_bytes())
+        robot = parse_xml(read_regular(path, LARGEST_FILE))
     except OSError as problem:
         raise DqpaintError(f"robot '{path}' cannot be read: {problem.strerror}") from None
-    except (Xml.ParseError, ValueError, LookupError) as problem:  # the latter: of its encoding
+    except ValueError as problem:
         raise DqpaintError(f"{path.name} is not a valid URDF: {problem}") from None
     if robot.tag != "robot":
         raise DqpaintError(
@@ -237,13 +263,13 @@ def _parse(path: Path) -> Xml.Element:
     return robot
 
 
-def parse_numbers(text: str) -> Floats:
-    """The numbers of a text, separated by spaces; empty if a word is not a number."""
+def parse_numbers(text: str, most: float) -> Floats:
+    """The numbers of a text, separated by spaces; empty if a word is not one up to `most`."""
     try:
         values = np.array([float(word) for word in text.split()])
     except ValueError:
         return np.zeros(0)
-    return values if np.isfinite(values).all() else np.zeros(0)
+    return values if (np.abs(values) <= most).all() else np.zeros(0)
 
 
 def shortened_list(names: Iterable[str]) -> str:

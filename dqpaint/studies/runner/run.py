@@ -16,7 +16,13 @@ from typing import Any, Literal
 from dqpaint import __version__
 from dqpaint.brushes import read_brush
 from dqpaint.controllers import find_controller
-from dqpaint.core import choice_name, file_digest, find_drawing, library_versions
+from dqpaint.core import (
+    choice_name,
+    file_digest,
+    find_drawing,
+    library_versions,
+    read_regular,
+)
 from dqpaint.disturbances import find_files, make_disturbances
 from dqpaint.errors import TimeLimitError, UsageError
 from dqpaint.language import parse, read
@@ -27,6 +33,7 @@ from dqpaint.program import Program
 from dqpaint.robots.loading import card_for
 from dqpaint.settings import Settings
 
+LARGEST_NAMED = 100_000_000  # bytes of a file that a choice names
 Status = Literal["done", "oscillates", "clipped", "astray", "diverged", "failed", "died"]
 """`died`: its process or its time ended, or its machine had no room; it is tried again."""
 
@@ -243,6 +250,6 @@ def code_versions() -> dict[str, str]:
 def _sha256(path: str | Path) -> str:
     """The digest of a file; "" where there is none, for a text in quotes need not name a file."""
     try:
-        return hashlib.sha256(Path(path).read_bytes()).hexdigest()
-    except (OSError, ValueError):
+        return hashlib.sha256(read_regular(path, LARGEST_NAMED)).hexdigest()
+    except OSError:
         return ""

@@ -14,13 +14,14 @@ import json
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from os.path import isdir
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.core import library_versions
+from dqpaint.core import library_versions, read_regular
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.light.film import PAD
 from dqpaint.light.images import decode_picture, decode_planes, encode_planes
@@ -29,6 +30,7 @@ from dqpaint.studies.runner.run import Result, Run, drawing_text
 
 SCHEMA = "dqpaint-reference-1"
 CASES = "cases.toml"
+LARGEST_TABLE, LARGEST_PICTURE = 1_000_000, 500_000_000  # bytes of a file
 WIDTH, HEIGHT = 480, 270
 Arrays = Mapping[str, NDArray[Any]]
 
@@ -68,14 +70,14 @@ def read_cases(folder: Path) -> list[Case]:
         DqpaintError: there is no such folder, nothing in it, or a drawing cannot be read.
         UsageError: a setting that is none.
     """
-    if not folder.is_dir():
+    if not isdir(folder):
         raise DqpaintError(f"no folder '{folder}' of drawings to verify")
     table = folder / CASES
     given: dict[str, Any] = {}
     if table.is_file():
         try:
-            given = tomllib.loads(table.read_text("utf-8"))
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError, OSError) as problem:
+            given = tomllib.loads(read_regular(table, LARGEST_TABLE).decode("utf-8"))
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError, OSError) as problem:
             raise DqpaintError(f"'{table}': {problem}") from None
     else:
         given = {path.stem: {"drawing": path.name} for path in sorted(folder.glob("*.traj"))}
@@ -113,15 +115,15 @@ def read_reference(folder: Path, case: Case) -> Reference | None:
     if missing:
         raise DqpaintError(f"'{folder}' lacks {', '.join(missing)}; --update makes it again")
     try:
-        facts = json.loads(files[".json"].read_text("utf-8"))
+        facts = json.loads(read_regular(files[".json"], LARGEST_TABLE))
         if facts["schema"] != SCHEMA or not isinstance(facts["figures"], dict):
             raise ValueError("another schema")
         facts["versions"], facts["sha256"], facts["settings"]
-        planes = decode_planes(files[".tiff"].read_bytes())
-        picture = decode_picture(files[".png"].read_bytes())
+        planes = decode_planes(read_regular(files[".tiff"], LARGEST_PICTURE))
+        picture = decode_picture(read_regular(files[".png"], LARGEST_PICTURE))
         if planes.shape[1:] != tuple(size + 2 * PAD for size in picture.shape[:2]):
             raise ValueError("film and picture differ in size")
-    except (ValueError, KeyError, TypeError, OSError) as problem:
+    except (ValueError, KeyError, TypeError, RecursionError, OSError) as problem:
         said = str(problem) or type(problem).__name__
         raise DqpaintError(
             f"the reference of '{case.name}' in '{folder}' cannot be read: {said}; "

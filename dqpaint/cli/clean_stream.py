@@ -1,0 +1,53 @@
+"""A stream -> one on which texts of others are shown and never obeyed.
+
+A drawing, a table or the name of a file may hold characters that move a terminal's cursor, set its
+title or turn a line round. All that is printed goes through here; what the program itself wants of
+a terminal, it sends by `send_raw`.
+"""
+
+import re
+from io import TextIOWrapper
+from typing import TextIO
+
+COMMANDS = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069]")
+"""Control characters but tab and newline, and marks that change the direction of writing."""
+
+
+def printable(text: str) -> str:
+    r"""The text with each such character as its number: `\x1b`."""
+    return COMMANDS.sub(_number, text)
+
+
+def _number(found: re.Match[str]) -> str:
+    return (
+        found[0].encode("ascii", "backslashreplace").decode()
+        if found[0] > "\xff"
+        else (f"\\x{ord(found[0]):02x}")
+    )
+
+
+class CleanStream(TextIOWrapper):
+    """A text stream that writes what is printable of each text."""
+
+    def write(self, text: str, /) -> int:
+        """Write a text; other characters come as their numbers."""
+        super().write(printable(text))
+        return len(text)
+
+    def send(self, text: str) -> None:
+        """Write a text as it is."""
+        super().write(text)
+
+
+def cleaned(stream: TextIO) -> TextIO:
+    """The same stream, cleaned; one that is not over bytes stays as it is."""
+    if not isinstance(stream, TextIOWrapper):
+        return stream
+    encoding, buffered = stream.encoding, stream.line_buffering
+    return CleanStream(stream.detach(), encoding, "backslashreplace", line_buffering=buffered)
+
+
+def send_raw(text: str, stream: TextIO) -> None:
+    """Send a text to a terminal as it is, and at once."""
+    (stream.send if isinstance(stream, CleanStream) else stream.write)(text)
+    stream.flush()

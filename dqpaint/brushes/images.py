@@ -5,15 +5,13 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.core import picture_size, read_regular
+from dqpaint.core import LARGEST_IMAGE, picture_size, read_regular
 from dqpaint.core.arrays import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.program import colours as named
 
 MOST_COLUMNS = 2000
 """Largest number of columns of an image."""
-MOST_BYTES = 50_000_000
-"""Largest image file."""
 MOST_PIXELS = 40_000_000
 """Largest image: in linear light it takes 24 bytes a pixel."""
 
@@ -36,7 +34,7 @@ def _decoded(path: str) -> NDArray[np.uint8]:
 
     name = f"image '{path[:60]}'"
     try:
-        data = read_regular(path, MOST_BYTES)
+        data = read_regular(path, LARGEST_IMAGE)
     except OSError as problem:
         raise DqpaintError(f"{name} cannot be read: {problem.strerror}") from None
     size = picture_size(data)

@@ -7,7 +7,7 @@ from dqpaint.core import tables
 from dqpaint.core.atomic_files import (
     NotRegularError, make_folder, open_folder, open_regular, rewrite, write_new,
 )
-from dqpaint.core.bounds import DEFAULT_MAX_SAMPLES, LARGEST_MAX_SAMPLES
+from dqpaint.core.bounds import DEFAULT_MAX_SAMPLES, LARGEST_IMAGE, LARGEST_MAX_SAMPLES
 from dqpaint.core.examples import example_names, examples_folder, find_drawing
 from dqpaint.core.explanations import Sections, read_sections
 from dqpaint.core.file_sets import finish_interrupted, write_together
@@ -25,7 +25,7 @@ from dqpaint.core.user_files import (
 from dqpaint.core.version import library_versions
 
 __all__ = [
-    "DEFAULT_MAX_SAMPLES", "FILE_PATTERN", "LARGEST_MAX_SAMPLES", "AnswerError", "Folder",
+    "DEFAULT_MAX_SAMPLES", "FILE_PATTERN", "LARGEST_IMAGE", "LARGEST_MAX_SAMPLES", "AnswerError", "Folder",
     "Guarded", "NotRegularError", "NumberTable", "Registry", "Sections", "UserCode", "Values",
     "choice_name", "example_names", "examples_folder", "file_digest", "find_drawing",
     "find_in_file", "finish_interrupted", "latex_equation", "library_versions", "make_choice",

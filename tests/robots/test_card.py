@@ -92,7 +92,7 @@ def limits(lower, upper, speed):
     ({"canvas": {"at_m": [0, 0, 0], "right": [1, 0, 0], "up": [1, 0, 0]}}, "perpendicular"),
     (limits([0], [0], [1]), "below"),
     (limits([0], [1, 2], [1]), "each joint"),
-    (limits([0], [1], [0]), "greater than 0"),
+    (limits([0], [1], [0]), "greater than or equal to"),
     ({"urdf": None}, "needs one of the tables"),
     ({"denavit_hartenberg": {"rows": [{}] * 7}}, "needs one of the tables"),
     ({"body": {"mass_kg": [1], "radius_m": [1, 1]}}, "a URDF has its own masses"),
@@ -106,7 +106,7 @@ def test_faulty_cards_are_refused_with_the_rule(change, rule):
 @pytest.mark.parametrize(("change", "rule"), [
     ({"body": None}, r"needs the table \[body\]"),
     ({"body": {"mass_kg": [1] * 7, "radius_m": [0.1] * 7}}, "radius_m one more"),
-    ({"body": {"mass_kg": [0] * 7, "radius_m": [0.1] * 8}}, "greater than 0"),
+    ({"body": {"mass_kg": [0] * 7, "radius_m": [0.1] * 8}}, "greater than or equal to"),
     ({"denavit_hartenberg": {"rows": [{}] * 6}}, "each of the 6 joints"),
     ({"denavit_hartenberg": {"rows": []}}, "at least 1 item"),
     ({"denavit_hartenberg": {"rows": [{"d": 1}]}}, "rows.0.d"),

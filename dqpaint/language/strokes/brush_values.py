@@ -4,6 +4,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
+from dqpaint.core import LARGEST_IMAGE
 from dqpaint.diagnostics import Problem, Span, problem
 from dqpaint.language.imports.file_access import readable
 from dqpaint.language.pen.pen import Pen
@@ -101,9 +102,7 @@ def _text(part: BrushPart, scope: Scope, _pen: Pen, words: BrushWords) -> BrushV
 
 def _file(part: BrushPart, scope: Scope, pen: Pen, words: BrushWords) -> BrushValue:
     node = _quoted(part.values[0], scope, part, words)
-    from dqpaint.brushes.images import MOST_BYTES
-
-    return str(readable(node, pen, MOST_BYTES))
+    return str(readable(node, pen, LARGEST_IMAGE))
 
 
 def _quoted(node: Expression, scope: Scope, part: BrushPart, words: BrushWords) -> Quoted:

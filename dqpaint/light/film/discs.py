@@ -66,9 +66,10 @@ def _disc(layer: int) -> Floats:
     """An even disc with its rim weighted by pixel coverage; it sums to 1."""
     radius = 0.5 * DIAMETER_RATIO**layer
     half = math.ceil(radius)
-    fine = (np.arange((2 * half + 1) * RIM_SUBPIXELS) + 0.5) / RIM_SUBPIXELS - (half + 0.5)
-    inside = (fine[:, None] ** 2 + fine[None, :] ** 2 <= radius**2).astype(np.float64)
-    kernel = inside.reshape(2 * half + 1, RIM_SUBPIXELS, 2 * half + 1, RIM_SUBPIXELS).mean(
-        axis=(1, 3)
-    )
+    side = 2 * half + 1
+    fine = (np.arange(side * RIM_SUBPIXELS) + 0.5) / RIM_SUBPIXELS - (half + 0.5)
+    kernel = np.empty((side, side))
+    for row, across in zip(kernel, fine.reshape(side, RIM_SUBPIXELS), strict=True):
+        inside = across[:, None] ** 2 + fine[None, :] ** 2 <= radius**2  # all at once: gigabytes
+        row[:] = inside.reshape(RIM_SUBPIXELS, side, RIM_SUBPIXELS).mean(axis=(0, 2))
     return np.asarray(kernel / kernel.sum())

@@ -25,8 +25,9 @@ from dqpaint.core.user_files import (
 from dqpaint.core.version import library_versions
 
 __all__ = [
-    "DEFAULT_MAX_SAMPLES", "FILE_PATTERN", "LARGEST_IMAGE", "LARGEST_MAX_SAMPLES", "AnswerError", "Folder",
-    "Guarded", "NotRegularError", "NumberTable", "Registry", "Sections", "UserCode", "Values",
+    "DEFAULT_MAX_SAMPLES", "FILE_PATTERN", "LARGEST_IMAGE", "LARGEST_MAX_SAMPLES", "AnswerError",
+    "Folder", "Guarded", "NotRegularError", "NumberTable", "Registry", "Sections", "UserCode",
+    "Values",
     "choice_name", "example_names", "examples_folder", "file_digest", "find_drawing",
     "find_in_file", "finish_interrupted", "latex_equation", "library_versions", "make_choice",
     "make_folder", "number_or_text", "open_folder", "open_regular", "picture_size",

@@ -6,9 +6,9 @@ import tempfile
 import warnings
 from typing import NoReturn
 
-from dqpaint.cli.clean_stream import cleaned
 from dqpaint.cli.language import point_at, tell
 from dqpaint.cli.studies import app
+from dqpaint.core.inputs import cleaned
 from dqpaint.errors import DqpaintError, UsageError
 
 DEBUG = "DQPAINT_DEBUG"  # an environment variable: internal errors show where they are

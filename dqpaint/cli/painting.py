@@ -14,7 +14,6 @@ import typer
 
 from dqpaint import __version__
 from dqpaint.cli import export, language, plotting
-from dqpaint.cli.clean_stream import send_raw
 from dqpaint.cli.language import point_at
 from dqpaint.cli.options import (
     Choices,
@@ -24,6 +23,7 @@ from dqpaint.cli.options import (
     Save,
     takes,
 )
+from dqpaint.core.inputs import send_raw
 from dqpaint.errors import UsageError
 
 app = typer.Typer(

@@ -9,8 +9,8 @@ from typing import Self, TextIO
 import numpy as np
 from numpy.typing import NDArray
 
-from dqpaint.cli.clean_stream import printable, send_raw
 from dqpaint.core import tables
+from dqpaint.core.inputs import printable, send_raw
 
 BAR = 30  # characters of the progress bar
 WIDEST = 72  # columns of a picture

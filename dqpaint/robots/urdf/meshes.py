@@ -305,7 +305,7 @@ def try_meshes(paths: tuple[Path, ...]) -> tuple[Path, ...]:
 def _survives(paths: tuple[Path, ...]) -> bool:
     try:
         tried = subprocess.run(
-            [sys.executable, "-m", "dqpaint.robots.kinematics.mesh_trial", *map(str, paths)],
+            [sys.executable, "-m", "dqpaint.robots.loading.mesh_trial", *map(str, paths)],
             env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
             stdin=subprocess.DEVNULL, capture_output=True, timeout=LONGEST_TRIAL, check=False,
         )  # fmt: skip

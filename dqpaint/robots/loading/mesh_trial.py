@@ -1,6 +1,6 @@
 """Mesh files -> exit code 0 if every library reads them; run as a process of its own.
 
-python -m dqpaint.robots.kinematics.mesh_trial FILE ...
+python -m dqpaint.robots.loading.mesh_trial FILE ...
 """
 
 import sys

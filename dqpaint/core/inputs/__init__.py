@@ -1,4 +1,4 @@
-"""What others wrote -> bytes within limits that are checked first, and text that is safe to show."""
+"""What others wrote -> bytes within limits that are checked first, text that is safe to show."""
 
 from dqpaint.core.inputs.clean_stream import CleanStream, cleaned, printable, send_raw
 from dqpaint.core.inputs.picture_size import PictureSize, picture_size

@@ -1,18 +1,22 @@
 """Bytes of an XML file -> its elements, within limits of their number and nesting."""
 
-from xml.etree import ElementTree as Xml
-from xml.parsers import expat
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
 
 DEEPEST = 100  # elements within each other
 MOST_ELEMENTS = 200_000
 
 
-def parse_xml(data: bytes) -> Xml.Element:
+def parse_xml(data: bytes) -> "Element":
     """The elements of a file; one that declares entities is refused.
 
     Raises:
         ValueError: it is not well-formed, or too much; the message says where.
     """
+    from xml.etree import ElementTree as Xml  # slow, and most commands read none
+
     _guard(data)
     try:
         return Xml.fromstring(data)
@@ -22,6 +26,8 @@ def parse_xml(data: bytes) -> Xml.Element:
 
 def _guard(data: bytes) -> None:
     """Go through the file without keeping anything."""
+    from xml.parsers import expat
+
     parser = expat.ParserCreate()
     depth = count = 0
 

@@ -1,7 +1,6 @@
 """Mesh files are read by us before a library does, and what is wrong with one is said."""
 
 import random
-import struct
 import subprocess
 import sys
 from importlib.resources import files
@@ -16,53 +15,7 @@ from dqpaint.robots.urdf import meshes
 from dqpaint.robots.urdf.meshes import MeshError, check_mesh
 from dqpaint.robots.urdf.prepare import prepare as prepared
 from tests.support.arm_files import arm_urdf
-
-OBJ = b"""# a tetrahedron
-mtllib a.mtl
-o solid
-v 0 0 0
-v 1 0 0 0.1 0.2 0.3
-v 0 2 0
-v 0 0 -3
-vt 0 0.5
-vn 0 0 1
-usemtl red
-s off
-f 1/1/1 2/1/1 3/1/1
-f 1//1 2//1 4//1
-f -1 -2 -3
-f 1/1 4/1 3/1
-"""
-
-
-def stl(count=2, said=None, last=1.0):
-    rows = np.zeros((count, 12), "<f4")
-    rows[:, 3:] = np.arange(9) / 8
-    rows[-1, -1] = last
-    body = b"".join(row.tobytes() + b"\0\0" for row in rows)
-    return bytes(80) + struct.pack("<I", count if said is None else said) + body
-
-
-DAE = """<?xml version="1.0"?>
-<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-  <asset><unit meter="1" name="meter"/><up_axis>Z_UP</up_axis></asset>
-  <library_geometries><geometry id="g"><mesh>
-    <source id="p"><float_array id="pa" count="9">0 0 0 1 0 0 0 2 0</float_array>
-      <technique_common><accessor source="#pa" count="3" stride="3">
-        <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
-      </accessor></technique_common></source>
-    <source id="n"><float_array id="na" count="3">0 0 1</float_array>
-      <technique_common><accessor source="#na" count="1" stride="3">
-        <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
-      </accessor></technique_common></source>
-    <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-    <triangles count="1" material="m"><input semantic="VERTEX" source="#v" offset="0"/>
-      <input semantic="NORMAL" source="#n" offset="1"/><p>0 0 1 0 2 0</p></triangles>
-  </mesh></geometry></library_geometries>
-  <library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node>
-  </visual_scene></library_visual_scenes>
-  <scene><instance_visual_scene url="#s"/></scene>
-</COLLADA>"""
+from tests.support.mesh_files import DAE, OBJ, stl
 
 
 def checked(tmp_path, name, data):

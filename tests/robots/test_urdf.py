@@ -16,6 +16,7 @@ from dqpaint.robots.loading.load_file import read_file
 from dqpaint.robots.model.card import read_card
 from dqpaint.robots.urdf.prepare import is_valid_inertia, prepare, urdf_file
 from tests.support.arm_files import arm_urdf
+from tests.support.mesh_files import stl
 
 INERTIAL = (
     '<inertial><origin xyz="0.05 0 0.02"/><mass value="4"/>'
@@ -111,7 +112,7 @@ def test_a_mimicking_finger_stands_still(read):
 
 def test_a_mesh_is_found_from_where_the_file_is(read, tmp_path):
     (tmp_path / "meshes").mkdir()
-    (tmp_path / "meshes/a.stl").write_text("solid a\nendsolid a\n")
+    (tmp_path / "meshes/a.stl").write_bytes(stl())
     for name in ("package://pack/meshes/a.stl", "meshes/a.stl", f"{tmp_path}/meshes/a.stl"):
         shape = f'<visual><geometry><mesh filename="{name}"/></geometry></visual>'
         card = read(arm_urdf().replace('<link name="base"/>', f'<link name="base">{shape}</link>'))

@@ -103,7 +103,7 @@ def _oscillates(track: Track) -> Fault | None:
         found = find_oscillation(deviation, excitation, motion.period, least / size)
         if found is not None:
             line = motion.source.at(rows.start + found.row)
-            amount = f"{scale * found.amplitude:.2g} {unit}"
+            amount = f"{float(f'{scale * found.amplitude:.2g}'):g} {unit}"  # 230, not 2.3e+02
             where = motion.program.line_name(line)
             said = f"{name} oscillates at {found.frequency:.3g} Hz by {amount}, line {where}"
             return Fault("oscillates", said, line)

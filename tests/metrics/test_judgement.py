@@ -128,6 +128,7 @@ def test_an_oscillation_is_told_with_its_frequency_amplitude_and_line(lines):
     assert float(amplitude) == pytest.approx(0.5, rel=0.1)
     assert fault.line == SourceLine(0, 5)  # the second half
     assert judge(moved(one, sine(one, 12.0, 0.02e-3))).is_result  # a fortieth of the speed
+    assert "e+" not in judge(moved(one, sine(one, 12.0, 0.23))).faults[0].says  # 230, not 2.3e+02
 
 
 def test_what_the_reference_a_disturbance_or_sensors_explain_is_no_oscillation(lines):

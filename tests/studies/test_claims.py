@@ -5,8 +5,15 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from dqpaint.studies.experiment.statistics import Spread, spread, welch
-from dqpaint.studies.kinds.replay import judge_claims
-from dqpaint.studies.replay.claims import RULES, cell_name, judge, published, told_apart
+from dqpaint.studies.kinds.replay import judge_claims, summary
+from dqpaint.studies.replay.claims import (
+    RULES,
+    ClaimVerdict,
+    cell_name,
+    judge,
+    published,
+    told_apart,
+)
 from dqpaint.studies.replay.papers import Claim, Paper, paper_names, read_paper
 
 FIGURES = ({"name": "e", "says": "error"},)
@@ -154,6 +161,15 @@ def test_a_trend_over_a_grid():
 def test_what_has_no_numbers_has_no_verdict():
     assert word(ORDER, ours(1.0, 2.0)) == "no numbers"
     assert word(ORDER, {}) == "no numbers"
+
+
+def test_claims_without_numbers_are_not_counted_as_those_of_the_paper():
+    """Neither where the paper has none, nor where the runs are no results."""
+    claim = Claim(says="so", figure="e", **ORDER)
+    yes, none = ClaimVerdict("holds"), ClaimVerdict("no numbers")
+    said = summary([(claim, yes, yes), (claim, yes, none), (claim, none, none)])
+    assert said == "1 of 3 claims hold here; 1 of 2 as by the paper's own numbers"
+    assert summary([(claim, none, yes)]) == "1 of 1 claims hold here"
 
 
 def test_every_kind_has_a_rule():

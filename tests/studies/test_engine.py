@@ -120,6 +120,11 @@ def test_choices_are_checked_before_anything_runs(tmp_path):
         carry_out_study([run(gains={"g": 1.0})], tmp_path / "s", 1)
     with pytest.raises(UsageError, match="0 jobs"):
         carry_out_study([run()], tmp_path / "s", 0)
+    (tmp_path / "arm.toml").write_text(
+        '[urdf]\npackage = "no-such-package"\nfile = "arm.urdf"\nlink = "hand"\n'
+    )
+    with pytest.raises(UsageError, match="pip install no-such-package"):
+        carry_out_study([run(robot=str(tmp_path / "arm.toml"))], tmp_path / "s", 1)
     assert not (tmp_path / "s").exists()
     with pytest.raises(UsageError, match="random"):
         seeded(run(), 3)

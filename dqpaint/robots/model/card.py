@@ -134,6 +134,15 @@ class Card(Part):
             return ""
         return self.urdf.install_hint
 
+    def check_installed(self) -> None:
+        """Nothing, where the arm can be used.
+
+        Raises:
+            UsageError: the package of its file is not installed, or lacks the file.
+        """
+        if self.urdf is not None:
+            _ = self.urdf.path
+
     @property
     def origin(self) -> str:
         """The source of the arm's description, in a few words."""

@@ -156,8 +156,9 @@ def what_means_hide(cells: Sequence[Cell]) -> list[str]:
     out = [result for result in runs if result.status != "done"]
     lines = []
     if out:
-        are = "run is no result and is" if len(out) == 1 else "runs are no results and are"
-        lines.append(f"{len(out)} of {len(runs)} {are} left out of means, tests and orders:")
+        are = "is no result and is" if len(out) == 1 else "are no results and are"
+        noun = "run" if len(runs) == 1 else "runs"
+        lines.append(f"{len(out)} of {len(runs)} {noun} {are} left out of means, tests and orders:")
         lines += _few([f"{cell.label}: {cell.status}: {cell.why}" for cell in cells if cell.why])
     idle = {
         f"{cell.label}: {name}: {why}": None

@@ -250,8 +250,8 @@ def _number(value: object) -> str:
 def summary(verdicts: Sequence[tuple[Claim, ClaimVerdict, ClaimVerdict]]) -> str:
     """How many claims hold, in a line."""
     words = [ours.word for _, _, ours in verdicts]
-    same = sum(theirs.word == ours.word for _, theirs, ours in verdicts)
-    known = sum(theirs.word != "no numbers" for _, theirs, _ in verdicts)
+    told = [(theirs.word, ours.word) for _, theirs, ours in verdicts if theirs.word != "no numbers"]
+    same, known = sum(theirs == ours for theirs, ours in told), len(told)
     text = f"{words.count('holds')} of {len(words)} claims hold here"
     return f"{text}; {same} of {known} as by the paper's own numbers" if known else text
 

@@ -107,11 +107,12 @@ class Run:
         """Raise what is wrong with the choices, before anything is simulated.
 
         Raises:
-            UsageError: an unknown name or a value out of its range.
+            UsageError: an unknown name, a value out of its range, or an arm of a package that is
+                not installed: in the journal that would outlast the installation.
             ScriptError: a mistake in the drawing.
         """
         validate.check_run(self.settings, folder=Path(self.name).parent)
-        card_for(self.program(), self.settings.robot, self.settings.tool)
+        card_for(self.program(), self.settings.robot, self.settings.tool).check_installed()
 
 
 def run_from_data(data: dict[str, Any]) -> Run:

@@ -180,3 +180,27 @@ def test_the_four_gammas(rng):
     assert alone.k_T == 4.0
     with pytest.raises(UsageError, match="gamma_T or K_T or gamma_T1"):
         CONTROLLERS["hinf"].read_gains({"gamma_T2": 0.25, "K_T": 3.0})
+
+
+def test_gammas_of_gains_that_are_given_otherwise():
+    """Equal pairs with the same gain (5.5, 5.6), of a matrix those of its least eigenvalue."""
+    read = CONTROLLERS["hinf"].read_gains
+    K_T = [[5.0, 1.0, 0.0], [-1.0, 4.0, 1.0], [0.0, 1.0, 4.0]]  # symmetric part: 3 is the least
+    for given in ({"gamma_O": 0.4, "gamma_T": 0.2}, {"K_O": 7.0, "K_T": K_T}):
+        gains = read(given).first
+        (O1, O2), (T1, T2) = gains.gammas
+        assert (O1, T1) == (O2, T2)
+        pair = read({"gamma_O1": O1, "gamma_O2": O2, "gamma_T1": T1, "gamma_T2": T2}).first
+        least = np.linalg.eigvalsh((np.array(K_T) + np.transpose(K_T)) / 2)[0]
+        assert pair.k_O == pytest.approx(7.0 if "K_O" in given else 5.0)
+        assert pair.k_T == pytest.approx(least if "K_T" in given else np.sqrt(2) / 0.2)
+    one, other = read({"gamma_T1": 0.25}).first.gammas[1]
+    assert (one, other) == (0.25, np.inf)
+
+
+def test_bounds_in_steps_are_of_numbers_at_the_base_s_origin():
+    read = CONTROLLERS["hinf"].read_gains
+    assert read({}).bounded_in_steps
+    for given in ({"point": "tool"}, {"K_T": (20.0, 20.0, 30.0)}, {"K_O": (40.0, 40.0, 30.0)}):
+        assert not read(given).bounded_in_steps
+    assert not read({"K_T": "10..20@10%"}).bounded_in_steps

@@ -111,6 +111,18 @@ def test_small_charts_have_one_scale_and_hold_every_error():
     assert all(colours[line.label] == line.colour for p in made.panels for line in p.lines)
 
 
+def test_lines_of_no_result_are_named_so():
+    """In the legend of one chart, and in the titles of several that share one."""
+    few = pictures.errors(drawn("a", "b"), bad={"b"}).panels
+    assert [line.label for line in few[0].lines] == ["a", "b (no result)"]
+    assert "no result" not in few[0].title
+    names = [f"{law}, {n}" for n in "12" for law in "abcd"]
+    many = pictures.errors(drawn(*names), bad={"a, 1", "a, 2", "b, 2"}).panels
+    ends = ["a: position error; no result", "b: position error; no result: 2", "c: position error"]
+    assert [panel.title for panel in many[:3]] == ends
+    assert [line.label for line in many[0].lines] == ["1", "2"]
+
+
 def test_what_is_far_apart_is_on_a_logarithmic_axis():
     near, far = drawn("a", "b"), drawn("a", scale=1e-5) | drawn("b", scale=1e-3)
     assert pictures.errors(near).panels[0].log_y is False  # no bool of numpy, which JSON has not

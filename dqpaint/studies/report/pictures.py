@@ -5,7 +5,7 @@ law of `HIR, 20 %`: a panel each, all with the same axes, exposure and place.
 """
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -19,7 +19,7 @@ from dqpaint.metrics import all_columns
 from dqpaint.settings import Settings
 from dqpaint.studies.experiment.cells import Cell, listed_figures, split_label, spread_text
 from dqpaint.studies.experiment.runs_table import gains_text
-from dqpaint.studies.report.charts import Line, Panel
+from dqpaint.studies.report.charts import MARKED, Line, Panel
 from dqpaint.studies.report.over_runs import SAID, Arrays, Band, averaged
 from dqpaint.studies.report.page import Charts, Pictured, Shot
 from dqpaint.studies.report.step_charts import step_charts
@@ -151,11 +151,23 @@ def pictures(
         "-overlay": Shot(
             f"Laid over each other{apart}: {ALIKE}", contact_sheet.encode_png(overlay)
         ),
-        "-errors": errors(drawn, runs, choice, split),
+        "-errors": errors(drawn, runs, choice, split, without_result(found)),
     }
-    colours = {k: on_paper(c) for k, c in zip(drawn, contact_sheet.hues(len(drawn)), strict=True)}
-    steps = step_charts({label: runs[label] for label in drawn}, colours, choice.band)
+    names = {label: line_name(label, label in without_result(found)) for label in drawn}
+    hues = contact_sheet.hues(len(drawn))
+    colours = {names[k]: on_paper(c) for k, c in zip(drawn, hues, strict=True)}
+    steps = step_charts({names[label]: runs[label] for label in drawn}, colours, choice.band)
     return {**made, **({"-steps": steps} if steps else {})}
+
+
+def without_result(found: Sequence[Cell]) -> set[str]:
+    """The labels of cells of which no run is a result: their curves are shown, and named so."""
+    return {cell.label for cell in found if not cell.done}
+
+
+def line_name(label: str, bad: bool) -> str:
+    """What a line is called in a legend."""
+    return f"{label} ({MARKED})" if bad else label
 
 
 def read_runs(found: Sequence[Cell], folder: Path) -> dict[str, list[Arrays]]:
@@ -206,6 +218,7 @@ def errors(
     runs: Mapping[str, Sequence[Arrays]] | None = None,
     choice: ChartChoice | None = None,
     split: Sequence[Group] | None = None,
+    bad: Collection[str] = (),
 ) -> Charts:
     """Errors over time, one below the other, a panel a group.
 
@@ -215,10 +228,13 @@ def errors(
         choice: how they are shown. On a logarithmic axis a band is one of quantiles: a mean less a
             standard deviation may be below 0.
         split: what stands together; None are `groups`.
+        bad: labels of what is no result. A legend of one chart says so; where several share one,
+            the title of each.
     """
     choice, split = choice or ChartChoice(), split or groups(drawn)
     every = runs or {label: [one] for label, one in drawn.items()}
     by_run = {id(run): every[label] for label, run in drawn.items()}
+    out = {id(drawn[label]) for label in bad if label in drawn}
     panels: list[Panel] = []
     bands: set[Band] = set()
     for column in all_columns():
@@ -231,9 +247,11 @@ def errors(
         span = None if len(split) == 1 else _span(scale * np.concatenate(values), log)
         for group in split:
             band: Band = "quantiles" if log and choice.band == "std" else choice.band
-            lines = _lines(group, name, scale, len(split) > 1, by_run, band)
+            small = len(split) > 1
+            lines = _lines(group, name, scale, small, by_run, band, () if small else out)
             bands.add(band)
             head = f"{group.title}: {title}" if group.title else title
+            head += _told_apart(group, out) if small else ""
             panels.append(
                 Panel(
                     head, "time [s]", column.heading, lines, log_y=log, decades=DECADES,
@@ -246,6 +264,14 @@ def errors(
     return Charts(title, panels, shared=True, note=title if many else "")
 
 
+def _told_apart(group: Group, out: Collection[int]) -> str:
+    """What a title adds of the lines that are no results."""
+    names = [name for name, run in group.members.items() if id(run) in out]
+    if len(names) == len(group.members):
+        return f"; {MARKED}"
+    return f"; {MARKED}: {', '.join(names)}" if names else ""
+
+
 def _lines(
     group: Group,
     name: str,
@@ -253,6 +279,7 @@ def _lines(
     small: bool,
     by_run: Mapping[int, Sequence[Arrays]],
     band: Band,
+    out: Collection[int],
 ) -> list[Line]:
     thick = THICKER if small else THICK
     widths = np.geomspace(thick, THIN, len(group.members)).tolist()
@@ -261,10 +288,9 @@ def _lines(
         runs = by_run[id(run)] or [run]
         y, low, high = (scale * part for part in averaged(runs, name, band))
         about = (low, high) if len(runs) > 1 and band != "none" else None
+        said = line_name(label or group.title, id(run) in out)
         colour = on_paper(group.colours[label])
-        lines.append(
-            Line(run["t_s"], y, label or group.title, colour, band=about, width=width)
-        )  # fmt: skip
+        lines.append(Line(run["t_s"], y, said, colour, band=about, width=width))
     return lines
 
 

@@ -10,6 +10,7 @@ from dqpaint.studies.experiment.cells import Cell
 from dqpaint.studies.replay.papers import Paper
 from dqpaint.studies.report.charts import Line, Panel
 from dqpaint.studies.report.page import Charts, Pictured
+from dqpaint.studies.report.pictures import line_name, without_result
 from dqpaint.studies.runner.run_arrays import Arrays, read_arrays
 
 MOST_POINTS = 900  # of a curve: of more every second, third ... one is shown
@@ -49,12 +50,17 @@ OF_TORQUES = "twist error", "torque"
 def curves(paper: Paper, found: Sequence[Cell], folder: Path) -> dict[str, Pictured]:
     """Charts over time by the ends of their names, one for each figure that the paper names.
 
-    A run that is no result is shown as well: how it swings is what is to be seen.
+    A run that is no result is shown as well, and named so: how it swings is what is to be seen.
     """
     by_label = {cell.label: cell for cell in found if cell.results and cell.results[0].figures}
+    bad = without_result(found)
     shown: dict[str, Pictured] = {}
     for number, (title, labels) in enumerate(paper.curves.items(), 1):
-        runs = {n: read_arrays(folder, by_label[n].results[0].key) for n in labels if n in by_label}
+        runs = {
+            line_name(label, label in bad): read_arrays(folder, by_label[label].results[0].key)
+            for label in labels
+            if label in by_label
+        }
         panels = list(filter(None, (panel(name, runs) for name in SHOWN)))
         if panels:
             shown[f"-curves-{number}"] = Charts(title, panels, shared=True)

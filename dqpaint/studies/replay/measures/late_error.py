@@ -13,7 +13,7 @@ from dqpaint.studies.replay.measures.curves import curves
 from dqpaint.studies.replay.measures.tracking import beside_published, carry_out, measured
 from dqpaint.studies.replay.papers import Paper
 from dqpaint.studies.report.page import Pictured
-from dqpaint.studies.report.pictures import errors, read_first_runs
+from dqpaint.studies.report.pictures import errors, read_first_runs, without_result
 from dqpaint.studies.runner.run_arrays import read_arrays
 
 LATE = 0.1  # of the run
@@ -37,7 +37,7 @@ def late(paper: Paper, request: MeasureRequest) -> MeasureResult:
     }
     shown: dict[str, Pictured] = {
         **beside_published(paper, numbers),
-        "-errors": errors(read_first_runs(found, request.folder)),
+        "-errors": errors(read_first_runs(found, request.folder), bad=without_result(found)),
         **curves(paper, found, request.folder),
     }
     return replace(made, numbers=numbers, shown=shown)

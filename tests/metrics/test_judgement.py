@@ -91,6 +91,8 @@ def test_noise_between_limits_is_none_and_a_swing_between_them_is(lines, rng):
 
 def test_a_far_start_is_none_and_an_arm_that_turns_away_is_one(lines, tmp_path):
     assert judge(track(lines, 10.0, start="home")).is_result
+    one = track(lines, 10.0)
+    assert judge(moved(one, 0.3 * np.exp(-one.motion.t / 0.1)[:, None] * [0, 0, 1.0])).is_result
     (tmp_path / "away.py").write_text(
         "import numpy as np\ndef away(seen, k=1.0):\n    return np.array([0, 0, 0, 0, 0.1, 0.0])\n"
     )
@@ -131,6 +133,18 @@ def test_an_oscillation_is_told_with_its_frequency_amplitude_and_line(lines):
     assert "e+" not in judge(moved(one, sine(one, 12.0, 0.23))).faults[0].says  # 230, not 2.3e+02
 
 
+def test_an_oscillation_is_looked_for_where_a_step_has_settled(tmp_path):
+    """The answer to a step is larger than what goes on after it."""
+    (tmp_path / "late.traj").write_text(
+        "period 10 ms\nstart at (0, 0) mm\nhold 4 s\nstep to (40, 0) mm\nhold 1.6 s\n"
+    )
+    one = track(tmp_path / "late.traj", 20.0)
+    assert judge(one).is_result
+    (fault,) = judge(moved(one, sine(one, 12.0, 0.3e-3))).faults
+    assert fault.kind == "oscillates"
+    assert fault.line == SourceLine(0, 5)
+
+
 def test_what_the_reference_a_disturbance_or_sensors_explain_is_no_oscillation(lines):
     one = track(lines, 20.0)
     swing = sine(one, 12.0, 0.5e-3)
@@ -154,6 +168,27 @@ def test_a_path_twice_as_long_is_astray_whatever_its_form(lines, rng):
     assert judge(moved(still, 0.3 * walk)).is_result
     noisy = replace(moved(still, walk), measured_pose=still.measured_pose)
     assert judge(noisy).is_result  # as much as the sensors are off
+    speed = np.vstack([np.diff(walk, axis=0), np.zeros((1, 3))]) / PERIOD
+    carried = np.hstack([np.zeros_like(speed), speed])
+    assert judge(replace(moved(still, walk), disturbance=carried)).is_result
+    constant = np.tile([0, 0, 0, *(3 * step / PERIOD * np.eye(3)[0])], (len(walk), 1))
+    found = judge(replace(moved(still, walk), disturbance=constant))
+    assert found.status == "astray"  # a constant twist is the law's to reject
+
+
+def test_the_way_to_the_first_stroke_is_no_part_of_the_path(tmp_path, rng):
+    (tmp_path / "late.traj").write_text(
+        "period 10 ms\nspeed 60 mm/s\nstart at (0, 0) mm\nmove to (20, 0) mm\nline to (60, 40) mm\n"
+    )
+    one = track(tmp_path / "late.traj", 20.0)
+    still = replace(one, pose=one.motion.pose, measured_pose=one.motion.pose)
+    walk = 0.01 * rng.standard_normal((len(one.command), 3))
+    first = int(one.motion.lit.argmax())
+    before = np.arange(len(walk)) < first - 1
+    assert 10 < before.sum() < len(walk) // 2
+    assert judge(moved(still, walk * before[:, None])).is_result
+    after = np.roll(before, first)
+    assert judge(moved(still, walk * after[:, None])).status == "astray"
 
 
 def test_commands_at_limits_for_a_fifth_of_the_second_half(lines):

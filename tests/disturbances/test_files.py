@@ -120,6 +120,7 @@ def test_a_study_runs_again_when_a_file_changed(tmp_path):
 @pytest.mark.parametrize(("text", "said"), [
     ("t_s,vx_m_s\n0,0.1\n1,fast\n", "wind.csv, row 3, column vx_m_s: 'fast'"),
     ("t_s,vx_m_s\n0,0.1\n\n1,2000\n", "wind.csv, row 4, column vx_m_s: 2000"),
+    ("t_s,vx_m_s,wz_rad_s\n0,0.1,-2000\n", "wind.csv, row 2, column wz_rad_s: -2000"),
     ("t_s,vx_m_s\n1,0.1\n0.5,0.1\n", "wind.csv, row 3, column t_s: 0.5 s"),
     ("t_s,x_N\n0,1\n", "none of the columns wx_rad_s, .* it has: t_s, x_N"),
     ("vx_m_s\n0.1\n", "no column 't_s'"),

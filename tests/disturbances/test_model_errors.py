@@ -13,7 +13,7 @@ from dqpaint.language import parse
 from dqpaint.metrics import attenuation
 from dqpaint.motion import plan
 from dqpaint.planning.reachability import reachable_start_posture
-from dqpaint.plants import PLANTS
+from dqpaint.plants import PLANTS, World
 from dqpaint.robots.kinematics import Dynamics
 from dqpaint.simulation import track, track_many
 from dqpaint.testing.runs import arm, motion, start
@@ -129,3 +129,12 @@ def test_each_link_has_an_error_of_its_own():
     assert 0.05 < np.std(own / true) < 0.4
     with pytest.raises(UsageError, match="error -1"):
         make_disturbances({"masses": {"error": -1}})
+
+
+def test_the_springs_model_of_their_weight_is_off_likewise():
+    """With a gravity error besides, as a product."""
+    world = World()
+    wrong = {"masses": {"error": 0.2}, "gravity": {"error": -0.5}}
+    for one in make_disturbances(wrong).values():
+        world = one.world(world)
+    assert world.model_gravity == pytest.approx(1.2 * 0.5)

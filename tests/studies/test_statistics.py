@@ -98,6 +98,8 @@ def test_paired_and_welch_with_intervals_are_scipy_s(rng, n):
             stats.t.interval(0.95, n - 1, one.mean(), stats.sem(one)), rel=1e-9
         )
         assert pair.effect == pytest.approx((one - other).mean() / (one - other).std(ddof=1))
+        unit = np.sqrt((one.var(ddof=1) + other.var(ddof=1)) / 2)
+        assert apart.effect == pytest.approx((one.mean() - other.mean()) / unit)
 
 
 @pytest.mark.parametrize("n", [2, 5, 6, 9, 17])

@@ -142,7 +142,10 @@ def pictures(
         sheet = contact_sheet.sheet(images, captions, columns(labels))
     else:
         overlay, sheet = over[0], contact_sheet.sheet(images, captions)
-    key = contact_sheet.mixed_colours(split[0].colours)
+    bad = without_result(found) if len(split) == 1 else set()
+    key = contact_sheet.mixed_colours(
+        {line_name(name, name in bad): hue for name, hue in split[0].colours.items()}
+    )
     overlay = contact_sheet.with_key(overlay, key, settings.look)
     apart = "" if len(split) == 1 else ", within each picture"
     runs = read_runs(found, folder)

@@ -234,6 +234,8 @@ def workers_in_this_process() -> Iterator[None]:
     from dqpaint.studies.runner.worker import carry_out_all
 
     class Here:
+        notes = ()
+
         def __init__(self, folder: Path) -> None:
             self.folder = folder
 

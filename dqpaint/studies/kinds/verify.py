@@ -3,11 +3,12 @@
 import math
 import tempfile
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from dqpaint.core import tables
-from dqpaint.errors import DqpaintError
+from dqpaint.errors import DqpaintError, OutputError
 from dqpaint.light.images import contact_sheet, difference_picture
 from dqpaint.outputs import files
 from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
@@ -95,6 +96,9 @@ def verify(
         DqpaintError: the folder has no cases, or a reference is damaged.
         UsageError: a setting of a case is none.
     """
+    with suppress(OutputError):  # one that cannot be written can be compared with
+        for note in files.finished(folder) if folder.is_dir() else ():
+            reporter.note(note)
     cases = read_cases(folder)
     references = [_reference(folder, case, lenient) for case in cases]
     with tempfile.TemporaryDirectory(prefix="dqpaint-verify-") as scratch:

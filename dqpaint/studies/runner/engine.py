@@ -78,9 +78,9 @@ class Study:
         with ExitStack() as opened:
             self._workers = opened.enter_context(closing(_workers(folder, jobs)))
             self._journal = opened.enter_context(Journal(folder))
+            for note in [*self._workers.notes, *self._journal.notes, *files.finished(folder)]:
+                reporter.note(note)
             self._opened = opened.pop_all()
-        for note in [*self._workers.notes, *self._journal.notes, *files.finished(folder)]:
-            reporter.note(note)
         self._known: set[str] = set()  # keys of runs that were done before
         self._done: set[str] = set()
 

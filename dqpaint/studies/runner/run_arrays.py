@@ -123,7 +123,7 @@ def read_arrays(folder: Path, key: str) -> Mapping[str, NDArray[Any]]:
     """
     path = arrays_path(folder, key)
     try:
-        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
+        with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as arrays:
             return {name: arrays[name] for name in arrays.files}
     except (OSError, ValueError, BadZipFile, EOFError, zlib.error) as problem:
         reason = problem.strerror if isinstance(problem, OSError) else None

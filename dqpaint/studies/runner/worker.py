@@ -52,8 +52,12 @@ def carry_out(
         return Result(key, "diverged", str(problem), wall=time.perf_counter() - begin)
     except Exception as fault:  # one broken run must not end the others
         known = isinstance(fault, DqpaintError)
-        said = str(fault) if known else f"internal error: {fault!r}"
         status: Status = "died" if is_of_the_machine(fault) else "failed"
+        said = f"internal error: {fault!r}"
+        if known or isinstance(fault, OSError):
+            said = str(fault)
+        elif isinstance(fault, MemoryError):
+            said = "there is not enough memory"
         return Result(key, status, said, wall=time.perf_counter() - begin)
     found, figures = painting.judgement, painting.metrics.figures
     limits = limits_text(painting.track)

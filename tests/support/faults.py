@@ -203,12 +203,12 @@ class Answer:
     def __init__(self, *words: str) -> None:
         from dqpaint.cli import main
 
-        out, err = (io.TextIOWrapper(io.BytesIO(), "utf-8") for _ in range(2))
+        out, err = io.BytesIO(), io.BytesIO()
         self.code: int = 0
         with (
             mock.patch.object(sys, "argv", ["dqpaint", *words]),
-            contextlib.redirect_stdout(out),
-            contextlib.redirect_stderr(err),
+            contextlib.redirect_stdout(io.TextIOWrapper(out, "utf-8")),
+            contextlib.redirect_stderr(io.TextIOWrapper(err, "utf-8")),
         ):
             try:
                 main.run()
@@ -216,14 +216,9 @@ class Answer:
                 self.code = stop.code if isinstance(stop.code, int) else int(stop.code is not None)
             except KeyboardInterrupt:
                 self.code = 130
-        self.out, self.err = _text(out), _text(err)
-
-
-def _text(stream: io.TextIOWrapper) -> str:
-    stream.flush()
-    found = stream.buffer
-    assert isinstance(found, io.BytesIO)
-    return found.getvalue().decode()
+            sys.stdout.flush()  # the command may have put streams of its own in their places
+            sys.stderr.flush()
+            self.out, self.err = out.getvalue().decode(), err.getvalue().decode()
 
 
 @contextlib.contextmanager

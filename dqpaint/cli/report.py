@@ -249,7 +249,7 @@ NO_RESULT = (
 FIXES = {
     "position": "\n  = help: turn the tool less, or move the drawing with place",
     "speed": "\n  = help: draw it slower (speed, in, samples), or lower the gains",
-    "torque": "\n  = help: a lower speed, a smoother profile or lower gains need less torque",
+    "torque": "\n  = help: a lower speed or lower gains need less torque",
 }
 
 

@@ -37,6 +37,13 @@ class DiagnosticCollector:
             self._found[key] = diagnostic
             self._warnings += 1
 
+    def error_before(self, span: Span) -> bool:
+        """Whether an error was found at a place before this one."""
+        return self.errors > 0 and any(
+            one.severity is Severity.ERROR and one.span is not None and one.span.start < span.start
+            for one in self._found.values()
+        )
+
     def ordered(self) -> tuple[Diagnostic, ...]:
         """All messages by position; if there are errors, at most `MOST_MESSAGES`, errors first."""
         found = list(self._found.values())

@@ -10,6 +10,7 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
+from dqpaint.program import Screw, ScrewTo
 
 TURNED = np.radians(1.0)  # a tool rotated by less is straight
 
@@ -29,7 +30,9 @@ def scaled(motion: Motion, scale: float) -> Motion:
 
 
 def straight(motion: Motion) -> Motion | None:
-    """The motion with the default orientation of the tool; None if it has that already."""
+    """The motion without 'tool' in the drawing; None if it is that already, or a screw turns it."""
+    if any(isinstance(segment.path, Screw | ScrewTo) for segment in motion.program.segments):
+        return None
     still = np.tile(dq.rotation(motion.canvas), (len(motion.t), 1))
     held = dq.pose_from(motion.points, still)
     turns = 2 * dq.log(dq.mul(dq.nearest(held, motion.pose), dq.conj(motion.pose)))[:, :3]

@@ -7,5 +7,6 @@ fixes that were tried before they are printed.
 """
 
 __all__ = [
-    "check", "corner_limits", "placement", "prepared_motion", "reachability", "retiming",
+    "check", "corner_limits", "motion_advice", "placement", "prepared_motion", "reachability",
+    "retiming",
 ]

@@ -10,6 +10,7 @@ from dqpaint.diagnostics import Diagnostic, SourceLine, Span
 from dqpaint.motion import Motion
 from dqpaint.planning.corner_limits import CornerPace
 from dqpaint.planning.forecast import Extreme, Forecast, forecast
+from dqpaint.planning.motion_advice import advise
 from dqpaint.planning.occlusion import DEFAULT_SETTINGS
 from dqpaint.planning.placement import Placement
 from dqpaint.planning.prepared_motion import prepare_motion
@@ -32,6 +33,7 @@ CLOSE_SINGULAR = 2 * DAMPING_THRESHOLD
 CLOSE_LINKS = 5e-3  # [m]
 CLOSE_OCCLUDED = 0.005  # of a line's light
 MOST_OCCLUDED = 0.01
+MOST_WEIGHT = 0.8  # of a torque: with more a change of the motion does not help
 MOST_LINES = 12  # of the table
 MOST_NAMED = 6  # lines in a warning
 DIRECTIONS = ("front", "side", "top")  # views that have a name
@@ -137,7 +139,7 @@ def make_report(
         springs is None or springs.seen,
         tuple(start.tolist()),
         lines,
-        tuple(_warnings(motion, kinematics.card, lines)),
+        tuple(_warnings(motion, kinematics.card, lines, slowed=ready.retiming is not None)),
         kinematics.notes
         + collision_shapes(kinematics).notes
         + (plant.notes(kinematics.card) if plant else ()),
@@ -145,12 +147,16 @@ def make_report(
 
 
 class _Rule(NamedTuple):
-    """A limit: its warning, how bad a line is (1 is at the limit), and what is said of it."""
+    """A limit: its warning, how bad a line is (1 is at the limit), and what is said of it.
+
+    Without a `help` what would be softer is found at the time of the `extreme`.
+    """
 
     code: str
     badness: Callable[[Forecast], float]
     message: Callable[[Forecast, Card], str]
-    help: str
+    help: str = ""
+    extreme: Callable[[Forecast], Extreme | None] = lambda one: None
 
 
 def _position(one: Forecast, _card: Card) -> str:
@@ -232,13 +238,13 @@ RULES = (
         "W503",
         lambda one: one.effort_part or 0.0,
         _effort,
-        "a lower speed or a smoother law needs less; --on-limit slow finds one",
+        extreme=lambda one: one.effort,
     ),
     _Rule(
         "W504",
         lambda one: (one.jolt_part or 0.0) if (one.effort_part or 0.0) <= 1 else 0.0,
         _jolt,
-        "profile trapezoid or quintic starts and ends each stroke at rest; a lower speed helps too",
+        extreme=lambda one: one.jolt,
     ),
     _Rule(
         "W505",
@@ -261,7 +267,9 @@ RULES = (
 )
 
 
-def _warnings(motion: Motion, card: Card, lines: Sequence[Forecast]) -> list[Diagnostic]:
+def _warnings(
+    motion: Motion, card: Card, lines: Sequence[Forecast], slowed: bool = False
+) -> list[Diagnostic]:
     """One warning for each limit, at the line that is worst; the others are named."""
     spans = _spans(motion)
     found = []
@@ -277,10 +285,19 @@ def _warnings(motion: Motion, card: Card, lines: Sequence[Forecast]) -> list[Dia
                 rule.message(worst, card),
                 spans.get(worst.line),
                 label=f"likewise {_named(others)}" if others else "",
-                help=rule.help,
+                help=_help(rule, worst, motion, slowed),
             )
         )
     return found
+
+
+def _help(rule: _Rule, worst: Forecast, motion: Motion, slowed: bool) -> str:
+    at = rule.extreme(worst)
+    if at is None:
+        return rule.help
+    if worst.weight_part > MOST_WEIGHT:
+        return "the weight alone takes most of it: move the drawing with place"
+    return advise(motion, at.time, slowed)
 
 
 def _spans(motion: Motion) -> dict[SourceLine, Span]:

@@ -11,7 +11,7 @@ from dqpaint.robots.model import Card
 VERB_UNIT_FIX = {
     "position": ("go to", "deg", "turn the tool less, or move the drawing with place"),
     "speed": ("turn at", "deg/s", "draw it slower, or let --on-limit slow do it"),
-    "torque": ("bear", "Nm", "a lower speed, a smoother law or lower gains need less torque"),
+    "torque": ("bear", "Nm", "a lower speed or lower gains need less torque"),
 }
 
 

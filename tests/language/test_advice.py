@@ -73,6 +73,17 @@ curve (t, abs t) for t from 0 to 9 mm|E109|1:15|write: abs(VALUE)
 def star(r)~line by (r, 0)~end~star 5 mm|E120|4:1|to draw what a 'def' names, write: star(5 mm)
 def star(r)~line by (r, 0)~end~call star(5 mm)|E120|4:1|to draw what a 'def' names, write: star(5 mm)
 def star~line by (9, 0) mm~end~star|E120|4:1|to draw what a 'def' names, write: star()
+let r = 3 mm~LET r = 3 mm|E120|2:1|did you mean 'let'?
+repeat i from -2 to -5~line by (i*mm, 0)~end|E222|1:21|write: repeat i from -5 to -2, and count down with -7 - i
+repeat i from 2 to -2~line by (i*mm, 0)~end|E222|1:20|write: repeat i from -2 to 2, and count down with -i
+light rainbow|E205|1:7|draw it in parts: repeat i from 0 to 35, each with light hsv(10*i deg)
+rect (10, 20) mm|E120|1:1|a rectangle is a line of four legs: line by (20, 0) mm by (0, 10) mm by
+triangle 20 mm|E120|1:1|its legs are a line: line to (20, 0) mm to
+pen up|E120|1:1|to go there dark, write: move to (10, 0) mm; or for the lines after: light off
+pen down|E120|1:1|a line shines: line to (10, 0) mm; or for the lines after: light white
+line to (10 inch, 0)|E102|1:13|1 inch is 25.4 mm; units are mm, cm, m
+line to r, 5|E112|1:10|parts of a line need no commas
+curve (a*mm, 0) for a from 0 to 9 step 1|E110|1:35|a curve is smooth and takes no step
 """
 
 
@@ -106,6 +117,18 @@ def test_a_block_without_its_with_is_one_mistake() -> None:
     with pytest.raises(ScriptError) as caught:
         parse("rotate 30 deg\n  line by (1, 0) mm\nend\nlin by (1, 0) mm\n")
     assert [finding.code for finding in caught.value.diagnostics] == ["E120", "E120"]
+
+
+@pytest.mark.parametrize(
+    "error", ["speed 10 cm per second", "start (9, 0) mm", "light rgb(1, 0, 0)", "let a = b"]
+)
+def test_no_length_of_zero_follows_from_an_error_above(error: str) -> None:
+    with pytest.raises(ScriptError) as caught:
+        parse(f"{error}\nline to (0, 0) mm\n")
+    assert not [one for one in caught.value.diagnostics if one.code == "W401"]
+    with pytest.raises(ScriptError) as caught:
+        parse(f"line to (0, 0) mm\n{error}\n")
+    assert "W401" in [one.code for one in caught.value.diagnostics]
 
 
 def test_a_digit_of_another_script_is_mended() -> None:

@@ -54,6 +54,18 @@ text “Ada” height 3 mm|text "Ada" height 3 mm
 text Ada height 3 mm|text "Ada" height 3 mm
 let café = 3 mm~line to (café, 0)|let cafe = 3 mm~line to (café, 0)
 hold 1 s light even|hold 1 s light white even
+LET r = 3 mm~line to (r, 0)|let r = 3 mm~line to (r, 0)
+light rgb(255, 0, 0)~hold 1 s|light "#ff0000"~hold 1 s
+light rgb(0.2, 1, 0)~hold 1 s|light "#33ff00"~hold 1 s
+line to 100, 0|line to (100, 0) mm
+line to -10 cm, 2.5 cm, 3 cm in 2 s|line to (-10, 2.5, 3) cm in 2 s
+move to (9, 0) mm~arc centre (0, 0) 360 deg|move to (9, 0) mm~arc centre (0, 0) angle 360 deg
+speed 10 cm per second~line to (9, 0) mm|speed 10 cm/s~line to (9, 0) mm
+hold until 3 s|hold 3 s
+svg logo.svg height 9 mm|svg "logo.svg" height 9 mm
+path ../my-points/a.b.csv unit mm|path "../my-points/a.b.csv" unit mm
+curve (t*mm, 0) for t in 0..10|curve (t*mm, 0) for t from 0 to 10
+repeat i in 1..3~line by (i*mm, 0)~end|repeat i from 1 to 3~line by (i*mm, 0)~end
 """
 PAIRS = [line.split("|") for line in MENDED.strip().split("\n")]
 NO_FIX = {"let a = 3~line to (a*2, 1 mm)"}  # which unit is missing can't be said for sure

@@ -40,6 +40,52 @@ def test_limits_are_warnings_at_the_worst_line(checked):
     assert "= help: draw it slower" in result.text
 
 
+START = "start at (0, 0) mm\n"
+TWO_LEGS = "line to (100, 0) mm\nline to (100, 100) mm\nend\n"
+SUDDEN = {
+    "constant": "line to (100, 0) mm speed 300 mm/s profile constant\n",
+    "after another": "line to (90, 0) mm speed 300 mm/s\n"
+    "line to (0, 0) mm in 0.4 s profile constant\n",
+    "rates": "line to (100, 0) mm in 0.3 s profile cubic(500 mm/s, 500 mm/s)\n",
+    "trapezoid": "line to (10, 0) mm speed 400 mm/s\n",
+    "quintic": "line to (10, 0) mm in 0.056 s profile quintic\n",
+    "text": 'corner jump\ntext "Marie" height 25 mm speed 300 mm/s\n',
+    "stroke": "stroke speed 600 mm/s corner jump\n" + TWO_LEGS,
+    "constant stroke": "stroke speed 300 mm/s profile constant\n" + TWO_LEGS,
+}
+
+
+@pytest.mark.parametrize(("text", "sufficient"), [
+    (SUDDEN["constant"], "profile trapezoid"), (SUDDEN["after another"], "profile trapezoid"),
+    (SUDDEN["rates"], "profile trapezoid"), (SUDDEN["trapezoid"], "profile quintic"),
+    (SUDDEN["quintic"], ""), (SUDDEN["text"], "corner 0.1 mm"), (SUDDEN["stroke"], "corner 0.1 mm"),
+    (SUDDEN["constant stroke"], "corner 0.1 mm"),
+], ids=SUDDEN)  # fmt: skip
+def test_advice_against_torque_is_not_what_the_drawing_has_and_helps(checked, text, sufficient):
+    before = checked(START + text)
+    (warning,) = [one for one in before.forecast.warnings if one.code == "W504"]
+    written = re.search(r"write ((profile|corner) [\w. ]+)", warning.help)
+    assert (written[1] if written else "") == sufficient
+    assert "--on-limit slow" in warning.help
+    slowed = checked(START + text, on_limit="slow").forecast.warnings
+    assert not [one for one in slowed if "--on-limit slow" in one.help]
+    if not written:
+        return
+    bare = re.sub(r" ?(corner jump|profile constant|profile cubic\(.*?\))", "", text)
+    after = checked(f"{START}{sufficient}\n{bare}")
+    most = [max(line.jolt_part for line in one.forecast.lines) for one in (before, after)]
+    assert most[1] < 0.9 * most[0]
+    assert not [one for one in after.forecast.warnings if sufficient in one.help]
+
+
+def test_where_the_weight_takes_it_no_pace_is_advised(checked):
+    one = checked(FAST).forecast
+    heavy = tuple(replace(line, weight_part=0.9) for line in one.lines)
+    said = {d.code: d.help for d in _warnings(one.motion, read_card("iiwa"), heavy)}
+    assert "place" in said["W503"]
+    assert "slow" not in said["W503"] + said["W504"]
+
+
 def test_the_table_speaks_of_what_is_close_alone(checked):
     said = checked(FAST).text.partition("\nhint: ")[0]
     table = said.partition("at most:")[2].splitlines()[1:]

@@ -56,6 +56,28 @@ def test_the_place_that_is_tried_is_that_of_the_language():
     np.testing.assert_allclose(found.canvas, wanted.canvas, atol=1e-12)
 
 
+SCREW = "screw about (60, 0, 0) mm along y angle {} deg pitch 150 mm/turn in 8 s\n"
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_screw_out_of_reach_is_told_a_smaller_angle_not_to_leave_out_a_tool(sign):
+    asked, arm = motion_of(SCREW.format(sign * 360))
+    with pytest.raises(ScriptError) as caught:
+        prepare(asked.program, make_settings(robot="iiwa"))
+    (found,) = caught.value.diagnostics
+    assert "without 'tool'" not in found.help
+    angle = int(re.search(r"angle (-?\d+) deg", found.help)[1])
+    assert 0 < sign * angle < 360
+    assert can_draw(motion_of(SCREW.format(angle))[0], arm)
+    assert straight(asked) is None
+
+
+def test_metres_where_millimetres_are_meant():
+    with pytest.raises(ScriptError) as caught:
+        prepare(parse("line to (100, 0) m in 9 s"), make_settings(robot="iiwa"))
+    assert "(0.1, 0)" in caught.value.diagnostics[0].help
+
+
 @pytest.mark.parametrize(("text", "fits"), [
     ("line to (80, 0) mm", True), ("line to (0, 0, 600) mm", False), ("line to (1, 0) m", False),
     ("line to (80, 0) mm tool rot(x, 180 deg)", False),

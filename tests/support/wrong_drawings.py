@@ -64,7 +64,7 @@ include "plain.svg"|E272|1:9 "plain.svg"|help
 text "Ada" font scripts height 3 mm|E109|1:17 scripts|help fix
 text "Ada" height 3 mm align middle|E109|1:30 middle|help fix
 path "points.csv" unit inch|E109|1:24 inch|help fix
-path points.csv unit mm|E101|1:12 .|help
+path points.csv unit mm|E101|1:12 .|help fix
 text "Hello"|E115|1:1 text|help
 path "points.csv"|E115|1:1 path|help
 path "points.csv" unit mm height 3 mm|E248|1:19 unit|help
@@ -169,9 +169,9 @@ curve (0, 0, t) for t from 0 to 1 mm tool follow|E254|1:7 (0, 0, t)|help
 screw to (1,2) mm|E255|1:10 (1,2) mm|help
 profile linear|E205|1:9 linear|help fix
 profile fancy|E205|1:9 fancy|help
-light rgb(255,0,0)|E206|1:7 rgb|help
+light rgb(255,0,0)|E206|1:7 rgb|help fix
 curve (10 mm*sin(t), 0) for t from 0 to 1|E213|1:18 t|help
-line to 50 mm, 0 mm|E112|1:14 ,|help
+line to 50 mm, 0 mm|E112|1:14 ,|help fix
 period 20 s|E257|1:8 20 s|help
 profile cubic(1e300 mm/s, 0 mm/s)|E201|1:15 1e300 mm/s|
 line by (5,0) mm by (0,5) mm samples 1|E256|1:1 line by (5,0) mm by (0,5) mm samples 1|help

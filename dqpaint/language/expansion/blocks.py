@@ -26,7 +26,8 @@ def passes(statement: Statement, scope: Scope) -> range:
         if number < 1:
             message = f"'repeat' counts up, but {upper} is less than {lower}"
             name = statement.name.text if statement.name else "i"
-            help = f"write: repeat {name} from {upper} to {lower}, and count down with -{name}"
+            back = f"{lower + upper} - {name}" if lower + upper else f"-{name}"
+            help = f"write: repeat {name} from {upper} to {lower}, and count down with {back}"
             raise problem("E222", message, nodes[1].span, "", help)
     if number > MOST_PASSES:
         message = f"more than {MOST_PASSES:,} passes of one 'repeat'"

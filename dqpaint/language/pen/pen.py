@@ -205,7 +205,8 @@ class Pen:
 
     def warn(self, code: str, message: str, span: Span, label: str = "", help: str = "") -> None:
         """Warns of an assumption, unless it only follows from an earlier error."""
-        if not self.lost:
+        follows = self.lost or (code == "W401" and self.findings.error_before(span))
+        if not follows:
             self.findings.add(Diagnostic(code, message, span, label, help))
 
     def travel(

@@ -16,7 +16,7 @@ from dqpaint.language.syntax.tree import (
     Quoted,
     SumOrProduct,
 )
-from dqpaint.language.vocabulary.units import UNITS
+from dqpaint.language.vocabulary.units import FOREIGN_UNITS, SAME_UNITS, UNITS, instead_of
 from dqpaint.language.vocabulary.words import FUNCTIONS, RESERVED
 
 DEEPEST = 64  # brackets and signs within each other
@@ -145,6 +145,8 @@ def bracket(cursor: Cursor, of: str = "(") -> tuple[Expression, ...]:
 
 def _not_closed(cursor: Cursor) -> Problem:
     token = cursor.token
+    if token.text in FOREIGN_UNITS and cursor.before.kind == "number":
+        raise foreign_unit(token)
     help = "the numbers of a point stand in brackets, with commas between: (10, 20) mm"
     fix = None
     if token.kind == "number" or token.kind == "name":
@@ -156,6 +158,15 @@ def _not_closed(cursor: Cursor) -> Problem:
         fix = Fix("put a comma between", Span(end, end), ",")
     message = f"expected ',' or ')' but found {found(token)}"
     return problem("E109", message, token.span, "", help, fix)
+
+
+def foreign_unit(token: Token) -> Problem:
+    """E102: a unit of other languages after a number."""
+    unit = FOREIGN_UNITS[token.text]
+    help = instead_of(token.text)
+    fix = Fix(f"write {unit}", token.span, unit) if token.text in SAME_UNITS else None
+    message = f"'{token.text}' is not a unit of this language"
+    return problem("E102", message, token.span, "", help, fix)
 
 
 def _deeper(cursor: Cursor, token: Token) -> None:

@@ -58,6 +58,9 @@ _THOUSANDS = re.compile(r"(?<![\w.,])[1-9]\d{0,2}(?:,\d{3})*,$", re.ASCII)
 _SPACED = re.compile(r"(?<![\w.,])[1-9]\d{0,2}(?: \d{3})* $", re.ASCII)
 _DECIMAL = re.compile(r"(?<![\w.])(\d+),$", re.ASCII)
 _LONG_NUMBER = 40
+_RANGE = re.compile(r"(\d+(?:\.\d+)?)\.{2,3}(\d+(?:\.\d+)?)", re.ASCII)
+_FILE_NAME = re.compile(r"(?:[\w~-]|\.{0,2}[\\/])*$")
+_REST_OF_NAME = re.compile(r"\.[\w.~/\\-]+")
 _WORD = re.compile(r"\w+")
 
 # Signs that come with copying from elsewhere, and the plain one that is meant.
@@ -200,6 +203,11 @@ def _glued(
         message, help, fix = _zeros_in_front(span, text)
     elif letters.startswith("."):
         message, help = f"'{span.text_in(text)}' is not a number", "write one decimal point"
+        if found := _RANGE.fullmatch(span.text_in(text)):
+            written = f"from {found[1]} to {found[2]}"
+            help = f"a range is written: {written}"
+            if len(tokens) > 1 and tokens[-2].text == "in":
+                fix = Fix(f"write {written}", Span(tokens[-2].start, span.end), written)
     elif letters in STATEMENTS or not re.fullmatch(r"[A-Za-z_]\w*", letters, re.ASCII):
         message = f"'{letters}' straight after the number {number.text} is not a unit"
         help = f"put a blank between: {number.text} {letters}"
@@ -295,7 +303,7 @@ def _bad(
     elif character == "." and _PART_OF_POINT.match(text, start):
         help = "a point has no parts with names: give its numbers names, let px = …"
     elif character == ".":
-        help = 'the name of a file stands in quotes: "points.csv"'
+        help, fix = _file_name(text, start)
     elif character.isalpha():
         help, word = "names are made of the letters a to z, digits and _", tokens[-1]
         plain = unicodedata.normalize("NFKD", word.text).encode("ascii", "ignore").decode()
@@ -313,6 +321,17 @@ def _bad(
         )
     )
     return end
+
+
+def _file_name(text: str, dot: int) -> tuple[str, Fix | None]:
+    """The advice for the name of a file without quotes, by the dot in it."""
+    before = _FILE_NAME.search(text, max(0, dot - _LONG_NUMBER), dot)
+    after = _REST_OF_NAME.match(text, dot)
+    if not before or not after:
+        return 'the name of a file stands in quotes: "points.csv"', None
+    span = Span(before.start(), after.end())
+    written = f'"{span.text_in(text)}"'
+    return f"the name of a file stands in quotes: {written}", Fix(f"write {written}", span, written)
 
 
 def _never_closed(text: str, start: int, tokens: list[Token], problems: list[Diagnostic]) -> int:

@@ -24,6 +24,7 @@ from dqpaint.language.vocabulary.words import (
     FOREIGN_BLOCKS,
     PARTS,
     RENAMED,
+    STATEMENT_ADVICE,
     STATEMENT_ALIASES,
     STATEMENTS,
 )
@@ -216,6 +217,8 @@ class _Parser:
         calls = self._defined or ()
         mistake, meant = unknown_statement(first.text, first.span, calls, tokens[1].text)
         called = word if word in calls else tokens[1].text if tokens[1].text in calls else ""
+        if word.lower() in STATEMENTS:  # in capital letters: what follows is its own
+            called = ""
         if called or (mistake.help == _HELP and tokens[1].kind == "end"):
             given = tokens[1:] if called == word else tokens[2:]
             values = self._text[given[0].start : tokens[-1].end].strip("() ") if given else ""
@@ -246,6 +249,9 @@ def unknown_statement(
     word: str, span: Span, calls: Iterable[str] = (), after: str = ""
 ) -> tuple[Diagnostic, str]:
     """E120 with the likely word; `calls` can be called, `after` is the next token's text."""
+    advice = STATEMENT_ADVICE.get(f"{word} {after}") or STATEMENT_ADVICE.get(word)
+    if advice and word not in calls:
+        return Diagnostic("E120", f"unknown statement '{word}'", span, "", advice), ""
     meant = closest(word, (*STATEMENTS, *calls), STATEMENT_ALIASES)
     fits = meant in STATEMENTS or meant in calls
     fits = fits or (meant.endswith(" to") and after in ("(", "polar"))

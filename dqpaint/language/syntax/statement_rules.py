@@ -229,6 +229,7 @@ def misplaced(word: str, token: Token) -> Problem | None:
         ("screw", "axis"): "did you mean 'along'?",
         ("screw", "centre"): "did you mean 'about'?",
         ("with", "turned"): "did you mean 'rotate'?",
+        ("curve", "step"): "a curve is smooth and takes no step: leave it out",
         ("line", "from"): "a line begins where the tool is; write before it: move to (0, 0)",
         ("arc", "from"): "an arc begins where the tool is; write before it: move to (0, 0)",
     }.get((word, RENAMED.get(token.text, token.text)))

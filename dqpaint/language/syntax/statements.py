@@ -4,11 +4,10 @@ from dqpaint.core import record
 from dqpaint.diagnostics import Fix, Problem, Span, closest, did_you_mean, join_words, problem
 from dqpaint.language.syntax import clauses, import_clauses, statement_rules
 from dqpaint.language.syntax.cursor import Cursor, example_of, found, no_value
-from dqpaint.language.syntax.expressions import bracket, expression
+from dqpaint.language.syntax.expressions import bracket, expression, foreign_unit
 from dqpaint.language.syntax.identifiers import new_name
-from dqpaint.language.syntax.lexer import Token
 from dqpaint.language.syntax.tree import Expression, Part, Quoted, Statement, Word
-from dqpaint.language.vocabulary.units import FOREIGN_UNITS, SAME_UNITS, UNITS, instead_of
+from dqpaint.language.vocabulary.units import FOREIGN_UNITS, UNITS
 from dqpaint.language.vocabulary.words import MODAL, PART_ALIASES, PARTS, RENAMED, STATEMENTS
 from dqpaint.program import colours
 
@@ -240,7 +239,7 @@ def _unknown_part(cursor: Cursor, word: str) -> Problem:
     token, known = cursor.token, STATEMENTS[word]
     after_number = cursor.before.kind == "number" or cursor.before.text == ")"
     if token.text in FOREIGN_UNITS and after_number:
-        return _foreign_unit(token)
+        return foreign_unit(token)
     special = statement_rules.misplaced(word, token)
     if special is not None:
         return special
@@ -268,25 +267,17 @@ def _unknown_part(cursor: Cursor, word: str) -> Problem:
     return problem("E110", message, token.span, "", help, fix)
 
 
-def _foreign_unit(token: Token) -> Problem:
-    unit = FOREIGN_UNITS[token.text]
-    help = instead_of(token.text)
-    fix = Fix(f"write {unit}", token.span, unit) if token.text in SAME_UNITS else None
-    message = f"'{token.text}' is not a unit of this language"
-    return problem("E102", message, token.span, "", help, fix)
-
-
 def _trailing(cursor: Cursor, word: str) -> Problem:
     token = cursor.token
     if token.text in FOREIGN_UNITS and cursor.before.kind == "number":
-        return _foreign_unit(token)
+        return foreign_unit(token)
     special = statement_rules.unexpected(word, cursor)
     if special is not None:
         return special
     if token.kind == "sign" and token.text == "=":
         help = "only 'let' has a '='"
     elif token.kind == "sign" and token.text == ",":
-        help = "a point stands in brackets: (50, 0) mm; parts of a line need no commas"
+        help = "parts of a line need no commas; a point stands in brackets: (50, 0) mm"
     elif token.kind == "sign" and token.text == "%":
         help = "only the brightness of a light is written in %, and it is no less than 0%"
     elif word == "repeat" and token.text in ("step", "by"):

@@ -43,6 +43,9 @@ def unknown(node: Name, scope: Scope, words: Iterable[str] = ()) -> Problem:
         help, same = instead_of(name), SAME_UNITS.get(name)
         fix = Fix(f"write {same}", node.span, same) if same else None
         return problem("E205", f"'{name}' is not known", node.span, "", help, fix)
+    if name.lower() in ("rainbow", "spectrum"):
+        help = "draw it in parts: repeat i from 0 to 35, each with light hsv(10*i deg)"
+        return problem("E205", f"'{name}' is not known", node.span, "", help)
     words = list(words)
     aliases = PROFILE_ALIASES if set(PROFILES) <= set(words) else {}
     known = (*scope.names, *CONSTANTS, *words)
@@ -145,17 +148,25 @@ def unknown_function(node: Call, scope: Scope) -> Problem:
         help = f"a product is written {node.name}*(…)"
         return problem("E206", message, span, "", help)
     if node.name in ("rgb", "RGB", "rgba"):
-        message, help = (
-            f"there is no function '{node.name}'",
-            'write the colour in quotes: "#ff8800"',
-        )
-        return problem("E206", message, span, "", help)
+        written = _hexadecimal(node.values)
+        help = f'write the colour in quotes: "{written or "#ff8800"}"'
+        fix = Fix(f'write "{written}"', node.span, f'"{written}"') if written else None
+        return problem("E206", f"there is no function '{node.name}'", span, "", help, fix)
     own = [name for name, value in scope.names.items() if isinstance(value, Function)]
     known = (*own, *functions.TABLE)
     meant = closest(node.name, known, FUNCTION_ALIASES)
     fix = Fix(f"write {meant}", span, meant) if meant in known else None
     message = f"there is no function '{node.name}'"
     return problem("E206", message, span, "", did_you_mean(meant), fix)
+
+
+def _hexadecimal(values: tuple[Expression, ...]) -> str:
+    """The colour of `rgb(255, 0, 0)` as #ff0000; empty if its numbers are no such colour."""
+    numbers = [value.value for value in values[:3] if isinstance(value, Literal) and not value.unit]
+    if len(numbers) < 3 or not all(0.0 <= number <= 255.0 for number in numbers):
+        return ""
+    most = 1.0 if max(numbers) <= 1.0 else 255.0
+    return "#" + "".join(f"{round(255.0 * number / most):02x}" for number in numbers)
 
 
 def no_sum(

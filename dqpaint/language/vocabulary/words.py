@@ -329,6 +329,22 @@ STATEMENT_ALIASES = {
     "turn": "line by (0, 0) tool ORIENTATION",
     "orient": "tool",
 }
+# What to write for a statement that this language has in other words, and what after it.
+_RECTANGLE = "line by (20, 0) mm by (0, 10) mm by (-20, 0) mm by (0, -10) mm"
+STATEMENT_ADVICE = {
+    **dict.fromkeys(
+        ("rect", "rectangle", "box"), f"a rectangle is a line of four legs: {_RECTANGLE}"
+    ),
+    "square": f"a square is a line of four legs: {_RECTANGLE.replace('10', '20')}",
+    "triangle": "its legs are a line: line to (20, 0) mm to (10, 17) mm to (0, 0) mm",
+    **dict.fromkeys(
+        ("polygon", "polyline"),
+        "a line has as many legs as you like: line to (20, 0) mm to (10, 17) mm",
+    ),
+    "ellipse": "write its formula: curve (20*cos(a), 10*sin(a)) mm for a from 0 to 360 deg",
+    "pen up": "to go there dark, write: move to (10, 0) mm; or for the lines after: light off",
+    "pen down": "a line shines: line to (10, 0) mm; or for the lines after: light white",
+}
 PART_ALIASES = {
     "origin": "centre",
     "middle": "centre",

@@ -7,6 +7,7 @@ from dqpaint.errors import DqpaintError
 from dqpaint.motion import Motion
 from dqpaint.outputs.robot.trajectory import kinematics_of
 from dqpaint.painting import paint
+from dqpaint.planning.motion_advice import advise
 from dqpaint.robots.kinematics import Dynamics
 from dqpaint.robots.model import Card
 
@@ -47,11 +48,12 @@ def check_limits(painting: paint.Painting) -> None:
     for when, row in (("start", 0), ("end", len(q) - 1)):
         joint = int(np.abs(bends[row]).argmax())
         if abs(bends[row, joint]) > LARGEST_END_ACCELERATION:
+            softer = advise(motion, float(motion.t[row]), slowed=painting.retiming is not None)
             reasons.append(
                 f"{_line(motion, row)}: a sudden {when}: joint {joint + 1} changes its speed by "
                 f"{abs(bends[row, joint]) * motion.period * DEG:.3g} deg/s within "
                 f"{motion.period * 1e3:g} ms ({abs(bends[row, joint]):.3g} rad/s^2, at most "
-                f"{LARGEST_END_ACCELERATION:g}); profile trapezoid or quintic is gentle"
+                f"{LARGEST_END_ACCELERATION:g}); {softer}"
             )
     if reasons:
         more = len(reasons) - MOST_NAMED

@@ -7,7 +7,7 @@ from dqpaint.errors import DqpaintError
 from dqpaint.motion import Motion
 from dqpaint.outputs.robot.trajectory import kinematics_of
 from dqpaint.painting import paint
-from dqpaint.planning.motion_advice import advise
+from dqpaint.planning import motion_advice
 from dqpaint.robots.kinematics import Dynamics
 from dqpaint.robots.model import Card
 
@@ -48,7 +48,9 @@ def check_limits(painting: paint.Painting) -> None:
     for when, row in (("start", 0), ("end", len(q) - 1)):
         joint = int(np.abs(bends[row]).argmax())
         if abs(bends[row, joint]) > LARGEST_END_ACCELERATION:
-            softer = advise(motion, float(motion.t[row]), slowed=painting.retiming is not None)
+            softer = motion_advice.advise(
+                motion, float(motion.t[row]), slowed=painting.retiming is not None
+            )
             reasons.append(
                 f"{_line(motion, row)}: a sudden {when}: joint {joint + 1} changes its speed by "
                 f"{abs(bends[row, joint]) * motion.period * DEG:.3g} deg/s within "

@@ -169,7 +169,9 @@ def develop(
     from dqpaint.painting import scene as scenes
 
     scene, before, cast, worked = film_file.read(str(film))
-    settings = make_settings(**{**before.model_dump(), **read_choices(options)})
+    settings = make_settings(
+        **{**before.model_dump(exclude={"max_memory"}), **read_choices(options)}
+    )
     scenes.check_light_settings(settings)
     staged, remark = _stage(settings, cast)
     with staged as staging:

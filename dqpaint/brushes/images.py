@@ -12,7 +12,7 @@ from dqpaint.program import colours as named
 
 MOST_COLUMNS = 2000
 """Largest number of columns of an image."""
-MOST_PIXELS = 40_000_000
+MOST_PIXELS = 25_000_000
 """Largest image: in linear light it takes 24 bytes a pixel."""
 
 

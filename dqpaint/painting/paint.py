@@ -13,6 +13,7 @@ from dqpaint.controllers import Controller
 from dqpaint.disturbances import Disturbance
 from dqpaint.dq import Floats
 from dqpaint.light.film import Film
+from dqpaint.light.sources import sweeps
 from dqpaint.metrics import (
     METRICS,
     Attenuation,
@@ -26,6 +27,7 @@ from dqpaint.metrics import (
     step_responses,
 )
 from dqpaint.motion import Motion
+from dqpaint.painting.memory import check_run_memory
 from dqpaint.painting.picture import Picture, PictureSet, photograph
 from dqpaint.painting.scene import Scene, make_scene
 from dqpaint.painting.time_limit import limit_time
@@ -213,6 +215,8 @@ def prepare(
         kinematics = make_kinematics(card, settings.kinematics)
     motor_torque_use = choices.plant.motor_torque_use
     ready = prepared_motion.prepare_motion(program, kinematics, settings, motor_torque_use, clock)
+    motion = ready.motion
+    check_run_memory(sweeps(motion, motion.pose, motion.light, settings), settings)
     return PreparedRun(settings, clock, choices, kinematics, ready, recording)
 
 

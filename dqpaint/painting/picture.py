@@ -33,6 +33,7 @@ from dqpaint.light.film import (
 from dqpaint.light.images import LEGEND_EXPOSURE, with_legend, with_notes
 from dqpaint.light.sources import ALL_SAMPLES, Occlusion, Sweep, occlusion_by, view_camera
 from dqpaint.motion import RowLines
+from dqpaint.painting.memory import check_picture_memory
 from dqpaint.painting.scene import Scene, with_shutter
 from dqpaint.render import HiddenLight, SceneArm, hidden_by_line
 from dqpaint.settings import Settings
@@ -198,6 +199,7 @@ def _take_picture(
     cache: RenderCache | None,
 ) -> Picture:
     camera = camera_of_view(scene, settings, shot)
+    check_picture_memory(scene.light, camera, settings)
     exposure, told = _exposure(scene, settings, camera, shot, series_exposure)
     staged = RenderCache(render_key(camera, exposure), False, None, (), ())
     if scene_arm is not None:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 
 from dqpaint.motion import Motion, plan
+from dqpaint.painting.memory import PER_SAMPLE_OF_PREVIEW, check_run_memory
 from dqpaint.painting.picture import Picture, PictureSet, photograph
 from dqpaint.painting.scene import Scene, check_light_settings, make_scene
 from dqpaint.program import Program
@@ -35,4 +36,5 @@ def make_preview(program: Program, settings: Settings) -> Preview:
     program = replace(program, most_samples=settings.max_samples)
     motion = plan(program, card_for(program, settings.robot, settings.tool).canvas.pose)
     scene = make_scene(motion, motion.pose, settings)
+    check_run_memory(scene.reference, settings, PER_SAMPLE_OF_PREVIEW)
     return Preview(settings, motion, scene, tuple(photograph(scene, settings)))

@@ -12,6 +12,7 @@ from dqpaint.settings.model import (
     Group,
     LawSettings,
     LightSettings,
+    MemorySettings,
     MotionSettings,
     OcclusionSettings,
     TimeSettings,
@@ -19,15 +20,16 @@ from dqpaint.settings.model import (
 
 OF_RUN: tuple[type[Group], ...] = (
     LawSettings, DisturbanceSettings, ArmSettings, MotionSettings, TimeSettings, DrawingSettings,
+    MemorySettings,
 )  # fmt: skip
 
 COMMANDS: dict[str, tuple[type[Group], ...]] = {
     "draw": GROUPS,
     "preview": (
-        ArmSettings, DrawingSettings, LightSettings, ColourSettings, CameraSettings, FilmSettings,
-        GhostSettings,
+        ArmSettings, DrawingSettings, MemorySettings, LightSettings, ColourSettings, CameraSettings,
+        FilmSettings, GhostSettings,
     ),
-    "develop": (CameraSettings, FilmSettings, GhostSettings, OcclusionSettings),
+    "develop": (MemorySettings, CameraSettings, FilmSettings, GhostSettings, OcclusionSettings),
     "check": (
         ArmSettings, MotionSettings, DrawingSettings, LightSettings, CameraSettings, GhostSettings,
         OcclusionSettings,
@@ -37,5 +39,8 @@ COMMANDS: dict[str, tuple[type[Group], ...]] = {
     "compare": GROUPS,
     "sweep": GROUPS,
     "tune": OF_RUN,
-    "replay": (DisturbanceSettings, ArmSettings, MotionSettings, TimeSettings, DrawingSettings),
+    "replay": (
+        DisturbanceSettings, ArmSettings, MotionSettings, TimeSettings, DrawingSettings,
+        MemorySettings,
+    ),
 }  # fmt: skip

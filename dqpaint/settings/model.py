@@ -26,6 +26,7 @@ M = TypeVar("M", bound=BaseModel)
 DEFAULT_CONTROLLER = "hinf"
 LARGEST = 8192  # columns or rows of a picture
 SMALLEST = 16
+DEFAULT_MEMORY, LARGEST_MEMORY = 1.5, 1000.0  # [GB]
 DEFAULT_TIMEOUT = 3600.0  # [s]
 LONGEST_TIMEOUT = 1e7  # [s], four months
 
@@ -204,7 +205,7 @@ class DrawingSettings(Group):
     max_samples: Annotated[
         int,
         Field(ge=1, le=LARGEST_MAX_SAMPLES),
-        Option("samples that the drawing may have; each takes about 1 kB", "N"),
+        Option("samples that the drawing may have; in a run each takes about 4 kB", "N"),
     ] = DEFAULT_MAX_SAMPLES
 
 
@@ -218,6 +219,18 @@ class TimeSettings(Group):
         Field(gt=0, le=LONGEST_TIMEOUT, allow_inf_nan=False),
         Option("what a run may take; one of a study that takes longer is left out", "SECONDS"),
     ] = DEFAULT_TIMEOUT
+
+
+class MemorySettings(Group):
+    """How much memory a painting may take."""
+
+    panel = "Drawing"
+
+    max_memory: Annotated[
+        float,
+        Field(gt=0, le=LARGEST_MEMORY, allow_inf_nan=False),
+        Option("memory that a painting may take; it is forecast before the run", "GB"),
+    ] = DEFAULT_MEMORY
 
 
 class LightSettings(Group):
@@ -353,8 +366,8 @@ class OcclusionSettings(Group):
 
 class Settings(
     OcclusionSettings, GhostSettings, FilmSettings, CameraSettings, DeviationSettings,
-    ColourSettings, LightSettings, DrawingSettings, TimeSettings, MotionSettings, ArmSettings,
-    DisturbanceSettings, LawSettings,
+    ColourSettings, LightSettings, MemorySettings, DrawingSettings, TimeSettings, MotionSettings,
+    ArmSettings, DisturbanceSettings, LawSettings,
 ):  # fmt: skip
     """The choices of one painting: the groups above, one after the other, as one flat model."""
 

@@ -60,6 +60,12 @@ class DrawingOptions(TypedDict, total=False):
     max_samples: int | None
 
 
+class MemoryOptions(TypedDict, total=False):
+    """How much memory a painting may take."""
+
+    max_memory: float | None
+
+
 class LightOptions(TypedDict, total=False):
     """What shines."""
 
@@ -116,6 +122,7 @@ class DrawOptions(
     MotionOptions,
     TimeOptions,
     DrawingOptions,
+    MemoryOptions,
     LightOptions,
     ColourOptions,
     DeviationOptions,
@@ -130,6 +137,7 @@ class DrawOptions(
 class PreviewOptions(
     ArmOptions,
     DrawingOptions,
+    MemoryOptions,
     LightOptions,
     ColourOptions,
     CameraOptions,
@@ -139,15 +147,23 @@ class PreviewOptions(
     """Of `preview`."""
 
 
-class DevelopOptions(CameraOptions, FilmOptions, GhostOptions, OcclusionOptions):
+class DevelopOptions(MemoryOptions, CameraOptions, FilmOptions, GhostOptions, OcclusionOptions):
     """Of `develop`."""
 
 
-class ReplayOptions(DisturbanceOptions, ArmOptions, MotionOptions, TimeOptions, DrawingOptions):
+class ReplayOptions(
+    DisturbanceOptions, ArmOptions, MotionOptions, TimeOptions, DrawingOptions, MemoryOptions
+):
     """Of `replay`."""
 
 
 class RunOptions(
-    LawOptions, DisturbanceOptions, ArmOptions, MotionOptions, TimeOptions, DrawingOptions
+    LawOptions,
+    DisturbanceOptions,
+    ArmOptions,
+    MotionOptions,
+    TimeOptions,
+    DrawingOptions,
+    MemoryOptions,
 ):
     """Of a run without pictures."""

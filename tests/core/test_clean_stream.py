@@ -23,10 +23,14 @@ def test_no_control_character_and_no_turned_line_is_left():
 
 def test_a_stream_keeps_its_encoding_and_what_the_program_sends():
     raw = io.BytesIO()
-    stream = cleaned(io.TextIOWrapper(raw, "ascii"))
+    under = io.TextIOWrapper(raw, "ascii")
+    stream = cleaned(under)
     assert isinstance(stream, CleanStream)
     print("a\x1b]0;b\x07é", file=stream)
     send_raw("\x1b[K", stream)
     assert raw.getvalue() == b"a\\x1b]0;b\\x07\\xe9\n\x1b[K"
+    del stream
+    print("and on", file=under, flush=True)
+    assert raw.getvalue().endswith(b"and on\n")
     plain = io.StringIO()
     assert cleaned(plain) is plain

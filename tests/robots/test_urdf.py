@@ -15,6 +15,7 @@ from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.loading.load_file import read_file
 from dqpaint.robots.model.card import read_card
 from dqpaint.robots.urdf.prepare import is_valid_inertia, prepare, urdf_file
+from dqpaint.robots.urdf.tree import MOST_JOINTS, MOST_LINKS, Tree
 from tests.support.arm_files import arm_urdf
 from tests.support.mesh_files import stl
 
@@ -281,3 +282,52 @@ def test_shapes_that_are_none(shape, said, read):
     with pytest.raises(DqpaintError) as caught:
         read(arm_urdf().replace('<link name="l3">', SHAPE.format(shape)))
     assert said in str(caught.value)
+
+
+@pytest.mark.parametrize(("joints", "fits"), [(MOST_JOINTS, True), (MOST_JOINTS + 1, False)])
+def test_the_joints_of_an_arm_have_a_limit(tmp_path, joints, fits):
+    links = "".join(f'<link name="l{i}"/>' for i in range(joints + 1))
+    turning = "".join(
+        f'<joint name="j{i}" type="revolute"><parent link="l{i}"/><child link="l{i + 1}"/>'
+        f'<axis xyz="0 0 1"/><limit lower="-1" upper="1" velocity="1" effort="1"/></joint>'
+        for i in range(joints)
+    )
+    (tmp_path / "a.urdf").write_text(f'<robot name="a">{links}{turning}</robot>')
+    tree = Tree(tmp_path / "a.urdf")
+    if fits:
+        assert len(tree.arm(f"l{joints}")) == joints
+    else:
+        with pytest.raises(DqpaintError, match=f"{joints} joints"):
+            tree.arm(f"l{joints}")
+
+
+@pytest.mark.parametrize(("links", "fits"), [(MOST_LINKS, True), (MOST_LINKS + 1, False)])
+def test_links_have_a_limit(tmp_path, links, fits):
+    body = '<link name="l0"/>' + "".join(
+        f'<link name="l{i}"/><joint name="j{i}" type="fixed"><parent link="l0"/>'
+        f'<child link="l{i}"/></joint>'
+        for i in range(1, links)
+    )
+    (tmp_path / "a.urdf").write_text(f'<robot name="a">{body}</robot>')
+    if fits:
+        assert len(Tree(tmp_path / "a.urdf").links) == links
+    else:
+        with pytest.raises(DqpaintError, match=f"{links} links"):
+            Tree(tmp_path / "a.urdf")
+
+
+@pytest.mark.parametrize(("old", "edge", "beyond"), [
+    ('origin xyz="0 0 0.3"', 'origin xyz="0 0 1000"', 'origin xyz="0 0 1000.1"'),
+    ('rpy="0 0 0"', 'rpy="0 0 1e6"', 'rpy="0 0 1.1e6"'),
+    ('mass value="6"', 'mass value="1e9"', 'mass value="1.1e9"'),
+    ('ixx="0.02"', 'ixx="1e9"', 'ixx="1.1e9"'),
+    ('velocity="2"', 'velocity="1.74e7"', 'velocity="1.75e7"'),
+    ('effort="400"', 'effort="1e-6"', 'effort="9e-7"'),
+    ('upper="2.1"', 'upper="1e6"', 'upper="1.1e6"'),
+    ('lower="-2.5" upper="2.1"', 'lower="0" upper="2e-6"', 'lower="0" upper="9e-7"'),
+])  # fmt: skip
+def test_numbers_have_a_range(read, old, edge, beyond):
+    assert old in arm_urdf()
+    prepare(read(arm_urdf().replace(old, edge)))
+    with pytest.raises(DqpaintError, match=r"arm\.(urdf|toml)"):
+        prepare(read(arm_urdf().replace(old, beyond)))

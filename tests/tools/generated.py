@@ -396,6 +396,13 @@ def rule(explanation):
     return "\n\n".join(parts) + "\n"
 
 
+def limits():
+    """What is bounded, and the option that allows more."""
+    from tests.tools.limits import cells
+
+    return table(["what", "at the most", "more by"], cells())
+
+
 README = ROOT / "README.md"
 PAGES = {
     README: [
@@ -413,6 +420,7 @@ PAGES = {
     ROOT / "trajectories/README.md": [messages, statements, parts, values],
     ROOT / "trajectories/MESSAGES.md": [rules],
     ROOT / "docs/equations.md": [explanations],
+    ROOT / "docs/limits.md": [limits],
 }
 SLOW_TABLES = {README: [stars, springs, hard]}
 

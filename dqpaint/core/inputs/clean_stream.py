@@ -27,7 +27,19 @@ def _number(found: re.Match[str]) -> str:
 
 
 class CleanStream(TextIOWrapper):
-    """A text stream that writes what is printable of each text."""
+    """A text stream that writes what is printable of each text.
+
+    Args:
+        under: the stream whose bytes it writes; that stays open.
+    """
+
+    def __init__(self, under: TextIOWrapper) -> None:
+        under.flush()
+        self._under = under
+        super().__init__(
+            under.buffer, under.encoding, "backslashreplace", line_buffering=under.line_buffering,
+            write_through=under.write_through,
+        )  # fmt: skip
 
     def write(self, text: str, /) -> int:
         """Write a text; other characters come as their numbers."""
@@ -38,13 +50,15 @@ class CleanStream(TextIOWrapper):
         """Write a text as it is."""
         super().write(text)
 
+    def close(self) -> None:
+        """Write what waits; the bytes are those of the other stream."""
+        if not self.closed:
+            self.flush()
+
 
 def cleaned(stream: TextIO) -> TextIO:
     """The same stream, cleaned; one that is not over bytes stays as it is."""
-    if not isinstance(stream, TextIOWrapper):
-        return stream
-    encoding, buffered = stream.encoding, stream.line_buffering
-    return CleanStream(stream.detach(), encoding, "backslashreplace", line_buffering=buffered)
+    return CleanStream(stream) if isinstance(stream, TextIOWrapper) else stream
 
 
 def send_raw(text: str, stream: TextIO) -> None:

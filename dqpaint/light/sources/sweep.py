@@ -182,11 +182,7 @@ class Sweep:
 
     def _batches(self, count: NDArray[np.int64], samples: slice) -> Iterator[slice]:
         """Slices of samples whose number of cut steps times lamps stays within a fixed budget."""
-        work = count.copy()
-        for frequency, _ in self._gates(slice(None)):
-            work += gates.most_cuts(self.period, frequency)
-        if len(self.emitters.tints) > 1:
-            work += np.ceil(np.diff(self.progress) * len(self.emitters.tints)).astype(np.int64)
+        work = count + self._most_switches()
         lamps = len(self.emitters.positions)
         budget = BATCH if lamps == 1 else max(1, 4 * BATCH // lamps)
         done = np.cumsum(work)
@@ -197,6 +193,21 @@ class Sweep:
             last = min(last, end)
             yield slice(first, last)
             first = last
+
+    def _most_switches(self) -> NDArray[np.int64]:
+        """The largest number (N-1,) of cuts where light switches, from an instant to the next."""
+        most = np.zeros(len(self.colours), np.int64)
+        for frequency, _ in self._gates(slice(None)):
+            most += gates.most_cuts(self.period, frequency)
+        if len(self.emitters.tints) > 1:
+            most += np.ceil(np.diff(self.progress) * len(self.emitters.tints)).astype(np.int64)
+        return most
+
+    @property
+    def most_lamp_steps(self) -> int:
+        """Lamps times steps that are worked on together, for a forecast: an instant to the next."""
+        most = 1 + int(self._most_switches().max(initial=0))
+        return most * len(self.emitters.positions)
 
     def _gates(self, rows: slice) -> Iterator[tuple[Floats, Floats]]:
         """Frequency and duty (M,) of everything that switches in some steps."""

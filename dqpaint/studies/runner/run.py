@@ -73,7 +73,8 @@ class Run:
             "files": self.files(),
             "code": code_versions(),
         }
-        del data["settings"]["timeout"]  # it decides whether there is a result, not which
+        for limit in ("timeout", "max_memory"):  # it decides whether there is a result, not which
+            del data["settings"][limit]
         data["plugins"] = plugins.plugins_of(self.settings, self.program())
         return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()
 

@@ -33,7 +33,7 @@ def read_size(value: object) -> tuple[Any, ...]:
     """
     if isinstance(value, Sequence) and not isinstance(value, str) and len(value) == 2:
         return tuple(value)
-    found = re.fullmatch(r"(\d{1,6})x(\d{1,6})", value) if isinstance(value, str) else None
+    found = re.fullmatch(r"([0-9]{1,6})x([0-9]{1,6})", value) if isinstance(value, str) else None
     if found is None:
         said = value[:40] if isinstance(value, str) else value
         raise UsageError(f"size {said!r} is not WIDTHxHEIGHT in pixels, for example 1280x720")

@@ -44,6 +44,7 @@ from dqpaint.program import (
     colours,
 )
 
+NO_WAY = 1e-15  # [m]: an arc of the least angle there is has a length of zero
 SMOOTH = 1e-6  # [rad]: less than this is no corner
 BACK = 1e-3  # [rad] from a half turn: the way turns back, and the tool stops there
 MOST = 0.49  # of a stroke's length for a corner that is rounded as little as may be
@@ -158,7 +159,7 @@ def _warn(
 
 def _rests(segment: Segment) -> bool:
     path = segment.path
-    return isinstance(path, STANDING) or path == Straight(vectors.ZERO)
+    return isinstance(path, STANDING) or (_is_known(path) and _length(segment) < NO_WAY)
 
 
 def _is_known(path: Path) -> bool:
@@ -219,8 +220,9 @@ def _direction(segment: Segment, share: float) -> Vector:
         assert isinstance(path, Straight)
         return vectors.unit(path.by)
     arm = vectors.minus(arcs.point_at(path, segment.start.position, share), path.centre)
-    round_ = vectors.times(path.angle, vectors.cross(path.axis, arm))
-    return vectors.unit(vectors.plus(round_, vectors.times(path.rise, path.axis)))
+    most = max(abs(path.angle), abs(path.rise))  # divided by it no angle is too small to multiply
+    round_ = vectors.times(path.angle / most, vectors.cross(path.axis, arm))
+    return vectors.unit(vectors.plus(round_, vectors.times(path.rise / most, path.axis)))
 
 
 def _pose(segment: Segment, share: float) -> Pose:

@@ -120,7 +120,7 @@ def preview(
     Raises:
         DqpaintError: a fault in the drawing or the choices.
     """
-    chosen = make_settings(**_given(settings).under(options))
+    chosen = make_settings(**_given(settings, runs=False).under(options))
     program = _program(drawing)
 
     from dqpaint.painting import preview as previews
@@ -129,12 +129,14 @@ def preview(
         return previews.make_preview(program, chosen)
 
 
-def _given(settings: "str | PathLike[str] | SettingsFile | None") -> SettingsFile:
+def _given(
+    settings: "str | PathLike[str] | SettingsFile | None", runs: bool = True
+) -> SettingsFile:
     if settings is None:
         return SettingsFile()
     from dqpaint.painting import validate
 
-    return validate.settings_file(settings)
+    return validate.settings_file(settings, runs)
 
 
 def _program(drawing: "str | PathLike[str] | builder.Drawing") -> Program:

@@ -36,6 +36,10 @@ FILE = typer.Option(
     help="a TOML of these options, or the JSON of a run; options on the command line win",
 )
 
+TRUST = typer.Option(
+    "--trust", help="run the code that --settings names, wherever it lies; see SECURITY.md"
+)
+
 
 def takes(
     name: str,
@@ -60,7 +64,7 @@ def takes(
 
             settings = list(settings_of(*COMMANDS[name]))
             made = options(settings, unsaid=unsaid)
-            made += [parameter("settings", str | None, None, FILE)] if file else []
+            made += file_parameters() if file else []
             return with_options(command, made, settings)
 
         return listed(command.__name__, command.__doc__ or "", whole)
@@ -106,6 +110,10 @@ def with_options(
             variant = setting.option.variant
             if variant and given[_variable(variant.name)]:
                 choices[setting.keyword] = variant.value
+        if given.get("trust") and "settings" in choices:
+            from dqpaint.settings import Trusted
+
+            choices["settings"] = Trusted(choices["settings"])
         command(**{one.name: given[one.name] for one in own}, choices=choices)
 
     context = inspect.Parameter("context", _KEYWORD, annotation=typer.Context)
@@ -156,6 +164,14 @@ def _options(
             f"--{option.variant.name}", help=option.variant.help, rich_help_panel=setting.panel
         )
         yield parameter(_variable(option.variant.name), bool, False, info)
+
+
+def file_parameters() -> list[inspect.Parameter]:
+    """The parameters of a command that takes a file of settings."""
+    return [
+        parameter("settings", str | None, None, FILE),
+        parameter("trust", bool, False, TRUST),
+    ]
 
 
 def parameter(name: str, kind: Any, default: Any, info: Any) -> inspect.Parameter:

@@ -13,10 +13,10 @@ import typer
 from typer.core import TyperGroup
 
 from dqpaint.cli.options import (
-    FILE,
     Choices,
     Command,
     MadeWhenCalled,
+    file_parameters,
     listed,
     options,
     parameter,
@@ -79,7 +79,7 @@ def _made(name: str) -> Command:
         *options(kind.parameters()),
         parameter("report", bool, False, REPORT),
         *options(settings, kind.defaults, kind.whole),
-        *([parameter("settings", str | None, None, FILE)] if kind.whole else []),
+        *(file_parameters() if kind.whole else []),
     ]
     command.__name__ = name
     command.__doc__ = inspect.getdoc(kind)

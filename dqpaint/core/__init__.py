@@ -20,18 +20,17 @@ from dqpaint.core.number_table import NumberTable
 from dqpaint.core.records import record, replaced
 from dqpaint.core.registry import Folder, Registry, subclass
 from dqpaint.core.user_files import (
-    AnswerError, Guarded, UserCode, file_digest, find_in_file, short_name, split_spec,
+    AnswerError, Guarded, UserCode, file_digest, find_file, find_in_file, short_name, split_spec,
 )
 from dqpaint.core.version import library_versions
 
 __all__ = [
     "DEFAULT_MAX_SAMPLES", "FILE_PATTERN", "LARGEST_IMAGE", "LARGEST_MAX_SAMPLES", "AnswerError",
     "Folder", "Guarded", "NotRegularError", "NumberTable", "Registry", "Sections", "UserCode",
-    "Values",
-    "choice_name", "example_names", "examples_folder", "file_digest", "find_drawing",
-    "find_in_file", "finish_interrupted", "latex_equation", "library_versions", "make_choice",
-    "make_folder", "number_or_text", "open_folder", "open_regular", "picture_size",
+    "Values", "choice_name", "example_names", "examples_folder", "file_digest", "find_drawing",
+    "find_file", "find_in_file", "finish_interrupted", "latex_equation", "library_versions",
+    "make_choice", "make_folder", "number_or_text", "open_folder", "open_regular", "picture_size",
     "pydantic_reason", "read_choice", "read_regular", "read_sections", "record", "replaced",
-    "rewrite", "short_name", "split_spec", "stat_regular", "subclass", "tables",
-    "unicode_equation", "unicode_prose", "write_new", "write_together",
+    "rewrite", "short_name", "split_spec", "stat_regular", "subclass", "tables", "unicode_equation",
+    "unicode_prose", "write_new", "write_together",
 ]

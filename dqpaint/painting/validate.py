@@ -16,6 +16,7 @@ from dqpaint.robots.model import parse_tool
 from dqpaint.settings import (
     Settings,
     SettingsFile,
+    Trusted,
     check_recorded,
     make_settings,
     read_choices,
@@ -90,15 +91,24 @@ def _check_independent(settings: Settings) -> None:
     read_damping(settings.damping)
 
 
-def settings_file(given: str | PathLike[str] | SettingsFile | None) -> SettingsFile:
+def settings_file(
+    given: str | PathLike[str] | SettingsFile | None, runs: bool = True
+) -> SettingsFile:
     """A file of settings, read and checked; empty if none is given.
+
+    Args:
+        given: the file; a path that is `Trusted` may name code anywhere.
+        runs: whether it is for something that runs laws; else no code is run that it names.
 
     Raises:
         DqpaintError: it cannot be read, or a key or value is at fault.
     """
     if given is None:
         return SettingsFile()
-    return given if isinstance(given, SettingsFile) else read_given(str(given), check_settings)
+    if isinstance(given, SettingsFile):
+        return given
+    path = given if isinstance(given, Trusted) else str(given)
+    return read_given(path, check_settings, runs)
 
 
 def settings_of_choices(choices: Mapping[str, Any], **defaults: Any) -> Settings:

@@ -6,7 +6,7 @@ files and documents read it from there.
 
 from dqpaint.settings.commands import COMMANDS
 from dqpaint.settings.declaration import Option, Setting, settings_of
-from dqpaint.settings.file import RUN_SCHEMA, SettingsFile, beside, read_given
+from dqpaint.settings.file import RUN_SCHEMA, SettingsFile, Trusted, beside, check_code, read_given
 from dqpaint.settings.keywords import check_keywords, keywords
 from dqpaint.settings.model import (
     DEFAULT_CONTROLLER, SETTINGS, SMALLEST, Settings, check_recorded, make_settings, read_choices,
@@ -20,7 +20,8 @@ from dqpaint.settings.readers import parse_disturbances, parse_gains, read_sprea
 __all__ = [
     "COMMANDS", "DEFAULT_CONTROLLER", "RUN_SCHEMA", "SETTINGS", "SMALLEST", "DevelopOptions",
     "DrawOptions", "Option", "PreviewOptions", "ReplayOptions", "RunOptions", "Setting", "Settings",
-    "SettingsFile", "beside", "check_keywords", "check_recorded", "keywords", "make_settings",
+    "SettingsFile", "Trusted", "beside", "check_code", "check_keywords", "check_recorded",
+    "keywords", "make_settings",
     "parse_disturbances", "parse_gains", "read_choices", "read_given", "read_spread",
     "settings_of", "validated",
 ]

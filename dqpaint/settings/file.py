@@ -7,7 +7,8 @@
 
 Keys are the options of the command line without the dashes before them, or the fields of
 `Settings`, which is how a summary has them. A file that a value names is looked for beside the
-settings first.
+settings first. A law, a plant or a brush of one's own is code, which reading it runs: only for
+what runs laws, and only from the folder of the settings, unless the file is `Trusted`.
 """
 
 import json
@@ -19,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from dqpaint import __version__
-from dqpaint.core import read_regular
+from dqpaint.core import choice_name, examples_folder, find_file, read_regular, split_spec
 from dqpaint.diagnostics import closest
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.settings.model import (
@@ -38,9 +39,17 @@ MEANT = {
     "arm": "robot", "lens": "exposure", "f-number": "exposure", "iso": "exposure",
     "distance": "exposure", "shutter": "exposure", "azimuth": "view", "elevation": "view",
 }  # fmt: skip
-NOT_OF_THE_PICTURE = ("out", "save", "settings", "watch", "jobs")
+NOT_OF_THE_PICTURE = ("out", "save", "settings", "trust", "watch", "jobs")
 
+CODE = ("controller", "plant", "brush")
+"""Settings that may name a file of code."""
 Check = Callable[[Settings], None]
+
+
+class Trusted(str):
+    """The path of settings whose code is run wherever it lies, and by every command."""
+
+    __slots__ = ()
 
 
 @dataclass(frozen=True)
@@ -91,12 +100,15 @@ class SettingsFile:
         return found
 
 
-def read_given(path: str, check: Check) -> SettingsFile:
+def read_given(path: str, check: Check, runs: bool = True) -> SettingsFile:
     """Read a file of settings and check it key by key.
 
     Args:
-        path: of the file.
-        check: raises a DqpaintError if the settings that one key gives are wrong.
+        path: of the file; may be `Trusted`.
+        check: raises a DqpaintError if the settings that one key gives are wrong; runs the code
+            that they name.
+        runs: whether it is for something that runs laws; else a law and a plant of one's own are
+            left out, unread.
 
     Raises:
         DqpaintError: it cannot be read, or a key or value is wrong; the message has the line.
@@ -113,6 +125,8 @@ def read_given(path: str, check: Check) -> SettingsFile:
                     raise UsageError(f"{key} sets again what {spelt[name]} sets")
                 choices[name], spelt[name] = read, key
             of_key = {name: choices[name] for name in choices if spelt[name] == key}
+            if not isinstance(path, Trusted):
+                of_key = _known_code(place.parent, of_key, runs)
             gains = of_key.pop("gains", None)  # of a law that another key may name
             check(checked(of_key, strict=True))
             if gains is not None:
@@ -124,10 +138,60 @@ def read_given(path: str, check: Check) -> SettingsFile:
             law: dict[str, Any] = {
                 name: choices[name] for name in ("controller", "gains") if name in choices
             }
-            check(checked(law))
+            if runs or isinstance(path, Trusted) or not _code(law, "controller"):
+                check(checked(law))
+            else:
+                del choices["gains"]
         except DqpaintError as problem:
             raise DqpaintError(f"{_where(place, text, spelt['gains'])}: {problem}") from None
+    if not (runs or isinstance(path, Trusted)):
+        choices = _known_code(place.parent, choices, runs)
     return SettingsFile(place.name, choices, *given)
+
+
+def check_code(folder: Path, choices: Mapping[str, Any]) -> None:
+    """Refuse code that lies outside a folder; examples of dqpaint are no strangers.
+
+    Args:
+        folder: of the file that names it.
+        choices: by the fields of `Settings`.
+
+    Raises:
+        UsageError: a law, a plant or a brush is in a file elsewhere.
+    """
+    for name in CODE:
+        file = _code(choices, name)
+        if file is None:
+            continue
+        place = find_file(file).resolve()
+        if not any(place.is_relative_to(one.resolve()) for one in (folder, examples_folder())):
+            raise UsageError(
+                f"{name} '{str(file)[-60:]}' is code outside the folder of this file, which is not "
+                "run unasked: name it on the command line, or trust the file: --trust"
+            )
+
+
+def _code(choices: Mapping[str, Any], name: str) -> Path | None:
+    """The file of code that a setting names."""
+    value = choices.get(name)
+    parts = split_spec(choice_name(value)) if isinstance(value, str) else None
+    return parts[0] if parts else None
+
+
+def _known_code(folder: Path, choices: Mapping[str, Any], runs: bool) -> dict[str, Any]:
+    """Choices without code that is not needed.
+
+    Raises:
+        UsageError: code that may not be run.
+    """
+    if runs:
+        check_code(folder, choices)
+    elif _code(choices, "brush"):
+        raise UsageError(
+            f"brush '{choices['brush'][:60]}' is code, and this command runs none that a file "
+            "names: give --brush on the command line, or trust the file: --trust"
+        )
+    return {name: value for name, value in choices.items() if runs or not _code(choices, name)}
 
 
 def beside(folder: Path, value: object) -> object:

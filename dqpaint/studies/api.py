@@ -238,6 +238,7 @@ def verify(
     out: Where | None = None,
     jobs: int | None = None,
     cluster: str | None = None,
+    trust: bool = False,
     progress: Progress | None = None,
 ) -> list[Verdict]:
     """Draw a folder again and compare it with its references, as `dqpaint verify` does.
@@ -247,6 +248,7 @@ def verify(
         out: where pictures of what differs go; else nowhere.
         jobs: how many processes; None is one a core.
         cluster: address of a Dask scheduler, instead.
+        trust: whether cases may name code that lies outside of the folder.
         progress: called with the part done, 0 to 1.
 
     Returns:
@@ -255,7 +257,8 @@ def verify(
     Raises:
         DqpaintError: the folder has no cases, or a reference is damaged.
     """
-    made = _carried_out("verify", folder, {"jobs": jobs, "cluster": cluster}, Path(), progress)
+    given = {"jobs": jobs, "cluster": cluster, "trust": trust}
+    made = _carried_out("verify", folder, given, Path(), progress)
     assert isinstance(made, Verification)
     if out is not None:
         save_differences(made.verdicts, Path(out), _call("verify", folder, {}))

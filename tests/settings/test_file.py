@@ -1,6 +1,8 @@
 """A picture from two files: the one that options make; what is wrong is told with its line."""
 
 import json
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -10,7 +12,7 @@ from dqpaint import __version__
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.outputs.summary import summarise
 from dqpaint.painting.validate import check_settings
-from dqpaint.settings.file import SettingsFile, read_given
+from dqpaint.settings.file import SettingsFile, Trusted, read_given
 from dqpaint.settings.model import Settings, make_settings
 from dqpaint.settings.readers import parse_disturbances, parse_gains
 
@@ -211,3 +213,89 @@ def test_a_preview_takes_the_camera_of_a_file(file):
     typed = dqpaint.preview(drawing, view="iso", size=(64, 36), ev=1.0)
     assert given.picture.png == typed.picture.png
     assert given.settings == typed.settings == Settings(width=64, height=36, view="iso", ev=1.0)
+
+
+LOUD = """
+from pathlib import Path
+
+from dqpaint.brushes import Brush
+from dqpaint.plants import Ideal
+
+Path(__file__).with_suffix(".ran").touch()
+
+def law(seen, k=1.0):
+    return seen.twist_d
+
+class Slow(Ideal):
+    pass
+
+class Pair(Brush):
+    def emitters(self):
+        return []
+"""
+
+
+@pytest.fixture
+def codes(tmp_path):
+    """Code in the folder of settings and outside, and whether either was run."""
+    inside, outside = tmp_path / "own" / "loud.py", tmp_path / "loud.py"
+    inside.parent.mkdir()
+    for path in (inside, outside):
+        path.write_text(LOUD)
+
+    def ran():
+        found = sorted(path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*.ran"))
+        for name in found:
+            (tmp_path / name).unlink()
+        return found
+
+    def write(text):
+        path = tmp_path / "own" / "given.toml"
+        path.write_text(text)
+        return str(path)
+
+    return write, ran
+
+
+CODE = {"controller": "loud.py:law", "plant": "loud.py:Slow", "brush": "loud.py:Pair"}
+
+
+@pytest.mark.parametrize("name", CODE)
+def test_code_beside_the_settings_is_run_where_laws_are_and_no_other(codes, name, tmp_path):
+    write, ran = codes
+    read_given(write(f'{name} = "{CODE[name]}"\n'), check_settings)
+    assert ran() == ["own/loud.ran"]
+    (tmp_path / "own" / "link.py").symlink_to(tmp_path / "loud.py")
+    for path in ("../loud.py", str(tmp_path / "loud.py"), "link.py"):
+        given = write(f'view = "iso"\n{name} = "{CODE[name].replace("loud.py", path)}"\n')
+        with pytest.raises(DqpaintError, match=rf"given\.toml:2: {name} .*--trust"):
+            read_given(given, check_settings)
+        assert ran() == []
+        read_given(Trusted(given), check_settings)
+        assert len(ran()) == 1
+
+
+@pytest.mark.parametrize("path", ["loud.py", "../loud.py"])
+def test_what_runs_no_law_runs_no_code_of_settings(codes, path):
+    write, ran = codes
+    text = f'view = "iso"\ncontroller = "{path}:law"\nplant = "{path}:Slow"\ngain.k = 3\n'
+    given = read_given(write(text), check_settings, runs=False)
+    assert given.choices == {"view": "iso"}
+    with pytest.raises(DqpaintError, match=r"given\.toml:1: brush .*--brush"):
+        read_given(write(f'brush = "{path}:Pair"\n'), check_settings, runs=False)
+    assert ran() == []
+
+
+def test_preview_and_check_run_no_code_of_settings(codes, tmp_path):
+    write, ran = codes
+    (tmp_path / "line.traj").write_text("line to (30, 0) mm in 0.5 s\n")
+    given = write('size = "32x32"\ncontroller = "loud.py:law"\nplant = "loud.py:Slow"\n')
+    dqpaint.preview(tmp_path / "line.traj", settings=given)
+    command = [sys.executable, "-m", "dqpaint", "check", "line.traj", "--settings", given]
+    subprocess.run(command, cwd=tmp_path, check=True, stdout=subprocess.DEVNULL)
+    assert ran() == []
+
+
+def test_an_example_s_law_is_no_stranger(tmp_path):
+    (tmp_path / "given.toml").write_text('controller = "mylaw.py"\n')
+    assert read_given(str(tmp_path / "given.toml"), check_settings).choices["controller"]

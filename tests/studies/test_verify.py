@@ -199,3 +199,16 @@ def test_a_folder_of_drawings_alone_needs_no_table(tmp_path):
     for name in ("b", "a"):
         (tmp_path / f"{name}.traj").write_text(guarded.DRAWING)
     assert [case.name for case in read_cases(tmp_path)] == ["a", "b"]
+
+
+@pytest.mark.parametrize("name", ["controller", "plant", "brush"])
+def test_code_outside_the_folder_is_run_if_it_is_trusted_alone(tmp_path, name):
+    folder = tmp_path / "cases"
+    folder.mkdir()
+    (tmp_path / "own.py").write_text("raise ValueError('it ran')\n")
+    (folder / "a.traj").write_text(guarded.DRAWING)
+    (folder / "cases.toml").write_text(f'[a]\ndrawing = "a.traj"\n{name} = "../own.py:own"\n')
+    with pytest.raises(UsageError, match=rf"\[a\]: {name} '.*own\.py' is code outside .* --trust"):
+        study.verify(folder, 1)
+    with pytest.raises(DqpaintError, match="it ran"):
+        study.verify(folder, 1, trust=True)

@@ -21,6 +21,9 @@ class Verify(Study):
     examples = "Examples:\n\n  dqpaint verify drawings/\n\n  dqpaint verify drawings/ --update"
 
     update: Annotated[bool, Option("make new references, and list what changed")] = False
+    trust: Annotated[
+        bool, Option("run the code that cases name, wherever it lies; see SECURITY.md")
+    ] = False
     folder: Annotated[Any, Option("folder for pictures of differences", "FOLDER", name="out")] = (
         None
     )
@@ -35,7 +38,7 @@ class Verify(Study):
         from dqpaint.studies.kinds.verify import Verification, update, verify
 
         folder = Path(str(request.subject))
-        verdicts = verify(folder, request.jobs, self.update, request.reporter)
+        verdicts = verify(folder, request.jobs, self.update, request.reporter, self.trust)
         changes = tuple(update(verdicts, folder)) if self.update else None
         return Verification(
             name="verify", cells=(), folder=request.folder, verdicts=tuple(verdicts),

@@ -82,7 +82,11 @@ class Verification(StudyResult):
 
 
 def verify(
-    folder: Path, jobs: Workers = None, lenient: bool = False, reporter: Reporter = SILENT
+    folder: Path,
+    jobs: Workers = None,
+    lenient: bool = False,
+    reporter: Reporter = SILENT,
+    trust: bool = False,
 ) -> list[Verdict]:
     """Draw every case of a folder again and compare.
 
@@ -91,6 +95,7 @@ def verify(
         jobs: how many processes, None is one a core; or the address of a Dask cluster.
         lenient: a reference that cannot be read counts as none, for it will be made again.
         reporter: is told how far it is.
+        trust: whether cases may name code that lies outside of the folder.
 
     Raises:
         DqpaintError: the folder has no cases, or a reference is damaged.
@@ -99,7 +104,7 @@ def verify(
     with suppress(OutputError):  # one that cannot be written can be compared with
         for note in files.finished(folder) if folder.is_dir() else ():
             reporter.note(note)
-    cases = read_cases(folder)
+    cases = read_cases(folder, trust)
     references = [_reference(folder, case, lenient) for case in cases]
     with tempfile.TemporaryDirectory(prefix="dqpaint-verify-") as scratch:
         results = carry_out_study(

@@ -25,7 +25,7 @@ from dqpaint.core import library_versions, read_regular
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.light.film import PAD
 from dqpaint.light.images import decode_picture, decode_planes, encode_planes
-from dqpaint.settings import beside, make_settings
+from dqpaint.settings import beside, check_code, make_settings
 from dqpaint.studies.runner.run import Result, Run, drawing_text
 
 SCHEMA = "dqpaint-reference-1"
@@ -63,12 +63,16 @@ class Reference:
         return bool(self.facts["versions"] == library_versions())
 
 
-def read_cases(folder: Path) -> list[Case]:
+def read_cases(folder: Path, trust: bool = False) -> list[Case]:
     """The cases of a folder, in the order of its cases.toml, else of their names.
+
+    Args:
+        folder: of the cases.
+        trust: whether cases may name laws, plants and brushes that lie outside of the folder.
 
     Raises:
         DqpaintError: there is no such folder, nothing in it, or a drawing cannot be read.
-        UsageError: a setting that is none.
+        UsageError: a setting that is none, or code from elsewhere.
     """
     if not isdir(folder):
         raise DqpaintError(f"no folder '{folder}' of drawings to verify")
@@ -83,10 +87,10 @@ def read_cases(folder: Path) -> list[Case]:
         given = {path.stem: {"drawing": path.name} for path in sorted(folder.glob("*.traj"))}
     if not given:
         raise DqpaintError(f"'{folder}' has neither drawings (*.traj) nor a {CASES} with some")
-    return [_case(folder, name, values) for name, values in given.items()]
+    return [_case(folder, name, values, trust) for name, values in given.items()]
 
 
-def _case(folder: Path, name: str, values: object) -> Case:
+def _case(folder: Path, name: str, values: object, trust: bool) -> Case:
     where = f"'{folder / CASES}' [{name}]"
     if not isinstance(values, dict) or not isinstance(values.get("drawing"), str):
         raise UsageError(f"{where}: a case says drawing = 'FILE.traj'")
@@ -95,6 +99,8 @@ def _case(folder: Path, name: str, values: object) -> Case:
     choices = {word: beside(folder, value) for word, value in values.items() if word != "drawing"}
     choices = {"width": WIDTH, "height": HEIGHT, **choices}
     try:
+        if not trust:
+            check_code(folder, choices)
         settings = make_settings(**choices)
     except UsageError as problem:
         raise UsageError(f"{where}: {problem}") from None

@@ -4,25 +4,34 @@ Offsets are code points in dqpaint and UTF-16 units (or the editor's choice) in 
 `_Document` converts them.
 """
 
+import asyncio
 import gc
+import logging
 import os
 import sys
+import time
 from contextlib import redirect_stdout
 from pathlib import Path
+from typing import Any, BinaryIO, cast
 from urllib.parse import unquote, urlparse
 
 from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException, JsonRpcInvalidRequest
 from pygls.lsp.server import LanguageServer
+from pygls.protocol import LanguageServerProtocol, default_converter
 from pygls.workspace import PositionCodec
 
 from dqpaint import __version__
 from dqpaint.diagnostics import Severity, Span, file_at, locate
 from dqpaint.editors import completion
 from dqpaint.editors.analysis import Analysis, analyse
+from dqpaint.editors.frames import Frames
 from dqpaint.language import Diagnostic, ScriptError
 from dqpaint.language.vocabulary import STATEMENTS
 from dqpaint.language.writing import formatter
 
+PAUSE = 0.1  # [s] without a key before a text is looked at
+LONGEST_WAIT = 1.0  # [s] in which messages may be old while keys come without a pause
 _SEVERITIES = {
     Severity.ERROR: lsp.DiagnosticSeverity.Error,
     Severity.WARNING: lsp.DiagnosticSeverity.Warning,
@@ -74,12 +83,40 @@ def _name(uri: str) -> str:
     return unquote(parts.path) if parts.scheme == "file" else Path(uri).name
 
 
+class _Protocol(LanguageServerProtocol):
+    """The protocol; a request that cannot be understood gets an error for an answer."""
+
+    def structure_message(self, data: dict[str, Any]) -> Any:
+        """The message of an object; DqpaintError's like of the protocol."""
+        try:
+            return super().structure_message(data)
+        except JsonRpcException as fault:
+            if "method" in data:
+                self._refuse(data, fault)
+            raise
+
+    def handle_message(self, message: Any) -> None:
+        """Answer a message."""
+        if hasattr(message, "jsonrpc"):
+            super().handle_message(message)
+        else:
+            self._refuse(message, JsonRpcInvalidRequest())
+
+    def _refuse(self, message: object, fault: JsonRpcException) -> None:
+        known = message.get("id") if isinstance(message, dict) else None
+        if isinstance(known, int | str):
+            self._send_response(known, error=fault.to_response_error())
+
+
 class _Server(LanguageServer):
     """The server, with the analysis of each open text."""
 
     def __init__(self) -> None:
-        super().__init__("dqpaint", __version__)
+        super().__init__(
+            "dqpaint", __version__, protocol_cls=_Protocol, converter_factory=default_converter
+        )
         self._analyses: dict[str, Analysis] = {}
+        self._waiting: dict[str, tuple[float, asyncio.TimerHandle]] = {}
 
     def document(self, uri: str) -> _Document:
         return _Document(self.workspace.get_text_document(uri).source, self._codec)
@@ -97,8 +134,27 @@ class _Server(LanguageServer):
             self._analyses[uri] = known
         return known
 
+    def publish_soon(self, uri: str) -> None:
+        """Send the messages about a text after a pause: versions that are old by then are skipped.
+
+        Its times are not planned.
+        """
+        now = time.monotonic()
+        since = self._unwait(uri) or now
+        pause = min(PAUSE, max(0.0, since + LONGEST_WAIT - now))
+        timer = asyncio.get_running_loop().call_later(pause, self.publish, uri, False)
+        self._waiting[uri] = since, timer
+
+    def _unwait(self, uri: str) -> float | None:
+        """Forget what waits for a pause; since when it has."""
+        since, timer = self._waiting.pop(uri, (None, None))
+        if timer is not None:
+            timer.cancel()
+        return since
+
     def publish(self, uri: str, planned: bool) -> None:
         """Send the messages about a text."""
+        self._unwait(uri)
         document = self.document(uri)
         understood = self.analysis(uri, planned)
         found = [_message(d, document, uri, understood.source) for d in understood.diagnostics]
@@ -106,6 +162,7 @@ class _Server(LanguageServer):
 
     def forget(self, uri: str) -> None:
         """A text that was closed has no messages any more."""
+        self._unwait(uri)
         self._analyses.pop(uri, None)
         self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, []))
 
@@ -139,7 +196,7 @@ def make_server() -> LanguageServer:
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_CHANGE)
     def changed(params: lsp.DidChangeTextDocumentParams) -> None:
-        server.publish(params.text_document.uri, planned=False)  # at each key: the text alone
+        server.publish_soon(params.text_document.uri)
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_SAVE)
     def saved(params: lsp.DidSaveTextDocumentParams) -> None:
@@ -231,6 +288,8 @@ def serve() -> None:
     to standard error and not between its answers.
     """
     gc.enable()  # a long life, unlike a command's
+    logging.getLogger("pygls").setLevel(logging.CRITICAL)  # what an editor does wrong it is told
     server = make_server()
     with redirect_stdout(sys.stderr):
-        server.start_io(open(os.dup(0), "rb"), open(os.dup(1), "wb"))  # noqa: SIM115
+        source, answers = open(os.dup(0), "rb"), open(os.dup(1), "wb")  # noqa: SIM115
+        server.start_io(cast(BinaryIO, Frames(source)), answers)

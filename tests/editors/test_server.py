@@ -44,6 +44,17 @@ class Editor:
         self._process.stdin.write(b"Content-Length: %d\r\n\r\n%s" % (len(data), data))
         self._process.stdin.flush()
 
+    def send_bytes(self, data):
+        self._process.stdin.write(data)
+        self._process.stdin.flush()
+
+    def answer(self):
+        """The next answer to a request, of whatever kind."""
+        while True:
+            message = self._inbox.get(timeout=30)
+            if "id" in message:
+                return message
+
     def tell(self, method, **params):
         self._send(method=method, params=params)
 
@@ -219,3 +230,46 @@ def test_what_another_file_says_wrong_is_told_with_its_place(editor, tmp_path):
     )
     assert found["code"] == "E272"
     assert span(found["range"]) == ((1, 8), (1, 16))
+
+
+def test_old_versions_of_a_text_are_skipped(editor):
+    """A key a message: each is taken in, the last is looked at."""
+    lines = [f"line by (1, {k % 7 - 3}) mm" for k in range(400)]
+    assert editor.open("\n".join(["period 8 ms", *lines, ""])) == []
+    here = {"line": 200, "character": 0}
+    for key in range(100):
+        editor.tell(
+            "textDocument/didChange", textDocument={"uri": URI, "version": key + 2},
+            contentChanges=[{"text": "x", "range": {"start": here, "end": here}}],
+        )  # fmt: skip
+    told, last = 0, (200, 100 + len("line"))
+    while span(editor.messages()[0]["range"]) != ((200, 0), last):
+        told += 1
+    assert told < 50
+
+
+@pytest.mark.parametrize(
+    ("method", "params"),
+    [
+        ("textDocument/hover", {}), ("textDocument/hover", [1]), ("textDocument/hover", None),
+        ("textDocument/hover", {"textDocument": 3, "position": {"line": "a"}}),
+        ("textDocument/completion", {"textDocument": {"uri": URI}}),
+        ("textDocument/codeAction", {"textDocument": {"uri": URI}, "range": {}, "context": {}}),
+    ],
+)  # fmt: skip
+def test_malformed_parameters_get_an_error(editor, method, params):
+    data = json.dumps({"jsonrpc": "2.0", "id": 77, "method": method, "params": params}).encode()
+    editor.send_bytes(b"Content-Length: %d\r\n\r\n%s" % (len(data), data))
+    said = editor.answer()
+    assert said["id"] == 77
+    assert said["error"]["code"] in (-32600, -32602, -32603)
+    assert editor.open(GOOD) == []  # it lives
+
+
+@pytest.mark.parametrize("told", ["1", "20", "99", "99999", "999999999999999999", "-5", "abc", ""])
+def test_a_wrong_length_is_survived(editor, told):
+    data = json.dumps(
+        {"jsonrpc": "2.0", "id": 78, "method": "textDocument/hover", "params": {}}
+    ).encode()
+    editor.send_bytes(b"Content-Length: %s\r\n\r\n%s" % (told.encode(), data))
+    assert editor.open(GOOD) == []

@@ -36,9 +36,10 @@ ANSWER_TIMEOUT = 10.0  # [s] for a scheduler to answer and a first worker to com
 NO_WORKER_TIMEOUT = 30.0  # [s] without any worker, after which nothing more is expected
 POLL_INTERVAL = 0.2  # [s] after which a Ctrl-C is noticed at the latest
 START = (
-    "dask scheduler --host 127.0.0.1, and dask worker tcp://127.0.0.1:8786 --host 127.0.0.1 "
-    "--nthreads 1, on this machine; over a network with TLS, as SECURITY.md has it, for whoever "
-    "reaches their ports runs code"
+    "dask scheduler --host 127.0.0.1 --dashboard-address 127.0.0.1:0, and dask worker "
+    "tcp://127.0.0.1:8786 --host 127.0.0.1 --dashboard-address 127.0.0.1:0 --nthreads 1, for this "
+    "machine alone; over a network only with TLS (SECURITY.md), for who reaches their ports can "
+    "run code"
 )
 TLS = (
     "certificates are those of Dask's settings: DASK_DISTRIBUTED__COMM__TLS__CA_FILE, "

@@ -207,7 +207,7 @@ def test_what_is_no_plain_file_is_refused(tmp_path):
     (tmp_path / "folder.py").mkdir()
     (tmp_path / "zero.py").symlink_to("/dev/zero")
     for name in ("pipe.py", "folder.py", "zero.py"):
-        with pytest.raises(DqpaintError, match=r"cannot be read: .*not a file|is a folder"):
+        with pytest.raises(DqpaintError, match="cannot be read"):
             find_controller(str(tmp_path / name))
     large = written(tmp_path, "#" * 1_000_001, "large.py")
     with pytest.raises(DqpaintError, match="larger than 1000 kB"):

@@ -74,7 +74,7 @@ class Cluster:
                 "a study on a cluster needs Dask: pip install 'dqpaint[cluster]'"
             ) from None
         self._folder, self._address = folder, address
-        self.notes = _warnings(address)
+        self.notes = warnings_of(address)
         for name in [n for n in logging.root.manager.loggerDict if n.startswith("distributed")]:
             logging.getLogger(name).setLevel(logging.CRITICAL)  # what matters is told by us
         try:
@@ -181,7 +181,7 @@ class Cluster:
         self._client.close()
 
 
-def _warnings(address: str) -> tuple[str, ...]:
+def warnings_of(address: str) -> tuple[str, ...]:
     """What a person has to know of an address that others may reach."""
     scheme, _, rest = address.rpartition("://")
     if scheme in ("tls", "wss") or LOOPBACK.fullmatch(rest):

@@ -156,6 +156,7 @@ TESTS = sorted((ROOT / "tests").rglob("*.py"))
 RUN_ON_PURPOSE = {
     "tests.tools": {
         "test_documents.py",
+        "test_security.py",
         "test_snapshots.py",
         "plants/test_compliant_loop.py",
         "studies/test_statistics.py",

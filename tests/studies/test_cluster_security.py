@@ -46,13 +46,20 @@ def cluster(block, folder):
                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
             )  # fmt: skip
             opened.enter_context(process)
-            opened.callback(process.terminate)
+            opened.callback(end, process)
             processes.append(process)
             until = time.monotonic() + 60
-            while not processes.count(None) and not listening(process):
+            while not listening(process):
                 assert time.monotonic() < until
                 time.sleep(0.1)
         yield re.search(r"\w+://127\.0\.0\.1:\d+", " ".join(worker))[0], processes
+
+
+def end(process):
+    """End a process and its children at once."""
+    for one in psutil.Process(process.pid).children(recursive=True):
+        one.kill()
+    process.kill()
 
 
 def listening(process):
@@ -115,8 +122,11 @@ def test_a_cluster_with_tls_lets_in_who_has_a_certificate(secure, tmp_path, monk
     monkeypatch.setattr(dask_pool, "ANSWER_TIMEOUT", 30.0)
     names = re.findall(rf"^export ({KEYS}\w+)=(\w+\.pem)$", SECURE, re.MULTILINE)
     assert len(names) == 3
-    said = config.collect_env({name: str(tmp_path / file) for name, file in names})
-    with config.set(said):
+    said = {  # as Dask reads its environment when it starts
+        name.removeprefix("DASK_").lower().replace("__", ".").replace("_", "-"): tmp_path / file
+        for name, file in names
+    }
+    with config.set({name: str(path) for name, path in said.items()}):
         (done,) = carry_out_study([run()], tmp_path / "far", address)
     assert done.status == "done"
 

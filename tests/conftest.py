@@ -27,12 +27,8 @@ def answer(tmp_path, monkeypatch, capfd):
         monkeypatch.chdir(tmp_path)
         monkeypatch.setattr(sys, "argv", ["dqpaint", *words])
         capfd.readouterr()
-        for number, name in ((1, "stdout"), (2, "stderr")):  # it takes its streams for itself
-            monkeypatch.setattr(sys, name, open(os.dup(number), "w"))  # noqa: SIM115
         with pytest.raises(SystemExit) as stop:
             main.run()
-        for stream in (sys.stdout, sys.stderr):
-            stream.close()
         return subprocess.CompletedProcess(words, stop.value.code or 0, *capfd.readouterr())
 
     return call

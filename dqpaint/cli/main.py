@@ -13,6 +13,7 @@ from dqpaint.errors import DqpaintError, UsageError
 
 DEBUG = "DQPAINT_DEBUG"  # an environment variable: internal errors show where they are
 SHOWS = f"{DEBUG}=1 shows where"
+NO_ROOM = "failed to map segment"  # how the loader of libraries says so
 INTERRUPTED = 130
 
 
@@ -71,7 +72,8 @@ def _flush() -> None:
 
 def _of_the_machine(fault: Exception) -> str:
     """The sentence of a fault that a full disk, memory or the like may cause anywhere."""
-    if isinstance(fault, MemoryError):
+    no_room = isinstance(fault, ImportError) and NO_ROOM in str(fault)  # for a library
+    if isinstance(fault, MemoryError) or no_room:
         return f"error: there is not enough memory; a smaller --size or drawing needs less; {SHOWS}"
     if not isinstance(fault, OSError):
         return ""

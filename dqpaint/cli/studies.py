@@ -1,6 +1,7 @@
 """Declarations of studies -> their commands, made when they are called."""
 
 import inspect
+import os
 import shlex
 import shutil
 import signal
@@ -92,6 +93,9 @@ def _carry_out(
     name: str, kind: "type[Study]", subject: str, choices: Choices, report: bool
 ) -> None:
     """Carry a study out, write its files and print its tables, as wide as the terminal."""
+    # Read when numpy is: workers compute, and where memory is short OpenBLAS, which takes some for
+    # each thread, ends the process.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from dqpaint.studies.declared import run_study
 
     _end_like_ctrl_c()

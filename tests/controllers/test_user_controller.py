@@ -210,7 +210,7 @@ def test_what_is_no_plain_file_is_refused(tmp_path):
         with pytest.raises(DqpaintError, match="cannot be read"):
             find_controller(str(tmp_path / name))
     large = written(tmp_path, "#" * 1_000_001, "large.py")
-    with pytest.raises(DqpaintError, match="larger than 1000 kB"):
+    with pytest.raises(DqpaintError, match="it is larger than 1 MB"):
         find_controller(large)
 
 

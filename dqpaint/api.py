@@ -4,7 +4,6 @@ import sys
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
-from functools import partial
 from os import PathLike
 from pathlib import Path
 from time import perf_counter
@@ -39,6 +38,7 @@ def draw(
     settings: "str | PathLike[str] | SettingsFile | None" = None,
     progress: Callable[[float], None] = lambda _done: None,
     formats: str | None = None,
+    before: "Callable[[paint.PreparedRun], None]" = lambda _ready: None,
     **options: Unpack[DrawOptions],
 ) -> "paint.Painting":
     """Paint a drawing with a simulated arm, as `dqpaint draw` does; nothing is written.
@@ -49,6 +49,7 @@ def draw(
             win.
         progress: called while the arm moves, with the share done, 0 to 1.
         formats: what will be saved, with commas; a run that cannot be is refused before it begins.
+        before: called with what was prepared, before the arm moves.
         options:
 
     Raises:
@@ -69,11 +70,13 @@ def draw(
     from dqpaint.controllers.base import make_controller
     from dqpaint.painting import paint
 
+    def check(ready: paint.PreparedRun) -> None:
+        registry.check_before_run(writers, ready)
+        before(ready)
+
     law = None if own is None else make_controller(own, chosen.controller)
     with _places(drawing):
-        painting = paint.paint(
-            program, chosen, progress, law, partial(registry.check_before_run, writers)
-        )
+        painting = paint.paint(program, chosen, progress, law, check)
     notes = given.remarks(painting.sha256) + painting.notes
     return replace(painting, seconds={"language": seconds, **painting.seconds}, notes=notes)
 

@@ -8,7 +8,7 @@ import json
 import os
 import shutil
 import sys
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -25,6 +25,9 @@ from dqpaint.cli.options import (
 )
 from dqpaint.core.inputs import send_raw
 from dqpaint.errors import UsageError
+
+if TYPE_CHECKING:
+    from dqpaint.painting.paint import PreparedRun
 
 app = typer.Typer(
     add_completion=False,
@@ -80,13 +83,22 @@ def draw(choices: Choices, file: Drawing, out: Out = None, save: Save = "png,csv
     law = "recorded" if both.get("recorded") else both.get("controller", DEFAULT_CONTROLLER)
     stem = files.stem_for(out, f"{path.stem}-{short_name(law)}", note)
     with Progress(path.name) as progress:
-        painting = api.draw(path, **choices, settings=given, progress=progress, formats=save)
+        painting = api.draw(
+            path, **choices, settings=given, progress=progress, formats=save, before=_tell_place
+        )
     with Progress("movie") as progress:
         written = files.write(stem, registry.make_files(writers, painting, progress))
 
     from dqpaint.cli import report
 
     _finish(report.remarks(painting), report.of_painting(painting, written), painting.image)
+
+
+def _tell_place(ready: "PreparedRun") -> None:
+    """Say that `place auto` found but a poor place, before the arm moves."""
+    placed = ready.prepared.placement
+    if placed is not None and placed.is_poor:
+        print(f"warning: place auto found {placed.figures}", file=sys.stderr)
 
 
 @app.command(

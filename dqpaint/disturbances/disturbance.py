@@ -87,6 +87,11 @@ class Disturbance(BaseModel):
         names = self.random_fields
         return names is None or any(getattr(self, name) for name in names)
 
+    @property
+    def may_swing(self) -> bool:
+        """Whether it may go to and fro in time, so that an arm swings with it."""
+        return False
+
     def check(self, t: Floats) -> None:
         """Check that the disturbance has an effect in a run with times (N,) [s].
 

@@ -121,6 +121,11 @@ class SixSignals(FromFile):
         """Whether it is noise of its own making."""
         return self.form == "noise" and not self.path
 
+    @property
+    def may_swing(self) -> bool:
+        """Whether it is a sine, or comes from a file."""
+        return bool(self.path) or self.form == "sine"
+
     @model_validator(mode="after")
     def _is_something(self) -> Self:
         if self.path:

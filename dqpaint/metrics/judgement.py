@@ -4,6 +4,7 @@ One rule for every command. Figures of a run that is no result mean nothing: the
 limits ended it. Only the second half counts, so that a far start is no fault.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -69,11 +70,16 @@ class Judgement:
         return "; ".join(fault.says for fault in self.faults)
 
 
-def judge(track: Track) -> Judgement:
-    """Whether a run is a result, by the rules of this module."""
+def judge(track: Track, swinging: Sequence[str] = ()) -> Judgement:
+    """Whether a run is a result, by the rules of this module.
+
+    Args:
+        track: the run.
+        swinging: names of disturbances that may swing by themselves: an arm may swing with them.
+    """
     if len(track.command) < LEAST_ROWS:
         return Judgement(())
-    found = (_oscillates(track), _clipped(track), _long_path(track), _far_off(track))
+    found = (_oscillates(track, swinging), _clipped(track), _long_path(track), _far_off(track))
     return Judgement(tuple(fault for fault in found if fault is not None))
 
 
@@ -87,7 +93,7 @@ def clipped_rows(track: Track) -> NDArray[np.bool_] | None:
     return found
 
 
-def _oscillates(track: Track) -> Fault | None:
+def _oscillates(track: Track, swinging: Sequence[str]) -> Fault | None:
     """A tool that swings as nothing asked it to, or commands that alternate or swing."""
     motion = track.motion
     line = motion.source.at(len(motion.t) - 1)
@@ -106,6 +112,8 @@ def _oscillates(track: Track) -> Fault | None:
             amount = f"{float(f'{scale * found.amplitude:.2g}'):g} {unit}"  # 230, not 2.3e+02
             where = motion.program.line_name(line)
             said = f"{name} oscillates at {found.frequency:.3g} Hz by {amount}, line {where}"
+            if swinging:
+                said += f", perhaps with the disturbance that acts in time ({', '.join(swinging)})"
             return Fault("oscillates", said, line)
     return None
 

@@ -166,6 +166,11 @@ class PreparedRun:
         """The motion that the arm follows."""
         return self.prepared.motion
 
+    @property
+    def swinging(self) -> tuple[str, ...]:
+        """The disturbances that may go to and fro in time."""
+        return tuple(name for name, one in self.choices.disturbances.items() if one.may_swing)
+
     def run(self, progress: Callable[[float], None] = lambda _done: None) -> Track:
         """The run."""
         if self.recording is not None:
@@ -239,7 +244,7 @@ def finish(ready: PreparedRun, run: Track, photographed: bool = True) -> Paintin
             None if gains.knots else gains.first.gammas,
         )  # fmt: skip
         steps = step_responses(run)
-        judgement = judge(run)
+        judgement = judge(run, ready.swinging)
     robot = settings.robot or motion.program.robot or DEFAULT_ROBOT
     cast = ArmMotion(robot, run.posture, motion.source, motion.period)
     if settings.staged and not cast.has_joints:

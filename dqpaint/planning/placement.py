@@ -1,13 +1,14 @@
 """Drawing x arm -> where the drawing fits the arm best: `place auto`.
 
 The drawing is tried all over the arm's reach, always facing the way it faces on the robot's canvas
-(or as `place auto turned` says), so that the picture stays the same. Of each place three
+(or as `place auto turned` says), so that the picture stays the same. Of each place four
 things count, each the worst along the whole path: the manipulability, the room a joint has left,
-from 0 at a limit to 1 in the middle of its range, and the part of a joint's torque that the arm's
-own weight leaves. Their product is the figure of merit. Many places are
-followed at once on a few of the drawing's poses; the best is then moved in ever smaller steps; what
-comes out is looked at along the whole drawing, and has to be free of collisions and in sight.
-Places where some of the drawing would be below z = 0, on which most arms stand, are tried last.
+from 0 at a limit to 1 in the middle of its range, the part of a joint's torque that the arm's own
+weight leaves, and the pace at which every joint keeps within its speed, at most 1. Their product is
+the figure of merit. Many places are followed at once on a few of the drawing's poses; the best is
+then moved in ever smaller steps; what comes out is looked at along the whole drawing, and has to be
+free of collisions and in sight. Places where some of the drawing would be below z = 0, on which
+most arms stand, are tried last.
 """
 
 from collections.abc import Iterator
@@ -24,7 +25,7 @@ from dqpaint.dq import Floats
 from dqpaint.language import parse
 from dqpaint.motion import Motion, moved, plan, scaled, straight
 from dqpaint.planning.forecast import Forecast, forecast
-from dqpaint.planning.ideal_run import find_start_posture
+from dqpaint.planning.ideal_run import find_start_posture, jumps_between
 from dqpaint.planning.occlusion import DEFAULT_SETTINGS
 from dqpaint.program import AutoPlacement, Pose, Program
 from dqpaint.robots.kinematics import (
@@ -64,10 +65,11 @@ class Placement:
     Attributes:
         pose: the drawing frame in the base frame.
         statement: the same as a line of the language, fit to be pasted: exactly this place.
-        merit: `manipulability` times `relative_margin` times `torque_left`.
+        merit: `manipulability` times `relative_margin` times `torque_left` times `pace`.
         manipulability: the least along the drawing.
         relative_margin: the least of any joint, from 0 at a limit to 1 in the middle of its range.
         torque_left: the least part of any joint's torque that the arm's weight leaves.
+        pace: the part of the drawing's speed at which no joint is faster than it can, at most 1.
         occluded: the largest part of a line's light that the arm hides, seen from the front.
     """
 
@@ -77,6 +79,7 @@ class Placement:
     manipulability: float
     relative_margin: float
     torque_left: float
+    pace: float
     occluded: float
 
     @property
@@ -90,16 +93,23 @@ class Placement:
             "manipulability": self.manipulability,
             "room": self.relative_margin,
             "torque": self.torque_left,
+            "pace": self.pace,
         }
+
+    @property
+    def is_poor(self) -> bool:
+        """Whether the arm can hardly draw it well there, though nothing better was found."""
+        return min(self.relative_margin, self.torque_left) < POOR or self.pace < 1.0
 
     @property
     def figures(self) -> str:
         """How well the drawing fits there, in words."""
-        poor = "a poor place: " if min(self.relative_margin, self.torque_left) < POOR else ""
+        poor = "a poor place: " if self.is_poor else ""
+        slow = f", joints keep up with {self.pace:.0%} of the speed" if self.pace < 1.0 else ""
         return (
             f"{poor}manipulability at least {self.manipulability:.3g}, "
             f"{self.relative_margin:.0%} of half a joint's range and "
-            f"{self.torque_left:.0%} of a torque left; merit {self.merit:.3g}"
+            f"{self.torque_left:.0%} of a torque left{slow}; merit {self.merit:.3g}"
         )
 
 
@@ -174,8 +184,10 @@ def _evaluate(
     room = min(one.relative_margin for one in lines)
     worst = min(one.manipulability for one in lines)
     torque = min(_torque_left(one.weight_part) for one in lines)
+    pace = min(1.0, 1.0 / max(1e-9, *(one.speed_part for one in lines)))
     hidden = max(one.occluded or 0.0 for one in lines)
-    return Placement(place, line, worst * room * torque, worst, room, torque, hidden)
+    merit = worst * room * torque * pace
+    return Placement(place, line, merit, worst, room, torque, pace, hidden)
 
 
 def _forecast_if_valid(
@@ -274,10 +286,11 @@ class _Search:
         moves = dq.pose_from(shifts, np.tile([1.0, 0, 0, 0], (len(shifts), 1)))[whose]
         first = np.tile(self._seeds[:starts], (len(shifts), 1))
         follow = _BatchFollower(self._arm, first)
-        seconds = self._motion.t[rows]
+        seconds, jump = self._motion.t[rows], jumps_between(self._motion, rows)
         for k, row in enumerate(rows):
             pause = seconds[k] - seconds[k - 1] if k else None
-            follow.advance(dq.mul(moves, self._motion.pose[row]), pause)
+            jumped = k > 0 and bool(jump[k - 1])
+            follow.advance(dq.mul(moves, self._motion.pose[row]), pause, jumped)
         merits = np.zeros(len(shifts))
         np.maximum.at(merits, whose[follow.alive], follow.merit[follow.alive])
         return merits
@@ -293,16 +306,20 @@ class _BatchFollower:
         self._worst = np.full(len(postures), np.inf)
         self._relative_margin = np.ones(len(postures))
         self._torque_left = np.ones(len(postures))
+        self._pace = np.ones(len(postures))
         self._dynamics = Dynamics(kinematics)
         self.alive = np.arange(len(postures))
 
     @property
     def merit(self) -> Floats:
-        """Least manipulability, room and torque so far, multiplied (M,)."""
-        return self._worst * self._relative_margin * self._torque_left
+        """Least manipulability, room, torque and pace so far, multiplied (M,)."""
+        return self._worst * self._relative_margin * self._torque_left * self._pace
 
-    def advance(self, poses: Floats, pause: float | None) -> None:
-        """Move to the next poses (M, 8) after a time [s]; None for the first poses."""
+    def advance(self, poses: Floats, pause: float | None, jumped: bool = False) -> None:
+        """Move to the next poses (M, 8) after a time [s]; None for the first poses.
+
+        The speed of a jump of the reference is a law's own: it does not count.
+        """
         if not len(self.alive):
             return
         alive = self.alive
@@ -310,6 +327,11 @@ class _BatchFollower:
         if pause is not None:
             wish = (1.0 - np.exp(-START_GAIN * pause)) * (self._start[alive] - self._q[alive])
         q, measure, reached = self._newton(poses[alive], self._q[alive], wish)
+        if pause and not jumped:
+            moved = np.abs(q - self._q[alive]) / self._card.speed
+            self._pace[alive] = np.minimum(
+                self._pace[alive], pause / np.maximum(moved.max(axis=1), pause)
+            )
         room = np.minimum(q - self._card.lower, self._card.upper - q) / self._half
         self._q[alive] = q
         self._worst[alive] = np.minimum(self._worst[alive], measure)

@@ -129,6 +129,8 @@ def test_an_oscillation_is_told_with_its_frequency_amplitude_and_line(lines):
     assert float(frequency) == pytest.approx(12.0, abs=2 / one.motion.seconds)
     assert float(amplitude) == pytest.approx(0.5, rel=0.1)
     assert fault.line == SourceLine(0, 5)  # the second half
+    assert "push-2" not in fault.says
+    assert "push-2" in judge(moved(one, sine(one, 12.0, 0.5e-3)), ["push-2"]).why
     assert judge(moved(one, sine(one, 12.0, 0.02e-3))).is_result  # a fortieth of the speed
     assert "e+" not in judge(moved(one, sine(one, 12.0, 0.23))).faults[0].says  # 230, not 2.3e+02
 

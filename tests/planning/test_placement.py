@@ -101,7 +101,7 @@ def test_the_figures_are_those_of_the_drawing_at_that_place(arm, placed):
     assert placed.manipulability == pytest.approx(worst, rel=0.05)
     assert placed.relative_margin == pytest.approx(room, rel=0.05)
     assert placed.merit == pytest.approx(
-        placed.manipulability * placed.relative_margin * placed.torque_left
+        placed.manipulability * placed.relative_margin * placed.torque_left * placed.pace
     )
 
 
@@ -243,6 +243,24 @@ def test_slips_in_the_language(line, code):
     ({"relative_margin": 0.5, "torque_left": 0.5}, False),
     ({"relative_margin": 0.06, "torque_left": 0.5}, True),
     ({"relative_margin": 0.5, "torque_left": 0.06}, True),
+    ({"relative_margin": 0.5, "torque_left": 0.5, "pace": 0.9}, True),
 ])  # fmt: skip
 def test_a_place_that_leaves_little_is_called_poor(placed, changed, poor):
     assert replace(placed, **changed).figures.startswith("a poor place: ") == poor
+
+
+def test_the_speeds_of_a_place_count(arm):
+    """The place of the slow drawing is worse for the fast one than its own, and called poor."""
+    line = "place auto\nline to (0, 300) mm in {} s\n"
+    fast = parse(line.format(0.35), "t")
+    own = placement.find_placement(fast, arm)
+    slow = placement.find_placement(parse(line.format(9), "t"), arm)
+    assert slow.pace == 1.0
+    there = placement._evaluate(fast, arm, slow.statement)
+    assert there.pace < own.pace < 1.0
+    assert there.merit < own.merit
+    assert own.is_poor
+    assert not slow.is_poor
+    motion = plan(replace(fast, placement=own.pose), arm.card.canvas.pose)
+    lines = forecast(motion, arm, reachable_start_posture(motion, arm).posture)
+    assert own.pace == pytest.approx(1 / max(one.speed_part for one in lines))

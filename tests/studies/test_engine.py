@@ -263,3 +263,10 @@ def test_a_sweep_that_was_stopped_goes_on(tmp_path, how, whole):
     assert len(keys) == POINTS
     assert set(keys.values()) == {1}
     assert tables(tmp_path / "study") == whole
+
+
+def test_runs_that_would_all_be_the_same_are_refused():
+    for constant in ({}, {"payload": {"mass": 1.0}}, {"twist": {"form": "sine", "x": 0.01}}):
+        with pytest.raises(UsageError, match="random"):
+            seeded(run(disturb=constant), 3)
+    assert len(seeded(run(disturb={"noise": {"rms": 1e-4}}), 3)) == 3

@@ -120,5 +120,5 @@ def _result(
         if is_of_the_machine(problem):
             raise  # each goes by itself then
         return Result(key, "failed", str(problem))
-    found = judge(track)
+    found = judge(track, ready.swinging)
     return Result(key, found.status, found.why, figures, limits_text(track), idle)

@@ -173,7 +173,7 @@ def seeded(run: Run, count: int) -> list[Run]:
     """
     if count < 1:
         raise UsageError(f"{count} runs; at least 1 is needed")
-    if count > 1 and not (run.settings.disturb or run.settings.spread):
+    if count > 1 and not _is_random(run):
         raise UsageError(
             f"{count} runs would all be the same: nothing in them is random; "
             "add a disturbance, for example --disturb twist=noise,x=0.01,y=0.01,frequency=5, "
@@ -190,14 +190,19 @@ def seeded(run: Run, count: int) -> list[Run]:
     ]
 
 
+def _is_random(run: Run) -> bool:
+    """Whether anything in a run differs with its seed."""
+    given = make_disturbances(run.settings.disturb).values()
+    return bool(run.settings.spread) or any(one.is_random for one in given)
+
+
 def check_seeds(runs: Sequence[Run]) -> None:
     """Check that runs that differ in their seeds have something random in them.
 
     Raises:
         UsageError: they have not.
     """
-    given = (one for run in runs for one in make_disturbances(run.settings.disturb).values())
-    if not any(one.is_random for one in given):
+    if not any(map(_is_random, runs)):
         raise UsageError(
             "the seed is varied, but nothing in these runs is random: all would be the same; add "
             "--disturb noise=0.0005 or --disturb twist=noise,x=0.01,frequency=5"
@@ -210,7 +215,7 @@ def repeated(runs: Sequence[Run], count: int) -> list[list[Run]]:
     Raises:
         UsageError: there is nothing random in any.
     """
-    random = [bool(run.settings.disturb or run.settings.spread) for run in runs]
+    random = [_is_random(run) for run in runs]
     counts = [count if one or not any(random) else 1 for one in random]
     return [seeded(run, of_run) for run, of_run in zip(runs, counts, strict=True)]
 

@@ -27,7 +27,7 @@ from dqpaint.core.inputs import send_raw
 from dqpaint.errors import UsageError
 
 if TYPE_CHECKING:
-    from dqpaint.painting.paint import PreparedRun
+    from dqpaint.painting import paint
 
 app = typer.Typer(
     add_completion=False,
@@ -94,7 +94,7 @@ def draw(choices: Choices, file: Drawing, out: Out = None, save: Save = "png,csv
     _finish(report.remarks(painting), report.of_painting(painting, written), painting.image)
 
 
-def _tell_place(ready: "PreparedRun") -> None:
+def _tell_place(ready: "paint.PreparedRun") -> None:
     """Say that `place auto` found but a poor place, before the arm moves."""
     placed = ready.prepared.placement
     if placed is not None and placed.is_poor:

@@ -36,6 +36,7 @@ class CleanStream(TextIOWrapper):
     def __init__(self, under: TextIOWrapper) -> None:
         under.flush()
         self._under = under
+        self._fault: OSError | None = None  # of a write: told again at the next flush
         super().__init__(
             under.buffer, under.encoding, "backslashreplace", line_buffering=under.line_buffering,
             write_through=under.write_through,
@@ -43,8 +44,18 @@ class CleanStream(TextIOWrapper):
 
     def write(self, text: str, /) -> int:
         """Write a text; other characters come as their numbers."""
-        super().write(printable(text))
+        try:
+            super().write(printable(text))
+        except OSError as fault:
+            self._fault = fault
+            raise
         return len(text)
+
+    def flush(self) -> None:
+        """Write what waits; a write that failed fails again."""
+        if self._fault is not None:
+            raise self._fault
+        super().flush()
 
     def send(self, text: str) -> None:
         """Write a text as it is."""
@@ -52,7 +63,7 @@ class CleanStream(TextIOWrapper):
 
     def close(self) -> None:
         """Write what waits; the bytes are those of the other stream."""
-        if not self.closed:
+        if not self.closed and self._fault is None:
             self.flush()
 
 

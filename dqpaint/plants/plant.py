@@ -201,7 +201,7 @@ class ConfiguredPlant:
         if needs == "masses" and "sudden motors" in self.make.traits:
             return (
                 f"the motors of '{self.name}' have infinite bandwidth: within their torque they "
-                "hold any load; it shows with --plant compliant, servo or torque"
+                "hold any load; it shows with --plant compliant or servo"
             )
         return "too small to be seen here, or outside the time of the drawing"
 
@@ -213,7 +213,9 @@ class ConfiguredPlant:
         """
         if trait is None or trait in self.make.traits:
             return
-        suited = [name for name, plant in PLANTS.items() if trait in plant.traits]
+        takes = self.make.takes  # one that takes other commands would refuse the law
+        alike = {name: plant for name, plant in PLANTS.items() if plant.takes == takes}
+        suited = [name for name, plant in alike.items() if trait in plant.traits]
         raise UsageError(
             f"disturbance '{disturbance}' has no effect on plant '{self.name}', which has no "
             f"{trait.removeprefix('a ')}; plants that have it: {', '.join(suited)}"

@@ -157,3 +157,13 @@ def test_pybullet_keeps_quiet():
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == ""
     assert done.stderr == ""
+
+
+def test_a_plant_that_a_law_of_rates_cannot_run_on_is_not_advised():
+    from dqpaint.plants.plant import find_plant
+
+    assert "torque" not in find_plant("stiff").why_without_effect("masses").partition("--plant")[2]
+    with pytest.raises(UsageError) as caught:
+        find_plant("stiff").require_trait("a model of gravity", "gravity")
+    assert "compliant" in str(caught.value)
+    assert "torque" not in str(caught.value)

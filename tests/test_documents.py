@@ -112,7 +112,8 @@ def test_readme_studies_from_python_run(tmp_path, monkeypatch):
     scope = {}
     monkeypatch.chdir(tmp_path)
     exec(blocks("python")[3], scope)
-    assert scope["compared"].pictures["overlay"].shape == (360, 640, 3)
+    height, width, _ = scope["compared"].pictures["overlay"].shape
+    assert (width, height > 360) == (640, True)  # with a key below
     assert (tmp_path / "pictures/lag-report.html").is_file()
 
 

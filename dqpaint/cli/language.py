@@ -90,13 +90,15 @@ def explain(
     ] = None,
 ) -> None:
     """Explain a law by its equation, likewise a plant, disturbance, metric, profile or message."""
-    from dqpaint.cli import explaining
     from dqpaint.diagnostics import catalogue, closest, did_you_mean
+
+    if name is not None and MESSAGE.fullmatch(name.strip()):
+        print(catalogue.format_explanation(catalogue.explanation(name)))
+        return
+    from dqpaint.cli import explaining
 
     if name is None:
         print(f"{explaining.list_names()}\n\n{catalogue.list_explanations()}")
-    elif MESSAGE.fullmatch(name.strip()):
-        print(catalogue.format_explanation(catalogue.explanation(name)))
     elif found := explaining.explained(name.strip()):
         print("\n\n".join(map(explaining.format_explained, found)))
     else:

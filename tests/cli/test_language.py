@@ -138,10 +138,10 @@ def test_a_person_at_a_terminal_is_told_where_more_is_said(dqpaint, tmp_path, co
 
 
 @pytest.mark.parametrize("command", ["fmt", "explain", "new", "grammar", "lsp"])
-def test_help_ends_with_two_examples(dqpaint, command):
+def test_help_ends_with_examples(dqpaint, command):
     done = dqpaint(command, "--help")
     assert done.returncode == 0
-    assert done.stdout.count(f"  dqpaint {command}") == 2
+    assert done.stdout.count(f"  dqpaint {command}") >= 2
 
 
 @pytest.mark.parametrize(

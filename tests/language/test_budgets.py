@@ -7,6 +7,7 @@ import pytest
 from tests.support.svg import curves, dots, drawing_of
 from tests.support.work import checked
 
+CORNERS_BYTES = 1400 << 20  # half a million corners, each with its own speed
 MOST_CALLS = 2_000_000  # 350,000 of them start the program
 MORE = {"functions": 14_000_000, "deep": 8_000_000}  # twice what is needed
 LINE = "line by (1, 0) mm"
@@ -72,7 +73,7 @@ def test_a_path_of_many_points_is_answered_soon(
     near = "".join(f"{size * (i % 97) / 97:.2f},{i % 89 / 890:.2f}\n" for i in range(rows))
     (tmp_path / "points.csv").write_text(near)
     (tmp_path / "path.traj").write_text(f'path "points.csv" unit mm {clause}\n')
-    answer = checked(tmp_path / "path.traj")
+    answer = checked(tmp_path / "path.traj", CORNERS_BYTES)
     assert said in answer.said, answer.said[:500]
     assert answer.calls < MOST_CALLS
 
@@ -90,6 +91,6 @@ def test_a_large_svg_is_answered_soon(tmp_path: Path, name: str) -> None:
     shapes, clause, said, most = LARGE[name]
     (tmp_path / "a.svg").write_text(drawing_of(shapes))
     (tmp_path / "a.traj").write_text(f'svg "a.svg" height 200 mm {clause}\n')
-    answer = checked(tmp_path / "a.traj")
+    answer = checked(tmp_path / "a.traj", CORNERS_BYTES)
     assert said in answer.said, answer.said[:500]
     assert answer.calls < most

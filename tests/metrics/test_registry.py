@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import dqpaint
+from dqpaint import dq
 from dqpaint.cli import listing
 from dqpaint.diagnostics import SourceLine
 from dqpaint.errors import DqpaintError
@@ -39,6 +40,15 @@ def special(name, track):
         return replace(
             track, motion=replace(motion, source=RowLines.from_lines([SourceLine(1, 1)] * n))
         )
+    if name.startswith("step_"):
+        still = np.full((1, 3), 1e-2)
+        pose = np.tile(motion.pose[:1], (n, 1))
+        turn = np.array([[np.cos(0.1), np.sin(0.1), 0.0, 0.0]])
+        pose[2:] = dq.mul(dq.pose_from(still, turn), pose[2:])
+        jump = np.zeros(n, bool)
+        jump[1] = True
+        reached = np.concatenate([pose[:4], np.tile(pose[-1:], (n - 4, 1))])
+        return replace(track, motion=replace(motion, pose=pose, jump=jump), pose=reached)
     if name == "drawing_time_s":
         return replace(track, motion=replace(motion, clock=0.5 * motion.t))
     if name == "read1_rad":

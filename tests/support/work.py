@@ -6,6 +6,7 @@ import re
 import resource
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 from types import FrameType
 from typing import NamedTuple
@@ -51,19 +52,19 @@ class Answer(NamedTuple):
     calls: int
 
 
-def checked(path: Path) -> Answer:
-    """`dqpaint check` of a file, in a process of its own with a bound of memory."""
+def checked(path: Path, most: int = MOST_BYTES) -> Answer:
+    """`dqpaint check` of a file, in a process of its own with a bound of memory [bytes]."""
     done = subprocess.run(
         [sys.executable, "-m", "tests.support.work", "check", str(path)],
-        capture_output=True, text=True, preexec_fn=_limit, timeout=FAR_TOO_LONG, check=False,
-        cwd=ROOT, env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
+        capture_output=True, text=True, preexec_fn=partial(_limit, most), check=False,
+        timeout=FAR_TOO_LONG, cwd=ROOT, env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
     )  # fmt: skip
     said, count = re.fullmatch(r"(.*)calls (\d+)\n", done.stdout + done.stderr, re.DOTALL).groups()
     return Answer(done.returncode, said, int(count))
 
 
-def _limit() -> None:
-    resource.setrlimit(resource.RLIMIT_DATA, (MOST_BYTES, MOST_BYTES))
+def _limit(most: int) -> None:
+    resource.setrlimit(resource.RLIMIT_DATA, (most, most))
 
 
 if __name__ == "__main__":

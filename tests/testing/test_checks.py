@@ -156,7 +156,9 @@ def test_faulty_disturbances_are_found():
 
 
 def settling(name):
-    """How long a law may take [s]: `pham-t` is as slow as its weakest mode."""
+    """How long a law may take [s]: `pham-t` is as slow as its weakest mode; one runs away."""
+    if name == "p-least-squares":
+        return None  # as printed it leaves every set point, which its own tests show
     if name != "pham-t":
         return 3.0
     x, J = arm().pose_and_jacobian(arm().card.home)

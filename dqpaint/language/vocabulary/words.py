@@ -428,7 +428,7 @@ FUNCTION_ALIASES = {
 
 # Never part of an expression: a value was forgotten if one of them is found there.
 # But these have a meaning in a few statements only, and `let radius = …` is common.
-FREE = (*("radius", "left", "right", "long", "height", "width", "unit", "corner", "jump", "order"),)
+FREE = ("corner", "height", "jump", "left", "long", "order", "radius", "right", "unit", "width")
 RESERVED = frozenset(
     (*STATEMENTS, *PARTS, *RENAMED, *LITTLE_WORDS, "if", "else", "while")
 ).difference(FREE)

@@ -145,7 +145,7 @@ def test_a_sweep_with_two_workers_gives_the_bits_of_single_runs(outside):
         " size=(64, 36))\n"
         "    print(repr(p.metrics.figures['position_error_rms_m']))\n",
     ).split()
-    (table,) = (outside.folder / "swept").glob("*.csv")
+    (table,) = (outside.folder / "swept").glob("*-table.csv")
     for number in found:
         assert number.removeprefix("np.float64(").rstrip(")") in table.read_text()
 

@@ -122,7 +122,8 @@ def test_choices_are_checked_before_anything_runs(tmp_path):
         carry_out_study([run()], tmp_path / "s", 0)
     (tmp_path / "arm.toml").write_text(
         '[urdf]\npackage = "no-such-package"\nfile = "arm.urdf"\nlink = "hand"\n'
-        "[limits]\nlower_deg = [-9]\nupper_deg = [9]\nspeed_deg_s = [9]\neffort_Nm = [9]\n"
+        "[limits]\nlower_deg = [-9, -9, -9, -9, -9, -9]\nupper_deg = [9, 9, 9, 9, 9, 9]\n"
+        "speed_deg_s = [9, 9, 9, 9, 9, 9]\neffort_Nm = [9, 9, 9, 9, 9, 9]\n"
     )
     with pytest.raises(UsageError, match="pip install no-such-package"):
         carry_out_study([run(robot=str(tmp_path / "arm.toml"))], tmp_path / "s", 1)

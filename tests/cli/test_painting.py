@@ -442,7 +442,7 @@ def test_ctrl_c_while_libraries_are_imported(monkeypatch, capsys):
 
 
 def test_ctrl_c_leaves_nothing_half_written(tmp_path):
-    (tmp_path / "long.traj").write_text("period 1 ms\nline to (100, 0) mm in 600 s\n")
+    (tmp_path / "long.traj").write_text("period 4 ms\nline to (100, 0) mm in 600 s\n")
     process = subprocess.Popen(
         [sys.executable, "-m", "dqpaint", "draw", "long.traj"],
         cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,

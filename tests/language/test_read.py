@@ -52,7 +52,8 @@ def test_other_files(tmp_path: Path, data: bytes, message: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "reason"), [("nix.traj", "no such file"), ("", "directory"), ("a\0b", "null")]
+    ("name", "reason"),
+    [("nix.traj", "no such file"), ("", "directory"), ("a\0b", "no file can have this name")],
 )
 def test_what_cannot_be_read(tmp_path: Path, name: str, reason: str) -> None:
     with pytest.raises(DqpaintError, match=reason):

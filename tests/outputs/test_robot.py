@@ -356,7 +356,7 @@ def test_refused_for_a_sudden_start_and_end(tmp_path_factory):
     said = refused(sudden)
     assert "line 5: a sudden start: joint" in said
     assert "a sudden end" in said
-    assert "profile trapezoid or quintic" in said
+    assert "profile trapezoid" in said
     assert "--on-limit" not in said
 
 

@@ -89,7 +89,9 @@ def _unread(node: Quoted, path: Path, fault: OSError) -> Problem:
     if isinstance(fault, FileNotFoundError):
         there = sorted(p.name for p in path.parent.glob(f"*{path.suffix}"))[:6]
         help = f"there are: {', '.join(there)}" if there and path.suffix else ""
-    return problem("E293", f"can't read {node.text}: {reason.lower()}", node.span, "", help)
+    return problem(
+        "E293", f"can't read {node.text}: {reason[:1].lower()}{reason[1:]}", node.span, "", help
+    )
 
 
 def too_large(node: Quoted, how: str, help: str = "") -> Problem:

@@ -21,7 +21,8 @@ def load(path: str | Path) -> bytes:
     try:
         return read_regular(path, MOST_BYTES)
     except OSError as fault:
-        reason = (fault.strerror or str(fault)).lower()
+        reason = fault.strerror or str(fault)
+        reason = reason[:1].lower() + reason[1:]
         if fault.errno == EFBIG:
             raise DqpaintError(f"{path} {reason.removeprefix('it ')}") from None
         raise DqpaintError(f"can't read {path}: {reason}") from None

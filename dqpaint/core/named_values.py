@@ -2,15 +2,16 @@
 
 import re
 from collections.abc import Mapping
-from typing import Any, TypeVar
-
-from pydantic import BaseModel, ValidationError
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from dqpaint.errors import UsageError
 
+if TYPE_CHECKING:  # help starts without pydantic: it takes longer to import than all else there
+    from pydantic import BaseModel
+
 FILE_PATTERN = r"[^:=,]+\.py(?::[^\W\d]\w*(?=:|$))?"  # FILE.py or FILE.py:NAME, before values
 Values = Mapping[str, float | str]
-M = TypeVar("M", bound=BaseModel)
+M = TypeVar("M", bound="BaseModel")
 
 
 def read_choice(kind: str, text: str, example: str) -> tuple[str, dict[str, float | str]]:
@@ -65,6 +66,8 @@ def make_choice(kind: str, name: str, model: type[M], values: Values) -> M:
     Raises:
         UsageError: an unknown value, or one outside its range; lists the known ones.
     """
+    from pydantic import ValidationError
+
     named: dict[str, Any] = dict(values)
     if "" in named and model.model_fields:
         first_field = next(iter(model.model_fields))

@@ -16,7 +16,7 @@ PACKAGE = ROOT / "dqpaint"
 FILES = sorted(PACKAGE.rglob("*.py"))
 FOLDERS = sorted({path.parent for path in FILES})
 ROOMS = sorted(path.name for path in PACKAGE.iterdir() if (path / "__init__.py").is_file())
-MOST_ROOMS, MOST_LOOSE_FILES, MOST_FILES, MOST_LINES = 22, 6, 14, 500
+MOST_ROOMS, MOST_LOOSE_FILES, MOST_FILES, MOST_LINES = 24, 6, 14, 500
 
 CONTRACTS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]
 BREAKS = {

@@ -30,7 +30,7 @@ def of_painting(painting: paint.Painting, written: Sequence[Path]) -> str:
     rows = [
         ("drawing", summary_line(painting.motion)),
         *([("placed", one.statement), ("", one.figures)] if (one := painting.placement) else []),
-        ("arm", f"{painting.robot}, {painting.plant}"),
+        ("arm", f"{painting.robot}, {_plant(painting)}"),
         ("controller", f"{painting.controller.name}  {gains}".rstrip()),
         *_disturbed(painting),
         ("position error", _spread(figures, "position_error", "m")),
@@ -46,6 +46,11 @@ def of_painting(painting: paint.Painting, written: Sequence[Path]) -> str:
         *_files(written),
     ]
     return table(rows)
+
+
+def _plant(painting: paint.Painting) -> str:
+    """The plant, and the physics engine that it ran on."""
+    return painting.plant + (f" on {painting.engine.title}" if painting.engine else "")
 
 
 def _disturbed(painting: paint.Painting) -> list[tuple[str, str]]:
@@ -141,7 +146,7 @@ def of_export(painting: paint.Painting, written: Sequence[Path]) -> str:
     rows = [
         ("drawing", summary_line(painting.motion)),
         *([("placed", one.statement), ("", one.figures)] if (one := painting.placement) else []),
-        ("arm", f"{painting.robot}, {painting.plant}, {painting.controller.name}"),
+        ("arm", f"{painting.robot}, {_plant(painting)}, {painting.controller.name}"),
         *_retiming(painting),
         ("trajectory", f"{points}; from rest to rest, within the arm's limits"),
         *_files(written),

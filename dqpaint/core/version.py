@@ -1,6 +1,7 @@
 """The names of the libraries that a run's result depends on -> their versions here."""
 
 LIBRARIES = {
+    "mujoco": ("mujoco-core", "mujoco"),  # the engine, alone or with its shell
     "numpy": ("numpy",),
     "opencv-python-headless": ("opencv-python-headless",),
     "pin": ("pin",),

@@ -37,6 +37,7 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
         "robot": painting.robot,
         "plant": painting.plant,
         "recording": None if recording is None else recording.as_json,
+        "engine": painting.engine.name if painting.engine else None,  # None: no masses
         "plant_values": painting.plant_values,
         "controller": painting.controller.name,
         "law": _law(painting),

@@ -132,6 +132,7 @@ class Summary(TypedDict):
     plugins: NotRequired[dict[str, str]]
     robot: str
     plant: str
+    engine: str | None
     recording: dict[str, Any] | None
     plant_values: dict[str, Any]
     controller: str

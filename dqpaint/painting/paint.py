@@ -35,6 +35,7 @@ from dqpaint.painting.validate import RunChoices, check_run
 from dqpaint.planning import corner_limits, prepared_motion, reachability
 from dqpaint.planning import placement as place
 from dqpaint.planning import retiming as retime
+from dqpaint.plants import Engine
 from dqpaint.program import Program
 from dqpaint.render import ArmMotion, SceneArm, scene_arm_of_run
 from dqpaint.robots.kinematics import Clamp, Kinematics, make_kinematics
@@ -82,6 +83,7 @@ class Painting(PictureSet):
     placement: place.Placement | None = None  # where `place auto` put the drawing
     recording: Recording | None = None  # the recorded run, if none was simulated
     without_effect: dict[str, str] = field(default_factory=dict)  # disturbances, and why
+    engine: Engine | None = None  # of physics, if one moved the arm
 
     @property
     def film(self) -> Film:
@@ -262,6 +264,7 @@ def finish(ready: PreparedRun, run: Track, photographed: bool = True) -> Paintin
         scene, cast, pictures, ready.prepared.retiming, ready.prepared.corners,
         clock.seconds, notes,
         ready.prepared.placement, recording, idle,
+        None if recording else chosen.plant.engine_used,
     )  # fmt: skip
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from dqpaint.controllers import Controller, Schedule, find_controller
 from dqpaint.disturbances import Disturbance, find_files, make_disturbances
 from dqpaint.painting.scene import check_light_settings
-from dqpaint.plants import ConfiguredPlant, choose_plant, find_plant
+from dqpaint.plants import ConfiguredPlant, Takes, choose_plant, find_plant
 from dqpaint.robots.kinematics import read_damping, read_null
 from dqpaint.robots.loading import find_card
 from dqpaint.robots.model import parse_tool
@@ -60,7 +60,10 @@ def check_run(
     check_recorded(settings)
     law = RECORDED if settings.recorded else controller or find_controller(settings.controller)
     gains = law.read_gains(settings.gains)
-    plant = choose_plant(settings.plant, "torque" if law.drives_torque else "rates")
+    takes: Takes = "torque" if law.drives_torque else "rates"
+    plant = choose_plant(settings.plant, takes, settings.engine)
+    if not settings.recorded:
+        plant.check_installed()
     disturbances = make_disturbances(find_files(settings.disturb, folder or Path()))
     for name, one in disturbances.items():
         plant.require_trait(one.needs, name)

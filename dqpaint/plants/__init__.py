@@ -4,6 +4,7 @@ A new plant is a class in a new file of this folder under `@PLANTS.add(name)`; i
 itself and brings what `plant.Plant` lists.
 """
 
+from dqpaint.plants.engines import ENGINES, Engine, available_engines, choose_engine
 from dqpaint.plants.ideal import Ideal
 from dqpaint.plants.plant import (
     DEFAULT_PLANTS, PLANTS, ConfiguredPlant, Plant, PlantMaker, PlantOptions, Takes, Trait,
@@ -12,7 +13,8 @@ from dqpaint.plants.plant import (
 from dqpaint.plants.world import UNDISTURBED, ForceCourse, Payload, Push, World
 
 __all__ = [
-    "DEFAULT_PLANTS", "PLANTS", "UNDISTURBED", "ConfiguredPlant", "ForceCourse", "Ideal", "Payload",
-    "Plant", "PlantMaker", "PlantOptions", "Push", "Takes", "Trait", "World", "as_plant_maker",
-    "choose_plant", "find_plant",
+    "DEFAULT_PLANTS", "ENGINES", "PLANTS", "UNDISTURBED", "ConfiguredPlant", "Engine",
+    "ForceCourse", "Ideal", "Payload", "Plant", "PlantMaker", "PlantOptions", "Push", "Takes",
+    "Trait", "World", "as_plant_maker", "available_engines", "choose_engine", "choose_plant",
+    "find_plant",
 ]

@@ -15,11 +15,10 @@ import numpy as np
 from pydantic import Field, field_validator
 
 from dqpaint.dq import Floats
-from dqpaint.plants.bullet_arm import RigidArm
 from dqpaint.plants.plant import PLANTS, Options, PlantOptions, Springs, Takes, Trait
+from dqpaint.plants.rigid_arm import RigidArm
 from dqpaint.plants.springs import Positive, longest_step, numbers, per_joint
 from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.robots.bullet import bullet
 from dqpaint.robots.kinematics import Dynamics, Kinematics
 from dqpaint.robots.model import Card
 
@@ -123,7 +122,7 @@ class Compliant(RigidArm):
     """
 
     takes: ClassVar[Takes] = "rates"
-    traits: ClassVar[frozenset[Trait]] = frozenset({"masses", "a model of gravity"})
+    traits: ClassVar[frozenset[Trait]] = RigidArm.traits | {"a model of gravity"}
     options: ClassVar[Options] = CompliantOptions
 
     def __init__(
@@ -133,6 +132,7 @@ class Compliant(RigidArm):
         period: float,
         world: World = UNDISTURBED,
         options: CompliantOptions | None = None,
+        engine: str | None = None,
     ) -> None:
         chosen = options or CompliantOptions.model_validate({})
         model = Kinematics(card)
@@ -142,13 +142,12 @@ class Compliant(RigidArm):
         longest = longest_step(
             "compliant", card, dynamics, self.stiffness, self.damping, LARGEST_PHASE_STEP
         )
-        super().__init__(card, posture, period, world, longest)
-        self.disable_motors()
+        super().__init__(card, posture, period, world, longest, engine)
         self._own = Dynamics(model.with_model_error(gravity=world.model_gravity))
         self._share = chosen.gravity
         self._grounded = chosen.damper == "ground"
         self._at_motor = chosen.encoder == "motor"
-        self._true_weight = self.true_weight(posture)
+        self._true_weight = self.bodies.weight(posture)
         self.motor = posture + (self._true_weight - self._compensation()) / self.stiffness
         self._motor_rates = np.zeros(card.joints)
         self._before = [0.0] * card.joints  # rates [rad/s] a physics step ago
@@ -177,20 +176,15 @@ class Compliant(RigidArm):
         middle = (self.motor + 0.5 * self.step * self._motor_rates).tolist()
         before, carried = self._before, []
         for _ in range(self.steps):
-            states = bullet.getJointStates(self.body, self.joints, self.client)
+            angles, turning = self.bodies.state()
             torques = [
-                min(max(k * (m - s[0]) + d * (u - 1.5 * s[1] + 0.5 * v) + c, -most), most)
-                for m, s, v, (k, d, u, c, most) in zip(middle, states, before, rest, strict=True)
+                min(max(k * (m - q) + d * (u - 1.5 * w + 0.5 * v) + c, -most), most)
+                for m, q, w, v, (k, d, u, c, most) in zip(
+                    middle, angles, turning, before, rest, strict=True
+                )
             ]
-            before = [s[1] for s in states]
-            bullet.setJointMotorControlArray(
-                self.body,
-                self.joints,
-                bullet.TORQUE_CONTROL,
-                forces=torques,
-                physicsClientId=self.client,
-            )
-            self.advance()
+            before = turning
+            self.bodies.apply(torques)
             carried.append(torques)
             if drift is not None:
                 self.displace(self.step * drift)

@@ -1,7 +1,7 @@
 """The interface of plants, and `NAME[:key=value,...]` -> a configured plant."""
 
 import inspect
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal, Protocol, cast, get_args
 
@@ -18,12 +18,13 @@ from dqpaint.core import (
 )
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
+from dqpaint.plants.engines import Engine, choose_engine
 from dqpaint.plants.world import UNDISTURBED, World
 from dqpaint.robots.model import Card
 
 Takes = Literal["rates", "torque"]
 PLANT_RULE = "a plant is a class with takes, traits and options, as dqpaint.plants.Plant has it"
-Trait = Literal["masses", "a model of gravity", "sudden motors"]
+Trait = Literal["masses", "a model of gravity", "sudden motors", "an engine"]
 
 
 @dataclass(frozen=True)
@@ -112,7 +113,10 @@ class PlantMaker(Protocol):
 
     @property
     def traits(self) -> frozenset[Trait]:
-        """Properties that disturbances need, or that describe the motors' load."""
+        """Properties that disturbances need, or that describe the motors' load.
+
+        One that has "an engine" is built with `engine=`, the name of a physics engine.
+        """
 
     @property
     def options(self) -> Options:
@@ -162,15 +166,39 @@ class ConfiguredPlant:
         name: as it was requested, including values.
         make: how it is built.
         options: its values; None where it has none.
+        engine: the physics engine that was asked for; None is the first that is installed.
     """
 
     name: str
     make: PlantMaker
     options: PlantOptions | None = None
+    engine: str | None = None
 
     def __call__(self, card: Card, posture: Floats, period: float, world: World) -> Plant:
         """Build the plant; arguments as for a `PlantMaker`."""
-        return self.make(card, posture, period, world, self.options)
+        if not self.has_engine:
+            return self.make(card, posture, period, world, self.options)
+        make: Any = self.make  # which then takes one thing more
+        plant: Plant = make(card, posture, period, world, self.options, engine=self.engine)
+        return plant
+
+    @property
+    def has_engine(self) -> bool:
+        """Whether a physics engine simulates it."""
+        return "an engine" in self.make.traits
+
+    @property
+    def engine_used(self) -> Engine | None:
+        """The physics engine that simulates it; None for one without.
+
+        Raises:
+            UsageError: it is not installed, or none is.
+        """
+        return choose_engine(self.engine) if self.has_engine else None
+
+    def check_installed(self) -> None:
+        """Nothing, where it can be simulated; errors as those of `engine_used`."""
+        _ = self.engine_used
 
     @property
     def motor_torque_use(self) -> Literal["none", "smooth", "sudden"]:
@@ -188,8 +216,10 @@ class ConfiguredPlant:
         return self.options.springs_for(card) if self.options else None
 
     def notes(self, card: Card) -> tuple[str, ...]:
-        """What is assumed of an arm, a sentence each."""
-        return self.options.notes(card) if self.options else ()
+        """What is assumed of an arm, or has no effect, a sentence each."""
+        idle = f"plant '{self.name}' has no masses: --engine {self.engine} has no effect"
+        found = (idle,) if self.engine and not self.has_engine else ()
+        return found + (self.options.notes(card) if self.options else ())
 
     @property
     def clips_rates(self) -> bool:
@@ -222,13 +252,13 @@ class ConfiguredPlant:
         )
 
 
-def choose_plant(text: str | None, takes: Takes) -> ConfiguredPlant:
+def choose_plant(text: str | None, takes: Takes, engine: str | None = None) -> ConfiguredPlant:
     """The requested plant, such as `compliant:frequency=60`, or the default for the commands.
 
     Raises:
         UsageError: an unknown plant or value, or one that takes other commands.
     """
-    plant = find_plant(text or DEFAULT_PLANTS[takes])
+    plant = replace(find_plant(text or DEFAULT_PLANTS[takes]), engine=engine)
     if plant.make.takes != takes:
         suited = [other for other, one in PLANTS.items() if one.takes == takes]
         words = {"rates": "joint rates", "torque": "torques"}

@@ -4,7 +4,7 @@
     gear    tau = k (theta - q, beyond the backlash) + d (theta_dot - q_dot)
     arm     H(q) q_ddot + C q_dot + G(q) + friction of the file = tau
 
-The motors' side is `plants.motors`, which knows no physics engine; the links' side is PyBullet.
+The motors' side is `plants.motors`; the links' side is a physics engine's.
 """
 
 from functools import partial
@@ -13,7 +13,6 @@ from typing import ClassVar
 import numpy as np
 
 from dqpaint.dq import Floats
-from dqpaint.plants.bullet_arm import RigidArm
 from dqpaint.plants.motors import (
     Cascade,
     CommandFilter,
@@ -24,10 +23,10 @@ from dqpaint.plants.motors import (
     ThetaGC,
 )
 from dqpaint.plants.plant import PLANTS, Options, Takes, Trait
+from dqpaint.plants.rigid_arm import RigidArm
 from dqpaint.plants.servo_options import Motors, ServoOptions, find_motors
 from dqpaint.plants.springs import longest_step
 from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.robots.bullet import bullet
 from dqpaint.robots.kinematics import Dynamics, Kinematics
 from dqpaint.robots.model import Card
 
@@ -64,7 +63,7 @@ class Servo(RigidArm):
     """
 
     takes: ClassVar[Takes] = "rates"
-    traits: ClassVar[frozenset[Trait]] = frozenset({"masses", "a model of gravity"})
+    traits: ClassVar[frozenset[Trait]] = RigidArm.traits | {"a model of gravity"}
     options: ClassVar[Options] = ServoOptions
 
     def __init__(
@@ -74,6 +73,7 @@ class Servo(RigidArm):
         period: float,
         world: World = UNDISTURBED,
         options: ServoOptions | None = None,
+        engine: str | None = None,
     ) -> None:
         chosen = options or ServoOptions.model_validate({})
         train = find_motors(card, chosen)
@@ -83,15 +83,14 @@ class Servo(RigidArm):
             "servo", card, Dynamics(model), one.stiffness, one.damping, LARGEST_PHASE_STEP,
             one.inertia,
         )  # fmt: skip
-        super().__init__(card, posture, period, world, longest)
-        self.disable_motors()
+        super().__init__(card, posture, period, world, longest, engine)
         self._own = Dynamics(model.with_model_error(gravity=world.model_gravity))
         self._share, self._period = chosen.gravity, period
         self._from_measured = chosen.reference == "measured"
         self._at_motor = chosen.encoder == "motor"
         loop = _make_loop(chosen, train, card)
         loop.added = self._compensation()
-        weight = self.true_weight(posture)
+        weight = self.bodies.weight(posture)
         self.motors = ServoMotors(
             one, loop, partial(_make_filter, chosen, train, period), posture, weight,
             np.stack([card.lower, card.upper]), chosen.delay, chosen.current,
@@ -119,20 +118,11 @@ class Servo(RigidArm):
             motors.command(command)
         before = self._before
         for _ in range(self.steps):
-            states = bullet.getJointStates(self.body, self.joints, self.client)
-            angles = np.array([state[0] for state in states])
-            rates = np.array([state[1] for state in states])
-            # PyBullet's angles are half a step ahead of its rates: those of the step's middle
+            angles, rates = map(np.array, self.bodies.state())
+            # the engine's angles are half a step ahead of its rates: those of the step's middle
             torques = motors.step(self.step, angles, 1.5 * rates - 0.5 * before)
             before = rates
-            bullet.setJointMotorControlArray(
-                self.body,
-                self.joints,
-                bullet.TORQUE_CONTROL,
-                forces=torques.tolist(),
-                physicsClientId=self.client,
-            )
-            self.advance()
+            self.bodies.apply(torques.tolist())
             if drift is not None:
                 self.displace(self.step * drift)
                 motors.displace(self.step * drift)

@@ -7,7 +7,7 @@ from pydantic import Field
 
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
-from dqpaint.plants.bullet_arm import LONGEST_STEP, sample_postures
+from dqpaint.plants.rigid_arm import LONGEST_STEP, sample_postures
 from dqpaint.robots.kinematics import Dynamics
 from dqpaint.robots.model import Card
 

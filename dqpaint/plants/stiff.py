@@ -1,14 +1,11 @@
-"""Joint-rate commands -> PyBullet's rigid bodies under velocity motors."""
+"""Joint-rate commands -> rigid bodies under velocity motors."""
 
 from typing import ClassVar
 
-import numpy as np
-
 from dqpaint.dq import Floats
-from dqpaint.plants.bullet_arm import RigidArm
 from dqpaint.plants.plant import PLANTS, Takes, Trait
+from dqpaint.plants.rigid_arm import LONGEST_STEP, RigidArm
 from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.robots.bullet import bullet
 from dqpaint.robots.model import Card
 
 
@@ -32,7 +29,8 @@ class Stiff(RigidArm):
     """
 
     takes: ClassVar[Takes] = "rates"
-    traits: ClassVar[frozenset[Trait]] = frozenset({"masses", "sudden motors"})
+    traits: ClassVar[frozenset[Trait]] = RigidArm.traits | {"sudden motors"}
+    driven: ClassVar[bool] = True
 
     def __init__(
         self,
@@ -41,25 +39,12 @@ class Stiff(RigidArm):
         period: float,
         world: World = UNDISTURBED,
         options: None = None,
+        engine: str | None = None,
     ) -> None:
-        super().__init__(card, posture, period, world)
-        self._limits = card.effort.tolist()
+        super().__init__(card, posture, period, world, LONGEST_STEP, engine)
 
     def run(self, command: Floats, drift: Floats | None = None) -> None:
         """One period at joint rates (n,) [rad/s], as far as the motors' torques go."""
-        bullet.setJointMotorControlArray(
-            self.body,
-            self.joints,
-            bullet.VELOCITY_CONTROL,
-            targetVelocities=(command if drift is None else command + drift).tolist(),
-            forces=self._limits,
-            physicsClientId=self.client,
-        )
-        # a new command needs the largest motor torques in the first step
-        self.advance()
-        first = bullet.getJointStates(self.body, self.joints, self.client)
-        for _ in range(self.steps - 1):
-            self.advance()
-        last = self.read_joints()
-        torques = ((a[3], b[3]) for a, b in zip(first, last, strict=True))
-        self.effort = np.array([a if abs(a) >= abs(b) else b for a, b in torques])
+        rates = command if drift is None else command + drift
+        self.effort = self.bodies.turn(rates, self.steps)
+        self.read_joints()

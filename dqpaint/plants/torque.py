@@ -1,12 +1,11 @@
-"""Joint-torque commands -> PyBullet's rigid bodies without joint motors."""
+"""Joint-torque commands -> rigid bodies without joint motors."""
 
 from typing import ClassVar
 
 from dqpaint.dq import Floats
-from dqpaint.plants.bullet_arm import LONGEST_STEP, RigidArm, sample_postures
 from dqpaint.plants.plant import PLANTS, Takes, Trait
+from dqpaint.plants.rigid_arm import LONGEST_STEP, RigidArm, sample_postures
 from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.robots.bullet import bullet
 from dqpaint.robots.kinematics import Dynamics, Kinematics
 from dqpaint.robots.model import Card
 
@@ -26,13 +25,13 @@ class Torque(RigidArm):
     Try:
         dqpaint draw quarter-turn --controller accel --plant torque --disturb gravity=-0.1
 
-    The dynamics are those of the file: its inertias, the viscous friction of its joints, and none
-    of the damping that PyBullet gives every body unasked. Its integration is semi-implicit Euler,
-    friction taken at the beginning of a step: much friction on a light link needs shorter ones.
+    The dynamics are those of the file: its inertias and the viscous friction of its joints. Its
+    integration is semi-implicit Euler, friction taken at the beginning of a step: much friction on
+    a light link needs shorter ones.
     """
 
     takes: ClassVar[Takes] = "torque"
-    traits: ClassVar[frozenset[Trait]] = frozenset({"masses", "a model of gravity"})
+    traits: ClassVar[frozenset[Trait]] = RigidArm.traits | {"a model of gravity"}
 
     def __init__(
         self,
@@ -41,22 +40,15 @@ class Torque(RigidArm):
         period: float,
         world: World = UNDISTURBED,
         options: None = None,
+        engine: str | None = None,
     ) -> None:
-        super().__init__(card, posture, period, world, _longest_step(card))
-        self.disable_motors()
+        super().__init__(card, posture, period, world, _longest_step(card), engine)
 
     def run(self, command: Floats, drift: Floats | None = None) -> None:
         """One period at joint torques (n,) [Nm]."""
         torques = command.tolist()
-        for _ in range(self.steps):  # each physics step clears the torques
-            bullet.setJointMotorControlArray(
-                self.body,
-                self.joints,
-                bullet.TORQUE_CONTROL,
-                forces=torques,
-                physicsClientId=self.client,
-            )
-            self.advance()
+        for _ in range(self.steps):
+            self.bodies.apply(torques)
             if drift is not None:
                 self.displace(self.step * drift)
         self.read_joints()

@@ -152,6 +152,14 @@ class MotionSettings(Group):
             unsaid="stiff, or torque for its laws",
         ),
     ] = None
+    engine: Annotated[
+        Literal["pybullet", "mujoco"] | None,
+        Option(
+            "the physics engine that moves the arm's masses",
+            "pybullet|mujoco",
+            unsaid="pybullet if it is installed, else mujoco",
+        ),
+    ] = None
     start: Annotated[
         Literal["first", "home"],
         Option(
@@ -442,16 +450,16 @@ def validated(model: type[M], fields: Mapping[str, object], strict: bool = False
         raise UsageError(f"{name} {first['input']!r} {pydantic_reason(first)}") from None
 
 
-SIMULATED = ("controller", "gains", "plant", "disturb", "spread", "start", "null", "damping",
-             "kinematics",
-             "on_limit")  # fmt: skip
+SIMULATED = ("controller", "gains", "plant", "engine", "disturb", "spread", "start", "null",
+             "damping", "kinematics", "on_limit")  # fmt: skip
 
 
 def check_recorded(settings: Settings) -> None:
     """Refuse settings of a simulated run for a recorded one.
 
     Raises:
-        UsageError: a law, gain, plant, disturbance, start, null, damping or on_limit was chosen.
+        UsageError: a law, gain, plant, engine, disturbance, start, null, damping or on_limit was
+            chosen.
     """
     if settings.recorded is None:
         return

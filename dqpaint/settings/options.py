@@ -41,6 +41,7 @@ class MotionOptions(TypedDict, total=False):
 
     place: Literal["auto"] | None
     plant: str | None
+    engine: Literal["pybullet", "mujoco"] | None
     start: Literal["first", "home"] | None
     null: str | None
     damping: str | None

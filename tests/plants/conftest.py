@@ -1,14 +1,25 @@
-"""An arm of one joint, for closed forms."""
+"""An arm of one joint, for closed forms; every physics engine in turn."""
 
 from xml.etree import ElementTree as Xml
 
 import pytest
 
+from dqpaint.plants import ENGINES
+from dqpaint.plants.engines import choice
 from dqpaint.robots.model.card import Card, read_card
 from dqpaint.robots.model.chain import UrdfFile
 from dqpaint.robots.urdf.prepare import prepare
 
 IIWA = read_card("iiwa")
+
+
+@pytest.fixture(params=list(ENGINES))
+def engine(request, monkeypatch):
+    """Each engine in turn, as if it were the only one that is installed."""
+    if not ENGINES[request.param].installed:
+        pytest.skip(f"{request.param} is not installed")
+    monkeypatch.setattr(choice, "available_engines", lambda: [request.param])
+    return request.param
 
 
 @pytest.fixture

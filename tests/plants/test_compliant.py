@@ -12,7 +12,7 @@ from dqpaint.robots.kinematics.dynamics import Dynamics
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("engine")]
 PERIOD = 0.008
 IIWA = read_card("iiwa")
 UPRIGHT = World()

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from dqpaint.errors import UnknownNameError, UsageError
-from dqpaint.plants import PLANTS, choose_plant, stiff
-from dqpaint.plants.bullet_arm import LONGEST_STEP
+from dqpaint.plants import PLANTS, choose_plant
+from dqpaint.plants.rigid_arm import LONGEST_STEP
 from dqpaint.plants.world import GRAVITY, Payload, World
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import installed_names, read_card
@@ -42,7 +42,7 @@ def test_a_plant_is_chosen_to_suit_the_commands():
 
 
 @pytest.mark.parametrize("robot", installed_names())
-def test_the_torque_driven_arm_obeys_pinocchio_s_forward_dynamics(robot, rng):
+def test_the_torque_driven_arm_obeys_pinocchio_s_forward_dynamics(robot, rng, engine):
     """From random states, one physics step: q_ddot to 1e-9 of its size, semi-implicit Euler."""
     import pinocchio
 
@@ -58,8 +58,7 @@ def test_the_torque_driven_arm_obeys_pinocchio_s_forward_dynamics(robot, rng):
         q = rng.uniform(0.8 * card.lower, 0.8 * card.upper)
         v, tau = rng.normal(size=card.joints), rng.normal(size=card.joints) * card.effort / 4
         plant = PLANTS["torque"](card, q, step)
-        for joint, angle, rate in zip(plant.joints, q.tolist(), v.tolist(), strict=True):
-            stiff.bullet.resetJointState(plant.body, joint, angle, rate, plant.client)
+        plant.bodies.place(q, v)
         plant.run(tau)
         plant.close()
         bend = pinocchio.aba(model, data, q, v, tau - model.damping * v)
@@ -69,7 +68,7 @@ def test_the_torque_driven_arm_obeys_pinocchio_s_forward_dynamics(robot, rng):
         assert (plant.effort == tau).all()
 
 
-def test_a_payload_moves_as_pinocchio_says(rng):
+def test_a_payload_moves_as_pinocchio_says(rng, engine):
     """A large ball fixed where the light sits: from a random state, one physics step."""
     import pinocchio
 
@@ -82,8 +81,7 @@ def test_a_payload_moves_as_pinocchio_says(rng):
     model.appendBodyToJoint(7, ball, at * lamp)
     q, v, tau = rng.uniform(-1, 1, 7), rng.normal(size=7), rng.normal(size=7)
     plant = PLANTS["torque"](CARD, q, LONGEST_STEP, World(payloads=(Payload(mass, radius),)))
-    for joint, angle, rate in zip(plant.joints, q.tolist(), v.tolist(), strict=True):
-        stiff.bullet.resetJointState(plant.body, joint, angle, rate, plant.client)
+    plant.bodies.place(q, v)
     plant.run(tau)
     plant.close()
     bend = pinocchio.aba(model, model.createData(), q, v, tau - model.damping * v)
@@ -91,7 +89,7 @@ def test_a_payload_moves_as_pinocchio_says(rng):
     np.testing.assert_allclose(found, bend, rtol=1e-9, atol=1e-9 * np.abs(bend).max())
 
 
-def test_much_friction_on_a_light_link_takes_shorter_steps(one_joint):
+def test_much_friction_on_a_light_link_takes_shorter_steps(one_joint, engine):
     """A torque against friction f ends at the speed tau / f; steps of 1 ms would blow up."""
     card = one_joint(6, friction=4.0)
     plant = PLANTS["torque"](card, card.home, PERIOD)
@@ -102,7 +100,7 @@ def test_much_friction_on_a_light_link_takes_shorter_steps(one_joint):
     assert plant.rates[0] == pytest.approx(0.5, rel=1e-6)
 
 
-def test_torques_are_held_over_the_whole_period():
+def test_torques_are_held_over_the_whole_period(engine):
     """Every physics step clears them: eight steps of 1 ms are eight periods of 1 ms."""
     tau = np.array([10.0, -60, 5, 20, -3, 2, 1])
     whole = run("torque", [tau], period=0.008)[0][-1]
@@ -111,7 +109,7 @@ def test_torques_are_held_over_the_whole_period():
     assert np.abs(whole - CARD.home).max() > 1e-3
 
 
-def test_the_stiff_arm_carries_its_weight():
+def test_the_stiff_arm_carries_its_weight(engine):
     """At rest the motors hold gravity: against pinocchio's own static torques."""
     import pinocchio
 
@@ -122,7 +120,7 @@ def test_the_stiff_arm_carries_its_weight():
     assert np.abs(gravity).max() > 20
 
 
-def test_the_stiff_arm_s_motors_end_at_their_torque():
+def test_the_stiff_arm_s_motors_end_at_their_torque(engine):
     weak = CARD.model_copy(
         update={"limits": CARD.limits.model_copy(update={"effort_Nm": (5.0,) * 7})}
     )
@@ -132,27 +130,29 @@ def test_the_stiff_arm_s_motors_end_at_their_torque():
 
 
 @pytest.mark.parametrize("period", [0.02, 0.008, 0.0015, 0.0007])
-def test_physics_steps_divide_the_period(period):
+def test_physics_steps_divide_the_period(period, engine):
     rates = np.tile([0.3, -0.2, 0.1, 0.2, -0.3, 0.1, 0.2], (40, 1))
     postures, _ = run("stiff", rates, period=period)
     np.testing.assert_allclose(postures[-1] - postures[0], 40 * period * rates[0], atol=2e-4)
 
 
 @pytest.mark.parametrize(("period", "steps"), [(0.008, 8), (0.0015, 2), (0.0007, 1), (0.003, 3)])
-def test_physics_steps_are_at_most_a_millisecond(period, steps, monkeypatch):
-    done = []
-    step = stiff.bullet.stepSimulation
-    monkeypatch.setattr(stiff.bullet, "stepSimulation", lambda client: done.append(step(client)))
-    run("stiff", np.zeros((1, 7)), period=period)
+def test_physics_steps_are_at_most_a_millisecond(period, steps, engine):
+    plant = PLANTS["torque"](CARD, CARD.home, period)
+    done, apply = [], plant.bodies.apply
+    plant.bodies.apply = lambda torques: done.append(apply(torques))
+    plant.run(np.zeros(7))
+    plant.close()
     assert len(done) == steps
+    assert plant.step * steps == pytest.approx(period, rel=1e-15)
 
 
-@pytest.mark.slow
-def test_pybullet_keeps_quiet():
-    """It writes a build line when imported and a remark for each solver it is asked for."""
+def test_engines_keep_quiet(engine):
+    """PyBullet writes a build line when imported, and a remark for each solver it is asked for."""
     code = (
         "from dqpaint.plants import PLANTS; from dqpaint.robots.model.card import read_card;"
-        "card = read_card('iiwa'); PLANTS['stiff'](card, card.home, 0.01).close()"
+        "card = read_card('iiwa');"
+        f"PLANTS['stiff'](card, card.home, 0.01, engine='{engine}').close()"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == ""

@@ -1,4 +1,4 @@
-"""Servo motors that move PyBullet's links: closed forms, energy, and the way to `stiff`."""
+"""Servo motors that move an engine's links: closed forms, energy, and the way to `stiff`."""
 
 import numpy as np
 import pytest
@@ -31,7 +31,7 @@ def make(card=IIWA, world=None, start=None, **given):
 @pytest.mark.slow
 @pytest.mark.parametrize("joint", [0, 1, 3])
 @pytest.mark.parametrize("delay", [0.0, 0.003])
-def test_a_joint_follows_as_a_loop_of_second_order(joint, delay, one_joint):
+def test_a_joint_follows_as_a_loop_of_second_order(joint, delay, one_joint, engine):
     """A rate u at once: lag = u / w_d e^(-kv t/2) sin w_d t, w^2 = kp kv, a delay later."""
     card, kp, kv, u = one_joint(joint), 40.0, 60.0, 0.8
     plant = make(
@@ -90,7 +90,7 @@ class Dead:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("backlash", [0.0, 0.01])
-def test_energy_does_not_grow_by_itself(backlash, one_joint):
+def test_energy_does_not_grow_by_itself(backlash, one_joint, engine):
     """A dead arm falls: links, rotors and gears have what they began with; friction only takes."""
     # the iiwa's file has friction of its own; at its home most of it moves slowly
     urdf = IIWA.urdf.model_copy(update={"frictionless": True})
@@ -142,7 +142,7 @@ def test_the_whole_arm_begins_in_balance():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("joint", [1, 3])
-def test_theta_gc_sags_by_what_is_not_compensated(joint, one_joint):
+def test_theta_gc_sags_by_what_is_not_compensated(joint, one_joint, engine):
     """Its reference measured: T u = (1 - share) G / (s P) holds it, wherever it hangs."""
     card = one_joint(joint)
     share, scale, hold = 0.7, 0.5, 300.0

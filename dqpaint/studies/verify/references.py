@@ -59,8 +59,12 @@ class Reference:
 
     @property
     def alike(self) -> bool:
-        """Whether it was made by the same versions of the libraries as are here."""
-        return bool(self.facts["versions"] == library_versions())
+        """Whether it was made by the same versions of the libraries as are here.
+
+        Those that it does not name took no part in it.
+        """
+        here = library_versions()
+        return all(here.get(name) == one for name, one in self.facts["versions"].items())
 
 
 def read_cases(folder: Path, trust: bool = False) -> list[Case]:

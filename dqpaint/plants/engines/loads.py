@@ -1,20 +1,14 @@
-"""Payloads and pushes of a world -> loads on an arm of rigid bodies."""
+"""Payloads and pushes of a world -> masses in an arm's description, and forces by physics step."""
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator
 from xml.etree import ElementTree as Xml
 
 import numpy as np
 
-from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
 from dqpaint.plants.world import ForceCourse, Payload, Push, World
-from dqpaint.robots.bullet import bullet
 from dqpaint.robots.model import Card
-
-if TYPE_CHECKING:
-    from dqpaint.plants.bullet_arm import RigidArm
 
 BLOCK = 4096  # steps whose forces are read at once
 
@@ -38,62 +32,35 @@ def with_payloads(text: str, card: Card, payloads: tuple[Payload, ...]) -> str:
     return Xml.tostring(robot, encoding="unicode")
 
 
-def check_pushes(world: World, card: Card) -> None:
-    """Check that the pushed links exist.
+class Pushes:
+    """The pushes of a world, step by step.
 
     Raises:
-        UsageError: a link the arm does not have.
+        UsageError: a push on a link that the arm does not have.
     """
-    for push in world.pushes:
-        if push.link > card.joints:
-            raise UsageError(
-                f"disturbance 'push': link {push.link}, but {card.name} has {card.joints} links "
-                "that move; 0 is the tool"
-            )
 
-
-class TimedPush:
-    """Physics steps with pushes; PyBullet clears a force after each step."""
-
-    def __init__(self, arm: "RigidArm", world: World) -> None:
-        self._arm, self._world = arm, world
-        self._courses = [(push.link, _course(push, arm.step)) for push in world.pushes]
-        self._flange = self._link_named(arm.card.link)
-        self._tool = arm.card.tool.pose
+    def __init__(self, world: World, card: Card, step: float) -> None:
+        for push in world.pushes:
+            if push.link > card.joints:
+                raise UsageError(
+                    f"disturbance 'push': link {push.link}, but {card.name} has {card.joints} "
+                    "links that move; 0 is the tool"
+                )
+        self._world = world
+        self._courses = [(push.link, _course(push, step)) for push in world.pushes]
         self._done = 0  # steps
 
-    def __call__(self) -> None:
-        """Run one step."""
+    def __bool__(self) -> bool:
+        """Whether there are any."""
+        return bool(self._courses)
+
+    def of_next_step(self) -> Iterator[tuple[int, Floats]]:
+        """The link, from 1, or 0 for the tool, and the force (3,) [N] on it, in the base frame."""
         for link, course in self._courses:
             force = course(self._done)
             if force is not None:
-                self._push(link, self._world.in_base(force).tolist())
-        bullet.stepSimulation(self._arm.client)
+                yield link, self._world.in_base(force)
         self._done += 1
-
-    def _push(self, number: int, force: list[float]) -> None:
-        arm = self._arm
-        link = arm.joints[number - 1] if number else self._flange
-        state = bullet.getLinkState(
-            arm.body, link, computeForwardKinematics=True, physicsClientId=arm.client
-        )
-        point = state[0]  # the centre of mass
-        if not number:
-            x, y, z, w = state[5]
-            flange = dq.pose_from(state[4], np.array([w, x, y, z]))
-            point = dq.translation(dq.mul(flange, self._tool)).tolist()
-        bullet.applyExternalForce(
-            arm.body, link, force, point, bullet.WORLD_FRAME, physicsClientId=arm.client
-        )
-
-    def _link_named(self, name: str) -> int:
-        arm = self._arm
-        count = bullet.getNumJoints(arm.body, physicsClientId=arm.client)
-        names = [
-            bullet.getJointInfo(arm.body, i, physicsClientId=arm.client)[12].decode()
-            for i in range(count)
-        ]
-        return names.index(name)
 
 
 def _course(push: Push | ForceCourse, step: float) -> Callable[[int], Floats | None]:

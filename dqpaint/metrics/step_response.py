@@ -128,7 +128,9 @@ def _response(step: Floats, errors: Floats, times: Floats) -> PartResponse:
     """From a step (3,), errors (N, 3) from its end, and times (N,) [s] since the jump."""
     size = float(np.linalg.norm(step))
     far = np.linalg.norm(errors, axis=1)
-    steady = float(far[times >= (1 - STEADY_SHARE) * times[-1]].mean())
+    # counted in rows: which is the first of them must not hang on how times were rounded
+    rows = np.arange(len(far))
+    steady = float(far[rows >= (1 - STEADY_SHARE) * rows[-1]].mean())
     if size < LEAST_STEP:
         return PartResponse(0.0, None, 0.0, steady)
     outside = np.flatnonzero(far > SETTLING_BAND * size)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 import dqpaint
 from dqpaint import dq
@@ -16,7 +17,7 @@ from dqpaint.outputs.summary_shape import json_schema
 from tests.support.json_schema import faults
 
 ROOT = Path(__file__).parents[2]
-FIGURES, TORQUES = re.findall(
+(SCRIPT,) = re.findall(
     r"^```python\n(.*?)^```$",
     (ROOT / "docs/record.md").read_text("utf-8"),
     re.DOTALL | re.MULTILINE,
@@ -31,37 +32,67 @@ ERRS = {
 }  # fmt: skip
 
 
-def drawn(folder, **choices):
+def drawn(folder, text=TEXT, **choices):
     """A run, and the stem of its files."""
-    (folder / "run.traj").write_text(TEXT)
+    (folder / "run.traj").write_text(text)
     painting = dqpaint.draw(folder / "run.traj", size=(32, 18), **choices)
     dqpaint.save(painting, folder / "run", "csv,json")
     return painting, folder / "run"
 
 
-def said(script, stem):
-    """What a script of the page prints, run by itself: it knows no dqpaint."""
-    assert "dqpaint" not in script
+def said(stem):
+    """What the script of the page prints, run by itself: it knows no dqpaint."""
+    assert "dqpaint" not in SCRIPT
+    pytest.importorskip("scipy", minversion="1.16")  # RigidTransform
     done = subprocess.run(
-        [sys.executable, "-c", script, str(stem)], capture_output=True, text=True, check=True
+        [sys.executable, "-c", SCRIPT, str(stem)], capture_output=True, text=True, check=True
     )
     return done.stdout
 
 
-def plain_figures(painting):
-    """All figures but those of step responses, which the page leaves out and says so."""
-    return {n: v for n, v in painting.metrics.figures.items() if not n.startswith("step_")}
+def same_figures(painting, printed):
+    """Every figure of a run, and no other: a time that is none in a summary is printed as inf."""
+    found = dict(re.findall(r"^([a-z]\w+) +(\S+)  ", printed, re.MULTILINE))
+    expected = painting.metrics.figures
+    assert {name for name, value in found.items() if value != "inf"} == expected.keys()
+    for name, value in expected.items():
+        assert float(found[name]) == pytest.approx(value, rel=3e-7, abs=1e-15)
+    return found
 
 
 def test_the_page_s_script_gives_every_figure_again(tmp_path):
+    """Of two steps, the worse one first: it counts; and one part of the second is none."""
+    text = f"{TEXT}step to (245, 25, 90) mm\nhold 0.6 s\n"
     painting, stem = drawn(
-        tmp_path, plant="ideal", disturb=["twist=sine,x=0.05,wy=0.4", "noise=0.001"]
+        tmp_path, text, plant="ideal", disturb=["twist=sine,x=0.05,wy=0.4", "noise=0.001"]
     )
-    found = dict(re.findall(r"^(\w+) +(\S+)", said(FIGURES, stem), re.MULTILINE))
-    expected = plain_figures(painting)
-    assert found.keys() == expected.keys()
-    for name, value in expected.items():
-        assert float(found[name]) == pytest.approx(value, rel=3e-7)
+    found = same_figures(painting, said(stem))
+    assert "step_position_settling_s" in found
+    assert float(found["step_orientation_steady_rad"]) > 0
+
+
+def test_error_columns_are_those_of_the_poses(tmp_path):
+    """By scipy's rotations, and |1 - x* x_d| by its half angle."""
+    painting, _ = drawn(tmp_path, plant="ideal", controller="p", gains="k=9")
+    table = painting.table
+
+    def parts(who):
+        place = np.stack([table[f"{who}{axis}_m"] for axis in "xyz"], 1)
+        return place, Rotation.from_quat(
+            np.stack([table[f"{who}q{part}"] for part in "xyzw"], axis=1)
+        )
+
+    (p, r), (p_d, r_d) = parts(""), parts("desired_")
+    far, angle = np.linalg.norm(p - p_d, axis=1), (r_d * r.inv()).magnitude()
+    np.testing.assert_allclose(table["position_error_m"], far, atol=1e-14)
+    np.testing.assert_allclose(table["orientation_error_rad"], angle, atol=1e-13)
+    np.testing.assert_allclose(
+        table["invariant_error"], np.hypot(2 * np.sin(angle / 4), far / 2), atol=1e-13
+    )
+    moved = np.linalg.norm(np.diff(p, axis=0), axis=1) / painting.motion.period
+    np.testing.assert_allclose(table["speed_m_s"][:-1], moved, atol=1e-11)
+    assert angle.max() > 1
+    assert far.max() > 0.1
 
 
 @pytest.mark.slow
@@ -72,11 +103,11 @@ def test_the_page_s_script_gives_every_torque_again(tmp_path, law, gains):
         tmp_path, controller=law, gains=gains, disturb=ERRS, null="start,gain=1.5"
     )
     assert any(clamp.kind == "torque" for clamp in painting.limits)
-    off, largest = re.findall(r"([\d.e+-]+) Nm", said(TORQUES, stem))
+    printed = said(stem)
+    off, largest = re.findall(r"([\d.e+-]+) Nm", printed)
     assert float(off) < 1e-7
     assert float(largest) > 100
-    figures = dict(re.findall(r"^(\w+) +(\S+)", said(FIGURES, stem), re.MULTILINE))
-    assert figures.keys() == plain_figures(painting).keys()
+    same_figures(painting, printed)
 
 
 @pytest.mark.slow

@@ -29,7 +29,7 @@ CHANGE = 0.2  # of a transformed value, for the derivative
 FARTHEST = 1.0  # of a transformed value in one step
 ROUNDS = 6  # steps after the first derivative; each is one more set of runs
 ENOUGH = 0.002  # of the residual: a step that gains less is the last
-LOST = np.log(10.0)  # the residual of a run that has no numbers
+LOST = np.log(10.0)  # what a residual counts for that is nan: its run has no numbers
 
 Residuals = Callable[[Floats], Floats]
 
@@ -105,21 +105,36 @@ def least_squares(residuals: Residuals, start: Floats) -> tuple[Floats, Floats, 
     """The parameters (n,) of least squared residuals (m,), with few evaluations.
 
     Levenberg and Marquardt's steps on a derivative taken once by differences and renewed after each
-    step by Broyden's formula: 1 + n + ROUNDS evaluations at the most.
+    step by Broyden's formula: 1 + 2 n + ROUNDS evaluations at the most. A residual of nan is one of
+    a run without numbers: what it says of a derivative is nothing, so no difference to it is
+    taken, and the step that led there is halved.
 
     Returns:
         Parameters, residuals, number of evaluations.
     """
     x, r = start.copy(), residuals(start)
-    J = np.stack([residuals(x + CHANGE * e) - r for e in np.eye(len(x))], axis=1) / CHANGE
-    sets, caution = 1 + len(x), 0.01
+    sets, caution, farthest = 1, 0.01, FARTHEST
+    columns = []
+    for along in CHANGE * np.eye(len(x)):
+        for aside in (along, -along):
+            change = residuals(x + aside) - r
+            sets += 1
+            if not np.isnan(change).any():
+                break
+        columns.append(change / aside.sum())
+    J = np.nan_to_num(np.stack(columns, axis=1))
     for _ in range(ROUNDS):
         normal = J.T @ J
         damped = normal + caution * np.diag(np.diag(normal) + 1e-9)
-        step = np.clip(-np.linalg.solve(damped, J.T @ r), -FARTHEST, FARTHEST)
+        pull = J.T @ np.nan_to_num(r, nan=LOST)
+        step = np.clip(-np.linalg.solve(damped, pull), -farthest, farthest)
         tried = residuals(x + step)
         sets += 1
-        J += np.outer(tried - r - J @ step, step) / max(float(step @ step), 1e-12)
+        change = tried - r - J @ step
+        if np.isnan(change).any():
+            farthest = float(np.abs(step).max()) / 2
+            continue
+        J += np.outer(change, step) / max(float(step @ step), 1e-12)
         gain = rms(r) - rms(tried)
         if gain > 0:
             x, r, caution = x + step, tried, caution / 4
@@ -133,7 +148,7 @@ def least_squares(residuals: Residuals, start: Floats) -> tuple[Floats, Floats, 
 def log_ratios(
     theirs: Numbers, ours: Numbers, cells: Sequence[str], figures: Sequence[str]
 ) -> Floats:
-    """ln(ours / theirs) of every figure of every cell; LOST where ours is missing."""
+    """ln(ours / theirs) of every figure of every cell; nan where ours is missing."""
     found = []
     for cell in cells:
         for figure in figures:
@@ -141,13 +156,13 @@ def log_ratios(
                 continue
             one = ours.get(cell, {}).get(figure)
             good = one is not None and one.mean > 0
-            found.append(np.log(one.mean / theirs[cell][figure].mean) if one and good else LOST)
+            found.append(np.log(one.mean / theirs[cell][figure].mean) if one and good else np.nan)
     return np.array(found)
 
 
 def rms(values: Floats) -> float:
-    """The root of the mean square."""
-    return float(np.sqrt(np.mean(values**2)))
+    """The root of the mean square; of a nan, that of LOST."""
+    return float(np.sqrt(np.mean(np.nan_to_num(values, nan=LOST) ** 2)))
 
 
 def said(paper: Paper, fit: Fit, found: Fitted, ours: Numbers) -> list[str]:

@@ -97,8 +97,11 @@ def _oscillates(track: Track, swinging: Sequence[str]) -> Fault | None:
     """A tool that swings as nothing asked it to, or commands that alternate or swing."""
     motion = track.motion
     line = motion.source.at(len(motion.t) - 1)
+    perhaps = ""
+    if swinging:
+        perhaps = f", perhaps with the disturbance that acts in time ({', '.join(swinging)})"
     if said := _alternates(track):
-        return Fault("oscillates", said, line)
+        return Fault("oscillates", said + perhaps, line)
     rows = slice(_settled_from(motion.jump), len(motion.t))
     lever = CHARACTERISTIC_LENGTH
     least = LEAST_OSCILLATION * _mean_speed(track)
@@ -112,9 +115,7 @@ def _oscillates(track: Track, swinging: Sequence[str]) -> Fault | None:
             amount = f"{float(f'{scale * found.amplitude:.2g}'):g} {unit}"  # 230, not 2.3e+02
             where = motion.program.line_name(line)
             said = f"{name} oscillates at {found.frequency:.3g} Hz by {amount}, line {where}"
-            if swinging:
-                said += f", perhaps with the disturbance that acts in time ({', '.join(swinging)})"
-            return Fault("oscillates", said, line)
+            return Fault("oscillates", said + perhaps, line)
     return None
 
 

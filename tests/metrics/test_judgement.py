@@ -68,6 +68,7 @@ def test_a_swing_that_is_asked_for_is_none(lines):
     held = (Clamp("speed", 1, 0.0, 0.5 * float(one.motion.t[-1]), SourceLine(0, 3), 1.0, 2.0),)
     own = replace(one, command=swing[:, None] * np.ones(7), clamps=held)
     assert "swing" in judge(own).why
+    assert "(push)" in judge(own, ("push",)).faults[0].says
     asked = replace(one.motion, twist=swing[:, None] * np.ones(6))
     assert judge(replace(own, motion=asked)).is_result
     assert judge(replace(own, clamps=())).is_result

@@ -163,6 +163,38 @@ def test_overlays_of_many_are_apart_and_named_below(tmp_path):
     assert contact_sheet.decode_png(mixed["-sheet"].picture).shape[0] > sheet.shape[0]
 
 
+@pytest.mark.parametrize("count", [3, 8])
+def test_every_caption_says_what_is_no_result(tmp_path, monkeypatch, count):
+    """Those of the sheet, and of the overlay: its key, or its titles where there are several."""
+    made = study(tmp_path, [f"{law}, {n}" for n in "12" for law in "abcd"][:count])
+    faults = {0: ["oscillates"], 1: ["done", "clipped"], 2: ["astray", "clipped"]}
+    for i, words in faults.items():
+        results = tuple(Result(str(i), word, word, {"error_integral": 1.0}) for word in words)
+        made[i] = Cell(made[i].choice, results)
+    sheets, keys = [], []
+    sheet, key = contact_sheet.sheet, contact_sheet.with_key
+    monkeypatch.setattr(
+        contact_sheet,
+        "sheet",
+        lambda images, said, *n: sheets.append(said) or sheet(images, said, *n),
+    )
+    monkeypatch.setattr(
+        contact_sheet,
+        "with_key",
+        lambda image, said, look: keys.append(said) or key(image, said, look),
+    )
+    pictures.pictures(made, tmp_path, make_settings(width=WIDTH, height=HEIGHT))
+    ends = [caption.split("\n")[1:] for caption in sheets[-1 if count == 3 else 1]]
+    said = [["no result: oscillates"], ["1 done, 1 clipped"], ["no result: 1 astray, 1 clipped"]]
+    assert [end[-1:] for end in ends] == said + [[]] * (count - 3)
+    if count == 3:
+        names = [name for name, _ in keys[0]]
+        assert {"a, 1 (no result)", "b, 1", "c, 1 (no result)"} <= set(names)
+    else:
+        ends = ["a; no result: 1", "b", "c; no result: 1", "d"]
+        assert sheets[0] == ends
+
+
 def kept(tmp_path, count=4, steps=True):
     """Cells of two laws with runs of several seeds, each with its errors and a step of 40 mm."""
     cells = []

@@ -149,6 +149,27 @@ def test_late_replays_show_errors_over_time(tmp_path, monkeypatch):
     assert len(panels[0].lines) == 5
 
 
+def test_a_replay_without_any_result_has_no_chart_without_panels(tmp_path, monkeypatch):
+    """Where every run oscillates nothing stands over the paper's numbers, and no claim is told."""
+    t = np.arange(11) * 0.1
+    light = {"light": np.full((90, 160, 3), 0.1), "exposure": np.array(2.0)}
+    arrays = {"t_s": t, "position_error_m": t, "orientation_error_rad": t, **light}
+    for module in (shown, curves, torques):
+        monkeypatch.setattr(module, "read_arrays", lambda folder, key: arrays)
+    paper = read_paper("chandra-quarter-turn")
+    result = Result("k", "oscillates", "swings", {"error_integral": 1.0})
+    cells = tuple(Cell({"cell": cell.name}, (result,)) for cell in paper.cells)
+    monkeypatch.setattr(torques, "carry_out", lambda *choices, **more: cells)
+    made = replay.replay(paper.name, MeasureRequest(tmp_path))
+    assert "-published" not in made.measured.shown
+    charts = [one for one in made.measured.shown.values() if isinstance(one, Charts)]
+    assert charts
+    assert all(one.panels for one in charts)
+    assert {ours.word for _, _, ours in made.verdicts} == {"no numbers"}
+    assert "cells have no result" in made.table_text()
+    assert all(path.stat().st_size for path in made.save())
+
+
 class Hours:
     """Time that passes when it is told to; a sleep is late by some."""
 

@@ -137,7 +137,9 @@ def pictures(
     window = contact_sheet.lit_window([*by_label.values(), *over])
     if len(split) > 1:
         images, over = ([one[window] for one in several] for several in (images, over))
-        titles, most = [group.title for group in split], min(len(split), MOST_TOGETHER)
+        out = {id(drawn[label]) for label in without_result(found) if label in drawn}
+        titles = [group.title + _told_apart(group, out) for group in split]
+        most = min(len(split), MOST_TOGETHER)
         overlay = contact_sheet.sheet(over, titles, most)
         sheet = contact_sheet.sheet(images, captions, columns(labels))
     else:
@@ -190,7 +192,7 @@ def _parts(cell: Cell, axis: str) -> tuple[str, str]:
 
 
 def _caption(cell: Cell) -> str:
-    """The choice, the law's gains, and how far off the light was, of all runs."""
+    """The choice, the law's gains, how far off the light was, and what runs are no results."""
     lines = [cell.label]
     if cell.runs and (gains := gains_text(cell.runs[0].settings)):
         lines.append(gains)
@@ -202,7 +204,7 @@ def _caption(cell: Cell) -> str:
     if rms:
         lines.append(f"rms {', '.join(rms)}")
     if cell.status != "done":
-        lines.append(cell.status)
+        lines.append(cell.status if cell.done else f"{MARKED}: {cell.status}")
     return "\n".join(lines)
 
 

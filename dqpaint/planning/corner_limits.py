@@ -18,7 +18,13 @@ from dqpaint.motion import Motion, plan
 from dqpaint.planning.ideal_run import follow
 from dqpaint.planning.retiming import SUDDEN_TIME
 from dqpaint.program import ContinuousStroke, Program, Segment
-from dqpaint.robots.kinematics import Dynamics, Kinematics, make_secondary_task
+from dqpaint.robots.kinematics import (
+    Damping,
+    Dynamics,
+    Kinematics,
+    damped_inverse,
+    make_secondary_task,
+)
 
 MOST_LOOKS = 1500  # postures at which inertia and Jacobian are worked out
 MOST_PASSES = 5
@@ -54,7 +60,11 @@ class CornerPace:
 
 
 def within_torques(
-    motion: Motion, kinematics: Kinematics, start: Floats, null: str
+    motion: Motion,
+    kinematics: Kinematics,
+    start: Floats,
+    null: str,
+    damping: Damping = damped_inverse,
 ) -> CornerPace | None:
     """The motion at accelerations that the motors can bear; None if it needs no change.
 
@@ -63,6 +73,7 @@ def within_torques(
         kinematics: of the arm.
         start: posture (n,) [rad] to begin from.
         null: what the arm does with its freedom.
+        damping: of the run.
     """
     segments = motion.program.segments
     allowed = np.array([segment.profile.acceleration for segment in segments])
@@ -72,7 +83,8 @@ def within_torques(
     acceleration = allowed
     for _ in range(MOST_PASSES):
         load = np.ones(owner[-1] + 1)
-        np.maximum.at(load, owner[motion.stroke], _loads(motion, kinematics, start, null))
+        loads = _loads(motion, kinematics, start, null, damping)
+        np.maximum.at(load, owner[motion.stroke], loads)
         load = np.where(allowed > 0.0, load[owner], 1.0)
         if (load <= CLOSE).all():
             break
@@ -92,12 +104,14 @@ def _strokes(segments: tuple[Segment, ...]) -> np.ndarray[tuple[int], np.dtype[n
     return np.cumsum(begins) - 1
 
 
-def _loads(motion: Motion, kinematics: Kinematics, start: Floats, null: str) -> Floats:
+def _loads(
+    motion: Motion, kinematics: Kinematics, start: Floats, null: str, damping: Damping
+) -> Floats:
     """The torques for changes of the rates at each row (N,), as a part of the room for them."""
     n, period = len(motion.t), motion.period
     looks = np.arange(0, n, -(-n // MOST_LOOKS))
     wish = make_secondary_task(null, kinematics.card, start)
-    postures, _, jacobians = follow(motion, kinematics, start, looks, wish)
+    postures, _, jacobians = follow(motion, kinematics, start, looks, wish, damping)
     dynamics = Dynamics(kinematics)
     most = kinematics.card.effort
     free = most - np.abs([dynamics.weight(q) for q in postures])

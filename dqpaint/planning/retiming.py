@@ -8,6 +8,7 @@ motors' share is looked at as well, the weight of the arm being the part that do
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -17,8 +18,10 @@ from dqpaint.diagnostics import SourceLine
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion, TimeScaling, plan, smooth
 from dqpaint.robots.kinematics import (
+    Damping,
     Dynamics,
     Kinematics,
+    damped_inverse,
     drift_acceleration,
     make_secondary_task,
     resolve,
@@ -69,7 +72,12 @@ class Retiming:
 
 
 def retime(
-    motion: Motion, kinematics: Kinematics, start: Floats, null: str, motors: Motors
+    motion: Motion,
+    kinematics: Kinematics,
+    start: Floats,
+    null: str,
+    motors: Motors,
+    damping: Damping = damped_inverse,
 ) -> Retiming:
     """The motion at a pace that the arm's limits allow, as far as slowness helps.
 
@@ -83,10 +91,13 @@ def retime(
         null: what the arm does with its freedom.
         motors: what of their torques counts: nothing; what smooth motion needs; or also what new
             rates need that are taken up at once.
+        damping: of the run: without any, an arm beside a singularity needs more time there.
     """
     slowness = np.ones(len(motion.t))
     for turn in range(MOST_PASSES):
-        needed = _needed_slowness(motion, kinematics, start, null, motors, slowness, turn > 0)
+        needed = _needed_slowness(
+            motion, kinematics, start, null, motors, damping, slowness, turn > 0
+        )
         needed = np.clip(needed, 1, MOST_SLOWNESS)
         if turn and (needed <= slowness * (1 + CONVERGED)).all():
             break
@@ -105,6 +116,7 @@ def _needed_slowness(
     start: Floats,
     null: str,
     motors: Motors,
+    damping: Damping,
     slowness: Floats,
     returning: bool,
 ) -> Floats:
@@ -116,7 +128,8 @@ def _needed_slowness(
     card, period = kinematics.card, motion.period
     wish, zero = make_secondary_task(null, card, start), np.zeros(card.joints)
     speed = LIMIT_SHARE * card.speed
-    torques = _Torques(kinematics) if motors != "none" else None
+    torques = _Torques(kinematics, damping) if motors != "none" else None
+    solve = partial(resolve, damping=damping)
     growth = np.gradient(slowness, period) if len(slowness) > 1 else np.zeros(1)
     needed = np.empty(len(motion.t))
     q, before = start, zero
@@ -129,9 +142,9 @@ def _needed_slowness(
         point = dq.translation(x)
         error = 2 * dq.log(dq.mul(dq.nearest(pose, x), dq.conj(x)))
         settled = (settled or float(np.abs(error).max()) < ON_PATH) and not jump
-        back = resolve(J, point, error, zero)
-        along = resolve(J, point, twist, zero)
-        pull = resolve(J, point, np.zeros(6), wish(q, J, point))
+        back = solve(J, point, error, zero)
+        along = solve(J, point, twist, zero)
+        pull = solve(J, point, np.zeros(6), wish(q, J, point))
         room = np.maximum(speed - np.abs(pull), LEAST_SHARE * speed)
         needed[k] = (np.abs(along) / room).max()
         if settled and returning:
@@ -155,14 +168,16 @@ def _needed_slowness(
 class _Torques:
     """How much slower a motion has to be for the motors' torques."""
 
-    def __init__(self, kinematics: Kinematics) -> None:
+    def __init__(self, kinematics: Kinematics, damping: Damping = damped_inverse) -> None:
+        self._damping = damping
         self._dynamics = Dynamics(kinematics)
         self._most = LIMIT_SHARE * kinematics.card.effort
 
     def excess(self, q: Floats, rates: Floats, J: Floats, point: Floats, slope: Floats) -> float:
         """By which factor, from joint rates (n,) and the tool's acceleration (6,)."""
         wanted = slope - drift_acceleration(J, rates)
-        return self._slower(q, rates, resolve(J, point, wanted, np.zeros_like(q)))
+        bend = resolve(J, point, wanted, np.zeros_like(q), self._damping)
+        return self._slower(q, rates, bend)
 
     def jolt(self, q: Floats, rates: Floats, before: Floats) -> float:
         """The same, where motors take up rates (n,) that follow on others at once.

@@ -13,7 +13,7 @@ from dqpaint.outputs.summary import summarise
 from dqpaint.outputs.tables import encode_csv
 from dqpaint.planning.reachability import reachable_start_posture
 from dqpaint.planning.retiming import LIMIT_SHARE, _Torques, retime
-from dqpaint.robots.kinematics.differential_ik import resolve
+from dqpaint.robots.kinematics.differential_ik import read_damping, resolve
 from dqpaint.robots.kinematics.dynamics import Dynamics
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
@@ -101,6 +101,15 @@ def test_one_through_a_singularity(draw, plant):
     assert 0.5 < slow.retiming.extra_time < 2
     with pytest.raises(ScriptError, match=r"E312.*joint 4 "):
         draw(text, "stop", plant=plant)
+
+
+def test_one_through_a_singularity_is_planned_with_the_run_s_own_damping(draw):
+    """Damped everywhere, but less than `selective` is there: joints turn faster, and need longer."""
+    slow = draw(past_a_singularity(), "slow", damping="wampler")
+    assert not slow.limits
+    assert worst(slow) < 5e-4
+    more = draw(past_a_singularity(), "slow", damping="wampler,factor=0.1")  # more damped: sooner
+    assert more.retiming.extra_time < 0.5 * slow.retiming.extra_time
 
 
 def test_one_across_a_joint_limit(draw):
@@ -235,6 +244,8 @@ def test_a_motor_s_share_is_worked_out_as_it_is():
     wanted = np.sqrt((moving / (LIMIT_SHARE * arm.card.effort - np.abs(weight))).max())
     found = motors.excess(q, np.zeros(7), J, dq.translation(x), slope)
     assert found == pytest.approx(wanted, rel=1e-9)
+    damped = _Torques(arm, read_damping("wampler,factor=0.5"))
+    assert damped.excess(q, np.zeros(7), J, dq.translation(x), slope) < 0.95 * found
     assert abs(wanted - 1) > 0.1
 
 

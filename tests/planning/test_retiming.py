@@ -104,7 +104,7 @@ def test_one_through_a_singularity(draw, plant):
 
 
 def test_one_through_a_singularity_is_planned_with_the_run_s_own_damping(draw):
-    """Damped everywhere, but less than `selective` is there: joints turn faster, and need longer."""
+    """Damped everywhere, but less than `selective` does there: joints turn faster."""
     slow = draw(past_a_singularity(), "slow", damping="wampler")
     assert not slow.limits
     assert worst(slow) < 5e-4

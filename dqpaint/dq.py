@@ -186,13 +186,15 @@ def exp(half: Floats) -> Floats:
     return out
 
 
-def log(x: Floats) -> Floats:
+def log(x: Floats, short: bool = True) -> Floats:
     """Half the displacement (..., 6) of a pose, the short way: exp(log(x)) is x or -x.
 
     2 log(x) = [theta l; d l + theta m], theta in [0, pi]: turn theta about and move d along the
-    line with direction l and moment m.
+    line with direction l and moment m. Not `short` exp(log(x)) is x, and theta in [0, 2 pi); at a
+    whole turn, x = -1, every line is one, and it is taken for none.
     """
-    x = np.where(x[..., :1] < 0, -x, x)
+    if short:
+        x = np.where(x[..., :1] < 0, -x, x)
     v, w_dual, v_dual = x[..., 1:4], x[..., 4], x[..., 5:8]
     s = np.sqrt((v * v).sum(-1))
     angle = np.arctan2(s, x[..., 0])

@@ -30,11 +30,12 @@ from dqpaint.controllers.base.controller import CONTROLLERS, Controller, Law, co
 from dqpaint.controllers.base.gain_schedule import Schedule
 from dqpaint.controllers.base.gains import Gains
 from dqpaint.controllers.base.seen import Seen, Window
+from dqpaint.controllers.base.signs import read_sign
 from dqpaint.controllers.base.user_controller import (
     commands, find_controller, make_controller,
 )
 
 __all__ = [
     "CONTROLLERS", "Arm", "Controller", "Gains", "JointLimits", "Law", "Schedule", "Seen", "Window",
-    "commands", "controller", "find_controller", "make_controller",
+    "commands", "controller", "find_controller", "make_controller", "read_sign",
 ]

@@ -103,6 +103,10 @@ class Disturbance(BaseModel):
         """The encoder's errors in a number of rows; None for exact measurement."""
         return None
 
+    def misread(self, pose: Floats, pose_d: Floats) -> Floats:
+        """The measured pose (..., 8) as the law gets it, on its way to a desired one."""
+        return pose
+
     @property
     def delay(self) -> int:
         """Delay of commands on their way to the motors, in periods."""

@@ -1,13 +1,14 @@
 """Settings -> the law, plant and disturbances they name, or the first error among them."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from dqpaint.controllers import Controller, Schedule, find_controller
+from dqpaint.controllers import Controller, Schedule, find_controller, read_sign
 from dqpaint.disturbances import Disturbance, find_files, make_disturbances
+from dqpaint.errors import UsageError
 from dqpaint.painting.scene import check_light_settings
 from dqpaint.plants import ConfiguredPlant, Takes, choose_plant, find_plant
 from dqpaint.robots.kinematics import read_damping, read_null
@@ -60,6 +61,7 @@ def check_run(
     check_recorded(settings)
     law = RECORDED if settings.recorded else controller or find_controller(settings.controller)
     gains = law.read_gains(settings.gains)
+    law = _with_sign_rule(law, settings.sign)
     takes: Takes = "torque" if law.drives_torque else "rates"
     plant = choose_plant(settings.plant, takes, settings.engine)
     if not settings.recorded:
@@ -68,6 +70,17 @@ def check_run(
     for name, one in disturbances.items():
         plant.require_trait(one.needs, name)
     return RunChoices(law, gains, plant, disturbances)
+
+
+def _with_sign_rule(law: Controller[Any], sign: str) -> Controller[Any]:
+    """The law, on the side of the double cover that a rule chooses."""
+    rule = read_sign(sign)
+    if rule is not None and law.heeds_sign is False:
+        raise UsageError(
+            f"sign '{sign}': law '{law.name}' does not ask which of x_d and -x_d is nearer, or has "
+            "a rule of its own; leave out --sign"
+        )
+    return replace(law, sign=rule)
 
 
 def check_settings(settings: Settings) -> None:
@@ -92,6 +105,7 @@ def _check_independent(settings: Settings) -> None:
         parse_tool(settings.tool)
     read_null(settings.null)
     read_damping(settings.damping)
+    read_sign(settings.sign)
 
 
 def settings_file(

@@ -67,6 +67,15 @@ class LawSettings(Group):
             "Sequence[str] | str",
         ),
     ] = Field(default_factory=dict)
+    sign: Annotated[
+        str,
+        Option(
+            "which of x_d and -x_d, one pose, the law goes to: the nearest, with "
+            "hysteresis[,delta=0.3] the one before until it is clearly the farther, or none: the "
+            "signs as they come",
+            "nearest|hysteresis|none",
+        ),
+    ] = "nearest"
     recorded: Annotated[
         str | None,
         Option(
@@ -450,16 +459,15 @@ def validated(model: type[M], fields: Mapping[str, object], strict: bool = False
         raise UsageError(f"{name} {first['input']!r} {pydantic_reason(first)}") from None
 
 
-SIMULATED = ("controller", "gains", "plant", "engine", "disturb", "spread", "start", "null",
-             "damping", "kinematics", "on_limit")  # fmt: skip
+SIMULATED = ("controller", "gains", "sign", "plant", "engine", "disturb", "spread", "start",
+             "null", "damping", "kinematics", "on_limit")  # fmt: skip
 
 
 def check_recorded(settings: Settings) -> None:
     """Refuse settings of a simulated run for a recorded one.
 
     Raises:
-        UsageError: a law, gain, plant, engine, disturbance, start, null, damping or on_limit was
-            chosen.
+        UsageError: what belongs to a simulation alone was chosen: a law, gain, plant and so on.
     """
     if settings.recorded is None:
         return

@@ -18,6 +18,7 @@ class LawOptions(TypedDict, total=False):
         | str
         | None
     )
+    sign: str | None
     recorded: str | PathLike[str] | None
 
 

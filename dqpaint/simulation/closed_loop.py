@@ -256,6 +256,8 @@ def _simulate(
     late = DelayLine(total_delay(disturbances), drive.hold(start))
     parts = motion.clock / motion.clock[-1] if n > 1 else motion.clock
     plant = make_plant(card, start, motion.period, sensors.world)
+    liars = [one for one in disturbances.values() if type(one).misread is not Disturbance.misread]
+    remembers, clipped = isinstance(controller.law, type), np.zeros(start.shape[:-1], np.bool_)
     clips = not isinstance(make_plant, ConfiguredPlant) or make_plant.clips_rates
     asked = zip(
         motion.pose, motion.twist, motion.acceleration, motion.t.tolist(), gains.over(parts),
@@ -265,13 +267,17 @@ def _simulate(
         for k, (pose_d, twist_d, acceleration_d, t, now) in enumerate(asked):
             measured = sensors.measure(k, plant)
             q, rates, x, J = measured
+            for one in liars:
+                x = one.misread(x, pose_d)
             seen = Seen(
                 x, pose_d, twist_d, acceleration_d, J, q, t, motion.period, rates, k, arm.limits,
-                motion,
+                motion, clipped=clipped,
             )  # fmt: skip
             wanted = drive.command(seen, now)
             given = drive.clip(wanted, q) if clips else wanted
-            log.record(k, plant, measured, sensors.truth(k, plant, measured), wanted, given)
+            if remembers:
+                clipped = (given != wanted).any(axis=-1)
+            log.record(k, plant, measured, sensors.truth(k, plant, measured), x, wanted, given)
             at_row(k)
             if k < n - 1:
                 plant.run(late(given), log.drift_rates(k, drift))
@@ -313,12 +319,13 @@ class _Log:
         plant: Plant,
         measured: Measurement,
         truth: tuple[Floats, Floats],
+        read_pose: Floats,
         wanted: Floats,
         given: Floats,
     ) -> None:
         """Record row k; manipulabilities are computed a block at a time, which costs less."""
         self.posture[k], self.effort[k] = plant.posture, plant.effort
-        self.measured_posture[k], self.measured_pose[k] = measured.posture, measured.pose
+        self.measured_posture[k], self.measured_pose[k] = measured.posture, read_pose
         self.measured_rates[k] = measured.rates
         self.measured_twist[k] = np.matvec(measured.jacobian, measured.rates)
         self.pose[k], self._jacobian[k % JACOBIAN_ROWS] = truth

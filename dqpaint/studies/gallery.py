@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from dqpaint.api import draw
 from dqpaint.core import short_name
 from dqpaint.outputs import files, summary
-from dqpaint.settings import DEFAULT_CONTROLLER
+from dqpaint.settings import DEFAULT_CONTROLLER, SETTINGS
 from dqpaint.studies.kinds import hinf_bound
 
 
@@ -39,7 +39,9 @@ class Shot(NamedTuple):
 def _option(name: str, value: object) -> str:
     if (name, value) == ("ghost", "motion"):
         return " --motion-ghost"
-    word = f" --{name.replace('_', '-')}"
+    word = f" --{SETTINGS[name].name if name in SETTINGS else name}"
+    if isinstance(value, list):
+        return "".join(f"{word} {shlex.quote(one)}" for one in value)
     return word if value is True else f"{word} {shlex.quote(str(value))}"
 
 

@@ -44,7 +44,8 @@ RATES = [
     ("lqr", {"q": "2.5,2.5,2.5,1.6,1.6,1.6", "r": 0.1}, 5.0, 4.0),
     ("lqr", {}, 20.0, 20.0), ("lqr8", {}, 20.0, 20.0), ("p", {}, 20.0, 20.0),
     ("pham", {}, 20.0, 20.0), ("decoupled", {}, 20.0, 20.0), ("log", {}, 20.0, 20.0),
-    ("hinf", {}, 20.0, 20.0),
+    ("hinf", {}, 20.0, 20.0), ("hybrid", {"K_O": 8.0, "K_T": 3.0}, 4.0, 3.0),
+    ("sine", {"k": 5.0}, 5.0, 5.0), ("se3", {"k_R": 4.0, "k_p": 3.0}, 4.0, 3.0),
 ]  # fmt: skip
 
 
@@ -67,7 +68,7 @@ def test_small_errors_decay_at_the_stated_rates(rng, name, gains, turning, movin
 
 
 def test_every_law_that_commands_twists_has_a_rate_in_the_table():
-    others = {"open-loop", "p-least-squares"}  # see test_new_laws
+    others = {"open-loop", "p-least-squares", "pi"}  # see test_new_laws, test_stateful_laws
     found = {n for n, c in CONTROLLERS.items() if c.commands == "twist"}
     assert {row[0] for row in RATES} | others == found
 
@@ -127,7 +128,7 @@ def test_the_transpose_never_lets_the_error_grow(rng):
         assert (sizes[0] - sizes[1]) / (2 * h) == pytest.approx(wanted, rel=1e-5)
 
 
-LOOK_AHEAD = ["pff", "hinf", "log", "lqr"]
+LOOK_AHEAD = ["pff", "hinf", "log", "lqr", "hybrid", "sine", "se3"]
 
 
 @pytest.mark.parametrize("name", LOOK_AHEAD)
@@ -284,3 +285,39 @@ def test_small_errors_swing_as_their_spring_does(rng, name, gains, turning, movi
 def _half(x, xi, a, h, x_d):
     there, speed = moved(x, xi, a, h / 2)
     return there, x_d, None, None, speed
+
+
+@pytest.mark.parametrize(("name", "k"), [("sine", 3.0), ("se3", 3.0), ("log", 3.0), ("hinf", 3.0)])
+def test_four_functions_of_one_angle(rng, name, k):
+    """theta(t) in closed form, from 2.9 rad about a general axis through the tool."""
+    x_d, axis = random_poses(rng, 1)[0], random_rotations(rng, 1)[0][1:]
+    axis /= np.linalg.norm(axis)
+    at, start, seconds = dq.translation(x_d), 2.9, 1.2
+    x = dq.mul(dq.exp(0.5 * start * np.concatenate([axis, dq.cross(at, axis)])), x_d)
+    gains = {"sine": {"k": k}, "se3": {"k_R": k}, "log": {"k": k}, "hinf": {"K_O": k}}[name]
+    errors = simulate(name, gains, x, lambda _t: (x_d,), seconds, 400)
+    t = np.linspace(0, seconds, 401)
+    quarter, half = np.tan(start / 4), np.tan(start / 2)
+    wanted = {
+        "log": start * np.exp(-k * t),
+        "sine": 4 * np.arctan(quarter * np.exp(-k * t)),
+        "hinf": 4 * np.arctan(quarter * np.exp(-k * t / 2)),
+        "se3": 2 * np.arctan(half * np.exp(-k * t)),
+    }[name]
+    found = 2 * np.linalg.norm(dq.log(errors)[:, :3], axis=1)
+    np.testing.assert_allclose(found, wanted, atol=1e-7)
+
+
+def test_the_dual_sine_keeps_the_screw_s_axis_and_its_advance_stalls_far_away(rng):
+    """d_dot = -k d cos(theta / 2) and the axis stays, from a general displacement."""
+    x, x_d = random_poses(rng, 2)
+    errors = simulate("sine", {"k": 3.0}, x, lambda _t: (x_d,), 0.8, 800)
+    screws = 2 * dq.log(errors)
+    theta = np.linalg.norm(screws[:, :3], axis=1)
+    line = screws[:, :3] / theta[:, None]
+    advance = (line * screws[:, 3:]).sum(1)
+    moment = (screws[:, 3:] - advance[:, None] * line) / theta[:, None]
+    np.testing.assert_allclose(line, np.broadcast_to(line[0], line.shape), atol=1e-9)
+    np.testing.assert_allclose(moment, np.broadcast_to(moment[0], line.shape), atol=1e-8)
+    slope = np.gradient(advance, 0.001)[1:-1]
+    np.testing.assert_allclose(slope, (-3.0 * advance * np.cos(theta / 2))[1:-1], atol=1e-5)

@@ -11,6 +11,7 @@ from dqpaint.controllers.base.arm import Arm
 from dqpaint.controllers.base.gain_schedule import GainText, Schedule, read_schedule
 from dqpaint.controllers.base.gains import G, Gains, list_gains
 from dqpaint.controllers.base.seen import Seen
+from dqpaint.controllers.base.signs import SignRule
 from dqpaint.core import Folder, Registry
 from dqpaint.dq import Floats
 from dqpaint.errors import UsageError
@@ -56,6 +57,9 @@ class Controller(Generic[G]):
         paper: the gains of its paper's experiments, as texts and numbers; empty where it prints
             none.
         paper_source: where the paper has them.
+        heeds_sign: whether it goes to the side of the double cover that `--sign` chooses; None of a
+            user's law, which may.
+        sign: what makes the sign rule of a run; None is the nearest side.
     """
 
     name: str
@@ -69,6 +73,8 @@ class Controller(Generic[G]):
     controls: Controls = "pose"
     paper: Mapping[str, GainText] = field(default_factory=dict)
     paper_source: str = ""
+    heeds_sign: bool | None = True
+    sign: Callable[[], SignRule] | None = None
 
     @property
     def summary(self) -> str:
@@ -99,7 +105,14 @@ class Controller(Generic[G]):
         law = for_one_run(self.law)
         if hasattr(type(law), "start"):
             law.start(arm, motion, gains)
-        return cast(Law[G], law)
+        return self.with_sign_rule(cast(Law[G], law))
+
+    def with_sign_rule(self, law: Law[G]) -> Law[G]:
+        """The law of one run, seeing the desired pose on the side that `sign` chooses."""
+        if self.sign is None:
+            return law
+        choose = self.sign()
+        return lambda seen, gains: law(choose(seen), gains)
 
     def read_gains(self, given: Mapping[str, GainText]) -> Schedule[G]:
         """The gains with the given ones replaced, over the drawing.
@@ -168,20 +181,23 @@ def controller(
     controls: Controls = "pose",
     paper: Mapping[str, GainText] | None = None,
     paper_source: str = "",
+    heeds_sign: bool | None = None,
 ) -> Callable[[L], L]:
     """A decorator that registers the function or class below it; arguments as in `Controller`.
 
     Its docstring is its explanation, see `dqpaint.core.explanations`.
 
+    A law that brings an orientation home heeds `--sign`, if `heeds_sign` does not say otherwise.
     A function goes in batches; a class, whose state may be that of one arm, where it says
     `batched = True`.
     """
 
     def record(law: L) -> L:
         batched = getattr(law, "batched", not isinstance(law, type))
+        heeds = controls in ("pose", "orientation") if heeds_sign is None else heeds_sign
         CONTROLLERS.add(name)(Controller(
             name, source, gains, law, commands, leaves_null, batched, None, controls,
-            paper or {}, paper_source,
+            paper or {}, paper_source, heeds,
         ))  # fmt: skip
         return law
 

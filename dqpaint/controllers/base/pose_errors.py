@@ -1,10 +1,9 @@
 """Measured and desired pose -> the errors of the papers, and commands about the same point.
 
-Errors are always the short way round.
-
 x and -x are one pose: the desired one is taken on the side of the measured one before an error is
 formed, or the arm might turn the long way. The sign is decided by the error itself, never by the
-scalar part of a pose, which changes along a smooth path.
+scalar part of a pose, which changes along a smooth path. Where a rule has chosen it already
+(`signs`) the desired pose is `signed` and stays as it is.
 """
 
 from typing import Literal
@@ -20,19 +19,29 @@ Point = Literal["base", "tool"]
 POINT_HELP = "point of the body at which the error is taken: that at the base's origin, or the tool"
 
 
-def invariant_error(pose: Floats, pose_d: Floats) -> Floats:
+def _goal(pose: Floats, pose_d: Floats, signed: bool) -> Floats:
+    return pose_d if signed else dq.nearest(pose_d, pose)
+
+
+def invariant_error(pose: Floats, pose_d: Floats, signed: bool = False) -> Floats:
     """The error e = vec(1 - x* x_d) (..., 8), the same from whatever base frame; not tool frame."""
-    return dq.IDENTITY - dq.mul(dq.conj(pose), dq.nearest(pose_d, pose))
+    return dq.IDENTITY - dq.mul(dq.conj(pose), _goal(pose, pose_d, signed))
 
 
-def difference_error(pose: Floats, pose_d: Floats) -> Floats:
+def difference_error(pose: Floats, pose_d: Floats, signed: bool = False) -> Floats:
     """The error e = vec(x_d - x) (..., 8), the plain difference of the eight numbers."""
-    return np.asarray(dq.nearest(pose_d, pose) - pose)
+    return np.asarray(_goal(pose, pose_d, signed) - pose)
 
 
-def spatial_error(pose: Floats, pose_d: Floats) -> Floats:
+def spatial_error(pose: Floats, pose_d: Floats, signed: bool = False) -> Floats:
     """x_e = x x_d* (..., 8), seen from the base."""
-    return dq.mul(pose, dq.conj(dq.nearest(pose_d, pose)))
+    return dq.mul(pose, dq.conj(_goal(pose, pose_d, signed)))
+
+
+def body_error(seen: Seen) -> Floats:
+    """[2 Im r_b; p_b] (..., 6) of x_b = x_d* x: the error along the axes of the reference."""
+    x_b = dq.mul(dq.conj(seen.goal), seen.pose)
+    return np.concatenate([2.0 * x_b[..., 1:4], dq.translation(x_b)], axis=-1)
 
 
 def error_vector(x_e: Floats, seen: Seen, point: Point) -> Floats:
@@ -69,14 +78,14 @@ def tracking_command(u: Floats, x_e: Floats, seen: Seen, point: Point) -> Floats
 _tool = dq.translation
 
 
-def twist_of_invariant_rate(pose: Floats, pose_d: Floats, rate: Floats) -> Floats:
-    """The twist u (..., 6) with vec(x_dot* x_d) = rate as nearly as can be.
+def twist_of_invariant_rate(pose: Floats, goal: Floats, rate: Floats) -> Floats:
+    """The twist u (..., 6) with vec(x_dot* x_d) = rate as nearly as can be; x_d on its side.
 
     x_dot* = -1/2 x* u gives M u = rate with M = -1/2 H+(x*) H-(x_d) E6, 8 x 6 of full column
     rank, and u = M^+ rate. N = M J_w is the papers' 8 x n matrix, so N^+ = J_w^+ M^+.
     """
     back: Floats = np.dot(pose, _BACK).reshape(*pose.shape[:-1], 8, 8)
-    return _least_squares(back @ pose_map(dq.nearest(pose_d, pose)), rate)
+    return _least_squares(back @ pose_map(goal), rate)
 
 
 def twist_of_pose_rate(pose: Floats, rate: Floats) -> Floats:

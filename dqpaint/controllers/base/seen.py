@@ -3,7 +3,9 @@
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from dqpaint import dq
 from dqpaint.controllers.base.arm import NO_LIMITS, JointLimits
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion
@@ -45,6 +47,8 @@ class Seen(NamedTuple):
         motion: the whole reference motion; see `ahead`.
         inertia: H(q) (..., n, n) [kg m^2], for laws that command torques; empty for others.
         bias: C(q, q_dot) q_dot + G(q) and the joints' friction (..., n) [Nm], likewise.
+        signed: whether the sign of `pose_d` was chosen by a rule (`--sign`), and is to be kept.
+        clipped: whether a limit clipped the command before this one (...,).
     """
 
     pose: Floats
@@ -61,6 +65,13 @@ class Seen(NamedTuple):
     motion: Motion | None = None
     inertia: Floats = NOTHING
     bias: Floats = NOTHING
+    signed: bool = False
+    clipped: NDArray[np.bool_] | bool = False
+
+    @property
+    def goal(self) -> Floats:
+        """The desired pose (..., 8) on the side of the double cover to which the law is to go."""
+        return self.pose_d if self.signed else dq.nearest(self.pose_d, self.pose)
 
     @property
     def twist(self) -> Floats:

@@ -125,7 +125,7 @@ def make_controller(
         name, str(path), model, law, cast(Commands, kind), sha256=digest, path=path,
         place=f"{path.name}:{code.co_firstlineno}" if code else path.name,
         about=inspect.getdoc(owner) or inspect.getdoc(body) or f"The law of {path.name}.",
-        batched=getattr(owner, "batched", False) is True,
+        batched=getattr(owner, "batched", False) is True, heeds_sign=None,
     )  # fmt: skip
 
 
@@ -163,7 +163,7 @@ class UserController(Controller[Gains]):
                 f"{self.path.name}: start of law '{type(law).__name__}' returned a "
                 f"{type(said).__name__}; it returns nothing: what it works out is kept in self"
             )
-        return CheckedLaw(law, self)
+        return self.with_sign_rule(CheckedLaw(law, self))
 
 
 class CheckedLaw:

@@ -58,9 +58,10 @@ def accel(seen: Seen, gains: SpringGains) -> Floats:
     Try:
         dqpaint draw quarter-turn --controller accel --disturb payload=1
     """
-    home = spatial_error(seen.pose, seen.pose_d)  # x x_d* = x_e*
+    home = spatial_error(seen.pose, seen.pose_d, seen.signed)  # x x_d* = x_e*
     xi = seen.twist
     carried = dq.adjoint(home, seen.twist_d)
     forward = dq.adjoint(home, seen.acceleration_d) + dq.spatial_cross(xi, carried)
-    back = times(gains.Kv, carried - xi) + times(gains.Kp, 2.0 * dq.log(dq.conj(home)))
+    screw = dq.log(dq.conj(home), short=not seen.signed)
+    back = times(gains.Kv, carried - xi) + times(gains.Kp, 2.0 * screw)
     return np.asarray(forward + back)

@@ -66,7 +66,7 @@ def accel_decoupled(seen: Seen, gains: ApartSpringGains) -> Floats:
     p, p_d = dq.translation(seen.pose), dq.translation(seen.pose_d)
     xi, xi_d = seen.twist, seen.twist_d
     w, p_dot = xi[..., :3], dq.point_velocity(xi, p)
-    r_home = spatial_error(seen.pose, seen.pose_d)[..., :4]  # r r_d*
+    r_home = spatial_error(seen.pose, seen.pose_d, seen.signed)[..., :4]  # r r_d*
     p_ddot = (
         dq.point_acceleration(xi_d, seen.acceleration_d, p_d)
         + times(gains.KVp, dq.point_velocity(xi_d, p_d) - p_dot)

@@ -45,6 +45,6 @@ def log(seen: Seen, gains: LogGains) -> Floats:
     Try:
         dqpaint compare step --controllers log,hinf-set,p --plants ideal
     """
-    x_e = spatial_error(seen.pose, seen.pose_d)
+    x_e = spatial_error(seen.pose, seen.pose_d, seen.signed)
     ahead = gains.feed_forward * dq.adjoint(x_e, seen.twist_d)
-    return np.asarray(-2.0 * gains.k * dq.log(x_e) + ahead)
+    return np.asarray(-2.0 * gains.k * dq.log(x_e, short=not seen.signed) + ahead)

@@ -58,7 +58,7 @@ def pham(seen: Seen, gains: DifferenceGains) -> Floats:
     if tool:
         home = to_tool(pose_d)
         pose, pose_d = dq.mul(home, pose), dq.mul(home, pose_d)
-    u = twist_of_pose_rate(pose, times(gains.k, difference_error(pose, pose_d)))
+    u = twist_of_pose_rate(pose, times(gains.k, difference_error(pose, pose_d, seen.signed)))
     return dq.adjoint(dq.conj(home), u) if tool else u
 
 

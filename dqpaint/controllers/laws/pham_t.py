@@ -67,6 +67,6 @@ def pham_t(seen: Seen, gains: TransposeGains) -> Floats:
         home = to_tool(pose_d)
         pose, pose_d = dq.mul(home, pose), dq.mul(home, pose_d)
         jacobian = dq.adjoint(home[..., None, :], jacobian.mT).mT
-    error = difference_error(pose, pose_d)
+    error = difference_error(pose, pose_d, seen.signed)
     along = np.vecmat(times(gains.k, error), pose_map(pose))  # J8' = J_w' M'
     return np.asarray(np.vecmat(along, jacobian))

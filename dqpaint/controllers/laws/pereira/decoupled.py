@@ -43,7 +43,7 @@ def decoupled(seen: Seen, gains: ApartGains) -> Floats:
     Try:
         dqpaint compare step --controllers decoupled,log,hinf-set --plants ideal
     """
-    r_e = spatial_error(seen.pose, seen.pose_d)[..., :4]
+    r_e = spatial_error(seen.pose, seen.pose_d, seen.signed)[..., :4]
     t = dq.translation(seen.pose)
     w = -2.0 * gains.k_r * r_e[..., 1:]
     t_dot = gains.k_t * (dq.translation(seen.pose_d) - t)

@@ -35,6 +35,6 @@ def hinf(seen: Seen, gains: GammaGains) -> Floats:
     Try:
         dqpaint compare step --controllers "hinf,hinf(point=tool)" --plants ideal
     """
-    x_e = spatial_error(seen.pose, seen.pose_d)
+    x_e = spatial_error(seen.pose, seen.pose_d, seen.signed)
     u = correction(error_vector(x_e, seen, gains.point), gains)
     return tracking_command(u, x_e, seen, gains.point)

@@ -163,5 +163,5 @@ def hinf_set(seen: Seen, gains: GammaGains) -> Floats:
     Try:
         dqpaint compare step --controllers "hinf-set,hinf-set(point=tool)" --plants ideal
     """
-    e = error_vector(spatial_error(seen.pose, seen.pose_d), seen, gains.point)
+    e = error_vector(spatial_error(seen.pose, seen.pose_d, seen.signed), seen, gains.point)
     return command_about(correction(e, gains), seen, gains.point)

@@ -80,7 +80,7 @@ class Lqr:
 
     def __call__(self, seen: Seen, gains: SixWeights) -> Floats:
         """The twist (..., 6)."""
-        x_e = spatial_error(seen.pose, seen.pose_d)
+        x_e = spatial_error(seen.pose, seen.pose_d, seen.signed)
         e = error_vector(x_e, seen, gains.point)
         e[..., 3:] *= 0.5
         P = self._P[seen.row]

@@ -82,12 +82,12 @@ class Lqr8:
         """The twist (..., 6)."""
         P, g = self._P[seen.row][..., PLACES], self._g[seen.row]
         if gains.point == "base":
-            x_e = spatial_error(seen.pose, seen.pose_d)
+            x_e = spatial_error(seen.pose, seen.pose_d, seen.signed)
             wanted = np.matvec(P, dq.IDENTITY - x_e) + g
             return twist_of_pose_rate(x_e, times_inverse(gains.r, wanted))
-        e = invariant_error(seen.pose, seen.pose_d)
+        e = invariant_error(seen.pose, seen.pose_d, seen.signed)
         wanted = times_inverse(gains.r, np.matvec(P, e) + g)
-        return twist_of_invariant_rate(seen.pose, seen.pose_d, wanted)
+        return twist_of_invariant_rate(seen.pose, seen.goal, wanted)
 
 
 def riccati(motion: Motion, gains: Schedule[EightWeights]) -> tuple[Floats, Floats]:

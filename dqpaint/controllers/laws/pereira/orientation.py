@@ -36,6 +36,6 @@ def orientation(seen: Seen, gains: PartGains) -> Floats:
     Try:
         dqpaint draw helicoid --controller orientation --gain feed_forward=1
     """
-    r_e = spatial_error(seen.pose, seen.pose_d)[..., 1:4]
+    r_e = spatial_error(seen.pose, seen.pose_d, seen.signed)[..., 1:4]
     ahead = gains.feed_forward * seen.twist_d[..., :3]
     return resolve_part(seen.jacobian[..., :3, :], ahead - 2.0 * times(gains.k, r_e))

@@ -67,7 +67,7 @@ def p(seen: Seen, gains: RateGains) -> Floats:
         dqpaint draw lag --controller p --gain k=10
     """
     if gains.point == "base":
-        x_e = spatial_error(seen.pose, seen.pose_d)
+        x_e = spatial_error(seen.pose, seen.pose_d, seen.signed)
         return twist_of_pose_rate(x_e, times(gains.k, dq.IDENTITY - x_e))
-    error = invariant_error(seen.pose, seen.pose_d)
-    return twist_of_invariant_rate(seen.pose, seen.pose_d, times(gains.k, error))
+    error = invariant_error(seen.pose, seen.pose_d, seen.signed)
+    return twist_of_invariant_rate(seen.pose, seen.goal, times(gains.k, error))

@@ -52,5 +52,5 @@ def p_least_squares(seen: Seen, gains: LeastSquaresGains) -> Floats:
         dqpaint compare step --controllers p-least-squares,p --plants ideal
     """
     upright = np.where(seen.pose[..., :1] < 0, -seen.pose, seen.pose)
-    rate = gains.k * invariant_error(seen.pose, seen.pose_d)
+    rate = gains.k * invariant_error(seen.pose, seen.pose_d, seen.signed)
     return twist_of_pose_rate(upright, rate if gains.form == "printed" else -rate)

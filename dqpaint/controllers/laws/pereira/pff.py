@@ -44,10 +44,10 @@ def pff(seen: Seen, gains: RateGains) -> Floats:
         dqpaint compare lag --controllers p,pff
     """
     if gains.point == "base":
-        x_e = spatial_error(seen.pose, seen.pose_d)
+        x_e = spatial_error(seen.pose, seen.pose_d, seen.signed)
         back = twist_of_pose_rate(x_e, times(gains.k, dq.IDENTITY - x_e))
         return back + dq.adjoint(x_e, seen.twist_d)
-    back, x_d = dq.conj(seen.pose), dq.nearest(seen.pose_d, seen.pose)
+    back, x_d = dq.conj(seen.pose), seen.goal
     x_d_dot = np.matvec(pose_map(x_d), seen.twist_d)
     e = dq.IDENTITY - dq.mul(back, x_d)
     rate = times(gains.k, e) - dq.mul(back, x_d_dot)

@@ -1,0 +1,1 @@
+"""Laws that remember, learn or look ahead, one a file: controller input and gains -> a command."""

@@ -1,16 +1,17 @@
 """Arguments of `dqpaint export` -> a joint trajectory for a real arm, and a table."""
 
-import sys
 from typing import Annotated
 
 import typer
 
-from dqpaint.cli.options import Choices, Drawing, MadeWhenCalled, Out, takes
+from dqpaint.cli.front.help_pages import MadeWhenCalled
+from dqpaint.cli.front.streams import note, remarks, tell_result
+from dqpaint.cli.options import FILES, Choices, Drawing, Out, takes
 
 
 def add_to(app: typer.Typer) -> None:
     """Add the command to an application."""
-    app.command(cls=MadeWhenCalled, epilog=EXPORT_EXAMPLES)(export)
+    app.command(cls=MadeWhenCalled, epilog=EXPORT_EXAMPLES, rich_help_panel="Arms")(export)
 
 
 EXPORT_EXAMPLES = """Examples:
@@ -27,7 +28,12 @@ def export(
     file: Drawing,
     form: Annotated[
         str | None,
-        typer.Option("--format", metavar="NAME", help="required; see: dqpaint list formats"),
+        typer.Option(
+            "--format",
+            metavar="NAME",
+            help="required; see: dqpaint list formats",
+            rich_help_panel=FILES,
+        ),
     ] = None,
     out: Out = None,
 ) -> None:
@@ -37,7 +43,7 @@ def export(
     safety checks on real hardware.
     """
     from dqpaint import api
-    from dqpaint.cli.terminal import Progress, note
+    from dqpaint.cli.terminal import Progress
     from dqpaint.core import find_drawing, short_name
     from dqpaint.outputs import files, registry
     from dqpaint.painting import validate
@@ -56,6 +62,5 @@ def export(
 
     from dqpaint.cli import report
 
-    for text in report.remarks(painting):
-        print(text, file=sys.stderr)
-    print(report.of_export(painting, written))
+    remarks(report.remarks(painting))
+    tell_result(report.of_export(painting, written))

@@ -8,6 +8,10 @@ from typing import Annotated, Any
 
 import typer
 
+from dqpaint.cli.front import completion
+from dqpaint.cli.front.colours import labels, show
+from dqpaint.cli.front.help_pages import Page
+from dqpaint.cli.front.streams import is_quiet, tell_result
 from dqpaint.errors import DqpaintError, UsageError
 
 MESSAGE = re.compile(r"[A-Za-z]\d+")  # the code of one
@@ -18,18 +22,18 @@ _COMMANDS: list[tuple[Callable[..., None], dict[str, Any]]] = []
 def add_to(app: typer.Typer) -> None:
     """Add the commands to an application."""
     for function, options in _COMMANDS:
-        app.command(**options)(function)
+        app.command(cls=Page, **options)(function)
 
 
 def tell(problem: DqpaintError) -> None:
     """Print an error on standard error."""
     text = str(problem)
-    print(text if text.startswith(("error[", "warning[")) else f"error: {text}", file=sys.stderr)
+    show(text if text.startswith(("error[", "warning[")) else f"error: {text}", sys.stderr)
 
 
 def point_at(codes: Sequence[str], stream: Any) -> None:
     """Name, at a terminal, the command that explains the first error."""
-    if codes and stream.isatty():
+    if codes and stream.isatty() and not is_quiet():
         print(f"\ndqpaint explain {codes[0]} explains the first", file=sys.stderr)
 
 
@@ -41,7 +45,10 @@ def _command(**options: Any) -> Callable[[Callable[..., None]], Callable[..., No
     return add
 
 
-@_command(epilog="Examples:\n\n  dqpaint fmt star.traj\n\n  dqpaint fmt --check drawings/*.traj")
+@_command(
+    epilog="Examples:\n\n  dqpaint fmt star.traj\n\n  dqpaint fmt --check drawings/*.traj",
+    rich_help_panel="Write",
+)
 def fmt(
     files: Annotated[list[str], typer.Argument(metavar="FILE...", help="drawings; - reads stdin")],
     check: Annotated[
@@ -65,7 +72,7 @@ def fmt(
             else:
                 changed = format_files.format_file(name, write=not check)
                 if not check:
-                    print(f"{name}: {'formatted' if changed else 'unchanged'}")
+                    tell_result(f"{name}: {'formatted' if changed else 'unchanged'}")
         except DqpaintError as problem:
             tell(problem)
             failed = True
@@ -78,14 +85,16 @@ def fmt(
 
 
 @_command(
-    epilog="Examples:\n\n  dqpaint explain hinf\n\n  dqpaint explain E245\n\n  dqpaint explain"
+    epilog="Examples:\n\n  dqpaint explain hinf\n\n  dqpaint explain E245\n\n  dqpaint explain",
+    rich_help_panel="Write",
 )
 def explain(
     name: Annotated[
         str | None,
         typer.Argument(
-            metavar="[NAME|CODE]",
+            metavar="NAME|CODE",
             help="law, plant, disturbance, metric or profile; or code of a message [default: all]",
+            autocompletion=completion.explained,
         ),
     ] = None,
 ) -> None:
@@ -93,14 +102,14 @@ def explain(
     from dqpaint.diagnostics import catalogue, closest, did_you_mean
 
     if name is not None and MESSAGE.fullmatch(name.strip()):
-        print(catalogue.format_explanation(catalogue.explanation(name)))
+        show(catalogue.format_explanation(catalogue.explanation(name)))
         return
     from dqpaint.cli import explaining
 
     if name is None:
-        print(f"{explaining.list_names()}\n\n{catalogue.list_explanations()}")
+        show(f"{explaining.list_names()}\n\n{catalogue.list_explanations()}", painter=labels)
     elif found := explaining.explained(name.strip()):
-        print("\n\n".join(map(explaining.format_explained, found)))
+        show("\n\n".join(map(explaining.format_explained, found)), painter=labels)
     else:
         near = did_you_mean(closest(name, explaining.names())) or "all: dqpaint explain"
         raise UsageError(
@@ -108,7 +117,10 @@ def explain(
         )
 
 
-@_command(epilog="Examples:\n\n  dqpaint new flower\n\n  dqpaint new drawings/flower.traj")
+@_command(
+    epilog="Examples:\n\n  dqpaint new flower\n\n  dqpaint new drawings/flower.traj",
+    rich_help_panel="Write",
+)
 def new(name: Annotated[str, typer.Argument(help="name or file of the drawing")]) -> None:
     """Write a commented drawing to begin with."""
     from dqpaint.language.writing import template
@@ -120,10 +132,11 @@ def new(name: Annotated[str, typer.Argument(help="name or file of the drawing")]
 
 
 @_command(
-    epilog="Examples:\n\n  dqpaint grammar\n\n  dqpaint grammar textmate > traj.tmLanguage.json"
+    epilog="Examples:\n\n  dqpaint grammar\n\n  dqpaint grammar textmate > traj.tmLanguage.json",
+    rich_help_panel="Set up",
 )
 def grammar(
-    kind: Annotated[str, typer.Argument(metavar="[textmate]", help="kind of grammar")] = "textmate",
+    kind: Annotated[str, typer.Argument(metavar="textmate", help="kind of grammar")] = "textmate",
 ) -> None:
     """Print the language's grammar for editors, made from its own tables."""
     from dqpaint.editors import textmate
@@ -135,7 +148,9 @@ def grammar(
 
 
 @_command(
-    epilog="Examples:\n\n  dqpaint lsp\n\n  dqpaint lsp --help", short_help="Serve an editor."
+    epilog="Examples:\n\n  dqpaint lsp\n\n  dqpaint lsp --help",
+    short_help="Serve an editor.",
+    rich_help_panel="Set up",
 )
 def lsp() -> None:
     """Serve an editor: messages, meanings, completion and fixes, over stdin and stdout.

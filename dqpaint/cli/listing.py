@@ -1,10 +1,11 @@
 """Registries and cards -> lists of what options can name, and of statements and functions."""
 
+import shutil
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from dqpaint.cli.terminal import table
-from dqpaint.core import Registry
+from dqpaint.core import Registry, tables
 from dqpaint.errors import UnknownNameError
 
 if TYPE_CHECKING:
@@ -338,6 +339,59 @@ def text(found: dict[str, list[dict[str, Any]]]) -> str:
         heading = [f"{name}:"] if len(found) > 1 else []
         parts.append("\n".join([*heading, table(lines)]))
     return "\n\n".join(parts)
+
+
+WORDS_OF_LISTS = {
+    "robots": "arms",
+    "controllers": "control laws",
+    "null": "secondary tasks",
+    "columns": "of a run's CSV",
+    "figures": "of a run's summary",
+    "formats": "of files",
+    "examples": "drawings",
+    "replays": "of papers",
+    "statements": "of the language",
+    "functions": "of the language",
+}
+
+
+def overview(found: dict[str, list[dict[str, Any]]]) -> str:
+    """A line a list: how many there are and the first names, as many as fit."""
+    heads = [
+        (name, f"{len(rows)} {WORDS_OF_LISTS[name]}" if name in WORDS_OF_LISTS else str(len(rows)))
+        for name, rows in found.items()
+    ]
+    aligned = tables.align(heads)
+    room = min(OVERVIEW, shutil.get_terminal_size().columns) - max(map(len, aligned)) - 4
+    lines = []
+    for head, rows in zip(aligned, found.values(), strict=True):
+        names = sorted((row["name"] for row in rows), key=lambda n: n not in _defaults(rows))
+        lines.append(f"  {head:<{max(map(len, aligned))}}  {_fitting(names, room)}")
+    return "\n".join(
+        [
+            *lines,
+            "",
+            "  dqpaint list NAME      shows one list; dqpaint list all, all",
+            "  dqpaint explain NAME   explains a law, plant, disturbance or figure",
+        ]
+    )
+
+
+OVERVIEW = 100  # columns
+
+
+def _defaults(rows: list[dict[str, Any]]) -> list[str]:
+    return [row["name"] for row in rows if row.get("default")]
+
+
+def _fitting(names: list[str], room: int) -> str:
+    """The first names with commas, as many as there is room for, and how many more there are."""
+    for count in range(len(names), 0, -1):
+        more = f" and {len(names) - count} more" if count < len(names) else ""
+        said = ", ".join(names[:count]) + more
+        if len(said) <= room:
+            return said
+    return ""
 
 
 def value_line(value: dict[str, Any]) -> str:

@@ -6,6 +6,8 @@ import tempfile
 import warnings
 from typing import NoReturn
 
+from dqpaint.cli.front import streams
+from dqpaint.cli.front.colours import show
 from dqpaint.cli.language import point_at, tell
 from dqpaint.cli.studies import app
 from dqpaint.core.inputs import cleaned
@@ -20,6 +22,7 @@ INTERRUPTED = 130
 def run() -> None:
     """Run the command of this process; leaves by SystemExit or KeyboardInterrupt."""
     _secure_streams()
+    streams.reset()
     if not sys.warnoptions:  # results are checked; what numpy thinks on the way helps nobody
         warnings.simplefilter("ignore", RuntimeWarning)
     try:
@@ -96,5 +99,5 @@ def _secure_streams() -> None:
 
 
 def _end(text: str, code: int) -> NoReturn:
-    print(text, file=sys.stderr)
+    show(text, sys.stderr)
     sys.exit(code)

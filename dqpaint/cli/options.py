@@ -9,9 +9,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from typer.core import TyperCommand
 
-from dqpaint.errors import UsageError
+from dqpaint.cli.front import completion
 
 if TYPE_CHECKING:
     from dqpaint.settings import Setting
@@ -19,13 +18,34 @@ if TYPE_CHECKING:
 Choices = dict[str, Any]
 """What was typed of a command's settings, by their names in Python."""
 
-Drawing = Annotated[str, typer.Argument(metavar="FILE", help="a .traj file, or an example's name")]
+FILES = "Files"
+"""The heading of options that say what is read and written."""
+
+Drawing = Annotated[
+    str,
+    typer.Argument(
+        metavar="FILE",
+        help="a .traj file, or an example's name",
+        autocompletion=completion.drawings,
+    ),
+]
 Out = Annotated[
     str | None,
-    typer.Option(metavar="PATH", help="a folder, or the stem of the files [default: here]"),
+    typer.Option(
+        metavar="PATH",
+        help="a folder, or the stem of the files; - writes the one file to standard output "
+        "[default: here]",
+        rich_help_panel=FILES,
+    ),
 ]
 Save = Annotated[
-    str, typer.Option(metavar="A,B,...", help="formats to write; see: dqpaint list formats")
+    str,
+    typer.Option(
+        metavar="A,B,...",
+        help="formats to write; see: dqpaint list formats",
+        rich_help_panel=FILES,
+        autocompletion=completion.formats,
+    ),
 ]
 
 Command = Callable[..., None]
@@ -34,10 +54,13 @@ FILE = typer.Option(
     "--settings",
     metavar="FILE",
     help="a TOML of these options, or the JSON of a run; options on the command line win",
+    rich_help_panel=FILES,
 )
 
 TRUST = typer.Option(
-    "--trust", help="run the code that --settings names, wherever it lies; see SECURITY.md"
+    "--trust",
+    help="run the code that --settings names, wherever it lies; see SECURITY.md",
+    rich_help_panel=FILES,
 )
 
 
@@ -155,13 +178,16 @@ def _options(
         flag,
         metavar=option.metavar,
         help=option.help + shown,
-        rich_help_panel=setting.panel,
+        rich_help_panel=setting.panel or None,
+        autocompletion=completion.of_setting(setting.name),
     )
     kind: Any = list[str] if option.many else setting.kind
     yield parameter(setting.keyword, kind if default is not None else kind | None, default, info)
     if option.variant:
         info = typer.Option(
-            f"--{option.variant.name}", help=option.variant.help, rich_help_panel=setting.panel
+            f"--{option.variant.name}",
+            help=option.variant.help,
+            rich_help_panel=setting.panel or None,
         )
         yield parameter(_variable(option.variant.name), bool, False, info)
 
@@ -181,60 +207,3 @@ def parameter(name: str, kind: Any, default: Any, info: Any) -> inspect.Paramete
 
 def _variable(name: str) -> str:
     return name.replace("-", "_")
-
-
-def _check_alone(option: str, value: str, command: str | None) -> None:
-    """Refuse several names, as in `a,b` but not in `a:key=1,other=2`, for an option of one."""
-    if any("=" not in part for part in value.split(",")[1:]):
-        raise UsageError(
-            f"{command} takes one {option}, not '{value}'; "
-            "dqpaint compare and dqpaint sweep take several"
-        )
-
-
-class MadeWhenCalled(TyperCommand):
-    """A command with the options of `takes`: made when it is called, not when it is listed."""
-
-    def make_context(
-        self, info_name: str | None, args: list[str], parent: Any = None, **extra: Any
-    ) -> Any:
-        """The context of the whole command."""
-        app = typer.Typer(add_completion=False, rich_markup_mode=None)
-        made = self.callback.made()  # type: ignore[union-attr]
-        epilog = self.epilog or getattr(made, "epilog", None)
-        app.command(cls=InPanels, epilog=epilog)(made)
-        return typer.main.get_command(app).make_context(info_name, args, parent, **extra)
-
-
-class InPanels(TyperCommand):
-    """A command whose help has its options under headings."""
-
-    def format_options(self, ctx: Any, formatter: Any) -> None:
-        """Write them, the command's own first."""
-        sections: dict[str, list[tuple[str, str]]] = {}
-        for parameter in self.get_params(ctx):
-            if record := parameter.get_help_record(ctx):
-                own = "Arguments" if parameter.param_type_name == "argument" else "Options"
-                panel = getattr(parameter, "rich_help_panel", None) or own
-                sections.setdefault(panel, []).append(record)
-        for panel, records in sections.items():
-            with formatter.section(panel):
-                formatter.write_dl(records)
-
-    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Read the options; one is accepted for several, and several for one: --plant, --plants.
-
-        Raises:
-            UsageError: several are given where there can be one.
-        """
-        known = {name for one in self.get_params(ctx) for name in (*one.opts, *one.secondary_opts)}
-        end = args.index("--") if "--" in args else len(args)
-        meant = []
-        for word, following in zip(args[:end], [*args[1:end], ""], strict=False):
-            name, sign, value = word.partition("=")
-            if name.startswith("--") and name not in known:
-                if (one := name.removesuffix("s")) in known:
-                    _check_alone(one, value if sign else following, self.name)
-                name = next((n for n in (f"{name}s", one) if n in known), name)
-            meant.append(name + sign + value)
-        return super().parse_args(ctx, meant + args[end:])

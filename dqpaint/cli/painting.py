@@ -14,15 +14,22 @@ import typer
 
 from dqpaint import __version__
 from dqpaint.cli import export, language, plotting
-from dqpaint.cli.language import point_at
-from dqpaint.cli.options import (
-    Choices,
-    Drawing,
-    MadeWhenCalled,
-    Out,
-    Save,
-    takes,
+from dqpaint.cli.front import completion, doctor
+from dqpaint.cli.front.colours import findings, labels, show
+from dqpaint.cli.front.help_pages import MadeWhenCalled, Page
+from dqpaint.cli.front.streams import (
+    TO_STDOUT,
+    USUAL_SAVE,
+    check_stdout,
+    is_quiet,
+    note,
+    one_format,
+    remarks,
+    send_one,
+    tell_result,
 )
+from dqpaint.cli.language import point_at
+from dqpaint.cli.options import FILES, Choices, Drawing, Out, Save, takes
 from dqpaint.core.inputs import send_raw
 from dqpaint.errors import UsageError
 
@@ -30,17 +37,23 @@ if TYPE_CHECKING:
     from dqpaint.painting import paint
 
 app = typer.Typer(
-    add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
-    no_args_is_help=True,
     context_settings={"help_option_names": ["-h", "--help"]},
+    epilog="dqpaint draw star\n\ndqpaint list examples\n\ndqpaint draw --help",
 )
 
 Drawings = Annotated[
-    list[str], typer.Argument(metavar="FILE...", help="drawings, or examples; - reads stdin")
+    list[str],
+    typer.Argument(
+        metavar="FILE...",
+        help="drawings, or examples; - reads stdin",
+        autocompletion=completion.drawings,
+    ),
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="as JSON, for programs")]
+AsJson = Annotated[
+    bool, typer.Option("--json", help="as JSON, for programs", rich_help_panel=FILES)
+]
 
 DRAW_EXAMPLES = """Examples:
 
@@ -65,14 +78,25 @@ def common(
     """Light paintings by a simulated robot arm: a short text, a control law, a long exposure."""
 
 
-@app.command(cls=MadeWhenCalled, epilog=DRAW_EXAMPLES)
+@app.command(cls=MadeWhenCalled, epilog=DRAW_EXAMPLES, rich_help_panel="Draw")
 @takes("draw")
-def draw(choices: Choices, file: Drawing, out: Out = None, save: Save = "png,csv,json") -> None:
+def draw(
+    choices: Choices,
+    file: Drawing,
+    out: Out = None,
+    save: Save = USUAL_SAVE,
+    as_json: Annotated[
+        bool,
+        typer.Option("--json", help="print the summary as JSON", rich_help_panel=FILES),
+    ] = False,
+) -> None:
     """Paint a drawing with an arm: picture, per-step CSV and summary."""
+    if out == TO_STDOUT:
+        save = one_format(save, as_json)
     from dqpaint import api
-    from dqpaint.cli.terminal import Progress, note
+    from dqpaint.cli.terminal import Progress
     from dqpaint.core import find_drawing, short_name
-    from dqpaint.outputs import files, registry
+    from dqpaint.outputs import WRITERS, files, registry
     from dqpaint.painting import validate
     from dqpaint.settings import DEFAULT_CONTROLLER
 
@@ -81,29 +105,36 @@ def draw(choices: Choices, file: Drawing, out: Out = None, save: Save = "png,csv
     given = validate.settings_file(choices.pop("settings", None))
     both = given.under(choices)
     law = "recorded" if both.get("recorded") else both.get("controller", DEFAULT_CONTROLLER)
-    stem = files.stem_for(out, f"{path.stem}-{short_name(law)}", note)
+    name = f"{path.stem}-{short_name(law)}"
+    stem = None if out == TO_STDOUT else files.stem_for(out, name, note)
     with Progress(path.name) as progress:
         painting = api.draw(
             path, **choices, settings=given, progress=progress, formats=save, before=_tell_place
         )
     with Progress("movie") as progress:
-        written = files.write(stem, registry.make_files(writers, painting, progress))
+        made = registry.make_files(writers, painting, progress)
+    written = files.write(stem, made) if stem else send_one(made)
 
     from dqpaint.cli import report
 
-    _finish(report.remarks(painting), report.of_painting(painting, written), painting.image)
+    remarks(report.remarks(painting))
+    if as_json:
+        print(WRITERS["json"].make(painting, progress)[".json"].decode(), end="")
+    else:
+        _finish(report.of_painting(painting, written), painting.image, stem is None)
 
 
 def _tell_place(ready: "paint.PreparedRun") -> None:
     """Say that `place auto` found but a poor place, before the arm moves."""
     placed = ready.prepared.placement
     if placed is not None and placed.is_poor:
-        print(f"warning: place auto found {placed.figures}", file=sys.stderr)
+        remarks([f"warning: place auto found {placed.figures}"])
 
 
 @app.command(
     cls=MadeWhenCalled,
     epilog="Examples:\n\n  dqpaint preview star\n\n  dqpaint preview helix.traj --view iso --watch",
+    rich_help_panel="Draw",
 )
 @takes("preview")
 def preview(
@@ -116,20 +147,23 @@ def preview(
 ) -> None:
     """Make the reference picture without an arm; with length, time and brightness."""
     from dqpaint import api
-    from dqpaint.cli.terminal import note
     from dqpaint.core import find_drawing
     from dqpaint.outputs import files
 
+    if out == TO_STDOUT:
+        check_stdout()
     path = find_drawing(file)
-    stem = files.stem_for(out, f"{path.stem}-preview", note)
+    stem = None if out == TO_STDOUT else files.stem_for(out, f"{path.stem}-preview", note)
 
     def show() -> None:
         preview = api.preview(path, **choices)
-        written = files.write_pictures(stem, preview.pictures)
+        made = files.picture_files(preview.pictures)
+        written = files.write(stem, made) if stem else send_one(made)
 
         from dqpaint.cli import report
 
-        _finish(report.notes(preview.motion), report.of_preview(preview, written), preview.image)
+        remarks(report.notes(preview.motion))
+        _finish(report.of_preview(preview, written), preview.image, stem is None)
 
     if not watch:
         show()
@@ -146,6 +180,7 @@ def preview(
     cls=MadeWhenCalled,
     epilog="Examples:\n\n  dqpaint develop star-hinf-film.npz --look aces --ev 1\n\n"
     "  dqpaint develop star-hinf-film.npz --view iso,orbit:8 --size 640x360 --out round/",
+    rich_help_panel="Draw",
 )
 @takes("develop", file=False, unsaid=False)
 def develop(
@@ -157,17 +192,20 @@ def develop(
     from pathlib import Path
 
     from dqpaint import api
-    from dqpaint.cli.terminal import note
     from dqpaint.outputs import files
 
+    if out == TO_STDOUT:
+        check_stdout()
     name = Path(film).stem.removesuffix("-film")
-    stem = files.stem_for(out, f"{name}-developed", note)
+    stem = None if out == TO_STDOUT else files.stem_for(out, f"{name}-developed", note)
     pictures = api.develop(film, **choices)
-    written = files.write_pictures(stem, pictures)
+    made = files.picture_files(pictures)
+    written = files.write(stem, made) if stem else send_one(made)
 
     from dqpaint.cli import report
 
-    _finish(report.of_arm(pictures), report.of_developed(pictures, written), pictures[0].image)
+    remarks(report.of_arm(pictures))
+    _finish(report.of_developed(pictures, written), pictures[0].image, stem is None)
 
 
 CHECK_EXAMPLES = """Examples:
@@ -178,7 +216,7 @@ CHECK_EXAMPLES = """Examples:
 """
 
 
-@app.command(cls=MadeWhenCalled, epilog=CHECK_EXAMPLES)
+@app.command(cls=MadeWhenCalled, epilog=CHECK_EXAMPLES, rich_help_panel="Write")
 @takes("check")
 def check(choices: Choices, files: Drawings, as_json: AsJson = False) -> None:
     """Read drawings: every error with its position, or length, time, steps and bounding box.
@@ -201,32 +239,44 @@ def check(choices: Choices, files: Drawings, as_json: AsJson = False) -> None:
     if as_json:
         print(json.dumps(checking.as_json(results), indent=2))
     else:
-        print("\n".join(result.text for result in results))
+        between = "\n\n" if any(one.diagnostics for one in results) else "\n"
+        if told := between.join(filter(None, (one.told(is_quiet()) for one in results))):
+            show(told)
+        tell_result(checking.count_line(results), findings)
         point_at([finding.code for result in results for finding in result.diagnostics], sys.stdout)
     if any(result.errors for result in results):
         raise typer.Exit(1)
 
 
 @app.command(
-    "list", epilog="Examples:\n\n  dqpaint list controllers\n\n  dqpaint list robots --json"
+    "list",
+    cls=Page,
+    epilog="Examples:\n\n  dqpaint list controllers\n\n  dqpaint list robots --json",
+    rich_help_panel="Write",
 )
 def list_(
     what: Annotated[
-        str, typer.Argument(metavar="[robots|controllers|...]", help="which list")
-    ] = "all",
+        str | None,
+        typer.Argument(
+            metavar="NAME",
+            help="which list, or all of them [default: an overview]",
+            autocompletion=completion.lists,
+        ),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """List the arms, laws, brushes and all else that an option can name."""
     from dqpaint.cli import listing
 
-    lists = listing.lists(what)
+    everything = what in (None, "all")
+    lists = listing.lists(what or "all")
     if as_json:
-        found = lists if what == "all" else lists[what]
-        print(json.dumps(found, indent=2))
+        print(json.dumps(lists if everything else lists[str(what)], indent=2))
+    elif what is None:
+        show(listing.overview(lists), painter=labels)
     else:
-        print(listing.text(lists))
-    for fault in listing.faults(what):
-        print(f"warning: {fault}", file=sys.stderr)
+        show(listing.text(lists), painter=labels)
+    remarks(f"warning: {fault}" for fault in listing.faults(what or "all"))
 
 
 POSE_EXAMPLES = """Examples:
@@ -237,9 +287,16 @@ POSE_EXAMPLES = """Examples:
 """
 
 
-@app.command(epilog=POSE_EXAMPLES)
+@app.command(cls=Page, epilog=POSE_EXAMPLES, rich_help_panel="Arms")
 def pose(
-    robot: Annotated[str, typer.Argument(metavar="ROBOT", help="its name, or its .urdf or .toml")],
+    robot: Annotated[
+        str,
+        typer.Argument(
+            metavar="ROBOT",
+            help="its name, or its .urdf or .toml",
+            autocompletion=completion.robots,
+        ),
+    ],
     deg: Annotated[
         str | None, typer.Option(metavar="A,B,...", help="the joints in degrees [default: home]")
     ] = None,
@@ -267,12 +324,18 @@ def pose(
     card = with_tool(find_card(robot), tool)
     posed = pose_query.pose_arm(card, pose_query.read_posture(card, deg, rad), flange)
     for kind, sentences in (("note", posed.notes), ("warning", posed.limit_violations)):
-        for sentence in sentences:
-            print(f"{kind}: {sentence}", file=sys.stderr)
-    print(json.dumps(pose_query.as_json(posed), indent=2) if as_json else pose_text.text(posed))
+        remarks(f"{kind}: {sentence}" for sentence in sentences)
+    if as_json:
+        print(json.dumps(pose_query.as_json(posed), indent=2))
+    else:
+        show(pose_text.text(posed), painter=labels)
 
 
-@app.command(epilog="Examples:\n\n  dqpaint gallery\n\n  dqpaint gallery --out pictures")
+@app.command(
+    cls=Page,
+    epilog="Examples:\n\n  dqpaint gallery\n\n  dqpaint gallery --out pictures",
+    rich_help_panel="Draw",
+)
 def gallery(
     out: Annotated[str, typer.Option(metavar="FOLDER", help="where the pictures go")] = "gallery",
 ) -> None:
@@ -286,14 +349,19 @@ def gallery(
 export.add_to(app)
 plotting.add_to(app)
 language.add_to(app)
+doctor.add_to(app)
 
 
-def _finish(remarks: list[str], table: str, image: Any) -> None:
-    """Print warnings and a table, and the picture where the terminal shows colours."""
+def _finish(table: str, image: Any, aside: bool = False) -> None:
+    """Print a table, and the picture where the terminal shows colours.
+
+    Args:
+        table: of results.
+        image: the picture (H, W, 3).
+        aside: whether standard output has the picture, and the table goes to standard error.
+    """
     from dqpaint.cli.terminal import blocks, shows_pictures
 
-    for text in remarks:
-        print(text, file=sys.stderr)
-    print(table)
-    if shows_pictures(sys.stdout):
+    tell_result(table, stream=sys.stderr if aside else None)
+    if shows_pictures(sys.stdout) and not is_quiet():
         send_raw(blocks(image, shutil.get_terminal_size().columns) + "\n", sys.stdout)

@@ -1,11 +1,12 @@
 """Arguments of `dqpaint plot` -> the curves of a run over time."""
 
-import sys
 from typing import Annotated
 
 import typer
 
-from dqpaint.cli.options import Choices, MadeWhenCalled, Out, takes
+from dqpaint.cli.front.help_pages import MadeWhenCalled
+from dqpaint.cli.front.streams import note, tell_result
+from dqpaint.cli.options import FILES, Choices, Out, takes
 
 EXAMPLES = """Examples:
 
@@ -17,7 +18,7 @@ EXAMPLES = """Examples:
 
 def add_to(app: typer.Typer) -> None:
     """Add the command to an application."""
-    app.command(cls=MadeWhenCalled, epilog=EXAMPLES)(plot)
+    app.command(cls=MadeWhenCalled, epilog=EXAMPLES, rich_help_panel="Compare")(plot)
 
 
 @takes("plot")
@@ -44,7 +45,9 @@ def plot(
         bool, typer.Option("--each", help="a panel for each joint, in its unit")
     ] = False,
     out: Out = None,
-    save: Annotated[str, typer.Option(metavar="A,B,...", help="png, pdf, svg")] = "png",
+    save: Annotated[
+        str, typer.Option(metavar="A,B,...", help="png, pdf, svg", rich_help_panel=FILES)
+    ] = "png",
 ) -> None:
     """Draw a run's curves over time: errors, path, speed, joints and commands with their limits."""
     from pathlib import Path
@@ -55,6 +58,6 @@ def plot(
     plots.read_forms(save)  # before a run
     made = plots.plot(file, what=what, scale=scale, span=span, each=each, **choices)  # type: ignore[arg-type]
     stem = files.stem_for(out, f"{Path(made.name).name}-plot")
-    for note in made.notes:
-        print(note if note.startswith("note: ") else f"note: {note}", file=sys.stderr)
-    print("\n".join(f"  written  {path}" for path in made.save(stem, save)))
+    for text in made.notes:
+        note(text)
+    tell_result("\n".join(f"  written  {path}" for path in made.save(stem, save)))

@@ -11,12 +11,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
-from typer.core import TyperGroup
 
+from dqpaint.cli.front.colours import BOLD, CYAN, paint
+from dqpaint.cli.front.help_pages import MadeWhenCalled, Pages
+from dqpaint.cli.front.streams import note, tell_result
 from dqpaint.cli.options import (
+    FILES,
     Choices,
     Command,
-    MadeWhenCalled,
     file_parameters,
     listed,
     options,
@@ -43,10 +45,10 @@ BUILT_IN = {
 }
 """The first lines of their docstrings: the list of commands imports no study."""
 
-REPORT = typer.Option("--report", help="also write one HTML page of it all")
+REPORT = typer.Option("--report", help="also write one HTML page of it all", rich_help_panel=FILES)
 
 
-class CommandsAndStudies(TyperGroup):
+class CommandsAndStudies(Pages):
     """Commands, and for a name that is none of them the study that a plugin brings."""
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
@@ -102,7 +104,7 @@ def _carry_out(
     folder = Path(choices.get("folder") or kind.default_folder(name, subject))
     study = run_study(name, subject, choices, folder, StudyProgress())
     for remark in study.remarks:
-        print(f"note: {remark}", file=sys.stderr)
+        note(remark)
     text = study.table_text(shutil.get_terminal_size((100_000, 24)).columns)
     _finish(text, study.save(_again(report)))
     if not study.passed:
@@ -140,7 +142,7 @@ class StudyProgress:
     def note(self, text: str, aside: bool = False) -> None:
         """Print a note; an aside only to a terminal."""
         if not aside or sys.stderr.isatty():
-            print(f"note: {text}", file=sys.stderr)
+            note(text)
 
     def end(self) -> None:
         """Remove the bar."""
@@ -157,10 +159,23 @@ def _finish(text: str, paths: list[Path]) -> None:
     for path in paths:
         report = path.with_name(f"{path.name.removesuffix('-table.csv')}-report.html")
         if path.name.endswith("-table.csv") and report not in paths and report.exists():
-            print(f"note: {report} is of an earlier run; --report makes it again", file=sys.stderr)
-    print("\n".join([text, *(f"  written  {path}" for path in paths)]))
+            note(f"{report} is of an earlier run; --report makes it again")
+    tell_result("\n".join([text, *(f"  written  {path}" for path in paths)]), studies_table)
+
+
+def studies_table(text: str) -> str:
+    """The tables of a study, the first line of each bold, and the files written."""
+    before, line, blank = [], "", True
+    for line in text.split("\n"):
+        if line.startswith("  written  "):
+            line = f"  {paint('written', CYAN)}{line[9:]}"
+        elif blank and line:
+            line = paint(line, BOLD)
+        blank = not line
+        before.append(line)
+    return "\n".join(before)
 
 
 for _name, _about in BUILT_IN.items():
-    app.command(cls=MadeWhenCalled)(_listed(_name, _about))
+    app.command(cls=MadeWhenCalled, rich_help_panel="Compare")(_listed(_name, _about))
 app.info.cls = CommandsAndStudies  # a name that is no command may be a plugin's study

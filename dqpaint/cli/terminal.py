@@ -9,6 +9,8 @@ from typing import Self, TextIO
 import numpy as np
 from numpy.typing import NDArray
 
+from dqpaint.cli.front.colours import takes_colour
+from dqpaint.cli.front.streams import is_quiet
 from dqpaint.core import tables
 from dqpaint.core.inputs import printable, send_raw
 
@@ -18,11 +20,6 @@ TALLEST = 40  # and its rows
 SHORTEST_WORTH_A_BAR = 0.5  # [s]
 
 
-def note(text: str) -> None:
-    """Print a note on standard error."""
-    print(f"note: {text}", file=sys.stderr)
-
-
 def table(rows: Sequence[tuple[str, str]]) -> str:
     """Names and values in two aligned columns."""
     return "\n".join(f"  {line}".rstrip() for line in tables.align(rows))
@@ -30,11 +27,7 @@ def table(rows: Sequence[tuple[str, str]]) -> str:
 
 def shows_pictures(stream: TextIO) -> bool:
     """Whether a stream is a terminal that says it has full colour."""
-    return (
-        stream.isatty()
-        and "NO_COLOR" not in os.environ
-        and os.environ.get("COLORTERM", "") in ("truecolor", "24bit")
-    )
+    return takes_colour(stream) and os.environ.get("COLORTERM", "") in ("truecolor", "24bit")
 
 
 def blocks(image: NDArray[np.uint8], columns: int) -> str:
@@ -67,7 +60,7 @@ class Progress:
 
     def __init__(self, what: str) -> None:
         self._what = printable(what)
-        self._shown = sys.stderr.isatty()
+        self._shown = sys.stderr.isatty() and not is_quiet()
         self._begin = time.monotonic()
         self._drawn = False
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
+from dqpaint.core.events import log
 from dqpaint.errors import UnknownNameError, UsageError
 
 if TYPE_CHECKING:
@@ -114,6 +115,7 @@ class Registry(Mapping[str, T], Generic[T]):
                 f"{self.kind} '{name}' of {_package(first)} cannot be loaded: {fault}"
             ) from problem
         finally:  # a module that fails may have registered some before, or its package
+            log("plugins", "%s '%s' of %s", self.kind, name, _package(first), detail=True)
             self._origins |= dict.fromkeys(set(self._things) - before, _package(first))
 
     def _look_for(self, name: str) -> None:

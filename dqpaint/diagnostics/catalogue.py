@@ -58,6 +58,11 @@ def _stripped(value: Any) -> Any:
     return value.strip() if isinstance(value, str) else value
 
 
+def codes() -> list[str]:
+    """The codes of all messages."""
+    return list(explanations())
+
+
 def explanation(code: str) -> Explanation:
     """The explanation of a code, in upper or lower case.
 

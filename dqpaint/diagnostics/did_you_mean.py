@@ -1,22 +1,10 @@
-"""An unknown word -> the known word that was probably meant."""
+"""An unknown word -> the known word that was probably meant, as a question."""
 
-from collections.abc import Iterable, Mapping
-from difflib import get_close_matches
+from collections.abc import Iterable
 
-LEAST_SIMILARITY = 0.6
+from dqpaint.errors import closest
 
-
-def closest(word: str, known: Iterable[str], aliases: Mapping[str, str] | None = None) -> str:
-    """The known word, or an alias's meaning, most similar to `word`; empty if none is similar."""
-    aliases = aliases or {}
-    lowered = {k.lower(): k for k in known if k}
-    if word.lower() in lowered:
-        return lowered[word.lower()]
-    for spelling in (word, word.lower(), word.upper() if len(word) < 3 else word):
-        if spelling in aliases:
-            return aliases[spelling]
-    matches = get_close_matches(word.lower()[:40], lowered, n=1, cutoff=LEAST_SIMILARITY)
-    return lowered[matches[0]] if matches else ""
+__all__ = ["closest", "did_you_mean", "join_words"]
 
 
 def did_you_mean(suggestion: str) -> str:

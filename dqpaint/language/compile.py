@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from dqpaint.core import log
 from dqpaint.diagnostics import Diagnostic, DiagnosticCollector, ErrorLimitError, ScriptError, Span
 from dqpaint.language.expansion.expander import Expander
 from dqpaint.language.expansion.includes import MOST_LINES, Loader
@@ -65,6 +66,13 @@ def parse(text: str, name: str = "<text>", path: Path | None = None) -> Program:
     except Exception as unexpected:
         fault = unexpected
         _add(findings, _internal(unexpected, expander.at if expander else None))
+    log(
+        "language",
+        "read %s: %d characters and %d included files",
+        name,
+        len(text),
+        len(loader.source.included),
+    )
     if findings.errors or program is None:
         raise ScriptError(name, loader.source, findings.ordered()) from fault
     return program

@@ -35,7 +35,7 @@ class Metric:
         title: its name in legends, charts and tables, without the unit.
         meaning: a short definition.
         display_unit: the unit in which people read it, if it is another one.
-        equation: what it is, a line an equation, written as `dqpaint.core.mathematics` reads it.
+        equation: what it is, a line an equation, as `dqpaint.core.texts` reads it.
     """
 
     unit: str

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from dqpaint.core import finish_interrupted, make_folder, write_together
+from dqpaint.core import finish_interrupted, log, make_folder, write_together
 from dqpaint.errors import OutputError
 from dqpaint.outputs.formats.pictures import encode_pictures
 from dqpaint.outputs.registry import WRITERS
@@ -96,9 +96,11 @@ def write(stem: Path, contents: dict[str, bytes]) -> list[Path]:
         write_together(stem.parent, named)
     except OSError as problem:
         raise OutputError(f"'{stem}' cannot be written: {problem.strerror}") from None
+    for name, data in named.items():
+        log("outputs", "wrote %s, %d bytes", stem.with_name(name), len(data))
     return [stem.with_name(name) for name in named]
 
 
-def write_pictures(stem: Path, taken: "Sequence[picture.Picture]") -> list[Path]:
-    """Write pictures alone, as `write` does."""
-    return write(stem, encode_pictures(taken))
+def picture_files(taken: "Sequence[picture.Picture]") -> dict[str, bytes]:
+    """The bytes of pictures alone, for `write`."""
+    return encode_pictures(taken)

@@ -10,6 +10,7 @@ from time import perf_counter
 from typing import Any
 
 from dqpaint.controllers import Controller
+from dqpaint.core import log
 from dqpaint.disturbances import Disturbance
 from dqpaint.dq import Floats
 from dqpaint.light.film import Film
@@ -279,4 +280,6 @@ class Stopwatch:
         """Time what happens inside."""
         begin = perf_counter()
         yield
-        self.seconds[stage] = self.seconds.get(stage, 0.0) + perf_counter() - begin
+        took = perf_counter() - begin
+        self.seconds[stage] = self.seconds.get(stage, 0.0) + took
+        log("painting", "%s took %.3f s", stage, took)

@@ -37,10 +37,14 @@ class CheckResult:
     @property
     def text(self) -> str:
         """As a person reads it."""
+        return self.told(brief=False)
+
+    def told(self, brief: bool) -> str:
+        """As a person reads it; `brief` has no more than errors and warnings."""
         if self.fault:
             return f"error: {self.fault}"
         parts = [render(finding, self.file, self.source) for finding in self.diagnostics]
-        if self.drawing is not None:
+        if self.drawing is not None and not brief:
             forecast = self.forecast.text if self.forecast else ""
             parts.append(summary_line(self.drawing) + forecast + self._hint)
         return "\n\n".join(parts)
@@ -56,6 +60,23 @@ class CheckResult:
             f"\nhint: near their ends strokes are {times:.2g} times as bright as in the middle, "
             "where the tool is fast; for an even line write: light white even"
         )
+
+    @property
+    def warnings(self) -> int:
+        """The number of warnings."""
+        return sum(d.severity is Severity.WARNING for d in self.diagnostics)
+
+
+def count_line(results: Sequence[CheckResult]) -> str:
+    """How many errors and warnings there are in how many drawings."""
+    errors, warnings = (sum(getattr(r, kind) for r in results) for kind in ("errors", "warnings"))
+    counts = " and ".join(
+        f"{n} {word}{'s' if n != 1 else ''}"
+        for n, word in ((errors, "error"), (warnings, "warning"))
+        if n
+    )
+    drawings = f"{len(results)} drawing{'s' if len(results) != 1 else ''}"
+    return f"{drawings} checked: {counts or 'no errors or warnings'}"
 
 
 HINT_UNEVENNESS = 2.0  # brightness of the ends over that of the middle
@@ -137,7 +158,6 @@ def _forecast(program: Program, settings: "Settings | None") -> "ForecastReport"
 def as_json(results: Sequence[CheckResult]) -> dict[str, Any]:
     """The diagnostics of several drawings: 1-based, columns in code points, ends excluded."""
     findings = [(result, finding) for result in results for finding in result.diagnostics]
-    warnings = sum(d.severity is Severity.WARNING for _, d in findings)
     surveyed = [result.drawing for result in results if result.drawing is not None]
     return {
         "version": 1,
@@ -147,7 +167,7 @@ def as_json(results: Sequence[CheckResult]) -> dict[str, Any]:
         + [_unreadable(result) for result in results if result.fault],
         "summary": {
             "errors": sum(result.errors for result in results),
-            "warnings": warnings,
+            "warnings": sum(result.warnings for result in results),
             "samples": sum(drawing.samples for drawing in surveyed),
             "seconds": sum(drawing.seconds for drawing in surveyed),
         },

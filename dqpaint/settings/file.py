@@ -132,7 +132,7 @@ def read_given(path: str, check: Check, runs: bool = True) -> SettingsFile:
             if gains is not None:
                 checked({"gains": gains}, strict=True)
         except DqpaintError as problem:
-            raise DqpaintError(f"{_where(place, text, key)}: {_explained(problem)}") from None
+            raise DqpaintError(f"{_where(place, text, key)}: {problem}") from None
     if "gains" in choices:
         try:
             law: dict[str, Any] = {
@@ -280,12 +280,3 @@ def _where(place: Path, text: str, key: str) -> str:
     if found is None:
         return f"{place.name}, {key[:60]}"
     return f"{place.name}:{text.count(chr(10), 0, found.end()) + 1}"
-
-
-def _explained(problem: DqpaintError) -> str:
-    """The text of an error, with the nearest known name if a name is unknown."""
-    unknown = re.match(r"(no [\w -]+ named '(.*?)'); (known: (.*))", str(problem), re.DOTALL)
-    meant = closest(unknown[2], unknown[4].split(", ")) if unknown else ""
-    return (
-        f"{unknown[1]}; did you mean '{meant}'? {unknown[3]}" if unknown and meant else str(problem)
-    )

@@ -10,7 +10,7 @@ from typing import Annotated, Any, ClassVar, Literal, TypeVar
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
 from dqpaint.core import DEFAULT_MAX_SAMPLES, LARGEST_MAX_SAMPLES, pydantic_reason
-from dqpaint.errors import UsageError
+from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.settings.declaration import Option, Setting, Variant, settings_of
 from dqpaint.settings.readers import (
     DISTURBANCE,
@@ -217,7 +217,7 @@ class MotionSettings(Group):
 class DrawingSettings(Group):
     """How large a drawing may be."""
 
-    panel = "Drawing"
+    panel = "Limits"
 
     max_samples: Annotated[
         int,
@@ -229,7 +229,7 @@ class DrawingSettings(Group):
 class TimeSettings(Group):
     """How long a run may take."""
 
-    panel = "Control"
+    panel = "Limits"
 
     timeout: Annotated[
         float,
@@ -241,7 +241,7 @@ class TimeSettings(Group):
 class MemorySettings(Group):
     """How much memory a painting may take."""
 
-    panel = "Drawing"
+    panel = "Limits"
 
     max_memory: Annotated[
         float,
@@ -301,7 +301,7 @@ class DeviationSettings(Group):
 class CameraSettings(Group):
     """From where, how large and how long a picture is taken."""
 
-    panel = "Camera"
+    panel = "Picture"
 
     width: Annotated[
         int,
@@ -337,7 +337,7 @@ class CameraSettings(Group):
 class FilmSettings(Group):
     """How the film is developed."""
 
-    panel = "Camera"
+    panel = "Picture"
 
     ev: Annotated[
         float,
@@ -358,7 +358,7 @@ class FilmSettings(Group):
 class GhostSettings(Group):
     """The arm in the picture."""
 
-    panel = "Camera"
+    panel = "Picture"
 
     ghost: Annotated[
         Literal[False, True, "motion"],
@@ -373,7 +373,7 @@ class GhostSettings(Group):
 class OcclusionSettings(Group):
     """The arm before the light."""
 
-    panel = "Camera"
+    panel = "Picture"
 
     occlusion: Annotated[
         bool | None,
@@ -454,8 +454,7 @@ def validated(model: type[M], fields: Mapping[str, object], strict: bool = False
         first = problem.errors()[0]
         name = ".".join(str(part) for part in first["loc"])
         if first["type"] == "extra_forbidden":
-            known = ", ".join(SETTINGS)
-            raise UsageError(f"no setting named '{name}'; known: {known}") from None
+            raise UnknownNameError("setting", name, SETTINGS) from None
         raise UsageError(f"{name} {first['input']!r} {pydantic_reason(first)}") from None
 
 

@@ -11,7 +11,7 @@ from dqpaint.cli import explaining
 from dqpaint.cli.main import app
 from dqpaint.controllers import CONTROLLERS
 from dqpaint.core import example_names
-from dqpaint.core.mathematics import latex_equation, unicode_equation
+from dqpaint.core.texts.mathematics import latex_equation, unicode_equation
 from dqpaint.metrics import METRICS
 from dqpaint.settings import SETTINGS
 from tests.support.latex import is_latex

@@ -2,8 +2,8 @@
 
 import pytest
 
-from dqpaint.core.explanations import read_sections
-from dqpaint.core.mathematics import latex_equation, unicode_equation, unicode_prose
+from dqpaint.core.texts.explanations import read_sections
+from dqpaint.core.texts.mathematics import latex_equation, unicode_equation, unicode_prose
 from tests.support.latex import is_latex
 
 PAIRS = [

@@ -54,7 +54,7 @@ def values():
 def controllers():
     from dqpaint.controllers import CONTROLLERS
     from dqpaint.controllers.base.gains import shown
-    from dqpaint.core.explanations import read_sections
+    from dqpaint.core.texts.explanations import read_sections
 
     rows = []
     for law in CONTROLLERS.values():
@@ -70,7 +70,7 @@ def controllers():
 
 def formula(equation):
     """An equation within a line, as GitHub's Markdown has it: not touched by other marks."""
-    from dqpaint.core.mathematics import latex_equation
+    from dqpaint.core.texts.mathematics import latex_equation
 
     return f"$`{latex_equation(equation)}`$"
 
@@ -88,7 +88,7 @@ def explanations():
 
 def explanation(one):
     from dqpaint.cli.listing import value_line
-    from dqpaint.core.mathematics import latex_equation, unicode_prose
+    from dqpaint.core.texts.mathematics import latex_equation, unicode_prose
 
     sections = one.sections
     lines = " \\\\\n".join(map(latex_equation, sections.equations))

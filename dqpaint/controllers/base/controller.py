@@ -83,7 +83,7 @@ class Controller(Generic[G]):
 
     @property
     def docstring(self) -> str:
-        """The law's own docstring, see `dqpaint.core.explanations`."""
+        """The law's own docstring, see `dqpaint.core.texts.explanations`."""
         return self.law.__doc__ or ""
 
     @property
@@ -185,7 +185,7 @@ def controller(
 ) -> Callable[[L], L]:
     """A decorator that registers the function or class below it; arguments as in `Controller`.
 
-    Its docstring is its explanation, see `dqpaint.core.explanations`.
+    Its docstring is its explanation, see `dqpaint.core.texts.explanations`.
 
     A law that brings an orientation home heeds `--sign`, if `heeds_sign` does not say otherwise.
     A function goes in batches; a class, whose state may be that of one arm, where it says

@@ -8,7 +8,7 @@ from itertools import count
 
 import numpy as np
 
-from dqpaint.errors import UsageError
+from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.light.arrays import Floats, checked_array
 from dqpaint.light.camera.camera import (
     DEFAULT_LENS,
@@ -107,8 +107,8 @@ def _angles(text: str, first: str, second: str) -> View:
     azimuth, elevation = _number(first), _number(second)
     if azimuth is None or elevation is None:
         shown = first if azimuth is None else text
-        known = f"{', '.join(VIEWS)}, AZ,EL in degrees, stereo[:VIEW], orbit[:N[:EL]], at:X:Y:Z"
-        raise UsageError(f"no view named '{shown}'; known: {known}")
+        forms = ("AZ,EL in degrees", "stereo[:VIEW]", "orbit[:N[:EL]]", "at:X:Y:Z")
+        raise UnknownNameError("view", shown, [*VIEWS, *forms])
     return View(azimuth, _elevation(elevation))
 
 

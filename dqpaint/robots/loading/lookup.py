@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 from dqpaint.core import Registry
-from dqpaint.diagnostics import closest, did_you_mean
 from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.language import Diagnostic, Program, ScriptError
 from dqpaint.robots.model.card import DEFAULT_ROBOT, Card, card_names, read_card
@@ -55,7 +54,18 @@ def find_card(robot: str) -> Card:
                 raise UsageError(
                     f"no robot named '{robot}'; give the whole name of the file: {file}"
                 ) from None
-        raise UnknownNameError("robot", robot, sorted({*card_names(), *brought})) from None
+        known = sorted({*card_names(), *brought})
+        raise UnknownNameError("robot", robot, known, _makers(known)) from None
+
+
+def _makers(names: list[str]) -> dict[str, str]:
+    """The words of arms' titles, such as their makers, and the first arm that has them."""
+    meant: dict[str, str] = {}
+    for name in names:
+        title = find_card(name).title.replace(",", "")
+        for word in title.lower().split():
+            meant.setdefault(word, name)
+    return meant
 
 
 def with_tool(card: Card, tool: str | None) -> Card:
@@ -93,8 +103,6 @@ def _card_for(program: Program, robot: str | None) -> Card:
     try:
         return find_card(program.robot)
     except UnknownNameError as problem:
-        message, _, known = str(problem).partition("; ")
-        names = known.removeprefix("known: ").split(", ")
-        help = f"{did_you_mean(closest(program.robot, names))} {known}".strip()
+        message, _, help = str(problem).partition("; ")
         unknown = Diagnostic("E311", message, program.robot_span, help=help)
         raise ScriptError(program.name, program.text, (unknown,)) from None

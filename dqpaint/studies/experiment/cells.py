@@ -12,7 +12,7 @@ import numpy as np
 from dqpaint import metrics
 from dqpaint.core import tables
 from dqpaint.dq import Floats
-from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.errors import DqpaintError, UnknownNameError
 from dqpaint.studies.experiment.statistics import Spread, spread
 from dqpaint.studies.runner.run import Result, Run
 
@@ -219,7 +219,7 @@ def check_figure(name: str) -> None:
     """
     known = metrics.all_figures()
     if name not in known:
-        raise UsageError(f"no figure named '{name}'; known: {', '.join(known)}")
+        raise UnknownNameError("figure", name, known)
 
 
 def find_figure(name: str, cells: Sequence[Cell]) -> TableFigure:
@@ -233,7 +233,7 @@ def find_figure(name: str, cells: Sequence[Cell]) -> TableFigure:
             return with_units(figure, cells)
     there = figure_names(cells)
     if there and name not in there:
-        raise UsageError(f"no figure named '{name}'; known: {', '.join(there)}")
+        raise UnknownNameError("figure", name, there)
     known = metrics.all_figures()
     return _together([known[name]]) if name in known else TableFigure((name,), name)
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
+from dqpaint.core import log
 from dqpaint.outputs import files
 from dqpaint.painting import time_limit
 from dqpaint.studies.runner.journal import Journal
@@ -114,6 +115,7 @@ class Study:
         for result in self._workers.carry_out(list(tasks.items()), tell):
             self._journal.add(result)
             self._done.add(result.key)
+            log("studies", "run %s: %s, %.2f s", result.key[:8], result.status, result.wall)
         return [found[key] for key in keys]
 
     @property

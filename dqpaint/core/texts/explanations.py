@@ -1,7 +1,7 @@
 """The docstring of a registered thing -> its explanation: equations, idea, limits, what to try.
 
 The first line says what it does. Behind `Equation:` stand its equations, one a line, written as
-`dqpaint.core.mathematics` reads them; behind `Idea:` up to three lines; behind `Error:`, of a law,
+`mathematics` reads them; behind `Idea:` up to three lines; behind `Error:`, of a law,
 where its error is taken; behind `Stable:` when it is; behind `Fails:` when it does not do what one
 might expect; behind `Try:` commands to type. What stands behind a label is indented.
 """

@@ -208,6 +208,7 @@ def test_the_overview_fits_a_screen(answer, monkeypatch):
         (("draw", "star", "--robot", "UR5"), "'ur5'"),
         (("draw", "star", "--robot", "kuka"), "'iiwa'"),
         (("draw", "star", "--robot", "franka"), "'panda'"),
+        (("draw", "star", "--robot", "franke"), "'panda'"),
         (("pose", "Panda"), "'panda'"),
         (("draw", "star", "--plant", "stif"), "'stiff'"),
         (("draw", "star", "--controller", "hinv"), "'hinf'"),

@@ -130,6 +130,29 @@ def _null() -> list[dict[str, Any]]:
     ]
 
 
+def _resolvers() -> list[dict[str, Any]]:
+    from dqpaint.robots.resolvers import DEFAULT_RESOLVER, RESOLVERS
+
+    return [
+        {
+            "name": name,
+            "about": _about(resolver),
+            "default": name == DEFAULT_RESOLVER,
+            "values": _values(resolver.options),
+        }
+        for name, resolver in RESOLVERS.items()
+    ]
+
+
+def _tasks() -> list[dict[str, Any]]:
+    from dqpaint.robots.model import TASKS
+
+    return [
+        {"name": name, "about": task.about, "default": name == "pose"}
+        for name, task in TASKS.items()
+    ]
+
+
 def _brushes() -> list[dict[str, Any]]:
     from dqpaint.brushes import BRUSHES, describe_fields
 
@@ -264,6 +287,8 @@ LISTS: dict[str, Callable[[], list[dict[str, Any]]]] = {
     "plants": _plants,
     "disturbances": _disturbances,
     "null": _null,
+    "resolvers": _resolvers,
+    "tasks": _tasks,
     "brushes": _brushes,
     "looks": _looks,
     "columns": _columns,

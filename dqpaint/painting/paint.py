@@ -42,6 +42,7 @@ from dqpaint.render import ArmMotion, SceneArm, scene_arm_of_run
 from dqpaint.robots.kinematics import Clamp, Kinematics, make_kinematics
 from dqpaint.robots.loading import card_for, find_card
 from dqpaint.robots.model import DEFAULT_ROBOT
+from dqpaint.robots.resolvers import resolver_of, task_of
 from dqpaint.settings import Settings
 from dqpaint.simulation import (
     Recording,
@@ -170,6 +171,11 @@ class PreparedRun:
         return self.prepared.motion
 
     @property
+    def resolver(self) -> str:
+        """What turns twists into joint rates, as text."""
+        return resolver_of(self.settings, self.motion.program)
+
+    @property
     def swinging(self) -> tuple[str, ...]:
         """The disturbances that may go to and fro in time."""
         return tuple(name for name, one in self.choices.disturbances.items() if one.may_swing)
@@ -204,7 +210,7 @@ class PreparedRun:
         return track(
             self.motion, self.kinematics, self.prepared.start, chosen.plant,
             chosen.controller, chosen.gains, progress, disturbances, settings.seed,
-            settings.null, settings.on_limit == "stop", settings.damping, watch,
+            settings.null, settings.on_limit == "stop", self.resolver, watch,
         )  # fmt: skip
 
 
@@ -220,7 +226,7 @@ def prepare(
     recorded = settings.recorded
     recording = None if recorded is None else read_recording(recorded, card.joints)
     with clock("place"):
-        kinematics = make_kinematics(card, settings.kinematics)
+        kinematics = make_kinematics(card, settings.kinematics, task_of(settings, program))
     motor_torque_use = choices.plant.motor_torque_use
     ready = prepared_motion.prepare_motion(program, kinematics, settings, motor_torque_use, clock)
     motion = ready.motion

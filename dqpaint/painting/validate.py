@@ -11,9 +11,10 @@ from dqpaint.disturbances import Disturbance, find_files, make_disturbances
 from dqpaint.errors import UsageError
 from dqpaint.painting.scene import check_light_settings
 from dqpaint.plants import ConfiguredPlant, Takes, choose_plant, find_plant
-from dqpaint.robots.kinematics import read_damping, read_null
+from dqpaint.robots.kinematics import read_null
 from dqpaint.robots.loading import find_card
 from dqpaint.robots.model import parse_tool
+from dqpaint.robots.resolvers import read_resolver
 from dqpaint.settings import (
     Settings,
     SettingsFile,
@@ -104,7 +105,8 @@ def _check_independent(settings: Settings) -> None:
     if settings.tool is not None:
         parse_tool(settings.tool)
     read_null(settings.null)
-    read_damping(settings.damping)
+    if settings.resolver is not None:
+        read_resolver(settings.resolver)
     read_sign(settings.sign)
 
 

@@ -151,8 +151,10 @@ def _forecast(program: Program, settings: "Settings | None") -> "ForecastReport"
 
     from dqpaint.planning.forecast_report import make_report
     from dqpaint.robots.kinematics import make_kinematics
+    from dqpaint.robots.resolvers import task_of
 
-    return make_report(program, make_kinematics(card, settings.kinematics), settings)
+    kinematics = make_kinematics(card, settings.kinematics, task_of(settings, program))
+    return make_report(program, kinematics, settings)
 
 
 def as_json(results: Sequence[CheckResult]) -> dict[str, Any]:

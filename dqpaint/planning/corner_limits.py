@@ -19,12 +19,11 @@ from dqpaint.planning.ideal_run import follow
 from dqpaint.planning.retiming import SUDDEN_TIME
 from dqpaint.program import ContinuousStroke, Program, Segment
 from dqpaint.robots.kinematics import (
-    Damping,
     Dynamics,
     Kinematics,
-    damped_inverse,
     make_secondary_task,
 )
+from dqpaint.robots.resolvers import DEFAULT_RESOLVER
 
 MOST_LOOKS = 1500  # postures at which inertia and Jacobian are worked out
 MOST_PASSES = 5
@@ -64,7 +63,7 @@ def within_torques(
     kinematics: Kinematics,
     start: Floats,
     null: str,
-    damping: Damping = damped_inverse,
+    resolver: str = DEFAULT_RESOLVER,
 ) -> CornerPace | None:
     """The motion at accelerations that the motors can bear; None if it needs no change.
 
@@ -73,7 +72,7 @@ def within_torques(
         kinematics: of the arm.
         start: posture (n,) [rad] to begin from.
         null: what the arm does with its freedom.
-        damping: of the run.
+        resolver: of the run.
     """
     segments = motion.program.segments
     allowed = np.array([segment.profile.acceleration for segment in segments])
@@ -83,7 +82,7 @@ def within_torques(
     acceleration = allowed
     for _ in range(MOST_PASSES):
         load = np.ones(owner[-1] + 1)
-        loads = _loads(motion, kinematics, start, null, damping)
+        loads = _loads(motion, kinematics, start, null, resolver)
         np.maximum.at(load, owner[motion.stroke], loads)
         load = np.where(allowed > 0.0, load[owner], 1.0)
         if (load <= CLOSE).all():
@@ -105,19 +104,20 @@ def _strokes(segments: tuple[Segment, ...]) -> np.ndarray[tuple[int], np.dtype[n
 
 
 def _loads(
-    motion: Motion, kinematics: Kinematics, start: Floats, null: str, damping: Damping
+    motion: Motion, kinematics: Kinematics, start: Floats, null: str, resolver: str
 ) -> Floats:
     """The torques for changes of the rates at each row (N,), as a part of the room for them."""
     n, period = len(motion.t), motion.period
     looks = np.arange(0, n, -(-n // MOST_LOOKS))
     wish = make_secondary_task(null, kinematics.card, start)
-    postures, _, jacobians = follow(motion, kinematics, start, looks, wish, damping)
+    postures, _, jacobians = follow(motion, kinematics, start, looks, wish, resolver)
     dynamics = Dynamics(kinematics)
     most = kinematics.card.effort
     free = most - np.abs([dynamics.weight(q) for q in postures])
     room = np.where(free > LEAST_ROOM * most, SHARE * free, np.inf)
     inertia = np.array([dynamics.inertia(q) for q in postures])
-    to_part = inertia @ np.linalg.pinv(jacobians) / room[:, :, None]
+    controlled = kinematics.task_jacobian(kinematics.poses(postures), jacobians)
+    to_part = inertia @ np.linalg.pinv(controlled) / room[:, :, None]
     way = 2 * dq.log(dq.mul(motion.pose[1:], dq.conj(motion.pose[:-1]))) / period
     way[motion.jump[:-1]] = 0.0  # a jump is the law's own
     still = np.zeros((1, 6))
@@ -125,6 +125,8 @@ def _loads(
     change /= min(period, SUDDEN_TIME)
     at = np.minimum((np.arange(n) + (looks[1] // 2 if len(looks) > 1 else 0))
                     // (looks[1] if len(looks) > 1 else n), len(looks) - 1)  # fmt: skip
+    asked = kinematics.task_map(motion.pose)
+    change = change if asked is None else np.matvec(asked, change)
     return np.asarray(np.abs(np.matvec(to_part[at], change)).max(axis=1))
 
 

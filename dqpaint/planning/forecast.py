@@ -27,7 +27,6 @@ from dqpaint.planning.retiming import SUDDEN_TIME
 from dqpaint.plants import ConfiguredPlant
 from dqpaint.robots.kinematics import (
     CHARACTERISTIC_LENGTH,
-    DEFAULT_DAMPING,
     DEFAULT_OBJECTIVE,
     Dynamics,
     Kinematics,
@@ -35,9 +34,9 @@ from dqpaint.robots.kinematics import (
     collision_shapes,
     make_secondary_task,
     manipulability,
-    read_damping,
     tool_jacobian_map,
 )
+from dqpaint.robots.resolvers import DEFAULT_RESOLVER, resolver_of
 from dqpaint.settings import Settings
 
 MOST_ROWS = 20_000  # that are followed; of a longer drawing every second, third ... one
@@ -126,7 +125,8 @@ def forecast(
     Returns:
         One entry for each line of the file that moves, in the order they are first drawn.
     """
-    run = _Run(motion, kinematics, start, settings.null, settings.damping, plant)
+    resolver = resolver_of(settings, motion.program)
+    run = _Run(motion, kinematics, start, settings.null, resolver, plant)
     shapes = collision_shapes(kinematics)
     looks = sampled_rows(run.source.index, MOST_OCCLUSION_ROWS)
     near = shapes.nearest(run.posture[looks])
@@ -147,7 +147,7 @@ class _Run:
         kinematics: Kinematics,
         start: Floats,
         null: str = DEFAULT_OBJECTIVE,
-        damping: str = DEFAULT_DAMPING,
+        resolver: str = DEFAULT_RESOLVER,
         plant: ConfiguredPlant | None = None,
     ) -> None:
         self.card = kinematics.card
@@ -158,12 +158,17 @@ class _Run:
         joined = jumps_between(motion, self.rows)
         self.posture, self.points, J = follow(
             motion, kinematics, start, self.rows, make_secondary_task(null, self.card, start),
-            read_damping(damping),
+            resolver,
         )  # fmt: skip
         self.path_error = np.linalg.norm(self.points - motion.points[self.rows], axis=1)
-        self.manipulability = manipulability(J)
+        poses = motion.pose[self.rows]  # of a whole pose nothing depends on them
+        if not kinematics.task.is_whole:
+            poses = kinematics.poses(self.posture)
+        self.manipulability = manipulability(kinematics.task_jacobian(poses, J))
         at_tool = tool_jacobian_map(self.points) @ J
-        self.singular_value = np.linalg.svd(at_tool, compute_uv=False)[:, -1]
+        rows = kinematics.task.rows(poses)
+        controlled = at_tool if rows is None else rows @ at_tool
+        self.singular_value = np.linalg.svd(controlled, compute_uv=False)[:, -1]
         self.rates = np.zeros_like(self.posture)
         self.rates[:-1] = np.diff(self.posture, axis=0) / self.period
         self.rates[joined] = 0.0

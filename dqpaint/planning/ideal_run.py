@@ -13,19 +13,21 @@ from dqpaint.motion import Motion
 from dqpaint.robots.kinematics import (
     DEFAULT_OBJECTIVE,
     PATH_TOLERANCE,
-    Damping,
     Kinematics,
     NoPosture,
     SecondaryTask,
     StartPosture,
-    damped_inverse,
     find_start,
     make_batched_task,
     make_secondary_task,
-    resolve,
     return_to_start,
     solve_posture,
     waypoints,
+)
+from dqpaint.robots.resolvers import (
+    DEFAULT_RESOLVER,
+    State,
+    planning_resolver,
 )
 
 MOST_ROWS = 1500  # that are gone along to see whether an arm can draw something
@@ -75,7 +77,7 @@ def follow(
     start: Floats,
     rows: NDArray[np.intp],
     wish: SecondaryTask,
-    damping: Damping = damped_inverse,
+    resolver: str = DEFAULT_RESOLVER,
 ) -> tuple[Floats, Floats, Floats]:
     """Along some rows (N,) of a motion, evenly spread; one Newton step leads to each.
 
@@ -85,6 +87,8 @@ def follow(
     period = motion.period * (rows[1] - rows[0] if len(rows) > 1 else 1)
     postures, jacobians = np.empty((len(rows), len(start))), np.empty((len(rows), 6, len(start)))
     points = np.empty((len(rows), 3))
+    task = kinematics.task
+    solver = planning_resolver(resolver, kinematics, period)
     still, jump = np.zeros((1, len(start))), jumps_between(motion, rows)
     q = solve_posture(kinematics, motion.pose[0], start[None], still, PATH_TOLERANCE)[0][0]
     for k in range(len(rows)):
@@ -97,6 +101,9 @@ def follow(
         if jump[k]:
             q = solve_posture(kinematics, ahead, q[None], drawn[None], PATH_TOLERANCE)[0][0]
         else:
-            way = 2 * dq.log(dq.mul(dq.nearest(ahead, x), dq.conj(x)))
-            q = q + resolve(J, p, way, drawn, damping)
+            ways = [
+                2 / period * dq.log(dq.mul(dq.nearest(part.near(ahead, x), x), dq.conj(x)))
+                for part in task.parts
+            ]
+            q = q + period * solver.rates(State(x, J, q), ways, drawn / period)
     return postures, points, jacobians

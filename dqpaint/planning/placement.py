@@ -352,13 +352,15 @@ class _BatchFollower:
         busy = np.arange(len(q))
         for iteration in range(NEWTON_STEPS):
             x, J = self._arm.poses_and_jacobians(q[busy])
-            error = 2 * dq.log(dq.mul(poses[busy], dq.conj(x)))
-            measure[busy] = manipulability(J)
+            near = dq.nearest(self._arm.task.near(poses[busy], x), x)
+            error = 2 * dq.log(dq.mul(near, dq.conj(x)))
+            measure[busy] = manipulability(self._arm.task_jacobian(x, J))
             there = (np.abs(error).max(axis=1) < POSE_TOLERANCE) & (iteration > 0)
             busy, x, J, error = busy[~there], x[~there], J[~there], error[~there]
             if not len(busy):
                 break
-            step = resolve(J, dq.translation(x), error, wish[busy])
+            rows = self._arm.task.rows(x)
+            step = resolve(J, dq.translation(x), error, wish[busy], rows=rows)
             wish[busy] = 0.0
             largest = np.maximum(np.abs(step).max(axis=1), 1e-12)
             q[busy] += step * np.minimum(1.0, LARGEST_STEP / largest)[:, None]

@@ -16,7 +16,8 @@ from dqpaint.planning.reachability import reachable_start_posture
 from dqpaint.planning.retiming import Motors, Retiming, retime
 from dqpaint.planning.set_up import displaced, other_posture
 from dqpaint.program import Program
-from dqpaint.robots.kinematics import Kinematics, read_damping
+from dqpaint.robots.kinematics import Kinematics
+from dqpaint.robots.resolvers import resolver_of
 from dqpaint.settings import Settings, read_spread
 
 
@@ -55,7 +56,7 @@ def prepare_motion(
     Args:
         program: the drawing.
         kinematics: of the arm.
-        settings: of the run: place, start, null, damping, on_limit.
+        settings: of the run: place, start, null, resolver, on_limit.
         motors: what of their torques counts where the drawing may be slowed down.
         stopwatch: times a stage by its name: place, motion, start.
 
@@ -79,11 +80,11 @@ def prepare_motion(
         if spread.posture:
             first = None if settings.start == "home" else motion.pose[0]
             start = other_posture(kinematics, start, first, spread.posture, settings.seed)
-        damping = read_damping(settings.damping)
-        corners = within_torques(motion, kinematics, start, settings.null, damping)
+        resolver = resolver_of(settings, program)
+        corners = within_torques(motion, kinematics, start, settings.null, resolver)
         if corners is not None:
             motion, program = corners.motion, corners.motion.program
         if settings.on_limit != "slow":
             return PreparedMotion(program, motion, start, placed, None, corners)
-        slowed = retime(motion, kinematics, start, settings.null, motors, damping)
+        slowed = retime(motion, kinematics, start, settings.null, motors, resolver)
     return PreparedMotion(program, slowed.motion, start, placed, slowed, corners)

@@ -7,8 +7,8 @@ motors' share is looked at as well, the weight of the arm being the part that do
 """
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -18,14 +18,12 @@ from dqpaint.diagnostics import SourceLine
 from dqpaint.dq import Floats
 from dqpaint.motion import Motion, TimeScaling, plan, smooth
 from dqpaint.robots.kinematics import (
-    Damping,
     Dynamics,
     Kinematics,
-    damped_inverse,
     drift_acceleration,
     make_secondary_task,
-    resolve,
 )
+from dqpaint.robots.resolvers import DEFAULT_RESOLVER, State, planning_resolver
 
 LIMIT_SHARE = 0.9  # of a limit is planned with; the rest is for what a law adds
 LEAST_SHARE = 0.3  # of that at least is taken for the drawing, whatever the rest takes
@@ -37,6 +35,7 @@ MOST_NAMED = 3  # lines
 SUDDEN_TIME = 1e-3  # [s] in which the motors of the plant `stiff` take up a new rate
 ON_PATH = 1e-3  # [rad, m] from the path: it has arrived there, and what it needs now counts
 
+Solve = Callable[[State, Sequence[Floats], Floats | None], Floats]
 Motors = Literal["none", "smooth", "sudden"]
 
 
@@ -77,7 +76,7 @@ def retime(
     start: Floats,
     null: str,
     motors: Motors,
-    damping: Damping = damped_inverse,
+    resolver: str = DEFAULT_RESOLVER,
 ) -> Retiming:
     """The motion at a pace that the arm's limits allow, as far as slowness helps.
 
@@ -91,12 +90,12 @@ def retime(
         null: what the arm does with its freedom.
         motors: what of their torques counts: nothing; what smooth motion needs; or also what new
             rates need that are taken up at once.
-        damping: of the run: without any, an arm beside a singularity needs more time there.
+        resolver: of the run: undamped, an arm beside a singularity needs more time there.
     """
     slowness = np.ones(len(motion.t))
     for turn in range(MOST_PASSES):
         needed = _needed_slowness(
-            motion, kinematics, start, null, motors, damping, slowness, turn > 0
+            motion, kinematics, start, null, motors, resolver, slowness, turn > 0
         )
         needed = np.clip(needed, 1, MOST_SLOWNESS)
         if turn and (needed <= slowness * (1 + CONVERGED)).all():
@@ -116,7 +115,7 @@ def _needed_slowness(
     start: Floats,
     null: str,
     motors: Motors,
-    damping: Damping,
+    resolver: str,
     slowness: Floats,
     returning: bool,
 ) -> Floats:
@@ -128,23 +127,26 @@ def _needed_slowness(
     card, period = kinematics.card, motion.period
     wish, zero = make_secondary_task(null, card, start), np.zeros(card.joints)
     speed = LIMIT_SHARE * card.speed
-    torques = _Torques(kinematics, damping) if motors != "none" else None
-    solve = partial(resolve, damping=damping)
+    solve = planning_resolver(resolver, kinematics, period).rates
+    torques = _Torques(kinematics, solve) if motors != "none" else None
     growth = np.gradient(slowness, period) if len(slowness) > 1 else np.zeros(1)
     needed = np.empty(len(motion.t))
     q, before = start, zero
     settled = False
-    rows = zip(
+    asked = zip(
         motion.pose, motion.twist, motion.acceleration, motion.jump, slowness, growth, strict=True
     )
-    for k, (pose, twist, slope, jump, slow, grow) in enumerate(rows):
+    for k, (pose, twist, slope, jump, slow, grow) in enumerate(asked):
         x, J = kinematics.pose_and_jacobian(q)
         point = dq.translation(x)
-        error = 2 * dq.log(dq.mul(dq.nearest(pose, x), dq.conj(x)))
+        now = State(x, J, q)
+        nears = [dq.nearest(part.near(pose, x), x) for part in kinematics.task.parts]
+        ways = [2 * dq.log(dq.mul(near, dq.conj(x))) for near in nears]
+        error, parts = ways[0], len(ways)
         settled = (settled or float(np.abs(error).max()) < ON_PATH) and not jump
-        back = solve(J, point, error, zero)
-        along = solve(J, point, twist, zero)
-        pull = solve(J, point, np.zeros(6), wish(q, J, point))
+        back = solve(now, ways, zero)
+        along = solve(now, [twist] * parts, zero)
+        pull = solve(now, [np.zeros(6)] * parts, wish(q, J, point))
         room = np.maximum(speed - np.abs(pull), LEAST_SHARE * speed)
         needed[k] = (np.abs(along) / room).max()
         if settled and returning:
@@ -154,7 +156,7 @@ def _needed_slowness(
         if torques is not None:
             acceleration = slope / slow**2 - twist * (grow / slow**3)
             rates = along / slow + pull
-            needed[k] = max(needed[k], slow * torques.excess(q, rates, J, point, acceleration))
+            needed[k] = max(needed[k], slow * torques.excess(q, rates, x, J, acceleration))
             if motors == "sudden" and not jump:
                 needed[k] = max(needed[k], slow * torques.jolt(q, rates, before))
             before = rates
@@ -168,16 +170,16 @@ def _needed_slowness(
 class _Torques:
     """How much slower a motion has to be for the motors' torques."""
 
-    def __init__(self, kinematics: Kinematics, damping: Damping = damped_inverse) -> None:
-        self._damping = damping
+    def __init__(self, kinematics: Kinematics, solve: Solve) -> None:
+        self._solve, self._parts = solve, kinematics.task.parts
         self._dynamics = Dynamics(kinematics)
         self._most = LIMIT_SHARE * kinematics.card.effort
 
-    def excess(self, q: Floats, rates: Floats, J: Floats, point: Floats, slope: Floats) -> float:
+    def excess(self, q: Floats, rates: Floats, x: Floats, J: Floats, slope: Floats) -> float:
         """By which factor, from joint rates (n,) and the tool's acceleration (6,)."""
         wanted = slope - drift_acceleration(J, rates)
-        bend = resolve(J, point, wanted, np.zeros_like(q), self._damping)
-        return self._slower(q, rates, bend)
+        answers = [wanted] * len(self._parts)
+        return self._slower(q, rates, self._solve(State(x, J, q), answers, np.zeros_like(q)))
 
     def jolt(self, q: Floats, rates: Floats, before: Floats) -> float:
         """The same, where motors take up rates (n,) that follow on others at once.

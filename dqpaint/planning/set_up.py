@@ -54,7 +54,7 @@ def other_posture(
         DqpaintError: no posture is found there.
     """
     card = kinematics.card
-    if pose is not None and card.joints <= 6:
+    if pose is not None and card.joints <= kinematics.task.dimensions:
         raise UsageError(
             f"spread posture: an arm of {card.joints} joints has no other posture near for the "
             "pose where it begins; take place, or an arm with more joints"

@@ -315,6 +315,7 @@ class Program:
     segments: tuple[Segment, ...]
     notes: tuple[Diagnostic, ...]  # warnings; errors are raised
     most_samples: int = DEFAULT_MAX_SAMPLES
+    task: str | None = None  # the file's own `task` line
     dark_saved: float = 0.0  # [m] of dark ways, by the order of lines that come from elsewhere
 
     def line_name(self, line: SourceLine) -> str:

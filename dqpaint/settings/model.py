@@ -182,14 +182,23 @@ class MotionSettings(Group):
             "NAME[,gain=VALUE]",
         ),
     ] = "start"
-    damping: Annotated[
-        str,
+    resolver: Annotated[
+        str | None,
         Option(
-            "pseudo-inverse: selective is damped near singularities alone, none nowhere, "
-            "wampler[,factor=F] everywhere",
-            "selective|none|wampler",
+            "what turns the law's twist into joint rates: see dqpaint list resolvers",
+            "NAME[,KEY=VALUE...]",
+            unsaid="filter",
         ),
-    ] = "selective"
+    ] = None
+    task: Annotated[
+        Literal["pose", "beam", "point", "place-first"] | None,
+        Option(
+            "what of the tool is controlled: all of its pose, all but the turn about its beam, "
+            "its position alone, or the position before the orientation",
+            "pose|beam|point|place-first",
+            unsaid="the drawing's, else pose",
+        ),
+    ] = None
     kinematics: Annotated[
         Literal["pinocchio", "screws"],
         Option(
@@ -459,7 +468,7 @@ def validated(model: type[M], fields: Mapping[str, object], strict: bool = False
 
 
 SIMULATED = ("controller", "gains", "sign", "plant", "engine", "disturb", "spread", "start",
-             "null", "damping", "kinematics", "on_limit")  # fmt: skip
+             "null", "resolver", "task", "kinematics", "on_limit")  # fmt: skip
 
 
 def check_recorded(settings: Settings) -> None:

@@ -45,7 +45,8 @@ class MotionOptions(TypedDict, total=False):
     engine: Literal["pybullet", "mujoco"] | None
     start: Literal["first", "home"] | None
     null: str | None
-    damping: str | None
+    resolver: str | None
+    task: Literal["pose", "beam", "point", "place-first"] | None
     kinematics: Literal["pinocchio", "screws"] | None
     on_limit: Literal["clip", "slow", "stop"] | None
 

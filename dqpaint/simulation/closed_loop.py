@@ -18,7 +18,6 @@ from dqpaint.errors import UnstableError
 from dqpaint.motion import Motion
 from dqpaint.plants import ConfiguredPlant, Plant, PlantMaker
 from dqpaint.robots.kinematics import (
-    DEFAULT_DAMPING,
     DEFAULT_OBJECTIVE,
     Clamp,
     Clipped,
@@ -26,10 +25,10 @@ from dqpaint.robots.kinematics import (
     find_clamps,
     make_secondary_task,
     manipulability,
-    read_damping,
     resolve,
 )
-from dqpaint.robots.model import Card
+from dqpaint.robots.model import POSE, Card
+from dqpaint.robots.resolvers import DEFAULT_RESOLVER, Setup, make_resolver
 from dqpaint.simulation.drives import make_drive
 from dqpaint.simulation.sensors import (
     BatchedSensors,
@@ -126,7 +125,7 @@ def track(
     seed: int = 0,
     null: str = DEFAULT_OBJECTIVE,
     stop: bool = False,
-    damping: str = DEFAULT_DAMPING,
+    resolver: str = DEFAULT_RESOLVER,
     watch: Callable[[int, Floats], None] = lambda _row, _pose: None,
 ) -> Track:
     """Drive the arm along a motion.
@@ -143,18 +142,18 @@ def track(
         seed: of everything random.
         null: what a redundant arm does with its freedom.
         stop: whether the first limit that is met ends the run.
-        damping: of the law's pseudo-inverse.
+        resolver: what turns twists into joint rates.
         watch: called with each row and the true pose (8,) of the tool; what it raises ends the run.
 
     Raises:
         UsageError: a disturbance that does not go with the period or the arm, an unknown `null` or
-            `damping`.
+            `resolver`.
         ScriptError: a limit was met, and `stop`.
         DqpaintError: the simulation diverged, or a law of one's own has a fault.
     """
     sensors = Sensors(kinematics, motion.t, motion.period, disturbances, seed)
     drift = _drift(motion, disturbances, [seed])
-    log = _Log(len(motion.t), (), kinematics.card.joints)
+    log = _Log(len(motion.t), (), kinematics)
     stop_at_limit = partial(log.stop_at_limit, kinematics.card, motion, controller.drives_torque)
 
     def at_row(k: int) -> None:
@@ -165,7 +164,7 @@ def track(
             progress(k / len(motion.t))
 
     _simulate(
-        motion, sensors, start, make_plant, controller, gains, disturbances, null, damping, log,
+        motion, sensors, start, make_plant, controller, gains, disturbances, null, resolver, log,
         None if drift is None else drift[:, 0], at_row,
     )  # fmt: skip
     if not log.finite.all():
@@ -184,7 +183,7 @@ def track_many(
     seeds: Sequence[int],
     null: str = DEFAULT_OBJECTIVE,
     progress: Callable[[float], None] = lambda _done: None,
-    damping: str = DEFAULT_DAMPING,
+    resolver: str = DEFAULT_RESOLVER,
 ) -> list[Track | None]:
     """The same run with several seeds at once, as arrays (B, ...) through the same laws.
 
@@ -202,7 +201,7 @@ def track_many(
         seeds: one a run.
         null: what a redundant arm does with its freedom.
         progress: called now and then with the part done, 0 to 1.
-        damping: of the law's pseudo-inverse.
+        resolver: what turns twists into joint rates.
 
     Returns:
         A track a seed; None for one that diverged.
@@ -213,10 +212,10 @@ def track_many(
     if not controller.batched:
         raise ValueError(f"law '{controller.name}' takes one arm at a time")
     sensors = BatchedSensors(kinematics, motion.t, motion.period, disturbances, seeds)
-    log = _Log(len(motion.t), (len(seeds),), kinematics.card.joints)
+    log = _Log(len(motion.t), (len(seeds),), kinematics)
     _simulate(
         motion, sensors, np.tile(start, (len(seeds), 1)), make_plant, controller, gains,
-        disturbances, null, damping, log, _drift(motion, disturbances, seeds),
+        disturbances, null, resolver, log, _drift(motion, disturbances, seeds),
         lambda k: progress(k / len(motion.t)) if k % REPORT_EVERY == 0 else None,
     )  # fmt: skip
     return [
@@ -242,7 +241,7 @@ def _simulate(
     gains: Schedule[Any],
     disturbances: Mapping[str, Disturbance],
     null: str,
-    damping: str,
+    resolver: str,
     log: "_Log",
     drift: Floats | None,
     at_row: Callable[[int], None],
@@ -250,9 +249,12 @@ def _simulate(
     """The control loop, of one arm (n,) or of many (B, n); it fills `log`."""
     n, card = len(motion.t), sensors.model.card
     arm = Arm(sensors.model)
-    law = controller.start(arm, motion, gains)
+    task = sensors.model.task if controller.is_resolved else POSE
+    # what comes second has a law of its own, which sees a reference of its own
+    laws = [controller.start(arm, motion, gains) for _ in task.parts]
     wish = make_secondary_task(null, card, start)
-    drive = make_drive(controller, law, sensors.model, wish, motion.period, read_damping(damping))
+    solver = make_resolver(resolver, Setup(sensors.model, motion.period, task))
+    drive = make_drive(controller, laws, sensors.model, wish, motion.period, solver)
     late = DelayLine(total_delay(disturbances), drive.hold(start))
     parts = motion.clock / motion.clock[-1] if n > 1 else motion.clock
     plant = make_plant(card, start, motion.period, sensors.world)
@@ -290,7 +292,8 @@ def _simulate(
 class _Log:
     """The arrays of a run, filled row by row; of `shape` (B,) runs, if there are several."""
 
-    def __init__(self, n: int, shape: tuple[int, ...], joints: int) -> None:
+    def __init__(self, n: int, shape: tuple[int, ...], kinematics: Kinematics) -> None:
+        joints = kinematics.card.joints
         of_joints = (n, *shape, joints)
         self.posture, self.effort = np.empty(of_joints), np.zeros(of_joints)
         self.measured_posture, self.measured_pose = np.empty(of_joints), np.empty((n, *shape, 8))
@@ -299,6 +302,7 @@ class _Log:
         self.pose, self.manipulability = np.empty((n, *shape, 8)), np.empty((n, *shape))
         self.disturbance = np.zeros((n, *shape, 6))
         self._jacobian = np.empty((JACOBIAN_ROWS, *shape, 6, joints))
+        self._kinematics = kinematics
 
     @property
     def finite(self) -> NDArray[np.bool_]:
@@ -310,7 +314,8 @@ class _Log:
         """The i-th of several runs."""
         other = copy(self)
         for name, array in vars(self).items():
-            setattr(other, name, np.ascontiguousarray(array[:, i]))
+            if isinstance(array, np.ndarray):
+                setattr(other, name, np.ascontiguousarray(array[:, i]))
         return other
 
     def record(
@@ -332,7 +337,10 @@ class _Log:
         self.wanted[k], self.command[k] = wanted, given
         if k % JACOBIAN_ROWS == JACOBIAN_ROWS - 1 or k == len(self.pose) - 1:
             first = k - k % JACOBIAN_ROWS
-            self.manipulability[first : k + 1] = manipulability(self._jacobian[: k + 1 - first])
+            controlled = self._kinematics.task_jacobian(
+                self.pose[first : k + 1], self._jacobian[: k + 1 - first]
+            )
+            self.manipulability[first : k + 1] = manipulability(controlled)
 
     def stop_at_limit(self, card: Card, motion: Motion, torques: bool, k: int) -> None:
         """End the run where row k, or the period before it, met a limit.

@@ -1,5 +1,6 @@
 """A law's command -> the plant's command, clipped to the arm's limits."""
 
+from collections.abc import Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -9,17 +10,13 @@ from dqpaint.controllers import Controller, Law, Seen
 from dqpaint.dq import Floats
 from dqpaint.robots.kinematics import (
     START_GAIN,
-    Damping,
     Dynamics,
     Kinematics,
     RateBounds,
     SecondaryTask,
-    damped_inverse,
     drift_acceleration,
-    resolve,
 )
-
-NO_TWIST = np.zeros(6)  # the twist of a tool that stays
+from dqpaint.robots.resolvers import DEFAULT_RESOLVER, Resolver, Setup, State, make_resolver
 
 
 class Drive(Protocol):
@@ -37,59 +34,83 @@ class Drive(Protocol):
 
 def make_drive(
     controller: Controller[Any],
-    law: Law[Any],
+    laws: Sequence[Law[Any]],
     kinematics: Kinematics,
     wish: SecondaryTask,
     period: float,
-    damping: Damping = damped_inverse,
+    resolver: Resolver | None = None,
 ) -> Drive:
     """The drive a law needs.
 
     Args:
         controller: the law's own.
-        law: of this run, as `controller.start` gave it.
+        laws: of this run, as `controller.start` gave them, one for each part of the task.
         kinematics: of the arm, as the law's model has it.
         wish: the secondary task in the null space of a redundant arm.
         period: of the control [s].
-        damping: of the pseudo-inverse.
+        resolver: of this run; None is the default one.
     """
+    if resolver is None:
+        resolver = make_resolver(DEFAULT_RESOLVER, Setup(kinematics, period, kinematics.task))
     drive = TorqueDrive if controller.drives_torque else RateDrive
-    return drive(controller, law, kinematics, wish, period, damping)
+    return drive(controller, laws, kinematics, wish, period, resolver)
+
+
+class _Tasked:
+    """Laws, one for each part of the task, each with the reference of its part."""
+
+    def __init__(self, laws: Sequence[Law[Any]], kinematics: Kinematics) -> None:
+        self._laws = list(zip(laws, kinematics.task.parts, strict=False))
+
+    def answers(self, seen: Seen, gains: Any) -> list[Floats]:
+        """The commands (..., 6) of the laws.
+
+        What a task leaves free is no error: each law sees the reference that is nearest to where
+        the tool is among all that are as good.
+        """
+        return [
+            law(seen._replace(pose_d=part.near(seen.pose_d, seen.pose)), gains)
+            for law, part in self._laws
+        ]
 
 
 class RateDrive:
     """For laws that command a twist or joint rates.
 
-    q_dot = J^+ u + (I - J^+ J) z, with z the secondary task. Joint rates pass unchanged, but
-    (I - J^+ J) z is added to those of a law that leaves the null space free.
+    A resolver finds q_dot = J^+ u + (I - J^+ J) z, with z the secondary task. Joint rates pass as
+    the resolver allows, but (I - J^+ J) z is added to those of a law that leaves the null space
+    free.
     """
 
     def __init__(
         self,
         controller: Controller[Any],
-        law: Law[Any],
+        laws: Sequence[Law[Any]],
         kinematics: Kinematics,
         wish: SecondaryTask,
         period: float,
-        damping: Damping,
+        resolver: Resolver,
     ) -> None:
-        self._damping = damping
-        self._law = law
-        self._resolved = controller.commands == "twist"
+        self._resolver = resolver
+        self._law, self._tasked = laws[0], _Tasked(laws, kinematics)
+        self._resolved = controller.is_resolved
         self._leaves_null = controller.leaves_null
         self._wish = wish
         self._bounds = RateBounds(kinematics.card, period)
 
     def command(self, seen: Seen, gains: Any) -> Floats:
         """Joint rates (n,) [rad/s]."""
-        answer: Floats = self._law(seen, gains)
-        if not (self._resolved or self._leaves_null):
-            return answer
-        point = dq.translation(seen.pose)
-        wish = self._wish(seen.posture, seen.jacobian, point)
+        state = State(seen.pose, seen.jacobian, seen.posture, seen.time)
         if self._resolved:
-            return resolve(seen.jacobian, point, answer, wish, self._damping)
-        return answer + resolve(seen.jacobian, point, NO_TWIST, wish, self._damping)
+            answers = self._tasked.answers(seen, gains)
+            return self._resolver.rates(state, answers, self._null(seen))
+        answer: Floats = self._law(seen, gains)
+        if self._leaves_null:
+            answer = answer + self._resolver.null_motion(state, self._null(seen))
+        return self._resolver.allowed(state, answer)
+
+    def _null(self, seen: Seen) -> Floats:
+        return self._wish(seen.posture, seen.jacobian, dq.translation(seen.pose))
 
     def hold(self, posture: Floats) -> Floats:
         """No rates (n,)."""
@@ -112,15 +133,15 @@ class TorqueDrive:
     def __init__(
         self,
         controller: Controller[Any],
-        law: Law[Any],
+        laws: Sequence[Law[Any]],
         kinematics: Kinematics,
         wish: SecondaryTask,
         period: float,
-        damping: Damping,
+        resolver: Resolver,
     ) -> None:
-        self._damping = damping
-        self._law = law
-        self._resolved = controller.commands == "acceleration"
+        self._resolver = resolver
+        self._law, self._tasked = laws[0], _Tasked(laws, kinematics)
+        self._resolved = controller.is_resolved
         self._period = period
         self._wish = wish
         self._dynamics = Dynamics(kinematics)
@@ -133,10 +154,11 @@ class TorqueDrive:
             inertia, bias = self._dynamics.inertia_and_bias(q, rates)
             torque: Floats = self._law(seen._replace(inertia=inertia, bias=bias), gains)
             return torque
-        wanted = self._law(seen, gains) - drift_acceleration(seen.jacobian, rates)
+        drift = drift_acceleration(seen.jacobian, rates)
+        wanted = [answer - drift for answer in self._tasked.answers(seen, gains)]
         point = dq.translation(seen.pose)
         wish = START_GAIN * self._wish(q, seen.jacobian, point) - 2 * START_GAIN * rates
-        bend = resolve(seen.jacobian, point, wanted, wish, self._damping)
+        bend = self._resolver.rates(State(seen.pose, seen.jacobian, q, seen.time), wanted, wish)
         return self._dynamics.torque(q, rates, bend, self._period)
 
     def hold(self, posture: Floats) -> Floats:

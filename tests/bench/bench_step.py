@@ -42,7 +42,7 @@ def ours(kinematics, poses, twists):
     chosen = CONTROLLERS["pff"]
     gains = chosen.read_gains({"k": K}).first
     wish = make_secondary_task("start", kinematics.card, kinematics.card.home)
-    drive = make_drive(chosen, chosen.law, kinematics, wish, 0.008)
+    drive = make_drive(chosen, [chosen.law], kinematics, wish, 0.008)
     still, rates = np.zeros(6), np.zeros(7)
 
     def step(k, q):

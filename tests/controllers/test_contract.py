@@ -65,7 +65,7 @@ def test_commands_are_finite_everywhere(name, robot, rng):
     chosen = CONTROLLERS[name]
     gains, said = chosen.read_gains({}).first, started(chosen, arm)
     drive = make_drive(
-        chosen, said, arm, make_secondary_task("start", arm.card, arm.card.home), 0.005
+        chosen, [said], arm, make_secondary_task("start", arm.card, arm.card.home), 0.005
     )
     special = [np.zeros(arm.card.joints), arm.card.home, arm.card.lower, arm.card.upper]
     for q in [*special, *rng.uniform(arm.card.lower, arm.card.upper, (20, arm.card.joints))]:
@@ -95,7 +95,7 @@ def test_every_law_converges_on_a_set_point(name, robot, rng):
         x, J = arm.pose_and_jacobian(arm.card.home)
         seconds = 16.0 / (gains.k * np.linalg.svd(pose_map(x) @ J)[1][5] ** 2)
         period = 0.008
-    drive = make_drive(chosen, said, arm, make_secondary_task("start", arm.card, start), period)
+    drive = make_drive(chosen, [said], arm, make_secondary_task("start", arm.card, start), period)
     plant = PLANTS["torque" if chosen.drives_torque else "ideal"](arm.card, start, period)
     for _ in range(int(seconds / period)):
         q = plant.posture

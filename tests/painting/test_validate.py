@@ -26,7 +26,7 @@ ALONE = {
     "robot": ("ur7", "no robot named 'ur7'"),
     "tool": ("x", "tool 'x' is not X,Y,Z"),
     "null": ("elbow", "no null-space objective named 'elbow'"),
-    "damping": ("soft", "no damping named 'soft'"),
+    "resolver": ("soft", "no resolver named 'soft'"),
     "controller": ("pd", "no controller named 'pd'"),
     "gains": ("k=1", "'hinf' has no gain named 'k'"),
     "plant": ("rubber", "no plant named 'rubber'"),

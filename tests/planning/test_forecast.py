@@ -244,19 +244,19 @@ def test_an_arm_that_begins_elsewhere_is_forecast_from_where_it_joins_the_drawin
     assert forecast(motion, arm, arm.card.home)[0].speed_part < 0.5  # not the way there
 
 
-def test_the_damping_is_that_of_the_run():
+def test_the_resolver_is_that_of_the_run():
     """A price on the rates shortens the way of forecast and run alike; without one it is exact."""
     motion, arm, start = prepared("period 8 ms\nstart at (60, 0) mm\nline to (-80, 60) mm in 2 s\n")
     law = CONTROLLERS["pff"]
     off = {}
-    for damping in ("selective", "none", "wampler,factor=0.3"):
-        run = track(motion, arm, start, PLANTS["ideal"], law, law.read_gains({}), damping=damping)
-        foreseen = _Run(motion, arm, start, damping=damping)
-        off[damping] = foreseen.path_error.max()
+    for resolver in ("filter", "none", "wampler,factor=0.3"):
+        run = track(motion, arm, start, PLANTS["ideal"], law, law.read_gains({}), resolver=resolver)
+        foreseen = _Run(motion, arm, start, resolver=resolver)
+        off[resolver] = foreseen.path_error.max()
         near = np.abs(foreseen.posture - run.posture).max()
-        assert near < (0.1 if damping.startswith("wampler") else 0.002), (damping, near)
-    assert max(off["selective"], off["none"]) < 1e-5
+        assert near < (0.1 if resolver.startswith("wampler") else 0.002), (resolver, near)
+    assert max(off["filter"], off["none"]) < 1e-5
     assert off["wampler,factor=0.3"] > 1e-4
     many = track_many(motion, arm, start, PLANTS["ideal"], law, law.read_gains({}), {}, [0],
-                      damping="wampler,factor=0.3")  # fmt: skip
+                      resolver="wampler,factor=0.3")  # fmt: skip
     np.testing.assert_allclose(many[0].posture, run.posture, atol=1e-9)

@@ -13,10 +13,11 @@ from dqpaint.outputs.summary import summarise
 from dqpaint.outputs.tables import encode_csv
 from dqpaint.planning.reachability import reachable_start_posture
 from dqpaint.planning.retiming import LIMIT_SHARE, _Torques, retime
-from dqpaint.robots.kinematics.differential_ik import read_damping, resolve
+from dqpaint.robots.kinematics.differential_ik import resolve
 from dqpaint.robots.kinematics.dynamics import Dynamics
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
+from dqpaint.robots.resolvers import planning_resolver
 from dqpaint.simulation.stop_on_limit import meets_limit
 from tests.support.hard_drawings import BEYOND, FAST, far_out, past_a_singularity
 
@@ -104,11 +105,11 @@ def test_one_through_a_singularity(draw, plant):
 
 
 def test_one_through_a_singularity_is_planned_with_the_run_s_own_damping(draw):
-    """Damped everywhere, but less than `selective` does there: joints turn faster."""
-    slow = draw(past_a_singularity(), "slow", damping="wampler")
+    """Damped everywhere, but less than `filter` does there: joints turn faster."""
+    slow = draw(past_a_singularity(), "slow", resolver="wampler")
     assert not slow.limits
     assert worst(slow) < 5e-4
-    more = draw(past_a_singularity(), "slow", damping="wampler,factor=0.1")  # more damped: sooner
+    more = draw(past_a_singularity(), "slow", resolver="wampler,factor=0.1")  # more damped: sooner
     assert more.retiming.extra_time < 0.5 * slow.retiming.extra_time
 
 
@@ -231,10 +232,14 @@ def test_a_joint_driven_past_its_end_by_torques_meets_its_limit():
     assert not meets_limit(card, card.upper + 1e-6, *row, torques=False)
 
 
+def solver(arm, text):
+    return planning_resolver(text, arm, 0.008).rates
+
+
 def test_a_motor_s_share_is_worked_out_as_it_is():
     """From rest, a motion m times too strong for a motor needs sqrt(m) times as long."""
     arm = Kinematics(read_card("iiwa"))
-    motors, dynamics = _Torques(arm), Dynamics(arm)
+    motors, dynamics = _Torques(arm, solver(arm, "filter")), Dynamics(arm)
     q = arm.card.home + 0.1
     x, J = arm.pose_and_jacobian(q)
     slope = np.array([5.0, -3, 2, 40, 30, -20])
@@ -242,10 +247,10 @@ def test_a_motor_s_share_is_worked_out_as_it_is():
     weight = dynamics.weight(q)
     moving = np.abs(dynamics.torque(q, np.zeros(7), bend) - weight)
     wanted = np.sqrt((moving / (LIMIT_SHARE * arm.card.effort - np.abs(weight))).max())
-    found = motors.excess(q, np.zeros(7), J, dq.translation(x), slope)
+    found = motors.excess(q, np.zeros(7), x, J, slope)
     assert found == pytest.approx(wanted, rel=1e-9)
-    damped = _Torques(arm, read_damping("wampler,factor=0.5"))
-    assert damped.excess(q, np.zeros(7), J, dq.translation(x), slope) < 0.95 * found
+    damped = _Torques(arm, solver(arm, "wampler,factor=0.5"))
+    assert damped.excess(q, np.zeros(7), x, J, slope) < 0.95 * found
     assert abs(wanted - 1) > 0.1
 
 

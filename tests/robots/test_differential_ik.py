@@ -4,13 +4,10 @@ import numpy as np
 import pytest
 
 from dqpaint import dq
-from dqpaint.errors import UsageError
 from dqpaint.robots.kinematics.differential_ik import (
     CHARACTERISTIC_LENGTH,
     DAMPING_THRESHOLD,
     damped_inverse,
-    plain_inverse,
-    read_damping,
     resolve,
     tool_jacobian_map,
 )
@@ -107,44 +104,3 @@ def test_directions_that_are_healthy_stay_exact_at_a_singularity(arm):
         u = np.linalg.solve(tool_jacobian_map(dq.translation(x)), axes[:, i])
         rates = resolve(J, dq.translation(x), u, np.zeros(7))
         np.testing.assert_allclose(shifted @ rates, axes[:, i], atol=1e-9)
-
-
-def test_without_damping_it_is_the_pseudo_inverse_of_moore_and_penrose(arm, rng):
-    """Beside numpy's pinv, at full rank and where the elbow is stretched: there it has no bound."""
-    for posture in (rng.uniform(-1.5, 1.5, 7), np.array([0.3, 0.4, 0.1, 1e-4, 0.2, 0.5, 0.3])):
-        x, J = arm.pose_and_jacobian(posture)
-        twist, wish = rng.normal(size=6), rng.normal(size=7)
-        point = dq.translation(x)
-        found = resolve(J, point, twist, wish, read_damping("none"))
-        pseudo = np.linalg.pinv(J, rcond=1e-12)
-        expected = pseudo @ twist + wish - pseudo @ (J @ wish)
-        np.testing.assert_allclose(found, expected, rtol=1e-6, atol=1e-6 * np.abs(expected).max())
-        many = resolve(J[None], point[None], twist[None], wish[None], read_damping("none"))
-        np.testing.assert_allclose(many[0], found, rtol=1e-6, atol=1e-6 * np.abs(expected).max())
-    assert np.abs(found).max() > 100
-
-
-def test_the_plain_inverse_leaves_out_what_is_rounding():
-    squares = np.array([1e-17, 0.0, 0.25, 1.0, 2.0, 4.0])
-    np.testing.assert_allclose(plain_inverse(np.sort(squares)), [0, 0, 4, 1, 0.5, 0.25])
-
-
-def test_wampler_s_damping_is_least_squares_with_a_price_on_the_rates(arm, rng):
-    """The rates are what minimises |J q - u|^2 + l^2 |q|^2, lengths in units of 0.3 m."""
-    x, J = arm.pose_and_jacobian(rng.uniform(-1.5, 1.5, 7))
-    point, twist, factor = dq.translation(x), rng.normal(size=6), 0.2
-    shift = tool_jacobian_map(point)
-    stacked = np.vstack([shift @ J, factor * np.eye(7)])
-    expected = np.linalg.lstsq(stacked, np.append(shift @ twist, np.zeros(7)))[0]
-    damping = read_damping(f"wampler,factor={factor}")
-    np.testing.assert_allclose(resolve(J, point, twist, None, damping), expected, atol=1e-12)
-    plain = resolve(J, point, twist, None, read_damping("none"))
-    assert np.abs(plain - expected).max() > 1e-2
-
-
-@pytest.mark.parametrize("text", [
-    "x", "none,factor=1", "wampler,factor=0", "wampler,factor=2", "wampler,wide=1", "wampler,=", "",
-])  # fmt: skip
-def test_damping_that_cannot_be_is_refused(text):
-    with pytest.raises(UsageError, match="damping"):
-        read_damping(text)

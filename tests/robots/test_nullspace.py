@@ -132,7 +132,7 @@ def test_pham_s_transpose_leaves_room_for_a_wish_and_is_the_paper_s_without(null
     goal = dq.mul(dq.exp(0.02 * rng.normal(size=6)), x)
     seen = Seen(x, goal, np.zeros(6), np.zeros(6), J, q, 0.0, 0.008, np.zeros(7))
     plain, wished = (
-        make_drive(law, law.law, ARM, make_secondary_task(one, CARD, CARD.home), 0.008).command(
+        make_drive(law, [law.law], ARM, make_secondary_task(one, CARD, CARD.home), 0.008).command(
             seen, gains
         )
         for one in ("none", null)

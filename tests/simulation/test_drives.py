@@ -34,7 +34,7 @@ def bend(posture, rates, torque):
 def test_the_tool_accelerates_as_the_law_says(name, rng):
     """J q_ddot + J_dot q_dot = a, with q_ddot by pinocchio and J_dot by differences."""
     drive = make_drive(
-        CONTROLLERS[name], started(CONTROLLERS[name]), ARM, back_to(ARM.card.home), AT_ONCE
+        CONTROLLERS[name], [started(CONTROLLERS[name])], ARM, back_to(ARM.card.home), AT_ONCE
     )
     gains, h = CONTROLLERS[name].read_gains({}).first, 1e-6
     for seen in states(rng, 50, size=0.5):
@@ -59,7 +59,9 @@ def test_the_drift_acceleration_is_the_jacobian_s_derivative_times_the_rates(rng
 def test_what_is_free_in_a_redundant_arm_is_damped(name, rng):
     """In the null space q_ddot = 4 (start - q) - 4 q_dot: back to where it began, and at rest."""
     start = ARM.card.home + rng.uniform(-0.1, 0.1, 7)
-    drive = make_drive(CONTROLLERS[name], started(CONTROLLERS[name]), ARM, back_to(start), AT_ONCE)
+    drive = make_drive(
+        CONTROLLERS[name], [started(CONTROLLERS[name])], ARM, back_to(start), AT_ONCE
+    )
     gains = CONTROLLERS[name].read_gains({}).first
     for seen in states(rng, 20):
         null = np.linalg.svd(seen.jacobian)[2][-1]
@@ -74,7 +76,7 @@ def test_a_swinging_elbow_comes_to_rest_while_the_tool_stays(name):
     null = np.linalg.svd(J)[2][-1]
     gains, period = CONTROLLERS[name].read_gains({}).first, 0.005
     drive = make_drive(
-        CONTROLLERS[name], started(CONTROLLERS[name]), ARM, back_to(ARM.card.home), period
+        CONTROLLERS[name], [started(CONTROLLERS[name])], ARM, back_to(ARM.card.home), period
     )
     plant = PLANTS["torque"](ARM.card, ARM.card.home, period)
     plant.run(drive.clip(400.0 * null, ARM.card.home))  # a knock along the self-motion
@@ -109,7 +111,7 @@ def test_an_own_torque_law_holds_by_the_bias_and_is_not_resolved(rng):
         return seen.bias
 
     kept, chosen = [], make_controller(hold, "hold")
-    drive = make_drive(chosen, started(chosen), ARM, lambda *_: np.zeros(7), 0.005)
+    drive = make_drive(chosen, [started(chosen)], ARM, lambda *_: np.zeros(7), 0.005)
     for seen in states(rng, 10):
         q, rates = seen.posture, seen.rates
         torque = drive.command(seen, chosen.read_gains({}).first)
@@ -126,7 +128,7 @@ def test_an_own_torque_law_holds_by_the_bias_and_is_not_resolved(rng):
 def test_torques_stay_within_the_motors():
     name = TORQUE_LAWS[0]
     drive = make_drive(
-        CONTROLLERS[name], started(CONTROLLERS[name]), ARM, lambda *_: np.zeros(7), 0.005
+        CONTROLLERS[name], [started(CONTROLLERS[name])], ARM, lambda *_: np.zeros(7), 0.005
     )
     effort = ARM.card.effort
     wanted = np.array([9.0, -9.0, 0.5, -0.5, 2.0, -2.0, 0.0]) * effort

@@ -231,7 +231,8 @@ def test_other_slips(drawing, tmp_path):
         ({"controller": "p"}, "--controller"), ({"gains": {"k": 3}}, "--gain"),
         ({"plant": "ideal"}, "--plant"), ({"start": "home"}, "--from"),
         ({"disturb": {"twist": {"x": 0.1}}}, "--disturb"), ({"null": "none"}, "--null"),
-        ({"on_limit": "stop"}, "--on-limit"), ({"damping": "none"}, "--damping"),
+        ({"on_limit": "stop"}, "--on-limit"), ({"resolver": "none"}, "--resolver"),
+        ({"task": "point"}, "--task"),
     ):  # fmt: skip
         with pytest.raises(UsageError, match=f"leave out {option}"):
             dqpaint.draw(drawing, recorded=late, **choice)

@@ -430,11 +430,11 @@ def test_conditions_say_arm_plant_start_inverse_and_what_is_invented():
     lines = conditions(every, {cell.name: cell.group for cell in paper.cells})
     assert lines == [
         "V-REP: KUKA LBR iiwa 7 R800 (iiwa7), plant stiff, from first, no null-space task, "
-        "pseudo-inverse damped: wampler, noise (rms = 2e-05), invented",
+        "resolver wampler, noise (rms = 2e-05), invented",
         "Meka: Meka A2, right arm (meka-a2), plant compliant, from home, no null-space task, "
-        "pseudo-inverse damped: wampler, noise (rms = 2e-05), invented",
+        "resolver wampler, noise (rms = 2e-05), invented",
     ]
-    asked = {"robot": "iiwa", "null": "start,gain=3", "damping": "none", "disturb": {}}
+    asked = {"robot": "iiwa", "null": "start,gain=3", "resolver": "none", "disturb": {}}
     other = tracking.settings_of(paper, MeasureRequest(Path(), settings=asked),
                                  {"controller": "accel"})  # fmt: skip
     other = other.model_copy(update={"plant": None, "on_limit": "stop"})
@@ -444,7 +444,7 @@ def test_conditions_say_arm_plant_start_inverse_and_what_is_invented():
     ]
     assert departures(paper, asked) == [
         "--robot iiwa instead of iiwa7", "--null start,gain=3 instead of none",
-        "--damping none instead of wampler", "--disturb nothing",
+        "--resolver none instead of wampler", "--disturb nothing",
     ]  # fmt: skip
     assert departures(paper, {"robot": "iiwa7"}) == []
 

@@ -173,6 +173,7 @@ light rgb(255,0,0)|E206|1:7 rgb|help fix
 curve (10 mm*sin(t), 0) for t from 0 to 1|E213|1:18 t|help
 line to 50 mm, 0 mm|E112|1:14 ,|help fix
 period 20 s|E257|1:8 20 s|help
+task line|E267|1:6 line|help
 profile cubic(1e300 mm/s, 0 mm/s)|E201|1:15 1e300 mm/s|
 line by (5,0) mm by (0,5) mm samples 1|E256|1:1 line by (5,0) mm by (0,5) mm samples 1|help
 repeat 10001~line by (1,0) mm~end|E303|1:8 10001|help

@@ -225,6 +225,26 @@ def disturbances():
     return table(["disturbance", "", "values"], rows)
 
 
+def tasks():
+    from dqpaint.robots.model import TASKS
+
+    rows = [[f"`{name}`", str(task.dimensions), task.about] for name, task in TASKS.items()]
+    return table(["`--task`", "numbers", ""], rows)
+
+
+def resolvers():
+    from dqpaint.robots.resolvers import RESOLVERS
+
+    rows = []
+    for name, resolver in RESOLVERS.items():
+        values = [
+            f"`{value}`" + (f" = {field.default:g}" if field.default else "")
+            for value, field in resolver.options.model_fields.items()
+        ]
+        rows.append([f"`{name}`", resolver.__doc__.splitlines()[0], ", ".join(values)])
+    return table(["`--resolver`", "", "values"], rows)
+
+
 def null():
     from dqpaint.robots.kinematics.nullspace import OBJECTIVES
 
@@ -411,6 +431,8 @@ PAGES = {
         plants,
         disturbances,
         null,
+        tasks,
+        resolvers,
         brushes,
         looks,
         options,

@@ -87,6 +87,11 @@ class Controller(Generic[G]):
         return self.law.__doc__ or ""
 
     @property
+    def is_resolved(self) -> bool:
+        """Whether it commands the tool, and a resolver finds what the joints do for it."""
+        return self.commands in ("twist", "acceleration")
+
+    @property
     def drives_torque(self) -> bool:
         """Whether it needs a plant that takes torques."""
         return self.commands in ("acceleration", "torque")

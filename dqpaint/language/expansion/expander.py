@@ -36,12 +36,12 @@ from dqpaint.language.values.scope import BUILTINS, Scope, UnknownError
 from dqpaint.language.values.values import Quantity, Value
 from dqpaint.language.values.vectors import Frame
 from dqpaint.language.vocabulary.units import PLAIN
-from dqpaint.language.vocabulary.words import MODAL, STATEMENTS
+from dqpaint.language.vocabulary.words import MODAL, STATEMENTS, TASKS
 from dqpaint.program import AutoPlacement, Pose, Program, Segment
 
 PERIOD = 0.008  # [s]
 # Statements whose first value is not a name that they define.
-NAMELESS = ("robot", "place", "curve", "repeat", "call")
+NAMELESS = ("robot", "task", "place", "curve", "repeat", "call")
 ALIKE = ("text", "path", "svg", "move")  # in each pass as much as in the first
 SHORTEST_PERIOD = 1e-5  # [s]
 LONGEST_PERIOD = 10.0
@@ -66,6 +66,7 @@ class Expander:
         self._period = PERIOD
         self._robot: str | None = None
         self._robot_span: Span | None = None
+        self._task: str | None = None
         self._placement: Pose | AutoPlacement | None = None
         self.at: Span | None = None  # the statement being worked on
 
@@ -84,6 +85,7 @@ class Expander:
             self._pen.start,
             self._rounded(),
             self._findings.ordered(),
+            task=self._task,
             dark_saved=self._pen.dark_saved,
         )
 
@@ -133,7 +135,7 @@ class Expander:
         known = STATEMENTS.get(statement.word)
         if known is None or known.moves or statement.word == "start":
             self._pen.lost = self._pen.placed = self._pen.oriented = True
-        if statement.word in ("robot", "place", "period", "start"):
+        if statement.word in ("robot", "task", "place", "period", "start"):
             self._once.setdefault(statement.word, statement.span)
         name = statement.name
         if name is not None and statement.word not in NAMELESS:
@@ -329,6 +331,15 @@ class Expander:
         assert statement.name is not None
         self._robot, self._robot_span = statement.name.text, statement.name.span
 
+    def _task_line(self, statement: Statement) -> None:
+        self._first(statement)
+        assert statement.name is not None
+        if statement.name.text not in TASKS:
+            message = f"there is no task '{statement.name.text}'"
+            help = "what is controlled: task pose, task beam, task point or task place first"
+            raise problem("E267", message, statement.name.span, "", help)
+        self._task = statement.name.text
+
     def _period_line(self, statement: Statement) -> None:
         self._first(statement)
         self._period = typed_values.positive(statement.values[0], self._scope, "period")
@@ -367,6 +378,7 @@ class Expander:
 _HANDLERS: dict[str, Callable[[Expander, Statement], None]] = {
     "traj": Expander._traj,
     "robot": Expander._robot_line,
+    "task": Expander._task_line,
     "let": Expander._let,
     "place": Expander._place,
     "start": Expander._start,

@@ -70,6 +70,8 @@ def _head(cursor: Cursor, word: str, head: str) -> _Head:
             return _repeat(cursor)
         case "robot":
             return _Head(_robot(cursor))
+        case "task":
+            return _Head(_task(cursor))
         case "place":
             return _Head(_word(cursor) if cursor.is_word("auto") else None)
         case "include":
@@ -159,6 +161,13 @@ def _robot(cursor: Cursor) -> Word:
         help = 'a name with other signs than letters, digits and _ stands in quotes: robot "…"'
         raise problem("E112", message, cursor.token.span, "", help)
     return Word(token.text, token.span)
+
+
+def _task(cursor: Cursor) -> Word:
+    first = cursor.take()
+    if first.kind == "name" and cursor.is_word("first"):
+        return Word(f"{first.text}-{cursor.take().text}", cursor.span_from(first.start))
+    return Word(first.text, first.span)
 
 
 def _include(cursor: Cursor) -> _Head:

@@ -122,6 +122,7 @@ STATEMENTS = {
     for statement in (
         StatementWord("traj", "the version of the language", "traj 1", head="version"),
         StatementWord("robot", "the arm the drawing is for", "robot iiwa", head="robot"),
+        StatementWord("task", "what of the tool's pose is controlled", "task beam", head="task"),
         StatementWord("include", "the lines of another file", 'include "f.traj"', head="include"),
         StatementWord("let", "a name for a value, or a function", "let r = 70 mm", head="let"),
         StatementWord(
@@ -382,6 +383,9 @@ LITTLE_WORDS = (
     *("from", "for", "on", "off", "even", "keep", "follow", "look", "up", "point", "bar", "auto"),
     "jump",
 )
+
+# What a task controls: the names that `task` takes.
+TASKS = ("pose", "beam", "point", "place-first")
 
 CONSTANTS = ("pi", "x", "y", "z")
 PROFILES = {"constant": (0,), "trapezoid": (0,), "cubic": (0, 2), "quintic": (0, 4)}

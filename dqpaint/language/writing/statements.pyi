@@ -13,6 +13,8 @@ class Statements:
         """The version of the language: `d.traj("1")`."""
     def robot(self, *values: Any) -> None:
         """The arm the drawing is for: `d.robot("iiwa")`."""
+    def task(self, *values: Any) -> None:
+        """What of the tool's pose is controlled: `d.task("beam")`."""
     def include(self, *values: Any) -> None:
         """The lines of another file: `d.include("f.traj")`."""
     def let(self, *values: Any) -> None:

@@ -5,8 +5,8 @@ from dqpaint.robots.kinematics.collisions import (
     CollisionShapes, Nearest, collision_shapes, read_mesh,
 )
 from dqpaint.robots.kinematics.differential_ik import (
-    CHARACTERISTIC_LENGTH, DAMPING_THRESHOLD, DEFAULT_DAMPING, START_GAIN, Damping, damped_inverse,
-    read_damping, resolve, tool_jacobian_map,
+    CHARACTERISTIC_LENGTH, DAMPING_THRESHOLD, START_GAIN, Damping, damped_force, damped_inverse,
+    damped_inverse_times, resolve, resolve_parts, tool_jacobian_map,
 )
 from dqpaint.robots.kinematics.dynamics import Dynamics
 from dqpaint.robots.kinematics.jacobians import drift_acceleration, pose_map
@@ -27,13 +27,15 @@ from dqpaint.robots.kinematics.start_posture import (
 )
 
 __all__ = [
-    "CHARACTERISTIC_LENGTH", "DAMPING_THRESHOLD", "DEFAULT_DAMPING", "DEFAULT_OBJECTIVE",
+    "CHARACTERISTIC_LENGTH", "DAMPING_THRESHOLD", "DEFAULT_OBJECTIVE",
     "LIMIT_TOLERANCE", "OBJECTIVES", "PATH_TOLERANCE", "START_GAIN", "UNITS", "Clamp",
     "Clipped", "CollisionShapes", "Damping", "Dynamics", "Kinematics", "ManyKinematics",
     "ModelNumbers", "Nearest", "NoPosture", "RateBounds", "ScrewKinematics", "SecondaryTask",
-    "StartPosture", "collision_shapes", "damped_inverse", "drift_acceleration", "find_clamps",
-    "find_start", "inverse", "least_errors", "make_batched_task", "make_kinematics",
-    "make_secondary_task", "manipulability", "model_numbers", "pose_map", "read_damping",
-    "read_mesh", "read_null", "resolve", "resolve_part", "return_to_start", "shortfall",
+    "StartPosture", "collision_shapes", "damped_force", "damped_inverse",
+    "damped_inverse_times", "drift_acceleration",
+    "find_clamps", "find_start", "inverse", "least_errors", "make_batched_task", "make_kinematics",
+    "make_secondary_task", "manipulability", "model_numbers", "pose_map",
+    "read_mesh", "read_null", "resolve", "resolve_part", "resolve_parts", "return_to_start",
+    "shortfall",
     "solve", "solve_posture", "tool_jacobian_map", "waypoints",
 ]

@@ -1,29 +1,24 @@
 """A commanded twist -> joint rates, in the same way for every law and arm.
 
-q_dot = J^+ u + (I - J^+ J) z, with J^+ damped as `--damping` says: near singularities alone,
-nowhere, or everywhere. Works on arrays of any leading shape: one state of a run, or a thousand of a
-batch.
+q_dot = J^+ u + (I - J^+ J) z, with J^+ damped near singularities alone, or as a resolver says.
+Works on arrays of any leading shape: one state of a run, or a thousand of a batch.
 """
 
-from collections.abc import Callable
-from functools import partial
+from collections.abc import Callable, Sequence
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field
 
 from dqpaint import dq
-from dqpaint.core import make_choice, read_choice
 from dqpaint.dq import Floats
-from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.robots.kinematics.small_matrices import inverse
+from dqpaint.robots.model.task import Part
 
 CHARACTERISTIC_LENGTH = 0.3  # [m] weighs metres against radians where singular values are compared
 DAMPING_THRESHOLD = 0.04  # singular values [rad/rad] below it are damped
 START_GAIN = 2.0  # [1/s] towards the start posture, in the null space
-DEFAULT_DAMPING = "selective"
 
 Damping = Callable[[Floats], Floats]
-"""What stands for 1 / s^2, for squared singular values s^2 (..., 6) in ascending order."""
+"""What stands for 1 / s^2, for squared singular values s^2 (..., m) in ascending order."""
 
 
 def damped_inverse(squares: Floats) -> Floats:
@@ -40,48 +35,13 @@ def damped_inverse(squares: Floats) -> Floats:
     return np.asarray(1.0 / (squares + damping))
 
 
-def plain_inverse(squares: Floats) -> Floats:
-    """1 / s^2, and 0 where s^2 is rounding beside the largest: Moore and Penrose's."""
-    rounding = 6 * np.finfo(np.float64).eps * squares[..., -1:]
-    known = squares > rounding
-    return np.where(known, 1.0 / np.where(known, squares, 1.0), 0.0)
-
-
-def wampler_inverse(factor: float, squares: Floats) -> Floats:
-    """1 / (s^2 + l^2) with one l everywhere (Wampler 1986, damped least squares)."""
-    return np.asarray(1.0 / (np.maximum(squares, 0.0) + factor * factor))
-
-
-class _Wampler(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-    factor: float = Field(
-        0.01, ge=1e-6, le=1, description="rad/rad, lengths in units of 0.3 m, 0.000001 to 1"
-    )
-
-
-def read_damping(text: str) -> Damping:
-    """Parse a text like `selective`, `none` or `wampler,factor=0.05`.
-
-    Raises:
-        UsageError: an unknown way, or no such value.
-    """
-    name, values = read_choice("damping", text, "wampler,factor=0.05")
-    if name == "wampler":
-        return partial(wampler_inverse, make_choice("damping", name, _Wampler, values).factor)
-    fixed = {"selective": damped_inverse, "none": plain_inverse}
-    if name not in fixed:
-        raise UnknownNameError("damping", name, [*fixed, "wampler"])
-    if values:
-        raise UsageError(f"damping '{name}' takes no values")
-    return fixed[name]
-
-
 def resolve(
     jacobian: Floats,
     point: Floats,
     twist: Floats,
     secondary: Floats | None,
     damping: Damping = damped_inverse,
+    rows: Floats | None = None,
 ) -> Floats:
     """The joint rates (..., n) [rad/s] for a commanded twist.
 
@@ -92,22 +52,66 @@ def resolve(
         twist: u (..., 6), spatial [rad/s, m/s].
         secondary: z (..., n) [rad/s], projected into the null space; None gives the least motion.
         damping: of the singular directions.
+        rows: of the tool's twist that count (..., m, 6), see `model.task`; None is all of it.
 
     By default each singular direction of the Jacobian is damped by itself and only below THRESHOLD,
     so that the other directions stay exact (after Chiaverini, "Singularity-robust task-priority
     redundancy resolution", 1997).
     """
     shift = tool_jacobian_map(point)
-    one = shift.ndim == jacobian.ndim == 2 and twist.ndim == 1
+    one = shift.ndim == jacobian.ndim == 2 and twist.ndim == 1 and rows is None
     if one and secondary is not None and secondary.ndim == 1:
         return _resolve_one(shift, jacobian, twist, secondary, damping)
+    shift = shift if rows is None else rows @ shift
     J = shift @ jacobian
     square = J @ J.mT
     left = np.matvec(shift, twist)
     if secondary is not None:
         left = left - np.matvec(J, secondary)
-    rates: Floats = np.vecmat(_force(square, left, damping), J)
+    rates: Floats = np.vecmat(damped_force(square, left, damping), J)
     return rates if secondary is None else rates + secondary
+
+
+def resolve_parts(
+    jacobian: Floats,
+    pose: Floats,
+    twists: Sequence[Floats],
+    parts: Sequence[Part],
+    secondary: Floats | None,
+    inverse_times: Callable[[Floats, Floats], Floats],
+) -> Floats:
+    """The joint rates (..., n) [rad/s] for a twist for each part of a task, in their order.
+
+    q_dot_i = q_dot_(i-1) + (J_i N_(i-1))^# (u_i - J_i q_dot_(i-1)), from the secondary q_dot_0;
+    N is what the parts before leave free (Siciliano and Slotine 1991).
+
+    Args:
+        jacobian: J_w (..., 6, n), spatial.
+        pose: of the tool (..., 8).
+        twists: u_i (..., 6), spatial.
+        parts: of the task.
+        secondary: as of `resolve`.
+        inverse_times: of J (..., m, n) and v (..., m), J^# v (..., n).
+    """
+    shift = tool_jacobian_map(dq.translation(pose))
+    J = shift @ jacobian
+    found = np.zeros(J.shape[:-2] + J.shape[-1:]) if secondary is None else secondary
+    free: Floats | None = None
+    for part, twist in zip(parts, twists, strict=True):
+        rows, left = part.rows(pose), np.matvec(shift, twist)
+        mine = J if rows is None else rows @ J
+        left = left if rows is None else np.matvec(rows, left)
+        within = mine if free is None else mine @ free
+        found = found + inverse_times(within, left - np.matvec(mine, found))
+        if part is not parts[-1]:
+            taken = np.linalg.pinv(within) @ within
+            free = (np.eye(J.shape[-1]) if free is None else free) - taken
+    return found
+
+
+def damped_inverse_times(J: Floats, left: Floats) -> Floats:
+    """J^# v (..., n), damped as `resolve` does by itself."""
+    return np.asarray(np.vecmat(damped_force(J @ J.mT, left, damped_inverse), J))
 
 
 def _resolve_one(
@@ -115,12 +119,12 @@ def _resolve_one(
 ) -> Floats:
     """The same for one state, a control step: np.dot halves the time of small products."""
     J = np.dot(shift, jacobian)
-    force = _force(np.dot(J, J.T), np.dot(shift, twist) - np.dot(J, secondary), damping)
+    force = damped_force(np.dot(J, J.T), np.dot(shift, twist) - np.dot(J, secondary), damping)
     return np.asarray(np.dot(force, J) + secondary)
 
 
-def _force(square: Floats, left: Floats, damping: Damping) -> Floats:
-    """(J J')^+ left (..., 6), damped.
+def damped_force(square: Floats, left: Floats, damping: Damping) -> Floats:
+    """(J J')^+ left (..., m), damped.
 
     The default first looks whether there is anything to damp: the trace of an inverse is the sum of
     1 / s^2, and up to 1 / THRESHOLD^2 no s is below THRESHOLD. An inverse costs a fifth of what the

@@ -13,15 +13,20 @@ import pinocchio
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
+from dqpaint.robots.kinematics.differential_ik import CHARACTERISTIC_LENGTH, tool_jacobian_map
 from dqpaint.robots.model.card import Card
 from dqpaint.robots.model.screws import Screws
+from dqpaint.robots.model.task import POSE, Task
 from dqpaint.robots.urdf.prepare import prepare
+
+_UNSCALED = np.diag([1.0] * 3 + [CHARACTERISTIC_LENGTH] * 3)
 
 
 def manipulability(jacobian: Floats) -> Floats:
-    """Yoshikawa's sqrt(det(J J')) (...,) at the tool of Jacobians (..., 6, n), rad and m mixed.
+    """Yoshikawa's sqrt(det(J J')) (...,) at the tool of Jacobians (..., m, n), rad and m mixed.
 
-    Moving the reference point from the base origin to the tool is a shear: same determinant.
+    Moving the reference point from the base origin to the tool is a shear: same determinant for
+    all six rows. Of a task of fewer it is that of `Kinematics.task_jacobian`.
     """
     squared: Floats = np.linalg.det(jacobian @ jacobian.swapaxes(-1, -2))
     return np.asarray(np.sqrt(np.maximum(squared, 0.0)))
@@ -34,10 +39,11 @@ class Kinematics:
         card: of the arm.
         model: pinocchio's, of the joints that move.
         notes: assumptions where the arm's description has no data.
+        task: which part of the tool's pose it is for.
     """
 
-    def __init__(self, card: Card) -> None:
-        self.card = card
+    def __init__(self, card: Card, task: Task = POSE) -> None:
+        self.card, self.task = card, task
         prepared = prepare(card)
         self.notes = (*card.notes, *prepared.notes)
         try:
@@ -101,6 +107,18 @@ class Kinematics:
         """`pose_and_jacobian` of many postures (N, n): poses (N, 8), Jacobians (N, 6, n)."""
         pairs = [self.pose_and_jacobian(q) for q in postures]
         return np.array([x for x, _ in pairs]), np.array([J for _, J in pairs])
+
+    def task_map(self, pose: Floats) -> Floats | None:
+        """From a spatial twist to what of it the task controls (..., m, 6); None for all of it."""
+        rows = self.task.rows(pose)
+        if rows is None:
+            return None
+        return np.asarray(rows @ (_UNSCALED @ tool_jacobian_map(dq.translation(pose))))
+
+    def task_jacobian(self, pose: Floats, jacobian: Floats) -> Floats:
+        """The rows (..., m, n) of J_w that the task controls, at the tool's point."""
+        controlled = self.task_map(pose)
+        return jacobian if controlled is None else controlled @ jacobian
 
     def screws(self) -> Screws:
         """The arm as screw axes, up to the tool."""

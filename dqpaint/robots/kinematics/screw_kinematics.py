@@ -13,6 +13,7 @@ from dqpaint.dq import Floats
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import Card
 from dqpaint.robots.model.screws import Screws
+from dqpaint.robots.model.task import POSE, Task
 
 
 class ScrewKinematics(Kinematics):
@@ -36,6 +37,6 @@ class ScrewKinematics(Kinematics):
         return self._chain
 
 
-def make_kinematics(card: Card, method: str = "pinocchio") -> Kinematics:
-    """The kinematics of a card by a method: `pinocchio`, or `screws`."""
-    return ScrewKinematics(card) if method == "screws" else Kinematics(card)
+def make_kinematics(card: Card, method: str = "pinocchio", task: Task = POSE) -> Kinematics:
+    """The kinematics of a card, for a task, by a method: `pinocchio`, or `screws`."""
+    return ScrewKinematics(card, task) if method == "screws" else Kinematics(card, task)

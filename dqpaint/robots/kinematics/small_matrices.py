@@ -9,19 +9,19 @@ from eigenpy import LLT, ComputationInfo
 
 from dqpaint.dq import Floats
 
-_EYE = np.eye(6)
+_EYES = [np.eye(n) for n in range(7)]
 _SUCCESS = ComputationInfo.Success
 
 
 def inverse(squares: Floats) -> Floats:
-    """The inverses of symmetric positive definite matrices (..., 6, 6).
+    """The inverses of symmetric positive definite matrices (..., m, m), m at most 6.
 
     Raises:
         numpy.linalg.LinAlgError: a matrix is numerically singular.
     """
     if squares.ndim > 2:
         return np.asarray(np.linalg.inv(squares))
-    return solve(squares, _EYE)
+    return solve(squares, _EYES[len(squares)])
 
 
 def solve(square: Floats, right: Floats) -> Floats:

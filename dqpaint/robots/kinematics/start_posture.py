@@ -15,7 +15,8 @@ from dqpaint.dq import Floats
 from dqpaint.robots.kinematics.differential_ik import (
     CHARACTERISTIC_LENGTH,
     START_GAIN,
-    resolve,
+    damped_inverse_times,
+    resolve_parts,
     tool_jacobian_map,
 )
 from dqpaint.robots.kinematics.kinematics import Kinematics
@@ -193,11 +194,13 @@ def solve_posture(
     q = postures.copy()
     for iteration in range(ITERATIONS):
         x, J = kinematics.poses_and_jacobians(q)
-        error = _error(pose, x)
+        error = _error(kinematics.task.near(pose, x), x)
         largest = np.abs(error).max(axis=1)
-        if iteration and largest.max() < tolerance:
+        parts = kinematics.task.parts
+        if iteration and largest.max() < tolerance and len(parts) == 1:
             break
-        step = resolve(J, dq.translation(x), error, null_step)
+        ways = [error, *(_error(part.near(pose, x), x) for part in parts[1:])]
+        step = resolve_parts(J, x, ways, parts, null_step, damped_inverse_times)
         q += (
             step
             * np.minimum(1.0, LARGEST_STEP / np.maximum(np.abs(step).max(axis=1), 1e-12))[:, None]
@@ -256,14 +259,16 @@ def closest(kinematics: Kinematics, pose: Floats, postures: Floats) -> tuple[NoP
     what comes closer counts. The miss has the index 0.
     """
     card = kinematics.card
-    errors = np.abs(_error(pose, kinematics.poses_and_jacobians(postures)[0])).max(axis=1)
+    near = kinematics.task.near
+    found = kinematics.poses_and_jacobians(postures)[0]
+    errors = np.abs(_error(near(pose, found), found)).max(axis=1)
     few = np.clip(postures[np.argsort(errors)[:CANDIDATES]], card.lower, card.upper)
     best, posture = NoPosture(0, np.inf, 0.0), few[0]
     for weights in ORIENTATION_FIRST, POSITION_FIRST:
         q = few
         for weight in np.repeat(weights, DESCENT_STEPS):
             x, J = kinematics.poses_and_jacobians(q)
-            error = _tool_error(pose, x)
+            error = _tool_error(near(pose, x), x)
             far, turned = np.linalg.norm(error[:, 3:], axis=1), np.linalg.norm(error[:, :3], axis=1)
             i = int(np.argmin(far + METRES_PER_RADIAN * turned))
             here = NoPosture(0, float(far[i]), float(turned[i]))

@@ -18,7 +18,7 @@ from dqpaint.robots.model.fields import Finite, Mount, Part, Positive, Three
 from dqpaint.robots.model.screws import Screws
 
 DEFAULT_ROBOT = "iiwa"
-LEAST_JOINTS = 6  # joints: a pose has as many freedoms
+LEAST_JOINTS = 3  # joints: a position has as many freedoms
 FLANGE = "flange"  # the last link of the arms we build ourselves
 
 
@@ -179,8 +179,7 @@ class Card(Part):
         if self.joints < LEAST_JOINTS:
             count = "1 joint" if self.joints == 1 else f"{self.joints} joints"
             raise ValueError(
-                f"{count} cannot control position and orientation: "
-                f"at least {LEAST_JOINTS} are needed"
+                f"{count} cannot control a position: at least {LEAST_JOINTS} are needed"
             )
         if len(self.limits.lower_deg) != self.joints:
             raise ValueError("home_deg needs one number for each joint of the limits")

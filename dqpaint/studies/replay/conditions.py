@@ -10,7 +10,7 @@ from dqpaint.robots.model import DEFAULT_ROBOT
 from dqpaint.settings import SETTINGS, Settings
 from dqpaint.studies.replay.papers import Paper
 
-SAID = ("robot", "plant", "start", "null", "damping", "on_limit", "disturb")
+SAID = ("robot", "plant", "start", "null", "resolver", "on_limit", "disturb")
 """Settings that a condition names; a paper states them, or they are assumed."""
 
 
@@ -25,8 +25,8 @@ def condition(settings: Settings) -> str:
         f"plant {settings.plant or usual}",
         f"from {settings.start}",
         "no null-space task" if task == "none" else f"null-space task {task}, gain {gain:g}",
-        {"none": "plain pseudo-inverse"}.get(
-            settings.damping, f"pseudo-inverse damped: {settings.damping}"
+        {None: "resolver filter", "none": "plain pseudo-inverse"}.get(
+            settings.resolver, f"resolver {settings.resolver}"
         ),
         *([f"on limit {settings.on_limit}"] if settings.on_limit != "clip" else []),
     ]

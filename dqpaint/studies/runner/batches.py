@@ -85,7 +85,7 @@ def carry_out_batch(
         tracks = track_many(
             ready.motion, ready.kinematics, ready.prepared.start, chosen.plant, chosen.controller,
             chosen.gains, chosen.disturbances, seeds, ready.settings.null, progress,
-            ready.settings.damping,
+            ready.resolver,
         )  # fmt: skip
     except ModelsDifferError:
         return None

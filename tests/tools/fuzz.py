@@ -1,7 +1,7 @@
 """Every reader of files of others, tried with inputs that were never sound -> what did harm.
 
-    python -m tests.tools.fuzz [READER|all] [COUNT SEED]
-    python -m tests.tools.fuzz guided [READER|all] [RUNS SEED [FOLDER]]
+    python -m tests.tools.fuzz [all|READER|READER...] [COUNT SEED]
+    python -m tests.tools.fuzz guided [all|READER|READER...] [RUNS SEED [FOLDER]]
 
 The first changes sound files and crooked ones at random (COUNT inputs a reader, 100,000 if not
 said, a tenth where a try takes above a millisecond). The second has atheris watch which lines an
@@ -249,7 +249,7 @@ def main(words: list[str]) -> int:
 
     watching = words[:1] == ["guided"]
     name, count, seed, folder = [*words[watching:], *("all", "", "1", "")[len(words) - watching :]]
-    names = list(READERS) if name == "all" else [name]
+    names = list(READERS) if name == "all" else name.split("|")
     wrong = 0
     if watching:
         print("| reader | inputs | kept as they reached new lines | faults | s |\n|---|---|---|---|---|")

@@ -2,14 +2,16 @@
 
 import hashlib
 import linecache
+import os
 import sys
+import threading
 import traceback
 from collections.abc import Callable
 from inspect import ismethod
 from os.path import exists
 from pathlib import Path
 from types import FunctionType, ModuleType
-from typing import Any
+from typing import Any, NoReturn
 
 from dqpaint.core.examples import examples_folder
 from dqpaint.core.inputs import read_regular
@@ -18,6 +20,8 @@ from dqpaint.errors import DqpaintError, TimeLimitError, UsageError
 LARGEST_FILE = 1_000_000  # bytes of a file
 LONGEST_LINE = 120  # columns of a line that is shown
 _running_files: set[Path] = set()  # files that are being run
+_running_in = (0, 0)  # process and thread of the latest
+_exit = os._exit
 
 
 def split_spec(spec: str) -> tuple[Path, str | None] | None:
@@ -112,6 +116,13 @@ class AnswerError(DqpaintError):
     """A user's function returned a value of the wrong kind; the message names file and line."""
 
 
+def _told_exit(status: int) -> NoReturn:
+    """`os._exit` while a user's code runs; other threads and processes end as they ask."""
+    if _running_in == (os.getpid(), threading.get_ident()):
+        raise SystemExit(f"os._exit({status})")
+    _exit(status)
+
+
 class UserCode:
     """Context of a user's code: any fault but Ctrl-C becomes an error with the file's own line.
 
@@ -123,10 +134,15 @@ class UserCode:
         self._path, self._place = path, path.absolute()
 
     def __enter__(self) -> None:
+        global _running_in
         _running_files.add(self._place)
+        _running_in = os.getpid(), threading.get_ident()
+        os._exit = _told_exit  # it would end all without a word, and as if all were well
 
     def __exit__(self, kind: object, fault: BaseException | None, trace: object) -> None:
         _running_files.discard(self._place)
+        if not _running_files:
+            os._exit = _exit
         if fault is not None and not isinstance(fault, KeyboardInterrupt | AnswerError):
             late = isinstance(fault, TimeLimitError)
             kind = TimeLimitError if late else DqpaintError

@@ -139,6 +139,7 @@ FAULTS = [
     ("def f(seen): return [[1], [2, 3]]\n", "returned an array of shape (2,)"),
     ("def f(seen): return [float('inf')] * 6\n", "at 0.250 s the law returned [inf"),
     ("def f(seen): raise SystemExit(3)\n", "mine.py:1: SystemExit: 3"),
+    ("import os\ndef f(seen): os._exit(0)\n", "mine.py:2: SystemExit: os._exit(0)"),
     ("def f(seen): raise GeneratorExit\n", "mine.py:1: GeneratorExit"),
     ("class B(BaseException): pass\ndef f(seen): raise B('x')\n", "mine.py:2: B: x"),
     ("class B(Exception):\n    def __str__(self): raise OSError\n\ndef f(seen): raise B()\n",
@@ -172,10 +173,26 @@ def test_faults_of_a_law_are_told_with_its_own_line(tmp_path, rng, text, said):
     assert "dqpaint/" not in str(caught.value)
 
 
+def test_other_threads_and_processes_end_as_they_ask(tmp_path, rng):
+    """Such as the one that ends a worker with its study, and a process that a law forks."""
+    text = (
+        "import os\n"
+        "def f(seen):\n"
+        "    child = os.fork()\n"
+        "    if not child:\n"
+        "        os._exit(7)\n"
+        "    return [os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])] * 6\n"
+    )
+    law = find_controller(written(tmp_path, text))
+    assert asked(law, seen_at(rng)).tolist() == [7.0] * 6
+    assert os._exit.__module__ == "posix"
+
+
 @pytest.mark.parametrize(("text", "said"), [
     ("def f(:\n", "mine.py:1: SyntaxError: "), ("x = 1 / 0\n", "mine.py:1: ZeroDivisionError"),
     ("import nothing_of_this_name\n", "mine.py:1: ModuleNotFoundError"),
     ("exit(3)\n", "mine.py:1: SystemExit: 3"), ("\x00", "null bytes"),
+    ("from os import _exit\n_exit(0)\n", "mine.py:2: SystemExit: os._exit"),
 ])  # fmt: skip
 def test_faults_of_a_file_are_told(tmp_path, text, said):
     with pytest.raises(DqpaintError, match=said.replace("(", r"\(")):

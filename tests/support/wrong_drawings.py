@@ -126,6 +126,7 @@ hold 20|E218|1:6 20|help fix
 line to 5 mm|E218|1:9 5 mm|help
 line to (1,2) mm light red to (3,4) mm|E218|1:31 (3,4) mm|help
 hold 0 s|E220|1:6 0 s|
+text "Ada" height 1e-300 mm|E220|1:19 1e-300 mm|
 line by (1,0) mm samples 2.5|E221|1:26 2.5|
 repeat i from 5 to 1~end|E222|1:20 1|help
 let r = 1 mm~let r = 2 mm|E230|2:5 r|help
@@ -262,6 +263,7 @@ line by (0, 0)~line by (1,0) mm|W401|1:9 (0, 0)|help
 curve (42 mm, t) for t from 0 to 3 mm|W402|1:7 (42 mm, t)|help
 start at (0,0) tool rpy(0,0,0)~line by (1,0) mm tool look (0,0,-5) mm up y|W404|2:1 line by (1,0) mm tool look (0,0,-5) mm up y|help
 move to (1,0) mm in 3 s~line by (1,0) mm|W405|1:18 in|help
+line by (1,0) mm~step to (9,9) mm|W406|2:1 step to (9,9) mm|help
 """
 
 FILES = Path(__file__).parents[1] / "language/files"

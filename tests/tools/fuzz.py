@@ -36,7 +36,9 @@ SCRAPS = (b"0", b"-1", b"nan", b"inf", b"1e400", b"1e-9", b"5e-324", b"1e9", b""
           b"\xff", b"\xc3", b"\xf0\x9f\x98\x80", b"\x1b[31m", b" ", b"9" * 30, b"((((", b'"')  # fmt: skip
 
 
-def changed(data: bytes, others: list[bytes], words: tuple[bytes, ...], chance: random.Random) -> bytes:
+def changed(
+    data: bytes, others: list[bytes], words: tuple[bytes, ...], chance: random.Random
+) -> bytes:
     """A file with one to six things in it changed: words, numbers, bytes, pieces."""
     for _ in range(chance.choice((1, 1, 1, 2, 2, 3, 6))):
         size = len(data)
@@ -152,7 +154,9 @@ def tried(name: str, count: int, seed: int) -> dict[str, object]:
     """Try a reader in processes of its own; what was told of all inputs."""
     total: Counter[str] = Counter()
     begin, seconds = 0, 0.0
-    with tempfile.TemporaryDirectory(dir="/dev/shm" if Path("/dev/shm").is_dir() else None) as folder:  # noqa: S108
+    with tempfile.TemporaryDirectory(
+        dir="/dev/shm" if Path("/dev/shm").is_dir() else None
+    ) as folder:
         state = Path(folder)
         while begin < count:
             words = [sys.executable, "-m", "tests.tools.fuzz", "--work", name, str(count),
@@ -203,7 +207,7 @@ def guided(name: str, runs: int, seed: int, folder: str) -> None:
     place.mkdir(parents=True, exist_ok=True)
     for k, data in enumerate(corpus(name)):
         (place / f"seed{k}").write_bytes(data[:4096] if name != "film" else data)
-    path = Path(tempfile.mkdtemp(dir="/dev/shm")) / f"input{reader.ending}"  # noqa: S108
+    path = Path(tempfile.mkdtemp(dir="/dev/shm")) / f"input{reader.ending}"
     faults: Counter[str] = Counter()
 
     def one(data: bytes) -> None:
@@ -224,7 +228,16 @@ def guided(name: str, runs: int, seed: int, folder: str) -> None:
 
 def by_coverage(name: str, runs: int, seed: int, folder: str) -> str:
     """A row of the table for a reader that was fuzzed under a watch."""
-    words = [sys.executable, "-m", "tests.tools.fuzz", "--guided", name, str(runs), str(seed), folder]
+    words = [
+        sys.executable,
+        "-m",
+        "tests.tools.fuzz",
+        "--guided",
+        name,
+        str(runs),
+        str(seed),
+        folder,
+    ]
     begin = time.monotonic()
     done = subprocess.run(words, capture_output=True, text=True, check=False, errors="replace")
     said = done.stdout + done.stderr
@@ -252,7 +265,9 @@ def main(words: list[str]) -> int:
     names = list(READERS) if name == "all" else name.split("|")
     wrong = 0
     if watching:
-        print("| reader | inputs | kept as they reached new lines | faults | s |\n|---|---|---|---|---|")
+        print(
+            "| reader | inputs | kept as they reached new lines | faults | s |\n|---|---|---|---|---|"
+        )
         with tempfile.TemporaryDirectory() as own:
             for one in names:
                 print(by_coverage(one, int(count or 20_000), int(seed), folder or own), flush=True)
@@ -263,7 +278,9 @@ def main(words: list[str]) -> int:
         inputs, faults = int(str(told["inputs"])), {k: v for k, v in told.items() if "FAULT" in k}
         each = 1e6 * float(str(told["s"])) / max(inputs, 1)
         harm = sum(int(str(v)) for v in faults.values())
-        print(f"| {one} | {inputs:,} | {told.get('taken', 0):,} | {harm} | {each:.0f} |", flush=True)
+        print(
+            f"| {one} | {inputs:,} | {told.get('taken', 0):,} | {harm} | {each:.0f} |", flush=True
+        )
         for what, times in faults.items():
             print(f"  {one}: {times} times {what}", file=sys.stderr)
         wrong += harm

@@ -116,7 +116,9 @@ class Planter:
         start = self._at(node.lineno, node.col_offset)  # type: ignore[attr-defined]
         end = self._at(node.end_lineno, node.end_col_offset)  # type: ignore[attr-defined]
         old = self.text[start:end]
-        self.found.append(Mutant(self.subject, self.file, node.lineno, function, start, end, old, new))  # type: ignore[attr-defined]
+        self.found.append(
+            Mutant(self.subject, self.file, node.lineno, function, start, end, old, new)
+        )  # type: ignore[attr-defined]
 
     def _visit(self, node: ast.AST, function: str) -> None:
         if isinstance(node, LEFT_ALONE) or _types_only(node):
@@ -186,9 +188,7 @@ def _changed(node: ast.AST) -> Iterator[ast.AST | str]:
                 yield ast.unparse(less)
     elif isinstance(node, ast.AugAssign) or (
         isinstance(node, ast.Expr) and isinstance(node.value, ast.Call)
-    ) or isinstance(node, ast.Break | ast.Continue):  # fmt: skip
-        yield "pass"
-    elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Subscript):
+    ) or isinstance(node, ast.Break | ast.Continue) or (isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Subscript)):  # fmt: skip
         yield "pass"
     elif isinstance(node, ast.If | ast.While) and not isinstance(node.test, ast.Compare):
         pass  # negated by what is in its test, or below
@@ -242,7 +242,9 @@ class Seen:
             code = frame.f_code
             if code not in names:
                 file = code.co_filename.partition("/dqpaint/")
-                names[code] = f"dqpaint/{file[2]}:{code.co_name}:{code.co_firstlineno}" if file[1] else ""
+                names[code] = (
+                    f"dqpaint/{file[2]}:{code.co_name}:{code.co_firstlineno}" if file[1] else ""
+                )
             here.add(names[code])
 
         begin = time.monotonic()
@@ -277,7 +279,10 @@ def in_a_fork(copy_of: Path, words: list[str], plugins: list[Any], told: Path | 
         os.chdir(copy_of)
         for name in [name for name in sys.modules if name.partition(".")[0] == "tests"]:
             del sys.modules[name]
-        sys.path[:] = [str(copy_of), *(one for one in sys.path if Path(one or ".").resolve() != ROOT)]
+        sys.path[:] = [
+            str(copy_of),
+            *(one for one in sys.path if Path(one or ".").resolve() != ROOT),
+        ]
         sys.dont_write_bytecode = True
         code = 99
         try:
@@ -307,7 +312,9 @@ class Trial:
 
     def __init__(self, root: Path) -> None:
         self.copy = root / "copy"
-        leave = shutil.ignore_patterns(".git", "__pycache__", ".venv", "*.tiff", ".hypothesis", "out")
+        leave = shutil.ignore_patterns(
+            ".git", "__pycache__", ".venv", "*.tiff", ".hypothesis", "out"
+        )
         shutil.copytree(ROOT, self.copy, ignore=leave)
         os.environ.update(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", PYTHONPATH=str(self.copy))
         for library in LIBRARIES:
@@ -329,7 +336,9 @@ class Trial:
         """What finds a mutant: `found`, `time`, or `survived`."""
         tests = self.tests(mutant.subject)
         whole = f"{mutant.file}:{mutant.function}"
-        near = [name for name, (_, called) in tests.items() if not mutant.function or whole in called]
+        near = [
+            name for name, (_, called) in tests.items() if not mutant.function or whole in called
+        ]
         near.sort(key=lambda name: tests[name][0])
         place = self.copy / mutant.file
         text, facts = place.read_text("utf-8"), place.stat()

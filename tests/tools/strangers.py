@@ -4,7 +4,7 @@
     python -m tests.tools.strangers svg TOLD FILE.tgz|FOLDER ...   # a row of JSON a drawing to TOLD
     python -m tests.tools.strangers urdf TOLD FOLDER ...           # the same of arms
     python -m tests.tools.strangers table TOLD                     # times, memory, reasons
-    python -m tests.tools.strangers compare OLD NEW                # what changed between two commits
+    python -m tests.tools.strangers compare OLD NEW                # what changed between commits
     python -m tests.tools.strangers chromium COUNT FILE.tgz|FOLDER ...
 
 TOLD is added to: what stands in it is not read again. The last compares the strokes of COUNT
@@ -135,8 +135,10 @@ def gone_through(told: Path, files: Iterator[tuple[str, Any]], kind: str) -> Non
     import dqpaint.robots.loading.lookup  # noqa: F401  each child has them from here
 
     with tempfile.TemporaryDirectory() as folder, told.open("a") as out:
-        svg_outcome(b"<svg xmlns='http://www.w3.org/2000/svg'><path d='M0 0H9' stroke='red'/></svg>",
-                    Path(folder))  # what is loaded at the first time
+        svg_outcome(
+            b"<svg xmlns='http://www.w3.org/2000/svg'><path d='M0 0H9' stroke='red'/></svg>",
+            Path(folder),
+        )  # what is loaded at the first time
         for name, data in files:
             if name not in known:
                 what = in_a_fork(svg_outcome, data, Path(folder)) if kind == "svg" else in_a_fork(
@@ -163,8 +165,8 @@ def table(told: Path) -> int:
         bad = ends["FAULT"] + ends["DIED"]
         harm += bad
         ms = [row.get("ms", 0.0) for row in found]
-        print(f"| {name} | {len(found):,} | {ends['read']:,} | {len(found) - ends['read'] - bad:,} | "
-              f"{bad} | {statistics.median(ms):.1f}, {max(ms):.0f} | "
+        print(f"| {name} | {len(found):,} | {ends['read']:,} | {len(found) - ends['read'] - bad:,} "
+              f"| {bad} | {statistics.median(ms):.1f}, {max(ms):.0f} | "
               f"{max(row.get('mb', 0.0) for row in found):.0f} |")  # fmt: skip
     print("\n| reason | files |\n|---|---|")
     for why, count in Counter(row["why"] for row in rows if "why" in row).most_common(30):
@@ -313,8 +315,10 @@ def chromium(count: int, places: list[str]) -> int:
             if found["beside a stroke"] > AGREES or found["transform"] > PLACED:
                 different += 1
                 print(f"{name}: {found}")
-    print(f"{len(sample)} drawings, {shapes} shapes, {different} differ; of {further} the browser has "
-          f"places on the stroke, but above {AGREES:g} further along: it measures by chords")
+    print(
+        f"{len(sample)} drawings, {shapes} shapes, {different} differ; of {further} the browser "
+        f"has places on the stroke, but above {AGREES:g} further along: it measures by chords"
+    )
     for what, (value, name) in worst.items():
         print(f"  {what}: at most {value:.2g} ({name})")
     return different + closed_forms(sample)
@@ -367,7 +371,9 @@ def main(words: list[str]) -> int:
         gone_through(Path(rest[0]), iter(every), "svg")
         return table(Path(rest[0])) > 0
     if what == "urdf":
-        files = [(str(path), path) for place in rest[1:] for path in sorted(Path(place).rglob("*.urdf"))]
+        files = [
+            (str(path), path) for place in rest[1:] for path in sorted(Path(place).rglob("*.urdf"))
+        ]
         gone_through(Path(rest[0]), iter(files), "urdf")
         return table(Path(rest[0])) > 0
     if what == "table":

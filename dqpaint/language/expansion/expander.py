@@ -37,7 +37,7 @@ from dqpaint.language.values.values import Quantity, Value
 from dqpaint.language.values.vectors import Frame
 from dqpaint.language.vocabulary.units import PLAIN
 from dqpaint.language.vocabulary.words import MODAL, STATEMENTS, TASKS
-from dqpaint.program import AutoPlacement, Pose, Program, Segment
+from dqpaint.program import AutoPlacement, Pose, Program, Segment, Step
 
 PERIOD = 0.008  # [s]
 # Statements whose first value is not a name that they define.
@@ -75,6 +75,7 @@ class Expander:
         self._run(statements)
         if not self._pen.segments and not self._findings.errors:
             self._findings.add(_nothing())
+        self._check_last()
         return Program(
             self._name,
             self._text,
@@ -88,6 +89,14 @@ class Expander:
             task=self._task,
             dark_saved=self._pen.dark_saved,
         )
+
+    def _check_last(self) -> None:
+        """Warns of a jump at the end, which no arm has time to follow."""
+        segments = self._pen.segments
+        if segments and isinstance(segments[-1].path, Step):
+            message = "the drawing ends with this step, and leaves no time to answer it"
+            help = "write 'hold 1 s' behind it"
+            self._pen.warn("W406", message, segments[-1].span, "", help)
 
     def _rounded(self) -> tuple[Segment, ...]:
         """The strokes with their corners rounded where `blend` or `corner` says so."""

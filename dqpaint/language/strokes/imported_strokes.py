@@ -36,6 +36,7 @@ from dqpaint.program import (
     piecewise,
 )
 
+SMALLEST = 1e-6  # [m] that a text, a path or an SVG is made to fit
 MOST_PIECES = 2_000_000  # lines, curves and arcs, of all statements
 LOOKED_AT = 20_000  # places of a stroke, where a tool that looks is looked at
 
@@ -164,6 +165,9 @@ def _scale(statement: Statement, scope: Scope, size: tuple[float, float]) -> flo
         if node is None:
             continue
         wanted = typed_values.positive(node, scope, word)
+        if wanted < SMALLEST:
+            message = f"'{word}' needs at least {SMALLEST * 1e3:g} mm: no arm draws finer"
+            raise problem("E220", message, node.span, f"this is {wanted * 1e3:.3g} mm")
         if extent > 0.0:
             scales.append(wanted / extent)
         elif not statement.value("height" if word == "width" else "width"):

@@ -395,7 +395,7 @@ gain.k = 20
 twist = "sine,x=0.02,frequency=2"
 """
 SUMMARY = ('{"schema": "dqpaint-run-2", "sha256": "00", "versions": {"dqpaint": "0.2"}, '
-           '"settings": {"width": 64, "height": 36, "controller": "p", "gains": {"k": 20.0}}}')  # fmt: skip
+           '"settings": {"width": 64, "height": 36, "gains": {"k": 20.0}}}')  # fmt: skip
 FRAMES = "".join(
     f"Content-Length: {len(body)}\r\n\r\n{body}"
     for body in ('{"jsonrpc": "2.0", "id": 1, "method": "a", "params": {"text": "x\\r\\n"}}',

@@ -186,9 +186,11 @@ def _changed(node: ast.AST) -> Iterator[ast.AST | str]:
                 less = copy.deepcopy(node)
                 setattr(less, part, None)
                 yield ast.unparse(less)
-    elif isinstance(node, ast.AugAssign) or (
-        isinstance(node, ast.Expr) and isinstance(node.value, ast.Call)
-    ) or isinstance(node, ast.Break | ast.Continue) or (isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Subscript)):  # fmt: skip
+    elif isinstance(node, ast.AugAssign | ast.Break | ast.Continue):
+        yield "pass"
+    elif isinstance(node, ast.Expr) and isinstance(node.value, ast.Call):
+        yield "pass"
+    elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Subscript):
         yield "pass"
     elif isinstance(node, ast.If | ast.While) and not isinstance(node.test, ast.Compare):
         pass  # negated by what is in its test, or below
@@ -203,9 +205,9 @@ def mutants(count: int, seed: int) -> list[Mutant]:
     for subject, (places, _) in SUBJECTS.items():
         files = [
             file.relative_to(ROOT).as_posix()
-            for place in places
-            for file in sorted((ROOT / place).rglob("*.py") if (ROOT / place).is_dir() else [ROOT / place])
-        ]  # fmt: skip
+            for place in map(ROOT.joinpath, places)
+            for file in ([place] if place.is_file() else sorted(place.rglob("*.py")))
+        ]
         found[subject] = [one for file in files for one in Planter(subject, file).found]
     total = sum(map(len, found.values()))
     taken = []

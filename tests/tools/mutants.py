@@ -186,16 +186,18 @@ def _changed(node: ast.AST) -> Iterator[ast.AST | str]:
                 less = copy.deepcopy(node)
                 setattr(less, part, None)
                 yield ast.unparse(less)
-    elif isinstance(node, ast.AugAssign | ast.Break | ast.Continue):
+    elif _is_left_out(node):
         yield "pass"
-    elif isinstance(node, ast.Expr) and isinstance(node.value, ast.Call):
-        yield "pass"
-    elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Subscript):
-        yield "pass"
-    elif isinstance(node, ast.If | ast.While) and not isinstance(node.test, ast.Compare):
-        pass  # negated by what is in its test, or below
     elif isinstance(node, ast.Return) and node.value is not None:
         yield "return None"
+
+
+def _is_left_out(node: ast.AST) -> bool:
+    """Whether a statement is one that is tried without."""
+    if isinstance(node, ast.Assign):
+        return isinstance(node.targets[0], ast.Subscript)
+    call = isinstance(node, ast.Expr) and isinstance(node.value, ast.Call)
+    return call or isinstance(node, ast.AugAssign | ast.Break | ast.Continue)
 
 
 def mutants(count: int, seed: int) -> list[Mutant]:

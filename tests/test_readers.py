@@ -8,8 +8,8 @@ import re
 
 import pytest
 
+from tests.support.changed_bytes import changed
 from tests.support.readers import CORPUS, READERS, Reader, attempt, corpus, finite
-from tests.tools.fuzz import changed
 
 EACH = 25
 BY_LIBRARIES = [name for name in READERS if "libraries" in name]

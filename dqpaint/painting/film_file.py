@@ -198,7 +198,10 @@ def _arrays(data: bytes) -> Arrays:
             size = sum(member.file_size for member in packed.infolist())
         if size <= LARGEST_UNPACKED:
             with np.load(io.BytesIO(data), allow_pickle=False) as file:
-                return dict(file)
+                found = dict(file)
+            if any(isinstance(one, bytes) for one in found.values()):
+                raise ValueError("a member that is no array")
+            return found
     except Exception as problem:  # whatever numpy, zipfile and zlib make of bytes of others
         raise ValueError("no arrays") from problem
     raise OSError(errno.EFBIG, f"unpacked it is larger than {LARGEST_UNPACKED // 10**6} MB")

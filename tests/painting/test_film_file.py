@@ -92,6 +92,7 @@ def test_developing_simulates_nothing_and_is_quick(tmp_path, monkeypatch):
 def broken(tmp_path):
     painting = dqpaint.draw("star", plant="ideal", size=(64, 36))
     whole = film_file.encode(painting.scene, painting.settings)
+    armed = film_file.encode(painting.scene, painting.settings, painting.arm_motion)
     arrays = dict(np.load(io.BytesIO(whole)))
 
     def again(**changed):
@@ -134,12 +135,15 @@ def broken(tmp_path):
     header = io.BytesIO()
     form = {"descr": "<f8", "fortran_order": False, "shape": (10**12, 8)}
     np.lib.format.write_array_header_1_0(header, form)
-    huge = io.BytesIO()
-    with zipfile.ZipFile(io.BytesIO(whole)) as old, zipfile.ZipFile(huge, "w") as new:
-        for name in old.namelist():
-            is_pose = name == "light0-pose.npy"
-            new.writestr(name, header.getvalue() if is_pose else old.read(name))
-    yield "huge header", huge.getvalue()
+    for name, member, instead in (
+        ("huge header", "light0-pose.npy", header.getvalue()), ("no array", "front.npy", b"text"),
+        ("nor in the arm", "arm-line.npy", b"text"), ("nor about", "about.npy", about.encode()),
+    ):  # fmt: skip
+        file = io.BytesIO()
+        with zipfile.ZipFile(io.BytesIO(armed)) as old, zipfile.ZipFile(file, "w") as new:
+            for one in old.namelist():
+                new.writestr(one, instead if one == member else old.read(one))
+        yield name, file.getvalue()
     yield "pickle", again(**{"light0-pose": np.array([{}], dtype=object)})
 
 

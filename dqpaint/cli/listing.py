@@ -22,9 +22,10 @@ def _robots() -> list[dict[str, Any]]:
     return [
         {
             "name": c.name,
-            "about": f"{c.title}, {c.joints} joints"
+            "about": f"{c.title}, {c.joints} joints, motors (plant servo) {c.motors}"
             + (f" (not installed: {c.missing})" if c.missing else ""),
             "missing": c.missing,
+            "motors": c.motors,
             "default": c.name == DEFAULT_ROBOT,
             "source": c.source,
             **({"package": brought[c.name][1]} if c.name in brought else {}),

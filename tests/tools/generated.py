@@ -110,8 +110,8 @@ def robots():
     from dqpaint.robots.model.card import card_names, read_card
 
     cards = [read_card(name) for name in card_names()]
-    rows = [[f"`{c.name}`", c.title, str(c.joints), c.origin] for c in cards]
-    return table(["robot", "", "joints", "from"], rows)
+    rows = [[f"`{c.name}`", c.title, str(c.joints), c.origin, c.motors] for c in cards]
+    return table(["robot", "", "joints", "from", "motors of `servo`"], rows)
 
 
 def stars():

@@ -151,6 +151,11 @@ class Card(Part):
             return f"built from its {rows}"
         return self.urdf.package or self.urdf.file
 
+    @property
+    def motors(self) -> str:
+        """Whether what plant `servo` knows of its motors has a source, in a few words."""
+        return "in part from sources" if self.drives else "assumed"
+
     @model_validator(mode="after")
     def _one_chain_of_one_length(self) -> Self:
         chains = [self.urdf, self.denavit_hartenberg, self.screws]

@@ -9,11 +9,12 @@ from dqpaint.errors import UsageError
 from dqpaint.settings import Settings
 from dqpaint.studies.experiment import cells, comparisons
 from dqpaint.studies.experiment.axes import Axis, combinations, with_choice
-from dqpaint.studies.experiment.cells import Cell, find_figure
+from dqpaint.studies.experiment.cells import Cell, TableFigure, find_figure
 from dqpaint.studies.experiment.comparisons import Chosen
 from dqpaint.studies.kinds.study_request import StudyRequest
 from dqpaint.studies.kinds.study_result import ANY_WIDTH, StudyResult
-from dqpaint.studies.report.page import Block, Rows, Words, files_of
+from dqpaint.studies.report.box_plots import LEAST_BOXED, box_plot
+from dqpaint.studies.report.page import Block, Charts, Pictured, Rows, Words, files_of
 from dqpaint.studies.report.pictures import MOST_TOGETHER, ChartChoice, pictures
 from dqpaint.studies.runner.run import Run
 
@@ -50,6 +51,7 @@ class Comparison(StudyResult):
         """Pictures and tables by the ends of their names, and the same for a page."""
         figure = find_figure(self.figure, self.cells)
         shown = pictures(self.cells, self.folder, self.settings, self.shape)
+        shown |= boxes(self.cells, figure)
         rows = cells.rows(self.cells)
         tests = comparisons.differences(self.cells, figure, self.chosen)
         many = any(len(cell.results) > 1 for cell in self.cells)
@@ -72,6 +74,15 @@ class Comparison(StudyResult):
             "-table.md": tables.page(self.title, *parts),
         }
         return made, [*blocks, *shown.values()]
+
+
+def boxes(found: Sequence[Cell], figure: TableFigure) -> dict[str, Pictured]:
+    """How the tested figure is distributed over the runs that are results, if they are enough."""
+    groups = {cell.label: list(cell.by_seed(figure).values()) for cell in found}
+    if max(map(len, groups.values())) < LEAST_BOXED:
+        return {}
+    title = "How the runs are distributed; those that are no result are left out"
+    return {"-boxes": Charts(title, [box_plot(figure.heading, figure.heading, groups)])}
 
 
 def compare(

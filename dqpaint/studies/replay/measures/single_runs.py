@@ -10,6 +10,7 @@ from dqpaint.dq import Floats
 from dqpaint.studies.experiment.statistics import spread, two_sided
 from dqpaint.studies.replay.measure import MEASURES, MeasureRequest, MeasureResult
 from dqpaint.studies.replay.papers import Paper, find_paper_drawing
+from dqpaint.studies.report.box_plots import box_plot
 from dqpaint.studies.report.charts import Line, Panel
 from dqpaint.studies.report.page import Charts
 
@@ -58,7 +59,9 @@ def single_runs(paper: Paper, request: MeasureRequest) -> MeasureResult:
         }
     count = sum(len(values) for rows in runs.values() for values in rows.values())
     ours = f"worked out from {count} printed numbers"
-    return MeasureResult(numbers, ours, shown={"-runs": in_order_of_runs(paper, runs)})
+    return MeasureResult(numbers, ours, shown={
+        "-runs": in_order_of_runs(paper, runs), "-boxes": boxed(paper, runs),
+    })  # fmt: skip
 
 
 def drift(values: Floats) -> tuple[float, float]:
@@ -95,6 +98,20 @@ def in_order_of_runs(paper: Paper, runs: Runs) -> Charts:
     panels += [Panel(f"{section}: distribution", "error by its mean", "share of runs below",
                      lines(section, False)) for section in sections]  # fmt: skip
     return Charts("The single runs, in their order and by their size", panels, shared=True)
+
+
+def boxed(paper: Paper, runs: Runs) -> Charts:
+    """The errors of each law as a box plot, a panel a section."""
+    names = [cell.name.rpartition(", ")[::2] for cell in paper.cells if cell.name != CHANCE]
+    sections = dict.fromkeys(section for _, section in names)
+    panels = [
+        box_plot(f"{section}: error", "error", {
+            law.replace(" in ", " "): runs[section, law]["error_integral"]
+            for law, at in names if at == section
+        })
+        for section in sections
+    ]  # fmt: skip
+    return Charts("The single runs as box plots", panels, shared=True, columns=2)
 
 
 def _shares(values: Sequence[float] | Floats) -> Floats:

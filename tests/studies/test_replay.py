@@ -116,6 +116,23 @@ def test_the_printed_pose_of_the_viper_is_ours():
         assert numbers[name] == pytest.approx(value, abs=5e-5)
 
 
+def test_the_viper_s_path_and_angle_end_at_the_desired_pose(tmp_path):
+    """By the printed numbers: the last of T_d's columns, and twice the arc cosine of q_d's w."""
+    made = setpoint.setpoint(read_paper("pham-setpoint"), MeasureRequest(tmp_path))
+    above, side, *places, angle = made.shown["-path"].panels
+    for law in range(3):
+        ends = [places[axis].lines[law].y[-1] for axis in range(3)]
+        np.testing.assert_allclose(ends, [0.7511, 0.0641, 0.4223], atol=0.02 if law == 2 else 1e-4)
+        assert above.lines[law].x[-1] == ends[0]
+        assert (above.lines[law].y[-1], side.lines[law].y[-1]) == (ends[1], ends[2])
+        begins = [places[axis].lines[law].y[0] for axis in range(3)]
+        np.testing.assert_allclose(begins, [0.3658, 0.1586, 0.7963], atol=2e-4)
+    assert angle.bound == pytest.approx(np.degrees(2 * np.arccos(0.8660)), abs=0.01)
+    assert angle.lines[1].y[-1] == pytest.approx(60.0, abs=1e-3)
+    assert angle.lines[0].y[0] == pytest.approx(np.degrees(2 * np.arccos(0.3530)), abs=0.02)
+    assert made.numbers["pseudo-inverse, k 1"]["path_y_m"].mean == above.lines[1].y.max()
+
+
 def test_settling():
     t = np.arange(0, 5, 0.01)
     assert setpoint.settling(t, np.exp(-2 * t)) == pytest.approx(np.log(50) / 2, abs=0.01)

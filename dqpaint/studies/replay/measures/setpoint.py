@@ -61,7 +61,8 @@ def setpoint(paper: Paper, request: MeasureRequest) -> MeasureResult:
     lost = {name: judge(run).why or limits_text(run)
             for name, run in runs.items() if run.clamps or not judge(run).is_result}  # fmt: skip
     ours = f"{ROBOT}, plant ideal, from the printed angles, {motion.period * 1e3:g} ms"
-    return MeasureResult(numbers, ours, lost, {"-response": response_of(runs, motion)})
+    shown = {"-response": response_of(runs, motion), "-path": path_of(runs, motion)}
+    return MeasureResult(numbers, ours, lost, shown)
 
 
 def pose_numbers(x: Floats, printed: Mapping[str, Spread]) -> dict[str, float]:
@@ -76,7 +77,7 @@ def rotation_angle(x: Floats, y: Floats) -> float:
 
 
 def response(run: Track) -> dict[str, float]:
-    """Times [s] until errors stay within 2 % of the step, and what is left at the end."""
+    """Times [s] until errors stay within 2 % of the step, what is left at the end, the path."""
     errors = np.abs(difference_error(run.pose, run.motion.pose))
     all_eight = settling(run.motion.t, errors.max(axis=1))
     angle = settling(run.motion.t, angles(run))
@@ -85,6 +86,8 @@ def response(run: Track) -> dict[str, float]:
         "turn_settling_s": angle,
         "unevenness": all_eight / angle,
         "left_over": float(errors[-1].max()),
+        "path_y_m": float(run.points[:, 1].max()),
+        "end_angle_deg": float(np.degrees(turns(run.pose)[-1])),
     }
 
 
@@ -94,11 +97,38 @@ def angles(run: Track) -> Floats:
     return np.asarray(2 * np.linalg.norm(turned, axis=1))
 
 
+def turns(pose: Floats) -> Floats:
+    """The angles (N,) [rad] of poses (N, 8) from the base's axes, as Fig. 7b shows them."""
+    return np.asarray(2 * np.arccos(np.clip(np.abs(pose[:, 0]), 0.0, 1.0)))
+
+
 def settling(t: Floats, error: Floats) -> float:
     """The time [s] from which an error (N,) stays within 2 % of its first value; nan if never."""
     outside = np.flatnonzero(error > SETTLED * error[0])
     after = int(outside[-1]) + 1 if len(outside) else 0
     return float(t[after]) if after < len(t) else float("nan")
+
+
+def path_of(runs: dict[str, Track], motion: Motion) -> Charts:
+    """As Figs. 6 and 7: the path from above and from the side, places and angle over time."""
+    drawn = {name: run.points for name, run in runs.items()}
+    sides = [
+        Panel(f"the path, {seen}", "x [m]", f"{axis} [m]",
+              [Line(p[:, 0], p[:, column], name) for name, p in drawn.items()])
+        for seen, axis, column in (("from above", "y", 1), ("from the side", "z", 2))
+    ]  # fmt: skip
+    places = [
+        Panel(f"{axis} of the tool", "time [s]", f"{axis} [m]",
+              [Line(motion.t, p[:, column], name) for name, p in drawn.items()],
+              bound=float(motion.points[-1, column]), limit="desired")
+        for column, axis in enumerate("xyz")
+    ]  # fmt: skip
+    angle = [Line(motion.t, np.degrees(turns(run.pose)), name) for name, run in runs.items()]
+    goal = float(np.degrees(turns(motion.pose)[-1]))
+    last = Panel("angle of the tool from the base", "time [s]", "angle [deg]", angle,
+                 bound=goal, limit="desired")  # fmt: skip
+    title = "The path, and place and angle over time, as Figs. 6 and 7"
+    return Charts(title, [*sides, *places, last], shared=True)
 
 
 def response_of(runs: dict[str, Track], motion: Motion) -> Charts:
@@ -108,9 +138,9 @@ def response_of(runs: dict[str, Track], motion: Motion) -> Charts:
         Line(motion.t, run.pose[:, i], POSE[i].replace("_dual", "'"), [*COLOURS, *MORE][i])
         for i in range(8)
     ]
-    turns = [Line(motion.t, np.degrees(angles(one)), name) for name, one in runs.items()]
+    to_go = [Line(motion.t, np.degrees(angles(one)), name) for name, one in runs.items()]
     panels = [
         Panel(f"the pose, {name}", "time [s]", "w x y z, and w' x' y' z' [m]", eight),
-        Panel("angle to the desired pose", "time [s]", "angle [deg]", turns),
+        Panel("angle to the desired pose", "time [s]", "angle [deg]", to_go),
     ]
     return Charts("The way to the other pose", panels)

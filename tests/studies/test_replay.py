@@ -13,6 +13,7 @@ import pytest
 from scipy.special import ndtr, stdtr
 from scipy.stats import linregress
 
+import dqpaint
 from dqpaint import dq
 from dqpaint.cli import main
 from dqpaint.errors import UnknownNameError, UsageError
@@ -223,6 +224,42 @@ def test_the_timing_of_every_law_is_taken(monkeypatch, tmp_path):
     assert [panel.title for panel in panels] == ["asked for every 8 ms", "asked for every 20 ms"]
     for panel in panels:
         assert all(line.y.sum() == pytest.approx(1.0) for line in panel.lines)
+
+
+def test_a_cell_may_have_a_drawing_of_its_own(tmp_path, monkeypatch):
+    """Six paintings, a picture each: nothing is to be seen of them over each other."""
+    paper = read_paper("thesis-paintings")
+    asked = []
+
+    def run(choices, rows, work):
+        asked.extend(row[0] for row in rows)
+        result = Result("k", "done", "", {"position_error_rms_m": 1e-4})
+        return tuple(Cell(choice, (result,)) for choice in choices)
+
+    t = np.arange(11) * 0.1
+    light = {"light": np.full((90, 160, 3), 0.1), "exposure": np.array(2.0)}
+    arrays = {"t_s": t, "position_error_m": t, "orientation_error_rad": t, **light}
+    monkeypatch.setattr(shown, "read_arrays", lambda folder, key: arrays)
+    monkeypatch.setattr(tracking, "run_cells", run)
+    made = MEASURES["tracking"](paper, MeasureRequest(tmp_path))
+    assert [Path(one.name).stem for one in asked] == [cell.drawing for cell in paper.cells]
+    assert len({one.text for one in asked}) == 6
+    assert list(made.shown) == ["-sheet", "-errors"]
+    assert replay.settings_rows(paper)[1][2].startswith("thesis-painting-square, lqr")
+
+
+@pytest.mark.slow
+def test_the_bottle_s_poses_are_reached_one_after_the_other(tmp_path):
+    """Each at the end of its stay, by the poses of the drawing's own text."""
+    drawn = find_paper_drawing("ozgur-bottle")
+    how = {"controller": "log", "kinematics": "screws", "null": "none", "size": (16, 16)}
+    drawing = dqpaint.draw(drawn, plant="ideal", robot="lwr4", **how)
+    ends = np.flatnonzero(np.diff(drawing.track.motion.points, axis=0).any(axis=1))
+    ends = [*ends[1:], len(drawing.track.points) - 1]
+    canvas = [(100, -30), (120, -60), (120, 60), (120, -60)]
+    for row, (right, up) in zip(ends, canvas, strict=True):
+        place = np.array([0.7, right * 1e-3, 0.4 + up * 1e-3])
+        np.testing.assert_allclose(drawing.track.points[row], place, atol=1e-7)
 
 
 def test_a_page_says_what_each_cell_was_run_with():

@@ -224,7 +224,14 @@ def verdict_rows(replayed: Replay) -> list[list[str]]:
 def settings_rows(paper: Paper) -> list[list[str]]:
     """What is run for each cell, and where its numbers stand; empty if nothing is run."""
     rows = [["cell", "table", "run with"]]
-    rows += [[cell.name, cell.table or "-", _chosen(cell.settings)] for cell in paper.cells]
+    rows += [
+        [
+            cell.name,
+            cell.table or "-",
+            ", ".join(filter(None, [cell.drawing, _chosen(cell.settings)])),
+        ]
+        for cell in paper.cells
+    ]
     return rows if any(cell.settings for cell in paper.cells) else []
 
 

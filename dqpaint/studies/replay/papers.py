@@ -40,6 +40,7 @@ class Cell(_Data):
         elsewhere: numbers that follow from another place of the paper: `equals` holds the published
             ones against them, as it holds ours against the published ones.
         group: cells of different groups cannot but differ: pairs of them show nothing.
+        drawing: of this cell, if it is not the replay's.
     """
 
     name: str
@@ -48,6 +49,7 @@ class Cell(_Data):
     published: dict[str, float | tuple[float, float]] = Field(default_factory=dict)
     elsewhere: dict[str, float] = Field(default_factory=dict)
     group: str = ""
+    drawing: str = ""
 
 
 class Claim(_Data):

@@ -38,6 +38,8 @@ def tracking(paper: Paper, request: MeasureRequest) -> MeasureResult:
     found = carry_out(paper, request, choices, (*KEPT, *(["curves"] if paper.curves else [])))
     beside = beside_published(paper, numbers_of(paper, found))
     shown = pictures(found, request.folder, settings_of(paper, request, {}))
+    if any(cell.drawing for cell in paper.cells):  # nothing is to be seen of them over each other
+        shown.pop("-overlay", None)
     over_time = curves(paper, found, request.folder)
     return measured(paper, request, found, {**beside, **shown, **over_time})
 
@@ -57,15 +59,17 @@ def carry_out(
         request: what a person asked for.
         choices: settings by the names of the cells.
         keep: what is kept of the first run of each.
-        drawing: its name, if it is not the paper's.
+        drawing: its name, if it is not the paper's; that of a cell goes before.
         always: what is kept of every run.
 
     Raises:
         DqpaintError: every run failed.
     """
-    name, text = drawing_text(str(find_paper_drawing(drawing or paper.drawing)))
+    own = {cell.name: cell.drawing for cell in paper.cells}
     rows = []
-    for choice in choices.values():
+    for label, choice in choices.items():
+        drawn = own.get(label) or drawing or paper.drawing
+        name, text = drawing_text(str(find_paper_drawing(drawn)))
         settings = settings_of(paper, request, choice)
         count = (request.runs or 1) if settings.disturb else 1
         row = seeded(Run(name, text, settings, (*always, *keep)), count)

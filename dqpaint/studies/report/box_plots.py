@@ -34,10 +34,12 @@ def box_plot(title: str, y_label: str, groups: Mapping[str, Floats | Sequence[fl
         dots += [(float(at), value) for value in beyond.tolist()]
     lines = []
     if boxes:
-        lines.append(Line(*np.concatenate(boxes).T, SAID, width=1.4))
+        x, y = np.concatenate(boxes).T
+        lines.append(Line(x, y, SAID, width=1.4))
     if dots:
         name = "runs beyond" if boxes else "runs"
-        lines.append(Line(*np.array(dots).T, name, width=0.0))
+        x, y = np.array(dots).T
+        lines.append(Line(x, y, name, width=0.0))
     return Panel(title, "", y_label, lines, ticks=list(groups))
 
 

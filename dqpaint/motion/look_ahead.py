@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from dqpaint.dq import Floats
 from dqpaint.motion.profiles import Progress
 
-HALVINGS = 50
+MOST_TRIES = 60
+SAME_SPEED = 1e-13  # relative
 SOON = 1e-9  # [s]: a phase that begins within it has begun, whatever rounding says
 FASTEST = 8.0  # times the mean speed: the most that is tried to keep a duration
 
@@ -104,55 +105,75 @@ class Phases:
         return Progress(value, np.maximum(speed + bend * since, 0.0) / length, bend / length)
 
 
-def fastest(stretches: Stretches, speed: Floats) -> Phases:
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """The fastest motion over stretches (K): squares of speeds, of which each has three phases."""
+
+    stretches: Stretches
+    begin: Floats
+    end: Floats
+    top: Floats
+
+    @property
+    def times(self) -> tuple[Floats, Floats, Floats]:
+        """How long it gains speed, keeps it, and brakes, on each stretch (K,) [s]."""
+        peak, gain = np.sqrt(self.top), self.stretches.acceleration
+        level = self.ways[1] / peak
+        return (peak - np.sqrt(self.begin)) / gain, level, (peak - np.sqrt(self.end)) / gain
+
+    @property
+    def ways(self) -> tuple[Floats, Floats, Floats]:
+        """How far meanwhile (K,) [m]."""
+        gain = 2.0 * self.stretches.acceleration
+        up, down = (self.top - self.begin) / gain, (self.top - self.end) / gain
+        return up, np.maximum(self.stretches.size - up - down, 0.0), down
+
+    @property
+    def seconds(self) -> Floats:
+        """The time of each stroke (P,)."""
+        return np.asarray(np.add.reduceat(sum(self.times), self.stretches.first))
+
+
+def _run(stretches: Stretches, speed: Floats) -> _Run:
     """The fastest motion at no more than the cruise speeds (P,) [m/s]."""
-    stroke = stretches.stroke
-    most = np.minimum(stretches.most, speed[stroke] ** 2)
-    gain, size = 2.0 * stretches.acceleration, stretches.size
+    most = np.minimum(stretches.most, (speed**2)[stretches.stroke])
+    rise = 2.0 * stretches.acceleration * stretches.size
     at_node = np.append(np.minimum(stretches.gate, most), 0.0)
     at_node[1:-1] = np.minimum(at_node[1:-1], most[:-1])
     at_node[stretches.first] = 0.0
-    climb = np.concatenate([[0.0], np.cumsum(gain * size)])
+    climb = np.concatenate([[0.0], np.cumsum(rise)])
     forth = climb + np.minimum.accumulate(at_node - climb)
     back = np.minimum.accumulate((at_node + climb)[::-1])[::-1] - climb
     x = np.where(at_node > 0.0, np.clip(np.minimum(forth, back), 0.0, at_node), 0.0)
     begin, end = x[:-1], x[1:]
-    top = np.minimum(most, 0.5 * (begin + end + gain * size))
-    top = np.maximum(top, np.maximum(begin, end))
-    v, w, peak = np.sqrt(begin), np.sqrt(end), np.sqrt(top)
-    up, down = (top - begin) / gain, (top - end) / gain
-    level = np.maximum(size - up - down, 0.0)
-    zero = np.zeros_like(size)
-    ways = np.stack([up, level, down], axis=1).ravel()
-    times = np.stack(
-        [(peak - v) / stretches.acceleration, level / peak, (peak - w) / stretches.acceleration],
-        axis=1,
-    ).ravel()
-    speeds = np.stack([v, peak, peak], axis=1).ravel()
-    bends = np.stack([stretches.acceleration, zero, -stretches.acceleration], axis=1).ravel()
-    return _phases(3 * stretches.first, ways, times, speeds, bends, stretches.lengths)
+    top = np.minimum(most, 0.5 * (begin + end + rise))
+    return _Run(stretches, begin, end, np.maximum(top, np.maximum(begin, end)))
 
 
-def _phases(
-    first: Indices, ways: Floats, times: Floats, speeds: Floats, bends: Floats, lengths: Floats
-) -> Phases:
-    """Phases from their ways [m] and times [s] (Q,); those that take no time are left out."""
-    stroke = np.repeat(np.arange(len(first)), np.diff(first, append=len(times)))
-    seconds = np.add.reduceat(times, first)
-    time, place = (_since_start(values, first, stroke) for values in (times, ways))
-    real = times > 0.0
-    count = np.add.reduceat(real.astype(np.intp), first)
-    begins = np.cumsum(count) - count
+def fastest(stretches: Stretches, speed: Floats) -> Phases:
+    """The fastest motion at no more than the cruise speeds (P,) [m/s]."""
+    run = _run(stretches, speed)
+    peak, gain = np.sqrt(run.top), stretches.acceleration
+    real = np.stack(run.times, axis=1) > 0.0  # the other phases are left out
+    count = np.add.reduceat(real.sum(axis=1), stretches.first)
+    first = np.cumsum(count) - count
+    time, way = (np.stack(getattr(run, name), axis=1)[real] for name in ("times", "ways"))
     return Phases(
-        *(begins, begins + count - 1, time[real], place[real], speeds[real], bends[real]),
-        *(seconds, lengths),
+        first,
+        first + count - 1,
+        _since_start(time, first, count),
+        _since_start(way, first, count),
+        np.stack([np.sqrt(run.begin), peak, peak], axis=1)[real],
+        np.stack([gain, np.zeros_like(gain), -gain], axis=1)[real],
+        np.add.reduceat(time, first),
+        stretches.lengths,
     )
 
 
-def _since_start(values: Floats, first: Indices, stroke: Indices) -> Floats:
+def _since_start(values: Floats, first: Indices, count: Indices) -> Floats:
     """The sums of values (Q,) before each, since the start of its stroke."""
     before = np.cumsum(values) - values
-    return np.asarray(before - before[first][stroke])
+    return np.asarray(before - np.repeat(before[first], count))
 
 
 def speeds_for(stretches: Stretches, seconds: Floats) -> Floats:
@@ -160,10 +181,22 @@ def speeds_for(stretches: Stretches, seconds: Floats) -> Floats:
 
     Longer where the acceleration allows no less.
     """
-    mean = np.log(stretches.lengths / seconds)
-    low, high = mean, mean + np.log(FASTEST)
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        slow = fastest(stretches, np.exp(middle)).seconds > seconds
-        low, high = np.where(slow, middle, low), np.where(slow, high, middle)
+    low = np.log(stretches.lengths / seconds)
+    high = low + np.log(FASTEST)
+    slow, quick = (_lateness(stretches, speed, seconds) for speed in (low, high))
+    for _ in range(MOST_TRIES):
+        wide = (quick < 0.0) & (slow > 0.0) & (high - low > SAME_SPEED)
+        if not wide.any():
+            break
+        middle = np.where(wide, low + (high - low) * slow / np.where(wide, slow - quick, 1.0), high)
+        late = _lateness(stretches, middle, seconds)
+        # the false position, with the value of an end halved that stays (Illinois)
+        low, high, slow, quick = np.where(
+            late > 0.0, (middle, high, late, 0.5 * quick), (low, middle, 0.5 * slow, late)
+        )
     return np.asarray(np.exp(high))
+
+
+def _lateness(stretches: Stretches, log_speed: Floats, seconds: Floats) -> Floats:
+    """By what strokes (P,) with these cruise speeds take longer, as a logarithm."""
+    return np.asarray(np.log(_run(stretches, np.exp(log_speed)).seconds / seconds))

@@ -270,10 +270,9 @@ def _with_look_ahead(table: Schedule, wrong: Faults) -> Schedule:
     timed = np.flatnonzero(speed == 0.0)
     speed[timed] = FASTEST * table.length[strokes[timed]] / wanted[strokes[timed]]
     acceleration = np.array([one.profile.acceleration for one in firsts])
-    faults: Faults = {}
     stretches = stretches_of(
         *(table.shapes, numbers, begins, table.by_length),
-        *(acceleration, speed, table.program.period, faults),
+        *(acceleration, speed, table.program.period),
     )
     if len(timed):
         speed[timed] = speeds_for(stretches.select(timed), wanted[strokes[timed]])

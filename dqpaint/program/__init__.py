@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from dqpaint.program import colours, piece_corners, piecewise, taylor
     from dqpaint.program.piecewise import (
-        NODES, WEIGHTS, Indices, concatenate, derivatives, is_nonuniform, speeds, stretch_lengths,
+        NODES, WEIGHTS, Indices, concatenate, derivatives, is_nonuniform, parameters_at,
+        stretch_lengths,
     )
     from dqpaint.program.program import (
         IDENTITY, LOOK_MODES, STANDING, Arc, AutoPlacement, Brush, BrushValue, Colour,
@@ -27,7 +28,7 @@ __all__ = [
     "LookLine", "Path", "PiecewiseCurve", "Pose", "Profile", "Program", "Quaternion", "Samples",
     "Screw", "ScrewTo", "Segment", "SlerpOrientation", "Step", "Straight", "Strobe", "Taylor",
     "Timing", "Tool", "Value", "Vector", "colours", "concatenate", "derivatives", "is_nonuniform",
-    "piece_corners", "piecewise", "speeds", "stretch_lengths", "taylor",
+    "parameters_at", "piece_corners", "piecewise", "stretch_lengths", "taylor",
 ]
 
 _MODULES = ("program", "piecewise", "piece_corners", "taylor")

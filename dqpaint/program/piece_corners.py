@@ -13,8 +13,10 @@ from numpy.typing import NDArray
 
 from dqpaint.program.piecewise import (
     Indices,
+    batches,
     derivatives,
     is_nonuniform,
+    parameters_at,
     stretch_lengths,
 )
 from dqpaint.program.program import PiecewiseCurve
@@ -27,6 +29,8 @@ BESIDE = 1e-4  # where its direction is taken instead
 GONE = 1e-9  # of its length: what is left of a piece that is not kept
 CLOSER, TRIES = 0.9, 8  # of a corner between bent pieces that is too far from the curve
 LOOKS = np.linspace(0.0, 1.0, 33)
+
+_Sides = tuple[Indices, Floats]  # the piece (K,) and its parameter (K,)
 
 
 @dataclass(frozen=True)
@@ -63,24 +67,45 @@ def rounded(
     corners = _find(whole, starts, size, ends, deviation, distance)
     if not len(corners.piece):
         return whole, starts
-    cut = corners.reach
-    tip = derivatives(whole, corners.piece, np.zeros(len(cut)))[0]
-    for _ in range(TRIES):
-        left = _piece_at(whole, bent, size, ends, corners.piece, -cut)
-        right = _piece_at(whole, bent, size, ends, corners.piece, cut)
-        straight = (left[0] == corners.piece - 1) & (right[0] == corners.piece)
-        straight &= ~bent[left[0]] & ~bent[right[0]] & ~_round(whole, left[0], right[0])
-        curves = _curves(whole, left, right, straight)
-        (loose,) = np.nonzero(~straight)  # between straight lines the distance is exact
-        if distance or not len(loose):
+    tip = derivatives(whole, corners.piece, np.zeros(len(corners.piece)))[0]
+    left, right, curves, straight = _cut(whole, bent, size, ends, corners.piece, corners.reach)
+    loose = np.flatnonzero(~straight)  # between straight lines the distance is exact
+    for _ in range(0 if distance else TRIES):
+        loose = loose[_distances(curves, loose, tip[loose]) > deviation * (1.0 + 1e-6)]
+        if not len(loose):
             break
-        at = derivatives(curves, np.repeat(loose, len(LOOKS)), np.tile(LOOKS, len(loose)))[0]
-        way = at.reshape(len(loose), -1, 3) - tip[loose, None]
-        far = loose[np.linalg.norm(way, axis=2).min(axis=1) > deviation * (1.0 + 1e-6)]
-        if not len(far):
-            break
-        cut[far] *= CLOSER
+        corners.reach[loose] *= CLOSER
+        closer = _cut(whole, bent, size, ends, corners.piece[loose], corners.reach[loose])
+        for old, new in zip((*left, *right), (*closer[0], *closer[1]), strict=True):
+            old[loose] = new
+        for name in ("cubic", "ellipse", "angles"):
+            getattr(curves, name)[loose] = getattr(closer[2], name)
     return _assembled(whole, starts, size, corners.piece, left, right, curves)
+
+
+def _cut(
+    whole: PiecewiseCurve,
+    bent: NDArray[np.bool_],
+    size: Floats,
+    ends: Floats,
+    corner: Indices,
+    reach: Floats,
+) -> tuple[_Sides, _Sides, PiecewiseCurve, NDArray[np.bool_]]:
+    """Where the curves of corners begin and end, the curves, and which are between lines."""
+    left = _piece_at(whole, bent, size, ends, corner, -reach)
+    right = _piece_at(whole, bent, size, ends, corner, reach)
+    straight = (left[0] == corner - 1) & (right[0] == corner)
+    straight &= ~bent[left[0]] & ~bent[right[0]] & ~_round(whole, left[0], right[0])
+    return left, right, _curves(whole, left, right, straight), straight
+
+
+def _distances(curves: PiecewiseCurve, some: Indices, tip: Floats) -> Floats:
+    """The least distances of some Bezier curves (K,) from points (K, 3)."""
+    out = np.empty(len(some))
+    for own in batches(len(some)):
+        way = LOOKS[:, None] ** np.arange(4) @ curves.cubic[some[own]] - tip[own, None]
+        out[own] = np.linalg.norm(way, axis=2).min(axis=1)
+    return out
 
 
 def _find(
@@ -95,7 +120,7 @@ def _find(
     out, into = _tangents(whole, size, 1.0), _tangents(whole, size, 0.0)
     inner = np.delete(np.arange(len(size)), starts)
     a, b = out[inner - 1], into[inner]
-    turn = np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), (a * b).sum(1))
+    turn = _angles(a, b)
     sharp = turn > NO_CORNER
     breaks = np.union1d(starts, inner[sharp])
     before = ends - size
@@ -111,12 +136,19 @@ def _find(
 def _tangents(whole: PiecewiseCurve, size: Floats, g: float) -> Floats:
     """The directions (M, 3) at one end of each piece, or beside it where a piece is at rest."""
     every = np.arange(len(size))
-    way = derivatives(whole, every, np.full(len(size), g))[1]
+    way = np.empty((len(size), 3))
+    for own in batches(len(size)):
+        way[own] = derivatives(whole, every[own], np.full(len(every[own]), g))[1]
     rest = np.flatnonzero(np.linalg.norm(way, axis=1) <= REST * size)
     if len(rest):
         way[rest] = derivatives(whole, rest, np.full(len(rest), abs(g - BESIDE)))[1]
     norm = np.linalg.norm(way, axis=1, keepdims=True)
     return np.asarray(way / np.where(norm > 0.0, norm, 1.0))
+
+
+def _angles(a: Floats, b: Floats) -> Floats:
+    """The angles (K,) between directions (K, 3)."""
+    return np.asarray(np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), (a * b).sum(1)))
 
 
 def _piece_at(
@@ -135,16 +167,8 @@ def _piece_at(
     else:
         piece = np.maximum(np.searchsorted(begins, at, side="right") - 1, corner)
     wanted = np.clip(at - begins[piece], 0.0, size[piece])
-    g = wanted / size[piece]
-    lower, upper = np.zeros(len(g)), np.ones(len(g))
-    hard = np.flatnonzero(bent[piece])
-    for _ in range(60 if len(hard) else 0):
-        so_far = stretch_lengths(whole, bent, piece[hard], np.zeros(len(hard)), g[hard])
-        beyond = so_far > wanted[hard]
-        upper[hard] = np.where(beyond, g[hard], upper[hard])
-        lower[hard] = np.where(beyond, lower[hard], g[hard])
-        g[hard] = 0.5 * (lower[hard] + upper[hard])
-    return piece, g
+    bounds = np.zeros(len(piece)), np.ones(len(piece))
+    return piece, parameters_at(whole, bent, piece, bounds, wanted / size[piece], wanted)
 
 
 def _round(whole: PiecewiseCurve, *pieces: Indices) -> NDArray[np.bool_]:
@@ -161,7 +185,7 @@ def _curves(
     """The curve round each corner (K), from a place before it to one after it."""
     (start, out), (end, into) = (derivatives(whole, *side)[:2] for side in (left, right))
     out, into = (v / np.linalg.norm(v, axis=1, keepdims=True) for v in (out, into))
-    turn = np.arctan2(np.linalg.norm(np.cross(out, into), axis=1), (out * into).sum(1))[:, None]
+    turn = _angles(out, into)[:, None]
     chord = np.linalg.norm(end - start, axis=1)[:, None]
     handle = chord / np.cos(0.25 * turn) ** 2
     cubic = np.zeros((len(start), 4, 3))
@@ -196,21 +220,24 @@ def _assembled(
         np.add.at(gone, begin, 1)
         np.add.at(gone, end, -1)
     kept = np.flatnonzero((np.cumsum(gone[:-1]) == 0) & (upper - lower > GONE))
-    g, width = lower[kept, None], (upper - lower)[kept, None]
-    c0, c1, c2, c3 = whole.cubic[kept].transpose(1, 0, 2)
-    cubic = np.stack([
-        c0 + g * (c1 + g * (c2 + g * c3)),
-        width * (c1 + g * (2.0 * c2 + 3.0 * g * c3)),
-        width**2 * (c2 + 3.0 * g * c3),
-        width**3 * c3,
-    ], axis=1)  # fmt: skip
-    start, turn = whole.angles[kept].T
-    angles = np.stack([start + g[:, 0] * turn, width[:, 0] * turn], axis=1)
     order = np.argsort(np.concatenate([kept, corner - 0.5]), kind="stable")
     curve_of = np.searchsorted(starts, np.concatenate([kept, corner - 1]), side="right")[order]
-    made = PiecewiseCurve(
-        np.concatenate([cubic, curves.cubic])[order],
-        np.concatenate([whole.ellipse[kept], curves.ellipse])[order],
-        np.concatenate([angles, curves.angles])[order],
-    )
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    of_kept, of_curves = place[: len(kept)], place[len(kept) :]
+    count = len(order)
+    made = PiecewiseCurve(np.empty((count, 4, 3)), np.empty((count, 2, 3)), np.empty((count, 2)))
+    for own in batches(len(kept)):
+        some, to = kept[own], of_kept[own]
+        g, width = lower[some, None], (upper - lower)[some, None]
+        c0, c1, c2, c3 = whole.cubic[some].transpose(1, 0, 2)
+        made.cubic[to, 0] = c0 + g * (c1 + g * (c2 + g * c3))
+        made.cubic[to, 1] = width * (c1 + g * (2.0 * c2 + 3.0 * g * c3))
+        made.cubic[to, 2] = width**2 * (c2 + 3.0 * g * c3)
+        made.cubic[to, 3] = width**3 * c3
+        start, turn = whole.angles[some].T
+        made.angles[to, 0], made.angles[to, 1] = start + g[:, 0] * turn, width[:, 0] * turn
+        made.ellipse[to] = whole.ellipse[some]
+    for name in ("cubic", "ellipse", "angles"):
+        getattr(made, name)[of_curves] = getattr(curves, name)
     return made, np.searchsorted(curve_of, np.arange(1, len(starts) + 1))

@@ -20,6 +20,11 @@ CORNER_ANGLE = np.radians(60.0)  # a smooth curve has a corner where it turns by
 Indices = NDArray[np.intp]
 
 
+def batches(count: int) -> Iterator[slice]:
+    """So many rows in batches, for the sake of memory."""
+    yield from (slice(begin, begin + BATCH) for begin in range(0, count, BATCH))
+
+
 def derivatives(curve: PiecewiseCurve, piece: Indices, g: Floats) -> Floats:
     """Positions (4, N, 3) and derivatives over g of pieces (N,) at their parameters (N,)."""
     c0, c1, c2, c3 = curve.cubic[piece].transpose(1, 0, 2)
@@ -330,6 +335,36 @@ def stretch_lengths(
             speed = speeds(curve, piece[some], at)
             out[some] = size[:, 0] * (speed @ (0.5 * WEIGHTS) if hard else speed[:, 0])
     return out
+
+
+def parameters_at(
+    curve: PiecewiseCurve,
+    uneven: NDArray[np.bool_],
+    piece: Indices,
+    bounds: tuple[Floats, Floats],
+    g: Floats,
+    wanted: Floats,
+) -> Floats:
+    """The parameters (N,) of pieces (N,) at lengths (N,) behind the lower of two bounds (N,).
+
+    By Newton's method from an estimate `g`, which is right already where a piece is not uneven.
+    """
+    start, (lower, upper) = bounds[0], (bound.copy() for bound in bounds)
+    g, left = g.copy(), np.flatnonzero(uneven[piece])
+    for _ in range(60):
+        if not len(left):
+            break
+        now, of = g[left], piece[left]
+        excess = stretch_lengths(curve, uneven, of, start[left], now) - wanted[left]
+        upper[left] = np.where(excess > 0.0, now, upper[left])
+        lower[left] = np.where(excess > 0.0, lower[left], now)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            new = now - excess / speeds(curve, of, now[:, None])[:, 0]
+        safe = (new >= lower[left]) & (new <= upper[left])
+        new = np.where(safe, new, 0.5 * (lower[left] + upper[left]))
+        g[left] = new
+        left = left[np.abs(new - now) > 1e-12]  # the next step would be its square
+    return g
 
 
 def bounding_box(curves: Sequence[PiecewiseCurve]) -> tuple[Floats, Floats]:

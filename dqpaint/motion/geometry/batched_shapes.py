@@ -31,8 +31,8 @@ from dqpaint.motion.geometry.paths import (
     paths_of,
     straight_positions,
 )
-from dqpaint.motion.geometry.piecewise_paths import piecewise_positions
-from dqpaint.motion.geometry.shapes import Flow, Jump, PositionAndOrientation, Rigid, Shape
+from dqpaint.motion.geometry.piecewise_paths import Pieces, piecewise_positions
+from dqpaint.motion.geometry.shapes import Bends, Flow, Jump, PositionAndOrientation, Rigid, Shape
 from dqpaint.motion.stroke_errors import Faults, StrokeError, pole, stroke_errors
 from dqpaint.program import (
     Arc,
@@ -113,17 +113,45 @@ class Shapes:
                 pose[rows], twist[rows], slope[rows] = flow.pose, flow.twist, flow.slope
         return Flow(pose, twist, slope)
 
+    def pieces(self, family: int) -> Pieces | None:
+        """The positions of a family of piecewise curves."""
+        form = self.families[family]
+        places = form.positions if isinstance(form, PositionAndOrientation) else None
+        return places if isinstance(places, Pieces) else None
+
+    def bends(self, number: Indices, piece: Indices, g: Floats, by_length: Flags) -> Bends:
+        """The bends of segments (N,); they are not finite where something is wrong.
+
+        Piecewise curves are looked at by the parameters g (N,) of their pieces (N,), which needs
+        no way back from a length; any other segment at fractions of its length.
+        """
+        out = Bends(*(np.empty((len(g), 3)) for _ in Bends._fields))
+        for family, rows in group_equal(self.family[number]):
+            some, form = number[rows], self.families[family]
+            if self.pieces(family):
+                assert isinstance(form, PositionAndOrientation)
+                try:
+                    with stroke_errors(self.segments[some[0]]):
+                        found = form.select(self.member[some]).bends(piece[rows], g[rows])
+                except StrokeError:
+                    found = Bends(*[np.full(3, np.nan)] * len(out))
+            else:
+                found = self.flow(some, g[rows], by_length, {}).bends(self.length[some])
+            for values, own in zip(out, found, strict=True):
+                values[rows] = own
+        return out
+
     def points(self, number: Indices, f: Floats) -> Floats:
         """The positions (N, 3) [m] on segments with uniform speed."""
         out = np.empty((len(f), 3))
-        for family, rows in _group_equal(self.family[number]):
+        for family, rows in group_equal(self.family[number]):
             out[rows] = self.families[family].select(self.member[number[rows]]).points(f[rows])
         return out
 
     def may_leave_box(self, number: Indices, least: Floats, most: Floats) -> Flags:
         """Whether segments (N,) may leave a box that contains their ends."""
         out = np.ones(len(number), dtype=bool)
-        for family, rows in _group_equal(self.family[number]):
+        for family, rows in group_equal(self.family[number]):
             form = self.families[family]
             if form.straight:
                 out[rows] = False
@@ -134,12 +162,12 @@ class Shapes:
 
     def _groups(self, number: Indices, by_length: Flags) -> Iterator[tuple[Rows, int, bool]]:
         """Rows that are computed together, the first of their segments, and whether by length."""
-        for family, rows in _group_equal(self.family[number]):
+        for family, rows in group_equal(self.family[number]):
             some = number[rows]
             if self.families[family].uniform or not by_length[some].any():
                 yield rows, int(some[0]), False
                 continue
-            for of, part in _group_equal(np.where(by_length[some], some, -1)):
+            for of, part in group_equal(np.where(by_length[some], some, -1)):
                 inner = np.arange(len(number))[rows][part]
                 yield inner, int(number[inner][0]), bool(of >= 0)
 
@@ -301,7 +329,7 @@ def _screws(lines: Sequence[tuple[Vector, Vector, float, float]]) -> Floats:
     )
 
 
-def _group_equal(values: Indices) -> Iterator[tuple[int, Rows]]:
+def group_equal(values: Indices) -> Iterator[tuple[int, Rows]]:
     """Each distinct value and its rows, in order."""
     if not len(values):
         return

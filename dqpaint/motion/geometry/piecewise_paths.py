@@ -21,7 +21,7 @@ from dqpaint.program import (
     concatenate,
     derivatives,
     is_nonuniform,
-    speeds,
+    parameters_at,
     stretch_lengths,
 )
 
@@ -61,17 +61,25 @@ class Pieces:
         """The same pieces with other rows."""
         return replace(self, curve=np.asarray(self.curve[rows]))
 
-    def cuts(self) -> Floats:
-        """The fractions of the length of its one curve at which panels begin, or halves, and 1.
+    @property
+    def lengths(self) -> Floats:
+        """The length of each row (N,) [m]."""
+        return self.panels.total[self.curve]
 
-        Between two of them it is smooth, and a cusp has ever shorter ones round it.
-        """
-        panels, curve = self.panels, int(self.curve)
-        own = slice(int(panels.first[curve]), int(panels.last[curve]) + 1)
-        begin, bent = panels.begin[own], panels.bent[panels.piece[own]]
-        halves = 0.5 * (begin + panels.end[own])[bent]
-        cuts = np.sort(np.concatenate([begin, halves, panels.total[curve, None]]))
-        return np.asarray(cuts / panels.total[curve])
+    def panels_of_rows(self) -> tuple[Indices, Indices]:
+        """The rows (Q,) of its panels in order, and which panels they are (Q,)."""
+        first, last = self.panels.first[self.curve], self.panels.last[self.curve]
+        count = last - first + 1
+        row = np.repeat(np.arange(len(count)), count)
+        return row, np.arange(len(row)) + (first - np.cumsum(count) + count)[row]
+
+    def by_length(self, piece: Indices, g: Floats) -> Floats:
+        """Positions (4, N, 3) and derivatives over the length [m] of pieces (N,) at g (N,)."""
+        return _by_length(self.path, piece, g, self.panels.mean_speed[piece])
+
+    def lengths_between(self, piece: Indices, lower: Floats, upper: Floats) -> Floats:
+        """The lengths (N,) [m] of pieces (N,) between two parameters (N,)."""
+        return stretch_lengths(self.path, self.panels.bent, piece, lower, upper)
 
     def largest_parameter(self) -> Floats:
         """Infinite: its values have no bound."""
@@ -93,7 +101,7 @@ class Pieces:
         distance = f * total
         inside = np.clip(distance, 0.0, total)
         piece, g = _parameter(self.path, panels, curve, inside)
-        out = _by_length(self.path, piece, g, panels.mean_speed[piece])
+        out = self.by_length(piece, g)
         beyond = distance - inside
         out[0] += beyond[:, None] * out[1]
         out[2:, beyond != 0] = 0.0
@@ -213,23 +221,8 @@ def _parameter(
     At a joint it is the piece that begins there.
     """
     panel = panels.at(curve, distance)
-    piece, start = panels.piece[panel], panels.lower[panel]
-    lower, upper = start.copy(), panels.upper[panel]
+    piece, lower, upper = panels.piece[panel], panels.lower[panel], panels.upper[panel]
     wanted = distance - panels.begin[panel]
     size = panels.end[panel] - panels.begin[panel]
     g = np.clip(lower + (upper - lower) * wanted / size, lower, upper)
-    bent = np.flatnonzero(panels.bent[piece])
-    for _ in range(60):
-        if not len(bent):
-            break
-        now, of = g[bent], piece[bent]
-        excess = stretch_lengths(path, panels.bent, of, start[bent], now) - wanted[bent]
-        upper[bent] = np.where(excess > 0.0, now, upper[bent])
-        lower[bent] = np.where(excess > 0.0, lower[bent], now)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            new = now - excess / speeds(path, of, now[:, None])[:, 0]
-        safe = (new >= lower[bent]) & (new <= upper[bent])
-        new = np.where(safe, new, 0.5 * (lower[bent] + upper[bent]))
-        g[bent] = new
-        bent = bent[np.abs(new - now) > 1e-12]  # the next step would be its square
-    return piece, g
+    return piece, parameters_at(path, panels.bent, piece, (lower, upper), g, wanted)

@@ -6,7 +6,7 @@ something else meanwhile, place and orientation are two functions of the same pa
 """
 
 from dataclasses import dataclass
-from typing import ClassVar, Protocol, Self
+from typing import ClassVar, NamedTuple, Protocol, Self
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.motion.geometry.orientations import Spin, Turning
 from dqpaint.motion.geometry.paths import BatchedParameters, Indices, Lines, Positions
+from dqpaint.motion.geometry.piecewise_paths import Pieces
 from dqpaint.program import Pose
 
 
@@ -29,6 +30,30 @@ class Flow:
         """The same poses over a new parameter, from its first and second derivatives (N,)."""
         twist = self.twist * rate[:, None]
         return Flow(self.pose, twist, self.slope * rate[:, None] ** 2 + self.twist * slope[:, None])
+
+    def bends(self, length: Floats) -> "Bends":
+        """The same of paths with lengths (N,) [m] that are run through evenly."""
+        point, length = dq.translation(self.pose), length[:, None]
+        tangent = dq.point_velocity(self.twist, point) / length
+        bend = dq.point_acceleration(self.twist, self.slope, point) / length**2
+        tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
+        bend -= (bend * tangent).sum(1, keepdims=True) * tangent
+        return Bends(
+            point, tangent, bend, self.twist[:, :3] / length, self.slope[:, :3] / length**2
+        )
+
+
+class Bends(NamedTuple):
+    """At places on a path: point (N, 3) [m], and by the length [m] how path and tool turn.
+
+    That is the tangent, the curvature across it [1/m], the turning [rad/m] and its derivative.
+    """
+
+    point: Floats
+    tangent: Floats
+    curvature: Floats
+    turn: Floats
+    turn_slope: Floats
 
 
 class Shape(Protocol):
@@ -174,6 +199,17 @@ class PositionAndOrientation:
         twist = dq.twist_from_point(w, p[1], p[0])
         slope = dq.acceleration_from_point(w, w_slope, p[1], p[2], p[0])
         return Flow(dq.pose_from(p[0], r), twist, slope)
+
+    def bends(self, piece: Indices, g: Floats) -> Bends:
+        """Of pieces (N,) of piecewise curves at their parameters (N,); each row is a curve."""
+        assert isinstance(self.positions, Pieces)
+        p = self.positions.by_length(piece, g)
+        if isinstance(self.orientations, Turning):
+            turn = self.orientations.turn / self.positions.lengths[:, None]
+            slope = np.zeros_like(turn)
+        else:
+            _, turn, slope = self.orientations(g, p)
+        return Bends(p[0], p[1], p[2], turn, slope)
 
     def speed(self, f: Floats) -> Floats:
         """The speed of the point only, which is faster to compute."""

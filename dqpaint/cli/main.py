@@ -2,15 +2,14 @@
 
 import os
 import sys
-import tempfile
 import warnings
 from typing import NoReturn
 
+from dqpaint.clean_stream import cleaned
 from dqpaint.cli.front import streams
 from dqpaint.cli.front.colours import show
 from dqpaint.cli.language import point_at, tell
 from dqpaint.cli.studies import app
-from dqpaint.core.inputs import cleaned
 from dqpaint.errors import DqpaintError, UsageError
 
 DEBUG = "DQPAINT_DEBUG"  # an environment variable: internal errors show where they are
@@ -82,6 +81,8 @@ def _of_the_machine(fault: Exception) -> str:
         return ""
     if isinstance(fault.filename, str):
         return f"error: '{fault.filename}' cannot be read or written: {fault.strerror}; {SHOWS}"
+    import tempfile
+
     return (
         f"error: a file cannot be read or written: {fault.strerror}; temporary files are made in "
         f"'{tempfile.tempdir}', and TMPDIR names another folder; {SHOWS}"

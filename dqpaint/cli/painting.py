@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from dqpaint import __version__
+from dqpaint.clean_stream import send_raw
 from dqpaint.cli import export, language, plotting
 from dqpaint.cli.front import completion, doctor
 from dqpaint.cli.front.colours import findings, labels, show
@@ -30,7 +31,6 @@ from dqpaint.cli.front.streams import (
 )
 from dqpaint.cli.language import point_at
 from dqpaint.cli.options import FILES, Choices, Drawing, Out, Save, takes
-from dqpaint.core.inputs import send_raw
 from dqpaint.errors import UsageError
 
 if TYPE_CHECKING:

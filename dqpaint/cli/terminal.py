@@ -9,10 +9,10 @@ from typing import Self, TextIO
 import numpy as np
 from numpy.typing import NDArray
 
+from dqpaint.clean_stream import printable, send_raw
 from dqpaint.cli.front.colours import takes_colour
 from dqpaint.cli.front.streams import is_quiet
 from dqpaint.core import tables
-from dqpaint.core.inputs import printable, send_raw
 
 BAR = 30  # characters of the progress bar
 WIDEST = 72  # columns of a picture

@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import NoReturn
 
+from dqpaint.clean_stream import send_raw
 from dqpaint.cli.language import tell
-from dqpaint.core.inputs import send_raw
 from dqpaint.errors import DqpaintError
 from dqpaint.language.imports import files_of
 

@@ -12,7 +12,7 @@ import textwrap
 from collections.abc import Callable, Iterator
 from typing import TextIO
 
-from dqpaint.core.inputs import printable, send_raw
+from dqpaint.clean_stream import printable, send_raw
 
 RED, GREEN, YELLOW, BLUE, CYAN = "31", "32", "33", "34", "36"
 BOLD, FAINT = "1", "2"

@@ -3,7 +3,7 @@
 import io
 import unicodedata
 
-from dqpaint.core.inputs import CleanStream, cleaned, printable, send_raw
+from dqpaint.clean_stream import CleanStream, cleaned, printable, send_raw
 
 
 def test_no_control_character_and_no_turned_line_is_left():

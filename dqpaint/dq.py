@@ -12,6 +12,8 @@ Ozgur and Mezouar, "Kinematic modeling and control of a robot arm using unit dua
 (2016).
 """
 
+from collections.abc import Callable
+from functools import partial
 from typing import TypeAlias
 
 import numpy as np
@@ -42,6 +44,7 @@ def _structure() -> Floats:
 
 
 FEW = 8 * 256  # numbers, up to which matrix products cost less than the general way
+BLOCK = 2048  # rows that are computed at once: they stay in the cache
 _T = _structure()
 _PLUS = np.ascontiguousarray(_T.transpose(0, 2, 1)).reshape(64, 8)  # @ a -> H+(a), flat
 _MINUS = np.ascontiguousarray(_T).reshape(64, 8)  # @ b -> H-(b), flat
@@ -81,14 +84,42 @@ def mul(a: Floats, b: Floats) -> Floats:
     if max(a.size, b.size) <= FEW:  # and for a batch of runs
         few: Floats = np.matvec(hamilton_plus(a), b)
         return few
-    a, b = np.broadcast_arrays(a, b)
-    p, d = a[..., :4], a[..., 4:]
-    q, e = b[..., :4], b[..., 4:]
-    out = np.empty(a.shape)
-    out[..., :4] = quaternion_mul(p, q)
-    out[..., 4:] = quaternion_mul(p, e)
-    out[..., 4:] += quaternion_mul(d, q)
-    return out
+    return _in_blocks(_mul, 8, a, b)
+
+
+def _in_blocks(formula: Callable[..., None], width: int, *arrays: Floats) -> Floats:
+    """A formula of columns over rows (..., K) of arrays -> (..., width).
+
+    A block of rows stays in the cache, and its columns each lie in one piece: several times faster.
+    """
+    first = arrays[0]
+    if len(arrays) == 1 and first.ndim <= 2 and len(first) <= BLOCK:  # one, or a batch of runs
+        few = np.empty((*first.shape[:-1], width))
+        formula(few, first)
+        return few
+    shape = np.broadcast_shapes(*(array.shape[:-1] for array in arrays))
+    rows = [
+        np.broadcast_to(array, (*shape, array.shape[-1])).reshape(-1, array.shape[-1])
+        for array in arrays
+    ]
+    out = np.empty((len(rows[0]), width))
+    for begin in range(0, len(out), BLOCK):
+        own = slice(begin, begin + BLOCK)
+        formula(out[own], *(np.asarray(row[own], dtype=np.float64) for row in rows))
+    return out.reshape(*shape, width)
+
+
+def _mul(out: Floats, a: Floats, b: Floats) -> None:
+    """Products (N, 8), as `quaternion_mul` with pairs of complex numbers."""
+    (p0, p1, d0, d1), (q0, q1, e0, e1) = (
+        np.ascontiguousarray(np.ascontiguousarray(x).view(np.complex128).T) for x in (a, b)
+    )
+    c0, c1, f0, f1 = (x.conj() for x in (q0, q1, e0, e1))
+    columns = out.view(np.complex128).T
+    columns[0] = p0 * q0 - p1 * c1
+    columns[1] = p0 * q1 + p1 * c0
+    columns[2] = p0 * e0 - p1 * f1 + (d0 * q0 - d1 * c1)
+    columns[3] = p0 * e1 + p1 * f0 + (d0 * q1 + d1 * c0)
 
 
 def quaternion_mul(a: Floats, b: Floats) -> Floats:
@@ -154,12 +185,14 @@ def _sinc(angle: Floats) -> Floats:
 def _sinc_slope(angle: Floats) -> Floats:
     """(cos a - sin a / a) / a^2, the derivative of sin(a)/a divided by a."""
     small = angle < 0.5
-    y = np.where(small, angle, 0.0) ** 2
-    series = np.zeros_like(y)
-    for coefficient in _SINC_SLOPE:
-        series = series * y + coefficient
-    safe = np.where(small, 1.0, angle)
-    return np.where(small, series, (np.cos(safe) - np.sin(safe) / safe) / safe**2)
+    out, y = np.zeros_like(angle), np.where(small, angle, 0.0) ** 2
+    if small.any():
+        for coefficient in _SINC_SLOPE:
+            out = out * y + coefficient
+    if not small.all():
+        safe = np.where(small, 1.0, angle)
+        out = np.where(small, out, (np.cos(safe) - np.sin(safe) / safe) / safe**2)
+    return out
 
 
 # (-1)^k 2k / (2k+1)!, highest power first: exact to the last digit below 0.5
@@ -174,16 +207,23 @@ def exp(half: Floats) -> Floats:
 
     A twist xi held for a time t moves a pose x to exp(t xi / 2) x.
     """
-    a, b = half[..., :3], half[..., 3:]
-    angle = np.sqrt((a * a).sum(-1))
-    s, c2 = _sinc(angle), _sinc_slope(angle)
-    ab = (a * b).sum(-1)
-    out = np.empty((*half.shape[:-1], 8))
+    return _in_blocks(_exp, 8, half)
+
+
+def _exp(out: Floats, half: Floats) -> None:
+    columns = np.ascontiguousarray(half.T)
+    a, b = columns[:3], columns[3:]
+    angle = np.sqrt(_dot(a, a))
+    s, ab = _sinc(angle), _dot(a, b)
     out[..., 0] = np.cos(angle)
-    out[..., 1:4] = s[..., None] * a
+    out[..., 1:4] = (s * a).T
     out[..., 4] = -s * ab
-    out[..., 5:8] = s[..., None] * b + (c2 * ab)[..., None] * a
-    return out
+    out[..., 5:8] = (s * b + _sinc_slope(angle) * ab * a).T
+
+
+def _dot(a: Floats, b: Floats) -> Floats:
+    """The products a . b (...,) of columns (3, ...)."""
+    return np.asarray(a[0] * b[0] + a[1] * b[1] + a[2] * b[2])
 
 
 def log(x: Floats, short: bool = True) -> Floats:
@@ -193,16 +233,21 @@ def log(x: Floats, short: bool = True) -> Floats:
     line with direction l and moment m. Not `short` exp(log(x)) is x, and theta in [0, 2 pi); at a
     whole turn, x = -1, every line is one, and it is taken for none.
     """
+    return _in_blocks(partial(_log, short=short), 6, x)
+
+
+def _log(out: Floats, x: Floats, short: bool) -> None:
+    columns = np.ascontiguousarray(x.T)
     if short:
-        x = np.where(x[..., :1] < 0, -x, x)
-    v, w_dual, v_dual = x[..., 1:4], x[..., 4], x[..., 5:8]
-    s = np.sqrt((v * v).sum(-1))
-    angle = np.arctan2(s, x[..., 0])
+        columns = np.where(columns[0] < 0, -columns, columns)
+    v, w_dual, v_dual = columns[1:4], columns[4], columns[5:8]
+    s = np.sqrt(_dot(v, v))
+    angle = np.arctan2(s, columns[0])
     g = np.where(s > 0, angle / np.where(s > 0, s, 1.0), 1.0)  # angle / sin(angle)
-    a = g[..., None] * v
+    a = g * v
     ab = -w_dual * g
-    b = g[..., None] * (v_dual - (_sinc_slope(angle) * ab)[..., None] * a)
-    return np.concatenate([a, b], axis=-1)
+    out[..., :3] = a.T
+    out[..., 3:] = (g * (v_dual - _sinc_slope(angle) * ab * a)).T
 
 
 def power(x: Floats, s: ArrayLike) -> Floats:

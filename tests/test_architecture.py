@@ -213,7 +213,9 @@ def test_the_table_of_rooms_has_them_in_the_order_of_the_contract():
     rows = [set(re.findall(r"`(\w+)`", row)) for row in page.splitlines() if row[:3] == "| `"]
     layers = CONTRACTS["contracts"][0]["layers"]
     order = [set(re.findall(r"dqpaint\.(\w+)", layer)) for layer in reversed(layers)]
-    assert set().union(*rows) == set().union(*order) == {*ROOMS, "dq", "errors", "api"}
+    assert (
+        set().union(*rows) == set().union(*order) == {*ROOMS, "dq", "errors", "clean_stream", "api"}
+    )
     place = {name: i for i, layer in enumerate(order) for name in layer}
     places = [place[name] for row in rows for name in sorted(row, key=place.get)]
     assert places == sorted(places)

@@ -10,7 +10,8 @@ import numpy as np
 
 from dqpaint import dq
 from dqpaint.brushes import read_brush
-from dqpaint.light.camera.camera import Camera, frame_points, parse_view
+from dqpaint.light.camera.camera import Camera, frame_points
+from dqpaint.light.camera.views import parse_views
 from dqpaint.light.film.auto_exposure import automatic_exposure
 from dqpaint.light.film.develop import develop
 from dqpaint.light.film.film import Film, expose
@@ -40,7 +41,7 @@ def best(work: Callable[[], object], repeats: int = 5) -> float:
 
 
 def seen(light: Light, size: tuple[int, int]) -> Camera:
-    return frame_points(light.lit_points, np.eye(3), parse_view("front"), size)
+    return frame_points(light.lit_points, np.eye(3), parse_views("front")[0].view, size)
 
 
 def whole(light: Light, size: tuple[int, int]) -> None:
@@ -84,7 +85,7 @@ def brushes(size: tuple[int, int]) -> None:
     pose = dq.pose_from(np.column_stack([zero, 0.02 * turn, zero]), rotation)
     for text in ("point", "ball:size=5mm", "bar", "ribbon", "pixelstick", "fibre"):
         sweep = Sweep(0.008, pose, np.ones((2999, 3)), read_brush(text).emitters())
-        camera = frame_points(sweep.lit_points, np.eye(3), parse_view("20,15"), size)
+        camera = frame_points(sweep.lit_points, np.eye(3), parse_views("20,15")[0].view, size)
         spent = best(lambda sweep=sweep, camera=camera: expose(sweep, camera), 2)
         print(f"expose {text:14} 3000 poses at 1080p: {spent:6.0f} ms")
 

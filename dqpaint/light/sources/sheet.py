@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from dqpaint.light.arrays import Floats
 from dqpaint.light.camera.camera import NEAREST_DEPTH, Camera
 
-CELLS_PER_BATCH = 1 << 18
+CELLS_PER_BATCH = 1 << 13
 """Cells of one batch. The number is fixed, so that sums keep their order."""
 MOST_CELLS_PER_SIDE = 8192
 """Largest number of cells along a line or a step; beyond it they are wider than a pixel."""
@@ -127,10 +127,11 @@ def _cells(
     u = ((nth + 0.5) * size)[:, None]
     points = (1.0 - u) * line[owner, 0] + u * line[owner, 1]
     pixels, _ = camera.project(points)
-    row = sheet.row[of][owner]
-    held = _cumulative_light(sums, row, (nth + 1.0) * size) - _cumulative_light(
-        sums, row, nth * size
-    )
+    edge = np.repeat(np.arange(len(of)), across + 1)  # of a cell and the next, in each part
+    so_far = np.arange(len(edge)) - np.repeat(np.cumsum(across + 1) - across - 1, across + 1)
+    held = np.diff(
+        _cumulative_light(sums, sheet.row[of][edge], so_far * (1.0 / across)[edge]), axis=0
+    )[edge[1:] == edge[:-1]]
     energy = held * (sheet.energy[of] * share[:, None])[owner]
     np.maximum(energy, 0.0, out=energy)  # a difference of equal sums may be -1e-17
     low = np.full(2, -margin)

@@ -276,3 +276,20 @@ def test_arguments_are_left_as_they_were(rng):
     dq.exp(xi), dq.adjoint(x, xi), dq.nearest(x, -x), dq.mul(x, x)
     np.testing.assert_array_equal(x, kept[0])
     np.testing.assert_array_equal(xi, kept[1])
+
+
+def test_many_rows_are_as_one_by_one(rng):
+    """Across the blocks in which many are computed, and where they broadcast."""
+    a, b = rng.normal(size=(2, 2 * dq.BLOCK + 7, 8))
+    at = [0, 1, dq.BLOCK - 1, dq.BLOCK, 2 * dq.BLOCK, -1]
+    x = dq.exp(a[:, :6])
+    for function, arrays in {
+        dq.mul: (a, b), dq.exp: (a[:, :6],), dq.log: (x,), dq.adjoint: (x, b[:, :6])
+    }.items():  # fmt: skip
+        many = function(*arrays)
+        for k in at:
+            one = function(*(array[k] for array in arrays))
+            np.testing.assert_allclose(many[k], one, rtol=1e-13, atol=1e-13)
+    np.testing.assert_allclose(dq.mul(a, b[:1]), dq.mul(a, np.tile(b[0], (len(a), 1))))
+    grid = dq.mul(a[:600].reshape(3, 200, 8), b[:200])
+    np.testing.assert_allclose(grid[2, 5], dq.mul(a[405], b[5]), rtol=1e-13, atol=1e-13)

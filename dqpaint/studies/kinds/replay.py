@@ -257,10 +257,13 @@ def _number(value: object) -> str:
 def summary(verdicts: Sequence[tuple[Claim, ClaimVerdict, ClaimVerdict]]) -> str:
     """How many claims hold, in a line."""
     words = [ours.word for _, _, ours in verdicts]
-    told = [(theirs.word, ours.word) for _, theirs, ours in verdicts if theirs.word != "no numbers"]
-    same, known = sum(theirs == ours for theirs, ours in told), len(told)
+    pairs = [(theirs.word, ours.word) for _, theirs, ours in verdicts]
+    told = [pair for pair in pairs if "no numbers" not in pair]
     text = f"{words.count('holds')} of {len(words)} claims hold here"
-    return f"{text}; {same} of {known} as by the paper's own numbers" if known else text
+    if lost := words.count("no numbers"):
+        text += f", {lost} cannot be told"
+    same = sum(theirs == ours for theirs, ours in told)
+    return f"{text}; {same} of {len(told)} as by the paper's own numbers" if told else text
 
 
 def last_sentence(replayed: Replay) -> str:

@@ -14,6 +14,7 @@ from dqpaint.errors import DqpaintError
 from dqpaint.language import Program, read
 from dqpaint.outputs import files, registry
 from dqpaint.settings import (
+    Code,
     DevelopOptions,
     DrawOptions,
     PreviewOptions,
@@ -123,7 +124,7 @@ def preview(
     Raises:
         DqpaintError: a fault in the drawing or the choices.
     """
-    chosen = make_settings(**_given(settings, runs=False).under(options))
+    chosen = make_settings(**_given(settings, "leave").under(options))
     program = _program(drawing)
 
     from dqpaint.painting import preview as previews
@@ -133,13 +134,13 @@ def preview(
 
 
 def _given(
-    settings: "str | PathLike[str] | SettingsFile | None", runs: bool = True
+    settings: "str | PathLike[str] | SettingsFile | None", code: Code = "run"
 ) -> SettingsFile:
     if settings is None:
         return SettingsFile()
     from dqpaint.painting import validate
 
-    return validate.settings_file(settings, runs)
+    return validate.settings_file(settings, code)
 
 
 def _program(drawing: "str | PathLike[str] | builder.Drawing") -> Program:

@@ -5,12 +5,15 @@ called, or its help asked for: the list of commands needs none of them.
 """
 
 import inspect
+import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from dqpaint.cli.front import completion
+from dqpaint.cli.front.streams import note
 
 if TYPE_CHECKING:
     from dqpaint.settings import Setting
@@ -60,6 +63,13 @@ FILE = typer.Option(
 TRUST = typer.Option(
     "--trust",
     help="run the code that --settings names, wherever it lies; see SECURITY.md",
+    rich_help_panel=FILES,
+)
+
+
+NO_PROJECT = typer.Option(
+    "--no-project",
+    help="leave out the defaults of dqpaint.toml or pyproject.toml; so does --settings",
     rich_help_panel=FILES,
 )
 
@@ -133,6 +143,8 @@ def with_options(
             variant = setting.option.variant
             if variant and given[_variable(variant.name)]:
                 choices[setting.keyword] = variant.value
+        if given.get("no_project") is False and "settings" not in choices:
+            choices = _with_project(choices, keywords)
         if given.get("trust") and "settings" in choices:
             from dqpaint.settings import Trusted
 
@@ -146,6 +158,34 @@ def with_options(
     call.__annotations__ = {one.name: one.annotation for one in whole}
     call.__name__, call.__doc__ = command.__name__, command.__doc__
     return call
+
+
+def _with_project(typed: Choices, known: Sequence[str]) -> Choices:
+    """What was typed over the defaults of the project that the working folder is in."""
+    from dqpaint.settings import find_project, read_project, with_defaults
+
+    try:
+        path = find_project(Path.cwd())
+    except OSError:  # a working folder that is gone
+        path = None
+    if path is None:
+        return typed
+    from dqpaint.painting import validate
+
+    given = read_project(path, validate.check_settings, typed)
+    made = with_defaults(given, typed, known)
+    if added := [name for name in made if name not in typed]:
+        from dqpaint.settings import SETTINGS
+
+        note(f"defaults of {_nearby(path)}: {', '.join(SETTINGS[name].name for name in added)}")
+    return made
+
+
+def _nearby(path: Path) -> str:
+    try:
+        return os.path.relpath(path)
+    except ValueError:  # on another drive
+        return str(path)
 
 
 _KEYWORD = inspect.Parameter.KEYWORD_ONLY
@@ -197,6 +237,7 @@ def file_parameters() -> list[inspect.Parameter]:
     return [
         parameter("settings", str | None, None, FILE),
         parameter("trust", bool, False, TRUST),
+        parameter("no_project", bool, False, NO_PROJECT),
     ]
 
 

@@ -233,7 +233,7 @@ def check(choices: Choices, files: Drawings, as_json: AsJson = False) -> None:
         from dqpaint.painting import validate
         from dqpaint.settings import make_settings
 
-        choices = validate.settings_file(choices.pop("settings", None), runs=False).under(choices)
+        choices = validate.settings_file(choices.pop("settings", None), "leave").under(choices)
         validate.check_settings(make_settings(**choices))
     results = [checking.check(name, **choices) for name in files]
     if as_json:

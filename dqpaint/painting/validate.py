@@ -16,6 +16,7 @@ from dqpaint.robots.loading import find_card
 from dqpaint.robots.model import parse_tool
 from dqpaint.robots.resolvers import read_resolver
 from dqpaint.settings import (
+    Code,
     Settings,
     SettingsFile,
     Trusted,
@@ -111,13 +112,13 @@ def _check_independent(settings: Settings) -> None:
 
 
 def settings_file(
-    given: str | PathLike[str] | SettingsFile | None, runs: bool = True
+    given: str | PathLike[str] | SettingsFile | None, code: Code = "run"
 ) -> SettingsFile:
     """A file of settings, read and checked; empty if none is given.
 
     Args:
         given: the file; a path that is `Trusted` may name code anywhere.
-        runs: whether it is for something that runs laws; else no code is run that it names.
+        code: what becomes of code that it names, as `read_given` has it.
 
     Raises:
         DqpaintError: it cannot be read, or a key or value is at fault.
@@ -127,7 +128,7 @@ def settings_file(
     if isinstance(given, SettingsFile):
         return given
     path = given if isinstance(given, Trusted) else str(given)
-    return read_given(path, check_settings, runs)
+    return read_given(path, check_settings, code)
 
 
 def settings_of_choices(choices: Mapping[str, Any], **defaults: Any) -> Settings:

@@ -6,7 +6,9 @@ files and documents read it from there.
 
 from dqpaint.settings.commands import COMMANDS
 from dqpaint.settings.declaration import Option, Setting, settings_of
-from dqpaint.settings.file import RUN_SCHEMA, SettingsFile, Trusted, beside, check_code, read_given
+from dqpaint.settings.file import (
+    RUN_SCHEMA, Code, SettingsFile, Trusted, beside, check_code, read_given,
+)
 from dqpaint.settings.keywords import check_keywords, keywords
 from dqpaint.settings.model import (
     DEFAULT_CONTROLLER, SETTINGS, SMALLEST, Settings, check_recorded, make_settings, read_choices,
@@ -15,13 +17,40 @@ from dqpaint.settings.model import (
 from dqpaint.settings.options import (
     DevelopOptions, DrawOptions, PreviewOptions, ReplayOptions, RunOptions,
 )
+from dqpaint.settings.project import find_project, read_project, with_defaults
 from dqpaint.settings.readers import parse_disturbances, parse_gains, read_spread
 
 __all__ = [
-    "COMMANDS", "DEFAULT_CONTROLLER", "RUN_SCHEMA", "SETTINGS", "SMALLEST", "DevelopOptions",
-    "DrawOptions", "Option", "PreviewOptions", "ReplayOptions", "RunOptions", "Setting", "Settings",
-    "SettingsFile", "Trusted", "beside", "check_code", "check_keywords", "check_recorded",
-    "keywords", "make_settings",
-    "parse_disturbances", "parse_gains", "read_choices", "read_given", "read_spread",
-    "settings_of", "validated",
+    "COMMANDS",
+    "DEFAULT_CONTROLLER",
+    "RUN_SCHEMA",
+    "SETTINGS",
+    "SMALLEST",
+    "Code",
+    "DevelopOptions",
+    "DrawOptions",
+    "Option",
+    "PreviewOptions",
+    "ReplayOptions",
+    "RunOptions",
+    "Setting",
+    "Settings",
+    "SettingsFile",
+    "Trusted",
+    "beside",
+    "check_code",
+    "check_keywords",
+    "check_recorded",
+    "find_project",
+    "keywords",
+    "make_settings",
+    "parse_disturbances",
+    "parse_gains",
+    "read_choices",
+    "read_given",
+    "read_project",
+    "read_spread",
+    "settings_of",
+    "validated",
+    "with_defaults",
 ]

@@ -14,10 +14,10 @@ what runs laws, and only from the folder of the settings, unless the file is `Tr
 import json
 import re
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from dqpaint import __version__
 from dqpaint.core import choice_name, examples_folder, find_file, read_regular, split_spec
@@ -44,6 +44,8 @@ NOT_OF_THE_PICTURE = ("out", "save", "settings", "trust", "watch", "jobs")
 CODE = ("controller", "plant", "brush")
 """Settings that may name a file of code."""
 Check = Callable[[Settings], None]
+Code = Literal["run", "leave", "refuse"]
+PYPROJECT = "pyproject.toml"
 
 
 class Trusted(str):
@@ -100,15 +102,19 @@ class SettingsFile:
         return found
 
 
-def read_given(path: str, check: Check, runs: bool = True) -> SettingsFile:
+def read_given(
+    path: str, check: Check, code: Code = "run", replaced: Collection[str] = ()
+) -> SettingsFile:
     """Read a file of settings and check it key by key.
 
     Args:
         path: of the file; may be `Trusted`.
         check: raises a DqpaintError if the settings that one key gives are wrong; runs the code
             that they name.
-        runs: whether it is for something that runs laws; else a law and a plant of one's own are
-            left out, unread.
+        code: what becomes of a law, a plant or a brush that is a file of code: `run`, if it lies in
+            the folder of the settings; `leave`: a law and a plant are left out, unread, and a brush
+            is refused; `refuse`: all of it is refused.
+        replaced: fields of `Settings` that are said elsewhere: code in them is left out.
 
     Raises:
         DqpaintError: it cannot be read, or a key or value is wrong; the message has the line.
@@ -118,34 +124,40 @@ def read_given(path: str, check: Check, runs: bool = True) -> SettingsFile:
     raw, given = _parsed(place, text)
     choices: dict[str, Any] = {}
     spelt: dict[str, str] = {}
+    lost: set[str] = set()
     for key, value in raw.items():
         try:
             for name, read in _read(key, _beside_all(place.parent, value)).items():
                 if name in choices:
                     raise UsageError(f"{key} sets again what {spelt[name]} sets")
                 choices[name], spelt[name] = read, key
+            for name in [name for name in CODE if name in replaced and _code(choices, name)]:
+                del choices[name]
+                lost.add(name)
             of_key = {name: choices[name] for name in choices if spelt[name] == key}
             if not isinstance(path, Trusted):
-                of_key = _known_code(place.parent, of_key, runs)
+                of_key = _known_code(place.parent, of_key, code)
             gains = of_key.pop("gains", None)  # of a law that another key may name
             check(checked(of_key, strict=True))
             if gains is not None:
                 checked({"gains": gains}, strict=True)
         except DqpaintError as problem:
             raise DqpaintError(f"{_where(place, text, key)}: {problem}") from None
+    if "controller" in lost:
+        choices.pop("gains", None)
     if "gains" in choices:
         try:
             law: dict[str, Any] = {
                 name: choices[name] for name in ("controller", "gains") if name in choices
             }
-            if runs or isinstance(path, Trusted) or not _code(law, "controller"):
+            if code == "run" or isinstance(path, Trusted) or not _code(law, "controller"):
                 check(checked(law))
             else:
                 del choices["gains"]
         except DqpaintError as problem:
             raise DqpaintError(f"{_where(place, text, spelt['gains'])}: {problem}") from None
-    if not (runs or isinstance(path, Trusted)):
-        choices = _known_code(place.parent, choices, runs)
+    if not (code == "run" or isinstance(path, Trusted)):
+        choices = _known_code(place.parent, choices, code)
     return SettingsFile(place.name, choices, *given)
 
 
@@ -178,20 +190,27 @@ def _code(choices: Mapping[str, Any], name: str) -> Path | None:
     return parts[0] if parts else None
 
 
-def _known_code(folder: Path, choices: Mapping[str, Any], runs: bool) -> dict[str, Any]:
+def _known_code(folder: Path, choices: Mapping[str, Any], code: Code) -> dict[str, Any]:
     """Choices without code that is not needed.
 
     Raises:
         UsageError: code that may not be run.
     """
-    if runs:
+    named = next((name for name in CODE if _code(choices, name)), "")
+    if code == "run":
         check_code(folder, choices)
+    elif code == "refuse" and named:
+        raise UsageError(
+            f"{named} '{choices[named][:60]}' is code, and a file that nobody named runs none: "
+            f"give --{named} on the command line, or the file by --settings"
+        )
     elif _code(choices, "brush"):
         raise UsageError(
             f"brush '{choices['brush'][:60]}' is code, and this command runs none that a file "
             "names: give --brush on the command line, or trust the file: --trust"
         )
-    return {name: value for name, value in choices.items() if runs or not _code(choices, name)}
+    kept = code == "run"
+    return {name: value for name, value in choices.items() if kept or not _code(choices, name)}
 
 
 def beside(folder: Path, value: object) -> object:
@@ -234,6 +253,11 @@ def _parsed(place: Path, text: str) -> tuple[dict[str, Any], tuple[str | None, s
     except (ValueError, RecursionError) as problem:
         reason = "it is nested too deep" if isinstance(problem, RecursionError) else problem
         raise DqpaintError(f"{place.name} is no {kind}: {reason}") from None
+    if place.name == PYPROJECT:
+        tool = raw.get("tool", {})
+        raw = tool.get("dqpaint", {}) if isinstance(tool, dict) else {}
+        if not isinstance(raw, dict):
+            raise DqpaintError(f"{place.name}: tool.dqpaint is a table: [tool.dqpaint]")
     if kind == "TOML":
         version = raw.pop("dqpaint", None)
         if not isinstance(version, str | None):

@@ -279,10 +279,10 @@ def test_code_beside_the_settings_is_run_where_laws_are_and_no_other(codes, name
 def test_what_runs_no_law_runs_no_code_of_settings(codes, path):
     write, ran = codes
     text = f'view = "iso"\ncontroller = "{path}:law"\nplant = "{path}:Slow"\ngain.k = 3\n'
-    given = read_given(write(text), check_settings, runs=False)
+    given = read_given(write(text), check_settings, "leave")
     assert given.choices == {"view": "iso"}
     with pytest.raises(DqpaintError, match=r"given\.toml:1: brush .*--brush"):
-        read_given(write(f'brush = "{path}:Pair"\n'), check_settings, runs=False)
+        read_given(write(f'brush = "{path}:Pair"\n'), check_settings, "leave")
     assert ran() == []
 
 

@@ -37,7 +37,10 @@ class Library(NamedTuple):
     serves: str
 
 
-ENGINES = (Library("pybullet", ("pybullet", "pybullet-arm64"), "plants with masses"),)
+ENGINES = (
+    Library("pybullet", ("pybullet", "pybullet-arm64"), "plants with masses"),
+    Library("mujoco", ("mujoco-core", "mujoco"), "plants with masses"),
+)
 """Physics engines: a line each."""
 
 LIBRARIES = (

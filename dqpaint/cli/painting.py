@@ -22,15 +22,18 @@ from dqpaint.cli.front.streams import (
     TO_STDOUT,
     USUAL_SAVE,
     check_stdout,
+    choose_format,
     is_quiet,
     note,
     one_format,
     remarks,
     send_one,
+    tell_annotations,
     tell_result,
 )
 from dqpaint.cli.language import point_at
 from dqpaint.cli.options import FILES, Choices, Drawing, Out, Save, takes
+from dqpaint.diagnostics.annotations import FORMATS
 from dqpaint.errors import UsageError
 
 if TYPE_CHECKING:
@@ -218,7 +221,21 @@ CHECK_EXAMPLES = """Examples:
 
 @app.command(cls=MadeWhenCalled, epilog=CHECK_EXAMPLES, rich_help_panel="Write")
 @takes("check")
-def check(choices: Choices, files: Drawings, as_json: AsJson = False) -> None:
+def check(
+    choices: Choices,
+    files: Drawings,
+    form: Annotated[
+        str,
+        typer.Option(
+            "--format",
+            metavar="|".join(FORMATS),
+            help="github and sarif are for code scanners",
+            rich_help_panel=FILES,
+            autocompletion=completion.one_of(*FORMATS),
+        ),
+    ] = "text",
+    as_json: AsJson = False,
+) -> None:
     """Read drawings: every error with its position, or length, time, steps and bounding box.
 
     With --robot or any other choice of a run, or a robot line in the file, it also looks ahead,
@@ -229,6 +246,8 @@ def check(choices: Choices, files: Drawings, as_json: AsJson = False) -> None:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from dqpaint.planning import check as checking
 
+    form = choose_format("json" if as_json else form)
+
     if choices.keys() - {"max_samples"}:  # of a run; else the validator is not imported
         from dqpaint.painting import validate
         from dqpaint.settings import make_settings
@@ -236,8 +255,10 @@ def check(choices: Choices, files: Drawings, as_json: AsJson = False) -> None:
         choices = validate.settings_file(choices.pop("settings", None), "leave").under(choices)
         validate.check_settings(make_settings(**choices))
     results = [checking.check(name, **choices) for name in files]
-    if as_json:
+    if form == "json":
         print(json.dumps(checking.as_json(results), indent=2))
+    elif form != "text":
+        tell_annotations(checking.annotations(results), form)
     else:
         between = "\n\n" if any(one.diagnostics for one in results) else "\n"
         if told := between.join(filter(None, (one.told(is_quiet()) for one in results))):

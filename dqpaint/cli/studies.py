@@ -14,7 +14,7 @@ import typer
 
 from dqpaint.cli.front.colours import BOLD, CYAN, paint
 from dqpaint.cli.front.help_pages import MadeWhenCalled, Pages
-from dqpaint.cli.front.streams import note, tell_result
+from dqpaint.cli.front.streams import choose_format, note, tell_annotations, tell_result
 from dqpaint.cli.options import (
     FILES,
     Choices,
@@ -106,7 +106,11 @@ def _carry_out(
     for remark in study.remarks:
         note(remark)
     text = study.table_text(shutil.get_terminal_size((100_000, 24)).columns)
-    _finish(text, study.save(_again(report)))
+    written = study.save(_again(report))
+    if (form := choose_format(choices.get("format", "text"))) == "text":
+        _finish(text, written)
+    else:
+        tell_annotations(study.annotations, form)
     if not study.passed:
         raise typer.Exit(1)
 

@@ -2,11 +2,11 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from dqpaint import __version__
 from dqpaint.core import find_drawing
-from dqpaint.diagnostics import Severity, Span, file_at, locate, url
+from dqpaint.diagnostics import Annotation, Severity, Span, file_at, locate, url
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.language import Diagnostic, Program, ScriptError, read, read_input, render
 from dqpaint.language.syntax import STDIN
@@ -79,6 +79,7 @@ def count_line(results: Sequence[CheckResult]) -> str:
     return f"{drawings} checked: {counts or 'no errors or warnings'}"
 
 
+UNREADABLE = "E001"
 HINT_UNEVENNESS = 2.0  # brightness of the ends over that of the middle
 
 
@@ -176,6 +177,24 @@ def as_json(results: Sequence[CheckResult]) -> dict[str, Any]:
     }
 
 
+def annotations(results: Sequence[CheckResult]) -> list[Annotation]:
+    """The findings of several drawings, for GitHub and code scanners."""
+    found = []
+    for result in results:
+        for one in result.diagnostics:
+            places: list[tuple[int, int] | None] = [None, None]
+            file = result.file
+            if one.span is not None:
+                file = file_at(result.source, one.span.start, result.file)[1]
+                at = (locate(result.source, offset) for offset in (one.span.start, one.span.end))
+                places = [(place.line, place.column) for place in at]
+            severity: Literal["error", "warning"] = one.severity.value
+            found.append(Annotation(file, severity, one.code, one.message, one.help, *places))
+        if result.fault:
+            found.append(Annotation(result.file, "error", UNREADABLE, result.fault))
+    return found
+
+
 def _as_json(result: CheckResult, finding: Diagnostic) -> dict[str, Any]:
     fix = finding.fix
     return {
@@ -222,7 +241,7 @@ def _file(result: CheckResult) -> dict[str, Any]:
 
 
 def _unreadable(result: CheckResult) -> dict[str, Any]:
-    empty = Diagnostic("E001", result.fault, None)
+    empty = Diagnostic(UNREADABLE, result.fault, None)
     return _as_json(result, empty)
 
 

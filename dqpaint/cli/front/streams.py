@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import TextIO
 
 from dqpaint.cli.front.colours import Painter, findings, labels, show
-from dqpaint.errors import UsageError
+from dqpaint.diagnostics.annotations import FORMATS, Annotation, github_commands, sarif_log
+from dqpaint.errors import UnknownNameError, UsageError
 
 QUIET, VERBOSE = ("-q", "--quiet"), ("-v", "--verbose")
 MANY = "-vv"
@@ -103,6 +104,33 @@ def send_one(made: Mapping[str, bytes]) -> list[Path]:
     sys.stdout.buffer.write(next(iter(made.values())))
     sys.stdout.buffer.flush()
     return []
+
+
+def choose_format(form: str) -> str:
+    """The form in which findings are printed.
+
+    Raises:
+        UnknownNameError: there is none of that name.
+    """
+    if form not in FORMATS:
+        raise UnknownNameError("format", form, FORMATS)
+    return form
+
+
+def tell_annotations(found: Sequence[Annotation], form: str) -> None:
+    """Print findings as GitHub's commands or as SARIF."""
+    if form == "github":
+        if found:
+            print(github_commands(found))
+        return
+    import json
+
+    from dqpaint import __version__
+    from dqpaint.diagnostics import catalogue
+
+    about = catalogue.explanations()
+    rules = {one.code: about[one.code].title for one in found if one.code in about}
+    print(json.dumps(sarif_log(found, rules, __version__), indent=2))
 
 
 def _log_to_stderr(depth: int) -> None:

@@ -1,7 +1,7 @@
 """Parameters of `verify` -> a folder of pictures, drawn again and compared."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from dqpaint.settings import Option
 from dqpaint.studies.declared.study import STUDIES, Study, Subject
@@ -24,6 +24,11 @@ class Verify(Study):
     trust: Annotated[
         bool, Option("run the code that cases name, wherever it lies; see SECURITY.md")
     ] = False
+    format: Annotated[
+        Literal["text", "github", "sarif"],
+        Option("how verdicts are printed; github and sarif are for code scanners",
+               "text|github|sarif"),
+    ] = "text"  # fmt: skip
     folder: Annotated[Any, Option("folder for pictures of differences", "FOLDER", name="out")] = (
         None
     )

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from dqpaint.core import tables
+from dqpaint.diagnostics import Annotation
 from dqpaint.errors import DqpaintError, OutputError
 from dqpaint.light.images import contact_sheet, difference_picture
 from dqpaint.outputs import files
@@ -73,6 +74,15 @@ class Verification(StudyResult):
     def table_text(self, width: int = ANY_WIDTH) -> str:
         """The gates of each case, or what changed."""
         return table_text(self.verdicts) if self.changes is None else "\n".join(self.changes)
+
+    @property
+    def annotations(self) -> list[Annotation]:
+        """Each fault at the drawing or the list of cases that it is of."""
+        return [
+            Annotation(one.case.run.name, "error", "verify", f"{one.case.name}: {fault}")
+            for one in self.verdicts
+            for fault in one.faults
+        ]
 
     def save(self, command: str | None = None) -> list[Path]:
         """Write the pictures of what differs; returns their paths."""

@@ -2,7 +2,7 @@
 
 Links of README are relative, which works where the sources lie and nowhere else. With an address in
 `[tool.hatch.metadata.hooks.custom]` they become absolute and the package has its URLs; without one
-pictures are left out and links become plain text, so that nothing on the page is broken.
+pictures give way to what they show and links become plain text, so that nothing on the page is broken.
 """
 
 import re
@@ -23,7 +23,7 @@ def page(readme: str, source: str) -> str:
         source: address of the repository; empty where there is none yet.
     """
     if not source:
-        return LINK.sub(r"\1", PICTURE.sub("", readme))
+        return LINK.sub(r"\1", PICTURE.sub(r"*\1*", readme))
     pictures = PICTURE.sub(rf"![\1]({source}/raw/main/\2)", readme)
     return LINK.sub(lambda found: f"[{found[1]}]({_absolute(found[2], source)})", pictures)
 

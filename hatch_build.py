@@ -2,7 +2,7 @@
 
 Links of README are relative, which works where the sources lie and nowhere else. With an address in
 `[tool.hatch.metadata.hooks.custom]` they become absolute and the package has its URLs; without one
-pictures give way to what they show and links become plain text, so that nothing on the page is broken.
+pictures give way to what they show and links to their words, so that nothing on it is broken.
 """
 
 import re

@@ -19,6 +19,7 @@ from dqpaint.cli.front import completion, doctor
 from dqpaint.cli.front.colours import findings, labels, show
 from dqpaint.cli.front.help_pages import MadeWhenCalled, Page
 from dqpaint.cli.front.streams import (
+    FORMATS,
     TO_STDOUT,
     USUAL_SAVE,
     check_stdout,
@@ -33,7 +34,6 @@ from dqpaint.cli.front.streams import (
 )
 from dqpaint.cli.language import point_at
 from dqpaint.cli.options import FILES, Choices, Drawing, Out, Save, takes
-from dqpaint.diagnostics.annotations import FORMATS
 from dqpaint.errors import UsageError
 
 if TYPE_CHECKING:

@@ -9,7 +9,6 @@ from pathlib import PurePath
 from typing import Any, Literal, NamedTuple
 from urllib.parse import quote
 
-FORMATS = ("text", "json", "github", "sarif")
 SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 
 

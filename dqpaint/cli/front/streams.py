@@ -7,15 +7,19 @@ warnings and errors, `-v` adds what happens as it happens, from the loggers belo
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TextIO
+from typing import TYPE_CHECKING, TextIO
 
 from dqpaint.cli.front.colours import Painter, findings, labels, show
-from dqpaint.diagnostics.annotations import FORMATS, Annotation, github_commands, sarif_log
 from dqpaint.errors import UnknownNameError, UsageError
+
+if TYPE_CHECKING:
+    from dqpaint.diagnostics import Annotation
 
 QUIET, VERBOSE = ("-q", "--quiet"), ("-v", "--verbose")
 MANY = "-vv"
 TO_STDOUT = "-"
+FORMATS = ("text", "json", "github", "sarif")
+"""Of findings."""
 USUAL_SAVE = "png,csv,json"
 FORMAT = "%(relativeCreated)6.0f ms  %(name)s: %(message)s"
 _said: dict[str, bool] = {"quiet": False}
@@ -117,8 +121,10 @@ def choose_format(form: str) -> str:
     return form
 
 
-def tell_annotations(found: Sequence[Annotation], form: str) -> None:
+def tell_annotations(found: "Sequence[Annotation]", form: str) -> None:
     """Print findings as GitHub's commands or as SARIF."""
+    from dqpaint.diagnostics import github_commands, sarif_log
+
     if form == "github":
         if found:
             print(github_commands(found))

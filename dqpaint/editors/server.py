@@ -1,7 +1,6 @@
 """An editor's requests on standard input -> responses on standard output: the language server.
 
-Offsets are code points in dqpaint and UTF-16 units (or the editor's choice) in the protocol;
-`_Document` converts them.
+`document` converts places, `navigation` has the questions about names, blocks, colours and calls.
 """
 
 import asyncio
@@ -23,8 +22,9 @@ from pygls.workspace import PositionCodec
 
 from dqpaint import __version__
 from dqpaint.diagnostics import Severity, Span, file_at, locate
-from dqpaint.editors import completion
+from dqpaint.editors import completion, navigation
 from dqpaint.editors.analysis import Analysis, analyse
+from dqpaint.editors.document import Document
 from dqpaint.editors.frames import Frames
 from dqpaint.language import Diagnostic, ScriptError
 from dqpaint.language.vocabulary import STATEMENTS
@@ -47,34 +47,6 @@ _KINDS = {
     "colour": lsp.CompletionItemKind.Color,
     "name": lsp.CompletionItemKind.Variable,
 }
-
-
-class _Document:
-    """A text, with the editor's places in it."""
-
-    def __init__(self, text: str, codec: PositionCodec) -> None:
-        self.text = text.replace("\r\n", "\n").replace("\r", "\n")
-        self._lines = self.text.split("\n")
-        self._codec = codec
-
-    def position(self, offset: int) -> lsp.Position:
-        line, column = locate(self.text, offset)
-        before = self._lines[line - 1][: column - 1]
-        return lsp.Position(line - 1, self._codec.client_num_units(before))
-
-    def range(self, span: Span | None) -> lsp.Range:
-        """Where a span is; the first line for the text as a whole, and for other files."""
-        if span is None or span.start > len(self.text):
-            span = Span(0, 0)
-        return lsp.Range(self.position(span.start), self.position(span.end))
-
-    def offset(self, position: lsp.Position) -> int:
-        line = min(position.line, len(self._lines) - 1)
-        row, column, units = self._lines[line], 0, 0
-        while column < len(row) and units < position.character:
-            units += self._codec.client_num_units(row[column])
-            column += 1
-        return sum(len(earlier) + 1 for earlier in self._lines[:line]) + column
 
 
 def _name(uri: str) -> str:
@@ -108,7 +80,7 @@ class _Protocol(LanguageServerProtocol):
             self._send_response(known, error=fault.to_response_error())
 
 
-class _Server(LanguageServer):
+class Server(LanguageServer):
     """The server, with the analysis of each open text."""
 
     def __init__(self) -> None:
@@ -118,8 +90,13 @@ class _Server(LanguageServer):
         self._analyses: dict[str, Analysis] = {}
         self._waiting: dict[str, tuple[float, asyncio.TimerHandle]] = {}
 
-    def document(self, uri: str) -> _Document:
-        return _Document(self.workspace.get_text_document(uri).source, self._codec)
+    def document(self, uri: str) -> Document:
+        """An open text."""
+        return Document(self.workspace.get_text_document(uri).source, self._codec)
+
+    def document_of(self, text: str) -> Document:
+        """A text that is not open."""
+        return Document(text, self._codec)
 
     @property
     def _codec(self) -> PositionCodec:
@@ -167,7 +144,7 @@ class _Server(LanguageServer):
         self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, []))
 
 
-def _message(found: Diagnostic, document: _Document, uri: str, source: str) -> lsp.Diagnostic:
+def _message(found: Diagnostic, document: Document, uri: str, source: str) -> lsp.Diagnostic:
     text = found.message + (f" ({found.label})" if found.label else "")
     if found.span is not None and found.span.start > len(document.text):
         at = locate(source, found.span.start)
@@ -186,9 +163,10 @@ def _message(found: Diagnostic, document: _Document, uri: str, source: str) -> l
     )
 
 
-def make_server() -> LanguageServer:
+def make_server() -> Server:
     """The server with all it answers."""
-    server = _Server()
+    server = Server()
+    navigation.add_to(server)
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_OPEN)
     def opened(params: lsp.DidOpenTextDocumentParams) -> None:
@@ -240,7 +218,7 @@ def make_server() -> LanguageServer:
     return server
 
 
-def _hover(server: _Server, uri: str, position: lsp.Position) -> lsp.Hover | None:
+def _hover(server: Server, uri: str, position: lsp.Position) -> lsp.Hover | None:
     """The meaning of a word; for a line that moves the tool also its length and duration."""
     document = server.document(uri)
     found = completion.meaning_at(document.text, document.offset(position))
@@ -258,7 +236,7 @@ def _hover(server: _Server, uri: str, position: lsp.Position) -> lsp.Hover | Non
     return lsp.Hover(content, document.range(span))
 
 
-def _fixes(server: _Server, uri: str, asked: lsp.Range) -> list[lsp.CodeAction]:
+def _fixes(server: Server, uri: str, asked: lsp.Range) -> list[lsp.CodeAction]:
     """The fixes of diagnostics within a range."""
     document = server.document(uri)
     start, end = document.offset(asked.start), document.offset(asked.end)

@@ -43,7 +43,7 @@ class _StreamError(Exception):
 
 def _answer() -> None:
     try:
-        app()
+        app(prog_name="dqpaint")
     except UsageError as problem:
         _end(f"usage: {problem}", 2)
     except DqpaintError as problem:

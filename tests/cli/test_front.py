@@ -251,7 +251,7 @@ def completed(*words, cwd):
     """What bash is given for the last word."""
     done = subprocess.run(
         [sys.executable, "-m", "dqpaint"], cwd=cwd, capture_output=True, text=True, check=True,
-        env={**os.environ, "PYTHONPATH": str(ROOT), "_PYTHON _M DQPAINT_COMPLETE": "complete_bash",
+        env={**os.environ, "PYTHONPATH": str(ROOT), "_DQPAINT_COMPLETE": "complete_bash",
              "COMP_WORDS": " ".join(["dqpaint", *words]), "COMP_CWORD": str(len(words))},
     )  # fmt: skip
     return done.stdout.split()

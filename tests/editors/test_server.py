@@ -273,3 +273,82 @@ def test_a_wrong_length_is_survived(editor, told):
     ).encode()
     editor.send_bytes(b"Content-Length: %s\r\n\r\n%s" % (told.encode(), data))
     assert editor.open(GOOD) == []
+
+
+NAMED = """let r = 20 mm
+def petal(n)
+  line by (r, 0) light red
+end
+petal(1)
+line to polar(r, 30 deg) in 2 s light hsv(120 deg)
+"""
+
+
+def whole(text):
+    return {"start": {"line": 0, "character": 0}, "end": {"line": text.count("\n"), "character": 0}}
+
+
+def places(found):
+    return [span(one["range"])[0] for one in found]
+
+
+def test_names_are_found_defined_and_renamed(editor):
+    for ability in ("documentSymbolProvider", "definitionProvider", "referencesProvider",
+                    "renameProvider", "foldingRangeProvider", "colorProvider", "inlayHintProvider",
+                    "signatureHelpProvider"):  # fmt: skip
+        assert editor.abilities[ability], ability
+    editor.open(NAMED)
+    document = {"uri": URI}
+    outline = editor.ask("textDocument/documentSymbol", textDocument=document)
+    assert [one["name"] for one in outline] == ["r", "petal"]
+    defined = editor.at("textDocument/definition", 5, 14)
+    assert span(defined["range"]) == ((0, 4), (0, 5))
+    used = editor.at("textDocument/references", 0, 4, context={"includeDeclaration": False})
+    assert places(used) == [(2, 11), (5, 14)]
+    edits = editor.at("textDocument/rename", 4, 2, newName="leaf")["changes"][URI]
+    assert [(places([one])[0], one["newText"]) for one in edits] == [
+        ((1, 4), "leaf"), ((4, 0), "leaf")
+    ]  # fmt: skip
+    folds = editor.ask("textDocument/foldingRange", textDocument=document)
+    assert [(one["startLine"], one["endLine"]) for one in folds] == [(1, 3)]
+
+
+@pytest.mark.parametrize("word", ["line", "r", "2r", "red", "a b", ""])
+def test_what_cannot_be_a_name_is_refused(editor, word):
+    editor.open(NAMED)
+    editor._id += 1
+    where = {"textDocument": {"uri": URI}, "position": {"line": 4, "character": 2}}
+    editor._send(id=editor._id, method="textDocument/rename", params={**where, "newName": word})
+    assert editor.answer()["error"]["message"]
+
+
+def test_colours_seconds_and_calls(editor):
+    editor.open(NAMED)
+    document = {"uri": URI}
+    found = editor.ask("textDocument/documentColor", textDocument=document)
+    assert places(found) == [(2, 23), (5, 38)]
+    assert found[1]["color"] == {"red": 0.0, "green": 1.0, "blue": 0.0, "alpha": 1.0}
+    picked = editor.ask("textDocument/colorPresentation", textDocument=document,
+                        color=found[0]["color"], range=found[0]["range"])  # fmt: skip
+    assert [one["label"] for one in picked] == ['"#ff0000"', "red"]
+    hints = editor.ask("textDocument/inlayHint", textDocument=document, range=whole(NAMED))
+    assert {one["position"]["line"]: one["label"] for one in hints}[5] == "2 s"
+    help = editor.at("textDocument/signatureHelp", 5, 17)
+    assert help["signatures"][0]["label"] == "polar(RADIUS, ANGLE)"
+    assert help["activeParameter"] == 1
+    own = editor.at("textDocument/signatureHelp", 4, 6)
+    assert own["signatures"][0]["label"] == "petal(n)"
+
+
+def test_a_name_of_an_included_file_is_found_there(editor, tmp_path):
+    (tmp_path / "part.traj").write_text("let r = 5 mm\n")
+    main = tmp_path / "main.traj"
+    text = 'include "part.traj"\nline by (r, 0)\n'
+    main.write_text(text)
+    editor.open(text, main.as_uri())
+    where = {"textDocument": {"uri": main.as_uri()}}
+    found = editor.ask("textDocument/definition", **where, position={"line": 1, "character": 9})
+    assert found["uri"] == (tmp_path / "part.traj").as_uri()
+    assert span(found["range"]) == ((0, 4), (0, 5))
+    file = editor.ask("textDocument/definition", **where, position={"line": 0, "character": 12})
+    assert file["uri"] == (tmp_path / "part.traj").as_uri()

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from dqpaint.clean_stream import printable, send_raw
 from dqpaint.cli.front.colours import takes_colour
-from dqpaint.cli.front.streams import is_quiet
+from dqpaint.cli.front.streams import is_quiet, is_talkative
 from dqpaint.core import tables
 
 BAR = 30  # characters of the progress bar
@@ -60,7 +60,7 @@ class Progress:
 
     def __init__(self, what: str) -> None:
         self._what = printable(what)
-        self._shown = sys.stderr.isatty() and not is_quiet()
+        self._shown = sys.stderr.isatty() and not (is_quiet() or is_talkative())
         self._begin = time.monotonic()
         self._drawn = False
 

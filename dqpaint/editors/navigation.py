@@ -12,8 +12,7 @@ from dqpaint.diagnostics import Span
 from dqpaint.editors import swatches, symbols
 from dqpaint.editors.document import Document
 from dqpaint.editors.vocabulary import vocabulary
-from dqpaint.language.syntax.identifiers import meaning
-from dqpaint.language.syntax.lexer import TOKEN
+from dqpaint.language.syntax import lines, meaning
 
 if TYPE_CHECKING:
     from dqpaint.editors.server import Server
@@ -216,8 +215,8 @@ def _elsewhere(
 
 def _not_a_name(word: str, found: symbols.Outline, name: symbols.Name) -> str:
     """Why a word cannot be the new name of something; empty if it can."""
-    token = TOKEN.fullmatch(word)
-    if token is None or token.lastgroup != "name" or word == "°":
+    tokens = [token for line in lines(word) for token in line.tokens if token.kind != "end"]
+    if [(one.kind, one.text) for one in tokens] != [("name", word)] or word == "°":
         return f"'{word[:40]}' is no name: letters, digits and _, a letter first"
     if taken := meaning(word):
         return f"'{word}' can't be used as a name: it is {taken}"

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from dqpaint.diagnostics import Span
 from dqpaint.editors.symbols import outline
-from dqpaint.language.syntax.lexer import Token, lines
-from dqpaint.program.colours import DIGITS
+from dqpaint.language.syntax import Token, lines
+from dqpaint.program import colours
 
 Encoded = tuple[float, float, float]
 """sRGB, 0 to 1."""
@@ -20,8 +20,8 @@ def swatches(text: str) -> Iterator[tuple[Span, Encoded]]:
     for line in lines(text):
         tokens = line.tokens
         for i, token in enumerate(tokens):
-            if token.kind == "name" and token.text in DIGITS and token.text not in own:
-                yield token.span, _from_digits(DIGITS[token.text])
+            if token.kind == "name" and token.text in colours.DIGITS and token.text not in own:
+                yield token.span, _from_digits(colours.DIGITS[token.text])
             elif token.kind == "text" and _is_colour(tokens, i):
                 found = HEX.fullmatch(token.text)
                 if found:
@@ -66,5 +66,5 @@ def _hsv(tokens: list[Token]) -> tuple[int, Encoded] | None:
 def written(colour: Encoded) -> list[str]:
     """How a colour may be written: a name that is exactly it, hex digits."""
     digits = "".join(f"{round(255 * part):02x}" for part in colour)
-    names = [name for name, known in DIGITS.items() if known == digits]
+    names = [name for name, known in colours.DIGITS.items() if known == digits]
     return [*names[:1], f'"#{digits}"']

@@ -10,10 +10,8 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from dqpaint.diagnostics import Span
-from dqpaint.language.syntax.identifiers import meaning
-from dqpaint.language.syntax.lexer import Token, lines
-from dqpaint.language.vocabulary import STATEMENTS
-from dqpaint.language.vocabulary.words import FREE, PARTS
+from dqpaint.language.syntax import Token, lines, meaning
+from dqpaint.language.vocabulary import FREE, PARTS, STATEMENTS
 
 
 class Name(NamedTuple):

@@ -21,7 +21,7 @@ from dqpaint.errors import UsageError
 WIDEST = 100
 SHORT, LONG = 22, 32  # columns of names, on a narrow and on a wide page
 HELP = ("-h", "--help")
-ORDER = ("Draw", "Write", "Compare", "Arms", "Set up", "Arguments", "Control", "Study", "Options")
+ORDER = ("Draw", "Write", "Compare", "Arms", "Set up", "Arguments", "Options", "Control")
 """Headings that come first, of groups of commands and of options; others follow as they come."""
 LAST = ("Files", "Limits", "Every command")
 OF_ALL = (

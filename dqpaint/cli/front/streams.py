@@ -22,7 +22,7 @@ FORMATS = ("text", "json", "github", "sarif")
 """Of findings."""
 USUAL_SAVE = "png,csv,json"
 FORMAT = "%(relativeCreated)6.0f ms  %(name)s: %(message)s"
-_said: dict[str, bool] = {"quiet": False}
+_said: dict[str, bool] = {"quiet": False, "verbose": False}
 
 
 def take_words(words: Sequence[str]) -> list[str]:
@@ -32,18 +32,24 @@ def take_words(words: Sequence[str]) -> list[str]:
     if any(word in QUIET for word in head):
         _said["quiet"] = True
     if depth := sum(word in VERBOSE for word in head) + 2 * head.count(MANY):
+        _said["verbose"] = True
         _log_to_stderr(depth)
     return [w for w in head if w not in (*QUIET, *VERBOSE, MANY)] + list(words[end:])
 
 
 def reset() -> None:
     """Say what is usual again."""
-    _said["quiet"] = False
+    _said.update(quiet=False, verbose=False)
 
 
 def is_quiet() -> bool:
     """Whether only warnings and errors are wanted."""
     return _said["quiet"]
+
+
+def is_talkative() -> bool:
+    """Whether what happens is logged on standard error, where a bar would be in its way."""
+    return _said["verbose"]
 
 
 def tell_result(text: str, painter: Painter = labels, stream: TextIO | None = None) -> None:

@@ -3,7 +3,8 @@
 `statement_rules` says which clauses a statement takes.
 """
 
-from dqpaint.language.syntax.lexer import NUMBER
+from dqpaint.language.syntax.identifiers import meaning
+from dqpaint.language.syntax.lexer import NUMBER, Token, lines
 from dqpaint.language.syntax.source import STDIN
 
-__all__ = ["NUMBER", "STDIN"]
+__all__ = ["NUMBER", "STDIN", "Token", "lines", "meaning"]

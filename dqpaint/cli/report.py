@@ -41,11 +41,37 @@ def of_painting(painting: paint.Painting, written: Sequence[Path]) -> str:
         *_step_responses(painting),
         *_retiming(painting),
         ("limits", _limits_line(painting)),
+        *_walls(painting),
         *_faults(painting),
         *_pictures(painting.pictures),
         *_files(written),
     ]
     return table(rows)
+
+
+def _walls(painting: paint.Painting) -> list[tuple[str, str]]:
+    """How near the arm came to each wall, and for how long each held it back."""
+    among, rows = painting.track.walls, list[tuple[str, str]]()
+    if among is None:
+        return rows
+    motion = painting.motion
+    for wall, unit, distance, active in zip(
+        among.walls, among.units, among.distance.T, among.active.T, strict=True
+    ):
+        k = int(distance.argmin())
+        least = distance[k] * (1e3 if unit == "m" else math.degrees(1))
+        held = float(active[:-1].sum()) * motion.period
+        rows.append((
+            "" if rows else "walls",
+            f"line {motion.program.line_name(wall.line)}: least distance "
+            f"{0.0 if abs(least) < NOTHING else least:.3g} {'mm' if unit == 'm' else 'deg'} at "
+            f"{motion.t[k]:.3f} s, " + (f"held the arm for {held:.3g} s" if held else "not met"),
+        ))  # fmt: skip
+    if among.lost.any():
+        lost = painting.metrics.figures["wall_lost_m"] * 1e3
+        rows.append(("", f"up to {among.lost.max() * 1e3:.3g} mm/s of the law's velocity given up, "
+                     f"{lost:.3g} mm in all"))  # fmt: skip
+    return rows
 
 
 def _plant(painting: paint.Painting) -> str:
@@ -209,11 +235,36 @@ def remarks(painting: paint.Painting) -> list[str]:
             f"for {LONGEST_TORQUE_PERIOD * 1e3:g} ms (200 Hz) or less"
             "\n  = help: write period 5 ms in the drawing"
         )
+    texts += _passed_walls(painting)
     film = painting.picture.film
     lost, emitted = film.lost.sum(), painting.picture.emitted.sum()
     if lost > WORTH_A_WARNING * emitted:
         texts.append(f"warning: {lost / emitted:.0%} of the light fell outside the picture")
     return [*texts, *of_arm(painting.pictures, painting.motion.program.text)]
+
+
+def _passed_walls(painting: paint.Painting) -> list[str]:
+    """A warning for walls that nothing held, or that the arm passed all the same."""
+    among = painting.track.walls
+    if among is None:
+        return []
+    passed = [
+        painting.motion.program.line_name(wall.line)
+        for wall, distance in zip(among.walls, among.distance.T, strict=True)
+        if distance.min() < -PASSED
+    ]
+    if not passed:
+        return []
+    word = "walls of lines" if len(passed) > 1 else "wall of line"
+    why = "a link was inside from the start, or eta times the period is above 1"
+    if painting.recording is not None:
+        why = "a recorded run is shown as it was"
+    elif painting.track.torques:
+        why = f"'{painting.controller.name}' commands torques: walls are held for joint rates alone"
+    elif "qp" not in painting.resolver:
+        why = f"resolver {painting.resolver} does not hold them, qp does"
+    help = "say what is kept: for tool" if "inside" in why else "see dqpaint list resolvers"
+    return [f"warning: the arm passed the {word} {', '.join(passed)}: {why}\n  = help: {help}"]
 
 
 def of_arm(pictures: Sequence[picture.Picture], source: str = "") -> list[str]:
@@ -247,6 +298,7 @@ def _hidden(shot: picture.Picture, where: str, source: str) -> list[str]:
     ]
 
 
+PASSED = 1e-4  # [m, rad] inside a wall is worth a warning
 NO_EFFECT = "it moved the tool by less than 1 um and 0.001 deg all along"
 NO_RESULT = (
     "its figures say nothing about the law; lower the gains, shorten the period, or draw slower"

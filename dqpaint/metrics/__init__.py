@@ -6,7 +6,7 @@ packages bring theirs by entry points of the group `dqpaint.metrics`.
 """
 
 from dqpaint.metrics import (  # noqa: F401  the order of table and summary
-    columns, figures, step_figures,
+    columns, figures, step_figures, walls,
 )
 from dqpaint.metrics.attenuation import Attenuation, attenuation
 from dqpaint.metrics.registry import (

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 from dqpaint import __version__
 from dqpaint.core import library_versions
 from dqpaint.metrics import all_columns
-from dqpaint.outputs.summary_shape import TABLE_SCHEMA, Law, Summary, TableColumn
+from dqpaint.outputs.summary_shape import TABLE_SCHEMA, Law, Summary, TableColumn, WallShape
 from dqpaint.robots.kinematics import UNITS, model_numbers, read_null
+from dqpaint.robots.resolvers import task_of
 from dqpaint.settings import RUN_SCHEMA
 
 if TYPE_CHECKING:
@@ -97,6 +98,9 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
             }
             for clamp in painting.limits
         ],
+        "resolver": painting.resolver,
+        "task": task_of(settings, program).name,
+        "walls": _walls(painting),
         "light": {
             "unit": "lamp seconds, linear RGB",
             "emitted": painting.picture.emitted.tolist(),
@@ -115,6 +119,26 @@ def summarise(painting: "paint.Painting") -> dict[str, Any]:
     if others := plugins.plugins_of(settings, program):
         facts["plugins"] = others
     return {**facts, **painting.metrics.figures}
+
+
+def _walls(painting: "paint.Painting") -> list[WallShape]:
+    """The walls of the drawing, and how near the true arm came to each."""
+    among, motion = painting.track.walls, painting.motion
+    if among is None:
+        return []
+    return [
+        {
+            "line": motion.program.line_reference(wall.line),
+            "says": wall.text,
+            "least": float(distance.min()),
+            "unit": unit,
+            "time_s": float(motion.t[distance.argmin()]),
+            "held_s": float(active[:-1].sum() * motion.period),
+        }
+        for wall, unit, distance, active in zip(
+            among.walls, among.units, among.distance.T, among.active.T, strict=True
+        )
+    ]
 
 
 def _columns(painting: "paint.Painting") -> list[TableColumn]:

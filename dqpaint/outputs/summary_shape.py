@@ -102,6 +102,17 @@ class Light(TypedDict):
     exposure: float
 
 
+class WallShape(TypedDict):
+    """A wall of the drawing: the least distance of the true arm, and how long it held the arm."""
+
+    line: int | str
+    says: str
+    least: float
+    unit: str
+    time_s: float
+    held_s: float
+
+
 class TableColumn(TypedDict):
     """Columns of the CSV that belong together."""
 
@@ -151,6 +162,9 @@ class Summary(TypedDict):
     attenuation: dict[str, Through]
     set_points: list[SetPoint]
     limits: list[Limit]
+    resolver: str
+    task: str
+    walls: list[WallShape]
     light: Light
     table: TableShape
     wall_s: NotRequired[dict[str, float]]

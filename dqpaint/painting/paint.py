@@ -88,6 +88,11 @@ class Painting(PictureSet):
     engine: Engine | None = None  # of physics, if one moved the arm
 
     @property
+    def resolver(self) -> str:
+        """What turned the law's twist into joint rates, as text."""
+        return resolver_of(self.settings, self.motion.program)
+
+    @property
     def film(self) -> Film:
         """The linear film the picture was developed from."""
         return self.picture.film

@@ -37,6 +37,7 @@ from dqpaint.robots.kinematics import (
     tool_jacobian_map,
 )
 from dqpaint.robots.resolvers import DEFAULT_RESOLVER, resolver_of
+from dqpaint.robots.walls import Walls, walls_of
 from dqpaint.settings import Settings
 
 MOST_ROWS = 20_000  # that are followed; of a longer drawing every second, third ... one
@@ -81,6 +82,9 @@ class Forecast:
         occluded: largest share of the line's light that the arm hides in one view; None for a dark
             line.
         view: that view.
+        wall: how near the nearest wall is [m], or how much of a cone's angle is left [rad]; None
+            without walls.
+        wall_number: which of the drawing's it is, from 0.
     """
 
     line: SourceLine
@@ -103,6 +107,8 @@ class Forecast:
     closest_links: tuple[str, str] | None
     occluded: float | None
     view: str
+    wall: Extreme | None = None
+    wall_number: int = 0
 
 
 def forecast(
@@ -130,6 +136,7 @@ def forecast(
     shapes = collision_shapes(kinematics)
     looks = sampled_rows(run.source.index, MOST_OCCLUSION_ROWS)
     near = shapes.nearest(run.posture[looks])
+    run.measure_walls(walls_of(motion, kinematics), looks)
     hiding = forecast_occlusion(shapes, motion, run.rows, run.posture, settings)
     _, first = np.unique(run.source.index, return_index=True)
     return tuple(_forecast_line(run, row, looks, near, hiding) for row in np.sort(first).tolist())
@@ -210,6 +217,26 @@ class _Run:
             sunk = np.matvec(at_tool, (1 - springs.share) * self.weight / springs.stiffness)
             self.sag = CHARACTERISTIC_LENGTH * np.linalg.norm(sunk[:, 3:], axis=1)
 
+    def measure_walls(self, walls: Walls | None, looks: NDArray[np.intp]) -> None:
+        """Measure the distances (L, W) to walls at some rows (L,)."""
+        self._wall_time = self.t[looks]
+        self._walls = (
+            np.zeros((len(looks), 0))
+            if walls is None
+            else walls.least(self.posture[looks], self.t[looks])
+        )
+
+    def nearest_wall(self, looked: NDArray[np.intp]) -> Extreme | None:
+        """The least distance to a wall at some of the rows that were looked at."""
+        if not self._walls.shape[1]:
+            return None
+        k = int(self._walls[looked].min(axis=1).argmin())
+        return Extreme(float(self._walls[looked[k]].min()), 0, float(self._wall_time[looked[k]]))
+
+    def nearest_wall_number(self, looked: NDArray[np.intp]) -> int:
+        """The number of the wall that is nearest there, from 0."""
+        return int(self._walls[looked].min(axis=0).argmin()) if self._walls.shape[1] else 0
+
     def _torques(self, dynamics: Dynamics, accelerations: Floats) -> Floats:
         rows = zip(self.posture, self.rates, accelerations, strict=True)
         return np.array([dynamics.torque(*row) for row in rows])
@@ -259,6 +286,8 @@ def _forecast_line(
         closest_links=near.pair[closest] if meets else None,
         occluded=hidden,
         view=view,
+        wall=run.nearest_wall(looked),
+        wall_number=run.nearest_wall_number(looked),
     )
 
 

@@ -17,7 +17,7 @@ from dqpaint.planning.prepared_motion import prepare_motion
 from dqpaint.planning.reachability import check_row_reached
 from dqpaint.planning.retiming import Retiming
 from dqpaint.plants import DEFAULT_PLANTS, find_plant
-from dqpaint.program import Program
+from dqpaint.program import Program, walls
 from dqpaint.robots.kinematics import (
     DAMPING_THRESHOLD,
     PATH_TOLERANCE,
@@ -217,6 +217,11 @@ def _hidden(one: Forecast, _card: Card) -> str:
     return f"the arm hides {one.occluded or 0:.0%} of the light, seen {where}"
 
 
+def _into_wall(one: Forecast, _card: Card) -> str:
+    assert one.wall is not None
+    return f"an arm without walls would be inside of one{_at_time(one.wall.time)}"
+
+
 def _at_time(time: float) -> str:
     return f" at {time:.2f} s"
 
@@ -264,6 +269,12 @@ RULES = (
         _hidden,
         "point the tool's z axis at the viewer, or move the drawing with place",
     ),
+    _Rule(
+        "W508",
+        lambda one: 1.0 if one.wall is None else 1.0 - one.wall.value,
+        _into_wall,
+        "resolver qp holds the arm out: the light leaves the path there",
+    ),
 )
 
 
@@ -282,13 +293,26 @@ def _warnings(
         found.append(
             Diagnostic(
                 rule.code,
-                rule.message(worst, card),
+                rule.message(worst, card) + _which_wall(rule, worst, motion.program),
                 spans.get(worst.line),
                 label=f"likewise {_named(others)}" if others else "",
                 help=_help(rule, worst, motion, slowed),
             )
         )
     return found
+
+
+def _which_wall(rule: _Rule, worst: Forecast, program: Program) -> str:
+    """Which wall, and how deep, where a rule is of walls."""
+    if rule.code != "W508" or worst.wall is None:
+        return ""
+    wall, inside = program.walls[worst.wall_number], -worst.wall.value
+    deep = f"{inside * DEG:.3g} deg" if isinstance(wall.shape, walls.Cone) else _far(inside)
+    return f": by {deep}, line {program.line_name(wall.line)}: {wall.text}"
+
+
+def _far(distance: float) -> str:
+    return f"{distance * 1e3:.3g} mm"
 
 
 def _help(rule: _Rule, worst: Forecast, motion: Motion, slowed: bool) -> str:

@@ -7,7 +7,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from dqpaint.program import colours, piece_corners, piecewise, taylor
+    from dqpaint.program import colours, piece_corners, piecewise, taylor, walls
     from dqpaint.program.piecewise import (
         NODES, WEIGHTS, Indices, concatenate, derivatives, is_nonuniform, parameters_at,
         stretch_lengths,
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         Vector,
     )
     from dqpaint.program.taylor import Floats, Taylor, Value
+    from dqpaint.program.walls import Wall
 
 __all__ = [
     "IDENTITY", "LOOK_MODES", "NODES", "STANDING", "WEIGHTS", "Arc", "AutoPlacement", "Brush",
@@ -27,11 +28,12 @@ __all__ = [
     "FixedOrientation", "Floats", "FollowHeading", "Formula", "Indices", "Light", "Look",
     "LookLine", "Path", "PiecewiseCurve", "Pose", "Profile", "Program", "Quaternion", "Samples",
     "Screw", "ScrewTo", "Segment", "SlerpOrientation", "Step", "Straight", "Strobe", "Taylor",
-    "Timing", "Tool", "Value", "Vector", "colours", "concatenate", "derivatives", "is_nonuniform",
-    "parameters_at", "piece_corners", "piecewise", "stretch_lengths", "taylor",
+    "Timing", "Tool", "Value", "Vector", "Wall", "colours", "concatenate", "derivatives",
+    "is_nonuniform", "parameters_at", "piece_corners", "piecewise", "stretch_lengths", "taylor",
+    "walls",
 ]
 
-_MODULES = ("program", "piecewise", "piece_corners", "taylor")
+_MODULES = ("program", "piecewise", "piece_corners", "taylor", "walls")
 
 if not TYPE_CHECKING:
 

@@ -16,6 +16,7 @@ from dqpaint.core import DEFAULT_MAX_SAMPLES, record
 from dqpaint.diagnostics import Diagnostic, SourceLine, Span, line_name
 from dqpaint.program.colours import Colour as Colour
 from dqpaint.program.taylor import Floats, Taylor
+from dqpaint.program.walls import Wall
 
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
@@ -315,6 +316,7 @@ class Program:
     segments: tuple[Segment, ...]
     notes: tuple[Diagnostic, ...]  # warnings; errors are raised
     most_samples: int = DEFAULT_MAX_SAMPLES
+    walls: tuple[Wall, ...] = ()
     task: str | None = None  # the file's own `task` line
     dark_saved: float = 0.0  # [m] of dark ways, by the order of lines that come from elsewhere
 

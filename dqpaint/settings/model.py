@@ -187,7 +187,7 @@ class MotionSettings(Group):
         Option(
             "what turns the law's twist into joint rates: see dqpaint list resolvers",
             "NAME[,KEY=VALUE...]",
-            unsaid="filter",
+            unsaid="filter; qp where a drawing has walls",
         ),
     ] = None
     task: Annotated[

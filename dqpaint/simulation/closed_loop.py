@@ -28,7 +28,8 @@ from dqpaint.robots.kinematics import (
     resolve,
 )
 from dqpaint.robots.model import POSE, Card
-from dqpaint.robots.resolvers import DEFAULT_RESOLVER, Setup, make_resolver
+from dqpaint.robots.resolvers import DEFAULT_RESOLVER, Held, Qp, Setup, make_resolver
+from dqpaint.robots.walls import WallsOfRun, among_walls, walls_of
 from dqpaint.simulation.drives import make_drive
 from dqpaint.simulation.sensors import (
     BatchedSensors,
@@ -69,6 +70,7 @@ class Track:
             None where it is not known.
         disturbance: spatial twist (N, 6) [rad/s, m/s] that came on top of the arm's own from t_k to
             t_k+1, unknown to the law; the last row is zero.
+        walls: how it went among the walls of the drawing, where it has some.
         pose_disturbance: likewise, of the tool's displacement on the flange (v_c of Pereira 2016,
             (3.17)).
     """
@@ -89,6 +91,7 @@ class Track:
     clipped: Clipped | None
     disturbance: Floats
     pose_disturbance: Floats
+    walls: WallsOfRun | None = None
 
     def __post_init__(self) -> None:
         for array in (
@@ -253,7 +256,9 @@ def _simulate(
     # what comes second has a law of its own, which sees a reference of its own
     laws = [controller.start(arm, motion, gains) for _ in task.parts]
     wish = make_secondary_task(null, card, start)
-    solver = make_resolver(resolver, Setup(sensors.model, motion.period, task))
+    walls = walls_of(motion, sensors.model)
+    solver = make_resolver(resolver, Setup(sensors.model, motion.period, task, walls))
+    log.history = solver.history if isinstance(solver, Qp) else []
     drive = make_drive(controller, laws, sensors.model, wish, motion.period, solver)
     late = DelayLine(total_delay(disturbances), drive.hold(start))
     parts = motion.clock / motion.clock[-1] if n > 1 else motion.clock
@@ -303,6 +308,7 @@ class _Log:
         self.disturbance = np.zeros((n, *shape, 6))
         self._jacobian = np.empty((JACOBIAN_ROWS, *shape, 6, joints))
         self._kinematics = kinematics
+        self.history: list[Held] = []
 
     @property
     def finite(self) -> NDArray[np.bool_]:
@@ -363,6 +369,14 @@ class _Log:
             self.command[rows], self.effort[rows], torques, motion.period,
         )  # fmt: skip
 
+    def among_walls(self, motion: Motion) -> WallsOfRun | None:
+        """How the run went among the walls of its drawing."""
+        if not self.history:
+            return among_walls(motion, self._kinematics, self.posture)
+        active = np.array([held.walls for held in self.history])
+        lost = np.array([held.lost for held in self.history])
+        return among_walls(motion, self._kinematics, self.posture, active, lost)
+
     def drift_rates(self, k: int, drift: Floats | None) -> Floats | None:
         """The joint rates (n,) of an unmodelled velocity (N, 6) of the tool at row k."""
         if drift is None:
@@ -400,6 +414,7 @@ def _make_track(
         dq.continuous(log.measured_pose), log.measured_rates, log.measured_twist,
         log.manipulability, log.command, log.wanted, torques, log.effort, held,
         clipped, log.disturbance, _pose_disturbance(log.pose, offset, motion.period),
+        log.among_walls(motion),
     )  # fmt: skip
 
 

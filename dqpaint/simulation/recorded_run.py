@@ -19,6 +19,7 @@ from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.motion import Motion
 from dqpaint.robots.kinematics import Kinematics, manipulability
+from dqpaint.robots.walls import among_walls
 from dqpaint.simulation.closed_loop import Track
 
 POSE = ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz")
@@ -202,6 +203,7 @@ def replay(recording: Recording, motion: Motion, kinematics: Kinematics) -> Trac
         effort=np.zeros_like(posture),
         clamps=(),
         clipped=None,
+        walls=among_walls(motion, kinematics, posture),
         disturbance=np.zeros((n, 6)),
         pose_disturbance=np.zeros((n, 6)),
     )

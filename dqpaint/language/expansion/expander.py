@@ -27,7 +27,7 @@ from dqpaint.language.expansion.definitions import (
 from dqpaint.language.pen import tool_orientation
 from dqpaint.language.pen.durations import timing
 from dqpaint.language.pen.pen import Pen, evenly
-from dqpaint.language.strokes import corner_blending, curves, imported_strokes, strokes
+from dqpaint.language.strokes import corner_blending, curves, imported_strokes, strokes, walls
 from dqpaint.language.strokes.modal_words import apply_clause, tool_mode
 from dqpaint.language.syntax.tree import Part, Statement, ToolWords
 from dqpaint.language.values import typed_values
@@ -37,11 +37,11 @@ from dqpaint.language.values.values import Quantity, Value
 from dqpaint.language.values.vectors import Frame
 from dqpaint.language.vocabulary.units import PLAIN
 from dqpaint.language.vocabulary.words import MODAL, STATEMENTS, TASKS
-from dqpaint.program import AutoPlacement, Pose, Program, Segment, Step
+from dqpaint.program import AutoPlacement, Pose, Program, Segment, Step, Wall
 
 PERIOD = 0.008  # [s]
 # Statements whose first value is not a name that they define.
-NAMELESS = ("robot", "task", "place", "curve", "repeat", "call")
+NAMELESS = ("robot", "task", "wall", "keep", "face", "place", "curve", "repeat", "call")
 ALIKE = ("text", "path", "svg", "move")  # in each pass as much as in the first
 SHORTEST_PERIOD = 1e-5  # [s]
 LONGEST_PERIOD = 10.0
@@ -67,6 +67,7 @@ class Expander:
         self._robot: str | None = None
         self._robot_span: Span | None = None
         self._task: str | None = None
+        self._walls: list[Wall] = []
         self._placement: Pose | AutoPlacement | None = None
         self.at: Span | None = None  # the statement being worked on
 
@@ -86,6 +87,7 @@ class Expander:
             self._pen.start,
             self._rounded(),
             self._findings.ordered(),
+            walls=tuple(self._walls),
             task=self._task,
             dark_saved=self._pen.dark_saved,
         )
@@ -349,6 +351,13 @@ class Expander:
             raise problem("E267", message, statement.name.span, "", help)
         self._task = statement.name.text
 
+    def _wall(self, statement: Statement) -> None:
+        if self._depth > self._including:
+            span = Span(statement.span.start, statement.span.start + len(statement.word))
+            message = f"'{statement.word}' stands outside of all blocks"
+            raise problem("E123", message, span, "", "it holds for the whole drawing")
+        self._walls.append(walls.wall(statement, self._pen, self._scope))
+
     def _period_line(self, statement: Statement) -> None:
         self._first(statement)
         self._period = typed_values.positive(statement.values[0], self._scope, "period")
@@ -388,6 +397,9 @@ _HANDLERS: dict[str, Callable[[Expander, Statement], None]] = {
     "traj": Expander._traj,
     "robot": Expander._robot_line,
     "task": Expander._task_line,
+    "wall": Expander._wall,
+    "keep": Expander._wall,
+    "face": Expander._wall,
     "let": Expander._let,
     "place": Expander._place,
     "start": Expander._start,

@@ -121,6 +121,10 @@ class Pen:
         self.pose = self.start = Pose(self.pose.position, orientation)
         self.oriented = True
 
+    def line_of(self, span: Span) -> SourceLine:
+        """The line of some words."""
+        return self._lines.line(span)
+
     def draw(
         self, path: Path, tool: Tool, timing: Timing, light: Light | None, end: Pose, span: Span
     ) -> None:

@@ -50,7 +50,9 @@ def _font(cursor: Cursor) -> Expression:
     return Quoted(token.text, token.span)
 
 
-def _one_of(words: tuple[str, ...], after: str, aliases: dict[str, str]) -> "Reader":
+def one_of(words: tuple[str, ...], after: str, aliases: dict[str, str]) -> "Reader":
+    """A reader of one of some words."""
+
     def read(cursor: Cursor) -> Expression:
         token = cursor.token
         word = {"center": "centre"}.get(token.text, token.text)
@@ -84,8 +86,8 @@ Reader = Callable[[Cursor], Expression]
 # By the kind of value, as in `words.PARTS`.
 READERS: dict[str, Reader] = {
     "font": _font,
-    "unit": _one_of(LENGTHS, "unit", FOREIGN_UNITS),
-    "alignment": _one_of(ALIGNMENTS, "align", {"middle": "centre"}),
+    "unit": one_of(LENGTHS, "unit", FOREIGN_UNITS),
+    "alignment": one_of(ALIGNMENTS, "align", {"middle": "centre"}),
     "order": _order,
     "flag": lambda cursor: Name(cursor.before.text, cursor.before.span),
 }

@@ -53,6 +53,8 @@ _OTHERS = {
     "strobe": FREQUENCY,
     "blend": LENGTH,
     "corner": LENGTH,
+    "wall": LENGTH,
+    "keep": LENGTH,
 }
 # Of lengths [m], angles [rad] and times [s]: far above any drawing, and the fourth power of it,
 # scaled as much again, is still a computer's number.

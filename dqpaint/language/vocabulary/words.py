@@ -110,6 +110,9 @@ PARTS = {
         PartWord("unit", "unit", "of the numbers in a file", "unit mm"),
         PartWord("order", "order", "which line comes when: kept, not shortened", "order as drawn"),
         PartWord("smooth", "flag", "bends from point to point, but for sharp corners", "smooth"),
+        PartWord("within", "angle", "how far off it may point", "within 50 deg"),
+        PartWord("for", "holder", "what is kept: tool or beam; else all links", "for tool"),
+        PartWord("base", "flag", "coordinates are those of the robot's base", "base"),
         PartWord("brush", "brush", "what shines, with its values", "brush bar 120 mm along x"),
         PartWord(
             "strobe", "strobe", "the light flashes, for a part of the time", "strobe 10 Hz 30%"
@@ -145,6 +148,28 @@ STATEMENTS = {
             "start at (0, 0, 0) tool rpy(0 deg, 0 deg, 0 deg)",
             parts=("at", "tool"),
             needs=("at",),
+        ),
+        StatementWord(
+            "wall",
+            "a wall that the arm does not pass, below or above x, y or z",
+            "wall below z = -50 mm",
+            head="wall",
+            parts=("for", "base", "by", "in"),
+        ),
+        StatementWord(
+            "keep",
+            "where the arm stays: inside a box, away from an obstacle, its links apart",
+            "keep away from sphere at (0, 0, 80) mm radius 30 mm",
+            head="keep",
+            parts=("to", "at", "along", "radius", "scale", "for", "base", "by", "in"),
+        ),
+        StatementWord(
+            "face",
+            "where the tool's z axis points: to the viewer, or along a direction",
+            "face viewer within 50 deg",
+            head="face",
+            parts=("within", "base"),
+            needs=("within",),
         ),
         StatementWord("period", "the time between two samples", "period 8 ms", head="value"),
         *(
@@ -432,7 +457,20 @@ FUNCTION_ALIASES = {
 
 # Never part of an expression: a value was forgotten if one of them is found there.
 # But these have a meaning in a few statements only, and `let radius = …` is common.
-FREE = ("corner", "height", "jump", "left", "long", "order", "radius", "right", "unit", "width")
+FREE = (
+    "base",
+    "within",
+    "corner",
+    "height",
+    "jump",
+    "left",
+    "long",
+    "order",
+    "radius",
+    "right",
+    "unit",
+    "width",
+)
 RESERVED = frozenset(
     (*STATEMENTS, *PARTS, *RENAMED, *LITTLE_WORDS, "if", "else", "while")
 ).difference(FREE)

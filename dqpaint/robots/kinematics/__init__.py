@@ -2,7 +2,7 @@
 
 from dqpaint.robots.kinematics.batched import ManyKinematics
 from dqpaint.robots.kinematics.collisions import (
-    CollisionShapes, Nearest, collision_shapes, read_mesh,
+    CollisionShapes, LinkCapsule, Nearest, collision_shapes, read_mesh,
 )
 from dqpaint.robots.kinematics.differential_ik import (
     CHARACTERISTIC_LENGTH, DAMPING_THRESHOLD, START_GAIN, Damping, damped_force, damped_inverse,
@@ -29,7 +29,8 @@ from dqpaint.robots.kinematics.start_posture import (
 __all__ = [
     "CHARACTERISTIC_LENGTH", "DAMPING_THRESHOLD", "DEFAULT_OBJECTIVE",
     "LIMIT_TOLERANCE", "OBJECTIVES", "PATH_TOLERANCE", "START_GAIN", "UNITS", "Clamp",
-    "Clipped", "CollisionShapes", "Damping", "Dynamics", "Kinematics", "ManyKinematics",
+    "Clipped", "CollisionShapes", "Damping", "Dynamics", "Kinematics", "LinkCapsule",
+    "ManyKinematics",
     "ModelNumbers", "Nearest", "NoPosture", "RateBounds", "ScrewKinematics", "SecondaryTask",
     "StartPosture", "collision_shapes", "damped_force", "damped_inverse",
     "damped_inverse_times", "drift_acceleration",

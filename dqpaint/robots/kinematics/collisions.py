@@ -7,6 +7,7 @@ ones, as in a picture. Both use Coal, which comes with pinocchio and shares its 
 from collections.abc import Sequence
 from contextlib import suppress
 from functools import lru_cache
+from itertools import product
 from pathlib import Path
 from typing import NamedTuple
 from xml.etree import ElementTree as Xml
@@ -26,6 +27,9 @@ TRIAL_POSTURES, SEED = 32, 1988
 TOUCHING_SHARE = 0.5  # links that touch in more of the trial postures are not checked
 SIGHT_RADIUS = 1e-5  # [m] half the width of a line of sight, as thin as a ray
 SIGHT_END = coal.Sphere(SIGHT_RADIUS)
+CORNERS = 16  # of what stands for a circle, from outside
+ROUNDING = 1e-9  # [m]
+Z = np.array([0.0, 0.0, 1.0])
 LAMP_CLEARANCE = 0.010  # [m] around the light that occludes nothing: the holder of the lamp
 
 
@@ -40,6 +44,24 @@ class Nearest(NamedTuple):
 
     distance: Floats
     pair: list[tuple[str, str]]
+
+
+class LinkCapsule(NamedTuple):
+    """A rod with round ends that has a body of the arm inside.
+
+    Attributes:
+        joint: the joint that moves the body, from 1; 0 is the base.
+        start: of its axis, in the joint's frame (3,) [m].
+        end: likewise.
+        radius: [m].
+        name: of a link of the body.
+    """
+
+    joint: int
+    start: Floats
+    end: Floats
+    radius: float
+    name: str
 
 
 @lru_cache(maxsize=1)
@@ -105,6 +127,26 @@ class CollisionShapes:
                 closest = int(np.argmin(far))
                 distance[k], pair[k] = far[closest], self._pair_names(closest)
         return Nearest(distance, pair)
+
+    def capsules(self) -> tuple[LinkCapsule, ...]:
+        """A capsule round each body that moves, and round the base: all of its shapes are inside.
+
+        Its axis is that of the largest spread of the shapes' points.
+        """
+        balls: dict[int, list[Floats]] = {}
+        for shape in self._shapes.geometryObjects:
+            where = shape.placement
+            points, radius = _balls(shape.geometry)
+            placed = points @ where.rotation.T + where.translation
+            rows = np.column_stack([placed, np.full(len(placed), radius)])
+            balls.setdefault(shape.parentJoint, []).append(rows)
+        names: dict[int, str] = {}
+        for shape, name in zip(self._shapes.geometryObjects, self._names, strict=True):
+            names.setdefault(shape.parentJoint, name)
+        return tuple(
+            LinkCapsule(joint, *_enclosing(np.concatenate(rows)), names[joint])
+            for joint, rows in sorted(balls.items())
+        )
 
     def occludes(self, postures: Floats, points: Floats, eye: Floats) -> NDArray[np.bool_]:
         """Whether the arm is between an eye and a light (N,).
@@ -174,6 +216,46 @@ class CollisionShapes:
     def _pair_names(self, index: int) -> tuple[str, str]:
         pair = self._shapes.collisionPairs[index]
         return self._names[pair.first], self._names[pair.second]
+
+
+def _balls(solid: coal.CollisionGeometry) -> tuple[Floats, float]:
+    """Points (m, 3) and a radius, so that a solid is inside the hull of the balls round them."""
+    match solid:
+        case coal.Sphere():
+            return np.zeros((1, 3)), solid.radius
+        case coal.Capsule():
+            return np.array([[0, 0, solid.halfLength], [0, 0, -solid.halfLength]]), solid.radius
+        case coal.Cylinder():
+            turn = np.linspace(0, 2 * np.pi, CORNERS, endpoint=False)
+            ring = (
+                solid.radius / np.cos(np.pi / CORNERS) * np.stack([np.cos(turn), np.sin(turn)], 1)
+            )
+            ends = [np.column_stack([ring, np.full(CORNERS, side * solid.halfLength)])
+                    for side in (1, -1)]  # fmt: skip
+            return np.concatenate(ends), 0.0
+        case coal.Box():
+            signs = np.array(list(product((1, -1), repeat=3)))
+            return signs * solid.halfSide, 0.0
+        case coal.ConvexBase():
+            return np.array(solid.points()).reshape(-1, 3), 0.0
+        case coal.BVHModelBase():
+            return np.array(solid.vertices()).reshape(-1, 3), 0.0
+    raise TypeError(f"no points of a {type(solid).__name__}")
+
+
+def _enclosing(balls: Floats) -> tuple[Floats, Floats, float]:
+    """Axis and radius of a capsule round balls (m, 4)."""
+    points, sizes = balls[:, :3], balls[:, 3]
+    middle = 0.5 * (points.max(axis=0) + points.min(axis=0))
+    axis = np.linalg.svd(points - middle, full_matrices=False)[2][0] if len(points) > 1 else Z
+    along = (points - middle) @ axis
+    off = np.linalg.norm(points - middle - np.outer(along, axis), axis=1)
+    radius = float((off + sizes).max()) + ROUNDING
+    reach = np.sqrt(np.maximum((radius - sizes) ** 2 - off**2, 0.0))
+    low, high = float((along + reach).min()), float((along - reach).max())
+    if low > high:
+        low = high = 0.5 * (low + high)
+    return middle + low * axis, middle + high * axis, radius
 
 
 Sight = tuple[coal.Capsule, coal.Transform3s, coal.Transform3s]

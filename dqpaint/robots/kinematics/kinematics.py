@@ -120,6 +120,12 @@ class Kinematics:
         controlled = self.task_map(pose)
         return jacobian if controlled is None else controlled @ jacobian
 
+    def joint_frames(self, posture: Floats) -> tuple[Floats, Floats]:
+        """Rotations (n + 1, 3, 3) and positions (n + 1, 3) [m] of base and joints at a posture."""
+        pinocchio.forwardKinematics(self.model, self._data, posture)
+        frames = self._data.oMi.tolist()
+        return np.array([f.rotation for f in frames]), np.array([f.translation for f in frames])
+
     def screws(self) -> Screws:
         """The arm as screw axes, up to the tool."""
         home, axes = self.pose_and_jacobian(np.zeros(self.card.joints))

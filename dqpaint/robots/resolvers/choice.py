@@ -16,5 +16,5 @@ def task_of(settings: Settings, program: Program) -> Task:
 
 
 def resolver_of(settings: Settings, program: Program) -> str:
-    """The resolver of a run, as text: the one that is chosen, else the default."""
-    return settings.resolver or DEFAULT_RESOLVER
+    """The resolver of a run, as text: the one that is chosen, else the one that holds walls."""
+    return settings.resolver or ("qp" if program.walls else DEFAULT_RESOLVER)

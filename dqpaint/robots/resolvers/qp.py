@@ -14,6 +14,7 @@ from ctypes import c_int
 from typing import ClassVar, NamedTuple, cast
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
 from dqpaint import dq
@@ -40,12 +41,26 @@ class Bounds(NamedTuple):
         upper: (n,) [rad/s].
         A: (m, n), of distances: A q_dot <= b.
         b: (m,) [m/s].
+        wall: of the drawing, that a row is of (m,).
     """
 
     lower: Floats
     upper: Floats
     A: Floats
     b: Floats
+    wall: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
+
+
+class Held(NamedTuple):
+    """What walls did in a row.
+
+    Attributes:
+        walls: whether each of the drawing's held the arm back (W,).
+        lost: the tool's velocity that was given up [m/s].
+    """
+
+    walls: NDArray[np.bool_]
+    lost: float
 
 
 class Answer(NamedTuple):
@@ -58,7 +73,7 @@ class Answer(NamedTuple):
     """
 
     rates: Floats
-    active: np.ndarray[tuple[int], np.dtype[np.bool_]]
+    active: NDArray[np.bool_]
     slack: float
 
 
@@ -100,6 +115,8 @@ class Qp:
         self._approach = min(self.eta, 1.0 / setup.period)  # joint limits are kept in any case
         self._change = np.inf if given.acceleration is None else given.acceleration * setup.period
         self._last: Floats | None = None
+        self._walls = setup.walls
+        self.history: list[Held] = []
 
     def rates(self, state: State, twists: Sequence[Floats], wish: Floats | None) -> Floats:
         """See `Resolver`."""
@@ -115,8 +132,17 @@ class Qp:
         return self._keep(state, rates, lambda: np.eye(len(rates)))
 
     def _keep(self, state: State, wanted: Floats, weight: Callable[[], Floats]) -> Floats:
-        self._last = self.nearest(wanted, weight, self.bounds(state)).rates
-        return self._last
+        bounds = self.bounds(state)
+        found = self.nearest(wanted, weight, bounds)
+        self._last = found.rates
+        if self._walls is not None:
+            held = np.zeros(len(self._walls.given), dtype=bool)
+            held[bounds.wall[found.active]] = True
+            velocity = dq.point_velocity(
+                state.jacobian @ (found.rates - wanted), dq.translation(state.pose)
+            )
+            self.history.append(Held(held, float(np.linalg.norm(velocity))))
+        return found.rates
 
     def bounds(self, state: State) -> Bounds:
         """What the next joint rates have to keep, those of the last call included."""
@@ -129,8 +155,10 @@ class Qp:
                 np.clip(self._last - self._change, low, high),
                 np.clip(self._last + self._change, low, high),
             )
-        n = len(low)
-        return Bounds(low, high, np.zeros((0, n)), np.zeros(0))
+        if self._walls is None:
+            return Bounds(low, high, np.zeros((0, len(low))), np.zeros(0))
+        rows = self._walls.rows(state.posture, state.pose, state.jacobian, state.t)
+        return Bounds(low, high, -rows.gradient, self.eta * rows.distance + rows.drift, rows.wall)
 
     def weight(self, state: State) -> Floats:
         """J'J (n, n): what a change of the joint rates changes of the task, at the tool's point."""

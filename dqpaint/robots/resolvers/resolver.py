@@ -12,6 +12,7 @@ from dqpaint.core import Registry, make_choice, read_choice
 from dqpaint.dq import Floats
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.model import POSE, Task
+from dqpaint.robots.walls import Walls
 
 DEFAULT_RESOLVER = "filter"
 
@@ -39,11 +40,13 @@ class Setup(NamedTuple):
         kinematics: the law's model of the arm.
         period: of the control [s].
         task: which part of the pose is controlled.
+        walls: of the drawing, where they stand.
     """
 
     kinematics: Kinematics
     period: float
     task: Task = POSE
+    walls: Walls | None = None
 
 
 class Values(BaseModel):

@@ -16,8 +16,8 @@ def _least(track: Track) -> Floats | None:
     return np.asarray(track.walls.distance[:, lengths].min(axis=1))
 
 
-@column("wall", "", "wall", "the wall that holds the arm back, counted from 1; 0 where none does",
-        from_zero=True, equation='w_k = "the wall whose inequality is active", 0 "else"')  # fmt: skip
+@column("wall", "", "wall", "the wall that holds the arm, from 1; 0 where none does",
+        from_zero=True, equation='w_k = "the wall that is active", 0 "else"')  # fmt: skip
 def _wall(track: Track) -> Values | None:
     if track.walls is None:
         return None
@@ -46,7 +46,7 @@ def _wall_distance_min(track: Track, _table: Table) -> float | None:
     return None if least is None else float(least.min())
 
 
-@figure("wall_active_share", "", "held by walls", "part of the run in which a wall held the arm back",
+@figure("wall_active_share", "", "held by walls", "part of the run in which a wall holds the arm",
         display_unit="%", equation="mean(w_k != 0)")  # fmt: skip
 def _wall_active(track: Track, _table: Table) -> float | None:
     return None if track.walls is None else float(track.walls.active.any(axis=1).mean())

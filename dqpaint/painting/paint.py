@@ -260,7 +260,10 @@ def finish(ready: PreparedRun, run: Track, photographed: bool = True) -> Paintin
         steps = step_responses(run)
         judgement = judge(run, ready.swinging)
     robot = settings.robot or motion.program.robot or DEFAULT_ROBOT
-    cast = ArmMotion(robot, run.posture, motion.source, motion.period)
+    middle = 0.5 * (motion.points.max(axis=0) + motion.points.min(axis=0))
+    given = motion.program.walls
+    scenery = (given, motion.canvas, middle) if given else None
+    cast = ArmMotion(robot, run.posture, motion.source, motion.period, scenery)
     if settings.staged and not cast.has_joints:
         notes += (NO_JOINTS_NOTE,)
     with clock("light"), scene_arm_of_run(settings, card, cast) as staging:

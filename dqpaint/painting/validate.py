@@ -62,6 +62,7 @@ def check_run(
     _check_independent(settings)
     check_recorded(settings)
     law = RECORDED if settings.recorded else controller or find_controller(settings.controller)
+    _check_resolved(settings, law)
     gains = law.read_gains(settings.gains)
     law = _with_sign_rule(law, settings.sign)
     takes: Takes = "torque" if law.drives_torque else "rates"
@@ -83,6 +84,24 @@ def _with_sign_rule(law: Controller[Any], sign: str) -> Controller[Any]:
             "a rule of its own; leave out --sign"
         )
     return replace(law, sign=rule)
+
+
+def _check_resolved(settings: Settings, law: Controller[Any]) -> None:
+    """Refuse a resolver or a task that a law has no use for.
+
+    Raises:
+        UsageError: it has none.
+    """
+    if law.drives_torque and settings.resolver and read_resolver(settings.resolver)[0].holds_rates:
+        raise UsageError(
+            f"resolver '{settings.resolver}' holds joint rates, and controller '{law.name}' "
+            "commands torques: take a law of twists or rates, or leave out --resolver"
+        )
+    if settings.task not in (None, "pose") and not law.is_resolved:
+        raise UsageError(
+            f"task '{settings.task}' is for laws that command the tool: controller '{law.name}' "
+            f"commands {law.commands} by itself"
+        )
 
 
 def check_settings(settings: Settings) -> None:

@@ -18,6 +18,7 @@ from dqpaint.dq import Floats
 from dqpaint.light import Image
 from dqpaint.light.camera import Camera
 from dqpaint.motion import RowLines
+from dqpaint.program import Wall
 from dqpaint.robots.model import Card
 from dqpaint.robots.urdf import prepare, urdf_file
 from dqpaint.settings import Settings
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from dqpaint.render.ray_casting import RayCaster
 
 
+Scenery = tuple[tuple[Wall, ...], Floats, Floats]
 Shine = Callable[[slice], Sequence[tuple[Floats, Floats]]]
 MOVIE_SIDE = 480
 """Pixels of the longer side at which the arm is rendered in a movie."""
@@ -72,6 +74,7 @@ class SceneArm(ExitStack):
         period: [s].
         source: the line (N,) at these instants; None: they are not known.
         whole: whether the description has all shapes that its arm should have.
+        walls: of the drawing, its frame (8,) and its middle (3,), to be shown beside the arm.
 
     Attributes:
         source: as given; line 0 if unknown.
@@ -84,6 +87,7 @@ class SceneArm(ExitStack):
         period: float,
         source: RowLines | None = None,
         whole: bool = True,
+        walls: Scenery | None = None,
     ) -> None:
         super().__init__()
         self._urdf = urdf
@@ -92,6 +96,7 @@ class SceneArm(ExitStack):
         unknown = [SourceLine(0, 0)] * len(posture)
         self.source = RowLines.from_lines(unknown) if source is None else source
         self._period = period
+        self._walls = walls
 
     @cached_property
     def arm(self) -> Arm:
@@ -100,6 +105,10 @@ class SceneArm(ExitStack):
 
         arm = self.enter_context(Arm(self._urdf))
         arm.whiten()
+        if self._walls is not None:
+            from dqpaint.render.wall_shapes import add_walls
+
+            add_walls(arm.client, *self._walls)
         return arm
 
     @cached_property
@@ -198,12 +207,14 @@ class ArmMotion:
             recorded as poses.
         source: the line (N,) at these instants.
         period: [s].
+        walls: of the drawing, its frame (8,) and its middle (3,) [m].
     """
 
     robot: str
     posture: Floats
     source: RowLines
     period: float
+    walls: Scenery | None = None
 
     @property
     def has_joints(self) -> bool:
@@ -224,6 +235,6 @@ def scene_arm_of_run(settings: Settings, card: Card, cast: ArmMotion) -> Iterato
     whole = prepare(card).whole
     with (
         urdf_file(card) as path,
-        SceneArm(path, cast.posture, cast.period, cast.source, whole) as staging,
+        SceneArm(path, cast.posture, cast.period, cast.source, whole, cast.walls) as staging,
     ):
         yield staging

@@ -28,7 +28,7 @@ from dqpaint.robots.kinematics import (
     resolve,
 )
 from dqpaint.robots.model import POSE, Card
-from dqpaint.robots.resolvers import DEFAULT_RESOLVER, Held, Qp, Setup, make_resolver
+from dqpaint.robots.resolvers import DEFAULT_RESOLVER, Held, Qp, Setup, make_resolver, read_resolver
 from dqpaint.robots.walls import WallsOfRun, among_walls, walls_of
 from dqpaint.simulation.drives import make_drive
 from dqpaint.simulation.sensors import (
@@ -257,6 +257,8 @@ def _simulate(
     laws = [controller.start(arm, motion, gains) for _ in task.parts]
     wish = make_secondary_task(null, card, start)
     walls = walls_of(motion, sensors.model)
+    if controller.drives_torque and read_resolver(resolver)[0].holds_rates:
+        resolver = DEFAULT_RESOLVER  # what holds rates is not for accelerations
     solver = make_resolver(resolver, Setup(sensors.model, motion.period, task, walls))
     log.history = solver.history if isinstance(solver, Qp) else []
     drive = make_drive(controller, laws, sensors.model, wish, motion.period, solver)

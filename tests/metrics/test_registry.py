@@ -90,7 +90,7 @@ def test_no_figure_hides_what_else_a_summary_says(tmp_path):
 def test_columns_and_figures_are_where_people_look_for_them():
     assert set(colour_columns()) == {
         "line", "position-error", "orientation-error", "invariant-error", "speed", "acceleration",
-        "effort", "manipulability", "clipped-joints",
+        "effort", "manipulability", "clipped-joints", "wall", "wall-distance", "wall-lost",
     }  # fmt: skip
     shown = listing.lists("all")
     assert [row["name"] for row in shown["figures"]] == list(all_figures())

@@ -73,3 +73,13 @@ def test_a_forecast_and_a_run_begin_alike(choices):
     assert (report.retiming is not None) == (ready.retiming is not None) == ("on_limit" in choices)
     if ready.retiming:
         assert ready.motion.seconds > 0.2
+
+
+def test_a_resolver_and_a_task_are_refused_where_a_law_has_no_use_for_them():
+    for choices in (
+        {"controller": "accel", "resolver": "qp"}, {"controller": "translation", "task": "point"},
+    ):  # fmt: skip
+        with pytest.raises(UsageError, match=choices["controller"]):
+            check_run(make_settings(**choices))
+    check_run(make_settings(controller="accel", task="beam", resolver="wampler"))
+    check_run(make_settings(controller="translation", resolver="qp"))

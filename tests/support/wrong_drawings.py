@@ -175,6 +175,14 @@ curve (10 mm*sin(t), 0) for t from 0 to 1|E213|1:18 t|help
 line to 50 mm, 0 mm|E112|1:14 ,|help fix
 period 20 s|E257|1:8 20 s|help
 task line|E267|1:6 line|help
+keep inside box (0,0,0) mm to (30,30,0) mm|E268|1:31 (30,30,0) mm|help
+face viewer within 180 deg|E268|1:20 180 deg|help
+wall below z = -50 mm by (0,10) mm|E268|1:26 (0,10) mm|help
+wall under z = 0|E109|1:6 under|help
+keep away from ball|E109|1:16 ball|help
+keep away from sphere at (0,0,0) mm|E115|1:1 keep away from sphere at (0,0,0) mm|help
+keep links apart 0 mm|E220|1:18 0 mm|label
+repeat 2~wall below z = 0~line by (1,0) mm~end|E123|2:1 wall|help
 profile cubic(1e300 mm/s, 0 mm/s)|E201|1:15 1e300 mm/s|
 line by (5,0) mm by (0,5) mm samples 1|E256|1:1 line by (5,0) mm by (0,5) mm samples 1|help
 repeat 10001~line by (1,0) mm~end|E303|1:8 10001|help

@@ -2,7 +2,7 @@
 
 from dqpaint.core import record
 from dqpaint.diagnostics import Fix, Problem, Span, closest, did_you_mean, join_words, problem
-from dqpaint.language.syntax import clauses, import_clauses, statement_rules, wall_clauses
+from dqpaint.language.syntax import clauses, import_clauses, statement_rules
 from dqpaint.language.syntax.cursor import Cursor, example_of, found, no_value
 from dqpaint.language.syntax.expressions import bracket, expression, foreign_unit
 from dqpaint.language.syntax.identifiers import new_name
@@ -71,11 +71,11 @@ def _head(cursor: Cursor, word: str, head: str) -> _Head:
         case "robot":
             return _Head(_robot(cursor))
         case "wall":
-            return _Head(*wall_clauses.wall(cursor))
+            return _Head(*clauses.wall(cursor))
         case "keep":
-            return _Head(*wall_clauses.keep(cursor))
+            return _Head(*clauses.keep(cursor))
         case "face":
-            return _Head(*wall_clauses.face(cursor))
+            return _Head(*clauses.face(cursor))
         case "task":
             return _Head(_task(cursor))
         case "place":
@@ -242,7 +242,7 @@ def _parts(cursor: Cursor, word: str) -> list[Part]:
     return parts
 
 
-_READERS = {**clauses.READERS, **import_clauses.READERS, **wall_clauses.READERS}
+_READERS = {**clauses.READERS, **import_clauses.READERS}
 
 
 def _part(cursor: Cursor, word: str, span: Span) -> Part:

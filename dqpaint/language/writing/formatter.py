@@ -156,7 +156,8 @@ def _after(state: _State, token: Token) -> _State:
         known = STATEMENTS.get(statement)
         part = known is not None and token.text in known.parts  # but it may be a name in a formula
         opens = state.before is not None and (state.before.text == statement or state.ends_value)
-        is_word = token.text in RESERVED or (part and opens)
+        kind = statement == "keep" and state.before and state.before.text in ("inside", "from")
+        is_word = token.text in RESERVED or (part and opens) or bool(kind)
         if state.before is not None and state.before.text == "brush":
             brush, is_word = token.text, True
         elif brush and is_key(brush, token.text):

@@ -25,6 +25,12 @@ class Statements:
         """The drawing frame in the robot's base frame, or auto: where it fits best: `d.place(at="(600, 0, 500) mm")`."""
     def start(self, *, at: Any = ..., tool: Any = ...) -> None:
         """Where the drawing begins: `d.start(at="(0, 0, 0)", tool="rpy(0 deg, 0 deg, 0 deg)")`."""
+    def wall(self, *values: Any, for_: Any = ..., base: bool = ..., by: Any = ..., in_: Any = ...) -> None:
+        """A wall that the arm does not pass, below or above x, y or z: `d.wall("below z = -50 mm")`."""
+    def keep(self, *values: Any, to: Any = ..., at: Any = ..., along: Any = ..., radius: Any = ..., scale: Any = ..., for_: Any = ..., base: bool = ..., by: Any = ..., in_: Any = ...) -> None:
+        """Where the arm stays: inside a box, away from an obstacle, its links apart: `d.keep("away from sphere", at="(0, 0, 80) mm", radius="30 mm")`."""
+    def face(self, *values: Any, within: Any = ..., base: bool = ...) -> None:
+        """Where the tool's z axis points: to the viewer, or along a direction: `d.face("viewer", within="50 deg")`."""
     def period(self, *values: Any) -> None:
         """The time between two samples: `d.period("8 ms")`."""
     def speed(self, *values: Any) -> None:

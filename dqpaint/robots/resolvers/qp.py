@@ -42,6 +42,7 @@ class Bounds(NamedTuple):
         A: (m, n), of distances: A q_dot <= b.
         b: (m,) [m/s].
         wall: of the drawing, that a row is of (m,).
+        distance: the distances themselves (m,) [m].
     """
 
     lower: Floats
@@ -49,6 +50,7 @@ class Bounds(NamedTuple):
     A: Floats
     b: Floats
     wall: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
+    distance: Floats = np.zeros(0)
 
 
 class Held(NamedTuple):
@@ -109,7 +111,7 @@ class Qp:
                 f"passes walls: it is kept to 1 a period, {1 / setup.period:g} here; force=yes "
                 "takes it all the same"
             )
-        self._task = setup.task
+        self._task, self._arm, self._period = setup.task, setup.kinematics, setup.period
         self._nominal = Filter(setup, Filter.options.model_validate({}))
         self._lower, self._upper, self._speed = card.lower, card.upper, card.speed
         self._approach = min(self.eta, 1.0 / setup.period)  # joint limits are kept in any case
@@ -134,6 +136,8 @@ class Qp:
     def _keep(self, state: State, wanted: Floats, weight: Callable[[], Floats]) -> Floats:
         bounds = self.bounds(state)
         found = self.nearest(wanted, weight, bounds)
+        if found.active.any() and self._approach == self.eta:
+            found = self.nearest(wanted, weight, self._ahead(state, bounds, found.rates))
         self._last = found.rates
         if self._walls is not None:
             held = np.zeros(len(self._walls.given), dtype=bool)
@@ -143,6 +147,20 @@ class Qp:
             )
             self.history.append(Held(held, float(np.linalg.norm(velocity))))
         return found.rates
+
+    def _ahead(self, state: State, bounds: Bounds, rates: Floats) -> Bounds:
+        """The bounds, less what the bend of the joints' way takes of the distances in a period.
+
+        A wall is straight and a joint's way is not: what the distances will be, beside what the
+        gradients promise, is d(q + T q_dot) - (1 - eta T) d, of second order in T.
+        """
+        assert self._walls is not None
+        after = state.posture + self._period * rates
+        pose, J = self._arm.pose_and_jacobian(after)
+        reached = self._walls.rows(after, pose, J, state.t + self._period).distance
+        promised = (1.0 - self.eta * self._period) * bounds.distance
+        missing = np.maximum(promised - reached, 0.0)
+        return bounds._replace(b=bounds.b - missing / self._period)
 
     def bounds(self, state: State) -> Bounds:
         """What the next joint rates have to keep, those of the last call included."""
@@ -158,7 +176,8 @@ class Qp:
         if self._walls is None:
             return Bounds(low, high, np.zeros((0, len(low))), np.zeros(0))
         rows = self._walls.rows(state.posture, state.pose, state.jacobian, state.t)
-        return Bounds(low, high, -rows.gradient, self.eta * rows.distance + rows.drift, rows.wall)
+        b = self.eta * rows.distance + rows.drift
+        return Bounds(low, high, -rows.gradient, b, rows.wall, rows.distance)
 
     def weight(self, state: State) -> Floats:
         """J'J (n, n): what a change of the joint rates changes of the task, at the tool's point."""

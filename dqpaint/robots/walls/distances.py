@@ -19,6 +19,7 @@ from dqpaint import dq
 from dqpaint.dq import Floats
 
 TINY = 1e-12  # [m] and less is no direction
+TOUCHING = 1e-5  # [m] from a hull: what meets it is measured by how deep it is
 
 
 class Contacts(NamedTuple):
@@ -124,26 +125,26 @@ def from_hull(start: Floats, end: Floats, hull: ConvexHull) -> Contacts:
     """Segments (m, 3) from a convex hull, signed: the least of |p - c| by a quadratic program."""
     import daqp
 
-    normals, offsets = hull.equations[:, :3], -hull.equations[:, 3]
+    sides = np.unique(hull.equations.round(10), axis=0)  # triangles of one side are one
+    normals, offsets = sides[:, :3], -sides[:, 3]
     count = len(start)
     found = Contacts(np.empty(count), np.empty((count, 3)), np.empty((count, 3)), np.arange(count))
     lower = np.append(0.0, np.full(len(offsets), -1e30))
-    rows = np.column_stack([np.zeros(len(offsets)), normals])
+    H = np.diag([2e-6, 2.0, 2.0, 2.0])  # of s, and y = p - c: y'y, and of equals the least s
     for i in range(count):
         u = end[i] - start[i]
-        # of s, c: |a + s u - c|^2, with c in the hull and s from 0 to 1
-        G = np.column_stack([u, -np.eye(3)])
-        H = 2 * G.T @ G + np.diag([1e-12, 0, 0, 0])
+        rows = np.column_stack([normals @ u, -normals])
         x, _, answer, _ = daqp.solve(
-            H, 2 * G.T @ start[i], rows, np.append(1.0, offsets), lower,
+            H, np.zeros(4), rows, np.append(1.0, offsets - normals @ start[i]), lower,
             np.zeros(len(offsets) + 1, dtype=np.int32), primal_tol=1e-11,
         )  # fmt: skip
-        p, c = start[i] + x[0] * u, np.asarray(x[1:])
-        far = float(np.linalg.norm(p - c))
-        if answer < 1 or far < 1e-9:
+        way = np.asarray(x[1:])
+        far = float(np.linalg.norm(way))
+        if answer < 1 or far < TOUCHING:
             _set_deepest(found, i, start[i], end[i], normals, offsets)
         else:
-            found.distance[i], found.normal[i], found.point[i] = far, (p - c) / far, p
+            point = start[i] + x[0] * u
+            found.distance[i], found.normal[i], found.point[i] = far, way / far, point
     return found
 
 

@@ -100,7 +100,9 @@ class Walls:
     @property
     def _needs_links(self) -> bool:
         return any(
-            wall.holder == "arm" and not isinstance(wall.shape, walls.Cone) for wall in self.given
+            isinstance(wall.shape, walls.Apart)
+            or (wall.holder == "arm" and not isinstance(wall.shape, walls.Cone))
+            for wall in self.given
         )
 
     def rows(self, posture: Floats, pose: Floats, jacobian: Floats, time: float) -> WallRows:

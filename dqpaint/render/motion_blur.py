@@ -45,7 +45,7 @@ def blurred_arm(
     """Linear light (H, W, 3) of arm and floor, to be added before development.
 
     Args:
-        arm: white.
+        arm: that moved.
         postures: (N, n) at instants a period apart [rad].
         camera: that of the picture.
         shine: of some steps between these instants, of each lamp its points (M, 3) [m] and the

@@ -41,8 +41,7 @@ def visible_share(
 
     def ask(rows: NDArray[np.int64]) -> None:
         start, end = _rays(places[rows], eye)
-        for i in caster.each_posture(postures[rows]):
-            seen[rows[i]] = ~caster.blocked(start[i], end[i])
+        seen[rows] = ~caster.blocked(postures[rows], start, end)
         tried[rows] = True
 
     ask(_instants(postures, places, rows))

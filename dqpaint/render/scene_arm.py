@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
@@ -65,7 +65,7 @@ def hidden_by_line(hidden: Floats, emitted: Floats, source: RowLines) -> HiddenL
     return HiddenLight(hidden.sum(axis=0), found)
 
 
-class SceneArm(ExitStack):
+class SceneArm:
     """An arm with the postures of a run. Its shapes are loaded when they are first needed.
 
     Args:
@@ -89,7 +89,6 @@ class SceneArm(ExitStack):
         whole: bool = True,
         walls: Scenery | None = None,
     ) -> None:
-        super().__init__()
         self._urdf = urdf
         self._whole = whole
         self._posture = posture
@@ -100,15 +99,14 @@ class SceneArm(ExitStack):
 
     @cached_property
     def arm(self) -> Arm:
-        """The arm, painted white."""
+        """The arm."""
         from dqpaint.render.arm_shapes import Arm
 
-        arm = self.enter_context(Arm(self._urdf))
-        arm.whiten()
+        arm = Arm(self._urdf)
         if self._walls is not None:
-            from dqpaint.render.wall_shapes import add_walls
+            from dqpaint.render.wall_shapes import wall_surfaces
 
-            add_walls(arm.client, *self._walls)
+            arm.beside = list(wall_surfaces(*self._walls))
         return arm
 
     @cached_property
@@ -116,27 +114,31 @@ class SceneArm(ExitStack):
         """The arm's shapes for ray casting."""
         from dqpaint.render.ray_casting import RayCaster
 
-        return self.enter_context(RayCaster(self.arm))
+        return RayCaster(self.arm)
 
     @property
     def can_occlude(self) -> bool:
         """Whether the arm has shapes and rays can hit all of them."""
-        return self._complete and bool(self.arm.shapes) and not self.ray_caster.unread
+        return self._whole and bool(self.arm.shapes) and not self._unread
 
     @property
-    def _complete(self) -> bool:
-        return self._whole and self.arm.whole
+    def _unread(self) -> list[str]:
+        return sorted({Path(name).name for name in self.arm.unread + self.ray_caster.unread})
 
     @property
     def remarks(self) -> list[str]:
         """The parts of the arm that cannot be shown, one sentence each."""
         untraced = "and what it hides is not traced"
-        if not self._complete:
+        if not self._whole:
             return [f"warning: a mesh of the arm cannot be read and is not shown, {untraced}"]
+        if self._unread:
+            names = self._unread
+            return [
+                f"warning: {name} cannot be read: it is not shown, {untraced}" for name in names
+            ]
         if not self.arm.shapes:
             return [f"warning: the arm's file has no shapes: the arm cannot be shown, {untraced}"]
-        names = sorted({Path(shape.mesh).name for shape in self.ray_caster.unread})
-        return [f"warning: {name} cannot be read: it is not shown, {untraced}" for name in names]
+        return []
 
     def visible(self, time: Floats, places: Floats, lit: NDArray[np.bool_], eye: Floats) -> Floats:
         """The share (M, K) of the light of K lamps that reaches the eye, 0 to 1.
@@ -233,8 +235,5 @@ def scene_arm_of_run(settings: Settings, card: Card, cast: ArmMotion) -> Iterato
         yield None
         return
     whole = prepare(card).whole
-    with (
-        urdf_file(card) as path,
-        SceneArm(path, cast.posture, cast.period, cast.source, whole, cast.walls) as staging,
-    ):
-        yield staging
+    with urdf_file(card) as path:
+        yield SceneArm(path, cast.posture, cast.period, cast.source, whole, cast.walls)

@@ -114,7 +114,7 @@ def render_arm(
     """Linear light (H, W, 3) of arm and floor, to be added before development.
 
     Args:
-        arm: in its posture, white.
+        arm: in its posture.
         camera: that of the picture.
         light: of the painting.
         exposure: of the picture: factor from its own unit [lamp s / px^2] to saturation.

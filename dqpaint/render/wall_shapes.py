@@ -5,26 +5,30 @@ sheet, an endless cylinder as a long one. What would hide the picture is not sho
 room, and a plane before or behind the drawing. Light shines through walls.
 """
 
-from typing import Any
+from collections.abc import Iterator
 
 import numpy as np
 
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.program import Wall, walls
-from dqpaint.render.arm_shapes import WHITE
-from dqpaint.robots.bullet import bullet
+from dqpaint.render.meshes import Triangles, box_mesh, read_mesh_file, round_mesh
 
 SHEET, THIN = 0.3, 0.001  # [m] width of a sheet that stands for a plane, and how thick it is
 MOST_FACING = 0.5  # |cosine| to the viewer's direction, above which a sheet is not shown
 LONG = 2.0  # [m] of a cylinder without ends
 
 
-def add_walls(client: int, given: tuple[Wall, ...], frame: Floats, middle: Floats) -> None:
-    """Add the walls of a drawing to a world of PyBullet.
+Body = tuple[Triangles, Floats, Floats]
+UPRIGHT = np.array([1.0, 0.0, 0.0, 0.0])
+
+
+def wall_surfaces(
+    given: tuple[Wall, ...], frame: Floats, middle: Floats
+) -> Iterator[tuple[Floats, Triangles]]:
+    """The pose (8,) in the base frame and the surface of each wall that is shown.
 
     Args:
-        client: the world.
         given: the walls.
         frame: pose (8,) of the drawing in the base frame.
         middle: of the drawing (3,) [m], in the base frame: a sheet lies beneath it.
@@ -35,54 +39,39 @@ def add_walls(client: int, given: tuple[Wall, ...], frame: Floats, middle: Float
         local = dq.rotate(back, middle - dq.translation(place))
         viewer = dq.rotate(back, dq.rotate(dq.rotation(frame), np.array([0.0, 0.0, 1.0])))
         shape = _shape(wall.shape, local, viewer)
-        if shape is None:
-            continue
-        how, at, turn = shape
-        end = dq.mul(place, dq.pose_from(np.array(at) + np.array(wall.shift), turn))
-        w, x, y, z = dq.rotation(end).tolist()
-        visual = bullet.createVisualShape(**how, rgbaColor=WHITE, physicsClientId=client)
-        bullet.createMultiBody(
-            0, -1, visual, dq.translation(end).tolist(), [x, y, z, w], physicsClientId=client
-        )
-
-
-Body = tuple[dict[str, Any], Floats, Floats]
-UPRIGHT = np.array([1.0, 0.0, 0.0, 0.0])
+        if shape is not None:
+            surface, at, turn = shape
+            pose = dq.pose_from(np.array(at) + np.array(wall.shift), turn)
+            yield dq.mul(place, pose), surface
 
 
 def _shape(shape: walls.WallShape, middle: Floats, viewer: Floats) -> Body | None:
-    """PyBullet's arguments of a shape, its position (3,) and orientation (4,) in its own frame."""
+    """The surface of a shape, its position (3,) and orientation (4,) in its own frame."""
     match shape:
         case walls.HalfSpace(normal, offset):
             n = np.array(normal)
             if abs(n @ viewer) > MOST_FACING:
                 return None
             foot = middle + (offset - THIN - n @ middle) * n
-            half = [0.5 * SHEET, 0.5 * SHEET, THIN]
-            return _of(bullet.GEOM_BOX, halfExtents=half), foot, _from_z(n)
+            return box_mesh((SHEET, SHEET, 2 * THIN)), foot, _from_z(n)
         case walls.Block(low, high):
             ends = np.array([low, high])
-            half = (0.5 * (ends[1] - ends[0])).tolist()
-            return _of(bullet.GEOM_BOX, halfExtents=half), ends.mean(axis=0), UPRIGHT
+            return box_mesh(ends[1] - ends[0]), ends.mean(axis=0), UPRIGHT
         case walls.Ball(centre, radius):
-            return _of(bullet.GEOM_SPHERE, radius=radius), np.array(centre), UPRIGHT
+            return round_mesh("sphere", radius), np.array(centre), UPRIGHT
         case walls.Rod(first, last, radius):
             way = np.subtract(last, first)
             long = float(np.linalg.norm(way))
             turn = _from_z(way / long) if long else UPRIGHT
-            how = _of(bullet.GEOM_CAPSULE, radius=radius, length=long)
+            how = round_mesh("capsule", radius, long)
             return how, 0.5 * np.add(first, last), turn
         case walls.Pillar(point, axis, radius):
-            how = _of(bullet.GEOM_CYLINDER, radius=radius, length=LONG)
+            how = round_mesh("cylinder", radius, LONG)
             return how, np.array(point), _from_z(np.array(axis))
         case walls.Hull(file, at, scale):
-            how = _of(bullet.GEOM_MESH, fileName=str(file), meshScale=[scale] * 3)
+            how = read_mesh_file(str(file), [scale] * 3)
             return how, np.array(at), UPRIGHT
     return None
-
-
-def _of(kind: int, **size: Any) -> dict[str, Any]:
-    return {"shapeType": kind, **size}
 
 
 def _from_z(axis: Floats) -> Floats:

@@ -98,10 +98,8 @@ def clearances(arm, postures):
 def traced(arm, run, eye):
     """Whether the picture's own rays reach the light (N,), 0 to 1, at each row of a run."""
     motion, every = run.motion, np.ones(len(run.motion.t), dtype=bool)
-    with (
-        urdf_file(arm.card) as path,
-        SceneArm(path, run.posture, motion.period, motion.source) as staging,
-    ):
+    with urdf_file(arm.card) as path:
+        staging = SceneArm(path, run.posture, motion.period, motion.source)
         return staging.visible(motion.t, run.points[:, None], every, eye)[:, 0]
 
 

@@ -46,9 +46,8 @@ def shining(energy):
 
 
 def veil(tmp_path, postures, energy, **choices):
-    with Arm(urdf(tmp_path)) as arm:
-        arm.whiten()
-        return blurred_arm(arm, postures, seen(size=(480, 360)), shining(energy), 2.0, **choices)
+    arm = Arm(urdf(tmp_path))
+    return blurred_arm(arm, postures, seen(size=(480, 360)), shining(energy), 2.0, **choices)
 
 
 EVEN = np.full((N, 3), 1.0 / N)
@@ -76,16 +75,15 @@ def test_each_place_is_as_bright_as_the_arm_was_there_long(part, tmp_path, monke
     both = veil(tmp_path, postures, EVEN)
     parts = part * veil(tmp_path, HERE, EVEN) + (1 - part) * veil(tmp_path, THERE, EVEN)
     assert both.mean() == pytest.approx(parts.mean(), rel=0.01)
-    assert np.abs(both - parts).mean() < 0.06 * parts.mean()  # outlines are tried elsewhere
+    assert np.abs(both - parts).mean() < 0.08 * parts.mean()  # outlines are tried elsewhere
 
 
 @pytest.mark.slow
 def test_an_arm_that_stands_still_is_as_bright_as_one_that_is_flashed(tmp_path):
     camera = seen(size=(480, 360))
-    with Arm(urdf(tmp_path)) as arm:
-        arm.whiten()
-        arm.set_posture(A)
-        flashed = render_arm(arm, camera, gather_glow(shining(EVEN)(slice(None))), 2.0)
+    arm = Arm(urdf(tmp_path))
+    arm.set_posture(A)
+    flashed = render_arm(arm, camera, gather_glow(shining(EVEN)(slice(None))), 2.0)
     still = veil(tmp_path, HERE, EVEN)
     assert still.mean() == pytest.approx(flashed.mean(), rel=0.03)
     body = flashed.max(axis=2) > 0.05 * flashed.max()

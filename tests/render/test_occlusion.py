@@ -68,8 +68,8 @@ def test_both_ends_of_a_lit_run_are_asked():
 
 def test_a_ray_begins_off_its_lamp():
     near = Wall(-1, 1)
-    near.blocked = lambda start, end: (
-        start[:, 2] < 0.5 * occlusion.CLEARANCE
+    near.blocked = lambda postures, start, end: (
+        start[..., 2] < 0.5 * occlusion.CLEARANCE
     )  # the lamp's own socket
     one = np.ones(1, bool)
     assert visible_share(near, np.zeros((1, 1)), np.zeros((1, 1, 3)), EYE, one) == 1.0

@@ -16,6 +16,11 @@ pytestmark = pytest.mark.slow
 EDGE = 0.003  # [m] nearer to an outline the answer may be either
 
 
+def cast(twins, posture, start, end):
+    """Whether rays (R, 3) are blocked in a posture."""
+    return twins.blocked(posture[None], start[None], end[None])[0]
+
+
 def through_ball(start, end, centre, radius):
     """How far (R,) inside the ball the nearest point of each way is [m]."""
     way = end - start
@@ -36,33 +41,33 @@ def many_rays(rng, n, around):
 
 
 def test_a_ball_on_a_link_blocks_what_goes_through_it(rng, tmp_path):
-    with Arm(urdf(tmp_path, base="", first="", second=BALL)) as arm, RayCaster(arm) as twins:
-        for posture in rng.uniform(-1, 1, (4, 2)):
-            twins.set_posture(posture)
-            centre = dq.translation(dq.mul(arm.frames(posture[None])[0, 2], arm.shapes[0].frame))
-            start, end = many_rays(rng, 2000, centre)
-            deep = through_ball(start, end, centre, 0.06)
-            clear = np.abs(deep) > EDGE
-            clear &= np.linalg.norm(end - centre, axis=1) > 0.06  # none ends inside
-            hit = twins.blocked(start, end)
-            assert clear.sum() > 500
-            assert 0.05 < hit[clear].mean() < 0.95
-            np.testing.assert_array_equal(hit[clear], deep[clear] > 0)
+    arm = Arm(urdf(tmp_path, base="", first="", second=BALL))
+    twins = RayCaster(arm)
+    for posture in rng.uniform(-1, 1, (4, 2)):
+        centre = dq.translation(dq.mul(arm.frames(posture[None])[0, 2], arm.shapes[0].frame))
+        start, end = many_rays(rng, 2000, centre)
+        deep = through_ball(start, end, centre, 0.06)
+        clear = np.abs(deep) > EDGE
+        clear &= np.linalg.norm(end - centre, axis=1) > 0.06  # none ends inside
+        hit = cast(twins, posture, start, end)
+        assert clear.sum() > 500
+        assert 0.05 < hit[clear].mean() < 0.95
+        np.testing.assert_array_equal(hit[clear], deep[clear] > 0)
 
 
 def test_a_base_whose_weight_is_elsewhere_blocks_where_it_is_drawn(rng, tmp_path):
-    with Arm(urdf(tmp_path, base=BOX, first="", second="")) as arm, RayCaster(arm) as twins:
-        twins.set_posture(np.zeros(2))
-        turn = np.array([np.cos(0.2), 0, 0, np.sin(0.2)])
-        start, near = many_rays(rng, 4000, [0, 0, 0.1])
-        end = 3 * near - 2 * start  # well outside
-        own = [dq.rotate(turn * [1, -1, -1, -1], p - [0, 0, 0.1]) for p in (start, end)]
-        half = np.array([0.1, 0.05, 0.15])
-        sure = through_box(*own, half + EDGE) == through_box(*own, half - EDGE)
-        outside = (np.abs(own[0]) > half + EDGE).any(axis=1)
-        hit = twins.blocked(start, end)
-        assert 0.005 < hit[sure & outside].mean() < 0.9
-        np.testing.assert_array_equal(hit[sure & outside], through_box(*own, half)[sure & outside])
+    arm = Arm(urdf(tmp_path, base=BOX, first="", second=""))
+    twins = RayCaster(arm)
+    turn = np.array([np.cos(0.2), 0, 0, np.sin(0.2)])
+    start, near = many_rays(rng, 4000, [0, 0, 0.1])
+    end = 3 * near - 2 * start  # well outside
+    own = [dq.rotate(turn * [1, -1, -1, -1], p - [0, 0, 0.1]) for p in (start, end)]
+    half = np.array([0.1, 0.05, 0.15])
+    sure = through_box(*own, half + EDGE) == through_box(*own, half - EDGE)
+    outside = (np.abs(own[0]) > half + EDGE).any(axis=1)
+    hit = cast(twins, np.zeros(2), start, end)
+    assert 0.005 < hit[sure & outside].mean() < 0.9
+    np.testing.assert_array_equal(hit[sure & outside], through_box(*own, half)[sure & outside])
 
 
 @pytest.mark.parametrize("name", ["iiwa", "ur5"])
@@ -75,12 +80,14 @@ def test_rays_and_the_depth_buffer_agree(name, rng):
     if card.missing:
         pytest.skip(f"{name} needs {card.origin}")
     wrong = total = 0
-    with urdf_file(card) as path, Arm(path) as arm, RayCaster(arm) as twins:
-        arm.whiten()
+    with urdf_file(card) as path:
+        arm = Arm(path)
+        twins = RayCaster(arm)
         for view in (View(30, 15), View(-70, 40)):
             place = rng.uniform([-0.4, -0.4, 0], [0.8, 0.4, 1.2], (2000, 3))
             camera = frame_points(place, np.eye(3)[[1, 2, 0]].T, view, (640, 360), 0.9)
-            twins.set_posture(card.home + 0.3 * rng.normal(size=card.joints))
+            posture = card.home + 0.3 * rng.normal(size=card.joints)
+            arm.set_posture(posture)
             found = measure_surfaces(arm, camera)
             pixels, depth = camera.project(place)
             x, y = np.rint(pixels).astype(int).T - np.array([[found.box.left], [found.box.top]])
@@ -90,20 +97,20 @@ def test_rays_and_the_depth_buffer_agree(name, rng):
             drawn[found.sure] = found.depth
             hidden = np.zeros(len(place), bool)
             hidden[inside] = drawn[y[inside], x[inside]] < depth[inside]
-            hit = twins.blocked(place, np.broadcast_to(camera.position, place.shape))
+            hit = cast(twins, posture, place, np.broadcast_to(camera.position, place.shape))
             wrong, total = wrong + (hit != hidden).sum(), total + len(place)
             assert 0.02 < hit.mean() < 0.95
     assert wrong < 0.006 * total  # outlines
 
 
-def test_more_rays_than_one_call_takes_and_as_many_answers(rng, tmp_path):
-    with Arm(urdf(tmp_path)) as arm, RayCaster(arm) as twins:
-        twins.set_posture(np.array([0.3, -0.2]))
-        start, end = many_rays(rng, 33_000, [0, 0, 0.3])
-        whole = twins.blocked(start, end)
-        parts = [twins.blocked(start[i : i + 400], end[i : i + 400]) for i in range(0, 33_000, 400)]
-        assert 0.05 < whole.mean() < 0.95
-        np.testing.assert_array_equal(whole, np.concatenate(parts))  # one thread or more
+def test_rays_of_many_postures_are_those_of_each(rng, tmp_path):
+    twins = RayCaster(Arm(urdf(tmp_path)))
+    start, end = (ends.reshape(100, 33, 3) for ends in many_rays(rng, 3300, [0, 0, 0.3]))
+    postures = rng.uniform(-1, 1, (100, 2))
+    whole = twins.blocked(postures, start, end)
+    each = [cast(twins, *each) for each in zip(postures, start, end, strict=True)]
+    assert 0.05 < whole.mean() < 0.95
+    np.testing.assert_array_equal(whole, each)
 
 
 COLLADA = """<?xml version="1.0"?>
@@ -127,27 +134,19 @@ def test_a_collada_mesh_blocks_where_its_triangles_are(rng, tmp_path):
     text = COLLADA.format(corners=" ".join(str(x) for x in CORNERS.ravel()))
     (tmp_path / "a.dae").write_text(text)
     mesh = '<visual><geometry><mesh filename="a.dae" scale="2 1.5 1"/></geometry></visual>'
-    with Arm(urdf(tmp_path, base="", first="", second=mesh)) as arm, RayCaster(arm) as twins:
-        assert not twins.unread
-        twins.set_posture(np.array([0.4, -0.7]))
-        frame_of = dq.mul(arm.frames(np.array([[0.4, -0.7]]))[0, 2], arm.shapes[0].frame)
-        corners = dq.rotate(dq.rotation(frame_of), CORNERS * [2, 1.5, 1])
-        corners = corners + dq.translation(frame_of)
-        start, end = many_rays(rng, 3000, corners.mean(axis=0))
-        end = 2 * end - start
-        met = np.zeros(len(start), dtype=bool)
-        for a, b, c in corners[[(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)]]:
-            edges = np.stack(np.broadcast_arrays(b - a, c - a, start - end), axis=2)
-            u, v, t = np.linalg.solve(edges, (start - a)[..., None])[..., 0].T
-            met |= (u >= 0) & (v >= 0) & (u + v <= 1) & (t >= 0) & (t <= 1)
-        hit = twins.blocked(start, end)
-        assert 0.02 < met.mean() < 0.9
-        assert (hit != met).mean() < 0.003  # rays in an edge
-
-
-def test_a_file_that_is_no_mesh_has_no_twin(tmp_path):
-    (tmp_path / "junk.stl").write_text("junk")
-    mesh = '<visual><geometry><mesh filename="junk.stl"/></geometry></visual>'
-    with Arm(urdf(tmp_path, second=mesh)) as arm, RayCaster(arm) as twins:
-        assert [shape.link for shape in twins.unread] == [1]
-        twins.set_posture(np.zeros(2))
+    arm = Arm(urdf(tmp_path, base="", first="", second=mesh))
+    twins = RayCaster(arm)
+    assert not twins.unread
+    frame_of = dq.mul(arm.frames(np.array([[0.4, -0.7]]))[0, 2], arm.shapes[0].frame)
+    corners = dq.rotate(dq.rotation(frame_of), CORNERS * [2, 1.5, 1])
+    corners = corners + dq.translation(frame_of)
+    start, end = many_rays(rng, 3000, corners.mean(axis=0))
+    end = 2 * end - start
+    met = np.zeros(len(start), dtype=bool)
+    for a, b, c in corners[[(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)]]:
+        edges = np.stack(np.broadcast_arrays(b - a, c - a, start - end), axis=2)
+        u, v, t = np.linalg.solve(edges, (start - a)[..., None])[..., 0].T
+        met |= (u >= 0) & (v >= 0) & (u + v <= 1) & (t >= 0) & (t <= 1)
+    hit = cast(twins, np.array([0.4, -0.7]), start, end)
+    assert 0.02 < met.mean() < 0.9
+    assert (hit != met).mean() < 0.003  # rays in an edge

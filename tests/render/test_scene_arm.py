@@ -50,8 +50,8 @@ def test_no_light_hides_nothing():
 
 
 def test_nothing_is_loaded_before_it_is_needed(tmp_path):
-    with SceneArm(tmp_path / "nothing.urdf", np.zeros((3, 2)), 0.01) as staging:
-        assert staging is not None
+    staging = SceneArm(tmp_path / "nothing.urdf", np.zeros((3, 2)), 0.01)
+    assert staging is not None
 
 
 def test_the_posture_is_that_of_the_time():
@@ -152,8 +152,8 @@ def test_what_was_worked_out_of_the_arm_is_not_asked_again(ghost, drawing, tmp_p
     painting = dqpaint.draw(drawing, ghost=ghost, view="150,10", **SMALL)
     dqpaint.save(painting, f"{tmp_path}/a", "film")
     asked = []
-    load = Arm._load
-    monkeypatch.setattr(Arm, "_load", lambda self, urdf: asked.append(1) or load(self, urdf))
+    load = Arm.__init__
+    monkeypatch.setattr(Arm, "__init__", lambda self, urdf: asked.append(1) or load(self, urdf))
     for choices in ({}, {"look": "aces", "ev": 1.5}, {"starburst": 6}):
         (again,) = dqpaint.develop(tmp_path / "a-film.npz", **choices)
         drawn = dqpaint.draw(drawing, ghost=ghost, view="150,10", **SMALL, **choices)
@@ -239,12 +239,12 @@ def test_meshes_that_are_not_there_are_a_remark(tmp_path):
     mesh = '<visual><geometry><mesh filename="nothere.stl"/></geometry></visual>'
     (tmp_path / "junk.stl").write_text("junk")
     junk = mesh.replace("nothere", "junk")
-    for second, said in ((mesh, "a mesh of the arm"), (junk, "junk.stl"), ("", "no shape")):
-        with SceneArm(urdf(tmp_path, "", "", second), np.zeros((3, 2)), 0.01) as staging:
-            (remark,) = staging.remarks
-            assert remark.startswith("warning: ")
-            assert said in remark
-            assert not staging.can_occlude
-    with SceneArm(urdf(tmp_path), np.zeros((3, 2)), 0.01) as staging:
-        assert staging.remarks == []
-        assert staging.can_occlude
+    for second, said in ((mesh, "nothere.stl"), (junk, "junk.stl"), ("", "no shape")):
+        staging = SceneArm(urdf(tmp_path, "", "", second), np.zeros((3, 2)), 0.01)
+        (remark,) = staging.remarks
+        assert remark.startswith("warning: ")
+        assert said in remark
+        assert not staging.can_occlude
+    staging = SceneArm(urdf(tmp_path), np.zeros((3, 2)), 0.01)
+    assert staging.remarks == []
+    assert staging.can_occlude

@@ -40,14 +40,13 @@ def test_the_arm_adds_light_where_it_is_and_the_same_every_time(tmp_path):
     camera, light = seen(), gather_glow([ring()])
     pictures = []
     for _ in range(2):
-        with Arm(urdf(tmp_path)) as arm:
-            arm.whiten()
-            arm.set_posture(np.array([0.3, -0.4]))
-            pictures.append(render_arm(arm, camera, light, 2.0))
-            cover = np.zeros((camera.height, camera.width))
-            found = measure_surfaces(arm, camera)
-            box = found.box
-            cover[box.top : box.bottom, box.left : box.right] = found.cover
+        arm = Arm(urdf(tmp_path))
+        arm.set_posture(np.array([0.3, -0.4]))
+        pictures.append(render_arm(arm, camera, light, 2.0))
+        cover = np.zeros((camera.height, camera.width))
+        found = measure_surfaces(arm, camera)
+        box = found.box
+        cover[box.top : box.bottom, box.left : box.right] = found.cover
     np.testing.assert_array_equal(*pictures)
     image = pictures[0]
     assert image.dtype == np.float32
@@ -61,12 +60,11 @@ def test_each_side_of_the_arm_has_the_colour_of_its_side(tmp_path):
     points, energy = ring()
     energy = np.where(points[:-1, :1] > 0, [1.0, 0.1, 0.0], [0.0, 0.1, 1.0]) * energy[:, :1]
     camera = seen()
-    with Arm(urdf(tmp_path, "", "", BALL)) as arm:
-        arm.whiten()
-        arm.set_posture(np.array([-0.3, 0.0]))
-        found = measure_surfaces(arm, camera)
-        light = gather_glow([(points, energy)])
-        colours = still.light_surfaces(arm, found, camera, replace(light, gain=0.0))
+    arm = Arm(urdf(tmp_path, "", "", BALL))
+    arm.set_posture(np.array([-0.3, 0.0]))
+    found = measure_surfaces(arm, camera)
+    light = gather_glow([(points, energy)])
+    colours = still.light_surfaces(arm, found, camera, replace(light, gain=0.0))
     side = found.normal @ camera.rotation[0]
     right, left = (colours[side * sign > 0.7].mean(axis=0) for sign in (1, -1))
     assert right[0] > 1.5 * right[2]
@@ -77,24 +75,22 @@ def test_each_side_of_the_arm_has_the_colour_of_its_side(tmp_path):
 def test_what_is_added_depends_on_the_exposure_as_developing_does(tmp_path):
     camera = seen()
     points, energy = ring()
-    with Arm(urdf(tmp_path)) as arm:
-        arm.whiten()
-        one = render_arm(arm, camera, gather_glow([(points, energy)]), 2.0)
-        two = render_arm(arm, camera, gather_glow([(points, 4 * energy)]), 0.5)
+    arm = Arm(urdf(tmp_path))
+    one = render_arm(arm, camera, gather_glow([(points, energy)]), 2.0)
+    two = render_arm(arm, camera, gather_glow([(points, 4 * energy)]), 0.5)
     np.testing.assert_allclose(0.5 * two, 2.0 * one, rtol=1e-4, atol=1e-7)
 
 
 @slow
 def test_an_arm_without_shapes_leaves_the_floor(tmp_path):
-    with Arm(urdf(tmp_path, "", "", "")) as arm:
-        image = render_arm(arm, seen(), gather_glow([ring()]), 2.0)
+    arm = Arm(urdf(tmp_path, "", "", ""))
+    image = render_arm(arm, seen(), gather_glow([ring()]), 2.0)
     assert np.isfinite(image).all()
     assert image.max() > 0.0
 
 
 @slow
 def test_outlines_have_quarters(tmp_path):
-    with Arm(urdf(tmp_path)) as arm:
-        arm.whiten()
-        cover = measure_surfaces(arm, seen()).cover
+    arm = Arm(urdf(tmp_path))
+    cover = measure_surfaces(arm, seen()).cover
     np.testing.assert_array_equal(np.unique(cover), [0, 0.25, 0.5, 0.75, 1])

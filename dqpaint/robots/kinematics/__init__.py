@@ -2,7 +2,7 @@
 
 from dqpaint.robots.kinematics.batched import ManyKinematics
 from dqpaint.robots.kinematics.collisions import (
-    CollisionShapes, LinkCapsule, Nearest, collision_shapes, read_mesh,
+    CollisionShapes, LinkCapsule, Nearest, Solid, collision_shapes, read_mesh,
 )
 from dqpaint.robots.kinematics.differential_ik import (
     CHARACTERISTIC_LENGTH, DAMPING_THRESHOLD, START_GAIN, Damping, damped_force, damped_inverse,
@@ -32,7 +32,7 @@ __all__ = [
     "Clipped", "CollisionShapes", "Damping", "Dynamics", "Kinematics", "LinkCapsule",
     "ManyKinematics",
     "ModelNumbers", "Nearest", "NoPosture", "RateBounds", "ScrewKinematics", "SecondaryTask",
-    "StartPosture", "collision_shapes", "damped_force", "damped_inverse",
+    "Solid", "StartPosture", "collision_shapes", "damped_force", "damped_inverse",
     "damped_inverse_times", "drift_acceleration",
     "find_clamps", "find_start", "inverse", "least_errors", "make_batched_task", "make_kinematics",
     "make_secondary_task", "manipulability", "model_numbers", "pose_map",

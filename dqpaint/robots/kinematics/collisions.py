@@ -17,6 +17,7 @@ import numpy as np
 import pinocchio
 from numpy.typing import NDArray
 
+from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import Card
@@ -258,6 +259,90 @@ def _enclosing(balls: Floats) -> tuple[Floats, Floats, float]:
     return middle + low * axis, middle + high * axis, radius
 
 
+class Solid:
+    """A shape that may be in the way of light; a mesh as it is, not its hull.
+
+    Attributes:
+        geometry: Coal's.
+        holds: whether a ray that begins inside is not blocked: in a primitive it is the lamp's.
+    """
+
+    def __init__(self, geometry: coal.CollisionGeometry) -> None:
+        self.geometry = geometry
+        self.holds = not isinstance(geometry, coal.BVHModelBase)
+        geometry.computeLocalAABB()
+        self._centre, self._radius = geometry.aabb_center, geometry.aabb_radius
+
+    @classmethod
+    def of(cls, kind: str, size: Sequence[float], mesh: str) -> "Solid | None":
+        """A box, sphere, cylinder, capsule or mesh; None where the file cannot be read.
+
+        Args:
+            kind: of a URDF's shapes.
+            size: sides of a box [m], scale of a mesh, else radius and length [m].
+            mesh: the file, if any.
+        """
+        if kind == "mesh":
+            try:
+                return cls(coal.MeshLoader().load(mesh, np.array(size, dtype=np.float64)))
+            except ValueError:
+                return None
+        if kind == "box":
+            return cls(coal.Box(*size))
+        if kind == "sphere":
+            return cls(coal.Sphere(size[0]))
+        return cls({"cylinder": coal.Cylinder, "capsule": coal.Capsule}[kind](*size))
+
+    def blocks(
+        self, poses: Floats, start: Floats, end: Floats, asked: NDArray[np.bool_]
+    ) -> NDArray[np.bool_]:
+        """Whether the solid is in the way of rays (M, K).
+
+        Args:
+            poses: of the solid (M, 8).
+            start: of the rays (M, K, 3) [m].
+            end: likewise.
+            asked: which of them are asked about (M, K).
+        """
+        R, t = dq.matrix_from_quaternion(dq.rotation(poses)), dq.translation(poses)
+        centre = (R @ self._centre + t)[:, None]
+        way = end - start
+        length2 = np.maximum((way * way).sum(axis=-1), 1e-300)
+        at = np.clip(((centre - start) * way).sum(axis=-1) / length2, 0.0, 1.0)
+        gap = start + at[..., None] * way - centre
+        near = asked & ((gap * gap).sum(axis=-1) <= (self._radius + SIGHT_RADIUS) ** 2)
+        found = np.zeros(near.shape, dtype=bool)
+        for m in np.flatnonzero(near.any(axis=1)).tolist():
+            where = coal.Transform3s(R[m], t[m])
+            for k in np.flatnonzero(near[m]).tolist():
+                found[m, k] = self._is_met(where, start[m, k], way[m, k])
+        return found
+
+    def _is_met(self, where: coal.Transform3s, start: Floats, way: Floats) -> bool:
+        length = float(np.sqrt(way @ way))
+        turn = _rotation_to(way / length)
+        line = coal.Capsule(SIGHT_RADIUS, length)
+        place = coal.Transform3s(turn, start + 0.5 * way)
+        if not _intersect(line, place, self.geometry, where):
+            return False
+        return not self.holds or not _intersect(
+            SIGHT_END, coal.Transform3s(turn, start), self.geometry, where
+        )
+
+
+def _rotation_to(along: Floats) -> Floats:
+    """A rotation (3, 3) with a unit vector as its z axis, after Duff 2017."""
+    x, y, z = along.tolist()
+    sign = 1.0 if z >= 0 else -1.0
+    a = -1.0 / (sign + z)
+    b = x * y * a
+    return np.array([
+        [1.0 + sign * x * x * a, b, x],
+        [sign * b, sign + y * y * a, y],
+        [-sign * x, -y, z],
+    ])  # fmt: skip
+
+
 Sight = tuple[coal.Capsule, coal.Transform3s, coal.Transform3s]
 
 
@@ -266,9 +351,7 @@ def _line_of_sight(point: Floats, eye: Floats) -> Sight:
     way = point - eye
     length = float(np.linalg.norm(way))
     along = way / length
-    side = np.cross(along, np.eye(3)[np.argmin(np.abs(along))])
-    side /= np.linalg.norm(side)
-    rotation = np.stack([side, np.cross(along, side), along], axis=1)
+    rotation = _rotation_to(along)
     seen = max(length - LAMP_CLEARANCE, SIGHT_RADIUS)
     middle, end = (eye + part * seen * along for part in (0.5, 1.0))
     place = coal.Transform3s(rotation, middle)

@@ -12,6 +12,7 @@ from dqpaint.core.events import log
 from dqpaint.core.examples import example_names, examples_folder, find_drawing
 from dqpaint.core.file_sets import finish_interrupted, write_together
 from dqpaint.core.inputs import picture_size, read_regular, stat_regular
+from dqpaint.core.libraries import PINOCCHIO, Library, library_versions
 from dqpaint.core.named_values import (
     FILE_PATTERN, Values, choice_name, make_choice, number_or_text, pydantic_reason, read_choice,
 )
@@ -24,11 +25,11 @@ from dqpaint.core.texts import (
 from dqpaint.core.user_files import (
     AnswerError, Guarded, UserCode, file_digest, find_file, find_in_file, short_name, split_spec,
 )
-from dqpaint.core.version import library_versions
 
 __all__ = [
-    "DEFAULT_MAX_SAMPLES", "FILE_PATTERN", "LARGEST_IMAGE", "LARGEST_MAX_SAMPLES", "AnswerError",
-    "Folder", "Guarded", "NotRegularError", "NumberTable", "Registry", "Sections", "UserCode",
+    "DEFAULT_MAX_SAMPLES", "FILE_PATTERN", "LARGEST_IMAGE", "LARGEST_MAX_SAMPLES", "PINOCCHIO",
+    "AnswerError", "Folder", "Guarded", "Library", "NotRegularError", "NumberTable", "Registry",
+    "Sections", "UserCode",
     "Values", "choice_name", "example_names", "examples_folder", "file_digest", "find_drawing",
     "find_file", "find_in_file", "finish_interrupted", "latex_equation", "library_versions", "log",
     "make_choice", "make_folder", "number_or_text", "open_folder", "open_regular", "picture_size",

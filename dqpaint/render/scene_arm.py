@@ -75,6 +75,7 @@ class SceneArm:
         source: the line (N,) at these instants; None: they are not known.
         whole: whether the description has all shapes that its arm should have.
         walls: of the drawing, its frame (8,) and its middle (3,), to be shown beside the arm.
+        instead: what to install for the arm's own shapes, where these are ours.
 
     Attributes:
         source: as given; line 0 if unknown.
@@ -88,9 +89,11 @@ class SceneArm:
         source: RowLines | None = None,
         whole: bool = True,
         walls: Scenery | None = None,
+        instead: str = "",
     ) -> None:
         self._urdf = urdf
         self._whole = whole
+        self._instead = instead
         self._posture = posture
         unknown = [SourceLine(0, 0)] * len(posture)
         self.source = RowLines.from_lines(unknown) if source is None else source
@@ -138,6 +141,8 @@ class SceneArm:
             ]
         if not self.arm.shapes:
             return [f"warning: the arm's file has no shapes: the arm cannot be shown, {untraced}"]
+        if self._instead:
+            return [f"note: the arm has plain shapes of our own; its meshes: {self._instead}"]
         return []
 
     def visible(self, time: Floats, places: Floats, lit: NDArray[np.bool_], eye: Floats) -> Floats:
@@ -236,4 +241,6 @@ def scene_arm_of_run(settings: Settings, card: Card, cast: ArmMotion) -> Iterato
         return
     whole = prepare(card).whole
     with urdf_file(card) as path:
-        yield SceneArm(path, cast.posture, cast.period, cast.source, whole, cast.walls)
+        yield SceneArm(
+            path, cast.posture, cast.period, cast.source, whole, cast.walls, card.meshes_hint
+        )

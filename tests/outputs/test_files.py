@@ -12,7 +12,7 @@ import pytest
 
 import dqpaint
 from dqpaint.core import atomic_files
-from dqpaint.core.version import LIBRARIES
+from dqpaint.core.libraries import LIBRARIES
 from dqpaint.errors import OutputError, UnknownNameError, UsageError
 from dqpaint.outputs import WRITERS, files, registry, summary
 from dqpaint.outputs.registry import Need, Writer, writer

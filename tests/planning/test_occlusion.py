@@ -16,8 +16,8 @@ from dqpaint.planning.forecast_report import MOST_OCCLUDED
 from dqpaint.planning.occlusion import forecast_occlusion, sampled_rows
 from dqpaint.planning.reachability import reachable_start_posture
 from dqpaint.plants import PLANTS
+from dqpaint.plants.engines.pybullet_client import bullet, joint_indices, quiet
 from dqpaint.render.scene_arm import SceneArm
-from dqpaint.robots.bullet.client import bullet, joint_indices, quiet
 from dqpaint.robots.kinematics.collisions import collision_shapes
 from dqpaint.robots.kinematics.differential_ik import CHARACTERISTIC_LENGTH, DAMPING_THRESHOLD
 from dqpaint.robots.kinematics.kinematics import Kinematics

@@ -23,7 +23,7 @@ def random_postures(card, n, seed=5):
 @pytest.mark.slow
 def test_distances_are_those_of_pybullet():
     """PyBullet reads meshes as convex hulls, too; its hulls have margins of a millimetre."""
-    from dqpaint.robots.bullet.client import bullet, joint_indices, quiet
+    from dqpaint.plants.engines.pybullet_client import bullet, joint_indices, quiet
 
     card = read_card("iiwa")
     shapes = CollisionShapes(Kinematics(card))

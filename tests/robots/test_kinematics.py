@@ -5,7 +5,7 @@ import pinocchio
 import pytest
 
 from dqpaint import dq
-from dqpaint.robots.bullet.client import bullet, joint_indices, quiet
+from dqpaint.plants.engines.pybullet_client import bullet, joint_indices, quiet
 from dqpaint.robots.kinematics.kinematics import Kinematics, manipulability
 from dqpaint.robots.model.card import installed_names, read_card
 from dqpaint.robots.urdf.prepare import is_valid_inertia, urdf_file

@@ -172,7 +172,7 @@ def test_what_takes_the_libraries_down_is_left_out(tmp_path):
 
 READ_EACH = """
 import sys
-from dqpaint.robots.bullet import Client, bullet, quiet
+from dqpaint.plants.engines.pybullet_client import Client, bullet, quiet
 from dqpaint.robots.kinematics.collisions import read_mesh
 
 with Client() as client:

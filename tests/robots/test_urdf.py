@@ -10,7 +10,7 @@ import pytest
 from dqpaint import dq
 from dqpaint.errors import DqpaintError
 from dqpaint.plants import PLANTS
-from dqpaint.robots.bullet.client import bullet, joint_indices, quiet
+from dqpaint.plants.engines.pybullet_client import bullet, joint_indices, quiet
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.loading.load_file import read_file
 from dqpaint.robots.model.card import read_card

@@ -78,8 +78,7 @@ def choose_engine(name: str | None = None) -> Engine:
         return ENGINES[here[0]]
     if name is None:
         raise UsageError(
-            "no physics engine is installed: "
-            f"{' or '.join(one.install for one in ENGINES.values())} brings one; "
+            f"no physics engine is installed: {ENGINES['mujoco'].install} brings one everywhere; "
             "--plant ideal needs none"
         )
     if name not in here:

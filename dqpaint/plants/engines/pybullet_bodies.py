@@ -9,8 +9,8 @@ from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.plants.engines.bodies import STOP_DISTANCE
 from dqpaint.plants.engines.loads import Pushes, with_payloads
+from dqpaint.plants.engines.pybullet_client import Client, bullet, joint_indices, quiet
 from dqpaint.plants.world import World
-from dqpaint.robots.bullet import Client, bullet, joint_indices, quiet
 from dqpaint.robots.model import Card
 from dqpaint.robots.urdf import urdf_file
 

@@ -4,30 +4,36 @@ What may collide are the collision shapes of the arm's description; what hides l
 ones, as in a picture. Both use Coal, which comes with pinocchio and shares its model.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from contextlib import suppress
-from functools import lru_cache
+from functools import cache, lru_cache
 from itertools import product
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from xml.etree import ElementTree as Xml
 
-import coal
 import numpy as np
-import pinocchio
 from numpy.typing import NDArray
 
 from dqpaint import dq
+from dqpaint.core import PINOCCHIO, Library
 from dqpaint.dq import Floats
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import Card
 from dqpaint.robots.urdf.prepare import prepare
 
+if TYPE_CHECKING:
+    import coal
+    import pinocchio
+else:
+    coal, pinocchio = (Library(name, PINOCCHIO) for name in ("coal", "pinocchio"))
+
 LEAST_JOINTS_BETWEEN = 2  # joints between two links that may collide: neighbours touch by design
 TRIAL_POSTURES, SEED = 32, 1988
 TOUCHING_SHARE = 0.5  # links that touch in more of the trial postures are not checked
 SIGHT_RADIUS = 1e-5  # [m] half the width of a line of sight, as thin as a ray
-SIGHT_END = coal.Sphere(SIGHT_RADIUS)
 CORNERS = 16  # of what stands for a circle, from outside
 ROUNDING = 1e-9  # [m]
 Z = np.array([0.0, 0.0, 1.0])
@@ -66,7 +72,7 @@ class LinkCapsule(NamedTuple):
 
 
 @lru_cache(maxsize=1)
-def collision_shapes(kinematics: Kinematics) -> "CollisionShapes":
+def collision_shapes(kinematics: Kinematics) -> CollisionShapes:
     """The shapes of an arm; those of the latest arm are cached."""
     return CollisionShapes(kinematics)
 
@@ -274,7 +280,7 @@ class Solid:
         self._centre, self._radius = geometry.aabb_center, geometry.aabb_radius
 
     @classmethod
-    def of(cls, kind: str, size: Sequence[float], mesh: str) -> "Solid | None":
+    def of(cls, kind: str, size: Sequence[float], mesh: str) -> Solid | None:
         """A box, sphere, cylinder, capsule or mesh; None where the file cannot be read.
 
         Args:
@@ -326,7 +332,7 @@ class Solid:
         if not _intersect(line, place, self.geometry, where):
             return False
         return not self.holds or not _intersect(
-            SIGHT_END, coal.Transform3s(turn, start), self.geometry, where
+            _sight_end(), coal.Transform3s(turn, start), self.geometry, where
         )
 
 
@@ -343,7 +349,12 @@ def _rotation_to(along: Floats) -> Floats:
     ])  # fmt: skip
 
 
-Sight = tuple[coal.Capsule, coal.Transform3s, coal.Transform3s]
+Sight: TypeAlias = "tuple[coal.Capsule, coal.Transform3s, coal.Transform3s]"
+
+
+@cache
+def _sight_end() -> coal.CollisionGeometry:
+    return coal.Sphere(SIGHT_RADIUS)
 
 
 def _line_of_sight(point: Floats, eye: Floats) -> Sight:
@@ -368,7 +379,7 @@ def _blocks(
     """Whether a shape blocks the line of sight; a primitive around the lamp does not."""
     if not _intersect(line, place, solid, where):
         return False
-    return isinstance(solid, coal.BVHModelBase) or not _intersect(SIGHT_END, end, solid, where)
+    return isinstance(solid, coal.BVHModelBase) or not _intersect(_sight_end(), end, solid, where)
 
 
 def without_broken_meshes(text: str, broken: dict[str, None]) -> str:

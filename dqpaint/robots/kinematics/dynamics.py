@@ -1,10 +1,17 @@
 """Posture, rates and accelerations -> joint torques: H q_ddot + C q_dot + G + friction = tau."""
 
-import numpy as np
-import pinocchio
+from typing import TYPE_CHECKING
 
+import numpy as np
+
+from dqpaint.core import PINOCCHIO, Library
 from dqpaint.dq import Floats
 from dqpaint.robots.kinematics.kinematics import Kinematics
+
+if TYPE_CHECKING:
+    import pinocchio
+else:
+    pinocchio = Library("pinocchio", PINOCCHIO)
 
 
 class Dynamics:

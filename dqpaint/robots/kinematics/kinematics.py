@@ -5,12 +5,12 @@ nowhere else, the halves change places.
 """
 
 from copy import copy
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
-import pinocchio
 
 from dqpaint import dq
+from dqpaint.core import PINOCCHIO, Library
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.robots.kinematics.differential_ik import CHARACTERISTIC_LENGTH, tool_jacobian_map
@@ -18,6 +18,11 @@ from dqpaint.robots.model.card import Card
 from dqpaint.robots.model.screws import Screws
 from dqpaint.robots.model.task import POSE, Task
 from dqpaint.robots.urdf.prepare import prepare
+
+if TYPE_CHECKING:
+    import pinocchio
+else:
+    pinocchio = Library("pinocchio", PINOCCHIO)
 
 _UNSCALED = np.diag([1.0] * 3 + [CHARACTERISTIC_LENGTH] * 3)
 

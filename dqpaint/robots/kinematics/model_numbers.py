@@ -1,10 +1,17 @@
 """An arm's model -> the numbers that say it: screws, masses, friction, limits, all at q = 0."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-import pinocchio
 from typing_extensions import TypedDict
 
+from dqpaint.core import PINOCCHIO, Library
 from dqpaint.robots.kinematics.kinematics import Kinematics
+
+if TYPE_CHECKING:
+    import pinocchio
+else:
+    pinocchio = Library("pinocchio", PINOCCHIO)
 
 
 class ModelNumbers(TypedDict):

@@ -4,13 +4,19 @@ A run inverts two 6 x 6 matrices a control step. Half of the step would go into 
 its arguments; Eigen's Cholesky takes a fifth of numpy's time. For batches numpy's own is as good.
 """
 
-import numpy as np
-from eigenpy import LLT, ComputationInfo
+from typing import TYPE_CHECKING
 
+import numpy as np
+
+from dqpaint.core import PINOCCHIO, Library
 from dqpaint.dq import Floats
 
+if TYPE_CHECKING:
+    import eigenpy
+else:
+    eigenpy = Library("eigenpy", PINOCCHIO)
+
 _EYES = [np.eye(n) for n in range(7)]
-_SUCCESS = ComputationInfo.Success
 
 
 def inverse(squares: Floats) -> Floats:
@@ -30,7 +36,7 @@ def solve(square: Floats, right: Floats) -> Floats:
     Raises:
         numpy.linalg.LinAlgError: the matrix is numerically singular.
     """
-    factor = LLT(square)
-    if factor.info() != _SUCCESS:
+    factor = eigenpy.LLT(square)
+    if factor.info() != eigenpy.ComputationInfo.Success:
         raise np.linalg.LinAlgError("not positive definite")
     return np.asarray(factor.solve(right))

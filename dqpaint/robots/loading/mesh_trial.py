@@ -1,41 +1,24 @@
-"""Mesh files -> exit code 0 if every library reads them; run as a process of its own.
+"""Mesh files -> exit code 0 if Coal reads them; run as a process of its own.
 
 python -m dqpaint.robots.loading.mesh_trial FILE ...
 """
 
 import sys
-import tempfile
-from pathlib import Path
-from xml.sax.saxutils import quoteattr
 
 from dqpaint.robots.urdf.meshes import LARGEST_TRIAL, LONGEST_TRIAL
 
 
 def main(files: list[str]) -> None:
-    """Read the files as PyBullet and coal do.
+    """Read the files as Coal does.
 
     Raises:
-        ValueError: coal cannot read one; PyBullet's error otherwise.
+        ValueError: one cannot be read.
     """
     _limit()
-    from dqpaint.robots.bullet import Client, bullet, quiet
     from dqpaint.robots.kinematics.collisions import read_mesh
 
     for file in files:
         read_mesh(file, (1.0, 1.0, 1.0))
-    shapes = (f"<geometry><mesh filename={quoteattr(file)}/></geometry>" for file in files)
-    links = "".join(
-        f'<link name="l{i}"><visual>{shape}</visual><collision>{shape}</collision></link>'
-        for i, shape in enumerate(shapes)
-    )
-    joints = "".join(
-        f'<joint name="j{i}" type="fixed"><parent link="l0"/><child link="l{i}"/></joint>'
-        for i in range(1, len(files))
-    )
-    with tempfile.TemporaryDirectory() as folder, Client() as client, quiet():
-        path = Path(folder) / "trial.urdf"
-        path.write_text(f'<robot name="trial">{links}{joints}</robot>', "utf-8")
-        bullet.loadURDF(str(path), physicsClientId=client.client)
 
 
 def _limit() -> None:

@@ -15,6 +15,7 @@ from dqpaint.errors import UnknownNameError
 from dqpaint.robots.model.chain import Axes, Body, Rows, UrdfFile
 from dqpaint.robots.model.drive_train import DriveTrain
 from dqpaint.robots.model.fields import Finite, Mount, Part, Positive, Three
+from dqpaint.robots.model.numbers import Numbers
 from dqpaint.robots.model.screws import Screws
 
 DEFAULT_ROBOT = "iiwa"
@@ -67,7 +68,8 @@ class Card(Part):
     """One arm: chain, tool, canvas, home posture, limits and sources.
 
     The chain is given in one of three ways: `urdf`, `denavit_hartenberg` or `screws`. An arm of the
-    last two is built from them, with the masses and radii of `body`.
+    last two is built from them, with the masses and radii of `body`. An arm of a URDF may have
+    `numbers`, of which the same chain is built where its package is not installed.
     """
 
     name: str
@@ -78,6 +80,7 @@ class Card(Part):
     denavit_hartenberg: Rows | None = None
     screws: Axes | None = None
     body: Body | None = None
+    numbers: Numbers | None = None
     home_deg: tuple[Finite, ...]
     tool: Mount
     canvas: Canvas
@@ -130,9 +133,22 @@ class Card(Part):
     @property
     def missing(self) -> str:
         """What to install before this arm can be used; empty if nothing is missing."""
-        if self.urdf is None or self.urdf.find_path() is not None:
-            return ""
-        return self.urdf.install_hint
+        return self.urdf.install_hint if self.urdf and not self.numbers and self.lacks_file else ""
+
+    @property
+    def lacks_file(self) -> bool:
+        """Whether the package of its file is not installed."""
+        return self.urdf is not None and self.urdf.find_path() is None
+
+    @property
+    def is_of_numbers(self) -> bool:
+        """Whether it is built from `numbers`, as its file is not installed."""
+        return self.numbers is not None and self.lacks_file
+
+    @property
+    def meshes_hint(self) -> str:
+        """What to install for its meshes, where it is built from `numbers`; empty otherwise."""
+        return self.urdf.install_hint if self.urdf and self.is_of_numbers else ""
 
     def check_installed(self) -> None:
         """Nothing, where the arm can be used.
@@ -140,7 +156,7 @@ class Card(Part):
         Raises:
             UsageError: the package of its file is not installed, or lacks the file.
         """
-        if self.urdf is not None:
+        if self.urdf is not None and self.numbers is None:
             _ = self.urdf.path
 
     @property
@@ -149,6 +165,8 @@ class Card(Part):
         if self.urdf is None:
             rows = "Denavit-Hartenberg rows" if self.denavit_hartenberg else "screw axes"
             return f"built from its {rows}"
+        if self.is_of_numbers:
+            return f"numbers of {self.urdf.package}, shapes of our own"
         return self.urdf.package or self.urdf.file
 
     @property
@@ -164,9 +182,15 @@ class Card(Part):
                 "an arm needs one of the tables [urdf], [denavit_hartenberg] and [screws]"
             )
         if self.urdf is not None:
+            if self.numbers and len(self.numbers.links) != len(self.limits.lower_deg):
+                raise ValueError("numbers.links needs one table for each joint")
+            if self.numbers and len(self.numbers.radius_m) != len(self.numbers.links) + 1:
+                raise ValueError("numbers.radius_m needs one number more than links")
             if self.body is not None:
                 raise ValueError("the table [body] is for rows and axes: a URDF has its own masses")
             return self
+        if self.numbers is not None:
+            raise ValueError("the table [numbers] is for a URDF")
         if self.body is None:
             raise ValueError("an arm of rows or axes needs the table [body]")
         assert self.axes is not None

@@ -15,6 +15,7 @@ from dqpaint.robots.model.fields import Finite, Mount, Part, Positive, Three
 from dqpaint.robots.model.screws import Screws
 
 EXTRAS = {"example-robot-data": "robots"}  # packages that come with an extra of ours
+WITHIN = {"pybullet_data": "pybullet"}  # modules that come with a package of another name
 
 
 class UrdfFile(Part):
@@ -59,6 +60,7 @@ class UrdfFile(Part):
     def install_hint(self) -> str:
         """The command that installs a missing package."""
         package = f"'dqpaint[{EXTRAS[self.package]}]'" if self.package in EXTRAS else self.package
+        package = WITHIN.get(package, package)
         return f"pip install {package}"
 
     def find_path(self) -> Path | None:

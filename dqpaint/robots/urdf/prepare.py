@@ -20,7 +20,7 @@ from dqpaint.errors import UsageError
 from dqpaint.robots.model.card import Card
 from dqpaint.robots.urdf.meshes import MOST_TRIANGLES, MeshError, check_mesh, try_meshes
 from dqpaint.robots.urdf.tree import FARTHEST, LARGEST_NUMBER, Joint, Tree, parse_numbers
-from dqpaint.robots.urdf.write import LEAST_INERTIA, write_urdf
+from dqpaint.robots.urdf.write import LEAST_INERTIA, write_numbers, write_urdf
 
 GUESSED_BALL_RADIUS = 0.05  # [m], radius of the ball that replaces a missing shape
 GUESSED_MASS = 0.1  # [kg], of a link that moves and has no mass
@@ -41,6 +41,8 @@ def prepare(card: Card) -> PreparedUrdf:
         UsageError: its package is not installed, its file is not there, or it has no such link.
         DqpaintError: the file is no tree of links, or the arm has joints that do not turn.
     """
+    if card.numbers is not None and card.is_of_numbers:
+        return PreparedUrdf(write_numbers(card, card.numbers), ())
     if card.urdf is None:
         return PreparedUrdf(write_urdf(card), ())
     tree = Tree(card.urdf.path)

@@ -1,10 +1,11 @@
-"""A card with rows or screw axes -> a URDF whose links are capsules.
+"""A card with rows, screw axes or numbers -> a URDF whose links are capsules.
 
-Every frame is parallel to the base at q = 0, so each joint is a position and the direction of its
-axis; only the flange is turned.
+With rows or axes every frame is parallel to the base at q = 0, so each joint is a position and the
+direction of its axis, and only the flange is turned; numbers have frames of their own.
 """
 
 from collections.abc import Iterable
+from dataclasses import replace
 from xml.etree import ElementTree as Xml
 
 import numpy as np
@@ -12,6 +13,7 @@ import numpy as np
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.robots.model.card import FLANGE, Card
+from dqpaint.robots.model.numbers import Numbers
 from dqpaint.robots.urdf.capsules import Capsule, Link, build_links
 
 LEAST_INERTIA = 1e-12  # [kg m^2]: PyBullet takes a link of nothing at all to weigh 1 kg
@@ -24,29 +26,68 @@ def write_urdf(card: Card) -> str:
     assert card.body is not None
     screws = card.axes
     links = build_links(screws, card.body.mass_kg, card.body.radius_m)
+    robot, names = _robot(card), ["base", *(f"link{i}" for i in range(1, len(links)))]
+    for name, link in zip(names, links, strict=True):
+        _link(robot, name, link)
+    for i in range(1, len(links)):
+        joint = _moving_joint(robot, card, i, names[i - 1], names[i], screws.axes[i - 1, :3])
+        _origin(joint, links[i].pose - links[i - 1].pose)
+    T = dq.matrix_from_pose(screws.home)
+    _flange(robot, FLANGE, names[-1], T[:3, 3] - links[-1].pose, T[:3, :3])
+    Xml.indent(robot)
+    return Xml.tostring(robot, encoding="unicode")
+
+
+def write_numbers(card: Card, numbers: Numbers) -> str:
+    """The URDF of an arm whose own is not installed: its chain and masses, shapes of our own."""
+    masses = [link.mass_kg for link in numbers.links]
+    shapes = build_links(numbers.screws, masses, numbers.radius_m)
+    robot, names = _robot(card), ["base", *(f"body{i}" for i in range(1, len(shapes)))]
+    _link(robot, names[0], shapes[0])
+    for i, (one, pose) in enumerate(zip(numbers.links, numbers.frames, strict=True), start=1):
+        R, t = dq.matrix_from_quaternion(dq.rotation(pose)), dq.translation(pose)
+        solids = tuple(
+            replace(solid, start=R.T @ (solid.start - t), end=R.T @ (solid.end - t))
+            for solid in shapes[i].solids
+        )
+        centre = np.array(one.centre_m)
+        _link(robot, names[i], Link(np.zeros(3), solids, one.mass_kg, centre, one.inertia))
+        joint = _moving_joint(robot, card, i, names[i - 1], names[i], np.array([0.0, 0.0, 1.0]))
+        _origin(joint, np.array(one.at_m), dq.matrix_from_pose(one.pose)[:3, :3])
+        Xml.SubElement(joint, "dynamics", damping=repr(one.friction_Nm_s))
+    T = dq.matrix_from_pose(numbers.flange.pose)
+    _flange(robot, card.link, names[-1], T[:3, 3], T[:3, :3])
+    Xml.indent(robot)
+    return Xml.tostring(robot, encoding="unicode")
+
+
+def _robot(card: Card) -> Xml.Element:
     robot = Xml.Element("robot", name=card.name)
     for name, colour in COLOURS.items():
         material = Xml.SubElement(robot, "material", name=name)
         Xml.SubElement(material, "color", rgba=colour)
-    names = ["base", *(f"link{i}" for i in range(1, len(links)))]
-    for name, link in zip(names, links, strict=True):
-        _link(robot, name, link)
-    for i in range(1, len(links)):
-        joint = _joint(robot, f"joint{i}", "revolute", names[i - 1], names[i])
-        _origin(joint, links[i].pose - links[i - 1].pose)
-        Xml.SubElement(joint, "axis", xyz=_text(screws.axes[i - 1, :3]))
-        lower, upper, speed, effort = (
-            repr(float(values[i - 1]))
-            for values in (card.lower, card.upper, card.speed, card.effort)
-        )
-        Xml.SubElement(joint, "limit", lower=lower, upper=upper, velocity=speed, effort=effort)
-    flange = Xml.SubElement(robot, "link", name=FLANGE)
+    return robot
+
+
+def _moving_joint(
+    robot: Xml.Element, card: Card, number: int, parent: str, child: str, axis: Floats
+) -> Xml.Element:
+    joint = _joint(robot, f"joint{number}", "revolute", parent, child)
+    Xml.SubElement(joint, "axis", xyz=_text(axis))
+    lower, upper, speed, effort = (
+        repr(float(values[number - 1]))
+        for values in (card.lower, card.upper, card.speed, card.effort)
+    )
+    Xml.SubElement(joint, "limit", lower=lower, upper=upper, velocity=speed, effort=effort)
+    return joint
+
+
+def _flange(robot: Xml.Element, name: str, parent: str, place: Floats, rotation: Floats) -> None:
+    """The last frame, a link of nothing."""
+    flange = Xml.SubElement(robot, "link", name=name)
     _inertial(flange, np.zeros(3), 0.0, LEAST_INERTIA * np.eye(3))
-    T = dq.matrix_from_pose(screws.home)
-    joint = _joint(robot, FLANGE, "fixed", names[-1], FLANGE)
-    _origin(joint, T[:3, 3] - links[-1].pose, T[:3, :3])
-    Xml.indent(robot)
-    return Xml.tostring(robot, encoding="unicode")
+    joint = _joint(robot, name, "fixed", parent, name)
+    _origin(joint, place, rotation)
 
 
 def _joint(robot: Xml.Element, name: str, kind: str, parent: str, child: str) -> Xml.Element:

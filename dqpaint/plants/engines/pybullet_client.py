@@ -1,4 +1,4 @@
-"""The only import of pybullet: a connection to a world of its own, without PyBullet's output."""
+"""The door to pybullet: a connection to a world of its own, without PyBullet's output."""
 
 import ctypes
 import os
@@ -6,6 +6,8 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Self
+
+from dqpaint.core import Library
 
 
 @contextmanager
@@ -42,13 +44,8 @@ def _flush(c_library: ctypes.CDLL) -> None:
     c_library.fflush(None)
 
 
-def _import_pybullet() -> Any:
-    with quiet():
-        import pybullet
-    return pybullet
-
-
-bullet: Any = _import_pybullet()
+bullet: Any = Library("pybullet", "pybullet")
+"""It writes a line when it is imported: so its first use is within `quiet`."""
 
 
 class Client:

@@ -6,11 +6,13 @@ import json
 import re
 import shlex
 import shutil
+import tomllib
 from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
+from packaging.requirements import Requirement
 
 import dqpaint
 from dqpaint.core.examples import example_names, examples_folder, find_drawing
@@ -128,6 +130,33 @@ def test_the_readme_shows_the_message_as_it_is():
     with pytest.raises(ScriptError) as caught:
         parse("speed 40 mm/s\nline to (0, 0, 70)\n", "lines.traj")
     assert str(caught.value) + "\n" in blocks("")
+
+
+MACHINES = {"linux": "linux", "mac": "darwin", "windows": "win32"}
+
+
+def test_the_table_of_platforms_is_that_of_the_markers():
+    """What pip installs on each machine, and that every Python of the classifiers is there."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    markers = {one.name: one.marker for one in map(Requirement, project["dependencies"])}
+    table = README.partition("<!-- platforms -->")[2].partition("\n\n")[0].strip().splitlines()
+    names, rows = (
+        [cell.strip() for cell in table[0].strip("|").split("|")],
+        [[cell.strip() for cell in line.strip("|").split("|")] for line in table[2:]],
+    )
+    seen = set()
+    for machine, versions, *installed in rows:
+        system, _, processor = machine.partition(" ")
+        for version in versions.split(", "):
+            where = {"sys_platform": MACHINES[system], "platform_machine": processor,
+                     "python_version": version}  # fmt: skip
+            for name, said in zip(names[2:-1], installed, strict=False):
+                marker = markers[name]
+                assert said == ("yes" if not marker or marker.evaluate(where) else "no"), where
+            seen.add(version)
+    prefix = "Programming Language :: Python :: "
+    told = [one.removeprefix(prefix) for one in project["classifiers"] if one.startswith(prefix)]
+    assert sorted(seen) == sorted(one for one in told if re.fullmatch(r"3\.\d+", one))
 
 
 def test_readme_lines_are_single_and_ci_runs_them():

@@ -1,6 +1,6 @@
 """An arm and a camera -> position, normal and link for each pixel."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import cv2
@@ -20,6 +20,8 @@ SUBPIXEL_SHIFTS = ((-0.125, -0.375), (0.125, 0.375), (0.375, -0.125), (-0.375, 0
 """Shifts of the four samples within a pixel, right and down of its centre: a rotated square, for
 smooth outlines [px]."""
 
+NORMAL_BLUR = (5, 5)
+"""Pixels over which a quick measurement averages normals: a veil has no fine lines."""
 NEIGHBOURS = np.ones((3, 3), np.uint8)
 
 Numbers = NDArray[np.float32]
@@ -154,7 +156,13 @@ def quick_surfaces(arm: Arm, camera: Camera, shift: tuple[float, float]) -> Surf
         return None
     found = seen.sample(box, shift)
     sure = found.triangle >= 0
-    return _measure(seen, camera, box, found, sure, sure.astype(np.float32), shift)
+    surfaces = _measure(seen, camera, box, found, sure, sure.astype(np.float32), shift)
+    if surfaces is None:
+        return None
+    image = np.zeros((*sure.shape, 3), np.float32)
+    image[sure] = surfaces.normal
+    soft = np.asarray(cv2.blur(image, NORMAL_BLUR, borderType=cv2.BORDER_CONSTANT), np.float64)
+    return replace(surfaces, normal=np.asarray(unit(soft[sure]), np.float32))
 
 
 def _find_arm(seen: _Projected, camera: Camera) -> Box | None:

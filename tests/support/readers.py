@@ -272,7 +272,7 @@ def _mesh(ending: str) -> Callable[[bytes, Path], None]:
 
 def mesh_by_libraries(data: bytes, path: Path) -> None:
     """A mesh that passes is read by coal and PyBullet, too, which may not die of it."""
-    from dqpaint.robots.bullet import Client, bullet, quiet
+    from dqpaint.plants.engines.pybullet_client import Client, bullet, quiet
     from dqpaint.robots.kinematics.collisions import read_mesh
 
     meshes._check.cache_clear()
@@ -294,7 +294,7 @@ def urdf_by_libraries(_data: bytes, path: Path) -> None:
     """A description that passes is prepared, and read by pinocchio and PyBullet."""
     import pinocchio
 
-    from dqpaint.robots.bullet import Client, bullet, quiet
+    from dqpaint.plants.engines.pybullet_client import Client, bullet, quiet
     from dqpaint.robots.urdf.prepare import prepare, urdf_file
 
     tree = Tree(path)

@@ -5,12 +5,13 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+import dqpaint
 from dqpaint import dq
 from dqpaint.errors import UsageError
 from dqpaint.plants import ENGINES, PLANTS, choose_engine, choose_plant
 from dqpaint.plants.engines import choice
 from dqpaint.plants.world import ForceCourse, Payload, Push, World
-from dqpaint.robots.model.card import read_card
+from dqpaint.robots.model.card import installed_names, read_card
 
 CARD = read_card("iiwa")
 PERIOD = 0.008
@@ -160,3 +161,14 @@ def test_mechanical_stops_hold(engine):
     assert max(past) > -0.05  # one is met
     assert max(past) < 0.1
     assert all(later < 0.1 for _, later in pairwise(past))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("robot", installed_names())
+def test_the_star_is_the_same_on_each(robot):
+    """The whole closed loop on `stiff`: tool paths are the same within 0.1 mm."""
+    one, other = (
+        dqpaint.draw("star", robot=robot, place="auto", engine=name, size=(64, 36)).track.points
+        for name in both()
+    )
+    assert np.abs(one - other).max() < 1e-4

@@ -28,6 +28,7 @@ BREAKS = {
     "light knows no robot": ("light/film/develop.py", "dqpaint.robots.model.card"),
     "the door to pinocchio": ("plants/ideal.py", "pinocchio"),
     "the door to pybullet": ("plants/stiff.py", "pybullet"),
+    "the door to daqp": ("motion/plan.py", "daqp"),
     "the door to mujoco": ("plants/rigid_arm.py", "mujoco"),
     "the door to cv2": ("motion/plan.py", "cv2"),
     "the door to typer": ("planning/check.py", "typer"),

@@ -110,6 +110,7 @@ def preview(
     drawing: "str | PathLike[str] | builder.Drawing",
     *,
     settings: "str | PathLike[str] | SettingsFile | None" = None,
+    progress: Callable[[float], None] = lambda _done: None,
     **options: Unpack[PreviewOptions],
 ) -> "previews.Preview":
     """The reference pictures of a drawing, without an arm.
@@ -119,6 +120,7 @@ def preview(
     Args:
         drawing: a .traj file, the name of an example, or a `dqpaint.Drawing`.
         settings: a file of such choices; keywords here win.
+        progress: called while the light of photographs is solved for, with the share done.
         options:
 
     Raises:
@@ -130,7 +132,7 @@ def preview(
     from dqpaint.painting import preview as previews
 
     with _places(drawing):
-        return previews.make_preview(program, chosen)
+        return previews.make_preview(program, chosen, progress)
 
 
 def _given(

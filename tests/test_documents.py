@@ -187,7 +187,7 @@ def test_every_statement_s_example_is_one(word, tmp_path):
     if STATEMENTS[word].block:
         after += "end\nline by (1, 0) mm\n"
     (tmp_path / "f.traj").write_text("line by (5, 0) mm\n")
-    for name in ("orbit.csv", "logo.svg"):
+    for name in ("orbit.csv", "logo.svg", "astronaut.jpg"):
         shutil.copy(examples_folder() / name, tmp_path)
     text = before.get(word, "") + example + after
     here = tmp_path / "example.traj"

@@ -9,9 +9,10 @@ from dqpaint.brushes.brush import (
     BRUSHES, Brush, Direction, ImageFile, Length, Shades, first_value, takes,
 )
 from dqpaint.brushes.emitters import POINT, Emitters
+from dqpaint.brushes.lamps import LAMPS, Lamp, read_lamp
 from dqpaint.brushes.text import describe_fields, make_brush, read_brush
 
 __all__ = [
-    "BRUSHES", "POINT", "Brush", "Direction", "Emitters", "ImageFile", "Length", "Shades",
-    "describe_fields", "first_value", "make_brush", "read_brush", "takes",
+    "BRUSHES", "LAMPS", "POINT", "Brush", "Direction", "Emitters", "ImageFile", "Lamp", "Length",
+    "Shades", "describe_fields", "first_value", "make_brush", "read_brush", "read_lamp", "takes",
 ]

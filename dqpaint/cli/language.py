@@ -1,4 +1,4 @@
-"""Arguments of `fmt`, `explain`, `new`, `grammar` and `lsp` -> files, texts and exit codes."""
+"""Arguments of `fmt`, `explain`, `new`, `trace`, `grammar`, `lsp` -> files, texts, exit codes."""
 
 import json
 import re
@@ -129,6 +129,31 @@ def new(name: Annotated[str, typer.Argument(help="name or file of the drawing")]
     print(path)
     if sys.stderr.isatty():
         print(f"now: dqpaint preview {path} --watch", file=sys.stderr)
+
+
+@_command(
+    epilog="Examples:\n\n  dqpaint trace portrait.jpg\n\n  dqpaint trace ada.jpg --out ada.traj",
+    rich_help_panel="Write",
+)
+def trace(
+    photo: Annotated[str, typer.Argument(help="a PNG, JPEG, TIFF or WebP file")],
+    out: Annotated[
+        str | None, typer.Option(metavar="FILE.traj", help="[default: beside the photo]")
+    ] = None,
+) -> None:
+    """Write a drawing that paints a photograph, and a sheet with a preview of each style."""
+    from dqpaint.cli.terminal import Progress, table
+    from dqpaint.painting.photos import tracing
+
+    with Progress(photo) as progress:
+        made = tracing.trace(photo, out, progress)
+    rows = [
+        ("as " + style, f"likeness {ssim:.3f} on the sheet, {seconds:.0f} s")
+        for style, (ssim, seconds) in made.styles.items()
+    ]
+    print(table([*rows, ("written", str(made.drawing)), ("", str(made.sheet))]))
+    if sys.stderr.isatty():
+        print(f"now: dqpaint preview {made.drawing}", file=sys.stderr)
 
 
 @_command(

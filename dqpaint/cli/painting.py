@@ -150,6 +150,7 @@ def preview(
 ) -> None:
     """Make the reference picture without an arm; with length, time and brightness."""
     from dqpaint import api
+    from dqpaint.cli.terminal import Progress
     from dqpaint.core import find_drawing
     from dqpaint.outputs import files
 
@@ -159,7 +160,8 @@ def preview(
     stem = None if out == TO_STDOUT else files.stem_for(out, f"{path.stem}-preview", note)
 
     def show() -> None:
-        preview = api.preview(path, **choices)
+        with Progress(path.name) as progress:
+            preview = api.preview(path, **choices, progress=progress)
         made = files.picture_files(preview.pictures)
         written = files.write(stem, made) if stem else send_one(made)
 

@@ -15,6 +15,7 @@ from dqpaint.robots.kinematics import Clamp
 
 if TYPE_CHECKING:
     from dqpaint.painting import preview as previews
+    from dqpaint.painting.photos import photo_light
 
 WHITE = 250  # of 255
 MOST_NAMED = 3  # limits in the table; all of them are in the warnings
@@ -43,6 +44,8 @@ def of_painting(painting: paint.Painting, written: Sequence[Path]) -> str:
         ("limits", _limits_line(painting)),
         *_walls(painting),
         *_faults(painting),
+        *_photos(painting.photos),
+        *_reached(painting),
         *_pictures(painting.pictures),
         *_files(written),
     ]
@@ -182,8 +185,57 @@ def of_export(painting: paint.Painting, written: Sequence[Path]) -> str:
 
 def of_preview(preview: "previews.Preview", written: Sequence[Path]) -> str:
     """The table that follows `preview`."""
-    rows = [("drawing", summary_line(preview.motion)), *_pictures(preview.pictures)]
-    return table([*rows, *_files(written)])
+    rows = [("drawing", summary_line(preview.motion)), *_photos(preview.photos)]
+    return table([*rows, *_pictures(preview.pictures), *_files(written)])
+
+
+def _photos(photos: Sequence["photo_light.LitPhoto"]) -> list[tuple[str, str]]:
+    """What is expected of photographs, and what they ask of the lamp."""
+    rows: list[tuple[str, str]] = []
+    for one in photos:
+        strokes = f"{one.strokes:,} lit stroke{'' if one.strokes == 1 else 's'}"
+        rows += [
+            (
+                "photo",
+                f"{one.photo.name} as {one.photo.style}: expected likeness {one.likeness.ssim:.3f} "
+                f"(SSIM of the greys), {one.likeness.rms:.3f} rms",
+            ),
+            (
+                "",
+                f"{strokes}, {one.length:.3g} m, {one.photo.detail * 1e3:.2g} mm apart, lamp on "
+                f"for {one.seconds:.4g} s",
+            ),
+            *(
+                []
+                if one.ideal == one.likeness
+                else [
+                    ("", f"with a lamp of any power {one.ideal.ssim:.3f}, {one.ideal.rms:.3f} rms")
+                ]
+            ),
+            (
+                "",
+                f"lamp from {one.least:.2%} to {one.largest:.0%} of its power, 1 : "
+                f"{one.largest / max(one.least, 1e-9):.0f}; "
+                + (
+                    f"{one.steps} steps of the solver in {one.took:.1f} s"
+                    if one.steps
+                    else "its light was solved before"
+                ),
+            ),
+        ]
+    return rows
+
+
+def _reached(painting: paint.Painting) -> list[tuple[str, str]]:
+    """How like photographs are on the path that was reached, before and after `--relight`."""
+    rows: list[tuple[str, str]] = []
+    for number, before in enumerate(painting.reached):
+        said = f"on the path that was reached {before.ssim:.3f}, {before.rms:.3f} rms"
+        if painting.relit:
+            after = painting.relit[number].likeness
+            said += f"; its light solved again for it {after.ssim:.3f}, {after.rms:.3f} rms"
+        rows.append(("", said))
+    return rows
 
 
 def of_developed(pictures: Sequence[picture.Picture], written: Sequence[Path]) -> str:

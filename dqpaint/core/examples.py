@@ -50,7 +50,9 @@ def find_drawing(name: str) -> Path:
 
 
 NO_DRAWINGS = {
-    (".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp", ".tif", ".tiff", ".hdr"): "a picture",
+    (".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff"): "a picture: dqpaint trace {name} writes a "
+    "drawing that paints it",
+    (".gif", ".bmp", ".hdr"): "a picture; dqpaint trace takes PNG, JPEG, TIFF and WebP",
     (".svg",): 'an SVG: a line of a drawing takes its paths: svg "{name}" width 200 mm',
     (".npz",): "a film: dqpaint develop {name} makes pictures of it",
     (".csv",): "a table: dqpaint draw FILE --recorded {name} paints a run, dqpaint plot {name} "

@@ -46,6 +46,8 @@ class Motion:
         length: of the path [m], dark parts included.
         unevenness: ratio of the brightness near the strokes' ends to the middle.
         notes: warnings about the drawing.
+        exposure: of the film its light was solved for, light per area on the canvas to saturation
+            [m^2 / (lamp s)]; None where it is chosen by the light.
     """
 
     period: float
@@ -64,6 +66,7 @@ class Motion:
     length: float
     unevenness: float = 1.0
     notes: tuple[Diagnostic, ...] = field(default=())
+    exposure: float | None = None
 
     def __post_init__(self) -> None:
         for array in vars(self).values():
@@ -89,6 +92,29 @@ class Motion:
     def lit(self) -> NDArray[np.bool_]:
         """Whether the light shines from t_k until t_k+1 (N,)."""
         return np.asarray(self.light.any(axis=1))
+
+    @property
+    def photo_corners(self) -> Floats:
+        """The corners (P, 4, 3) of each photograph [m]: lower left, right, upper right, left."""
+        found = [
+            np.array(photo.corner) + np.array([np.zeros(3), right, np.add(right, up), up])
+            for photo in self.program.photos
+            for right, up in ((np.array(photo.right), np.array(photo.up)),)
+        ]
+        local = np.array(found).reshape(-1, 4, 3)
+        turned = dq.rotate(dq.rotation(self.canvas), local)
+        return np.asarray(turned + dq.translation(self.canvas))
+
+    @property
+    def photo_frames(self) -> Floats:
+        """The corners (P, 4, 3) of each photograph, wider by what its light may lie beside it."""
+        corners = np.array(self.photo_corners)
+        for four, photo in zip(corners, self.program.photos, strict=True):
+            right, up = four[1] - four[0], four[3] - four[0]
+            right *= photo.detail / np.linalg.norm(right)
+            up *= photo.detail / np.linalg.norm(up)
+            four += np.array([-right - up, right - up, right + up, up - right])
+        return corners
 
     @property
     def box(self) -> Floats:

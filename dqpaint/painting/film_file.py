@@ -96,6 +96,7 @@ class About(BaseModel):
     light: Annotated[tuple[SweepFacts, ...], Field(min_length=1)]
     asked: tuple[SweepFacts, ...]
     under: tuple[SweepFacts, ...]
+    exposure: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = None
     arm: ArmFacts | None = None
     shown: RenderFacts | None = None
 
@@ -120,12 +121,15 @@ def encode(
 ) -> bytes:
     """The bytes of a film file; with the arm, if its motion is known."""
     arrays: dict[str, Any] = {"front": scene.front}
+    if len(scene.corners):
+        arrays["corners"] = scene.corners
     about: dict[str, Any] = {
         "schema": SCHEMA,
         "version": __version__,
         "name": scene.name,
         "settings": settings.model_dump(),
         "legend": None if scene.legend is None else vars(scene.legend),
+        "exposure": scene.exposure,
     }
     for group, attribute in GROUPS.items():
         about[group] = []
@@ -216,7 +220,11 @@ def _film(arrays: Arrays) -> FilmFile:
     front = _numbers(arrays, "front")
     if front.shape != (3, 3) or np.abs(front @ front.T - np.eye(3)).max() > ROTATION_TOLERANCE:
         raise ValueError("front")
-    scene = Scene(about.name, light, reference, overlay, front, legend)
+    corners = _numbers(arrays, "corners") if "corners" in arrays else np.empty((0, 3))
+    if corners.ndim != 2 or corners.shape[1] != 3:
+        raise ValueError("corners")
+    exposure = about.exposure if len(corners) else None
+    scene = Scene(about.name, light, reference, overlay, front, legend, corners, exposure)
     cast = _arm_motion(arrays, about.arm, light[0])
     return FilmFile(scene, about.settings, cast, _render_cache(arrays, about, light))
 

@@ -9,11 +9,13 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+from dqpaint import dq
 from dqpaint.controllers import Controller
 from dqpaint.core import log
 from dqpaint.disturbances import Disturbance
 from dqpaint.dq import Floats
 from dqpaint.light.film import Film
+from dqpaint.light.inverse import Likeness
 from dqpaint.light.sources import sweeps
 from dqpaint.metrics import (
     METRICS,
@@ -29,6 +31,7 @@ from dqpaint.metrics import (
 )
 from dqpaint.motion import Motion
 from dqpaint.painting.memory import check_run_memory
+from dqpaint.painting.photos.photo_light import LitPhoto, likeness_reached, solve_photos
 from dqpaint.painting.picture import Picture, PictureSet, photograph
 from dqpaint.painting.scene import Scene, make_scene
 from dqpaint.painting.time_limit import limit_time
@@ -54,6 +57,7 @@ from dqpaint.simulation import (
     track,
 )
 
+SOLVING = 0.3  # share of the progress that the light of photographs takes
 NO_JOINTS_NOTE = "a recording of poses has no joints: the arm and its occlusion are left out"
 
 
@@ -86,6 +90,9 @@ class Painting(PictureSet):
     recording: Recording | None = None  # the recorded run, if none was simulated
     without_effect: dict[str, str] = field(default_factory=dict)  # disturbances, and why
     engine: Engine | None = None  # of physics, if one moved the arm
+    photos: tuple[LitPhoto, ...] = ()  # what is expected of photographs, before the run
+    reached: tuple[Likeness, ...] = ()  # how like they are on the path that was reached
+    relit: tuple[LitPhoto, ...] = ()  # and with light that was solved again for that path
 
     @property
     def resolver(self) -> str:
@@ -152,10 +159,11 @@ def paint(
             check_time()
             progress(done)
 
-        ready = prepare(program, settings, controller)
+        part = SOLVING if program.photos else 0.0
+        ready = prepare(program, settings, controller, lambda done: show(part * done))
         check(ready)
         with ready.stopwatch("arm"):
-            run = ready.run(show)
+            run = ready.run(lambda done: show(part + (1.0 - part) * done))
         return finish(ready, run)
 
 
@@ -169,6 +177,7 @@ class PreparedRun:
     kinematics: Kinematics
     prepared: prepared_motion.PreparedMotion
     recording: Recording | None
+    photos: tuple[LitPhoto, ...] = ()
 
     @property
     def motion(self) -> Motion:
@@ -220,9 +229,15 @@ class PreparedRun:
 
 
 def prepare(
-    program: Program, settings: Settings, controller: Controller[Any] | None = None
+    program: Program,
+    settings: Settings,
+    controller: Controller[Any] | None = None,
+    solving: Callable[[float], None] = lambda _done: None,
 ) -> PreparedRun:
-    """The preparation of a run; arguments and errors as those of `paint`."""
+    """The preparation of a run; arguments and errors as those of `paint`.
+
+    `solving` is called while the light of photographs is solved for, with the part done.
+    """
     clock = Stopwatch()
     program = replace(program, most_samples=settings.max_samples)
     # faults are reported before anything is simulated
@@ -236,7 +251,10 @@ def prepare(
     ready = prepared_motion.prepare_motion(program, kinematics, settings, motor_torque_use, clock)
     motion = ready.motion
     check_run_memory(sweeps(motion, motion.pose, motion.light, settings), settings)
-    return PreparedRun(settings, clock, choices, kinematics, ready, recording)
+    with clock("photos"):
+        motion, photos = solve_photos(ready.motion, settings, solving)
+    ready = replace(ready, motion=motion)
+    return PreparedRun(settings, clock, choices, kinematics, ready, recording, photos)
 
 
 def finish(ready: PreparedRun, run: Track, photographed: bool = True) -> Painting:
@@ -267,6 +285,11 @@ def finish(ready: PreparedRun, run: Track, photographed: bool = True) -> Paintin
     if settings.staged and not cast.has_joints:
         notes += (NO_JOINTS_NOTE,)
     with clock("light"), scene_arm_of_run(settings, card, cast) as staging:
+        reached = likeness_reached(motion, settings, dq.translation(run.pose))
+        relit: tuple[LitPhoto, ...] = ()
+        if settings.relight:
+            lit, relit = solve_photos(motion, settings, reached=dq.translation(run.pose))
+            motion = lit
         scene = make_scene(motion, run.pose, settings, metrics.table)
         pictures = tuple(photograph(scene, settings, staging)) if photographed else ()
     return Painting(
@@ -279,7 +302,7 @@ def finish(ready: PreparedRun, run: Track, photographed: bool = True) -> Paintin
         scene, cast, pictures, ready.prepared.retiming, ready.prepared.corners,
         clock.seconds, notes,
         ready.prepared.placement, recording, idle,
-        None if recording else chosen.plant.engine_used,
+        None if recording else chosen.plant.engine_used, ready.photos, reached, relit,
     )  # fmt: skip
 
 

@@ -277,12 +277,26 @@ def _exposure(
         return real.factor(camera), f"{real}{early}"
     if series_exposure is None:
         level = None if scene.legend is None else LEGEND_EXPOSURE
-        series_exposure = automatic_exposure(scene.reference, camera, level)
+        if scene.exposure is None:
+            series_exposure = automatic_exposure(scene.reference, camera, level)
+        else:
+            series_exposure = exposure_to(camera, scene.corners, scene.exposure)
     shown = series_exposure * 2.0**settings.ev
     points = scene.shown_points
     middle = camera.position - distance_to(camera, points) * camera.rotation[2]
     text = equivalent_exposure(shown, camera, middle, scene.seconds, shot.position is not None)
     return series_exposure, f"automatic, {text}"
+
+
+def exposure_to(camera: Camera, points: Floats, exposure: float) -> float:
+    """The factor from lamp s / px^2 to saturation, of light per area at points (K, 3) [m].
+
+    Args:
+        camera: where it is seen from.
+        points: of the canvas.
+        exposure: [m^2 / (lamp s)].
+    """
+    return exposure * (camera.focal / distance_to(camera, points)) ** 2
 
 
 def linear_image(

@@ -4,12 +4,12 @@ A scene has light alone, no robot and no text: `--save film` stores it, and it i
 view, size, look or exposure.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from dqpaint import dq
-from dqpaint.brushes import Emitters, read_brush
+from dqpaint.brushes import Emitters, read_brush, read_lamp
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.light.camera import parse_exposure, parse_views
@@ -37,6 +37,8 @@ class Scene:
         overlay: The reference drawn as faint lines below the light.
         front: (3, 3) columns: right, up and towards the viewer, base frame.
         legend: What the colours mean, if they show a column.
+        corners: (K, 3) of photographs, that must be in the picture, too [m].
+        exposure: Of the film that the light was solved for [m^2 / (lamp s)]; None: by the light.
     """
 
     name: str
@@ -45,11 +47,13 @@ class Scene:
     overlay: tuple[Sweep, ...]
     front: Floats
     legend: Legend | None = None
+    corners: Floats = field(default_factory=lambda: np.empty((0, 3)))
+    exposure: float | None = None
 
     @property
     def shown_points(self) -> Floats:
         """(K, 3) points that must be in the picture [m]."""
-        return np.concatenate([sweep.lit_points for sweep in self.reference])
+        return np.concatenate([*(sweep.lit_points for sweep in self.reference), self.corners])
 
     @property
     def seconds(self) -> float:
@@ -64,6 +68,7 @@ def check_light_settings(settings: Settings) -> None:
     if settings.starburst and not BLADE_RANGE[0] <= settings.starburst <= BLADE_RANGE[1]:
         bounds = f"{BLADE_RANGE[0]} to {BLADE_RANGE[1]} blades; 0 is a round one"
         raise UsageError(f"starburst {settings.starburst}: an aperture has {bounds}")
+    read_lamp(settings.lamp)
     if settings.brush is not None:
         read_brush(settings.brush).emitters()
     if settings.exposure is not None:
@@ -113,6 +118,8 @@ def make_scene(
         under if settings.overlay else (),
         dq.matrix_from_quaternion(motion.front),
         legend,
+        motion.photo_frames.reshape(-1, 3),
+        motion.exposure if legend is None else None,
     )
 
 

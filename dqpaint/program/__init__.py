@@ -15,9 +15,9 @@ if TYPE_CHECKING:
     from dqpaint.program.program import (
         IDENTITY, LOOK_MODES, STANDING, Arc, AutoPlacement, Brush, BrushValue, Colour,
         ContinuousStroke, CruiseSpeed, Curve, Duration, Dwell, FixedOrientation, FollowHeading,
-        Formula, Light, Look, LookLine, Path, PiecewiseCurve, Pose, Profile, Program, Quaternion,
-        Samples, Screw, ScrewTo, Segment, SlerpOrientation, Step, Straight, Strobe, Timing, Tool,
-        Vector,
+        Formula, Light, Look, LookLine, Path, Photo, PiecewiseCurve, Pose, Profile, Program,
+        Quaternion, Samples, Screw, ScrewTo, Segment, SlerpOrientation, Step, Straight, Strobe,
+        Timing, Tool, Vector,
     )
     from dqpaint.program.taylor import Floats, Taylor, Value
     from dqpaint.program.walls import Wall
@@ -26,9 +26,9 @@ __all__ = [
     "IDENTITY", "LOOK_MODES", "NODES", "STANDING", "WEIGHTS", "Arc", "AutoPlacement", "Brush",
     "BrushValue", "Colour", "ContinuousStroke", "CruiseSpeed", "Curve", "Duration", "Dwell",
     "FixedOrientation", "Floats", "FollowHeading", "Formula", "Indices", "Light", "Look",
-    "LookLine", "Path", "PiecewiseCurve", "Pose", "Profile", "Program", "Quaternion", "Samples",
-    "Screw", "ScrewTo", "Segment", "SlerpOrientation", "Step", "Straight", "Strobe", "Taylor",
-    "Timing", "Tool", "Value", "Vector", "Wall", "colours", "concatenate", "derivatives",
+    "LookLine", "Path", "Photo", "PiecewiseCurve", "Pose", "Profile", "Program", "Quaternion",
+    "Samples", "Screw", "ScrewTo", "Segment", "SlerpOrientation", "Step", "Straight", "Strobe",
+    "Taylor", "Timing", "Tool", "Value", "Vector", "Wall", "colours", "concatenate", "derivatives",
     "is_nonuniform", "parameters_at", "piece_corners", "piecewise", "stretch_lengths", "taylor",
     "walls",
 ]

@@ -70,7 +70,8 @@ def speeds(curve: PiecewiseCurve, piece: Indices, g: Floats) -> Floats:
 # Made.
 
 
-def _of_cubic(cubic: Floats) -> PiecewiseCurve:
+def cubics(cubic: Floats) -> PiecewiseCurve:
+    """Pieces without arcs, from their c0 to c3 (M, 4, 3)."""
     none = np.zeros(())  # no arcs, without room for each
     count = len(cubic)
     return PiecewiseCurve(
@@ -82,12 +83,12 @@ def straight(points: Floats) -> PiecewiseCurve:
     """Straight lines between consecutive points (N, 3); no two of them may be equal."""
     cubic = np.zeros((len(points) - 1, 4, 3))
     cubic[:, 0], cubic[:, 1] = points[:-1], np.diff(points, axis=0)
-    return _of_cubic(cubic)
+    return cubics(cubic)
 
 
 def bezier(points: Floats) -> PiecewiseCurve:
     """One Bezier curve from its 3 or 4 control points."""
-    return _of_cubic(coefficients(points[None]))
+    return cubics(coefficients(points[None]))
 
 
 def coefficients(control: Floats) -> Floats:
@@ -141,7 +142,7 @@ def smooth_curve(
         own = slice(begin, begin + BATCH)
         turned = t0[own], t1[own], free0[own], free1[own]
         cubic[own, 1:] = _bend(way[own], u[own], size[own], *turned)
-    return _of_cubic(cubic)
+    return cubics(cubic)
 
 
 def _tangents(u: Floats, size: Floats, stiff: float) -> Floats:

@@ -222,11 +222,13 @@ class Light:
     """The colours at the first and at the last point of a stroke, interpolated by length.
 
     `even` dims the light where the tool is slow, so that the line is equally bright all along.
+    `photo` is the number of the program's photograph, from 1, whose light this is; 0 for none.
     """
 
     first: Colour
     last: Colour
     even: bool = False
+    photo: int = 0
 
 
 # Light. Brushes are in the tool frame.
@@ -292,6 +294,35 @@ class Segment:
     jumps: bool = False  # where its velocity jumps, that is meant
 
 
+@dataclass(frozen=True, eq=False)
+class Photo:
+    """A photograph that strokes are to paint; how brightly they shine is solved for.
+
+    Attributes:
+        name: of its file, as written.
+        picture: (H, W, 3) sRGB from 0 to 1.
+        corner: its lower left corner, in the drawing frame [m].
+        right: from there to the lower right corner [m].
+        up: and to the upper left one [m].
+        colours: how many colours the lamp has; None: any colour.
+        colour: linear, of a lamp of one colour.
+        style: how it is drawn.
+        detail: the distance between neighbouring strokes [m].
+        span: the statement, in the text.
+    """
+
+    name: str
+    picture: Floats
+    corner: Vector
+    right: Vector
+    up: Vector
+    colours: int | None
+    colour: Colour
+    style: str
+    detail: float
+    span: Span
+
+
 @record
 class AutoPlacement:
     """`place auto`: the placement that suits the arm best, computed for the arm."""
@@ -319,6 +350,7 @@ class Program:
     walls: tuple[Wall, ...] = ()
     task: str | None = None  # the file's own `task` line
     dark_saved: float = 0.0  # [m] of dark ways, by the order of lines that come from elsewhere
+    photos: tuple[Photo, ...] = ()
 
     def line_name(self, line: SourceLine) -> str:
         """The name of a line for people: `12`, or `petal.traj:3`."""

@@ -277,6 +277,14 @@ class LightSettings(Group):
         Field(ge=0, le=1e5, allow_inf_nan=False),
         Option("frequency [Hz] at which the lamps are dimmed by pulses; 0: evenly", "HZ"),
     ] = 0.0
+    lamp: Annotated[
+        str,
+        Option(
+            "powers of a photo's lamp: ideal, dimmed (8 bits, gamma 2.2), switched (on and off); "
+            "bits=N, gamma=G, least=SHARE",
+            "NAME[:KEY=VALUE,...]",
+        ),
+    ] = "ideal"
 
 
 class ColourSettings(Group):
@@ -295,7 +303,7 @@ class ColourSettings(Group):
 
 
 class DeviationSettings(Group):
-    """How far the run is from the reference, to be seen."""
+    """How far the run is from the reference: to be seen, or to be made up for."""
 
     panel = "Light"
 
@@ -305,6 +313,10 @@ class DeviationSettings(Group):
         Field(gt=0, le=1e6, allow_inf_nan=False),
         Option("deviations from the reference, N times as large", "N"),
     ] = 1.0
+    relight: Annotated[
+        bool,
+        Option("after the run the light of photos is solved again, on the path that was reached"),
+    ] = False
 
 
 class CameraSettings(Group):
@@ -392,8 +404,8 @@ class OcclusionSettings(Group):
 
 class Settings(
     OcclusionSettings, GhostSettings, FilmSettings, CameraSettings, DeviationSettings,
-    ColourSettings, LightSettings, MemorySettings, DrawingSettings, TimeSettings, MotionSettings,
-    ArmSettings, DisturbanceSettings, LawSettings,
+    ColourSettings, LightSettings, MemorySettings, DrawingSettings,
+    TimeSettings, MotionSettings, ArmSettings, DisturbanceSettings, LawSettings,
 ):  # fmt: skip
     """The choices of one painting: the groups above, one after the other, as one flat model."""
 

@@ -74,6 +74,7 @@ class LightOptions(TypedDict, total=False):
 
     brush: str | None
     pwm: float | None
+    lamp: str | None
 
 
 class ColourOptions(TypedDict, total=False):
@@ -83,10 +84,11 @@ class ColourOptions(TypedDict, total=False):
 
 
 class DeviationOptions(TypedDict, total=False):
-    """How far the run is from the reference, to be seen."""
+    """How far the run is from the reference: to be seen, or to be made up for."""
 
     overlay: bool | None
     magnify: float | None
+    relight: bool | None
 
 
 class CameraOptions(TypedDict, total=False):

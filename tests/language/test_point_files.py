@@ -205,14 +205,14 @@ def test_what_will_be_too_many_pieces_is_drawn_once(
 ) -> None:
     """Each of 700 passes took as long as the first before they were too many."""
     drawn = 0
-    inner = imported_strokes._draw
+    inner = imported_strokes.draw_traces
 
     def draw(*given: object) -> None:
         nonlocal drawn
         drawn += 1
         inner(*given)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(imported_strokes, "_draw", draw)
+    monkeypatch.setattr(imported_strokes, "draw_traces", draw)
     rows = "".join(f"{i % 7},{i % 11}\n" for i in range(3000))
     text = 'repeat {}\nmove to (0, 0)\npath "p.csv" unit mm speed 1 m/s\nend'
     with pytest.raises(ScriptError, match=r"E299.*\n --> [^:]*:4:1") as caught:

@@ -44,7 +44,7 @@ def test_examples_of_statements(word: str, tmp_path: Path) -> None:
     (tmp_path / "f.traj").write_text("line by (5, 0) mm\n")
     start = "" if word in ("traj", "robot", "place", "start", "period") else "start at (0, 9) mm\n"
     end = "\nline by (1, 0) mm\nend" if known.block else ""
-    for name in ("orbit.csv", "logo.svg"):
+    for name in ("orbit.csv", "logo.svg", "astronaut.jpg"):
         shutil.copy(examples_folder() / name, tmp_path)
     text = f"{start}{known.example}{end}\nline by (3, 4) mm"
     here = tmp_path / "a.traj"
@@ -67,6 +67,7 @@ def test_examples_of_parts(word: str, part: str) -> None:
         "text": 'text "A" "B"' + (" height 9 mm" if part != "width" else ""),
         "path": 'path "orbit.csv"' + (" unit mm" if part not in ("height", "width") else ""),
         "svg": 'svg "logo.svg"',
+        "photo": 'photo "astronaut.jpg"' + " as hatch" * (part != "as"),
     }[word]
     if part == "via":
         base = "arc to (-80, 0) mm"

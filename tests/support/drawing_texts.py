@@ -52,6 +52,7 @@ screw about (0,0) along x+y angle 1 turn pitch 3 mm/turn
 text "Ada, 3" "Love" font "scripts" width 30 mm at (1,2) mm align centre light red to blue
 path "orbit.csv" height 30 mm smooth at (1,1) mm samples 500
 svg "logo.svg" height 3 mm width 2 cm tool look (0,0,300) mm up y
+photo "ada.png" height 3 cm as hatch detail 1 mm angle 30 deg cross colours full max 90 s dark 5%
 curve polar(1 mm*exp(t/rad/5), t) for t from 0 to 2 turns tool follow speed 30 mm/s
 """
 

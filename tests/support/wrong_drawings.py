@@ -91,6 +91,19 @@ svg "words.svg"|E298|1:5 "words.svg"|help
 svg "bomb.svg"|E298|1:5 "bomb.svg"|help
 svg "points.csv"|E298|1:5 "points.csv"|help
 svg "flat.svg" height 1e8 m|E201|1:1 svg "flat.svg" height 1e8 m|
+photo "plain.svg" as hatch|E297|1:7 "plain.svg"|help
+photo "grey.webp" as hatch max 60 s|W423|1:32 60 s|help
+photo "grey.webp" as hatch max 1 s|E297|1:32 1 s|help
+photo "grey.webp" as hatch light off|E297|1:28 light|
+photo "grey.webp" as hatch colours 2|E297|1:36 2|help
+photo "grey.webp" as hatch detail 0.01 mm|E297|1:35 0.01 mm|help
+photo "grey.webp" as hatch detail 150 mm|E297|1:35 150 mm|help
+photo "grey.webp" as hatch dark 100%|E297|1:1 photo "grey.webp" as hatch dark 100%|help
+photo "grey.webp" as hatch dark 0.1|E109|1:33 0.1|help
+photo "grey.webp" as hatch colours red|E109|1:36 red|help
+photo "grey.webp" as hatching|E109|1:22 hatching|help fix
+photo "grey.webp"|E115|1:1 photo|help
+photo "grey.webp" "plain.svg" as hatch|E248|1:19 "plain.svg"|help
 svg "passed.svg"|W421|1:5 "passed.svg"|help
 svg "otherwise.svg"|W422|1:5 "otherwise.svg"|help
 svg "unread.svg"|E298|1:5 "unread.svg"|help

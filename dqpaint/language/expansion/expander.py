@@ -42,7 +42,7 @@ from dqpaint.program import AutoPlacement, Pose, Program, Segment, Step, Wall
 PERIOD = 0.008  # [s]
 # Statements whose first value is not a name that they define.
 NAMELESS = ("robot", "task", "wall", "keep", "face", "place", "curve", "repeat", "call")
-ALIKE = ("text", "path", "svg", "move")  # in each pass as much as in the first
+ALIKE = ("text", "path", "svg", "photo", "move")  # in each pass as much as in the first
 SHORTEST_PERIOD = 1e-5  # [s]
 LONGEST_PERIOD = 10.0
 DEEPEST = 64  # blocks, calls and files within each other
@@ -90,6 +90,7 @@ class Expander:
             walls=tuple(self._walls),
             task=self._task,
             dark_saved=self._pen.dark_saved,
+            photos=tuple(self._pen.photos),
         )
 
     def _check_last(self) -> None:

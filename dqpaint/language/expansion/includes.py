@@ -20,7 +20,10 @@ MOST_LETTERS = 2_000_000  # of all files together
 MOST_LINES = 100_000
 
 # Files of other kinds, and the statement that draws them.
-_FOR_OTHERS = {".svg": "svg", ".csv": "path", ".txt": "path", ".dat": "path"}
+_FOR_OTHERS = {
+    **dict.fromkeys((".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp"), "photo"),
+    **{".svg": "svg", ".csv": "path", ".txt": "path", ".dat": "path"},
+}
 
 Statements = tuple[Statement, ...]
 

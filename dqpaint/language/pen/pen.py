@@ -37,6 +37,7 @@ from dqpaint.program import (
     Look,
     LookLine,
     Path,
+    Photo,
     PiecewiseCurve,
     Pose,
     Profile,
@@ -95,6 +96,7 @@ class Pen:
         self._strokes = 0
         self.pieces = 0  # of curves
         self.dark_saved = 0.0  # [m] of dark ways, by the order of lines that come from elsewhere
+        self.photos: list[Photo] = []
         self.placed = False  # the file has set the start of the drawing
         self.started = False  # something has moved
         self.oriented = False  # the file has set the orientation at the start

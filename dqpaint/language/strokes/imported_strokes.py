@@ -46,6 +46,7 @@ class Trace(NamedTuple):
 
     curve: PiecewiseCurve
     colour: Colour | None = None
+    photo: int = 0
 
 
 # The three statements.
@@ -67,15 +68,15 @@ def text(statement: Statement, pen: Pen, scope: Scope) -> None:
     if not made.strokes:
         help = "to wait, use: hold 1 s"
         raise problem("E262", "this text has no letters", nodes[0].span, "", help)
-    scale = _scale(statement, scope, (made.width, font.cap))
+    scale = scale_to(statement, scope, (made.width, font.cap))
     at = statement.value("at")
     shift = (
         pen.pose.position if at is None else pen.frame.point(typed_values.place(at, scope, "at"))
     )
     if at is not None:
         pen.lost = False
-    _draw(
-        statement, pen, scope, _drawn([(curve, None) for curve in made.strokes], pen, scale, shift)
+    draw_traces(
+        statement, pen, scope, placed([(curve, None) for curve in made.strokes], pen, scale, shift)
     )
 
 
@@ -99,15 +100,15 @@ def path(statement: Statement, pen: Pen, scope: Scope) -> None:
         scale, origin = UNITS[unit.name][0], np.zeros(3)
     else:
         scale, origin = _fitted(statement, pen, scope, [curve])
-    shift = _place_of(statement, pen, scope, scale * origin)
-    (trace,) = _drawn([(curve, None)], pen, scale, shift)
+    shift = place_of(statement, pen, scope, scale * origin)
+    (trace,) = placed([(curve, None)], pen, scale, shift)
     start = piecewise.ends(trace.curve)[0]
     gap = vectors.length(vectors.minus(start, pen.pose.position))
     if pen.started and gap > GAP and not statement.part("at") and not pen.in_stroke:
         message = f"the path starts {1e3 * gap:.3g} mm away from where the tool is"
         help = "a light-off move is added; write a move to choose its speed"
         pen.warn("W402", message, nodes[0].span, "", help)
-    _draw(statement, pen, scope, [trace])
+    draw_traces(statement, pen, scope, [trace])
 
 
 def svg(statement: Statement, pen: Pen, scope: Scope) -> None:
@@ -119,9 +120,9 @@ def svg(statement: Statement, pen: Pen, scope: Scope) -> None:
     drawing = reader.read(node, pen, statement.part("order") is not None)
     loose = [curve for curve, _ in drawing.lines]
     scale, origin = _fitted(statement, pen, scope, loose)
-    shift = _place_of(statement, pen, scope, scale * origin)
+    shift = place_of(statement, pen, scope, scale * origin)
     pen.dark_saved += drawing.saved * scale * pen.frame.scale
-    _draw(statement, pen, scope, _drawn(drawing.lines, pen, scale, shift))
+    draw_traces(statement, pen, scope, placed(drawing.lines, pen, scale, shift))
 
 
 # Where and how large.
@@ -157,7 +158,7 @@ def _no_letter(node: Quoted, place: int, font: lettering.Font) -> Problem:
     return problem("E261", message, span, "here", help, fix)
 
 
-def _scale(statement: Statement, scope: Scope, size: tuple[float, float]) -> float:
+def scale_to(statement: Statement, scope: Scope, size: tuple[float, float]) -> float:
     """The largest scale with which (width, height) is no larger than the given size."""
     scales = []
     for word, extent in zip(("width", "height"), size, strict=True):
@@ -183,10 +184,10 @@ def _fitted(
     """The scale of a drawing, and minus the middle of its box."""
     least, most = piecewise.bounding_box(loose)
     width, height, _ = (most - least).tolist()
-    return _scale(statement, scope, (width, height)), -0.5 * (least + most)
+    return scale_to(statement, scope, (width, height)), -0.5 * (least + most)
 
 
-def _place_of(statement: Statement, pen: Pen, scope: Scope, origin: Floats) -> Vector:
+def place_of(statement: Statement, pen: Pen, scope: Scope, origin: Floats) -> Vector:
     """The position of the file's own origin, in the drawing frame."""
     at = statement.value("at")
     x, y, z = typed_values.place(at, scope, "at") if at is not None else vectors.ZERO
@@ -195,7 +196,7 @@ def _place_of(statement: Statement, pen: Pen, scope: Scope, origin: Floats) -> V
     return pen.frame.point((x + a, y + b, z + c))
 
 
-def _drawn(
+def placed(
     lines: Sequence[tuple[PiecewiseCurve, Colour | None]], pen: Pen, scale: float, shift: Vector
 ) -> list[Trace]:
     """Lines in the drawing frame."""
@@ -209,7 +210,7 @@ def _drawn(
 # The strokes.
 
 
-def _draw(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> None:
+def draw_traces(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace]) -> None:
     """The strokes one after the other, with dark moves between them.
 
     Time and a gradient of the light are spread over all by their lengths: the time over the ways
@@ -256,7 +257,7 @@ def _rounded(traces: list[Trace], pen: Pen) -> list[Trace]:
         return traces
     whole, starts, _ = piecewise.concatenate([trace.curve for trace in traces])
     made = piecewise.split(*piece_corners.rounded(whole, starts, deviation, distance))
-    return [Trace(curve, trace.colour) for curve, trace in zip(made, traces, strict=True)]
+    return [trace._replace(curve=curve) for curve, trace in zip(made, traces, strict=True)]
 
 
 def check_pieces(pieces: int, pen: Pen, span: Span) -> None:
@@ -303,7 +304,10 @@ def _stroke_lights(
     done = np.concatenate([[0.0], np.cumsum(lengths)]) / sum(lengths)
     out: list[Light | None] = []
     for number, trace in enumerate(traces):
-        if trace.colour is not None and statement.part("light") is None:
+        if trace.photo:
+            shade = trace.colour or colours.WHITE
+            out.append(Light(shade, shade, True, trace.photo))
+        elif trace.colour is not None and statement.part("light") is None:
             out.append(Light(trace.colour, trace.colour, even=True))
         elif light is None:
             out.append(None)

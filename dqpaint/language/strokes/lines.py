@@ -27,7 +27,8 @@ from dqpaint.program import (
 
 def sets_start(statement: Statement, pen: Pen) -> bool:
     """Whether a movement defines the start of the drawing by its own first point."""
-    return statement.word in ("move", "text", "path", "svg") and not (pen.started or pen.placed)
+    own = statement.word in ("move", "text", "path", "svg", "photo")
+    return own and not (pen.started or pen.placed)
 
 
 def _stops(statement: Statement, pen: Pen, scope: Scope) -> list[tuple[Vector, Span]]:

@@ -6,7 +6,7 @@ from dqpaint.language.pen import tool_orientation
 from dqpaint.language.pen.durations import timing
 from dqpaint.language.pen.pen import SAME_PLACE, SAME_TURN, Pen
 from dqpaint.language.pen.stroke_state import StrokeState
-from dqpaint.language.strokes import arcs, curves, imported_strokes, lines
+from dqpaint.language.strokes import arcs, curves, imported_strokes, lines, photos
 from dqpaint.language.strokes.modal_words import apply_clause, light_of, pause_light
 from dqpaint.language.syntax.tree import Expression, LightWords, Statement
 from dqpaint.language.values import typed_values, vectors
@@ -261,4 +261,5 @@ _DRAW = {
     "text": imported_strokes.text,
     "path": imported_strokes.path,
     "svg": imported_strokes.svg,
+    "photo": photos.photo,
 }

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from dqpaint.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.syntax import brush_clause
-from dqpaint.language.syntax.cursor import Cursor, example_of, found, no_value
+from dqpaint.language.syntax.cursor import Cursor, example_of, found, no_value, percent
 from dqpaint.language.syntax.expressions import expression
 from dqpaint.language.syntax.import_clauses import one_of
 from dqpaint.language.syntax.tree import (
@@ -39,16 +39,6 @@ def _along(cursor: Cursor, example: str) -> None:
         message = f"expected 'along' but found {found(cursor.token)}"
         raise problem("E116", message, span, "", f"write: {example}")
     cursor.take()
-
-
-def _percent(cursor: Cursor, what: str, example: str) -> float:
-    """A number and its % sign, as a fraction of 1."""
-    share = float(cursor.take().text) / 100.0
-    if not cursor.is_sign("%"):
-        message = f"expected '%' after {what} but found {found(cursor.token)}"
-        raise problem("E109", message, cursor.before.span, "", f"for example: {example}")
-    cursor.take()
-    return share
 
 
 def _tool(cursor: Cursor) -> ToolWords:
@@ -91,17 +81,17 @@ def _light(cursor: Cursor) -> LightWords:
 
 def _shade(cursor: Cursor, after: str = "light") -> ColourWords:
     start, word, value = cursor.token.start, "", None
-    percent = cursor.peek().kind == "sign" and cursor.peek().text == "%"
+    share = cursor.peek().kind == "sign" and cursor.peek().text == "%"
     if cursor.is_word("on") or cursor.is_word("off"):
         word = cursor.take().text
-    elif cursor.at_end or cursor.is_word("even") or (cursor.token.kind == "number" and percent):
+    elif cursor.at_end or cursor.is_word("even") or (cursor.token.kind == "number" and share):
         raise _no_colour(cursor)
     else:
         value = expression(cursor, after)
     brightness = 1.0
     if cursor.token.kind == "number":
         at = cursor.token.start
-        brightness = _percent(cursor, "the brightness", "light red 40%")
+        brightness = percent(cursor, "the brightness", "light red 40%")
         if brightness > 1.0:
             span = cursor.span_from(at)
             message = "the brightness goes from 0% to 100%"
@@ -132,7 +122,7 @@ def _strobe(cursor: Cursor) -> StrobeWords:
     frequency, duty = _value(cursor, "strobe"), 0.5
     if cursor.token.kind == "number":
         at = cursor.token.start
-        duty = _percent(cursor, "the part of the time", PARTS["strobe"].example)
+        duty = percent(cursor, "the part of the time", PARTS["strobe"].example)
         if not 0.0 < duty <= 1.0:
             message = "a strobe shines for more than 0% and at most 100% of the time"
             help = "to turn the light off, write: light off"

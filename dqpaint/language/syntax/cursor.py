@@ -102,3 +102,13 @@ def example_of(word: str) -> str:
     """A whole example line of this word's statement."""
     statement = STATEMENTS.get(word)
     return statement.example if statement else ""
+
+
+def percent(cursor: Cursor, what: str, example: str) -> float:
+    """A number and its % sign, as a fraction of 1."""
+    share = float(cursor.take().text) / 100.0
+    if not cursor.is_sign("%"):
+        message = f"expected '%' after {what} but found {found(cursor.token)}"
+        raise problem("E109", message, cursor.before.span, "", f"for example: {example}")
+    cursor.take()
+    return share

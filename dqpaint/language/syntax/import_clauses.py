@@ -1,4 +1,4 @@
-"""Tokens of `text`, `path` and `svg` -> clauses: texts, fonts, units, alignment.
+"""Tokens of `text`, `path`, `svg`, `photo` -> clauses: texts, fonts, units, alignment, styles.
 
 Each becomes a plain expression: a text `Quoted`, a word `Name`.
 """
@@ -6,10 +6,11 @@ Each becomes a plain expression: a text `Quoted`, a word `Name`.
 from collections.abc import Callable
 
 from dqpaint.diagnostics import Fix, Span, closest, did_you_mean, problem
-from dqpaint.language.syntax.cursor import Cursor, example_of, found
-from dqpaint.language.syntax.tree import Expression, Name, Quoted
+from dqpaint.language.syntax.cursor import Cursor, example_of, found, percent
+from dqpaint.language.syntax.tree import Expression, Literal, Name, Quoted
 from dqpaint.language.vocabulary.units import FOREIGN_UNITS, LENGTH, UNITS
 from dqpaint.language.vocabulary.words import PARTS
+from dqpaint.photo import STYLE_WORDS
 
 ALIGNMENTS = ("left", "centre", "right")
 LENGTHS = tuple(unit for unit, (_, kind, _) in UNITS.items() if kind == LENGTH)
@@ -81,6 +82,27 @@ def _order(cursor: Cursor) -> Expression:
     return Name("as drawn", cursor.span_from(start))
 
 
+def _colours(cursor: Cursor) -> Expression:
+    if cursor.is_word("full"):
+        return Name("full", cursor.take().span)
+    token = cursor.token
+    if token.kind != "number":
+        span = token.span if not cursor.at_end else cursor.before.span
+        message = f"expected a number or full after 'colours' but found {found(token)}"
+        raise problem("E109", message, span, "", "for example: colours 1, or: colours full")
+    cursor.take()
+    return Literal(float(token.text), "", token.span)
+
+
+def _share(cursor: Cursor) -> Expression:
+    token = cursor.token
+    if token.kind != "number":
+        span = token.span if not cursor.at_end else cursor.before.span
+        message = f"expected a number and % after 'dark' but found {found(token)}"
+        raise problem("E109", message, span, "", "for example: dark 5%")
+    return Literal(percent(cursor, "dark", "dark 5%"), "", token.span)
+
+
 Reader = Callable[[Cursor], Expression]
 
 # By the kind of value, as in `words.PARTS`.
@@ -89,5 +111,8 @@ READERS: dict[str, Reader] = {
     "unit": one_of(LENGTHS, "unit", FOREIGN_UNITS),
     "alignment": one_of(ALIGNMENTS, "align", {"middle": "centre"}),
     "order": _order,
+    "style": one_of(STYLE_WORDS, "as", {}),
+    "colours": _colours,
+    "share": _share,
     "flag": lambda cursor: Name(cursor.before.text, cursor.before.span),
 }

@@ -28,7 +28,7 @@ def check(statement: Statement, text: str) -> None:
     elif statement.word in ("line", "move"):
         if not statement.part("to") and not statement.part("by"):
             raise _to_or_by(statement.word, _first_word(statement))
-    elif statement.word in ("text", "path", "svg"):
+    elif statement.word in ("text", "path", "svg", "photo"):
         _imported(statement)
 
 
@@ -195,9 +195,10 @@ def _imported(statement: Statement) -> None:
     if fitted and unit:
         message = f"'unit' and '{fitted.word}' both say how large it is"
         raise problem("E248", message, unit.span, "", "keep one of them")
-    most = {"svg": 1, "path": 3}.get(word)
+    most = {"svg": 1, "photo": 1, "path": 3}.get(word)
     if most and len(statement.values) > most:
-        help = "one drawing to a line" if most == 1 else "one file, or one for each of x, y and z"
+        drawn = "photo" if word == "photo" else "drawing"
+        help = f"one {drawn} to a line" if most == 1 else "one file, or one for each of x, y and z"
         message = f"'{word}' takes {'one file' if most == 1 else 'at most 3 files'}"
         raise problem("E248", message, statement.values[most].span, "", help)
 

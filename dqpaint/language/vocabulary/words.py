@@ -109,6 +109,12 @@ PARTS = {
         PartWord("align", "alignment", "which end of each line stands at `at`", "align centre"),
         PartWord("unit", "unit", "of the numbers in a file", "unit mm"),
         PartWord("order", "order", "which line comes when: kept, not shortened", "order as drawn"),
+        PartWord("as", "style", "how a photo is painted: hatch or spiral", "as hatch"),
+        PartWord("detail", "length", "how far apart its strokes are", "detail 0.8 mm"),
+        PartWord("cross", "flag", "drawn a second time, across", "cross"),
+        PartWord("colours", "colours", "of the lamp: a number, or full", "colours full"),
+        PartWord("max", "time", "how long it may take: coarser if need be", "max 300 s"),
+        PartWord("dark", "share", "the tone below which it stays black", "dark 5%"),
         PartWord("smooth", "flag", "bends from point to point, but for sharp corners", "smooth"),
         PartWord("within", "angle", "how far off it may point", "within 50 deg"),
         PartWord("for", "holder", "what is kept: tool or beam; else all links", "for tool"),
@@ -248,6 +254,19 @@ STATEMENTS = {
             'svg "logo.svg" height 80 mm',
             head="texts",
             parts=("height", "width", "at", "order", *CLAUSES),
+            moves=True,
+        ),
+        StatementWord(
+            "photo",
+            "a photograph, its light solved for",
+            'photo "astronaut.jpg" height 200 mm as hatch',
+            head="texts",
+            parts=(
+                *("height", "width", "at", "as", "detail", "angle", "cross"),
+                *("colours", "max", "dark"),
+                *CLAUSES,
+            ),
+            needs=("as",),
             moves=True,
         ),
         StatementWord("hold", "a pause", "hold 1 s", head="value", parts=LAMP, moves=True),
@@ -458,18 +477,8 @@ FUNCTION_ALIASES = {
 # Never part of an expression: a value was forgotten if one of them is found there.
 # But these have a meaning in a few statements only, and `let radius = …` is common.
 FREE = (
-    "base",
-    "within",
-    "corner",
-    "height",
-    "jump",
-    "left",
-    "long",
-    "order",
-    "radius",
-    "right",
-    "unit",
-    "width",
+    *("as", "base", "colours", "corner", "cross", "dark", "detail", "height", "jump", "left"),
+    *("long", "max", "order", "radius", "right", "unit", "width", "within"),
 )
 RESERVED = frozenset(
     (*STATEMENTS, *PARTS, *RENAMED, *LITTLE_WORDS, "if", "else", "while")

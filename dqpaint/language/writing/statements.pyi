@@ -69,6 +69,8 @@ class Statements:
         """A line through the points in a file, or in a file for each axis: `d.path("orbit.csv", unit="cm")`."""
     def svg(self, *values: Any, height: Any = ..., width: Any = ..., at: Any = ..., order: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
         """The lines of an SVG drawing, in its own colours: `d.svg("logo.svg", height="80 mm")`."""
+    def photo(self, *values: Any, height: Any = ..., width: Any = ..., at: Any = ..., as_: Any = ..., detail: Any = ..., angle: Any = ..., cross: bool = ..., colours: Any = ..., max: Any = ..., dark: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
+        """A photograph, its light solved for: `d.photo("astronaut.jpg", height="200 mm", as_="hatch")`."""
     def hold(self, *values: Any, light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
         """A pause: `d.hold("1 s")`."""
     def repeat(self, *values: Any) -> AbstractContextManager[None]:

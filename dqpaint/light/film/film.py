@@ -122,7 +122,7 @@ def _deposit(planes: Floats, position: Floats, energy: Floats) -> None:
     """Add energy (3, B) at film positions (2, B) (x, y) to the planes."""
     width = planes.shape[2]
     x, y = np.rint(position)
-    across, down = _spline_weights(position[0] - x), _spline_weights(position[1] - y)
+    across, down = spline_weights(position[0] - x), spline_weights(position[1] - y)
     pixel = (y * width + x).astype(np.int64)
     around = np.array([[-1], [0], [1]])
     index = (pixel + width * around[:, None] + around[None, :]).ravel()
@@ -132,7 +132,7 @@ def _deposit(planes: Floats, position: Floats, energy: Floats) -> None:
         np.add.at(plane, index, (weight * colour).ravel())
 
 
-def _spline_weights(t: Floats) -> Floats:
+def spline_weights(t: Floats) -> Floats:
     """Weights (3, B) of the pixels -1, 0 and 1 for a deposit at t, -1/2 <= t <= 1/2.
 
     The quadratic B-spline; Unser, Splines: a perfect fit for signal processing, IEEE SPM 1999.

@@ -87,7 +87,7 @@ def spread(film: Film, psf: PointSpread) -> Image:
     do has the width sqrt(s^2 - 2 (4^L - 1) / 3) / 2^L.
     """
     sharp = [math.sqrt(s * s - SPLINE_VARIANCE) for s in psf.widths]
-    levels = [_level(s) for s in sharp]
+    levels = [pyramid_level(s)[0] for s in sharp]
     pyramid = [_interleaved(film.planes)]
     for _ in range(max(levels)):
         pyramid.append(cast(Image, cv2.pyrDown(pyramid[-1])))
@@ -120,9 +120,10 @@ def _level_blur(width: float, level: int) -> float:
     return math.sqrt(left) / 2.0**level if left >= 0.0 else math.nan
 
 
-def _level(width: float) -> int:
-    """The level of the pyramid on which a Gaussian of `width` is applied."""
-    return next(level for level in range(32) if _level_blur(width, level) <= WIDEST_LEVEL_BLUR)
+def pyramid_level(width: float) -> tuple[int, float]:
+    """The level of the pyramid on which a Gaussian of `width` is applied, and its blur there."""
+    blurs = ((level, _level_blur(width, level)) for level in range(32))
+    return next((level, blur) for level, blur in blurs if blur <= WIDEST_LEVEL_BLUR)
 
 
 def _interleaved(planes: Floats) -> Image:

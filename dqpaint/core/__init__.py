@@ -3,7 +3,7 @@
 Nothing here depends on robots, light or the language.
 """
 
-from dqpaint.core import tables
+from dqpaint.core import bags, tables
 from dqpaint.core.atomic_files import (
     NotRegularError, make_folder, open_folder, open_regular, rewrite, write_new,
 )
@@ -29,8 +29,8 @@ from dqpaint.core.user_files import (
 __all__ = [
     "DEFAULT_MAX_SAMPLES", "FILE_PATTERN", "LARGEST_IMAGE", "LARGEST_MAX_SAMPLES", "PINOCCHIO",
     "AnswerError", "Folder", "Guarded", "Library", "NotRegularError", "NumberTable", "Registry",
-    "Sections", "UserCode",
-    "Values", "choice_name", "example_names", "examples_folder", "file_digest", "find_drawing",
+    "Sections", "UserCode", "Values", "bags",
+    "choice_name", "example_names", "examples_folder", "file_digest", "find_drawing",
     "find_file", "find_in_file", "finish_interrupted", "latex_equation", "library_versions", "log",
     "make_choice", "make_folder", "number_or_text", "open_folder", "open_regular", "picture_size",
     "pydantic_reason", "read_choice", "read_regular", "read_sections", "record", "replaced",

@@ -243,10 +243,10 @@ def prepare(
     # faults are reported before anything is simulated
     choices = check_run(settings, controller, Path(program.name).parent)
     card = card_for(program, settings.robot, settings.tool)
-    recorded = settings.recorded
-    recording = None if recorded is None else read_recording(recorded, card.joints)
     with clock("place"):
         kinematics = make_kinematics(card, settings.kinematics, task_of(settings, program))
+    recorded, names = settings.recorded, tuple(kinematics.model.names)[1:]
+    recording = None if recorded is None else read_recording(recorded, names)
     motor_torque_use = choices.plant.motor_torque_use
     ready = prepared_motion.prepare_motion(program, kinematics, settings, motor_torque_use, clock)
     motion = ready.motion

@@ -79,8 +79,8 @@ class LawSettings(Group):
     recorded: Annotated[
         str | None,
         Option(
-            "paint a real arm's run: t_s and joints or poses, see README",
-            "RUN.csv",
+            "paint a real arm's run: a CSV of t_s and joints or poses, or a bag, see README",
+            "RUN.csv|RUN.mcap",
             read=read_path,
             python="str | PathLike[str]",
         ),

@@ -1,4 +1,4 @@
-"""A CSV of a real arm's joints or poses -> Track, on the drawing's own clock.
+"""A CSV or a bag of a real arm's joints or poses -> Track, on the drawing's own clock.
 
 Between two rows a joint goes along a monotone cubic (Fritsch and Butland 1984): smooth, through
 every row, and never beyond the two it lies between. A pose goes along the one screw from row to row
@@ -6,15 +6,18 @@ every row, and never beyond the two it lies between. A pose goes along the one s
 as notes.
 """
 
+import hashlib
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from dqpaint import dq
 from dqpaint.controllers import Controller, Gains, Seen
-from dqpaint.core import NumberTable
+from dqpaint.core import NumberTable, read_regular
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.motion import Motion
@@ -26,6 +29,8 @@ POSE = ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz")
 NORM_TOLERANCE = 1e-3  # a quaternion's norm may be off 1 by this: it was printed with few digits
 LONG_GAP = 0.05  # [s] between two rows that is worth a word, if it is several periods
 SAME_TIME = 1e-9  # [s]
+BAG_ENDING = ".mcap"
+LARGEST_BAG = 500_000_000  # bytes of a file
 
 
 @dataclass(frozen=True, repr=False)
@@ -41,6 +46,7 @@ class Recording:
         commands: of the joints at each row (M, n): rates [rad/s] or torques [Nm]; None where the
             file has none.
         torques: whether the commands are torques.
+        remarks: what was assumed when it was read, one sentence each.
     """
 
     name: str
@@ -50,6 +56,7 @@ class Recording:
     poses: Floats | None
     commands: Floats | None
     torques: bool
+    remarks: tuple[str, ...] = ()
 
     @property
     def as_json(self) -> dict[str, Any]:
@@ -66,7 +73,7 @@ class Recording:
     def notes(self, motion: Motion) -> tuple[str, ...]:
         """The assumptions that bring it onto a drawing's clock, one sentence each."""
         way = "joints on monotone cubics" if self.poses is None else "poses on screws"
-        found = [f"{self.name}: {len(self.t)} rows, between them {way}"]
+        found = [*self.remarks, f"{self.name}: {len(self.t)} rows, between them {way}"]
         end = float(motion.t[-1])
         for held, when in (
             (self.t[0], "before the first row"),
@@ -95,27 +102,47 @@ RECORDED: Controller[Gains] = Controller(
 )
 
 
-def read_recording(path: str, joints: int) -> Recording:
-    """The run in a CSV file.
+def read_recording(path: str, names: Sequence[str]) -> Recording:
+    """The run in a CSV file, or in a bag: an MCAP file, see `recorded_bag`.
 
-    The first row that is not empty and does not begin with # names the columns: `t_s`, and all of
-    `q1_rad ...` (or `q1_deg ...`) or all of `x_m y_m z_m qw qx qy qz`; joints are taken where it
-    has both. `command1_rad_s ...` or `torque1_Nm ...` are taken too; other columns are left alone.
+    Of a CSV the first row that is not empty and does not begin with # names the columns: `t_s`, and
+    all of `q1_rad ...` (or `q1_deg ...`) or all of `x_m y_m z_m qw qx qy qz`; joints are taken
+    where it has both. `command1_rad_s ...` or `torque1_Nm ...` are taken too; other columns are
+    left alone.
 
     Args:
         path: of the file.
-        joints: how many the arm has.
+        names: of the arm's joints; a bag has joints by these.
 
     Raises:
         UsageError: the file cannot be read.
         DqpaintError: it is not such a table; file, row and column are named.
     """
+    if Path(path).suffix == BAG_ENDING:
+        return _from_bag(path, names)
+    joints = len(names)
     table = NumberTable(path, "recorded run")
     t = table.times()
     postures = _joints(table, joints)
     poses = None if postures is not None else _poses(table)
     commands, torques = _commands(table, joints) if postures is not None else (None, False)
     return Recording(table.name, table.sha256, t, postures, poses, commands, torques)
+
+
+def _from_bag(path: str, names: Sequence[str]) -> Recording:
+    """The run in an MCAP file."""
+    from dqpaint.simulation.recorded_bag import read_bag
+
+    name = Path(path).name
+    try:
+        data = read_regular(path, LARGEST_BAG)
+    except OSError as problem:
+        raise UsageError(f"recorded run '{path}' cannot be read: {problem.strerror}") from None
+    found = read_bag(name, data, names)
+    digest = hashlib.sha256(data).hexdigest()
+    return Recording(
+        name, digest, found.t, found.postures, None, found.commands, found.torques, found.remarks
+    )
 
 
 def _joints(table: NumberTable, joints: int) -> Floats | None:

@@ -211,7 +211,7 @@ def test_slips(tmp_path, text, words):
     path = tmp_path / "run.csv"
     path.write_text(text)
     with pytest.raises(DqpaintError) as caught:
-        read_recording(str(path), 7)
+        read_recording(str(path), tuple("1234567"))
     assert "run.csv" in str(caught.value)
     for word in words:
         assert word in str(caught.value)
@@ -219,10 +219,10 @@ def test_slips(tmp_path, text, words):
 
 def test_other_slips(drawing, tmp_path):
     with pytest.raises(UsageError, match="cannot be read"):
-        read_recording(str(tmp_path / "none.csv"), 7)
+        read_recording(str(tmp_path / "none.csv"), tuple("1234567"))
     (tmp_path / "bytes.csv").write_bytes(b"\xff\xfe\x00t")
     with pytest.raises(DqpaintError, match="UTF-8"):
-        read_recording(str(tmp_path / "bytes.csv"), 7)
+        read_recording(str(tmp_path / "bytes.csv"), tuple("1234567"))
     late = tmp_path / "late.csv"
     late.write_text(HEAD + "1700000000" + ROW + "1700000001" + ROW)
     with pytest.raises(DqpaintError, match="t_s "):

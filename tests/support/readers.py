@@ -21,6 +21,7 @@ from pathlib import Path
 import numpy as np
 
 from dqpaint.brushes import images
+from dqpaint.core import bags
 from dqpaint.core.number_table import NumberTable
 from dqpaint.diagnostics import Problem, Span
 from dqpaint.editors import completion
@@ -132,9 +133,17 @@ def _points(data: bytes, _path: Path) -> None:
 
 
 def _recorded(_data: bytes, path: Path) -> None:
-    found = read_recording(str(path), 7)
+    found = read_recording(str(path), tuple("1234567"))
     finite(found.t)
     finite([part for part in (found.postures, found.poses, found.commands) if part is not None])
+
+
+def _bags() -> list[bytes]:
+    made = bags.BagWriter()
+    for k in range(5):
+        state = bags.Encoder(k * 10**7).texts("1234567").sequence([0.1 * k] * 7)
+        made.add("/joint_states", bags.JOINT_STATE, k * 10**7, state.sequence([]).sequence([]))
+    return [made.finish()]
 
 
 def _table(_data: bytes, path: Path) -> None:
@@ -435,6 +444,7 @@ READERS = {
     "recorded run": Reader(_recorded, _texts(
         _q(f"q{k}_rad" for k in range(1, 8)), _q(f"q{k}_deg" for k in range(1, 8)), _poses()),
         words=_words("# , ; t_s q1_rad q1_deg x_m qw command1_rad_s torque1_Nm"), ending=".csv"),
+    "recorded bag": Reader(_recorded, _bags, ending=".mcap"),
     "table": Reader(_table, _texts("t_s,a_m\n0,1\n1,2\n", '"a";b\n1;2\n'), ending=".csv"),
     "settings, TOML": Reader(_settings, _texts(SETTINGS, "[gain]\nk = 3\n"),
                              words=_words("= [ ] { } \" ' . controller plant brush size view look "

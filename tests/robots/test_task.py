@@ -99,3 +99,24 @@ def set_point():
     motion = plan(parse("period 8 ms\nhold 2 s"), arm.card.canvas.pose)
     start = arm.card.home + np.array([0.1, 0.1, -0.2, 0.15, 0.3, -0.2, 0.7])
     return motion, start
+
+
+@pytest.mark.slow
+def test_an_arm_of_five_joints_paints_what_needs_no_whole_pose():
+    """Asked for a pose from the same posture it is centimetres off: it lacks a joint."""
+    from pathlib import Path
+
+    import dqpaint
+
+    robot = str(Path(__file__).parents[1] / "support/five_joints.toml")
+    law = CONTROLLERS["hinf"]
+    for task in ("beam", "point"):
+        done = dqpaint.draw(
+            "star", robot=robot, task=task, place="auto", plant="ideal", size=(32, 18)
+        )
+        assert done.metrics.figures["position_error_max_m"] < 1e-4
+    arm = make_kinematics(done.law_model.card)
+    whole = track(
+        done.motion, arm, done.track.posture[0], PLANTS["ideal"], law, law.read_gains({})
+    )
+    assert np.linalg.norm(whole.points - whole.motion.points, axis=1).max() > 0.01

@@ -116,7 +116,5 @@ def test_an_arm_of_five_joints_paints_what_needs_no_whole_pose():
         )
         assert done.metrics.figures["position_error_max_m"] < 1e-4
     arm = make_kinematics(done.law_model.card)
-    whole = track(
-        done.motion, arm, done.track.posture[0], PLANTS["ideal"], law, law.read_gains({})
-    )
+    whole = track(done.motion, arm, done.track.posture[0], PLANTS["ideal"], law, law.read_gains({}))
     assert np.linalg.norm(whole.points - whole.motion.points, axis=1).max() > 0.01

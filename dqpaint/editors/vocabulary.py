@@ -28,7 +28,6 @@ class Entry(NamedTuple):
 @cache
 def vocabulary() -> tuple[Entry, ...]:
     """All words; one that is a statement and a part comes twice, the statement first."""
-    ends = {0: "", 2: "(v0, v1)", 4: "(v0, v1, a0, a1)"}
     return (
         *(Entry(s.word, "statement", s.meaning, s.example) for s in STATEMENTS.values()),
         *(Entry(p.word, "part", p.meaning, p.example) for p in PARTS.values()),
@@ -36,8 +35,8 @@ def vocabulary() -> tuple[Entry, ...]:
         *(Entry(unit, "unit", f"the unit {name}", unit) for unit, (_, _, name) in UNITS.items()),
         *(Entry(name, "function", "a function", call) for name, call in FUNCTIONS.items()),
         *(
-            Entry(profile, "profile", "a profile", f"{profile}{ends[max(counts)]}")
-            for profile, counts in PROFILES.items()
+            Entry(profile, "profile", "a profile", f"{profile}{ends[-1]}")
+            for profile, ends in PROFILES.items()
         ),
         *(Entry(name, "constant", _constant(name), name) for name in CONSTANTS),
         *(Entry(name, "colour", "a colour", name) for name in colours.NAMES),

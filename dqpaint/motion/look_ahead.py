@@ -7,7 +7,8 @@ the next the point gains speed at A, keeps it, and brakes at A: three phases of 
 acceleration, so that position, speed and acceleration are known in closed form at any time.
 """
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, fields
 from typing import Self
 
 import numpy as np
@@ -64,7 +65,7 @@ class Stretches:
 
 @dataclass(frozen=True, eq=False)
 class Phases:
-    """Phases (Q) of constant acceleration of strokes (P), each from rest to rest.
+    """Phases (Q) of constant jerk of strokes (P), each from rest to rest.
 
     Attributes:
         first: of each stroke (P,).
@@ -72,9 +73,10 @@ class Phases:
         time: at which each begins, since its stroke began (Q,) [s].
         place: where, since its stroke began (Q,) [m].
         speed: at that time (Q,) [m/s].
-        acceleration: (Q,) [m/s^2].
+        acceleration: and the acceleration (Q,) [m/s^2].
         seconds: of each stroke (P,).
         lengths: of each stroke (P,) [m].
+        jerk: throughout (Q,) [m/s^3].
     """
 
     first: Indices
@@ -85,6 +87,15 @@ class Phases:
     acceleration: Floats
     seconds: Floats
     lengths: Floats
+    jerk: Floats
+
+    def followed_by(self, other: "Phases") -> "Phases":
+        """These strokes, then others."""
+        shift = {"first": len(self.time), "last": len(self.time)}
+        return Phases(*(
+            np.concatenate([getattr(self, f.name), getattr(other, f.name) + shift.get(f.name, 0)])
+            for f in fields(self)
+        ))  # fmt: skip
 
     @property
     def peaks(self) -> Floats:
@@ -99,10 +110,11 @@ class Phases:
         near = np.searchsorted(every, began[stroke] + t + SOON, side="right") - 1
         phase = np.clip(near, self.first[stroke], self.last[stroke])
         since, length = t - self.time[phase], self.lengths[stroke]
-        speed, bend = self.speed[phase], self.acceleration[phase]
-        place = self.place[phase] + since * (speed + 0.5 * bend * since)
+        speed, bend, jerk = self.speed[phase], self.acceleration[phase], self.jerk[phase]
+        place = self.place[phase] + since * (speed + since * (0.5 * bend + since * jerk / 6))
         value = np.where(tau >= 1.0, 1.0, np.clip(place / length, 0.0, 1.0))
-        return Progress(value, np.maximum(speed + bend * since, 0.0) / length, bend / length)
+        rate = speed + since * (bend + 0.5 * since * jerk)
+        return Progress(value, np.maximum(rate, 0.0) / length, (bend + jerk * since) / length)
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,6 +179,7 @@ def fastest(stretches: Stretches, speed: Floats) -> Phases:
         np.stack([gain, np.zeros_like(gain), -gain], axis=1)[real],
         np.add.reduceat(time, first),
         stretches.lengths,
+        np.zeros(len(time)),
     )
 
 
@@ -176,27 +189,35 @@ def _since_start(values: Floats, first: Indices, count: Indices) -> Floats:
     return np.asarray(before - np.repeat(before[first], count))
 
 
-def speeds_for(stretches: Stretches, seconds: Floats) -> Floats:
+def speeds_for(
+    stretches: Stretches, seconds: Floats, time_at: Callable[[Floats], Floats] | None = None
+) -> Floats:
     """The cruise speeds (P,) [m/s] with which strokes take these times (P,) [s], or longer.
 
     Longer where the acceleration allows no less.
+
+    Args:
+        stretches: of the strokes.
+        seconds: that they are to take (P,).
+        time_at: what they take (P,) [s] at cruise speeds (P,); None: by `fastest`.
     """
+
+    def lateness(log_speed: Floats) -> Floats:
+        speed = np.exp(log_speed)
+        taken = time_at(speed) if time_at else _run(stretches, speed).seconds
+        return np.asarray(np.log(taken / seconds))
+
     low = np.log(stretches.lengths / seconds)
     high = low + np.log(FASTEST)
-    slow, quick = (_lateness(stretches, speed, seconds) for speed in (low, high))
+    slow, quick = (lateness(speed) for speed in (low, high))
     for _ in range(MOST_TRIES):
         wide = (quick < 0.0) & (slow > 0.0) & (high - low > SAME_SPEED)
         if not wide.any():
             break
         middle = np.where(wide, low + (high - low) * slow / np.where(wide, slow - quick, 1.0), high)
-        late = _lateness(stretches, middle, seconds)
+        late = lateness(middle)
         # the false position, with the value of an end halved that stays (Illinois)
         low, high, slow, quick = np.where(
             late > 0.0, (middle, high, late, 0.5 * quick), (low, middle, 0.5 * slow, late)
         )
     return np.asarray(np.exp(high))
-
-
-def _lateness(stretches: Stretches, log_speed: Floats, seconds: Floats) -> Floats:
-    """By what strokes (P,) with these cruise speeds take longer, as a logarithm."""
-    return np.asarray(np.log(_run(stretches, np.exp(log_speed)).seconds / seconds))

@@ -143,7 +143,42 @@ def horner(coefficients: Rates, tau: Floats) -> Floats:
     return value
 
 
-PEAK = {"constant": 1.0, "trapezoid": 1.0 / (1.0 - RAMP), "cubic": 1.5, "quintic": 1.875}
+@PROFILES.add("smooth")
+def smooth(tau: Floats, _rates: Rates = ()) -> Progress:
+    """An S-curve within an acceleration of 2 m/s2 and a jerk of 20 m/s3, or what is given.
+
+    Equation:
+        s_dot <= v, abs(s_ddot) <= a, abs(d s_ddot / dt) <= j
+        "where it cruises:" T = L / v + v / a + a / j, a^2 <= j v
+        "on the spot:" s(tau) = 16/3 tau^3, tau <= 1/4
+        s(tau) = 2 tau - 1/2 + s(1/2 - tau), 1/4 <= tau <= 1/2
+        s(tau) = 1 - s(1 - tau), tau >= 1/2, max s_dot = 2
+    Idea:
+        Real arms refuse motion whose acceleration jumps. Here it grows with the jerk, stays, and
+        goes down again. A stroke takes as long as its speed, acceleration and jerk need; a bend of
+        radius r is taken at sqrt(a r) at the most, and where bends change the speed the
+        acceleration is zero in between. A turn on the spot takes its time in four parts of equal
+        jerk.
+    Try:
+        echo "line to (80, 0) mm profile smooth" > s.traj
+        dqpaint draw s.traj --colour-by acceleration
+    """
+    first = tau < 0.5
+    t = np.where(first, tau, 1.0 - tau)
+    early, rest = t < 0.25, 0.5 - t
+    value = np.where(early, 16 / 3 * t**3, 2 * t - 0.5 + 16 / 3 * rest**3)
+    rate = np.where(early, 16 * t**2, 2 - 16 * rest**2)
+    slope = np.where(early, 32 * t, 32 * rest)
+    return Progress(np.where(first, value, 1.0 - value), rate, np.where(first, slope, -slope))
+
+
+PEAK = {
+    "constant": 1.0,
+    "trapezoid": 1.0 / (1.0 - RAMP),
+    "cubic": 1.5,
+    "quintic": 1.875,
+    "smooth": 2.0,
+}
 
 
 def peak_rate(name: str, rates: Rates) -> Floats:

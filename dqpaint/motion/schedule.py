@@ -18,9 +18,10 @@ from dqpaint.motion import stroke_errors
 from dqpaint.motion.geometry.arc_length import has_cusp, length_fraction
 from dqpaint.motion.geometry.batched_shapes import Flags, Shapes, gather_shapes
 from dqpaint.motion.geometry.paths import Indices
+from dqpaint.motion.geometry.s_curves import s_curves
 from dqpaint.motion.geometry.shapes import Flow
 from dqpaint.motion.geometry.speed_limits import stretches_of
-from dqpaint.motion.look_ahead import FASTEST, Phases, fastest, speeds_for
+from dqpaint.motion.look_ahead import FASTEST, Phases, Stretches, fastest, speeds_for
 from dqpaint.motion.profiles import (
     PEAK,
     PROFILES,
@@ -252,13 +253,14 @@ def schedule_strokes(program: Program, findings: DiagnosticCollector) -> Schedul
 
 def _with_look_ahead(table: Schedule, wrong: Faults) -> Schedule:
     """The schedule with the motion of strokes that have an acceleration, and their times."""
-    strokes = np.array(
-        [s for s, one in enumerate(table.firsts)
-         if one.profile.acceleration > 0.0 and s not in wrong and table.length[s] > 0.0],
-        dtype=np.intp,
-    )  # fmt: skip
-    if not len(strokes):
+    found = [
+        s for s, one in enumerate(table.firsts)
+        if one.profile.acceleration > 0.0 and s not in wrong and table.length[s] > 0.0
+    ]  # fmt: skip
+    if not found:
         return table
+    found.sort(key=lambda stroke: table.firsts[stroke].profile.jerk > 0.0)
+    strokes = np.array(found, dtype=np.intp)
     firsts = [table.firsts[stroke] for stroke in strokes]
     size = table.size[strokes]
     begins = np.cumsum(size) - size
@@ -274,9 +276,15 @@ def _with_look_ahead(table: Schedule, wrong: Faults) -> Schedule:
         *(table.shapes, numbers, begins, table.by_length),
         *(acceleration, speed, table.program.period),
     )
-    if len(timed):
-        speed[timed] = speeds_for(stretches.select(timed), wanted[strokes[timed]])
-    pace = fastest(stretches, speed)
+    jerk = np.array([one.profile.jerk for one in firsts])
+    for own in (timed[jerk[timed] == 0.0], timed[jerk[timed] > 0.0]):
+        if len(own):
+            speed[own] = _speeds(stretches.select(own), jerk[own], wanted[strokes[own]])
+    pace = _pace(stretches, jerk, speed)
+    for number in timed[jerk[timed] > 0.0].tolist():
+        stroke, least = int(strokes[number]), float(pace.seconds[number])
+        if least > wanted[stroke] * (1 + stroke_errors.TIME_KEPT):
+            wrong[stroke] = (stroke_errors.too_short(firsts[number], least),)
     cruise = speed.copy()
     if len(timed):  # strokes of one statement shine alike
         spans = [firsts[number].span for number in timed.tolist()]
@@ -291,6 +299,24 @@ def _with_look_ahead(table: Schedule, wrong: Faults) -> Schedule:
     paced = table.paced.copy()
     paced[strokes] = np.arange(len(strokes))
     return replace(table, wanted=wanted, paced=paced, pace=pace, cruise=cruise)
+
+
+def _pace(stretches: Stretches, jerk: Floats, speed: Floats) -> Phases:
+    """The motion of strokes (P,), those with a jerk last, at no more than the cruise speeds."""
+    plain, curved = np.flatnonzero(jerk == 0.0), np.flatnonzero(jerk > 0.0)
+    if not len(curved):
+        return fastest(stretches, speed)
+    late = s_curves(stretches.select(curved), jerk[curved], speed[curved])
+    if not len(plain):
+        return late
+    return fastest(stretches.select(plain), speed[plain]).followed_by(late)
+
+
+def _speeds(stretches: Stretches, jerk: Floats, seconds: Floats) -> Floats:
+    """The cruise speeds (P,) [m/s] of strokes that all have a jerk, or none, in their times."""
+    if not jerk[0]:
+        return speeds_for(stretches, seconds)
+    return speeds_for(stretches, seconds, lambda v: s_curves(stretches, jerk, v).seconds)
 
 
 def _strokes(segments: Sequence[Segment]) -> tuple[Indices, Indices]:

@@ -9,6 +9,7 @@ from dqpaint.diagnostics import Diagnostic, DiagnosticCollector, ScriptError
 from dqpaint.program import Duration, Segment, Step
 
 MOST_SECONDS = 86_400.0  # of a drawing
+TIME_KEPT = 1e-6  # relative: a motion that is slower than asked by less is in time
 ROUNDING_WORTH_SAYING = 0.01
 
 Faults = dict[int, tuple[Diagnostic, ...]]  # the first of each segment or stroke, by its number
@@ -71,6 +72,18 @@ def fast_end(segment: Segment) -> Diagnostic:
         "the rates of the profile carry this stroke beyond its speed",
         segment.span,
         help="lower the rates in the brackets, raise speed, or give a time: in 10 s",
+    )
+
+
+def too_short(segment: Segment, least: float) -> Diagnostic:
+    """E328."""
+    profile = segment.profile
+    a, j = profile.acceleration, profile.jerk
+    return Diagnostic(
+        "E328",
+        f"this takes {least:.3g} s at {a:.3g} m/s2 and {j:.3g} m/s3, more than the time given",
+        segment.span,
+        help="give it more time, or raise the numbers in the brackets of smooth",
     )
 
 

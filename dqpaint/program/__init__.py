@@ -13,7 +13,7 @@ if TYPE_CHECKING:
         stretch_lengths,
     )
     from dqpaint.program.program import (
-        IDENTITY, LOOK_MODES, STANDING, Arc, AutoPlacement, Brush, BrushValue, Colour,
+        IDENTITY, LOOK_MODES, SMOOTH, STANDING, Arc, AutoPlacement, Brush, BrushValue, Colour,
         ContinuousStroke, CruiseSpeed, Curve, Duration, Dwell, FixedOrientation, FollowHeading,
         Formula, Light, Look, LookLine, Path, Photo, PiecewiseCurve, Pose, Profile, Program,
         Quaternion, Samples, Screw, ScrewTo, Segment, SlerpOrientation, Step, Straight, Strobe,
@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from dqpaint.program.walls import Wall
 
 __all__ = [
-    "IDENTITY", "LOOK_MODES", "NODES", "STANDING", "WEIGHTS", "Arc", "AutoPlacement", "Brush",
-    "BrushValue", "Colour", "ContinuousStroke", "CruiseSpeed", "Curve", "Duration", "Dwell",
-    "FixedOrientation", "Floats", "FollowHeading", "Formula", "Indices", "Light", "Look",
+    "IDENTITY", "LOOK_MODES", "NODES", "SMOOTH", "STANDING", "WEIGHTS", "Arc", "AutoPlacement",
+    "Brush", "BrushValue", "Colour", "ContinuousStroke", "CruiseSpeed", "Curve", "Duration",
+    "Dwell", "FixedOrientation", "Floats", "FollowHeading", "Formula", "Indices", "Light", "Look",
     "LookLine", "Path", "Photo", "PiecewiseCurve", "Pose", "Profile", "Program", "Quaternion",
     "Samples", "Screw", "ScrewTo", "Segment", "SlerpOrientation", "Step", "Straight", "Strobe",
     "Taylor", "Timing", "Tool", "Value", "Vector", "Wall", "colours", "concatenate", "derivatives",

@@ -208,13 +208,18 @@ class Profile:
 
     With an `acceleration` [m/s^2] the stroke goes from rest to rest as fast as its speed and that
     acceleration allow, along the path and across it, and slows down ahead of its corners; 0 is
-    the profile alone, which jumps there.
+    the profile alone, which jumps there. With a `jerk` [m/s^3] the acceleration along the path
+    changes no faster than that; 0 is no limit.
     """
 
     name: str
     rates: tuple[float, ...] = ()
     angular: bool = False
     acceleration: float = 0.0
+    jerk: float = 0.0
+
+
+SMOOTH = Profile("smooth", acceleration=2.0, jerk=20.0)
 
 
 @record

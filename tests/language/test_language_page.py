@@ -52,7 +52,7 @@ def test_python_runs(capsys):
 
 def test_the_profiles_take_the_time_that_is_told():
     told = dict(re.findall(r"^\| `(\w+)` \| ([\d.]+) \|", PAGE, re.MULTILINE))
-    assert set(told) == set(PROFILES)
+    assert set(told) == set(PROFILES) - {"smooth"}  # it takes what its limits need
     for profile, factor in told.items():
         text = f"period 1 ms\nline to (100, 0) mm speed 10 mm/s profile {profile}"
         motion = plan(parse(text), read_card("iiwa").canvas.pose)

@@ -87,6 +87,8 @@ def test_profiles() -> None:
         "cubic(0, 90 deg/s)": Profile("cubic", (0, math.pi / 2), True),
         "quintic(0, 1 m/s, 0, 2 m/s/s)": Profile("quintic", (0, 1, 0, 2)),
         "constant": Profile("constant"),
+        "smooth": Profile("smooth", acceleration=2.0, jerk=20.0),
+        "smooth(1 m/s/s, 5000 mm/s^3)": Profile("smooth", acceleration=1.0, jerk=5.0),
         "trapezoid": Profile("trapezoid"),
     }
     for text, profile in profiles.items():

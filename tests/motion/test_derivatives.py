@@ -9,7 +9,7 @@ from dqpaint import dq
 from dqpaint.program.program import Duration, Profile
 from tests.support.strokes import KINDS, PROFILES, program, segment, strokes_of
 
-BREAKPOINTS = np.array([0.0, 0.2, 0.8, 1.0])
+BREAKPOINTS = np.array([0.0, 0.2, 0.25, 0.5, 0.75, 0.8, 1.0])
 STEP = 0.002  # of the stroke's time; halved once
 
 
@@ -25,7 +25,8 @@ def test_twist_and_acceleration_are_derivatives(rng, path, tool, profile):
     stroke = only_stroke(path, tool, profile)
     time = stroke.count * 0.008
     tau = rng.uniform(0, 1, 400)
-    tau = tau[np.abs(tau[:, None] - BREAKPOINTS).min(axis=1) > 2 * STEP][:60]
+    breakpoints = np.append(BREAKPOINTS, stroke.breakpoints)
+    tau = tau[np.abs(tau[:, None] - breakpoints).min(axis=1) > 2 * STEP][:60]
     now = stroke.flow(tau)
 
     def errors(h):

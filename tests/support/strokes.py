@@ -91,7 +91,9 @@ PROFILES = {
     "cubic-rates": Profile("cubic", (0.02, 0.04)),
     "quintic": Profile("quintic"),
     "quintic-rates": Profile("quintic", (0.02, 0.04, -0.01, 0.03)),
+    "smooth": Profile("smooth", acceleration=0.4, jerk=1.5),
 }
+CRUISING = ("trapezoid", "cubic", "smooth")
 RIGID = {"screw", "screw-to"}
 CHAINS = {"bezier", "ellipse"}  # what is made of pieces has corners, in general
 KINDS = [
@@ -110,8 +112,7 @@ def segment(path, tool, profile="trapezoid", timing=None, start=START):
         path=PATHS[path],
         tool=TOOLS[tool],
         profile=PROFILES[profile],
-        timing=timing
-        or (CruiseSpeed(0.08, 0.9) if profile in ("trapezoid", "cubic") else Duration(2.504)),
+        timing=timing or (CruiseSpeed(0.08, 0.9) if profile in CRUISING else Duration(2.504)),
         light=Light((1.0, 0.2, 0.0), (0.0, 0.3, 1.0)),
         start=start,
         end=Pose((0.2, 0.1, -0.3), TURNED),
@@ -151,6 +152,15 @@ class Stroke:
     @property
     def edges(self):
         return self.table.edges(self.number)
+
+    @property
+    def breakpoints(self):
+        """The fractions of its time at which its jerk jumps; none of a profile alone."""
+        number, pace = self.table.paced[self.number], self.table.pace
+        if number < 0:
+            return np.empty(0)
+        own = slice(pace.first[number], pace.last[number] + 1)
+        return pace.time[own] / pace.seconds[number]
 
     @property
     def samples(self):

@@ -197,6 +197,11 @@ keep away from sphere at (0,0,0) mm|E115|1:1 keep away from sphere at (0,0,0) mm
 keep links apart 0 mm|E220|1:18 0 mm|label
 repeat 2~wall below z = 0~line by (1,0) mm~end|E123|2:1 wall|help
 profile cubic(1e300 mm/s, 0 mm/s)|E201|1:15 1e300 mm/s|
+profile smooth(2 m/s/s)|E207|1:9 smooth(2 m/s/s)|help
+profile smooth(2 m/s/s, 0)|E220|1:25 0|
+profile smooth(2 m/s, 3 m/s/s/s)|E213|1:16 2 m/s|help
+profile smooth(2, 3)|E213|1:16 2|help
+profile smooth(1e-300 m/s/s, 3 m/s/s/s)|E201|1:16 1e-300 m/s/s|
 line by (5,0) mm by (0,5) mm samples 1|E256|1:1 line by (5,0) mm by (0,5) mm samples 1|help
 repeat 10001~line by (1,0) mm~end|E303|1:8 10001|help
 brush disc 3 mm|E264|1:7 disc|help

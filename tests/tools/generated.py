@@ -40,8 +40,7 @@ def values():
     from dqpaint.language.vocabulary.units import UNITS
     from dqpaint.language.vocabulary.words import CONSTANTS, FUNCTIONS, PROFILES
 
-    ends = {0: "", 2: "(v0, v1)", 4: "(v0, v1, a0, a1)"}  # rates and accelerations at the ends
-    profiles = [f"{name}{ends[n]}" for name, counts in PROFILES.items() for n in counts]
+    profiles = [name + end for name, ends in PROFILES.items() for end in ends]
     kinds = {
         "units": [f"`{u}`" for u in UNITS],
         "constants": [f"`{c}`" for c in CONSTANTS],

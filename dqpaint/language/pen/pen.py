@@ -17,7 +17,6 @@ from dqpaint.diagnostics import (
     problem,
 )
 from dqpaint.language.pen.stroke_state import (
-    ACCELERATION,
     CORNER,
     REST_TO_REST,
     StrokeState,
@@ -171,8 +170,7 @@ class Pen:
         if not state.blend and self.stroke is None:
             return NOT_ROUNDED
         deviation = self.deviation if self.stroke is not None else 0.0
-        acceleration = ACCELERATION if state.look_ahead else 0.0
-        return Rounding(state.blend * self.frame.scale, deviation, acceleration)
+        return Rounding(state.blend * self.frame.scale, deviation, state.acceleration)
 
     # Strokes of several lines.
 

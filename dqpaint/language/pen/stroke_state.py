@@ -86,9 +86,12 @@ class StrokeState:
     @property
     def through_corners(self) -> Profile:
         """The profile of what runs through corners."""
-        if self.look_ahead is None:
-            return self.profile
-        return replaced(self.profile, acceleration=ACCELERATION)
+        return replaced(self.profile, acceleration=self.acceleration)
+
+    @property
+    def acceleration(self) -> float:
+        """Of what runs through corners [m/s^2]; 0 if its velocity jumps there."""
+        return self.profile.acceleration or (ACCELERATION if self.look_ahead else 0.0)
 
     @property
     def dark_way(self) -> Profile:

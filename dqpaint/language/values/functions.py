@@ -18,6 +18,7 @@ from dqpaint.language.values.values import (
 from dqpaint.language.vocabulary.units import (
     ACCELERATION,
     ANGLE,
+    JERK,
     PLAIN,
     SPEED,
     TURN_ACCELERATION,
@@ -73,7 +74,7 @@ class Arguments:
 
     def _mismatch(self, i: int, dimension: Dimension) -> Problem:
         value, span, written = self.values[i], self.nodes[i].span, self.written(i)
-        help = f"write: {FUNCTIONS.get(self.function, self.function)}"
+        help = f"write: {FUNCTIONS.get(self.function) or PROFILE_CALLS[self.function]}"
         plain = isinstance(value, Quantity) and value.dimension == PLAIN
         if plain and len(self.nodes) == 1 and dimension == ANGLE:
             join = " " if isinstance(self.nodes[i], Literal) else "*"  # `30 deg`, but `a*deg`
@@ -201,6 +202,19 @@ def _profile(given: Arguments) -> Value:
     return Profile(given.function, tuple(rates), angular)
 
 
+def _smooth(given: Arguments) -> Value:
+    """The largest acceleration and jerk along the path."""
+    acceleration, jerk = given.constant(0, ACCELERATION), given.constant(1, JERK)
+    for value, node, kind in zip((acceleration, jerk), given.nodes, NAMES_OF_BOTH, strict=True):
+        if not value > 0.0:
+            raise problem("E220", f"smooth needs {kind} greater than 0", node.span)
+        size = "large" if value > 1.0 else "small"
+        if not 1 / LARGEST_RATE < value < LARGEST_RATE:
+            raise problem("E201", f"this number is too {size}", node.span)
+    return Profile("smooth", (), False, acceleration, jerk)
+
+
+NAMES_OF_BOTH = ("an acceleration", "a jerk")
 LARGEST_RATE = 1e9  # of a profile, in SI units
 
 _Function = Callable[[Arguments], Value]
@@ -228,12 +242,14 @@ TABLE: dict[str, tuple[_Function, int, int]] = {
     "trapezoid": (_profile, 0, 0),
     "cubic": (_profile, 2, 2),
     "quintic": (_profile, 4, 4),
+    "smooth": (_smooth, 2, 2),
 }
 PROFILE_CALLS = {
     "constant": "constant",
     "trapezoid": "trapezoid",
     "cubic": "cubic(V0, V1)",
     "quintic": "quintic(V0, V1, A0, A1)",
+    "smooth": "smooth(ACCELERATION, JERK)",
 }
 
 _DOMAINS = {

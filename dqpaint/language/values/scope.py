@@ -8,7 +8,7 @@ from dqpaint.language.syntax.tree import Expression
 from dqpaint.language.values.values import ColourValue, PointValue, Quantity, Value
 from dqpaint.language.vocabulary.units import PLAIN, UNITS
 from dqpaint.language.vocabulary.words import PROFILES
-from dqpaint.program import Profile, colours
+from dqpaint.program import SMOOTH, Profile, colours
 
 
 class UnknownError(Exception):
@@ -21,6 +21,7 @@ UNIT_VALUES = {unit: Quantity(factor, kind) for unit, (factor, kind, _) in UNITS
 BUILTINS: dict[str, Value] = {
     **{name: ColourValue(colour) for name, colour in colours.NAMES.items()},
     **{name: Profile(name) for name in PROFILES},
+    "smooth": SMOOTH,
     **UNIT_VALUES,
     "pi": Quantity(math.pi, PLAIN),
     "x": PointValue((1.0, 0.0, 0.0), PLAIN),

@@ -13,6 +13,7 @@ TEMPERATURE: Dimension = (0.0, 0.0, 0.0, 1.0)
 SPEED: Dimension = (1.0, -1.0, 0.0, 0.0)
 TURNSPEED: Dimension = (0.0, -1.0, 1.0, 0.0)
 ACCELERATION: Dimension = (1.0, -2.0, 0.0, 0.0)
+JERK: Dimension = (1.0, -3.0, 0.0, 0.0)
 TURN_ACCELERATION: Dimension = (0.0, -2.0, 1.0, 0.0)
 PITCH: Dimension = (1.0, 0.0, -1.0, 0.0)
 FREQUENCY: Dimension = (0.0, -1.0, 0.0, 0.0)
@@ -90,6 +91,7 @@ NAMES = {
     SPEED: "a speed",
     TURNSPEED: "a turning speed",
     ACCELERATION: "an acceleration",
+    JERK: "a jerk",
     TURN_ACCELERATION: "a turning acceleration",
     PITCH: "a length per angle",
     FREQUENCY: "a frequency",
@@ -129,7 +131,8 @@ def plausible_unit(value: float, dimension: Dimension, word: str = "") -> str:
         TURNSPEED: "deg/s" if size >= 7 or float(value).is_integer() else "rad/s",
         PITCH: "mm/turn",
         FREQUENCY: "Hz",
-        ACCELERATION: "mm/s/s",
+        ACCELERATION: "mm/s/s" if size >= 20 else "m/s/s",
+        JERK: "mm/s/s/s" if size >= 500 else "m/s/s/s",
         TURN_ACCELERATION: "deg/s/s",
         TEMPERATURE: "K",
     }.get(dimension, "")

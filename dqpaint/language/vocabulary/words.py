@@ -432,7 +432,14 @@ LITTLE_WORDS = (
 TASKS = ("pose", "beam", "point", "place-first")
 
 CONSTANTS = ("pi", "x", "y", "z")
-PROFILES = {"constant": (0,), "trapezoid": (0,), "cubic": (0, 2), "quintic": (0, 4)}
+# Profiles, each with what may stand in brackets after it.
+PROFILES = {
+    "constant": ("",),
+    "trapezoid": ("",),
+    "cubic": ("", "(v0, v1)"),
+    "quintic": ("", "(v0, v1, a0, a1)"),
+    "smooth": ("", "(a, j)"),
+}
 
 # How each function is called, for messages and completion.
 FUNCTIONS = {
@@ -459,7 +466,7 @@ PROFILE_ALIASES = {
     "uniform": "constant",
     "trapezoidal": "trapezoid",
     "ramp": "trapezoid",
-    "smooth": "quintic",
+    "s-curve": "smooth",
     "ease": "cubic",
 }
 FUNCTION_ALIASES = {
@@ -478,7 +485,7 @@ FUNCTION_ALIASES = {
 # But these have a meaning in a few statements only, and `let radius = …` is common.
 FREE = (
     *("as", "base", "colours", "corner", "cross", "dark", "detail", "height", "jump", "left"),
-    *("long", "max", "order", "radius", "right", "unit", "width", "within"),
+    *("long", "max", "order", "radius", "right", "smooth", "unit", "width", "within"),
 )
 RESERVED = frozenset(
     (*STATEMENTS, *PARTS, *RENAMED, *LITTLE_WORDS, "if", "else", "while")

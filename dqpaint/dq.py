@@ -250,6 +250,30 @@ def _log(out: Floats, x: Floats, short: bool) -> None:
     out[..., 3:] = (g * (v_dual - _sinc_slope(angle) * ab * a)).T
 
 
+def left_jacobian(screw: Floats) -> Floats:
+    """Jl(z) (6, 6) of a displacement z (6,), twice a logarithm.
+
+    For x = exp(z / 2) the twist is Jl(z) z_dot, with x_dot = 1/2 xi x; the body twist is
+    Jl(-z) z_dot. Jl(z) = sum_k ad(z)^k / (k + 1)!, with ad(z) a the product `spatial_cross(z, a)`.
+    """
+    w, v = (_cross_matrix(half) for half in (screw[:3], screw[3:]))
+    ad = np.zeros((6, 6))
+    ad[:3, :3] = ad[3:, 3:] = w
+    ad[3:, :3] = v
+    found = np.eye(6)
+    for k in range(_JACOBIAN_TERMS, 1, -1):  # Horner
+        found = np.eye(6) + ad @ found / k
+    return found
+
+
+_JACOBIAN_TERMS = 48  # for one turn: (2 pi)^48 / 49! is 1e-25; half a turn would need 24
+
+
+def _cross_matrix(a: Floats) -> Floats:
+    """[a]x (3, 3), with [a]x b = a x b."""
+    return np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]])
+
+
 def power(x: Floats, s: ArrayLike) -> Floats:
     """The pose `s` (...,) of the way from the identity to x, along one screw."""
     return exp(np.asarray(s, dtype=np.float64)[..., None] * log(x))

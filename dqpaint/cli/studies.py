@@ -38,6 +38,8 @@ BUILT_IN = {
     "sweep": "Run a drawing over one or two axes of values: table, and a curve or a heat map.",
     "tune": "Find the gains with the least error within an effort bound, and the trade-off of the"
     " two.",
+    "rehearse": "Draw, learn from the error, draw again: each trial follows a path that the last"
+    " one taught.",
     "worst": "Seek the disturbance of a given size that a law answers worst, beside what it"
     " promises.",
     "replay": "Repeat a paper's experiment: its numbers beside ours, and which of its claims hold.",

@@ -4,7 +4,7 @@ import hashlib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field, replace
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -50,8 +50,10 @@ from dqpaint.settings import Settings
 from dqpaint.simulation import (
     Recording,
     Track,
+    corrected,
     has_effect,
     law_model,
+    read_learned,
     read_recording,
     replay,
     track,
@@ -184,6 +186,17 @@ class PreparedRun:
         """The motion that the arm follows."""
         return self.prepared.motion
 
+    @cached_property
+    def followed(self) -> Motion:
+        """The reference that the law is given: the motion, along a learned path if there is one."""
+        if self.settings.learned is None:
+            return self.motion
+        return corrected(self.motion, read_learned(self.settings.learned, self.motion.t))
+
+    def beside_drawing(self, run: Track) -> Track:
+        """A run along what was followed, beside what the drawing asks."""
+        return run if run.motion is self.motion else replace(run, motion=self.motion)
+
     @property
     def resolver(self) -> str:
         """What turns twists into joint rates, as text."""
@@ -221,11 +234,12 @@ class PreparedRun:
         watch: Callable[[int, Floats], None] = lambda _row, _pose: None,
     ) -> Track:
         settings, chosen = self.settings, self.choices
-        return track(
-            self.motion, self.kinematics, self.prepared.start, chosen.plant,
+        run = track(
+            self.followed, self.kinematics, self.prepared.start, chosen.plant,
             chosen.controller, chosen.gains, progress, disturbances, settings.seed,
             settings.null, settings.on_limit == "stop", self.resolver, watch,
         )  # fmt: skip
+        return self.beside_drawing(run)
 
 
 def prepare(

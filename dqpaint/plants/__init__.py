@@ -10,11 +10,11 @@ from dqpaint.plants.plant import (
     DEFAULT_PLANTS, PLANTS, ConfiguredPlant, Plant, PlantMaker, PlantOptions, Takes, Trait,
     as_plant_maker, choose_plant, find_plant,
 )
-from dqpaint.plants.world import UNDISTURBED, ForceCourse, Payload, Push, World
+from dqpaint.plants.world import UNDISTURBED, ForceCourse, Payload, Push, World, pushes_at
 
 __all__ = [
     "DEFAULT_PLANTS", "ENGINES", "PLANTS", "UNDISTURBED", "ConfiguredPlant", "Engine",
     "ForceCourse", "Ideal", "Payload", "Plant", "PlantMaker", "PlantOptions", "Push", "Takes",
     "Trait", "World", "as_plant_maker", "available_engines", "choose_engine", "choose_plant",
-    "find_plant",
+    "find_plant", "pushes_at",
 ]

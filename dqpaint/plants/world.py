@@ -84,4 +84,18 @@ class World:
         return np.asarray(R.T @ vector)
 
 
+def pushes_at(world: World, t: Floats) -> Floats:
+    """The force (N, 3) [N] on the tool at times (N,) [s], all pushes on it together."""
+    found = np.zeros((len(t), 3))
+    for push in world.pushes:
+        if push.link:
+            continue
+        if isinstance(push, ForceCourse):
+            found += push.forces(t)
+        else:
+            during = (t >= push.start) & (t < push.start + push.seconds)
+            found += during[:, None] * np.array(push.force)
+    return found
+
+
 UNDISTURBED = World()

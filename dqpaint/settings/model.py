@@ -76,6 +76,15 @@ class LawSettings(Group):
             "nearest|hysteresis|none",
         ),
     ] = "nearest"
+    learned: Annotated[
+        str | None,
+        Option(
+            "follow the drawing along what dqpaint rehearse learned; errors are to the drawing",
+            "LEARNED.csv",
+            read=read_path,
+            python="str | PathLike[str]",
+        ),
+    ] = None
     recorded: Annotated[
         str | None,
         Option(
@@ -479,8 +488,8 @@ def validated(model: type[M], fields: Mapping[str, object], strict: bool = False
         raise UsageError(f"{name} {first['input']!r} {pydantic_reason(first)}") from None
 
 
-SIMULATED = ("controller", "gains", "sign", "plant", "engine", "disturb", "spread", "start",
-             "null", "resolver", "task", "kinematics", "on_limit")  # fmt: skip
+SIMULATED = ("controller", "gains", "sign", "learned", "plant", "engine", "disturb", "spread",
+             "start", "null", "resolver", "task", "kinematics", "on_limit")  # fmt: skip
 
 
 def check_recorded(settings: Settings) -> None:

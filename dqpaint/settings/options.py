@@ -19,6 +19,7 @@ class LawOptions(TypedDict, total=False):
         | None
     )
     sign: str | None
+    learned: str | PathLike[str] | None
     recorded: str | PathLike[str] | None
 
 

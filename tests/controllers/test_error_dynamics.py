@@ -46,6 +46,7 @@ RATES = [
     ("pham", {}, 20.0, 20.0), ("decoupled", {}, 20.0, 20.0), ("log", {}, 20.0, 20.0),
     ("hinf", {}, 20.0, 20.0), ("hybrid", {"K_O": 8.0, "K_T": 3.0}, 4.0, 3.0),
     ("sine", {"k": 5.0}, 5.0, 5.0), ("se3", {"k_R": 4.0, "k_p": 3.0}, 4.0, 3.0),
+    ("admittance", {"k": 5.0}, 5.0, 5.0),
 ]  # fmt: skip
 
 
@@ -68,7 +69,12 @@ def test_small_errors_decay_at_the_stated_rates(rng, name, gains, turning, movin
 
 
 def test_every_law_that_commands_twists_has_a_rate_in_the_table():
-    others = {"open-loop", "p-least-squares", "pi"}  # see test_new_laws, test_stateful_laws
+    others = {
+        "open-loop",
+        "p-least-squares",
+        "pi",
+        "super-twisting",
+    }  # see test_new_laws, test_stateful_laws
     found = {n for n, c in CONTROLLERS.items() if c.commands == "twist"}
     assert {row[0] for row in RATES} | others == found
 

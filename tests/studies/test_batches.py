@@ -42,7 +42,7 @@ ARRAYS = (
     "disturbance",
 )  # fmt: skip
 CLOSE = 1e-11
-RATE_LAWS = [name for name, law in CONTROLLERS.items() if not law.drives_torque]
+RATE_LAWS = [n for n, law in CONTROLLERS.items() if law.batched and not law.drives_torque]
 
 
 def run(**choices):

@@ -18,6 +18,7 @@ from dqpaint.errors import UsageError
 from dqpaint.motion import Motion
 
 Commands = Literal["twist", "rates", "acceleration", "torque"]
+Sense = Literal["light", "push"]
 Controls = Literal["pose", "position", "orientation", "nothing"]
 PAPER = "paper"  # what a gain is given as to get those of the law's paper
 Law = Callable[[Seen, G], Floats]
@@ -59,6 +60,7 @@ class Controller(Generic[G]):
         paper_source: where the paper has them.
         heeds_sign: whether it goes to the side of the double cover that `--sign` chooses; None of a
             user's law, which may.
+        senses: what it is given of `Seen.light` and `Seen.push`.
         sign: what makes the sign rule of a run; None is the nearest side.
     """
 
@@ -74,6 +76,7 @@ class Controller(Generic[G]):
     paper: Mapping[str, GainText] = field(default_factory=dict)
     paper_source: str = ""
     heeds_sign: bool | None = True
+    senses: tuple[Sense, ...] = ()
     sign: Callable[[], SignRule] | None = None
 
     @property
@@ -187,6 +190,7 @@ def controller(
     paper: Mapping[str, GainText] | None = None,
     paper_source: str = "",
     heeds_sign: bool | None = None,
+    senses: tuple[Sense, ...] = (),
 ) -> Callable[[L], L]:
     """A decorator that registers the function or class below it; arguments as in `Controller`.
 
@@ -202,7 +206,7 @@ def controller(
         heeds = controls in ("pose", "orientation") if heeds_sign is None else heeds_sign
         CONTROLLERS.add(name)(Controller(
             name, source, gains, law, commands, leaves_null, batched, None, controls,
-            paper or {}, paper_source, heeds,
+            paper or {}, paper_source, heeds, senses,
         ))  # fmt: skip
         return law
 

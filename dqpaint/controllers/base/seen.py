@@ -48,6 +48,9 @@ class Seen(NamedTuple):
         inertia: H(q) (..., n, n) [kg m^2], for laws that command torques; empty for others.
         bias: C(q, q_dot) q_dot + G(q) and the joints' friction (..., n) [Nm], likewise.
         signed: whether the sign of `pose_d` was chosen by a rule (`--sign`), and is to be kept.
+        light: where a camera sees the light (..., 3) [m], in the frame that the law takes for the
+            base's; not a number while it is dark. For laws that sense it; empty for others.
+        push: the force at the light (..., 3) [N], as a sensor there measures it, likewise.
         clipped: whether a limit clipped the command before this one (...,).
     """
 
@@ -65,6 +68,8 @@ class Seen(NamedTuple):
     motion: Motion | None = None
     inertia: Floats = NOTHING
     bias: Floats = NOTHING
+    light: Floats = NOTHING
+    push: Floats = NOTHING
     signed: bool = False
     clipped: NDArray[np.bool_] | bool = False
 

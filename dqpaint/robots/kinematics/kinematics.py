@@ -131,6 +131,19 @@ class Kinematics:
         frames = self._data.oMi.tolist()
         return np.array([f.rotation for f in frames]), np.array([f.translation for f in frames])
 
+    def link_axes(self, posture: Floats) -> Floats:
+        """The axes (n + 1, 3, 3), as columns, of what each joint sits on, then of the last link.
+
+        Offsets as of `with_model_error` are along these; those of joints that do not carry the tool
+        are zero.
+        """
+        pinocchio.forwardKinematics(self.model, self._data, posture)
+        found = np.zeros((self.model.nv + 1, 3, 3))
+        for joint in list(self.model.supports[self._joint])[1:]:
+            found[joint - 1] = self._data.oMi[self.model.parents[joint]].rotation
+        found[-1] = self._data.oMi[self._joint].rotation
+        return found
+
     def screws(self) -> Screws:
         """The arm as screw axes, up to the tool."""
         home, axes = self.pose_and_jacobian(np.zeros(self.card.joints))

@@ -83,7 +83,7 @@ def carry_out_batch(
     seeds = [run.settings.seed for _, run in tasks]
     try:
         tracks = track_many(
-            ready.motion, ready.kinematics, ready.prepared.start, chosen.plant, chosen.controller,
+            ready.followed, ready.kinematics, ready.prepared.start, chosen.plant, chosen.controller,
             chosen.gains, chosen.disturbances, seeds, ready.settings.null, progress,
             ready.resolver,
         )  # fmt: skip
@@ -96,7 +96,7 @@ def carry_out_batch(
     for (key, run), track in zip(tasks, tracks, strict=True):
         assert track is not None
         mine = replace(ready, settings=run.settings)
-        results.append(_result(key, run, mine, track, folder, seen))
+        results.append(_result(key, run, mine, ready.beside_drawing(track), folder, seen))
     each = (time.perf_counter() - begin) / len(tasks)
     return [replace(result, wall=each) for result in results]
 

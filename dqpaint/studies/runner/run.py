@@ -92,6 +92,7 @@ class Run:
                 for kind, text in (("plant", settings.plant), ("brush", settings.brush))
             },
             "recorded": _sha256(settings.recorded or ""),
+            "learned": _sha256(settings.learned or ""),
             **{
                 f"disturb {name}": _sha256(str(values["file"]))
                 for name, values in find_files(settings.disturb, Path(self.name).parent).items()

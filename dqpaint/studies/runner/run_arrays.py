@@ -15,6 +15,7 @@ from dqpaint.errors import DqpaintError
 from dqpaint.metrics import all_columns, step_curves
 from dqpaint.outputs import files
 from dqpaint.painting import paint, picture
+from dqpaint.simulation import body_errors, check_repeats
 
 Arrays = dict[str, NDArray[Any]]
 KEEPERS: Registry[Callable[[paint.Painting], Arrays]] = Registry("thing to keep")
@@ -63,6 +64,19 @@ def curves(painting: paint.Painting) -> Arrays:
         for name in painting.table
         if name.startswith(CURVES) and "rad_s2" not in name
     }
+
+
+@KEEPERS.add("trial")
+def trial(painting: paint.Painting) -> Arrays:
+    """What a rehearsal learns from: the errors (N, 6) along the reference, poses, clipped rows."""
+    run, motion = painting.track, painting.motion
+    check_repeats(motion)
+    clipped = (run.unclipped != run.command) & np.isfinite(run.unclipped)  # of recordings unknown
+    return {
+        "t_s": motion.t, "period": np.array(motion.period), "canvas": motion.canvas,
+        "eps": body_errors(motion.pose, run.pose), "pose_d": motion.pose, "pose": run.pose,
+        "free": ~clipped.any(axis=1),
+    }  # fmt: skip
 
 
 @KEEPERS.add("light")

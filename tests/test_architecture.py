@@ -32,6 +32,7 @@ BREAKS = {
     "the door to mujoco": ("plants/rigid_arm.py", "mujoco"),
     "the door to cv2": ("motion/plan.py", "cv2"),
     "the door to pillow": ("motion/plan.py", "PIL"),
+    "the door to mcap": ("motion/plan.py", "mcap"),
     "the door to typer": ("planning/check.py", "typer"),
     "the door to matplotlib": ("studies/kinds/sweep.py", "matplotlib"),
     "the door to jinja2": ("studies/report/page.py", "jinja2"),

@@ -70,20 +70,14 @@ class LawSettings(Group):
     sign: Annotated[
         str,
         Option(
-            "which of x_d and -x_d, one pose, the law goes to: the nearest, with "
-            "hysteresis[,delta=0.3] the one before until it is clearly the farther, or none: the "
-            "signs as they come",
+            "which of x_d and -x_d the law goes to: the nearest; hysteresis[,delta=0.3]: the one "
+            "before, until it is clearly the farther; none: the signs as they come",
             "nearest|hysteresis|none",
         ),
     ] = "nearest"
     learned: Annotated[
         str | None,
-        Option(
-            "follow the drawing along what dqpaint rehearse learned; errors are to the drawing",
-            "LEARNED.csv",
-            read=read_path,
-            python="str | PathLike[str]",
-        ),
+        Option("follow what dqpaint rehearse learned", "LEARNED.csv", read=read_path),
     ] = None
     recorded: Annotated[
         str | None,

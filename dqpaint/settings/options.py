@@ -19,7 +19,7 @@ class LawOptions(TypedDict, total=False):
         | None
     )
     sign: str | None
-    learned: str | PathLike[str] | None
+    learned: str | None
     recorded: str | PathLike[str] | None
 
 

@@ -369,6 +369,40 @@ def gallery(
         print(path)
 
 
+STUDIO_EXAMPLES = """Examples:
+
+  dqpaint studio star
+
+  dqpaint studio lessons/ --present
+"""
+
+
+@app.command(epilog=STUDIO_EXAMPLES)
+def studio(
+    file: Annotated[
+        str | None,
+        typer.Argument(metavar="[FILE|FOLDER]", help="a drawing, or the folder of drawings"),
+    ] = None,
+    port: Annotated[
+        int, typer.Option(min=0, max=65535, metavar="PORT", help="0 takes a free one")
+    ] = 8470,
+    no_open: Annotated[
+        bool, typer.Option("--no-open", help="print the address, open no browser")
+    ] = False,
+    present: Annotated[
+        bool, typer.Option("--present", help="for a lecture hall: large, read-only, page by page")
+    ] = False,
+    law: Annotated[
+        list[str] | None,
+        typer.Option(metavar="FILE.py[:NAME]", help="a law of one's own to choose; repeatable"),
+    ] = None,
+) -> None:
+    """Open a live page: text, picture, arm, curves and sliders; on this machine alone."""
+    from dqpaint.studio import serve
+
+    serve(file, port, law or (), not no_open, present)
+
+
 export.add_to(app)
 plotting.add_to(app)
 language.add_to(app)

@@ -4,7 +4,7 @@
 """
 
 from dqpaint.language.syntax.identifiers import meaning
-from dqpaint.language.syntax.lexer import NUMBER, Token, lines
+from dqpaint.language.syntax.lexer import NUMBER, TOKEN, Token, lines
 from dqpaint.language.syntax.source import STDIN
 
-__all__ = ["NUMBER", "STDIN", "Token", "lines", "meaning"]
+__all__ = ["NUMBER", "STDIN", "TOKEN", "Token", "lines", "meaning"]

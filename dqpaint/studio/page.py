@@ -1,0 +1,558 @@
+"""One open page: text on one side; picture, arm, curves and figures on the other; time below."""
+
+import asyncio
+import base64
+import itertools
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from nicegui import events, ui
+
+from dqpaint.core import example_names
+from dqpaint.dq import Floats
+from dqpaint.errors import DqpaintError
+from dqpaint.studio import choices as chosen
+from dqpaint.studio import colours, sharing
+from dqpaint.studio.charts import Charts
+from dqpaint.studio.comparison import ComparisonView
+from dqpaint.studio.editor import Editor
+from dqpaint.studio.folder import NEW, read_example
+from dqpaint.studio.messages import (
+    Answer,
+    ArmShapes,
+    Failure,
+    Finding,
+    Forecast,
+    Frame,
+    Progress,
+    Reading,
+    Request,
+    Run,
+    Shown,
+)
+from dqpaint.studio.panel import Panel
+from dqpaint.studio.shared import Studio
+from dqpaint.studio.view3d import FAINT, View3D, line_glb
+
+WIDTH, HEIGHT = 640, 360  # px of the picture
+RUN_PAUSE = 0.35  # [s] without a key before an arm runs
+PLAY_RATE = 25  # frames a second
+SECONDS_SHOWN = 10.0  # a longer run is played faster
+MOST_KNOBS = 12
+MOST_KEPT = 4
+_numbers = itertools.count(1)
+
+
+class Page:
+    """The page and its state.
+
+    Args:
+        studio: what all pages share.
+        name: of the drawing.
+        text: of it.
+        choices: of the run.
+        present: whether it is for a lecture hall: large, read-only, page by page.
+    """
+
+    def __init__(
+        self,
+        studio: Studio,
+        name: str,
+        text: str,
+        choices: Mapping[str, Any],
+        present: bool = False,
+    ) -> None:
+        self.key = f"page-{next(_numbers)}"
+        self._studio = studio
+        self._name = name
+        self._present = present
+        self._findings: tuple[Finding, ...] = ()
+        self._forecast: tuple[Finding, ...] = ()
+        self._shown: Shown | None = None
+        self._runs: dict[str, Run] = {}  # by tier, of the text as it is
+        self._kept: dict[str, Run] = {}
+        self._frames: dict[int, bytes] = {}
+        self._frame = -1  # -1 is the whole picture
+        self._timer: asyncio.TimerHandle | None = None
+        self._closed = False
+        self.client = ui.context.client
+        self._build(text, choices)
+
+    # What is seen.
+
+    def _build(self, text: str, choices: Mapping[str, Any]) -> None:
+        ui.dark_mode(True)
+        if self._present:
+            ui.query("body").classes("present")
+        with ui.header().classes("bar items-center no-wrap"):
+            self._build_bar()
+        with ui.splitter(value=40, limits=(20, 75)).classes("body") as splitter:
+            with splitter.before, ui.column().classes("left no-wrap gap-0"):
+                self.editor = Editor(text, self._edited, self.go_to_line, self._present)
+                self._messages = ui.column().classes("messages gap-0")
+                self._knobs = ui.column().classes("knobs gap-0")
+            with splitter.after, ui.column().classes("right no-wrap gap-0"):
+                self._build_picture()
+                self._build_tabs(choices)
+        with ui.footer().classes("bar items-center no-wrap"):
+            self._build_time()
+        self._knob_names: tuple[str, ...] = ()
+        self._fill_knobs()
+        self.submit()
+
+    def _build_bar(self) -> None:
+        ui.label("dqpaint").classes("brand")
+        if self._present:
+            ui.button(icon="chevron_left", color=None, on_click=lambda: self.turn(-1)).props(
+                'flat dense aria-label="the drawing before"'
+            )
+            self._title = ui.input(value=self._name).props("dense borderless readonly")
+            ui.button(icon="chevron_right", color=None, on_click=lambda: self.turn(1)).props(
+                'flat dense aria-label="the next drawing"'
+            )
+            ui.space()
+            self._lamp = ui.label("live").classes("lamp lamp-live")
+            ui.keyboard(self._key)
+            return
+        with ui.button(icon="folder_open", color=None).props("flat dense").tooltip("open"):
+            with ui.menu().props("max-height=70vh"):
+                for name in self._studio.folder.names():
+                    ui.menu_item(name, lambda name=name: self._open(name))
+                ui.separator()
+                for name in example_names():
+                    ui.menu_item(f"{name}, an example", lambda name=name: self._open_example(name))
+        self._title = ui.input(value=self._name, on_change=self._rename).props(
+            'dense borderless aria-label="name of the drawing"'
+        ).classes("title")  # fmt: skip
+        ui.button(icon="save", color=None, on_click=self.save).props("flat dense").tooltip(
+            "save (Ctrl-S)"
+        )
+        ui.button(icon="notes", color=None, on_click=lambda: self.editor.format()).props(
+            "flat dense"
+        ).tooltip("format (Shift-Alt-F)")
+        ui.button(icon="undo", color=None, on_click=self._undo).props("flat dense").tooltip("undo")
+        ui.space()
+        self._lamp = ui.label("live").classes("lamp lamp-live")
+        with ui.button(icon="share", color=None).props("flat dense").tooltip("share"):
+            with ui.menu():
+                ui.menu_item("copy a link", self._copy_link)
+                ui.menu_item("a file with text and choices", self._download_shared)
+                ui.menu_item("the run as one page in 3-D (HTML)", self._save_scene)
+        ui.keyboard(self._key)
+
+    def _build_picture(self) -> None:
+        with ui.element("div").classes("stage"):
+            self._picture = ui.interactive_image(
+                on_mouse=self._picked, events=["mousedown"], cross=False
+            ).classes("picture")
+            self._about = ui.label("").classes("about")
+            self._progress = ui.linear_progress(value=0, show_value=False, size="3px").classes(
+                "progress"
+            )
+        self._progress.visible = False
+
+    def _build_tabs(self, choices: Mapping[str, Any]) -> None:
+        with ui.tabs().props("dense inline-label no-caps").classes("tabs") as tabs:
+            for name, icon in (("Arm", "precision_manufacturing"), ("Curves", "show_chart"),
+                               ("Figures", "table_rows"), ("Choices", "tune"),
+                               ("Compare", "compare")):  # fmt: skip
+                ui.tab(name, icon=icon)
+        with ui.tab_panels(tabs, value="Arm", keep_alive=True).classes("panels"):
+            with ui.tab_panel("Arm").classes("p-0 fill"):
+                self._view = View3D()
+            with ui.tab_panel("Curves").classes("fill"):
+                self._charts = Charts(self.go_to_time)
+            with ui.tab_panel("Figures").classes("fill scroll"):
+                self._figures = ui.column().classes("w-full gap-1")
+            with ui.tab_panel("Choices").classes("fill scroll"):
+                self._command = ui.code("", language="bash").classes("w-full command")
+                self.panel = Panel(choices, self._studio.laws, lambda _choices: self.submit())
+            with ui.tab_panel("Compare").classes("fill scroll"):
+                self._comparison = ComparisonView(self.keep, self._charts.show)
+
+    def _build_time(self) -> None:
+        self._play = ui.button(icon="play_arrow", color=None, on_click=self.play).props(
+            'flat dense aria-label="play"'
+        )
+        self._slider = ui.slider(
+            min=0, max=1, step=1, value=0, on_change=lambda event: self._scrubbed(event.value)
+        ).props('aria-label="time"')
+        self._clock = ui.label("").classes("clock")
+        self._player = ui.timer(1 / PLAY_RATE, self._tick, active=False)
+
+    # What is asked of the workers.
+
+    def submit(self, run: bool = True) -> None:
+        """Ask for the picture of the text as it is, and after a pause for its runs."""
+        request = self._request()
+        self._command.set_content(chosen.command(self._name, self.panel.choices))
+        self._studio.reader.submit(self.key, request, self._answer)
+        if self._timer is not None:
+            self._timer.cancel()
+        self._studio.runner.forget(self.key)
+        if run:
+            loop = asyncio.get_running_loop()
+            self._timer = loop.call_later(RUN_PAUSE, self._submit_run, request)
+
+    def _submit_run(self, request: Request) -> None:
+        if not any(one.is_error for one in self._findings):
+            self._studio.runner.submit(self.key, request, self._answer)
+
+    def _request(self) -> Request:
+        path = str(self._studio.folder.root / self._name)
+        return Request(self.editor.text, path, dict(self.panel.choices), WIDTH, HEIGHT)
+
+    def _edited(self, _text: str) -> None:
+        self._runs.clear()
+        self._frames.clear()
+        self._frame = -1
+        self._fill_knobs()
+        self.submit()
+
+    # What the workers answer.
+
+    def _answer(self, answer: Answer) -> None:
+        if not self._closed:
+            with self.client:
+                self._show(answer)
+
+    def _show(self, answer: Answer) -> None:
+        match answer:
+            case Reading():
+                self._show_reading(answer)
+            case Shown():
+                self._show_sketch(answer)
+            case Forecast():
+                self._forecast = answer.findings
+                self._show_findings(None)
+            case ArmShapes():
+                self._studio.keep_shapes(answer)
+            case Progress():
+                self._progress.visible = True
+                self._progress.set_value(answer.share)
+            case Run():
+                self._show_run(answer)
+            case Frame():
+                self._frames[answer.index] = answer.image
+            case Failure():
+                self._progress.visible = False
+                self._fill_figures(answer.reason)
+
+    def _show_reading(self, reading: Reading) -> None:
+        self._findings = reading.findings
+        self._forecast = ()
+        wrong = bool(reading.fault) or any(one.is_error for one in reading.findings)
+        self._picture.classes(add="old" if wrong else "", remove="" if wrong else "old")
+        self._lamp.text = "an error: the last good picture" if wrong else "live"
+        self._lamp.classes(
+            add="lamp-error" if wrong else "lamp-live", remove="lamp-live lamp-error"
+        )
+        if reading.fault:
+            self._about.text = reading.fault
+        self._show_findings(None if wrong else dict(reading.lines))
+
+    def _show_findings(self, lines: dict[int, str] | None) -> None:
+        found = [*self._findings, *self._forecast]
+        self.editor.show_findings(found, lines)
+        self._messages.clear()
+        with self._messages:
+            for one in found[:20]:
+                self._add_message(one)
+
+    def _add_message(self, found: Finding) -> None:
+        kind = "message-error" if found.is_error else "message-warning"
+        with ui.row().classes(f"message {kind} no-wrap items-start"):
+            ui.label(f"{found.line}").classes("place").on(
+                "click", lambda: self.editor.reveal(found.line)
+            )
+            with ui.column().classes("gap-0 grow"):
+                ui.label(f"{found.code}: {found.message}")
+                if found.help:
+                    ui.label(found.help).classes("help")
+            if found.fix is not None:
+                fix = found.fix
+                ui.button(fix[0], on_click=lambda: self.editor.apply_fix(fix)).props(
+                    "dense flat no-caps size=sm"
+                ).classes("fix")
+
+    def _show_sketch(self, shown: Shown) -> None:
+        self._shown = shown
+        if self._frame < 0 or not self._runs:
+            self._set_image(shown.image)
+        self._about.text = f"asked: {shown.about}"
+        self._show_paths()
+        if not self._runs:
+            self._slider.props(f"max={len(shown.time) - 1}")
+            self._move_to(shown.time[-1])
+
+    def _show_paths(self) -> None:
+        if self._shown is None:
+            return
+        lit = self._shown.colours.max(axis=1, keepdims=True)
+        shades = np.where(lit > 0, self._shown.colours / np.maximum(lit, 1e-9), FAINT)
+        lines = [line_glb(self._shown.points, shades)]
+        run = self._run
+        if run is not None:
+            lines.append(line_glb(run.points, np.ones_like(run.points)))
+        self._view.show_paths(self._studio.serve_paths(self.key, lines))
+
+    @property
+    def _run(self) -> Run | None:
+        """The best run of the text as it is."""
+        return self._runs.get("physics") or self._runs.get("ideal")
+
+    def _show_run(self, run: Run) -> None:
+        self._runs[run.tier] = run
+        self._frames.clear()
+        self._progress.visible = False
+        self._set_image(run.image)
+        self._about.text = f"{run.title}, computed in {run.seconds:.2f} s"
+        self._view.show_arm(run.robot, self._studio.shape_urls(run.robot))
+        self._view.set_motion(run.links)
+        self._show_paths()
+        self._charts.show({**self._kept, run.title: run})
+        self._comparison.set_runs({**self._kept, "now": run})
+        self._fill_figures("")
+        self._frame = -1
+        self._slider.props(f"max={len(run.frame_time) - 1}")
+        self._slider.set_value(len(run.frame_time) - 1)
+        self._move_to(float(run.frame_time[-1]))
+
+    def _fill_figures(self, reason: str) -> None:
+        self._figures.clear()
+        with self._figures:
+            if reason:
+                ui.label(reason).classes("no-result")
+            for tier, run in self._runs.items():
+                ui.label(f"{tier}: {run.title}").classes("heading")
+                for fault in run.faults:
+                    ui.label(f"no result: {fault}").classes("no-result")
+                with ui.grid(columns="auto 1fr").classes("figures"):
+                    for one in run.figures:
+                        ui.label(one.title)
+                        ui.label(f"{one.value:.4g} {one.unit}")
+                for note in run.notes:
+                    ui.label(note).classes("note")
+
+    def _set_image(self, image: bytes) -> None:
+        kind = "png" if image[:4] == b"\x89PNG" else "jpeg"
+        self._picture.set_source(f"data:image/{kind};base64,{base64.b64encode(image).decode()}")
+
+    # Time.
+
+    def go_to_line(self, line: int) -> None:
+        """Go to the middle of what a line draws, and mark it in the picture."""
+        if self._shown is None:
+            return
+        rows = np.flatnonzero(self._shown.line == line)
+        if len(rows):
+            self._mark_stroke(rows)
+            self.go_to_time(float(self._shown.time[rows[len(rows) // 2]]))
+
+    def go_to_time(self, seconds: float) -> None:
+        """Show the moment of a time of the drawing [s]."""
+        self._slider.set_value(int(np.argmin(np.abs(self._times - seconds))))
+
+    def play(self) -> None:
+        """Play from the begin, or stop."""
+        if self._player.active:
+            self._player.deactivate()
+        else:
+            if self._slider.value >= len(self._times) - 1:
+                self._slider.set_value(0)
+            self._player.activate()
+        self._play.props(f"icon={'pause' if self._player.active else 'play_arrow'}")
+
+    @property
+    def _times(self) -> Floats:
+        run = self._run
+        if run is not None:
+            return run.frame_time
+        return np.zeros(1) if self._shown is None else self._shown.time
+
+    def _tick(self) -> None:
+        count = len(self._times)
+        share = PLAY_RATE * min(float(self._times[-1]), SECONDS_SHOWN)
+        step = max(1, round(count / max(share, 1.0)))
+        value = int(self._slider.value) + step
+        self._slider.set_value(min(value, count - 1))
+        if value >= count - 1:
+            self.play()
+
+    def _scrubbed(self, value: float) -> None:
+        index = min(int(value), len(self._times) - 1)
+        self._frame = -1 if index >= len(self._times) - 1 else index
+        run = self._run
+        if run is not None:
+            image = run.image if self._frame < 0 else self._frames.get(index)
+            if image is not None:
+                self._set_image(image)
+        self._move_to(float(self._times[index]))
+
+    def _move_to(self, seconds: float) -> None:
+        """Show the moment everywhere but in the picture itself."""
+        self._clock.text = f"{seconds:6.2f} s"
+        self._charts.set_time(seconds)
+        if self._shown is None:
+            return
+        at = int(np.argmin(np.abs(self._shown.time - seconds)))
+        whole = at >= len(self._shown.time) - 1
+        self.editor.mark_line(0 if whole else int(self._shown.line[at]))
+        x, y = self._shown.pixels[at]
+        self._picture.content = "" if whole else _dot(x, y)
+        run, point = self._run, self._shown.points[at]
+        if run is not None:
+            point = run.points[int(np.argmin(np.abs(run.time - seconds)))]
+        self._view.show(int(self._slider.value), point, self._shown.colours[at])
+
+    def _mark_stroke(self, rows: Any) -> None:
+        assert self._shown is not None
+        points = " ".join(f"{x:.1f},{y:.1f}" for x, y in self._shown.pixels[rows])
+        self._picture.content = f'<polyline points="{points}" class="stroke"/>'
+
+    def _picked(self, event: events.MouseEventArguments) -> None:
+        """Go to the moment of the stroke that was clicked."""
+        if self._shown is None:
+            return
+        away = np.linalg.norm(self._shown.pixels - [event.image_x, event.image_y], axis=1)
+        away = np.where(self._shown.colours.max(axis=1) > 0, away, np.inf)
+        at = int(np.argmin(away))
+        if away[at] < 30:
+            self.go_to_time(float(self._shown.time[at]))
+            self.editor.reveal(max(1, int(self._shown.line[at])))
+
+    # The text and its files.
+
+    def _fill_knobs(self) -> None:
+        """A slider for each `let` with a number."""
+        text = self.editor.text
+        found = [one for one in colours.numbers(text) if one.name][:MOST_KNOBS]
+        names = tuple(one.name for one in found)
+        if names == self._knob_names:
+            return
+        self._knob_names = names
+        self._knobs.clear()
+        with self._knobs:
+            for one in found:
+                self._add_knob(one)
+
+    def _add_knob(self, number: colours.Number) -> None:
+        written = number.span.text_in(self.editor.text)
+        size = abs(number.value) or 1.0
+        step = colours.step_of(written)
+        low, high = (0.0, 3 * size) if number.value >= 0 else (-3 * size, 3 * size)
+        with ui.row().classes("knob no-wrap items-center"):
+            ui.label(number.name).classes("gain-name")
+            slider = ui.slider(min=low, max=high, step=step, value=number.value)
+            slider.props(f'aria-label="{number.name}"')
+            ui.label(number.unit).classes("gain-value")
+
+        def change(event: Any) -> None:
+            now = next(
+                (o for o in colours.numbers(self.editor.text) if o.name == number.name), None
+            )
+            if now is not None and now.value != event.value:
+                self.editor.set_number(now, float(event.value), written)
+
+        slider.on_value_change(change)
+
+    def _rename(self, event: events.ValueChangeEventArguments[str]) -> None:
+        self._name = event.value or NEW
+
+    def _open(self, name: str) -> None:
+        try:
+            text = self._studio.folder.read(name)
+        except DqpaintError as problem:
+            ui.notify(str(problem), type="negative")
+            return
+        self._set_drawing(name, text)
+
+    def _open_example(self, name: str) -> None:
+        self._set_drawing(f"{name}.traj", read_example(name))
+
+    def _set_drawing(self, name: str, text: str) -> None:
+        self._name = name
+        self._title.value = name
+        self.editor.replace(text)
+        self._edited(text)
+
+    def turn(self, by: int) -> None:
+        """Go to another drawing of the folder."""
+        names = self._studio.folder.names()
+        if names:
+            at = names.index(self._name) if self._name in names else 0
+            self._open(names[(at + by) % len(names)])
+
+    def save(self) -> None:
+        """Write the text into its file."""
+        try:
+            self._studio.folder.save(self._name, self.editor.text)
+        except DqpaintError as problem:
+            ui.notify(str(problem), type="negative")
+            return
+        ui.notify(f"saved {self._name}", type="positive", timeout=1500)
+
+    def _undo(self) -> None:
+        ui.run_javascript(
+            f"const view = getElement({self.editor.view.id}).editor; view.focus();"
+            "document.execCommand('undo')"
+        )
+
+    def _key(self, event: events.KeyEventArguments) -> None:
+        if not event.action.keydown:
+            return
+        if self._present and event.key in ("ArrowLeft", "ArrowRight", "PageUp", "PageDown"):
+            self.turn(1 if event.key in ("ArrowRight", "PageDown") else -1)
+        elif event.key == "s" and event.modifiers.ctrl and not self._present:
+            self.save()
+        elif event.key == "Escape":
+            self.editor.close_menu()
+        elif event.key == " ":
+            self.play()
+
+    # Sharing and keeping.
+
+    def keep(self) -> None:
+        """Keep the run that is shown, for comparisons."""
+        run = self._run
+        if run is None:
+            ui.notify("There is no run to keep yet.", type="warning")
+            return
+        while len(self._kept) >= MOST_KEPT:
+            self._kept.pop(next(iter(self._kept)))
+        self._kept[f"{len(self._kept) + 1}: {run.title}"] = run
+        self._comparison.set_runs({**self._kept, "now": run})
+
+    def _shared(self) -> sharing.Shared:
+        return sharing.Shared(self._name, self.editor.text, dict(self.panel.choices))
+
+    def _copy_link(self) -> None:
+        try:
+            link = sharing.to_link(self._shared())
+        except DqpaintError as problem:
+            ui.notify(str(problem), type="warning")
+            return
+        ui.run_javascript(
+            f"navigator.clipboard.writeText(location.origin + '/?z={link}')"
+        )
+        ui.notify("The link is copied. It opens in a studio that runs on this port.")
+
+    def _download_shared(self) -> None:
+        text = sharing.to_json(self._shared())
+        ui.download.content(text, f"{Path(self._name).stem}.dqstudio.json")
+
+    def _save_scene(self) -> None:
+        ui.notify("dqpaint draw --save scene writes the run as one page.")
+
+    def close(self) -> None:
+        """Forget what the workers were asked, and what was served."""
+        self._closed = True
+        if self._timer is not None:
+            self._timer.cancel()
+        self._studio.forget(self.key)
+
+
+def _dot(x: float, y: float) -> str:
+    return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="5" class="dot"/>'

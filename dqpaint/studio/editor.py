@@ -26,6 +26,12 @@ const view = getElement({id}).editor;
 view.dispatch({{selection: {{anchor: {anchor}}}}});
 view.focus();
 """
+UNDO = """
+const view = getElement({id}).editor;
+view.focus();
+view.contentDOM.dispatchEvent(new KeyboardEvent("keydown",
+  {{key: "z", code: "KeyZ", keyCode: 90, ctrlKey: true, bubbles: true, cancelable: true}}));
+"""
 UNDER_MOUSE = """(event) => {{
   const view = getElement({id}).editor;
   const at = view && view.posAtCoords({{x: event.clientX, y: event.clientY}});
@@ -125,6 +131,10 @@ class Editor:
         # what was typed meanwhile would be lost
         fitting = [one for one in marks if one.get("to", 0) <= size]
         self.view.run_method("setDecorations", fitting)
+
+    def undo(self) -> None:
+        """Take the last change back."""
+        ui.run_javascript(UNDO.format(id=self.view.id))
 
     def format(self) -> None:
         """Lay the text out anew."""

@@ -205,9 +205,6 @@ class Page:
         return Request(self.editor.text, path, dict(self.panel.choices), WIDTH, HEIGHT)
 
     def _edited(self, _text: str) -> None:
-        self._runs.clear()
-        self._frames.clear()
-        self._frame = -1
         self._fill_knobs()
         self.submit()
 
@@ -236,6 +233,8 @@ class Page:
                 self._show_run(answer)
             case Frame():
                 self._frames[answer.index] = answer.image
+                if answer.index == self._frame:
+                    self._set_image(answer.image)
             case Failure():
                 self._progress.visible = False
                 self._fill_figures(answer.reason)
@@ -278,14 +277,14 @@ class Page:
                 ).classes("fix")
 
     def _show_sketch(self, shown: Shown) -> None:
+        moment = self._moment
         self._shown = shown
-        if self._frame < 0 or not self._runs:
-            self._set_image(shown.image)
+        self._runs.clear()
+        self._frames.clear()
+        self._set_image(shown.image)
         self._about.text = f"asked: {shown.about}"
         self._show_paths()
-        if not self._runs:
-            self._slider.props(f"max={len(shown.time) - 1}")
-            self._move_to(shown.time[-1])
+        self._set_times(moment)
 
     def _show_paths(self) -> None:
         if self._shown is None:
@@ -304,6 +303,7 @@ class Page:
         return self._runs.get("physics") or self._runs.get("ideal")
 
     def _show_run(self, run: Run) -> None:
+        moment = self._moment
         self._runs[run.tier] = run
         self._frames.clear()
         self._progress.visible = False
@@ -315,10 +315,7 @@ class Page:
         self._charts.show({**self._kept, run.title: run})
         self._comparison.set_runs({**self._kept, "now": run})
         self._fill_figures("")
-        self._frame = -1
-        self._slider.props(f"max={len(run.frame_time) - 1}")
-        self._slider.set_value(len(run.frame_time) - 1)
-        self._move_to(float(run.frame_time[-1]))
+        self._set_times(moment)
 
     def _fill_figures(self, reason: str) -> None:
         self._figures.clear()
@@ -341,6 +338,28 @@ class Page:
         self._picture.set_source(f"data:image/{kind};base64,{base64.b64encode(image).decode()}")
 
     # Time.
+
+    @property
+    def _moment(self) -> tuple[int, float] | None:
+        """The line that is being drawn and the share of it that is; None is the end of all."""
+        if self._shown is None or self._frame < 0:
+            return None
+        at = int(np.argmin(np.abs(self._shown.time - self._times[self._frame])))
+        rows = np.flatnonzero(self._shown.line == self._shown.line[at])
+        return int(self._shown.line[at]), float((rows < at).mean())
+
+    def _set_times(self, moment: tuple[int, float] | None) -> None:
+        """Begin another time axis at the same moment of the drawing."""
+        times = self._times
+        index = len(times) - 1
+        if moment is not None and self._shown is not None:
+            rows = np.flatnonzero(self._shown.line == moment[0])
+            if len(rows):
+                row = rows[min(int(moment[1] * len(rows)), len(rows) - 1)]
+                index = int(np.argmin(np.abs(times - self._shown.time[row])))
+        self._slider.props(f"max={len(times) - 1}")
+        self._slider.value = index
+        self._scrubbed(index)
 
     def go_to_line(self, line: int) -> None:
         """Go to the middle of what a line draws, and mark it in the picture."""
@@ -495,10 +514,7 @@ class Page:
         ui.notify(f"saved {self._name}", type="positive", timeout=1500)
 
     def _undo(self) -> None:
-        ui.run_javascript(
-            f"const view = getElement({self.editor.view.id}).editor; view.focus();"
-            "document.execCommand('undo')"
-        )
+        self.editor.undo()
 
     def _key(self, event: events.KeyEventArguments) -> None:
         if not event.action.keydown:

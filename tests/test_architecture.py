@@ -36,6 +36,7 @@ BREAKS = {
     "the door to typer": ("planning/check.py", "typer"),
     "the door to matplotlib": ("studies/kinds/sweep.py", "matplotlib"),
     "the door to jinja2": ("studies/report/page.py", "jinja2"),
+    "the door to the studio's page": ("studio/folder.py", "nicegui"),
     "the doors of editors and clusters": ("cli/language.py", "pygls"),
 }
 """Contract -> a file and an import in it that breaks that contract."""

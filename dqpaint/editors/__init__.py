@@ -7,4 +7,4 @@ server protocol, with `document` and `navigation`; `vscode` is an extension. A n
 language needs no line here.
 """
 
-__all__ = ["server", "textmate", "vocabulary"]
+__all__ = ["analysis", "completion", "server", "textmate", "vocabulary"]

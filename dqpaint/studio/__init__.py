@@ -1,9 +1,9 @@
 """A drawing -> the studio: a live page in the browser, served on this machine alone.
 
-    page        text, picture, arm, curves, figures and time of one open page
-    workers     two processes: one reads and sketches, one runs arms; the newest request wins
-    jobs        what they do; `limits` keeps them within the folder
     guard       token, Host and Origin of every request, websockets included
+    folder      the drawings that may be opened and saved; sharing: links and files
+    page        what is seen of one open page
+    work        two processes: one reads and sketches, one runs arms; the newest request wins
 
 Nothing here is imported by the rest of the package but by the command that starts it.
 """

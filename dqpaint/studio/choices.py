@@ -13,7 +13,13 @@ from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.settings import COMMANDS, Setting, make_settings, settings_of
 
 LEFT_OUT = {
-    "recorded", "max_samples", "max_memory", "timeout", "size", "kinematics", "trust",
+    "recorded",
+    "max_samples",
+    "max_memory",
+    "timeout",
+    "size",
+    "kinematics",
+    "trust",
 }  # of the command line alone
 TIMEOUT = 60.0  # [s] of a run of the page
 VIEWS = ("front", "iso", "side", "top")
@@ -48,8 +54,9 @@ def controls(laws: Sequence[str] = ()) -> dict[str, list[Control]]:
         if setting.keyword not in LEFT_OUT:
             names = tuple(SUGGESTIONS.get(setting.keyword, _nothing)())
             names += tuple(laws) if setting.keyword == "controller" else ()
-            found.setdefault(setting.panel, []).append(Control(setting, _kind(setting, names),
-                                                               names or _literals(setting)))
+            found.setdefault(setting.panel, []).append(
+                Control(setting, _kind(setting, names), names or _literals(setting))
+            )
     return found  # fmt: skip
 
 
@@ -215,6 +222,4 @@ def _texts(value: object) -> list[str]:
 
 def _names_a_file(text: str) -> bool:
     endings = (".py", ".urdf", ".toml", ".csv", ".json", ".png", ".jpg")
-    return any(sign in text for sign in ("/", "\\")) or any(
-        end in text.lower() for end in endings
-    )
+    return any(sign in text for sign in ("/", "\\")) or any(end in text.lower() for end in endings)

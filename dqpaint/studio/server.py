@@ -16,7 +16,7 @@ from dqpaint.errors import DqpaintError, UsageError
 from dqpaint.studio import sharing
 from dqpaint.studio.folder import NEW
 from dqpaint.studio.guard import Guard, new_token
-from dqpaint.studio.page import Page
+from dqpaint.studio.page.live_page import Page
 from dqpaint.studio.shared import MOST_PAGES, Studio
 
 ADDRESS = "127.0.0.1"
@@ -51,7 +51,7 @@ def make_app(studio: Studio, present: bool = False) -> FastAPI:
     def path(page: str, index: int) -> Response:
         return _file(studio.path(page, index), "model/gltf-binary")
 
-    style = (Path(__file__).parent / "style.css").read_text()
+    style = (Path(__file__).parent / "page" / "style.css").read_text()
 
     @ui.page("/", title="dqpaint studio")
     async def start(file: str = "", z: str = "") -> None:
@@ -139,4 +139,3 @@ def _listen(port: int) -> socket.socket:
         ) from None
     listener.listen(64)
     return listener
-

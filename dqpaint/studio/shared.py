@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from dqpaint.studio.folder import DrawingFolder
-from dqpaint.studio.messages import ArmShapes
-from dqpaint.studio.workers import Worker
+from dqpaint.studio.work.messages import ArmShapes
+from dqpaint.studio.work.pool import Worker
 
 MOST_PAGES = 24  # open at once
 

@@ -122,6 +122,21 @@ def paired_t(one: Sequence[float], other: Sequence[float]) -> Test | None:
     return Test(t, freedom, two_sided(t, freedom), of.mean, of.interval, effect, ends)
 
 
+def paired_verdict(one: Sequence[float], other: Sequence[float], unit: str) -> str:
+    """Whether paired values (N,) differ by more than they spread, in a sentence."""
+    reason = why_untested(one, other, paired=True)
+    means = f"{np.mean(one):.4g} and {np.mean(other):.4g} {unit} over {len(one)} pairs"
+    test = None if reason else paired_t(one, other)
+    if test is None:
+        return f"{means}: not tested, {reason or 'too few runs'}"
+    low, high = test.interval
+    told = f"{means}; the difference is {test.difference:.3g} {unit}"
+    if math.isfinite(low):
+        told += f", 95 % interval {low:.3g} to {high:.3g}"
+    sure = "more than the spread" if test.p < LEVEL else "not more than the spread may make"
+    return f"{told}: {sure} (p = {test.p:.2g}, paired t-test)"
+
+
 def welch(one: Spread, other: Spread) -> Test | None:
     """Welch's t-test of two means, two-sided; None where one of them has fewer than 2 values."""
     if min(one.n, other.n) < 2:

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
 
-Tier = Literal["sketch", "ideal", "physics"]
+Tier = Literal["ideal", "physics"]
+Want = Literal["picture", "run", "page", "verdict"]
 
 
 @dataclass(frozen=True)
@@ -22,6 +23,8 @@ class Request:
         choices: of a run, by their names in Python, as `dqpaint.draw` takes them.
         width: of the picture [px].
         height: of the picture [px].
+        want: the picture, the run, the run as a page in 3-D, or a verdict on two runs.
+        other: of a verdict, text and choices of the other run.
     """
 
     text: str
@@ -29,6 +32,8 @@ class Request:
     choices: Mapping[str, Any]
     width: int
     height: int
+    want: Want = "run"
+    other: "tuple[str, Mapping[str, Any]] | None" = None
 
 
 @dataclass(frozen=True)
@@ -175,6 +180,20 @@ class Forecast:
 
 
 @dataclass(frozen=True)
+class RunPage:
+    """A run as a page of its own, HTML."""
+
+    html: bytes
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Whether two runs differ by more than their spread, in a sentence."""
+
+    says: str
+
+
+@dataclass(frozen=True)
 class Failure:
     """Why a run could not be made, a sentence."""
 
@@ -182,4 +201,6 @@ class Failure:
     reason: str
 
 
-Answer = Reading | Shown | Run | ArmShapes | Frame | Progress | Forecast | Failure
+Answer = (
+    Reading | Shown | Run | ArmShapes | Frame | Progress | Forecast | RunPage | Verdict | Failure
+)

@@ -26,7 +26,7 @@ def confine(folders: Iterable[Path]) -> None:
     Args:
         folders: whose files may be read.
     """
-    own = Path(__file__).resolve().parents[1]
+    own = Path(__file__).resolve().parents[2]
     python = {Path(one).resolve() for one in (sys.prefix, sys.base_prefix, *sys.path) if one}
     python.discard(Path.cwd().resolve())  # a script's folder is not Python's
     temporary = os.path.realpath(tempfile.gettempdir())

@@ -4,6 +4,7 @@ import asyncio
 import base64
 import itertools
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,15 +12,21 @@ import numpy as np
 from nicegui import events, ui
 
 from dqpaint.core import example_names
-from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
 from dqpaint.studio import choices as chosen
-from dqpaint.studio import colours, sharing
-from dqpaint.studio.charts import Charts
-from dqpaint.studio.comparison import ComparisonView
-from dqpaint.studio.editor import Editor
+from dqpaint.studio import sharing
 from dqpaint.studio.folder import NEW, read_example
-from dqpaint.studio.messages import (
+from dqpaint.studio.page.charts import Charts
+from dqpaint.studio.page.comparison import ComparisonView
+from dqpaint.studio.page.editor import Editor
+from dqpaint.studio.page.findings import FindingList
+from dqpaint.studio.page.knobs import Knobs
+from dqpaint.studio.page.panel import Panel
+from dqpaint.studio.page.time_bar import TimeBar
+from dqpaint.studio.page.view3d import FAINT, View3D
+from dqpaint.studio.shared import Studio
+from dqpaint.studio.work.mesh_files import line_glb
+from dqpaint.studio.work.messages import (
     Answer,
     ArmShapes,
     Failure,
@@ -30,18 +37,16 @@ from dqpaint.studio.messages import (
     Reading,
     Request,
     Run,
+    RunPage,
     Shown,
+    Verdict,
+    Want,
 )
-from dqpaint.studio.panel import Panel
-from dqpaint.studio.shared import Studio
-from dqpaint.studio.view3d import FAINT, View3D, line_glb
 
 WIDTH, HEIGHT = 640, 360  # px of the picture
 RUN_PAUSE = 0.35  # [s] without a key before an arm runs
-PLAY_RATE = 25  # frames a second
-SECONDS_SHOWN = 10.0  # a longer run is played faster
-MOST_KNOBS = 12
 MOST_KEPT = 4
+FIT_PAUSE = 0.3  # [s] until the page is laid out
 _numbers = itertools.count(1)
 
 
@@ -73,10 +78,12 @@ class Page:
         self._shown: Shown | None = None
         self._runs: dict[str, Run] = {}  # by tier, of the text as it is
         self._kept: dict[str, Run] = {}
+        self._keeps = itertools.count(1)
         self._frames: dict[int, bytes] = {}
-        self._frame = -1  # -1 is the whole picture
         self._timer: asyncio.TimerHandle | None = None
         self._closed = False
+        self._asked: Request | None = None  # of the run that is shown
+        self._requests: dict[str, Request] = {}  # of the runs that were kept
         self.client = ui.context.client
         self._build(text, choices)
 
@@ -88,19 +95,24 @@ class Page:
             ui.query("body").classes("present")
         with ui.header().classes("bar items-center no-wrap"):
             self._build_bar()
-        with ui.splitter(value=40, limits=(20, 75)).classes("body") as splitter:
+        with ui.splitter(value=40, limits=(20, 75), on_change=lambda _event: self._fit()).classes(
+            "body"
+        ) as splitter:
             with splitter.before, ui.column().classes("left no-wrap gap-0"):
                 self.editor = Editor(text, self._edited, self.go_to_line, self._present)
-                self._messages = ui.column().classes("messages gap-0")
-                self._knobs = ui.column().classes("knobs gap-0")
+                self._messages = FindingList(self.editor)
+                self._knobs = Knobs(self.editor)
             with splitter.after, ui.column().classes("right no-wrap gap-0"):
                 self._build_picture()
                 self._build_tabs(choices)
         with ui.footer().classes("bar items-center no-wrap"):
-            self._build_time()
-        self._knob_names: tuple[str, ...] = ()
-        self._fill_knobs()
+            self._time = TimeBar(self._scrubbed)
+        ui.timer(FIT_PAUSE, self._fit, once=True)
         self.submit()
+
+    def _fit(self) -> None:
+        """Have the 3-D view and the chart take the room that they have."""
+        ui.run_javascript("window.dispatchEvent(new Event('resize'))")
 
     def _build_bar(self) -> None:
         ui.label("dqpaint").classes("brand")
@@ -116,13 +128,13 @@ class Page:
             self._lamp = ui.label("live").classes("lamp lamp-live")
             ui.keyboard(self._key)
             return
-        with ui.button(icon="folder_open", color=None).props("flat dense").tooltip("open"):
-            with ui.menu().props("max-height=70vh"):
-                for name in self._studio.folder.names():
-                    ui.menu_item(name, lambda name=name: self._open(name))
-                ui.separator()
-                for name in example_names():
-                    ui.menu_item(f"{name}, an example", lambda name=name: self._open_example(name))
+        opened = ui.button(icon="folder_open", color=None).props("flat dense").tooltip("open")
+        with opened, ui.menu().props("max-height=70vh"):
+            for name in self._studio.folder.names():
+                ui.menu_item(name, lambda name=name: self._open(name))
+            ui.separator()
+            for name in example_names():
+                ui.menu_item(f"{name}, an example", lambda name=name: self._open_example(name))
         self._title = ui.input(value=self._name, on_change=self._rename).props(
             'dense borderless aria-label="name of the drawing"'
         ).classes("title")  # fmt: skip
@@ -135,11 +147,11 @@ class Page:
         ui.button(icon="undo", color=None, on_click=self._undo).props("flat dense").tooltip("undo")
         ui.space()
         self._lamp = ui.label("live").classes("lamp lamp-live")
-        with ui.button(icon="share", color=None).props("flat dense").tooltip("share"):
-            with ui.menu():
-                ui.menu_item("copy a link", self._copy_link)
-                ui.menu_item("a file with text and choices", self._download_shared)
-                ui.menu_item("the run as one page in 3-D (HTML)", self._save_scene)
+        share = ui.button(icon="share", color=None).props("flat dense").tooltip("share")
+        with share, ui.menu():
+            ui.menu_item("copy a link", self._copy_link)
+            ui.menu_item("a file with text and choices", self._download_shared)
+            ui.menu_item("the run as one page in 3-D (HTML)", self._save_scene)
         ui.keyboard(self._key)
 
     def _build_picture(self) -> None:
@@ -170,23 +182,13 @@ class Page:
                 self._command = ui.code("", language="bash").classes("w-full command")
                 self.panel = Panel(choices, self._studio.laws, lambda _choices: self.submit())
             with ui.tab_panel("Compare").classes("fill scroll"):
-                self._comparison = ComparisonView(self.keep, self._charts.show)
-
-    def _build_time(self) -> None:
-        self._play = ui.button(icon="play_arrow", color=None, on_click=self.play).props(
-            'flat dense aria-label="play"'
-        )
-        self._slider = ui.slider(
-            min=0, max=1, step=1, value=0, on_change=lambda event: self._scrubbed(event.value)
-        ).props('aria-label="time"')
-        self._clock = ui.label("").classes("clock")
-        self._player = ui.timer(1 / PLAY_RATE, self._tick, active=False)
+                self._comparison = ComparisonView(self.keep, self._charts.show, self._judge)
 
     # What is asked of the workers.
 
     def submit(self, run: bool = True) -> None:
         """Ask for the picture of the text as it is, and after a pause for its runs."""
-        request = self._request()
+        request = self._request("picture")
         self._command.set_content(chosen.command(self._name, self.panel.choices))
         self._studio.reader.submit(self.key, request, self._answer)
         if self._timer is not None:
@@ -194,18 +196,19 @@ class Page:
         self._studio.runner.forget(self.key)
         if run:
             loop = asyncio.get_running_loop()
-            self._timer = loop.call_later(RUN_PAUSE, self._submit_run, request)
+            self._timer = loop.call_later(RUN_PAUSE, self._submit_run)
 
-    def _submit_run(self, request: Request) -> None:
+    def _submit_run(self) -> None:
         if not any(one.is_error for one in self._findings):
-            self._studio.runner.submit(self.key, request, self._answer)
+            self._asked = self._request("run")
+            self._studio.runner.submit(self.key, self._asked, self._answer)
 
-    def _request(self) -> Request:
+    def _request(self, want: Want) -> Request:
         path = str(self._studio.folder.root / self._name)
-        return Request(self.editor.text, path, dict(self.panel.choices), WIDTH, HEIGHT)
+        return Request(self.editor.text, path, dict(self.panel.choices), WIDTH, HEIGHT, want)
 
     def _edited(self, _text: str) -> None:
-        self._fill_knobs()
+        self._knobs.fill()
         self.submit()
 
     # What the workers answer.
@@ -233,8 +236,14 @@ class Page:
                 self._show_run(answer)
             case Frame():
                 self._frames[answer.index] = answer.image
-                if answer.index == self._frame:
+                if answer.index == self._time.index:
                     self._set_image(answer.image)
+            case RunPage():
+                self._progress.visible = False
+                ui.download.content(answer.html, f"{Path(self._name).stem}-scene.html")
+            case Verdict():
+                self._progress.visible = False
+                self._comparison.show_verdict(answer.says)
             case Failure():
                 self._progress.visible = False
                 self._fill_figures(answer.reason)
@@ -255,26 +264,7 @@ class Page:
     def _show_findings(self, lines: dict[int, str] | None) -> None:
         found = [*self._findings, *self._forecast]
         self.editor.show_findings(found, lines)
-        self._messages.clear()
-        with self._messages:
-            for one in found[:20]:
-                self._add_message(one)
-
-    def _add_message(self, found: Finding) -> None:
-        kind = "message-error" if found.is_error else "message-warning"
-        with ui.row().classes(f"message {kind} no-wrap items-start"):
-            ui.label(f"{found.line}").classes("place").on(
-                "click", lambda: self.editor.reveal(found.line)
-            )
-            with ui.column().classes("gap-0 grow"):
-                ui.label(f"{found.code}: {found.message}")
-                if found.help:
-                    ui.label(found.help).classes("help")
-            if found.fix is not None:
-                fix = found.fix
-                ui.button(fix[0], on_click=lambda: self.editor.apply_fix(fix)).props(
-                    "dense flat no-caps size=sm"
-                ).classes("fix")
+        self._messages.show(found)
 
     def _show_sketch(self, shown: Shown) -> None:
         moment = self._moment
@@ -342,89 +332,48 @@ class Page:
     @property
     def _moment(self) -> tuple[int, float] | None:
         """The line that is being drawn and the share of it that is; None is the end of all."""
-        if self._shown is None or self._frame < 0:
+        if self._shown is None or self._time.is_end:
             return None
-        at = int(np.argmin(np.abs(self._shown.time - self._times[self._frame])))
+        at = self._row_at(self._time.times[self._time.index])
         rows = np.flatnonzero(self._shown.line == self._shown.line[at])
         return int(self._shown.line[at]), float((rows < at).mean())
 
     def _set_times(self, moment: tuple[int, float] | None) -> None:
-        """Begin another time axis at the same moment of the drawing."""
-        times = self._times
+        """Begin the time axis of what is shown now, at the same moment of the drawing."""
+        run, shown = self._run, self._shown
+        times = run.frame_time if run is not None else np.zeros(1) if shown is None else shown.time
         index = len(times) - 1
-        if moment is not None and self._shown is not None:
-            rows = np.flatnonzero(self._shown.line == moment[0])
+        if moment is not None and shown is not None:
+            rows = np.flatnonzero(shown.line == moment[0])
             if len(rows):
                 row = rows[min(int(moment[1] * len(rows)), len(rows) - 1)]
-                index = int(np.argmin(np.abs(times - self._shown.time[row])))
-        self._slider.props(f"max={len(times) - 1}")
-        self._slider.value = index
-        self._scrubbed(index)
+                index = int(np.argmin(np.abs(times - shown.time[row])))
+        self._time.set_times(times, index)
 
-    def go_to_line(self, line: int) -> None:
-        """Go to the middle of what a line draws, and mark it in the picture."""
-        if self._shown is None:
-            return
-        rows = np.flatnonzero(self._shown.line == line)
-        if len(rows):
-            self._mark_stroke(rows)
-            self.go_to_time(float(self._shown.time[rows[len(rows) // 2]]))
+    def _row_at(self, seconds: float) -> int:
+        """The row of the sketch at a time."""
+        assert self._shown is not None
+        return int(np.argmin(np.abs(self._shown.time - seconds)))
 
-    def go_to_time(self, seconds: float) -> None:
-        """Show the moment of a time of the drawing [s]."""
-        self._slider.set_value(int(np.argmin(np.abs(self._times - seconds))))
-
-    def play(self) -> None:
-        """Play from the begin, or stop."""
-        if self._player.active:
-            self._player.deactivate()
-        else:
-            if self._slider.value >= len(self._times) - 1:
-                self._slider.set_value(0)
-            self._player.activate()
-        self._play.props(f"icon={'pause' if self._player.active else 'play_arrow'}")
-
-    @property
-    def _times(self) -> Floats:
-        run = self._run
+    def _scrubbed(self, index: int) -> None:
+        """Show a moment everywhere: picture, arm, curves, text."""
+        run, shown, ended = self._run, self._shown, self._time.is_end
         if run is not None:
-            return run.frame_time
-        return np.zeros(1) if self._shown is None else self._shown.time
-
-    def _tick(self) -> None:
-        count = len(self._times)
-        share = PLAY_RATE * min(float(self._times[-1]), SECONDS_SHOWN)
-        step = max(1, round(count / max(share, 1.0)))
-        value = int(self._slider.value) + step
-        self._slider.set_value(min(value, count - 1))
-        if value >= count - 1:
-            self.play()
-
-    def _scrubbed(self, value: float) -> None:
-        index = min(int(value), len(self._times) - 1)
-        self._frame = -1 if index >= len(self._times) - 1 else index
-        run = self._run
-        if run is not None:
-            image = run.image if self._frame < 0 else self._frames.get(index)
+            image = run.image if ended else self._frames.get(index)
             if image is not None:
                 self._set_image(image)
-        self._move_to(float(self._times[index]))
-
-    def _move_to(self, seconds: float) -> None:
-        """Show the moment everywhere but in the picture itself."""
-        self._clock.text = f"{seconds:6.2f} s"
+        seconds = float(self._time.times[index])
         self._charts.set_time(seconds)
-        if self._shown is None:
+        if shown is None:
             return
-        at = int(np.argmin(np.abs(self._shown.time - seconds)))
-        whole = at >= len(self._shown.time) - 1
-        self.editor.mark_line(0 if whole else int(self._shown.line[at]))
-        x, y = self._shown.pixels[at]
-        self._picture.content = "" if whole else _dot(x, y)
-        run, point = self._run, self._shown.points[at]
+        at = self._row_at(seconds)
+        self.editor.mark_line(0 if ended else int(shown.line[at]))
+        x, y = shown.pixels[at]
+        self._picture.content = "" if ended else _dot(x, y)
+        point = shown.points[at]
         if run is not None:
             point = run.points[int(np.argmin(np.abs(run.time - seconds)))]
-        self._view.show(int(self._slider.value), point, self._shown.colours[at])
+        self._view.show(index, point, shown.colours[at])
 
     def _mark_stroke(self, rows: Any) -> None:
         assert self._shown is not None
@@ -444,40 +393,7 @@ class Page:
 
     # The text and its files.
 
-    def _fill_knobs(self) -> None:
-        """A slider for each `let` with a number."""
-        text = self.editor.text
-        found = [one for one in colours.numbers(text) if one.name][:MOST_KNOBS]
-        names = tuple(one.name for one in found)
-        if names == self._knob_names:
-            return
-        self._knob_names = names
-        self._knobs.clear()
-        with self._knobs:
-            for one in found:
-                self._add_knob(one)
-
-    def _add_knob(self, number: colours.Number) -> None:
-        written = number.span.text_in(self.editor.text)
-        size = abs(number.value) or 1.0
-        step = colours.step_of(written)
-        low, high = (0.0, 3 * size) if number.value >= 0 else (-3 * size, 3 * size)
-        with ui.row().classes("knob no-wrap items-center"):
-            ui.label(number.name).classes("gain-name")
-            slider = ui.slider(min=low, max=high, step=step, value=number.value)
-            slider.props(f'aria-label="{number.name}"')
-            ui.label(number.unit).classes("gain-value")
-
-        def change(event: Any) -> None:
-            now = next(
-                (o for o in colours.numbers(self.editor.text) if o.name == number.name), None
-            )
-            if now is not None and now.value != event.value:
-                self.editor.set_number(now, float(event.value), written)
-
-        slider.on_value_change(change)
-
-    def _rename(self, event: events.ValueChangeEventArguments[str]) -> None:
+    def _rename(self, event: events.ValueChangeEventArguments[str | None]) -> None:
         self._name = event.value or NEW
 
     def _open(self, name: str) -> None:
@@ -526,7 +442,7 @@ class Page:
         elif event.key == "Escape":
             self.editor.close_menu()
         elif event.key == " ":
-            self.play()
+            self._time.play()
 
     # Sharing and keeping.
 
@@ -538,7 +454,10 @@ class Page:
             return
         while len(self._kept) >= MOST_KEPT:
             self._kept.pop(next(iter(self._kept)))
-        self._kept[f"{len(self._kept) + 1}: {run.title}"] = run
+        name = f"{next(self._keeps)}: {run.title}"
+        self._kept[name] = run
+        if self._asked is not None:
+            self._requests[name] = self._asked
         self._comparison.set_runs({**self._kept, "now": run})
 
     def _shared(self) -> sharing.Shared:
@@ -550,9 +469,7 @@ class Page:
         except DqpaintError as problem:
             ui.notify(str(problem), type="warning")
             return
-        ui.run_javascript(
-            f"navigator.clipboard.writeText(location.origin + '/?z={link}')"
-        )
+        ui.run_javascript(f"navigator.clipboard.writeText(location.origin + '/?z={link}')")
         ui.notify("The link is copied. It opens in a studio that runs on this port.")
 
     def _download_shared(self) -> None:
@@ -560,7 +477,17 @@ class Page:
         ui.download.content(text, f"{Path(self._name).stem}.dqstudio.json")
 
     def _save_scene(self) -> None:
-        ui.notify("dqpaint draw --save scene writes the run as one page.")
+        self._studio.runner.submit(self.key, self._request("page"), self._answer)
+        ui.notify("The page is being made.")
+
+    def _judge(self, one: str, other: str) -> None:
+        """Ask whether two runs differ by more than their spread."""
+        first, second = (self._requests.get(name, self._asked) for name in (one, other))
+        if first is None or second is None or first is second:
+            ui.notify("Keep a run, change something, and choose both.", type="warning")
+            return
+        request = replace(first, want="verdict", other=(second.text, second.choices))
+        self._studio.runner.submit(self.key, request, self._answer)
 
     def close(self) -> None:
         """Forget what the workers were asked, and what was served."""

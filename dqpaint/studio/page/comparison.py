@@ -8,7 +8,7 @@ import numpy as np
 from nicegui import ui
 from numpy.typing import NDArray
 
-from dqpaint.studio.messages import Run
+from dqpaint.studio.work.messages import Run
 
 GREATEST = 16  # times the difference
 
@@ -19,10 +19,14 @@ class ComparisonView:
     Args:
         keep: keeps the run that is shown.
         curves: shows the curves of some runs over each other.
+        judge: asks whether two of them, by their names, differ by more than their spread.
     """
 
     def __init__(
-        self, keep: Callable[[], None], curves: Callable[[Mapping[str, Run]], None]
+        self,
+        keep: Callable[[], None],
+        curves: Callable[[Mapping[str, Run]], None],
+        judge: Callable[[str, str], None],
     ) -> None:
         self._runs: dict[str, Run] = {}
         self._curves = curves
@@ -41,6 +45,11 @@ class ComparisonView:
         ui.label("their difference, magnified").classes("note")
         self._difference = ui.image().classes("difference")
         self._times = ui.label().classes("note")
+        ui.button(
+            "is it more than noise?", icon="casino",
+            on_click=lambda: judge(self._first.value, self._second.value),
+        ).props("dense no-caps flat")  # fmt: skip
+        self._verdict = ui.label().classes("verdict")
         self._table = ui.grid(columns="auto auto auto auto").classes("figures")
 
     def set_runs(self, runs: Mapping[str, Run]) -> None:
@@ -53,10 +62,15 @@ class ComparisonView:
         self._second.set_options(names, value=second)
         self._show()
 
+    def show_verdict(self, text: str) -> None:
+        """Say whether they differ."""
+        self._verdict.text = text
+
     def _show(self) -> None:
         one, two = self._runs.get(self._first.value), self._runs.get(self._second.value)
         if one is None or two is None:
             return
+        self._verdict.text = ""
         self._left.set_source(_url(one.image))
         self._right.set_source(_url(two.image))
         times, image = difference(one.image, two.image)

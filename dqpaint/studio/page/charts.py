@@ -1,5 +1,6 @@
 """The curves of runs over time, on the page: one quantity at a time, runs over each other."""
 
+import base64
 import csv
 import io
 from collections.abc import Callable, Mapping, Sequence
@@ -7,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 from nicegui import events, ui
 
-from dqpaint.studio.messages import Curve, Run
+from dqpaint.studio.work.messages import Curve, Run
 
 COLOURS = ("#56b4e9", "#e69f00", "#009e73", "#f0e442", "#cc79a7", "#d55e00", "#0072b2")
 STYLES = ("solid", "dashed", "dotted")
@@ -25,14 +26,16 @@ class Charts:
         self._runs: dict[str, Run] = {}
         self._title = ""
         with ui.row().classes("items-center w-full no-wrap"):
-            self._choice = ui.select(
-                [], label="quantity", on_change=lambda event: self._choose(event.value)
-            ).props("dense outlined options-dense").classes("grow")
-            with ui.button(icon="download").props("flat dense").tooltip("save the curves"):
-                with ui.menu():
-                    ui.menu_item("CSV", self._save_csv)
-                    ui.menu_item("PNG", lambda: self._save_picture("png"))
-                    ui.menu_item("SVG", lambda: self._save_picture("svg"))
+            self._choice = (
+                ui.select([], label="quantity", on_change=lambda event: self._choose(event.value))
+                .props("dense outlined options-dense")
+                .classes("grow")
+            )
+            save = ui.button(icon="download").props("flat dense").tooltip("save the curves")
+            with save, ui.menu():
+                ui.menu_item("CSV", self._save_csv)
+                ui.menu_item("PNG", self._save_png)
+                ui.menu_item("SVG", self._save_svg)
         self._pointed = pointed
         self.chart = ui.echart(_empty(), on_point_click=self._clicked, renderer="svg").classes(
             "curves"
@@ -48,8 +51,9 @@ class Charts:
 
     def set_time(self, seconds: float) -> None:
         """Move the cursor."""
+        line = {"color": "#ffffff", "type": "solid"}
         mark = {"silent": True, "symbol": "none", "animation": False, "label": {"show": False},
-                "lineStyle": {"color": "#ffffff", "type": "solid"}, "data": [{"xAxis": seconds}]}  # fmt: skip
+                "lineStyle": line, "data": [{"xAxis": seconds}]}  # fmt: skip
         if self._runs:
             self.chart.run_chart_method(
                 "setOption", {"series": [{"id": "cursor", "markLine": mark}]}
@@ -68,18 +72,14 @@ class Charts:
     def _save_csv(self) -> None:
         ui.download.content(table(self._runs, self._title), f"{self._title or 'curves'}.csv")
 
-    async def _save_picture(self, form: str) -> None:
-        script = (
-            f"const chart = getElement({self.chart.id}).chart;"
-            "const svg = chart.renderToSVGString ? chart.renderToSVGString() : '';"
-        )
-        text = await ui.run_javascript(f"{script} return svg;", timeout=5)
-        if form == "svg":
-            ui.download.content(text, f"{self._title}.svg", "image/svg+xml")
-            return
-        data = await ui.run_javascript(PNG_OF_SVG.replace("SVG_ID", str(self.chart.id)), timeout=8)
-        import base64
+    async def _save_svg(self) -> None:
+        script = f"return getElement({self.chart.id}).chart.renderToSVGString()"
+        text = await ui.run_javascript(script, timeout=5)
+        ui.download.content(text, f"{self._title}.svg", "image/svg+xml")
 
+    async def _save_png(self) -> None:
+        script = PNG_OF_SVG.replace("SVG_ID", str(self.chart.id))
+        data = await ui.run_javascript(script, timeout=8)
         ui.download.content(base64.b64decode(data), f"{self._title}.png", "image/png")
 
 
@@ -87,7 +87,9 @@ PNG_OF_SVG = """
 const svg = getElement(SVG_ID).chart.renderToSVGString();
 const image = new Image();
 const url = URL.createObjectURL(new Blob([svg], {type: 'image/svg+xml'}));
-await new Promise((done, failed) => { image.onload = done; image.onerror = failed; image.src = url; });
+await new Promise((done, failed) => {
+  image.onload = done; image.onerror = failed; image.src = url;
+});
 const canvas = document.createElement('canvas');
 canvas.width = 2 * image.width; canvas.height = 2 * image.height;
 const pen = canvas.getContext('2d');

@@ -8,7 +8,7 @@ from dqpaint.diagnostics import Span
 from dqpaint.editors.vocabulary import vocabulary
 from dqpaint.language.syntax import TOKEN
 from dqpaint.language.vocabulary import UNITS
-from dqpaint.studio.messages import Finding
+from dqpaint.studio.work.messages import Finding
 
 Mark = dict[str, Any]
 
@@ -139,4 +139,5 @@ def spelled(value: float, like: str) -> str:
 def step_of(like: str) -> float:
     """By how much a number changes for a pixel: its last digit, or a hundredth of it."""
     decimals = len(like.partition(".")[2])
-    return max(10.0**-decimals, 10.0**-decimals * 10 ** (len(like.replace(".", "")) - 3))
+    digits = len(like.replace(".", ""))
+    return float(10.0 ** (max(0, digits - 3) - decimals))

@@ -3,6 +3,7 @@
 import signal
 import time
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from multiprocessing.connection import Connection
 from pathlib import Path
 
@@ -20,9 +21,11 @@ from dqpaint.light.camera import Camera
 from dqpaint.metrics import all_figures
 from dqpaint.motion import Motion, summary_line
 from dqpaint.painting import paint, preview, video
+from dqpaint.robots.kinematics import Clamp
 from dqpaint.settings import Settings, make_settings
-from dqpaint.studio.limits import confine
-from dqpaint.studio.messages import (
+from dqpaint.studio.work.confinement import confine
+from dqpaint.studio.work.mesh_files import stl
+from dqpaint.studio.work.messages import (
     Answer,
     ArmShapes,
     Curve,
@@ -35,8 +38,11 @@ from dqpaint.studio.messages import (
     Reading,
     Request,
     Run,
+    RunPage,
     Shown,
     Tier,
+    Verdict,
+    Want,
 )
 
 MOST_PATH_POINTS = 1500  # of a path on the page
@@ -45,6 +51,8 @@ MOST_FRAMES = 150
 FRAME_RATE = 25  # frames a second of the drawing's time, where that is fewer
 JPEG = [cv2.IMWRITE_JPEG_QUALITY, 88]
 PROGRESS_INTERVAL = 0.1  # [s]
+SEEDS = 5
+SPREAD = "posture,place"
 DEGREES = float(np.degrees(1.0))
 CURVES: tuple[tuple[str, str, float, dict[str, str]], ...] = (
     ("position error", "mm", 1e3, {"position_error_m": "distance"}),
@@ -72,7 +80,7 @@ SHOWN_FIGURES = (
 )  # fmt: skip
 
 
-class _Stopped(Exception):
+class _StoppedError(Exception):
     """A newer request has come."""
 
 
@@ -85,16 +93,16 @@ class _Job:
         self._last = 0.0
 
     def send(self, answer: Answer | None) -> None:
-        """Send an answer; raises _Stopped where nobody waits for it."""
+        """Send an answer; raises _StoppedError where nobody waits for it."""
         self.check()
         self._pipe.send((self.number, answer))
 
     def check(self) -> None:
-        """Raise _Stopped where the page asks for something else."""
+        """Raise _StoppedError where the page asks for something else."""
         while self._pipe.poll():
             number, request = self._pipe.recv()
             if request is None and number == self.number:
-                raise _Stopped
+                raise _StoppedError
 
     def progress(self, tier: Tier) -> Callable[[float], None]:
         """A function for how far a run is."""
@@ -113,7 +121,6 @@ class _Job:
 def serve(kind: str, pipe: Connection, folders: Sequence[Path]) -> None:
     """Answer requests until the other end closes."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the server's
-    work = {"read": _read, "run": _run}[kind]
     cv2.setNumThreads(1)
     _warm(kind)
     confine(folders)
@@ -126,8 +133,8 @@ def serve(kind: str, pipe: Connection, folders: Sequence[Path]) -> None:
             continue
         job = _Job(number, pipe)
         try:
-            work(job, request)
-        except _Stopped:
+            WORK[request.want](job, request)
+        except _StoppedError:
             pass
         except MemoryError:
             job.send(Failure("physics", "there is not enough memory for that"))
@@ -136,8 +143,8 @@ def serve(kind: str, pipe: Connection, folders: Sequence[Path]) -> None:
 
 def _warm(kind: str) -> None:
     """Do once what is slow the first time."""
-    from dqpaint.language import read
     from dqpaint.core import find_drawing
+    from dqpaint.language import read
 
     settings = make_settings(size=(64, 36))
     preview.make_preview(read(find_drawing("star")), settings)
@@ -292,12 +299,21 @@ def _paint(job: _Job, program: Program, tier: Tier, settings: Settings) -> paint
     rows = _rows(len(motion.t), MOST_CURVE_POINTS)
     job.send(
         Run(
-            tier, f"{painting.controller.name} on {painting.robot}, {painting.plant}",
-            _png(painting.picture.image), _figures(painting),
-            tuple(fault.says for fault in painting.judgement.faults), _notes(painting),
-            painting.arm_motion.robot, motion.t[rows], _lines(motion, rows), painting.track.points[rows],
-            _curves(painting, rows), motion.t[frames], links, seconds,
-        )  # fmt: skip
+            tier,
+            f"{painting.controller.name} on {painting.robot}, {painting.plant}",
+            _png(painting.picture.image),
+            _figures(painting),
+            tuple(fault.says for fault in painting.judgement.faults),
+            _notes(painting),
+            painting.arm_motion.robot,
+            motion.t[rows],
+            _lines(motion, rows),
+            painting.track.points[rows],
+            _curves(painting, rows),
+            motion.t[frames],
+            links,
+            seconds,
+        )
     )
     return painting
 
@@ -314,14 +330,12 @@ def _figures(painting: paint.Painting) -> tuple[Figure, ...]:
 
 def _notes(painting: paint.Painting) -> tuple[str, ...]:
     limits = [f"limit: {one}" for one in dict.fromkeys(map(_limit, painting.limits))]
-    idle = [
-        f"{name} was without effect: {why}" for name, why in painting.without_effect.items()
-    ]
+    idle = [f"{name} was without effect: {why}" for name, why in painting.without_effect.items()]
     remarks = [text for picture in painting.pictures for text in picture.remarks]
     return (*limits, *idle, *remarks, *painting.notes)
 
 
-def _limit(clamp: paint.Clamp) -> str:
+def _limit(clamp: Clamp) -> str:
     return f"{clamp.kind} of joint {clamp.joint} from {clamp.start:.2f} s on"
 
 
@@ -370,17 +384,73 @@ def _send_frames(job: _Job, painting: paint.Painting) -> None:
 _sent: set[str] = set()  # arms whose shapes the server has
 
 
-def _arm(
-    painting: paint.Painting, frames: NDArray[np.int64]
-) -> tuple[ArmShapes | None, Floats]:
+def _arm(painting: paint.Painting, frames: NDArray[np.int64]) -> tuple[ArmShapes | None, Floats]:
     """The shapes of the arm, once, and their places at the frames."""
-    from dqpaint.studio import arm
+    from dqpaint.render import arm_view
 
     name = painting.arm_motion.robot
-    shown = arm.shapes_of(name)
-    poses = arm.places(shown, painting.track.posture[frames])
+    shown = arm_view(name)
+    poses = shown.places(painting.track.posture[frames])
     found = np.concatenate([dq.translation(poses), dq.rotation(poses)], axis=-1)
     if name in _sent:
         return None, found
     _sent.add(name)
-    return ArmShapes(name, shown.meshes), found
+    return ArmShapes(name, tuple((stl(*one[:2]), one.colour) for one in shown.meshes)), found
+
+
+def _make_page(job: _Job, request: Request) -> None:
+    """The run as a page in 3-D."""
+    from dqpaint.outputs import registry
+
+    try:
+        writers = registry.choose_writers("scene")
+        program = parse(request.text, request.path, Path(request.path))
+        painting = paint.paint(
+            program, _settings(request), job.progress("physics"), None,
+            lambda ready: registry.check_before_run(writers, ready),
+        )  # fmt: skip
+        (html,) = registry.make_files(writers, painting).values()
+        job.send(RunPage(html))
+    except DqpaintError as problem:
+        job.send(Failure("physics", str(problem)))
+
+
+def _judge(job: _Job, request: Request) -> None:
+    """Both runs with several seeds: is their difference more than their spread?"""
+    from dqpaint.studies.experiment import paired_verdict
+
+    assert request.other is not None
+    text, choices = request.other
+    both = (request, replace(request, text=text, choices=choices))
+    found: list[list[float]] = [[], []]
+    try:
+        for seed in range(SEEDS):
+            for values, one in zip(found, both, strict=True):
+                job.send(Progress("physics", (seed + (one is not request) / 2) / SEEDS))
+                values.append(_measured(job, one, seed))
+    except DqpaintError as problem:
+        job.send(Failure("physics", str(problem)))
+        return
+    job.send(Verdict(paired_verdict(found[0], found[1], "mm")))
+
+
+def _measured(job: _Job, request: Request, seed: int) -> float:
+    """The position error of a run with a seed, start posture and place by chance [mm]."""
+    spread = request.choices.get("spread") or SPREAD
+    settings = _settings(request, seed=seed, spread=spread)
+    program = parse(request.text, request.path, Path(request.path))
+    ready = paint.prepare(program, settings)
+    run = paint.finish(ready, ready.run(lambda _share: job.check()), photographed=False)
+    if not run.judgement.is_result:
+        raise DqpaintError(
+            f"with seed {seed} {run.controller.name} is no result: {run.judgement.faults[0].says}"
+        )
+    return run.metrics.figures["position_error_rms_m"] * 1e3
+
+
+WORK: dict[Want, Callable[[_Job, Request], None]] = {
+    "picture": _read,
+    "run": _run,
+    "page": _make_page,
+    "verdict": _judge,
+}

@@ -7,8 +7,8 @@ from nicegui import events, ui
 from dqpaint.editors import completion
 from dqpaint.language import ScriptError
 from dqpaint.language.writing import formatter
-from dqpaint.studio import colours
-from dqpaint.studio.messages import Finding
+from dqpaint.studio.page import colours
+from dqpaint.studio.work.messages import Finding
 
 MARGIN = 60  # lines above and below the visible ones that are coloured
 FIRST_LINES = 120
@@ -245,4 +245,3 @@ class Editor:
         _, start, end, new = fix
         text = self.text
         self.replace(text[:start] + new + text[end:])
-

@@ -1,11 +1,10 @@
 """The arm, the asked and the reached path and the light in space: the 3-D view of the page."""
 
-import json
-import struct
 from collections.abc import Sequence
 
 import numpy as np
 from nicegui import ui
+from nicegui.elements.scene.scene_object3d import Object3D
 
 from dqpaint import dq
 from dqpaint.dq import Floats
@@ -22,12 +21,14 @@ class View3D:
 
     def __init__(self) -> None:
         self.scene = ui.scene(
-            grid=(2, 20), background_color=BACKGROUND, fps=FRAMES_PER_SECOND,
+            grid=(2, 20),
+            background_color=BACKGROUND,
+            fps=FRAMES_PER_SECOND,
             camera=ui.scene.perspective_camera(fov=50),
         ).classes("scene")
-        self._shapes: list[ui.scene.stl] = []
+        self._shapes: list[Object3D] = []
         self._robot = ""
-        self._paths: list[ui.scene.gltf] = []
+        self._paths: list[Object3D] = []
         self._links: Floats | None = None
         self._shown: Floats | None = None
         with self.scene:
@@ -43,9 +44,7 @@ class View3D:
             shape.delete()
         self._robot, self._shown = robot, None
         with self.scene:
-            self._shapes = [
-                ui.scene.stl(url).material(_colour(colour)) for url, colour in urls
-            ]
+            self._shapes = [ui.scene.stl(url).material(_colour(colour)) for url, colour in urls]
 
     def show_paths(self, urls: Sequence[str]) -> None:
         """Show other paths: of files made by `line_glb`."""
@@ -78,45 +77,3 @@ class View3D:
 
 def _colour(colour: Sequence[float]) -> str:
     return "#" + "".join(f"{round(255 * min(1.0, max(0.0, one))):02x}" for one in colour)
-
-
-def line_glb(points: Floats, colours: Floats) -> bytes:
-    """A polyline with a colour at each point, as binary glTF 2.0.
-
-    Args:
-        points: (K, 3) [m].
-        colours: (K, 3) linear, 0 to 1.
-    """
-    places = np.ascontiguousarray(points, "<f4")
-    shades = np.ascontiguousarray(np.clip(colours, 0.0, 1.0), "<f4")
-    binary = places.tobytes() + shades.tobytes()
-    count, size = len(places), places.nbytes
-    document = {
-        "asset": {"version": "2.0"},
-        "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [
-            {"attributes": {"POSITION": 0, "COLOR_0": 1}, "mode": 3, "material": 0}
-        ]}],
-        "materials": [{"extensions": {"KHR_materials_unlit": {}}}],
-        "extensionsUsed": ["KHR_materials_unlit"],
-        "accessors": [
-            {"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3",
-             "min": places.min(axis=0).tolist(), "max": places.max(axis=0).tolist()},
-            {"bufferView": 1, "componentType": 5126, "count": count, "type": "VEC3"},
-        ],
-        "bufferViews": [
-            {"buffer": 0, "byteOffset": 0, "byteLength": size},
-            {"buffer": 0, "byteOffset": size, "byteLength": size},
-        ],
-        "buffers": [{"byteLength": len(binary)}],
-    }  # fmt: skip
-    text = json.dumps(document, separators=(",", ":")).encode()
-    text += b" " * (-len(text) % 4)
-    total = 12 + 8 + len(text) + 8 + len(binary)
-    return (
-        struct.pack("<4sII", b"glTF", 2, total)
-        + struct.pack("<I4s", len(text), b"JSON") + text
-        + struct.pack("<I4s", len(binary), b"BIN\0") + binary
-    )  # fmt: skip

@@ -11,12 +11,13 @@ import itertools
 import multiprocessing
 import threading
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any, Literal
 
-from dqpaint.studio.messages import Answer, Request
+from dqpaint.studio.work.messages import Answer, Request
 
 Kind = Literal["read", "run"]
 Listener = Callable[[Answer], None]
@@ -80,7 +81,7 @@ class Worker:
         self._pipe.close()
 
     def _start(self) -> None:
-        from dqpaint.studio.jobs import serve
+        from dqpaint.studio.work.jobs import serve
 
         context = multiprocessing.get_context("spawn")
         self._pipe, theirs = context.Pipe()
@@ -103,10 +104,8 @@ class Worker:
         self._tell(self._ended, process)
 
     def _tell(self, function: Callable[..., None], *arguments: Any) -> None:
-        try:
+        with suppress(RuntimeError):  # the loop has ended
             self._loop.call_soon_threadsafe(function, *arguments)
-        except RuntimeError:  # the loop has ended
-            pass
 
     def _receive(self, number: int, answer: Answer | None) -> None:
         """An answer, or None: the job is over."""
@@ -147,7 +146,7 @@ class Worker:
         self._pipe.close()
         self._start()
         if job is not None and not stopped:
-            from dqpaint.studio.messages import Failure
+            from dqpaint.studio.work.messages import Failure
 
             job.listener(Failure("physics", "the run ended its process; the next one begins anew"))
         self._next()

@@ -47,6 +47,7 @@ class Editor:
         text: to begin with.
         changed: called with each new text.
         pointed: called with the line that was clicked.
+        saved: called with Ctrl-S.
         read_only: whether it cannot be changed.
     """
 
@@ -55,6 +56,7 @@ class Editor:
         text: str,
         changed: Callable[[str], None],
         pointed: Callable[[int], None],
+        saved: Callable[[], None],
         read_only: bool = False,
     ) -> None:
         self._changed = changed
@@ -73,6 +75,7 @@ class Editor:
             keymap={
                 "Ctrl-Space": lambda _event: self.complete(),
                 "Shift-Alt-f": lambda _event: self.format(),
+                "Mod-s": lambda _event: saved(),
             },
         ).classes("editor")
         if read_only:

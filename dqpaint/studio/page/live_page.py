@@ -11,11 +11,8 @@ from typing import Any
 import numpy as np
 from nicegui import events, ui
 
-from dqpaint.core import example_names
-from dqpaint.errors import DqpaintError
 from dqpaint.studio import choices as chosen
 from dqpaint.studio import sharing
-from dqpaint.studio.folder import NEW, read_example
 from dqpaint.studio.page.charts import Charts
 from dqpaint.studio.page.comparison import ComparisonView
 from dqpaint.studio.page.editor import Editor
@@ -23,6 +20,7 @@ from dqpaint.studio.page.findings import FindingList
 from dqpaint.studio.page.knobs import Knobs
 from dqpaint.studio.page.panel import Panel
 from dqpaint.studio.page.time_bar import TimeBar
+from dqpaint.studio.page.top_bar import TopBar
 from dqpaint.studio.page.view3d import FAINT, View3D
 from dqpaint.studio.shared import Studio
 from dqpaint.studio.work.mesh_files import line_glb
@@ -71,7 +69,7 @@ class Page:
     ) -> None:
         self.key = f"page-{next(_numbers)}"
         self._studio = studio
-        self._name = name
+        self.name = name
         self._present = present
         self._findings: tuple[Finding, ...] = ()
         self._forecast: tuple[Finding, ...] = ()
@@ -94,12 +92,14 @@ class Page:
         if self._present:
             ui.query("body").classes("present")
         with ui.header().classes("bar items-center no-wrap"):
-            self._build_bar()
+            self._bar = TopBar(self, self._studio, self._present)
         with ui.splitter(value=40, limits=(20, 75), on_change=lambda _event: self._fit()).classes(
             "body"
         ) as splitter:
             with splitter.before, ui.column().classes("left no-wrap gap-0"):
-                self.editor = Editor(text, self._edited, self.go_to_line, self._present)
+                self.editor = Editor(
+                    text, self._edited, self.go_to_line, lambda: self._bar.save(), self._present
+                )
                 self._messages = FindingList(self.editor)
                 self._knobs = Knobs(self.editor)
             with splitter.after, ui.column().classes("right no-wrap gap-0"):
@@ -113,46 +113,6 @@ class Page:
     def _fit(self) -> None:
         """Have the 3-D view and the chart take the room that they have."""
         ui.run_javascript("window.dispatchEvent(new Event('resize'))")
-
-    def _build_bar(self) -> None:
-        ui.label("dqpaint").classes("brand")
-        if self._present:
-            ui.button(icon="chevron_left", color=None, on_click=lambda: self.turn(-1)).props(
-                'flat dense aria-label="the drawing before"'
-            )
-            self._title = ui.input(value=self._name).props("dense borderless readonly")
-            ui.button(icon="chevron_right", color=None, on_click=lambda: self.turn(1)).props(
-                'flat dense aria-label="the next drawing"'
-            )
-            ui.space()
-            self._lamp = ui.label("live").classes("lamp lamp-live")
-            ui.keyboard(self._key)
-            return
-        opened = ui.button(icon="folder_open", color=None).props("flat dense").tooltip("open")
-        with opened, ui.menu().props("max-height=70vh"):
-            for name in self._studio.folder.names():
-                ui.menu_item(name, lambda name=name: self._open(name))
-            ui.separator()
-            for name in example_names():
-                ui.menu_item(f"{name}, an example", lambda name=name: self._open_example(name))
-        self._title = ui.input(value=self._name, on_change=self._rename).props(
-            'dense borderless aria-label="name of the drawing"'
-        ).classes("title")  # fmt: skip
-        ui.button(icon="save", color=None, on_click=self.save).props("flat dense").tooltip(
-            "save (Ctrl-S)"
-        )
-        ui.button(icon="notes", color=None, on_click=lambda: self.editor.format()).props(
-            "flat dense"
-        ).tooltip("format (Shift-Alt-F)")
-        ui.button(icon="undo", color=None, on_click=self._undo).props("flat dense").tooltip("undo")
-        ui.space()
-        self._lamp = ui.label("live").classes("lamp lamp-live")
-        share = ui.button(icon="share", color=None).props("flat dense").tooltip("share")
-        with share, ui.menu():
-            ui.menu_item("copy a link", self._copy_link)
-            ui.menu_item("a file with text and choices", self._download_shared)
-            ui.menu_item("the run as one page in 3-D (HTML)", self._save_scene)
-        ui.keyboard(self._key)
 
     def _build_picture(self) -> None:
         with ui.element("div").classes("stage"):
@@ -189,7 +149,7 @@ class Page:
     def submit(self, run: bool = True) -> None:
         """Ask for the picture of the text as it is, and after a pause for its runs."""
         request = self._request("picture")
-        self._command.set_content(chosen.command(self._name, self.panel.choices))
+        self._command.set_content(chosen.command(self.name, self.panel.choices))
         self._studio.reader.submit(self.key, request, self._answer)
         if self._timer is not None:
             self._timer.cancel()
@@ -204,7 +164,7 @@ class Page:
             self._studio.runner.submit(self.key, self._asked, self._answer)
 
     def _request(self, want: Want) -> Request:
-        path = str(self._studio.folder.root / self._name)
+        path = str(self._studio.folder.root / self.name)
         return Request(self.editor.text, path, dict(self.panel.choices), WIDTH, HEIGHT, want)
 
     def _edited(self, _text: str) -> None:
@@ -240,7 +200,7 @@ class Page:
                     self._set_image(answer.image)
             case RunPage():
                 self._progress.visible = False
-                ui.download.content(answer.html, f"{Path(self._name).stem}-scene.html")
+                ui.download.content(answer.html, f"{Path(self.name).stem}-scene.html")
             case Verdict():
                 self._progress.visible = False
                 self._comparison.show_verdict(answer.says)
@@ -253,10 +213,7 @@ class Page:
         self._forecast = ()
         wrong = bool(reading.fault) or any(one.is_error for one in reading.findings)
         self._picture.classes(add="old" if wrong else "", remove="" if wrong else "old")
-        self._lamp.text = "an error: the last good picture" if wrong else "live"
-        self._lamp.classes(
-            add="lamp-error" if wrong else "lamp-live", remove="lamp-live lamp-error"
-        )
+        self._bar.show_live(wrong)
         if reading.fault:
             self._about.text = reading.fault
         self._show_findings(None if wrong else dict(reading.lines))
@@ -329,6 +286,19 @@ class Page:
 
     # Time.
 
+    def go_to_line(self, line: int) -> None:
+        """Go to the middle of what a line draws, and mark it in the picture."""
+        if self._shown is None:
+            return
+        rows = np.flatnonzero(self._shown.line == line)
+        if len(rows):
+            self.go_to_time(float(self._shown.time[rows[len(rows) // 2]]))
+            self._mark_stroke(rows)
+
+    def go_to_time(self, seconds: float) -> None:
+        """Show the moment of a time of the drawing [s]."""
+        self._time.go_to(seconds)
+
     @property
     def _moment(self) -> tuple[int, float] | None:
         """The line that is being drawn and the share of it that is; None is the end of all."""
@@ -391,58 +361,18 @@ class Page:
             self.go_to_time(float(self._shown.time[at]))
             self.editor.reveal(max(1, int(self._shown.line[at])))
 
-    # The text and its files.
+    def set_drawing(self, shared: sharing.Shared) -> None:
+        """Show another drawing; its choices replace those there are, where it has any."""
+        self.name = shared.name
+        if shared.choices:
+            self.panel.set_choices(shared.choices)
+        self.editor.replace(shared.text)
+        self._edited(shared.text)
 
-    def _rename(self, event: events.ValueChangeEventArguments[str | None]) -> None:
-        self._name = event.value or NEW
-
-    def _open(self, name: str) -> None:
-        try:
-            text = self._studio.folder.read(name)
-        except DqpaintError as problem:
-            ui.notify(str(problem), type="negative")
-            return
-        self._set_drawing(name, text)
-
-    def _open_example(self, name: str) -> None:
-        self._set_drawing(f"{name}.traj", read_example(name))
-
-    def _set_drawing(self, name: str, text: str) -> None:
-        self._name = name
-        self._title.value = name
-        self.editor.replace(text)
-        self._edited(text)
-
-    def turn(self, by: int) -> None:
-        """Go to another drawing of the folder."""
-        names = self._studio.folder.names()
-        if names:
-            at = names.index(self._name) if self._name in names else 0
-            self._open(names[(at + by) % len(names)])
-
-    def save(self) -> None:
-        """Write the text into its file."""
-        try:
-            self._studio.folder.save(self._name, self.editor.text)
-        except DqpaintError as problem:
-            ui.notify(str(problem), type="negative")
-            return
-        ui.notify(f"saved {self._name}", type="positive", timeout=1500)
-
-    def _undo(self) -> None:
-        self.editor.undo()
-
-    def _key(self, event: events.KeyEventArguments) -> None:
-        if not event.action.keydown:
-            return
-        if self._present and event.key in ("ArrowLeft", "ArrowRight", "PageUp", "PageDown"):
-            self.turn(1 if event.key in ("ArrowRight", "PageDown") else -1)
-        elif event.key == "s" and event.modifiers.ctrl and not self._present:
-            self.save()
-        elif event.key == "Escape":
-            self.editor.close_menu()
-        elif event.key == " ":
-            self._time.play()
+    @property
+    def choices(self) -> dict[str, Any]:
+        """The choices of the run."""
+        return dict(self.panel.choices)
 
     # Sharing and keeping.
 
@@ -460,23 +390,8 @@ class Page:
             self._requests[name] = self._asked
         self._comparison.set_runs({**self._kept, "now": run})
 
-    def _shared(self) -> sharing.Shared:
-        return sharing.Shared(self._name, self.editor.text, dict(self.panel.choices))
-
-    def _copy_link(self) -> None:
-        try:
-            link = sharing.to_link(self._shared())
-        except DqpaintError as problem:
-            ui.notify(str(problem), type="warning")
-            return
-        ui.run_javascript(f"navigator.clipboard.writeText(location.origin + '/?z={link}')")
-        ui.notify("The link is copied. It opens in a studio that runs on this port.")
-
-    def _download_shared(self) -> None:
-        text = sharing.to_json(self._shared())
-        ui.download.content(text, f"{Path(self._name).stem}.dqstudio.json")
-
-    def _save_scene(self) -> None:
+    def ask_page(self) -> None:
+        """Make the run a page of its own."""
         self._studio.runner.submit(self.key, self._request("page"), self._answer)
         ui.notify("The page is being made.")
 

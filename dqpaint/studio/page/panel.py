@@ -1,5 +1,6 @@
 """The choices of a run as controls: law, gains, plant, arm, disturbances, view, exposure, brush."""
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -30,8 +31,19 @@ class Panel:
     ) -> None:
         self.choices: dict[str, Any] = dict(choices)
         self._changed = changed
-        with ui.column().classes("w-full gap-0"):
-            for panel, group in controls(laws).items():
+        self._laws = laws
+        self._column = ui.column().classes("w-full gap-0")
+        self._fill()
+
+    def set_choices(self, choices: Mapping[str, Any]) -> None:
+        """Make other choices."""
+        self.choices = dict(choices)
+        self._fill()
+
+    def _fill(self) -> None:
+        self._column.clear()
+        with self._column:
+            for panel, group in controls(self._laws).items():
                 with ui.expansion(panel, value=panel in FIRST_PANELS).classes("w-full panel"):
                     for control in group:
                         self._add(control)
@@ -86,8 +98,6 @@ class Panel:
 
     def _add_gain(self, gain: Gain) -> None:
         """A slider over the logarithm of a gain."""
-        import math
-
         value = float(self.choices.get("gains", {}).get(gain.name, gain.default))
         with ui.row().classes("w-full no-wrap items-center gap-2"):
             ui.label(gain.name).classes("gain-name").tooltip(gain.about)

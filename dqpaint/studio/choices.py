@@ -24,7 +24,7 @@ LEFT_OUT = {
 TIMEOUT = 60.0  # [s] of a run of the page
 VIEWS = ("front", "iso", "side", "top")
 DISTURBANCE_EXAMPLES = (
-    "noise", "latency:seconds=0.02", "twist:v=0,0.02,0", "payload:mass=2", "push:force=0,40,0",
+    "twist=sine,x=0.02,frequency=2", "noise=0.0002", "latency=3", "payload=2", "push=y=40",
 )  # fmt: skip
 Kind = Literal["switch", "choice", "number", "text", "names"]
 

@@ -25,7 +25,7 @@ def classes(text, word):
 @pytest.mark.parametrize(
     ("word", "name"),
     [("# a star", "t-comment"), ("speed", "t-statement"), ("60", "t-number"), ("mm/s", "t-unit"),
-     ("let", "t-statement"), ("r = 80", "t-own"), ("line", "t-statement"), ("to ", "t-word"),
+     ("let", "t-statement"), ("r = 80", "t-own"), ("line", "t-statement"), ("to ", "t-part"),
      ("polar", "t-function"), ("light", "t-part"), ("hsv", "t-function"), ('"a b"', "t-text")],
 )  # fmt: skip
 def test_words_have_their_kind(word, name):

@@ -6,7 +6,15 @@ import pytest
 
 from dqpaint.core import find_drawing
 from dqpaint.studio.work.messages import (
-    Failure, Forecast, Frame, Reading, Request, Run, RunPage, Shown, Verdict,
+    Failure,
+    Forecast,
+    Frame,
+    Reading,
+    Request,
+    Run,
+    RunPage,
+    Shown,
+    Verdict,
 )  # fmt: skip
 from dqpaint.studio.work.pool import Worker
 

@@ -163,7 +163,7 @@ def table(runs: Mapping[str, Run], title: str) -> str:
               if curve.title == title]  # fmt: skip
     names: Sequence[str] = chosen[0][2].names if chosen else ()
     unit = chosen[0][2].unit if chosen else ""
-    writer.writerow(["run", "t_s", *(f"{title}, {name} [{unit}]" for name in names)])
+    writer.writerow(["run", "t_s", *(f"{title}: {name} [{unit}]" for name in names)])
     for name, run, curve in chosen:
         for seconds, values in zip(run.time.tolist(), curve.values.tolist(), strict=True):
             writer.writerow([name, f"{seconds:.6g}", *(f"{one:.9g}" for one in values)])

@@ -32,6 +32,8 @@ view.focus();
 view.contentDOM.dispatchEvent(new KeyboardEvent("keydown",
   {{key: "z", code: "KeyZ", keyCode: 90, ctrlKey: true, bubbles: true, cancelable: true}}));
 """
+# The editor keeps this key to itself, so it cannot be in the table of keys.
+ON_COMPLETION = "(event) => { if (event.ctrlKey && event.code === 'Space') emit({}); }"
 UNDER_MOUSE = """(event) => {{
   const view = getElement({id}).editor;
   const at = view && view.posAtCoords({{x: event.clientX, y: event.clientY}});
@@ -73,7 +75,6 @@ class Editor:
             indent="  ",
             on_viewport_change=self._scrolled,
             keymap={
-                "Ctrl-Space": lambda _event: self.complete(),
                 "Shift-Alt-f": lambda _event: self.format(),
                 "Mod-s": lambda _event: saved(),
             },
@@ -83,6 +84,7 @@ class Editor:
         under_mouse = UNDER_MOUSE.format(id=self.view.id)
         self.view.on("mousemove", self._moved, throttle=HOVER_PAUSE, js_handler=under_mouse)
         self.view.on("click", self._clicked, js_handler=under_mouse)
+        self.view.on("keydown", self.complete, js_handler=ON_COMPLETION)
         with ui.card().classes("hover-card") as self._card:
             self._hover = ui.markdown("")
         with ui.card().classes("completion-card") as self._menu:

@@ -154,6 +154,7 @@ class Page:
         if self._timer is not None:
             self._timer.cancel()
         self._studio.runner.forget(self.key)
+        self._progress.visible = False
         if run:
             loop = asyncio.get_running_loop()
             self._timer = loop.call_later(RUN_PAUSE, self._submit_run)
@@ -258,6 +259,7 @@ class Page:
         self._about.text = f"{run.title}, computed in {run.seconds:.2f} s"
         self._view.show_arm(run.robot, self._studio.shape_urls(run.robot))
         self._view.set_motion(run.links)
+        self._fit()
         self._show_paths()
         self._charts.show({**self._kept, run.title: run})
         self._comparison.set_runs({**self._kept, "now": run})

@@ -23,7 +23,8 @@ def test_names_are_of_the_registries():
     assert {"iiwa", "panda"} <= set(found["robot"].names)
     assert "aces" in found["look"].names
     assert found["on_limit"].names == ("clip", "slow", "stop")
-    assert found["overlay"].kind == "switch" and found["ev"].kind == "number"
+    assert found["overlay"].kind == "switch"
+    assert found["ev"].kind == "number"
 
 
 def test_gains_are_numbers_with_a_meaning():
@@ -53,18 +54,18 @@ def test_the_command_means_the_same(choices, monkeypatch):
 
     seen = []
 
-    class Seen(Exception):
+    class SeenError(Exception):
         pass
 
     def draw(_path, **given):
         seen.append(given)
-        raise Seen
+        raise SeenError
 
     monkeypatch.setattr(api, "draw", draw)
     words = shlex.split(command("star", choices))
     monkeypatch.setattr("sys.argv", words)
     monkeypatch.setenv("DQPAINT_DEBUG", "1")
-    with pytest.raises(Seen):
+    with pytest.raises(SeenError):
         main.run()
     chosen = {name for name in seen[0]} - {"settings", "progress", "formats", "before"}
 

@@ -1,5 +1,7 @@
 """The marks over a text: where they begin and end, and the numbers in it."""
 
+from itertools import pairwise
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -38,7 +40,7 @@ def test_marks_lie_in_the_text_one_after_the_other(name):
     found = list(colours.marks(text, 1, text.count("\n") + 1))
 
     assert found
-    assert all(a["to"] <= b["from"] for a, b in zip(found, found[1:]))
+    assert all(a["to"] <= b["from"] for a, b in pairwise(found))
     assert all(0 <= m["from"] < m["to"] <= len(text) and "\n" not in text[m["from"]:m["to"]]
                for m in found)  # fmt: skip
 
@@ -80,7 +82,7 @@ def test_underlines_have_something_to_underline():
         return Finding("E1", True, 1, start, end, "wrong", "", None, here)
 
     text = "line to"
-    spans = [(one["from"], one["to"]) for one in colours.underlines(
-        [finding(0, 4), finding(7, 7), finding(0, 900), finding(3, 5, here=False)], text)]  # fmt: skip
+    given = [finding(0, 4), finding(7, 7), finding(0, 900), finding(3, 5, here=False)]
+    spans = [(one["from"], one["to"]) for one in colours.underlines(given, text)]
 
     assert spans == [(0, 4), (6, 7), (0, 7)]

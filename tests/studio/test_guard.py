@@ -77,7 +77,8 @@ def test_pages_are_marked():
     names = dict(sent[0]["headers"])
 
     assert names[b"x-frame-options"] == b"DENY"
-    assert b"HttpOnly" in names[b"set-cookie"] and b"SameSite=Strict" in names[b"set-cookie"]
+    assert b"HttpOnly" in names[b"set-cookie"]
+    assert b"SameSite=Strict" in names[b"set-cookie"]
 
 
 def test_tokens_differ():

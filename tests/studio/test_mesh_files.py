@@ -15,7 +15,8 @@ def test_stl():
     data = stl(CORNERS, TRIANGLES)
     (count,) = struct.unpack("<I", data[80:84])
 
-    assert count == 4 and len(data) == 84 + 50 * 4
+    assert count == 4
+    assert len(data) == 84 + 50 * 4
     for i, triangle in enumerate(TRIANGLES):
         numbers = np.array(struct.unpack("<12f", data[84 + 50 * i : 132 + 50 * i])).reshape(4, 3)
         a, b, c = CORNERS[triangle]
@@ -35,5 +36,6 @@ def test_glb(rng):
     assert (magic, version, size, kind) == (b"glTF", 2, len(data), b"JSON")
     assert document["buffers"][0]["byteLength"] == len(binary)
     found = np.frombuffer(binary, "<f4").reshape(2, 50, 3)
-    assert np.allclose(found[0], points, atol=1e-6) and np.allclose(found[1], colours, atol=1e-6)
+    assert np.allclose(found[0], points, atol=1e-6)
+    assert np.allclose(found[1], colours, atol=1e-6)
     assert np.allclose(document["accessors"][0]["min"], points.min(axis=0), atol=1e-6)

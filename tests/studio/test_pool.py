@@ -68,7 +68,8 @@ def test_an_error_is_told_with_its_place_and_fix(tmp_path):
 
     (found, *_) = reading.findings
     assert (found.code, found.line, text[found.start : found.end]) == ("E120", 2, "linee")
-    assert found.fix is not None and found.fix[3] == "line"
+    assert found.fix is not None
+    assert found.fix[3] == "line"
 
 
 def test_a_run_has_a_forecast_both_tiers_and_its_frames(tmp_path):
@@ -86,9 +87,11 @@ def test_a_run_has_a_forecast_both_tiers_and_its_frames(tmp_path):
     assert isinstance(found[0], Forecast)
     assert [one.tier for one in runs] == ["ideal", "physics"]
     last = runs[-1]
-    assert last.links.shape[0] == len(last.frame_time) and last.links.shape[2] == 7
+    assert last.links.shape[0] == len(last.frame_time)
+    assert last.links.shape[2] == 7
     assert {one.title for one in last.curves} >= {"position error", "joint angles"}
-    assert last.image[:4] == b"\x89PNG" and frames_of(found)
+    assert last.image[:4] == b"\x89PNG"
+    assert frames_of(found)
 
 
 def test_a_law_that_hangs_is_ended_by_the_next_request(tmp_path):
@@ -128,4 +131,5 @@ def test_a_page_and_a_verdict(tmp_path):
     both = request(tmp_path, SHORT, {"controller": "p"}, want="verdict",
                    other=(SHORT, {"controller": "hinf"}))  # fmt: skip
     (found,) = ask(tmp_path, "run", both, until=(Verdict, Failure))
-    assert "mm" in found[-1].says and "5 pairs" in found[-1].says
+    assert "mm" in found[-1].says
+    assert "5 pairs" in found[-1].says

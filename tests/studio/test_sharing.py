@@ -28,7 +28,8 @@ def test_a_text_comes_back(text):
     "choices",
     [{"controller": "mine.py"}, {"controller": "/tmp/x.py:Law"}, {"robot": "../arm.urdf"},
      {"recorded": "run.csv"}, {"plant": "x.py:P"}, {"brush": "pixelstick:image=/etc/passwd"},
-     {"max_memory": 900.0}, {"timeout": 1e6}, {"nothing": 1}, {"disturb": {"push": {"file": "a.csv"}}},
+     {"max_memory": 900.0}, {"timeout": 1e6}, {"nothing": 1},
+     {"disturb": {"push": {"file": "a.csv"}}},
      {"ev": 1e9}, {"controller": "unheard\n--law=x.py"}],
 )  # fmt: skip
 def test_files_code_and_limits_are_refused(choices):

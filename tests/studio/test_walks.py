@@ -64,7 +64,8 @@ def test_an_error_is_underlined_and_mended_by_its_fix(page):
     page.wait_for_selector(".f-error")
     page.wait_for_selector(".picture.old")
 
-    assert image(page) != "" and page.locator(".lamp").inner_text() != "live"
+    assert image(page) != ""
+    assert page.locator(".lamp").inner_text() != "live"
     page.locator(".fix").first.click()
     page.wait_for_selector(".picture:not(.old)")
     page.wait_for_function("old => document.querySelector('.picture img').src !== old", arg=good)
@@ -150,7 +151,8 @@ def test_figures_curves_and_their_csv(page):
         page.get_by_text("CSV").click()
     lines = download.value.path().read_text().splitlines()
 
-    assert lines[0].startswith("run,t_s,position error") and len(lines) > 50
+    assert lines[0].startswith("run,t_s,position error")
+    assert len(lines) > 50
 
 
 def test_the_command_line_follows_the_choices(page):
@@ -211,7 +213,8 @@ def test_a_shared_drawing_opens_and_holds_text_and_choices(page, chromium, addre
 
     link = sharing.to_link(sharing.Shared("c.traj", found["text"], {"controller": "p"}))
     other, errors = open_page(chromium, f"{address.partition('&')[0]}&z={link}")
-    assert text_of(other).endswith("# passed on") and not errors
+    assert text_of(other).endswith("# passed on")
+    assert not errors
     tab(other, "Choices")
     other.wait_for_function("() => /--controller p/.test(document.body.innerText)")
     other.close()

@@ -14,12 +14,13 @@ MARGIN = 60  # lines above and below the visible ones that are coloured
 FIRST_LINES = 120
 HOVER_PAUSE = 0.15  # [s]
 DRAG_PAUSE = 0.03  # [s]
+LONGEST_ANSWER = 5.0  # [s] of the page
 MOST_WORDS = 60  # of a completion
 # The offset in the text of the cursor or the mouse, and its place on the page.
 CURSOR = """
 const view = getElement({id}).editor, head = view.state.selection.main.head;
 const at = view.coordsAtPos(head) || {{left: 0, bottom: 0}};
-return [head, at.left, at.bottom];
+return [head, at.left, at.bottom, view.state.doc.toString()];
 """
 SELECT = """
 const view = getElement({id}).editor;
@@ -150,8 +151,8 @@ class Editor:
 
     async def complete(self) -> None:
         """Offer what may follow at the cursor."""
-        at, left, bottom = await ui.run_javascript(CURSOR.format(id=self.view.id))
-        text = self.text
+        script = CURSOR.format(id=self.view.id)
+        at, left, bottom, text = await ui.run_javascript(script, timeout=LONGEST_ANSWER)
         start = at
         while start > 0 and (text[start - 1].isalnum() or text[start - 1] == "_"):
             start -= 1
@@ -162,9 +163,9 @@ class Editor:
         self._words.clear()
         with self._words:
             for one in found[:MOST_WORDS]:
-                with ui.item(on_click=lambda one=one: self._insert(start, at, one.word)).props(
-                    "tabindex=0 role=option"
-                ):
+                with ui.item(
+                    on_click=lambda one=one: self._insert(text, start, at, one.word)
+                ).props("tabindex=0 role=option"):
                     ui.label(one.word).classes("word")
                     ui.label(one.meaning).classes("meaning")
         if not found:
@@ -180,9 +181,8 @@ class Editor:
         """Close the completion."""
         self._menu.visible = False
 
-    def _insert(self, start: int, end: int, word: str) -> None:
+    def _insert(self, text: str, start: int, end: int, word: str) -> None:
         self.close_menu()
-        text = self.text
         self.replace(text[:start] + word + text[end:])
         ui.run_javascript(SELECT.format(id=self.view.id, anchor=start + len(word)))
 

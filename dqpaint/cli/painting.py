@@ -377,7 +377,7 @@ STUDIO_EXAMPLES = """Examples:
 """
 
 
-@app.command(epilog=STUDIO_EXAMPLES)
+@app.command(rich_help_panel="Draw", epilog=STUDIO_EXAMPLES)
 def studio(
     file: Annotated[
         str | None,

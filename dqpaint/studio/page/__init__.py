@@ -1,1 +1,1 @@
-"""Elements of one open page: text, picture, arm, curves, choices, comparison and time."""
+"""A drawing and what the workers answer -> what is seen of one open page."""

@@ -5,7 +5,7 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from dqpaint.diagnostics import Span
-from dqpaint.editors.vocabulary import vocabulary
+from dqpaint.editors import vocabulary
 from dqpaint.language.syntax import TOKEN
 from dqpaint.language.vocabulary import UNITS
 from dqpaint.studio.work.messages import Finding
@@ -26,7 +26,7 @@ class Number(NamedTuple):
 def _kinds() -> Mapping[str, str]:
     """The kind of each word; that of a statement last, as it is one at a line's begin alone."""
     found: dict[str, str] = {}
-    for entry in vocabulary():
+    for entry in vocabulary.vocabulary():
         found.setdefault(entry.word, "part" if entry.kind == "renamed" else entry.kind)
     return found
 

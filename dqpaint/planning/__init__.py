@@ -7,6 +7,6 @@ fixes that were tried before they are printed.
 """
 
 __all__ = [
-    "check", "corner_limits", "forecast_report", "motion_advice", "placement", "prepared_motion", "reachability",
-    "retiming",
+    "check", "corner_limits", "forecast_report", "motion_advice", "placement", "prepared_motion",
+    "reachability", "retiming",
 ]

@@ -3,7 +3,7 @@
 from itertools import pairwise
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dqpaint.core import example_names, find_drawing
@@ -45,6 +45,7 @@ def test_marks_lie_in_the_text_one_after_the_other(name):
                for m in found)  # fmt: skip
 
 
+@settings(deadline=None)
 @given(st.text(max_size=200))
 def test_any_text_can_be_marked(text):
     for one in colours.marks(text, 1, text.count("\n") + 1):

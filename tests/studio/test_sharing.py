@@ -6,7 +6,7 @@ import random
 import zlib
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dqpaint.errors import UsageError
@@ -15,6 +15,7 @@ from dqpaint.studio import sharing
 CHOICES = {"controller": "p", "gains": {"k": 3.0}, "plant": "compliant", "ev": 1.5, "seed": 4}
 
 
+@settings(deadline=None)
 @given(st.text(max_size=300).filter(lambda text: max(text, default="a") < "\ud800" or True))
 def test_a_text_comes_back(text):
     text = text.encode("utf-8", "ignore").decode()

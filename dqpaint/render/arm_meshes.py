@@ -1,27 +1,22 @@
 """The name of an arm -> its shapes as triangles, and where each is in a posture."""
 
-from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import lru_cache
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dqpaint import dq
 from dqpaint.dq import Floats
 from dqpaint.render.arm_shapes import Arm
-from dqpaint.robots.kinematics import read_mesh
 from dqpaint.robots.loading import find_card
 from dqpaint.robots.urdf import urdf_file
 
 
 class Mesh(NamedTuple):
-    """One shape: corners (V, 3) [m] in its own frame, triangles (T, 3), and colour, 0 to 1."""
+    """One shape: the corners (T, 3, 3) of its triangles [m], in its own frame; colour, 0 to 1."""
 
     corners: Floats
-    triangles: NDArray[np.int64]
     colour: tuple[float, float, float]
 
 
@@ -34,13 +29,13 @@ class ArmView:
     """
 
     meshes: tuple[Mesh, ...]
-    _frames: Floats  # (L, 8) of each in the frame of its link
-    _links: tuple[int, ...]
     _arm: Arm
 
     def places(self, postures: Floats) -> Floats:
         """The poses (M, L, 8) of the shapes at postures (M, n) [rad], base frame."""
-        return dq.mul(self._arm.frames(postures)[:, list(self._links)], self._frames)
+        links = [shape.link + 1 for shape in self._arm.shapes]
+        frames = np.array([shape.frame for shape in self._arm.shapes]).reshape(-1, 8)
+        return dq.mul(self._arm.frames(postures)[:, links], frames)
 
 
 @lru_cache(maxsize=2)
@@ -50,13 +45,6 @@ def arm_view(robot: str) -> ArmView:
     Raises:
         DqpaintError: the arm's description is not there, or cannot be read.
     """
-    stack = ExitStack()
-    path = stack.enter_context(urdf_file(find_card(robot)))
-    arm = stack.enter_context(Arm(path))
-    found = []
-    for shape in arm.shapes:
-        if Path(shape.mesh).is_file():
-            mesh = Mesh(*read_mesh(shape.mesh, shape.size), shape.colour)
-            found.append((mesh, shape.frame, shape.link + 1))
-    meshes, frames, links = zip(*found, strict=True) if found else ((), (), ())
-    return ArmView(tuple(meshes), np.array(frames).reshape(-1, 8), tuple(links), arm)
+    with urdf_file(find_card(robot)) as path:
+        arm = Arm(path)
+    return ArmView(tuple(Mesh(one.surface.corners, one.colour) for one in arm.shapes), arm)

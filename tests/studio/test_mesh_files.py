@@ -12,7 +12,7 @@ TRIANGLES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
 
 
 def test_stl():
-    data = stl(CORNERS, TRIANGLES)
+    data = stl(CORNERS[TRIANGLES])
     (count,) = struct.unpack("<I", data[80:84])
 
     assert count == 4

@@ -81,8 +81,8 @@ class _Arm:
             self._handles.append(
                 server.scene.add_mesh_simple(
                     f"/arm/{i}",
-                    mesh.corners.astype(np.float32),
-                    mesh.triangles.astype(np.uint32),
+                    mesh.corners.reshape(-1, 3).astype(np.float32),
+                    np.arange(3 * len(mesh.corners), dtype=np.uint32).reshape(-1, 3),
                     color=tuple(round(255 * one) for one in mesh.colour),
                 )
             )

@@ -395,7 +395,7 @@ def _arm(painting: paint.Painting, frames: NDArray[np.int64]) -> tuple[ArmShapes
     if name in _sent:
         return None, found
     _sent.add(name)
-    return ArmShapes(name, tuple((stl(*one[:2]), one.colour) for one in shown.meshes)), found
+    return ArmShapes(name, tuple((stl(one.corners), one.colour) for one in shown.meshes)), found
 
 
 def _make_page(job: _Job, request: Request) -> None:

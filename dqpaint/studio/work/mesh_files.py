@@ -4,21 +4,20 @@ import json
 import struct
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dqpaint.dq import Floats
 
 STL_HEADER = b"binary STL".ljust(80)
 
 
-def stl(corners: Floats, triangles: NDArray[np.int64]) -> bytes:
-    """A mesh of corners (V, 3) and triangles (T, 3) as binary STL."""
-    places = corners[triangles]
+def stl(corners: Floats) -> bytes:
+    """Triangles (T, 3, 3) as binary STL."""
+    places = corners
     across = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
     normals = across / np.maximum(np.linalg.norm(across, axis=1, keepdims=True), 1e-30)
-    rows = np.zeros(len(triangles), np.dtype([("numbers", "<f4", 12), ("attribute", "<u2")]))
+    rows = np.zeros(len(corners), np.dtype([("numbers", "<f4", 12), ("attribute", "<u2")]))
     rows["numbers"] = np.concatenate([normals[:, None], places], axis=1).reshape(-1, 12)
-    return STL_HEADER + np.uint32(len(triangles)).tobytes() + rows.tobytes()
+    return STL_HEADER + np.uint32(len(corners)).tobytes() + rows.tobytes()
 
 
 def line_glb(points: Floats, colours: Floats) -> bytes:

@@ -5,7 +5,7 @@ import stat
 
 import pytest
 
-from dqpaint.core.atomic_files import rewrite, write_new
+from dqpaint.core.atomic_files import NotRegularError, open_regular, rewrite, write_new
 from dqpaint.errors import OutputError
 
 
@@ -68,3 +68,17 @@ def test_a_read_only_file_is_left_as_it_is(tmp_path):
     rewrite(path, b"new")
     assert path.read_bytes() == b"new"
     assert stat.S_IMODE(path.stat().st_mode) == 0o640
+
+
+@pytest.mark.skipif(not os.path.isdir("/proc/self/fd"), reason="open files are counted there")
+def test_another_file_that_comes_in_between_is_refused_and_closed(tmp_path, monkeypatch):
+    path = tmp_path / "a"
+    path.write_bytes(b"1")
+    regular = os.lstat(path)
+    path.unlink()
+    os.mkfifo(path)
+    monkeypatch.setattr(os, "lstat", lambda _: regular)
+    before = len(os.listdir("/proc/self/fd"))
+    with pytest.raises(NotRegularError):
+        open_regular(path, os.O_RDWR)
+    assert len(os.listdir("/proc/self/fd")) == before

@@ -1,5 +1,9 @@
 """What a painting would take is forecast before it is taken."""
 
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -105,3 +109,43 @@ def test_a_limit_of_memory_is_a_size(wrong):
     with pytest.raises(UsageError, match="max_memory"):
         make_settings(max_memory=wrong)
     assert make_settings(max_memory=1000).max_memory == 1000
+
+
+MEASURED = """
+import resource, sys
+import dqpaint
+from dqpaint.painting import memory
+
+forecasts, real = [], memory._check
+
+def kept(parts, settings):
+    forecasts.append(memory.BASE + sum(parts.values()))
+    real(parts, settings)
+
+memory._check = kept
+dqpaint.{make}("a.traj", **{choices})
+print(max(forecasts), 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere the peak has other units")
+@pytest.mark.parametrize(("make", "choices", "seconds"), [
+    ("draw", {"size": (64, 36)}, 0.5), ("draw", {"size": (2560, 1440)}, 0.5),
+    ("draw", {"size": (1280, 720), "ghost": True, "overlay": True}, 0.5),
+    ("draw", {"size": (64, 36), "brush": "bar:leds=100", "pwm": 2e3}, 0.5),
+    ("preview", {"size": (64, 36)}, 10_000.0),
+    ("preview", {"size": (640, 360), "brush": "ball:size=30mm"}, 0.5),
+])  # fmt: skip
+def test_a_forecast_is_above_what_was_taken_and_not_far(tmp_path, make, choices, seconds):
+    text = TEXT.replace("0.5 s", f"{seconds:g} s")
+    (tmp_path / "a.traj").write_text(text)
+    choices = choices | ({"plant": "ideal"} if make == "draw" else {})
+    done = subprocess.run(
+        [sys.executable, "-c", MEASURED.format(make=make, choices=choices)], cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    told, peak = map(float, done.stdout.split()[-2:])
+    print(f"{make} {choices}: forecast {told / 1e9:.2f} GB, taken {peak / 1e9:.2f} GB")
+    assert peak < told < 4 * peak

@@ -1,5 +1,7 @@
 """Chosen pairs, families and what is left out, against tests made by hand from the same numbers."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy import stats
@@ -149,3 +151,12 @@ def test_the_tidy_table_has_a_row_a_run(cells):
     assert table["robot"] == ["iiwa"] * 24
     assert table[NAME][0] == cells[0].results[0].figures[NAME]
     assert {len(column) for column in table.values()} == {24}
+
+
+def test_a_column_of_families_is_there_if_there_are_families(cells):
+    figure = find_figure(NAME, cells)
+    heads = comparisons.difference_rows(comparisons.differences(cells, figure), "mm")[0]
+    alone = [replace(line, family="") for line in comparisons.differences(cells, figure)]
+    rows = comparisons.difference_rows(alone, "mm")
+    assert heads[0] == "within"
+    assert [row[:2] for row in rows[:2]] == [["A", "B"], list(alone[0].names)]

@@ -304,6 +304,7 @@ def urdf_by_libraries(_data: bytes, path: Path) -> None:
     import pinocchio
 
     from dqpaint.plants.engines.pybullet_client import Client, bullet, quiet
+    from dqpaint.robots.kinematics.kinematics import Kinematics
     from dqpaint.robots.urdf.prepare import prepare, urdf_file
 
     tree = Tree(path)
@@ -315,7 +316,7 @@ def urdf_by_libraries(_data: bytes, path: Path) -> None:
          "canvas": load_file.PLACEHOLDER_CANVAS}, path,
     )  # fmt: skip
     text = prepare(card).text
-    model = pinocchio.buildModelFromXML(text)
+    model = Kinematics(card).model
     for kind in (pinocchio.GeometryType.COLLISION, pinocchio.GeometryType.VISUAL):
         with suppress(ValueError):
             pinocchio.buildGeomFromUrdfString(model, text, kind)

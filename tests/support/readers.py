@@ -152,7 +152,7 @@ def _table(_data: bytes, path: Path) -> None:
 
 
 def _settings(_data: bytes, path: Path) -> None:
-    settings_file.read_given(str(path), lambda _: None, runs=False)
+    settings_file.read_given(str(path), lambda _: None, "leave")
 
 
 def _messages(data: bytes, _path: Path) -> None:

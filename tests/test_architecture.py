@@ -37,8 +37,6 @@ BREAKS = {
     "the door to matplotlib": ("studies/kinds/sweep.py", "matplotlib"),
     "the door to jinja2": ("studies/report/page.py", "jinja2"),
     "the door to the studio's page": ("studio/folder.py", "nicegui"),
-    "the door to mcap": ("motion/plan.py", "mcap"),
-    "the door to pillow": ("motion/plan.py", "PIL"),
     "the doors of editors and clusters": ("cli/language.py", "pygls"),
 }
 """Contract -> a file and an import in it that breaks that contract."""

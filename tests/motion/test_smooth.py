@@ -8,7 +8,7 @@ import pytest
 from dqpaint import dq
 from dqpaint.diagnostics.collector import DiagnosticCollector
 from dqpaint.language import ScriptError, parse
-from dqpaint.motion import plan
+from dqpaint.motion import plan, survey
 from dqpaint.motion.geometry.s_curves import reached, s_curves
 from dqpaint.motion.look_ahead import Stretches
 from dqpaint.motion.schedule import schedule_strokes
@@ -177,3 +177,12 @@ def test_it_mixes_with_other_profiles():
     both = plan(parse(other), dq.IDENTITY)
     moved = together.points[rows[0] : sum(rows) + 1] - together.points[rows[0]]
     np.testing.assert_allclose(moved, both.points - both.points[0], atol=1e-12)
+
+
+def test_a_survey_of_smooth_strokes_is_that_of_their_plan(rng):
+    for _ in range(10):
+        program = parse(drawing(rng)[0])
+        found, motion = survey(program), plan(program, dq.IDENTITY)
+        assert (found.samples, found.seconds) == (len(motion.t), motion.t[-1])
+        assert (found.length, found.unevenness) == (motion.length, motion.unevenness)
+        assert found.notes == motion.notes

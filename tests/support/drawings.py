@@ -13,7 +13,7 @@ LIGHTS = ["", "", "light red", "light red to blue", "light white even", "light o
           "light red to blue even", "light lime even brush bar 30 mm"]  # fmt: skip
 TIMES = ["", "", "in 0.5 s", "in 0.333 s", "samples 17", "speed 90 mm/s",
          "speed 30 mm/s turnspeed 40 deg/s"]  # fmt: skip
-PROFILES = ["", "", "profile constant", "profile cubic", "profile quintic", "profile smooth",
+PROFILES = ["", "", "profile constant", "profile cubic", "profile quintic",
             "profile cubic(10 mm/s, -5 mm/s)",
             "profile quintic(5 mm/s, 10 mm/s, 3 mm/s^2, -2 mm/s^2)"]  # fmt: skip
 STROKES = ["", "in 2 s", "samples 40", "profile constant", "profile cubic(10 mm/s, 10 mm/s) in 3 s"]

@@ -120,11 +120,13 @@ def test_another_package_brings_a_format(painting, own, tmp_path, monkeypatch):
 
 def test_formats_for_arms_are_those_of_export():
     assert {one.export_name: one.name for one in WRITERS.values() if one.export_name} == {
-        "csv": "trajectory", "ros2": "ros2", "urscript": "urscript"
+        "csv": "trajectory", "krl": "krl", "rapid": "rapid", "ros2": "ros2", "urscript": "urscript"
     }  # fmt: skip
     assert registry.choose_export_writer("csv") is WRITERS["trajectory"]
     for unknown in ("gcode", "png", "trajectory"):
-        with pytest.raises(UnknownNameError, match=f"named '{unknown}'; known: csv, ros2, urscr"):
+        with pytest.raises(
+            UnknownNameError, match=f"named '{unknown}'; known: csv, krl, rapid, ros2"
+        ):
             registry.choose_export_writer(unknown)
 
 

@@ -7,7 +7,7 @@ from dqpaint.outputs.robot.trajectory import comment_lines
 from dqpaint.outputs.tables import encode_csv
 
 DIGITS = 6  # of a colour: what changes less is one cue
-HEADERS = ("t_s", "red", "green", "blue", "strobe_Hz", "strobe_duty", "line")
+HEADERS = ("t_s", "s_m", "red", "green", "blue", "strobe_Hz", "strobe_duty", "line")
 
 
 def cue_sheet(motion: Motion, about: tuple[str, ...]) -> str:
@@ -32,10 +32,12 @@ def cue_sheet(motion: Motion, about: tuple[str, ...]) -> str:
         *([file] if file.any() else []),
     ])  # fmt: skip
     changes = np.append(True, (np.diff(rows, axis=0) != 0).any(axis=1))
-    values = np.column_stack([motion.t, rows])[changes]
+    way = np.linalg.norm(np.diff(motion.points, axis=0), axis=1)
+    walked = np.append(0.0, np.cumsum(way))
+    values = np.column_stack([motion.t, walked, rows])[changes]
     head = comment_lines((
         *about,
         "Light cues: each holds until the next; linear colours from 0 to 1; t = 0 is the first "
-        "point of the trajectory.",
+        "point of the trajectory; s_m is the length of the reference's path until there.",
     ))  # fmt: skip
     return head + encode_csv(dict(zip(heads, values.T, strict=True))).decode()

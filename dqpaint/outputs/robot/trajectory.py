@@ -4,7 +4,7 @@ import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -45,7 +45,7 @@ class Trajectory:
     about: tuple[str, ...]
 
 
-Format = Callable[[Trajectory], str]
+T = TypeVar("T")
 
 CAUTION = (
     "Simulated, and found within the arm's limits of position, speed and torque.",
@@ -55,8 +55,12 @@ CAUTION = (
 
 
 def for_arm(
-    name: str, ending: str, *needs: Need, export_name: str | None = None
-) -> Callable[[Format], Format]:
+    name: str,
+    ending: str,
+    *needs: Need,
+    export_name: str | None = None,
+    made_of: "Callable[[paint.Painting], T] | None" = None,
+) -> Callable[[Callable[[T], str]], Callable[[T], str]]:
     """A decorator that registers the function below it as a writer of `draw` and of `export`.
 
     Its file is written beside the cue sheet of the light, for a simulated run within the limits of
@@ -67,15 +71,17 @@ def for_arm(
         ending: of its file, after the stem.
         needs: what it needs besides.
         export_name: as `export --format` takes it, if that is not `name`.
+        made_of: what the function is given, from the painting: else its `Trajectory`.
     """
+    prepared: Callable[[Any], Any] = made_of or trajectory_of
 
-    def record(function: Format) -> Format:
+    def record(function: Callable[[T], str]) -> Callable[[T], str]:
         def written(painting: "paint.Painting") -> dict[str, bytes]:
             from dqpaint.outputs.robot.light_cues import cue_sheet
 
-            trajectory = trajectory_of(painting)
-            cues = cue_sheet(painting.motion, trajectory.about[:1])
-            return {ending: function(trajectory).encode(), "-cues.csv": cues.encode()}
+            made = prepared(painting)
+            cues = cue_sheet(painting.motion, trajectory_of(painting).about[:1])
+            return {ending: function(made).encode(), "-cues.csv": cues.encode()}
 
         written.__doc__ = function.__doc__
         every = (SIMULATED, *needs, WITHIN_LIMITS)
@@ -137,6 +143,6 @@ def kinematics_of(run: "paint.PreparedRun | paint.Painting") -> "Kinematics":
     return Kinematics(card_for(run.motion.program, settings.robot, settings.tool))
 
 
-def comment_lines(about: tuple[str, ...]) -> str:
-    """Comment lines that all formats accept."""
-    return "".join(f"# {line}\n" for line in about)
+def comment_lines(about: tuple[str, ...], mark: str = "#") -> str:
+    """Comment lines; most formats accept those of #."""
+    return "".join(f"{mark} {line}\n" for line in about)

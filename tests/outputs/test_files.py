@@ -161,6 +161,7 @@ def test_summary_says_what_was_run_and_what_came_out(painting):
     assert set(facts["wall_s"]) == {
         "language",
         "place",
+        "photos",
         "motion",
         "start",
         "arm",

@@ -156,6 +156,18 @@ def test_what_a_lamp_cannot_do_is_refused(tmp_path, change, choices, says):
         program(painting, "circuitpython", "-lamp.py")
 
 
+def test_what_16_bits_cannot_count_is_several_entries():
+    from dqpaint.outputs.robot.lamp_table import _encoded
+
+    ticks = np.array([65535, 200_000, 1, 65536])
+    data = _encoded(ticks, np.arange(12, dtype=np.uint8).reshape(4, 1, 3))
+    entries = [data[at : at + 5] for at in range(0, len(data), 5)]
+    counts = [entry[0] + 256 * entry[1] for entry in entries]
+    assert min(counts) > 0
+    assert [sum(n for n, one in zip(counts, entries, strict=True) if one[2] == 3 * k)
+            for k in range(4)] == ticks.tolist()  # fmt: skip
+
+
 def table_of(sketch):
     body = re.search(r"PROGMEM = \{(.*?)\};", sketch, re.S)[1]
     return bytes(int(word) for word in body.replace(",", " ").split())

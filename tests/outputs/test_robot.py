@@ -310,6 +310,11 @@ def test_the_cues_give_back_the_light(painting):
     held = np.searchsorted(t, motion.t + 1e-9, side="right") - 1
     np.testing.assert_allclose(light[held], motion.light, atol=1e-6)
     assert [int(row["line"]) for row in rows][held[0]] == 5
+    gone = [float(row["s_m"]) for row in rows]
+    steps = np.linalg.norm(np.diff(motion.points, axis=0), axis=1)
+    for second, length in zip(t.tolist(), gone, strict=True):
+        assert length == pytest.approx(steps[motion.t[1:] < second + 1e-9].sum(), abs=1e-9)
+    assert gone[-1] == pytest.approx(motion.length, abs=1e-4)
     lines = np.array([int(row["line"]) for row in rows])[held]
     np.testing.assert_array_equal(lines, motion.source.line)
     red = [k for k, row in enumerate(rows) if row["line"] == "5"]

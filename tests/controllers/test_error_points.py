@@ -13,9 +13,10 @@ from tests.support.control import SHORT, body_sees, law, states
 from tests.support.random_poses import random_poses
 
 WITH_POINT = [n for n, c in CONTROLLERS.items() if "point" in c.gains.model_fields]
-FIXED = {"decoupled", "translation", "orientation", "accel-decoupled"}  # by their definitions
-ANYWHERE = {"log", "open-loop", "accel"}
-MIXED = {"p-least-squares"}
+AT_THE_TOOL = {"decoupled", "translation", "se3", "pi", "super-twisting"}  # by their definitions
+FIXED = AT_THE_TOOL | {"orientation", "accel-decoupled"}
+ANYWHERE = {"log", "open-loop", "accel", "sine", "admittance", "adaptive", "mpc"}
+MIXED = {"p-least-squares", "sliding"}
 
 
 def test_every_law_has_a_choice_or_a_reason():
@@ -87,7 +88,7 @@ def test_at_the_tool_is_about_the_base_of_a_base_at_the_tool(rng, name):
         np.testing.assert_allclose(said, back, atol=1e-9, rtol=1e-9)
 
 
-@pytest.mark.parametrize("name", [*sorted(ANYWHERE), "p", "pff", "decoupled", "translation"])
+@pytest.mark.parametrize("name", [*sorted(ANYWHERE | AT_THE_TOOL), "p", "pff"])
 def test_a_law_that_does_not_know_where_the_base_is(rng, name):
     """Screws, and errors at the tool: a base elsewhere gives the same joint rates."""
     for seen in states(rng, 30, size=1.0):

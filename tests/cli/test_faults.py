@@ -10,6 +10,7 @@ import pytest
 
 from tests.support.faults import Answer, Faults
 from tests.support.faulty_commands import COMMANDS, Trial
+from tests.support.installed import needs_pybullet
 
 SMALL = ["fmt", "new"]
 
@@ -34,6 +35,7 @@ def test_some_faults_of_a_large_command(tmp_path, name):
     checked(name, tmp_path, 8)
 
 
+@needs_pybullet
 def test_a_full_folder_of_temporary_files_is_told_as_such(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "a.traj").write_text("line to (10, 0) mm in 100 ms\n")

@@ -14,6 +14,7 @@ from dqpaint.errors import UsageError
 from dqpaint.plants import PLANTS
 from dqpaint.simulation.closed_loop import track, track_many
 from tests.support.control import ARM, SHORT, body_sees, law, seen_by
+from tests.support.installed import needs_pybullet_data
 from tests.support.random_poses import random_poses
 
 GOAL = dq.pose_from([0.4, 0.1, 0.3], [0.5, 0.5, -0.5, 0.5])
@@ -126,6 +127,7 @@ def drawn(**choices):
     return run.table["orientation_error_rad"][-1]
 
 
+@needs_pybullet_data
 def test_the_example_is_held_and_released():
     adverse = {"adversary": {"angle": LARGE}}
     assert drawn(disturb=adverse) > 3.0

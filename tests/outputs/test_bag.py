@@ -13,6 +13,7 @@ from dqpaint.outputs.registry import choose_writers, make_files
 from dqpaint.robots.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
 from dqpaint.simulation.recorded_run import read_recording
+from tests.support.installed import JOINTS
 
 pytest.importorskip("mcap")
 rosbag2 = pytest.importorskip("rosbags.rosbag2")
@@ -22,7 +23,6 @@ TEXT = (
     "period 20 ms\nprofile quintic\nstart at (-40, 0) mm\n"
     "line to (40, 10) mm tool rot(y, 20 deg) in 0.6 s light red to blue\n"
 )
-JOINTS = tuple(f"lbr_iiwa_joint_{i}" for i in range(1, 8))
 TYPES = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE)
 STATE = "sensor_msgs/msg/JointState"
 

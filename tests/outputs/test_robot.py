@@ -18,6 +18,7 @@ from dqpaint.outputs.registry import choose_export_writer, make_files
 from dqpaint.outputs.robot import Trajectory
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.model.card import read_card
+from tests.support.installed import BASE, JOINTS
 
 TEXT = (
     "period 10 ms\nspeed 80 mm/s\nprofile quintic\nstart at (-40, 0) mm\n"
@@ -77,9 +78,9 @@ def test_the_ros_message_integrates_to_the_path(painting):
     assert list(message) == ["header", "joint_names", "points"]
     assert message["header"] == {
         "stamp": {"sec": 0, "nanosec": 0},
-        "frame_id": "lbr_iiwa_link_0",
+        "frame_id": BASE,
     }
-    assert message["joint_names"] == [f"lbr_iiwa_joint_{i}" for i in range(1, 8)]
+    assert message["joint_names"] == list(JOINTS)
     points = message["points"]
     t = np.array([p["time_from_start"]["sec"] + p["time_from_start"]["nanosec"] * 1e-9
                   for p in points])  # fmt: skip

@@ -26,6 +26,7 @@ from dqpaint.robots.urdf.prepare import urdf_file
 from dqpaint.settings.model import make_settings
 from dqpaint.simulation.closed_loop import track
 from tests.support.forecasts import lifted
+from tests.support.installed import needs_pybullet_data
 
 ARMS = ("iiwa", "panda", "xarm6", "meka-a2", "viper850")
 SEEDS = (1, 8, 9, 16, 17, 20, 22, 33, 39, 50)  # of drawings that their arms can draw, two each
@@ -174,6 +175,7 @@ def test_the_view_decides(still):
     assert (both.occluded, both.view) == (1.0, "az180-el0")
 
 
+@needs_pybullet_data
 def test_the_brush_decides(still):
     """From behind a long bar shows on both sides of the arm; its middle does not."""
     assert 0.1 < hidden(still, view="180,0").occluded < 0.9

@@ -12,6 +12,7 @@ from dqpaint.errors import UnknownNameError, UsageError
 from dqpaint.robots.kinematics.kinematics import Kinematics
 from dqpaint.robots.kinematics.start_posture import StartPosture, find_start
 from dqpaint.robots.model.card import Canvas, Card, Mount, card_names, installed_names, read_card
+from tests.support.installed import needs_pybullet_data
 
 
 @pytest.mark.parametrize("name", installed_names())
@@ -72,6 +73,7 @@ def test_a_missing_package_is_named():
         file.path  # noqa: B018
 
 
+@needs_pybullet_data
 def test_a_link_that_is_not_there_is_named():
     card = read_card("iiwa")
     file = card.urdf.model_copy(update={"link": "hand"})

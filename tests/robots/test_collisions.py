@@ -14,6 +14,7 @@ from dqpaint.robots.loading.load_file import read_file
 from dqpaint.robots.model.card import read_card
 from dqpaint.robots.urdf.prepare import urdf_file
 from tests.support.arm_files import arm_urdf
+from tests.support.installed import LINK
 
 
 def random_postures(card, n, seed=5):
@@ -106,7 +107,7 @@ def test_the_pair_that_is_nearest_is_named():
     shapes = CollisionShapes(Kinematics(read_card("iiwa")))
     folded = np.radians([0, 60, 0, -120, 0, 118, 0])
     near = shapes.nearest(folded[None])
-    assert all(name.startswith("lbr_iiwa_link") for name in near.pair[0])
+    assert all(name.startswith(LINK) for name in near.pair[0])
 
 
 def test_home_is_free_of_collisions():

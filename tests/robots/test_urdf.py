@@ -17,6 +17,7 @@ from dqpaint.robots.model.card import read_card
 from dqpaint.robots.urdf.prepare import is_valid_inertia, prepare, urdf_file
 from dqpaint.robots.urdf.tree import MOST_JOINTS, MOST_LINKS, Tree
 from tests.support.arm_files import arm_urdf
+from tests.support.installed import needs_pybullet_data
 from tests.support.mesh_files import stl
 
 INERTIAL = (
@@ -121,6 +122,7 @@ def test_a_mesh_is_found_from_where_the_file_is(read, tmp_path):
         assert f'filename="{tmp_path.resolve()}/meshes/a.stl"' in prepare(card).text
 
 
+@needs_pybullet_data
 def test_products_with_the_other_sign_make_bodies_of_the_xarm_s_links():
     card = read_card("xarm6")
     assert prepare(card).notes == ()

@@ -15,6 +15,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 from unittest import mock
 
@@ -187,7 +188,9 @@ def forget() -> None:
     for name, module in list(sys.modules.items()):
         if name.startswith("dqpaint"):
             for thing in list(vars(module).values()):
-                if callable(getattr(thing, "cache_clear", None)) and thing is not run.code_versions:
+                if isinstance(thing, ModuleType) or thing is run.code_versions:
+                    continue  # a library may be one that is not installed
+                if callable(getattr(thing, "cache_clear", None)):
                     thing.cache_clear()
 
 

@@ -10,8 +10,8 @@ from time import perf_counter
 from typing import TYPE_CHECKING, TypeGuard, Unpack
 
 from dqpaint.core import find_drawing
-from dqpaint.errors import DqpaintError
-from dqpaint.language import Program, read
+from dqpaint.errors import DqpaintError, UsageError
+from dqpaint.language import Program, parse, read
 from dqpaint.outputs import files, registry
 from dqpaint.settings import (
     Code,
@@ -31,11 +31,14 @@ if TYPE_CHECKING:
     from dqpaint.painting import preview as previews
     from dqpaint.render import ArmMotion, SceneArm
 
+INLINE = "text.traj"  # what messages and files are called after a drawing given as text
+
 
 @keywords("draw")
 def draw(
-    drawing: "str | PathLike[str] | builder.Drawing",
+    drawing: "str | PathLike[str] | builder.Drawing | None" = None,
     *,
+    text: str | None = None,
     settings: "str | PathLike[str] | SettingsFile | None" = None,
     progress: Callable[[float], None] = lambda _done: None,
     formats: str | None = None,
@@ -46,6 +49,7 @@ def draw(
 
     Args:
         drawing: a .traj file, the name of an example, or a `dqpaint.Drawing`.
+        text: of a drawing, in its place; files that it names lie in the working folder.
         settings: a file of such choices, TOML, or the JSON summary of a run; keywords here
             win.
         progress: called while the arm moves, with the share done, 0 to 1.
@@ -64,7 +68,7 @@ def draw(
     given = _given(settings)
     chosen = make_settings(**given.under(options))
     begin = perf_counter()
-    program = _program(drawing)
+    program = _program(drawing, text)
     seconds = perf_counter() - begin
 
     # an error in the text is raised before the simulator is loaded
@@ -107,8 +111,9 @@ def save(
 
 @keywords("preview")
 def preview(
-    drawing: "str | PathLike[str] | builder.Drawing",
+    drawing: "str | PathLike[str] | builder.Drawing | None" = None,
     *,
+    text: str | None = None,
     settings: "str | PathLike[str] | SettingsFile | None" = None,
     progress: Callable[[float], None] = lambda _done: None,
     **options: Unpack[PreviewOptions],
@@ -119,6 +124,7 @@ def preview(
 
     Args:
         drawing: a .traj file, the name of an example, or a `dqpaint.Drawing`.
+        text: of a drawing, in its place; files that it names lie in the working folder.
         settings: a file of such choices; keywords here win.
         progress: called while the light of photographs is solved for, with the share done.
         options:
@@ -127,7 +133,7 @@ def preview(
         DqpaintError: a fault in the drawing or the choices.
     """
     chosen = make_settings(**_given(settings, "leave").under(options))
-    program = _program(drawing)
+    program = _program(drawing, text)
 
     from dqpaint.painting import preview as previews
 
@@ -145,11 +151,15 @@ def _given(
     return validate.settings_file(settings, code)
 
 
-def _program(drawing: "str | PathLike[str] | builder.Drawing") -> Program:
+def _program(drawing: "str | PathLike[str] | builder.Drawing | None", text: str | None) -> Program:
+    if (drawing is None) == (text is None):
+        raise UsageError("give either a drawing, by its file or name, or the text= of one")
+    if text is not None:
+        return parse(text, INLINE, Path(INLINE))
     return drawing.program() if _is_built(drawing) else read(find_drawing(str(drawing)))
 
 
-def _places(drawing: "str | PathLike[str] | builder.Drawing") -> AbstractContextManager[None]:
+def _places(drawing: object) -> AbstractContextManager[None]:
     """A context in which errors of a drawing made by calls name the call."""
     return drawing.places() if _is_built(drawing) else nullcontext()
 

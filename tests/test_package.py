@@ -63,3 +63,14 @@ def test_what_a_package_says_of_itself():
     assert [one["name"] for one in cited["authors"]] == ["The dqpaint developers"]
     assert [one["name"] for one in metadata["authors"]] == ["The dqpaint developers"]
     assert cited["license"] == metadata["license"]
+
+
+def test_reports_of_faults_ask_for_the_doctor():
+    for path in (ROOT / ".github/ISSUE_TEMPLATE").glob("*.yml"):
+        form = yaml.safe_load(path.read_text("utf-8"))
+        assert "http" not in path.read_text("utf-8")
+        if path.stem != "config":
+            fields = {one["id"]: one for one in form["body"]}
+            assert "dqpaint doctor" in fields["doctor"]["attributes"]["label"]
+            assert path.stem != "fault" or fields["doctor"]["validations"]["required"]
+    assert (ROOT / "CODE_OF_CONDUCT.md").read_text("utf-8").count("CONTACT") == 1

@@ -1,4 +1,4 @@
-"""Arguments of `fmt`, `explain`, `new`, `trace`, `grammar`, `lsp` -> files, texts, exit codes."""
+"""Arguments of `fmt`, `explain`, `cite`, `new`, `trace`, `grammar`, `lsp` -> files, texts, codes."""
 
 import json
 import re
@@ -115,6 +115,27 @@ def explain(
         raise UsageError(
             f"no law, plant, disturbance, metric or profile named '{name[:40]}'; {near}"
         )
+
+
+@_command(
+    epilog="Examples:\n\n  dqpaint cite hinf\n\n  dqpaint cite star-hinf.json > star.bib",
+    rich_help_panel="Write",
+)
+def cite(
+    subject: Annotated[
+        str,
+        typer.Argument(
+            metavar="RUN.json|LAW",
+            help="the summary of a run, as draw writes it; or a law",
+            autocompletion=completion.laws,
+        ),
+    ],
+) -> None:
+    """Print BibTeX of dqpaint and of the law, or of all that a run used: arm and engines, too."""
+    from dqpaint.outputs import citation
+
+    of = citation.of_run if subject.lower().endswith(".json") else citation.of_law
+    show(of(subject))
 
 
 @_command(

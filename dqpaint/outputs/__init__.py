@@ -9,4 +9,4 @@ Other packages bring formats by entry points `dqpaint.formats`.
 
 from dqpaint.outputs.registry import WRITERS, Need, Writer, writer
 
-__all__ = ["WRITERS", "Need", "Writer", "files", "registry", "summary", "writer"]
+__all__ = ["WRITERS", "Need", "Writer", "citation", "files", "registry", "summary", "writer"]

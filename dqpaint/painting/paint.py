@@ -11,7 +11,7 @@ from typing import Any
 
 from dqpaint import dq
 from dqpaint.controllers import Controller
-from dqpaint.core import log
+from dqpaint.core import Library, log
 from dqpaint.disturbances import Disturbance
 from dqpaint.dq import Floats
 from dqpaint.light.film import Film
@@ -110,6 +110,14 @@ class Painting(PictureSet):
     def table(self) -> Table:
         """The columns of the CSV, each (N,)."""
         return self.metrics.table
+
+    def to_frame(self) -> Any:
+        """The table as a pandas DataFrame, a row a sample; `table` has the same without pandas.
+
+        Raises:
+            UsageError: pandas is not installed.
+        """
+        return Library("pandas", "pandas").DataFrame(self.table)
 
     @property
     def sha256(self) -> str:

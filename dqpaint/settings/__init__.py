@@ -7,7 +7,7 @@ files and documents read it from there.
 from dqpaint.settings.commands import COMMANDS
 from dqpaint.settings.declaration import Option, Setting, settings_of
 from dqpaint.settings.file import (
-    RUN_SCHEMA, Code, SettingsFile, Trusted, beside, check_code, read_given,
+    READABLE, RUN_SCHEMA, Code, SettingsFile, Trusted, beside, check_code, read_given,
 )
 from dqpaint.settings.keywords import check_keywords, keywords
 from dqpaint.settings.model import (
@@ -23,6 +23,7 @@ from dqpaint.settings.readers import parse_disturbances, parse_gains, read_sprea
 __all__ = [
     "COMMANDS",
     "DEFAULT_CONTROLLER",
+    "READABLE",
     "RUN_SCHEMA",
     "SETTINGS",
     "SMALLEST",

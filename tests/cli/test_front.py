@@ -22,7 +22,7 @@ ROOT = Path(__file__).parents[2]
 COMMANDS = [
     *("draw", "preview", "develop", "gallery", "check", "list", "fmt", "explain", "new", "plot"),
     *("compare", "sweep", "tune", "worst", "replay", "verify", "pose", "export", "grammar"),
-    *("lsp", "doctor"),
+    *("lsp", "doctor", "cite"),
 ]
 CODE = re.compile(r"\x1b\[[0-9;]*m")
 

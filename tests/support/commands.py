@@ -32,6 +32,8 @@ SHOWN = [
     ("sweep", "line.traj", "--vary", "plant=ideal,stiff", "--jobs", "1"),
     ("export", "line.traj", "--format", "ros2", "--plant", "ideal"),
     ("pose", "iiwa", "--deg", "-180,0,0,0,0,0,0"),
+    ("cite", "line-hinf.json"),
+    ("cite", "pham"),
     ("fmt", "--check", "ugly.traj"),
     ("fmt", "ugly.traj"),
     ("new", "wish"),
@@ -39,6 +41,8 @@ SHOWN = [
 
 # The words, the exit code, and what tells this fault from others: a name or a value in its text.
 WRONG = [
+    (("cite", "nothing.json"), 1, "'nothing.json'"),
+    (("cite", "line.traj"), 2, "'line.traj'"),
     (("draw", "nothing.traj"), 1, "no file 'nothing.traj'"),
     (("draw", "line"), 1, "'line.traj'"),
     (("draw", "."), 1, "'.'"),

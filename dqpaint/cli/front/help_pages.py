@@ -40,6 +40,7 @@ DOCUMENTS = {
     "export": "docs/limits.md, docs/record.md",
     "compare": "docs/statistics.md",
     "sweep": "docs/statistics.md",
+    "cite": "docs/equations.md, CITATION.cff",
     "lsp": "docs/editors.md",
     "grammar": "docs/editors.md",
 }

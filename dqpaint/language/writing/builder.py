@@ -16,6 +16,7 @@ SI units: metres, radians, seconds. A string is text of the language: `angle="90
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
+from html import escape
 from keyword import iskeyword
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -117,6 +118,13 @@ class Drawing(Statements):
 
     def __repr__(self) -> str:
         return f"<Drawing '{self.name}': {len(self._lines)} lines>"
+
+    def _repr_html_(self) -> str:
+        """The text, for a notebook, or what is wrong with it; `dqpaint.preview` has the picture."""
+        try:
+            return f"<pre>{escape(self.source())}</pre>"
+        except DrawingError as problem:
+            return f"<pre>{escape(str(problem))}</pre>"
 
     if not TYPE_CHECKING:  # the stub has the methods: editors report unknown words
 

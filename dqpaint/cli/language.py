@@ -1,4 +1,4 @@
-"""Arguments of `fmt`, `explain`, `cite`, `new`, `trace`, `grammar`, `lsp` -> files, texts, codes."""
+"""Words of `fmt`, `explain`, `cite`, `new`, `trace`, `grammar`, `lsp` -> files, texts, codes."""
 
 import json
 import re

@@ -2,6 +2,7 @@
 
 import json
 import re
+from pathlib import Path
 
 import pytest
 import yaml
@@ -11,8 +12,8 @@ from dqpaint.controllers import CONTROLLERS
 from dqpaint.errors import DqpaintError
 from dqpaint.outputs import citation, summary
 from tests.support.commands import LINE
-from tests.test_package import ROOT
 
+ROOT = Path(__file__).parents[2]
 ENTRY = re.compile(r"@(\w+)\{([^,\n]+),\n((?:  \w+ = \{.*\},\n)+)\}")
 
 

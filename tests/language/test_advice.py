@@ -70,15 +70,16 @@ line to <9, 0> mm|E101|1:9|a point stands in round brackets: (10, 0)
 curve (t, t) for 0 < t < 9 mm|E101|1:20|write: for t from 0 to 360 deg
 curve (t, t**2) for t from 0 to 9 mm|E105|1:13|a power is written with ^, as in t^2
 curve (t, abs t) for t from 0 to 9 mm|E109|1:15|write: abs(VALUE)
-def star(r)~line by (r, 0)~end~star 5 mm|E120|4:1|to draw what a 'def' names, write: star(5 mm)
-def star(r)~line by (r, 0)~end~call star(5 mm)|E120|4:1|to draw what a 'def' names, write: star(5 mm)
-def star~line by (9, 0) mm~end~star|E120|4:1|to draw what a 'def' names, write: star()
+def leaf(r)~line by (r, 0)~end~leaf 5 mm|E120|4:1|to draw what a 'def' names, write: leaf(5 mm)
+def leaf(r)~line by (r, 0)~end~call leaf(5 mm)|E120|4:1|to draw what a 'def' names, write: leaf(5 mm)
+def leaf~line by (9, 0) mm~end~leaf|E120|4:1|to draw what a 'def' names, write: leaf()
 let r = 3 mm~LET r = 3 mm|E120|2:1|did you mean 'let'?
 repeat i from -2 to -5~line by (i*mm, 0)~end|E222|1:21|write: repeat i from -5 to -2, and count down with -7 - i
 repeat i from 2 to -2~line by (i*mm, 0)~end|E222|1:20|write: repeat i from -2 to 2, and count down with -i
 light rainbow|E205|1:7|draw it in parts: repeat i from 0 to 35, each with light hsv(10*i deg)
-rect (10, 20) mm|E120|1:1|a rectangle is a line of four legs: line by (20, 0) mm by (0, 10) mm by
-triangle 20 mm|E120|1:1|its legs are a line: line to (20, 0) mm to
+rect (10, 20) mm|E111|1:6|for example: rect width 60 mm height 30 mm at (0, 0)
+square 20 mm|E120|1:1|a square is a rectangle: rect width 20 mm height 20 mm
+triangle 20 mm|E120|1:1|of equal sides: polygon 3 radius 20 mm
 pen up|E120|1:1|to go there dark, write: move to (10, 0) mm; or for the lines after: light off
 pen down|E120|1:1|a line shines: line to (10, 0) mm; or for the lines after: light white
 line to (10 inch, 0)|E102|1:13|1 inch is 25.4 mm; units are mm, cm, m
@@ -120,7 +121,7 @@ def test_a_block_without_its_with_is_one_mistake() -> None:
 
 
 @pytest.mark.parametrize(
-    "error", ["speed 10 cm per second", "start (9, 0) mm", "light rgb(1, 0, 0)", "let a = b"]
+    "error", ["speed 10 cm per second", "start (9, 0) mm", "light rgb(2, 0, 0)", "let a = b"]
 )
 def test_no_length_of_zero_follows_from_an_error_above(error: str) -> None:
     with pytest.raises(ScriptError) as caught:

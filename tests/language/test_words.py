@@ -10,15 +10,8 @@ from dqpaint.diagnostics.did_you_mean import closest
 from dqpaint.language import ScriptError, parse
 from dqpaint.language.strokes import strokes
 from dqpaint.language.values.functions import TABLE
-from dqpaint.language.vocabulary.words import (
-    FUNCTION_ALIASES,
-    FUNCTIONS,
-    PART_ALIASES,
-    PARTS,
-    PROFILES,
-    STATEMENT_ALIASES,
-    STATEMENTS,
-)
+from dqpaint.language.vocabulary.aliases import FUNCTION_ALIASES, PART_ALIASES, STATEMENT_ALIASES
+from dqpaint.language.vocabulary.words import FUNCTIONS, PARTS, PROFILES, SHAPES, STATEMENTS
 
 HERE = str(examples_folder() / "test.traj")  # whose files the examples name
 
@@ -71,6 +64,7 @@ def test_examples_of_parts(word: str, part: str) -> None:
         "path": 'path "orbit.csv"' + (" unit mm" if part not in ("height", "width") else ""),
         "svg": 'svg "logo.svg"',
         "photo": 'photo "astronaut.jpg"' + " as hatch" * (part != "as"),
+        **{word: STATEMENTS[word].example for word in SHAPES},
     }[word]
     if part == "via":
         base = "arc to (-80, 0) mm"
@@ -80,7 +74,7 @@ def test_examples_of_parts(word: str, part: str) -> None:
         base = "arc via (0, 15) mm"
     elif part == "center":
         base = "arc angle 1 turn"
-    elif part in ("radius", "left", "right"):
+    elif part in ("radius", "left", "right") and word == "arc":
         base = (
             "arc to (70, 0) mm"
             + " left" * (part == "radius")

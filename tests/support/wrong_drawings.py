@@ -45,7 +45,13 @@ period 3 ms~traj 1|E119|2:1 traj 1|help
 r = 3 cm|E120|1:1 r|help fix
 lin to (0, 0, 70) mm|E120|1:1 lin|help fix
 wait 2 s|E120|1:1 wait|help fix
-circle (0, 0)|E120|1:1 circle|help
+circle (0, 0)|E111|1:8 (|help
+star 2 radius 9 mm|E221|1:6 2
+star 4 radius 9 mm|E115|1:6 4|help
+rect width 9 mm|E115|1:1 rect|help
+circle radius 0 mm|E220|1:15 0 mm
+light rgb(255, 0, 0)~line by (9, 0) mm|E217|1:11 255|help
+stroke~circle radius 9 mm~polygon 1001 radius 9 mm~end|E221|3:9 1001|help
 color red|E120|1:1 color|help fix
 G1 X10|E120|1:1 G1|help
 repaet 3~line by (1,0) mm~end|E120|1:1 repaet|help fix
@@ -242,7 +248,7 @@ let f(a) = a~f(3)|E206|2:1 f|help
 let r = 3 mm~r(3)|E206|2:1 r|
 star(20 mm)|E120|1:1 star|help fix
 staar(20 mm)~def star(r)~line by (r, 0)~end|E120|1:1 staar|help fix
-def star(r)~line by (r, 0)~end~star()|E207|4:1 star()|help
+def leaf(r)~line by (r, 0)~end~leaf()|E207|4:1 leaf()|help
 def star(r)~line by (r, 0)~end~star(5)|E218|2:9 (r, 0)|help fix
 def star(r)~line by (r, 0)~star(r)~end|E232|3:1 star(r)|help
 def star(r)~line by (r, 0)~end~line by (star(3), 0)|E206|4:10 star|help

@@ -220,8 +220,11 @@ def draw_traces(statement: Statement, pen: Pen, scope: Scope, traces: list[Trace
     mode, span = pen.state.tool, statement.span
     if isinstance(mode, FollowHeading):
         message = f"the tool can't follow a '{statement.word}': it would jump at every corner"
-        part = statement.part("tool")
-        raise pose_problem("E254", message, part.value.span if part else span, "", "use: tool keep")
+        help, part = "use: tool keep", statement.part("tool")
+        if statement.word in ("circle", "ellipse"):
+            message = f"the tool can't follow a '{statement.word}'"
+            help = "use: tool keep; a tool can follow: arc centre POINT angle 360 deg"
+        raise pose_problem("E254", message, part.value.span if part else span, "", help)
     pen.pieces += sum(len(trace.curve.cubic) for trace in traces)
     check_pieces(pen.pieces, pen, span)
     if not piecewise.largest_coordinate([trace.curve for trace in traces]) <= FARTHEST:

@@ -8,6 +8,7 @@ from dqpaint.language.pen.stroke_state import TurnTo
 from dqpaint.language.syntax.tree import Statement
 from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.scope import Scope
+from dqpaint.language.vocabulary.words import SHAPES
 from dqpaint.program import (
     LOOK_MODES,
     FixedOrientation,
@@ -27,8 +28,8 @@ from dqpaint.program import (
 
 def sets_start(statement: Statement, pen: Pen) -> bool:
     """Whether a movement defines the start of the drawing by its own first point."""
-    own = statement.word in ("move", "text", "path", "svg", "photo")
-    return own and not (pen.started or pen.placed)
+    own = ("move", "text", "path", "svg", "photo", *SHAPES)
+    return statement.word in own and not (pen.started or pen.placed)
 
 
 def _stops(statement: Statement, pen: Pen, scope: Scope) -> list[tuple[Vector, Span]]:

@@ -6,12 +6,12 @@ from dqpaint.language.pen import tool_orientation
 from dqpaint.language.pen.durations import timing
 from dqpaint.language.pen.pen import SAME_PLACE, SAME_TURN, Pen
 from dqpaint.language.pen.stroke_state import StrokeState
-from dqpaint.language.strokes import arcs, curves, imported_strokes, lines, photos
+from dqpaint.language.strokes import arcs, curves, imported_strokes, lines, photos, shapes
 from dqpaint.language.strokes.modal_words import apply_clause, light_of, pause_light
 from dqpaint.language.syntax.tree import Expression, LightWords, Statement
 from dqpaint.language.values import typed_values, vectors
 from dqpaint.language.values.scope import Scope
-from dqpaint.language.vocabulary.words import MODAL
+from dqpaint.language.vocabulary.words import MODAL, SHAPES
 from dqpaint.program import (
     LOOK_MODES,
     Arc,
@@ -262,4 +262,5 @@ _DRAW = {
     "path": imported_strokes.path,
     "svg": imported_strokes.svg,
     "photo": photos.photo,
+    **dict.fromkeys(SHAPES, shapes.shape),
 }

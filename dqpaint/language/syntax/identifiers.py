@@ -5,7 +5,14 @@ from dqpaint.language.syntax.cursor import Cursor, found
 from dqpaint.language.syntax.lexer import Token
 from dqpaint.language.syntax.tree import Word
 from dqpaint.language.vocabulary.units import UNITS
-from dqpaint.language.vocabulary.words import CONSTANTS, FUNCTIONS, PROFILES, RESERVED, STATEMENTS
+from dqpaint.language.vocabulary.words import (
+    CONSTANTS,
+    FUNCTIONS,
+    PROFILES,
+    RESERVED,
+    SHAPES,
+    STATEMENTS,
+)
 from dqpaint.program import colours
 
 WORD = "a word of the language"
@@ -26,10 +33,10 @@ def meaning(word: str) -> str:
     return "a colour" if word in colours.NAMES else ""
 
 
-def new_name(cursor: Cursor, after: str, example: str, handed: bool = False) -> Word:
+def new_name(cursor: Cursor, after: str, example: str) -> Word:
     """Reads a name that is being defined.
 
-    What a function is `handed` may be called x, y or z.
+    A value may be called x, y or z: where a direction is needed these are still the axes.
     """
     token = cursor.token
     if token.kind != "name" or token.text == "°":
@@ -41,9 +48,11 @@ def new_name(cursor: Cursor, after: str, example: str, handed: bool = False) -> 
             f"for example: {example}",
         )
     taken = meaning(token.text)
-    if after == "def" and token.text in STATEMENTS:  # some of these are free for values
+    if (
+        after == "def" and token.text in STATEMENTS and token.text not in SHAPES
+    ):  # some of these are free for values
         taken = WORD
-    if taken and not (handed and token.text in ("x", "y", "z")):
+    if taken and not (after not in ("def", "frame") and token.text in ("x", "y", "z")):
         raise taken_name(token, taken)
     cursor.take()
     return Word(token.text, token.span)

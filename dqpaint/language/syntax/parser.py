@@ -19,15 +19,13 @@ from dqpaint.language.syntax.cursor import Cursor, found
 from dqpaint.language.syntax.identifiers import meaning
 from dqpaint.language.syntax.lexer import Token, TokenLine, lines
 from dqpaint.language.syntax.tree import Statement, Word
-from dqpaint.language.vocabulary.words import (
+from dqpaint.language.vocabulary.aliases import (
     FOREIGN,
     FOREIGN_BLOCKS,
-    PARTS,
-    RENAMED,
     STATEMENT_ADVICE,
     STATEMENT_ALIASES,
-    STATEMENTS,
 )
+from dqpaint.language.vocabulary.words import PARTS, RENAMED, SHAPES, STATEMENTS
 
 DEEPEST = 32  # blocks within each other
 _BLOCKS = tuple(word for word, known in STATEMENTS.items() if known.block)
@@ -110,7 +108,9 @@ class _Parser:
     def _statement(self, line: TokenLine) -> Statement:
         """Reads one line; an error is reported, and the statement marked as broken."""
         cursor = Cursor(line.tokens, self._text)
-        read = statements.statement if line.tokens[0].text in STATEMENTS else statements.call
+        word = line.tokens[0].text
+        own = word in STATEMENTS and not (word in SHAPES and self._may_be_call(line))
+        read = statements.statement if own else statements.call
         try:
             statement = read(cursor)
         except Problem as mistake:

@@ -7,7 +7,7 @@ from dqpaint.language.syntax import trailing_tokens
 from dqpaint.language.syntax.cursor import Cursor
 from dqpaint.language.syntax.lexer import Token
 from dqpaint.language.syntax.tree import Part, Statement
-from dqpaint.language.vocabulary.words import RENAMED, STATEMENTS, TIMES
+from dqpaint.language.vocabulary.words import RENAMED, SHAPES, STATEMENTS, TIMES
 
 _FORM_OF_CENTRE = ("axis", "angle", "rise", "grow")
 _QUESTION = re.compile(r"did you mean '(\w+)'\?")
@@ -254,9 +254,12 @@ def unexpected(word: str, cursor: Cursor) -> Problem | None:
         return _to_or_by(word, token.span)
     if not is_value:
         return trailing_tokens.advice_for(word, cursor)
-    needed = {"arc": "centre", "screw": "about", "step": "to", "start": "at", "place": "at"}
+    needed = {
+        **dict.fromkeys(("circle", "ellipse", "rect"), "at"),
+        **{"arc": "centre", "screw": "about", "step": "to", "start": "at", "place": "at"},
+    }
     if word in needed and cursor.before.text == word:
         message = f"'{word}' needs '{needed[word]}' before the point"
-        help = f"for example: {STATEMENTS[word].example}"
+        help = f"for example: {STATEMENTS[word].example}{' at (0, 0)' if word in SHAPES else ''}"
         return problem("E111", message, token.span, "", help)
     return trailing_tokens.advice_for(word, cursor)

@@ -7,8 +7,9 @@ from dqpaint.language.syntax.cursor import Cursor, example_of, found, no_value
 from dqpaint.language.syntax.expressions import bracket, expression, foreign_unit
 from dqpaint.language.syntax.identifiers import new_name
 from dqpaint.language.syntax.tree import Expression, Part, Quoted, Statement, Word
+from dqpaint.language.vocabulary.aliases import PART_ALIASES
 from dqpaint.language.vocabulary.units import FOREIGN_UNITS, UNITS
-from dqpaint.language.vocabulary.words import MODAL, PART_ALIASES, PARTS, RENAMED, STATEMENTS
+from dqpaint.language.vocabulary.words import MODAL, PARTS, RENAMED, STATEMENTS
 from dqpaint.program import colours
 
 VERSION = 1  # of the language, for `traj 1`
@@ -195,7 +196,7 @@ def _params(cursor: Cursor, after: str) -> tuple[Word, ...]:
     example = "let f(x) = 2*x" if after == "let" else example_of(after)
     params: dict[str, Word] = {}
     while not (cursor.is_sign(")") and not params):
-        name = new_name(cursor, "(" if not params else ",", example, handed=True)
+        name = new_name(cursor, "(" if not params else ",", example)
         if name.text in params:
             message = f"'{name.text}' comes twice in these brackets"
             raise problem("E230", message, name.span, "second", "choose another name")

@@ -15,6 +15,7 @@ from dqpaint.language.values.values import (
     describe,
     is_zero,
 )
+from dqpaint.language.vocabulary.aliases import FUNCTION_ALIASES, PROFILE_ALIASES
 from dqpaint.language.vocabulary.units import (
     FOREIGN_UNITS,
     PLAIN,
@@ -23,13 +24,7 @@ from dqpaint.language.vocabulary.units import (
     instead_of,
     plausible_unit,
 )
-from dqpaint.language.vocabulary.words import (
-    CONSTANTS,
-    FUNCTION_ALIASES,
-    FUNCTIONS,
-    PROFILE_ALIASES,
-    PROFILES,
-)
+from dqpaint.language.vocabulary.words import CONSTANTS, FUNCTIONS, PROFILES
 from dqpaint.program import Taylor
 
 

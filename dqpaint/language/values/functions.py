@@ -12,6 +12,7 @@ from dqpaint.language.values.values import (
     PointValue,
     Quantity,
     Value,
+    axis_of,
     describe,
     is_zero,
 )
@@ -141,6 +142,19 @@ def _polar(given: Arguments) -> Value:
     return PointValue((x, y, 0.0), radius.dimension)
 
 
+def _rgb(given: Arguments) -> Value:
+    """SRGB as in CSS and picture editors, from 0 to 1."""
+    shares = [given.constant(i) for i in range(3)]
+    for share, node in zip(shares, given.nodes, strict=True):
+        if not 0.0 <= share <= 1.0:
+            message = f"red, green and blue of rgb go from 0 to 1, this is {share:g}"
+            help = f"of 255: rgb({', '.join(f'{x:g}/255' for x in shares)})"
+            fits = all(0.0 <= x <= 255.0 for x in shares)
+            raise problem("E217", message, node.span, "", help if fits else "")
+    red, green, blue = map(colours.linear, shares)
+    return ColourValue((red, green, blue))
+
+
 def _hsv(given: Arguments) -> Value:
     hue = given.constant(0, ANGLE)
     rest = []
@@ -160,7 +174,7 @@ def _rpy(given: Arguments) -> Value:
 
 
 def _rot(given: Arguments) -> Value:
-    axis = given.values[0]
+    axis = axis_of(given.nodes[0], given.values[0])
     if not isinstance(axis, PointValue):
         message = f"rot needs a direction, this is {describe(axis)}"
         help = "for example: rot(z, 30 deg) or rot((1, 1, 0), 30 deg)"
@@ -234,6 +248,7 @@ TABLE: dict[str, tuple[_Function, int, int]] = {
     "exp": (_plain_function(taylor.exp), 1, 1),
     "ln": (_plain_function(taylor.ln), 1, 1),
     "polar": (_polar, 2, 2),
+    "rgb": (_rgb, 3, 3),
     "hsv": (_hsv, 1, 3),
     "rpy": (_rpy, 3, 3),
     "rot": (_rot, 2, 2),

@@ -16,6 +16,7 @@ from dqpaint.language.values.values import (
     Quantity,
     TextValue,
     Value,
+    axis_of,
     describe,
     is_zero,
 )
@@ -136,7 +137,7 @@ def place(node: Expression, scope: Scope, word: str) -> Vector:
 
 def direction(node: Expression, scope: Scope, word: str) -> Vector:
     """The unit vector after `word`, from a point with or without a unit."""
-    value = evaluate(node, scope)
+    value = axis_of(node, evaluate(node, scope))
     if not isinstance(value, PointValue) or value.dimension not in (PLAIN, LENGTH):
         message = f"'{word}' needs a direction, but this is {describe(value)}"
         help = f"for example: {word} z, or {word} (0, 1, 1)"

@@ -4,7 +4,7 @@ import math
 
 from dqpaint.core import record
 from dqpaint.diagnostics import Span, problem
-from dqpaint.language.syntax.tree import Expression, Statement, Word
+from dqpaint.language.syntax.tree import Expression, Name, Statement, Word
 from dqpaint.language.values import vectors
 from dqpaint.language.vocabulary.units import (
     LARGEST_EXPONENT,
@@ -141,6 +141,16 @@ def is_zero(value: Value) -> bool:
 
 def _none(number: Scalar) -> bool:
     return not isinstance(number, Taylor) and number == 0.0
+
+
+AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+
+def axis_of(node: Expression, value: Value) -> Value:
+    """The value of a direction: x, y and z are the axes, unless the file gives them another."""
+    if isinstance(value, PointValue) or not isinstance(node, Name) or node.name not in AXES:
+        return value
+    return PointValue(AXES[node.name], PLAIN)
 
 
 def finite(number: Scalar, span: Span) -> Scalar:

@@ -52,6 +52,7 @@ class StatementWord:
     moves: bool = False
 
 
+SHAPES = ("circle", "ellipse", "rect", "polygon", "star")  # closed, around their middle
 LAMP = ("light", "brush", "strobe")  # what shines, and how
 MODAL = (
     "speed",
@@ -79,6 +80,7 @@ PARTS = {
         PartWord("axis", "direction", "what the arc turns about; z if not said", "axis z"),
         PartWord("angle", "angle", "how far it turns, by the right-hand rule", "angle 360 deg"),
         PartWord("radius", "length", "the radius of an arc to a point", "radius 20 mm"),
+        PartWord("inner", "length", "how far in a star's inner corners lie", "inner 10 mm"),
         PartWord("left", "flag", "the arc turns left, against the clock", "left"),
         PartWord("right", "flag", "the arc turns right, with the clock", "right"),
         PartWord("long", "flag", "the longer of two arcs: more than half a turn", "long"),
@@ -209,6 +211,48 @@ STATEMENTS = {
             ),
             moves=True,
         ),
+        *(
+            StatementWord(
+                word,
+                meaning,
+                example,
+                head="value" if word in ("polygon", "star") else "",
+                parts=(*needs, *more, "at", *CLAUSES),
+                needs=needs,
+                moves=True,
+            )
+            for word, meaning, example, needs, more in (
+                ("circle", "a circle around its middle", "circle radius 30 mm", ("radius",), ()),
+                (
+                    "ellipse",
+                    "an ellipse around its middle",
+                    "ellipse width 60 mm height 30 mm",
+                    ("width", "height"),
+                    (),
+                ),
+                (
+                    "rect",
+                    "a rectangle around its middle",
+                    "rect width 60 mm height 30 mm",
+                    ("width", "height"),
+                    (),
+                ),
+                (
+                    "polygon",
+                    "a polygon of equal sides; its first corner is the topmost",
+                    "polygon 6 radius 30 mm",
+                    ("radius",),
+                    (),
+                ),
+                (
+                    "star",
+                    "a star with so many points, the first one upwards",
+                    "star 5 radius 30 mm inner 12 mm",
+                    ("radius",),
+                    ("inner",),
+                ),
+            )
+        ),
         StatementWord(
             "screw",
             "a screw motion of the whole tool",
@@ -299,127 +343,6 @@ STATEMENTS = {
     )
 }
 
-# Statements of other languages: the word, the sentence, what to do.
-FOREIGN = {
-    "if": (".traj has no conditions", "use repeat, min/max, or write two files"),
-    "else": (".traj has no conditions", "use repeat, min/max, or write two files"),
-    "while": (".traj has no conditions", "use repeat, min/max, or write two files"),
-    "for": ("a loop is written with 'repeat'", "write: repeat i from 1 to 5"),
-}
-
-# Words that begin a block in languages people come from, so that their `end` is theirs.
-FOREIGN_BLOCKS = ("if", "while", "for")
-
-# What people write who mean one of our words: for statements, and for parts.
-STATEMENT_ALIASES = {
-    **dict.fromkeys(("wait", "pause", "sleep", "dwell", "delay"), "hold"),
-    "fd": "line by",
-    "penup": "move to",
-    "print": "text",
-    "circle": "arc centre POINT angle 360 deg",
-    "helix": "arc centre POINT angle 3 turn rise LENGTH",
-    "spiral": "arc centre POINT angle 3 turn grow LENGTH",
-    "color": "light",
-    "colour": "light",
-    "led": "light",
-    "pen": "light",
-    "goto": "move to",
-    "go": "line to",
-    "lineto": "line to",
-    "moveto": "move to",
-    "travel": "move to",
-    "jump": "move to",
-    "draw": "line to",
-    "forward": "line by",
-    "G0": "move to",
-    "G1": "line to",
-    "G2": "arc centre POINT angle -90 deg",
-    "G3": "arc centre POINT angle 90 deg",
-    "G4": "hold",
-    "LIN": "line to",
-    "PTP": "move to",
-    "CIRC": "arc via POINT to POINT",
-    "MoveL": "line to",
-    "MoveJ": "move to",
-    "MoveC": "arc via POINT to POINT",
-    "movel": "line to",
-    "movej": "move to",
-    "movec": "arc via POINT to POINT",
-    "velocity": "speed",
-    "rate": "period",
-    "dt": "period",
-    "set": "let",
-    "var": "let",
-    "const": "let",
-    "loop": "repeat",
-    "function": "def",
-    "define": "def",
-    "proc": "def",
-    "import": "include",
-    "use": "include",
-    "round": "blend",
-    "flash": "strobe",
-    "pulse": "strobe",
-    "begin": "start",
-    "origin": "place",
-    "translate": "with shift POINT",
-    "shift": "with shift POINT",
-    "rotate": "with rotate ANGLE",
-    "scale": "with scale NUMBER",
-    "parametric": "curve",
-    "spline": "curve",
-    "write": "text",
-    "csv": "path",
-    "jumpto": "step to",
-    "turn": "line by (0, 0) tool ORIENTATION",
-    "orient": "tool",
-}
-# What to write for a statement that this language has in other words, and what after it.
-_RECTANGLE = "line by (20, 0) mm by (0, 10) mm by (-20, 0) mm by (0, -10) mm"
-STATEMENT_ADVICE = {
-    **dict.fromkeys(
-        ("rect", "rectangle", "box"), f"a rectangle is a line of four legs: {_RECTANGLE}"
-    ),
-    "square": f"a square is a line of four legs: {_RECTANGLE.replace('10', '20')}",
-    "triangle": "its legs are a line: line to (20, 0) mm to (10, 17) mm to (0, 0) mm",
-    **dict.fromkeys(
-        ("polygon", "polyline"),
-        "a line has as many legs as you like: line to (20, 0) mm to (10, 17) mm",
-    ),
-    "ellipse": "write its formula: curve (20*cos(a), 10*sin(a)) mm for a from 0 to 360 deg",
-    "pen up": "to go there dark, write: move to (10, 0) mm; or for the lines after: light off",
-    "pen down": "a line shines: line to (10, 0) mm; or for the lines after: light white",
-}
-PART_ALIASES = {
-    "origin": "centre",
-    "middle": "centre",
-    "through": "via",
-    "color": "light",
-    "colour": "light",
-    "time": "in",
-    "during": "in",
-    "for": "in",
-    "points": "samples",
-    "steps": "samples",
-    "velocity": "speed",
-    "height": "rise",
-    "size": "height",
-    "round": "blend",
-    "zone": "blend",
-    "flash": "strobe",
-    "ccw": "left",
-    "cw": "right",
-    "lead": "pitch",
-    "turns": "angle",
-    "orientation": "tool",
-    "translate": "shift",
-    "move": "shift",
-    "turn": "rotate",
-    "direction": "along",
-    "from": "at",
-    "position": "at",
-}
-
 # Words of drawings of earlier versions, and what `dqpaint fmt` writes for them.
 RENAMED = {"law": "profile"}
 
@@ -456,36 +379,20 @@ FUNCTIONS = {
     "exp": "exp(NUMBER)",
     "ln": "ln(NUMBER)",
     "polar": "polar(RADIUS, ANGLE)",
+    "rgb": "rgb(RED, GREEN, BLUE)",
     "hsv": "hsv(HUE) or hsv(HUE, SATURATION, VALUE)",
     "rpy": "rpy(ANGLE, ANGLE, ANGLE)",
     "rot": "rot(AXIS, ANGLE)",
     "quat": "quat(W, X, Y, Z)",
 }
-PROFILE_ALIASES = {
-    "linear": "constant",
-    "uniform": "constant",
-    "trapezoidal": "trapezoid",
-    "ramp": "trapezoid",
-    "s-curve": "smooth",
-    "ease": "cubic",
-}
-FUNCTION_ALIASES = {
-    "arcsin": "asin",
-    "arccos": "acos",
-    "arctan": "atan",
-    "log": "ln",
-    "hsl": "hsv",
-    "rotate": "rot",
-    "euler": "rpy",
-    "quaternion": "quat",
-    "pow": "^",
-}
 
 # Never part of an expression: a value was forgotten if one of them is found there.
-# But these have a meaning in a few statements only, and `let radius = …` is common.
+# But these have a meaning in a few statements only, and `let radius = …` is common; shapes may be
+# the names of a `def`, too, since drawings had their own before there were these.
 FREE = (
-    *("as", "base", "colours", "corner", "cross", "dark", "detail", "height", "jump", "left"),
-    *("long", "max", "order", "radius", "right", "smooth", "unit", "width", "within"),
+    *SHAPES,
+    *("as", "base", "colours", "corner", "cross", "dark", "detail", "height", "inner", "jump"),
+    *("left", "long", "max", "order", "radius", "right", "smooth", "unit", "width", "within"),
 )
 RESERVED = frozenset(
     (*STATEMENTS, *PARTS, *RENAMED, *LITTLE_WORDS, "if", "else", "while")

@@ -8,7 +8,7 @@ from tests.support.svg import OPEN, nested_uses
 from tests.support.work import checked
 
 CASES = {
-    'text "Müller" height 9 mm': ("E261", "1:8", '= help: use "Mueller"'),
+    'text "3 €" height 9 mm': ("E261", "1:9", '= help: use "3 EUR"'),
     'move to (0, 0)\ntext "A" font "script" height 9 mm': ("E260", "2:15", 'mean "scripts"?'),
     'path "rows.csv" unit mm': ("E295", "1:6", "line 2: this row has 'b' where a number"),
     'path "long.csv" unit mm': ("E294", "1:6", "more than 500,000 rows"),

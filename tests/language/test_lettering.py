@@ -201,10 +201,60 @@ def test_signs_from_typesetting() -> None:
 
 @pytest.mark.parametrize(
     ("line", "instead"),
-    [("Größe", "Groesse"), ("café", "cafe"), ("Ærø", "Aeroe"), ("½", ""), ("日", "")],
+    [("3 €", "3 EUR"), ("…café", "...café"), ("日", "")],
 )
 def test_replacements(line: str, instead: str) -> None:
     assert lettering.with_substitutes(line, lettering.read_font("futural")) == instead
+
+
+LATIN = [chr(code) for code in (*range(0xA1, 0xAD), *range(0xAE, 0x180))]
+
+
+@pytest.mark.parametrize("name", [name for name in FONTS if name != "greeks"])
+def test_every_font_has_all_of_latin_1_and_latin_extended_a(name: str) -> None:
+    """Each different from the others and from what it is made of, none out of all bounds."""
+    font = lettering.read_font(name)
+    assert [letter for letter in LATIN if not font.has(letter)] == []
+    drawn_as = {}
+    for letter in (*LATIN, *font.glyphs):
+        glyph = font.glyph(letter)
+        points = np.concatenate([*glyph.strokes, np.zeros((0, 2))])
+        if letter != " ":
+            assert -12 <= points[:, 1].min() <= points[:, 1].max() <= 32, letter
+            assert -12 < points[:, 0].min() <= points[:, 0].max() < glyph.width + 12, letter
+            assert np.isfinite(points).all()
+        drawn_as[letter] = (glyph.width, points.tobytes())
+    alike = {drawn_as[letter] for letter in LATIN if letter not in "ÐĐ"}
+    assert len(alike) == len(LATIN) - 2
+    ascii_ = {drawn_as[letter] for letter in font.glyphs if letter.isascii()}
+    assert not alike & ascii_
+
+
+def ink(font: lettering.Font, letter: str) -> tuple[np.ndarray, np.ndarray]:
+    points = np.concatenate(font.glyph(letter).strokes)
+    return points.min(axis=0), points.max(axis=0)
+
+
+@pytest.mark.parametrize("name", [name for name in FONTS if name != "greeks"])
+def test_marks_stand_where_they_belong(name: str) -> None:
+    """Above without touching, below the baseline; the dot of an i gives way to its accent."""
+    font = lettering.read_font(name)
+    for letter, base in (*zip("éÉöÖůŻñ", "eEoOuZn", strict=True), ("î", "ı")):
+        extra = font.glyph(letter).strokes[len(font.glyph(base).strokes) :]
+        assert np.concatenate(extra)[:, 1].min() == ink(font, base)[1][1] + 2.5
+    assert font.glyph("ı").strokes == font.glyph("i").strokes[: len(font.glyph("ı").strokes)]
+    assert ink(font, "ı")[1][1] < ink(font, "i")[1][1]
+    for letter, base in zip("çşąęņ", "csaen", strict=True):
+        extra = font.glyph(letter).strokes[len(font.glyph(base).strokes) :]
+        assert np.concatenate(extra)[:, 1].max() <= 0.0
+        assert np.concatenate(extra)[:, 1].min() < -4.0
+
+
+def test_greek_has_its_accents() -> None:
+    font = lettering.read_font("greeks")
+    assert all(font.has(letter) for letter in "Καλημέρα κόσμε ΐΰάέήίόύώΆΈΉΊΌΎΏς")
+    assert not font.has("é")
+    assert parse('text "Καλημέρα" font "greeks" height 9 mm').segments
 
 
 @pytest.mark.slow

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from dqpaint.language import ScriptError, formatted, parse
+from dqpaint.language import ScriptError, parse
+from dqpaint.language.writing.formatter import formatted
 from dqpaint.program import PiecewiseCurve, Program, colours, piecewise
 from tests.support.drawn import matrix, rotation
 

@@ -79,7 +79,7 @@ svg "plain.svg" "words.svg"|E248|1:17 "words.svg"|help
 text "Ada" height 3 mm tool follow|E254|1:29 follow|help
 text "Ada" font "script" height 3 mm|E260|1:17 "script"|help fix
 text "Ada" font "comic" height 3 mm|E260|1:17 "comic"|help
-text "Müller" height 3 mm|E261|1:8 ü|help fix
+text "3 €" height 3 mm|E261|1:9 €|help fix
 text "Ada" "λ=3" height 3 mm|E261|1:13 λ|help
 text "日本" height 3 mm|E261|1:7 日|help
 stroke in 5 s~text "Ada" height 3 mm~end|E283|2:1 text|help

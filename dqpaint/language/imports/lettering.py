@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dqpaint.language.imports.glyph import Glyph
 from dqpaint.program import Floats, PiecewiseCurve, piecewise
 
 FONTS = Path(__file__).parent / "fonts"
@@ -38,13 +39,6 @@ _WRITTEN = {
 }
 
 
-class Glyph(NamedTuple):
-    """A letter: the advance to the next one, and its strokes, each (N, 2)."""
-
-    width: float
-    strokes: tuple[Floats, ...]
-
-
 class Font(NamedTuple):
     """A font: the height of its capitals, its largest angle [rad] within a bow, its letters."""
 
@@ -56,11 +50,21 @@ class Font(NamedTuple):
 
     def has(self, letter: str) -> bool:
         """Whether the font has a letter."""
-        return _PLAIN.get(letter, letter) in self.glyphs
+        return _PLAIN.get(letter, letter) in self.glyphs or self.composed(letter) is not None
 
     def glyph(self, letter: str) -> Glyph:
-        """The glyph of a letter of the font."""
-        return self.glyphs[_PLAIN.get(letter, letter)]
+        """The glyph of a letter of the font, or of one made of its letters."""
+        known = self.glyphs.get(_PLAIN.get(letter, letter)) or self.composed(letter)
+        assert known is not None, letter
+        return known
+
+    def composed(self, letter: str) -> Glyph | None:
+        """A letter that is made of others of the font; None if it is not."""
+        if letter.isascii():
+            return None
+        from dqpaint.language.imports import composed_letters
+
+        return composed_letters.compose(letter, self.glyphs, self.name)
 
 
 def font_names() -> list[str]:

@@ -152,7 +152,10 @@ def _no_letter(node: Quoted, place: int, font: lettering.Font) -> Problem:
         cures.append(f'use "{instead}"')
     if others:
         cures.append(f'font "{others[0]}" has it')
-    help = ", or: ".join(cures) or "take it away; the fonts have the letters of ASCII, and Greek"
+    help = (
+        ", or: ".join(cures)
+        or "take it away; the fonts have Latin letters with their accents, and Greek"
+    )
     fix = Fix(f'write "{instead}"', node.span, f'"{instead}"') if instead.strip() else None
     message = f'font "{font.name}" has no letter {shown}'
     return problem("E261", message, span, "here", help, fix)

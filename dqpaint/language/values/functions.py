@@ -143,7 +143,7 @@ def _polar(given: Arguments) -> Value:
 
 
 def _rgb(given: Arguments) -> Value:
-    """SRGB as in CSS and picture editors, from 0 to 1."""
+    """Red, green and blue of sRGB from 0 to 1, as in CSS."""
     shares = [given.constant(i) for i in range(3)]
     for share, node in zip(shares, given.nodes, strict=True):
         if not 0.0 <= share <= 1.0:

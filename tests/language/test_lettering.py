@@ -224,7 +224,7 @@ def test_every_font_has_all_of_latin_1_and_latin_extended_a(name: str) -> None:
             assert -12 < points[:, 0].min() <= points[:, 0].max() < glyph.width + 12, letter
             assert np.isfinite(points).all()
         drawn_as[letter] = (glyph.width, points.tobytes())
-    alike = {drawn_as[letter] for letter in LATIN if letter not in "ÐĐ"}
+    alike = {drawn_as[letter] for letter in LATIN if letter not in "Đĺ"}  # like Ð; like Í, where I is l
     assert len(alike) == len(LATIN) - 2
     ascii_ = {drawn_as[letter] for letter in font.glyphs if letter.isascii()}
     assert not alike & ascii_
@@ -242,7 +242,8 @@ def test_marks_stand_where_they_belong(name: str) -> None:
     for letter, base in (*zip("éÉöÖůŻñ", "eEoOuZn", strict=True), ("î", "ı")):
         extra = font.glyph(letter).strokes[len(font.glyph(base).strokes) :]
         assert np.concatenate(extra)[:, 1].min() == ink(font, base)[1][1] + 2.5
-    assert font.glyph("ı").strokes == font.glyph("i").strokes[: len(font.glyph("ı").strokes)]
+    stem = font.glyph("ı").strokes
+    assert all(any(part is own for own in font.glyph("i").strokes) for part in stem)
     assert ink(font, "ı")[1][1] < ink(font, "i")[1][1]
     for letter, base in zip("çşąęņ", "csaen", strict=True):
         extra = font.glyph(letter).strokes[len(font.glyph(base).strokes) :]

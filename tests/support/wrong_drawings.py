@@ -46,10 +46,10 @@ r = 3 cm|E120|1:1 r|help fix
 lin to (0, 0, 70) mm|E120|1:1 lin|help fix
 wait 2 s|E120|1:1 wait|help fix
 circle (0, 0)|E111|1:8 (|help
-star 2 radius 9 mm|E221|1:6 2
+star 2 radius 9 mm|E221|1:6 2|
 star 4 radius 9 mm|E115|1:6 4|help
 rect width 9 mm|E115|1:1 rect|help
-circle radius 0 mm|E220|1:15 0 mm
+circle radius 0 mm|E220|1:15 0 mm|
 light rgb(255, 0, 0)~line by (9, 0) mm|E217|1:11 255|help
 stroke~circle radius 9 mm~polygon 1001 radius 9 mm~end|E221|3:9 1001|help
 color red|E120|1:1 color|help fix

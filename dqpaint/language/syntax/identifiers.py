@@ -48,9 +48,8 @@ def new_name(cursor: Cursor, after: str, example: str) -> Word:
             f"for example: {example}",
         )
     taken = meaning(token.text)
-    if (
-        after == "def" and token.text in STATEMENTS and token.text not in SHAPES
-    ):  # some of these are free for values
+    own = token.text in STATEMENTS and token.text not in SHAPES  # some are free for values
+    if after == "def" and own:
         taken = WORD
     if taken and not (after not in ("def", "frame") and token.text in ("x", "y", "z")):
         raise taken_name(token, taken)

@@ -57,6 +57,16 @@ class Statements:
         """A straight way in the dark: `d.move(to="(10, 0) mm")`."""
     def arc(self, *, via: Any = ..., to: Any = ..., centre: Any = ..., center: Any = ..., axis: Any = ..., angle: Any = ..., rise: Any = ..., grow: Any = ..., radius: Any = ..., left: bool = ..., right: bool = ..., long: bool = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
         """An arc, circle, helix or flat spiral: `d.arc(centre="(30, 0) mm", angle="360 deg")`."""
+    def circle(self, *, radius: Any = ..., at: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
+        """A circle around its middle: `d.circle(radius="30 mm")`."""
+    def ellipse(self, *, width: Any = ..., height: Any = ..., at: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
+        """An ellipse around its middle: `d.ellipse(width="60 mm", height="30 mm")`."""
+    def rect(self, *, width: Any = ..., height: Any = ..., at: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
+        """A rectangle around its middle: `d.rect(width="60 mm", height="30 mm")`."""
+    def polygon(self, *values: Any, radius: Any = ..., at: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
+        """A polygon of equal sides; its first corner is the topmost: `d.polygon("6", radius="30 mm")`."""
+    def star(self, *values: Any, radius: Any = ..., inner: Any = ..., at: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
+        """A star with so many points, the first one upwards: `d.star("5", radius="30 mm", inner="12 mm")`."""
     def screw(self, *, about: Any = ..., along: Any = ..., angle: Any = ..., pitch: Any = ..., to: Any = ..., in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:
         """A screw motion of the whole tool: `d.screw(about="(0, 0, 0)", along="z", angle="90 deg", pitch="50 mm/turn")`."""
     def curve(self, *values: Any, in_: Any = ..., samples: Any = ..., speed: Any = ..., turnspeed: Any = ..., profile: Any = ..., tool: Any = ..., blend: Any = ..., corner: Any = ..., light: Any = ..., brush: Any = ..., strobe: Any = ...) -> None:

@@ -224,7 +224,7 @@ def test_every_font_has_all_of_latin_1_and_latin_extended_a(name: str) -> None:
             assert -12 < points[:, 0].min() <= points[:, 0].max() < glyph.width + 12, letter
             assert np.isfinite(points).all()
         drawn_as[letter] = (glyph.width, points.tobytes())
-    alike = {drawn_as[letter] for letter in LATIN if letter not in "Đĺ"}  # like Ð; like Í, where I is l
+    alike = {drawn_as[letter] for letter in LATIN if letter not in "Đĺ"}  # as Ð; as Í, if I is l
     assert len(alike) == len(LATIN) - 2
     ascii_ = {drawn_as[letter] for letter in font.glyphs if letter.isascii()}
     assert not alike & ascii_

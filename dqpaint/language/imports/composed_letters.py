@@ -65,7 +65,8 @@ def compose(letter: str, glyphs: Glyphs, name: str) -> Glyph | None:
     if letter in _MADE_OF:
         needed, make = _MADE_OF[letter]
         return make(glyphs) if all(part in glyphs for part in needed) else None
-    base, *marks = unicodedata.normalize("NFD", letter)
+    apart = unicodedata.normalize("NFD", letter)
+    base, marks = apart[0], apart[1:]
     if not marks or base not in glyphs or "." not in glyphs:
         return None
     glyph = glyphs[base]

@@ -246,7 +246,7 @@ let f(a) = a + 1~line by (f(3 mm), 0)|E208|1:16 1|help fix
 let f(a) = a*2~line by (ff(1)*mm, 0)|E206|2:10 ff|help fix
 let f(a) = a~f(3)|E206|2:1 f|help
 let r = 3 mm~r(3)|E206|2:1 r|
-star(20 mm)|E120|1:1 star|help fix
+leaf(20 mm)|E120|1:1 leaf|help
 staar(20 mm)~def star(r)~line by (r, 0)~end|E120|1:1 staar|help fix
 def leaf(r)~line by (r, 0)~end~leaf()|E207|4:1 leaf()|help
 def star(r)~line by (r, 0)~end~star(5)|E218|2:9 (r, 0)|help fix

@@ -27,7 +27,7 @@ def shape(statement: Statement, pen: Pen, scope: Scope) -> None:
     else:
         corners = (_rectangle if statement.word == "rect" else _polygon)(statement, scope)
         first = corners[0]
-        if pen.state.blend or pen.deviation:
+        if pen.state.blend:
             first = 0.5 * (corners[0] + corners[-1])
             corners = np.concatenate([first[None], corners])
         curve = piecewise.straight(np.concatenate([corners, first[None]]))

@@ -9,6 +9,7 @@ from dqpaint.diagnostics.collector import DiagnosticCollector
 from dqpaint.diagnostics.diagnostic import Span, locate
 from dqpaint.language import ScriptError, parse, read
 from dqpaint.language.syntax.parser import parse_statements
+from dqpaint.language.vocabulary.aliases import FOREIGN
 from dqpaint.language.vocabulary.words import PARTS, STATEMENTS
 from dqpaint.robots.loading.lookup import card_for
 
@@ -101,7 +102,7 @@ def test_advice(case: str) -> None:
     assert finding.help.startswith(advice)
 
 
-@pytest.mark.parametrize("part", sorted(set(PARTS) - set(STATEMENTS)))
+@pytest.mark.parametrize("part", sorted(set(PARTS) - set(STATEMENTS) - set(FOREIGN)))
 def test_a_part_s_example_is_one(part: str) -> None:
     """What a line that begins with a part is shown instead has no mistake of its own."""
     with pytest.raises(ScriptError) as caught:

@@ -112,7 +112,7 @@ def test_a_frame_is_a_place_and_a_turn_wherever_it_is_used():
     assert place(text.format("with frame leaf shift (1, 0) mm scale 2")) == pytest.approx(
         (0.03, 0.026, 0)
     )
-    text = "frame wall turned rpy(90 deg, 0, 0)\nwith frame wall\nline to (0, 3) mm\nend"
+    text = "frame board turned rpy(90 deg, 0, 0)\nwith frame board\nline to (0, 3) mm\nend"
     assert place(text) == pytest.approx((0, 0, 0.003), abs=1e-15)
 
 

@@ -55,8 +55,9 @@ text Ada height 3 mm|text "Ada" height 3 mm
 let café = 3 mm~line to (café, 0)|let cafe = 3 mm~line to (café, 0)
 hold 1 s light even|hold 1 s light white even
 LET r = 3 mm~line to (r, 0)|let r = 3 mm~line to (r, 0)
-light rgb(255, 0, 0)~hold 1 s|light "#ff0000"~hold 1 s
-light rgb(0.2, 1, 0)~hold 1 s|light "#33ff00"~hold 1 s
+light rgb(255, 0, 0)~hold 1 s|light rgb(255/255, 0/255, 0/255)~hold 1 s
+light RGB(255, 0, 0)~hold 1 s|light "#ff0000"~hold 1 s
+light RGB(0.2, 1, 0)~hold 1 s|light "#33ff00"~hold 1 s
 line to 100, 0|line to (100, 0) mm
 line to -10 cm, 2.5 cm, 3 cm in 2 s|line to (-10, 2.5, 3) cm in 2 s
 move to (9, 0) mm~arc centre (0, 0) 360 deg|move to (9, 0) mm~arc centre (0, 0) angle 360 deg

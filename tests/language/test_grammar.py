@@ -52,6 +52,9 @@ def grammar() -> Lark:
 NAME: /(?!(?:{not_free})(?![A-Za-z0-9_]))[A-Za-z_][A-Za-z0-9_]*/
 ANY: /[A-Za-z_][A-Za-z0-9_]*/
 KEY.2: /(?:{keys})(?![A-Za-z0-9_])/
+ROUND.2: /circle(?![A-Za-z0-9_]|\s*\()/
+BOXED.2: /(ellipse|rect)(?![A-Za-z0-9_]|\s*\()/
+POINTED.2: /(polygon|star)(?![A-Za-z0-9_]|\s*\()/
 CORNER.2: /corner(?![A-Za-z0-9_])/
 SHADES.2: /colours(?![A-Za-z0-9_])/
 UNIT: /{unit}/

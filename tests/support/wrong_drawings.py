@@ -50,7 +50,7 @@ star 2 radius 9 mm|E221|1:6 2|
 star 4 radius 9 mm|E115|1:6 4|help
 rect width 9 mm|E115|1:1 rect|help
 circle radius 0 mm|E220|1:15 0 mm|
-light rgb(255, 0, 0)~line by (9, 0) mm|E217|1:11 255|help
+light rgb(255, 0, 0)~line by (9, 0) mm|E217|1:11 255|help fix
 stroke~circle radius 9 mm~polygon 1001 radius 9 mm~end|E221|3:9 1001|help
 color red|E120|1:1 color|help fix
 G1 X10|E120|1:1 G1|help
@@ -189,7 +189,7 @@ curve (0, 0, t) for t from 0 to 1 mm tool follow|E254|1:7 (0, 0, t)|help
 screw to (1,2) mm|E255|1:10 (1,2) mm|help
 profile linear|E205|1:9 linear|help fix
 profile fancy|E205|1:9 fancy|help
-light rgb(255,0,0)|E206|1:7 rgb|help fix
+light rbg(255, 0, 0)|E206|1:7 rbg|help fix
 curve (10 mm*sin(t), 0) for t from 0 to 1|E213|1:18 t|help
 line to 50 mm, 0 mm|E112|1:14 ,|help fix
 period 20 s|E257|1:8 20 s|help

@@ -142,7 +142,7 @@ def unknown_function(node: Call, scope: Scope) -> Problem:
         message = f"'{node.name}' is not a function"
         help = f"a product is written {node.name}*(…)"
         return problem("E206", message, span, "", help)
-    if node.name in ("rgb", "RGB", "rgba"):
+    if node.name in ("RGB", "rgba"):
         written = _hexadecimal(node.values)
         help = f'write the colour in quotes: "{written or "#ff8800"}"'
         fix = Fix(f'write "{written}"', node.span, f'"{written}"') if written else None
@@ -156,7 +156,7 @@ def unknown_function(node: Call, scope: Scope) -> Problem:
 
 
 def _hexadecimal(values: tuple[Expression, ...]) -> str:
-    """The colour of `rgb(255, 0, 0)` as #ff0000; empty if its numbers are no such colour."""
+    """The colour of `RGB(255, 0, 0)` as #ff0000; empty if its numbers are no such colour."""
     numbers = [value.value for value in values[:3] if isinstance(value, Literal) and not value.unit]
     if len(numbers) < 3 or not all(0.0 <= number <= 255.0 for number in numbers):
         return ""

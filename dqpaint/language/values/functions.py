@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 
-from dqpaint.diagnostics import Problem, Span, problem
+from dqpaint.diagnostics import Fix, Problem, Span, problem
 from dqpaint.language.syntax.tree import Expression, Literal
 from dqpaint.language.values import vectors
 from dqpaint.language.values.values import (
@@ -148,9 +148,11 @@ def _rgb(given: Arguments) -> Value:
     for share, node in zip(shares, given.nodes, strict=True):
         if not 0.0 <= share <= 1.0:
             message = f"red, green and blue of rgb go from 0 to 1, this is {share:g}"
-            help = f"of 255: rgb({', '.join(f'{x:g}/255' for x in shares)})"
+            written = f"rgb({', '.join(f'{x:g}/255' for x in shares)})"
             fits = all(0.0 <= x <= 255.0 for x in shares)
-            raise problem("E217", message, node.span, "", help if fits else "")
+            fix = Fix(f"write {written}", given.span, written) if fits else None
+            help = f"of 255: {written}" if fits else ""
+            raise problem("E217", message, node.span, "", help, fix)
     red, green, blue = map(colours.linear, shares)
     return ColourValue((red, green, blue))
 

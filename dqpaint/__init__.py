@@ -1,5 +1,7 @@
 r"""Light paintings by a simulated robot arm.
 
+::
+
     text -language-> Program -motion-> Motion -simulation-> Track -painting-> Film -> png
                                           |                   \-metrics-> csv, json
                                           \-painting-> the reference picture, without an arm

@@ -31,11 +31,27 @@ from tests.tools import generated
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text("utf-8")
 PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("*/*.md")])
+LONGEST_README = 150  # lines
 NUMERIC_NOISE = 2  # of 255: what another processor or build of a library may change in a pixel
 
 
-def blocks(kind):
-    return re.findall(rf"^```{kind}\n(.*?)^```$", README, re.DOTALL | re.MULTILINE)
+def page_text(name):
+    return (ROOT / name).read_text("utf-8")
+
+
+def blocks(kind, text=README):
+    """The blocks of a kind of a page."""
+    return re.findall(rf"^```{kind}\n(.*?)^```$", text, re.DOTALL | re.MULTILINE)
+
+
+MANUAL = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
+COMMANDS = {
+    line.removeprefix("$ "): None
+    for path in MANUAL
+    for block in blocks("console", path.read_text("utf-8"))
+    for line in block.splitlines()
+    if line.startswith("$ ")
+}
 
 
 @pytest.mark.parametrize("page", generated.PAGES, ids=lambda p: p.parent.name)
@@ -79,10 +95,11 @@ def test_links_lead_somewhere(path):
 
 
 def test_the_readme_names_every_format():
-    table_text = README.partition("`--save` takes")[2].partition("\n\nWith `--colour-by`")[0]
+    light, after = page_text("docs/light.md"), page_text("docs/before-and-after.md")
+    table_text = light.partition("`--save` takes")[2].partition("\n\nWith `--colour-by`")[0]
     assert all(f"`{name}`" in table_text for name in WRITERS)
     forms = sorted(one.export_name for one in WRITERS.values() if one.export_name)
-    assert f"`export --format {'|'.join(forms)}`" in README
+    assert f"`export --format {'|'.join(forms)}`" in light + after + page_text("docs/robots.md")
 
 
 def test_the_readme_shows_the_star_as_it_is():
@@ -90,10 +107,8 @@ def test_the_readme_shows_the_star_as_it_is():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("command", [
-    line.removeprefix("$ ") for block in blocks("console") for line in block.splitlines()
-])  # fmt: skip
-def test_readme_commands_run(command, answer):
+@pytest.mark.parametrize("command", COMMANDS)
+def test_commands_of_the_documents_run(command, answer):
     name, *words = shlex.split(command)
     assert name == "dqpaint"
     done = answer(*words)
@@ -114,7 +129,7 @@ def test_readme_python_runs(tmp_path, monkeypatch):
 def test_readme_studies_from_python_run(tmp_path, monkeypatch):
     scope = {}
     monkeypatch.chdir(tmp_path)
-    exec(blocks("python")[3], scope)
+    exec(blocks("python", page_text("docs/studies.md"))[0], scope)
     height, width, _ = scope["compared"].pictures["overlay"].shape
     assert (width, height > 360) == (640, True)  # with a key below
     assert (tmp_path / "pictures/lag-report.html").is_file()
@@ -122,7 +137,7 @@ def test_readme_studies_from_python_run(tmp_path, monkeypatch):
 
 def test_the_readme_shows_the_laws_as_they_are():
     shown = [(examples_folder() / name).read_text("utf-8") for name in ("mylaw.py", "pi.py")]
-    assert blocks("python")[1:3] == shown
+    assert blocks("python", page_text("docs/laws.md"))[:2] == shown
 
 
 def test_the_readme_shows_the_message_as_it_is():
@@ -158,6 +173,10 @@ def test_the_table_of_platforms_is_that_of_the_markers():
     prefix = "Programming Language :: Python :: "
     told = [one.removeprefix(prefix) for one in project["classifiers"] if one.startswith(prefix)]
     assert sorted(seen) == sorted(one for one in told if re.fullmatch(r"3\.\d+", one))
+
+
+def test_the_readme_is_short():
+    assert len(README.splitlines()) <= LONGEST_README
 
 
 def test_readme_lines_are_single_and_ci_runs_them():

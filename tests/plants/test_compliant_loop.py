@@ -58,7 +58,7 @@ def test_sag_shows_where_encoders_sit_at_the_motors(arm):
 
 def test_the_readme_s_table_is_current():
     """Here, where most of its runs have been made."""
-    page = generated.README
+    page = generated.DOCS / "robots.md"
     renewed = generated.renewed(page, {page: [generated.springs]})
     assert renewed == page.read_text("utf-8"), "python -m tests.tools.generated"
 

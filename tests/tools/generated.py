@@ -62,7 +62,7 @@ def controllers():
             if f.default is not None
         )  # fmt: skip
         equation = read_sections(law.docstring).equations[0]
-        name = f"[`{law.name}`](docs/equations.md#{law.name})"
+        name = f"[`{law.name}`](equations.md#{law.name})"
         rows.append([name, law.summary, formula(equation), gains, law.source])
     return table(["name", "what it does", "equation", "gains", "from"], rows)
 
@@ -121,7 +121,8 @@ def stars():
     import dqpaint
     from dqpaint.robots.model.card import card_names, read_card
 
-    before = {line.split("|")[1].strip(): line for line in README.read_text("utf-8").splitlines()
+    page = DOCS / "robots.md"
+    before = {line.split("|")[1].strip(): line for line in page.read_text("utf-8").splitlines()
               if line.startswith("| `") and line.count("|") == 6}  # fmt: skip
     rows = []
     for card in map(read_card, card_names()):
@@ -422,28 +423,19 @@ def limits():
     return table(["what", "at the most", "more by"], cells())
 
 
-README = ROOT / "README.md"
+DOCS = ROOT / "docs"
 PAGES = {
-    README: [
-        controllers,
-        robots,
-        plants,
-        disturbances,
-        null,
-        tasks,
-        resolvers,
-        brushes,
-        looks,
-        options,
-        columns,
-        figures,
-    ],
+    DOCS / "laws.md": [controllers, disturbances],
+    DOCS / "robots.md": [robots, plants, null, tasks, resolvers],
+    DOCS / "light.md": [brushes, looks],
+    DOCS / "options.md": [options],
+    DOCS / "figures.md": [columns, figures],
+    DOCS / "equations.md": [explanations],
+    DOCS / "limits.md": [limits],
     ROOT / "trajectories/README.md": [messages, statements, parts, values],
     ROOT / "trajectories/MESSAGES.md": [rules],
-    ROOT / "docs/equations.md": [explanations],
-    ROOT / "docs/limits.md": [limits],
 }
-SLOW_TABLES = {README: [stars, springs, hard]}
+SLOW_TABLES = {DOCS / "robots.md": [stars, springs, hard]}
 
 
 def renewed(page, tables=PAGES):

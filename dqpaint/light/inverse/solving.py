@@ -53,7 +53,7 @@ def solve(
     picture: Floats,
     first: Floats,
     most: Floats,
-    colours: Floats | None = None,
+    colour: Floats | None = None,
     background: Floats | None = None,
     progress: Callable[[float], None] = lambda _done: None,
     steps: int = MOST_STEPS,
@@ -65,14 +65,14 @@ def solve(
         picture: (H, W, 3) sRGB from 0 to 1.
         first: (K,) energies to begin with, in any unit; steps with 0 stay dark.
         most: (K,) the largest energy of each step, in exposures.
-        colours: (K, 3) the colour of each step, if it can only be dimmed; None: three lamps.
+        colour: (3,) of the lamp, if it can only be dimmed; None: three lamps.
         background: (H, W, 3) light that is there already, in exposures.
         progress: called with the share done, 0 to 1.
         steps: at most.
     """
     kind = exposing.dtype
     target = light_for(picture.astype(kind), WHITE).astype(kind)
-    problem = _Problem(exposing, developed(target)[0], colours, background, kind)
+    problem = _Problem(exposing, developed(target)[0], colour, background, kind)
     bound = np.repeat(most[:, None], problem.lamps, axis=1).astype(kind)
     w = problem.start(target, first.astype(kind), bound)
     for _ in range(FIRST_STEPS):
@@ -115,42 +115,45 @@ class _Problem:
 
     exposing: Exposing
     aim: Floats
-    colours: Floats | None
+    colour: Floats | None
     background: Floats | None
     kind: type[np.floating]
 
     @property
     def lamps(self) -> int:
-        return 3 if self.colours is None else 1
+        return 3 if self.colour is None else 1
 
     def energy(self, w: Floats) -> Floats:
         """The energies (K, 3) in red, green and blue."""
-        return w if self.colours is None else w * self.colours.astype(w.dtype)
+        return w if self.colour is None else w * self.colour.astype(w.dtype)
 
-    def _lamps(self, gathered: Floats) -> Floats:
-        if self.colours is None:
-            return gathered
-        own = gathered * self.colours.astype(gathered.dtype)
-        return np.asarray(own.sum(axis=1, keepdims=True))
+    def exposed(self, w: Floats) -> Floats:
+        """The light (H, W, 3) of the lamps; of one colour, one channel is spread, then coloured."""
+        light = self.exposing.expose(w)
+        return light if self.colour is None else light * self.colour.astype(light.dtype)
+
+    def back(self, image: Floats) -> Floats:
+        """The transpose of `exposed`: what an image (H, W, 3) means for each lamp energy (K, L)."""
+        if self.colour is not None:
+            image = (image @ self.colour.astype(image.dtype))[..., None]
+        return self.exposing.back(image)
 
     def light(self, w: Floats) -> Floats:
-        light = self.exposing.expose(self.energy(w))
+        light = self.exposed(w)
         return light if self.background is None else light + self.background.astype(light.dtype)
 
     def start(self, target: Floats, first: Floats, bound: Floats) -> Floats:
         """Energies in proportion to the light wanted at their places, at the best scale."""
-        near = self._lamps(self.exposing.back(target)) / np.maximum(
-            self._lamps(self.exposing.back(np.ones_like(target))), 1e-12
-        )
+        near = self.back(target) / np.maximum(self.back(np.ones_like(target)), 1e-12)
         w = near * first[:, None]
-        light = self.exposing.expose(self.energy(w))
+        light = self.exposed(w)
         scale = float((light * target).sum()) / max(float((light * light).sum()), 1e-30)
         return np.minimum(np.maximum(w * self.kind(scale), 0.0), bound)
 
     def richardson_lucy(self, w: Floats, target: Floats, bound: Floats) -> Floats:
         ratio = target / np.maximum(self.light(w), 1e-6)
-        one = self._lamps(self.exposing.back(np.ones_like(target)))
-        factor = self._lamps(self.exposing.back(ratio)) / np.maximum(one, 1e-12)
+        one = self.back(np.ones_like(target))
+        factor = self.back(ratio) / np.maximum(one, 1e-12)
         return np.minimum(w * np.clip(factor, 0.1, 10.0), bound)
 
     def at(self, w: Floats) -> _At:
@@ -158,13 +161,13 @@ class _Problem:
         picture, slopes = developed(self.light(w))
         error = picture - self.aim
         cost = 0.5 * float(np.vdot(error, error))
-        slope = self._lamps(self.exposing.back(slope_back(slopes, error)))
+        slope = self.back(slope_back(slopes, error))
         return _At(w, cost, slope, picture, slopes)
 
     def scale(self, at: _At) -> Floats:
         """The curvature of each energy's surrogate: A' (W A 1)."""
-        all_on = self.exposing.expose(self.energy(np.ones_like(at.energy)))
-        found = self._lamps(self.exposing.back(own_slope(at.slopes) * all_on))
+        all_on = self.exposed(np.ones_like(at.energy))
+        found = self.back(own_slope(at.slopes) * all_on)
         return np.maximum(found, 1e-3 * float(found.max()))
 
     def careful(self, at: _At, scale: Floats, bound: Floats) -> tuple[_At, Floats]:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from dqpaint.core import read_regular, write_new
+from dqpaint.core import examples_folder, read_regular, write_new
 from dqpaint.dq import Floats
 from dqpaint.errors import DqpaintError
 
@@ -20,12 +20,14 @@ class LightCache:
     """The powers of photographs' lamps by the hash of all that they were solved from.
 
     Args:
-        name: of the drawing, as its path; where there is no such file nothing is kept.
+        name: of the drawing, as its path; where there is no such file, and beside the examples,
+            which may lie within the installed package, nothing is kept.
     """
 
     def __init__(self, name: str) -> None:
         path = Path(name)
-        self._folder = path.parent / FOLDER if path.is_file() else None
+        kept = path.is_file() and path.resolve().parent != examples_folder().resolve()
+        self._folder = path.parent / FOLDER if kept else None
 
     def key(self, *arrays: Floats | None) -> str:
         """The hash of arrays."""

@@ -40,6 +40,9 @@ EDGE = 1e-6
 """Share of a side by which rounding may carry a point out of a rectangle."""
 LEAST_TONE = 0.02
 """sRGB tone of a photograph from which on it takes light."""
+MARGIN = 3.0
+"""How far beside a photograph it is to be dark [strokes' distances]: else light that falls there
+would cost nothing, and edges would be lit for two."""
 LEAST_SHARE = 0.02
 """Light of a row in which the lamp hardly moves, to begin with."""
 QUIET = 1e-3
@@ -131,7 +134,7 @@ def _tasks(
     camera = _front_camera(motion, settings)
     pixels = camera.project(motion.points if reached is None else reached)[0]
     tasks = [
-        _Task(motion, photo, number + 1, pixels, camera, motion.photo_corners[number])
+        _Task(motion, photo, number + 1, pixels, camera, reached)
         for number, photo in enumerate(motion.program.photos)
     ]
     return tasks, exposure_to(camera, motion.photo_frames.reshape(-1, 3), 1.0)
@@ -193,13 +196,22 @@ class _Task:
 
     def __init__(
         self, motion: Motion, photo: Photo, number: int, pixels: Floats, camera: Camera,
-        corners: Floats,
+        reached: Floats | None,
     ) -> None:  # fmt: skip
         self.motion, self.photo = motion, photo
         own, inside = _photo_rows(motion, number), _inside_rows(motion, number)
+        if reached is not None:  # an arm that lags is on the photo where it was to have left it
+            there = _is_inside(reached, motion.photo_frames[number - 1])
+            inside |= there[1:] & there[:-1]
         self.rows: NDArray[np.intp] = np.flatnonzero(own & inside)
-        placed = camera.project(corners)[0]
-        self.box = boxed(placed, (camera.width, camera.height))
+        placed = camera.project(motion.photo_corners[number - 1])[0]
+        size = camera.width, camera.height
+        inner = boxed(placed, size)
+        beside = MARGIN * photo.detail * np.linalg.norm(placed[1] - placed[0])
+        beside /= np.linalg.norm(photo.right)
+        self.box = boxed(np.concatenate([placed - beside, placed + beside]), size)
+        left, top = inner.left - self.box.left, inner.top - self.box.top
+        self.inner = slice(top, top + inner.height), slice(left, left + inner.width)
         self.picture = seen_through(_toned(photo), placed, self.box)
         self.exposing = Exposing(
             pixels[self.rows], pixels[self.rows + 1], self.box, point_spread(camera.height)
@@ -219,12 +231,13 @@ class _Task:
         By the seconds that the light spends where there is any in the photograph, and its area.
         """
         lit = self.picture.max(axis=2) > LEAST_TONE
+        share = float(lit[self.inner].mean())
         middle = 0.5 * (self.exposing.start + self.exposing.end)
         at = np.rint(middle - np.array([self.box.left, self.box.top])).astype(np.int64)
         column = np.clip(at[:, 0], 0, self.box.width - 1)
         row = np.clip(at[:, 1], 0, self.box.height - 1)
         seconds = float(self.share[lit[row, column]].sum()) * self.motion.period
-        area = float(lit.mean()) * float(np.linalg.norm(np.cross(self.photo.right, self.photo.up)))
+        area = share * float(np.linalg.norm(np.cross(self.photo.right, self.photo.up)))
         white = float(light_for(np.ones((1, 1, 3)), WHITE).max())
         return HEADROOM * white * area / max(seconds, 1e-9)
 
@@ -239,14 +252,14 @@ class _Task:
         """Solve for an exposure [px^2 / (lamp s)], and put the colours into `light` (N, 3)."""
         period, photo = self.motion.period, self.photo
         most = np.full(len(self.rows), period * exposure)
-        colours = None
+        colour = None
         if photo.colours is not None:
-            colours = np.tile(np.array(photo.colour) / max(photo.colour), (len(self.rows), 1))
+            colour = np.array(photo.colour) / max(photo.colour)
         key = cache.key(self.exposing.start, self.exposing.end, self.picture, self.share, most,
-                        np.array(self.exposing.psf.widths), colours)  # fmt: skip
+                        np.array(self.exposing.psf.widths), colour)  # fmt: skip
         powers, steps = cache.read(key, len(self.rows)), 0
         if powers is None:
-            found = solve(self.exposing, self.picture, self.share, most, colours, None, progress)
+            found = solve(self.exposing, self.picture, self.share, most, colour, None, progress)
             powers = np.clip(found.energy / most[:, None], 0.0, 1.0).astype(np.float32)
             steps = len(found.costs)
             cache.write(key, powers)
@@ -270,7 +283,8 @@ class _Task:
     def likeness_of(self, light: Floats, exposure: float) -> Likeness:
         """How like the photograph some light (N, 3) is, for an exposure [px^2 / (lamp s)]."""
         energy = light[self.rows] * (self.motion.period * exposure)
-        return likeness(developed(self.exposing.expose(energy))[0], self.picture)
+        made = developed(self.exposing.expose(energy))[0]
+        return likeness(made[self.inner], self.picture[self.inner])
 
 
 def _toned(photo: Photo) -> Floats:

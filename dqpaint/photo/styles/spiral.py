@@ -6,8 +6,8 @@ from dqpaint.core.arrays import Floats
 from dqpaint.photo.subject import STYLES, Subject
 from dqpaint.program import PiecewiseCurve, piecewise
 
-TURN = np.radians(10.0)
-"""Angle of one piece: there a cubic is within 1e-6 of its radius."""
+TURN = np.radians(2.5)
+"""Angle of one piece: short enough to end near the edge of a picture, and not to skip a corner."""
 LONGEST_DARK = 6.0
 """What is dark for longer is a dark move and not part of a stroke [distances between turns]."""
 SAMPLES = 4
@@ -17,7 +17,7 @@ SAMPLES = 4
 def spiral(subject: Subject) -> list[PiecewiseCurve]:
     """One spiral, its turns `detail` apart."""
     growth = subject.detail / (2.0 * np.pi)
-    outermost = 0.5 * float(np.hypot(subject.width, subject.height))
+    outermost = subject.detail + 0.5 * float(np.hypot(subject.width, subject.height))
     count = max(2, int(np.ceil(outermost / growth / TURN)))
     angle = subject.angle + TURN * np.arange(count + 1)
     radius = growth * (angle - subject.angle)

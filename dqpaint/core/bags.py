@@ -22,6 +22,7 @@ LARGEST_CHUNK = 100_000_000
 MAGIC = b"\x89MCAP0\r\n"
 JOINT_STATE = "sensor_msgs/msg/JointState"
 HEAD = b"\x00\x01\x00\x00"  # little end first
+CUT_OFF = ("EndOfFile", "RecordLengthLimitExceeded")  # a record would be longer than the file
 SECOND = 1_000_000_000  # [ns]
 
 _HEADER = "builtin_interfaces/Time stamp\nstring frame_id\n"
@@ -216,7 +217,7 @@ def read_topics(name: str, data: bytes, kind: str) -> tuple[dict[str, Topic], li
 def _unsound(name: str, problem: Exception, found: dict[str, Topic]) -> BagError:
     """The sentence about a file that cannot be read to its end."""
     whole = max((len(one.messages) for one in found.values()), default=0)
-    if type(problem).__name__ == "EndOfFile":
+    if type(problem).__name__ in CUT_OFF:
         return BagError(
             f"{name} ends in the middle, as if its recorder had been stopped, after {whole} whole "
             f"messages of joints; 'mcap recover {name} -o whole.mcap' keeps what is there"

@@ -288,7 +288,7 @@ def test_a_call_that_lacks_something_is_shown_how_it_goes():
         d.program()
     assert 'for example: d.curve("polar(40 mm, t)", "t", 0, "360 deg")' in str(caught.value)
     d = Drawing()
-    with d.define("star", "r"):
+    with d.define("petal", "r"):
         d.line(by=("r", 0))
     with pytest.raises(AttributeError, match=r"d\.write"):
-        d.star(3)
+        d.petal(3)

@@ -233,7 +233,6 @@ def test_a_name_is_not_a_file():
     ('ixx="0.02"', 'ixx="much"', "l6", "inertia .*'l1'"),
     ('"j3" type="revolute"', '"j3" type="prismatic"', "l6", "'j3' is prismatic"),
     ("<link", "<link", "finger", "joint 'grip' is prismatic"),
-    ("<link", "<link", "l5", "5 joints"),
     ("<link", "<link", "hand", "arm.urdf .*'hand'; .*l1"),
     ("<link", f"{XACRO}<link", "l6", "is a xacro file"),
 ])  # fmt: skip
@@ -242,11 +241,6 @@ def test_faults_of_a_urdf_are_told_by_their_place(write, old, new, link, message
     assert old in text
     with pytest.raises(DqpaintError, match=message):
         Kinematics(read_file(write("arm.urdf", text.replace(old, new, 1)) + f":{link}"))
-
-
-def test_an_arm_of_five_joints_is_told_so(write):
-    with pytest.raises(DqpaintError, match=r"6 or more revolute joints.* has 5"):
-        read_file(write("arm.urdf", arm_urdf(5)))
 
 
 def test_a_file_without_its_ending_is_asked_for_whole(write, monkeypatch):

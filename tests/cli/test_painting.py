@@ -329,7 +329,8 @@ def test_lists(answer):
     assert [row["name"] for row in rows] == list(CONTROLLERS)
     assert rows[0]["gains"][0]["default"] > 0
     assert set(json.loads(answer("list", "--json").stdout)) == set(LISTS)
-    assert all(f"{name}:" in answer("list").stdout for name in LISTS)
+    overview = answer("list").stdout
+    assert all(re.search(rf"^  {name}\b", overview, re.MULTILINE) for name in LISTS)
     assert "iiwa" in answer("list", "robots").stdout
     assert "stiff" in answer("list", "plants").stdout
     assert "star" in answer("list", "examples").stdout

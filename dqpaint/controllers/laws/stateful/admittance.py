@@ -58,7 +58,7 @@ class Admittance:
         Where nothing pushes it is log. The plant has to hold against the push by itself: on
         compliant its springs give way besides.
     Try:
-        dqpaint draw push --controller admittance --disturb push=y=15,start=1,seconds=1
+        dqpaint draw push --controller admittance --disturb push=y=15,start=0.1,seconds=1
     """
 
     def start(self, _arm: Arm, motion: Motion, gains: Schedule[YieldingGains]) -> None:

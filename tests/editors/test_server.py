@@ -177,7 +177,7 @@ def test_completion_knows_the_place(editor):
     assert {"line", "arc", "repeat"} <= words(0, 2)
     assert "centre" not in words(0, 2)
     assert {"centre", "via", "radius_of_it", "polar"} <= words(1, 4)
-    assert words(2, 4) == {"constant", "trapezoid", "cubic", "quintic"}
+    assert words(2, 4) == {"constant", "trapezoid", "cubic", "quintic", "smooth"}
     assert "mm" in words(3, 15)
     assert words(4, 3) == set()
 

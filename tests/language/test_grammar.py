@@ -107,6 +107,10 @@ def test_lines_of_files_and_of_the_catalogue(line: str) -> None:
     assert agree(line), (codes(line), lark_takes(line))
 
 
+LATER = r"task|brush \w+ image|star ?\( *\)"
+"""What is refused when values are read, and a statement's word before an empty bracket."""
+
+
 @pytest.mark.slow
 def test_mutants() -> None:
     chance = random.Random(19431205)
@@ -120,6 +124,8 @@ def test_mutants() -> None:
             words[i : i + 1] = new
         line = "".join(words)
         if re.match(r"\s*(#|end\b|$)", line):  # `end` has no block here
+            continue
+        if re.fullmatch(LATER, line.strip()):
             continue
         taken += lark_takes(line)
         if not agree(line):

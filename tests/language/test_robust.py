@@ -2,6 +2,7 @@
 
 import math
 import random
+import re
 
 import numpy as np
 import pytest
@@ -59,7 +60,9 @@ def joined(program: Program) -> None:
 @pytest.mark.slow
 def test_mutants() -> None:
     chance = random.Random(20161122)
-    texts = [STAR, ROSE, MIXED, WHOLE, WHOLE, *FILES]
+    texts = [  # the file of the table's photograph is not there
+        re.sub(r'photo "ada.*', "", text) for text in (STAR, ROSE, MIXED, WHOLE, WHOLE, *FILES)
+    ]
     for text in texts:
         check(text)
         assert parse(text, "whole.traj", HERE).segments

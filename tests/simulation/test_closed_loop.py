@@ -78,8 +78,10 @@ def test_the_star_on_the_stiff_arm(law):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("law", TORQUES)
-@pytest.mark.parametrize("gains", ["ours", "the paper's"])
+@pytest.mark.parametrize(("law", "gains"), [
+    (law, gains) for law in TORQUES for gains in ("ours", "the paper's")
+    if law != "sliding" or gains == "ours"  # the paper has no such law
+])  # fmt: skip
 def test_the_quarter_turn_of_chandra_within_20_micrometres(law, gains):
     """18 s at 200 Hz on an arm whose model is exact."""
     paper = {"Kp": 190, "Kv": 6} if law == "accel" else QUARTER_APART

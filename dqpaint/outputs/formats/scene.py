@@ -98,7 +98,8 @@ def _add_line(server: Any, name: str, points: Floats, colours: Floats) -> None:
     places, shades = points[rows], colours[rows]
     server.scene.add_line_segments(
         name, np.stack([places[:-1], places[1:]], 1).astype(np.float32),
-        np.stack([shades[:-1], shades[:-1]], 1).astype(np.uint8), line_width=1.5,
+        np.stack([shades[:-1], shades[:-1]], 1).astype(np.uint8),
+        thickness=1.5, thickness_units="screen",
     )  # fmt: skip
 
 
@@ -112,4 +113,6 @@ def _add_piece(server: Any, painting: paint.Painting, index: int, row: int, end:
     shades = 255 * np.sqrt(light / np.maximum(light.max(axis=1, keepdims=True), 1e-12))
     segments = np.stack([points[:-1], points[1:]], 1)[lit].astype(np.float32)
     colours = np.repeat(shades[lit][:, None], 2, axis=1).astype(np.uint8)
-    server.scene.add_line_segments(f"/light-path/{index}", segments, colours, line_width=3.0)
+    server.scene.add_line_segments(
+        f"/light-path/{index}", segments, colours, thickness=3.0, thickness_units="screen"
+    )

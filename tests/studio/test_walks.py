@@ -187,6 +187,7 @@ def test_completion_and_hover(page):
     type_at_end(page, "scr")
     page.keyboard.press("Control+Space")
     page.locator(".completion-card .word", has_text="screw").wait_for()
+    page.wait_for_function("() => document.activeElement.classList.contains('q-item')")
     page.keyboard.press("Enter")
     page.wait_for_function("() => /screw/.test(document.querySelector('.cm-content').innerText)")
     page.locator(".t-statement", has_text="speed").first.hover()

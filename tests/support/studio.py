@@ -9,7 +9,7 @@ from tests.support.browser import BROWSER
 QUIET = ["--no-sandbox", "--disable-gpu", "--use-gl=swiftshader", "--enable-unsafe-swiftshader",
          "--disable-background-networking", "--disable-component-update", "--disable-sync",
 ]  # fmt: skip
-LONGEST = 60_000  # [ms] a loaded machine may take for anything
+LONGEST = 90_000  # [ms] a loaded machine may take for anything
 
 
 @contextmanager

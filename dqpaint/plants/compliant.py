@@ -142,7 +142,7 @@ class Compliant(RigidArm):
         longest = longest_step(
             "compliant", card, dynamics, self.stiffness, self.damping, LARGEST_PHASE_STEP
         )
-        super().__init__(card, posture, period, world, longest, engine)
+        super().__init__(card, posture, period, world, engine=engine, longest=longest)
         self._own = Dynamics(model.with_model_error(gravity=world.model_gravity))
         self._share = chosen.gravity
         self._grounded = chosen.damper == "ground"

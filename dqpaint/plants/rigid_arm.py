@@ -48,10 +48,12 @@ class RigidArm:
         posture: Floats,
         period: float,
         world: World = UNDISTURBED,
-        longest: float = LONGEST_STEP,
+        options: None = None,
         engine: str | None = None,
+        longest: float | None = None,
     ) -> None:
         self.card = card
+        longest = self.longest_step(card) if longest is None else longest
         self.steps = max(1, math.ceil(period / longest - 1e-9))
         self.step = period / self.steps  # [s]
         build = choose_engine(engine).load()
@@ -59,6 +61,11 @@ class RigidArm:
         self.posture = posture.copy()
         self.rates = np.zeros(card.joints)
         self.effort = np.zeros(card.joints)
+
+    @staticmethod
+    def longest_step(_card: Card) -> float:
+        """The longest physics step [s] that its motors allow, where its values do not say so."""
+        return LONGEST_STEP
 
     @property
     def encoder(self) -> Floats:

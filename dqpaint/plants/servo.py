@@ -83,7 +83,7 @@ class Servo(RigidArm):
             "servo", card, Dynamics(model), one.stiffness, one.damping, LARGEST_PHASE_STEP,
             one.inertia,
         )  # fmt: skip
-        super().__init__(card, posture, period, world, longest, engine)
+        super().__init__(card, posture, period, world, engine=engine, longest=longest)
         self._own = Dynamics(model.with_model_error(gravity=world.model_gravity))
         self._share, self._period = chosen.gravity, period
         self._from_measured = chosen.reference == "measured"

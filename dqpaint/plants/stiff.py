@@ -4,9 +4,7 @@ from typing import ClassVar
 
 from dqpaint.dq import Floats
 from dqpaint.plants.plant import PLANTS, Takes, Trait
-from dqpaint.plants.rigid_arm import LONGEST_STEP, RigidArm
-from dqpaint.plants.world import UNDISTURBED, World
-from dqpaint.robots.model import Card
+from dqpaint.plants.rigid_arm import RigidArm
 
 
 @PLANTS.add("stiff")
@@ -31,17 +29,6 @@ class Stiff(RigidArm):
     takes: ClassVar[Takes] = "rates"
     traits: ClassVar[frozenset[Trait]] = RigidArm.traits | {"sudden motors"}
     driven: ClassVar[bool] = True
-
-    def __init__(
-        self,
-        card: Card,
-        posture: Floats,
-        period: float,
-        world: World = UNDISTURBED,
-        options: None = None,
-        engine: str | None = None,
-    ) -> None:
-        super().__init__(card, posture, period, world, LONGEST_STEP, engine)
 
     def run(self, command: Floats, drift: Floats | None = None) -> None:
         """One period at joint rates (n,) [rad/s], as far as the motors' torques go."""

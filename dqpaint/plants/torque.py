@@ -5,7 +5,6 @@ from typing import ClassVar
 from dqpaint.dq import Floats
 from dqpaint.plants.plant import PLANTS, Takes, Trait
 from dqpaint.plants.rigid_arm import LONGEST_STEP, RigidArm, sample_postures
-from dqpaint.plants.world import UNDISTURBED, World
 from dqpaint.robots.kinematics import Dynamics, Kinematics
 from dqpaint.robots.model import Card
 
@@ -33,16 +32,12 @@ class Torque(RigidArm):
     takes: ClassVar[Takes] = "torque"
     traits: ClassVar[frozenset[Trait]] = RigidArm.traits | {"a model of gravity"}
 
-    def __init__(
-        self,
-        card: Card,
-        posture: Floats,
-        period: float,
-        world: World = UNDISTURBED,
-        options: None = None,
-        engine: str | None = None,
-    ) -> None:
-        super().__init__(card, posture, period, world, _longest_step(card), engine)
+    @staticmethod
+    def longest_step(card: Card) -> float:
+        """The physics step [s]: the time constant of the fastest friction, or 1 ms."""
+        dynamics = Dynamics(Kinematics(card))
+        decay = max(dynamics.decay(q) for q in sample_postures(card))
+        return min(LONGEST_STEP, 1 / decay) if decay > 0 else LONGEST_STEP
 
     def run(self, command: Floats, drift: Floats | None = None) -> None:
         """One period at joint torques (n,) [Nm]."""
@@ -53,10 +48,3 @@ class Torque(RigidArm):
                 self.displace(self.step * drift)
         self.read_joints()
         self.effort = command
-
-
-def _longest_step(card: Card) -> float:
-    """The physics step [s]: the time constant of the fastest friction, or 1 ms."""
-    dynamics = Dynamics(Kinematics(card))
-    decay = max(dynamics.decay(q) for q in sample_postures(card))
-    return min(LONGEST_STEP, 1 / decay) if decay > 0 else LONGEST_STEP

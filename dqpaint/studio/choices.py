@@ -21,7 +21,6 @@ LEFT_OUT = {
     "kinematics",
     "trust",
 }  # of the command line alone
-TIMEOUT = 60.0  # [s] of a run of the page
 VIEWS = ("front", "iso", "side", "top")
 DISTURBANCE_EXAMPLES = (
     "twist=sine,x=0.02,frequency=2", "noise=0.0002", "latency=3", "payload=2", "push=y=40",

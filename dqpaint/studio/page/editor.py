@@ -13,7 +13,6 @@ from dqpaint.studio.work.messages import Finding
 MARGIN = 60  # lines above and below the visible ones that are coloured
 FIRST_LINES = 120
 HOVER_PAUSE = 0.15  # [s]
-DRAG_PAUSE = 0.03  # [s]
 LONGEST_ANSWER = 5.0  # [s] of the page
 MOST_WORDS = 60  # of a completion
 # The offset in the text of the cursor or the mouse, and its place on the page.
